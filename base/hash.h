@@ -1,0 +1,27 @@
+/* 128-bit names of things: XXH3 in its canonical (big-endian) form. */
+#ifndef FRACAS_BASE_HASH_H
+#define FRACAS_BASE_HASH_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define FRACAS_HASH_HEX 33 /* 32 digits and the end */
+
+typedef struct {
+    uint8_t byte[16];
+} fracas_hash;
+
+/* XXH3-128 of `size` bytes. */
+fracas_hash fracas_hash_of(const void *bytes, size_t size);
+/* XXH3-64 of `size` bytes: the checksum of a file's contents, for segments. */
+uint64_t fracas_checksum_of(const void *bytes, size_t size);
+
+bool fracas_hash_equal(const fracas_hash *a, const fracas_hash *b);
+/* word[0] = first eight bytes, word[1] = last eight, read as big-endian numbers. */
+void fracas_hash_words(const fracas_hash *hash, uint64_t word[2]);
+void fracas_hash_hex(const fracas_hash *hash, char text[FRACAS_HASH_HEX]);
+/* False when `text` is not 32 hexadecimal digits. */
+bool fracas_hash_parse(const char *text, fracas_hash *hash);
+
+#endif

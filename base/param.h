@@ -1,0 +1,65 @@
+/* Parameter tables: the one description of every value of a campaign file.
+ *
+ * A section of the file fills one C struct. A table says, for each key, its type, unit, range, default
+ * and where in the struct it goes; parsing, validation, the resolved file, HDF5 columns and the
+ * reference page (`fracas reference`) are all driven by it. A section may have a selector: a key
+ * whose value names a kind (a law, a distribution, a stop rule ...), each with a table of its own. */
+#ifndef FRACAS_BASE_PARAM_H
+#define FRACAS_BASE_PARAM_H
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef enum {
+    FRACAS_REAL,    /* double, may carry a unit */
+    FRACAS_INTEGER, /* int64_t */
+    FRACAS_BOOLEAN  /* bool */
+} fracas_param_type;
+
+/* A required value has no default. */
+#define FRACAS_REQUIRED NAN
+
+typedef struct {
+    const char *name;       /* key in its section */
+    fracas_param_type type;
+    const char *unit;       /* SI unit as UDUNITS-2 reads it; "1" for a pure number */
+    const char *doc;        /* one sentence, no full stop */
+    double fallback;        /* default in SI, FRACAS_REQUIRED if there is none */
+    double minimum;         /* allowed range, both ends included unless minimum_open */
+    double maximum;         /* INFINITY: no upper limit */
+    bool minimum_open;      /* value must be > minimum */
+    size_t offset;          /* of the value in the section's struct */
+} fracas_param;
+
+/* What a selector can name. Objects with functions (a law, a distribution) have this as first member. */
+typedef struct {
+    const char *name;
+    const char *doc;
+    const fracas_param *params;
+    size_t nparams;
+} fracas_kind;
+
+typedef struct {
+    const char *name;                /* key of the section at the top of the file */
+    const char *doc;
+    const char *selector;            /* key that names the kind; NULL: the section has no kinds */
+    const fracas_kind *const *kinds; /* registry; the first is the default */
+    size_t nkinds;
+    size_t kind_offset;              /* of the `const fracas_kind *` in the section's struct */
+    const fracas_param *params;      /* keys common to all kinds */
+    size_t nparams;
+    size_t offset;                   /* of the section's struct in its owner (see the registry) */
+    bool hashed;                     /* part of a point's identity (output options are not) */
+} fracas_section;
+
+#define FRACAS_COUNT(array) (sizeof(array) / sizeof *(array))
+
+/* The value that `param` describes within the section's struct at `section`, as a double. */
+double fracas_param_get(const fracas_param *param, const void *section);
+
+/* Stores `value` (SI, already validated) at the place that `param` describes. */
+void fracas_param_set(const fracas_param *param, void *section, double value);
+
+#endif

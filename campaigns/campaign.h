@@ -1,0 +1,54 @@
+/* A campaign: the file as read, validated, converted to SI and expanded to points. */
+#ifndef FRACAS_CAMPAIGNS_CAMPAIGN_H
+#define FRACAS_CAMPAIGNS_CAMPAIGN_H
+
+#include "base/err.h"
+#include "base/hash.h"
+#include "campaigns/points.h"
+#include "engine/spec.h"
+#include "sampler/sampler.h"
+
+#include <stdio.h>
+
+/* What is written beside the records; not part of a point's identity, but of the campaign's hash. */
+typedef struct {
+    int64_t history;  /* equal intervals of time.end */
+    bool interfaces;  /* /interface group */
+} fracas_output;
+
+/* Everything that makes a point: what it resolves to. */
+typedef struct {
+    fracas_spec spec;
+    fracas_strength strength;
+    fracas_hash hash;  /* docs/formats/campaign-file.md: over resolved scalars and enums by sorted path */
+    int64_t replicas;
+} fracas_point;
+
+typedef struct fracas_campaign {
+    char *name;
+    uint64_t seed;
+    fracas_output output;       /* one for the whole campaign */
+    size_t npoints;
+    fracas_point *point;        /* plan order = file order of the sweep, last axis fastest */
+    fracas_point_table table;   /* the same points as columns */
+    fracas_hash hash;           /* over seed, output, and every point's hash and replicas in order */
+    struct fracas_campaign_memory *memory; /* owns what the above points to */
+} fracas_campaign;
+
+/* Reads a campaign file. FRACAS_USAGE with "file:line:column: what was found; what is allowed; nearest key"
+ * for anything wrong in it, FRACAS_ENVIRONMENT if it cannot be opened or read. */
+FRACAS_MUST_USE fracas_err fracas_campaign_read(const char *path, fracas_campaign **campaign);
+void fracas_campaign_destroy(fracas_campaign *campaign); /* NULL is allowed */
+
+/* Writes the campaign as resolved: SI, every default spelled out, itself a campaign file that reads back to
+ * the same points, hashes and replicas. */
+FRACAS_MUST_USE fracas_err fracas_campaign_write(const fracas_campaign *campaign, FILE *out);
+
+/* FRACAS_OK when `now` has every point of `before` with at least its replicas, and the same seed and output
+ * (an extension, or the same); else FRACAS_DAMAGED naming the first difference by path and both values. */
+FRACAS_MUST_USE fracas_err fracas_campaign_extends(const fracas_campaign *now, const fracas_campaign *before);
+
+/* The reference page of the campaign file (docs/formats/campaign-file-keys.md), from the parameter tables. */
+void fracas_campaign_reference(FILE *out);
+
+#endif

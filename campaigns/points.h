@@ -1,0 +1,42 @@
+/* The points of a campaign as a table of columns: what the store writes to /point and the analysis reads. */
+#ifndef FRACAS_CAMPAIGNS_POINTS_H
+#define FRACAS_CAMPAIGNS_POINTS_H
+
+#include "base/hash.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* One resolved scalar (`material.young`) or enum (`cohesive.law`) over all points. */
+typedef struct {
+    const char *path; /* dotted */
+    const char *unit; /* SI, "1" for a pure number, "" for text */
+    const char *doc;
+    bool text;        /* enum: values are text */
+} fracas_column;
+
+typedef struct {
+    double real;      /* NaN where the point has no such value, or the column is text */
+    const char *text; /* "" where the point has none, or the column is real; never NULL */
+} fracas_value;
+
+typedef struct {
+    fracas_hash hash;
+    int64_t replicas;
+    const fracas_value *value; /* one per column */
+} fracas_point_row;
+
+/* Columns are sorted by path (byte order); they are the union over all points, so `strength.shape` is there,
+ * and NaN for points of another distribution, as soon as one point has it. Booleans and integers are reals. */
+typedef struct {
+    size_t ncolumns;
+    const fracas_column *column;
+    size_t npoints;
+    const fracas_point_row *point;
+} fracas_point_table;
+
+/* Index of the column, or SIZE_MAX. */
+size_t fracas_point_table_find(const fracas_point_table *table, const char *path);
+
+#endif

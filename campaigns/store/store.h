@@ -1,0 +1,155 @@
+/* The study on disk: immutable HDF5 segments, an SQLite index over them, and the merged study.h5.
+ *
+ *   STUDY/campaign.yaml  STUDY/index.sqlite  STUDY/lock  STUDY/segments/NAME.h5  STUDY/study.h5  STUDY/report/
+ *
+ * A row of the index marked done means durable bytes: a segment is written whole to a temporary name, synced,
+ * renamed and its folder synced before its rows are committed. */
+#ifndef FRACAS_CAMPAIGNS_STORE_STORE_H
+#define FRACAS_CAMPAIGNS_STORE_STORE_H
+
+#include "base/err.h"
+#include "base/hash.h"
+#include "campaigns/points.h"
+#include "engine/record.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* ---- one HDF5 file: a segment or a study, same schema (docs/formats/study.md) ---- */
+
+#define FRACAS_FORMAT_VERSION 1
+
+typedef struct {
+    fracas_hash campaign;       /* campaign hash */
+    uint64_t seed;
+    char version[32];           /* program version */
+    bool complete;              /* every realization of every point in the file is present */
+} fracas_file_header;
+
+/* How a file came out: what the index keeps of it. */
+typedef struct {
+    uint64_t bytes;
+    uint64_t checksum; /* fracas_checksum_of its contents */
+} fracas_file_seal;
+
+typedef struct fracas_writer fracas_writer;
+typedef struct fracas_reader fracas_reader;
+
+/* Starts `path` under a temporary name in the same folder. `table` must outlive the writer. With `interfaces`
+ * the file has an /interface group. */
+FRACAS_MUST_USE fracas_err fracas_writer_create(const char *path, const fracas_file_header *header,
+                                                const fracas_point_table *table, bool interfaces,
+                                                fracas_writer **writer);
+/* Appends one realization; records are buffered by column, so memory stays bounded. */
+FRACAS_MUST_USE fracas_err fracas_writer_append(fracas_writer *writer, size_t point, int64_t replica,
+                                                const fracas_record *record);
+/* Closes, syncs, renames to the final name, syncs the folder; frees the writer whatever happens. Equal
+ * sequences of calls give equal bytes. */
+FRACAS_MUST_USE fracas_err fracas_writer_finish(fracas_writer *writer, bool complete, fracas_file_seal *seal);
+/* Gives up: removes the temporary file, frees the writer. NULL is allowed. */
+void fracas_writer_abandon(fracas_writer *writer);
+
+/* FRACAS_DAMAGED if it is not a fracas file of a known format version, naming the file. */
+FRACAS_MUST_USE fracas_err fracas_reader_open(const char *path, fracas_reader **reader);
+void fracas_reader_close(fracas_reader *reader); /* NULL is allowed */
+const fracas_file_header *fracas_reader_header(const fracas_reader *reader);
+const fracas_point_table *fracas_reader_points(const fracas_reader *reader);
+size_t fracas_reader_realizations(const fracas_reader *reader);
+
+/* Parts of a record to read beside the scalars. */
+enum { FRACAS_READ_FRAGMENTS = 1, FRACAS_READ_HISTORY = 2, FRACAS_READ_INTERFACES = 4, FRACAS_READ_ALL = 7 };
+/* Realization in row `row` (0 .. realizations-1): its point (index in the file's table), replica and record;
+ * `record` initialised by the caller, cleared by the caller. Reads ahead in blocks: rows are cheapest in order. */
+FRACAS_MUST_USE fracas_err fracas_reader_record(fracas_reader *reader, size_t row, unsigned parts,
+                                                size_t *point, int64_t *replica, fracas_record *record);
+
+/* ---- a record as bytes, for a pipe between processes of one program ---- */
+
+/* Bytes that fracas_record_pack needs. */
+size_t fracas_record_packed_size(const fracas_record *record);
+void fracas_record_pack(const fracas_record *record, void *bytes);
+/* FRACAS_BUG if `size` does not fit what the bytes say. */
+FRACAS_MUST_USE fracas_err fracas_record_unpack(const void *bytes, size_t size, fracas_record *record);
+
+/* ---- the index ---- */
+
+typedef struct fracas_index fracas_index;
+
+typedef enum { FRACAS_PLANNED, FRACAS_LEASED, FRACAS_DONE, FRACAS_FAILED_ROW, FRACAS_QUARANTINED } fracas_row_status;
+
+typedef struct {
+    size_t point;     /* index in the table given to fracas_index_plan */
+    int64_t replica;
+    fracas_row_status status;
+    int64_t attempts;
+} fracas_index_row;
+
+/* Rows of a segment as they go into the index: summary columns beside the place of the bytes. */
+typedef struct {
+    fracas_hash point;
+    int64_t replica;
+    int64_t row; /* in the segment */
+    int64_t outcome, fragments, fragments_dust, steps;
+    double dissipated, residual;
+} fracas_segment_row;
+
+/* Opens (with `create`: creates) STUDY/index.sqlite. Journal: WAL with synchronous FULL on local filesystems,
+ * TRUNCATE with FULL and exclusive locking on network ones; the mode is read back. */
+FRACAS_MUST_USE fracas_err fracas_index_open(const char *study, bool create, fracas_index **index);
+void fracas_index_close(fracas_index *index); /* NULL is allowed */
+
+/* Adds the points and realizations of the table that are not there yet (status planned); turns leased rows back
+ * to planned (their holder is gone: the caller has the lock). */
+FRACAS_MUST_USE fracas_err fracas_index_plan(fracas_index *index, const fracas_point_table *table);
+/* Every realization of the table in plan order; *row freed by the caller with free(). */
+FRACAS_MUST_USE fracas_err fracas_index_rows(fracas_index *index, const fracas_point_table *table,
+                                             fracas_index_row **row, size_t *count);
+/* One transaction, durable on return: the segment and its rows, which become done (or failed for outcome FAILED).
+ * A row that is done already keeps its first segment. `provenance`: one JSON object (host, pid, versions, CPU,
+ * instruction set, lanes, wall times); never in study.h5. */
+FRACAS_MUST_USE fracas_err fracas_index_commit(fracas_index *index, const char *segment, const fracas_file_seal *seal,
+                                               const fracas_segment_row *row, size_t count, const char *provenance);
+FRACAS_MUST_USE fracas_err fracas_index_lease(fracas_index *index, const fracas_hash *point, int64_t replica, int64_t count);
+/* Counts an attempt of one realization that ended without a record, with the reason; with `final` it becomes
+ * failed (its row in study.h5 is outcome FAILED, values NaN), else planned. */
+FRACAS_MUST_USE fracas_err fracas_index_fail(fracas_index *index, const fracas_hash *point, int64_t replica,
+                                             const char *reason, bool final);
+/* Appends to the table `event` (time of day, kind, text). */
+FRACAS_MUST_USE fracas_err fracas_index_event(fracas_index *index, const char *kind, const char *text);
+
+typedef struct {
+    int64_t points, realizations, done, failed, planned, leased; /* realizations by status */
+    int64_t outcome[FRACAS_NOUTCOMES];
+    int64_t segments, bytes; /* of segments */
+} fracas_index_counts;
+
+FRACAS_MUST_USE fracas_err fracas_index_count(fracas_index *index, fracas_index_counts *counts);
+/* The same for one point. */
+FRACAS_MUST_USE fracas_err fracas_index_count_point(fracas_index *index, const fracas_hash *point,
+                                                    fracas_index_counts *counts);
+
+/* ---- the study as a whole ---- */
+
+/* Takes STUDY/lock (created) for this process until it ends or closes *lock; FRACAS_IN_USE names the holder's
+ * host and pid. Released by the system on any death. */
+FRACAS_MUST_USE fracas_err fracas_study_lock(const char *study, int *lock);
+
+/* Sweeps STUDY/segments after an interruption: temporary files are removed; a segment that the index does not know
+ * is checked and adopted (its rows committed) if it belongs to this campaign's points, else removed; a row whose
+ * segment is missing or has the wrong size goes back to planned. Says what it did in *report (freed by caller). */
+FRACAS_MUST_USE fracas_err fracas_study_recover(const char *study, fracas_index *index,
+                                                const fracas_point_table *table, char **report);
+
+/* Writes STUDY/study.h5 from the segments in plan order; realizations that failed get a row of NaN, and
+ * header->complete in the file is 0 if any did. FRACAS_DAMAGED names a segment whose bytes are not the index's. */
+FRACAS_MUST_USE fracas_err fracas_study_merge(const char *study, fracas_index *index, const fracas_file_header *header,
+                                              const fracas_point_table *table, bool interfaces);
+
+/* What `fracas verify` found: every segment's size and checksum, index against segments row by row, integrity_check
+ * of SQLite, study.h5 readable, of this campaign, and equal, record by record, to the segments. *problems counts
+ * them; `say` is called once with each (what, where, remedy). */
+FRACAS_MUST_USE fracas_err fracas_study_verify(const char *study, void (*say)(void *context, const char *problem),
+                                               void *context, int64_t *problems);
+
+#endif

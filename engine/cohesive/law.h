@@ -1,0 +1,10 @@
+/* Cohesive laws: what an interface does once its stress has reached its strength (theory/cohesive.md). */
+#ifndef FRACAS_ENGINE_COHESIVE_LAW_H
+#define FRACAS_ENGINE_COHESIVE_LAW_H
+
+#include "engine/spec.h"
+
+extern const fracas_section fracas_cohesive_section;
+extern const fracas_kind fracas_law_nitsche, fracas_law_rigid_link;
+
+#endif

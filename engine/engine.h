@@ -1,0 +1,57 @@
+/* The engine's door: a model (immutable, shared) and batches of realizations advanced in SIMD lanes. */
+#ifndef FRACAS_ENGINE_ENGINE_H
+#define FRACAS_ENGINE_ENGINE_H
+
+#include "base/err.h"
+#include "engine/record.h"
+#include "engine/spec.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct fracas_model fracas_model;
+typedef struct fracas_batch fracas_batch;
+
+/* Mesh, operators and critical time step of one point. `spec` is copied. FRACAS_USAGE if the parameters
+ * do not go together (the message says which), FRACAS_ENVIRONMENT without memory. */
+FRACAS_MUST_USE fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **model);
+void fracas_model_destroy(fracas_model *model); /* NULL is allowed */
+
+size_t fracas_model_interfaces(const fracas_model *model);  /* strengths a realization needs */
+size_t fracas_model_elements(const fracas_model *model);
+double fracas_model_mass(const fracas_model *model);                /* kg */
+double fracas_model_critical_time_step(const fracas_model *model);  /* s */
+double fracas_model_time_step(const fracas_model *model);           /* s, = safety * critical */
+int64_t fracas_model_steps(const fracas_model *model);              /* steps to time.end */
+
+/* Checks one strength [Pa] against the mesh: FRACAS_USAGE, saying what would do, where the law could not
+ * dissipate G_c (K <= sigma_c/delta_c). */
+FRACAS_MUST_USE fracas_err fracas_model_check_strength(const fracas_model *model, double strength);
+
+/* Instruction sets a batch can run with; all give the same bits. */
+typedef enum { FRACAS_ISA_BASELINE, FRACAS_ISA_AVX2, FRACAS_ISA_AVX512, FRACAS_ISA_BEST } fracas_isa;
+
+typedef struct {
+    int64_t history;  /* equal intervals of time.end at which a history row is kept; 0: only the events */
+    bool interfaces;  /* keep one row an interface */
+    int width;        /* lanes: 1, 4, 8; 0 chooses by the number of realizations */
+    fracas_isa isa;   /* FRACAS_ISA_BEST: the best this CPU has */
+} fracas_batch_options;
+
+/* A batch of `count` (1 to 8) realizations of `model`, which must outlive it. It makes all its allocations
+ * here. FRACAS_USAGE for a width below `count` or an instruction set this CPU lacks. */
+FRACAS_MUST_USE fracas_err fracas_batch_create(const fracas_model *model, size_t count,
+                                               const fracas_batch_options *options, fracas_batch **batch);
+void fracas_batch_destroy(fracas_batch *batch); /* NULL is allowed */
+
+/* Strengths sigma_c [Pa], to be filled before the run: that of interface i in lane l (l < count) is
+ * strength[i*stride + l]. */
+double *fracas_batch_strength(fracas_batch *batch, size_t *stride);
+
+/* Advances every lane to its own stop; record[l], l < count, must be initialised (fracas_record_init) and
+ * then belongs to the caller. A lane's record depends on its own strengths alone. FRACAS_USAGE for a strength
+ * that fracas_model_check_strength refuses. A batch runs once. */
+FRACAS_MUST_USE fracas_err fracas_batch_run(fracas_batch *batch, fracas_record *record);
+
+#endif

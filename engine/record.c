@@ -1,0 +1,23 @@
+#include "engine/record.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+void fracas_record_init(fracas_record *record)
+{
+    *record = (fracas_record){
+        .outcome = FRACAS_FAILED,
+        .onset_time = NAN, .end_time = NAN, .time_step = NAN, .mass = NAN,
+        .kinetic = NAN, .elastic = NAN, .cohesive = NAN, .dissipated = NAN,
+        .dissipated_bending = NAN, .created = NAN, .work = NAN,
+        .residual = NAN, .residual_end = NAN, .momentum = {NAN, NAN, NAN},
+    };
+}
+
+void fracas_record_clear(fracas_record *record)
+{
+    free(record->fragment);
+    free(record->history);
+    free(record->interface);
+    fracas_record_init(record);
+}

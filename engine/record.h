@@ -1,0 +1,67 @@
+/* What one realization leaves behind (columns of /realization, /fragment, /history, /interface). */
+#ifndef FRACAS_ENGINE_RECORD_H
+#define FRACAS_ENGINE_RECORD_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef enum {
+    FRACAS_FRAGMENTED = 0,
+    FRACAS_INTACT = 1,       /* nothing broken at the end */
+    FRACAS_TIME_LIMIT = 2,   /* stopped by the cap with cracks still running */
+    FRACAS_NONFINITE = 3,
+    FRACAS_ENERGY_DRIFT = 4,
+    FRACAS_FAILED = 5        /* crashed, timed out, quarantined: values NaN */
+} fracas_outcome;
+
+#define FRACAS_NOUTCOMES 6
+
+typedef struct {
+    double mass;                /* kg */
+    double size;                /* m: length in 1D, sqrt(area) in 2D */
+    int64_t elements;
+    int64_t dust;               /* 1 when of so few elements that the mesh decides (one in 1D), else 0 */
+    double position[3];         /* m, centre of mass at end_time */
+    double velocity[3];         /* m/s, of the centre of mass */
+    double angular_momentum[3]; /* kg m2/s, about the centre of mass */
+} fracas_fragment;
+
+typedef struct {
+    double time; /* s */
+    double kinetic, elastic, cohesive, dissipated, dissipated_bending, created, work, residual; /* J */
+    int64_t fragments, broken;
+} fracas_history_row;
+
+typedef struct {
+    double strength;   /* Pa */
+    double damage;     /* delta_max/delta_c, 0 to 1 */
+    double onset_time; /* s, NaN if it never cracked */
+    double break_time; /* s, NaN if it never broke */
+} fracas_interface_row;
+
+typedef struct {
+    int64_t outcome;        /* fracas_outcome */
+    int64_t fragments;      /* all */
+    int64_t fragments_dust; /* of those, dust */
+    int64_t broken, cracked; /* interfaces */
+    int64_t steps;
+    double onset_time; /* s, first onset, NaN if none */
+    double end_time, time_step; /* s */
+    double mass; /* kg */
+    double kinetic, elastic, cohesive, dissipated, dissipated_bending, created, work; /* J, at end_time */
+    double residual;     /* J, largest absolute value over the run */
+    double residual_end; /* J */
+    double momentum[3];  /* kg m/s */
+    size_t nfragment, nhistory, ninterface; /* rows below; nfragment == fragments unless FAILED */
+    fracas_fragment *fragment;       /* owned by the record, freed by fracas_record_clear */
+    fracas_history_row *history;
+    fracas_interface_row *interface; /* NULL unless asked for */
+} fracas_record;
+
+/* An empty record of outcome FAILED, every value NaN and every count 0. */
+void fracas_record_init(fracas_record *record);
+
+/* Frees what the record owns and makes it empty. */
+void fracas_record_clear(fracas_record *record);
+
+#endif

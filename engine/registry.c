@@ -1,0 +1,26 @@
+/* The registry: every section of a campaign file that the engine understands, and the kinds it can name. */
+#include "engine/spec.h"
+
+#include "engine/cohesive/law.h"
+#include "engine/formulation/bar.h"
+#include "engine/loading/loading.h"
+#include "engine/material/elastic.h"
+#include "engine/mesh/bar_mesh.h"
+#include "engine/solver/stop.h"
+
+static const fracas_kind *const formulations[] = {&fracas_bar};
+static const fracas_section formulation_section = {
+    .name = "model", .doc = "What is broken up", .kinds = formulations, .nkinds = FRACAS_COUNT(formulations),
+    .kind_offset = 0, .offset = offsetof(fracas_spec, formulation), .hashed = true,
+};
+
+const fracas_section *const fracas_engine_sections[] = {
+    &formulation_section,
+    &fracas_geometry_section,
+    &fracas_mesh_section,
+    &fracas_material_section,
+    &fracas_cohesive_section,
+    &fracas_loading_section,
+    &fracas_time_section,
+};
+const size_t fracas_engine_nsections = FRACAS_COUNT(fracas_engine_sections);

@@ -1,0 +1,49 @@
+/* Random strength fields by inverse transform from counter-based streams. */
+#ifndef FRACAS_SAMPLER_SAMPLER_H
+#define FRACAS_SAMPLER_SAMPLER_H
+
+#include "base/param.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* `strength` of the campaign file, resolved, in SI. A distribution uses the members its table names. */
+typedef struct {
+    const fracas_kind *distribution;
+    double value;   /* Pa, constant */
+    double minimum; /* Pa */
+    double maximum; /* Pa */
+    double scale;   /* Pa */
+    double shape;   /* 1 */
+    double median;  /* Pa, lognormal: exp(mu) */
+    double sigma;   /* 1, lognormal: standard deviation of the logarithm */
+} fracas_strength;
+
+/* The section `strength`; its offset is 0: the owner says where the struct is. */
+extern const fracas_section fracas_strength_section;
+
+/* The name of a stream of random numbers: a value depends on this and its place, on nothing else. */
+typedef struct {
+    uint64_t seed;     /* of the campaign */
+    uint64_t purpose;  /* FRACAS_PURPOSE_... */
+    uint64_t point[2]; /* point hash */
+    uint64_t replica;
+} fracas_stream;
+
+#define FRACAS_PURPOSE_STRENGTH 1u
+
+/* u in (0, 1): word 0 of Philox4x64-10 with key (seed, purpose) and counter (site, replica, point),
+ * as ((x >> 11) + 1/2) 2^-53. site = interface + Gauss point * 2^48. */
+double fracas_stream_uniform(const fracas_stream *stream, uint64_t site);
+
+/* strength[i*stride] = F^-1(u_i) [Pa] for interfaces i = 0 .. n-1. */
+void fracas_strength_sample(const fracas_strength *strength, const fracas_stream *stream,
+                            size_t n, size_t stride, double *sigma_c);
+
+/* F^-1(u) [Pa], 0 < u < 1. */
+double fracas_strength_quantile(const fracas_strength *strength, double u);
+
+/* Mean of the distribution [Pa], same bits on every CPU. */
+double fracas_strength_mean(const fracas_strength *strength);
+
+#endif
