@@ -1,0 +1,81 @@
+#include "base/json.h"
+
+#include <inttypes.h>
+#include <math.h>
+
+static void write_text(FILE *out, const char *text)
+{
+    putc('"', out);
+    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
+        if (*c == '"' || *c == '\\') fprintf(out, "\\%c", *c);
+        else if (*c < 0x20) fprintf(out, "\\u%04x", *c);
+        else putc(*c, out);
+    }
+    putc('"', out);
+}
+
+static void before_value(fracas_json *json, const char *key)
+{
+    if (!json->first[json->depth]) putc(',', json->out);
+    json->first[json->depth] = false;
+    if (json->depth > 0) fprintf(json->out, "\n%*s", 2 * json->depth, "");
+    if (key) {
+        write_text(json->out, key);
+        fputs(": ", json->out);
+    }
+}
+
+static void open_level(fracas_json *json, const char *key, char bracket)
+{
+    before_value(json, key);
+    putc(bracket, json->out);
+    json->first[++json->depth] = true;
+}
+
+static void close_level(fracas_json *json, char bracket)
+{
+    bool empty = json->first[json->depth--];
+    if (!empty) fprintf(json->out, "\n%*s", 2 * json->depth, "");
+    putc(bracket, json->out);
+}
+
+void fracas_json_begin(fracas_json *json, FILE *out)
+{
+    *json = (fracas_json){.out = out, .first = {true}};
+}
+
+void fracas_json_end(fracas_json *json)
+{
+    putc('\n', json->out);
+}
+
+void fracas_json_object(fracas_json *json, const char *key) { open_level(json, key, '{'); }
+void fracas_json_array(fracas_json *json, const char *key) { open_level(json, key, '['); }
+void fracas_json_close_object(fracas_json *json) { close_level(json, '}'); }
+void fracas_json_close_array(fracas_json *json) { close_level(json, ']'); }
+
+void fracas_json_real(fracas_json *json, const char *key, double value)
+{
+    before_value(json, key);
+    if (isfinite(value)) fprintf(json->out, "%.17g", value);
+    else fputs("null", json->out);
+}
+
+void fracas_json_integer(fracas_json *json, const char *key, int64_t value)
+{
+    before_value(json, key);
+    fprintf(json->out, "%" PRId64, value);
+}
+
+void fracas_json_boolean(fracas_json *json, const char *key, bool value)
+{
+    before_value(json, key);
+    fputs(value ? "true" : "false", json->out);
+}
+
+void fracas_json_text(fracas_json *json, const char *key, const char *value)
+{
+    before_value(json, key);
+    if (value) write_text(json->out, value);
+    else fputs("null", json->out);
+}
