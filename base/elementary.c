@@ -90,9 +90,7 @@ static inline double exp_sum(double hi, double lo)
     double r_lo = (exact - r) - rest;
     double r2 = r * r;
     double r8 = (r2 * r2) * (r2 * r2);
-    double sum = 1.0 + r;
-    double sum_lo = ((1.0 - sum) + r) + r_lo;
-    double y = sum + (sum_lo + r2 * (poly8(p, r) + r8 * poly4(p + 8, r)));
+    double y = 1.0 + (r + (r_lo + r2 * (poly8(p, r) + r8 * poly4(p + 8, r))));
     int64_t half = k >> 1;
     return y * double_of((uint64_t)(1023 + half) << 52) * double_of((uint64_t)(1023 + k - half) << 52);
 }
@@ -159,12 +157,11 @@ double fracas_pow(double x, double y)
     return exp_sum(product, product_lo + y * log_lo);
 }
 
-/* 1/Gamma is entire: w = 1/Gamma - 1 is a polynomial about 1.5 on [1, 2], where it is below 0.13, so that its
- * rounding errors hardly count in Gamma = 1 - w/(1 + w). The rest by Gamma(x) = (x - 1) Gamma(x - 1). */
+/* 1/Gamma is entire: a polynomial about 1.5 serves [1, 2], and Gamma(x) = (x - 1) Gamma(x - 1) the rest. */
 double fracas_gamma(double x)
 {
-    static const double c[16] = {/* 1/Gamma(1.5 + v) - 1 in |v| <= 1/2: 2^-56 */
-        0x1.06eba8214db69p-3, -0x1.514d3d90584b3p-5, -0x1.0da5a671c048cp-1, 0x1.669be41a93892p-3,
+    static const double c[16] = {/* 1/Gamma(1.5 + v) in |v| <= 1/2: 2^-55 */
+        0x1.20dd750429b6dp+0, -0x1.514d3d90584b3p-5, -0x1.0da5a671c048cp-1, 0x1.669be41a93892p-3,
         0x1.a18540be33653p-5, -0x1.5955cc3972186p-5, 0x1.b16203e548491p-8, 0x1.15f7f0609c138p-9,
         -0x1.232bd852d67ecp-10, 0x1.3f84605541cc3p-13, 0x1.a96374da02946p-16, -0x1.d24cdaed928e6p-17,
         0x1.2172c2ddcbee9p-19, 0x1.f2ae41d5b51adp-25, -0x1.82a4ea6702998p-24, 0x1.21263fe0d7581p-26,
@@ -178,6 +175,5 @@ double fracas_gamma(double x)
     double v = x - 1.5;
     double v2 = v * v;
     double v8 = (v2 * v2) * (v2 * v2);
-    double w = poly8(c, v) + v8 * poly8(c + 8, v);
-    return product * (1.0 - w / (1.0 + w));
+    return product / (poly8(c, v) + v8 * poly8(c + 8, v));
 }
