@@ -45,9 +45,9 @@ FRACAS_MUST_USE fracas_err fracas_batch_create(const fracas_model *model, size_t
                                                const fracas_batch_options *options, fracas_batch **batch);
 void fracas_batch_destroy(fracas_batch *batch); /* NULL is allowed */
 
-/* Strengths sigma_c [Pa], to be filled before the run: that of interface i in lane l (l < count) is
- * strength[i*stride + l]. */
-double *fracas_batch_strength(fracas_batch *batch, size_t *stride);
+/* Strengths sigma_c [Pa] of realization `lane` (lane < count), to be filled before the run: that of interface i is
+ * strength[i*stride]. */
+double *fracas_batch_strength(fracas_batch *batch, size_t lane, size_t *stride);
 
 /* Advances every lane to its own stop; record[l], l < count, must be initialised (fracas_record_init) and
  * then belongs to the caller. A lane's record depends on its own strengths alone. FRACAS_USAGE for a strength

@@ -2,6 +2,7 @@
 #ifndef FRACAS_SAMPLER_SAMPLER_H
 #define FRACAS_SAMPLER_SAMPLER_H
 
+#include "base/err.h"
 #include "base/param.h"
 
 #include <stddef.h>
@@ -22,6 +23,9 @@ typedef struct {
 /* The section `strength`; its offset is 0: the owner says where the struct is. */
 extern const fracas_section fracas_strength_section;
 
+/* FRACAS_USAGE when values that are each in range do not go together (uniform: minimum < maximum). */
+FRACAS_MUST_USE fracas_err fracas_strength_check(const fracas_strength *strength);
+
 /* The name of a stream of random numbers: a value depends on this and its place, on nothing else. */
 typedef struct {
     uint64_t seed;     /* of the campaign */
@@ -33,7 +37,8 @@ typedef struct {
 #define FRACAS_PURPOSE_STRENGTH 1u
 
 /* u in (0, 1): word 0 of Philox4x64-10 with key (seed, purpose) and counter (site, replica, point),
- * as ((x >> 11) + 1/2) 2^-53. site = interface + Gauss point * 2^48. */
+ * as ((x >> 12) + 1/2) 2^-52. site = interface + Gauss point * 2^48.
+ * u and 1 - u are both exact, from 2^-53 to 1 - 2^-53 (with 53 bits of x, u could round to 1). */
 double fracas_stream_uniform(const fracas_stream *stream, uint64_t site);
 
 /* strength[i*stride] = F^-1(u_i) [Pa] for interfaces i = 0 .. n-1. */

@@ -25,3 +25,16 @@ const fracas_section fracas_time_section = {
     .nkinds = FRACAS_COUNT(stops), .kind_offset = offsetof(fracas_time, stop), .params = time_params,
     .nparams = FRACAS_COUNT(time_params), .offset = offsetof(fracas_spec, time), .hashed = true,
 };
+
+bool fracas_stop_check(fracas_stop *stop, const fracas_time *rule, double time, double dissipated, int64_t cracked,
+                       int64_t broken, fracas_outcome *outcome)
+{
+    *outcome = broken > 0 ? FRACAS_FRAGMENTED : FRACAS_INTACT;
+    if (rule->stop == &fracas_stop_settled) {
+        if (cracked + broken > stop->events || dissipated - stop->dissipated > rule->quiet_fraction * dissipated)
+            *stop = (fracas_stop){time, dissipated, cracked + broken};
+        if (cracked > 0 && time - stop->time >= rule->quiet) return true;
+        if (cracked > 0 && time >= rule->end) *outcome = FRACAS_TIME_LIMIT;
+    }
+    return time >= rule->end;
+}

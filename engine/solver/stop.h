@@ -2,9 +2,25 @@
 #ifndef FRACAS_ENGINE_SOLVER_STOP_H
 #define FRACAS_ENGINE_SOLVER_STOP_H
 
+#include "engine/record.h"
 #include "engine/spec.h"
+
+#include <stdbool.h>
 
 extern const fracas_section fracas_time_section;
 extern const fracas_kind fracas_stop_time, fracas_stop_settled;
+
+/* Where a lane stands with its rule: the last step at which it was not quiet. */
+typedef struct {
+    double time, dissipated; /* s, J */
+    int64_t events;          /* onsets and breaks */
+} fracas_stop;
+
+/* Shows one step to the rule. True when the realization is over, then *outcome says how it ended.
+ * `time`: over at the first step at or after `end`.
+ * `settled`: armed by the first onset; over when for `quiet` seconds no interface cracked or broke and the dissipated
+ * energy D grew by at most quiet_fraction D; at `end` at the latest, with TIME_LIMIT if armed. */
+bool fracas_stop_check(fracas_stop *stop, const fracas_time *rule, double time, double dissipated, int64_t cracked,
+                       int64_t broken, fracas_outcome *outcome);
 
 #endif

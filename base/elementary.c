@@ -1,0 +1,179 @@
+/* Own elementary functions: + - * / and integer operations in a fixed order, branch-light, no tables, so that
+ * each can later be written over lanes as it stands. Coefficients: interpolation in Chebyshev points, computed
+ * with 90 digits; the error of each polynomial stands beside it, relative to the function it serves. */
+#include "base/elementary.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+/* ln 2 in two parts; the high one has 42 bits, so that its product with an exponent is exact. */
+static const double ln2_hi = 0x1.62e42fefa3800p-1, ln2_lo = 0x1.ef35793c76730p-45;
+
+static inline uint64_t bits_of(double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+static inline double double_of(uint64_t bits)
+{
+    double x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+/* c[0] + c[1] x + c[2] x^2 + c[3] x^3 */
+static inline double poly4(const double *c, double x)
+{
+    return (c[0] + c[1] * x) + (x * x) * (c[2] + c[3] * x);
+}
+
+/* c[0] + ... + c[7] x^7 */
+static inline double poly8(const double *c, double x)
+{
+    double x2 = x * x;
+    return poly4(c, x) + (x2 * x2) * poly4(c + 4, x);
+}
+
+/* x = 2^k m with sqrt(1/2) <= m < sqrt(2), for finite x > 0. */
+static inline double split_exponent(double x, double *k)
+{
+    const uint64_t sqrt_half = 0x3fe6a09e667f3bcd;
+    double shift = x < DBL_MIN ? 54.0 : 0.0;
+    uint64_t bits = bits_of(x < DBL_MIN ? x * 0x1p54 : x);
+    int64_t exponent = (int64_t)(bits - sqrt_half) >> 52;
+    *k = (double)exponent - shift;
+    return double_of(bits - ((uint64_t)exponent << 52));
+}
+
+/* ln x = k ln 2 + ln(1 + f). With s = f/(2 + f), ln(1 + f) = 2 artanh s = 2 s + s R(s^2); as 2 s = f - s f and
+ * s (f + f^2/2) = f^2/2 this is f - (f^2/2 - s (f^2/2 + R)), where only f^2/2 and its half-size
+ * correction are rounded. */
+double fracas_log(double x)
+{
+    static const double r[8] = {/* (2 artanh(s)/s - 2)/s^2 in s^2 <= 0.0295: 2^-60 */
+        0x1.5555555555555p-1, 0x1.9999999999a38p-2, 0x1.2492492476c87p-2, 0x1.c71c720160b47p-3,
+        0x1.745cf901605f7p-3, 0x1.3b1c360763b8ap-3, 0x1.0fbe83c2cbcf3p-3, 0x1.0c04595972ab8p-3,
+    };
+    if (!(x > 0.0 && x < INFINITY)) return x == 0.0 ? -INFINITY : x < 0.0 ? NAN : x;
+    double k;
+    double f = split_exponent(x, &k) - 1.0;
+    double s = f / (2.0 + f);
+    double z = s * s;
+    double half_square = 0.5 * f * f;
+    return k * ln2_hi - ((half_square - (s * (half_square + z * poly8(r, z)) + k * ln2_lo)) - f);
+}
+
+/* e^(hi + lo) for |lo| << |hi|. hi = k ln 2 + r (Cody and Waite), e^r = 1 + r + r^2 P(r), times 2^k in two steps
+ * because k is outside the range of exponents when the result is subnormal or near the largest double. */
+static inline double exp_sum(double hi, double lo)
+{
+    static const double p[12] = {/* (e^r - 1 - r)/r^2 in |r| <= 0.3467: 2^-60 */
+        0x1.0000000000000p-1, 0x1.5555555555555p-3, 0x1.5555555555557p-5, 0x1.1111111111111p-7,
+        0x1.6c16c16c15a5fp-10, 0x1.a01a01a0196a7p-13, 0x1.a01a01a9ed901p-16, 0x1.71de3a5aa9dc9p-19,
+        0x1.27e4d40eb84dfp-22, 0x1.ae642c777eecbp-26, 0x1.1f7f3b37e9a58p-29, 0x1.61bfbf339abc9p-33,
+    };
+    const double log2_e = 0x1.71547652b82fep+0, to_integer = 0x1.8p52;
+    if (hi > 710.0 || hi < -746.0) { /* infinity and 0 all the same, and k fits */
+        hi = hi > 0.0 ? 710.0 : -746.0;
+        lo = 0.0;
+    }
+    double shifted = hi * log2_e + to_integer;
+    int64_t k = (int64_t)(bits_of(shifted) - bits_of(to_integer));
+    double kd = shifted - to_integer;
+    double exact = hi - kd * ln2_hi;
+    double rest = kd * ln2_lo - lo;
+    double r = exact - rest;
+    double r_lo = (exact - r) - rest;
+    double r2 = r * r;
+    double r8 = (r2 * r2) * (r2 * r2);
+    double y = 1.0 + (r + (r_lo + r2 * (poly8(p, r) + r8 * poly4(p + 8, r))));
+    int64_t half = k >> 1;
+    return y * double_of((uint64_t)(1023 + half) << 52) * double_of((uint64_t)(1023 + k - half) << 52);
+}
+
+double fracas_exp(double x)
+{
+    return exp_sum(x, 0.0);
+}
+
+/* a b = product + low, to 2^-104 relative, without FMA: a and b are cut into 26 + 27 bits. */
+static inline double two_product(double a, double b, double *low)
+{
+    const uint64_t upper = ~(uint64_t)0x7ffffff;
+    double ah = double_of(bits_of(a) & upper), al = a - ah;
+    double bh = double_of(bits_of(b) & upper), bl = b - bh;
+    double product = a * b;
+    *low = ((ah * bh - product) + (ah * bl + al * bh)) + al * bl;
+    return product;
+}
+
+/* ln x = value + low, to 2^-63 relative, for finite x > 0: 2 artanh s = 2 s (1 + s^2/3 + s^4 T(s^2)) with s, s^2/3
+ * and the sum in two doubles each; the last term is so small that one suffices. */
+static inline double log_sum(double x, double *low)
+{
+    static const double t[8] = {/* (artanh(s)/s - 1 - s^2/3)/s^4 in s^2 <= 0.0295: 2^-66 */
+        0x1.999999999999ap-3, 0x1.2492492492521p-3, 0x1.c71c71c6eaa10p-4, 0x1.745d177a96056p-4,
+        0x1.3b1395d2190c1p-4, 0x1.1118c7e4b0917p-4, 0x1.df7cc8e5fa539p-5, 0x1.e02e6fff27908p-5,
+    };
+    const double third = 0x1.5555555555555p-2, third_lo = 0x1.5555555555555p-56;
+    double k;
+    double m = split_exponent(x, &k);
+    double f = m - 1.0;
+    double d = m + 1.0, d_lo = m - (d - 1.0);
+    double s = f / d, product_lo;
+    double product = two_product(s, d, &product_lo);
+    double s_lo = (((f - product) - product_lo) - s * d_lo) / d;
+    double z_lo;
+    double z = two_product(s, s, &z_lo);
+    z_lo += 2.0 * (s * s_lo);
+    double cubic_lo;
+    double cubic = two_product(z, third, &cubic_lo);
+    cubic_lo += z * third_lo + z_lo * third;
+    double tail = (z * z) * poly8(t, z);
+    double g = cubic + tail;
+    double g_lo = ((cubic - g) + tail) + cubic_lo;
+    double correction_lo;
+    double correction = two_product(s, g, &correction_lo);
+    double sum = s + correction;
+    double sum_lo = ((s - sum) + correction) + (correction_lo + (s_lo + (s * g_lo + s_lo * g)));
+    double value = k * ln2_hi + 2.0 * sum;
+    *low = ((k * ln2_hi - value) + 2.0 * sum) + (k * ln2_lo + 2.0 * sum_lo);
+    return value;
+}
+
+/* e^(y ln x) with the logarithm and the product in two doubles: 2^-63 of ln x leaves 0.3 ulp where |y ln x| is
+ * largest, 745. */
+double fracas_pow(double x, double y)
+{
+    if (x == 1.0 || y == 0.0) return 1.0;
+    if (!(x > 0.0 && x < INFINITY)) return fracas_exp(y * fracas_log(x));
+    double log_lo, product_lo;
+    double log_x = log_sum(x, &log_lo);
+    double product = two_product(y, log_x, &product_lo);
+    return exp_sum(product, product_lo + y * log_lo);
+}
+
+/* 1/Gamma is entire: a polynomial about 1.5 serves [1, 2], and Gamma(x) = (x - 1) Gamma(x - 1) the rest. */
+double fracas_gamma(double x)
+{
+    static const double c[16] = {/* 1/Gamma(1.5 + v) in |v| <= 1/2: 2^-55 */
+        0x1.20dd750429b6dp+0, -0x1.514d3d90584b3p-5, -0x1.0da5a671c048cp-1, 0x1.669be41a93892p-3,
+        0x1.a18540be33653p-5, -0x1.5955cc3972186p-5, 0x1.b16203e548491p-8, 0x1.15f7f0609c138p-9,
+        -0x1.232bd852d67ecp-10, 0x1.3f84605541cc3p-13, 0x1.a96374da02946p-16, -0x1.d24cdaed928e6p-17,
+        0x1.2172c2ddcbee9p-19, 0x1.f2ae41d5b51adp-25, -0x1.82a4ea6702998p-24, 0x1.21263fe0d7581p-26,
+    };
+    if (!(x >= 1.0 && x <= 171.0)) return NAN;
+    double product = 1.0;
+    while (x > 2.0) {
+        x -= 1.0;
+        product *= x;
+    }
+    double v = x - 1.5;
+    double v2 = v * v;
+    double v8 = (v2 * v2) * (v2 * v2);
+    return product / (poly8(c, v) + v8 * poly8(c + 8, v));
+}

@@ -1,0 +1,25 @@
+/* Elementary functions that give the same bits on every CPU and with every compiler.
+ *
+ * The C library's log and exp change with the CPU (they use FMA where there is one), so nothing that is
+ * stored may come from them. These use + - * / and integer operations only, in a fixed order; the build
+ * switches contraction off. The rounding mode is the default one, to nearest.
+ * ulp: distance of the two doubles around the exact result. Bounds are over the whole range, subnormal
+ * arguments and results included; tests/unit/test_elementary.c measures them against long double. */
+#ifndef FRACAS_BASE_ELEMENTARY_H
+#define FRACAS_BASE_ELEMENTARY_H
+
+/* Natural logarithm, error below 1 ulp. 0 gives -infinity; x < 0 and NaN give NaN; infinity itself. */
+double fracas_log(double x);
+
+/* e^x, error below 1 ulp. +infinity from 709.79 on, 0 from -745.14 down; NaN gives NaN. */
+double fracas_exp(double x);
+
+/* x^y for x >= 0, error below 1 ulp. x^0 = 1 and 1^y = 1 for every x and y, as in C; x < 0 gives NaN (also for
+ * whole y, unlike C), and so does a NaN in any other place. */
+double fracas_pow(double x, double y);
+
+/* Gamma function for 1 <= x <= 171, error below 2 ulp up to x = 2 and x ulp above;
+ * NaN elsewhere. */
+double fracas_gamma(double x);
+
+#endif

@@ -1,0 +1,100 @@
+/* Lanes: realizations side by side in one SIMD register, from one kernel source.
+ *
+ * Include with LANES defined as 1, 4 (AVX2) or 8 (AVX-512). The kernel is written with
+ *   vd          LANES doubles (a plain double for LANES 1)
+ *   vmask       LANES truth values
+ *   lanes_load / lanes_store / lanes_set     memory, and one value for all
+ *   lanes_lt / lanes_le                      a < b, a <= b (false for NaN)
+ *   lanes_and / lanes_or / lanes_any         of masks
+ *   lanes_select(m, a, b)                    m ? a : b
+ *   lanes_get(m, l)                          truth value of lane l
+ * and + - * / of C. Every operation is the IEEE one in every width and instruction set (contraction is off for
+ * the whole build), so a lane's bits depend on its own values alone. Intrinsics are used only where GNU C has no
+ * operator: masks and selection. The names are undefined again by base/lanes_end.h. */
+#include <stdint.h>
+#include <string.h>
+#if defined(__AVX2__) || defined(__AVX512F__)
+#include <immintrin.h>
+#endif
+
+#define LANES_JOIN_(a, b) a##b
+#define LANES_JOIN(a, b) LANES_JOIN_(a, b)
+#define LANES_NAME(name) LANES_JOIN(name##_, LANES)
+
+#define vd LANES_NAME(fracas_vd)
+#define vmask LANES_NAME(fracas_vmask)
+#define lanes_load LANES_NAME(fracas_lanes_load)
+#define lanes_store LANES_NAME(fracas_lanes_store)
+#define lanes_set LANES_NAME(fracas_lanes_set)
+#define lanes_lt LANES_NAME(fracas_lanes_lt)
+#define lanes_le LANES_NAME(fracas_lanes_le)
+#define lanes_and LANES_NAME(fracas_lanes_and)
+#define lanes_or LANES_NAME(fracas_lanes_or)
+#define lanes_any LANES_NAME(fracas_lanes_any)
+#define lanes_select LANES_NAME(fracas_lanes_select)
+#define lanes_get LANES_NAME(fracas_lanes_get)
+#define LANES_FUNCTION __attribute__((unused, always_inline)) static inline
+
+#if LANES == 1
+
+typedef double vd;
+typedef int vmask;
+LANES_FUNCTION vd lanes_load(const double *from) { return *from; }
+LANES_FUNCTION void lanes_store(double *to, vd x) { *to = x; }
+LANES_FUNCTION vd lanes_set(double x) { return x; }
+LANES_FUNCTION vmask lanes_lt(vd a, vd b) { return a < b; }
+LANES_FUNCTION vmask lanes_le(vd a, vd b) { return a <= b; }
+LANES_FUNCTION vmask lanes_and(vmask a, vmask b) { return a & b; }
+LANES_FUNCTION vmask lanes_or(vmask a, vmask b) { return a | b; }
+LANES_FUNCTION int lanes_any(vmask m) { return m; }
+LANES_FUNCTION vd lanes_select(vmask m, vd a, vd b) { return m ? a : b; }
+LANES_FUNCTION int lanes_get(vmask m, int lane) { (void)lane; return m; }
+
+#else
+
+typedef double vd __attribute__((vector_size(8 * LANES)));
+LANES_FUNCTION vd lanes_load(const double *from)
+{
+    vd x;
+    memcpy(&x, __builtin_assume_aligned(from, sizeof x), sizeof x);
+    return x;
+}
+LANES_FUNCTION void lanes_store(double *to, vd x)
+{
+    memcpy(__builtin_assume_aligned(to, sizeof x), &x, sizeof x);
+}
+LANES_FUNCTION vd lanes_set(double x)
+{
+#if LANES == 4
+    return (vd){x, x, x, x};
+#else
+    return (vd){x, x, x, x, x, x, x, x};
+#endif
+}
+
+#if LANES == 8 && defined(__AVX512F__)
+
+typedef __mmask8 vmask;
+LANES_FUNCTION vmask lanes_lt(vd a, vd b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ); }
+LANES_FUNCTION vmask lanes_le(vd a, vd b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LE_OQ); }
+LANES_FUNCTION vmask lanes_and(vmask a, vmask b) { return (vmask)(a & b); }
+LANES_FUNCTION vmask lanes_or(vmask a, vmask b) { return (vmask)(a | b); }
+LANES_FUNCTION int lanes_any(vmask m) { return m != 0; }
+LANES_FUNCTION vd lanes_select(vmask m, vd a, vd b) { return (vd)_mm512_mask_blend_pd(m, (__m512d)b, (__m512d)a); }
+LANES_FUNCTION int lanes_get(vmask m, int lane) { return m >> lane & 1; }
+
+#elif LANES == 4 && defined(__AVX2__)
+
+typedef __m256d vmask;
+LANES_FUNCTION vmask lanes_lt(vd a, vd b) { return _mm256_cmp_pd((__m256d)a, (__m256d)b, _CMP_LT_OQ); }
+LANES_FUNCTION vmask lanes_le(vd a, vd b) { return _mm256_cmp_pd((__m256d)a, (__m256d)b, _CMP_LE_OQ); }
+LANES_FUNCTION vmask lanes_and(vmask a, vmask b) { return _mm256_and_pd(a, b); }
+LANES_FUNCTION vmask lanes_or(vmask a, vmask b) { return _mm256_or_pd(a, b); }
+LANES_FUNCTION int lanes_any(vmask m) { return _mm256_movemask_pd(m) != 0; }
+LANES_FUNCTION vd lanes_select(vmask m, vd a, vd b) { return (vd)_mm256_blendv_pd((__m256d)b, (__m256d)a, m); }
+LANES_FUNCTION int lanes_get(vmask m, int lane) { return _mm256_movemask_pd(m) >> lane & 1; }
+
+#else
+#error "4 lanes need AVX2, 8 lanes need AVX-512: narrower lanes in turn are faster than registers the CPU lacks"
+#endif
+#endif

@@ -1,0 +1,21 @@
+/* Law `rigid-link` over lanes: the interface elements of the code DynFrag1D (docs/theory/cohesive.md).
+ * Include after base/lanes.h.
+ *
+ * A link is rigid until the mean stress of its elements has exceeded its strength; two steps later it carries
+ *   q >= 0: T = sigma_c (1 - D), D = max(D, min(1, q/delta_c)) loading;  sigma_c (1 - D) q/(D delta_c) below   (cohesive.7)
+ *   q <  0: T = k q, contact, also after full break, k = (sigma_c^2 + 4.5 rate^(2/3) E G_c^(2/3) rho^(1/3))/(4.5 G_c)
+ *                                                                                                 (cohesive.8) */
+#define rigid_link_law LANES_NAME(fracas_rigid_link_law)
+
+/* Traction of an open link [Pa]; *damage is brought up to date. `penalty` is k [Pa/m]. */
+LANES_FUNCTION vd rigid_link_law(vd q, vd *damage, vd sigma_c, vd delta_c, vd penalty)
+{
+    const vd zero = lanes_set(0.0), one = lanes_set(1.0);
+    vd opening = q / delta_c;
+    vmask loading = lanes_le(*damage, opening);
+    vd now = lanes_select(loading, lanes_select(lanes_lt(opening, one), opening, one), *damage);
+    vd peak = sigma_c * (one - now);
+    vd tension = lanes_select(loading, peak, peak * (opening / now));
+    *damage = lanes_select(lanes_le(zero, q), now, *damage);
+    return lanes_select(lanes_lt(q, zero), penalty * q, tension);
+}

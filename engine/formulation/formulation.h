@@ -1,0 +1,64 @@
+/* A formulation: bulk and interface kernels of one kind of body, behind one table of functions.
+ *
+ * The solver owns clocks, ledger, stop rules and histories; a formulation owns the state of its degrees of
+ * freedom and advances it by one step of central difference for all lanes. */
+#ifndef FRACAS_ENGINE_FORMULATION_FORMULATION_H
+#define FRACAS_ENGINE_FORMULATION_FORMULATION_H
+
+#include "engine/engine.h"
+
+#define FRACAS_MAX_LANES 8
+
+typedef struct fracas_formulation fracas_formulation;
+
+struct fracas_model {
+    const fracas_formulation *formulation;
+    fracas_spec spec;
+    size_t elements, interfaces;
+    double mass;          /* kg */
+    double element_size;  /* m, h */
+    double contact;       /* Pa/m: largest stiffness of a closing interface, per area */
+    double critical_step; /* s */
+    double time_step;     /* s */
+};
+
+/* One step of a batch, and what the lanes have accumulated. Arrays are [lane]. */
+typedef struct {
+    int width;           /* lanes of the batch: 1, 4, 8 */
+    int lanes;           /* lanes of one kernel: what a register holds; the batch is width/lanes such groups */
+    fracas_isa isa;
+    double *state;       /* owned by the batch, laid out by the formulation, group after group */
+    double *onset_time;  /* [interface][lane], s; NULL unless interfaces are kept */
+    double *break_time;  /* the same */
+    /* in: time of the step, and the time steps before and after it (drift is 0 in the first step) */
+    _Alignas(64) double time[FRACAS_MAX_LANES], drift[FRACAS_MAX_LANES], kick[FRACAS_MAX_LANES];
+    /* out: energies [J] and power of the load [W] at that time */
+    double kinetic[FRACAS_MAX_LANES], elastic[FRACAS_MAX_LANES], cohesive[FRACAS_MAX_LANES];
+    double dissipated[FRACAS_MAX_LANES], power[FRACAS_MAX_LANES];
+    /* accumulated: energy that a break creates [J], counts of interfaces, time of the first onset [s, NaN] */
+    double created[FRACAS_MAX_LANES], first_onset[FRACAS_MAX_LANES];
+    int64_t cracked[FRACAS_MAX_LANES], broken[FRACAS_MAX_LANES];
+} fracas_step;
+
+struct fracas_formulation {
+    fracas_kind kind; /* first: a registry entry */
+    /* Fills the model's sizes, mass and critical step from its spec. */
+    fracas_err (*model_init)(fracas_model *model);
+    fracas_err (*check_strength)(const fracas_model *model, double strength);
+    /* Doubles that a lane's state takes. */
+    size_t (*state_size)(const fracas_model *model);
+    /* Where the strength of interface 0 of a lane is in the state, and the distance to that of the next interface. */
+    double *(*strength)(const fracas_model *model, const fracas_step *step, int lane, size_t *stride);
+    /* Prepares the state of one lane for the first step, its strengths being there. */
+    void (*lane_init)(const fracas_model *model, const fracas_step *step, int lane);
+    /* Drift, forces, energies, events, kick of all lanes. */
+    void (*advance)(const fracas_model *model, fracas_step *step);
+    /* Number of fragments when `broken` interfaces are broken. */
+    int64_t (*fragment_count)(const fracas_model *model, int64_t broken);
+    /* Fragments, momentum and (if kept) interface rows of one lane after a step, into the record. */
+    fracas_err (*harvest)(const fracas_model *model, const fracas_step *step, int lane, fracas_record *record);
+};
+
+extern const fracas_formulation fracas_formulation_bar;
+
+#endif

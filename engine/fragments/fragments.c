@@ -1,0 +1,50 @@
+#include "engine/fragments/fragments.h"
+
+#include <stdlib.h>
+
+fracas_err fracas_partition_init(fracas_partition *partition, size_t elements)
+{
+    *partition = (fracas_partition){.elements = elements,
+                                    .parent = malloc(elements * sizeof *partition->parent),
+                                    .label = malloc(elements * sizeof *partition->label)};
+    if (!partition->parent || !partition->label) {
+        fracas_partition_clear(partition);
+        return fracas_no_memory("the partition into fragments");
+    }
+    for (size_t e = 0; e < elements; e++) partition->parent[e] = (uint32_t)e;
+    return FRACAS_OK;
+}
+
+void fracas_partition_clear(fracas_partition *partition)
+{
+    free(partition->parent);
+    free(partition->label);
+    *partition = (fracas_partition){0};
+}
+
+static uint32_t root_of(uint32_t *parent, uint32_t e)
+{
+    while (parent[e] != e) {
+        parent[e] = parent[parent[e]]; /* halve the path */
+        e = parent[e];
+    }
+    return e;
+}
+
+void fracas_partition_join(fracas_partition *partition, uint32_t a, uint32_t b)
+{
+    a = root_of(partition->parent, a);
+    b = root_of(partition->parent, b);
+    if (a < b) partition->parent[b] = a;
+    else partition->parent[a] = b;
+}
+
+size_t fracas_partition_label(fracas_partition *partition)
+{
+    size_t count = 0;
+    for (size_t e = 0; e < partition->elements; e++) {
+        uint32_t root = root_of(partition->parent, (uint32_t)e);
+        partition->label[e] = root == e ? (uint32_t)count++ : partition->label[root];
+    }
+    return count;
+}

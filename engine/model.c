@@ -1,0 +1,43 @@
+#include "engine/formulation/formulation.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
+{
+    fracas_model *model = calloc(1, sizeof *model);
+    if (!model) return fracas_no_memory("a model");
+    model->spec = *spec;
+    model->formulation = (const fracas_formulation *)(const void *)spec->formulation; /* .kind is its first member */
+    fracas_err code = model->formulation->model_init(model);
+    model->time_step = spec->time.safety * model->critical_step;
+    if (!code && !(model->time_step > 0 && isfinite(model->time_step)))
+        code = fracas_fail(FRACAS_USAGE, "time step %g s: check material, mesh and time.safety", model->time_step);
+    if (code) {
+        fracas_model_destroy(model);
+        return code;
+    }
+    *out = model;
+    return FRACAS_OK;
+}
+
+void fracas_model_destroy(fracas_model *model)
+{
+    free(model);
+}
+
+size_t fracas_model_interfaces(const fracas_model *model) { return model->interfaces; }
+size_t fracas_model_elements(const fracas_model *model) { return model->elements; }
+double fracas_model_mass(const fracas_model *model) { return model->mass; }
+double fracas_model_critical_time_step(const fracas_model *model) { return model->critical_step; }
+double fracas_model_time_step(const fracas_model *model) { return model->time_step; }
+
+int64_t fracas_model_steps(const fracas_model *model)
+{
+    return (int64_t)ceil(model->spec.time.end / model->time_step);
+}
+
+fracas_err fracas_model_check_strength(const fracas_model *model, double strength)
+{
+    return model->formulation->check_strength(model, strength);
+}

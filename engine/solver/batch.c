@@ -1,0 +1,176 @@
+#include "engine/solver/batch.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static bool has_isa(fracas_isa isa)
+{
+    switch (isa) {
+    case FRACAS_ISA_AVX512:
+        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+               __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
+    case FRACAS_ISA_AVX2: return __builtin_cpu_supports("avx2");
+    default: return true;
+    }
+}
+
+static fracas_err choose_isa(fracas_isa wanted, fracas_isa *isa)
+{
+    static const char *const name[] = {"baseline", "avx2", "avx512"};
+    *isa = wanted;
+    if (wanted == FRACAS_ISA_BEST)
+        *isa = has_isa(FRACAS_ISA_AVX512) ? FRACAS_ISA_AVX512 : has_isa(FRACAS_ISA_AVX2) ? FRACAS_ISA_AVX2 : FRACAS_ISA_BASELINE;
+    if (!has_isa(*isa))
+        return fracas_fail(FRACAS_USAGE, "this CPU has no %s: choose a lower instruction set or leave it out", name[*isa]);
+    return FRACAS_OK;
+}
+
+static fracas_err choose_width(size_t count, int wanted, int *width)
+{
+    if (count < 1 || count > FRACAS_MAX_LANES)
+        return fracas_fail(FRACAS_USAGE, "a batch of %zu realizations; 1 to %d fit", count, FRACAS_MAX_LANES);
+    *width = wanted ? wanted : count > 4 ? 8 : count > 1 ? 4 : 1;
+    if ((*width != 1 && *width != 4 && *width != 8) || (size_t)*width < count)
+        return fracas_fail(FRACAS_USAGE, "%d lanes for %zu realizations; lanes are 1, 4 or 8 and no fewer", *width, count);
+    return FRACAS_OK;
+}
+
+/* Lanes of a kernel: as many as a register holds. A wider batch takes its lanes in groups. */
+static int lanes_of(fracas_isa isa, int width)
+{
+    int most = isa == FRACAS_ISA_AVX512 ? 8 : isa == FRACAS_ISA_AVX2 ? 4 : 1;
+    return width < most ? width : most;
+}
+
+/* Aligned for the widest lanes. */
+static void *allocate(size_t doubles)
+{
+    size_t bytes = (doubles * sizeof(double) + 63) / 64 * 64;
+    return aligned_alloc(64, bytes ? bytes : 64);
+}
+
+fracas_err fracas_batch_create(const fracas_model *model, size_t count, const fracas_batch_options *options,
+                               fracas_batch **out)
+{
+    int width = 0;
+    fracas_isa isa;
+    TRY(choose_width(count, options->width, &width));
+    TRY(choose_isa(options->isa, &isa));
+    fracas_batch *batch = aligned_alloc(64, (sizeof *batch + 63) / 64 * 64);
+    if (!batch) return fracas_no_memory("a batch");
+    *batch = (fracas_batch){.model = model, .count = count, .step = {.width = width, .lanes = lanes_of(isa, width), .isa = isa}};
+    const size_t lanes = (size_t)width;
+    bool enough = (batch->step.state = allocate(model->formulation->state_size(model) * lanes)) != NULL;
+    if (options->interfaces) {
+        enough = (batch->step.onset_time = allocate(model->interfaces * lanes)) != NULL && enough;
+        enough = (batch->step.break_time = allocate(model->interfaces * lanes)) != NULL && enough;
+    }
+    for (size_t l = 0; l < lanes; l++)
+        enough = !fracas_history_init(&batch->lane[l].history, options->history, model->spec.time.end) && enough;
+    if (!enough) {
+        fracas_batch_destroy(batch);
+        return fracas_no_memory("a batch");
+    }
+    *out = batch;
+    return FRACAS_OK;
+}
+
+void fracas_batch_destroy(fracas_batch *batch)
+{
+    if (!batch) return;
+    free(batch->step.state);
+    free(batch->step.onset_time);
+    free(batch->step.break_time);
+    for (int l = 0; l < FRACAS_MAX_LANES; l++) fracas_history_clear(&batch->lane[l].history);
+    free(batch);
+}
+
+double *fracas_batch_strength(fracas_batch *batch, size_t lane, size_t *stride)
+{
+    return batch->model->formulation->strength(batch->model, &batch->step, (int)lane, stride);
+}
+
+fracas_err fracas_batch_begin(fracas_batch *batch)
+{
+    const fracas_model *model = batch->model;
+    fracas_step *step = &batch->step;
+    const size_t width = (size_t)step->width;
+    for (size_t l = 0; l < width; l++) {
+        size_t stride;
+        double *strength = fracas_batch_strength(batch, l, &stride);
+        const double *first = fracas_batch_strength(batch, 0, &stride);
+        for (size_t i = 0; i < model->interfaces; i++) {
+            if (l >= batch->count) strength[i * stride] = first[i * stride];
+            fracas_err code = fracas_model_check_strength(model, strength[i * stride]);
+            if (code) return fracas_fail_within(code, "realization %zu of the batch, interface %zu", l, i);
+        }
+        model->formulation->lane_init(model, step, (int)l);
+        step->first_onset[l] = NAN;
+        batch->lane[l].running = l < batch->count;
+        for (size_t i = 0; step->onset_time && i < model->interfaces; i++)
+            step->onset_time[i * width + l] = step->break_time[i * width + l] = NAN;
+    }
+    return FRACAS_OK;
+}
+
+/* The record of a lane that is over. */
+static fracas_err finish_lane(const fracas_batch *batch, size_t l, fracas_outcome outcome, fracas_record *record)
+{
+    const fracas_lane *lane = &batch->lane[l];
+    const fracas_ledger *ledger = &lane->ledger;
+    *record = (fracas_record){
+        .outcome = outcome, .broken = batch->step.broken[l], .cracked = batch->step.cracked[l], .steps = batch->steps,
+        .onset_time = batch->step.first_onset[l], .end_time = batch->step.time[l], .time_step = batch->model->time_step,
+        .mass = batch->model->mass, .kinetic = ledger->kinetic, .elastic = ledger->elastic, .cohesive = ledger->cohesive,
+        .dissipated = ledger->dissipated, .created = ledger->created, .work = ledger->work,
+        .residual = ledger->largest_residual, .residual_end = ledger->residual};
+    TRY(fracas_history_harvest(&lane->history, record));
+    return batch->model->formulation->harvest(batch->model, &batch->step, (int)l, record);
+}
+
+/* One lane after a step: ledger, history, stop. */
+static fracas_err observe_lane(fracas_batch *batch, size_t l, fracas_record *record)
+{
+    fracas_lane *lane = &batch->lane[l];
+    const fracas_step *step = &batch->step;
+    fracas_ledger *ledger = &lane->ledger;
+    fracas_ledger_update(ledger, step, (int)l, batch->steps == 0);
+    const fracas_history_row row = {
+        .time = step->time[l], .kinetic = ledger->kinetic, .elastic = ledger->elastic, .cohesive = ledger->cohesive,
+        .dissipated = ledger->dissipated, .created = ledger->created, .work = ledger->work, .residual = ledger->residual,
+        .fragments = batch->model->formulation->fragment_count(batch->model, step->broken[l]), .broken = step->broken[l]};
+    fracas_history_observe(&lane->history, batch->steps, &row, step->cracked[l] > 0);
+    fracas_outcome outcome = FRACAS_NONFINITE;
+    bool over = !isfinite(ledger->residual) ||
+                fracas_stop_check(&lane->stop, &batch->model->spec.time, step->time[l], ledger->dissipated, step->cracked[l],
+                                  step->broken[l], &outcome);
+    if (!over) return FRACAS_OK;
+    lane->running = false;
+    return finish_lane(batch, l, outcome, record);
+}
+
+fracas_err fracas_batch_step(fracas_batch *batch, fracas_record *record, size_t *running)
+{
+    fracas_step *step = &batch->step;
+    for (int l = 0; l < step->width; l++) {
+        step->time[l] = (double)batch->steps * batch->model->time_step;
+        step->drift[l] = batch->steps == 0 ? 0.0 : batch->model->time_step;
+        step->kick[l] = batch->model->time_step;
+    }
+    batch->model->formulation->advance(batch->model, step);
+    *running = 0;
+    for (size_t l = 0; l < batch->count; l++) {
+        if (batch->lane[l].running) TRY(observe_lane(batch, l, &record[l]));
+        *running += batch->lane[l].running;
+    }
+    batch->steps++;
+    return FRACAS_OK;
+}
+
+fracas_err fracas_batch_run(fracas_batch *batch, fracas_record *record)
+{
+    TRY(fracas_batch_begin(batch));
+    size_t running = batch->count;
+    while (running > 0) TRY(fracas_batch_step(batch, record, &running));
+    return FRACAS_OK;
+}

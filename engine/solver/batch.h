@@ -1,0 +1,33 @@
+/* A batch step by step: what fracas_batch_run is made of, for the verification tests and benchmarks, which look at the
+ * state between steps. */
+#ifndef FRACAS_ENGINE_SOLVER_BATCH_H
+#define FRACAS_ENGINE_SOLVER_BATCH_H
+
+#include "engine/formulation/formulation.h"
+#include "engine/solver/history.h"
+#include "engine/solver/ledger.h"
+#include "engine/solver/stop.h"
+
+typedef struct {
+    fracas_ledger ledger;
+    fracas_history history;
+    fracas_stop stop;
+    bool running;
+} fracas_lane;
+
+struct fracas_batch {
+    fracas_step step; /* first: it is aligned */
+    const fracas_model *model;
+    size_t count; /* realizations; lanes beyond them repeat lane 0 */
+    int64_t steps;
+    fracas_lane lane[FRACAS_MAX_LANES];
+};
+
+/* Checks the strengths and prepares every lane; then the state may be changed, before the first step. */
+FRACAS_MUST_USE fracas_err fracas_batch_begin(fracas_batch *batch);
+
+/* Advances all lanes by one step and brings ledgers, histories and stop rules up to date; a lane that is over leaves its
+ * record and runs no further. *running: lanes left. */
+FRACAS_MUST_USE fracas_err fracas_batch_step(fracas_batch *batch, fracas_record *record, size_t *running);
+
+#endif

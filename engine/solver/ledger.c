@@ -1,0 +1,23 @@
+#include "engine/solver/ledger.h"
+
+#include <math.h>
+
+void fracas_ledger_update(fracas_ledger *ledger, const fracas_step *step, int lane, bool first)
+{
+    double before = ledger->power;
+    ledger->kinetic = step->kinetic[lane];
+    ledger->elastic = step->elastic[lane];
+    ledger->cohesive = step->cohesive[lane];
+    ledger->dissipated = step->dissipated[lane];
+    ledger->created = step->created[lane];
+    ledger->power = step->power[lane];
+    double held = ledger->kinetic + ledger->elastic + ledger->cohesive + ledger->dissipated;
+    if (first) {
+        ledger->initial = held;
+        ledger->work = ledger->largest_residual = 0;
+    } else {
+        ledger->work += step->drift[lane] * (0.5 * (before + ledger->power)); /* (bar.13) */
+    }
+    ledger->residual = held - ledger->created - ledger->work - ledger->initial; /* (bar.14) */
+    if (!(fabs(ledger->residual) <= ledger->largest_residual)) ledger->largest_residual = fabs(ledger->residual);
+}

@@ -1,0 +1,21 @@
+/* The energy ledger of one lane: every term accumulated on its own, the residual is what they miss by. */
+#ifndef FRACAS_ENGINE_SOLVER_LEDGER_H
+#define FRACAS_ENGINE_SOLVER_LEDGER_H
+
+#include "engine/formulation/formulation.h"
+
+typedef struct {
+    double kinetic, elastic, cohesive, dissipated, created, work; /* J */
+    double residual;         /* J, now */
+    double largest_residual; /* J, of its absolute values so far */
+    double initial;          /* J, kinetic + elastic + cohesive + dissipated of the first step */
+    double power;            /* W, of the load */
+} fracas_ledger;
+
+/* Takes the step's energies of `lane`, with
+ *   work_n = work_{n-1} + dt (P_{n-1} + P_n)/2                                                    (bar.13)
+ *   residual = kinetic + elastic + cohesive + dissipated - created - work - initial               (bar.14)
+ * `first`: the step that the ledger starts with. */
+void fracas_ledger_update(fracas_ledger *ledger, const fracas_step *step, int lane, bool first);
+
+#endif

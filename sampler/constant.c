@@ -1,0 +1,23 @@
+/* One strength for every interface. */
+#include "sampler/distribution.h"
+
+static double quantile(const fracas_strength *strength, double u)
+{
+    (void)u;
+    return strength->value;
+}
+
+static double mean(const fracas_strength *strength)
+{
+    return strength->value;
+}
+
+static const fracas_param params[] = {
+    {"value", FRACAS_REAL, "Pa", "strength of every interface", FRACAS_REQUIRED, 0, INFINITY, true,
+     offsetof(fracas_strength, value)},
+};
+const fracas_distribution fracas_constant = {
+    .kind = {.name = "constant", .doc = "the same strength for every interface", .params = params,
+             .nparams = FRACAS_COUNT(params)},
+    .quantile = quantile, .mean = mean,
+};

@@ -1,0 +1,20 @@
+/* What a distribution of strengths is: one file each, and a line in sampler/strength.c. */
+#ifndef FRACAS_SAMPLER_DISTRIBUTION_H
+#define FRACAS_SAMPLER_DISTRIBUTION_H
+
+#include "base/err.h"
+#include "sampler/sampler.h"
+
+typedef struct {
+    fracas_kind kind; /* first: a strength names its distribution by this */
+    double (*quantile)(const fracas_strength *strength, double u); /* F^-1(u) [Pa], 0 < u < 1 */
+    double (*mean)(const fracas_strength *strength);               /* [Pa] */
+    fracas_err (*check)(const fracas_strength *strength);          /* what single ranges cannot say; may be NULL */
+} fracas_distribution;
+
+extern const fracas_distribution fracas_constant;
+extern const fracas_distribution fracas_uniform;
+extern const fracas_distribution fracas_weibull;
+extern const fracas_distribution fracas_lognormal;
+
+#endif

@@ -1,0 +1,29 @@
+/* Lognormal distribution. */
+#include "sampler/distribution.h"
+
+#include "base/elementary.h"
+#include "sampler/normal.h"
+
+/* (sampling.6) */
+static double quantile(const fracas_strength *strength, double u)
+{
+    return strength->median * fracas_exp(strength->sigma * fracas_normal_quantile(u));
+}
+
+/* (sampling.7) */
+static double mean(const fracas_strength *strength)
+{
+    return strength->median * fracas_exp(0.5 * strength->sigma * strength->sigma);
+}
+
+static const fracas_param params[] = {
+    {"median", FRACAS_REAL, "Pa", "median strength", FRACAS_REQUIRED, 0, INFINITY, true,
+     offsetof(fracas_strength, median)},
+    {"sigma", FRACAS_REAL, "1", "standard deviation of the logarithm of the strength", FRACAS_REQUIRED, 0, 10, true,
+     offsetof(fracas_strength, sigma)},
+};
+const fracas_distribution fracas_lognormal = {
+    .kind = {.name = "lognormal", .doc = "logarithm normally distributed: median exp(sigma z)", .params = params,
+             .nparams = FRACAS_COUNT(params)},
+    .quantile = quantile, .mean = mean,
+};

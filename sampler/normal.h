@@ -1,0 +1,9 @@
+/* The normal distribution, same bits on every CPU. */
+#ifndef FRACAS_SAMPLER_NORMAL_H
+#define FRACAS_SAMPLER_NORMAL_H
+
+/* Phi^-1(u), 0 < u < 1, to 1e-15 relative: algorithm AS 241, routine PPND16 (Wichura, Applied Statistics 37,
+ * 477-484, 1988). */
+double fracas_normal_quantile(double u);
+
+#endif

@@ -1,0 +1,42 @@
+/* The registry of distributions, and what is done with any of them. */
+#include "sampler/distribution.h"
+
+static const fracas_kind *const distributions[] = {
+    &fracas_weibull.kind,
+    &fracas_uniform.kind,
+    &fracas_lognormal.kind,
+    &fracas_constant.kind,
+};
+const fracas_section fracas_strength_section = {
+    .name = "strength", .doc = "How strong interfaces are", .selector = "distribution", .kinds = distributions,
+    .nkinds = FRACAS_COUNT(distributions), .kind_offset = offsetof(fracas_strength, distribution), .hashed = true,
+};
+
+static const fracas_distribution *distribution_of(const fracas_strength *strength)
+{
+    return (const fracas_distribution *)(const void *)strength->distribution;
+}
+
+fracas_err fracas_strength_check(const fracas_strength *strength)
+{
+    const fracas_distribution *distribution = distribution_of(strength);
+    return distribution->check ? distribution->check(strength) : FRACAS_OK;
+}
+
+double fracas_strength_quantile(const fracas_strength *strength, double u)
+{
+    return distribution_of(strength)->quantile(strength, u);
+}
+
+double fracas_strength_mean(const fracas_strength *strength)
+{
+    return distribution_of(strength)->mean(strength);
+}
+
+void fracas_strength_sample(const fracas_strength *strength, const fracas_stream *stream,
+                            size_t n, size_t stride, double *sigma_c)
+{
+    const fracas_distribution *distribution = distribution_of(strength);
+    for (size_t i = 0; i < n; i++)
+        sigma_c[i * stride] = distribution->quantile(strength, fracas_stream_uniform(stream, i));
+}

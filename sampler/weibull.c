@@ -1,0 +1,39 @@
+/* Weibull distribution with two or three parameters. */
+#include "sampler/distribution.h"
+
+#include "base/elementary.h"
+
+/* -ln(1 - u), accurate in both tails: 1 - u loses what `lost` holds, which is nothing for the u of a stream. */
+static double exponential(double u)
+{
+    double rest = 1.0 - u;
+    double lost = (1.0 - rest) - u;
+    return -(fracas_log(rest) + lost / rest);
+}
+
+/* (sampling.4) As exp(ln(t)/shape): a power with the rounded exponent 1/shape would be no more accurate. */
+static double quantile(const fracas_strength *strength, double u)
+{
+    double power = fracas_exp(fracas_log(exponential(u)) / strength->shape);
+    return strength->minimum + strength->scale * power;
+}
+
+/* (sampling.5) */
+static double mean(const fracas_strength *strength)
+{
+    return strength->minimum + strength->scale * fracas_gamma(1.0 + 1.0 / strength->shape);
+}
+
+static const fracas_param params[] = {
+    {"minimum", FRACAS_REAL, "Pa", "strength that every interface has at least", 0, 0, INFINITY, false,
+     offsetof(fracas_strength, minimum)},
+    {"scale", FRACAS_REAL, "Pa", "scale above the minimum: 63.2 % of all strengths are below their sum",
+     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, scale)},
+    {"shape", FRACAS_REAL, "1", "Weibull modulus m; the larger, the narrower", FRACAS_REQUIRED, 0.1, 1000, false,
+     offsetof(fracas_strength, shape)},
+};
+const fracas_distribution fracas_weibull = {
+    .kind = {.name = "weibull", .doc = "weakest of many flaws: minimum + scale (-ln(1 - u))^(1/shape)",
+             .params = params, .nparams = FRACAS_COUNT(params)},
+    .quantile = quantile, .mean = mean,
+};
