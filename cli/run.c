@@ -2,6 +2,7 @@
 
 #include "base/param.h"
 #include "campaigns/campaign.h"
+#include "campaigns/scheduler/prepare.h"
 #include "campaigns/scheduler/run.h"
 
 #include <limits.h>
@@ -39,18 +40,14 @@ static fracas_err read_options(const fracas_arguments *arguments, fracas_run_opt
     return fracas_arguments_real(arguments, SEGMENT_SIZE, 1048576.0, &run->segment_bytes);
 }
 
-/* Where the study is: --study, else studies/NAME with the name of the campaign. */
-static fracas_err study_folder(const fracas_run_options *run, char folder[PATH_MAX])
+/* Where the run left its study. */
+static fracas_err find_study(const fracas_run_options *run, char *study, size_t size)
 {
-    if (run->study) {
-        snprintf(folder, PATH_MAX, "%s", run->study);
-        return FRACAS_OK;
-    }
     fracas_campaign *campaign;
     TRY(fracas_campaign_read(run->file, &campaign));
-    snprintf(folder, PATH_MAX, "studies/%s", campaign->name);
+    fracas_err code = fracas_study_folder(run, campaign, study, size);
     fracas_campaign_destroy(campaign);
-    return FRACAS_OK;
+    return code;
 }
 
 static fracas_err run(const fracas_arguments *arguments)
@@ -62,11 +59,12 @@ static fracas_err run(const fracas_arguments *arguments)
     if (!fracas_run_speaks()) return FRACAS_OK;
     if (end != FRACAS_OK && end != FRACAS_SOME_FAILED) return end;
 
-    char folder[PATH_MAX];
-    TRY(study_folder(&run, folder));
-    if (!ran) fprintf(stderr, "fracas: %s is complete, nothing to compute\n", folder);
-    TRY(fracas_cli_report(folder, false));
-    return end == FRACAS_OK ? end : fracas_fail(end, "some realizations failed; `fracas status %s` counts them", folder);
+    char study[PATH_MAX], message[1024]; /* how the run ended, said after the report */
+    snprintf(message, sizeof message, "%s", fracas_message());
+    TRY(find_study(&run, study, sizeof study));
+    if (!ran) fprintf(stderr, "fracas: %s is complete, nothing to compute\n", study);
+    TRY(fracas_cli_report(study, false));
+    return end ? fracas_fail(end, "%s", message) : FRACAS_OK;
 }
 
 const fracas_command fracas_command_run = {
