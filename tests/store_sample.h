@@ -215,13 +215,16 @@ static inline char *sample_folder(void)
     return path;
 }
 
+/* FOLDER/NAME, until eight more were asked for. */
 static inline char *sample_path(const char *folder, const char *name)
 {
-    static char path[4][512];
+    enum { AT_ONCE = 8 };
+    static char path[AT_ONCE][512];
     static int next;
-    next = (next + 1) % 4; /* four may be in use at a time */
-    snprintf(path[next], sizeof path[next], "%s/%s", folder, name);
-    return path[next];
+    char text[512]; /* `folder` may itself be one of them */
+    snprintf(text, sizeof text, "%s/%s", folder, name);
+    next = (next + 1) % AT_ONCE;
+    return strcpy(path[next], text);
 }
 
 static inline void sample_remove_tree(const char *path)
