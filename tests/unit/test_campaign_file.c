@@ -304,8 +304,8 @@ static void test_round_trip(void **state)
         "sweep:\n  - cases: [{name: alone, replicas: 5}]\n",
         "sweep:\n  - loading.rate: {from: 1e3, to: 1e6, points: 4, spacing: log}\n  - mesh.elements: [10, 1e8]\n",
         "sweep:\n  - cases:\n      - {name: a, replicas: 1000000000}\n      - {strength.minimum: 1 Pa, replicas: 1}\n",
-        "sweep:\n  - strength: [{}, {distribution: weibull, scale: 3 MPa, shape: 10}, {distribution: constant, value: 1}]\n"
-        "  - cohesive.law: [nitsche, rigid-link]\n  - time: [{}, {stop: time}]\n  - geometry.ends: [periodic, held]\n",
+        ("sweep:\n  - strength: [{}, {distribution: weibull, scale: 3 MPa, shape: 10}, {distribution: constant, value: 1}]\n"
+         "  - cohesive.law: [nitsche, rigid-link]\n  - time: [{}, {stop: time}]\n  - geometry.ends: [periodic, held]\n"),
         "sweep:\n  - zip:\n      material.young: [0.1 GPa, 0.3 GPa]\n      time.stop: [settled, time]\n",
     };
     for (size_t i = 0; i < FRACAS_COUNT(sweeps); i++) {
