@@ -16,6 +16,6 @@ LANES_FUNCTION vd rigid_link_law(vd q, vd *damage, vd sigma_c, vd delta_c, vd pe
     vd now = lanes_select(loading, lanes_select(lanes_lt(opening, one), opening, one), *damage);
     vd peak = sigma_c * (one - now);
     vd tension = lanes_select(loading, peak, peak * (opening / now));
-    *damage = lanes_select(lanes_le(zero, q), now, *damage);
+    *damage = now;
     return lanes_select(lanes_lt(q, zero), penalty * q, tension);
 }

@@ -119,10 +119,12 @@ static fracas_err bar_model_init(fracas_model *model)
     fracas_bar_constants bar = constants_of(model);
     /* The penalty of rigid-link depends on each strength; check_strength keeps it below the elements' stiffness. */
     model->contact = is_nitsche(model) ? bar.spring : bar.young / bar.size;
-    double closed, open;
+    double closed, cracked;
     TRY(top_frequency_squared(model, true, &closed));
-    TRY(top_frequency_squared(model, false, &open));
-    model->critical_step = 2.0 / sqrt(closed > open ? closed : open);
+    TRY(top_frequency_squared(model, false, &cracked));
+    model->critical_closed = FRACAS_CENTRAL_DIFFERENCE_LIMIT / sqrt(closed);
+    model->critical_cracked = FRACAS_CENTRAL_DIFFERENCE_LIMIT / sqrt(cracked);
+    model->critical_step = fmin(model->critical_closed, model->critical_cracked);
     return FRACAS_OK;
 }
 

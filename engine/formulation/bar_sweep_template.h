@@ -264,5 +264,4 @@ static void BAR_SWEEP(rigid_link)(const fracas_bar_constants *bar, fracas_step *
 #undef rigid_link_law
 #undef central_drift
 #undef central_kick
-#undef FRACAS_CENTRAL_DIFFERENCE_LIMIT
 #include "base/lanes_end.h"

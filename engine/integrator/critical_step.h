@@ -6,6 +6,9 @@
 
 #include <stddef.h>
 
+/* Central difference is stable for omega dt below this. */
+#define FRACAS_CENTRAL_DIFFERENCE_LIMIT 2.0
+
 /* result = M^-1 K w for `n` degrees of freedom. */
 typedef void fracas_operator(const void *context, const double *w, double *result);
 
