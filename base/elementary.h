@@ -18,7 +18,7 @@ double fracas_exp(double x);
  * C; x < 0 gives NaN (also for whole y, unlike C), and so does a NaN in any other place. */
 double fracas_pow(double x, double y);
 
-/* Gamma function for 1 <= x <= 171, error below x ulp, below 1.5 ulp up to x = 2; NaN elsewhere. */
+/* Gamma function for 1 <= x <= 171, error below 1.5 ulp up to x = 2, below x ulp above; NaN elsewhere. */
 double fracas_gamma(double x);
 
 #endif
