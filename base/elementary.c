@@ -49,9 +49,9 @@ static inline double split_exponent(double x, double *k)
     return double_of(bits - ((uint64_t)exponent << 52));
 }
 
-/* ln x = k ln 2 + ln(1 + f). With s = f/(2 + f), ln(1 + f) = 2 artanh s = 2 s + s R(s^2); as 2 s = f - s f and
- * s (f + f^2/2) = f^2/2 this is f - (f^2/2 - s (f^2/2 + R)), where only f^2/2 and its half-size
- * correction are rounded. */
+/* (sampling.11) ln x = k ln 2 + ln(1 + f). With s = f/(2 + f), ln(1 + f) = 2 artanh s = 2 s + s R(s^2); as
+ * 2 s = f - s f and s (f + f^2/2) = f^2/2 this is f - (f^2/2 - s (f^2/2 + R)), where f is exact and only the small
+ * rest is rounded before the last sum. */
 double fracas_log(double x)
 {
     static const double r[8] = {/* (2 artanh(s)/s - 2)/s^2 in s^2 <= 0.0295: 2^-60 */
@@ -67,8 +67,8 @@ double fracas_log(double x)
     return k * ln2_hi - ((half_square - (s * (half_square + z * poly8(r, z)) + k * ln2_lo)) - f);
 }
 
-/* e^(hi + lo) for |lo| << |hi|. hi = k ln 2 + r (Cody and Waite), e^r = 1 + r + r^2 P(r), times 2^k in two steps
- * because k is outside the range of exponents when the result is subnormal or near the largest double. */
+/* (sampling.12) e^(hi + lo) for |lo| << |hi|. hi = k ln 2 + r (Cody and Waite), e^r = 1 + r + r^2 P(r), times 2^k in
+ * two steps because k is outside the range of exponents when the result is subnormal or near the largest double. */
 static inline double exp_sum(double hi, double lo)
 {
     static const double p[12] = {/* (e^r - 1 - r)/r^2 in |r| <= 0.3467: 2^-60 */
@@ -90,7 +90,9 @@ static inline double exp_sum(double hi, double lo)
     double r_lo = (exact - r) - rest;
     double r2 = r * r;
     double r8 = (r2 * r2) * (r2 * r2);
-    double y = 1.0 + (r + (r_lo + r2 * (poly8(p, r) + r8 * poly4(p + 8, r))));
+    double sum = 1.0 + r;
+    double sum_lo = ((1.0 - sum) + r) + r_lo;
+    double y = sum + (sum_lo + r2 * (poly8(p, r) + r8 * poly4(p + 8, r)));
     int64_t half = k >> 1;
     return y * double_of((uint64_t)(1023 + half) << 52) * double_of((uint64_t)(1023 + k - half) << 52);
 }
@@ -145,8 +147,8 @@ static inline double log_sum(double x, double *low)
     return value;
 }
 
-/* e^(y ln x) with the logarithm and the product in two doubles: 2^-63 of ln x leaves 0.3 ulp where |y ln x| is
- * largest, 745. */
+/* (sampling.13) e^(y ln x) with the logarithm and the product in two doubles: 2^-63 of ln x becomes 2^-53.5 of the
+ * power where |y ln x| is largest, 745. */
 double fracas_pow(double x, double y)
 {
     if (x == 1.0 || y == 0.0) return 1.0;
@@ -157,11 +159,12 @@ double fracas_pow(double x, double y)
     return exp_sum(product, product_lo + y * log_lo);
 }
 
-/* 1/Gamma is entire: a polynomial about 1.5 serves [1, 2], and Gamma(x) = (x - 1) Gamma(x - 1) the rest. */
+/* (sampling.14) 1/Gamma is entire: w = 1/Gamma - 1 is a polynomial about 1.5 on [1, 2], where it is below 0.13, so
+ * that its rounding errors hardly count in Gamma = 1 - w/(1 + w). The rest by Gamma(x) = (x - 1) Gamma(x - 1). */
 double fracas_gamma(double x)
 {
-    static const double c[16] = {/* 1/Gamma(1.5 + v) in |v| <= 1/2: 2^-55 */
-        0x1.20dd750429b6dp+0, -0x1.514d3d90584b3p-5, -0x1.0da5a671c048cp-1, 0x1.669be41a93892p-3,
+    static const double c[16] = {/* 1/Gamma(1.5 + v) - 1 in |v| <= 1/2: 2^-56 */
+        0x1.06eba8214db69p-3, -0x1.514d3d90584b3p-5, -0x1.0da5a671c048cp-1, 0x1.669be41a93892p-3,
         0x1.a18540be33653p-5, -0x1.5955cc3972186p-5, 0x1.b16203e548491p-8, 0x1.15f7f0609c138p-9,
         -0x1.232bd852d67ecp-10, 0x1.3f84605541cc3p-13, 0x1.a96374da02946p-16, -0x1.d24cdaed928e6p-17,
         0x1.2172c2ddcbee9p-19, 0x1.f2ae41d5b51adp-25, -0x1.82a4ea6702998p-24, 0x1.21263fe0d7581p-26,
@@ -175,5 +178,6 @@ double fracas_gamma(double x)
     double v = x - 1.5;
     double v2 = v * v;
     double v8 = (v2 * v2) * (v2 * v2);
-    return product / (poly8(c, v) + v8 * poly8(c + 8, v));
+    double w = poly8(c, v) + v8 * poly8(c + 8, v);
+    return product * (1.0 - w / (1.0 + w));
 }

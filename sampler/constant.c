@@ -1,13 +1,13 @@
 /* One strength for every interface. */
 #include "sampler/distribution.h"
 
-static double quantile(const fracas_strength *strength, double u)
+static double constant_quantile(const fracas_strength *strength, double u)
 {
     (void)u;
     return strength->value;
 }
 
-static double mean(const fracas_strength *strength)
+static double constant_mean(const fracas_strength *strength)
 {
     return strength->value;
 }
@@ -19,5 +19,5 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_constant = {
     .kind = {.name = "constant", .doc = "the same strength for every interface", .params = params,
              .nparams = FRACAS_COUNT(params)},
-    .quantile = quantile, .mean = mean,
+    .quantile = constant_quantile, .mean = constant_mean,
 };

@@ -4,14 +4,14 @@
 #include "base/elementary.h"
 #include "sampler/normal.h"
 
-/* (sampling.6) */
-static double quantile(const fracas_strength *strength, double u)
+/* (sampling.7) */
+static double lognormal_quantile(const fracas_strength *strength, double u)
 {
     return strength->median * fracas_exp(strength->sigma * fracas_normal_quantile(u));
 }
 
-/* (sampling.7) */
-static double mean(const fracas_strength *strength)
+/* (sampling.8) */
+static double lognormal_mean(const fracas_strength *strength)
 {
     return strength->median * fracas_exp(0.5 * strength->sigma * strength->sigma);
 }
@@ -25,5 +25,5 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_lognormal = {
     .kind = {.name = "lognormal", .doc = "logarithm normally distributed: median exp(sigma z)", .params = params,
              .nparams = FRACAS_COUNT(params)},
-    .quantile = quantile, .mean = mean,
+    .quantile = lognormal_quantile, .mean = lognormal_mean,
 };

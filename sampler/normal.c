@@ -16,7 +16,7 @@ static double ratio(const double n[8], const double d[8], double x)
     return above / below;
 }
 
-/* (sampling.8) */
+/* (sampling.9) */
 double fracas_normal_quantile(double u)
 {
     static const double a[8] = {3.3871328727963666080e0,  1.3314166789178437745e2, 1.9715909503065514427e3,

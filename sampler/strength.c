@@ -33,6 +33,7 @@ double fracas_strength_mean(const fracas_strength *strength)
     return distribution_of(strength)->mean(strength);
 }
 
+/* (sampling.3) */
 void fracas_strength_sample(const fracas_strength *strength, const fracas_stream *stream,
                             size_t n, size_t stride, double *sigma_c)
 {

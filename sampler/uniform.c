@@ -1,18 +1,18 @@
 /* Uniform distribution between two strengths. */
 #include "sampler/distribution.h"
 
-/* (sampling.3) */
-static double quantile(const fracas_strength *strength, double u)
+/* (sampling.4) */
+static double uniform_quantile(const fracas_strength *strength, double u)
 {
     return strength->minimum + (strength->maximum - strength->minimum) * u;
 }
 
-static double mean(const fracas_strength *strength)
+static double uniform_mean(const fracas_strength *strength)
 {
     return strength->minimum + 0.5 * (strength->maximum - strength->minimum);
 }
 
-FRACAS_MUST_USE static fracas_err check(const fracas_strength *strength)
+FRACAS_MUST_USE static fracas_err uniform_check(const fracas_strength *strength)
 {
     if (strength->minimum < strength->maximum) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
@@ -30,5 +30,5 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_uniform = {
     .kind = {.name = "uniform", .doc = "every strength between two bounds equally likely", .params = params,
              .nparams = FRACAS_COUNT(params)},
-    .quantile = quantile, .mean = mean, .check = check,
+    .quantile = uniform_quantile, .mean = uniform_mean, .check = uniform_check,
 };

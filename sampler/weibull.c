@@ -3,7 +3,8 @@
 
 #include "base/elementary.h"
 
-/* -ln(1 - u), accurate in both tails: 1 - u loses what `lost` holds, which is nothing for the u of a stream. */
+/* (sampling.10) -ln(1 - u), accurate in both tails: `lost` is what the rounding of 1 - u loses, nothing for the u of
+ * a stream. */
 static double exponential(double u)
 {
     double rest = 1.0 - u;
@@ -11,15 +12,15 @@ static double exponential(double u)
     return -(fracas_log(rest) + lost / rest);
 }
 
-/* (sampling.4) As exp(ln(t)/shape): a power with the rounded exponent 1/shape would be no more accurate. */
-static double quantile(const fracas_strength *strength, double u)
+/* (sampling.5) As exp(ln(t)/shape): a power with the rounded exponent 1/shape would be no more accurate. */
+static double weibull_quantile(const fracas_strength *strength, double u)
 {
     double power = fracas_exp(fracas_log(exponential(u)) / strength->shape);
     return strength->minimum + strength->scale * power;
 }
 
-/* (sampling.5) */
-static double mean(const fracas_strength *strength)
+/* (sampling.6) */
+static double weibull_mean(const fracas_strength *strength)
 {
     return strength->minimum + strength->scale * fracas_gamma(1.0 + 1.0 / strength->shape);
 }
@@ -35,5 +36,5 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_weibull = {
     .kind = {.name = "weibull", .doc = "weakest of many flaws: minimum + scale (-ln(1 - u))^(1/shape)",
              .params = params, .nparams = FRACAS_COUNT(params)},
-    .quantile = quantile, .mean = mean,
+    .quantile = weibull_quantile, .mean = weibull_mean,
 };

@@ -1,0 +1,202 @@
+/* Strength fields against their exact laws: moments, Kolmogorov-Smirnov, minima, independence of streams.
+ * Seeds are fixed, so a result is the same in every run; every bound is the one that a right sampler
+ * exceeds with probability ALPHA or less. */
+#include "sampler/sampler.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_sf_gamma.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define ALPHA 1e-6
+static const double normal_bound = 4.8916; /* |z| exceeds it with probability ALPHA */
+
+enum { N = 100000 };
+static double sample[N], other[N];
+
+static const fracas_kind *kind(const char *name)
+{
+    for (size_t i = 0; i < fracas_strength_section.nkinds; i++)
+        if (strcmp(fracas_strength_section.kinds[i]->name, name) == 0) return fracas_strength_section.kinds[i];
+    fail_msg("no distribution %s", name);
+    return NULL;
+}
+
+static fracas_strength weibull(double minimum, double scale, double shape)
+{
+    return (fracas_strength){.distribution = kind("weibull"), .minimum = minimum, .scale = scale, .shape = shape};
+}
+
+static fracas_stream stream(uint64_t seed)
+{
+    return (fracas_stream){.seed = seed, .purpose = FRACAS_PURPOSE_STRENGTH, .point = {11, 22}, .replica = 3};
+}
+
+static double cdf(const fracas_strength *strength, double sigma_c)
+{
+    const char *name = strength->distribution->name;
+    if (strcmp(name, "weibull") == 0)
+        return gsl_cdf_weibull_P(sigma_c - strength->minimum, strength->scale, strength->shape);
+    if (strcmp(name, "lognormal") == 0) return gsl_cdf_lognormal_P(sigma_c, log(strength->median), strength->sigma);
+    return gsl_cdf_flat_P(sigma_c, strength->minimum, strength->maximum);
+}
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* D = sup |F_n - F|. P(D > d) <= 2 exp(-2 n d^2) for every n (Massart 1990): d = sqrt(ln(2/alpha)/(2 n)). */
+static void assert_follows(const fracas_strength *law, double *value, size_t n)
+{
+    qsort(value, n, sizeof *value, ascending);
+    double distance = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        double f = cdf(law, value[i]);
+        distance = fmax(distance, fmax(f - (double)i / (double)n, (double)(i + 1) / (double)n - f));
+    }
+    double bound = sqrt(log(2.0 / ALPHA) / (2.0 * (double)n));
+    print_message("%s: D = %.2e, bound %.2e\n", law->distribution->name, distance, bound);
+    assert_true(distance < bound);
+}
+
+static void distributions_follow_their_laws(void **state)
+{
+    (void)state;
+    const fracas_strength laws[] = {
+        weibull(264e6, 50e6, 2.0),
+        weibull(0.0, 450e6, 40.0),
+        weibull(0.0, 450e6, 0.5),
+        {.distribution = kind("lognormal"), .median = 300e6, .sigma = 0.3},
+        {.distribution = kind("uniform"), .minimum = 264e6, .maximum = 364e6},
+    };
+    for (size_t k = 0; k < FRACAS_COUNT(laws); k++) {
+        fracas_stream named = stream(100 + k);
+        fracas_strength_sample(&laws[k], &named, N, 1, sample);
+        assert_follows(&laws[k], sample, N);
+    }
+}
+
+/* theory/5: 308.31 +- 23.16, 413.18 +- 94.64, 443.78 +- 13.98 MPa. The closed forms give these to the last digit;
+ * the sample's mean has the standard error s/sqrt(n), its standard deviation
+ * s sqrt((kurtosis - 1)/(4 n)), kurtosis from the central moments of (sigma - minimum)/scale. */
+static void weibull_moments(void **state)
+{
+    (void)state;
+    static const struct { double minimum, scale, shape, mean, deviation; } published[] = {
+        {264e6, 50e6, 2.0, 308.31e6, 23.16e6},
+        {0.0, 450e6, 5.0, 413.18e6, 94.64e6},
+        {0.0, 450e6, 40.0, 443.78e6, 13.98e6},
+    };
+    for (size_t k = 0; k < FRACAS_COUNT(published); k++) {
+        double m = published[k].shape;
+        double g1 = gsl_sf_gamma(1 + 1 / m), g2 = gsl_sf_gamma(1 + 2 / m), g3 = gsl_sf_gamma(1 + 3 / m),
+               g4 = gsl_sf_gamma(1 + 4 / m);
+        double variance = g2 - g1 * g1;
+        double kurtosis = (g4 - 4 * g1 * g3 + 6 * g1 * g1 * g2 - 3 * g1 * g1 * g1 * g1) / (variance * variance);
+        double deviation = published[k].scale * sqrt(variance);
+        fracas_strength law = weibull(published[k].minimum, published[k].scale, m);
+        double mean = fracas_strength_mean(&law);
+        assert_true(fabs(mean - published[k].mean) <= 0.005e6);
+        assert_true(fabs(deviation - published[k].deviation) <= 0.005e6);
+
+        fracas_stream named = stream(200 + k);
+        fracas_strength_sample(&law, &named, N, 1, sample);
+        double sum = 0.0, squares = 0.0;
+        for (size_t i = 0; i < N; i++)
+            sum += sample[i] - mean;
+        for (size_t i = 0; i < N; i++)
+            squares += (sample[i] - mean - sum / N) * (sample[i] - mean - sum / N);
+        double sample_deviation = sqrt(squares / (N - 1));
+        print_message("m = %g: %.2f +- %.2f MPa\n", m, (mean + sum / N) * 1e-6, sample_deviation * 1e-6);
+        assert_true(fabs(sum / N) < normal_bound * deviation / sqrt(N));
+        assert_true(fabs(sample_deviation - deviation) < normal_bound * deviation * sqrt((kurtosis - 1) / (4.0 * N)));
+    }
+}
+
+/* The weakest of n has the same law with scale n^(-1/m): each replica is a chain of n interfaces. */
+static void the_weakest_of_n_scales(void **state)
+{
+    (void)state;
+    enum { CHAINS = 10000, LONGEST = 64 };
+    static const double shapes[] = {2.0, 10.0};
+    for (size_t k = 0; k < FRACAS_COUNT(shapes); k++) {
+        fracas_strength law = weibull(264e6, 50e6, shapes[k]);
+        for (size_t n = 1; n <= LONGEST; n *= 4) {
+            fracas_stream named = stream(300 + k);
+            for (size_t chain = 0; chain < CHAINS; chain++) {
+                double strength[LONGEST];
+                named.replica = chain;
+                fracas_strength_sample(&law, &named, n, 1, strength);
+                other[chain] = INFINITY;
+                for (size_t i = 0; i < n; i++)
+                    other[chain] = fmin(other[chain], strength[i]);
+            }
+            fracas_strength weakest = law;
+            weakest.scale = law.scale * pow((double)n, -1.0 / law.shape);
+            assert_follows(&weakest, other, CHAINS);
+        }
+    }
+}
+
+/* Mean of 12 (u - 1/2)(v - 1/2): mean 0 and variance 1/N when u and v are independent; the products of
+ * neighbours of one sequence are uncorrelated too. */
+static void assert_uncorrelated(const char *what, const double *u, const double *v, size_t n)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < n; i++)
+        sum += 12.0 * (u[i] - 0.5) * (v[i] - 0.5);
+    double r = sum / (double)n, bound = normal_bound / sqrt((double)n);
+    print_message("%s: correlation %.1e, bound %.1e\n", what, r, bound);
+    assert_true(fabs(r) < bound);
+}
+
+static void fill(fracas_stream named, double *u)
+{
+    for (size_t i = 0; i < N; i++)
+        u[i] = fracas_stream_uniform(&named, i);
+}
+
+static void neighbouring_streams_are_independent(void **state)
+{
+    (void)state;
+    fracas_stream first = stream(400);
+    fill(first, sample);
+    for (size_t lag = 1; lag <= 4; lag++)
+        assert_uncorrelated("interface and a neighbour", sample, sample + lag, N - lag);
+    fracas_stream next[6];
+    for (size_t k = 0; k < FRACAS_COUNT(next); k++)
+        next[k] = first;
+    next[0].replica++;
+    next[1].point[0]++;
+    next[2].point[1]++;
+    next[3].seed++;
+    next[4].purpose++;
+    next[5].point[0] = first.point[1], next[5].point[1] = first.point[0];
+    static const char *const what[] = {"next replica", "next point, first word", "next point, second word",
+                                       "next seed", "next purpose", "words of the point swapped"};
+    for (size_t k = 0; k < FRACAS_COUNT(next); k++) {
+        fill(next[k], other);
+        assert_uncorrelated(what[k], sample, other, N);
+        assert_uncorrelated(what[k], sample + 1, other, N - 1);
+        assert_uncorrelated(what[k], sample, other + 1, N - 1);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(distributions_follow_their_laws),
+        cmocka_unit_test(weibull_moments),
+        cmocka_unit_test(the_weakest_of_n_scales),
+        cmocka_unit_test(neighbouring_streams_are_independent),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
