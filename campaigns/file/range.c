@@ -1,5 +1,6 @@
 #include "campaigns/file/range.h"
 
+#include "base/elementary.h"
 #include "campaigns/file/say.h"
 #include "campaigns/file/sweep.h"
 
@@ -72,17 +73,12 @@ fracas_err fracas_range_read(const fracas_file *file, const fracas_leaf *leaf, c
     return read_spacing(file, node, range);
 }
 
-static double power(double x, double y)
-{
-    return pow(x, y);
-}
-
 double fracas_range_value(const fracas_range *range, size_t i)
 {
     if (i == 0) return range->from;
     if (i == range->points - 1) return range->to;
     double part = (double)i / (double)(range->points - 1);
-    double value = range->logarithmic ? power(range->from, 1.0 - part) * power(range->to, part)
+    double value = range->logarithmic ? fracas_pow(range->from, 1.0 - part) * fracas_pow(range->to, part)
                                       : range->from * (1.0 - part) + range->to * part;
     return range->whole ? floor(value + 0.5) : fracas_number_round(value);
 }

@@ -1,5 +1,5 @@
 /* From a file to a campaign. */
-#include "campaigns/campaign.h"
+#include "campaigns/file/read.h"
 
 #include "campaigns/file/identity.h"
 #include "campaigns/file/resolve.h"
@@ -41,8 +41,8 @@ static fracas_err unknown_section(const fracas_file *file, const fracas_node *ke
     for (size_t i = 0; i < catalog->nleaves; i++) {
         const fracas_leaf *leaf = &catalog->leaf[i];
         if (strcmp(leaf->key, key->text) == 0 || strcmp(leaf->path, key->text) == 0)
-            return fracas_say(file->name, key, "unknown key `%s` at the top of the file; write `%s:` indented below `%s:`%s",
-                              key->text, leaf->key, leaf->section->table->name, hint);
+            return fracas_say(file->name, key, "unknown key `%s` at the top of the file; write `%s:` indented below `%s:`",
+                              key->text, leaf->key, leaf->section->table->name);
     }
     return fracas_say(file->name, key, "unknown key `%s` at the top of the file%s", key->text, hint);
 }
@@ -221,21 +221,23 @@ static fracas_err read_file(reading *read, fracas_campaign *campaign)
     return identify(read, campaign);
 }
 
+fracas_err fracas_campaign_read_with(const fracas_units *units, const char *path, fracas_campaign **campaign)
+{
+    fracas_campaign *made = calloc(1, sizeof *made);
+    if (!made) return fracas_no_memory("the campaign");
+    made->memory = fracas_memory_create();
+    reading read = {.file = {.name = path, .memory = made->memory, .units = units}};
+    fracas_err err = made->memory ? read_file(&read, made) : fracas_no_memory("the campaign");
+    if (err) fracas_campaign_destroy(made);
+    else *campaign = made;
+    return err;
+}
+
 fracas_err fracas_campaign_read(const char *path, fracas_campaign **campaign)
 {
     fracas_units *units;
-    fracas_campaign *made = calloc(1, sizeof *made);
-    if (!made || !(made->memory = fracas_memory_create())) {
-        free(made);
-        return fracas_no_memory("the campaign");
-    }
-    fracas_err err = fracas_units_create(&units);
-    if (!err) {
-        reading read = {.file = {.name = path, .memory = made->memory, .units = units}};
-        err = read_file(&read, made);
-        fracas_units_destroy(units);
-    }
-    if (err) fracas_campaign_destroy(made);
-    else *campaign = made;
+    TRY(fracas_units_create(&units));
+    fracas_err err = fracas_campaign_read_with(units, path, campaign);
+    fracas_units_destroy(units);
     return err;
 }

@@ -132,11 +132,10 @@ static fracas_err unknown_key(const fracas_file *file, const fracas_file_section
     }
     char hint[600], label[80];
     snprintf(label, sizeof label, "keys of %s", section->table->name);
-    fracas_words_hint(&words, label, hint);
-    if (home && strcmp(home, key->text) != 0)
-        return fracas_say(file->name, key, "unknown key `%s` in %s; it belongs to the section %s%s", key->text,
-                          section->table->name, home, hint);
-    return fracas_say(file->name, key, "unknown key `%s` in %s%s", key->text, section->table->name, hint);
+    if (home) words.nearest = NULL;
+    return fracas_say(file->name, key, "unknown key `%s` in %s%s%s%s", key->text, section->table->name,
+                      home ? "; it belongs to the section " : "", home ? home : "",
+                      fracas_words_hint(&words, label, hint));
 }
 
 fracas_err fracas_settings_add_section(const fracas_file *file, const fracas_file_section *section,

@@ -13,28 +13,39 @@ typedef struct {
     const fracas_leaf *leaf;            /* ... or one leaf */
 } target;
 
-static fracas_err unknown_path(const fracas_file *file, const fracas_node *key)
+/* The section whose name stands before the dot of a path; NULL if there is none. */
+static const fracas_file_section *section_before_dot(const fracas_catalog *catalog, const char *path)
 {
-    const fracas_catalog *catalog = file->catalog;
-    const char *dot = strchr(key->text, '.');
-    const fracas_file_section *inside = NULL; /* the section before the dot */
-    for (size_t s = 0; s < catalog->nsections; s++) {
+    const char *dot = strchr(path, '.');
+    for (size_t s = 0; dot && s < catalog->nsections; s++) {
         const char *name = catalog->section[s].table->name;
-        if (dot && strlen(name) == (size_t)(dot - key->text) && strncmp(name, key->text, strlen(name)) == 0)
-            inside = &catalog->section[s];
+        if (strlen(name) == (size_t)(dot - path) && strncmp(name, path, strlen(name)) == 0) return &catalog->section[s];
     }
-    fracas_words words;
-    fracas_words_init(&words, key->text);
-    for (size_t i = 0; i < catalog->nleaves; i++) {
-        const fracas_section *table = catalog->leaf[i].section->table;
-        if (table->hashed && (!inside || catalog->leaf[i].section == inside)) fracas_words_add(&words, catalog->leaf[i].path);
-    }
-    char hint[600];
-    return fracas_say(file->name, key, "unknown path `%s` in the sweep%s", key->text,
-                      fracas_words_hint(&words, "a path is a section or section.key", hint));
+    return NULL;
 }
 
-static fracas_err find_target(const fracas_file *file, const fracas_node *key, target *found)
+/* `also`: two words that could stand here beside a path. */
+static fracas_err unknown_path(const fracas_file *file, const fracas_node *key, const char *const also[2])
+{
+    const fracas_catalog *catalog = file->catalog;
+    const fracas_file_section *inside = section_before_dot(catalog, key->text);
+    fracas_words words;
+    fracas_words_init(&words, key->text);
+    for (size_t i = 0; i < catalog->nleaves; i++)
+        if (catalog->leaf[i].section->table->hashed && (!inside || catalog->leaf[i].section == inside))
+            fracas_words_add(&words, catalog->leaf[i].path);
+    if (!inside) { /* every path was compared; the list is of sections */
+        words.used = 0;
+        for (int i = 0; i < 2; i++) fracas_words_add(&words, also[i]);
+        for (size_t s = 0; s < catalog->nsections; s++)
+            if (catalog->section[s].table->hashed) fracas_words_add(&words, catalog->section[s].table->name);
+    }
+    char hint[600], label[80];
+    snprintf(label, sizeof label, inside ? "paths in %s" : "known are section.key, and", inside ? inside->table->name : "");
+    return fracas_say(file->name, key, "unknown path `%s` in the sweep%s", key->text, fracas_words_hint(&words, label, hint));
+}
+
+static fracas_err find_target(const fracas_file *file, const fracas_node *key, const char *const also[2], target *found)
 {
     *found = (target){.leaf = fracas_catalog_leaf(file->catalog, key->text)};
     if (!found->leaf) found->section = fracas_catalog_section(file->catalog, key->text);
@@ -42,7 +53,7 @@ static fracas_err find_target(const fracas_file *file, const fracas_node *key, t
         return fracas_say(file->name, key, "`replicas` is not a parameter to sweep; a case of `cases` may have its own");
     if (strcmp(key->text, "name") == 0 || strcmp(key->text, "seed") == 0)
         return fracas_say(file->name, key, "`%s` cannot be swept; a campaign has one, at the top of the file", key->text);
-    if (!found->leaf && !found->section) return unknown_path(file, key);
+    if (!found->leaf && !found->section) return unknown_path(file, key, also);
     const fracas_section *table = (found->leaf ? found->leaf->section : found->section)->table;
     if (table->hashed) return FRACAS_OK;
     return fracas_say(file->name, key, "`%s` cannot be swept; it is one for the whole campaign", key->text);
@@ -108,7 +119,8 @@ static fracas_err add_path(const fracas_file *file, const fracas_node *values, f
 {
     target set;
     char found[256];
-    TRY(find_target(file, values->key, &set));
+    static const char *const axes[2] = {"zip", "cases"};
+    TRY(find_target(file, values->key, axes, &set));
     if (values->type == FRACAS_LIST) return add_list(file, &set, values, axis);
     if (values->type == FRACAS_MAP) return add_range(file, &set, values, axis);
     return fracas_say(file->name, values, "`%s`: found %s; expected a list of values, [...], or a range, {from: ..., to: "
@@ -127,6 +139,7 @@ static fracas_err read_zip(const fracas_file *file, const fracas_node *zip, frac
 
 static fracas_err read_case(const fracas_file *file, const fracas_node *node, fracas_choice *choice)
 {
+    static const char *const own[2] = {"name", "replicas"};
     char found[256];
     *choice = (fracas_choice){.node = node};
     if (node->type != FRACAS_MAP || node->count == 0)
@@ -139,7 +152,7 @@ static fracas_err read_case(const fracas_file *file, const fracas_node *node, fr
         } else if (strcmp(entry->key->text, "replicas") == 0) {
             TRY(fracas_setting_integer(file, "replicas", entry, 1, 1000000000, &choice->replicas));
         } else {
-            TRY(find_target(file, entry->key, &set));
+            TRY(find_target(file, entry->key, own, &set));
             TRY(add_target(file, &set, entry, &choice->settings));
         }
     }

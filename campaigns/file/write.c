@@ -46,6 +46,16 @@ static bool is_base(const fracas_leaf *leaf, const fracas_campaign *campaign)
 
 /* ---- the sections ---- */
 
+/* The leaf of the section to write after `leaf` (NULL: the first): the kind's name, then the values; NULL at the end. */
+static const fracas_leaf *next_leaf(const fracas_catalog *catalog, const fracas_file_section *section, const fracas_leaf *leaf)
+{
+    const fracas_leaf *selector = fracas_catalog_selector(catalog, section), *end = catalog->leaf + catalog->nleaves;
+    if (!leaf && selector) return selector;
+    for (leaf = leaf && leaf != selector ? leaf + 1 : catalog->leaf; leaf < end; leaf++)
+        if (leaf->section == section && leaf != selector) return leaf;
+    return NULL;
+}
+
 static void write_unit(const fracas_leaf *leaf, FILE *out)
 {
     bool pure = !leaf->param || strcmp(leaf->param->unit, "1") == 0;
@@ -56,10 +66,9 @@ static void write_section(const fracas_catalog *catalog, const bool *base, const
                           const fracas_campaign *campaign, FILE *out)
 {
     bool begun = false;
-    for (size_t i = 0; i < catalog->nleaves; i++) {
-        const fracas_leaf *leaf = &catalog->leaf[i];
+    for (const fracas_leaf *leaf = NULL; (leaf = next_leaf(catalog, section, leaf));) {
         char text[FRACAS_LEAF_TEXT];
-        if (leaf->section != section || !base[i] || !write_value(leaf, campaign, 0, text)) continue;
+        if (!base[leaf - catalog->leaf] || !write_value(leaf, campaign, 0, text)) continue;
         const bool whole = strcmp(leaf->path, section->table->name) == 0;
         if (!begun && !whole) fprintf(out, "%s:\n", section->table->name);
         begun = true;
@@ -82,10 +91,9 @@ static void write_case_section(const fracas_catalog *catalog, const bool *base, 
                                const fracas_campaign *campaign, size_t point, bool *first, FILE *out)
 {
     bool begun = false;
-    for (size_t i = 0; i < catalog->nleaves; i++) {
-        const fracas_leaf *leaf = &catalog->leaf[i];
+    for (const fracas_leaf *leaf = NULL; (leaf = next_leaf(catalog, section, leaf));) {
         char text[FRACAS_LEAF_TEXT];
-        if (leaf->section != section || base[i] || !write_value(leaf, campaign, point, text)) continue;
+        if (base[leaf - catalog->leaf] || !write_value(leaf, campaign, point, text)) continue;
         if (!begun) begin_entry(first, section->table->name, out);
         if (strcmp(leaf->path, section->table->name) == 0) {
             fprintf(out, "%s\n", text);

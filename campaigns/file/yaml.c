@@ -69,6 +69,18 @@ static yaml_mark_t mark_of_byte(const reading *reader, size_t byte)
     return mark;
 }
 
+/* What libyaml was reading, in words of the page that describes the file. */
+static const char *context_words(const char *context)
+{
+    static const char *const words[][2] = {
+        {"flow sequence", "the list [...]"}, {"flow mapping", "the group {...}"},  {"block mapping", "the group of keys"},
+        {"block collection", "the list"},    {"quoted scalar", "the quoted text"}, {"simple key", "the line"},
+    };
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strstr(context, words[i][0])) return words[i][1];
+    return "the text";
+}
+
 static fracas_err fail_parser(const reading *reader)
 {
     const yaml_parser_t *parser = &reader->parser;
@@ -77,14 +89,15 @@ static fracas_err fail_parser(const reading *reader)
     if (parser->error == YAML_READER_ERROR)
         return FAIL_AT(reader, mark_of_byte(reader, parser->problem_offset),
                        "the file is not plain UTF-8 text (%s); save it as UTF-8", problem);
-    if (strstr(problem, "cannot start any token") && parser->problem_mark.index < reader->size) {
-        char found = parser->buffer.pointer ? (char)*parser->buffer.pointer : ' ';
-        if (found == '\t')
-            return FAIL_AT(reader, parser->problem_mark, "a tab; indent with spaces, YAML does not allow tabs");
+    const char found = parser->buffer.pointer && parser->unread > 0 ? (char)*parser->buffer.pointer : ' ';
+    const bool no_token = strstr(problem, "cannot start any token") != NULL;
+    if (strstr(problem, "tab character") || (no_token && found == '\t'))
+        return FAIL_AT(reader, parser->problem_mark, "found a tab; indent with spaces, YAML does not allow tabs there");
+    if (no_token)
         return FAIL_AT(reader, parser->problem_mark, "a value cannot start with `%c`; put it in quotes", found);
-    }
-    return FAIL_AT(reader, parser->problem_mark, "not YAML: %s%s%s", problem, parser->context ? ", " : "",
-                   parser->context ? parser->context : "");
+    if (!parser->context) return FAIL_AT(reader, parser->problem_mark, "not YAML: %s", problem);
+    return FAIL_AT(reader, parser->problem_mark, "not YAML: %s, in %s that begins at line %zu, column %zu", problem,
+                   context_words(parser->context), parser->context_mark.line + 1, parser->context_mark.column + 1);
 }
 
 static fracas_err next_event(reading *reader, yaml_event_t *event)
