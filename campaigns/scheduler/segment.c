@@ -38,14 +38,14 @@ double fracas_segment_wait(const fracas_segment *segment, const fracas_run_optio
     return segment->began + options->segment_age - fracas_now();
 }
 
-/* "20260131T120000.123456789-HOST-PID-NUMBER" */
+/* "20260131T120000.123456789-HOST-PID-NUMBER.h5" */
 static void make_name(const fracas_segment *segment, const char *host, char *name, size_t size)
 {
     struct tm utc;
     gmtime_r(&segment->clock.tv_sec, &utc);
     char day[32];
     strftime(day, sizeof day, "%Y%m%dT%H%M%S", &utc);
-    snprintf(name, size, "%s.%09ld-%s-%ld-%llu", day, segment->clock.tv_nsec, host, (long)getpid(),
+    snprintf(name, size, "%s.%09ld-%s-%ld-%llu.h5", day, segment->clock.tv_nsec, host, (long)getpid(),
              (unsigned long long)segment->number);
 }
 
@@ -137,7 +137,7 @@ fracas_err fracas_segment_write(fracas_segment *segment, const char *study, cons
     gethostname(host, sizeof host - 1);
     fracas_segment_note head = {.rows = segment->count};
     make_name(segment, host, head.name, sizeof head.name);
-    if ((size_t)snprintf(path, sizeof path, "%s/segments/%s.h5", study, head.name) >= sizeof path)
+    if ((size_t)snprintf(path, sizeof path, "%s/segments/%s", study, head.name) >= sizeof path)
         return fracas_fail(FRACAS_ENVIRONMENT, "the path of the study is too long: %s", study);
     TRY(make_provenance(segment, options, host, &provenance));
     size_t rows = segment->count * sizeof(fracas_segment_row), text = strlen(provenance) + 1;

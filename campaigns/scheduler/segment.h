@@ -31,7 +31,7 @@ FRACAS_MUST_USE fracas_err fracas_segment_add(fracas_segment *segment, size_t po
 /* s until it must be written: 0 or less: now. INFINITY while it is empty. */
 double fracas_segment_wait(const fracas_segment *segment, const fracas_run_options *options);
 
-/* Writes STUDY/segments/NAME.h5 and empties the segment; *note is the message that tells rank 0. The name is of
+/* Writes STUDY/segments/NAME and empties the segment; *note is the message that tells rank 0. NAME is of
  * this host, process and time, so that no other run or server has it. The segment must not be empty. */
 FRACAS_MUST_USE fracas_err fracas_segment_write(fracas_segment *segment, const char *study,
                                                 const fracas_campaign *campaign, const fracas_run_options *options,

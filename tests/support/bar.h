@@ -1,0 +1,54 @@
+/* The reference bar of the tests (docs/results/bar.md): E 275 GPa, rho 2750, sigma_c 300 MPa, G_c 100 N/m, L 50 mm. */
+#ifndef FRACAS_TESTS_SUPPORT_BAR_H
+#define FRACAS_TESTS_SUPPORT_BAR_H
+
+#include "engine/cohesive/law.h"
+#include "engine/loading/loading.h"
+#include "engine/mesh/bar_mesh.h"
+#include "engine/solver/batch.h"
+#include "sampler/sampler.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#define BAR_WAVE_SPEED 1e4          /* m/s */
+#define BAR_STRENGTH_MEAN 300e6     /* Pa */
+#define BAR_T0 (275e9 * 100 / (300e6 * 300e6 * 1e4)) /* s: E G_c/(sigma_c^2 c) = 30.556 ns */
+#define BAR_S0 (275e9 * 100 / (300e6 * 300e6))       /* m: 0.30556 mm */
+
+/* Periodic, law nitsche, beta 4, a quarter of the critical step, area 1 mm2. */
+static inline fracas_spec bar_reference(int64_t elements, double rate, double end)
+{
+    return (fracas_spec){
+        .formulation = &fracas_formulation_bar.kind, .geometry = {&fracas_ends_periodic, 0.05, 1e-6}, .mesh = {elements},
+        .material = {275e9, 2750}, .cohesive = {&fracas_law_nitsche, 100, 4},
+        .loading = {&fracas_loading_imposed_rate, rate}, .time = {.stop = &fracas_stop_time, .end = end, .safety = 0.25}};
+}
+
+/* Strengths uniform in 300 MPa (1 +- scatter) for replica `replica`, in lane `lane`. */
+static inline void bar_draw(fracas_batch *batch, size_t lane, double scatter, uint64_t replica)
+{
+    const fracas_stream stream = {.seed = 1, .purpose = FRACAS_PURPOSE_STRENGTH, .point = {2, 3}, .replica = replica};
+    size_t stride;
+    double *strength = fracas_batch_strength(batch, lane, &stride);
+    for (size_t i = 0; i < batch->model->interfaces; i++)
+        strength[i * stride] = BAR_STRENGTH_MEAN * (1 + scatter * (2 * fracas_stream_uniform(&stream, i) - 1));
+}
+
+static inline void bar_set_strength(fracas_batch *batch, size_t lane, size_t interface, double sigma_c)
+{
+    size_t stride;
+    double *strength = fracas_batch_strength(batch, lane, &stride);
+    strength[interface * stride] = sigma_c;
+}
+
+#define assert_ok(call)                                              \
+    do {                                                             \
+        fracas_err assert_code_ = (call);                            \
+        if (assert_code_) fail_msg("%s: %s", #call, fracas_message()); \
+    } while (0)
+
+#endif

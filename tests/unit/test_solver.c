@@ -1,0 +1,151 @@
+/* Pieces of the solver: stop rules, histories, fragments, what a batch refuses. */
+#include "tests/support/bar.h"
+
+#include "engine/fragments/fragments.h"
+
+#include <math.h>
+#include <string.h>
+
+static void stop_at_a_set_time(void **unused)
+{
+    (void)unused;
+    const fracas_time rule = {.stop = &fracas_stop_time, .end = 1.0};
+    fracas_stop stop = {0};
+    fracas_outcome outcome;
+    assert_false(fracas_stop_check(&stop, &rule, 0.999, 1, 5, 2, &outcome));
+    assert_true(fracas_stop_check(&stop, &rule, 1.0, 1, 5, 2, &outcome));
+    assert_int_equal(outcome, FRACAS_FRAGMENTED);
+    assert_true(fracas_stop_check(&stop, &rule, 1.0, 1, 5, 0, &outcome));
+    assert_int_equal(outcome, FRACAS_INTACT);
+}
+
+static void settled_waits_for_quiet_after_the_first_onset(void **unused)
+{
+    (void)unused;
+    const fracas_time rule = {.stop = &fracas_stop_settled, .end = 10, .quiet = 1, .quiet_fraction = 0.01};
+    fracas_outcome outcome;
+    fracas_stop stop = {0};
+    assert_false(fracas_stop_check(&stop, &rule, 5, 0, 0, 0, &outcome)); /* not armed, however long it is quiet */
+    assert_false(fracas_stop_check(&stop, &rule, 6, 1, 1, 0, &outcome)); /* onset */
+    assert_false(fracas_stop_check(&stop, &rule, 6.9, 1.005, 1, 0, &outcome));
+    assert_false(fracas_stop_check(&stop, &rule, 6.95, 1.02, 1, 0, &outcome)); /* dissipates: starts again */
+    assert_false(fracas_stop_check(&stop, &rule, 7.5, 1.02, 1, 1, &outcome));  /* a break: again */
+    assert_false(fracas_stop_check(&stop, &rule, 8.4, 1.025, 1, 1, &outcome));
+    assert_true(fracas_stop_check(&stop, &rule, 8.5, 1.03, 1, 1, &outcome));
+    assert_int_equal(outcome, FRACAS_FRAGMENTED);
+    stop = (fracas_stop){0};
+    assert_false(fracas_stop_check(&stop, &rule, 9.5, 1, 1, 0, &outcome));
+    assert_true(fracas_stop_check(&stop, &rule, 10, 1, 1, 0, &outcome)); /* the cap, cracks still running */
+    assert_int_equal(outcome, FRACAS_TIME_LIMIT);
+    stop = (fracas_stop){0};
+    assert_true(fracas_stop_check(&stop, &rule, 10, 0, 0, 0, &outcome)); /* nothing ever cracked */
+    assert_int_equal(outcome, FRACAS_INTACT);
+}
+
+/* Ten steps of time 0.1, 0.2 ...: rows at 0, 0.5 and 1.0 (first step at or after), onset at step 3, peak at step 7. */
+static void history_keeps_intervals_onset_peak_and_end(void **unused)
+{
+    (void)unused;
+    fracas_history history;
+    fracas_record record;
+    fracas_record_init(&record);
+    assert_ok(fracas_history_init(&history, 2, 1.0));
+    for (int step = 0; step <= 12; step++) {
+        fracas_history_row row = {.time = 0.09 * step, .elastic = step == 7 ? 5 : 1, .cohesive = 1};
+        fracas_history_observe(&history, step, &row, step >= 3);
+    }
+    assert_ok(fracas_history_harvest(&history, &record));
+    const int expected[] = {0, 3, 6, 7, 12};
+    assert_int_equal(record.nhistory, 5);
+    for (int i = 0; i < 5; i++) assert_true(fabs(record.history[i].time - 0.09 * expected[i]) < 1e-15);
+    fracas_record_clear(&record);
+    fracas_history_clear(&history);
+}
+
+static void fragments_are_connected_elements(void **unused)
+{
+    (void)unused;
+    fracas_partition p;
+    assert_ok(fracas_partition_init(&p, 8));
+    fracas_partition_join(&p, 7, 2);
+    fracas_partition_join(&p, 2, 5);
+    fracas_partition_join(&p, 6, 1);
+    fracas_partition_join(&p, 5, 7);
+    assert_int_equal(fracas_partition_label(&p), 5);
+    const uint32_t expected[] = {0, 1, 2, 3, 4, 2, 1, 2};
+    assert_memory_equal(p.label, expected, sizeof expected);
+    fracas_partition_clear(&p);
+}
+
+/* A closed bar of 10 elements broken at interfaces 2 and 6: elements 3-6, and 7-9 with 0-2 in one piece across the end. */
+static void a_fragment_across_the_end_is_in_one_piece(void **unused)
+{
+    (void)unused;
+    fracas_spec spec = bar_reference(10, 1e4, 1);
+    spec.geometry.length = 10 * 1e-4;
+    fracas_model *model;
+    fracas_batch *batch;
+    assert_ok(fracas_model_create(&spec, &model));
+    const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
+    assert_ok(fracas_batch_create(model, 1, &options, &batch));
+    for (size_t i = 0; i < 10; i++) bar_set_strength(batch, 0, i, 300e6);
+    assert_ok(fracas_batch_begin(batch));
+    batch->step.state[2 * 7 + 4] = batch->step.state[6 * 7 + 4] = 1.0; /* damage of interfaces 2 and 6 */
+    fracas_record record;
+    fracas_record_init(&record);
+    assert_ok(model->formulation->harvest(model, &batch->step, 0, &record));
+    assert_int_equal(record.nfragment, 2);
+    assert_int_equal(record.fragment[0].elements, 6);
+    assert_int_equal(record.fragment[1].elements, 4);
+    /* centre of elements -3 .. 2 is 0; of 3 .. 6 is 5e-4. Velocity of the background there, 1e4 x. Rounding of coordinates
+     * of 1e-3: 1e-18. */
+    assert_true(fabs(record.fragment[0].position[0]) < 1e-17 || fabs(record.fragment[0].position[0] - 1e-3) < 1e-17);
+    assert_true(fabs(record.fragment[1].position[0] - 5e-4) < 1e-17);
+    assert_true(fabs(record.fragment[1].velocity[0] - 5.0) < 1e-12);
+    assert_true(fabs(record.fragment[0].mass / record.fragment[1].mass - 1.5) < 1e-12);
+    assert_int_equal(model->formulation->fragment_count(model, 2), 2);
+    assert_int_equal(model->formulation->fragment_count(model, 1), 1);
+    assert_int_equal(model->formulation->fragment_count(model, 0), 1);
+    fracas_record_clear(&record);
+    fracas_batch_destroy(batch);
+    fracas_model_destroy(model);
+}
+
+static void a_batch_refuses_what_it_cannot_run(void **unused)
+{
+    (void)unused;
+    fracas_spec spec = bar_reference(50, 1e4, 1e-6); /* h = 1 mm: too long for 300 MPa at G_c 100 */
+    fracas_model *model;
+    fracas_batch *batch;
+    assert_ok(fracas_model_create(&spec, &model));
+    fracas_batch_options options = {.width = 4, .isa = FRACAS_ISA_BEST};
+    assert_int_equal(fracas_batch_create(model, 5, &options, &batch), FRACAS_USAGE);
+    assert_non_null(strstr(fracas_message(), "4 lanes for 5 realizations"));
+    options.width = 3;
+    assert_int_equal(fracas_batch_create(model, 2, &options, &batch), FRACAS_USAGE);
+    assert_int_equal(fracas_batch_create(model, 9, &(fracas_batch_options){0}, &batch), FRACAS_USAGE);
+    options.width = 0;
+    assert_ok(fracas_batch_create(model, 2, &options, &batch));
+    for (size_t i = 0; i < 50; i++)
+        for (size_t l = 0; l < 2; l++) bar_set_strength(batch, l, i, l == 1 && i == 30 ? 5e8 : 1e8);
+    assert_int_equal(fracas_batch_begin(batch), FRACAS_USAGE);
+    assert_non_null(strstr(fracas_message(), "realization 1 of the batch, interface 30"));
+    assert_non_null(strstr(fracas_message(), "raise mesh.elements above 57")); /* L sigma_c^2/(2 beta E G_c) = 56.8 */
+    bar_set_strength(batch, 1, 30, -1);
+    assert_int_equal(fracas_batch_begin(batch), FRACAS_USAGE);
+    fracas_batch_destroy(batch);
+    fracas_model_destroy(model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(stop_at_a_set_time),
+        cmocka_unit_test(settled_waits_for_quiet_after_the_first_onset),
+        cmocka_unit_test(history_keeps_intervals_onset_peak_and_end),
+        cmocka_unit_test(fragments_are_connected_elements),
+        cmocka_unit_test(a_fragment_across_the_end_is_in_one_piece),
+        cmocka_unit_test(a_batch_refuses_what_it_cannot_run),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,285 @@
+/* The bar against closed forms: onset, isolated crack, waves, critical step. */
+#include "tests/support/bar.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { W_LEFT, W_RIGHT, V_LEFT, V_RIGHT, DAMAGE, FIELDS = 7 }; /* as in engine/formulation/bar_sweep.h */
+
+static fracas_batch *batch_of(const fracas_model *model, double sigma_c)
+{
+    fracas_batch *batch;
+    const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
+    assert_ok(fracas_batch_create(model, 1, &options, &batch));
+    for (size_t i = 0; i < fracas_model_interfaces(model); i++) bar_set_strength(batch, 0, i, sigma_c);
+    return batch;
+}
+
+static double *field(fracas_batch *batch, size_t element, int which)
+{
+    return batch->step.state + element * FIELDS + (size_t)which;
+}
+
+static fracas_record run_alone(fracas_batch *batch)
+{
+    fracas_record record;
+    fracas_record_init(&record);
+    assert_ok(fracas_batch_run(batch, &record));
+    return record;
+}
+
+/* sigma = E rate t: failure at sigma_c/(E rate), 109.0909 ns at 1e4 /s. S is linear in time until onset, so that the
+ * interpolated time is exact up to round-off; 1e-6 is the figure promised. */
+static void onset_time_is_strength_over_stress_rate(void **unused)
+{
+    (void)unused;
+    const fracas_kind *laws[] = {&fracas_law_nitsche, &fracas_law_rigid_link};
+    const double rates[] = {1e3, 1e4, 1e5, 1e6};
+    for (int law = 0; law < 2; law++)
+        for (int r = 0; r < 4; r++)
+            for (int ends = 0; ends < 2; ends++) {
+                double exact = 300e6 / (275e9 * rates[r]);
+                fracas_spec spec = bar_reference(r < 3 ? 800 : 4000, rates[r], 1.5 * exact);
+                spec.cohesive.law = laws[law];
+                if (ends) spec.geometry.ends = &fracas_ends_held;
+                fracas_model *model;
+                assert_ok(fracas_model_create(&spec, &model));
+                fracas_batch *batch = batch_of(model, 301e6);
+                bar_set_strength(batch, 0, 37, 300e6);
+                fracas_record record = run_alone(batch);
+                assert_true(record.cracked > 0);
+                assert_true(fabs(record.onset_time / exact - 1) < 1e-6);
+                fracas_record_clear(&record);
+                fracas_batch_destroy(batch);
+                fracas_model_destroy(model);
+            }
+}
+
+typedef struct {
+    double break_error, opening_error;
+} crack_errors;
+
+/* One weak link in a stretching bar (theory/bar.md, isolated crack): with x = (t - t_onset)/t0
+ *   delta = 2 c rate t0^2 (e^x - 1 - x), broken when that is delta_c, e^x_b - 1 - x_b = rate0/rate.
+ * The bar is long enough that the waves of its periodic images do not meet before: 1.2 x_b s0. */
+static crack_errors isolated_crack(double rate, double x_b, int elements_per_s0)
+{
+    const double delta_c = 2 * 100 / 300e6;
+    const double onset = 300e6 / (275e9 * rate), broken = onset + x_b * BAR_T0;
+    int64_t elements = (int64_t)ceil(1.2 * x_b * elements_per_s0) + 8;
+    fracas_spec spec = bar_reference(elements, rate, 1.2 * broken);
+    spec.geometry.length = (double)elements * BAR_S0 / elements_per_s0;
+    fracas_model *model;
+    assert_ok(fracas_model_create(&spec, &model));
+    fracas_batch *batch = batch_of(model, 2.9e9);
+    const size_t weak = (size_t)elements / 3;
+    bar_set_strength(batch, 0, weak, 300e6);
+    assert_ok(fracas_batch_begin(batch));
+    fracas_record record;
+    fracas_record_init(&record);
+    crack_errors errors = {0, 0};
+    for (size_t running = 1; running && batch->step.broken[0] == 0;) {
+        assert_ok(fracas_batch_step(batch, &record, &running));
+        double x = (batch->step.time[0] - onset) / BAR_T0, damage = *field(batch, weak, DAMAGE);
+        double exact = 2 * 1e4 * rate * BAR_T0 * BAR_T0 * (exp(x) - 1 - x);
+        /* relative to delta_c/10 where the opening is smaller than that: both vanish at onset */
+        if (x > 0 && damage < 1)
+            errors.opening_error = fmax(errors.opening_error, fabs(damage * delta_c - exact) / fmax(exact, 0.1 * delta_c));
+    }
+    fracas_batch_destroy(batch);
+
+    const fracas_batch_options options = {.width = 1, .interfaces = true, .isa = FRACAS_ISA_BEST};
+    assert_ok(fracas_batch_create(model, 1, &options, &batch));
+    for (size_t i = 0; i < fracas_model_interfaces(model); i++) bar_set_strength(batch, 0, i, 2.9e9);
+    bar_set_strength(batch, 0, weak, 300e6);
+    fracas_record_clear(&record);
+    record = run_alone(batch);
+    assert_true(record.cracked >= 1);
+    errors.break_error = fabs((record.interface[weak].break_time - record.interface[weak].onset_time) / (x_b * BAR_T0) - 1);
+    fracas_record_clear(&record);
+    fracas_batch_destroy(batch);
+    fracas_model_destroy(model);
+    return errors;
+}
+
+static void isolated_crack_opens_as_the_closed_form(void **unused)
+{
+    (void)unused;
+    /* x_b of theory: roots of e^x - 1 - x = rate0/rate for rate0 = 35 702.5 /s */
+    static const struct {
+        double rate, x_b, break_bound, opening_bound;
+    } cases[] = {{1e3, 3.69886, 1e-3, 1e-3}, {1e4, 1.86120, 1e-3, 1e-3}, {1e5, 0.740993, 1e-3, 1e-3}, {1e6, 0.255828, 2e-3, 1}};
+    for (int i = 0; i < 4; i++) {
+        double last_break = 1;
+        for (int m = 20; m <= 80; m *= 2) {
+            crack_errors e = isolated_crack(cases[i].rate, cases[i].x_b, m);
+            print_message("[  figures ] rate %.0e h = s0/%d: break time error %.2e, opening error %.2e\n", cases[i].rate, m,
+                          e.break_error, e.opening_error);
+            /* Converging until the step's interpolation error is reached. */
+            assert_true(e.break_error < fmax(last_break, 2e-4));
+            last_break = e.break_error;
+            if (m == 80) {
+                assert_true(e.break_error < cases[i].break_bound);
+                assert_true(e.opening_error < cases[i].opening_bound);
+            }
+        }
+    }
+}
+
+/* Standing wave: w = W sin(kx) sin(wt)/..., started with v = sin(2 pi x/L) m/s and no load. After a quarter period the
+ * displacement is c/(k c^2) sin(kx). L2 error of P1 elements and central difference at a fixed ratio of step and size:
+ * order 2 in h. The slope over two halvings must be 2 within 0.1; dropping consistency or symmetrisation loses it. */
+static double wave_error(const fracas_kind *ends, double beta, int64_t elements)
+{
+    const double length = 0.05, k = 2 * M_PI / length, quarter = 0.25 * length / BAR_WAVE_SPEED;
+    fracas_spec spec = bar_reference(elements, 1e-9, 10 * quarter);
+    spec.geometry.ends = ends;
+    spec.cohesive.beta = beta;
+    fracas_model *model;
+    assert_ok(fracas_model_create(&spec, &model));
+    double steps = ceil(quarter / model->time_step);
+    model->time_step = quarter / steps;
+    fracas_batch *batch = batch_of(model, 1e8);
+    assert_ok(fracas_batch_begin(batch));
+    const double h = length / (double)elements;
+    for (size_t e = 0; e < (size_t)elements; e++) { /* w(0) = 0, so v(-dt/2) = v(0) to second order */
+        *field(batch, e, V_LEFT) = sin(k * h * (double)e);
+        *field(batch, e, V_RIGHT) = sin(k * h * ((double)e + 1));
+    }
+    if (ends == &fracas_ends_held) *field(batch, (size_t)elements - 1, V_RIGHT) = 0;
+    fracas_record record;
+    fracas_record_init(&record);
+    size_t running;
+    for (int s = 0; s <= (int)steps; s++) assert_ok(fracas_batch_step(batch, &record, &running));
+    double sum = 0, norm = 0;
+    for (size_t e = 0; e < (size_t)elements; e++)
+        for (int g = 0; g < 2; g++) { /* two Gauss points */
+            double xi = 0.5 + (g ? 0.5 : -0.5) / sqrt(3), x = h * ((double)e + xi);
+            double w = (1 - xi) * *field(batch, e, W_LEFT) + xi * *field(batch, e, W_RIGHT);
+            double exact = sin(k * x) / (k * BAR_WAVE_SPEED);
+            sum += (w - exact) * (w - exact);
+            norm += exact * exact;
+        }
+    assert_int_equal(batch->step.cracked[0], 0);
+    fracas_batch_destroy(batch);
+    fracas_model_destroy(model);
+    return sqrt(sum / norm);
+}
+
+static void waves_converge_with_order_two(void **unused)
+{
+    (void)unused;
+    const fracas_kind *ends[] = {&fracas_ends_periodic, &fracas_ends_held};
+    const double betas[] = {2, 4, 30};
+    for (int i = 0; i < 2; i++)
+        for (int b = 0; b < 3; b++) {
+            double coarse = wave_error(ends[i], betas[b], 32), middle = wave_error(ends[i], betas[b], 64),
+                   fine = wave_error(ends[i], betas[b], 128);
+            print_message("[  figures ] %s beta %g: L2 errors %.3e %.3e %.3e, slopes %.3f %.3f\n", ends[i]->name, betas[b], coarse,
+                          middle, fine, log2(coarse / middle), log2(middle / fine));
+            assert_true(fabs(log2(coarse / middle) - 2) < 0.1);
+            assert_true(fabs(log2(middle / fine) - 2) < 0.1);
+        }
+}
+
+/* Largest omega h/c of the closed DG bar by Bloch's theorem: for wave number theta the 2 x 2 matrix of (left, right)
+ * nodes, maximised over theta. Written from the energy, independently of the engine's operator. */
+static double bloch_top(double beta)
+{
+    double top = 0;
+    for (int i = 0; i <= 2000; i++) {
+        double theta = M_PI * i / 2000, c = cos(theta), s = sin(theta);
+        /* unknowns a (left), b (right); next element's times e^{i theta}; energy per element, E = h = 1:
+         * 1/2 |b-a|^2 + Re(conj(m) q) + beta/2 |q|^2, m = (b-a)(1+z)/2, q = a z - b, z = e^{i theta} */
+        double aa, bb, re, im; /* Hermitian matrix [aa, re + i im; ., bb] */
+        /* q = z a - b: |q|^2 -> [1, -conj(z); -z, 1] */
+        aa = 1 + beta;
+        bb = 1 + beta;
+        re = -1 - beta * c;
+        im = beta * s;
+        /* Re(conj(m) q): sesquilinear form 1/2 (conj(m) q + m conj(q)), m = p (b - a), p = (1+z)/2; conj(p) z = p and
+         * conj(p) = p conj(z):  conj(m) q = conj(p)(conj(b) - conj(a))(z a - b)
+         *   coefficient of |a|^2: -conj(p) z = -p -> real part; of |b|^2: -conj(p) */
+        double pr = 0.5 * (1 + c), pi = 0.5 * s;
+        aa += -2 * pr;
+        bb += -2 * pr;
+        /* twice the form's cross term conj(a) b: from conj(m) q: +conj(p); from m conj(q): p b (conj(z) conj(a)) -> p conj(z) = conj(p) */
+        re += 2 * pr;
+        im += -2 * pi;
+        double mean = 0.5 * (aa + bb), half = sqrt(0.25 * (aa - bb) * (aa - bb) + re * re + im * im);
+        top = fmax(top, mean + half);
+    }
+    return sqrt(2 * top); /* nodal mass 1/2 */
+}
+
+static double critical(const fracas_kind *law, double beta)
+{
+    fracas_spec spec = bar_reference(200, 1e4, 1e-6);
+    spec.cohesive.law = law;
+    spec.cohesive.beta = beta;
+    fracas_model *model;
+    assert_ok(fracas_model_create(&spec, &model));
+    double step = fracas_model_critical_time_step(model) * BAR_WAVE_SPEED / model->element_size;
+    fracas_model_destroy(model);
+    return step;
+}
+
+static void critical_step_is_that_of_the_spectrum(void **unused)
+{
+    (void)unused;
+    /* theory: 0.500 h/c closed, 0.447 cracked, at beta 4. Cracked and in contact every wave number has
+     * omega^2 <= (c/h)^2 4 (1 + beta): the two springs of a node both stretch.  */
+    assert_true(fabs(2 / bloch_top(4) - 0.5) < 1e-6);
+    assert_true(fabs(critical(&fracas_law_nitsche, 4) - 0.4472) < 5e-5);
+    const double betas[] = {1.5, 2, 4, 10, 30};
+    for (int i = 0; i < 5; i++) {
+        double exact = fmin(2 / bloch_top(betas[i]), 1 / sqrt(1 + betas[i]));
+        /* power iteration comes from below: the step from above, by 1e-3 at most */
+        assert_true(critical(&fracas_law_nitsche, betas[i]) >= exact * (1 - 1e-9));
+        assert_true(critical(&fracas_law_nitsche, betas[i]) <= exact * (1 + 1e-3));
+    }
+    /* rigid links: 2-node elements, h/c while closed; in contact with k = E/h as beta = 1 */
+    assert_true(fabs(critical(&fracas_law_rigid_link, 4) - 1 / sqrt(2)) < 1e-3);
+}
+
+/* Just below the closed operator's critical step a disturbance stays, just above it grows without bound. */
+static void steps_blow_up_above_the_critical_one_only(void **unused)
+{
+    (void)unused;
+    for (int above = 0; above < 2; above++) {
+        fracas_spec spec = bar_reference(64, 1e-9, 1);
+        fracas_model *model;
+        assert_ok(fracas_model_create(&spec, &model));
+        model->time_step = (above ? 1.01 : 0.99) * 0.5 * model->element_size / BAR_WAVE_SPEED;
+        fracas_batch *batch = batch_of(model, 1e8);
+        assert_ok(fracas_batch_begin(batch));
+        for (size_t e = 0; e < 64; e++) *field(batch, e, V_LEFT) = 1e-9 * (e % 7 == 0);
+        fracas_record record;
+        fracas_record_init(&record);
+        size_t running;
+        double first = 0;
+        for (int s = 0; s < 400; s++) {
+            assert_ok(fracas_batch_step(batch, &record, &running));
+            if (s == 0) first = batch->step.kinetic[0];
+        }
+        double largest = 0;
+        for (size_t e = 0; e < 64; e++) largest = fmax(largest, fabs(*field(batch, e, V_LEFT)));
+        assert_true(first > 0);
+        if (above) assert_true(largest > 1e-3);
+        else assert_true(largest < 1e-7);
+        fracas_batch_destroy(batch);
+        fracas_model_destroy(model);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(onset_time_is_strength_over_stress_rate),
+        cmocka_unit_test(isolated_crack_opens_as_the_closed_form),
+        cmocka_unit_test(waves_converge_with_order_two),
+        cmocka_unit_test(critical_step_is_that_of_the_spectrum),
+        cmocka_unit_test(steps_blow_up_above_the_critical_one_only),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
