@@ -49,9 +49,9 @@ static inline double split_exponent(double x, double *k)
     return double_of(bits - ((uint64_t)exponent << 52));
 }
 
-/* (sampling.11) ln x = k ln 2 + ln(1 + f). With s = f/(2 + f), ln(1 + f) = 2 artanh s = 2 s + s R(s^2); as 2 s = f - s f and
- * s (f + f^2/2) = f^2/2 this is f - (f^2/2 - s (f^2/2 + R)), where only f^2/2 and its half-size
- * correction are rounded. */
+/* (sampling.11) ln x = k ln 2 + ln(1 + f). With s = f/(2 + f), ln(1 + f) = 2 artanh s = 2 s + s R(s^2); as
+ * 2 s = f - s f and s (f + f^2/2) = f^2/2 this is f - (f^2/2 - s (f^2/2 + R)), where f is exact and only the small
+ * rest is rounded before the last sum. */
 double fracas_log(double x)
 {
     static const double r[8] = {/* (2 artanh(s)/s - 2)/s^2 in s^2 <= 0.0295: 2^-60 */
@@ -67,8 +67,8 @@ double fracas_log(double x)
     return k * ln2_hi - ((half_square - (s * (half_square + z * poly8(r, z)) + k * ln2_lo)) - f);
 }
 
-/* (sampling.12) e^(hi + lo) for |lo| << |hi|. hi = k ln 2 + r (Cody and Waite), e^r = 1 + r + r^2 P(r), times 2^k in two steps
- * because k is outside the range of exponents when the result is subnormal or near the largest double. */
+/* (sampling.12) e^(hi + lo) for |lo| << |hi|. hi = k ln 2 + r (Cody and Waite), e^r = 1 + r + r^2 P(r), times 2^k in
+ * two steps because k is outside the range of exponents when the result is subnormal or near the largest double. */
 static inline double exp_sum(double hi, double lo)
 {
     static const double p[12] = {/* (e^r - 1 - r)/r^2 in |r| <= 0.3467: 2^-60 */
@@ -147,8 +147,8 @@ static inline double log_sum(double x, double *low)
     return value;
 }
 
-/* (sampling.13) e^(y ln x) with the logarithm and the product in two doubles: 2^-63 of ln x becomes 2^-53.5 of the power where
- * |y ln x| is largest, 745. */
+/* (sampling.13) e^(y ln x) with the logarithm and the product in two doubles: 2^-63 of ln x becomes 2^-53.5 of the
+ * power where |y ln x| is largest, 745. */
 double fracas_pow(double x, double y)
 {
     if (x == 1.0 || y == 0.0) return 1.0;
@@ -159,8 +159,8 @@ double fracas_pow(double x, double y)
     return exp_sum(product, product_lo + y * log_lo);
 }
 
-/* (sampling.14) 1/Gamma is entire: w = 1/Gamma - 1 is a polynomial about 1.5 on [1, 2], where it is below 0.13, so that its
- * rounding errors hardly count in Gamma = 1 - w/(1 + w). The rest by Gamma(x) = (x - 1) Gamma(x - 1). */
+/* (sampling.14) 1/Gamma is entire: w = 1/Gamma - 1 is a polynomial about 1.5 on [1, 2], where it is below 0.13, so
+ * that its rounding errors hardly count in Gamma = 1 - w/(1 + w). The rest by Gamma(x) = (x - 1) Gamma(x - 1). */
 double fracas_gamma(double x)
 {
     static const double c[16] = {/* 1/Gamma(1.5 + v) - 1 in |v| <= 1/2: 2^-56 */

@@ -14,11 +14,11 @@ double fracas_log(double x);
 /* e^x, error below 1 ulp. +infinity from 709.79 on, 0 from -745.14 down; NaN gives NaN. */
 double fracas_exp(double x);
 
-/* x^y for x >= 0, error below 1.5 ulp, below 1 ulp where |y ln x| < 100. x^0 = 1 and 1^y = 1 for every x and y, as in
+/* x^y for x >= 0, error below 2 ulp, below 1 ulp where |y ln x| < 100. x^0 = 1 and 1^y = 1 for every x and y, as in
  * C; x < 0 gives NaN (also for whole y, unlike C), and so does a NaN in any other place. */
 double fracas_pow(double x, double y);
 
-/* Gamma function for 1 <= x <= 171, error below x ulp, below 1.5 ulp up to x = 2; NaN elsewhere. */
+/* Gamma function for 1 <= x <= 171, error below 1.5 ulp up to x = 2, below x ulp above; NaN elsewhere. */
 double fracas_gamma(double x);
 
 #endif

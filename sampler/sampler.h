@@ -41,7 +41,8 @@ typedef struct {
  * u and 1 - u are both exact, from 2^-53 to 1 - 2^-53 (with 53 bits of x, u could round to 1). */
 double fracas_stream_uniform(const fracas_stream *stream, uint64_t site);
 
-/* strength[i*stride] = F^-1(u_i) [Pa] for interfaces i = 0 .. n-1. */
+/* sigma_c[i*stride] = F^-1(u_i) [Pa] for interfaces i = 0 .. n-1, whatever n and stride; `stride` lets a lane of a
+ * batch be filled in place. */
 void fracas_strength_sample(const fracas_strength *strength, const fracas_stream *stream,
                             size_t n, size_t stride, double *sigma_c);
 

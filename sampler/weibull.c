@@ -3,7 +3,8 @@
 
 #include "base/elementary.h"
 
-/* (sampling.10) -ln(1 - u), accurate in both tails: 1 - u loses what `lost` holds, which is nothing for the u of a stream. */
+/* (sampling.10) -ln(1 - u), accurate in both tails: `lost` is what the rounding of 1 - u loses, nothing for the u of
+ * a stream. */
 static double exponential(double u)
 {
     double rest = 1.0 - u;

@@ -96,10 +96,12 @@ static void exp_is_within_one_ulp(void **state)
     }
     assert_below("exp, whole range", all, 1.0);
     assert_below("exp in [-1, 1]", middle, 1.0);
-    assert_below("exp near 0", small, 1.0);
+    /* e^x > 0.7, so 1 ulp >= 2^-53; the last sum rounds by 1/2 ulp, r^2 P(r) < 0.061 is rounded four times by 2^-58 or
+     * less, and r is kept in two doubles: below 0.66. */
+    assert_below("exp near 0", small, 0.66);
 }
 
-static void pow_is_within_one_and_a_half_ulp(void **state)
+static void pow_is_within_two_ulp(void **state)
 {
     (void)state;
     double all = 0.0, near_one = 0.0, usual = 0.0;
@@ -114,8 +116,8 @@ static void pow_is_within_one_and_a_half_ulp(void **state)
         y = between(-100.0, 100.0, i, 1) / log(x);
         raise_to(&usual, ulps(fracas_pow(x, y), powl(x, y)));
     }
-    assert_below("pow, whole range of results", all, 1.5);
-    assert_below("pow of x near 1, whole range of results", near_one, 1.5);
+    assert_below("pow, whole range of results", all, 2.0);
+    assert_below("pow of x near 1, whole range of results", near_one, 2.0);
     assert_below("pow, |y ln x| < 100", usual, 1.0);
 }
 
@@ -196,7 +198,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(log_is_within_one_ulp),
         cmocka_unit_test(exp_is_within_one_ulp),
-        cmocka_unit_test(pow_is_within_one_and_a_half_ulp),
+        cmocka_unit_test(pow_is_within_two_ulp),
         cmocka_unit_test(gamma_is_within_x_ulp),
         cmocka_unit_test(special_values),
         cmocka_unit_test(powers_of_two_are_exact),
