@@ -28,7 +28,7 @@ static const char page_style[] =
     ".scroll{overflow-x:auto;border:1px solid var(--line);border-radius:6px}\n"
     "table{border-collapse:collapse;width:100%;font-size:.9rem;font-variant-numeric:tabular-nums}\n"
     "th,td{padding:.35rem .7rem;text-align:right;white-space:nowrap}th:last-child,td:last-child{text-align:left}\n"
-    "th small{font-weight:400;color:var(--quiet);display:block;min-height:1.2em}thead th{vertical-align:bottom}\n"
+    "th small{font-weight:400;color:var(--quiet);display:block}thead th{vertical-align:bottom}\n"
     "tbody tr{border-top:1px solid var(--line)}\n"
     ".warnings{background:var(--warn);border-left:4px solid var(--edge);border-radius:4px;margin:0;"
     "padding:.6rem 1rem .6rem 2rem}\n"
@@ -166,7 +166,8 @@ static void put_rows(const fracas_result_table *table, FILE *out)
         fputs("<th>", out);
         fracas_markup_text(fracas_result_table_cell(table, 0, c), out);
         fputs("<small>", out);
-        fracas_markup_text(fracas_result_table_cell(table, 1, c), out);
+        const char *unit = fracas_result_table_cell(table, 1, c);
+        fracas_markup_text(*unit ? unit : "\u00a0", out); /* keeps the names on one line */
         fputs("</small></th>", out);
     }
     fputs("</tr></thead>\n<tbody>\n", out);

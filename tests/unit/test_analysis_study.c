@@ -157,6 +157,30 @@ static void make_record(const truth *of, size_t p, int64_t replica, fracas_recor
     make_history(end, record);
 }
 
+/* index.sqlite as a run leaves it, for docs/examples/table_from_index.sql: everything done in one segment. */
+static void write_index(const truth *of, const char *folder, const fracas_point_table *table, const fracas_file_seal *seal)
+{
+    fracas_index *index;
+    assert_int_equal(fracas_index_open(folder, true, &index), FRACAS_OK);
+    assert_int_equal(fracas_index_plan(index, table), FRACAS_OK);
+    fracas_segment_row row[4 * 32];
+    size_t count = 0;
+    for (size_t p = 0; p < NPOINTS; p++) {
+        for (int64_t replica = 0; replica < of->replicas[p]; replica++) {
+            fracas_record record;
+            make_record(of, p, replica, &record);
+            row[count] = (fracas_segment_row){
+                .point = table->point[p].hash, .replica = replica, .row = (int64_t)count, .outcome = record.outcome,
+                .fragments = record.fragments, .fragments_dust = record.fragments_dust, .steps = record.steps,
+                .dissipated = record.dissipated, .residual = record.residual};
+            count++;
+            fracas_record_clear(&record);
+        }
+    }
+    assert_int_equal(fracas_index_commit(index, "one.h5", seal, row, count, "{}"), FRACAS_OK);
+    fracas_index_close(index);
+}
+
 static void write_study(const truth *of, const char *folder)
 {
     char path[512];
@@ -178,6 +202,7 @@ static void write_study(const truth *of, const char *folder)
     }
     fracas_file_seal seal;
     assert_int_equal(fracas_writer_finish(writer, header.complete, &seal), FRACAS_OK);
+    write_index(of, folder, &made.table, &seal);
 }
 
 /* table.txt, summary.json and report/ into the study's folder. */
