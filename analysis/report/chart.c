@@ -245,8 +245,9 @@ static void draw_marks(const frame *f, const fracas_series *series)
         if (isfinite(series->low[i]) && isfinite(series->high[i])) {
             bool open = !shown(series->low[i], &f->panel->y, -INFINITY);
             double low = open ? f->y.from : fracas_scale_place(&f->y, series->low[i]);
-            fprintf(f->out, "<path class=\"bar\" d=\"M%.1f %.1f%sV%.1fm-4 0h8\"/>\n", x, low, open ? "" : "m-4 0h8m-4 0",
-                    fracas_scale_place(&f->y, series->high[i]));
+            double high = fracas_scale_place(&f->y, series->high[i]);
+            const char *foot = open ? "" : "m-4 0h8m-4 0";
+            fprintf(f->out, "<path class=\"bar\" d=\"M%.1f %.1f%sV%.1fm-4 0h8\"/>\n", x, low, foot, high);
         }
         fputs("<path class=\"mark\" d=\"", f->out);
         draw_mark(series->look, x, y, f->out);

@@ -7,7 +7,8 @@ WITH usable AS (
     SELECT point, count(*) AS n, avg(count) AS count, avg(dissipated) AS dissipated FROM usable GROUP BY point
 ), spread AS (
     SELECT point, sqrt(sum((usable.count - mean.count) * (usable.count - mean.count)) / (n - 1)) AS count,
-           sqrt(sum((usable.dissipated - mean.dissipated) * (usable.dissipated - mean.dissipated)) / (n - 1)) AS dissipated
+           sqrt(sum((usable.dissipated - mean.dissipated) * (usable.dissipated - mean.dissipated)) / (n - 1))
+               AS dissipated
     FROM usable JOIN mean USING (point) GROUP BY point
 ), progress AS (
     SELECT point, count(*) AS planned, sum(status = 'done') AS done, sum(status IN ('failed', 'quarantined')) AS failed

@@ -34,6 +34,8 @@ static void estimate_of_few(void **state)
     assert_true(fracas_estimate_of(value, 1, 1).mean == 3);
     assert_true(isnan(fracas_estimate_of(value, 1, 1).half_width));
     assert_true(fracas_estimate_of(value + 1, 7, 1).mean == 8);
+    const double equal[] = {0.1, 0.1, 0.1}; /* their plain sum is not three times 0.1 */
+    assert_true(fracas_estimate_of(equal, 1, 3).mean == 0.1 && fracas_estimate_of(equal, 1, 3).half_width == 0);
 }
 
 static void assert_estimate(double mean, double half_width, double factor, const char *expected)
@@ -101,13 +103,15 @@ static void columns_that_tell_points_apart(void **state)
     (void)state;
     static const fracas_column column[] = {
         {"derived.strength_mean", "Pa", "", false}, {"loading.rate", "1/s", "", false}, {"loading.type", "", "", true},
-        {"material.density", "kg/m3", "", false},   {"material.young", "Pa", "", false}, {"mesh.elements", "1", "", false},
+        {"material.density", "kg/m3", "", false},   {"material.young", "Pa", "", false},
+        {"mesh.elements", "1", "", false},
     };
     enum { N = 6, P = 4 };
     fracas_value value[P][N];
     fracas_point_row point[P];
     for (size_t p = 0; p < P; p++) {
-        double real[N] = {(double)p, p % 2 ? 1e4 : 1e3, NAN, p < 2 ? 2700 : 7800, p < 2 ? 70e9 : 210e9, p % 2 ? 20 : 10};
+        double real[N] = {(double)p, p % 2 ? 1e4 : 1e3, NAN, p < 2 ? 2700 : 7800, p < 2 ? 70e9 : 210e9,
+                          p % 2 ? 20 : 10};
         for (size_t c = 0; c < N; c++) value[p][c] = (fracas_value){.real = real[c], .text = ""};
         value[p][2].text = "imposed-rate";
         point[p] = (fracas_point_row){.value = value[p]};
@@ -207,8 +211,8 @@ static void ticks(void **state)
     assert_labels(true, 0.013, 60, "0.01 0.1 1 10 100 ");
     assert_labels(true, 30, 180, "20 50 100 200 ");
     assert_labels(true, 1e4, 1e5, "10\u2074 2\u00b710\u2074 5\u00b710\u2074 10\u2075 ");
-    assert_labels(true, 1e-12, 1, "10\u207b\u00b9\u00b2 10\u207b\u00b9\u2070 10\u207b\u2078 10\u207b\u2076 10\u207b\u2074 "
-                  "10\u207b\u00b2 10\u2070 ");
+    assert_labels(true, 1e-12, 1, "10\u207b\u00b9\u00b2 10\u207b\u00b9\u2070 10\u207b\u2078 10\u207b\u2076 "
+                  "10\u207b\u2074 10\u207b\u00b2 10\u2070 ");
     assert_labels(true, 3, 3, "2 5 ");
     assert_labels(true, 2, 2, "1 10 ");
 }
