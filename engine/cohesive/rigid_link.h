@@ -2,9 +2,9 @@
  * Include after base/lanes.h.
  *
  * A link is rigid until the mean stress of its elements has exceeded its strength; two steps later it carries
- *   q >= 0: T = sigma_c (1 - D), D = max(D, min(1, q/delta_c)) loading;  sigma_c (1 - D) q/(D delta_c) below   (cohesive.7)
+ *   q >= 0: T = sigma_c (1 - D), D = max(D, min(1, q/delta_c)) loading;  sigma_c (1 - D) q/(D delta_c) below   (cohesive.8)
  *   q <  0: T = k q, contact, also after full break, k = (sigma_c^2 + 4.5 rate^(2/3) E G_c^(2/3) rho^(1/3))/(4.5 G_c)
- *                                                                                                 (cohesive.8) */
+ *                                                                                                 (cohesive.9) */
 #define rigid_link_law LANES_NAME(fracas_rigid_link_law)
 
 /* Traction of an open link [Pa]; *damage is brought up to date. `penalty` is k [Pa/m]. */
@@ -16,6 +16,6 @@ LANES_FUNCTION vd rigid_link_law(vd q, vd *damage, vd sigma_c, vd delta_c, vd pe
     vd now = lanes_select(loading, lanes_select(lanes_lt(opening, one), opening, one), *damage);
     vd peak = sigma_c * (one - now);
     vd tension = lanes_select(loading, peak, peak * (opening / now));
-    *damage = lanes_select(lanes_le(zero, q), now, *damage);
+    *damage = now;
     return lanes_select(lanes_lt(q, zero), penalty * q, tension);
 }

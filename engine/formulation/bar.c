@@ -22,6 +22,7 @@ static bool is_nitsche(const fracas_model *model)
     return model->spec.cohesive.law == &fracas_law_nitsche;
 }
 
+/* Nodal mass as (bar.5). */
 static fracas_bar_constants constants_of(const fracas_model *model)
 {
     const fracas_spec *spec = &model->spec;
@@ -117,12 +118,14 @@ static fracas_err bar_model_init(fracas_model *model)
     model->element_size = spec->geometry.length / (double)model->elements;
     model->mass = spec->material.density * spec->geometry.area * spec->geometry.length;
     fracas_bar_constants bar = constants_of(model);
-    /* The penalty of rigid-link depends on each strength; check_strength keeps it below the elements' stiffness. */
+    /* Critical step (bar.15). The penalty of rigid-link depends on each strength; check_strength keeps it below the elements' stiffness. */
     model->contact = is_nitsche(model) ? bar.spring : bar.young / bar.size;
-    double closed, open;
+    double closed, cracked;
     TRY(top_frequency_squared(model, true, &closed));
-    TRY(top_frequency_squared(model, false, &open));
-    model->critical_step = 2.0 / sqrt(closed > open ? closed : open);
+    TRY(top_frequency_squared(model, false, &cracked));
+    model->critical_closed = FRACAS_CENTRAL_DIFFERENCE_LIMIT / sqrt(closed);
+    model->critical_cracked = FRACAS_CENTRAL_DIFFERENCE_LIMIT / sqrt(cracked);
+    model->critical_step = fmin(model->critical_closed, model->critical_cracked);
     return FRACAS_OK;
 }
 
@@ -134,7 +137,7 @@ static fracas_err bar_check_strength(const fracas_model *model, double strength)
     if (!(strength > 0) || !isfinite(strength))
         return fracas_fail(FRACAS_USAGE, "strength of %g Pa; it must be positive and finite: check the section strength", strength);
     if (is_nitsche(model)) {
-        /* K > sigma_c/delta_c = sigma_c^2/(2 G_c), or the interface could not soften as slowly as the law asks. */
+        /* K > sigma_c/delta_c = sigma_c^2/(2 G_c), or the interface could not soften as slowly as the law asks  (cohesive.7). */
         double longest = 2 * model->spec.cohesive.beta * bar.young * bar.fracture_energy / (strength * strength);
         if (bar.size >= longest)
             return fracas_fail(FRACAS_USAGE, "strength %g Pa needs elements shorter than %.4g m, they are %.4g m: "
@@ -212,7 +215,7 @@ static double lane_value(const lane_view *view, size_t element, int field)
     return *field_of(view->model, view->step, element, field, view->lane);
 }
 
-/* Adds up the elements of each fragment. Elements after the last break of a closed bar belong to the fragment of
+/* Adds up the elements of each fragment, moved as (bar.1). Elements after the last break of a closed bar belong to the fragment of
  * element 0 and are taken one circumference back, so that a fragment is in one piece. */
 static void add_elements(const lane_view *view, const uint32_t *label, fracas_fragment *fragment)
 {
@@ -237,6 +240,7 @@ static void add_elements(const lane_view *view, const uint32_t *label, fracas_fr
     }
 }
 
+/* Fragments as (bar.16). */
 static fracas_err harvest_fragments(const lane_view *view, fracas_record *record)
 {
     const fracas_model *model = view->model;

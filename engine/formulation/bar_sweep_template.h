@@ -93,7 +93,7 @@ LANES_FUNCTION bar_link bar_nitsche(bar_context *c, size_t e, const bar_element 
     double *at = c->state + e * BAR_FIELDS * LANES;
     vd before = lanes_load(at + BAR_DAMAGE * LANES);
     vd sigma_c = lanes_load(at + BAR_STRENGTH * LANES), x = lanes_load(at + BAR_LAW * LANES);
-    vd mean = half * (left->stress + right->stress);
+    vd mean = half * (left->stress + right->stress); /* (bar.2) */
     vd q = right->w_left - left->w_right;
     nitsche_interface it = nitsche_law(mean, q, before, sigma_c, x, c->spring, c->compliance);
     lanes_store(at + BAR_DAMAGE * LANES, it.damage);
@@ -184,7 +184,7 @@ LANES_FUNCTION void bar_finish(bar_context *c, int law, size_t e, const bar_elem
     lanes_store(at + BAR_V_RIGHT * LANES, v_right);
 }
 
-/* Sums to energies [J] and power [W]  (bar.8). */
+/* Sums to energies [J], those of the potential (bar.4), and power [W]  (bar.8). */
 LANES_FUNCTION void bar_totals(const bar_context *c)
 {
     const fracas_bar_constants *bar = c->bar;
@@ -264,5 +264,4 @@ static void BAR_SWEEP(rigid_link)(const fracas_bar_constants *bar, fracas_step *
 #undef rigid_link_law
 #undef central_drift
 #undef central_kick
-#undef FRACAS_CENTRAL_DIFFERENCE_LIMIT
 #include "base/lanes_end.h"

@@ -18,7 +18,8 @@ struct fracas_model {
     double mass;          /* kg */
     double element_size;  /* m, h */
     double contact;       /* Pa/m: largest stiffness of a closing interface, per area */
-    double critical_step; /* s */
+    double critical_closed, critical_cracked; /* s: all interfaces uncracked; all broken and in contact */
+    double critical_step; /* s, the smaller of the two */
     double time_step;     /* s */
 };
 

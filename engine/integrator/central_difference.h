@@ -3,9 +3,7 @@
  *   w_n = w_{n-1} + dt v_{n-1/2}                   (bar.9)
  *   v_{n+1/2} = v_{n-1/2} + dt f(w_n)/m            (bar.10)
  *
- * Its undamped limit is omega dt = FRACAS_CENTRAL_DIFFERENCE_LIMIT. */
-#define FRACAS_CENTRAL_DIFFERENCE_LIMIT 2.0
-
+ * Its stability limit is in critical_step.h. */
 #define central_drift LANES_NAME(fracas_central_drift)
 #define central_kick LANES_NAME(fracas_central_kick)
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* (bar.15) */
 fracas_err fracas_power_iteration(fracas_operator *apply, const void *context, size_t n, double *start,
                                   double *omega_squared)
 {

@@ -1,0 +1,120 @@
+/* The small things of base: messages, hashes, JSON, parameter access. */
+#include "base/err.h"
+#include "base/hash.h"
+#include "base/json.h"
+#include "base/param.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static fracas_err fails(int level)
+{
+    if (level == 0) return fracas_fail(FRACAS_USAGE, "value %d", 7);
+    TRY(fails(level - 1));
+    return FRACAS_OK;
+}
+
+static void an_error_carries_its_message_up(void **unused)
+{
+    (void)unused;
+    assert_int_equal(fails(3), FRACAS_USAGE);
+    assert_string_equal(fracas_message(), "value 7");
+    assert_int_equal(fracas_fail_within(FRACAS_USAGE, "file %s", "a.yaml"), FRACAS_USAGE);
+    assert_string_equal(fracas_message(), "file a.yaml: value 7");
+    char *huge = malloc(5000);
+    assert_non_null(huge);
+    memset(huge, 'x', 4999);
+    huge[4999] = 0;
+    assert_int_equal(fracas_fail(FRACAS_BUG, "%s", huge), FRACAS_BUG);
+    assert_int_equal(strlen(fracas_message()), 1023);
+    assert_int_equal(fracas_fail_within(FRACAS_BUG, "within"), FRACAS_BUG);
+    assert_int_equal(strlen(fracas_message()), 1023);
+    free(huge);
+}
+
+/* XXH3-128 of no bytes and of "abc", as xxhsum -H2 prints them. */
+static void hashes_are_xxh3(void **unused)
+{
+    (void)unused;
+    char text[FRACAS_HASH_HEX];
+    fracas_hash hash = fracas_hash_of("", 0), again;
+    fracas_hash_hex(&hash, text);
+    assert_string_equal(text, "99aa06d3014798d86001c324468d497f");
+    hash = fracas_hash_of("abc", 3);
+    fracas_hash_hex(&hash, text);
+    assert_string_equal(text, "06b05ab6733a618578af5f94892f3950");
+    assert_true(fracas_hash_parse(text, &again));
+    assert_true(fracas_hash_equal(&hash, &again));
+    uint64_t word[2];
+    fracas_hash_words(&hash, word);
+    assert_true(word[0] == 0x06b05ab6733a6185u && word[1] == 0x78af5f94892f3950u);
+    assert_false(fracas_hash_parse("06b05ab6733a618578af5f94892f395", &again));
+    assert_false(fracas_hash_parse("06b05ab6733a618578af5f94892f395g", &again));
+    assert_true(fracas_checksum_of("abc", 3) == 0x78af5f94892f3950u);
+}
+
+static void json_is_well_formed(void **unused)
+{
+    (void)unused;
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    fracas_json json;
+    fracas_json_begin(&json, out);
+    fracas_json_object(&json, NULL);
+    fracas_json_text(&json, "a \"b\"\n", "\\");
+    fracas_json_array(&json, "list");
+    fracas_json_real(&json, NULL, 0.1);
+    fracas_json_real(&json, NULL, NAN);
+    fracas_json_integer(&json, NULL, -3);
+    fracas_json_close_array(&json);
+    fracas_json_object(&json, "empty");
+    fracas_json_close_object(&json);
+    fracas_json_boolean(&json, "yes", true);
+    fracas_json_text(&json, "none", NULL);
+    fracas_json_close_object(&json);
+    fracas_json_end(&json);
+    fclose(out);
+    assert_string_equal(text, "{\n  \"a \\\"b\\\"\\u000a\": \"\\\\\",\n  \"list\": [\n    0.10000000000000001,\n    null,\n    -3\n  ],\n"
+                              "  \"empty\": {},\n  \"yes\": true,\n  \"none\": null\n}\n");
+    free(text);
+}
+
+static void parameters_reach_their_place(void **unused)
+{
+    (void)unused;
+    struct {
+        int64_t n;
+        bool b;
+        double x;
+    } section = {0};
+    const fracas_param params[] = {
+        {.name = "n", .type = FRACAS_INTEGER, .offset = (size_t)((char *)&section.n - (char *)&section)},
+        {.name = "b", .type = FRACAS_BOOLEAN, .offset = (size_t)((char *)&section.b - (char *)&section)},
+        {.name = "x", .type = FRACAS_REAL, .offset = (size_t)((char *)&section.x - (char *)&section)},
+    };
+    const double values[] = {-5, 1, 0.25};
+    for (int i = 0; i < 3; i++) {
+        fracas_param_set(&params[i], &section, values[i]);
+        assert_true(fracas_param_get(&params[i], &section) == values[i]);
+    }
+    assert_true(section.n == -5 && section.b && section.x == 0.25);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_error_carries_its_message_up),
+        cmocka_unit_test(hashes_are_xxh3),
+        cmocka_unit_test(json_is_well_formed),
+        cmocka_unit_test(parameters_reach_their_place),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
