@@ -6,13 +6,13 @@
 fracas_estimate fracas_estimate_of(const double *value, size_t stride, size_t count)
 {
     int64_t n = 0;
-    double sum = 0;
+    double first = NAN, sum = 0; /* of differences to the first value: equal values have a deviation of exactly 0 */
     for (size_t i = 0; i < count; i++) {
         if (!isfinite(value[i * stride])) continue;
-        sum += value[i * stride];
-        n++;
+        if (n++ == 0) first = value[i * stride];
+        sum += value[i * stride] - first;
     }
-    fracas_estimate estimate = {.n = n, .mean = n > 0 ? sum / (double)n : NAN, .deviation = NAN, .half_width = NAN};
+    fracas_estimate estimate = {.n = n, .mean = first + sum / (double)n, .deviation = NAN, .half_width = NAN};
     if (n < 2) return estimate;
     double squares = 0;
     for (size_t i = 0; i < count; i++) {

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* Equations S1 to S3. */
+/* (size-laws.1), (size-laws.2), (size-laws.3). */
 fracas_scales fracas_scales_of(double young, double density, double strength, double fracture_energy)
 {
     double speed = sqrt(young / density);
@@ -13,25 +13,25 @@ fracas_scales fracas_scales_of(double young, double density, double strength, do
     return scales;
 }
 
-/* Equation S4: the kinetic energy of expansion of a fragment pays for its surface. */
+/* (size-laws.4): the kinetic energy of expansion of a fragment pays for its surface. */
 static double grady(double e)
 {
     return cbrt(24 / (e * e));
 }
 
-/* Equation S5: as Grady, with the elastic energy stored at failure. */
+/* (size-laws.5): as Grady, with the elastic energy stored at failure. */
 static double glenn_chudnovsky(double e)
 {
     return 4 / e * sinh(asinh(1.5 * e) / 3);
 }
 
-/* Equation S6. */
+/* (size-laws.6). */
 static double zmr(double e)
 {
     return 4.5 / (1 + 4.5 * cbrt(e * e));
 }
 
-/* Equation S7. */
+/* (size-laws.7). */
 static double zmr2(double e)
 {
     double quarter = sqrt(sqrt(e));

@@ -8,7 +8,7 @@ typedef struct {
     double rate; /* edot0 [1/s] */
 } fracas_scales;
 
-/* t0 = E Gc/(sigma_c^2 c), s0 = c t0, edot0 = c sigma_c^3/(E^2 Gc) with c = sqrt(E/rho) (equations S1 to S3).
+/* t0 = E Gc/(sigma_c^2 c), s0 = c t0, edot0 = c sigma_c^3/(E^2 Gc) with c = sqrt(E/rho) (size-laws.1) to (size-laws.3).
  * young E > 0 [Pa], density rho > 0 [kg/m3], strength sigma_c > 0 [Pa], fracture_energy Gc > 0 [J/m2];
  * a NaN argument gives NaN scales. */
 fracas_scales fracas_scales_of(double young, double density, double strength, double fracture_energy);

@@ -6,7 +6,7 @@
 #include "analysis/size_laws.h"
 #include "base/err.h"
 #include "campaigns/points.h"
-#include "engine/record.h"
+#include "campaigns/store/store.h"
 
 #include <stdbool.h>
 

@@ -242,9 +242,12 @@ static void draw_marks(const frame *f, const fracas_series *series)
     for (size_t i = 0; i < series->n; i++) {
         if (!value_shown(f->panel, series, i)) continue;
         double x = fracas_scale_place(&f->x, series->x[i]), y = fracas_scale_place(&f->y, series->y[i]);
-        if (shown(series->low[i], &f->panel->y, -INFINITY) && isfinite(series->high[i])) {
-            double low = fracas_scale_place(&f->y, series->low[i]), high = fracas_scale_place(&f->y, series->high[i]);
-            fprintf(f->out, "<path class=\"bar\" d=\"M%.1f %.1fh8m-4 0V%.1fm-4 0h8\"/>\n", x - 4, low, high);
+        if (isfinite(series->low[i]) && isfinite(series->high[i])) {
+            bool open = !shown(series->low[i], &f->panel->y, -INFINITY);
+            double low = open ? f->y.from : fracas_scale_place(&f->y, series->low[i]);
+            double high = fracas_scale_place(&f->y, series->high[i]);
+            const char *foot = open ? "" : "m-4 0h8m-4 0";
+            fprintf(f->out, "<path class=\"bar\" d=\"M%.1f %.1f%sV%.1fm-4 0h8\"/>\n", x, low, foot, high);
         }
         fputs("<path class=\"mark\" d=\"", f->out);
         draw_mark(series->look, x, y, f->out);

@@ -11,7 +11,7 @@
 typedef enum {
     FRACAS_CURVE, /* straight lines from value to value */
     FRACAS_STEPS, /* from a value down to the next one's y, then across: a complementary cumulative */
-    FRACAS_MARKS  /* a mark a value, with a bar from low to high */
+    FRACAS_MARKS  /* a mark a value, with a bar from low to high; open below where low is off a log axis */
 } fracas_series_kind;
 
 typedef struct {
@@ -47,7 +47,7 @@ typedef struct {
     fracas_panel panel[FRACAS_MAX_PANELS];
 } fracas_chart;
 
-enum { FRACAS_CHART_WIDE = 520, FRACAS_CHART_NARROW = 380 }; /* narrow enough for text to be readable on a phone */
+enum { FRACAS_CHART_WIDE = 470, FRACAS_CHART_NARROW = 380 }; /* narrow enough for text to be readable on a phone */
 
 /* A wide chart without panels. */
 void fracas_chart_init(fracas_chart *chart);

@@ -249,8 +249,8 @@ fracas_err fracas_figure_sizes(const fracas_analysis *analysis, size_t point, fr
     TRY(add_sizes(statistics, 1 / prefix.factor, (unsigned)point, panel));
     name_cumulative_axes(panel);
     snprintf(panel->x.label, sizeof panel->x.label, "fragment size s [%sm]", prefix.sign);
-    snprintf(chart->caption, sizeof chart->caption, "%s: %zu fragments of %lld replicas.", label, statistics->nfragments,
-             (long long)statistics->usable);
+    snprintf(chart->caption, sizeof chart->caption, "%s; fragments: %zu, replicas: %lld.", label,
+             statistics->nfragments, (long long)statistics->usable);
     return FRACAS_OK;
 }
 

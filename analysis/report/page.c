@@ -24,11 +24,12 @@ static const char page_style[] =
     "h1{font-size:1.7rem;margin:.2rem 0 .6rem;overflow-wrap:anywhere}\n"
     "h2{font-size:1.2rem;margin:2.2rem 0 .6rem}\n"
     "a{color:inherit}p{max-width:60rem}.quiet,figcaption,dl{color:var(--quiet);font-size:.875rem}\n"
-    "dl{display:grid;grid-template-columns:max-content 1fr;gap:.1rem 1rem;margin:0}dd{margin:0;overflow-wrap:anywhere}\n"
+    "dl{display:grid;grid-template-columns:max-content 1fr;gap:.1rem 1rem;margin:0}\n"
+    "dd{margin:0;overflow-wrap:anywhere}\n"
     ".scroll{overflow-x:auto;border:1px solid var(--line);border-radius:6px}\n"
     "table{border-collapse:collapse;width:100%;font-size:.9rem;font-variant-numeric:tabular-nums}\n"
     "th,td{padding:.35rem .7rem;text-align:right;white-space:nowrap}th:last-child,td:last-child{text-align:left}\n"
-    "th small{font-weight:400;color:var(--quiet);display:block;min-height:1.2em}thead th{vertical-align:bottom}\n"
+    "th small{font-weight:400;color:var(--quiet);display:block}thead th{vertical-align:bottom}\n"
     "tbody tr{border-top:1px solid var(--line)}\n"
     ".warnings{background:var(--warn);border-left:4px solid var(--edge);border-radius:4px;margin:0;"
     "padding:.6rem 1rem .6rem 2rem}\n"
@@ -138,9 +139,9 @@ static fracas_err put_warnings(const report_page *page)
     TRY(fracas_analysis_warnings(page->analysis, &warning, &count));
     fputs("<h2>Warnings</h2>\n", page->out);
     if (count == 0) {
-        fputs("<p>None: no realization failed or was stopped by its time limit, ledger residuals are below 1e-3 and "
-              "created energy below 1e-2 of the dissipated energy, mean fragments have 10 elements or more, dust is below "
-              "5 %.</p>\n", page->out);
+        fputs("<p>None: no realization failed or was stopped by its time limit; ledger residuals are below 1e-3 and "
+              "created energy below 1e-2 of the dissipated energy; mean fragments have 10 elements or more; at most "
+              "5 % of the fragments are dust.</p>\n", page->out);
     } else {
         fputs("<ul class=\"warnings\">\n", page->out);
         for (size_t i = 0; i < count; i++) {
@@ -166,7 +167,8 @@ static void put_rows(const fracas_result_table *table, FILE *out)
         fputs("<th>", out);
         fracas_markup_text(fracas_result_table_cell(table, 0, c), out);
         fputs("<small>", out);
-        fracas_markup_text(fracas_result_table_cell(table, 1, c), out);
+        const char *unit = fracas_result_table_cell(table, 1, c);
+        fracas_markup_text(*unit ? unit : "\u00a0", out); /* keeps the names on one line */
         fputs("</small></th>", out);
     }
     fputs("</tr></thead>\n<tbody>\n", out);

@@ -10,6 +10,7 @@ import json
 import math
 import os
 import re
+import shutil
 import subprocess
 import sys
 import xml.etree.ElementTree as xml
@@ -49,6 +50,21 @@ for row, point, line in zip(rows, summary["points"], points):
         else:
             assert key == "rate" and point["parameters"]["loading.rate"] == value
     assert compared == len(row) - 7  # all but the rate and the outcomes
+
+# So does the SQL example, from the index, as far as the index goes.
+if shutil.which("sqlite3"):
+    with open(os.path.join(source, "docs/examples/table_from_index.sql")) as script:
+        printed = subprocess.run(["sqlite3", "-json", study + "/index.sqlite"], stdin=script, check=True,
+                                 capture_output=True, text=True).stdout
+    for row, point, line in zip(rows, summary["points"], json.loads(printed), strict=True):
+        assert line["point"] == point["hash"]
+        assert [line["planned"], line["done"] + line["failed"]] == [row["realizations"]] * 2
+        assert line["used"] == row["usable"] and line["failed"] == row["FAILED"]
+        for key, unit in (("count", ""), ("dissipated", "_J")):
+            assert same(line[f"{key}_mean{unit}"], row[key + ".mean"])
+            assert same(line[f"{key}_deviation{unit}"], row[key + ".deviation"])
+else:
+    print("not checked: table_from_index.sql, for want of the sqlite3 shell")
 
 # The terminal table shows those numbers: each to half a unit of its last digit (and a hair: ties round to even).
 UNIT = {"n": 1e-9, "u": 1e-6, "m": 1e-3, "": 1.0, "k": 1e3}
