@@ -53,6 +53,9 @@ FRACAS_MUST_USE fracas_err fracas_arguments_real(const fracas_arguments *argumen
 /* The same for one of `count` words: *value becomes its place. */
 FRACAS_MUST_USE fracas_err fracas_arguments_word(const fracas_arguments *arguments, size_t i, const char *const *words, size_t count, int *value);
 
+/* FRACAS_DAMAGED, saying what makes one, where `study` is no folder of a study. */
+FRACAS_MUST_USE fracas_err fracas_cli_check_study(const char *study);
+
 /* Prints the result table and writes the report of a study that is complete; with `json` prints the statistics as
  * JSON instead of the table. What `fracas run` ends with and `fracas report` does. */
 FRACAS_MUST_USE fracas_err fracas_cli_report(const char *study, bool json);

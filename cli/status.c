@@ -19,6 +19,7 @@ static const fracas_option options[] = {[JSON] = {"json", NULL, "print it as JSO
 typedef struct {
     const char *study;
     const fracas_campaign *campaign;
+    fracas_index *index;
     bool complete;               /* study.h5 is there and nothing is left to compute */
     fracas_index_counts all;
     fracas_index_counts *point;  /* campaign->npoints */
@@ -36,7 +37,17 @@ static void write_counts(fracas_json *json, const fracas_index_counts *counts)
     fracas_json_close_object(json);
 }
 
-static void write_json(const fracas_status *status)
+static void write_failure(void *json, const fracas_index_row *row, const char *reason)
+{
+    fracas_json_object(json, NULL);
+    fracas_json_integer(json, "point", (int64_t)row->point);
+    fracas_json_integer(json, "replica", row->replica);
+    fracas_json_integer(json, "attempts", row->attempts);
+    fracas_json_text(json, "reason", reason);
+    fracas_json_close_object(json);
+}
+
+static fracas_err write_json(const fracas_status *status)
 {
     fracas_json json;
     fracas_json_begin(&json, stdout);
@@ -57,8 +68,12 @@ static void write_json(const fracas_status *status)
         fracas_json_close_object(&json);
     }
     fracas_json_close_array(&json);
+    fracas_json_array(&json, "failures");
+    fracas_err code = fracas_index_failures(status->index, &status->campaign->table, write_failure, &json);
+    fracas_json_close_array(&json);
     fracas_json_close_object(&json);
     fracas_json_end(&json);
+    return code;
 }
 
 /* Columns whose value is not the same at every point: what the sweep varies. */
@@ -77,7 +92,7 @@ static void print_points(const fracas_status *status)
     fputs("\nrealizations    done  failed  point\n", stdout);
     for (size_t i = 0; i < table->npoints; i++) {
         const fracas_index_counts *counts = &status->point[i];
-        printf("%12" PRId64 "%8" PRId64 "%8" PRId64 " ", counts->realizations, counts->done, counts->failed);
+        printf("%12" PRId64 "%8" PRId64 "%8" PRId64 "  %zu", counts->realizations, counts->done, counts->failed, i);
         for (size_t c = 0; c < table->ncolumns; c++) {
             if (!varies(table, c)) continue;
             const fracas_value *value = &table->point[i].value[c];
@@ -88,7 +103,15 @@ static void print_points(const fracas_status *status)
     }
 }
 
-static void print_text(const fracas_status *status)
+static void print_failure(void *any, const fracas_index_row *row, const char *reason)
+{
+    bool *first = any;
+    if (*first) fputs("\nfailed\n", stdout);
+    *first = false;
+    printf("  point %zu replica %" PRId64 ", %" PRId64 " attempts: %s\n", row->point, row->replica, row->attempts, reason);
+}
+
+static fracas_err print_text(const fracas_status *status)
 {
     const fracas_index_counts *all = &status->all;
     printf("study         %s, of campaign %s\n", status->study, status->campaign->name);
@@ -101,33 +124,31 @@ static void print_text(const fracas_status *status)
         if (all->outcome[o]) printf(" %" PRId64 " %s", all->outcome[o], fracas_outcome_name(o));
     printf("\nsegments      %" PRId64 ", %.1f MB\n", all->segments, (double)all->bytes / 1e6);
     print_points(status);
+    bool first = true;
+    return fracas_index_failures(status->index, &status->campaign->table, print_failure, &first);
 }
 
 static fracas_err count(fracas_status *status)
 {
-    fracas_index *index;
-    TRY(fracas_index_open(status->study, false, &index));
-    fracas_err code = fracas_index_count(index, &status->all);
-    for (size_t i = 0; !code && i < status->campaign->npoints; i++)
-        code = fracas_index_count_point(index, &status->campaign->point[i].hash, &status->point[i]);
-    fracas_index_close(index);
-    return code;
+    const fracas_campaign *campaign = status->campaign;
+    TRY(fracas_index_count(status->index, &status->all));
+    for (size_t i = 0; i < campaign->npoints; i++)
+        TRY(fracas_index_count_point(status->index, &campaign->point[i].hash, &status->point[i]));
+    char result[PATH_MAX];
+    snprintf(result, sizeof result, "%s/study.h5", status->study);
+    status->complete = !access(result, R_OK) && status->all.done + status->all.failed == status->all.realizations;
+    return FRACAS_OK;
 }
 
 static fracas_err look(const fracas_campaign *campaign, const fracas_arguments *arguments)
 {
     fracas_status status = {.study = arguments->operand, .campaign = campaign};
+    TRY(fracas_index_open(status.study, false, &status.index));
     status.point = calloc(campaign->npoints, sizeof *status.point);
-    if (!status.point) return fracas_no_memory("the counts of the points");
-    fracas_err code = count(&status);
-    if (!code) {
-        char result[PATH_MAX];
-        snprintf(result, sizeof result, "%s/study.h5", status.study);
-        status.complete = !access(result, R_OK) && status.all.done + status.all.failed == status.all.realizations;
-        if (arguments->value[JSON]) write_json(&status);
-        else print_text(&status);
-    }
+    fracas_err code = status.point ? count(&status) : fracas_no_memory("the counts of the points");
+    if (!code) code = arguments->value[JSON] ? write_json(&status) : print_text(&status);
     free(status.point);
+    fracas_index_close(status.index);
     return code;
 }
 
@@ -135,10 +156,9 @@ static fracas_err status(const fracas_arguments *arguments)
 {
     const char *study = arguments->operand;
     char file[PATH_MAX];
-    snprintf(file, sizeof file, "%s/campaign.yaml", study);
-    if (access(file, R_OK))
-        return fracas_fail(FRACAS_DAMAGED, "%s is no study: there is no %s; `fracas run FILE` makes one", study, file);
     fracas_campaign *campaign;
+    TRY(fracas_cli_check_study(study));
+    snprintf(file, sizeof file, "%s/campaign.yaml", study);
     TRY(fracas_campaign_read(file, &campaign));
     fracas_err code = look(campaign, arguments);
     fracas_campaign_destroy(campaign);

@@ -18,6 +18,7 @@ static fracas_err verify(const fracas_arguments *arguments)
     const char *study = arguments->operand;
     int64_t problems = 0;
     fracas_err code;
+    TRY(fracas_cli_check_study(study));
     if (arguments->value[JSON]) {
         fracas_json json;
         fracas_json_begin(&json, stdout);

@@ -66,9 +66,9 @@ fi
 grep -q 'output could not be written' "$folder/err"
 
 # What is no study is said so, and stays as it is.
-for command in status report verify; do
-    mkdir "$folder/empty"
-    says 5 err "$folder/empty" "$command" "$folder/empty"
-    says 5 err "$folder/none" "$command" "$folder/none"
-    rmdir "$folder/empty"
+mkdir "$folder/empty"
+for study in "$folder/none" "$folder/empty"; do
+    for command in status report verify; do says 5 err "$study is no study" "$command" "$study"; done
 done
+rmdir "$folder/empty"
+[ ! -e "$folder/none" ]
