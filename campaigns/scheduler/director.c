@@ -125,7 +125,7 @@ static fracas_err set_up(fracas_director *director, bool *settled, int64_t *fail
 fracas_err fracas_settled_verdict(const char *study, int64_t failed)
 {
     if (!failed) return FRACAS_OK;
-    return fracas_fail(FRACAS_SOME_FAILED, "%lld realizations of %s FAILED (which and why: fracas status %s)",
+    return fracas_fail(FRACAS_SOME_FAILED, "%lld realization(s) of %s FAILED (which and why: fracas status %s)",
                        (long long)failed, study, study);
 }
 
@@ -194,14 +194,17 @@ static fracas_err offer_all(fracas_director *director)
 
 static fracas_err hear_ready(fracas_director *director, size_t worker, const fracas_packet *message)
 {
-    TRY(fracas_packet_expect(message, sizeof(fracas_hash)));
+    director->phase[worker] = WORKING;
+    if (director->stopping) {
+        stop_worker(director, worker);
+        return FRACAS_OK;
+    }
     fracas_hash campaign;
+    TRY(fracas_packet_expect(message, sizeof campaign));
     memcpy(&campaign, message->body, sizeof campaign);
     if (!fracas_hash_equal(&campaign, &director->setup.campaign->hash))
         return fracas_fail(FRACAS_ENVIRONMENT, "rank %zu read another campaign from %s than rank 0: it changed while the "
                            "run started, or is not the same file on all hosts", worker, director->setup.options->file);
-    director->phase[worker] = WORKING;
-    if (director->stopping) stop_worker(director, worker);
     return offer(director, worker);
 }
 
