@@ -1,0 +1,307 @@
+#include "base/units.h"
+
+#include <ctype.h>
+#include <locale.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <udunits2.h>
+
+struct fracas_units {
+    ut_system *system;
+};
+
+/* Dimensions by the name a reader knows, and how they are written. */
+static const struct {
+    const char *unit, *what, *write_in;
+} dimensions[] = {
+    {"1", "a pure number", "no unit, or %"},
+    {"m", "a length", "m or mm"},
+    {"m2", "an area", "m2 or mm2"},
+    {"m3", "a volume", "m3 or mm3"},
+    {"s", "a time", "s or us"},
+    {"1/s", "a rate", "1/s"},
+    {"kg", "a mass", "kg or g"},
+    {"kg/m3", "a density", "kg/m3 or g/cm3"},
+    {"m/s", "a velocity", "m/s"},
+    {"m/s2", "an acceleration", "m/s2"},
+    {"N", "a force", "N or kN"},
+    {"Pa", "a stress", "Pa or MPa"},
+    {"J", "an energy", "J or mJ"},
+    {"J/m2", "an energy per area", "J/m2 or kJ/m2"},
+    {"K", "a temperature", "K"},
+};
+static const size_t ndimensions = sizeof dimensions / sizeof *dimensions;
+
+/* ---- numbers ---- */
+
+/* The "C" locale for this thread while numbers are read or written; glibc keeps it ready, so this allocates nothing. */
+static locale_t enter_plain_locale(void)
+{
+    return uselocale(newlocale(LC_ALL_MASK, "C", (locale_t)0));
+}
+
+void fracas_number_write(double value, char text[FRACAS_NUMBER_TEXT])
+{
+    locale_t before = enter_plain_locale();
+    snprintf(text, FRACAS_NUMBER_TEXT, "%.15g", value == 0.0 ? 0.0 : value);
+    uselocale(before);
+}
+
+double fracas_number_round(double value)
+{
+    char text[FRACAS_NUMBER_TEXT];
+    fracas_number_write(value, text);
+    locale_t before = enter_plain_locale();
+    double rounded = strtod(text, NULL);
+    uselocale(before);
+    return rounded;
+}
+
+static size_t digits(const char *text)
+{
+    return strspn(text, "0123456789");
+}
+
+/* Length of the number that `text` starts with; 0 if it starts with none. */
+static size_t number_length(const char *text)
+{
+    size_t at = text[0] == '+' || text[0] == '-';
+    size_t whole = digits(text + at), fraction = 0;
+    at += whole;
+    if (text[at] == '.') {
+        fraction = digits(text + at + 1);
+        at += 1 + fraction;
+    }
+    if (whole + fraction == 0) return 0;
+    if (text[at] == 'e' || text[at] == 'E') {
+        size_t sign = text[at + 1] == '+' || text[at + 1] == '-';
+        size_t exponent = digits(text + at + 1 + sign);
+        if (exponent > 0) at += 1 + sign + exponent;
+    }
+    return at;
+}
+
+/* The double nearest to the number that `text` starts with. */
+static fracas_err number_value(const char *text, double *value)
+{
+    locale_t before = enter_plain_locale();
+    double read = strtod(text, NULL);
+    uselocale(before);
+    if (!isfinite(read)) return fracas_fail(FRACAS_USAGE, "`%s` is too large for a double-precision number", text);
+    bool zero = true; /* as written, not by underflow */
+    for (const char *c = text; *c && *c != 'e' && *c != 'E' && *c != ' '; c++)
+        if (*c >= '1' && *c <= '9') zero = false;
+    if (!zero && fabs(read) < 2.2250738585072014e-308)
+        return fracas_fail(FRACAS_USAGE, "`%s` is too small for a double-precision number", text);
+    *value = read;
+    return FRACAS_OK;
+}
+
+fracas_err fracas_number_read(const char *text, double *value)
+{
+    size_t length = number_length(text);
+    if (length == 0 || text[length] != '\0')
+        return fracas_fail(FRACAS_USAGE, "`%s` is not a number", text);
+    return number_value(text, value);
+}
+
+/* ---- units ---- */
+
+fracas_err fracas_units_create(fracas_units **units)
+{
+    fracas_units *made = malloc(sizeof *made);
+    if (!made) return fracas_no_memory("the unit database");
+    ut_set_error_message_handler(ut_ignore);
+    locale_t before = enter_plain_locale();
+    made->system = ut_read_xml(NULL);
+    uselocale(before);
+    if (!made->system) {
+        free(made);
+        return fracas_fail(FRACAS_ENVIRONMENT, "cannot load the unit database of UDUNITS-2; install the package "
+                                               "libudunits2-data, and unset UDUNITS2_XML_PATH if it is set");
+    }
+    *units = made;
+    return FRACAS_OK;
+}
+
+void fracas_units_destroy(fracas_units *units)
+{
+    if (!units) return;
+    ut_free_system(units->system);
+    free(units);
+}
+
+void fracas_units_describe(const char *si, const char **what, const char **write_in)
+{
+    *what = "a value";
+    *write_in = si;
+    for (size_t i = 0; i < ndimensions; i++)
+        if (strcmp(dimensions[i].unit, si) == 0) {
+            *what = dimensions[i].what;
+            *write_in = dimensions[i].write_in;
+        }
+}
+
+/* Words that make UDUNITS-2 read what follows as an origin. */
+static bool is_origin_word(const char *word, size_t length)
+{
+    static const char *const words[] = {"since", "from", "after", "ref", "at"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strlen(words[i]) == length && strncasecmp(words[i], word, length) == 0) return true;
+    return false;
+}
+
+/* Skips a name (ASCII letters, the two characters for micro) and its exponent; NULL if there is none. */
+static const char *skip_power(const char *at)
+{
+    const char *name = at;
+    for (;;) {
+        if (isascii((unsigned char)*at) && isalpha((unsigned char)*at)) at++;
+        else if (strncmp(at, "\xc2\xb5", 2) == 0 || strncmp(at, "\xce\xbc", 2) == 0) at += 2;
+        else break;
+    }
+    if (at == name || is_origin_word(name, (size_t)(at - name))) return NULL;
+    if (strncmp(at, "\xc2\xb2", 2) == 0 || strncmp(at, "\xc2\xb3", 2) == 0) return at + 2; /* squared, cubed */
+    const char *exponent = at + (*at == '^');
+    exponent += *exponent == '-';
+    size_t length = digits(exponent);
+    if (length == 0) return exponent == at ? at : NULL;
+    return length <= 2 ? exponent + length : NULL;
+}
+
+/* True for products and quotients of powers of names, with at most one level of brackets. */
+static bool is_plain_unit(const char *at)
+{
+    bool inside = false;
+    for (;;) {
+        if (*at == '(' && !inside) {
+            inside = true;
+            at++;
+        }
+        at = *at == '1' ? at + 1 : skip_power(at);
+        if (!at) return false;
+        if (*at == ')' && inside) {
+            inside = false;
+            at++;
+        }
+        if (*at == '\0') return !inside;
+        size_t blanks = strspn(at, " ");
+        at += blanks;
+        if (*at == '/' || *at == '*' || *at == '.') {
+            at++;
+            at += strspn(at, " ");
+        } else if (blanks == 0) {
+            return false;
+        }
+    }
+}
+
+/* What a unit measures: one of the table, or its dimension. */
+static void name_dimension(ut_system *system, const ut_unit *unit, char *what, size_t size)
+{
+    bool found = false;
+    for (size_t i = 0; i < ndimensions && !found; i++) {
+        ut_unit *known = ut_parse(system, dimensions[i].unit, UT_UTF8);
+        ut_unit *ratio = known ? ut_divide(unit, known) : NULL;
+        found = ratio && ut_is_dimensionless(ratio);
+        if (found) snprintf(what, size, "%s", dimensions[i].what);
+        ut_free(ratio);
+        ut_free(known);
+    }
+    char formatted[64];
+    if (found) return;
+    int length = ut_format(unit, formatted, sizeof formatted - 1, UT_ASCII);
+    formatted[length < 0 ? 0 : length >= (int)sizeof formatted ? (int)sizeof formatted - 1 : length] = '\0';
+    snprintf(what, size, "a quantity in %s", formatted);
+}
+
+static double convert_once(ut_unit *from, ut_unit *to, double value)
+{
+    cv_converter *converter = ut_get_converter(from, to);
+    if (!converter) return NAN;
+    double converted = cv_convert_double(converter, value);
+    cv_free(converter);
+    return converted;
+}
+
+/* Factor from `found` to `expected`; NAN when they measure different things, 0 for a unit with an origin of its own. The
+ * ratio is taken because ut_are_convertible() holds s and 1/s for convertible (by the reciprocal). */
+static double unit_factor(ut_system *system, ut_unit *found, ut_unit *expected)
+{
+    double factor = NAN;
+    ut_unit *ratio = ut_divide(found, expected), *one = ut_get_dimensionless_unit_one(system);
+    if (ratio && one && ut_is_dimensionless(ratio))
+        factor = convert_once(found, expected, 0.0) == 0.0 ? convert_once(ratio, one, 1.0) : 0.0;
+    ut_free(ratio);
+    ut_free(one);
+    return factor;
+}
+
+/* Factor from the unit written as `name` to `expected`, or what is wrong with it. `text`: the whole value. */
+static fracas_err parse_factor(ut_system *system, const char *text, const char *name, const char *si, double *factor)
+{
+    const char *what, *write_in;
+    fracas_units_describe(si, &what, &write_in);
+    ut_unit *expected = ut_parse(system, si, UT_UTF8);
+    if (!expected) return fracas_fail(FRACAS_BUG, "a parameter table has the unit `%s`, unknown to UDUNITS-2", si);
+    const bool plain = is_plain_unit(name);
+    ut_unit *found = plain ? ut_parse(system, name, UT_UTF8) : NULL;
+    fracas_err err = FRACAS_OK;
+    if (!found && plain && ut_get_status() == UT_OS) {
+        err = fracas_no_memory("a unit");
+    } else if (!found) {
+        err = fracas_fail(FRACAS_USAGE, "`%s` has an unknown unit, `%s`; expected %s, in %s", text, name, what, write_in);
+    } else {
+        *factor = unit_factor(system, found, expected);
+        if (isnan(*factor)) {
+            char is[96];
+            name_dimension(system, found, is, sizeof is);
+            err = fracas_fail(FRACAS_USAGE, "`%s` is %s; expected %s, in %s", text, is, what, write_in);
+        } else if (*factor == 0.0) {
+            err = fracas_fail(FRACAS_USAGE, "`%s` is counted from an origin of its own; expected %s, in %s", text, what,
+                              write_in);
+        }
+    }
+    ut_free(found);
+    ut_free(expected);
+    return err;
+}
+
+/* Reads the unit `name` that follows the number in `text`. */
+static fracas_err read_factor(const fracas_units *units, const char *text, const char *name, const char *si,
+                              double *factor)
+{
+    if (strcmp(si, "1") == 0) {
+        *factor = 0.01;
+        if (strcmp(name, "%") == 0) return FRACAS_OK;
+        return fracas_fail(FRACAS_USAGE, "`%s` has a unit; expected a pure number, with no unit, or %%", text);
+    }
+    locale_t before = enter_plain_locale();
+    fracas_err err = parse_factor(units->system, text, name, si, factor);
+    uselocale(before);
+    return err;
+}
+
+fracas_err fracas_units_read(const fracas_units *units, const char *text, const char *si, double *value)
+{
+    const char *what, *write_in;
+    fracas_units_describe(si, &what, &write_in);
+    size_t length = number_length(text);
+    const char *unit = text + length + strspn(text + length, " ");
+    bool apart = unit > text + length || strcmp(unit, "%") == 0;
+    if (length == 0 || (*unit && !apart))
+        return fracas_fail(FRACAS_USAGE, "`%s` is not a number; expected %s, in %s%s", text, what, write_in,
+                           length > 0 && strcmp(si, "1") != 0 ? ", with a space before the unit" : "");
+    double number, factor = 1.0;
+    TRY(number_value(text, &number));
+    if (*unit) TRY(read_factor(units, text, unit, si, &factor));
+    double converted = number * factor;
+    if (!isfinite(converted) || (number != 0.0 && fabs(converted) < 2.2250738585072014e-308))
+        return fracas_fail(FRACAS_USAGE, "`%s` is too %s for a double-precision number in %s", text,
+                           fabs(converted) > 1.0 ? "large" : "small", si);
+    *value = fracas_number_round(converted);
+    return FRACAS_OK;
+}

@@ -1,0 +1,136 @@
+#include "campaigns/campaign.h"
+
+#include "base/units.h"
+#include "campaigns/file/memory.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+void fracas_campaign_destroy(fracas_campaign *campaign)
+{
+    if (!campaign) return;
+    fracas_memory_destroy(campaign->memory);
+    free(campaign);
+}
+
+/* ---- extending ---- */
+
+static fracas_value value_at(const fracas_point_table *table, size_t point, const char *path)
+{
+    size_t column = fracas_point_table_find(table, path);
+    return column == SIZE_MAX ? (fracas_value){.real = NAN, .text = ""} : table->point[point].value[column];
+}
+
+static bool is_equal(const fracas_value *a, const fracas_value *b)
+{
+    return (a->real == b->real || (isnan(a->real) && isnan(b->real))) && strcmp(a->text, b->text) == 0;
+}
+
+/* A column that is part of a point's identity: not `case`, nor what is derived from others. */
+static bool is_identity(const fracas_column *column)
+{
+    return strcmp(column->path, "case") != 0 && strncmp(column->path, "derived.", 8) != 0;
+}
+
+/* How many values of point `b` of `before` differ in point `n` of `now`, and the first that does. Columns of `now` that
+ * `before` lacks come with a kind, which differs too. */
+static size_t count_differences(const fracas_point_table *now, size_t n, const fracas_point_table *before, size_t b,
+                                const fracas_column **first)
+{
+    size_t count = 0;
+    for (size_t c = 0; c < before->ncolumns; c++) {
+        const fracas_column *column = &before->column[c];
+        fracas_value is = value_at(now, n, column->path);
+        if (!is_identity(column) || is_equal(&is, &before->point[b].value[c])) continue;
+        if (count++ == 0) *first = column;
+    }
+    return count;
+}
+
+static void write_text(const fracas_column *column, const fracas_value *value, char text[64])
+{
+    char number[FRACAS_NUMBER_TEXT];
+    fracas_number_write(value->real, number);
+    const bool pure = strcmp(column->unit, "1") == 0;
+    if (column->text) snprintf(text, 64, "%s", *value->text ? value->text : "nothing");
+    else if (isnan(value->real)) snprintf(text, 64, "nothing");
+    else snprintf(text, 64, "%s%s%s", number, pure ? "" : " ", pure ? "" : column->unit);
+}
+
+/* The point of `before` is not in `now`: names its first difference from the point of `now` that is most like it. */
+static fracas_err say_point_missing(const fracas_campaign *now, const fracas_campaign *before, size_t b)
+{
+    const fracas_column *column = NULL;
+    size_t like = 0, least = SIZE_MAX;
+    for (size_t n = 0; n < now->npoints; n++) {
+        const fracas_column *first = NULL;
+        size_t count = count_differences(&now->table, n, &before->table, b, &first);
+        if (count >= least || !first) continue;
+        least = count;
+        like = n;
+        column = first;
+    }
+    if (!column)
+        return fracas_fail(FRACAS_DAMAGED, "the study has a point %zu that this campaign file has not; give the campaign a "
+                                           "new name or another --study", b + 1);
+    char was[64], is[64];
+    fracas_value value = value_at(&now->table, like, column->path);
+    write_text(column, &value, is);
+    value = value_at(&before->table, b, column->path);
+    write_text(column, &value, was);
+    return fracas_fail(FRACAS_DAMAGED, "%s is %s in the study (its point %zu), but %s in this campaign file; a study can be "
+                                       "extended by points and replicas, anything else needs a new name or another --study",
+                       column->path, was, b + 1, is);
+}
+
+static fracas_err check_settings(const fracas_campaign *now, const fracas_campaign *before)
+{
+    static const char *const remedy = "it must stay as it is; else give the campaign a new name or another --study";
+    if (now->seed != before->seed)
+        return fracas_fail(FRACAS_DAMAGED, "seed is %" PRIu64 " in the study, but %" PRIu64 " in this campaign file; %s",
+                           before->seed, now->seed, remedy);
+    if (now->output.history != before->output.history)
+        return fracas_fail(FRACAS_DAMAGED, "output.history is %" PRId64 " in the study, but %" PRId64 " in this campaign "
+                                           "file; %s", before->output.history, now->output.history, remedy);
+    if (now->output.interfaces != before->output.interfaces)
+        return fracas_fail(FRACAS_DAMAGED, "output.interfaces is %s in the study, but %s in this campaign file; %s",
+                           before->output.interfaces ? "true" : "false", now->output.interfaces ? "true" : "false", remedy);
+    return FRACAS_OK;
+}
+
+typedef struct {
+    const fracas_point *point;
+} point_link;
+
+static int by_hash(const void *a, const void *b)
+{
+    return memcmp(((const point_link *)a)->point->hash.byte, ((const point_link *)b)->point->hash.byte,
+                  sizeof(fracas_hash));
+}
+
+static fracas_err check_points(const fracas_campaign *now, const fracas_campaign *before, const point_link *sorted)
+{
+    for (size_t b = 0; b < before->npoints; b++) {
+        const fracas_point *was = &before->point[b];
+        const point_link wanted = {was}, *found = bsearch(&wanted, sorted, now->npoints, sizeof *sorted, by_hash);
+        if (!found) return say_point_missing(now, before, b);
+        if (found->point->replicas < was->replicas)
+            return fracas_fail(FRACAS_DAMAGED, "replicas is %" PRId64 " in the study (its point %zu), but %" PRId64
+                                               " in this campaign file; it can only grow", was->replicas, b + 1,
+                               found->point->replicas);
+    }
+    return FRACAS_OK;
+}
+
+fracas_err fracas_campaign_extends(const fracas_campaign *now, const fracas_campaign *before)
+{
+    TRY(check_settings(now, before));
+    point_link *sorted = malloc(now->npoints * sizeof *sorted);
+    if (!sorted) return fracas_no_memory("the points of the campaign");
+    for (size_t n = 0; n < now->npoints; n++) sorted[n].point = &now->point[n];
+    qsort(sorted, now->npoints, sizeof *sorted, by_hash);
+    fracas_err err = check_points(now, before, sorted);
+    free(sorted);
+    return err;
+}

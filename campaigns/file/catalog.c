@@ -1,0 +1,187 @@
+#include "campaigns/file/catalog.h"
+
+#include "base/units.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const fracas_param output_params[] = {
+    {"history", FRACAS_INTEGER, "1", "equal intervals of time.end at which energies are kept; 0: only at onset, at the "
+     "energy peak and at the end", 100, 0, 1e6, false, offsetof(fracas_output, history)},
+    {"interfaces", FRACAS_BOOLEAN, "1", "keep strength, damage, onset and break time of every interface", 0, 0, 1, false,
+     offsetof(fracas_output, interfaces)},
+};
+static const fracas_section output_section = {
+    .name = "output", .doc = "What is kept beside the results of every realization", .params = output_params,
+    .nparams = FRACAS_COUNT(output_params),
+};
+
+/* ---- making it ---- */
+
+static fracas_err make_sections(fracas_campaign_memory *memory, fracas_catalog *catalog)
+{
+    size_t count = fracas_engine_nsections + 2;
+    fracas_file_section *section = fracas_memory_take(memory, count, sizeof *section);
+    if (!section) return fracas_no_memory("the list of sections");
+    for (size_t i = 0; i < fracas_engine_nsections; i++)
+        section[i] = (fracas_file_section){fracas_engine_sections[i],
+                                           offsetof(fracas_point, spec) + fracas_engine_sections[i]->offset};
+    section[count - 2] = (fracas_file_section){&fracas_strength_section, offsetof(fracas_point, strength)};
+    section[count - 1] = (fracas_file_section){&output_section, 0};
+    catalog->section = section;
+    catalog->nsections = count;
+    return FRACAS_OK;
+}
+
+/* Counts the leaves a section can have at most. */
+static size_t most_leaves(const fracas_section *section)
+{
+    size_t count = (section->nkinds > 0) + section->nparams;
+    for (size_t k = 0; k < section->nkinds; k++) count += section->kinds[k]->nparams;
+    return count;
+}
+
+typedef struct {
+    fracas_campaign_memory *memory;
+    fracas_leaf *leaf;
+    size_t count;
+} leaf_list;
+
+static fracas_err add_leaf(leaf_list *list, const fracas_file_section *section, const char *key,
+                           const fracas_param *param)
+{
+    for (size_t i = 0; i < list->count; i++)
+        if (list->leaf[i].section == section && strcmp(list->leaf[i].key, key) == 0) return FRACAS_OK;
+    const char *name = section->table->name;
+    size_t size = strlen(name) + 1 + strlen(key) + 1;
+    char *path = fracas_memory_take(list->memory, size, 1);
+    if (!path) return fracas_no_memory("the list of keys");
+    if (key == name) snprintf(path, size, "%s", name);
+    else snprintf(path, size, "%s.%s", name, key);
+    list->leaf[list->count++] = (fracas_leaf){section, path, key, param};
+    return FRACAS_OK;
+}
+
+static fracas_err add_params(leaf_list *list, const fracas_file_section *section, const fracas_param *params, size_t count)
+{
+    for (size_t p = 0; p < count; p++) TRY(add_leaf(list, section, params[p].name, &params[p]));
+    return FRACAS_OK;
+}
+
+static fracas_err add_leaves(leaf_list *list, const fracas_file_section *section)
+{
+    const fracas_section *table = section->table;
+    if (table->nkinds > 0) TRY(add_leaf(list, section, table->selector ? table->selector : table->name, NULL));
+    TRY(add_params(list, section, table->params, table->nparams));
+    for (size_t k = 0; k < table->nkinds; k++)
+        TRY(add_params(list, section, table->kinds[k]->params, table->kinds[k]->nparams));
+    return FRACAS_OK;
+}
+
+static int by_path(const void *a, const void *b)
+{
+    return strcmp(((const fracas_leaf *)a)->path, ((const fracas_leaf *)b)->path);
+}
+
+fracas_err fracas_catalog_make(fracas_campaign_memory *memory, const fracas_catalog **catalog)
+{
+    fracas_catalog *made = fracas_memory_take(memory, 1, sizeof *made);
+    if (!made) return fracas_no_memory("the list of keys");
+    TRY(make_sections(memory, made));
+    size_t most = 0;
+    for (size_t s = 0; s < made->nsections; s++) most += most_leaves(made->section[s].table);
+    leaf_list list = {.memory = memory, .leaf = fracas_memory_take(memory, most, sizeof *list.leaf)};
+    if (!list.leaf) return fracas_no_memory("the list of keys");
+    for (size_t s = 0; s < made->nsections; s++) TRY(add_leaves(&list, &made->section[s]));
+    qsort(list.leaf, list.count, sizeof *list.leaf, by_path);
+    made->leaf = list.leaf;
+    made->nleaves = list.count;
+    *catalog = made;
+    return FRACAS_OK;
+}
+
+/* ---- looking things up ---- */
+
+const fracas_file_section *fracas_catalog_section(const fracas_catalog *catalog, const char *name)
+{
+    for (size_t s = 0; s < catalog->nsections; s++)
+        if (strcmp(catalog->section[s].table->name, name) == 0) return &catalog->section[s];
+    return NULL;
+}
+
+const fracas_leaf *fracas_catalog_leaf(const fracas_catalog *catalog, const char *path)
+{
+    for (size_t i = 0; i < catalog->nleaves; i++)
+        if (strcmp(catalog->leaf[i].path, path) == 0) return &catalog->leaf[i];
+    return NULL;
+}
+
+const fracas_leaf *fracas_catalog_key(const fracas_catalog *catalog, const fracas_file_section *section, const char *key)
+{
+    for (size_t i = 0; i < catalog->nleaves; i++)
+        if (catalog->leaf[i].section == section && strcmp(catalog->leaf[i].key, key) == 0) return &catalog->leaf[i];
+    return NULL;
+}
+
+const fracas_leaf *fracas_catalog_selector(const fracas_catalog *catalog, const fracas_file_section *section)
+{
+    for (size_t i = 0; i < catalog->nleaves; i++)
+        if (catalog->leaf[i].section == section && !catalog->leaf[i].param) return &catalog->leaf[i];
+    return NULL;
+}
+
+static const fracas_param *find_param(const fracas_param *params, size_t count, const char *key)
+{
+    for (size_t p = 0; p < count; p++)
+        if (strcmp(params[p].name, key) == 0) return &params[p];
+    return NULL;
+}
+
+const fracas_param *fracas_section_param(const fracas_section *section, const fracas_kind *kind, const char *key,
+                                         bool *common)
+{
+    const fracas_param *param = find_param(section->params, section->nparams, key);
+    *common = param != NULL;
+    return param || !kind ? param : find_param(kind->params, kind->nparams, key);
+}
+
+/* ---- values ---- */
+
+void *fracas_section_at(const fracas_file_section *section, void *owner)
+{
+    return (char *)owner + section->offset;
+}
+
+static const void *section_in(const fracas_file_section *section, const void *owner)
+{
+    return (const char *)owner + section->offset;
+}
+
+const fracas_kind *fracas_section_kind(const fracas_file_section *section, const void *owner)
+{
+    if (section->table->nkinds == 0) return NULL;
+    const char *at = section_in(section, owner);
+    return *(const fracas_kind *const *)(const void *)(at + section->table->kind_offset);
+}
+
+bool fracas_leaf_get(const fracas_leaf *leaf, const void *owner, fracas_value *value)
+{
+    const fracas_kind *kind = fracas_section_kind(leaf->section, owner);
+    *value = (fracas_value){.real = NAN, .text = ""};
+    if (!leaf->param) {
+        value->text = kind->name;
+        return true;
+    }
+    bool common;
+    const fracas_param *param = fracas_section_param(leaf->section->table, kind, leaf->key, &common);
+    if (param) value->real = fracas_param_get(param, section_in(leaf->section, owner));
+    return param != NULL;
+}
+
+void fracas_leaf_write(const fracas_leaf *leaf, const fracas_value *value, char text[FRACAS_LEAF_TEXT])
+{
+    if (!leaf->param) snprintf(text, FRACAS_LEAF_TEXT, "%s", value->text);
+    else if (leaf->param->type == FRACAS_BOOLEAN) snprintf(text, FRACAS_LEAF_TEXT, "%s", value->real != 0.0 ? "true" : "false");
+    else fracas_number_write(value->real, text);
+}

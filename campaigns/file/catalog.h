@@ -1,0 +1,58 @@
+/* Everything a campaign file can say, gathered from the parameter tables of the engine, the sampler and the output. */
+#ifndef FRACAS_CAMPAIGNS_FILE_CATALOG_H
+#define FRACAS_CAMPAIGNS_FILE_CATALOG_H
+
+#include "base/param.h"
+#include "campaigns/campaign.h"
+#include "campaigns/file/memory.h"
+
+/* A section and the struct that holds its values. A hashed section is part of a point: its owner is a fracas_point;
+ * the owner of any other is the campaign's fracas_output. */
+typedef struct {
+    const fracas_section *table;
+    size_t offset; /* of the section's struct in its owner */
+} fracas_file_section;
+
+/* A scalar or enum that a file can set. Kinds of one section that have a key in common (`minimum`) share its leaf: type
+ * and unit are the same, range and default may differ. */
+typedef struct {
+    const fracas_file_section *section;
+    const char *path;          /* dotted; for a section that is a kind and no more (`model`), its name */
+    const char *key;           /* in its section */
+    const fracas_param *param; /* NULL: names the section's kind. Of several kinds, the first one's */
+} fracas_leaf;
+
+typedef struct {
+    size_t nsections;
+    const fracas_file_section *section; /* in the order of a written file */
+    size_t nleaves;
+    const fracas_leaf *leaf;            /* sorted by path */
+} fracas_catalog;
+
+/* The catalog belongs to `memory`. */
+FRACAS_MUST_USE fracas_err fracas_catalog_make(fracas_campaign_memory *memory, const fracas_catalog **catalog);
+
+/* NULL if there is none of that name. */
+const fracas_file_section *fracas_catalog_section(const fracas_catalog *catalog, const char *name);
+const fracas_leaf *fracas_catalog_leaf(const fracas_catalog *catalog, const char *path);
+const fracas_leaf *fracas_catalog_key(const fracas_catalog *catalog, const fracas_file_section *section, const char *key);
+/* The leaf that names the section's kind; NULL for a section without kinds. */
+const fracas_leaf *fracas_catalog_selector(const fracas_catalog *catalog, const fracas_file_section *section);
+
+/* The parameter `key` of a section of this kind (NULL: no kinds); NULL if it has none. *common: whatever the kind. */
+const fracas_param *fracas_section_param(const fracas_section *section, const fracas_kind *kind, const char *key,
+                                         bool *common);
+
+/* The section's struct within its owner. */
+void *fracas_section_at(const fracas_file_section *section, void *owner);
+/* The kind that the section has in its owner; NULL without kinds. */
+const fracas_kind *fracas_section_kind(const fracas_file_section *section, const void *owner);
+
+/* The leaf's value in its owner; false if the owner's kind has no such value. */
+bool fracas_leaf_get(const fracas_leaf *leaf, const void *owner, fracas_value *value);
+
+#define FRACAS_LEAF_TEXT 64 /* bytes that fracas_leaf_write needs: a kind's name is shorter */
+/* The value as it is written in files and hashed: a kind's name, true or false, or a number as "%.15g". */
+void fracas_leaf_write(const fracas_leaf *leaf, const fracas_value *value, char text[FRACAS_LEAF_TEXT]);
+
+#endif

@@ -1,0 +1,84 @@
+#include "campaigns/file/range.h"
+
+#include "base/elementary.h"
+#include "campaigns/file/say.h"
+#include "campaigns/file/sweep.h"
+
+#include <math.h>
+#include <string.h>
+
+static fracas_err read_end(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node, const char *key,
+                           double *value)
+{
+    const fracas_node *end = fracas_node_find(node, key);
+    if (!end)
+        return fracas_say(file->name, node, "a range without `%s`; expected {from: ..., to: ..., points: ...}", key);
+    fracas_setting setting;
+    TRY(fracas_setting_read(file, leaf, end, &setting));
+    *value = setting.value;
+    return FRACAS_OK;
+}
+
+static fracas_err check_keys(const fracas_file *file, const fracas_node *node)
+{
+    static const char *const keys[] = {"from", "to", "points", "spacing"};
+    for (const fracas_node *entry = node->first; entry; entry = entry->next) {
+        fracas_words words;
+        fracas_words_init(&words, entry->key->text);
+        bool known = false;
+        for (size_t k = 0; k < FRACAS_COUNT(keys); k++) {
+            fracas_words_add(&words, keys[k]);
+            known = known || strcmp(keys[k], entry->key->text) == 0;
+        }
+        char hint[600];
+        if (!known)
+            return fracas_say(file->name, entry->key, "unknown key `%s` in a range%s", entry->key->text,
+                              fracas_words_hint(&words, "keys of a range", hint));
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err read_spacing(const fracas_file *file, const fracas_node *node, fracas_range *range)
+{
+    const fracas_node *spacing = fracas_node_find(node, "spacing");
+    char found[256];
+    if (!spacing) return FRACAS_OK;
+    range->logarithmic = spacing->type == FRACAS_SCALAR && strcmp(spacing->text, "log") == 0;
+    if (!range->logarithmic && (spacing->type != FRACAS_SCALAR || strcmp(spacing->text, "lin") != 0))
+        return fracas_say(file->name, spacing, "`spacing`: found %s; expected lin (equal differences) or log (equal ratios)",
+                          fracas_say_found(spacing, found));
+    if (range->logarithmic && (range->from <= 0.0 || range->to <= 0.0))
+        return fracas_say(file->name, spacing, "spacing log needs `from` and `to` greater than 0; use spacing lin");
+    return FRACAS_OK;
+}
+
+fracas_err fracas_range_read(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node,
+                             fracas_range *range)
+{
+    *range = (fracas_range){0};
+    if (!leaf->param || leaf->param->type == FRACAS_BOOLEAN)
+        return fracas_say(file->name, node, "`%s` is not a number, so it has no range; expected a list, [...]", leaf->path);
+    range->whole = leaf->param->type == FRACAS_INTEGER;
+    TRY(check_keys(file, node));
+    TRY(read_end(file, leaf, node, "from", &range->from));
+    TRY(read_end(file, leaf, node, "to", &range->to));
+    if (range->from == range->to)
+        return fracas_say(file->name, node, "a range whose `from` and `to` are equal; write the one value in a list");
+    const fracas_node *points = fracas_node_find(node, "points");
+    int64_t count;
+    if (!points)
+        return fracas_say(file->name, node, "a range without `points`; expected {from: ..., to: ..., points: ...}");
+    TRY(fracas_setting_integer(file, "points", points, 2, FRACAS_MAX_POINTS, &count));
+    range->points = (size_t)count;
+    return read_spacing(file, node, range);
+}
+
+double fracas_range_value(const fracas_range *range, size_t i)
+{
+    if (i == 0) return range->from;
+    if (i == range->points - 1) return range->to;
+    double part = (double)i / (double)(range->points - 1);
+    double value = range->logarithmic ? fracas_pow(range->from, 1.0 - part) * fracas_pow(range->to, part)
+                                      : range->from * (1.0 - part) + range->to * part;
+    return range->whole ? floor(value + 0.5) : fracas_number_round(value);
+}

@@ -1,0 +1,243 @@
+/* From a file to a campaign. */
+#include "campaigns/file/read.h"
+
+#include "campaigns/file/identity.h"
+#include "campaigns/file/resolve.h"
+#include "campaigns/file/say.h"
+#include "campaigns/file/sweep.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const own_keys[] = {"name", "seed", "sweep", "replicas"};
+
+/* What has been read of a file. */
+typedef struct {
+    fracas_file file;
+    fracas_settings base;
+    fracas_sweep sweep;
+    int64_t replicas; /* 0: not given */
+} reading;
+
+/* ---- the top of the file ---- */
+
+static bool is_own_key(const char *key)
+{
+    for (size_t k = 0; k < FRACAS_COUNT(own_keys); k++)
+        if (strcmp(own_keys[k], key) == 0) return true;
+    return false;
+}
+
+static fracas_err unknown_section(const fracas_file *file, const fracas_node *key)
+{
+    const fracas_catalog *catalog = file->catalog;
+    fracas_words words;
+    fracas_words_init(&words, key->text);
+    for (size_t k = 0; k < FRACAS_COUNT(own_keys); k++) fracas_words_add(&words, own_keys[k]);
+    for (size_t s = 0; s < catalog->nsections; s++) fracas_words_add(&words, catalog->section[s].table->name);
+    char hint[600];
+    fracas_words_hint(&words, "known are", hint);
+    for (size_t i = 0; i < catalog->nleaves; i++) {
+        const fracas_leaf *leaf = &catalog->leaf[i];
+        if (strcmp(leaf->key, key->text) == 0 || strcmp(leaf->path, key->text) == 0)
+            return fracas_say(file->name, key, "unknown key `%s` at the top of the file; write `%s:` indented below `%s:`",
+                              key->text, leaf->key, leaf->section->table->name);
+    }
+    return fracas_say(file->name, key, "unknown key `%s` at the top of the file%s", key->text, hint);
+}
+
+static fracas_err read_seed(const fracas_file *file, const fracas_node *node, uint64_t *seed)
+{
+    char found[256];
+    const char *text = node->type == FRACAS_SCALAR ? node->text : "";
+    errno = 0;
+    unsigned long long value = strtoull(text, NULL, 10);
+    if (!*text || strspn(text, "0123456789") != strlen(text) || errno == ERANGE)
+        return fracas_say(file->name, node, "`seed`: found %s; expected a whole number from 0 to 18446744073709551615, in "
+                                            "digits", fracas_say_found(node, found));
+    *seed = value;
+    return FRACAS_OK;
+}
+
+/* The entry `key`, which must be there. */
+static fracas_err need(const fracas_file *file, const char *key, const char *what, const fracas_node **node)
+{
+    *node = fracas_node_find(file->root, key);
+    if (*node) return FRACAS_OK;
+    return fracas_say(file->name, file->root, "the file has no `%s`; %s", key, what);
+}
+
+static fracas_err read_heading(reading *read, fracas_campaign *campaign)
+{
+    const fracas_file *file = &read->file;
+    const fracas_node *node;
+    for (node = file->root->first; node; node = node->next)
+        if (!is_own_key(node->key->text) && !fracas_catalog_section(file->catalog, node->key->text))
+            return unknown_section(file, node->key);
+    const char *name;
+    TRY(need(file, "name", "give the campaign a name, which becomes its folder, as `name: bar-rates`", &node));
+    TRY(fracas_setting_name(file, node, &name));
+    campaign->name = fracas_memory_copy(file->memory, name, strlen(name));
+    if (!campaign->name) return fracas_no_memory("the campaign's name");
+    TRY(need(file, "seed", "give the seed of its random numbers, a whole number, as `seed: 1`", &node));
+    TRY(read_seed(file, node, &campaign->seed));
+    node = fracas_node_find(file->root, "replicas");
+    if (node) TRY(fracas_setting_integer(file, "replicas", node, 1, 1000000000, &read->replicas));
+    return FRACAS_OK;
+}
+
+static fracas_err read_sections(reading *read)
+{
+    const fracas_file *file = &read->file;
+    for (const fracas_node *node = file->root->first; node; node = node->next) {
+        const fracas_file_section *section = fracas_catalog_section(file->catalog, node->key->text);
+        if (!section) continue;
+        const fracas_leaf *leaf = fracas_catalog_leaf(file->catalog, node->key->text);
+        if (!leaf) {
+            TRY(fracas_settings_add_section(file, section, node, &read->base));
+            continue;
+        }
+        fracas_setting setting;
+        TRY(fracas_setting_read(file, leaf, node, &setting));
+        TRY(fracas_settings_add(file, &setting, &read->base));
+    }
+    return FRACAS_OK;
+}
+
+/* ---- points ---- */
+
+static void lay_over(const fracas_file *file, const fracas_settings *settings, const fracas_setting **slots)
+{
+    for (const fracas_setting *s = settings->first; s; s = s->next) slots[s->leaf - file->catalog->leaf] = s;
+}
+
+/* Replicas of a point: of its case, else of the campaign. */
+static fracas_err count_replicas(const reading *read, size_t index, fracas_point *point)
+{
+    point->replicas = read->replicas;
+    bool owned = false;
+    for (size_t a = 0; a < read->sweep.naxes; a++) {
+        const fracas_choice *choice = fracas_sweep_choice(&read->sweep, index, a);
+        if (choice->replicas > 0 && owned)
+            return fracas_say(read->file.name, choice->node, "cases of two axes give `replicas`; keep them in one axis");
+        if (choice->replicas > 0) point->replicas = choice->replicas;
+        owned = owned || choice->replicas > 0;
+    }
+    if (point->replicas > 0) return FRACAS_OK;
+    return fracas_say(read->file.name, read->file.root, "the file has no `replicas`; say how many realizations each point "
+                                                        "gets, as `replicas: 32`");
+}
+
+static fracas_err make_point(const reading *read, fracas_draft *draft, size_t index, fracas_point *point)
+{
+    const fracas_catalog *catalog = read->file.catalog;
+    for (size_t i = 0; i < catalog->nleaves; i++) draft->swept[i] = NULL;
+    for (size_t a = 0; a < read->sweep.naxes; a++)
+        lay_over(&read->file, &fracas_sweep_choice(&read->sweep, index, a)->settings, draft->swept);
+    for (size_t s = 0; s < catalog->nsections; s++)
+        if (catalog->section[s].table->hashed)
+            TRY(fracas_draft_resolve(&read->file, draft, &catalog->section[s], point));
+    return count_replicas(read, index, point);
+}
+
+static fracas_err make_points(reading *read, fracas_campaign *campaign)
+{
+    const fracas_file *file = &read->file;
+    const fracas_catalog *catalog = file->catalog;
+    fracas_draft draft = {fracas_memory_take(file->memory, catalog->nleaves, sizeof *draft.base),
+                          fracas_memory_take(file->memory, catalog->nleaves, sizeof *draft.swept)};
+    campaign->npoints = read->sweep.npoints;
+    campaign->point = fracas_memory_take(file->memory, campaign->npoints, sizeof *campaign->point);
+    if (!draft.base || !draft.swept || !campaign->point) return fracas_no_memory("the points of the campaign");
+    lay_over(file, &read->base, draft.base);
+    TRY(fracas_draft_check_base(file, &draft));
+    for (size_t s = 0; s < catalog->nsections; s++)
+        if (!catalog->section[s].table->hashed)
+            TRY(fracas_draft_resolve(file, &draft, &catalog->section[s], &campaign->output));
+    for (size_t p = 0; p < campaign->npoints; p++) TRY(make_point(read, &draft, p, &campaign->point[p]));
+    return FRACAS_OK;
+}
+
+/* Names of the cases that make a point, joined by '/'; "" if none has a name. */
+static fracas_err name_case(const reading *read, size_t index, const char **name)
+{
+    *name = "";
+    for (size_t a = 0; a < read->sweep.naxes; a++) {
+        const char *part = fracas_sweep_choice(&read->sweep, index, a)->name;
+        if (!part) continue;
+        size_t length = strlen(*name);
+        char *joined = fracas_memory_take(read->file.memory, length + 1 + strlen(part) + 1, 1);
+        if (!joined) return fracas_no_memory("the names of the cases");
+        memcpy(joined, *name, length);
+        if (length > 0) joined[length++] = '/';
+        memcpy(joined + length, part, strlen(part));
+        *name = joined;
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err say_repeated(const reading *read, size_t earlier, size_t later)
+{
+    const fracas_node *here = read->file.root, *there = read->file.root;
+    for (size_t a = read->sweep.naxes; a-- > 0;) {
+        const fracas_choice *now = fracas_sweep_choice(&read->sweep, later, a);
+        const fracas_choice *before = fracas_sweep_choice(&read->sweep, earlier, a);
+        if (now == before) continue;
+        here = now->node;
+        there = before->node;
+    }
+    return fracas_say(read->file.name, here, "points %zu and %zu of the sweep have the same values (compare line %d, column "
+                      "%d); remove one, and raise `replicas` for more realizations", earlier + 1, later + 1, there->line,
+                      there->column);
+}
+
+static fracas_err identify(reading *read, fracas_campaign *campaign)
+{
+    const char **name = fracas_memory_take(read->file.memory, campaign->npoints, sizeof *name);
+    if (!name) return fracas_no_memory("the names of the cases");
+    for (size_t p = 0; p < campaign->npoints; p++) TRY(name_case(read, p, &name[p]));
+    for (size_t p = 0; p < campaign->npoints; p++) TRY(fracas_point_identify(read->file.catalog, &campaign->point[p]));
+    size_t earlier, later;
+    TRY(fracas_points_repeated(campaign, &earlier, &later));
+    if (later > 0) return say_repeated(read, earlier, later);
+    TRY(fracas_campaign_tabulate(read->file.catalog, name, campaign));
+    return fracas_campaign_identify(read->file.catalog, campaign);
+}
+
+/* ---- the door ---- */
+
+static fracas_err read_file(reading *read, fracas_campaign *campaign)
+{
+    fracas_file *file = &read->file;
+    fracas_node *root;
+    TRY(fracas_catalog_make(file->memory, &file->catalog));
+    TRY(fracas_node_read(file->name, file->memory, &root));
+    file->root = root;
+    TRY(read_heading(read, campaign));
+    TRY(read_sections(read));
+    TRY(fracas_sweep_read(file, fracas_node_find(root, "sweep"), &read->sweep));
+    TRY(make_points(read, campaign));
+    return identify(read, campaign);
+}
+
+fracas_err fracas_campaign_read_with(const fracas_units *units, const char *path, fracas_campaign **campaign)
+{
+    fracas_campaign *made = calloc(1, sizeof *made);
+    if (!made) return fracas_no_memory("the campaign");
+    made->memory = fracas_memory_create();
+    reading read = {.file = {.name = path, .memory = made->memory, .units = units}};
+    fracas_err err = made->memory ? read_file(&read, made) : fracas_no_memory("the campaign");
+    if (err) fracas_campaign_destroy(made);
+    else *campaign = made;
+    return err;
+}
+
+fracas_err fracas_campaign_read(const char *path, fracas_campaign **campaign)
+{
+    fracas_units *units;
+    TRY(fracas_units_create(&units));
+    fracas_err err = fracas_campaign_read_with(units, path, campaign);
+    fracas_units_destroy(units);
+    return err;
+}

@@ -1,0 +1,212 @@
+#include "campaigns/file/setting.h"
+
+#include "campaigns/file/say.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- one value ---- */
+
+static fracas_err want_scalar(const fracas_file *file, const char *key, const fracas_node *node, const char *expected)
+{
+    char found[256];
+    if (node->type == FRACAS_SCALAR && *node->text) return FRACAS_OK;
+    return fracas_say(file->name, node, "`%s`: found %s; expected %s", key, fracas_say_found(node, found), expected);
+}
+
+static fracas_err read_kind(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node,
+                            const fracas_kind **kind)
+{
+    const fracas_section *table = leaf->section->table;
+    TRY(want_scalar(file, leaf->key, node, "a name"));
+    fracas_words words;
+    fracas_words_init(&words, node->text);
+    for (size_t k = 0; k < table->nkinds; k++) {
+        *kind = table->kinds[k];
+        if (strcmp((*kind)->name, node->text) == 0) return FRACAS_OK;
+        fracas_words_add(&words, (*kind)->name);
+    }
+    char hint[600], label[80];
+    snprintf(label, sizeof label, "%s can be", leaf->key);
+    return fracas_say(file->name, node, "unknown %s `%s`%s", leaf->key, node->text, fracas_words_hint(&words, label, hint));
+}
+
+static fracas_err read_boolean(const fracas_file *file, const char *key, const fracas_node *node, double *value)
+{
+    TRY(want_scalar(file, key, node, "true or false"));
+    *value = strcmp(node->text, "true") == 0;
+    if (*value != 0.0 || strcmp(node->text, "false") == 0) return FRACAS_OK;
+    return fracas_say(file->name, node, "`%s`: found `%s`; expected true or false", key, node->text);
+}
+
+static fracas_err read_integer(const fracas_file *file, const char *key, const fracas_node *node, double *value)
+{
+    TRY(want_scalar(file, key, node, "a whole number"));
+    if (fracas_number_read(node->text, value)) return fracas_say_within(file->name, node, key);
+    if (*value == floor(*value) && fabs(*value) <= 1e15) return FRACAS_OK;
+    return fracas_say(file->name, node, "`%s`: `%s` is not a whole number%s", key, node->text,
+                      fabs(*value) > 1e15 ? " of at most 15 digits" : "");
+}
+
+static fracas_err read_real(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node, double *value)
+{
+    const char *what, *write_in;
+    char expected[160];
+    fracas_units_describe(leaf->param->unit, &what, &write_in);
+    snprintf(expected, sizeof expected, "%s, in %s", what, write_in);
+    TRY(want_scalar(file, leaf->key, node, expected));
+    fracas_err err = fracas_units_read(file->units, node->text, leaf->param->unit, value);
+    return err == FRACAS_USAGE ? fracas_say_within(file->name, node, leaf->key) : err;
+}
+
+fracas_err fracas_setting_read(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node,
+                               fracas_setting *setting)
+{
+    *setting = (fracas_setting){.leaf = leaf, .node = node};
+    if (node->type == FRACAS_LIST && leaf->section->table->hashed)
+        return fracas_say(file->name, node, "`%s`: found a list; one value is expected here, several go under `sweep`, as "
+                                            "`- %s: [...]`", leaf->key, leaf->path);
+    if (!leaf->param) return read_kind(file, leaf, node, &setting->kind);
+    switch (leaf->param->type) {
+    case FRACAS_BOOLEAN: return read_boolean(file, leaf->key, node, &setting->value);
+    case FRACAS_INTEGER: return read_integer(file, leaf->key, node, &setting->value);
+    case FRACAS_REAL: break;
+    }
+    return read_real(file, leaf, node, &setting->value);
+}
+
+fracas_err fracas_setting_integer(const fracas_file *file, const char *key, const fracas_node *node, int64_t minimum,
+                                  int64_t maximum, int64_t *value)
+{
+    double real;
+    TRY(read_integer(file, key, node, &real));
+    *value = (int64_t)real;
+    if (*value >= minimum && *value <= maximum) return FRACAS_OK;
+    return fracas_say(file->name, node, "`%s`: %s is out of range; allowed is %" PRId64 " to %" PRId64, key, node->text,
+                      minimum, maximum);
+}
+
+fracas_err fracas_setting_name(const fracas_file *file, const fracas_node *node, const char **name)
+{
+    static const char *const allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
+    TRY(want_scalar(file, "name", node, "a word"));
+    *name = node->text;
+    if (strlen(*name) <= 100 && strspn(*name, allowed) == strlen(*name) && !strchr("._-", **name)) return FRACAS_OK;
+    return fracas_say(file->name, node, "`name`: found `%s`; a name is made of up to 100 letters a-z A-Z, digits, `.`, `_` "
+                                        "and `-`, and starts with a letter or digit", *name);
+}
+
+/* ---- many ---- */
+
+const fracas_setting *fracas_settings_find(const fracas_settings *settings, const fracas_leaf *leaf)
+{
+    for (const fracas_setting *s = settings->first; s; s = s->next)
+        if (s->leaf == leaf) return s;
+    return NULL;
+}
+
+fracas_err fracas_settings_add(const fracas_file *file, const fracas_setting *setting, fracas_settings *settings)
+{
+    const fracas_setting *earlier = fracas_settings_find(settings, setting->leaf);
+    if (earlier)
+        return fracas_say(file->name, setting->node, "`%s` is given twice; it is already at line %d, keep one of the two",
+                          setting->leaf->path, earlier->node->line);
+    fracas_setting *copy = fracas_memory_take(file->memory, 1, sizeof *copy);
+    if (!copy) return fracas_no_memory("the campaign's values");
+    *copy = *setting;
+    copy->next = settings->first;
+    settings->first = copy;
+    return FRACAS_OK;
+}
+
+static fracas_err unknown_key(const fracas_file *file, const fracas_file_section *section, const fracas_node *key)
+{
+    const fracas_catalog *catalog = file->catalog;
+    fracas_words words;
+    fracas_words_init(&words, key->text);
+    const char *home = NULL; /* another section that has this key */
+    for (size_t i = 0; i < catalog->nleaves; i++) {
+        if (catalog->leaf[i].section == section) fracas_words_add(&words, catalog->leaf[i].key);
+        else if (strcmp(catalog->leaf[i].key, key->text) == 0) home = catalog->leaf[i].section->table->name;
+    }
+    char hint[600], label[80];
+    snprintf(label, sizeof label, "keys of %s", section->table->name);
+    if (home) words.nearest = NULL;
+    return fracas_say(file->name, key, "unknown key `%s` in %s%s%s%s", key->text, section->table->name,
+                      home ? "; it belongs to the section " : "", home ? home : "",
+                      fracas_words_hint(&words, label, hint));
+}
+
+fracas_err fracas_settings_add_section(const fracas_file *file, const fracas_file_section *section,
+                                       const fracas_node *node, fracas_settings *settings)
+{
+    if (node->type != FRACAS_MAP) {
+        char found[256], hint[600];
+        fracas_words words;
+        fracas_words_init(&words, "");
+        for (size_t i = 0; i < file->catalog->nleaves; i++)
+            if (file->catalog->leaf[i].section == section) fracas_words_add(&words, file->catalog->leaf[i].key);
+        return fracas_say(file->name, node, "`%s` is a section, but found %s%s", section->table->name,
+                          fracas_say_found(node, found), fracas_words_hint(&words, "write its keys below it, indented", hint));
+    }
+    for (const fracas_node *entry = node->first; entry; entry = entry->next) {
+        fracas_setting setting;
+        const fracas_leaf *leaf = fracas_catalog_key(file->catalog, section, entry->key->text);
+        if (!leaf) return unknown_key(file, section, entry->key);
+        TRY(fracas_setting_read(file, leaf, entry, &setting));
+        TRY(fracas_settings_add(file, &setting, settings));
+    }
+    return FRACAS_OK;
+}
+
+/* ---- checks that depend on the kind ---- */
+
+/* "more than 0 Pa, at most 1 Pa": what `param` allows. */
+static void write_range(const fracas_param *param, char *text, size_t size)
+{
+    char minimum[FRACAS_NUMBER_TEXT], maximum[FRACAS_NUMBER_TEXT];
+    const bool pure = strcmp(param->unit, "1") == 0;
+    const char *blank = pure ? "" : " ", *unit = pure ? "" : param->unit;
+    fracas_number_write(param->minimum, minimum);
+    fracas_number_write(param->maximum, maximum);
+    const bool low = isfinite(param->minimum), high = isfinite(param->maximum);
+    int used = low ? snprintf(text, size, "%s %s%s%s", param->minimum_open ? "more than" : "at least", minimum, blank, unit)
+                   : snprintf(text, size, "any number");
+    if (high && used > 0 && (size_t)used < size)
+        snprintf(text + used, size - (size_t)used, "%s at most %s%s%s", low ? "," : "", maximum, blank, unit);
+}
+
+fracas_err fracas_setting_check(const fracas_file *file, const fracas_setting *setting, const fracas_param *param)
+{
+    double value = setting->value;
+    if ((param->minimum_open ? value > param->minimum : value >= param->minimum) && value <= param->maximum)
+        return FRACAS_OK;
+    char range[160], number[FRACAS_NUMBER_TEXT];
+    write_range(param, range, sizeof range);
+    fracas_number_write(value, number);
+    const char *written = setting->node->type == FRACAS_SCALAR ? setting->node->text : number;
+    return fracas_say(file->name, setting->node, "`%s`: %s is out of range; allowed is %s", setting->leaf->key, written,
+                      range);
+}
+
+fracas_err fracas_setting_misplaced(const fracas_file *file, const fracas_setting *setting, const fracas_kind *kind,
+                                    const fracas_setting *chosen)
+{
+    const fracas_section *table = setting->leaf->section->table;
+    const char *selector = table->selector ? table->selector : table->name;
+    char homes[200] = "";
+    size_t used = 0;
+    for (size_t k = 0; k < table->nkinds; k++) {
+        bool common;
+        if (!fracas_section_param(table, table->kinds[k], setting->leaf->key, &common)) continue;
+        int added = snprintf(homes + used, sizeof homes - used, "%s%s", used ? " or " : "", table->kinds[k]->name);
+        if (added > 0 && used + (size_t)added < sizeof homes) used += (size_t)added;
+    }
+    const fracas_node *at = setting->node->key ? setting->node->key : setting->node;
+    if (!chosen)
+        return fracas_say(file->name, at, "`%s` belongs to %s %s; this is %s, the default, as no `%s` is given",
+                          setting->leaf->key, selector, homes, kind->name, selector);
+    return fracas_say(file->name, at, "`%s` belongs to %s %s; this is %s (line %d)", setting->leaf->key, selector, homes,
+                      kind->name, chosen->node->line);
+}

@@ -1,0 +1,238 @@
+#include "campaigns/file/sweep.h"
+
+#include "campaigns/file/range.h"
+#include "campaigns/file/say.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* ---- what a path names ---- */
+
+typedef struct {
+    const fracas_file_section *section; /* a whole section ... */
+    const fracas_leaf *leaf;            /* ... or one leaf */
+} target;
+
+/* The section whose name stands before the dot of a path; NULL if there is none. */
+static const fracas_file_section *section_before_dot(const fracas_catalog *catalog, const char *path)
+{
+    const char *dot = strchr(path, '.');
+    for (size_t s = 0; dot && s < catalog->nsections; s++) {
+        const char *name = catalog->section[s].table->name;
+        if (strlen(name) == (size_t)(dot - path) && strncmp(name, path, strlen(name)) == 0) return &catalog->section[s];
+    }
+    return NULL;
+}
+
+/* `also`: two words that could stand here beside a path. */
+static fracas_err unknown_path(const fracas_file *file, const fracas_node *key, const char *const also[2])
+{
+    const fracas_catalog *catalog = file->catalog;
+    const fracas_file_section *inside = section_before_dot(catalog, key->text);
+    fracas_words words;
+    fracas_words_init(&words, key->text);
+    for (size_t i = 0; i < catalog->nleaves; i++)
+        if (catalog->leaf[i].section->table->hashed && (!inside || catalog->leaf[i].section == inside))
+            fracas_words_add(&words, catalog->leaf[i].path);
+    if (!inside) { /* every path was compared; the list is of sections */
+        words.used = 0;
+        for (int i = 0; i < 2; i++) fracas_words_add(&words, also[i]);
+        for (size_t s = 0; s < catalog->nsections; s++)
+            if (catalog->section[s].table->hashed) fracas_words_add(&words, catalog->section[s].table->name);
+    }
+    char hint[600], label[80];
+    snprintf(label, sizeof label, inside ? "paths in %s" : "known are section.key, and", inside ? inside->table->name : "");
+    return fracas_say(file->name, key, "unknown path `%s` in the sweep%s", key->text, fracas_words_hint(&words, label, hint));
+}
+
+static fracas_err find_target(const fracas_file *file, const fracas_node *key, const char *const also[2], target *found)
+{
+    *found = (target){.leaf = fracas_catalog_leaf(file->catalog, key->text)};
+    if (!found->leaf) found->section = fracas_catalog_section(file->catalog, key->text);
+    if (strcmp(key->text, "replicas") == 0)
+        return fracas_say(file->name, key, "`replicas` is not a parameter to sweep; a case of `cases` may have its own");
+    if (strcmp(key->text, "name") == 0 || strcmp(key->text, "seed") == 0)
+        return fracas_say(file->name, key, "`%s` cannot be swept; a campaign has one, at the top of the file", key->text);
+    if (!found->leaf && !found->section) return unknown_path(file, key, also);
+    const fracas_section *table = (found->leaf ? found->leaf->section : found->section)->table;
+    if (table->hashed) return FRACAS_OK;
+    return fracas_say(file->name, key, "`%s` cannot be swept; it is one for the whole campaign", key->text);
+}
+
+static fracas_err add_target(const fracas_file *file, const target *set, const fracas_node *value, fracas_settings *settings)
+{
+    if (set->section) return fracas_settings_add_section(file, set->section, value, settings);
+    fracas_setting setting;
+    TRY(fracas_setting_read(file, set->leaf, value, &setting));
+    return fracas_settings_add(file, &setting, settings);
+}
+
+/* ---- axes ---- */
+
+static fracas_err make_choices(const fracas_file *file, const fracas_node *node, size_t count, fracas_axis *axis)
+{
+    if (count == 0)
+        return fracas_say(file->name, node, "found no values to sweep; give at least one, or remove the axis");
+    if (count > FRACAS_MAX_POINTS)
+        return fracas_say(file->name, node, "%zu values; a campaign has at most %d points", count, FRACAS_MAX_POINTS);
+    axis->nchoices = count;
+    axis->choice = fracas_memory_take(file->memory, count, sizeof *axis->choice);
+    return axis->choice ? FRACAS_OK : fracas_no_memory("the sweep");
+}
+
+/* Adds the values of `path: values` to the choices, which are made for the first path of an axis. */
+static fracas_err add_range(const fracas_file *file, const target *set, const fracas_node *values, fracas_axis *axis)
+{
+    if (!set->leaf)
+        return fracas_say(file->name, values, "`%s` is a section; expected a list of sections, [{...}, {...}]",
+                          values->key->text);
+    fracas_range range;
+    TRY(fracas_range_read(file, set->leaf, values, &range));
+    if (axis->nchoices == 0) TRY(make_choices(file, values, range.points, axis));
+    if (axis->nchoices != range.points)
+        return fracas_say(file->name, values->key, "`%s` has %zu values, the first path of this zip has %zu; all of a zip "
+                                                   "need the same number", values->key->text, range.points, axis->nchoices);
+    for (size_t i = 0; i < range.points; i++) {
+        fracas_choice *choice = &axis->choice[i];
+        fracas_setting setting = {.leaf = set->leaf, .node = values, .value = fracas_range_value(&range, i)};
+        if (!choice->node) choice->node = values;
+        TRY(fracas_settings_add(file, &setting, &choice->settings));
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err add_list(const fracas_file *file, const target *set, const fracas_node *values, fracas_axis *axis)
+{
+    if (axis->nchoices == 0) TRY(make_choices(file, values, values->count, axis));
+    if (axis->nchoices != values->count)
+        return fracas_say(file->name, values->key, "`%s` has %zu values, the first path of this zip has %zu; all of a zip "
+                                                   "need the same number", values->key->text, values->count, axis->nchoices);
+    fracas_choice *choice = axis->choice;
+    for (const fracas_node *value = values->first; value; value = value->next, choice++) {
+        if (!choice->node) choice->node = value;
+        TRY(add_target(file, set, value, &choice->settings));
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err add_path(const fracas_file *file, const fracas_node *values, fracas_axis *axis)
+{
+    target set;
+    char found[256];
+    static const char *const axes[2] = {"zip", "cases"};
+    TRY(find_target(file, values->key, axes, &set));
+    if (values->type == FRACAS_LIST) return add_list(file, &set, values, axis);
+    if (values->type == FRACAS_MAP) return add_range(file, &set, values, axis);
+    return fracas_say(file->name, values, "`%s`: found %s; expected a list of values, [...], or a range, {from: ..., to: "
+                                          "..., points: ...}", values->key->text, fracas_say_found(values, found));
+}
+
+static fracas_err read_zip(const fracas_file *file, const fracas_node *zip, fracas_axis *axis)
+{
+    char found[256];
+    if (zip->type != FRACAS_MAP || zip->count == 0)
+        return fracas_say(file->name, zip, "`zip`: found %s; expected paths with their values, below it and indented",
+                          zip->type == FRACAS_MAP ? "nothing" : fracas_say_found(zip, found));
+    for (const fracas_node *values = zip->first; values; values = values->next) TRY(add_path(file, values, axis));
+    return FRACAS_OK;
+}
+
+static fracas_err read_case(const fracas_file *file, const fracas_node *node, fracas_choice *choice)
+{
+    static const char *const own[2] = {"name", "replicas"};
+    char found[256];
+    *choice = (fracas_choice){.node = node};
+    if (node->type != FRACAS_MAP || node->count == 0)
+        return fracas_say(file->name, node, "a case: found %s; expected `name:`, `replicas:` or sections",
+                          node->type == FRACAS_MAP ? "nothing" : fracas_say_found(node, found));
+    for (const fracas_node *entry = node->first; entry; entry = entry->next) {
+        target set;
+        if (strcmp(entry->key->text, "name") == 0) {
+            TRY(fracas_setting_name(file, entry, &choice->name));
+        } else if (strcmp(entry->key->text, "replicas") == 0) {
+            TRY(fracas_setting_integer(file, "replicas", entry, 1, 1000000000, &choice->replicas));
+        } else {
+            TRY(find_target(file, entry->key, own, &set));
+            TRY(add_target(file, &set, entry, &choice->settings));
+        }
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err read_cases(const fracas_file *file, const fracas_node *cases, fracas_axis *axis)
+{
+    char found[256];
+    if (cases->type != FRACAS_LIST)
+        return fracas_say(file->name, cases, "`cases`: found %s; expected a list, each case after `- `",
+                          fracas_say_found(cases, found));
+    TRY(make_choices(file, cases, cases->count, axis));
+    fracas_choice *choice = axis->choice;
+    for (const fracas_node *node = cases->first; node; node = node->next) TRY(read_case(file, node, choice++));
+    return FRACAS_OK;
+}
+
+static fracas_err read_axis(const fracas_file *file, const fracas_node *node, fracas_axis *axis)
+{
+    char found[256];
+    if (node->type != FRACAS_MAP || node->count == 0)
+        return fracas_say(file->name, node, "an axis of the sweep: found %s; expected `path: [values]`, `zip:` or `cases:`",
+                          node->type == FRACAS_MAP ? "nothing" : fracas_say_found(node, found));
+    if (node->count > 1)
+        return fracas_say(file->name, node->first->next->key, "a second path, `%s`, in one axis; put `- ` before it to "
+                          "combine every value with every other, or both under `zip:` to go through them together",
+                          node->first->next->key->text);
+    if (strcmp(node->first->key->text, "zip") == 0) return read_zip(file, node->first, axis);
+    if (strcmp(node->first->key->text, "cases") == 0) return read_cases(file, node->first, axis);
+    return add_path(file, node->first, axis);
+}
+
+/* ---- the sweep ---- */
+
+/* Every leaf is set by one axis only, or the order of the axes would decide. */
+static fracas_err check_axes_apart(const fracas_file *file, const fracas_sweep *sweep, const fracas_setting **owner,
+                                   size_t *owner_axis)
+{
+    for (size_t a = 0; a < sweep->naxes; a++)
+        for (size_t c = 0; c < sweep->axis[a].nchoices; c++)
+            for (const fracas_setting *s = sweep->axis[a].choice[c].settings.first; s; s = s->next) {
+                size_t leaf = (size_t)(s->leaf - file->catalog->leaf);
+                if (owner[leaf] && owner_axis[leaf] != a)
+                    return fracas_say(file->name, s->node, "`%s` is swept by two axes, here and at line %d; keep one",
+                                      s->leaf->path, owner[leaf]->node->line);
+                owner[leaf] = s;
+                owner_axis[leaf] = a;
+            }
+    return FRACAS_OK;
+}
+
+fracas_err fracas_sweep_read(const fracas_file *file, const fracas_node *node, fracas_sweep *sweep)
+{
+    *sweep = (fracas_sweep){.npoints = 1};
+    if (!node) return FRACAS_OK;
+    char found[256];
+    if (node->type != FRACAS_LIST)
+        return fracas_say(file->name, node, "`sweep`: found %s; expected a list of axes, each after `- `, as "
+                                            "`- loading.rate: [1e3 1/s, 1e4 1/s]`", fracas_say_found(node, found));
+    if (node->count == 0) return fracas_say(file->name, node, "`sweep`: found no axis; give at least one, or remove `sweep`");
+    sweep->axis = fracas_memory_take(file->memory, node->count, sizeof *sweep->axis);
+    if (!sweep->axis) return fracas_no_memory("the sweep");
+    for (const fracas_node *axis = node->first; axis; axis = axis->next) {
+        fracas_axis *read = &sweep->axis[sweep->naxes++];
+        TRY(read_axis(file, axis, read));
+        sweep->npoints *= read->nchoices;
+        if (sweep->npoints > FRACAS_MAX_POINTS)
+            return fracas_say(file->name, axis, "the sweep makes more than %d points, the product of its axes; sweep fewer "
+                                                "values, or several together with `zip:`", FRACAS_MAX_POINTS);
+    }
+    const fracas_setting **owner = fracas_memory_take(file->memory, file->catalog->nleaves, sizeof *owner);
+    size_t *owner_axis = fracas_memory_take(file->memory, file->catalog->nleaves, sizeof *owner_axis);
+    if (!owner || !owner_axis) return fracas_no_memory("the sweep");
+    return check_axes_apart(file, sweep, owner, owner_axis);
+}
+
+const fracas_choice *fracas_sweep_choice(const fracas_sweep *sweep, size_t point, size_t axis)
+{
+    size_t slower = 1; /* points for which this axis stands still */
+    for (size_t a = axis + 1; a < sweep->naxes; a++) slower *= sweep->axis[a].nchoices;
+    return &sweep->axis[axis].choice[point / slower % sweep->axis[axis].nchoices];
+}

@@ -1,0 +1,34 @@
+/* The sweep of a campaign file: axes of choices, whose product is the points. */
+#ifndef FRACAS_CAMPAIGNS_FILE_SWEEP_H
+#define FRACAS_CAMPAIGNS_FILE_SWEEP_H
+
+#include "campaigns/file/setting.h"
+
+#define FRACAS_MAX_POINTS 100000
+
+/* One value of an axis: what it sets, and, in `cases`, its name and replicas. */
+typedef struct {
+    const fracas_node *node;
+    fracas_settings settings;
+    const char *name;  /* NULL: none */
+    int64_t replicas;  /* 0: those of the campaign */
+} fracas_choice;
+
+typedef struct {
+    size_t nchoices;
+    fracas_choice *choice;
+} fracas_axis;
+
+typedef struct {
+    size_t naxes;
+    fracas_axis *axis;  /* in file order: the last runs fastest */
+    size_t npoints;     /* product of the numbers of choices, 1 without axes */
+} fracas_sweep;
+
+/* Reads the list `node` (NULL: no sweep). No leaf is in two axes; every value is converted. */
+FRACAS_MUST_USE fracas_err fracas_sweep_read(const fracas_file *file, const fracas_node *node, fracas_sweep *sweep);
+
+/* The choice of point `point` in axis `axis`. */
+const fracas_choice *fracas_sweep_choice(const fracas_sweep *sweep, size_t point, size_t axis);
+
+#endif

@@ -1,0 +1,167 @@
+/* From a campaign back to a file: SI, every default spelled out. */
+#include "campaigns/campaign.h"
+
+#include "campaigns/file/catalog.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <string.h>
+
+static const void *owner_of(const fracas_leaf *leaf, const fracas_campaign *campaign, size_t point)
+{
+    return leaf->section->table->hashed ? (const void *)&campaign->point[point] : &campaign->output;
+}
+
+/* The value as text; false if the point has none. */
+static bool write_value(const fracas_leaf *leaf, const fracas_campaign *campaign, size_t point, char text[FRACAS_LEAF_TEXT])
+{
+    fracas_value value;
+    if (!fracas_leaf_get(leaf, owner_of(leaf, campaign, point), &value)) return false;
+    fracas_leaf_write(leaf, &value, text);
+    return true;
+}
+
+static bool kind_varies(const fracas_file_section *section, const fracas_campaign *campaign)
+{
+    if (!section->table->hashed) return false;
+    const fracas_kind *kind = fracas_section_kind(section, &campaign->point[0]);
+    for (size_t p = 1; p < campaign->npoints; p++)
+        if (fracas_section_kind(section, &campaign->point[p]) != kind) return true;
+    return false;
+}
+
+/* True if the leaf is written once, in its section: it is the same in all points. What belongs to a kind stays together
+ * with the kind's name, as a sweep that changes the kind drops the base's keys of the old one. */
+static bool is_base(const fracas_leaf *leaf, const fracas_campaign *campaign)
+{
+    bool common = false;
+    if (leaf->param) fracas_section_param(leaf->section->table, NULL, leaf->key, &common);
+    if (!common && kind_varies(leaf->section, campaign)) return false;
+    char first[FRACAS_LEAF_TEXT], other[FRACAS_LEAF_TEXT];
+    if (!write_value(leaf, campaign, 0, first)) return false;
+    for (size_t p = 1; p < campaign->npoints && leaf->section->table->hashed; p++)
+        if (!write_value(leaf, campaign, p, other) || strcmp(first, other) != 0) return false;
+    return true;
+}
+
+/* ---- the sections ---- */
+
+/* The leaf of the section to write after `leaf` (NULL: the first): the kind's name, then the values; NULL at the end. */
+static const fracas_leaf *next_leaf(const fracas_catalog *catalog, const fracas_file_section *section, const fracas_leaf *leaf)
+{
+    const fracas_leaf *selector = fracas_catalog_selector(catalog, section), *end = catalog->leaf + catalog->nleaves;
+    if (!leaf && selector) return selector;
+    for (leaf = leaf && leaf != selector ? leaf + 1 : catalog->leaf; leaf < end; leaf++)
+        if (leaf->section == section && leaf != selector) return leaf;
+    return NULL;
+}
+
+static void write_unit(const fracas_leaf *leaf, FILE *out)
+{
+    bool pure = !leaf->param || strcmp(leaf->param->unit, "1") == 0;
+    fprintf(out, "%s%s\n", pure ? "" : " # ", pure ? "" : leaf->param->unit);
+}
+
+static void write_section(const fracas_catalog *catalog, const bool *base, const fracas_file_section *section,
+                          const fracas_campaign *campaign, FILE *out)
+{
+    bool begun = false;
+    for (const fracas_leaf *leaf = NULL; (leaf = next_leaf(catalog, section, leaf));) {
+        char text[FRACAS_LEAF_TEXT];
+        if (!base[leaf - catalog->leaf] || !write_value(leaf, campaign, 0, text)) continue;
+        const bool whole = strcmp(leaf->path, section->table->name) == 0;
+        if (!begun && !whole) fprintf(out, "%s:\n", section->table->name);
+        begun = true;
+        fprintf(out, "%s%s: %s", whole ? "" : "  ", leaf->key, text);
+        write_unit(leaf, out);
+    }
+}
+
+/* ---- the cases ---- */
+
+/* Writes "- key: " before the first entry of a case and "  key: " before the others. */
+static void begin_entry(bool *first, const char *key, FILE *out)
+{
+    fprintf(out, "      %s %s: ", *first ? "-" : " ", key);
+    *first = false;
+}
+
+/* Writes what the section has in this point and not in the base, as "section: {key: value}". */
+static void write_case_section(const fracas_catalog *catalog, const bool *base, const fracas_file_section *section,
+                               const fracas_campaign *campaign, size_t point, bool *first, FILE *out)
+{
+    bool begun = false;
+    for (const fracas_leaf *leaf = NULL; (leaf = next_leaf(catalog, section, leaf));) {
+        char text[FRACAS_LEAF_TEXT];
+        if (base[leaf - catalog->leaf] || !write_value(leaf, campaign, point, text)) continue;
+        if (!begun) begin_entry(first, section->table->name, out);
+        if (strcmp(leaf->path, section->table->name) == 0) {
+            fprintf(out, "%s\n", text);
+            return;
+        }
+        fprintf(out, "%s%s: %s", begun ? ", " : "{", leaf->key, text);
+        begun = true;
+    }
+    if (begun) fprintf(out, "}\n");
+}
+
+static void write_cases(const fracas_catalog *catalog, const bool *base, const fracas_campaign *campaign,
+                        bool own_replicas, FILE *out)
+{
+    size_t named = fracas_point_table_find(&campaign->table, "case");
+    if (campaign->npoints == 1 && named == SIZE_MAX) return;
+    fprintf(out, "sweep:\n  - cases:\n");
+    for (size_t p = 0; p < campaign->npoints; p++) {
+        bool first = true;
+        const char *name = named == SIZE_MAX ? "" : campaign->table.point[p].value[named].text;
+        if (*name) {
+            begin_entry(&first, "name", out);
+            fprintf(out, "%s\n", name);
+        }
+        for (size_t s = 0; s < catalog->nsections; s++)
+            if (catalog->section[s].table->hashed)
+                write_case_section(catalog, base, &catalog->section[s], campaign, p, &first, out);
+        if (own_replicas) {
+            begin_entry(&first, "replicas", out);
+            fprintf(out, "%" PRId64 "\n", campaign->point[p].replicas);
+        }
+    }
+}
+
+/* ---- the file ---- */
+
+static void write_file(const fracas_catalog *catalog, const bool *base, const fracas_campaign *campaign, FILE *out)
+{
+    bool own_replicas = false;
+    for (size_t p = 1; p < campaign->npoints; p++)
+        own_replicas = own_replicas || campaign->point[p].replicas != campaign->point[0].replicas;
+    fprintf(out, "# A campaign as resolved by fracas: SI units, every default spelled out.\n");
+    fprintf(out, "name: %s\nseed: %" PRIu64 "\n", campaign->name, campaign->seed);
+    for (size_t s = 0; s < catalog->nsections; s++)
+        if (catalog->section[s].table->hashed) write_section(catalog, base, &catalog->section[s], campaign, out);
+    write_cases(catalog, base, campaign, own_replicas, out);
+    if (!own_replicas) fprintf(out, "replicas: %" PRId64 "\n", campaign->point[0].replicas);
+    for (size_t s = 0; s < catalog->nsections; s++)
+        if (!catalog->section[s].table->hashed) write_section(catalog, base, &catalog->section[s], campaign, out);
+}
+
+static fracas_err write_with(fracas_campaign_memory *memory, const fracas_campaign *campaign, FILE *out)
+{
+    const fracas_catalog *catalog;
+    TRY(fracas_catalog_make(memory, &catalog));
+    bool *base = fracas_memory_take(memory, catalog->nleaves, sizeof *base);
+    if (!base) return fracas_no_memory("the resolved campaign");
+    for (size_t i = 0; i < catalog->nleaves; i++) base[i] = is_base(&catalog->leaf[i], campaign);
+    write_file(catalog, base, campaign, out);
+    if (fflush(out) == 0 && !ferror(out)) return FRACAS_OK;
+    return fracas_fail(FRACAS_ENVIRONMENT, "cannot write the resolved campaign %s: %s", campaign->name, strerror(errno));
+}
+
+fracas_err fracas_campaign_write(const fracas_campaign *campaign, FILE *out)
+{
+    fracas_campaign_memory *memory = fracas_memory_create();
+    if (!memory) return fracas_no_memory("the resolved campaign");
+    fracas_err err = write_with(memory, campaign, out);
+    fracas_memory_destroy(memory);
+    return err;
+}

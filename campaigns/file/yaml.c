@@ -1,0 +1,263 @@
+/* The only file that knows libyaml. */
+#include "campaigns/file/node.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <yaml.h>
+
+enum { MAX_BYTES = 1 << 20, MAX_DEPTH = 16, MAX_TEXT = 200, MAX_KEYS = 500 };
+
+typedef struct {
+    const char *name; /* of the file */
+    const unsigned char *bytes;
+    size_t size;
+    fracas_campaign_memory *memory;
+    yaml_parser_t parser;
+} reading;
+
+#define FAIL_AT(reader, mark, ...) fail_at((reader)->name, (mark), __VA_ARGS__)
+
+static FRACAS_PRINTF(3, 4) fracas_err fail_at(const char *name, yaml_mark_t mark, const char *format, ...)
+{
+    char what[600];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    return fracas_fail(FRACAS_USAGE, "%s:%zu:%zu: %s", name, mark.line + 1, mark.column + 1, what);
+}
+
+/* ---- from the file to bytes ---- */
+
+static fracas_err load_open(const char *name, FILE *in, unsigned char *bytes, size_t *size)
+{
+    *size = fread(bytes, 1, MAX_BYTES + 1, in);
+    if (ferror(in)) return fracas_fail(FRACAS_ENVIRONMENT, "cannot read the campaign file %s: %s", name, strerror(errno));
+    if (*size > MAX_BYTES)
+        return fracas_fail(FRACAS_USAGE, "%s:1:1: the file is larger than 1 MiB; a campaign file is a page of text, "
+                                         "write long lists of values as ranges {from, to, points}", name);
+    return FRACAS_OK;
+}
+
+static fracas_err load(const char *name, unsigned char *bytes, size_t *size)
+{
+    FILE *in = fopen(name, "rb");
+    if (!in) return fracas_fail(FRACAS_ENVIRONMENT, "cannot open the campaign file %s: %s", name, strerror(errno));
+    fracas_err err = load_open(name, in, bytes, size);
+    fclose(in);
+    return err;
+}
+
+/* ---- from bytes to events ---- */
+
+/* Line and column of a byte; a column counts characters, as libyaml's marks do. */
+static yaml_mark_t mark_of_byte(const reading *reader, size_t byte)
+{
+    yaml_mark_t mark = {0};
+    for (size_t i = 0; i < byte && i < reader->size; i++) {
+        if (reader->bytes[i] == '\n') {
+            mark.line++;
+            mark.column = 0;
+        } else if ((reader->bytes[i] & 0xc0) != 0x80) {
+            mark.column++;
+        }
+    }
+    return mark;
+}
+
+/* What libyaml was reading, in words of the page that describes the file. */
+static const char *context_words(const char *context)
+{
+    static const char *const words[][2] = {
+        {"flow sequence", "the list [...]"}, {"flow mapping", "the group {...}"},  {"block mapping", "the group of keys"},
+        {"block collection", "the list"},    {"quoted scalar", "the quoted text"}, {"simple key", "the line"},
+    };
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strstr(context, words[i][0])) return words[i][1];
+    return "the text";
+}
+
+static fracas_err fail_parser(const reading *reader)
+{
+    const yaml_parser_t *parser = &reader->parser;
+    const char *problem = parser->problem ? parser->problem : "not YAML";
+    if (parser->error == YAML_MEMORY_ERROR) return fracas_no_memory("the campaign file");
+    if (parser->error == YAML_READER_ERROR)
+        return FAIL_AT(reader, mark_of_byte(reader, parser->problem_offset),
+                       "the file is not plain UTF-8 text (%s); save it as UTF-8", problem);
+    const char found = parser->buffer.pointer && parser->unread > 0 ? (char)*parser->buffer.pointer : ' ';
+    const bool no_token = strstr(problem, "cannot start any token") != NULL;
+    if (strstr(problem, "tab character") || (no_token && found == '\t'))
+        return FAIL_AT(reader, parser->problem_mark, "found a tab; indent with spaces, YAML does not allow tabs there");
+    if (no_token)
+        return FAIL_AT(reader, parser->problem_mark, "a value cannot start with `%c`; put it in quotes", found);
+    if (!parser->context) return FAIL_AT(reader, parser->problem_mark, "not YAML: %s", problem);
+    return FAIL_AT(reader, parser->problem_mark, "not YAML: %s, in %s that begins at line %zu, column %zu", problem,
+                   context_words(parser->context), parser->context_mark.line + 1, parser->context_mark.column + 1);
+}
+
+static fracas_err next_event(reading *reader, yaml_event_t *event)
+{
+    return yaml_parser_parse(&reader->parser, event) ? FRACAS_OK : fail_parser(reader);
+}
+
+/* ---- from events to nodes ---- */
+
+static fracas_err make_node(reading *reader, yaml_mark_t mark, fracas_node_type type, fracas_node **node)
+{
+    fracas_node *made = fracas_memory_take(reader->memory, 1, sizeof *made);
+    if (!made) return fracas_no_memory("the campaign file");
+    made->type = type;
+    made->line = (int)mark.line + 1;
+    made->column = (int)mark.column + 1;
+    *node = made;
+    return FRACAS_OK;
+}
+
+static fracas_err read_scalar(reading *reader, const yaml_event_t *event, fracas_node **node)
+{
+    const unsigned char *text = event->data.scalar.value;
+    size_t length = event->data.scalar.length;
+    if (length > MAX_TEXT)
+        return FAIL_AT(reader, event->start_mark, "a text of %zu bytes; at most %d are allowed", length, MAX_TEXT);
+    for (size_t i = 0; i < length; i++)
+        if (text[i] < 0x20 || text[i] == 0x7f)
+            return FAIL_AT(reader, event->start_mark, "a text with a line break or control character; write it on one "
+                                                      "line");
+    TRY(make_node(reader, event->start_mark, FRACAS_SCALAR, node));
+    (*node)->text = fracas_memory_copy(reader->memory, (const char *)text, length);
+    return (*node)->text ? FRACAS_OK : fracas_no_memory("the campaign file");
+}
+
+/* Anchors, aliases and tags would let a small file stand for a huge one, or change what a value is. */
+static fracas_err check_plain(const reading *reader, const yaml_event_t *event)
+{
+    const yaml_char_t *anchor = NULL, *tag = NULL;
+    switch (event->type) {
+    case YAML_ALIAS_EVENT: anchor = event->data.alias.anchor; break;
+    case YAML_SCALAR_EVENT: anchor = event->data.scalar.anchor; tag = event->data.scalar.tag; break;
+    case YAML_SEQUENCE_START_EVENT: anchor = event->data.sequence_start.anchor; tag = event->data.sequence_start.tag; break;
+    case YAML_MAPPING_START_EVENT: anchor = event->data.mapping_start.anchor; tag = event->data.mapping_start.tag; break;
+    default: break;
+    }
+    if (anchor)
+        return FAIL_AT(reader, event->start_mark, "anchors and aliases (`&`, `*`) are not allowed; write the value out");
+    if (tag) return FAIL_AT(reader, event->start_mark, "tags (`!`) are not allowed; write the value alone");
+    return FRACAS_OK;
+}
+
+static fracas_err read_value(reading *reader, const yaml_event_t *event, int depth, fracas_node **node);
+
+static fracas_err read_key(reading *reader, const yaml_event_t *event, const fracas_node *map, fracas_node **key)
+{
+    TRY(check_plain(reader, event));
+    if (event->type != YAML_SCALAR_EVENT)
+        return FAIL_AT(reader, event->start_mark, "a list or map where a key is expected; write `key: value`");
+    TRY(read_scalar(reader, event, key));
+    if (map->count == MAX_KEYS)
+        return FAIL_AT(reader, event->start_mark, "more than %d keys in one place", MAX_KEYS);
+    const fracas_node *earlier = fracas_node_find(map, (*key)->text);
+    if (earlier)
+        return FAIL_AT(reader, event->start_mark, "key `%s` is given twice; it is already at line %d, keep one of the two",
+                       (*key)->text, earlier->key->line);
+    return FRACAS_OK;
+}
+
+/* Takes the entries of a list or map up to its end. */
+static fracas_err read_entries(reading *reader, int depth, fracas_node *parent)
+{
+    fracas_node **end = &parent->first;
+    for (;;) {
+        yaml_event_t event;
+        TRY(next_event(reader, &event));
+        bool closed = event.type == YAML_SEQUENCE_END_EVENT || event.type == YAML_MAPPING_END_EVENT;
+        fracas_node *key = NULL, *value = NULL;
+        fracas_err err = FRACAS_OK;
+        if (!closed && parent->type == FRACAS_MAP) {
+            err = read_key(reader, &event, parent, &key);
+            yaml_event_delete(&event);
+            TRY(err);
+            TRY(next_event(reader, &event));
+        }
+        if (!closed) err = read_value(reader, &event, depth, &value);
+        yaml_event_delete(&event);
+        if (err || closed) return err;
+        value->key = key;
+        *end = value;
+        end = &value->next;
+        parent->count++;
+    }
+}
+
+static fracas_err read_value(reading *reader, const yaml_event_t *event, int depth, fracas_node **node)
+{
+    TRY(check_plain(reader, event));
+    if (event->type == YAML_SCALAR_EVENT) return read_scalar(reader, event, node);
+    if (depth == MAX_DEPTH)
+        return FAIL_AT(reader, event->start_mark, "nested deeper than %d levels; a campaign file needs four", MAX_DEPTH);
+    TRY(make_node(reader, event->start_mark, event->type == YAML_MAPPING_START_EVENT ? FRACAS_MAP : FRACAS_LIST, node));
+    return read_entries(reader, depth + 1, *node);
+}
+
+/* ---- the document ---- */
+
+/* Reads events up to and including one of `type`, which must come next. */
+static fracas_err skip_event(reading *reader, yaml_event_type_t type, const char *otherwise)
+{
+    yaml_event_t event;
+    TRY(next_event(reader, &event));
+    fracas_err err = event.type == type ? FRACAS_OK : FAIL_AT(reader, event.start_mark, "%s", otherwise);
+    yaml_event_delete(&event);
+    return err;
+}
+
+static fracas_err read_document(reading *reader, fracas_node **root)
+{
+    static const char *const empty = "the file is empty; a campaign file starts with `name:`, see docs/formats/campaign-file.md";
+    TRY(skip_event(reader, YAML_STREAM_START_EVENT, empty));
+    TRY(skip_event(reader, YAML_DOCUMENT_START_EVENT, empty));
+    yaml_event_t event;
+    TRY(next_event(reader, &event));
+    fracas_err err = read_value(reader, &event, 0, root);
+    yaml_event_delete(&event);
+    TRY(err);
+    TRY(skip_event(reader, YAML_DOCUMENT_END_EVENT, "more after the end"));
+    TRY(skip_event(reader, YAML_STREAM_END_EVENT, "a second document; a campaign file is one document, remove `---`"));
+    if ((*root)->type != FRACAS_MAP)
+        return fracas_fail(FRACAS_USAGE, "%s:%d:%d: found %s; a campaign file is made of lines `key: value` and of "
+                                         "sections", reader->name, (*root)->line, (*root)->column,
+                           (*root)->type == FRACAS_LIST ? "a list" : "a single value");
+    return FRACAS_OK;
+}
+
+static fracas_err parse(reading *reader, fracas_node **root)
+{
+    if (!yaml_parser_initialize(&reader->parser)) return fracas_no_memory("the campaign file");
+    yaml_parser_set_encoding(&reader->parser, YAML_UTF8_ENCODING);
+    yaml_parser_set_input_string(&reader->parser, reader->bytes, reader->size);
+    fracas_err err = read_document(reader, root);
+    yaml_parser_delete(&reader->parser);
+    return err;
+}
+
+fracas_err fracas_node_read(const char *name, fracas_campaign_memory *memory, fracas_node **root)
+{
+    unsigned char *bytes = malloc(MAX_BYTES + 1);
+    if (!bytes) return fracas_no_memory("the campaign file");
+    reading reader = {.name = name, .bytes = bytes, .memory = memory};
+    fracas_err err = load(name, bytes, &reader.size);
+    if (!err) err = parse(&reader, root);
+    free(bytes);
+    return err;
+}
+
+fracas_node *fracas_node_find(const fracas_node *map, const char *key)
+{
+    for (fracas_node *entry = map->first; entry; entry = entry->next)
+        if (strcmp(entry->key->text, key) == 0) return entry;
+    return NULL;
+}

@@ -1,0 +1,242 @@
+/* What a wrong campaign file is told: place, what was found, what is allowed, the nearest known key. */
+#include "tests/unit/campaign_text.h"
+
+typedef struct {
+    const char *find, *put; /* the plain campaign with this replaced (find "": appended, at line 28) */
+    int line, column;
+    const char *words[4];   /* which the message must have */
+} wrong;
+
+static void check(const wrong *w)
+{
+    char path[40], place[80];
+    char *text = replace(plain_campaign, w->find, w->put);
+    fracas_campaign *campaign = NULL;
+    make_path(path);
+    write_bytes(path, text, strlen(text));
+    fracas_err err = fracas_campaign_read(path, &campaign);
+    unlink(path);
+    free(text);
+    if (getenv("FRACAS_READ_ALOUD")) print_message("%s   (%d:%d)\n", fracas_message() + strlen(path), w->line, w->column);
+    if (err != FRACAS_USAGE || campaign) fail_msg("accepted: %s", w->put);
+    snprintf(place, sizeof place, "%s:%d:%d: ", path, w->line, w->column);
+    if (strncmp(fracas_message(), place, strlen(place)) != 0)
+        fail_msg("expected %d:%d for \"%s\": %s", w->line, w->column, w->put, fracas_message());
+    for (int i = 0; i < 4 && w->words[i]; i++)
+        if (!strstr(fracas_message(), w->words[i])) fail_msg("no \"%s\" in: %s", w->words[i], fracas_message());
+}
+
+#define CHECK_ALL(table) \
+    (void)state; \
+    for (size_t i = 0; i < FRACAS_COUNT(table); i++) check(&(table)[i])
+
+static void test_yaml(void **state)
+{
+    static const wrong table[] = {
+        {"model: bar", "model: bar\n\tarea: 3", 4, 1, {"a tab", "spaces"}},
+        {"model: bar", "model: @bar", 3, 8, {"cannot start with `@`", "quotes"}},
+        {"model: bar", "model: [bar", 4, 9, {"not YAML", "the list [...] that begins at line 3, column 8"}},
+        {"model: bar", "model bar", 4, 1, {"not YAML", "':'", "the line that begins at line 3, column 1"}},
+        {"model: bar", "model: \"bar", 28, 1, {"not YAML"}},
+        {"model: bar", "model: b\xff" "ar", 3, 9, {"not plain UTF-8", "save it as UTF-8"}},
+        {"model: bar", "model: b\x01" "ar", 3, 9, {"not plain UTF-8"}},
+        {"model: bar", "model: \"b\\x01ar\"", 3, 8, {"control character"}},
+        {"model: bar", "model: &a bar", 3, 8, {"anchors and aliases"}},
+        {"model: bar", "model: *a", 3, 8, {"anchors and aliases"}},
+        {"model: bar", "model: !!str bar", 3, 8, {"tags"}},
+        {"model: bar", "? [model]\n: bar", 3, 3, {"where a key is expected"}},
+        {"model: bar", "model: [[[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]]", 3, 23, {"nested deeper than 16"}},
+        {"model: bar", "model: aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa"
+                       "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa",
+         3, 8, {"a text of 201 bytes", "at most 200"}},
+        {"", "---\nname: other\n", 28, 1, {"a second document", "remove `---`"}},
+        {"seed: 7", "seed: 7\nseed: 8", 3, 1, {"`seed` is given twice", "line 2"}},
+        {"  young: 275 GPa", "  young: 275 GPa\n  young: 1 GPa", 11, 3, {"`young` is given twice", "line 10"}},
+    };
+    CHECK_ALL(table);
+}
+
+static void test_top(void **state)
+{
+    static const wrong table[] = {
+        {"name: test\n", "", 1, 1, {"no `name`", "becomes its folder"}},
+        {"name: test", "name: a/b", 1, 7, {"`a/b`", "letters", "digits"}},
+        {"name: test", "name: ..", 1, 7, {"`..`", "starts with a letter or digit"}},
+        {"name: test", "name: [a]", 1, 7, {"`name`", "found a list"}},
+        {"name: test", "name:", 1, 6, {"`name`", "found nothing"}},
+        {"seed: 7\n", "", 1, 1, {"no `seed`", "seed: 1"}},
+        {"seed: 7", "seed: -1", 2, 7, {"`seed`", "`-1`", "18446744073709551615"}},
+        {"seed: 7", "seed: 1e3", 2, 7, {"`1e3`", "in digits"}},
+        {"seed: 7", "seed: 18446744073709551616", 2, 7, {"`18446744073709551616`"}},
+        {"replicas: 3\n", "", 1, 1, {"no `replicas`", "replicas: 32"}},
+        {"replicas: 3", "replicas: 0", 25, 11, {"`replicas`", "0 is out of range", "1 to 1000000000"}},
+        {"replicas: 3", "replicas: 2.5", 25, 11, {"`2.5` is not a whole number"}},
+        {"replicas: 3", "replicas: 3x", 25, 11, {"`replicas`", "`3x` is not a number"}},
+        {"replicas: 3", "replicas: [3, 4]", 25, 11, {"`replicas`", "a list", "a whole number"}},
+        {"replicas: 3", "replica: 3", 25, 1, {"unknown key `replica`", "did you mean `replicas`?", "known are: name, seed"}},
+        {"material:", "materail:", 9, 1, {"unknown key `materail`", "did you mean `material`?"}},
+        {"", "rate: 5\n", 28, 1, {"unknown key `rate`", "write `rate:` indented below `loading:`"}},
+        {"", "loading.rate: 5\n", 28, 1, {"unknown key `loading.rate`", "write `rate:` indented below `loading:`"}},
+        {"model: bar", "model: ring", 3, 8, {"unknown model `ring`", "model can be: bar"}},
+        {"model: bar", "model: {bar: 1}", 3, 8, {"`model`", "found a section", "a name"}},
+    };
+    CHECK_ALL(table);
+}
+
+static void test_keys(void **state)
+{
+    static const wrong table[] = {
+        {"  fracture_energy:", "  fracture_enrgy:", 14, 3,
+         {"unknown key `fracture_enrgy` in cohesive", "did you mean `fracture_energy`?", "keys of cohesive: beta"}},
+        {"  elements: 100", "  elements: 100\n  density: 5", 9, 3, {"unknown key `density` in mesh", "section material"}},
+        {"  elements: 100", "  12: 100", 8, 3, {"unknown key `12` in mesh", "keys of mesh: elements"}},
+        {"  maximum: 301 MPa", "  maximum: 301 MPa\n  shape: 5", 19, 3,
+         {"`shape` belongs to distribution weibull", "this is uniform", "line 16"}},
+        {"  distribution: uniform\n", "", 17, 3,
+         {"`maximum` belongs to distribution uniform", "this is weibull, the default, as no `distribution`"}},
+        {"  distribution: uniform", "  distribution: lognormal", 18, 3,
+         {"`maximum` belongs to distribution uniform", "this is lognormal"}},
+        {"  distribution: uniform", "  distribution: unifrom", 16, 17, {"unknown distribution `unifrom`", "`uniform`"}},
+        {"  law: nitsche", "  law: Nitsche", 13, 8, {"unknown law `Nitsche`", "did you mean `nitsche`?", "rigid-link"}},
+        {"  maximum: 301 MPa\n", "", 16, 17, {"strength with distribution uniform needs `maximum`", "a stress, in Pa or MPa"}},
+        {"  young: 275 GPa\n", "", 9, 1, {"material needs `young` (Young's modulus E)", "a stress"}},
+        {"mesh:\n  elements: 100\n", "", 1, 1, {"mesh needs `elements`", "a whole number"}},
+        {"  quiet: 100 ns\n", "", 22, 9, {"time with stop settled needs `quiet`", "a time, in s or us"}},
+        {"material:\n  young: 275 GPa\n  density: 2750 kg/m3", "material: steel", 9, 11,
+         {"`material` is a section, but found `steel`", "density, young"}},
+        {"material:\n  young: 275 GPa\n  density: 2750 kg/m3", "material: [5]", 9, 11, {"found a list"}},
+    };
+    CHECK_ALL(table);
+}
+
+static void test_values(void **state)
+{
+    static const wrong table[] = {
+        {"275 GPa", "264 mm", 10, 10, {"`young`", "`264 mm` is a length", "expected a stress", "Pa or MPa"}},
+        {"275 GPa", "275 GPA", 10, 10, {"`young`", "unknown unit, `GPA`"}},
+        {"275 GPa", "275GPa", 10, 10, {"`275GPa` is not a number", "a space before the unit"}},
+        {"275 GPa", "-5 GPa", 10, 10, {"`young`", "-5 GPa is out of range", "more than 0 Pa"}},
+        {"275 GPa", "nan", 10, 10, {"`nan` is not a number"}},
+        {"275 GPa", "", 10, 9, {"`young`", "found nothing", "a stress"}},
+        {"275 GPa", "{a: 1}", 10, 10, {"`young`", "found a section", "a stress"}},
+        {"275 GPa", "[1 GPa, 2 GPa]", 10, 10, {"found a list", "- material.young: [...]"}},
+        {"elements: 100", "elements: 12x", 8, 13, {"`elements`", "`12x` is not a number"}},
+        {"elements: 100", "elements: 1e", 8, 13, {"`1e` is not a number"}},
+        {"elements: 100", "elements: 1.5", 8, 13, {"`1.5` is not a whole number"}},
+        {"elements: 100", "elements: 1e20", 8, 13, {"`1e20` is not a whole number of at most 15 digits"}},
+        {"elements: 100", "elements: 1", 8, 13, {"1 is out of range", "at least 2, at most 100000000"}},
+        {"elements: 100", "elements: 100 m", 8, 13, {"`100 m` is not a number"}},
+        {"  quiet: 100 ns", "  quiet: 100 ns\n  safety: 1.5", 25, 11, {"`safety`", "1.5 is out of range",
+                                                                          "more than 0, at most 1"}},
+        {"  quiet: 100 ns", "  quiet: 100 ns\n  safety: 0.5 s", 25, 11, {"`0.5 s` has a unit", "a pure number"}},
+        {"  history: 10", "  history: -1", 27, 12, {"`history`", "-1 is out of range", "at least 0"}},
+        {"  history: 10", "  interfaces: yes", 27, 15, {"`interfaces`", "`yes`", "true or false"}},
+        {"  history: 10", "  interfaces: [true]", 27, 15, {"`interfaces`", "found a list", "true or false"}},
+    };
+    CHECK_ALL(table);
+}
+
+static void test_sweeps(void **state)
+{
+    static const wrong table[] = {
+        {"", "sweep: []\n", 28, 8, {"`sweep`", "no axis"}},
+        {"", "sweep: 5\n", 28, 8, {"`sweep`", "found `5`", "a list of axes"}},
+        {"", "sweep:\n  loading.rate: [1, 2]\n", 29, 3, {"`sweep`", "found a section", "after `- `"}},
+        {"", "sweep:\n  - 5\n", 29, 5, {"an axis", "found `5`"}},
+        {"", "sweep:\n  - {}\n", 29, 5, {"an axis", "found nothing"}},
+        {"", "sweep:\n  - loading.rate: [1, 2]\n    time.end: [1, 2]\n", 30, 5, {"a second path, `time.end`", "zip"}},
+        {"", "sweep:\n  - loading.rate: []\n", 29, 19, {"no values"}},
+        {"", "sweep:\n  - loading.rate: 5\n", 29, 19, {"`loading.rate`", "found `5`", "[...]", "{from"}},
+        {"", "sweep:\n  - loading.rat: [5]\n", 29, 5, {"unknown path `loading.rat`", "did you mean `loading.rate`?"}},
+        {"", "sweep:\n  - loding.rate: [5]\n", 29, 5, {"unknown path `loding.rate`", "did you mean `loading.rate`?"}},
+        {"", "sweep:\n  - seed: [5]\n", 29, 5, {"`seed` cannot be swept"}},
+        {"", "sweep:\n  - replicas: [5]\n", 29, 5, {"`replicas` is not a parameter to sweep", "cases"}},
+        {"", "sweep:\n  - output.history: [5]\n", 29, 5, {"`output.history` cannot be swept", "whole campaign"}},
+        {"", "sweep:\n  - loading.rate: [1, -2 1/s]\n", 29, 23, {"`rate`", "-2 1/s is out of range", "more than 0 1/s"}},
+        {"", "sweep:\n  - loading.rate: [1, 2 m]\n", 29, 23, {"`rate`", "`2 m` is a length", "expected a rate"}},
+        {"", "sweep:\n  - loading.rate: [1, [2]]\n", 29, 23, {"`rate`", "found a list"}},
+        {"", "sweep:\n  - loading.rate: [1e3, 2e3, 1000 1/s]\n", 29, 30,
+         {"points 1 and 3", "the same values", "line 29, column 20"}},
+        {"", "sweep:\n  - loading.rate: [1, 2]\n  - loading.rate: [3, 4]\n", 30, 20, {"swept by two axes", "line 29"}},
+        {"", "sweep:\n  - loading.rate: {from: 1, points: 3}\n", 29, 19, {"a range without `to`"}},
+        {"", "sweep:\n  - loading.rate: {from: 1, to: 3}\n", 29, 19, {"a range without `points`"}},
+        {"", "sweep:\n  - loading.rate: {from: 1, to: 3, points: 1}\n", 29, 44, {"`points`", "out of range", "2 to 100000"}},
+        {"", "sweep:\n  - loading.rate: {from: 1, to: 1, points: 3}\n", 29, 19, {"`from` and `to` are equal"}},
+        {"", "sweep:\n  - loading.rate: {from: 1, to: 3, point: 3}\n", 29, 36, {"unknown key `point` in a range", "`points`"}},
+        {"", "sweep:\n  - loading.rate: {from: 1, to: 3, points: 3, spacing: lg}\n", 29, 56, {"`lg`", "lin", "log"}},
+        {"", "sweep:\n  - loading.rate: {from: -1, to: 3, points: 3, spacing: log}\n", 29, 57, {"greater than 0"}},
+        {"", "sweep:\n  - loading.rate: {from: -1, to: 3, points: 3}\n", 29, 19, {"-1 is out of range"}},
+        {"", "sweep:\n  - cohesive.law: {from: 1, to: 3, points: 3}\n", 29, 19, {"`cohesive.law` is not a number"}},
+        {"", "sweep:\n  - strength: {from: 1, to: 3, points: 3}\n", 29, 15, {"`strength` is a section", "a list of sections"}},
+        {"", "sweep:\n  - strength: [5]\n", 29, 16, {"`strength` is a section, but found `5`"}},
+        {"", "sweep:\n  - strength: [{distribution: weibull, scale: 3 MPa}]\n", 29, 31,
+         {"strength with distribution weibull needs `shape`"}},
+        {"", "sweep:\n  - strength.shape: [5, 10]\n", 29, 22, {"`shape` belongs to distribution weibull", "this is uniform"}},
+        {"", "sweep:\n  - zip: [1]\n", 29, 10, {"`zip`", "found a list"}},
+        {"", "sweep:\n  - zip: {}\n", 29, 10, {"`zip`", "found nothing"}},
+        {"", "sweep:\n  - zip:\n      loading.rate: [1, 2]\n      time.end: [1, 2, 3]\n", 31, 7,
+         {"`time.end` has 3 values", "has 2", "the same number"}},
+        {"", "sweep:\n  - zip:\n      loading.rate: [1, 2]\n      time.end: {from: 1, to: 2, points: 3}\n", 31, 7,
+         {"`time.end` has 3 values"}},
+        {"", "sweep:\n  - zip:\n      strength: [{minimum: 1}]\n      strength.minimum: [2]\n", 31, 26, {"`strength.minimum`", "twice"}},
+        {"", "sweep:\n  - cases: 5\n", 29, 12, {"`cases`", "found `5`"}},
+        {"", "sweep:\n  - cases: []\n", 29, 12, {"no values"}},
+        {"", "sweep:\n  - cases:\n      - 5\n", 30, 9, {"a case", "found `5`"}},
+        {"", "sweep:\n  - cases:\n      - nam: a\n", 30, 9, {"unknown path `nam`", "did you mean `name`?", "section.key"}},
+        {"", "sweep:\n  - cases:\n      - name: a b\n", 30, 15, {"`name`", "`a b`"}},
+        {"", "sweep:\n  - cases:\n      - replicas: 0\n", 30, 19, {"`replicas`", "out of range"}},
+        {"", "sweep:\n  - cases:\n      - loading: {rte: 5}\n", 30, 19, {"unknown key `rte` in loading", "`rate`"}},
+        {"", "sweep:\n  - cases:\n      - {name: a}\n      - {name: b}\n", 31, 9, {"points 1 and 2", "line 30, column 9"}},
+        {"", "sweep:\n  - cases:\n      - {replicas: 4}\n  - cases:\n      - {replicas: 5}\n", 32, 9, {"cases of two axes"}},
+        {"", "sweep:\n  - loading.rate: {from: 1, to: 2, points: 1000}\n  - time.end: {from: 1, to: 2, points: 1000}\n", 30, 5,
+         {"more than 100000 points"}},
+        {"", "sweep:\n  - model: [bar, shell]\n", 29, 18, {"unknown model `shell`"}},
+    };
+    CHECK_ALL(table);
+}
+
+/* Files that are wrong as a whole. */
+static void test_whole_files(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *words[2];
+    } table[] = {
+        {"", {":1:1: ", "the file is empty"}},
+        {"# nothing\n", {":2:1: ", "the file is empty"}},
+        {"- 1\n", {":1:1: ", "found a list"}},
+        {"bar\n", {":1:1: ", "found a single value"}},
+        {"\xff\xfe" "n\0a\0", {":1:1: ", "UTF-8"}},
+    };
+    char path[40];
+    fracas_campaign *campaign = NULL;
+    make_path(path);
+    for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
+        write_bytes(path, table[i].text, strlen(table[i].text));
+        assert_int_equal(fracas_campaign_read(path, &campaign), FRACAS_USAGE);
+        for (int w = 0; w < 2; w++)
+            if (!strstr(fracas_message(), table[i].words[w])) fail_msg("no \"%s\" in: %s", table[i].words[w], fracas_message());
+    }
+    size_t size = (1 << 20) + 1;
+    char *large = malloc(size);
+    assert_non_null(large);
+    memset(large, '#', size);
+    write_bytes(path, large, size);
+    free(large);
+    assert_int_equal(fracas_campaign_read(path, &campaign), FRACAS_USAGE);
+    assert_non_null(strstr(fracas_message(), "larger than 1 MiB"));
+    unlink(path);
+    assert_int_equal(fracas_campaign_read(path, &campaign), FRACAS_ENVIRONMENT);
+    assert_non_null(strstr(fracas_message(), "No such file"));
+    assert_int_equal(fracas_campaign_read("/", &campaign), FRACAS_ENVIRONMENT);
+    assert_null(campaign);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_yaml),   cmocka_unit_test(test_top),    cmocka_unit_test(test_keys),
+        cmocka_unit_test(test_values), cmocka_unit_test(test_sweeps), cmocka_unit_test(test_whole_files),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

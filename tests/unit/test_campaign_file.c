@@ -1,0 +1,455 @@
+/* Good campaign files: values, sweeps, hashes, columns, the resolved file, extensions. */
+#include "tests/unit/campaign_text.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const fracas_value *at(const fracas_campaign *campaign, size_t point, const char *path)
+{
+    size_t column = fracas_point_table_find(&campaign->table, path);
+    if (column == SIZE_MAX) fail_msg("no column %s", path);
+    return &campaign->table.point[point].value[column];
+}
+
+static double real(const fracas_campaign *campaign, size_t point, const char *path)
+{
+    return at(campaign, point, path)->real;
+}
+
+static void check_hex(const fracas_hash *hash, const char *expected)
+{
+    char hex[FRACAS_HASH_HEX];
+    fracas_hash_hex(hash, hex);
+    assert_string_equal(hex, expected);
+}
+
+static void test_example(void **state)
+{
+    (void)state;
+    static const double rate[] = {1e3, 1e4, 1e5, 1e6};
+    fracas_campaign *campaign;
+    assert_int_equal(fracas_campaign_read(FRACAS_SOURCE_DIR "/campaigns/examples/bar-rate-sweep.yaml", &campaign), 0);
+    assert_string_equal(campaign->name, "bar-rate-sweep");
+    assert_int_equal(campaign->npoints, 4);
+    for (size_t p = 0; p < 4; p++) {
+        const fracas_point *point = &campaign->point[p];
+        assert_true(point->spec.loading.rate == rate[p]);
+        assert_true(point->spec.material.young == 275e9 && point->spec.material.density == 2750);
+        assert_string_equal(point->spec.formulation->name, "bar");
+        assert_string_equal(point->strength.distribution->name, "uniform");
+        assert_true(point->replicas >= 32);
+    }
+    fracas_campaign_destroy(campaign);
+    fracas_campaign_destroy(NULL);
+}
+
+static void test_plain(void **state)
+{
+    (void)state;
+    fracas_campaign *campaign = read_text(plain_campaign);
+    const fracas_spec *spec = &campaign->point[0].spec;
+    assert_int_equal(campaign->npoints, 1);
+    assert_int_equal(campaign->seed, 7);
+    assert_int_equal(campaign->output.history, 10);
+    assert_false(campaign->output.interfaces);
+    assert_int_equal(campaign->point[0].replicas, 3);
+    assert_int_equal(spec->mesh.elements, 100);
+    assert_true(spec->geometry.length == 0.05 && spec->geometry.area == 1e-6); /* the second by default */
+    assert_true(spec->cohesive.fracture_energy == 100 && spec->cohesive.beta == 4);
+    assert_true(spec->time.end == 500e-9 && spec->time.quiet == 1e-7 && spec->time.safety == 0.25);
+    assert_string_equal(spec->loading.type->name, "imposed-rate");
+    assert_true(campaign->point[0].strength.minimum == 299e6 && campaign->point[0].strength.maximum == 301e6);
+    fracas_campaign_destroy(campaign);
+}
+
+static char *read_whole(const char *path)
+{
+    FILE *in = fopen(path, "r");
+    if (!in) fail_msg("cannot open %s", path);
+    char *text = calloc(1, 1 << 20);
+    assert_non_null(text);
+    assert_true(fread(text, 1, (1 << 20) - 1, in) > 0);
+    fclose(in);
+    return text;
+}
+
+/* The hashes were computed by xxhsum, not by this program, as docs/formats/campaign-file.md says. */
+static void test_golden_hash(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "cohesive.beta=4\ncohesive.fracture_energy=100\ncohesive.law=nitsche\ngeometry.area=1e-06\ngeometry.ends=periodic\n"
+        "geometry.length=0.05\nloading.rate=10000\nloading.type=imposed-rate\nmaterial.density=2750\n"
+        "material.young=275000000000\nmesh.elements=100\nmodel=bar\nstrength.distribution=uniform\n"
+        "strength.maximum=301000000\nstrength.minimum=299000000\ntime.end=5e-07\ntime.quiet=1e-07\n"
+        "time.quiet_fraction=0.001\ntime.safety=0.25\ntime.stop=settled\n";
+    fracas_campaign *campaign = read_text(plain_campaign);
+    fracas_hash hash = fracas_hash_of(text, strlen(text));
+    assert_true(fracas_hash_equal(&campaign->point[0].hash, &hash));
+    check_hex(&hash, "ac6ceed79266ef8e5d53b946be4dd8bb");
+    check_hex(&campaign->hash, "228c6656bb24ccb1455b7b3e47ebbc32");
+    char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md");
+    assert_non_null(strstr(page, "# ac6ceed79266ef8e5d53b946be4dd8bb\n"));
+    assert_non_null(strstr(page, "# 228c6656bb24ccb1455b7b3e47ebbc32\n"));
+    free(page);
+    fracas_campaign_destroy(campaign);
+}
+
+/* What is and what is not part of a point's and of a campaign's identity. */
+static void test_hashes(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *find, *put;
+        bool same_point, same_campaign;
+    } table[] = {
+        {"name: test", "name: other", true, true},
+        {"length: 50 mm", "length: 0.05", true, true},
+        {"length: 50 mm", "length: 5 cm", true, true},
+        {"length: 50 mm", "length: 50 mm\n  area: 1 mm2", true, true},
+        {"young: 275 GPa\n  density: 2750 kg/m3", "density: 2.75 g/cm3\n  young: 2.75e11", true, true},
+        {"elements: 100", "elements: 1e2", true, true},
+        {"seed: 7", "seed: 8", true, false},
+        {"replicas: 3", "replicas: 4", true, false},
+        {"history: 10", "history: 11", true, false},
+        {"history: 10", "history: 10\n  interfaces: true", true, false},
+        {"", "sweep:\n  - cases: [{name: a}]\n", true, false},
+        {"elements: 100", "elements: 101", false, false},
+        {"length: 50 mm", "length: 50.0000000000001 mm", false, false},
+        {"ends: periodic", "ends: held", false, false},
+        {"law: nitsche", "law: nitsche\n  beta: 5", false, false},
+        {"stop: settled\n  end: 500 ns\n  quiet: 100 ns", "stop: time\n  end: 500 ns", false, false},
+    };
+    fracas_campaign *plain = read_text(plain_campaign);
+    for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
+        fracas_campaign *other = read_replaced(table[i].find, table[i].put);
+        bool same_point = fracas_hash_equal(&plain->point[0].hash, &other->point[0].hash);
+        bool same_campaign = fracas_hash_equal(&plain->hash, &other->hash);
+        if (same_point != table[i].same_point || same_campaign != table[i].same_campaign)
+            fail_msg("%s: point %s, campaign %s", table[i].put, same_point ? "same" : "differs",
+                     same_campaign ? "same" : "differs");
+        fracas_campaign_destroy(other);
+    }
+    fracas_campaign_destroy(plain);
+}
+
+/* ---- sweeps ---- */
+
+static void test_product(void **state)
+{
+    (void)state;
+    fracas_campaign *campaign = read_replaced("", "sweep:\n  - loading.rate: [1e3 1/s, 1e4]\n"
+                                                  "  - material.young: [1 GPa, 2 GPa, 3 GPa]\n");
+    assert_int_equal(campaign->npoints, 6);
+    for (size_t p = 0; p < 6; p++) { /* the last axis is the fastest */
+        assert_true(campaign->point[p].spec.loading.rate == (p < 3 ? 1e3 : 1e4));
+        assert_true(campaign->point[p].spec.material.young == 1e9 * (double)(p % 3 + 1));
+    }
+    fracas_campaign_destroy(campaign);
+}
+
+static void test_ranges(void **state)
+{
+    (void)state;
+    fracas_campaign *campaign = read_replaced("", "sweep:\n  - loading.rate: {from: 0.1 1/s, to: 0.5, points: 5}\n");
+    static const double lin[] = {0.1, 0.2, 0.3, 0.4, 0.5};
+    for (size_t p = 0; p < 5; p++) assert_true(campaign->point[p].spec.loading.rate == lin[p]);
+    fracas_campaign_destroy(campaign);
+    campaign = read_replaced("", "sweep:\n  - loading.rate: {from: 1e6, to: 1e3, points: 7, spacing: log}\n");
+    static const double log_down[] = {1e6, 316227.766016838, 1e5, 31622.7766016838, 1e4, 3162.27766016838, 1e3};
+    for (size_t p = 0; p < 7; p++) assert_true(campaign->point[p].spec.loading.rate == log_down[p]);
+    fracas_campaign_destroy(campaign);
+    campaign = read_replaced("", "sweep:\n  - mesh.elements: {from: 1000, to: 8000, points: 4, spacing: log}\n");
+    for (size_t p = 0; p < 4; p++) assert_int_equal(campaign->point[p].spec.mesh.elements, 1000 << p);
+    fracas_campaign_destroy(campaign);
+}
+
+static void test_zip(void **state)
+{
+    (void)state;
+    fracas_campaign *campaign = read_replaced(
+        "", "sweep:\n  - zip:\n      loading.rate: [1, 2, 3]\n      mesh.elements: {from: 10, to: 30, points: 3}\n"
+            "      strength: [{minimum: 1 MPa}, {distribution: constant, value: 5 MPa}, {maximum: 400 MPa}]\n");
+    assert_int_equal(campaign->npoints, 3);
+    for (size_t p = 0; p < 3; p++) {
+        assert_true(campaign->point[p].spec.loading.rate == (double)(p + 1));
+        assert_int_equal(campaign->point[p].spec.mesh.elements, 10 * (p + 1));
+    }
+    assert_true(campaign->point[0].strength.minimum == 1e6 && campaign->point[0].strength.maximum == 301e6);
+    assert_string_equal(campaign->point[1].strength.distribution->name, "constant");
+    assert_true(campaign->point[1].strength.value == 5e6);
+    assert_true(campaign->point[2].strength.minimum == 299e6 && campaign->point[2].strength.maximum == 400e6);
+    fracas_campaign_destroy(campaign);
+}
+
+static void test_cases(void **state)
+{
+    (void)state;
+    fracas_campaign *campaign = read_replaced(
+        "", "sweep:\n  - cases:\n      - name: soft\n        material: {young: 1 GPa}\n        loading.rate: 5\n"
+            "      - {name: hard, replicas: 9, geometry: {ends: held}}\n      - mesh: {elements: 7}\n"
+            "  - cases: [{name: a}, {name: b, time: {safety: 0.1}}]\n");
+    static const char *const names[] = {"soft/a", "soft/b", "hard/a", "hard/b", "a", "b"};
+    assert_int_equal(campaign->npoints, 6);
+    for (size_t p = 0; p < 6; p++) {
+        const fracas_spec *spec = &campaign->point[p].spec;
+        assert_string_equal(at(campaign, p, "case")->text, names[p]);
+        assert_int_equal(campaign->point[p].replicas, p / 2 == 1 ? 9 : 3);
+        assert_int_equal(campaign->table.point[p].replicas, campaign->point[p].replicas);
+        assert_true(spec->material.young == (p / 2 == 0 ? 1e9 : 275e9) && spec->loading.rate == (p / 2 == 0 ? 5 : 1e4));
+        assert_string_equal(spec->geometry.ends->name, p / 2 == 1 ? "held" : "periodic");
+        assert_int_equal(spec->mesh.elements, p / 2 == 2 ? 7 : 100);
+        assert_true(spec->time.safety == (p % 2 ? 0.1 : 0.25));
+    }
+    fracas_campaign_destroy(campaign);
+}
+
+/* A swept kind drops the base's keys of the old kind, even one of the same name (`minimum`), and keeps common ones. */
+static void test_changed_kind(void **state)
+{
+    (void)state;
+    fracas_campaign *campaign = read_replaced(
+        "", "sweep:\n  - strength: [{}, {distribution: weibull, scale: 300 MPa, shape: 10}]\n"
+            "  - cohesive.law: [nitsche, rigid-link]\n");
+    assert_int_equal(campaign->npoints, 4);
+    for (size_t p = 0; p < 4; p++) {
+        assert_true(real(campaign, p, "strength.minimum") == (p < 2 ? 299e6 : 0));
+        assert_true(p < 2 ? isnan(real(campaign, p, "strength.shape")) : real(campaign, p, "strength.shape") == 10);
+        assert_true(p < 2 ? real(campaign, p, "strength.maximum") == 301e6 : isnan(real(campaign, p, "strength.maximum")));
+        assert_true(p % 2 == 0 ? real(campaign, p, "cohesive.beta") == 4 : isnan(real(campaign, p, "cohesive.beta")));
+        assert_true(campaign->point[p].spec.cohesive.fracture_energy == 100);
+    }
+    fracas_campaign_destroy(campaign);
+}
+
+/* The sweep may supply what the sections leave out. */
+static void test_supplied_by_sweep(void **state)
+{
+    (void)state;
+    char *text = replace(plain_campaign, "strength:\n  distribution: uniform\n  minimum: 299 MPa\n  maximum: 301 MPa\n", "");
+    char *bare = replace(text, "loading:\n  rate: 1e4 1/s\n", "");
+    char *swept = replace(bare, "replicas: 3\n", "");
+    char *full = replace(swept, "", "sweep:\n  - loading.rate: [1e3, 1e4]\n"
+                                    "  - cases: [{replicas: 1, strength: {distribution: constant, value: 3 MPa}}]\n");
+    fracas_campaign *campaign = read_text(full);
+    assert_int_equal(campaign->npoints, 2);
+    assert_int_equal(campaign->point[1].replicas, 1);
+    assert_true(campaign->point[1].strength.value == 3e6);
+    fracas_campaign_destroy(campaign);
+    free(text);
+    free(bare);
+    free(swept);
+    free(full);
+}
+
+/* ---- the table ---- */
+
+static void test_table(void **state)
+{
+    (void)state;
+    fracas_campaign *campaign = read_replaced("", "sweep:\n  - strength: [{}, {distribution: constant, value: 5 MPa}]\n");
+    const fracas_point_table *table = &campaign->table;
+    static const char *const paths[] = {
+        "cohesive.beta", "cohesive.fracture_energy", "cohesive.law", "derived.strength_mean", "geometry.area",
+        "geometry.ends", "geometry.length", "loading.rate", "loading.type", "material.density", "material.young",
+        "mesh.elements", "model", "strength.distribution", "strength.maximum", "strength.minimum", "strength.value",
+        "time.end", "time.quiet", "time.quiet_fraction", "time.safety", "time.stop"};
+    assert_int_equal(table->ncolumns, FRACAS_COUNT(paths));
+    for (size_t c = 0; c < FRACAS_COUNT(paths); c++) {
+        assert_string_equal(table->column[c].path, paths[c]);
+        assert_int_equal(fracas_point_table_find(table, paths[c]), c);
+        bool text = strcmp(table->column[c].unit, "") == 0;
+        assert_int_equal(table->column[c].text, text);
+        for (size_t p = 0; p < 2; p++) assert_true(!text || (isnan(table->point[p].value[c].real) && *table->point[p].value[c].text));
+    }
+    assert_int_equal(fracas_point_table_find(table, "case"), SIZE_MAX);
+    assert_true(real(campaign, 0, "derived.strength_mean") == 300e6 && real(campaign, 1, "derived.strength_mean") == 5e6);
+    assert_true(isnan(real(campaign, 0, "strength.value")) && real(campaign, 1, "strength.value") == 5e6);
+    assert_string_equal(at(campaign, 1, "strength.distribution")->text, "constant");
+    assert_string_equal(table->column[fracas_point_table_find(table, "material.young")].unit, "Pa");
+    for (size_t p = 0; p < 2; p++) assert_true(fracas_hash_equal(&table->point[p].hash, &campaign->point[p].hash));
+    fracas_campaign_destroy(campaign);
+}
+
+/* Kinds of one section that have a key in common must give it one type and unit: they share a leaf and a column. */
+static void check_same_key(const fracas_section *section, const fracas_param *a, const fracas_param *b)
+{
+    if (strcmp(a->name, b->name) == 0 && (a->type != b->type || strcmp(a->unit, b->unit) != 0))
+        fail_msg("%s.%s has two types or units", section->name, a->name);
+}
+
+static void check_section(const fracas_section *section)
+{
+    for (size_t k = 0; k < section->nkinds; k++)
+        for (size_t p = 0; p < section->kinds[k]->nparams; p++) {
+            const fracas_param *param = &section->kinds[k]->params[p];
+            for (size_t c = 0; c < section->nparams; c++)
+                if (strcmp(section->params[c].name, param->name) == 0) fail_msg("%s.%s is there twice", section->name, param->name);
+            for (size_t l = 0; l < k; l++)
+                for (size_t q = 0; q < section->kinds[l]->nparams; q++)
+                    check_same_key(section, param, &section->kinds[l]->params[q]);
+        }
+}
+
+static void test_tables_agree(void **state)
+{
+    (void)state;
+    for (size_t s = 0; s < fracas_engine_nsections; s++) check_section(fracas_engine_sections[s]);
+    check_section(&fracas_strength_section);
+}
+
+/* The file and the sweep that docs/formats/campaign-file.md shows. */
+static void test_page_examples(void **state)
+{
+    (void)state;
+    char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md"), *block[2], *end = page;
+    for (int b = 0; b < 2; b++) {
+        block[b] = strstr(end, "```yaml\n") + strlen("```yaml\n");
+        end = strstr(block[b], "```");
+        *end++ = '\0';
+    }
+    fracas_campaign *plain = read_text(plain_campaign), *shown = read_text(block[0]);
+    assert_true(fracas_hash_equal(&plain->hash, &shown->hash));
+    fracas_campaign_destroy(shown);
+    shown = read_replaced("", block[1]);
+    assert_int_equal(shown->npoints, 2 * 4 * 2 * 2 * 2);
+    fracas_campaign_destroy(shown);
+    fracas_campaign_destroy(plain);
+    free(page);
+}
+
+/* ---- the resolved file ---- */
+
+static char *write_text(const fracas_campaign *campaign)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    assert_int_equal(fracas_campaign_write(campaign, out), FRACAS_OK);
+    assert_int_equal(fclose(out), 0);
+    return text;
+}
+
+static void test_round_trip(void **state)
+{
+    (void)state;
+    static const char *const sweeps[] = {
+        "",
+        "sweep:\n  - cases: [{name: alone, replicas: 5}]\n",
+        "sweep:\n  - loading.rate: {from: 1e3, to: 1e6, points: 4, spacing: log}\n  - mesh.elements: [10, 1e8]\n",
+        "sweep:\n  - cases:\n      - {name: a, replicas: 1000000000}\n      - {strength.minimum: 1 Pa, replicas: 1}\n",
+        ("sweep:\n  - strength: [{}, {distribution: weibull, scale: 3 MPa, shape: 10}, {distribution: constant, value: 1}]\n"
+         "  - cohesive.law: [nitsche, rigid-link]\n  - time: [{}, {stop: time}]\n  - geometry.ends: [periodic, held]\n"),
+        "sweep:\n  - zip:\n      material.young: [0.1 GPa, 0.3 GPa]\n      time.stop: [settled, time]\n",
+    };
+    for (size_t i = 0; i < FRACAS_COUNT(sweeps); i++) {
+        fracas_campaign *campaign = read_replaced("", sweeps[i]);
+        char *text = write_text(campaign);
+        fracas_campaign *back = read_text(text);
+        char *again = write_text(back);
+        assert_string_equal(text, again);
+        assert_true(fracas_hash_equal(&campaign->hash, &back->hash));
+        assert_string_equal(campaign->name, back->name);
+        assert_int_equal(campaign->npoints, back->npoints);
+        assert_int_equal(campaign->table.ncolumns, back->table.ncolumns);
+        for (size_t p = 0; p < campaign->npoints; p++) {
+            assert_true(fracas_hash_equal(&campaign->point[p].hash, &back->point[p].hash));
+            assert_int_equal(campaign->point[p].replicas, back->point[p].replicas);
+            assert_memory_equal(&campaign->point[p].spec, &back->point[p].spec, sizeof(fracas_spec));
+            assert_memory_equal(&campaign->point[p].strength, &back->point[p].strength, sizeof(fracas_strength));
+        }
+        assert_int_equal(fracas_campaign_extends(campaign, back), FRACAS_OK);
+        fracas_campaign_destroy(campaign);
+        fracas_campaign_destroy(back);
+        free(text);
+        free(again);
+    }
+}
+
+/* A file that cannot be written is said. */
+static void test_write_fails(void **state)
+{
+    (void)state;
+    fracas_campaign *campaign = read_text(plain_campaign);
+    FILE *full = fopen("/dev/full", "w");
+    assert_non_null(full);
+    assert_int_equal(fracas_campaign_write(campaign, full), FRACAS_ENVIRONMENT);
+    assert_non_null(strstr(fracas_message(), "No space left"));
+    fclose(full);
+    fracas_campaign_destroy(campaign);
+}
+
+/* ---- extending ---- */
+
+static void test_extends(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *find, *put, *words[3]; /* no words: it extends */
+    } table[] = {
+        {"replicas: 3", "replicas: 4", {NULL}},
+        {"name: test", "name: other", {NULL}},
+        {"rate: [1e3, 1e4]", "rate: [1e2, 1e3, 2e3, 1e4]", {NULL}},
+        {"rate: [1e3, 1e4]", "rate: [1e4, 1e3]", {NULL}},
+        {"replicas: 3", "replicas: 2", {"replicas is 3 in the study", "but 2", "only grow"}},
+        {"seed: 7", "seed: 8", {"seed is 7 in the study", "but 8"}},
+        {"history: 10", "history: 20", {"output.history is 10 in the study", "but 20"}},
+        {"history: 10", "history: 10\n  interfaces: true", {"output.interfaces is false", "but true"}},
+        {"rate: [1e3, 1e4]", "rate: [1e3, 2e4]", {"loading.rate is 10000 1/s in the study (its point 2)", "but 1000 1/s"}},
+        {"young: 275 GPa", "young: 276 GPa", {"material.young is 275000000000 Pa", "but 276000000000 Pa"}},
+        {"ends: periodic", "ends: held", {"geometry.ends is periodic", "but held"}},
+        {"stop: settled\n  end: 500 ns\n  quiet: 100 ns", "stop: time\n  end: 500 ns", {"time.quiet is 1e-07 s", "but nothing"}},
+    };
+    char *text = replace(plain_campaign, "", "sweep:\n  - loading.rate: [1e3, 1e4]\n");
+    fracas_campaign *before = read_text(text);
+    for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
+        char *changed = replace(text, table[i].find, table[i].put);
+        fracas_campaign *now = read_text(changed);
+        fracas_err err = fracas_campaign_extends(now, before);
+        if (err != (table[i].words[0] ? FRACAS_DAMAGED : FRACAS_OK)) fail_msg("%s: %d %s", table[i].put, err, fracas_message());
+        for (int w = 0; w < 3 && table[i].words[w]; w++)
+            if (!strstr(fracas_message(), table[i].words[w])) fail_msg("no \"%s\" in: %s", table[i].words[w], fracas_message());
+        fracas_campaign_destroy(now);
+        free(changed);
+    }
+    fracas_campaign_destroy(before);
+    free(text);
+}
+
+/* ---- the reference page ---- */
+
+static void test_reference_page(void **state)
+{
+    (void)state;
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    fracas_campaign_reference(out);
+    assert_int_equal(fclose(out), 0);
+    const char *keep = getenv("FRACAS_WRITE_REFERENCE");
+    if (keep) write_bytes(keep, text, size);
+    char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file-keys.md");
+    if (strcmp(page, text) != 0)
+        fail_msg("docs/formats/campaign-file-keys.md is not what the tables say; run this test with "
+                 "FRACAS_WRITE_REFERENCE=docs/formats/campaign-file-keys.md and commit the page");
+    free(page);
+    free(text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_example),      cmocka_unit_test(test_plain),
+        cmocka_unit_test(test_golden_hash),  cmocka_unit_test(test_hashes),
+        cmocka_unit_test(test_product),      cmocka_unit_test(test_ranges),
+        cmocka_unit_test(test_zip),          cmocka_unit_test(test_cases),
+        cmocka_unit_test(test_changed_kind), cmocka_unit_test(test_supplied_by_sweep),
+        cmocka_unit_test(test_table),        cmocka_unit_test(test_tables_agree),
+        cmocka_unit_test(test_round_trip),   cmocka_unit_test(test_write_fails),
+        cmocka_unit_test(test_extends),      cmocka_unit_test(test_reference_page),
+        cmocka_unit_test(test_page_examples),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
