@@ -252,10 +252,10 @@ static void figure_of_sizes(void **state)
 
 static void assert_labels(bool log, double least, double greatest, const char *expected)
 {
-    fracas_scale scale = {.from = 0, .to = 100};
+    fracas_scale scale = {.from = 0, .to = 400};
     fracas_scale_fit(&scale, log, least, greatest);
     assert_true(scale.low <= least * (1 + 1e-12) && scale.high >= greatest * (1 - 1e-12));
-    assert_true(fabs(fracas_scale_place(&scale, scale.high) - 100) < 1e-9);
+    assert_true(fabs(fracas_scale_place(&scale, scale.high) - 400) < 1e-9);
     fracas_tick tick[FRACAS_MAX_TICKS];
     size_t count = fracas_scale_ticks(&scale, tick);
     char text[512] = "";
