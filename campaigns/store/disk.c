@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <xxhash.h>
 
 static const char temporary_mark[] = ".tmp-";
 
@@ -65,20 +64,19 @@ fracas_err fracas_disk_seal(int fd, const char *path, fracas_file_seal *seal)
 {
     enum { BLOCK = 1 << 20 };
     char *block = malloc(BLOCK);
-    XXH3_state_t *state = XXH3_createState();
-    fracas_err err = FRACAS_OK;
+    fracas_checksum *checksum = NULL;
     *seal = (fracas_file_seal){0};
-    if (!block || !state || XXH3_64bits_reset(state) == XXH_ERROR) err = fracas_no_memory("a checksum");
+    fracas_err err = block ? fracas_checksum_create(&checksum) : fracas_no_memory("a checksum");
     while (!err) {
         ssize_t got = pread(fd, block, BLOCK, (off_t)seal->bytes);
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) err = fracas_disk_fail("read", path);
         if (got <= 0) break;
         seal->bytes += (uint64_t)got;
-        XXH3_64bits_update(state, block, (size_t)got);
+        fracas_checksum_add(checksum, block, (size_t)got);
     }
-    if (!err) seal->checksum = XXH3_64bits_digest(state); /* = fracas_checksum_of the whole */
-    XXH3_freeState(state);
+    if (!err) seal->checksum = fracas_checksum_end(checksum); /* = fracas_checksum_of the whole */
+    fracas_checksum_destroy(checksum);
     free(block);
     return err;
 }

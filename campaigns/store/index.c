@@ -39,6 +39,8 @@ static const char *const sql_text[FRACAS_NSQL] = {
     [FRACAS_SQL_ROW_FIND] = "SELECT status, segment, row FROM realization WHERE point = ?1 AND replica = ?2",
     [FRACAS_SQL_ROW_OF_POINT] = "SELECT replica, status, attempts FROM realization"
                                 " WHERE point = ?1 AND replica < ?2 ORDER BY replica",
+    [FRACAS_SQL_ROW_FAILED] = "SELECT replica, status, attempts, coalesce(reason, '') FROM realization"
+                              " WHERE point = ?1 AND status IN ('failed', 'quarantined') ORDER BY replica",
     [FRACAS_SQL_ROW_BY_SEGMENT] = "SELECT r.segment, r.row, p.hash, r.replica, r.outcome, r.fragments,"
                                   " r.fragments_dust, r.steps, r.dissipated, r.residual, r.status"
                                   " FROM realization r JOIN point p ON p.id = r.point"

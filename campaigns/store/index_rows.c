@@ -110,6 +110,28 @@ fracas_err fracas_index_rows(fracas_index *index, const fracas_point_table *tabl
     return err;
 }
 
+fracas_err fracas_index_failures(fracas_index *index, const fracas_point_table *table,
+                                 void (*say)(void *context, const fracas_index_row *row, const char *reason),
+                                 void *context)
+{
+    sqlite3_stmt *s = at(index, FRACAS_SQL_ROW_FAILED);
+    for (size_t p = 0; p < table->npoints; p++) {
+        int64_t id;
+        bool more;
+        TRY(need_point(index, &table->point[p].hash, &id));
+        TRY(fracas_index_bind(index, FRACAS_SQL_ROW_FAILED, 1, id));
+        for (;;) {
+            TRY(fracas_index_step(index, FRACAS_SQL_ROW_FAILED, &more));
+            if (!more) break;
+            fracas_index_row row = {p, sqlite3_column_int64(s, 0), fracas_index_status(sqlite3_column_text(s, 1)),
+                                    sqlite3_column_int64(s, 2)};
+            say(context, &row, (const char *)sqlite3_column_text(s, 3));
+        }
+        fracas_index_reset(index, FRACAS_SQL_ROW_FAILED);
+    }
+    return FRACAS_OK;
+}
+
 fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point, int64_t replica, fracas_place *place)
 {
     int64_t id;

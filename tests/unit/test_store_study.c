@@ -156,6 +156,13 @@ static void plan_is_in_order_and_grows(void **state)
     sample_fails(fracas_index_count_point(index_, &unknown, &counts), FRACAS_DAMAGED, "has no point");
 }
 
+static void note_failure(void *said, const fracas_index_row *row, const char *reason)
+{
+    size_t used = strlen(said);
+    snprintf((char *)said + used, 100 - used, "point %zu replica %d attempts %d: %s;", row->point, (int)row->replica,
+             (int)row->attempts, reason);
+}
+
 static void leases_end_with_the_next_plan(void **state)
 {
     (void)state;
@@ -178,6 +185,9 @@ static void leases_end_with_the_next_plan(void **state)
     assert_int_equal(row[2 * REPLICAS + 6].status, FRACAS_PLANNED);
     assert_int_equal(row[2 * REPLICAS + 7].status, FRACAS_FAILED_ROW);
     free(row);
+    char said[100] = "";
+    OK(fracas_index_failures(index_, &table, note_failure, said));
+    assert_string_equal(said, "point 2 replica 7 attempts 1: signal 9;");
 }
 
 static void first_commit_stays(void **state)
