@@ -50,7 +50,7 @@ static inline char *replace(const char *text, const char *find, const char *put)
     if (!at || (*find && strstr(at + 1, find))) fail_msg("the text has not exactly one \"%s\"", find);
     size_t before = (size_t)(at - text), size = strlen(text) + strlen(put) + 1;
     char *made = malloc(size);
-    if (!made) fail_msg("no memory");
+    if (!made) abort();
     snprintf(made, size, "%.*s%s%s", (int)before, text, put, at + strlen(find));
     return made;
 }

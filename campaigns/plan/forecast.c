@@ -1,0 +1,153 @@
+#include "campaigns/plan/forecast.h"
+
+#include "campaigns/plan/plan.h"
+#include "engine/engine.h"
+
+#include <math.h>
+#include <time.h>
+
+enum { MAX_LANES = 8 }; /* of a batch */
+
+static fracas_err describe(const fracas_point *point, fracas_forecast *forecast)
+{
+    fracas_model *model;
+    TRY(fracas_model_create(&point->spec, &model));
+    *forecast = (fracas_forecast){
+        .elements = (int64_t)fracas_model_elements(model),
+        .steps = fracas_model_steps(model),
+        .time_step = fracas_model_time_step(model),
+    };
+    fracas_err err = fracas_model_check_strength(model, fracas_strength_mean(&point->strength));
+    fracas_model_destroy(model);
+    return err;
+}
+
+fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point, fracas_forecast *forecast)
+{
+    fracas_err err = describe(&campaign->point[point], forecast);
+    return err ? fracas_fail_within(err, "point %zu", point + 1) : FRACAS_OK;
+}
+
+fracas_err fracas_plan_cost(const fracas_campaign *campaign, size_t point, double *cost)
+{
+    fracas_forecast forecast;
+    TRY(fracas_forecast_make(campaign, point, &forecast));
+    *cost = (double)forecast.elements * (double)forecast.steps;
+    return FRACAS_OK;
+}
+
+/* ---- speed ---- */
+
+/* Processor time: what a core that is free would take. */
+static double seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static size_t lanes_of(const fracas_point *point)
+{
+    return point->replicas < MAX_LANES ? (size_t)point->replicas : MAX_LANES;
+}
+
+/* Element-steps and seconds of something that ran. */
+typedef struct {
+    double element_steps, seconds;
+} effort;
+
+/* Runs one batch of `lanes` realizations in which every interface has this strength. */
+static fracas_err run_batch(const fracas_model *model, double strength, size_t lanes, effort *spent)
+{
+    fracas_batch *batch;
+    fracas_record record[MAX_LANES];
+    const fracas_batch_options options = {.isa = FRACAS_ISA_BEST};
+    TRY(fracas_batch_create(model, lanes, &options, &batch));
+    for (size_t l = 0; l < lanes; l++) {
+        size_t stride, interfaces = fracas_model_interfaces(model);
+        double *sigma_c = fracas_batch_strength(batch, l, &stride);
+        for (size_t i = 0; i < interfaces; i++) sigma_c[i * stride] = strength;
+        fracas_record_init(&record[l]);
+    }
+    const double start = seconds();
+    fracas_err err = fracas_batch_run(batch, record);
+    *spent = (effort){.seconds = seconds() - start};
+    for (size_t l = 0; l < lanes; l++) {
+        spent->element_steps += (double)fracas_model_elements(model) * (double)record[l].steps;
+        fracas_record_clear(&record[l]);
+    }
+    fracas_batch_destroy(batch);
+    return err;
+}
+
+static fracas_err time_steps(const fracas_point *point, double end, effort *spent)
+{
+    fracas_spec spec = point->spec;
+    fracas_model *model;
+    spec.time.end = fmin(spec.time.end, end);
+    TRY(fracas_model_create(&spec, &model));
+    fracas_err err = run_batch(model, fracas_strength_mean(&point->strength), lanes_of(point), spent);
+    fracas_model_destroy(model);
+    return err;
+}
+
+/* Times about 2e7 element-steps, a twentieth of a second, less the time that a batch of one step takes: what a batch does
+ * once counts little in a full run. A batch that is too short for the clock is repeated, and taken as it is if even
+ * many are. */
+static fracas_err time_point(const fracas_point *point, fracas_forecast *forecast)
+{
+    const double step = forecast->time_step;
+    const double steps = fmax(20.0, ceil(2e7 / ((double)forecast->elements * (double)lanes_of(point))));
+    effort sum = {0}, whole = {0};
+    for (int i = 0; i < 50 && sum.seconds < 0.01; i++) {
+        effort brief, full;
+        TRY(time_steps(point, 0.5 * step, &brief));
+        TRY(time_steps(point, (steps - 0.5) * step, &full));
+        sum.element_steps += full.element_steps - brief.element_steps;
+        sum.seconds += full.seconds - brief.seconds;
+        whole.element_steps += full.element_steps;
+        whole.seconds += full.seconds;
+    }
+    if (sum.element_steps <= 0.0 || sum.seconds <= 0.0) sum = whole;
+    forecast->speed = sum.element_steps / fmax(sum.seconds, 1e-9);
+    return FRACAS_OK;
+}
+
+/* The speed of an earlier point of the same lanes and of half to twice the elements; 0 if there is none. */
+static double speed_of_like(const fracas_campaign *campaign, const fracas_forecast *forecast, size_t point)
+{
+    for (size_t p = point; p-- > 0;)
+        if (lanes_of(&campaign->point[p]) == lanes_of(&campaign->point[point]) &&
+            forecast[p].elements <= 2 * forecast[point].elements && forecast[point].elements <= 2 * forecast[p].elements)
+            return forecast[p].speed;
+    return 0.0;
+}
+
+/* ---- size ---- */
+
+/* Bytes of one realization in study.h5, its values counted in the widths of a record. */
+static double realization_bytes(const fracas_output *output, const fracas_forecast *forecast)
+{
+    const double fragments = fmax(1.0, (double)forecast->elements / FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
+    const double scalars = offsetof(fracas_record, nfragment);
+    const double history = ((double)output->history + 4.0) * sizeof(fracas_history_row); /* start and three events */
+    const double interfaces = output->interfaces ? (double)forecast->elements * sizeof(fracas_interface_row) : 0.0;
+    return scalars + fragments * sizeof(fracas_fragment) + history + interfaces;
+}
+
+fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs, fracas_forecast *forecast)
+{
+    for (size_t p = 0; p < campaign->npoints; p++) {
+        const fracas_point *point = &campaign->point[p];
+        TRY(fracas_forecast_make(campaign, p, &forecast[p]));
+        forecast[p].speed = speed_of_like(campaign, forecast, p);
+        if (forecast[p].speed == 0.0) {
+            fracas_err err = time_point(point, &forecast[p]);
+            if (err) return fracas_fail_within(err, "point %zu", p + 1);
+        }
+        const double work = (double)forecast[p].elements * (double)forecast[p].steps * (double)point->replicas;
+        forecast[p].time = work / (forecast[p].speed * jobs);
+        forecast[p].bytes = realization_bytes(&campaign->output, &forecast[p]) * (double)point->replicas;
+    }
+    return FRACAS_OK;
+}

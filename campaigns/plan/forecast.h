@@ -1,0 +1,21 @@
+/* Numbers of a plan: what each point will cost. */
+#ifndef FRACAS_CAMPAIGNS_PLAN_FORECAST_H
+#define FRACAS_CAMPAIGNS_PLAN_FORECAST_H
+
+#include "campaigns/campaign.h"
+
+typedef struct {
+    int64_t elements, steps;
+    double time_step; /* s */
+    double speed;     /* element-steps per second of one core; 0 until it is timed */
+    double time;      /* s, of all replicas on all jobs */
+    double bytes;     /* in study.h5 */
+} fracas_forecast;
+
+/* Elements, time step and steps of one point (speed 0); refused if the engine would refuse the point's mean strength. */
+FRACAS_MUST_USE fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point, fracas_forecast *forecast);
+
+/* All of them, timed; `forecast` has room for every point. */
+FRACAS_MUST_USE fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs, fracas_forecast *forecast);
+
+#endif

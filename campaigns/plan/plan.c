@@ -1,0 +1,242 @@
+#include "campaigns/plan/plan.h"
+
+#include "base/json.h"
+#include "base/units.h"
+#include "campaigns/plan/forecast.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* A campaign and what is said about it. */
+typedef struct {
+    const fracas_campaign *campaign;
+    const fracas_point_table *table; /* of the campaign */
+    int jobs;
+    fracas_forecast *forecast;       /* of each point */
+    size_t nvaried, *varied;         /* columns that tell points apart */
+    int64_t realizations;
+    double time, bytes;              /* totals */
+    double slowest;                  /* element-steps per second */
+} campaign_plan;
+
+static bool is_varied(const fracas_point_table *table, size_t c)
+{
+    if (strncmp(table->column[c].path, "derived.", 8) == 0) return false;
+    const fracas_value *first = &table->point[0].value[c];
+    for (size_t p = 1; p < table->npoints; p++) {
+        const fracas_value *value = &table->point[p].value[c];
+        bool both_none = isnan(value->real) && isnan(first->real);
+        if ((value->real != first->real && !both_none) || strcmp(value->text, first->text) != 0) return true;
+    }
+    return false;
+}
+
+static void plan_clear(campaign_plan *plan)
+{
+    free(plan->forecast);
+    free(plan->varied);
+}
+
+/* The caller clears the plan, also after an error. */
+static fracas_err plan_init(const fracas_campaign *campaign, int jobs, campaign_plan *made)
+{
+    const fracas_point_table *table = &campaign->table;
+    *made = (campaign_plan){.campaign = campaign, .table = table, .jobs = jobs, .slowest = INFINITY};
+    made->forecast = malloc(table->npoints * sizeof *made->forecast);
+    made->varied = malloc(table->ncolumns * sizeof *made->varied);
+    if (!made->forecast || !made->varied) return fracas_no_memory("the plan");
+    TRY(fracas_forecast_all(campaign, jobs, made->forecast));
+    for (size_t c = 0; c < table->ncolumns; c++)
+        if (is_varied(table, c)) made->varied[made->nvaried++] = c;
+    for (size_t p = 0; p < table->npoints; p++) {
+        made->realizations += table->point[p].replicas;
+        made->time += made->forecast[p].time;
+        made->bytes += made->forecast[p].bytes;
+        made->slowest = fmin(made->slowest, made->forecast[p].speed);
+    }
+    return FRACAS_OK;
+}
+
+/* ---- a table of text ---- */
+
+enum { CELL = 64 };
+
+/* Right-aligned cells. */
+typedef struct {
+    size_t rows, columns;
+    char (*cell)[CELL];
+    int *width; /* of each column */
+} text_sheet;
+
+static fracas_err sheet_init(size_t rows, size_t columns, text_sheet *sheet)
+{
+    *sheet = (text_sheet){rows, columns, calloc(rows * columns, CELL), calloc(columns, sizeof *sheet->width)};
+    return sheet->cell && sheet->width ? FRACAS_OK : fracas_no_memory("the plan");
+}
+
+static void sheet_clear(text_sheet *sheet)
+{
+    free(sheet->cell);
+    free(sheet->width);
+}
+
+static FRACAS_PRINTF(4, 5) void sheet_put(text_sheet *sheet, size_t row, size_t column, const char *format, ...)
+{
+    char *cell = sheet->cell[row * sheet->columns + column];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(cell, CELL, format, arguments);
+    va_end(arguments);
+    if ((int)strlen(cell) > sheet->width[column]) sheet->width[column] = (int)strlen(cell);
+}
+
+static void sheet_print(const text_sheet *sheet, FILE *out)
+{
+    for (size_t r = 0; r < sheet->rows; r++)
+        for (size_t c = 0; c < sheet->columns; c++)
+            fprintf(out, "%*s%s", sheet->width[c], sheet->cell[r * sheet->columns + c], c + 1 < sheet->columns ? "  " : "\n");
+}
+
+static void put_duration(text_sheet *sheet, size_t row, size_t column, double time)
+{
+    if (time < 120.0) sheet_put(sheet, row, column, time < 1.0 ? "%.2g s" : "%.1f s", time);
+    else if (time < 7200.0) sheet_put(sheet, row, column, "%.0f min", time / 60.0);
+    else if (time < 172800.0) sheet_put(sheet, row, column, "%.1f h", time / 3600.0);
+    else sheet_put(sheet, row, column, "%.1f days", time / 86400.0);
+}
+
+static void put_size(text_sheet *sheet, size_t row, size_t column, double bytes)
+{
+    static const char *const unit[] = {"kB", "MB", "GB", "TB"};
+    size_t u = 0;
+    for (bytes /= 1e3; bytes >= 1e3 && u < 3; u++) bytes /= 1e3;
+    sheet_put(sheet, row, column, "%.1f %s", bytes, unit[u]);
+}
+
+/* ---- the plan as text ---- */
+
+static const char *const own_heads[][2] = {{"replicas", ""}, {"elements", ""}, {"time step", "s"}, {"steps", "at most"},
+                                           {"time", "at most"}, {"size", "about"}};
+enum { OWN_COLUMNS = sizeof own_heads / sizeof *own_heads };
+
+static void put_heads(const campaign_plan *plan, text_sheet *sheet)
+{
+    sheet_put(sheet, 0, 0, "point");
+    for (size_t v = 0; v < plan->nvaried; v++) {
+        const fracas_column *column = &plan->table->column[plan->varied[v]];
+        sheet_put(sheet, 0, 1 + v, "%s", column->path);
+        sheet_put(sheet, 1, 1 + v, "%s", strcmp(column->unit, "1") ? column->unit : "");
+    }
+    for (size_t c = 0; c < OWN_COLUMNS; c++)
+        for (size_t r = 0; r < 2; r++) sheet_put(sheet, r, 1 + plan->nvaried + c, "%s", own_heads[c][r]);
+}
+
+static void put_point(const campaign_plan *plan, size_t p, text_sheet *sheet)
+{
+    const fracas_point_row *point = &plan->table->point[p];
+    const fracas_forecast *forecast = &plan->forecast[p];
+    const size_t row = p + 2, own = 1 + plan->nvaried;
+    sheet_put(sheet, row, 0, "%zu", p + 1);
+    for (size_t v = 0; v < plan->nvaried; v++) {
+        const fracas_value *value = &point->value[plan->varied[v]];
+        char number[FRACAS_NUMBER_TEXT];
+        fracas_number_write(value->real, number);
+        const bool text = plan->table->column[plan->varied[v]].text;
+        sheet_put(sheet, row, 1 + v, "%s", text ? value->text : isnan(value->real) ? "-" : number);
+    }
+    sheet_put(sheet, row, own, "%" PRId64, point->replicas);
+    sheet_put(sheet, row, own + 1, "%" PRId64, forecast->elements);
+    sheet_put(sheet, row, own + 2, "%.4g", forecast->time_step);
+    sheet_put(sheet, row, own + 3, "%" PRId64, forecast->steps);
+    put_duration(sheet, row, own + 4, forecast->time);
+    put_size(sheet, row, own + 5, forecast->bytes);
+}
+
+static fracas_err print_text(const campaign_plan *plan, FILE *out)
+{
+    const size_t points = plan->table->npoints, own = 1 + plan->nvaried, last = points + 2;
+    text_sheet sheet;
+    fracas_err err = sheet_init(last + 1, own + OWN_COLUMNS, &sheet);
+    if (!err) {
+        put_heads(plan, &sheet);
+        for (size_t p = 0; p < points; p++) put_point(plan, p, &sheet);
+        sheet_put(&sheet, last, 0, "total");
+        sheet_put(&sheet, last, own, "%" PRId64, plan->realizations);
+        put_duration(&sheet, last, own + 4, plan->time);
+        put_size(&sheet, last, own + 5, plan->bytes);
+        fprintf(out, "Campaign %s: %zu point%s, %" PRId64 " realization%s\n\n", plan->campaign->name, points,
+                points == 1 ? "" : "s", plan->realizations, plan->realizations == 1 ? "" : "s");
+        sheet_print(&sheet, out);
+        fprintf(out, "\nTimes are for %d process%s at %.2g element-steps per second each, timed just now, and for running to "
+                     "time.end;\na stop rule may end realizations earlier. Sizes count one fragment for every %d elements.\n",
+                plan->jobs, plan->jobs == 1 ? "" : "es", plan->slowest, FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
+    }
+    sheet_clear(&sheet);
+    return err;
+}
+
+/* ---- the plan as JSON ---- */
+
+static void print_json_point(const campaign_plan *plan, size_t p, fracas_json *json)
+{
+    const fracas_point_row *point = &plan->table->point[p];
+    const fracas_forecast *forecast = &plan->forecast[p];
+    char hex[FRACAS_HASH_HEX];
+    fracas_hash_hex(&point->hash, hex);
+    fracas_json_object(json, NULL);
+    fracas_json_text(json, "hash", hex);
+    fracas_json_object(json, "varied");
+    for (size_t v = 0; v < plan->nvaried; v++) {
+        const fracas_column *column = &plan->table->column[plan->varied[v]];
+        const fracas_value *value = &point->value[plan->varied[v]];
+        if (column->text) fracas_json_text(json, column->path, value->text);
+        else fracas_json_real(json, column->path, value->real);
+    }
+    fracas_json_close_object(json);
+    fracas_json_integer(json, "replicas", point->replicas);
+    fracas_json_integer(json, "elements", forecast->elements);
+    fracas_json_real(json, "time_step", forecast->time_step);
+    fracas_json_integer(json, "steps", forecast->steps);
+    fracas_json_real(json, "element_steps_per_second", forecast->speed);
+    fracas_json_real(json, "seconds", forecast->time);
+    fracas_json_real(json, "bytes", forecast->bytes);
+    fracas_json_close_object(json);
+}
+
+static void print_json(const campaign_plan *plan, FILE *out)
+{
+    fracas_json json;
+    fracas_json_begin(&json, out);
+    fracas_json_object(&json, NULL);
+    fracas_json_text(&json, "name", plan->campaign->name);
+    fracas_json_integer(&json, "jobs", plan->jobs);
+    fracas_json_integer(&json, "realizations", plan->realizations);
+    fracas_json_real(&json, "seconds", plan->time);
+    fracas_json_real(&json, "bytes", plan->bytes);
+    fracas_json_array(&json, "points");
+    for (size_t p = 0; p < plan->table->npoints; p++) print_json_point(plan, p, &json);
+    fracas_json_close_array(&json);
+    fracas_json_close_object(&json);
+    fracas_json_end(&json);
+}
+
+/* ---- the door ---- */
+
+fracas_err fracas_plan_print(const fracas_campaign *campaign, int jobs, FILE *out, bool json)
+{
+    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    if (jobs <= 0) jobs = cores > 0 ? (int)cores : 1;
+    campaign_plan plan;
+    fracas_err err = plan_init(campaign, jobs, &plan);
+    if (!err && json) print_json(&plan, out);
+    else if (!err) err = print_text(&plan, out);
+    if (!err && (fflush(out) != 0 || ferror(out)))
+        err = fracas_fail(FRACAS_ENVIRONMENT, "cannot write the plan: %s", strerror(errno));
+    plan_clear(&plan);
+    return err;
+}
