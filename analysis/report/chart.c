@@ -148,6 +148,8 @@ static void fit(frame *f)
     if (y[0] > y[1]) y[0] = y[1] = 1;
     fracas_scale_fit(&f->x, f->panel->x.log, x[0], x[1]);
     fracas_scale_fit(&f->y, f->panel->y.log, y[0], y[1]);
+    f->y.from = f->panel->height; /* ticks depend on the room they have; their places come later */
+    f->x.to = f->width;
     f->nxtick = fracas_scale_ticks(&f->x, f->xtick);
     f->nytick = fracas_scale_ticks(&f->y, f->ytick);
 }
@@ -158,11 +160,6 @@ static size_t legend_count(const fracas_panel *panel)
     for (size_t s = 0; s < panel->nseries; s++)
         if (*panel->series[s].name) named++;
     return named;
-}
-
-static void left_out_text(size_t named, char *text, size_t size)
-{
-    snprintf(text, size, "and %zu more", named - LEGEND_MOST);
 }
 
 /* ---- drawing ---- */
@@ -322,7 +319,7 @@ static double legend(const frame *f, bool draw)
     }
     if (named > LEGEND_MOST) {
         char text[32];
-        left_out_text(named, text, sizeof text);
+        snprintf(text, sizeof text, "and %zu more", named - LEGEND_MOST);
         if (x + character * (double)characters(text) > f->width) {
             x = f->x.from;
             y += LINE_HEIGHT;
@@ -332,15 +329,26 @@ static double legend(const frame *f, bool draw)
     return y + LINE_HEIGHT / 2.0 - f->top;
 }
 
-/* Places the panel below `top`; returns where it ends. */
-static double place(frame *f, const fracas_chart *chart, const fracas_panel *panel, double top, FILE *out)
+/* Room for the widest tick label of all panels, so that their time axes are above each other. */
+static double left_margin(const fracas_chart *chart)
 {
+    size_t widest = 1;
+    for (size_t p = 0; p < chart->npanels; p++) {
+        frame f = {.panel = &chart->panel[p], .width = chart->width};
+        fit(&f);
+        for (size_t i = 0; i < f.nytick; i++)
+            if (characters(f.ytick[i].label) > widest) widest = characters(f.ytick[i].label);
+    }
+    return 34 + character * (double)widest;
+}
+
+/* Places panel p below `top`; returns where it ends. */
+static double place(frame *f, const fracas_chart *chart, size_t p, double left, double top, FILE *out)
+{
+    const fracas_panel *panel = &chart->panel[p];
     *f = (frame){.panel = panel, .out = out, .top = top, .width = chart->width};
     fit(f);
-    size_t widest = 1;
-    for (size_t i = 0; i < f->nytick; i++)
-        if (characters(f->ytick[i].label) > widest) widest = characters(f->ytick[i].label);
-    f->x.from = 34 + character * (double)widest;
+    f->x.from = left;
     f->x.to = f->width - RIGHT;
     f->y.to = top + legend(f, false) + 8;
     f->y.from = f->y.to + panel->height;
@@ -350,8 +358,8 @@ static double place(frame *f, const fracas_chart *chart, const fracas_panel *pan
 void fracas_chart_write(const fracas_chart *chart, bool standalone, FILE *out)
 {
     frame f;
-    double height = 4;
-    for (size_t p = 0; p < chart->npanels; p++) height = place(&f, chart, &chart->panel[p], height, out);
+    double left = left_margin(chart), height = 4;
+    for (size_t p = 0; p < chart->npanels; p++) height = place(&f, chart, p, left, height, out);
     fprintf(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" viewBox=\"0 0 %d %.0f\"", chart->width,
             height);
     if (standalone) fprintf(out, " width=\"%d\" height=\"%.0f\"", chart->width, height);
@@ -363,7 +371,7 @@ void fracas_chart_write(const fracas_chart *chart, bool standalone, FILE *out)
                 chart->width, height);
     double top = 4;
     for (size_t p = 0; p < chart->npanels; p++) {
-        top = place(&f, chart, &chart->panel[p], top, out);
+        top = place(&f, chart, p, left, top, out);
         legend(&f, true);
         draw_axes(&f, f.y.from);
         for (size_t s = 0; s < chart->panel[p].nseries; s++) draw_series(&f, &chart->panel[p].series[s]);

@@ -42,8 +42,9 @@ void fracas_scale_fit(fracas_scale *scale, bool log, double least, double greate
         greatest += apart;
     }
     double step = linear_step(least, greatest);
-    scale->low = floor(least / step + 1e-9) * step;
-    scale->high = ceil(greatest / step - 1e-9) * step;
+    const double over = 0.02; /* of a step, about a pixel: the last time of a history is a little past its end */
+    scale->low = floor(least / step + over) * step;
+    scale->high = ceil(greatest / step - over) * step;
 }
 
 double fracas_scale_place(const fracas_scale *scale, double value)
@@ -80,7 +81,8 @@ static size_t log_ticks(const fracas_scale *scale, fracas_tick *tick)
     double span = log10(scale->high / scale->low);
     int first = (int)floor(log10(scale->low) + 1e-9), last = (int)ceil(log10(scale->high) - 1e-9);
     bool plain = scale->low > 0.9e-3 && scale->high < 1.1e4;
-    int stride = (int)ceil(span / 7);
+    double most = fmin(7, fmax(2, fabs(scale->to - scale->from) / 26));
+    int stride = (int)ceil(span / most);
     size_t count = 0;
     for (int exponent = first; exponent <= last; exponent++) {
         for (int mantissa = 1; mantissa < 10; mantissa++) {

@@ -51,8 +51,13 @@ static size_t lanes_of(const fracas_point *point)
     return point->replicas < MAX_LANES ? (size_t)point->replicas : MAX_LANES;
 }
 
-/* Runs one batch of `lanes` realizations, all of mean strength, and adds up their element-steps and seconds. */
-static fracas_err time_batch(const fracas_model *model, double strength, size_t lanes, double *element_steps, double *spent)
+/* Element-steps and seconds of something that ran. */
+typedef struct {
+    double element_steps, seconds;
+} effort;
+
+/* Runs one batch of `lanes` realizations in which every interface has this strength. */
+static fracas_err run_batch(const fracas_model *model, double strength, size_t lanes, effort *spent)
 {
     fracas_batch *batch;
     fracas_record record[MAX_LANES];
@@ -64,33 +69,48 @@ static fracas_err time_batch(const fracas_model *model, double strength, size_t 
         for (size_t i = 0; i < interfaces; i++) sigma_c[i * stride] = strength;
         fracas_record_init(&record[l]);
     }
-    double start = seconds();
+    const double start = seconds();
     fracas_err err = fracas_batch_run(batch, record);
-    *spent += seconds() - start;
+    *spent = (effort){.seconds = seconds() - start};
     for (size_t l = 0; l < lanes; l++) {
-        *element_steps += (double)fracas_model_elements(model) * (double)record[l].steps;
+        spent->element_steps += (double)fracas_model_elements(model) * (double)record[l].steps;
         fracas_record_clear(&record[l]);
     }
     fracas_batch_destroy(batch);
     return err;
 }
 
-/* Times the first steps of the point, about 2e7 element-steps: a twentieth of a second. */
-static fracas_err time_point(const fracas_point *point, fracas_forecast *forecast)
+static fracas_err time_steps(const fracas_point *point, double end, effort *spent)
 {
-    const size_t lanes = lanes_of(point);
-    const double step_cost = (double)forecast->elements * (double)lanes;
     fracas_spec spec = point->spec;
     fracas_model *model;
-    double element_steps = 0.0, spent = 0.0;
-    spec.time.end = fmin(spec.time.end, forecast->time_step * ceil(2e7 / step_cost));
+    spec.time.end = fmin(spec.time.end, end);
     TRY(fracas_model_create(&spec, &model));
-    fracas_err err = FRACAS_OK;
-    /* A realization may be over after few steps; the clock needs a hundredth of a second. */
-    while (!err && spent < 0.01) err = time_batch(model, fracas_strength_mean(&point->strength), lanes, &element_steps, &spent);
+    fracas_err err = run_batch(model, fracas_strength_mean(&point->strength), lanes_of(point), spent);
     fracas_model_destroy(model);
-    if (!err) forecast->speed = element_steps / spent;
     return err;
+}
+
+/* Times about 2e7 element-steps, a twentieth of a second, less the time that a batch of one step takes: what a batch does
+ * once counts little in a full run. A batch that is too short for the clock is repeated, and taken as it is if even
+ * many are. */
+static fracas_err time_point(const fracas_point *point, fracas_forecast *forecast)
+{
+    const double step = forecast->time_step;
+    const double steps = fmax(20.0, ceil(2e7 / ((double)forecast->elements * (double)lanes_of(point))));
+    effort sum = {0}, whole = {0};
+    for (int i = 0; i < 50 && sum.seconds < 0.01; i++) {
+        effort brief, full;
+        TRY(time_steps(point, 0.5 * step, &brief));
+        TRY(time_steps(point, (steps - 0.5) * step, &full));
+        sum.element_steps += full.element_steps - brief.element_steps;
+        sum.seconds += full.seconds - brief.seconds;
+        whole.element_steps += full.element_steps;
+        whole.seconds += full.seconds;
+    }
+    if (sum.element_steps <= 0.0 || sum.seconds <= 0.0) sum = whole;
+    forecast->speed = sum.element_steps / fmax(sum.seconds, 1e-9);
+    return FRACAS_OK;
 }
 
 /* The speed of an earlier point of the same lanes and of half to twice the elements; 0 if there is none. */

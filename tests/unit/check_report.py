@@ -5,6 +5,7 @@ STUDY holds study.h5, table.txt, summary.json and report/.
 """
 import csv
 import glob
+import html
 import html.parser
 import json
 import math
@@ -98,11 +99,12 @@ for row, line in zip(rows, text[2:]):
 
 # A line of fragments.csv for each fragment of the study, with its numbers to 15 digits.
 with h5py.File(study + "/study.h5", "r") as file:
-    size, position = file["fragment/size"][()], file["fragment/position"][()]
+    size, mass, position = (file["fragment/" + name][()] for name in ("size", "mass", "position"))
 fragments = list(csv.DictReader(open(os.path.join(report, "fragments.csv"))))
 assert len(fragments) == len(size)
-for line, expected, place in zip(fragments, size, position):
+for line, expected, heavy, place in zip(fragments, size, mass, position):
     assert math.isclose(float(line["size"]), expected, rel_tol=1e-14)
+    assert math.isclose(float(line["mass"]), heavy, rel_tol=1e-14)
     assert math.isclose(float(line["position_x"]), place[0], rel_tol=1e-14)
 
 # Every SVG is well-formed; with the size figures, a mark for each row of data.
@@ -156,6 +158,7 @@ assert page.rows == len(rows)
 for link in page.links:
     assert link.startswith("data:") or os.path.exists(os.path.join(report, link)), link
 assert "url(" not in source_text and "@import" not in source_text
+assert f"<h1>{html.escape(summary['name'])}</h1>" in source_text
 assert summary["campaign"] in source_text and summary["seed"] in source_text
 assert source_text.count("<li>") == len(summary["warnings"])
 

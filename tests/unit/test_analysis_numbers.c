@@ -1,9 +1,11 @@
-/* Estimates, numbers as text, the columns that tell points apart, and the ticks of an axis. */
+/* Estimates, numbers as text, the columns that tell points apart, warnings, and what a figure shows. */
 #include "analysis/columns.h"
 #include "analysis/estimate.h"
 #include "analysis/format.h"
+#include "analysis/report/figures.h"
 #include "analysis/report/scale.h"
-#include "analysis/statistics.h"
+#include "analysis/study.h"
+#include "base/param.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -188,12 +190,72 @@ static void statistics_of_records(void **state)
     fracas_point_statistics_clear(&statistics);
 }
 
+/* Just within every limit: no warning; just beyond every limit, and with every unusable outcome: one each. */
+static void warnings_at_their_limits(void **state)
+{
+    (void)state;
+    static const fracas_column column[] = {{"loading.rate", "1/s", "", false}};
+    fracas_value rate[] = {{.real = 1e3, .text = ""}, {.real = 1e4, .text = ""}};
+    fracas_point_row row[] = {{.value = &rate[0]}, {.value = &rate[1]}};
+    fracas_point_table table = {.ncolumns = 1, .column = column, .npoints = 2, .point = row};
+    fracas_point_statistics point[] = {
+        {.realizations = 9, .usable = 9, .outcome = {8, 1}, .residual = 0.99e-3, .created = 0.99e-2, .elements = 10,
+         .dust_share = 0.05},
+        {.realizations = 9, .usable = 5, .outcome = {3, 1, 1, 2, 1, 1}, .residual = 1.01e-3, .created = 1.01e-2,
+         .elements = 9.9, .dust_share = 0.051},
+    };
+    fracas_analysis analysis = {.table = &table, .point = point, .header.complete = true};
+    fracas_warning *warning;
+    size_t count;
+    assert_int_equal(fracas_analysis_warnings(&analysis, &warning, &count), FRACAS_OK);
+    const char *const expected[] = {"2 of 9 realizations ended NONFINITE", "1 of 9 realizations ended ENERGY_DRIFT",
+                                    "1 of 9 realizations ended FAILED", "1 of 9 realizations were stopped",
+                                    "ledger residual up to 1.0e-3", "energy created at onset up to 0.010",
+                                    "a mean fragment has 9.9 elements", "5.1 % of the fragments are dust"};
+    assert_int_equal(count, FRACAS_COUNT(expected));
+    for (size_t i = 0; i < count; i++) {
+        assert_int_equal(warning[i].point, 1);
+        assert_ptr_equal(strstr(warning[i].text, expected[i]), warning[i].text);
+    }
+    free(warning);
+    analysis.header.complete = false;
+    assert_int_equal(fracas_analysis_warnings(&analysis, &warning, &count), FRACAS_OK);
+    assert_int_equal(count, FRACAS_COUNT(expected) + 1);
+    assert_true(warning[0].point == SIZE_MAX);
+    free(warning);
+}
+
+/* Sizes 1, 1, 2, 4 mm, of which the ones differ by rounding: all are >= 1 mm, half >= 2 mm, a quarter >= 4 mm. */
+static void figure_of_sizes(void **state)
+{
+    (void)state;
+    fracas_point_table table = {.npoints = 1};
+    double size[] = {1e-3, 1e-3 * (1 + 1e-15), 2e-3, 4e-3};
+    fracas_point_statistics point = {.nfragments = 4, .fragment_size = size, .usable = 1};
+    fracas_analysis analysis = {.table = &table, .point = &point};
+    fracas_chart chart;
+    fracas_chart_init(&chart);
+    assert_int_equal(fracas_figure_sizes(&analysis, 0, &chart), FRACAS_OK);
+    assert_int_equal(chart.panel[0].nseries, 1);
+    const fracas_series *series = chart.panel[0].series;
+    assert_int_equal(series->n, 3);
+    const double x[] = {1, 2, 4}, y[] = {1, 0.5, 0.25};
+    for (size_t i = 0; i < 3; i++) {
+        assert_true(fabs(series->x[i] - x[i]) < 1e-14);
+        assert_true(series->y[i] == y[i]);
+    }
+    fracas_chart_clear(&chart);
+    assert_int_equal(fracas_figure_sizes_together(&analysis, &chart), FRACAS_OK);
+    assert_true(fabs(chart.panel[0].series->x[2] - 2) < 1e-14); /* over the mean, 2 mm */
+    fracas_chart_clear(&chart);
+}
+
 static void assert_labels(bool log, double least, double greatest, const char *expected)
 {
-    fracas_scale scale = {.from = 0, .to = 100};
+    fracas_scale scale = {.from = 0, .to = 400};
     fracas_scale_fit(&scale, log, least, greatest);
     assert_true(scale.low <= least * (1 + 1e-12) && scale.high >= greatest * (1 - 1e-12));
-    assert_true(fabs(fracas_scale_place(&scale, scale.high) - 100) < 1e-9);
+    assert_true(fabs(fracas_scale_place(&scale, scale.high) - 400) < 1e-9);
     fracas_tick tick[FRACAS_MAX_TICKS];
     size_t count = fracas_scale_ticks(&scale, tick);
     char text[512] = "";
@@ -222,7 +284,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(estimate_of_eight), cmocka_unit_test(estimate_of_few), cmocka_unit_test(estimates_as_text),
         cmocka_unit_test(numbers_as_text), cmocka_unit_test(prefixes), cmocka_unit_test(columns_that_tell_points_apart),
-        cmocka_unit_test(statistics_of_records), cmocka_unit_test(ticks),
+        cmocka_unit_test(statistics_of_records), cmocka_unit_test(warnings_at_their_limits),
+        cmocka_unit_test(figure_of_sizes), cmocka_unit_test(ticks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

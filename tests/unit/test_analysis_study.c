@@ -330,12 +330,30 @@ static void study_that_is_not_there(void **state)
     assert_non_null(strstr(fracas_message(), "fracas run"));
 }
 
+static void report_that_cannot_be_written(void **state)
+{
+    (void)state;
+    char folder[512], blocker[520];
+    snprintf(folder, sizeof folder, "%s/blocked", root);
+    write_study(&awkward, folder);
+    snprintf(blocker, sizeof blocker, "%s/report", folder);
+    FILE *file = fopen(blocker, "w"); /* where the folder should be */
+    assert_non_null(file);
+    fclose(file);
+    fracas_analysis *analysis;
+    assert_int_equal(fracas_analysis_create(folder, &analysis), FRACAS_OK);
+    assert_int_equal(fracas_report_write(analysis, folder), FRACAS_ENVIRONMENT);
+    assert_non_null(strstr(fracas_message(), "blocked/report"));
+    fracas_analysis_destroy(analysis);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(table_of_a_sweep),
         cmocka_unit_test(table_of_awkward_points),
         cmocka_unit_test(study_that_is_not_there),
+        cmocka_unit_test(report_that_cannot_be_written),
     };
     return cmocka_run_group_tests(tests, make_root, remove_root);
 }

@@ -62,7 +62,18 @@ static void test_plain(void **state)
     fracas_campaign_destroy(campaign);
 }
 
-/* The text of docs/formats/campaign-file.md; its XXH3-128 was computed by xxhsum, not by this program. */
+static char *read_whole(const char *path)
+{
+    FILE *in = fopen(path, "r");
+    if (!in) fail_msg("cannot open %s", path);
+    char *text = calloc(1, 1 << 20);
+    assert_non_null(text);
+    assert_true(fread(text, 1, (1 << 20) - 1, in) > 0);
+    fclose(in);
+    return text;
+}
+
+/* The hashes were computed by xxhsum, not by this program, as docs/formats/campaign-file.md says. */
 static void test_golden_hash(void **state)
 {
     (void)state;
@@ -77,6 +88,10 @@ static void test_golden_hash(void **state)
     assert_true(fracas_hash_equal(&campaign->point[0].hash, &hash));
     check_hex(&hash, "ac6ceed79266ef8e5d53b946be4dd8bb");
     check_hex(&campaign->hash, "228c6656bb24ccb1455b7b3e47ebbc32");
+    char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md");
+    assert_non_null(strstr(page, "# ac6ceed79266ef8e5d53b946be4dd8bb\n"));
+    assert_non_null(strstr(page, "# 228c6656bb24ccb1455b7b3e47ebbc32\n"));
+    free(page);
     fracas_campaign_destroy(campaign);
 }
 
@@ -283,6 +298,26 @@ static void test_tables_agree(void **state)
     check_section(&fracas_strength_section);
 }
 
+/* The file and the sweep that docs/formats/campaign-file.md shows. */
+static void test_page_examples(void **state)
+{
+    (void)state;
+    char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md"), *block[2], *end = page;
+    for (int b = 0; b < 2; b++) {
+        block[b] = strstr(end, "```yaml\n") + strlen("```yaml\n");
+        end = strstr(block[b], "```");
+        *end++ = '\0';
+    }
+    fracas_campaign *plain = read_text(plain_campaign), *shown = read_text(block[0]);
+    assert_true(fracas_hash_equal(&plain->hash, &shown->hash));
+    fracas_campaign_destroy(shown);
+    shown = read_replaced("", block[1]);
+    assert_int_equal(shown->npoints, 2 * 4 * 2 * 2 * 2);
+    fracas_campaign_destroy(shown);
+    fracas_campaign_destroy(plain);
+    free(page);
+}
+
 /* ---- the resolved file ---- */
 
 static char *write_text(const fracas_campaign *campaign)
@@ -384,17 +419,6 @@ static void test_extends(void **state)
 
 /* ---- the reference page ---- */
 
-static char *read_whole(const char *path)
-{
-    FILE *in = fopen(path, "r");
-    if (!in) fail_msg("cannot open %s", path);
-    char *text = calloc(1, 1 << 20);
-    assert_non_null(text);
-    assert_true(fread(text, 1, (1 << 20) - 1, in) > 0);
-    fclose(in);
-    return text;
-}
-
 static void test_reference_page(void **state)
 {
     (void)state;
@@ -425,6 +449,7 @@ int main(void)
         cmocka_unit_test(test_table),        cmocka_unit_test(test_tables_agree),
         cmocka_unit_test(test_round_trip),   cmocka_unit_test(test_write_fails),
         cmocka_unit_test(test_extends),      cmocka_unit_test(test_reference_page),
+        cmocka_unit_test(test_page_examples),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
