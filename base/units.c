@@ -247,9 +247,12 @@ static fracas_err parse_factor(ut_system *system, const char *text, const char *
     fracas_units_describe(si, &what, &write_in);
     ut_unit *expected = ut_parse(system, si, UT_UTF8);
     if (!expected) return fracas_fail(FRACAS_BUG, "a parameter table has the unit `%s`, unknown to UDUNITS-2", si);
-    ut_unit *found = is_plain_unit(name) ? ut_parse(system, name, UT_UTF8) : NULL;
+    const bool plain = is_plain_unit(name);
+    ut_unit *found = plain ? ut_parse(system, name, UT_UTF8) : NULL;
     fracas_err err = FRACAS_OK;
-    if (!found) {
+    if (!found && plain && ut_get_status() == UT_OS) {
+        err = fracas_no_memory("a unit");
+    } else if (!found) {
         err = fracas_fail(FRACAS_USAGE, "`%s` has an unknown unit, `%s`; expected %s, in %s", text, name, what, write_in);
     } else {
         *factor = unit_factor(system, found, expected);

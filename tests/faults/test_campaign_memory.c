@@ -1,0 +1,139 @@
+/* Reading, writing and planning a campaign when the k-th allocation fails, for every k: an error, never a crash. The
+ * file has no units: the scanner inside UDUNITS-2 ends the program when memory is short, which nobody outside can stop. */
+#include "campaigns/file/read.h"
+#include "campaigns/plan/plan.h"
+#include "tests/unit/campaign_text.h"
+
+#include <errno.h>
+#include <limits.h>
+
+#ifdef __SANITIZE_ADDRESS__
+/* AddressSanitizer owns malloc; this program has nothing to do there. */
+int main(void)
+{
+    return 0;
+}
+#else
+
+/* glibc's own names of what is replaced below. */
+void *__libc_malloc(size_t size);
+void *__libc_calloc(size_t count, size_t size);
+void *__libc_realloc(void *old, size_t size);
+
+/* Volatile: the compiler believes that malloc changes nothing of ours. */
+static volatile long countdown; /* allocations until one fails; 0: none does */
+static volatile bool has_failed;
+
+static bool fails(void)
+{
+    if (countdown == 0 || --countdown > 0) return false;
+    has_failed = true;
+    errno = ENOMEM;
+    return true;
+}
+
+void *malloc(size_t size)
+{
+    return fails() ? NULL : __libc_malloc(size);
+}
+
+void *calloc(size_t count, size_t size)
+{
+    return fails() ? NULL : __libc_calloc(count, size);
+}
+
+void *realloc(void *old, size_t size)
+{
+    return fails() ? NULL : __libc_realloc(old, size);
+}
+
+static const char sweep[] = "sweep:\n  - cases: [{name: a}, {name: b, strength.minimum: 1 MPa}]\n"
+                            "  - loading.rate: {from: 1, to: 2, points: 3}\n";
+
+/* Calls `work` with the first, second, ... allocation failing, until it succeeds without or `most` have failed. */
+static void fail_each(fracas_err (*work)(void *context), void *context, long most)
+{
+    for (long k = 1; k <= most; k++) {
+        has_failed = false;
+        countdown = k;
+        fracas_err err = work(context);
+        countdown = 0;
+        if (!has_failed) {
+            assert_int_equal(err, FRACAS_OK);
+            assert_true(k > 3); /* it did allocate */
+            return;
+        }
+        if (err != FRACAS_ENVIRONMENT && err != FRACAS_OK) fail_msg("allocation %ld: %d %s", k, err, fracas_message());
+        if (err && !strstr(fracas_message(), "memory"))
+            fail_msg("allocation %ld: %s", k, fracas_message());
+    }
+}
+
+typedef struct {
+    fracas_units *units;
+    char path[40];
+} source;
+
+static fracas_err read_source(void *context)
+{
+    const source *from = context;
+    fracas_campaign *campaign = NULL;
+    fracas_err err = fracas_campaign_read_with(from->units, from->path, &campaign);
+    fracas_campaign_destroy(campaign);
+    return err;
+}
+
+static void test_read(void **state)
+{
+    (void)state;
+    source from;
+    make_path(from.path);
+    assert_int_equal(fracas_units_create(&from.units), FRACAS_OK);
+    fracas_campaign *campaign = read_replaced("", sweep);
+    FILE *out = fopen(from.path, "w");
+    assert_non_null(out);
+    assert_int_equal(fracas_campaign_write(campaign, out), FRACAS_OK); /* in SI */
+    assert_int_equal(fclose(out), 0);
+    fail_each(read_source, &from, LONG_MAX);
+    unlink(from.path);
+    fracas_campaign_destroy(campaign);
+    fracas_units_destroy(from.units);
+}
+
+static fracas_err write_and_compare(void *context)
+{
+    const fracas_campaign *campaign = context;
+    TRY(fracas_campaign_extends(campaign, campaign));
+    FILE *out = fopen("/dev/null", "w");
+    if (!out) return fracas_no_memory("a stream");
+    fracas_err err = fracas_campaign_write(campaign, out);
+    fclose(out);
+    return err;
+}
+
+static fracas_err print_plan(void *context)
+{
+    FILE *out = fopen("/dev/null", "w");
+    if (!out) return fracas_no_memory("a stream");
+    fracas_err err = fracas_plan_print(context, 1, out, false);
+    fclose(out);
+    return err;
+}
+
+static void test_use(void **state)
+{
+    (void)state;
+    fracas_campaign *campaign = read_replaced("", sweep);
+    fail_each(write_and_compare, campaign, LONG_MAX);
+    /* The plan repeats short batches until the clock has seen enough: all of it would take a minute. */
+    fail_each(print_plan, campaign, 40);
+    fracas_campaign_destroy(campaign);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_read), cmocka_unit_test(test_use)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+#endif
