@@ -1,6 +1,7 @@
 #include "campaigns/scheduler/director.h"
 
 #include "base/version.h"
+#include "campaigns/scheduler/costs.h"
 #include "campaigns/scheduler/prepare.h"
 #include "campaigns/scheduler/scheduler.h"
 
@@ -64,34 +65,19 @@ static void stop(fracas_director *director)
 
 /* ---- start ---- */
 
-/* Elements times the steps to time.end, up to a factor that the points of a campaign share: the exact critical time
- * step needs the model, and only the order of the leases depends on it. */
-static double predict_cost(const fracas_spec *spec)
-{
-    double elements = (double)spec->mesh.elements, h = spec->geometry.length / elements;
-    double wave_speed = sqrt(spec->material.young / spec->material.density);
-    return elements * spec->time.end * wave_speed / (h * spec->time.safety);
-}
-
-static fracas_err make_scheduler(fracas_director *director)
+static fracas_err make_scheduler(fracas_director *director, const double *cost)
 {
     const fracas_campaign *campaign = director->setup.campaign;
     int width = director->setup.options->width;
     fracas_index_row *row;
     size_t count;
     TRY(fracas_index_rows(director->index, &campaign->table, &row, &count));
-    double *cost = malloc((campaign->npoints + 1) * sizeof *cost);
-    fracas_err err = cost ? FRACAS_OK : fracas_no_memory("the plan");
-    if (!err) {
-        for (size_t i = 0; i < campaign->npoints; i++) cost[i] = predict_cost(&campaign->point[i].spec);
-        fracas_scheduler_options options = {.cost = cost,
-                                            .workers = director->setup.workers,
-                                            .width = width ? (size_t)width : FRACAS_LEASE_MAX,
-                                            .shuffle = director->setup.options->shuffle,
-                                            .seed = campaign->seed};
-        err = fracas_scheduler_create(row, count, &options, &director->scheduler);
-    }
-    free(cost);
+    fracas_scheduler_options options = {.cost = cost,
+                                        .workers = director->setup.workers,
+                                        .width = width ? (size_t)width : FRACAS_LEASE_MAX,
+                                        .shuffle = director->setup.options->shuffle,
+                                        .seed = campaign->seed};
+    fracas_err err = fracas_scheduler_create(row, count, &options, &director->scheduler);
     free(row);
     return err;
 }
@@ -113,17 +99,26 @@ static fracas_err announce(fracas_director *director, const char *report)
     return fracas_index_event(director->index, count.done ? "resumed" : "started", text);
 }
 
-static fracas_err set_up(fracas_director *director, bool *settled, int64_t *failed)
+static fracas_err open_study(fracas_director *director, const double *cost, bool *settled, int64_t *failed)
 {
     const fracas_director_setup *setup = &director->setup;
-    director->phase = calloc(setup->workers, sizeof *director->phase);
-    if (!director->phase) return fracas_no_memory("the workers");
     char *report = NULL;
     TRY(fracas_study_prepare(setup->study, setup->campaign, &director->lock, &director->index, &report));
     fracas_err err = fracas_study_settled(setup->study, director->index, setup->campaign, settled, failed);
-    if (!err && !*settled) err = make_scheduler(director);
+    if (!err && !*settled) err = make_scheduler(director, cost);
     if (!err && !*settled) err = announce(director, report);
     free(report);
+    return err;
+}
+
+static fracas_err set_up(fracas_director *director, bool *settled, int64_t *failed)
+{
+    double *cost; /* first of all: a campaign that cannot be computed leaves nothing behind */
+    director->phase = calloc(director->setup.workers, sizeof *director->phase);
+    if (!director->phase) return fracas_no_memory("the workers");
+    TRY(fracas_costs_create(director->setup.campaign, director->setup.options, &cost));
+    fracas_err err = open_study(director, cost, settled, failed);
+    free(cost);
     return err;
 }
 

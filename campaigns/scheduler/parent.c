@@ -24,7 +24,7 @@ static void count_signal(int signal_number)
 }
 
 static const int caught[] = {SIGINT, SIGTERM, SIGHUP};
-enum { NCAUGHT = sizeof caught / sizeof *caught, NOISE = 16384 };
+enum { NCAUGHT = sizeof caught / sizeof *caught, HANGUP = 2 /* in caught */, NOISE = 16384 };
 
 typedef struct {
     fracas_mpirun mpirun;
@@ -160,6 +160,8 @@ fracas_err fracas_parent_run(const fracas_run_options *options, int argc, char *
     sigemptyset(&count.sa_mask);
     sigemptyset(&ignore.sa_mask);
     for (size_t i = 0; i < NCAUGHT; i++) sigaction(caught[i], &count, &before[i]);
+    if (before[HANGUP].sa_handler == SIG_IGN) /* nohup */
+        sigaction(SIGHUP, &ignore, NULL);
     sigaction(SIGPIPE, &ignore, &pipe_before);
     fracas_err err = run(p, options, argc, argv, ran);
     for (size_t i = 0; i < NCAUGHT; i++) sigaction(caught[i], &before[i], NULL);

@@ -2,6 +2,7 @@
 
 #include "base/param.h"
 #include "campaigns/campaign.h"
+#include "campaigns/scheduler/costs.h"
 #include "campaigns/scheduler/director.h"
 #include "campaigns/scheduler/parent.h"
 #include "campaigns/scheduler/prepare.h"
@@ -45,6 +46,9 @@ static fracas_err examine(const fracas_run_options *options, bool *settled, frac
     fracas_err err = fracas_study_folder(options, campaign, study, sizeof study);
     if (!err) err = fracas_study_examine(study, campaign, settled, &failed);
     *verdict = err ? err : fracas_settled_verdict(study, failed);
+    double *cost;
+    if (!err && !*settled) err = fracas_costs_create(campaign, options, &cost);
+    if (!err && !*settled) free(cost);
     fracas_campaign_destroy(campaign);
     return err;
 }

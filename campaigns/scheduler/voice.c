@@ -36,6 +36,7 @@ void fracas_voice_say(fracas_voice *voice, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    for (size_t end = strlen(text); end > 0 && text[end - 1] == '\n'; end--) text[end - 1] = '\0';
     if (!voice->parent) {
         fracas_progress_say(&voice->progress, text);
         return;

@@ -31,14 +31,11 @@ END
 # Its server killed: the other one computes what was lost.
 start small.yaml --study lost --jobs 2 --lanes 1 --segment-size 1e-6
 wait_segments lost 2
-servers=$(for rank in $(processes); do
-    name=$(sed 's/.*(\([^)]*\)).*/\1/' "/proc/$rank/stat")
-    parent=$(sed 's/([^)]*)/x/' "/proc/$rank/stat" | cut -d' ' -f4)
-    grandparent=$(sed 's/.*(\([^)]*\)).*/\1/' "/proc/$(sed 's/([^)]*)/x/' "/proc/$parent/stat" | cut -d' ' -f4)/stat")
-    if [ "$name" = fracas ] && [ "$grandparent" = mpirun ]; then echo "$rank"; fi
-done)
-set -- $servers
-[ $# -eq 2 ] || fail "there should be two servers: $servers"
+# A server is the child of a rank, which is the child of mpirun.
+set -- $(cat /proc/[0-9]*/stat 2>/dev/null | awk -v session="$session" '
+    {name[$1] = $2; parent[$1] = $4; of[$1] = $6}
+    END {for (p in name) if (of[p] == session && name[p] == "(fracas)" && name[parent[parent[p]]] == "(mpirun)") print p}')
+[ $# -eq 2 ] || fail "there should be two servers, not: $*"
 kill -9 "$1"
 status=0
 wait "$session" || status=$?
