@@ -8,7 +8,7 @@ trap 'rm -rf "$folder"' EXIT
 
 sed -n '/^```yaml$/,/^```$/p' README.md | sed '/^```/d' >"$folder/my-bar.yaml"
 "$fracas" plan --json "$folder/my-bar.yaml" >"$folder/plan"
-grep -q '"points": 12' "$folder/plan" || { cat "$folder/plan"; exit 1; }
+[ "$(grep -c '"replicas": 16' "$folder/plan")" = 12 ] || { cat "$folder/plan"; exit 1; }
 
 commands=$(sed -n 's/^    tools\/fracas \([a-z]*\) .*/\1/p' README.md | sort -u | grep -vx -e test -e help)
 for command in $commands; do
