@@ -9,13 +9,15 @@
 #include <string.h>
 #include <yaml.h>
 
-enum { MAX_BYTES = 1 << 20, MAX_DEPTH = 16, MAX_TEXT = 200, MAX_KEYS = 500 };
+/* Enough for the resolved file of a campaign with as many points as there may be, each with every value of its own. */
+enum { MAX_BYTES = 16 << 20, MAX_NODES = 1000000, MAX_DEPTH = 16, MAX_TEXT = 200, MAX_KEYS = 500 };
 
 typedef struct {
     const char *name; /* of the file */
     const unsigned char *bytes;
     size_t size;
     fracas_campaign_memory *memory;
+    size_t nodes;
     yaml_parser_t parser;
 } reading;
 
@@ -33,18 +35,25 @@ static FRACAS_PRINTF(3, 4) fracas_err fail_at(const char *name, yaml_mark_t mark
 
 /* ---- from the file to bytes ---- */
 
-static fracas_err load_open(const char *name, FILE *in, unsigned char *bytes, size_t *size)
+/* Reads all of `in`; *bytes is freed by the caller, also after an error. */
+static fracas_err load_open(const char *name, FILE *in, unsigned char **bytes, size_t *size)
 {
-    *size = fread(bytes, 1, MAX_BYTES + 1, in);
-    if (ferror(in))
-        return fracas_fail(FRACAS_ENVIRONMENT, "cannot read the campaign file %s: %s", name, strerror(errno));
-    if (*size > MAX_BYTES)
-        return fracas_fail(FRACAS_USAGE, "%s:1:1: the file is larger than 1 MiB; a campaign file is a page of text, "
-                                         "write long lists of values as ranges {from, to, points}", name);
-    return FRACAS_OK;
+    size_t room = 1 << 16;
+    for (*size = 0; *size <= MAX_BYTES; room *= 2) {
+        unsigned char *grown = realloc(*bytes, room);
+        if (!grown) return fracas_no_memory("the campaign file");
+        *bytes = grown;
+        *size += fread(grown + *size, 1, room - *size, in);
+        if (ferror(in))
+            return fracas_fail(FRACAS_ENVIRONMENT, "cannot read the campaign file %s: %s", name, strerror(errno));
+        if (*size < room) break;
+    }
+    if (*size <= MAX_BYTES) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "%s:1:1: the file is larger than %d MiB; write long lists of values as ranges, "
+                                     "{from: ..., to: ..., points: ...}", name, MAX_BYTES >> 20);
 }
 
-static fracas_err load(const char *name, unsigned char *bytes, size_t *size)
+static fracas_err load(const char *name, unsigned char **bytes, size_t *size)
 {
     FILE *in = fopen(name, "rb");
     if (!in) return fracas_fail(FRACAS_ENVIRONMENT, "cannot open the campaign file %s: %s", name, strerror(errno));
@@ -111,6 +120,8 @@ static fracas_err next_event(reading *reader, yaml_event_t *event)
 
 static fracas_err make_node(reading *reader, yaml_mark_t mark, fracas_node_type type, fracas_node **node)
 {
+    if (++reader->nodes > MAX_NODES)
+        return FAIL_AT(reader, mark, "more than %d values; write long lists as ranges", MAX_NODES);
     fracas_node *made = fracas_memory_take(reader->memory, 1, sizeof *made);
     if (!made) return fracas_no_memory("the campaign file");
     made->type = type;
@@ -261,10 +272,10 @@ static fracas_err parse(reading *reader, fracas_node **root)
 
 fracas_err fracas_node_read(const char *name, fracas_campaign_memory *memory, fracas_node **root)
 {
-    unsigned char *bytes = malloc(MAX_BYTES + 1);
-    if (!bytes) return fracas_no_memory("the campaign file");
-    reading reader = {.name = name, .bytes = bytes, .memory = memory};
-    fracas_err err = load(name, bytes, &reader.size);
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    fracas_err err = load(name, &bytes, &size);
+    reading reader = {.name = name, .bytes = bytes, .size = size, .memory = memory};
     if (!err) err = parse(&reader, root);
     free(bytes);
     return err;

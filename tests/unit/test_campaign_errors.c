@@ -167,7 +167,7 @@ static void test_sweeps(void **state)
         {"", "sweep:\n  - loading.rate: {from: 1, points: 3}\n", 29, 19, {"a range without `to`"}},
         {"", "sweep:\n  - loading.rate: {from: 1, to: 3}\n", 29, 19, {"a range without `points`"}},
         {"", "sweep:\n  - loading.rate: {from: 1, to: 3, points: 1}\n", 29, 44,
-         {"`points`", "out of range", "2 to 100000"}},
+         {"`points`", "out of range", "2 to 10000"}},
         {"", "sweep:\n  - loading.rate: {from: 1, to: 1, points: 3}\n", 29, 19, {"`from` and `to` are equal"}},
         {"", "sweep:\n  - loading.rate: {from: 1, to: 3, point: 3}\n", 29, 36,
          {"unknown key `point` in a range", "`points`"}},
@@ -204,7 +204,7 @@ static void test_sweeps(void **state)
          {"cases of two axes"}},
         {"", "sweep:\n  - loading.rate: {from: 1, to: 2, points: 1000}\n"
              "  - time.end: {from: 1, to: 2, points: 1000}\n", 30, 5,
-         {"more than 100000 points"}},
+         {"more than 10000 points"}},
         {"", "sweep:\n  - model: [bar, shell]\n", 29, 18, {"unknown model `shell`"}},
     };
     CHECK_ALL(table);
@@ -233,14 +233,19 @@ static void test_whole_files(void **state)
             if (!strstr(fracas_message(), table[i].words[w]))
                 fail_msg("no \"%s\" in: %s", table[i].words[w], fracas_message());
     }
-    size_t size = (1 << 20) + 1;
+    size_t size = (16 << 20) + 1;
     char *large = malloc(size);
     assert_non_null(large);
     memset(large, '#', size);
     write_bytes(path, large, size);
+    assert_int_equal(fracas_campaign_read(path, &campaign), FRACAS_USAGE);
+    assert_non_null(strstr(fracas_message(), "larger than 16 MiB"));
+    memcpy(large, "a: [", 4);
+    for (size_t i = 4; i + 1 < size; i += 2) memcpy(large + i, "1,", 2);
+    write_bytes(path, large, size / 4);
     free(large);
     assert_int_equal(fracas_campaign_read(path, &campaign), FRACAS_USAGE);
-    assert_non_null(strstr(fracas_message(), "larger than 1 MiB"));
+    assert_non_null(strstr(fracas_message(), "more than 1000000 values"));
     unlink(path);
     assert_int_equal(fracas_campaign_read(path, &campaign), FRACAS_ENVIRONMENT);
     assert_non_null(strstr(fracas_message(), "No such file"));

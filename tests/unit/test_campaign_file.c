@@ -378,6 +378,31 @@ static void test_round_trip(void **state)
     }
 }
 
+/* The largest campaign, every number of it varied, is still one that can be read back. */
+static void test_largest_round_trip(void **state)
+{
+    (void)state;
+    static const char *const paths[] = {
+        "geometry.length", "geometry.area", "mesh.elements", "material.young", "material.density",
+        "cohesive.fracture_energy", "cohesive.beta", "loading.rate", "time.end", "time.quiet"};
+    char sweep[2000] = "sweep:\n  - zip:\n";
+    for (size_t i = 0; i < FRACAS_COUNT(paths); i++) {
+        size_t used = strlen(sweep);
+        snprintf(sweep + used, sizeof sweep - used, "      %s: {from: 17, to: 99000, points: 10000%s}\n", paths[i],
+                 i == 2 || i == 6 ? "" : ", spacing: log"); /* whole, or at most 1e4 */
+    }
+    char *text = replace(sweep, "cohesive.beta: {from: 17, to: 99000", "cohesive.beta: {from: 17, to: 9900");
+    fracas_campaign *campaign = read_replaced("", text);
+    free(text);
+    text = write_text(campaign);
+    fracas_campaign *back = read_text(text);
+    assert_int_equal(back->npoints, 10000);
+    assert_true(fracas_hash_equal(&campaign->hash, &back->hash));
+    free(text);
+    fracas_campaign_destroy(campaign);
+    fracas_campaign_destroy(back);
+}
+
 /* A file that cannot be written is said. */
 static void test_write_fails(void **state)
 {
@@ -464,7 +489,7 @@ int main(void)
         cmocka_unit_test(test_table),        cmocka_unit_test(test_tables_agree),
         cmocka_unit_test(test_round_trip),   cmocka_unit_test(test_write_fails),
         cmocka_unit_test(test_extends),      cmocka_unit_test(test_reference_page),
-        cmocka_unit_test(test_page_examples),
+        cmocka_unit_test(test_page_examples), cmocka_unit_test(test_largest_round_trip),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
