@@ -17,6 +17,31 @@ uint64_t fracas_checksum_of(const void *bytes, size_t size)
     return XXH3_64bits(bytes, size);
 }
 
+/* XXH3_state_t under our name. */
+fracas_err fracas_checksum_create(fracas_checksum **checksum)
+{
+    XXH3_state_t *state = XXH3_createState();
+    if (!state) return fracas_no_memory("a checksum");
+    XXH3_64bits_reset(state); /* fails only without a state */
+    *checksum = (fracas_checksum *)state;
+    return FRACAS_OK;
+}
+
+void fracas_checksum_add(fracas_checksum *checksum, const void *bytes, size_t size)
+{
+    XXH3_64bits_update((XXH3_state_t *)checksum, bytes, size);
+}
+
+uint64_t fracas_checksum_end(const fracas_checksum *checksum)
+{
+    return XXH3_64bits_digest((const XXH3_state_t *)checksum);
+}
+
+void fracas_checksum_destroy(fracas_checksum *checksum)
+{
+    XXH3_freeState((XXH3_state_t *)checksum);
+}
+
 bool fracas_hash_equal(const fracas_hash *a, const fracas_hash *b)
 {
     return memcmp(a->byte, b->byte, sizeof a->byte) == 0;

@@ -2,6 +2,8 @@
 #ifndef FRACAS_BASE_HASH_H
 #define FRACAS_BASE_HASH_H
 
+#include "base/err.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -16,6 +18,12 @@ typedef struct {
 fracas_hash fracas_hash_of(const void *bytes, size_t size);
 /* XXH3-64 of `size` bytes: the checksum of a file's contents, for segments. */
 uint64_t fracas_checksum_of(const void *bytes, size_t size);
+/* The same of bytes that come in pieces. */
+typedef struct fracas_checksum fracas_checksum;
+FRACAS_MUST_USE fracas_err fracas_checksum_create(fracas_checksum **checksum);
+void fracas_checksum_add(fracas_checksum *checksum, const void *bytes, size_t size);
+uint64_t fracas_checksum_end(const fracas_checksum *checksum);
+void fracas_checksum_destroy(fracas_checksum *checksum); /* NULL is allowed */
 
 bool fracas_hash_equal(const fracas_hash *a, const fracas_hash *b);
 /* word[0] = first eight bytes, word[1] = last eight, read as big-endian numbers. */

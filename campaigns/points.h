@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 /* One resolved scalar (`material.young`) or enum (`cohesive.law`) over all points. */
 typedef struct {
@@ -36,7 +37,12 @@ typedef struct {
     const fracas_point_row *point;
 } fracas_point_table;
 
-/* Index of the column, or SIZE_MAX. */
-size_t fracas_point_table_find(const fracas_point_table *table, const char *path);
+/* Index of the column, or SIZE_MAX. Here, not in a file of one room, because rooms that do not meet ask it. */
+static inline size_t fracas_point_table_find(const fracas_point_table *table, const char *path)
+{
+    for (size_t c = 0; c < table->ncolumns; c++)
+        if (!strcmp(table->column[c].path, path)) return c;
+    return SIZE_MAX;
+}
 
 #endif

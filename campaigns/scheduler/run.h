@@ -31,4 +31,7 @@ FRACAS_MUST_USE fracas_err fracas_run(const fracas_run_options *options, int arg
 /* True in a process that mpirun, srun or another PMI launcher started. */
 bool fracas_run_is_rank(void);
 
+/* True in the one process that reports to the user: the parent, else rank 0 of a run under the user's own launcher. */
+bool fracas_run_speaks(void);
+
 #endif

@@ -110,6 +110,11 @@ FRACAS_MUST_USE fracas_err fracas_index_rows(fracas_index *index, const fracas_p
  * instruction set, lanes, wall times); never in study.h5. */
 FRACAS_MUST_USE fracas_err fracas_index_commit(fracas_index *index, const char *segment, const fracas_file_seal *seal,
                                                const fracas_segment_row *row, size_t count, const char *provenance);
+/* Calls `say` with each realization of the table that failed for good, in plan order, and the reason ("" if none was
+ * given). */
+FRACAS_MUST_USE fracas_err fracas_index_failures(fracas_index *index, const fracas_point_table *table,
+                                                 void (*say)(void *context, const fracas_index_row *row,
+                                                             const char *reason), void *context);
 FRACAS_MUST_USE fracas_err fracas_index_lease(fracas_index *index, const fracas_hash *point, int64_t replica, int64_t count);
 /* Counts an attempt of one realization that ended without a record, with the reason; with `final` it becomes
  * failed (its row in study.h5 is outcome FAILED, values NaN), else planned. */

@@ -1,0 +1,114 @@
+#include "analysis/study.h"
+
+#include <errno.h>
+#include <libgen.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* The last part of the folder's real path, so that "." has a name too. */
+static fracas_err name_of(const char *study, char **name)
+{
+    char *path = realpath(study, NULL);
+    if (!path)
+        return fracas_fail(FRACAS_DAMAGED, "%s: %s; name the folder of a study", study, strerror(errno));
+    *name = strdup(basename(path));
+    free(path);
+    return *name ? FRACAS_OK : fracas_no_memory("the name of the study");
+}
+
+static fracas_err open_study(const char *study, fracas_reader **reader)
+{
+    char *path = malloc(strlen(study) + sizeof "/study.h5");
+    if (!path) return fracas_no_memory("a path");
+    strcat(strcpy(path, study), "/study.h5");
+    fracas_err err = FRACAS_OK;
+    if (access(path, F_OK))
+        err = fracas_fail(FRACAS_DAMAGED, "%s is not there; `fracas run` makes it", path);
+    if (!err) err = fracas_reader_open(path, reader);
+    free(path);
+    return err;
+}
+
+static fracas_err read_realizations(fracas_analysis *analysis)
+{
+    fracas_record record;
+    fracas_record_init(&record);
+    fracas_err err = FRACAS_OK;
+    size_t rows = fracas_reader_realizations(analysis->reader);
+    for (size_t row = 0; row < rows && !err; row++) {
+        size_t point;
+        int64_t replica;
+        err = fracas_reader_record(analysis->reader, row, FRACAS_READ_FRAGMENTS, &point, &replica, &record);
+        if (!err) err = fracas_point_statistics_add(&analysis->point[point], row, replica, &record);
+        fracas_record_clear(&record);
+    }
+    return err;
+}
+
+/* The energies over time of each point's typical replica. */
+static fracas_err read_histories(fracas_analysis *analysis)
+{
+    fracas_record record;
+    fracas_record_init(&record);
+    fracas_err err = FRACAS_OK;
+    for (size_t p = 0; p < analysis->table->npoints && !err; p++) {
+        fracas_point_statistics *statistics = &analysis->point[p];
+        if (statistics->typical_replica < 0) continue;
+        size_t point;
+        int64_t replica;
+        err = fracas_reader_record(analysis->reader, statistics->typical_row, FRACAS_READ_HISTORY, &point, &replica,
+                                   &record);
+        if (!err) {
+            statistics->history = record.history;
+            statistics->nhistory = record.nhistory;
+            record.history = NULL;
+        }
+        fracas_record_clear(&record);
+    }
+    return err;
+}
+
+static fracas_err analyse(const char *study, fracas_analysis *analysis)
+{
+    TRY(name_of(study, &analysis->name));
+    TRY(open_study(study, &analysis->reader));
+    analysis->header = *fracas_reader_header(analysis->reader);
+    analysis->table = fracas_reader_points(analysis->reader);
+    size_t npoints = analysis->table->npoints;
+    analysis->point = calloc(npoints + 1, sizeof *analysis->point);
+    if (!analysis->point) return fracas_no_memory("the points of the study");
+    for (size_t p = 0; p < npoints; p++) fracas_point_statistics_init(analysis->table, p, &analysis->point[p]);
+    TRY(fracas_columns_create(analysis->table, &analysis->shown));
+    TRY(read_realizations(analysis));
+    for (size_t p = 0; p < npoints; p++) fracas_point_statistics_finish(&analysis->point[p]);
+    return read_histories(analysis);
+}
+
+fracas_err fracas_analysis_create(const char *study, fracas_analysis **analysis)
+{
+    *analysis = NULL;
+    fracas_analysis *made = calloc(1, sizeof *made);
+    if (!made) return fracas_no_memory("an analysis");
+    fracas_err err = analyse(study, made);
+    if (err) fracas_analysis_destroy(made);
+    else *analysis = made;
+    return err;
+}
+
+void fracas_analysis_destroy(fracas_analysis *analysis)
+{
+    if (!analysis) return;
+    if (analysis->point)
+        for (size_t p = 0; p < analysis->table->npoints; p++) fracas_point_statistics_clear(&analysis->point[p]);
+    free(analysis->point);
+    fracas_columns_clear(&analysis->shown);
+    fracas_reader_close(analysis->reader);
+    free(analysis->name);
+    free(analysis);
+}
+
+void fracas_analysis_label(const fracas_analysis *analysis, size_t point, char *text, size_t size)
+{
+    fracas_columns_label(analysis->table, &analysis->shown, point, text, size);
+}

@@ -1,0 +1,134 @@
+#include "analysis/columns.h"
+
+#include "analysis/format.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const rate_path = "loading.rate";
+
+/* Causes before numerics: a zipped sweep is called by what is physical in it. */
+static int rank_of(const char *path)
+{
+    static const char *const order[] = {"loading.rate", "loading", "material", "cohesive", "strength",
+                                        "geometry", "model", "mesh", "time"};
+    const int n = (int)(sizeof order / sizeof *order);
+    for (int i = 0; i < n; i++) {
+        size_t length = strlen(order[i]);
+        if (!strncmp(path, order[i], length) && (path[length] == '.' || path[length] == '\0')) return i;
+    }
+    return strncmp(path, "derived.", strlen("derived.")) ? n : -1;
+}
+
+static bool same_value(const fracas_point_table *table, size_t column, size_t a, size_t b)
+{
+    const fracas_value *x = &table->point[a].value[column], *y = &table->point[b].value[column];
+    if (table->column[column].text) return !strcmp(x->text, y->text);
+    return x->real == y->real || (isnan(x->real) && isnan(y->real));
+}
+
+bool fracas_columns_same(const fracas_point_table *table, const fracas_columns *columns, size_t a, size_t b)
+{
+    for (size_t i = 0; i < columns->count; i++)
+        if (!same_value(table, columns->column[i], a, b)) return false;
+    return true;
+}
+
+/* True if some two points of one class differ in the column. class[p] is the first point of p's class. */
+static bool refine(const fracas_point_table *table, size_t column, size_t *class, size_t *scratch)
+{
+    bool parted = false;
+    for (size_t p = 0; p < table->npoints; p++) {
+        scratch[p] = p;
+        for (size_t q = class[p]; q < p; q++) {
+            if (class[q] != class[p] || !same_value(table, column, p, q)) continue;
+            scratch[p] = scratch[q];
+            break;
+        }
+        if (scratch[p] != class[p]) parted = true;
+    }
+    memcpy(class, scratch, table->npoints * sizeof *class);
+    return parted;
+}
+
+static void select_columns(const fracas_point_table *table, size_t *class, size_t *scratch, fracas_columns *columns)
+{
+    int last = 0;
+    for (size_t c = 0; c < table->ncolumns; c++)
+        if (rank_of(table->column[c].path) > last) last = rank_of(table->column[c].path);
+    for (int rank = 0; rank <= last; rank++)
+        for (size_t c = 0; c < table->ncolumns; c++)
+            if (rank_of(table->column[c].path) == rank && refine(table, c, class, scratch))
+                columns->column[columns->count++] = c;
+    size_t rate = fracas_point_table_find(table, rate_path);
+    if (columns->count == 0 && rate != SIZE_MAX) columns->column[columns->count++] = rate;
+}
+
+fracas_err fracas_columns_create(const fracas_point_table *table, fracas_columns *columns)
+{
+    *columns = (fracas_columns){0};
+    columns->column = malloc((table->ncolumns + 1) * sizeof *columns->column);
+    size_t *class = calloc(2 * table->npoints + 1, sizeof *class); /* all points in the class of point 0 */
+    if (columns->column && class) select_columns(table, class, class + table->npoints, columns);
+    bool made = columns->column && class;
+    free(class);
+    if (made) return FRACAS_OK;
+    fracas_columns_clear(columns);
+    return fracas_no_memory("the columns of the table");
+}
+
+fracas_err fracas_columns_without_rate(const fracas_point_table *table, const fracas_columns *columns,
+                                       fracas_columns *others)
+{
+    *others = (fracas_columns){.column = malloc((columns->count + 1) * sizeof *others->column)};
+    if (!others->column) return fracas_no_memory("the series of a figure");
+    for (size_t i = 0; i < columns->count; i++)
+        if (strcmp(table->column[columns->column[i]].path, rate_path))
+            others->column[others->count++] = columns->column[i];
+    return FRACAS_OK;
+}
+
+void fracas_columns_clear(fracas_columns *columns)
+{
+    free(columns->column);
+    *columns = (fracas_columns){0};
+}
+
+static const char *last_part(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot ? dot + 1 : path;
+}
+
+const char *fracas_columns_name(const fracas_point_table *table, const fracas_columns *columns, size_t i)
+{
+    const char *path = table->column[columns->column[i]].path;
+    for (size_t j = 0; j < columns->count; j++)
+        if (j != i && !strcmp(last_part(path), last_part(table->column[columns->column[j]].path))) return path;
+    return last_part(path);
+}
+
+void fracas_columns_value(const fracas_point_table *table, size_t column, size_t point, char *text, size_t size)
+{
+    const fracas_value *value = &table->point[point].value[column];
+    if (table->column[column].text) snprintf(text, size, "%s", *value->text ? value->text : "-");
+    else fracas_format_short(value->real, text, size);
+}
+
+void fracas_columns_label(const fracas_point_table *table, const fracas_columns *columns, size_t point, char *text,
+                          size_t size)
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < columns->count && used < size; i++) {
+        const fracas_column *column = &table->column[columns->column[i]];
+        char value[64];
+        fracas_columns_value(table, columns->column[i], point, value, sizeof value);
+        bool unit = !column->text && strcmp(column->unit, "1");
+        const char *name = fracas_columns_name(table, columns, i);
+        used += (size_t)snprintf(text + used, size - used, "%s%s %s%s%s", i ? ", " : "", name, value, unit ? " " : "",
+                                 unit ? column->unit : "");
+    }
+}

@@ -1,0 +1,328 @@
+#include "analysis/report/figures.h"
+
+#include "analysis/format.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { LAW_VALUES = 80, TALL = 300, LOW = 200, STRIP = 80 };
+
+/* ---- mean size against rate ---- */
+
+/* What is drawn against the rate, and in which units. */
+typedef struct {
+    const fracas_analysis *analysis;
+    const fracas_columns *others; /* columns that make series */
+    bool normalised;
+    double size_factor;
+} rate_plot;
+
+static bool has_mean(const fracas_point_statistics *statistics)
+{
+    return isfinite(statistics->rate) && isfinite(statistics->size.mean);
+}
+
+static bool has_scales(const fracas_point_statistics *statistics)
+{
+    return has_mean(statistics) && isfinite(statistics->scales.size) && isfinite(statistics->scales.rate);
+}
+
+static bool drawn(const rate_plot *plot, const fracas_point_statistics *statistics)
+{
+    return plot->normalised ? has_scales(statistics) : has_mean(statistics);
+}
+
+/* The first point of the series that point p belongs to. */
+static size_t series_of(const rate_plot *plot, size_t p)
+{
+    for (size_t q = 0; q < p; q++)
+        if (drawn(plot, &plot->analysis->point[q]) && fracas_columns_same(plot->analysis->table, plot->others, p, q))
+            return q;
+    return p;
+}
+
+static fracas_err add_means(const rate_plot *plot, size_t first, unsigned look, fracas_panel *panel)
+{
+    const fracas_analysis *analysis = plot->analysis;
+    fracas_series *series;
+    TRY(fracas_panel_add(panel, FRACAS_MARKS, look, analysis->table->npoints, &series));
+    if (plot->others->count > 0)
+        fracas_columns_label(analysis->table, plot->others, first, series->name, sizeof series->name);
+    else
+        snprintf(series->name, sizeof series->name, "mean, 95 %% interval");
+    series->n = 0;
+    for (size_t p = first; p < analysis->table->npoints; p++) {
+        const fracas_point_statistics *statistics = &analysis->point[p];
+        if (!drawn(plot, statistics) || series_of(plot, p) != first) continue;
+        double x_unit = plot->normalised ? statistics->scales.rate : 1;
+        double y_unit = plot->normalised ? statistics->scales.size : 1 / plot->size_factor;
+        size_t i = series->n++;
+        series->x[i] = statistics->rate / x_unit;
+        series->y[i] = statistics->size.mean / y_unit;
+        series->low[i] = (statistics->size.mean - statistics->size.half_width) / y_unit;
+        series->high[i] = (statistics->size.mean + statistics->size.half_width) / y_unit;
+    }
+    return FRACAS_OK;
+}
+
+/* One law over the rates of all points and a factor of two beyond. */
+static fracas_err add_law(const rate_plot *plot, fracas_size_law_id law, const fracas_scales *scales,
+                          const double rate[2], unsigned look, fracas_panel *panel)
+{
+    fracas_series *series;
+    TRY(fracas_panel_add(panel, FRACAS_CURVE, look, LAW_VALUES, &series));
+    snprintf(series->name, sizeof series->name, "%s", fracas_size_laws[law].name);
+    for (size_t i = 0; i < LAW_VALUES; i++) {
+        double at = rate[0] / 2 * pow(4 * rate[1] / rate[0], (double)i / (LAW_VALUES - 1));
+        series->x[i] = at;
+        series->y[i] = plot->normalised ? fracas_size_laws[law].normalised(at)
+                                        : fracas_size_law_at(law, scales, at) * plot->size_factor;
+    }
+    return FRACAS_OK;
+}
+
+/* Least and greatest rate of the points drawn, in the plot's units; false without any. */
+static bool rate_range(const rate_plot *plot, double rate[2])
+{
+    rate[0] = INFINITY;
+    rate[1] = 0;
+    for (size_t p = 0; p < plot->analysis->table->npoints; p++) {
+        const fracas_point_statistics *statistics = &plot->analysis->point[p];
+        if (!drawn(plot, statistics)) continue;
+        double at = statistics->rate / (plot->normalised ? statistics->scales.rate : 1);
+        rate[0] = fmin(rate[0], at);
+        rate[1] = fmax(rate[1], at);
+    }
+    return rate[1] > 0;
+}
+
+static bool same_scales(const rate_plot *plot)
+{
+    const fracas_scales *first = NULL;
+    for (size_t p = 0; p < plot->analysis->table->npoints; p++) {
+        const fracas_point_statistics *statistics = &plot->analysis->point[p];
+        if (!has_scales(statistics)) continue;
+        if (first && (first->size != statistics->scales.size || first->rate != statistics->scales.rate)) return false;
+        first = &statistics->scales;
+    }
+    return true;
+}
+
+/* All laws where one curve each serves all points; else ZMR in the colour of each series. */
+static fracas_err add_laws(const rate_plot *plot, const double rate[2], size_t first, unsigned looks, unsigned look,
+                           fracas_panel *panel)
+{
+    const fracas_scales *scales = &plot->analysis->point[first].scales;
+    if (!isfinite(scales->rate)) return FRACAS_OK;
+    if (plot->normalised || same_scales(plot)) {
+        if (look > 0) return FRACAS_OK;
+        for (unsigned law = 0; law < FRACAS_NLAWS; law++)
+            TRY(add_law(plot, (fracas_size_law_id)law, scales, rate, looks + law, panel));
+        return FRACAS_OK;
+    }
+    TRY(add_law(plot, FRACAS_LAW_ZMR, scales, rate, look, panel));
+    panel->series[panel->nseries - 1].name[0] = '\0'; /* named by its marks */
+    return FRACAS_OK;
+}
+
+static fracas_err draw_against_rate(const rate_plot *plot, fracas_chart *chart)
+{
+    double rate[2];
+    if (!rate_range(plot, rate)) return FRACAS_OK;
+    fracas_panel *panel = fracas_chart_add(chart, TALL);
+    panel->x.log = panel->y.log = true;
+    size_t npoints = plot->analysis->table->npoints;
+    unsigned looks = 0;
+    for (size_t p = 0; p < npoints; p++)
+        if (drawn(plot, &plot->analysis->point[p]) && series_of(plot, p) == p) looks++;
+    unsigned look = 0;
+    for (size_t p = 0; p < npoints; p++) {
+        if (!drawn(plot, &plot->analysis->point[p]) || series_of(plot, p) != p) continue;
+        TRY(add_laws(plot, rate, p, looks, look, panel));
+        TRY(add_means(plot, p, look, panel));
+        look++;
+    }
+    return FRACAS_OK;
+}
+
+fracas_err fracas_figure_rate(const fracas_analysis *analysis, bool normalised, fracas_chart *chart)
+{
+    double extreme[2] = {INFINITY, 0};
+    for (size_t p = 0; p < analysis->table->npoints; p++) {
+        if (!has_mean(&analysis->point[p])) continue;
+        extreme[0] = fmin(extreme[0], analysis->point[p].size.mean);
+        extreme[1] = fmax(extreme[1], analysis->point[p].size.mean);
+    }
+    fracas_prefix prefix = fracas_prefix_for(extreme, 2);
+    fracas_columns others;
+    TRY(fracas_columns_without_rate(analysis->table, &analysis->shown, &others));
+    rate_plot plot = {.analysis = analysis, .others = &others, .normalised = normalised, .size_factor = prefix.factor};
+    fracas_err err = draw_against_rate(&plot, chart);
+    bool one_law = same_scales(&plot);
+    fracas_columns_clear(&others);
+    TRY(err);
+    snprintf(chart->file, sizeof chart->file, "size-against-rate%s", normalised ? "-normalised" : "");
+    snprintf(chart->title, sizeof chart->title, "%s", normalised ? "Normalised mean fragment size against strain rate"
+                                                                 : "Mean fragment size against strain rate");
+    snprintf(chart->caption, sizeof chart->caption,
+             "%sMean over replicas of body length / fragments; bars: 95 %% interval of the mean (Student\u2019s t over "
+             "replicas). Lines: %s",
+             normalised ? "Sizes over s\u2080 = E G_c/\u03c3_c\u00b2, rates over "
+                          "\u03b5\u0307\u2080 = c \u03c3_c\u00b3/(E\u00b2 G_c), \u03c3_c the mean strength. " : "",
+             normalised || one_law ? "size laws of Zhou, Molinari and Ramesh (ZMR, ZMR-2), Grady, and Glenn "
+                                     "and Chudnovsky (GC)."
+                                   : "ZMR law with the material of the marks of the same colour.");
+    if (chart->npanels == 0) return FRACAS_OK;
+    snprintf(chart->panel[0].x.label, sizeof chart->panel[0].x.label, "%s",
+             normalised ? "strain rate \u03b5\u0307/\u03b5\u0307\u2080" : "strain rate [1/s]");
+    if (normalised) snprintf(chart->panel[0].y.label, sizeof chart->panel[0].y.label, "mean fragment size s/s\u2080");
+    else snprintf(chart->panel[0].y.label, sizeof chart->panel[0].y.label, "mean fragment size [%sm]", prefix.sign);
+    return FRACAS_OK;
+}
+
+/* ---- sizes ---- */
+
+static double mean_of(const double *value, size_t count)
+{
+    double sum = 0;
+    for (size_t i = 0; i < count; i++) sum += value[i];
+    return sum / (double)count;
+}
+
+/* P(S >= s) at each size that occurs. Sizes that differ by rounding alone (1e-9) are one: they are the same number
+ * of elements. */
+static fracas_err add_sizes(const fracas_point_statistics *statistics, double unit, unsigned look, fracas_panel *panel)
+{
+    fracas_series *series;
+    size_t n = statistics->nfragments, vertex = 0;
+    const double *size = statistics->fragment_size;
+    TRY(fracas_panel_add(panel, FRACAS_STEPS, look, n, &series));
+    for (size_t i = 0; i < n; i++) {
+        if (i > 0 && size[i] <= size[i - 1] * (1 + 1e-9)) continue;
+        series->x[vertex] = size[i] / unit;
+        series->y[vertex++] = (double)(n - i) / (double)n;
+    }
+    series->n = vertex;
+    return FRACAS_OK;
+}
+
+static void name_cumulative_axes(fracas_panel *panel)
+{
+    panel->x.log = panel->y.log = true;
+    snprintf(panel->y.label, sizeof panel->y.label, "share of fragments \u2265 s");
+}
+
+fracas_err fracas_figure_sizes_together(const fracas_analysis *analysis, fracas_chart *chart)
+{
+    snprintf(chart->file, sizeof chart->file, "sizes");
+    snprintf(chart->title, sizeof chart->title, "Fragment sizes of all points");
+    snprintf(chart->caption, sizeof chart->caption,
+             "Share of the fragments that are at least of size s, over s / mean size of the point\u2019s "
+             "fragments; fragments of all usable replicas together, dust included.");
+    fracas_panel *panel = NULL;
+    for (size_t p = 0; p < analysis->table->npoints; p++) {
+        const fracas_point_statistics *statistics = &analysis->point[p];
+        if (statistics->nfragments == 0) continue;
+        if (!panel) panel = fracas_chart_add(chart, TALL);
+        TRY(add_sizes(statistics, mean_of(statistics->fragment_size, statistics->nfragments), (unsigned)p, panel));
+        fracas_series *series = &panel->series[panel->nseries - 1];
+        fracas_analysis_label(analysis, p, series->name, sizeof series->name);
+    }
+    if (!panel) return FRACAS_OK;
+    name_cumulative_axes(panel);
+    snprintf(panel->x.label, sizeof panel->x.label, "fragment size s / mean size");
+    return FRACAS_OK;
+}
+
+fracas_err fracas_figure_sizes(const fracas_analysis *analysis, size_t point, fracas_chart *chart)
+{
+    const fracas_point_statistics *statistics = &analysis->point[point];
+    char label[160];
+    fracas_analysis_label(analysis, point, label, sizeof label);
+    snprintf(chart->file, sizeof chart->file, "sizes-point-%zu", point);
+    snprintf(chart->title, sizeof chart->title, "Fragment sizes: %s", label);
+    if (statistics->nfragments == 0) return FRACAS_OK;
+    double mean = mean_of(statistics->fragment_size, statistics->nfragments);
+    fracas_prefix prefix = fracas_prefix_for(&mean, 1);
+    chart->width = FRACAS_CHART_NARROW;
+    fracas_panel *panel = fracas_chart_add(chart, LOW);
+    TRY(add_sizes(statistics, 1 / prefix.factor, (unsigned)point, panel));
+    name_cumulative_axes(panel);
+    snprintf(panel->x.label, sizeof panel->x.label, "fragment size s [%sm]", prefix.sign);
+    snprintf(chart->caption, sizeof chart->caption, "%s; fragments: %zu, replicas: %lld.", label,
+             statistics->nfragments, (long long)statistics->usable);
+    return FRACAS_OK;
+}
+
+/* ---- energies ---- */
+
+static const struct {
+    const char *name;
+    size_t offset;
+} energies[] = {
+    {"kinetic", offsetof(fracas_history_row, kinetic)},       {"elastic", offsetof(fracas_history_row, elastic)},
+    {"dissipated", offsetof(fracas_history_row, dissipated)}, {"cohesive", offsetof(fracas_history_row, cohesive)},
+    {"work", offsetof(fracas_history_row, work)},             {"|residual|", offsetof(fracas_history_row, residual)},
+};
+enum { NENERGIES = sizeof energies / sizeof *energies, RESIDUAL = NENERGIES - 1 };
+
+static double energy(const fracas_history_row *row, size_t which)
+{
+    return *(const double *)((const char *)row + energies[which].offset);
+}
+
+static double largest_energy(const fracas_point_statistics *statistics)
+{
+    double largest = 0;
+    for (size_t i = 0; i < statistics->nhistory; i++)
+        for (size_t e = 0; e < RESIDUAL; e++)
+            largest = fmax(largest, fabs(energy(&statistics->history[i], e)));
+    return largest;
+}
+
+static fracas_err add_energy(const fracas_point_statistics *statistics, size_t which, double time_factor,
+                             double energy_factor, fracas_panel *panel)
+{
+    fracas_series *series;
+    TRY(fracas_panel_add(panel, FRACAS_CURVE, (unsigned)which, statistics->nhistory, &series));
+    snprintf(series->name, sizeof series->name, "%s", energies[which].name);
+    for (size_t i = 0; i < statistics->nhistory; i++) {
+        double value = energy(&statistics->history[i], which) * energy_factor;
+        series->x[i] = statistics->history[i].time * time_factor;
+        series->y[i] = which == RESIDUAL ? fabs(value) : value;
+    }
+    return FRACAS_OK;
+}
+
+/* A residual so far below the largest energy is rounding; it would stretch the axis. */
+static const double residual_floor = 1e-12;
+
+fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point, fracas_chart *chart)
+{
+    const fracas_point_statistics *statistics = &analysis->point[point];
+    char label[160];
+    fracas_analysis_label(analysis, point, label, sizeof label);
+    snprintf(chart->file, sizeof chart->file, "energies-point-%zu", point);
+    snprintf(chart->title, sizeof chart->title, "Energies: %s", label);
+    double largest = largest_energy(statistics);
+    if (statistics->nhistory == 0 || !(largest > 0)) return FRACAS_OK;
+    fracas_prefix time = fracas_prefix_for(&statistics->history[statistics->nhistory - 1].time, 1);
+    fracas_prefix joule = fracas_prefix_for(&largest, 1);
+    fracas_panel *upper = fracas_chart_add(chart, LOW);
+    for (size_t e = 0; e < RESIDUAL; e++) TRY(add_energy(statistics, e, time.factor, joule.factor, upper));
+    fracas_panel *lower = fracas_chart_add(chart, STRIP);
+    TRY(add_energy(statistics, RESIDUAL, time.factor, joule.factor, lower));
+    lower->y.log = true;
+    lower->y_floor = residual_floor * largest * joule.factor;
+    snprintf(lower->x.label, sizeof lower->x.label, "time [%ss]", time.sign);
+    for (size_t p = 0; p < chart->npanels; p++)
+        snprintf(chart->panel[p].y.label, sizeof chart->panel[p].y.label, "energy [%sJ]", joule.sign);
+    char residual[32];
+    fracas_format_digits(statistics->residual, 2, residual, sizeof residual);
+    snprintf(chart->caption, sizeof chart->caption,
+             "%s: replica %lld, the one whose dissipated energy is the nearest to the mean. Kinetic energy is that of "
+             "the motion beside the imposed stretching, work likewise. Below: |residual| of the energy balance; its "
+             "largest value over all replicas is %s of the dissipated energy.",
+             label, (long long)statistics->typical_replica, residual);
+    return FRACAS_OK;
+}

@@ -1,0 +1,188 @@
+#include "analysis/statistics.h"
+
+#include <gsl/gsl_sort.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+typedef struct {
+    fracas_replica_values value;
+    size_t row;
+    int64_t replica;
+} replica_entry;
+
+struct fracas_replica_list {
+    size_t count, capacity;
+    replica_entry *entry;
+    size_t fragment_capacity;
+    int64_t elements, dust; /* over all fragments */
+};
+
+#define STATISTIC(key, unit, doc, member) {key, unit, doc, offsetof(fracas_point_statistics, member), false}
+#define COUNTED(key, doc, member) {key, "1", doc, offsetof(fracas_point_statistics, member), true}
+#define ESTIMATE(key, unit, what, member)                                                              \
+    COUNTED(key ".n", "replicas in the mean " what, member.n),                                         \
+    STATISTIC(key ".mean", unit, "mean over replicas of the " what, member.mean),                      \
+    STATISTIC(key ".deviation", unit, "standard deviation over replicas of the " what, member.deviation), \
+    STATISTIC(key ".half_width", unit, "half width of the 95 % interval of the mean " what, member.half_width)
+
+const fracas_statistic fracas_statistics[] = {
+    COUNTED("realizations", "realizations in the study", realizations),
+    COUNTED("usable", "realizations that ended FRAGMENTED, INTACT or TIME_LIMIT", usable),
+    COUNTED("unusable", "realizations that ended NONFINITE, ENERGY_DRIFT or FAILED", unusable),
+    ESTIMATE("count", "1", "number of fragments", count),
+    ESTIMATE("count_large", "1", "number of fragments without dust", count_large),
+    ESTIMATE("size", "m", "mean fragment size (length / fragments)", size),
+    ESTIMATE("dissipated", "J", "dissipated energy", dissipated),
+    ESTIMATE("onset_time", "s", "time of first onset", onset_time),
+    STATISTIC("residual", "1", "largest |residual| of the energy balance / dissipated, over replicas", residual),
+    STATISTIC("created", "1", "largest created / dissipated, over replicas", created),
+    STATISTIC("elements", "1", "elements of a mean fragment", elements),
+    STATISTIC("dust_share", "1", "dust fragments / all fragments", dust_share),
+    STATISTIC("scale.time", "s", "t0 = E Gc/(sigma_c^2 c)", scales.time),
+    STATISTIC("scale.size", "m", "s0 = E Gc/sigma_c^2", scales.size),
+    STATISTIC("scale.rate", "1/s", "edot0 = c sigma_c^3/(E^2 Gc)", scales.rate),
+    STATISTIC("law.zmr", "m", "mean size by Zhou, Molinari and Ramesh (APL 2006)", law[FRACAS_LAW_ZMR]),
+    STATISTIC("law.grady", "m", "mean size by Grady", law[FRACAS_LAW_GRADY]),
+    STATISTIC("law.glenn_chudnovsky", "m", "mean size by Glenn and Chudnovsky", law[FRACAS_LAW_GLENN_CHUDNOVSKY]),
+    STATISTIC("law.zmr2", "m", "mean size by Zhou, Molinari and Ramesh, second form", law[FRACAS_LAW_ZMR2]),
+};
+const size_t fracas_nstatistics = sizeof fracas_statistics / sizeof *fracas_statistics;
+
+bool fracas_outcome_usable(int64_t outcome)
+{
+    return outcome == FRACAS_FRAGMENTED || outcome == FRACAS_INTACT || outcome == FRACAS_TIME_LIMIT;
+}
+
+const char *fracas_outcome_name(int64_t outcome)
+{
+    static const char *const name[FRACAS_NOUTCOMES] = {
+        [FRACAS_FRAGMENTED] = "FRAGMENTED", [FRACAS_INTACT] = "INTACT", [FRACAS_TIME_LIMIT] = "TIME_LIMIT",
+        [FRACAS_NONFINITE] = "NONFINITE", [FRACAS_ENERGY_DRIFT] = "ENERGY_DRIFT", [FRACAS_FAILED] = "FAILED",
+    };
+    return outcome >= 0 && outcome < FRACAS_NOUTCOMES ? name[outcome] : "?";
+}
+
+static double column_value(const fracas_point_table *table, size_t point, const char *path)
+{
+    size_t column = fracas_point_table_find(table, path);
+    return column == SIZE_MAX ? NAN : table->point[point].value[column].real;
+}
+
+void fracas_point_statistics_init(const fracas_point_table *table, size_t point, fracas_point_statistics *statistics)
+{
+    *statistics = (fracas_point_statistics){
+        .rate = column_value(table, point, "loading.rate"),
+        .length = column_value(table, point, "geometry.length"),
+        .scales = fracas_scales_of(column_value(table, point, "material.young"),
+                                   column_value(table, point, "material.density"),
+                                   column_value(table, point, "derived.strength_mean"),
+                                   column_value(table, point, "cohesive.fracture_energy")),
+        .residual = NAN, .created = NAN, .elements = NAN, .dust_share = NAN, .typical_replica = -1,
+    };
+    for (int law = 0; law < FRACAS_NLAWS; law++)
+        statistics->law[law] = fracas_size_law_at((fracas_size_law_id)law, &statistics->scales, statistics->rate);
+}
+
+/* Room for one more replica and `more` more fragments, doubling. */
+static fracas_err make_room(fracas_point_statistics *statistics, size_t more)
+{
+    if (!statistics->replicas) {
+        statistics->replicas = calloc(1, sizeof *statistics->replicas);
+        if (!statistics->replicas) return fracas_no_memory("the statistics of a point");
+    }
+    struct fracas_replica_list *list = statistics->replicas;
+    if (list->count == list->capacity) {
+        size_t capacity = list->capacity ? 2 * list->capacity : 32;
+        replica_entry *entry = realloc(list->entry, capacity * sizeof *entry);
+        if (!entry) return fracas_no_memory("the replicas of a point");
+        list->entry = entry;
+        list->capacity = capacity;
+    }
+    size_t needed = statistics->nfragments + more;
+    if (needed > list->fragment_capacity) {
+        size_t capacity = needed > 2 * list->fragment_capacity ? needed : 2 * list->fragment_capacity;
+        double *size = realloc(statistics->fragment_size, capacity * sizeof *size);
+        if (!size) return fracas_no_memory("the fragments of a point");
+        statistics->fragment_size = size;
+        list->fragment_capacity = capacity;
+    }
+    return FRACAS_OK;
+}
+
+fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size_t row, int64_t replica,
+                                       const fracas_record *record)
+{
+    if (record->outcome < 0 || record->outcome >= FRACAS_NOUTCOMES)
+        return fracas_fail(FRACAS_DAMAGED, "realization %zu of the study has outcome %lld, which is none of 0 to %d; "
+                           "`fracas verify` checks the study", row, (long long)record->outcome, FRACAS_NOUTCOMES - 1);
+    statistics->realizations++;
+    statistics->outcome[record->outcome]++;
+    if (!fracas_outcome_usable(record->outcome)) {
+        statistics->unusable++;
+        return FRACAS_OK;
+    }
+    statistics->usable++;
+    TRY(make_room(statistics, record->nfragment));
+    struct fracas_replica_list *list = statistics->replicas;
+    list->entry[list->count++] = (replica_entry){
+        .row = row, .replica = replica,
+        .value = {.count = (double)record->fragments,
+                  .count_large = (double)(record->fragments - record->fragments_dust),
+                  .size = statistics->length / (double)record->fragments,
+                  .dissipated = record->dissipated, .onset_time = record->onset_time},
+    };
+    if (record->dissipated > 0) { /* fmax takes the number where the other is NaN */
+        statistics->residual = fmax(statistics->residual, record->residual / record->dissipated);
+        statistics->created = fmax(statistics->created, record->created / record->dissipated);
+    }
+    for (size_t i = 0; i < record->nfragment; i++) {
+        statistics->fragment_size[statistics->nfragments++] = record->fragment[i].size;
+        list->elements += record->fragment[i].elements;
+        list->dust += record->fragment[i].dust;
+    }
+    return FRACAS_OK;
+}
+
+static void free_replicas(fracas_point_statistics *statistics)
+{
+    if (statistics->replicas) free(statistics->replicas->entry);
+    free(statistics->replicas);
+    statistics->replicas = NULL;
+}
+
+void fracas_point_statistics_finish(fracas_point_statistics *statistics)
+{
+    static const struct fracas_replica_list none = {0};
+    const struct fracas_replica_list *list = statistics->replicas ? statistics->replicas : &none;
+    const size_t stride = sizeof(replica_entry) / sizeof(double);
+    const fracas_replica_values nothing = {0};
+    const fracas_replica_values *first = list->entry ? &list->entry->value : &nothing;
+    statistics->count = fracas_estimate_of(&first->count, stride, list->count);
+    statistics->count_large = fracas_estimate_of(&first->count_large, stride, list->count);
+    statistics->size = fracas_estimate_of(&first->size, stride, list->count);
+    statistics->dissipated = fracas_estimate_of(&first->dissipated, stride, list->count);
+    statistics->onset_time = fracas_estimate_of(&first->onset_time, stride, list->count);
+    if (statistics->nfragments > 0) {
+        gsl_sort(statistics->fragment_size, 1, statistics->nfragments);
+        statistics->elements = (double)list->elements / (double)statistics->nfragments;
+        statistics->dust_share = (double)list->dust / (double)statistics->nfragments;
+    }
+    double nearest = INFINITY;
+    for (size_t i = 0; i < list->count; i++) {
+        double distance = fabs(list->entry[i].value.dissipated - statistics->dissipated.mean);
+        if (!(distance < nearest)) continue;
+        nearest = distance;
+        statistics->typical_replica = list->entry[i].replica;
+        statistics->typical_row = list->entry[i].row;
+    }
+    free_replicas(statistics);
+}
+
+void fracas_point_statistics_clear(fracas_point_statistics *statistics)
+{
+    free_replicas(statistics);
+    free(statistics->fragment_size);
+    free(statistics->history);
+    *statistics = (fracas_point_statistics){.typical_replica = -1};
+}

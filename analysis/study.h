@@ -1,0 +1,32 @@
+/* A study as the rest of the room sees it: every point with its statistics. */
+#ifndef FRACAS_ANALYSIS_STUDY_H
+#define FRACAS_ANALYSIS_STUDY_H
+
+#include "analysis/analysis.h"
+#include "analysis/columns.h"
+#include "analysis/statistics.h"
+#include "campaigns/store/store.h"
+
+struct fracas_analysis {
+    char *name;                     /* of the study's folder */
+    fracas_file_header header;
+    const fracas_point_table *table;
+    fracas_columns shown;           /* columns that tell the points apart */
+    fracas_point_statistics *point; /* table->npoints of them */
+    fracas_reader *reader;          /* open as long as the analysis: it owns the table */
+};
+
+/* Something a reader must know before trusting a number. */
+typedef struct {
+    size_t point; /* SIZE_MAX: the study as a whole */
+    char text[256];
+} fracas_warning;
+
+/* Every warning of the study in the order of its points; *warning freed by the caller with free(). */
+FRACAS_MUST_USE fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warning **warning,
+                                                    size_t *count);
+
+/* "rate 1e4 1/s": the point by what it differs in. */
+void fracas_analysis_label(const fracas_analysis *analysis, size_t point, char *text, size_t size);
+
+#endif

@@ -1,0 +1,189 @@
+#include "analysis/table.h"
+
+#include "analysis/format.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Columns after those that tell the points apart. */
+enum { USED, FAILED, COUNT, SIZE, DISSIPATED, ZMR, GRADY, GC, RATIO, RESIDUAL, CREATED, OUTCOMES, NCOLUMNS };
+
+const char *const fracas_result_table_legend[] = {
+    "n: realizations used (FRAGMENTED, INTACT, TIME_LIMIT); fail: all others. After the mean: half width of its 95 %",
+    "interval over replicas (Student's t). count: fragments, dust included. size: mean over replicas of length/count.",
+    "ZMR, Grady, GC (Glenn-Chudnovsky): size laws with the point's material and mean strength; size/ZMR: ratio to ZMR.",
+    "resid., created: largest over replicas of |ledger residual| and of created energy, as parts of the dissipated.",
+    NULL,
+};
+
+typedef struct {
+    const fracas_analysis *analysis;
+    const fracas_result_table *table;
+    const char *plus_minus;
+    bool unicode;
+    fracas_prefix size, energy;
+} painter;
+
+static void set(const painter *paint, size_t row, size_t column, const char *text)
+{
+    snprintf(fracas_result_table_cell(paint->table, row, column), FRACAS_CELL, "%s", text);
+}
+
+/* "32 FRAGMENTED, 1 FAILED": the outcomes that occurred. */
+static void outcomes_text(const fracas_point_statistics *statistics, char *text, size_t size)
+{
+    size_t used = 0;
+    snprintf(text, size, "-");
+    for (int o = 0; o < FRACAS_NOUTCOMES && used < size; o++)
+        if (statistics->outcome[o] > 0)
+            used += (size_t)snprintf(text + used, size - used, "%s%lld %s", used ? ", " : "",
+                                     (long long)statistics->outcome[o], fracas_outcome_name(o));
+}
+
+/* One prefix for a column, from the values of `member` at all points. */
+static fracas_prefix prefix_of(const fracas_analysis *analysis, size_t offset)
+{
+    double extreme[2] = {INFINITY, 0};
+    for (size_t p = 0; p < analysis->table->npoints; p++) {
+        double mean = ((const fracas_estimate *)((const char *)&analysis->point[p] + offset))->mean;
+        if (!(mean > 0)) continue;
+        extreme[0] = fmin(extreme[0], mean);
+        extreme[1] = fmax(extreme[1], mean);
+    }
+    return fracas_prefix_for(extreme, 2);
+}
+
+static void paint_unit(const painter *paint, size_t column, const fracas_prefix *prefix, const char *unit)
+{
+    snprintf(fracas_result_table_cell(paint->table, 1, column), FRACAS_CELL, "[%s%s]",
+             paint->unicode ? prefix->sign : prefix->symbol, unit);
+}
+
+static void paint_head(const painter *paint)
+{
+    static const char *const name[NCOLUMNS] = {
+        [USED] = "n", [FAILED] = "fail", [COUNT] = "count", [SIZE] = "size", [DISSIPATED] = "dissipated",
+        [ZMR] = "ZMR", [GRADY] = "Grady", [GC] = "GC", [RATIO] = "size", [RESIDUAL] = "resid.",
+        [CREATED] = "created", [OUTCOMES] = "outcomes",
+    };
+    const fracas_columns *shown = &paint->analysis->shown;
+    const fracas_point_table *points = paint->analysis->table;
+    for (size_t i = 0; i < shown->count; i++) {
+        const fracas_column *column = &points->column[shown->column[i]];
+        set(paint, 0, i, fracas_columns_name(points, shown, i));
+        if (!column->text && strcmp(column->unit, "1"))
+            paint_unit(paint, i, &(fracas_prefix){1, "", ""}, column->unit);
+    }
+    for (size_t c = 0; c < NCOLUMNS; c++) set(paint, 0, shown->count + c, name[c]);
+    for (size_t c = SIZE; c <= GC; c++) paint_unit(paint, shown->count + c, &paint->size, "m");
+    paint_unit(paint, shown->count + DISSIPATED, &paint->energy, "J");
+    set(paint, 1, shown->count + RATIO, "/ZMR");
+    set(paint, 1, shown->count + RESIDUAL, "/diss.");
+    set(paint, 1, shown->count + CREATED, "/diss.");
+}
+
+static void paint_point(const painter *paint, size_t p)
+{
+    const fracas_point_statistics *statistics = &paint->analysis->point[p];
+    const fracas_columns *shown = &paint->analysis->shown;
+    size_t row = FRACAS_RESULT_TABLE_HEAD + p;
+    char *first = fracas_result_table_cell(paint->table, row, 0), *cell[NCOLUMNS];
+    for (size_t i = 0; i < shown->count; i++)
+        fracas_columns_value(paint->analysis->table, shown->column[i], p, first + i * FRACAS_CELL, FRACAS_CELL);
+    for (size_t c = 0; c < NCOLUMNS; c++) cell[c] = first + (shown->count + c) * FRACAS_CELL;
+    snprintf(cell[USED], FRACAS_CELL, "%lld", (long long)statistics->usable);
+    snprintf(cell[FAILED], FRACAS_CELL, "%lld", (long long)statistics->unusable);
+    const char *sign = paint->plus_minus;
+    fracas_format_estimate(&statistics->count, 1, sign, cell[COUNT], FRACAS_CELL);
+    fracas_format_estimate(&statistics->size, paint->size.factor, sign, cell[SIZE], FRACAS_CELL);
+    fracas_format_estimate(&statistics->dissipated, paint->energy.factor, sign, cell[DISSIPATED], FRACAS_CELL);
+    const fracas_size_law_id law[] = {FRACAS_LAW_ZMR, FRACAS_LAW_GRADY, FRACAS_LAW_GLENN_CHUDNOVSKY};
+    for (size_t i = 0; i < 3; i++)
+        fracas_format_digits(statistics->law[law[i]] * paint->size.factor, 4, cell[ZMR + i], FRACAS_CELL);
+    fracas_format_digits(statistics->size.mean / statistics->law[FRACAS_LAW_ZMR], 3, cell[RATIO], FRACAS_CELL);
+    fracas_format_digits(statistics->residual, 2, cell[RESIDUAL], FRACAS_CELL);
+    fracas_format_digits(statistics->created, 2, cell[CREATED], FRACAS_CELL);
+    outcomes_text(statistics, cell[OUTCOMES], FRACAS_CELL);
+}
+
+fracas_err fracas_result_table_create(const fracas_analysis *analysis, bool unicode, fracas_result_table *table)
+{
+    table->rows = FRACAS_RESULT_TABLE_HEAD + analysis->table->npoints;
+    table->columns = analysis->shown.count + NCOLUMNS;
+    table->cell = calloc(table->rows * table->columns, sizeof *table->cell);
+    if (!table->cell) return fracas_no_memory("the result table");
+    painter paint = {
+        .analysis = analysis, .table = table, .unicode = unicode, .plus_minus = unicode ? "\u00b1" : "+-",
+        .size = prefix_of(analysis, offsetof(fracas_point_statistics, size)),
+        .energy = prefix_of(analysis, offsetof(fracas_point_statistics, dissipated)),
+    };
+    paint_head(&paint);
+    for (size_t p = 0; p < analysis->table->npoints; p++) paint_point(&paint, p);
+    return FRACAS_OK;
+}
+
+void fracas_result_table_clear(fracas_result_table *table)
+{
+    free(table->cell);
+    *table = (fracas_result_table){0};
+}
+
+static int column_width(const fracas_result_table *table, size_t column)
+{
+    size_t width = 0;
+    for (size_t r = 0; r < table->rows; r++) {
+        size_t length = strlen(fracas_result_table_cell(table, r, column));
+        if (length > width) width = length;
+    }
+    return (int)width;
+}
+
+/* Two spaces; one between the size laws, which are one group, so that an everyday table fits 120 columns. */
+static const char *gap_before(const fracas_result_table *table, size_t column)
+{
+    size_t first = table->columns - NCOLUMNS;
+    if (column == 0) return "";
+    return column > first + ZMR && column <= first + RATIO ? " " : "  ";
+}
+
+static void print_cells(const fracas_result_table *table, FILE *out)
+{
+    for (size_t r = 0; r < table->rows; r++) {
+        for (size_t c = 0; c + 1 < table->columns; c++)
+            fprintf(out, "%s%*s", gap_before(table, c), column_width(table, c), fracas_result_table_cell(table, r, c));
+        const char *last = fracas_result_table_cell(table, r, table->columns - 1);
+        fprintf(out, "%s%s\n", *last ? "  " : "", last);
+    }
+}
+
+static void print_warnings(const fracas_analysis *analysis, FILE *out)
+{
+    fracas_warning *warning;
+    size_t count;
+    if (fracas_analysis_warnings(analysis, &warning, &count)) {
+        fprintf(out, "%s\n", fracas_message());
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        char label[256] = "";
+        if (warning[i].point != SIZE_MAX) fracas_analysis_label(analysis, warning[i].point, label, sizeof label);
+        fprintf(out, "warning: %s%s%s\n", label, *label ? ": " : "", warning[i].text);
+    }
+    free(warning);
+}
+
+void fracas_analysis_print_table(const fracas_analysis *analysis, FILE *out)
+{
+    fracas_result_table table;
+    if (fracas_result_table_create(analysis, false, &table)) {
+        fprintf(out, "%s\n", fracas_message());
+        return;
+    }
+    print_cells(&table, out);
+    fracas_result_table_clear(&table);
+    putc('\n', out);
+    for (size_t i = 0; fracas_result_table_legend[i]; i++) fprintf(out, "%s\n", fracas_result_table_legend[i]);
+    print_warnings(analysis, out);
+}

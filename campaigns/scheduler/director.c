@@ -1,0 +1,355 @@
+#include "campaigns/scheduler/director.h"
+
+#include "base/version.h"
+#include "campaigns/scheduler/costs.h"
+#include "campaigns/scheduler/prepare.h"
+#include "campaigns/scheduler/scheduler.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+typedef enum { STARTING, WORKING, ENDED } worker_phase;
+
+struct fracas_director {
+    fracas_director_setup setup;
+    int lock;
+    fracas_index *index;
+    fracas_scheduler *scheduler;
+    worker_phase *phase; /* of each worker */
+    size_t nended;
+    bool stopping; /* STOP was sent to all that work */
+    bool drained;  /* because of a signal */
+    fracas_trouble trouble; /* the first; code FRACAS_OK: none */
+};
+
+static void stop(fracas_director *director);
+
+/* Keeps the first thing that went wrong and drains. */
+static void fail(fracas_director *director, const fracas_trouble *trouble)
+{
+    if (!director->trouble.code) director->trouble = *trouble;
+    stop(director);
+}
+
+static void check(fracas_director *director, fracas_err err)
+{
+    if (!err) return;
+    fracas_trouble trouble;
+    fracas_trouble_take(err, &trouble);
+    fail(director, &trouble);
+}
+
+static fracas_err send(fracas_director *director, size_t worker, fracas_packet_kind kind, const void *body, size_t size)
+{
+    fracas_packet *message;
+    TRY(fracas_packet_create(kind, body, size, &message));
+    fracas_err err = director->setup.send(director->setup.context, worker, message);
+    free(message);
+    return err;
+}
+
+static void stop_worker(fracas_director *director, size_t worker)
+{
+    check(director, send(director, worker, FRACAS_PACKET_STOP, NULL, 0));
+}
+
+static void stop(fracas_director *director)
+{
+    if (director->stopping) return;
+    director->stopping = true;
+    for (size_t worker = 0; worker < director->setup.workers; worker++)
+        if (director->phase[worker] == WORKING) stop_worker(director, worker);
+}
+
+/* ---- start ---- */
+
+static fracas_err make_scheduler(fracas_director *director, const double *cost)
+{
+    const fracas_campaign *campaign = director->setup.campaign;
+    int width = director->setup.options->width;
+    fracas_index_row *row;
+    size_t count;
+    TRY(fracas_index_rows(director->index, &campaign->table, &row, &count));
+    fracas_scheduler_options options = {.cost = cost,
+                                        .workers = director->setup.workers,
+                                        .width = width ? (size_t)width : FRACAS_LEASE_MAX,
+                                        .shuffle = director->setup.options->shuffle,
+                                        .seed = campaign->seed};
+    fracas_err err = fracas_scheduler_create(row, count, &options, &director->scheduler);
+    free(row);
+    return err;
+}
+
+/* Says what is there and what is to do, to the person and to the index. */
+static fracas_err announce(fracas_director *director, const char *report)
+{
+    fracas_scheduler_counts count = fracas_scheduler_count(director->scheduler);
+    char text[256];
+    snprintf(text, sizeof text, "%lld of %lld realizations of %zu points to do, %zu workers",
+             (long long)(count.total - count.done - count.failed), (long long)count.total,
+             director->setup.campaign->npoints, director->setup.workers);
+    if (report && *report) {
+        fracas_voice_say(director->setup.voice, "%s", report);
+        TRY(fracas_index_event(director->index, "recovered", report));
+    }
+    fracas_voice_say(director->setup.voice, "%s: %s", director->setup.study, text);
+    fracas_voice_progress(director->setup.voice, &count);
+    return fracas_index_event(director->index, count.done ? "resumed" : "started", text);
+}
+
+static fracas_err open_study(fracas_director *director, const double *cost, bool *settled, int64_t *failed)
+{
+    const fracas_director_setup *setup = &director->setup;
+    char *report = NULL;
+    TRY(fracas_study_prepare(setup->study, setup->campaign, &director->lock, &director->index, &report));
+    fracas_err err = fracas_study_settled(setup->study, director->index, setup->campaign, settled, failed);
+    if (!err && !*settled) err = make_scheduler(director, cost);
+    if (!err && !*settled) err = announce(director, report);
+    free(report);
+    return err;
+}
+
+static fracas_err set_up(fracas_director *director, bool *settled, int64_t *failed)
+{
+    double *cost; /* first of all: a campaign that cannot be computed leaves nothing behind */
+    director->phase = calloc(director->setup.workers, sizeof *director->phase);
+    if (!director->phase) return fracas_no_memory("the workers");
+    TRY(fracas_costs_create(director->setup.campaign, director->setup.options, &cost));
+    fracas_err err = open_study(director, cost, settled, failed);
+    free(cost);
+    return err;
+}
+
+fracas_err fracas_settled_verdict(const char *study, int64_t failed)
+{
+    if (!failed) return FRACAS_OK;
+    return fracas_fail(FRACAS_SOME_FAILED, "%lld realizations of %s FAILED (which and why: fracas status %s)",
+                       (long long)failed, study, study);
+}
+
+fracas_err fracas_director_create(const fracas_director_setup *setup, fracas_director **director, fracas_err *verdict)
+{
+    fracas_director *d = calloc(1, sizeof *d);
+    if (!d) return fracas_no_memory("the run");
+    d->setup = *setup;
+    d->lock = -1;
+    bool settled = false;
+    int64_t failed = 0;
+    fracas_err err = set_up(d, &settled, &failed);
+    if (err || settled) {
+        fracas_director_destroy(d);
+        *director = NULL;
+        *verdict = err ? err : fracas_settled_verdict(setup->study, failed);
+        return err;
+    }
+    *director = d;
+    if (fracas_scheduler_computed_all(d->scheduler)) stop(d); /* only study.h5 is missing */
+    return FRACAS_OK;
+}
+
+void fracas_director_destroy(fracas_director *director)
+{
+    if (!director) return;
+    fracas_scheduler_destroy(director->scheduler);
+    fracas_index_close(director->index);
+    if (director->lock >= 0) close(director->lock);
+    free(director->phase);
+    free(director);
+}
+
+/* ---- leases ---- */
+
+/* Marks the lease in the index, one run of consecutive replicas at a time. */
+static fracas_err mark_leased(fracas_director *director, const fracas_lease *lease)
+{
+    const fracas_hash *point = &director->setup.campaign->point[lease->point].hash;
+    for (size_t from = 0, to; from < lease->count; from = to) {
+        for (to = from + 1; to < lease->count && lease->replica[to] == lease->replica[to - 1] + 1; to++)
+            ;
+        TRY(fracas_index_lease(director->index, point, lease->replica[from], (int64_t)(to - from)));
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err offer(fracas_director *director, size_t worker)
+{
+    fracas_lease lease;
+    while (!director->stopping && director->phase[worker] == WORKING &&
+           fracas_scheduler_next(director->scheduler, worker, &lease)) {
+        TRY(mark_leased(director, &lease));
+        TRY(send(director, worker, FRACAS_PACKET_LEASE, &lease, sizeof lease));
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err offer_all(fracas_director *director)
+{
+    for (size_t worker = 0; worker < director->setup.workers; worker++) TRY(offer(director, worker));
+    return FRACAS_OK;
+}
+
+/* ---- what workers say ---- */
+
+static fracas_err hear_ready(fracas_director *director, size_t worker, const fracas_packet *message)
+{
+    TRY(fracas_packet_expect(message, sizeof(fracas_hash)));
+    fracas_hash campaign;
+    memcpy(&campaign, message->body, sizeof campaign);
+    if (!fracas_hash_equal(&campaign, &director->setup.campaign->hash))
+        return fracas_fail(FRACAS_ENVIRONMENT, "rank %zu read another campaign from %s than rank 0: it changed while the "
+                           "run started, or is not the same file on all hosts", worker, director->setup.options->file);
+    director->phase[worker] = WORKING;
+    if (director->stopping) stop_worker(director, worker);
+    return offer(director, worker);
+}
+
+static fracas_err hear_computed(fracas_director *director, size_t worker, const fracas_packet *message)
+{
+    uint64_t id;
+    TRY(fracas_packet_expect(message, sizeof id));
+    memcpy(&id, message->body, sizeof id);
+    TRY(fracas_scheduler_computed(director->scheduler, worker, id));
+    return offer(director, worker);
+}
+
+static fracas_err hear_failed(fracas_director *director, size_t worker, const fracas_packet *message)
+{
+    fracas_lease_failure failure;
+    TRY(fracas_packet_expect(message, sizeof failure));
+    memcpy(&failure, message->body, sizeof failure);
+    fracas_lease lease;
+    bool final;
+    TRY(fracas_scheduler_failed(director->scheduler, worker, failure.lease, &lease, &final));
+    char hex[FRACAS_HASH_HEX], text[1400];
+    const fracas_hash *point = &director->setup.campaign->point[lease.point].hash;
+    fracas_hash_hex(point, hex);
+    if (lease.count > 1) {
+        snprintf(text, sizeof text, "%llu realizations of point %llu (%s) from replica %lld on are tried one by one: %s",
+                 (unsigned long long)lease.count, (unsigned long long)lease.point, hex, (long long)lease.replica[0],
+                 failure.reason);
+        TRY(fracas_index_event(director->index, "lease failed", text));
+    } else {
+        snprintf(text, sizeof text, "replica %lld of point %llu (%s) FAILED %s: %s", (long long)lease.replica[0],
+                 (unsigned long long)lease.point, hex, final ? "for good" : "and is tried again", failure.reason);
+        TRY(fracas_index_fail(director->index, point, lease.replica[0], failure.reason, final));
+        TRY(fracas_index_event(director->index, "failed", text));
+        if (final) fracas_voice_say(director->setup.voice, "%s", text);
+    }
+    return offer_all(director);
+}
+
+/* Commits a segment: from here on its realizations are done. */
+static fracas_err hear_segment(fracas_director *director, size_t worker, const fracas_packet *message)
+{
+    fracas_segment_note note;
+    TRY(fracas_packet_expect(message, sizeof note + 1));
+    memcpy(&note, message->body, sizeof note);
+    size_t room = message->size - sizeof note - 1;
+    if (note.rows > room / sizeof(fracas_segment_row) || message->body[message->size - 1] != '\0')
+        return fracas_fail(FRACAS_BUG, "a message of rank %zu about a segment is damaged", worker);
+    const fracas_segment_row *row = (const void *)(message->body + sizeof note);
+    TRY(fracas_index_commit(director->index, note.name, &note.seal, row, (size_t)note.rows,
+                            (const char *)(row + note.rows)));
+    fracas_scheduler_durable(director->scheduler, worker);
+    return FRACAS_OK;
+}
+
+static void end_worker(fracas_director *director, size_t worker)
+{
+    if (director->phase[worker] == ENDED) return;
+    director->phase[worker] = ENDED;
+    director->nended++;
+    fracas_scheduler_lost(director->scheduler, worker); /* nothing, if it ended in order */
+}
+
+static fracas_err hear_end(fracas_director *director, size_t worker, const fracas_packet *message)
+{
+    end_worker(director, worker);
+    if (message->kind == FRACAS_PACKET_ENDED) return FRACAS_OK;
+    fracas_trouble trouble;
+    TRY(fracas_packet_expect(message, sizeof trouble));
+    memcpy(&trouble, message->body, sizeof trouble);
+    if (message->kind == FRACAS_PACKET_TROUBLE) {
+        fail(director, &trouble);
+        return FRACAS_OK;
+    }
+    fracas_voice_say(director->setup.voice, "%s; the others go on", trouble.text);
+    TRY(fracas_index_event(director->index, "worker lost", trouble.text));
+    if (fracas_director_over(director)) fail(director, &trouble);
+    return offer_all(director);
+}
+
+static fracas_err act(fracas_director *director, size_t worker, const fracas_packet *message)
+{
+    switch ((fracas_packet_kind)message->kind) {
+    case FRACAS_PACKET_READY: return hear_ready(director, worker, message);
+    case FRACAS_PACKET_COMPUTED: return hear_computed(director, worker, message);
+    case FRACAS_PACKET_FAILED: return hear_failed(director, worker, message);
+    case FRACAS_PACKET_SEGMENT: return hear_segment(director, worker, message);
+    case FRACAS_PACKET_TROUBLE:
+    case FRACAS_PACKET_LOST:
+    case FRACAS_PACKET_ENDED: return hear_end(director, worker, message);
+    case FRACAS_PACKET_DRAIN: fracas_director_drain(director); return FRACAS_OK;
+    default: return fracas_fail(FRACAS_BUG, "rank 0 got a message of kind %u", message->kind);
+    }
+}
+
+void fracas_director_hear(fracas_director *director, size_t worker, const fracas_packet *message)
+{
+    check(director, act(director, worker, message));
+    if (fracas_scheduler_computed_all(director->scheduler)) stop(director);
+    fracas_scheduler_counts count = fracas_scheduler_count(director->scheduler);
+    fracas_voice_progress(director->setup.voice, &count);
+}
+
+void fracas_director_drain(fracas_director *director)
+{
+    if (director->drained) return;
+    director->drained = true;
+    stop(director);
+}
+
+bool fracas_director_over(const fracas_director *director)
+{
+    return director->nended == director->setup.workers;
+}
+
+/* ---- end ---- */
+
+static fracas_err merge(fracas_director *director, const fracas_scheduler_counts *count)
+{
+    const fracas_campaign *campaign = director->setup.campaign;
+    fracas_file_header header = {.campaign = campaign->hash,
+                                 .seed = campaign->seed,
+                                 .version = FRACAS_VERSION,
+                                 .complete = count->failed == 0};
+    TRY(fracas_study_merge(director->setup.study, director->index, &header, &campaign->table,
+                           campaign->output.interfaces));
+    TRY(fracas_index_event(director->index, "finished", "study.h5 is written"));
+    return fracas_settled_verdict(director->setup.study, count->failed);
+}
+
+fracas_err fracas_director_finish(fracas_director *director)
+{
+    fracas_scheduler_counts count = fracas_scheduler_count(director->scheduler);
+    long long kept = (long long)(count.done + count.failed), total = (long long)count.total;
+    if (!director->trouble.code && kept == total) return merge(director, &count);
+    fracas_err err;
+    if (director->trouble.code)
+        err = fracas_fail((fracas_err)director->trouble.code, "%s (%lld of %lld realizations are done and kept; the same "
+                          "command goes on from there)", director->trouble.text, kept, total);
+    else if (director->drained)
+        err = fracas_fail(FRACAS_INTERRUPTED, "interrupted: %lld of %lld realizations are done and kept; the same "
+                          "command goes on from there", kept, total);
+    else
+        err = fracas_fail(FRACAS_ENVIRONMENT, "a compute server died at the end: %lld of %lld realizations are done and "
+                          "kept; the same command goes on from there", kept, total);
+    /* The verdict stands, whether or not it can be noted. */
+    fracas_trouble verdict;
+    fracas_trouble_take(err, &verdict);
+    if (fracas_index_event(director->index, err == FRACAS_INTERRUPTED ? "drained" : "stopped", verdict.text))
+        fracas_voice_say(director->setup.voice, "%s", fracas_message());
+    return fracas_fail(err, "%s", verdict.text);
+}

@@ -1,0 +1,24 @@
+/* The models of a server: built when a lease of their point comes, the latest few are kept. */
+#ifndef FRACAS_CAMPAIGNS_SCHEDULER_MODELS_H
+#define FRACAS_CAMPAIGNS_SCHEDULER_MODELS_H
+
+#include "campaigns/campaign.h"
+#include "engine/engine.h"
+
+enum { FRACAS_MODELS_KEPT = 4 };
+
+typedef struct {
+    struct {
+        size_t point;
+        fracas_model *model; /* NULL: free */
+        uint64_t used;       /* the larger, the later */
+    } slot[FRACAS_MODELS_KEPT];
+    uint64_t clock;
+} fracas_models;
+
+/* The model of a point, owned by `models` and valid until the next call. */
+FRACAS_MUST_USE fracas_err fracas_models_get(fracas_models *models, const fracas_campaign *campaign, size_t point,
+                                             const fracas_model **model);
+void fracas_models_clear(fracas_models *models);
+
+#endif

@@ -1,0 +1,162 @@
+#include "campaigns/scheduler/prepare.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { PATH = 4096 };
+
+static fracas_err join(const char *folder, const char *name, char path[PATH])
+{
+    if (snprintf(path, PATH, "%s/%s", folder, name) < PATH) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s", folder);
+}
+
+fracas_err fracas_study_folder(const fracas_run_options *options, const fracas_campaign *campaign, char *study,
+                               size_t size)
+{
+    int n = options->study ? snprintf(study, size, "%s", options->study)
+                           : snprintf(study, size, "studies/%s", campaign->name);
+    if ((size_t)n < size) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "the path of the study is longer than %zu characters; choose another --study", size);
+}
+
+fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign)
+{
+    char path[PATH];
+    TRY(join(study, "campaign.yaml", path));
+    if (access(path, F_OK) && errno == ENOENT) return FRACAS_OK;
+    fracas_campaign *before;
+    fracas_err err = fracas_campaign_read(path, &before);
+    if (err == FRACAS_USAGE)
+        return fracas_fail_within(FRACAS_DAMAGED, "the study's own campaign file is damaged (restore it, or run in "
+                                  "another --study)");
+    TRY(err);
+    err = fracas_campaign_extends(campaign, before);
+    fracas_campaign_destroy(before);
+    if (err) return fracas_fail_within(err, "%s is a study of another campaign (choose another --study)", study);
+    return FRACAS_OK;
+}
+
+fracas_err fracas_study_settled(const char *study, fracas_index *index, const fracas_campaign *campaign, bool *settled,
+                                int64_t *failed)
+{
+    *settled = false;
+    *failed = 0;
+    char path[PATH];
+    TRY(join(study, "study.h5", path));
+    fracas_reader *reader;
+    if (access(path, R_OK) || fracas_reader_open(path, &reader)) return FRACAS_OK; /* it is merged again */
+    bool same = fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash);
+    fracas_reader_close(reader);
+    if (!same) return FRACAS_OK;
+    fracas_index_counts counts;
+    TRY(fracas_index_count(index, &counts));
+    *settled = counts.planned == 0 && counts.leased == 0;
+    *failed = counts.failed;
+    return FRACAS_OK;
+}
+
+fracas_err fracas_study_examine(const char *study, const fracas_campaign *campaign, bool *settled, int64_t *failed)
+{
+    *settled = false;
+    *failed = 0;
+    char path[PATH];
+    TRY(join(study, "index.sqlite", path));
+    TRY(fracas_study_fits(study, campaign));
+    if (access(path, F_OK)) return FRACAS_OK;
+    int lock;
+    TRY(fracas_study_lock(study, &lock));
+    fracas_index *index;
+    fracas_err err = fracas_index_open(study, false, &index);
+    if (!err) {
+        err = fracas_study_settled(study, index, campaign, settled, failed);
+        fracas_index_close(index);
+    }
+    close(lock);
+    return err;
+}
+
+/* Creates a folder and those above it. */
+static fracas_err make_folder(const char *path)
+{
+    char part[PATH];
+    snprintf(part, sizeof part, "%s", path);
+    for (char *at = part + 1;; at++) {
+        char here = *at;
+        if (here != '/' && here != '\0') continue;
+        *at = '\0';
+        if (mkdir(part, 0777) && errno != EEXIST)
+            return fracas_fail(FRACAS_ENVIRONMENT, "cannot create the folder %s: %s; choose another --study", part,
+                               strerror(errno));
+        if (here == '\0') return FRACAS_OK;
+        *at = here;
+    }
+}
+
+static fracas_err sync_folder(const char *path)
+{
+    int fd = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    bool good = fd >= 0 && !fsync(fd);
+    fracas_err err = good ? FRACAS_OK
+                          : fracas_fail(FRACAS_ENVIRONMENT, "cannot sync the folder %s: %s", path, strerror(errno));
+    if (fd >= 0) close(fd);
+    return err;
+}
+
+/* Writes campaign.yaml whole: under a temporary name, synced, renamed. */
+static fracas_err write_campaign(const char *study, const fracas_campaign *campaign)
+{
+    char path[PATH], temporary[PATH];
+    TRY(join(study, "campaign.yaml", path));
+    TRY(join(study, "campaign.yaml.tmp", temporary));
+    FILE *out = fopen(temporary, "w");
+    fracas_err err = FRACAS_OK;
+    if (out) err = fracas_campaign_write(campaign, out);
+    bool good = out && !err && !fflush(out) && !fsync(fileno(out));
+    int reason = errno;
+    if (out && fclose(out) && good) {
+        good = false;
+        reason = errno;
+    }
+    if (good && rename(temporary, path)) {
+        good = false;
+        reason = errno;
+    }
+    if (good) return sync_folder(study);
+    unlink(temporary);
+    return err ? err : fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: %s", path, strerror(reason));
+}
+
+/* The part of preparation under the lock. */
+static fracas_err open_and_plan(const char *study, const fracas_campaign *campaign, fracas_index **index,
+                                char **report)
+{
+    *report = NULL;
+    TRY(fracas_study_fits(study, campaign));
+    TRY(write_campaign(study, campaign));
+    TRY(fracas_index_open(study, true, index));
+    fracas_err err = fracas_study_recover(study, *index, &campaign->table, report);
+    if (!err) err = fracas_index_plan(*index, &campaign->table);
+    if (err) {
+        free(*report);
+        fracas_index_close(*index);
+    }
+    return err;
+}
+
+fracas_err fracas_study_prepare(const char *study, const fracas_campaign *campaign, int *lock, fracas_index **index,
+                                char **report)
+{
+    char segments[PATH];
+    TRY(join(study, "segments", segments));
+    TRY(make_folder(segments));
+    TRY(fracas_study_lock(study, lock));
+    fracas_err err = open_and_plan(study, campaign, index, report);
+    if (err) close(*lock);
+    return err;
+}

@@ -1,0 +1,33 @@
+/* A study before and at the start of a run. */
+#ifndef FRACAS_CAMPAIGNS_SCHEDULER_PREPARE_H
+#define FRACAS_CAMPAIGNS_SCHEDULER_PREPARE_H
+
+#include "campaigns/campaign.h"
+#include "campaigns/scheduler/run.h"
+#include "campaigns/store/store.h"
+
+#include <stdbool.h>
+
+/* The study folder of a run: options->study or studies/<name>; FRACAS_USAGE if the path is too long. */
+FRACAS_MUST_USE fracas_err fracas_study_folder(const fracas_run_options *options, const fracas_campaign *campaign,
+                                               char *study, size_t size);
+
+/* FRACAS_OK when there is no study yet or the campaign extends (or is) the one in it; else FRACAS_DAMAGED naming the
+ * first difference. Writes nothing. */
+FRACAS_MUST_USE fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign);
+
+/* *settled when study.h5 is of this campaign and every realization is done or failed for good (*failed of them). */
+FRACAS_MUST_USE fracas_err fracas_study_settled(const char *study, fracas_index *index,
+                                                const fracas_campaign *campaign, bool *settled, int64_t *failed);
+
+/* Looks at an existing study without writing to it: FRACAS_IN_USE when another run has it, FRACAS_DAMAGED when it does
+ * not fit, else *settled and *failed as above (false and 0 for a new study). */
+FRACAS_MUST_USE fracas_err fracas_study_examine(const char *study, const fracas_campaign *campaign, bool *settled,
+                                                int64_t *failed);
+
+/* Creates the folders, takes the lock, checks that the campaign fits, writes campaign.yaml, opens the index, recovers
+ * from an interruption (*report as fracas_study_recover, freed by the caller) and plans. On failure nothing is held. */
+FRACAS_MUST_USE fracas_err fracas_study_prepare(const char *study, const fracas_campaign *campaign, int *lock,
+                                                fracas_index **index, char **report);
+
+#endif

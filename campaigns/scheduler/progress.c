@@ -1,0 +1,82 @@
+#include "campaigns/scheduler/progress.h"
+
+#include "campaigns/scheduler/clock.h"
+
+#include <string.h>
+#include <unistd.h>
+
+enum { BAR = 24 };
+static const double terminal_interval = 0.2, plain_interval = 5; /* s */
+
+void fracas_progress_init(fracas_progress *progress, FILE *out)
+{
+    *progress = (fracas_progress){.out = out, .terminal = isatty(fileno(out))};
+}
+
+/* "128 of 512 realizations done, 16 computed, 0 failed, 12.3/s, 0:31 left". The rate and the time left count
+ * computed ones, as done ones come a segment at a time. */
+static void describe(const fracas_progress *progress, char *text, size_t size)
+{
+    const fracas_scheduler_counts *now = &progress->last, *first = &progress->first;
+    double elapsed = fracas_now() - progress->began;
+    double computed = (double)(now->done + now->memory + now->failed - first->done - first->memory - first->failed);
+    double left = (double)(now->total - now->done - now->memory - now->failed);
+    int n = snprintf(text, size, "%lld of %lld realizations done", (long long)now->done, (long long)now->total);
+    if (now->memory) n += snprintf(text + n, size - (size_t)n, ", %lld computed", (long long)now->memory);
+    n += snprintf(text + n, size - (size_t)n, ", %lld failed", (long long)now->failed);
+    if (computed <= 0 || elapsed <= 0) return;
+    n += snprintf(text + n, size - (size_t)n, ", %.3g/s", computed / elapsed);
+    double seconds = left * elapsed / computed;
+    if (left > 0 && seconds < 1e8) {
+        long long s = (long long)(seconds + 0.5);
+        if (s >= 3600)
+            snprintf(text + n, size - (size_t)n, ", %lld:%02lld:%02lld left", s / 3600, s / 60 % 60, s % 60);
+        else
+            snprintf(text + n, size - (size_t)n, ", %lld:%02lld left", s / 60, s % 60);
+    }
+}
+
+static void show(fracas_progress *progress)
+{
+    char text[256];
+    describe(progress, text, sizeof text);
+    progress->shown = fracas_now();
+    if (!progress->terminal) {
+        fprintf(progress->out, "%s\n", text);
+    } else {
+        const fracas_scheduler_counts *now = &progress->last;
+        int full = now->total ? (int)(BAR * (now->done + now->memory + now->failed) / now->total) : BAR;
+        char bar[BAR + 1];
+        for (int i = 0; i < BAR; i++) bar[i] = i < full ? '#' : '.';
+        bar[BAR] = '\0';
+        fprintf(progress->out, "\r[%s] %s\033[K", bar, text); /* erases what a longer line left */
+        progress->bar = true;
+    }
+    fflush(progress->out);
+}
+
+void fracas_progress_update(fracas_progress *progress, const fracas_scheduler_counts *counts)
+{
+    progress->last = *counts;
+    if (!progress->any) {
+        progress->any = true;
+        progress->first = *counts;
+        progress->began = progress->shown = fracas_now();
+    }
+    if (fracas_now() - progress->shown >= (progress->terminal ? terminal_interval : plain_interval)) show(progress);
+}
+
+void fracas_progress_say(fracas_progress *progress, const char *text)
+{
+    fprintf(progress->out, "%s%s\n", progress->bar ? "\r\033[K" : "", text);
+    fflush(progress->out);
+    progress->bar = false;
+}
+
+void fracas_progress_end(fracas_progress *progress)
+{
+    if (!progress->any) return;
+    show(progress);
+    if (progress->bar) fprintf(progress->out, "\n");
+    progress->bar = false;
+}

@@ -1,0 +1,304 @@
+#include "campaigns/scheduler/rank.h"
+
+#include "campaigns/campaign.h"
+#include "campaigns/scheduler/director.h"
+#include "campaigns/scheduler/packet.h"
+#include "campaigns/scheduler/prepare.h"
+#include "campaigns/scheduler/server.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <mpi.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { TAG = 0, WAIT_MAX = 8 /* ms */ };
+
+/* Set by SIGUSR1 (the parent, by way of mpirun), SIGTERM and SIGINT (mpirun, srun, a scheduler). */
+static volatile sig_atomic_t drain_asked;
+
+static void ask_drain(int signal_number)
+{
+    (void)signal_number;
+    drain_asked = 1;
+}
+
+typedef struct {
+    const fracas_run_options *options;
+    fracas_campaign *campaign;
+    char study[4096];
+    int rank, size;
+    int server; /* connection to the compute server; -1: there is none (any more) */
+    pid_t pid;  /* of the server */
+    bool ended; /* the server has said its last word: ENDED or TROUBLE */
+    int wait;   /* ms to sleep when nothing comes */
+} rank_state;
+
+/* ---- messages ---- */
+
+static fracas_err mpi_failed(const char *what, int code)
+{
+    char reason[MPI_MAX_ERROR_STRING];
+    int length;
+    if (MPI_Error_string(code, reason, &length)) snprintf(reason, sizeof reason, "error %d", code);
+    return fracas_fail(FRACAS_ENVIRONMENT, "MPI cannot %s a message: %s", what, reason);
+}
+
+static fracas_err mpi_send(int to, const fracas_packet *message)
+{
+    int code = MPI_Send(message, (int)fracas_packet_bytes(message), MPI_BYTE, to, TAG, MPI_COMM_WORLD);
+    return code == MPI_SUCCESS ? FRACAS_OK : mpi_failed("send", code);
+}
+
+/* *message is NULL when none has come. */
+static fracas_err mpi_receive(int *from, fracas_packet **message)
+{
+    *message = NULL;
+    int come, bytes;
+    MPI_Status status;
+    int code = MPI_Iprobe(MPI_ANY_SOURCE, TAG, MPI_COMM_WORLD, &come, &status);
+    if (code == MPI_SUCCESS && !come) return FRACAS_OK;
+    if (code == MPI_SUCCESS) code = MPI_Get_count(&status, MPI_BYTE, &bytes);
+    if (code != MPI_SUCCESS) return mpi_failed("probe", code);
+    fracas_packet *m = malloc((size_t)bytes);
+    if (!m) return fracas_no_memory("a message");
+    code = MPI_Recv(m, bytes, MPI_BYTE, status.MPI_SOURCE, TAG, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    if (code != MPI_SUCCESS) {
+        free(m);
+        return mpi_failed("receive", code);
+    }
+    *from = status.MPI_SOURCE;
+    *message = m;
+    return FRACAS_OK;
+}
+
+/* ---- the server ---- */
+
+/* Closes the connection and waits for the server's end, to which that leads. */
+static int end_server(rank_state *rank)
+{
+    int status = 0;
+    if (rank->server < 0) return 0;
+    close(rank->server);
+    rank->server = -1;
+    while (waitpid(rank->pid, &status, 0) < 0 && errno == EINTR)
+        ;
+    return status;
+}
+
+/* The message for rank 0 when the server is gone without a last word. */
+static fracas_err tell_lost(rank_state *rank, fracas_packet **message)
+{
+    int status = end_server(rank);
+    fracas_trouble trouble = {.code = FRACAS_ENVIRONMENT};
+    if (WIFSIGNALED(status))
+        snprintf(trouble.text, sizeof trouble.text, "the compute server of rank %d died of signal %d (%s)", rank->rank,
+                 WTERMSIG(status), strsignal(WTERMSIG(status)));
+    else
+        snprintf(trouble.text, sizeof trouble.text, "the compute server of rank %d ended with status %d", rank->rank,
+                 WEXITSTATUS(status));
+    rank->ended = true;
+    return fracas_packet_create(FRACAS_PACKET_LOST, &trouble, sizeof trouble, message);
+}
+
+/* Sleeps until the server says something, but `wait` ms at most; *message is NULL when it says nothing. */
+static fracas_err server_receive(rank_state *rank, fracas_packet **message)
+{
+    *message = NULL;
+    struct pollfd from = {.fd = rank->server, .events = POLLIN};
+    if (poll(&from, 1, rank->wait) <= 0 || !from.revents) return FRACAS_OK;
+    TRY(fracas_packet_read(rank->server, message));
+    if (*message) {
+        rank->ended = (*message)->kind == FRACAS_PACKET_ENDED || (*message)->kind == FRACAS_PACKET_TROUBLE;
+        return FRACAS_OK;
+    }
+    if (!rank->ended) return tell_lost(rank, message);
+    end_server(rank);
+    return FRACAS_OK;
+}
+
+/* A server that is gone cannot be told anything: server_receive will notice. */
+static void server_send(const rank_state *rank, const fracas_packet *message)
+{
+    if (rank->server >= 0 && fracas_packet_write(rank->server, message)) return;
+}
+
+/* Sleeps longer the longer nothing happens: MPI is polled, and leases are given one ahead. */
+static void pace(rank_state *rank, bool busy)
+{
+    rank->wait = busy ? 0 : rank->wait ? 2 * rank->wait : 1;
+    if (rank->wait > WAIT_MAX) rank->wait = WAIT_MAX;
+}
+
+/* ---- ranks but 0 ---- */
+
+static fracas_err tell(fracas_packet_kind kind, const void *body, size_t size)
+{
+    fracas_packet *message;
+    TRY(fracas_packet_create(kind, body, size, &message));
+    fracas_err err = mpi_send(0, message);
+    free(message);
+    return err;
+}
+
+/* One message each way, if there is one. */
+static fracas_err forward(rank_state *rank, bool *quit)
+{
+    fracas_packet *message;
+    int from;
+    TRY(server_receive(rank, &message));
+    bool busy = message != NULL;
+    fracas_err err = message ? mpi_send(0, message) : FRACAS_OK;
+    free(message);
+    TRY(err);
+    TRY(mpi_receive(&from, &message));
+    busy |= message != NULL;
+    if (message && message->kind == FRACAS_PACKET_QUIT)
+        *quit = true;
+    else if (message)
+        server_send(rank, message);
+    free(message);
+    pace(rank, busy);
+    return FRACAS_OK;
+}
+
+static fracas_err follow(rank_state *rank, fracas_err set_up)
+{
+    if (set_up) {
+        fracas_trouble trouble;
+        fracas_trouble_take(set_up, &trouble);
+        TRY(tell(FRACAS_PACKET_TROUBLE, &trouble, sizeof trouble));
+    }
+    bool told = false, quit = false;
+    while (!quit) {
+        if (drain_asked && !told) {
+            TRY(tell(FRACAS_PACKET_DRAIN, NULL, 0));
+            told = true;
+        }
+        TRY(forward(rank, &quit));
+    }
+    return FRACAS_OK;
+}
+
+/* ---- rank 0 ---- */
+
+static fracas_err send_worker(void *context, size_t worker, const fracas_packet *message)
+{
+    rank_state *rank = context;
+    if (worker > 0) return mpi_send((int)worker, message);
+    server_send(rank, message);
+    return FRACAS_OK;
+}
+
+/* Hears the workers, its own server first, until all have ended. */
+static fracas_err direct(rank_state *rank, fracas_director *director)
+{
+    while (!fracas_director_over(director)) {
+        if (drain_asked) fracas_director_drain(director);
+        fracas_packet *message;
+        int from = 0;
+        TRY(server_receive(rank, &message));
+        bool busy = message != NULL;
+        if (message) fracas_director_hear(director, 0, message);
+        free(message);
+        do {
+            TRY(mpi_receive(&from, &message));
+            busy |= message != NULL;
+            if (message) fracas_director_hear(director, (size_t)from, message);
+            free(message);
+        } while (message);
+        pace(rank, busy);
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err lead(rank_state *rank, fracas_voice *voice, bool *ran)
+{
+    fracas_director_setup setup = {.campaign = rank->campaign,
+                                   .options = rank->options,
+                                   .study = rank->study,
+                                   .workers = (size_t)rank->size,
+                                   .send = send_worker,
+                                   .context = rank,
+                                   .voice = voice};
+    fracas_director *director;
+    fracas_err verdict;
+    TRY(fracas_director_create(&setup, &director, &verdict));
+    *ran = director != NULL;
+    if (!director) return verdict;
+    verdict = direct(rank, director);
+    if (!verdict) verdict = fracas_director_finish(director);
+    fracas_director_destroy(director);
+    return verdict;
+}
+
+/* Rank 0 from MPI_Init on: the run, its last word, and the release of the others. */
+static fracas_err lead_to_end(rank_state *rank, fracas_err set_up, bool *ran)
+{
+    fracas_voice voice;
+    fracas_voice_init(&voice);
+    fracas_err verdict = set_up;
+    if (!verdict) verdict = lead(rank, &voice, ran);
+    fracas_voice_end(&voice, verdict, *ran);
+    fracas_trouble kept;
+    fracas_trouble_take(verdict, &kept); /* what follows may overwrite the message */
+    const fracas_packet quit = {.kind = FRACAS_PACKET_QUIT};
+    for (int other = 1; other < rank->size; other++)
+        if (mpi_send(other, &quit)) MPI_Abort(MPI_COMM_WORLD, FRACAS_ENVIRONMENT); /* no rank may be left waiting */
+    if (!voice.parent) return verdict ? fracas_fail(verdict, "%s", kept.text) : FRACAS_OK;
+    *ran = false;
+    return FRACAS_OK;
+}
+
+/* ---- every rank ---- */
+
+static void catch_signals(void)
+{
+    struct sigaction drain = {.sa_handler = ask_drain, .sa_flags = SA_RESTART};
+    sigemptyset(&drain.sa_mask);
+    sigaction(SIGUSR1, &drain, NULL);
+    sigaction(SIGTERM, &drain, NULL);
+    sigaction(SIGINT, &drain, NULL);
+    signal(SIGPIPE, SIG_IGN); /* a write to a dead process is an error like others */
+}
+
+/* What must happen before MPI_Init: the server is forked from a process that MPI does not know. */
+static fracas_err set_up(rank_state *rank)
+{
+    TRY(fracas_campaign_read(rank->options->file, &rank->campaign));
+    TRY(fracas_study_folder(rank->options, rank->campaign, rank->study, sizeof rank->study));
+    return fracas_server_start(rank->campaign, rank->options, rank->study, &rank->server, &rank->pid);
+}
+
+fracas_err fracas_rank_run(const fracas_run_options *options, bool *ran)
+{
+    *ran = false;
+    prctl(PR_SET_PDEATHSIG, SIGKILL); /* no rank outlives its mpirun */
+    catch_signals();
+    rank_state rank = {.options = options, .server = -1};
+    fracas_err err = set_up(&rank);
+    fracas_trouble trouble;
+    fracas_trouble_take(err, &trouble);
+    if (MPI_Init(NULL, NULL) != MPI_SUCCESS) return fracas_fail(FRACAS_ENVIRONMENT, "MPI_Init failed");
+    MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank.rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &rank.size);
+    if (err) err = fracas_fail(err, "%s", trouble.text);
+    if (rank.rank == 0) {
+        err = lead_to_end(&rank, err, ran);
+    } else if (follow(&rank, err)) {
+        MPI_Abort(MPI_COMM_WORLD, FRACAS_ENVIRONMENT); /* rank 0 cannot be told: it must not wait for this rank */
+    } else {
+        err = FRACAS_OK;
+    }
+    end_server(&rank);
+    fracas_campaign_destroy(rank.campaign);
+    MPI_Finalize();
+    return err;
+}

@@ -1,0 +1,65 @@
+#include "campaigns/scheduler/run.h"
+
+#include "base/param.h"
+#include "campaigns/campaign.h"
+#include "campaigns/scheduler/costs.h"
+#include "campaigns/scheduler/director.h"
+#include "campaigns/scheduler/parent.h"
+#include "campaigns/scheduler/prepare.h"
+#include "campaigns/scheduler/rank.h"
+#include "campaigns/scheduler/voice.h"
+
+#include <stdlib.h>
+
+void fracas_run_options_init(fracas_run_options *options)
+{
+    *options = (fracas_run_options){.isa = FRACAS_ISA_BEST, .segment_age = 5, .segment_bytes = 64.0 * 1024 * 1024};
+}
+
+/* Rank that a launcher gave to this process; -1 if none did. */
+static int launched_rank(void)
+{
+    static const char *const set_by_launchers[] = {"PMIX_RANK", "PMI_RANK", "OMPI_COMM_WORLD_RANK"};
+    for (size_t i = 0; i < FRACAS_COUNT(set_by_launchers); i++)
+        if (getenv(set_by_launchers[i])) return atoi(getenv(set_by_launchers[i]));
+    return -1;
+}
+
+bool fracas_run_is_rank(void)
+{
+    return launched_rank() >= 0;
+}
+
+bool fracas_run_speaks(void)
+{
+    int rank = launched_rank();
+    return rank < 0 || (rank == 0 && !getenv(FRACAS_PARENT_MARK));
+}
+
+/* What is wrong with the campaign or the study is found here, before anything is written or started. */
+static fracas_err examine(const fracas_run_options *options, bool *settled, fracas_err *verdict)
+{
+    fracas_campaign *campaign;
+    TRY(fracas_campaign_read(options->file, &campaign));
+    char study[4096];
+    int64_t failed = 0;
+    fracas_err err = fracas_study_folder(options, campaign, study, sizeof study);
+    if (!err) err = fracas_study_examine(study, campaign, settled, &failed);
+    *verdict = err ? err : fracas_settled_verdict(study, failed);
+    double *cost;
+    if (!err && !*settled) err = fracas_costs_create(campaign, options, &cost);
+    if (!err && !*settled) free(cost);
+    fracas_campaign_destroy(campaign);
+    return err;
+}
+
+fracas_err fracas_run(const fracas_run_options *options, int argc, char **argv, bool *ran)
+{
+    *ran = false;
+    if (fracas_run_is_rank()) return fracas_rank_run(options, ran);
+    bool settled = false;
+    fracas_err verdict;
+    TRY(examine(options, &settled, &verdict));
+    if (settled) return verdict;
+    return fracas_parent_run(options, argc, argv, ran);
+}

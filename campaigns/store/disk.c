@@ -1,0 +1,92 @@
+#include "campaigns/store/disk.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char temporary_mark[] = ".tmp-";
+
+fracas_err fracas_disk_fail(const char *verb, const char *path)
+{
+    int reason = errno;
+    const char *remedy = reason == ENOSPC || reason == EDQUOT ? "; free some space and run again" : "";
+    return fracas_fail(FRACAS_ENVIRONMENT, "cannot %s %s: %s%s", verb, path, strerror(reason), remedy);
+}
+
+fracas_err fracas_disk_join(const char *folder, const char *name, char **path)
+{
+    if (asprintf(path, "%s/%s", folder, name) < 0) return fracas_no_memory("a file name");
+    return FRACAS_OK;
+}
+
+fracas_err fracas_disk_segment(const char *study, const char *name, char **path)
+{
+    char *folder;
+    TRY(fracas_disk_join(study, "segments", &folder));
+    fracas_err err = fracas_disk_join(folder, name, path);
+    free(folder);
+    return err;
+}
+
+fracas_err fracas_disk_temporary(const char *path, char **temporary)
+{
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    if (asprintf(temporary, "%.*s.%s%s%ld", (int)(name - path), path, name, temporary_mark, (long)getpid()) < 0)
+        return fracas_no_memory("a file name");
+    return FRACAS_OK;
+}
+
+bool fracas_disk_is_temporary(const char *name)
+{
+    const char *mark = strstr(name, temporary_mark);
+    return name[0] == '.' && mark && isdigit((unsigned char)mark[sizeof temporary_mark - 1]);
+}
+
+fracas_err fracas_disk_sync_folder(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    char *folder = slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path)) : strdup(".");
+    if (!folder) return fracas_no_memory("a file name");
+    fracas_err err = FRACAS_OK;
+    int fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    /* EINVAL: a filesystem that has no syncing of folders, and so nothing to wait for. */
+    if (fd < 0 || (fsync(fd) < 0 && errno != EINVAL)) err = fracas_disk_fail("sync folder", folder);
+    if (fd >= 0) close(fd);
+    free(folder);
+    return err;
+}
+
+fracas_err fracas_disk_seal(int fd, const char *path, fracas_file_seal *seal)
+{
+    enum { BLOCK = 1 << 20 };
+    char *block = malloc(BLOCK);
+    fracas_checksum *checksum = NULL;
+    *seal = (fracas_file_seal){0};
+    fracas_err err = block ? fracas_checksum_create(&checksum) : fracas_no_memory("a checksum");
+    while (!err) {
+        ssize_t got = pread(fd, block, BLOCK, (off_t)seal->bytes);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) err = fracas_disk_fail("read", path);
+        if (got <= 0) break;
+        seal->bytes += (uint64_t)got;
+        fracas_checksum_add(checksum, block, (size_t)got);
+    }
+    if (!err) seal->checksum = fracas_checksum_end(checksum); /* = fracas_checksum_of the whole */
+    fracas_checksum_destroy(checksum);
+    free(block);
+    return err;
+}
+
+fracas_err fracas_disk_seal_path(const char *path, fracas_file_seal *seal)
+{
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (fd < 0 && errno == ENOENT) return fracas_fail(FRACAS_DAMAGED, "%s is not there", path);
+    if (fd < 0) return fracas_disk_fail("open", path);
+    fracas_err err = fracas_disk_seal(fd, path, seal);
+    close(fd);
+    return err;
+}

@@ -1,0 +1,26 @@
+/* Durable files: names, seals and the syncing of folders. Private to the store. */
+#ifndef FRACAS_CAMPAIGNS_STORE_DISK_H
+#define FRACAS_CAMPAIGNS_STORE_DISK_H
+
+#include "campaigns/store/store.h"
+
+/* FOLDER/NAME; *path freed by the caller. */
+FRACAS_MUST_USE fracas_err fracas_disk_join(const char *folder, const char *name, char **path);
+/* STUDY/segments/NAME. */
+FRACAS_MUST_USE fracas_err fracas_disk_segment(const char *study, const char *name, char **path);
+/* The temporary name of `path` in this process, .NAME.tmp-PID in the same folder; freed by the caller. */
+FRACAS_MUST_USE fracas_err fracas_disk_temporary(const char *path, char **temporary);
+/* True for such a name (without its folder). */
+bool fracas_disk_is_temporary(const char *name);
+
+/* Makes the names in the folder of `path` durable. */
+FRACAS_MUST_USE fracas_err fracas_disk_sync_folder(const char *path);
+/* Size and checksum of an open file, read in blocks; `path` is for the message. */
+FRACAS_MUST_USE fracas_err fracas_disk_seal(int fd, const char *path, fracas_file_seal *seal);
+/* The same of a closed one; FRACAS_DAMAGED if it is not there. */
+FRACAS_MUST_USE fracas_err fracas_disk_seal_path(const char *path, fracas_file_seal *seal);
+
+/* FRACAS_ENVIRONMENT: "cannot VERB PATH: reason" from errno. */
+FRACAS_MUST_USE fracas_err fracas_disk_fail(const char *verb, const char *path);
+
+#endif

@@ -1,0 +1,268 @@
+/* The index: opening the database, its tables and its statements. */
+#include "campaigns/store/index.h"
+
+#include "campaigns/store/disk.h"
+
+#include <errno.h>
+#include <linux/magic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/vfs.h>
+#include <unistd.h>
+
+/* docs/formats/study.md explains every column. */
+static const char tables[] =
+    "CREATE TABLE IF NOT EXISTS meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT, WITHOUT ROWID;"
+    "CREATE TABLE IF NOT EXISTS point(id INTEGER PRIMARY KEY, hash TEXT NOT NULL UNIQUE, replicas INTEGER NOT NULL)"
+    " STRICT;"
+    "CREATE TABLE IF NOT EXISTS segment(id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, bytes INTEGER NOT NULL,"
+    " checksum TEXT NOT NULL, provenance TEXT NOT NULL CHECK (json_valid(provenance))) STRICT;"
+    "CREATE TABLE IF NOT EXISTS realization(point INTEGER NOT NULL REFERENCES point(id), replica INTEGER NOT NULL,"
+    " status TEXT NOT NULL CHECK (status IN ('planned', 'leased', 'done', 'failed', 'quarantined')),"
+    " attempts INTEGER NOT NULL DEFAULT 0, reason TEXT, outcome INTEGER, segment INTEGER REFERENCES segment(id),"
+    " row INTEGER, fragments INTEGER, fragments_dust INTEGER, steps INTEGER, dissipated REAL, residual REAL,"
+    " PRIMARY KEY (point, replica)) STRICT, WITHOUT ROWID;"
+    "CREATE TABLE IF NOT EXISTS event(id INTEGER PRIMARY KEY, time TEXT NOT NULL, kind TEXT NOT NULL,"
+    " text TEXT NOT NULL) STRICT;";
+
+static const char *const sql_text[FRACAS_NSQL] = {
+    [FRACAS_SQL_BEGIN] = "BEGIN IMMEDIATE",
+    [FRACAS_SQL_COMMIT] = "COMMIT",
+    [FRACAS_SQL_ROLLBACK] = "ROLLBACK",
+    [FRACAS_SQL_POINT_ADD] = "INSERT INTO point(hash, replicas) VALUES (?1, ?2)"
+                             " ON CONFLICT (hash) DO UPDATE SET replicas = max(replicas, excluded.replicas)",
+    [FRACAS_SQL_POINT_FIND] = "SELECT id FROM point WHERE hash = ?1",
+    [FRACAS_SQL_POINT_COUNT] = "SELECT count(*) FROM point",
+    [FRACAS_SQL_POINT_ALL] = "SELECT hash, replicas FROM point ORDER BY id",
+    [FRACAS_SQL_ROW_ADD] = "INSERT OR IGNORE INTO realization(point, replica, status) VALUES (?1, ?2, 'planned')",
+    [FRACAS_SQL_ROW_FIND] = "SELECT status, segment, row FROM realization WHERE point = ?1 AND replica = ?2",
+    [FRACAS_SQL_ROW_OF_POINT] = "SELECT replica, status, attempts FROM realization"
+                                " WHERE point = ?1 AND replica < ?2 ORDER BY replica",
+    [FRACAS_SQL_ROW_FAILED] = "SELECT replica, status, attempts, coalesce(reason, '') FROM realization"
+                              " WHERE point = ?1 AND status IN ('failed', 'quarantined') ORDER BY replica",
+    [FRACAS_SQL_ROW_BY_SEGMENT] = "SELECT r.segment, r.row, p.hash, r.replica, r.outcome, r.fragments,"
+                                  " r.fragments_dust, r.steps, r.dissipated, r.residual, r.status"
+                                  " FROM realization r JOIN point p ON p.id = r.point"
+                                  " WHERE r.segment IS NOT NULL OR r.status = 'done' ORDER BY r.segment, r.row",
+    [FRACAS_SQL_ROW_UNLEASE] = "UPDATE realization SET status = 'planned' WHERE status = 'leased'",
+    [FRACAS_SQL_ROW_LEASE] = "UPDATE realization SET status = 'leased'"
+                             " WHERE point = ?1 AND replica >= ?2 AND replica < ?2 + ?3 AND status = 'planned'",
+    [FRACAS_SQL_ROW_FAIL] = "UPDATE realization SET attempts = attempts + 1, reason = ?3, status = ?4, outcome = ?5"
+                            " WHERE point = ?1 AND replica = ?2 AND status <> 'done'",
+    [FRACAS_SQL_ROW_DONE] = "UPDATE realization SET status = ?3, outcome = ?4, segment = ?5, row = ?6, fragments = ?7,"
+                            " fragments_dust = ?8, steps = ?9, dissipated = ?10, residual = ?11"
+                            " WHERE point = ?1 AND replica = ?2 AND status <> 'done'",
+    [FRACAS_SQL_ROW_FORGET] = "UPDATE realization SET status = 'planned', outcome = NULL, segment = NULL, row = NULL,"
+                              " fragments = NULL, fragments_dust = NULL, steps = NULL, dissipated = NULL,"
+                              " residual = NULL WHERE segment IN (SELECT id FROM segment WHERE bytes < 0)",
+    [FRACAS_SQL_TALLY] = "SELECT status, outcome FROM realization",
+    [FRACAS_SQL_TALLY_POINT] = "SELECT status, outcome FROM realization WHERE point = ?1",
+    [FRACAS_SQL_SEGMENT_ADD] = "INSERT INTO segment(name, bytes, checksum, provenance) VALUES (?1, ?2, ?3, ?4)",
+    [FRACAS_SQL_SEGMENT_FIND] = "SELECT id, bytes, checksum FROM segment WHERE name = ?1",
+    [FRACAS_SQL_SEGMENT_ALL] = "SELECT id, name, bytes, checksum FROM segment ORDER BY id",
+    [FRACAS_SQL_SEGMENT_LOSE] = "UPDATE segment SET bytes = -1 WHERE id = ?1",
+    [FRACAS_SQL_SEGMENT_FORGET] = "DELETE FROM segment WHERE bytes < 0",
+    [FRACAS_SQL_SEGMENT_TOTAL] = "SELECT count(*), coalesce(sum(bytes), 0) FROM segment",
+    [FRACAS_SQL_SEGMENT_TOTAL_POINT] = "SELECT count(*), coalesce(sum(bytes), 0) FROM segment"
+                                       " WHERE id IN (SELECT segment FROM realization WHERE point = ?1)",
+    [FRACAS_SQL_EVENT_ADD] = "INSERT INTO event(time, kind, text)"
+                             " VALUES (strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), ?1, ?2)",
+};
+
+/* ---- errors and statements ---- */
+
+fracas_err fracas_index_error(const fracas_index *index, const char *doing)
+{
+    int code = index->db ? sqlite3_errcode(index->db) : SQLITE_NOMEM;
+    const char *text = index->db ? sqlite3_errmsg(index->db) : "no memory";
+    switch (code) {
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+        return fracas_fail(FRACAS_IN_USE, "%s: cannot %s: another process is using it; try again later", index->path,
+                           doing);
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+    case SQLITE_FORMAT:
+        return fracas_fail(FRACAS_DAMAGED, "%s: cannot %s: damaged: %s", index->path, doing, text);
+    case SQLITE_ERROR:
+    case SQLITE_CONSTRAINT:
+    case SQLITE_MISUSE:
+    case SQLITE_RANGE:
+    case SQLITE_MISMATCH:
+        return fracas_fail(FRACAS_BUG, "%s: cannot %s: %s", index->path, doing, text);
+    default: {
+        int system = sqlite3_system_errno(index->db);
+        return fracas_fail(FRACAS_ENVIRONMENT, "%s: cannot %s: %s%s%s", index->path, doing, text, system ? ": " : "",
+                           system ? strerror(system) : "");
+    }
+    }
+}
+
+fracas_err fracas_index_step(fracas_index *index, fracas_sql sql, bool *row)
+{
+    int code = sqlite3_step(index->statement[sql]);
+    *row = code == SQLITE_ROW;
+    if (code == SQLITE_ROW || code == SQLITE_DONE) return FRACAS_OK;
+    fracas_err err = fracas_index_error(index, "read or write");
+    fracas_index_reset(index, sql);
+    return err;
+}
+
+void fracas_index_reset(fracas_index *index, fracas_sql sql)
+{
+    sqlite3_reset(index->statement[sql]); /* repeats the error of the last step, which was reported */
+}
+
+fracas_err fracas_index_do(fracas_index *index, fracas_sql sql)
+{
+    bool row = false;
+    fracas_err err = fracas_index_step(index, sql, &row);
+    fracas_index_reset(index, sql);
+    return err;
+}
+
+static fracas_err bound(fracas_index *index, int code)
+{
+    return code == SQLITE_OK ? FRACAS_OK : fracas_index_error(index, "bind a value");
+}
+
+fracas_err fracas_index_bind(fracas_index *index, fracas_sql sql, int n, int64_t value)
+{
+    return bound(index, sqlite3_bind_int64(index->statement[sql], n, value));
+}
+
+fracas_err fracas_index_bind_real(fracas_index *index, fracas_sql sql, int n, double value)
+{
+    return bound(index, sqlite3_bind_double(index->statement[sql], n, value)); /* NaN becomes NULL */
+}
+
+fracas_err fracas_index_bind_text(fracas_index *index, fracas_sql sql, int n, const char *text)
+{
+    return bound(index, sqlite3_bind_text(index->statement[sql], n, text, -1, SQLITE_TRANSIENT));
+}
+
+fracas_err fracas_index_end(fracas_index *index, fracas_err err)
+{
+    if (!err) err = fracas_index_do(index, FRACAS_SQL_COMMIT);
+    /* SQLite may have rolled back by itself (disk full); the first error is the one to tell. */
+    if (err && !sqlite3_get_autocommit(index->db)) sqlite3_exec(index->db, sql_text[FRACAS_SQL_ROLLBACK], NULL, NULL, NULL);
+    return err;
+}
+
+/* ---- opening ---- */
+
+fracas_err fracas_disk_is_local(const char *path, bool *local)
+{
+    /* Those whose locks and shared memory WAL can rely on; all others are taken for network filesystems. */
+    static const unsigned long known[] = {EXT4_SUPER_MAGIC, XFS_SUPER_MAGIC,  BTRFS_SUPER_MAGIC, TMPFS_MAGIC,
+                                          RAMFS_MAGIC,      F2FS_SUPER_MAGIC, OVERLAYFS_SUPER_MAGIC,
+                                          REISERFS_SUPER_MAGIC, 0x2fc12fc1 /* ZFS */, 0xca451a4e /* bcachefs */,
+                                          0x3153464a /* JFS */};
+    struct statfs info;
+    *local = false;
+    if (statfs(path, &info) < 0) return fracas_disk_fail("look at", path);
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++)
+        if ((uint32_t)info.f_type == (uint32_t)known[k]) *local = true;
+    return FRACAS_OK;
+}
+
+/* Runs a pragma and compares the first value that it gives. */
+static fracas_err pragma(fracas_index *index, const char *text, const char *wanted)
+{
+    sqlite3_stmt *statement;
+    if (sqlite3_prepare_v2(index->db, text, -1, &statement, NULL) != SQLITE_OK)
+        return fracas_index_error(index, "open");
+    int code = sqlite3_step(statement);
+    const char *found = code == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;
+    fracas_err err = FRACAS_OK;
+    if (code != SQLITE_ROW && code != SQLITE_DONE) err = fracas_index_error(index, "open");
+    else if (wanted && (!found || strcmp(found, wanted) != 0))
+        err = fracas_fail(FRACAS_ENVIRONMENT, "%s: '%s' gives '%s', not '%s': nothing would be durable here", index->path,
+                          text, found ? found : "", wanted);
+    sqlite3_finalize(statement);
+    return err;
+}
+
+static fracas_err set_durability(fracas_index *index)
+{
+    sqlite3_busy_timeout(index->db, 5000);
+    if (!index->local) TRY(pragma(index, "PRAGMA locking_mode = EXCLUSIVE", "exclusive"));
+    TRY(index->local ? pragma(index, "PRAGMA journal_mode = WAL", "wal")
+                     : pragma(index, "PRAGMA journal_mode = TRUNCATE", "truncate"));
+    TRY(pragma(index, "PRAGMA synchronous = FULL", NULL));
+    return pragma(index, "PRAGMA synchronous", "2"); /* FULL */
+}
+
+static fracas_err create_tables(fracas_index *index)
+{
+    char text[sizeof tables + 256];
+    snprintf(text, sizeof text, "BEGIN IMMEDIATE;%s INSERT OR IGNORE INTO meta VALUES ('format_version', '%d'); COMMIT",
+             tables, FRACAS_FORMAT_VERSION);
+    fracas_err err = sqlite3_exec(index->db, text, NULL, NULL, NULL) == SQLITE_OK
+                         ? FRACAS_OK : fracas_index_error(index, "create its tables");
+    if (err) sqlite3_exec(index->db, sql_text[FRACAS_SQL_ROLLBACK], NULL, NULL, NULL);
+    return err ? err : fracas_disk_sync_folder(index->path);
+}
+
+static fracas_err check_version(fracas_index *index)
+{
+    sqlite3_stmt *statement;
+    int code = sqlite3_prepare_v2(index->db, "SELECT value FROM meta WHERE key = 'format_version'", -1, &statement, NULL);
+    if (code == SQLITE_ERROR) return fracas_fail(FRACAS_DAMAGED, "%s is no index of fracas", index->path);
+    if (code != SQLITE_OK) return fracas_index_error(index, "open");
+    const char *found = sqlite3_step(statement) == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;
+    char wanted[16];
+    snprintf(wanted, sizeof wanted, "%d", FRACAS_FORMAT_VERSION);
+    fracas_err err = FRACAS_OK;
+    if (!found || strcmp(found, wanted) != 0)
+        err = fracas_fail(FRACAS_DAMAGED, "%s has format version %s; this program reads %s", index->path,
+                          found ? found : "none", wanted);
+    sqlite3_finalize(statement);
+    return err;
+}
+
+static fracas_err open_database(fracas_index *index, bool create)
+{
+    int flags = SQLITE_OPEN_READWRITE | (create ? SQLITE_OPEN_CREATE : 0);
+    if (!create && access(index->path, F_OK) < 0 && errno == ENOENT)
+        return fracas_fail(FRACAS_DAMAGED, "%s is not there: no study of fracas; `fracas run` makes one", index->path);
+    if (sqlite3_open_v2(index->path, &index->db, flags, NULL) != SQLITE_OK) return fracas_index_error(index, "open");
+    TRY(set_durability(index));
+    if (create) TRY(create_tables(index));
+    TRY(check_version(index));
+    for (int s = 0; s < FRACAS_NSQL; s++)
+        if (sqlite3_prepare_v3(index->db, sql_text[s], -1, SQLITE_PREPARE_PERSISTENT, &index->statement[s], NULL))
+            return fracas_index_error(index, "prepare a statement");
+    return FRACAS_OK;
+}
+
+fracas_err fracas_index_open_as(const char *study, bool create, bool local, fracas_index **index)
+{
+    *index = calloc(1, sizeof **index);
+    if (!*index) return fracas_no_memory("the index");
+    (*index)->local = local;
+    fracas_err err = fracas_disk_join(study, "index.sqlite", &(*index)->path);
+    if (!err) err = open_database(*index, create);
+    if (!err) return FRACAS_OK;
+    fracas_index_close(*index);
+    *index = NULL;
+    return err;
+}
+
+fracas_err fracas_index_open(const char *study, bool create, fracas_index **index)
+{
+    bool local;
+    *index = NULL;
+    TRY(fracas_disk_is_local(study, &local));
+    return fracas_index_open_as(study, create, local, index);
+}
+
+void fracas_index_close(fracas_index *index)
+{
+    if (!index) return;
+    for (int s = 0; s < FRACAS_NSQL; s++) sqlite3_finalize(index->statement[s]);
+    sqlite3_close(index->db);
+    free(index->path);
+    free(index);
+}

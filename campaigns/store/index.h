@@ -1,0 +1,96 @@
+/* Inside the index: the database handle, its statements, and what recover, merge and verify ask of it. */
+#ifndef FRACAS_CAMPAIGNS_STORE_INDEX_H
+#define FRACAS_CAMPAIGNS_STORE_INDEX_H
+
+#include "campaigns/store/store.h"
+
+#include <sqlite3.h>
+
+/* Statements, prepared once when the index is opened (text in index.c). */
+typedef enum {
+    FRACAS_SQL_BEGIN,
+    FRACAS_SQL_COMMIT,
+    FRACAS_SQL_ROLLBACK,
+    FRACAS_SQL_POINT_ADD,
+    FRACAS_SQL_POINT_FIND,
+    FRACAS_SQL_POINT_COUNT,
+    FRACAS_SQL_POINT_ALL,
+    FRACAS_SQL_ROW_ADD,
+    FRACAS_SQL_ROW_FIND,
+    FRACAS_SQL_ROW_OF_POINT,
+    FRACAS_SQL_ROW_FAILED,
+    FRACAS_SQL_ROW_BY_SEGMENT,
+    FRACAS_SQL_ROW_UNLEASE,
+    FRACAS_SQL_ROW_LEASE,
+    FRACAS_SQL_ROW_FAIL,
+    FRACAS_SQL_ROW_DONE,
+    FRACAS_SQL_ROW_FORGET,
+    FRACAS_SQL_TALLY,
+    FRACAS_SQL_TALLY_POINT,
+    FRACAS_SQL_SEGMENT_ADD,
+    FRACAS_SQL_SEGMENT_FIND,
+    FRACAS_SQL_SEGMENT_ALL,
+    FRACAS_SQL_SEGMENT_LOSE,
+    FRACAS_SQL_SEGMENT_FORGET,
+    FRACAS_SQL_SEGMENT_TOTAL,
+    FRACAS_SQL_SEGMENT_TOTAL_POINT,
+    FRACAS_SQL_EVENT_ADD,
+    FRACAS_NSQL
+} fracas_sql;
+
+struct fracas_index {
+    sqlite3 *db;
+    char *path;
+    bool local; /* WAL: a filesystem of this machine */
+    sqlite3_stmt *statement[FRACAS_NSQL];
+};
+
+/* fracas_index_open with the kind of filesystem given. */
+FRACAS_MUST_USE fracas_err fracas_index_open_as(const char *study, bool create, bool local, fracas_index **index);
+/* True if `path` lies on a filesystem of this machine, false on a network one or one that we do not know. */
+FRACAS_MUST_USE fracas_err fracas_disk_is_local(const char *path, bool *local);
+
+/* The last SQLite failure as our message. */
+FRACAS_MUST_USE fracas_err fracas_index_error(const fracas_index *index, const char *doing);
+/* Steps a statement: *row says whether a row is there. The caller resets with fracas_index_reset. */
+FRACAS_MUST_USE fracas_err fracas_index_step(fracas_index *index, fracas_sql sql, bool *row);
+void fracas_index_reset(fracas_index *index, fracas_sql sql);
+/* Steps a statement that gives no rows, and resets it. */
+FRACAS_MUST_USE fracas_err fracas_index_do(fracas_index *index, fracas_sql sql);
+/* Binds argument `n` (from 1). */
+FRACAS_MUST_USE fracas_err fracas_index_bind(fracas_index *index, fracas_sql sql, int n, int64_t value);
+FRACAS_MUST_USE fracas_err fracas_index_bind_real(fracas_index *index, fracas_sql sql, int n, double value);
+FRACAS_MUST_USE fracas_err fracas_index_bind_text(fracas_index *index, fracas_sql sql, int n, const char *text);
+/* Ends a transaction: commits if `err` is FRACAS_OK, else rolls back and returns `err`. */
+FRACAS_MUST_USE fracas_err fracas_index_end(fracas_index *index, fracas_err err);
+
+/* Id of a point, 0 if it is not there. */
+FRACAS_MUST_USE fracas_err fracas_index_find_point(fracas_index *index, const fracas_hash *point, int64_t *id);
+
+/* Where a realization's bytes are. */
+typedef struct {
+    fracas_row_status status;
+    int64_t segment; /* id, 0 if it has none */
+    int64_t row;
+} fracas_place;
+
+/* FRACAS_DAMAGED if the index has no such realization. */
+FRACAS_MUST_USE fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point, int64_t replica,
+                                              fracas_place *place);
+fracas_row_status fracas_index_status(const unsigned char *text);
+
+/* What the index knows of a segment. */
+typedef struct {
+    int64_t id;
+    char *name;
+    fracas_file_seal seal;
+} fracas_known_segment;
+
+/* All of them by id; freed with fracas_index_segments_free. */
+FRACAS_MUST_USE fracas_err fracas_index_segments(fracas_index *index, fracas_known_segment **segment, size_t *count);
+void fracas_index_segments_free(fracas_known_segment *segment, size_t count);
+/* Turns the rows of these segments back to planned and forgets the segments; one transaction. *rows counts them. */
+FRACAS_MUST_USE fracas_err fracas_index_forget(fracas_index *index, const int64_t *segment, size_t count,
+                                               int64_t *rows);
+
+#endif

@@ -1,0 +1,241 @@
+#include "campaigns/store/reader.h"
+
+#include "campaigns/store/table.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The datasets of one set, and a block of their rows. */
+typedef struct {
+    hid_t dataset[FRACAS_MAX_COLUMNS];
+    unsigned char *stored[FRACAS_MAX_COLUMNS];
+    uint64_t rows;         /* in the file */
+    uint64_t first, count; /* rows in `stored` */
+} set_reader;
+
+struct fracas_reader {
+    fracas_h5 h5;
+    char *path;
+    fracas_file_header header;
+    fracas_stored_table points;
+    bool interfaces;
+    set_reader set[FRACAS_NSETS];
+};
+
+enum { BLOCK_CHUNKS = 4 }; /* chunks read ahead */
+
+static fracas_err damaged(const fracas_reader *reader, const char *where, const char *what)
+{
+    return fracas_fail(FRACAS_DAMAGED, "%s: %s: damaged: %s", reader->path, where, what);
+}
+
+/* ---- opening ---- */
+
+static fracas_err read_text_attribute(fracas_reader *reader, const char *name, size_t size, char *to)
+{
+    char *text;
+    TRY(fracas_h5_get_text(&reader->h5, "/", name, &text));
+    bool fits = strlen(text) < size;
+    if (fits) memcpy(to, text, strlen(text) + 1);
+    free(text);
+    return fits ? FRACAS_OK : damaged(reader, name, "it is too long");
+}
+
+static fracas_err read_header(fracas_reader *reader)
+{
+    uint64_t version, complete;
+    char hex[FRACAS_HASH_HEX];
+    fracas_file_header *header = &reader->header;
+    TRY(fracas_h5_get_integer(&reader->h5, "/", "format_version", H5T_STD_I32LE, &version));
+    if (version != FRACAS_FORMAT_VERSION)
+        return fracas_fail(FRACAS_DAMAGED, "%s has format version %llu; this program reads %d", reader->path,
+                           (unsigned long long)version, FRACAS_FORMAT_VERSION);
+    TRY(read_text_attribute(reader, "campaign", sizeof hex, hex));
+    if (!fracas_hash_parse(hex, &header->campaign)) return damaged(reader, "campaign", "it is no hash");
+    TRY(fracas_h5_get_integer(&reader->h5, "/", "seed", H5T_STD_U64LE, &header->seed));
+    TRY(read_text_attribute(reader, "program_version", sizeof header->version, header->version));
+    TRY(fracas_h5_get_integer(&reader->h5, "/", "complete", H5T_STD_I8LE, &complete));
+    header->complete = complete == 1;
+    return complete <= 1 ? FRACAS_OK : damaged(reader, "complete", "it is neither 0 nor 1");
+}
+
+static fracas_err open_set(fracas_reader *reader, int s)
+{
+    const fracas_store_set *schema = &fracas_store_sets[s];
+    set_reader *set = &reader->set[s];
+    for (size_t c = 0; c < schema->ncolumns; c++) {
+        uint64_t rows;
+        TRY(fracas_h5_open_column(&reader->h5, &schema->column[c], schema->chunk, &set->dataset[c], &rows));
+        if (c > 0 && rows != set->rows)
+            return damaged(reader, schema->column[c].path, "it has another number of rows than its neighbours");
+        set->rows = rows;
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err load_rows(fracas_reader *reader, int s, uint64_t first, size_t count, void *rows);
+
+/* Offsets go from 0 to the rows of the set; that they never fall is checked where they are used. */
+static fracas_err open_ragged(fracas_reader *reader, int offsets, int s)
+{
+    const char *path = fracas_store_sets[offsets].column->path;
+    TRY(open_set(reader, offsets));
+    TRY(open_set(reader, s));
+    uint64_t realizations = reader->set[FRACAS_SET_REALIZATION].rows;
+    if (reader->set[offsets].rows != realizations + 1)
+        return damaged(reader, path, "it must have one value more than there are realizations");
+    int64_t first, last;
+    TRY(load_rows(reader, offsets, realizations, 1, &last));
+    TRY(load_rows(reader, offsets, 0, 1, &first));
+    if (first != 0 || last < 0 || (uint64_t)last != reader->set[s].rows)
+        return damaged(reader, path, "it does not go from 0 to the number of rows");
+    return FRACAS_OK;
+}
+
+static fracas_err open_sets(fracas_reader *reader)
+{
+    TRY(open_set(reader, FRACAS_SET_REALIZATION));
+    TRY(open_ragged(reader, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT));
+    TRY(open_ragged(reader, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY));
+    htri_t there = H5Lexists(reader->h5.id, "/interface", H5P_DEFAULT);
+    if (there < 0) return fracas_h5_fail(&reader->h5, "/interface");
+    reader->interfaces = there > 0;
+    return there ? open_ragged(reader, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE) : FRACAS_OK;
+}
+
+fracas_err fracas_reader_open(const char *path, fracas_reader **reader)
+{
+    *reader = calloc(1, sizeof **reader);
+    if (!*reader) return fracas_no_memory("a file");
+    fracas_reader *r = *reader;
+    r->h5 = (fracas_h5){.id = H5I_INVALID_HID, .fd = -1};
+    fracas_err err = (r->path = strdup(path)) ? fracas_h5_open(&r->h5, r->path) : fracas_no_memory("a file");
+    if (!err) err = read_header(r);
+    if (!err) err = fracas_table_read(&r->h5, &r->points);
+    if (!err) err = open_sets(r);
+    if (!err) return FRACAS_OK;
+    fracas_reader_close(r);
+    *reader = NULL;
+    return err;
+}
+
+void fracas_reader_close(fracas_reader *reader)
+{
+    if (!reader) return;
+    for (int s = 0; s < FRACAS_NSETS; s++)
+        for (size_t c = 0; c < fracas_store_sets[s].ncolumns; c++) free(reader->set[s].stored[c]);
+    fracas_table_clear(&reader->points);
+    fracas_h5_close(&reader->h5);
+    free(reader->path);
+    free(reader);
+}
+
+const fracas_file_header *fracas_reader_header(const fracas_reader *reader) { return &reader->header; }
+const fracas_point_table *fracas_reader_points(const fracas_reader *reader) { return &reader->points.table; }
+size_t fracas_reader_realizations(const fracas_reader *reader) { return reader->set[FRACAS_SET_REALIZATION].rows; }
+bool fracas_reader_has_interfaces(const fracas_reader *reader) { return reader->interfaces; }
+
+/* ---- rows ---- */
+
+static fracas_err read_block(fracas_reader *reader, int s, uint64_t row)
+{
+    const fracas_store_set *schema = &fracas_store_sets[s];
+    set_reader *set = &reader->set[s];
+    uint64_t block = BLOCK_CHUNKS * schema->chunk, first = row - row % block;
+    uint64_t count = set->rows - first < block ? set->rows - first : block;
+    set->count = 0;
+    for (size_t c = 0; c < schema->ncolumns; c++) {
+        const fracas_store_column *column = &schema->column[c];
+        if (!set->stored[c]) set->stored[c] = malloc(block * fracas_stored_size(column));
+        if (!set->stored[c]) return fracas_no_memory("the columns of a file");
+        TRY(fracas_h5_read_rows(&reader->h5, column, set->dataset[c], first, count, set->stored[c]));
+    }
+    set->first = first;
+    set->count = count;
+    return FRACAS_OK;
+}
+
+/* Rows first .. first+count-1, which must be in the set, into structs. */
+static fracas_err load_rows(fracas_reader *reader, int s, uint64_t first, size_t count, void *rows)
+{
+    const fracas_store_set *schema = &fracas_store_sets[s];
+    set_reader *set = &reader->set[s];
+    char *to = rows;
+    while (count > 0) {
+        if (first < set->first || first >= set->first + set->count) TRY(read_block(reader, s, first));
+        uint64_t at = first - set->first, there = set->count - at;
+        size_t take = count < there ? count : there;
+        for (size_t c = 0; c < schema->ncolumns; c++) {
+            const fracas_store_column *column = &schema->column[c];
+            fracas_rows_load(column, set->stored[c] + at * fracas_stored_size(column), take, to, schema->row_size);
+        }
+        first += take;
+        count -= take;
+        to += take * schema->row_size;
+    }
+    return FRACAS_OK;
+}
+
+/* The rows of realization `row` in a ragged set; *rows freed by the caller, NULL if there are none. */
+static fracas_err load_ragged(fracas_reader *reader, int offsets, int s, size_t row, void **rows, size_t *count)
+{
+    int64_t begin, end;
+    *rows = NULL;
+    *count = 0;
+    TRY(load_rows(reader, offsets, row, 1, &begin));
+    TRY(load_rows(reader, offsets, row + 1, 1, &end));
+    if (begin < 0 || end < begin || (uint64_t)end > reader->set[s].rows)
+        return damaged(reader, fracas_store_sets[offsets].column->path, "an offset is out of order");
+    if (begin == end) return FRACAS_OK;
+    *rows = calloc((size_t)(end - begin), fracas_store_sets[s].row_size);
+    if (!*rows) return fracas_no_memory("a record");
+    *count = (size_t)(end - begin);
+    return load_rows(reader, s, (uint64_t)begin, *count, *rows);
+}
+
+static fracas_err load_parts(fracas_reader *reader, size_t row, unsigned parts, fracas_record *record)
+{
+    void *rows;
+    if (parts & FRACAS_READ_FRAGMENTS) {
+        fracas_err err = load_ragged(reader, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT, row, &rows,
+                                     &record->nfragment);
+        record->fragment = rows;
+        TRY(err);
+        if (record->outcome != FRACAS_FAILED && (uint64_t)record->fragments != record->nfragment)
+            return damaged(reader, "/realization/fragments", "it is not the number of rows in /fragment");
+    }
+    if (parts & FRACAS_READ_HISTORY) {
+        fracas_err err = load_ragged(reader, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY, row, &rows,
+                                     &record->nhistory);
+        record->history = rows;
+        TRY(err);
+    }
+    if (parts & FRACAS_READ_INTERFACES && reader->interfaces) {
+        fracas_err err = load_ragged(reader, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE, row, &rows,
+                                     &record->ninterface);
+        record->interface = rows;
+        TRY(err);
+    }
+    return FRACAS_OK;
+}
+
+fracas_err fracas_reader_record(fracas_reader *reader, size_t row, unsigned parts, size_t *point, int64_t *replica,
+                                fracas_record *record)
+{
+    fracas_stored_realization stored = {0};
+    fracas_record_clear(record);
+    if (row >= fracas_reader_realizations(reader))
+        return fracas_fail(FRACAS_BUG, "%s has %zu realizations; row %zu was asked for", reader->path,
+                           fracas_reader_realizations(reader), row);
+    TRY(load_rows(reader, FRACAS_SET_REALIZATION, row, 1, &stored));
+    if (stored.point < 0 || (uint64_t)stored.point >= reader->points.table.npoints || stored.replica < 0)
+        return damaged(reader, "/realization/point", "a realization is of no point of the file");
+    if (stored.record.outcome < 0 || stored.record.outcome >= FRACAS_NOUTCOMES || stored.record.fragments < 0)
+        return damaged(reader, "/realization/outcome", "an outcome or a count is out of range");
+    *point = (size_t)stored.point;
+    *replica = stored.replica;
+    *record = stored.record;
+    fracas_err err = load_parts(reader, row, parts, record);
+    if (err) fracas_record_clear(record);
+    return err;
+}

@@ -1,0 +1,207 @@
+/* Sweeping a study after an interruption. */
+#include "campaigns/store/disk.h"
+#include "campaigns/store/pool.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static fracas_err remove_file(const char *path)
+{
+    return unlink(path) == 0 || errno == ENOENT ? FRACAS_OK : fracas_disk_fail("remove", path);
+}
+
+static int no_dots(const struct dirent *entry)
+{
+    return strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
+}
+
+/* Names in a folder, sorted, so that what recover does depends on nothing else. */
+static fracas_err list_folder(const char *folder, struct dirent ***entry, int *count)
+{
+    *count = scandir(folder, entry, no_dots, alphasort);
+    return *count < 0 ? fracas_disk_fail("list", folder) : FRACAS_OK;
+}
+
+static void free_list(struct dirent **entry, int count)
+{
+    for (int e = 0; e < count; e++) free(entry[e]);
+    if (count >= 0) free(entry);
+}
+
+static fracas_err remove_temporaries(const char *folder, FILE *report)
+{
+    struct dirent **entry;
+    int count;
+    TRY(list_folder(folder, &entry, &count));
+    fracas_err err = FRACAS_OK;
+    for (int e = 0; !err && e < count; e++) {
+        char *path;
+        if (!fracas_disk_is_temporary(entry[e]->d_name)) continue;
+        err = fracas_disk_join(folder, entry[e]->d_name, &path);
+        if (err) break;
+        err = remove_file(path);
+        if (!err) fprintf(report, "removed %s, half written\n", path);
+        free(path);
+    }
+    free_list(entry, count);
+    return err;
+}
+
+/* ---- segments that the index knows, but the folder has not ---- */
+
+static fracas_err is_there(const char *study, const fracas_known_segment *segment, bool *there)
+{
+    char *path;
+    struct stat info;
+    TRY(fracas_disk_segment(study, segment->name, &path));
+    int code = stat(path, &info);
+    fracas_err err = code < 0 && errno != ENOENT ? fracas_disk_fail("look at", path) : FRACAS_OK;
+    *there = code == 0 && (uint64_t)info.st_size == segment->seal.bytes;
+    free(path);
+    return err;
+}
+
+static fracas_err forget_lost(const char *study, fracas_index *index, FILE *report)
+{
+    fracas_known_segment *segment;
+    size_t count, nlost = 0;
+    int64_t rows = 0;
+    TRY(fracas_index_segments(index, &segment, &count));
+    int64_t *lost = calloc(count + 1, sizeof *lost);
+    fracas_err err = lost ? FRACAS_OK : fracas_no_memory("the list of segments");
+    for (size_t s = 0; !err && s < count; s++) {
+        bool there;
+        err = is_there(study, &segment[s], &there);
+        if (err || there) continue;
+        lost[nlost++] = segment[s].id;
+        fprintf(report, "segment %s is missing or has another size than the index says\n", segment[s].name);
+    }
+    if (!err) err = fracas_index_forget(index, lost, nlost, &rows);
+    if (!err && rows) fprintf(report, "%" PRId64 " realizations are planned again\n", rows);
+    free(lost);
+    fracas_index_segments_free(segment, count);
+    return err;
+}
+
+/* ---- segments that the folder has, but the index does not know ---- */
+
+/* Reads every record, so that every checksum of the file is looked at. */
+static fracas_err read_rows(fracas_reader *reader, fracas_index *index, fracas_segment_row *row)
+{
+    fracas_record record;
+    fracas_err err = FRACAS_OK;
+    fracas_record_init(&record);
+    for (size_t r = 0; !err && r < fracas_reader_realizations(reader); r++) {
+        size_t point;
+        fracas_place place;
+        err = fracas_reader_record(reader, r, FRACAS_READ_ALL, &point, &row[r].replica, &record);
+        if (err) break;
+        row[r].point = fracas_reader_points(reader)->point[point].hash;
+        row[r].row = (int64_t)r;
+        row[r].outcome = record.outcome;
+        row[r].fragments = record.fragments;
+        row[r].fragments_dust = record.fragments_dust;
+        row[r].steps = record.steps;
+        row[r].dissipated = record.dissipated;
+        row[r].residual = record.residual;
+        err = fracas_index_place(index, &row[r].point, row[r].replica, &place); /* FRACAS_DAMAGED: of no point here */
+    }
+    fracas_record_clear(&record);
+    return err;
+}
+
+static fracas_err adopt(const char *path, const char *name, fracas_index *index, size_t *count)
+{
+    fracas_reader *reader;
+    fracas_file_seal seal;
+    TRY(fracas_disk_seal_path(path, &seal));
+    TRY(fracas_reader_open(path, &reader));
+    *count = fracas_reader_realizations(reader);
+    fracas_segment_row *row = calloc(*count + 1, sizeof *row);
+    fracas_err err = row ? read_rows(reader, index, row) : fracas_no_memory("the rows of a segment");
+    if (!err) err = fracas_disk_sync_folder(path); /* whoever renamed it may have died before this */
+    if (!err) err = fracas_index_commit(index, name, &seal, row, *count, "{\"adopted\": true}");
+    free(row);
+    fracas_reader_close(reader);
+    return err;
+}
+
+static fracas_err adopt_or_remove(const char *path, const char *name, fracas_index *index, FILE *report)
+{
+    size_t count;
+    fracas_err err = adopt(path, name, index, &count);
+    if (!err) fprintf(report, "adopted %s with %zu realizations\n", path, count);
+    if (err != FRACAS_DAMAGED) return err;
+    TRY(remove_file(path));
+    fprintf(report, "removed %s: %s\n", path, fracas_message());
+    return FRACAS_OK;
+}
+
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(((const fracas_known_segment *)a)->name, ((const fracas_known_segment *)b)->name);
+}
+
+/* `segment` sorted by name. */
+static bool is_known(const fracas_known_segment *segment, size_t count, char *name)
+{
+    fracas_known_segment wanted = {.name = name};
+    return count > 0 && bsearch(&wanted, segment, count, sizeof *segment, compare_names);
+}
+
+static fracas_err adopt_orphans(const char *folder, fracas_index *index, FILE *report)
+{
+    struct dirent **entry;
+    int count;
+    fracas_known_segment *segment;
+    size_t nsegments;
+    TRY(fracas_index_segments(index, &segment, &nsegments));
+    if (nsegments) qsort(segment, nsegments, sizeof *segment, compare_names);
+    fracas_err err = list_folder(folder, &entry, &count);
+    for (int e = 0; !err && e < count; e++) {
+        char *name = entry[e]->d_name, *dot = strrchr(name, '.');
+        char *path;
+        if (name[0] == '.' || !dot || strcmp(dot, ".h5") != 0 || is_known(segment, nsegments, name)) continue;
+        err = fracas_disk_join(folder, name, &path);
+        if (err) break;
+        err = adopt_or_remove(path, name, index, report);
+        free(path);
+    }
+    free_list(entry, count);
+    fracas_index_segments_free(segment, nsegments);
+    return err;
+}
+
+static fracas_err recover(const char *study, fracas_index *index, FILE *report)
+{
+    char *folder;
+    TRY(fracas_disk_join(study, "segments", &folder));
+    fracas_err err = FRACAS_OK;
+    if (mkdir(folder, 0777) < 0 && errno != EEXIST) err = fracas_disk_fail("create", folder);
+    if (!err) err = remove_temporaries(study, report); /* of a merge */
+    if (!err) err = remove_temporaries(folder, report);
+    if (!err) err = forget_lost(study, index, report);
+    if (!err) err = adopt_orphans(folder, index, report);
+    free(folder);
+    return err;
+}
+
+fracas_err fracas_study_recover(const char *study, fracas_index *index, const fracas_point_table *table, char **report)
+{
+    size_t size;
+    *report = NULL;
+    /* First of all: a segment of a realization that the index does not know would be removed. */
+    TRY(fracas_index_plan(index, table));
+    FILE *text = open_memstream(report, &size);
+    if (!text) return fracas_no_memory("a report");
+    fracas_err err = recover(study, index, text);
+    if (fclose(text) != 0 && !err) err = fracas_no_memory("a report");
+    if (err) free(*report), *report = NULL;
+    return err;
+}

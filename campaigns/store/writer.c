@@ -1,0 +1,196 @@
+#include "campaigns/store/disk.h"
+#include "campaigns/store/table.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* The datasets of one set, and their rows that do not fill a chunk yet. */
+typedef struct {
+    hid_t dataset[FRACAS_MAX_COLUMNS];
+    unsigned char *stored[FRACAS_MAX_COLUMNS]; /* a chunk a column */
+    size_t waiting;                            /* rows in `stored` */
+    uint64_t written;                          /* rows in the file */
+} set_writer;
+
+struct fracas_writer {
+    fracas_h5 h5;
+    char *path, *temporary;
+    size_t npoints;
+    bool interfaces;
+    set_writer set[FRACAS_NSETS];
+    int64_t end[FRACAS_NSETS]; /* rows of a ragged set so far: the last offset */
+};
+
+static bool has_set(const fracas_writer *writer, int set)
+{
+    return writer->interfaces || (set != FRACAS_SET_INTERFACE_OFFSET && set != FRACAS_SET_INTERFACE);
+}
+
+static void writer_free(fracas_writer *writer)
+{
+    for (int s = 0; s < FRACAS_NSETS; s++)
+        for (size_t c = 0; c < fracas_store_sets[s].ncolumns; c++) free(writer->set[s].stored[c]);
+    fracas_h5_close(&writer->h5);
+    free(writer->path);
+    free(writer->temporary);
+    free(writer);
+}
+
+/* ---- rows ---- */
+
+static fracas_err flush(fracas_writer *writer, int s)
+{
+    set_writer *set = &writer->set[s];
+    if (!set->waiting) return FRACAS_OK;
+    for (size_t c = 0; c < fracas_store_sets[s].ncolumns; c++)
+        TRY(fracas_h5_append_rows(&writer->h5, &fracas_store_sets[s].column[c], set->dataset[c], set->written,
+                                  set->waiting, set->stored[c]));
+    set->written += set->waiting;
+    set->waiting = 0;
+    return FRACAS_OK;
+}
+
+static fracas_err put_rows(fracas_writer *writer, int s, const void *rows, size_t count)
+{
+    const fracas_store_set *schema = &fracas_store_sets[s];
+    set_writer *set = &writer->set[s];
+    const char *from = rows;
+    while (count > 0) {
+        size_t room = schema->chunk - set->waiting, take = count < room ? count : room;
+        for (size_t c = 0; c < schema->ncolumns; c++) {
+            const fracas_store_column *column = &schema->column[c];
+            if (fracas_rows_store(column, from, schema->row_size, take,
+                                  set->stored[c] + set->waiting * fracas_stored_size(column)))
+                return fracas_fail(FRACAS_BUG, "%s: %s: a value does not fit its type", writer->path, column->path);
+        }
+        set->waiting += take;
+        from += take * schema->row_size;
+        count -= take;
+        if (set->waiting == schema->chunk) TRY(flush(writer, s));
+    }
+    return FRACAS_OK;
+}
+
+/* Rows of one realization in a ragged set, and where they end in the set of offsets. */
+static fracas_err put_ragged(fracas_writer *writer, int offsets, int s, const void *rows, size_t count)
+{
+    if (!has_set(writer, s)) return FRACAS_OK;
+    TRY(put_rows(writer, s, rows, count));
+    writer->end[s] += (int64_t)count;
+    return put_rows(writer, offsets, &writer->end[s], 1);
+}
+
+/* ---- start ---- */
+
+static fracas_err write_header(const fracas_h5 *h5, const fracas_file_header *header)
+{
+    char hex[FRACAS_HASH_HEX];
+    fracas_hash_hex(&header->campaign, hex);
+    TRY(fracas_h5_put_integer(h5, "/", "format_version", H5T_STD_I32LE, FRACAS_FORMAT_VERSION));
+    TRY(fracas_h5_put_text(h5, "/", "campaign", hex));
+    TRY(fracas_h5_put_integer(h5, "/", "seed", H5T_STD_U64LE, header->seed));
+    return fracas_h5_put_text(h5, "/", "program_version", header->version);
+}
+
+static fracas_err create_set(fracas_writer *writer, int s)
+{
+    const fracas_store_set *schema = &fracas_store_sets[s];
+    for (size_t c = 0; c < schema->ncolumns; c++) {
+        const fracas_store_column *column = &schema->column[c];
+        TRY(fracas_h5_create_column(&writer->h5, column, schema->chunk, &writer->set[s].dataset[c]));
+        /* Zeroed, so that the unused end of a last chunk is never what malloc found. */
+        writer->set[s].stored[c] = calloc(schema->chunk, fracas_stored_size(column));
+        if (!writer->set[s].stored[c]) return fracas_no_memory("the columns of a file");
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err create_sets(fracas_writer *writer)
+{
+    static const int ragged[][2] = {{FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT},
+                                    {FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY},
+                                    {FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE}};
+    static const char *const group[] = {"/fragment", "/history", "/interface"};
+    TRY(fracas_h5_create_group(&writer->h5, "/realization"));
+    TRY(create_set(writer, FRACAS_SET_REALIZATION));
+    for (int g = 0; g < 3; g++) {
+        if (!has_set(writer, ragged[g][0])) continue;
+        TRY(fracas_h5_create_group(&writer->h5, group[g]));
+        TRY(create_set(writer, ragged[g][0]));
+        TRY(create_set(writer, ragged[g][1]));
+        TRY(put_ragged(writer, ragged[g][0], ragged[g][1], NULL, 0)); /* the first offset, 0 */
+    }
+    return FRACAS_OK;
+}
+
+fracas_err fracas_writer_create(const char *path, const fracas_file_header *header, const fracas_point_table *table,
+                                bool interfaces, fracas_writer **writer)
+{
+    *writer = calloc(1, sizeof **writer);
+    if (!*writer) return fracas_no_memory("a file");
+    fracas_writer *w = *writer;
+    w->h5 = (fracas_h5){.id = H5I_INVALID_HID, .fd = -1};
+    w->npoints = table->npoints;
+    w->interfaces = interfaces;
+    fracas_err err = (w->path = strdup(path)) ? fracas_disk_temporary(path, &w->temporary) : fracas_no_memory("a file");
+    if (!err) err = fracas_h5_create(&w->h5, w->temporary, w->path);
+    if (!err) err = write_header(&w->h5, header);
+    if (!err) err = fracas_table_write(&w->h5, table);
+    if (!err) err = create_sets(w);
+    if (!err) return FRACAS_OK;
+    fracas_writer_abandon(w);
+    *writer = NULL;
+    return err;
+}
+
+/* ---- records and the end ---- */
+
+static bool is_consistent(const fracas_writer *writer, size_t point, int64_t replica, const fracas_record *record)
+{
+    bool failed = record->outcome == FRACAS_FAILED;
+    return point < writer->npoints && point <= INT32_MAX && replica >= 0 && record->outcome >= 0 &&
+           record->outcome < FRACAS_NOUTCOMES && record->fragments_dust >= 0 &&
+           record->fragments_dust <= record->fragments &&
+           (failed || record->nfragment == (uint64_t)record->fragments);
+}
+
+fracas_err fracas_writer_append(fracas_writer *writer, size_t point, int64_t replica, const fracas_record *record)
+{
+    if (!is_consistent(writer, point, replica, record))
+        return fracas_fail(FRACAS_BUG, "%s: point %zu, replica %lld: the record contradicts itself or the point table",
+                           writer->path, point, (long long)replica);
+    fracas_stored_realization row = {(int64_t)point, replica, *record};
+    TRY(put_rows(writer, FRACAS_SET_REALIZATION, &row, 1));
+    TRY(put_ragged(writer, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT, record->fragment, record->nfragment));
+    TRY(put_ragged(writer, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY, record->history, record->nhistory));
+    return put_ragged(writer, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE, record->interface,
+                      record->ninterface);
+}
+
+static fracas_err finish(fracas_writer *writer, bool complete, fracas_file_seal *seal)
+{
+    for (int s = 0; s < FRACAS_NSETS; s++)
+        if (has_set(writer, s)) TRY(flush(writer, s));
+    TRY(fracas_h5_put_integer(&writer->h5, "/", "complete", H5T_STD_I8LE, complete));
+    TRY(fracas_h5_flush_close(&writer->h5));
+    TRY(fracas_disk_seal(writer->h5.fd, writer->path, seal));
+    if (fsync(writer->h5.fd) < 0) return fracas_disk_fail("sync", writer->path);
+    if (rename(writer->temporary, writer->path) < 0) return fracas_disk_fail("rename to", writer->path);
+    return fracas_disk_sync_folder(writer->path);
+}
+
+fracas_err fracas_writer_finish(fracas_writer *writer, bool complete, fracas_file_seal *seal)
+{
+    fracas_err err = finish(writer, complete, seal);
+    if (err) fracas_writer_abandon(writer);
+    else writer_free(writer);
+    return err;
+}
+
+void fracas_writer_abandon(fracas_writer *writer)
+{
+    if (!writer) return;
+    if (writer->temporary) unlink(writer->temporary); /* not there any more if only the last sync failed */
+    writer_free(writer);
+}

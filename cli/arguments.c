@@ -1,0 +1,123 @@
+#include "cli/cli.h"
+
+#include "campaigns/file/say.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What getopt_long returns for options[i]; -h is 'h'. */
+enum { FIRST_OPTION = 256 };
+
+static fracas_err unknown_option(const fracas_command *command, const char *given)
+{
+    const char *name = given + strspn(given, "-");
+    char found[64], hint[600];
+    snprintf(found, sizeof found, "--%.*s", (int)strcspn(name, "="), name);
+    fracas_words words;
+    fracas_words_init(&words, found);
+    char option[FRACAS_MOST_OPTIONS][32];
+    for (size_t i = 0; i < command->noptions; i++) {
+        snprintf(option[i], sizeof option[i], "--%s", command->options[i].name);
+        fracas_words_add(&words, option[i]);
+    }
+    fracas_words_add(&words, "--help");
+    return fracas_fail(FRACAS_USAGE, "%s: unknown option `%s`%s", command->name, given,
+                       fracas_words_hint(&words, "it knows", hint));
+}
+
+static fracas_err read_options(const fracas_command *command, fracas_arguments *arguments)
+{
+    struct option table[FRACAS_MOST_OPTIONS + 2] = {{"help", no_argument, NULL, 'h'}};
+    for (size_t i = 0; i < command->noptions; i++) {
+        const fracas_option *option = &command->options[i];
+        table[i + 1] = (struct option){option->name, option->argument ? required_argument : no_argument, NULL,
+                                       FIRST_OPTION + (int)i};
+    }
+
+    optind = 2;
+    opterr = 0;
+    int found;
+    while ((found = getopt_long(arguments->argc, arguments->argv, ":h", table, NULL)) != -1) {
+        if (found == 'h') arguments->help = true;
+        else if (found >= FIRST_OPTION) arguments->value[found - FIRST_OPTION] = optarg ? optarg : "";
+        else if (optopt < FIRST_OPTION) {
+            const char letter[] = {'-', (char)optopt, '\0'};
+            return unknown_option(command, optopt ? letter : arguments->argv[optind - 1]);
+        }
+        else {
+            const fracas_option *option = &command->options[optopt - FIRST_OPTION];
+            if (found == ':')
+                return fracas_fail(FRACAS_USAGE, "%s: --%s needs a value: --%s %s", command->name, option->name,
+                                   option->name, option->argument);
+            return fracas_fail(FRACAS_USAGE, "%s: --%s takes no value", command->name, option->name);
+        }
+    }
+    return FRACAS_OK;
+}
+
+fracas_err fracas_arguments_read(const fracas_command *command, int argc, char **argv, fracas_arguments *arguments)
+{
+    *arguments = (fracas_arguments){.command = command, .argc = argc, .argv = argv};
+    TRY(read_options(command, arguments));
+    if (arguments->help) return FRACAS_OK;
+    if (command->operand && optind < argc) arguments->operand = argv[optind++];
+    if (optind < argc)
+        return fracas_fail(FRACAS_USAGE, "%s: one argument too many: `%s`; see `fracas help %s`", command->name,
+                           argv[optind], command->name);
+    if (command->operand && !arguments->operand)
+        return fracas_fail(FRACAS_USAGE, "%s: %s is missing: fracas %s %s", command->name, command->operand,
+                           command->name, command->operand);
+    return FRACAS_OK;
+}
+
+fracas_err fracas_arguments_integer(const fracas_arguments *arguments, size_t i,
+                                    int minimum, int maximum, int *value)
+{
+    const char *text = arguments->value[i];
+    if (!text) return FRACAS_OK;
+    char *end;
+    errno = 0;
+    long number = strtol(text, &end, 10);
+    if (end == text || *end || errno || number < minimum || number > maximum)
+        return fracas_fail(FRACAS_USAGE, "%s: --%s is `%s`; it must be a whole number from %d to %d",
+                           arguments->command->name, arguments->command->options[i].name, text, minimum, maximum);
+    *value = (int)number;
+    return FRACAS_OK;
+}
+
+fracas_err fracas_arguments_real(const fracas_arguments *arguments, size_t i,
+                                 double scale, double *value)
+{
+    const char *text = arguments->value[i];
+    if (!text) return FRACAS_OK;
+    char *end;
+    double number = strtod(text, &end) * scale;
+    if (end == text || *end || !isfinite(number) || number < 0)
+        return fracas_fail(FRACAS_USAGE, "%s: --%s is `%s`; it must be a number, 0 or more", arguments->command->name,
+                           arguments->command->options[i].name, text);
+    *value = number;
+    return FRACAS_OK;
+}
+
+fracas_err fracas_arguments_word(const fracas_arguments *arguments, size_t i,
+                                 const char *const *words, size_t count, int *value)
+{
+    const char *text = arguments->value[i];
+    if (!text) return FRACAS_OK;
+    fracas_words known;
+    fracas_words_init(&known, text);
+    for (size_t k = 0; k < count; k++) {
+        if (!strcmp(words[k], text)) {
+            *value = (int)k;
+            return FRACAS_OK;
+        }
+        fracas_words_add(&known, words[k]);
+    }
+    char hint[600];
+    return fracas_fail(FRACAS_USAGE, "%s: --%s is `%s`%s", arguments->command->name,
+                       arguments->command->options[i].name, text, fracas_words_hint(&known, "it can be", hint));
+}

@@ -1,0 +1,63 @@
+/* The subcommands of fracas, and the command line that they share. */
+#ifndef FRACAS_CLI_CLI_H
+#define FRACAS_CLI_CLI_H
+
+#include "base/err.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct {
+    const char *name;     /* "jobs" for --jobs */
+    const char *argument; /* what the help calls its value; NULL: it takes none */
+    const char *doc;
+} fracas_option;
+
+enum { FRACAS_MOST_OPTIONS = 12 }; /* of one subcommand */
+
+typedef struct fracas_arguments fracas_arguments;
+
+/* A subcommand is one file with one const fracas_command and one line in main.c. */
+typedef struct {
+    const char *name;
+    const char *operand; /* the one argument that is no option, as the help calls it; NULL: there is none */
+    const char *doc;     /* one sentence, no full stop */
+    const char *more;    /* paragraph for `fracas help NAME` */
+    const fracas_option *options;
+    size_t noptions;
+    fracas_err (*run)(const fracas_arguments *arguments);
+} fracas_command;
+
+extern const fracas_command fracas_command_run, fracas_command_plan, fracas_command_status, fracas_command_report,
+    fracas_command_verify, fracas_command_reference;
+
+struct fracas_arguments {
+    const fracas_command *command;
+    const char *operand;
+    const char *value[FRACAS_MOST_OPTIONS]; /* of command->options[i]; NULL: not given; "" if it takes none */
+    bool help;                              /* --help was given: then nothing else is checked */
+    int argc;                               /* the program's, options moved to the front */
+    char **argv;
+};
+
+/* Reads the program's command line, argv[1] being the command's name. FRACAS_USAGE for an unknown option (naming the
+ * nearest), a missing or extra argument. */
+FRACAS_MUST_USE fracas_err fracas_arguments_read(const fracas_command *command, int argc, char **argv,
+                                                 fracas_arguments *arguments);
+
+/* The value of option `i` as a whole number in [minimum, maximum]; *value stays as it is if it was not given.
+ * FRACAS_USAGE for anything else. */
+FRACAS_MUST_USE fracas_err fracas_arguments_integer(const fracas_arguments *arguments, size_t i, int minimum, int maximum, int *value);
+/* The same for a finite number >= 0, times `scale`. */
+FRACAS_MUST_USE fracas_err fracas_arguments_real(const fracas_arguments *arguments, size_t i, double scale, double *value);
+/* The same for one of `count` words: *value becomes its place. */
+FRACAS_MUST_USE fracas_err fracas_arguments_word(const fracas_arguments *arguments, size_t i, const char *const *words, size_t count, int *value);
+
+/* FRACAS_DAMAGED, saying what makes one, where `study` is no folder of a study. */
+FRACAS_MUST_USE fracas_err fracas_cli_check_study(const char *study);
+
+/* Prints the result table and writes the report of a study that is complete; with `json` prints the statistics as
+ * JSON instead of the table. What `fracas run` ends with and `fracas report` does. */
+FRACAS_MUST_USE fracas_err fracas_cli_report(const char *study, bool json);
+
+#endif

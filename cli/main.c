@@ -1,0 +1,102 @@
+/* fracas: the program. Its subcommands are one file each; what they share is cli.h. */
+#include "cli/cli.h"
+
+#include "base/version.h"
+#include "campaigns/file/say.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const fracas_command *const commands[] = {
+    &fracas_command_run,    &fracas_command_plan,   &fracas_command_status,
+    &fracas_command_report, &fracas_command_verify, &fracas_command_reference,
+};
+enum { NCOMMANDS = sizeof commands / sizeof *commands };
+
+static void print_usage(FILE *out)
+{
+    fputs("fracas " FRACAS_VERSION ": from a campaign file to a report of fragment statistics\n\nusage:\n", out);
+    for (size_t i = 0; i < NCOMMANDS; i++) {
+        char call[40];
+        snprintf(call, sizeof call, "%s %s", commands[i]->name, commands[i]->operand ? commands[i]->operand : "");
+        fprintf(out, "  fracas %-15s %s\n", call, commands[i]->doc);
+    }
+    fputs("  fracas help COMMAND    what COMMAND does, and its options\n"
+          "  fracas --version       the version\n", out);
+}
+
+static void print_help(const fracas_command *command)
+{
+    printf("usage: fracas %s%s%s%s\n\n%s.\n%s", command->name, command->operand ? " " : "",
+           command->operand ? command->operand : "", command->noptions ? " [options]" : "", command->doc, command->more);
+    if (command->noptions) puts("\noptions:");
+    for (size_t i = 0; i < command->noptions; i++) {
+        const fracas_option *option = &command->options[i];
+        char call[40];
+        snprintf(call, sizeof call, "--%s %s", option->name, option->argument ? option->argument : "");
+        printf("  %-28s %s\n", call, option->doc);
+    }
+}
+
+static fracas_err find_command(const char *name, const fracas_command **command)
+{
+    fracas_words words;
+    fracas_words_init(&words, name);
+    for (size_t i = 0; i < NCOMMANDS; i++) {
+        *command = commands[i];
+        if (!strcmp(commands[i]->name, name)) return FRACAS_OK;
+        fracas_words_add(&words, commands[i]->name);
+    }
+    fracas_words_add(&words, "help");
+    char hint[600];
+    return fracas_fail(FRACAS_USAGE, "unknown command `%s`%s", name, fracas_words_hint(&words, "there are", hint));
+}
+
+static fracas_err run_command(int argc, char **argv)
+{
+    const fracas_command *command;
+    fracas_arguments arguments;
+    TRY(find_command(argv[1], &command));
+    TRY(fracas_arguments_read(command, argc, argv, &arguments));
+    if (!arguments.help) return command->run(&arguments);
+    print_help(command);
+    return FRACAS_OK;
+}
+
+static fracas_err help(int argc, char **argv)
+{
+    if (argc < 3) {
+        print_usage(stdout);
+        return FRACAS_OK;
+    }
+    const fracas_command *command;
+    TRY(find_command(argv[2], &command));
+    print_help(command);
+    return FRACAS_OK;
+}
+
+static fracas_err dispatch(int argc, char **argv)
+{
+    if (argc < 2) {
+        print_usage(stderr);
+        return fracas_fail(FRACAS_USAGE, "no command given");
+    }
+    if (!strcmp(argv[1], "help") || !strcmp(argv[1], "--help") || !strcmp(argv[1], "-h")) return help(argc, argv);
+    if (!strcmp(argv[1], "--version")) {
+        puts("fracas " FRACAS_VERSION);
+        return FRACAS_OK;
+    }
+    return run_command(argc, argv);
+}
+
+int main(int argc, char **argv)
+{
+    fracas_err code = dispatch(argc, argv);
+    if ((fflush(stdout) || ferror(stdout)) && !code)
+        code = fracas_fail(FRACAS_ENVIRONMENT, "the output could not be written; is the disk full?");
+    if (code) fprintf(stderr, "fracas: %s\n", fracas_message());
+    if (code == FRACAS_BUG)
+        fputs("fracas: this is a fault of fracas, not yours. Please report it with this message, the version (" FRACAS_VERSION
+              "),\nfracas: the command line, and the campaign file or, if there is one, the study folder.\n", stderr);
+    return code;
+}

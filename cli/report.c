@@ -1,0 +1,44 @@
+#include "cli/cli.h"
+
+#include "analysis/analysis.h"
+#include "base/param.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { JSON };
+static const fracas_option options[] = {[JSON] = {"json", NULL, "print the statistics as JSON"}};
+
+fracas_err fracas_cli_check_study(const char *study)
+{
+    char file[PATH_MAX];
+    snprintf(file, sizeof file, "%s/campaign.yaml", study);
+    if (!access(file, R_OK)) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED, "%s is no study: %s: %s; `fracas run FILE` makes one", study, file, strerror(errno));
+}
+
+fracas_err fracas_cli_report(const char *study, bool json)
+{
+    fracas_analysis *analysis;
+    TRY(fracas_cli_check_study(study));
+    TRY(fracas_analysis_create(study, &analysis));
+    if (json) fracas_analysis_write_json(analysis, stdout);
+    else fracas_analysis_print_table(analysis, stdout);
+    fracas_err code = fracas_report_write(analysis, study);
+    fracas_analysis_destroy(analysis);
+    if (!code && !json) printf("report: %s/report/index.html\n", study);
+    return code;
+}
+
+static fracas_err report(const fracas_arguments *arguments)
+{
+    return fracas_cli_report(arguments->operand, arguments->value[JSON]);
+}
+
+const fracas_command fracas_command_report = {
+    .name = "report", .operand = "STUDY", .doc = "Prints the result table and writes STUDY/report",
+    .more = "\nThe report is index.html with its figures, and the numbers as CSV files.\n",
+    .options = options, .noptions = FRACAS_COUNT(options), .run = report,
+};

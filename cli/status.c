@@ -1,0 +1,172 @@
+#include "cli/cli.h"
+
+#include "analysis/statistics.h"
+#include "base/json.h"
+#include "base/param.h"
+#include "campaigns/campaign.h"
+#include "campaigns/store/store.h"
+
+#include <inttypes.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { JSON };
+static const fracas_option options[] = {[JSON] = {"json", NULL, "print it as JSON"}};
+
+/* What there is to say: all realizations, and those of each point. */
+typedef struct {
+    const char *study;
+    const fracas_campaign *campaign;
+    fracas_index *index;
+    bool complete;               /* study.h5 is there and nothing is left to compute */
+    fracas_index_counts all;
+    fracas_index_counts *point;  /* campaign->npoints */
+} fracas_status;
+
+static void write_counts(fracas_json *json, const fracas_index_counts *counts)
+{
+    fracas_json_integer(json, "realizations", counts->realizations);
+    fracas_json_integer(json, "done", counts->done);
+    fracas_json_integer(json, "failed", counts->failed);
+    fracas_json_integer(json, "leased", counts->leased);
+    fracas_json_integer(json, "planned", counts->planned);
+    fracas_json_object(json, "outcomes");
+    for (int o = 0; o < FRACAS_NOUTCOMES; o++) fracas_json_integer(json, fracas_outcome_name(o), counts->outcome[o]);
+    fracas_json_close_object(json);
+}
+
+static void write_failure(void *json, const fracas_index_row *row, const char *reason)
+{
+    fracas_json_object(json, NULL);
+    fracas_json_integer(json, "point", (int64_t)row->point);
+    fracas_json_integer(json, "replica", row->replica);
+    fracas_json_integer(json, "attempts", row->attempts);
+    fracas_json_text(json, "reason", reason);
+    fracas_json_close_object(json);
+}
+
+static fracas_err write_json(const fracas_status *status)
+{
+    fracas_json json;
+    fracas_json_begin(&json, stdout);
+    fracas_json_object(&json, NULL);
+    fracas_json_text(&json, "study", status->study);
+    fracas_json_text(&json, "campaign", status->campaign->name);
+    fracas_json_boolean(&json, "complete", status->complete);
+    write_counts(&json, &status->all);
+    fracas_json_integer(&json, "segments", status->all.segments);
+    fracas_json_integer(&json, "bytes", status->all.bytes);
+    fracas_json_array(&json, "points");
+    for (size_t i = 0; i < status->campaign->npoints; i++) {
+        char hash[FRACAS_HASH_HEX];
+        fracas_hash_hex(&status->campaign->point[i].hash, hash);
+        fracas_json_object(&json, NULL);
+        fracas_json_text(&json, "hash", hash);
+        write_counts(&json, &status->point[i]);
+        fracas_json_close_object(&json);
+    }
+    fracas_json_close_array(&json);
+    fracas_json_array(&json, "failures");
+    fracas_err code = fracas_index_failures(status->index, &status->campaign->table, write_failure, &json);
+    fracas_json_close_array(&json);
+    fracas_json_close_object(&json);
+    fracas_json_end(&json);
+    return code;
+}
+
+/* Columns whose value is not the same at every point: what the sweep varies. */
+static bool varies(const fracas_point_table *table, size_t column)
+{
+    for (size_t i = 1; i < table->npoints; i++) {
+        const fracas_value *first = &table->point[0].value[column], *value = &table->point[i].value[column];
+        if (strcmp(first->text, value->text) || memcmp(&first->real, &value->real, sizeof value->real)) return true;
+    }
+    return false;
+}
+
+static void print_points(const fracas_status *status)
+{
+    const fracas_point_table *table = &status->campaign->table;
+    fputs("\nrealizations    done  failed  point\n", stdout);
+    for (size_t i = 0; i < table->npoints; i++) {
+        const fracas_index_counts *counts = &status->point[i];
+        printf("%12" PRId64 "%8" PRId64 "%8" PRId64 "  %zu", counts->realizations, counts->done, counts->failed, i);
+        for (size_t c = 0; c < table->ncolumns; c++) {
+            if (!varies(table, c)) continue;
+            const fracas_value *value = &table->point[i].value[c];
+            if (table->column[c].text) printf(" %s=%s", table->column[c].path, value->text);
+            else printf(" %s=%g", table->column[c].path, value->real);
+        }
+        putchar('\n');
+    }
+}
+
+static void print_failure(void *any, const fracas_index_row *row, const char *reason)
+{
+    bool *first = any;
+    if (*first) fputs("\nfailed\n", stdout);
+    *first = false;
+    printf("  point %zu replica %" PRId64 ", %" PRId64 " attempts: %s\n", row->point, row->replica, row->attempts, reason);
+}
+
+static fracas_err print_text(const fracas_status *status)
+{
+    const fracas_index_counts *all = &status->all;
+    printf("study         %s, of campaign %s\n", status->study, status->campaign->name);
+    printf("state         %s\n", status->complete ? "complete"
+                                                  : "not complete: under way, or `fracas run` with the campaign file resumes it");
+    printf("realizations  %" PRId64 ": %" PRId64 " done, %" PRId64 " failed, %" PRId64 " leased, %" PRId64 " planned\n",
+           all->realizations, all->done, all->failed, all->leased, all->planned);
+    fputs("outcomes     ", stdout);
+    for (int o = 0; o < FRACAS_NOUTCOMES; o++)
+        if (all->outcome[o]) printf(" %" PRId64 " %s", all->outcome[o], fracas_outcome_name(o));
+    printf("\nsegments      %" PRId64 ", %.1f MB\n", all->segments, (double)all->bytes / 1e6);
+    print_points(status);
+    bool first = true;
+    return fracas_index_failures(status->index, &status->campaign->table, print_failure, &first);
+}
+
+static fracas_err count(fracas_status *status)
+{
+    const fracas_campaign *campaign = status->campaign;
+    TRY(fracas_index_count(status->index, &status->all));
+    for (size_t i = 0; i < campaign->npoints; i++)
+        TRY(fracas_index_count_point(status->index, &campaign->point[i].hash, &status->point[i]));
+    char result[PATH_MAX];
+    snprintf(result, sizeof result, "%s/study.h5", status->study);
+    status->complete = !access(result, R_OK) && status->all.done + status->all.failed == status->all.realizations;
+    return FRACAS_OK;
+}
+
+static fracas_err look(const fracas_campaign *campaign, const fracas_arguments *arguments)
+{
+    fracas_status status = {.study = arguments->operand, .campaign = campaign};
+    TRY(fracas_index_open(status.study, false, &status.index));
+    status.point = calloc(campaign->npoints, sizeof *status.point);
+    fracas_err code = status.point ? count(&status) : fracas_no_memory("the counts of the points");
+    if (!code) code = arguments->value[JSON] ? write_json(&status) : print_text(&status);
+    free(status.point);
+    fracas_index_close(status.index);
+    return code;
+}
+
+static fracas_err status(const fracas_arguments *arguments)
+{
+    const char *study = arguments->operand;
+    char file[PATH_MAX];
+    fracas_campaign *campaign;
+    TRY(fracas_cli_check_study(study));
+    snprintf(file, sizeof file, "%s/campaign.yaml", study);
+    TRY(fracas_campaign_read(file, &campaign));
+    fracas_err code = look(campaign, arguments);
+    fracas_campaign_destroy(campaign);
+    return code;
+}
+
+const fracas_command fracas_command_status = {
+    .name = "status", .operand = "STUDY", .doc = "Says how far STUDY is, point by point",
+    .more = "\nIt only looks: it can be asked while the study is being computed.\n",
+    .options = options, .noptions = FRACAS_COUNT(options), .run = status,
+};

@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""The result table of a study from study.h5 alone: h5py and numpy, no code of fracas.
+
+usage: table_from_study.py STUDY/study.h5
+
+Prints a line a point, tab-separated, in SI units; the columns are the keys of the JSON summary of `fracas report`.
+"""
+import math
+import sys
+
+import h5py
+import numpy as np
+
+USABLE = {0: "FRAGMENTED", 1: "INTACT", 2: "TIME_LIMIT"}
+OUTCOMES = ["FRAGMENTED", "INTACT", "TIME_LIMIT", "NONFINITE", "ENERGY_DRIFT", "FAILED"]
+
+
+def student_cdf(t, n):
+    """P(T <= t) for n degrees of freedom, t >= 0 (Abramowitz & Stegun 26.7.3 and 26.7.4)."""
+    theta = math.atan(t / math.sqrt(n))
+    cos2 = math.cos(theta) ** 2
+    term = math.cos(theta) if n % 2 else 1.0
+    total = 0.0
+    for k in range(1 if n % 2 else 0, n - 1, 2):
+        total += term
+        term *= cos2 * (k + 1) / (k + 2)
+    central = math.sin(theta) * total
+    if n % 2:
+        central = 2 / math.pi * (theta + central)
+    return 0.5 + central / 2
+
+
+def student_quantile(p, n):
+    low, high = 0.0, 1e3
+    while high - low > 1e-13 * high:
+        middle = (low + high) / 2
+        low, high = (middle, high) if student_cdf(middle, n) < p else (low, middle)
+    return (low + high) / 2
+
+
+def estimate(row, key, values):
+    """Mean over replicas, its standard deviation and the half width of its 95 % interval."""
+    values = values[np.isfinite(values)]
+    n = len(values)
+    deviation = values.std(ddof=1) if n > 1 else math.nan
+    row[key + ".n"] = n
+    row[key + ".mean"] = values.mean() if n else math.nan
+    row[key + ".deviation"] = deviation
+    row[key + ".half_width"] = student_quantile(0.975, n - 1) * deviation / math.sqrt(n) if n > 1 else math.nan
+
+
+def laws(row, young, density, strength, fracture_energy, rate):
+    """Scales and mean-size laws (docs/theory/size-laws.md)."""
+    speed = math.sqrt(young / density)
+    row["scale.size"] = s0 = young * fracture_energy / strength**2
+    row["scale.rate"] = rate0 = speed * strength**3 / (young**2 * fracture_energy)
+    e = rate / rate0
+    row["law.zmr"] = s0 * 4.5 / (1 + 4.5 * e ** (2 / 3))
+    row["law.grady"] = s0 * (24 / e**2) ** (1 / 3)
+    row["law.glenn_chudnovsky"] = s0 * 4 / e * math.sinh(math.asinh(1.5 * e) / 3)
+    row["law.zmr2"] = s0 * 4.5 / (1 + 0.77 * e**0.25 + 5.4 * e**0.75)
+
+
+def largest_ratio(values, dissipated):
+    cracked = dissipated > 0
+    return (values[cracked] / dissipated[cracked]).max() if cracked.any() else math.nan
+
+
+def table(path):
+    with h5py.File(path, "r") as study:
+        point = {name: column[()] for name, column in study["point"].items()}
+        realization = {name: column[()] for name, column in study["realization"].items()}
+        offset = study["fragment/offset"][()]
+        elements, dust = study["fragment/elements"][()], study["fragment/dust"][()]
+    rows = []
+    for p in range(len(point["hash"])):
+        mine = realization["point"] == p
+        used = mine & np.isin(realization["outcome"], list(USABLE))
+        of = {name: column[used] for name, column in realization.items()}
+        row = {"rate": point["loading.rate"][p], "realizations": mine.sum(), "usable": used.sum(),
+               "unusable": mine.sum() - used.sum()}
+        estimate(row, "count", of["fragments"].astype(float))
+        estimate(row, "count_large", (of["fragments"] - of["fragments_dust"]).astype(float))
+        estimate(row, "size", point["geometry.length"][p] / of["fragments"])
+        estimate(row, "dissipated", of["dissipated"])
+        estimate(row, "onset_time", of["onset_time"])
+        row["residual"] = largest_ratio(of["residual"], of["dissipated"])
+        row["created"] = largest_ratio(of["created"], of["dissipated"])
+        fragment = np.zeros(len(elements), bool)
+        for i in np.flatnonzero(used):
+            fragment[offset[i]:offset[i + 1]] = True
+        row["elements"] = elements[fragment].mean() if fragment.any() else math.nan
+        row["dust_share"] = dust[fragment].mean() if fragment.any() else math.nan
+        laws(row, point["material.young"][p], point["material.density"][p], point["derived.strength_mean"][p],
+             point["cohesive.fracture_energy"][p], point["loading.rate"][p])
+        for o, name in enumerate(OUTCOMES):
+            row[name] = (realization["outcome"][mine] == o).sum()
+        rows.append(row)
+    return rows
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    rows = table(sys.argv[1])
+    print(*rows[0], sep="\t")
+    for row in rows:
+        print(*(f"{value:.15g}" for value in row.values()), sep="\t")

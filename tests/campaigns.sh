@@ -1,0 +1,103 @@
+# For shell tests that run campaigns; sourced with the build folder in $1. Works in a folder of its own, $work.
+set -eu
+fracas=$(cd "$1" && pwd)/fracas
+source=$(pwd)
+work=$(mktemp -d)
+trap 'status=$?; kill_session; rm -rf "$work"; exit $status' EXIT
+cd "$work"
+session= # of the run in the background, if there is one
+
+fail()
+{
+    echo "FAILED: $*" >&2
+    exit 1
+}
+
+# campaign FILE REPLICAS RATES: two or three seconds of one core at most; several fragments in each realization.
+campaign()
+{
+    cat > "$1" <<END
+name: small
+seed: 7
+model: bar
+geometry: {ends: periodic, length: 10 mm, area: 1 mm2}
+mesh: {elements: 500}
+material: {young: 275 GPa, density: 2750 kg/m3}
+cohesive: {law: nitsche, fracture_energy: 100 J/m2, beta: 4}
+strength: {distribution: uniform, minimum: 299 MPa, maximum: 301 MPa}
+loading: {type: imposed-rate, rate: 1e5 1/s}
+time: {stop: settled, end: 300 ns, quiet: 50 ns, safety: 0.25}
+sweep:
+  - loading.rate: [$3]
+replicas: $2
+output: {history: 20, interfaces: true}
+END
+}
+
+# expect STATUS COMMAND...: what the command says goes to $work/said.
+expect()
+{
+    expected=$1
+    shift
+    status=0
+    "$@" > said 2>&1 || status=$?
+    [ $status -eq "$expected" ] || { cat said >&2; fail "status $status instead of $expected: $*"; }
+}
+
+said()
+{
+    grep -q "$1" said || { cat said >&2; fail "it should have said: $1"; }
+}
+
+same()
+{
+    cmp "$1/study.h5" "$2/study.h5" || fail "$1 and $2 differ"
+}
+
+segments()
+{
+    ls "$1/segments" 2>/dev/null | grep -c '\.h5$' || true
+}
+
+# start ARGUMENTS...: fracas run in the background, in a session of its own; waits below end after a minute.
+start()
+{
+    setsid "$fracas" run "$@" > background 2>&1 &
+    session=$!
+}
+
+# wait_segments STUDY COUNT
+wait_segments()
+{
+    tries=0
+    while [ "$(segments "$1")" -lt "$2" ]; do
+        tries=$((tries + 1))
+        [ $tries -lt 6000 ] || fail "no $2 segments in $1"
+        sleep 0.01
+    done
+}
+
+# Every process of the session: parent, mpirun, ranks, servers, children (the session is the sixth word of stat).
+processes()
+{
+    cat /proc/[0-9]*/stat 2>/dev/null | sed 's/([^)]*)/x/' | awk -v session="$session" '$6 == session && $3 != "Z" {print $1}'
+}
+
+kill_session()
+{
+    [ -n "$session" ] || return 0
+    tries=0
+    while pids=$(processes) && [ -n "$pids" ]; do
+        kill -9 $pids 2>/dev/null || true
+        tries=$((tries + 1))
+        [ $tries -lt 1000 ] || { echo "processes do not die: $pids" >&2; exit 1; }
+    done
+    wait "$session" 2>/dev/null || true
+    session=
+}
+
+# random LOW HIGH
+random()
+{
+    echo $(($1 + $(od -An -N2 -tu2 /dev/urandom) % ($2 - $1 + 1)))
+}

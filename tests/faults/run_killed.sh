@@ -1,0 +1,35 @@
+# Three times kill -9 of every process of a run (parent, mpirun, ranks, servers, children) at random times, each
+# after the first and before the last segment; what is resumed to its end is what an undisturbed run gives.
+. tests/campaigns.sh
+
+campaign small.yaml 20 '3e4 1/s, 1e5 1/s'
+expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
+for range in '1 8' '12 18' '22 28'; do # of 40 segments: one for each realization
+    set -- $range
+    at=$(random "$1" "$2")
+    start small.yaml --study killed --jobs 2 --lanes 1 --segment-size 1e-6
+    wait_segments killed "$at"
+    sleep "0.0$(random 10 99)"
+    running=$(processes | wc -l)
+    kill_session
+    [ "$running" -ge 6 ] || fail "parent, mpirun, 2 ranks and 2 servers should have run, not $running processes"
+    left=$(segments killed)
+    echo "killed at $left segments of 40"
+    [ "$left" -ge 1 ] && [ "$left" -lt 40 ] && [ ! -e killed/study.h5 ] || fail "not killed in the middle"
+done
+expect 0 "$fracas" run small.yaml --study killed --jobs 1 --segment-size 1e-6
+[ "$(segments killed)" -gt "$left" ] || fail "the resumed run had nothing to do"
+same undisturbed killed
+
+# The parent alone: the others must not outlive it.
+start small.yaml --study orphaned --jobs 2 --lanes 1 --segment-size 1e-6
+wait_segments orphaned 2
+kill -9 "$session"
+tries=0
+while [ -n "$(processes)" ]; do
+    tries=$((tries + 1))
+    [ $tries -lt 200 ] || fail "processes outlive the parent: $(processes)"
+    sleep 0.01
+done
+expect 0 "$fracas" run small.yaml --study orphaned
+same undisturbed orphaned

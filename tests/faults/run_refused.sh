@@ -1,0 +1,34 @@
+# What is not run: a study that is complete, of another campaign, or that cannot be written; a wrong campaign.
+. tests/campaigns.sh
+
+campaign small.yaml 4 '1e5 1/s'
+expect 0 "$fracas" run small.yaml --study done
+before=$(stat -c %y.%i done/study.h5)
+expect 0 "$fracas" run small.yaml --study done
+said 'complete'
+[ "$before" = "$(stat -c %y.%i done/study.h5)" ] || fail "study.h5 of a complete study was written again"
+
+campaign other.yaml 4 '2e5 1/s'
+expect 5 "$fracas" run other.yaml --study done
+said 'loading.rate'
+campaign other.yaml 3 '1e5 1/s'
+expect 5 "$fracas" run other.yaml --study done
+said 'replicas'
+[ "$before" = "$(stat -c %y.%i done/study.h5)" ] || fail "a refused campaign changed study.h5"
+
+sed 's/elements: 500/elements: -1/' small.yaml > wrong.yaml
+expect 2 "$fracas" run wrong.yaml --study wrong
+[ ! -e wrong ] || fail "a wrong campaign left something behind"
+expect 6 "$fracas" run absent.yaml --study wrong
+
+: > file
+expect 6 "$fracas" run small.yaml --study file/study
+said 'file'
+expect 6 env PATH=/nowhere "$fracas" run small.yaml --study no-mpirun
+said 'openmpi-bin'
+
+# study.h5 lost after the end: it is merged again, nothing is computed.
+cp done/study.h5 kept.h5
+rm done/study.h5
+expect 0 "$fracas" run small.yaml --study done
+cmp kept.h5 done/study.h5 || fail "merged again, it differs"

@@ -1,0 +1,353 @@
+/* Damage and death: flipped bytes, truncated files, a full disk, kill -9. */
+#include "tests/store_sample.h"
+
+#include "campaigns/store/index.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+enum { REPLICAS = 4, ALL = SAMPLE_POINTS * REPLICAS, MOST = 12 };
+
+static char *study;
+static fracas_point_row point_row[SAMPLE_POINTS];
+static fracas_point_table table;
+
+static int set_up(void **state)
+{
+    (void)state;
+    study = sample_folder();
+    table = sample_table(point_row, REPLICAS);
+    return mkdir(sample_path(study, "segments"), 0777);
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    sample_remove(study);
+    return 0;
+}
+
+static void write_segment(fracas_file_seal *seal, fracas_segment_row row[ALL])
+{
+    sample_realization what[ALL];
+    for (size_t i = 0; i < ALL; i++) what[i] = (sample_realization){i / REPLICAS, (int64_t)(i % REPLICAS)};
+    sample_segment(study, "a.h5", &table, what, ALL, MOST, seal, row);
+}
+
+/* ---- damaged segments ---- */
+
+typedef enum { SAME, REPORTED, WRONG } reading;
+
+static bool same_points(const fracas_point_table *found)
+{
+    bool same = found->npoints == SAMPLE_POINTS && found->ncolumns == 3;
+    for (size_t p = 0; same && p < SAMPLE_POINTS; p++) {
+        same = fracas_hash_equal(&found->point[p].hash, &point_row[p].hash) && found->point[p].replicas == REPLICAS;
+        for (size_t c = 0; same && c < 3; c++)
+            same = !strcmp(found->column[c].path, sample_column[c].path) &&
+                   !strcmp(found->column[c].unit, sample_column[c].unit) &&
+                   !strcmp(found->point[p].value[c].text, sample_value[p][c].text) &&
+                   (isnan(sample_value[p][c].real) || found->point[p].value[c].real == sample_value[p][c].real);
+    }
+    return same;
+}
+
+static bool same_header(const fracas_file_header *found)
+{
+    fracas_file_header wanted = sample_header();
+    return fracas_hash_equal(&found->campaign, &wanted.campaign) && found->seed == wanted.seed &&
+           !strcmp(found->version, wanted.version) && found->complete == wanted.complete;
+}
+
+/* Reads everything: the same as was written, an error that names the file, or something else. */
+static reading read_all(const char *path)
+{
+    fracas_reader *reader;
+    fracas_err err = fracas_reader_open(path, &reader);
+    bool same = true;
+    if (!err) {
+        same = fracas_reader_realizations(reader) == ALL && same_points(fracas_reader_points(reader)) &&
+               same_header(fracas_reader_header(reader));
+        for (size_t i = 0; !err && same && i < ALL; i++) {
+            fracas_record wanted, found;
+            size_t point;
+            int64_t replica;
+            fracas_record_init(&found);
+            sample_record(i / REPLICAS, (int64_t)(i % REPLICAS), MOST, &wanted);
+            sample_make_canonical(&wanted);
+            err = fracas_reader_record(reader, i, FRACAS_READ_ALL, &point, &replica, &found);
+            if (!err) same = point == i / REPLICAS && replica == (int64_t)(i % REPLICAS) && sample_equal(&wanted, &found);
+            fracas_record_clear(&wanted);
+            fracas_record_clear(&found);
+        }
+    }
+    fracas_reader_close(reader);
+    if (!err) return same ? SAME : WRONG;
+    if (err != FRACAS_DAMAGED || !strstr(fracas_message(), path)) print_error("code %d: %s\n", err, fracas_message());
+    assert_int_equal(err, FRACAS_DAMAGED);
+    assert_non_null(strstr(fracas_message(), path));
+    return REPORTED;
+}
+
+static void flipped_bytes_are_found(void **state)
+{
+    (void)state;
+    fracas_file_seal seal;
+    fracas_segment_row row[ALL];
+    write_segment(&seal, row);
+    const char *path = sample_path(study, "segments/a.h5");
+    size_t size;
+    unsigned char *bytes = sample_slurp(path, &size);
+    assert_int_equal(read_all(path), SAME);
+    uint64_t random = 2;
+    int fd = open(path, O_WRONLY), reported = 0;
+    enum { FLIPS = 600 };
+    for (int i = 0; i < FLIPS; i++) {
+        size_t at = i < 200 ? (size_t)i : sample_bits(&random) % size; /* the superblock, then anywhere */
+        unsigned char damaged = bytes[at] ^ (unsigned char)(1 + sample_bits(&random) % 255);
+        assert_int_equal(pwrite(fd, &damaged, 1, (off_t)at), 1);
+        reading result = read_all(path);
+        if (result == WRONG) print_error("byte %zu of %zu: %02x as %02x\n", at, size, bytes[at], damaged);
+        assert_int_not_equal(result, WRONG);
+        reported += result == REPORTED;
+        assert_int_equal(pwrite(fd, &bytes[at], 1, (off_t)at), 1);
+    }
+    /* What is not reported is space that HDF5 keeps free; most of a file is not that. */
+    assert_true(reported > FLIPS / 2);
+    close(fd);
+    free(bytes);
+}
+
+static void truncated_files_are_found(void **state)
+{
+    (void)state;
+    fracas_file_seal seal;
+    fracas_segment_row row[ALL];
+    write_segment(&seal, row);
+    const char *path = sample_path(study, "segments/a.h5");
+    size_t size;
+    unsigned char *bytes = sample_slurp(path, &size);
+    uint64_t random = 3;
+    for (int i = 0; i < 100; i++) {
+        sample_spill(path, bytes, i < 10 ? (size_t)i : i < 20 ? size - (size_t)(i - 9) : sample_bits(&random) % size);
+        assert_int_equal(read_all(path), REPORTED);
+    }
+    free(bytes);
+}
+
+/* Rubbish over whole stretches: errors, never a crash. */
+static void overwritten_stretches_are_found(void **state)
+{
+    (void)state;
+    fracas_file_seal seal;
+    fracas_segment_row row[ALL];
+    write_segment(&seal, row);
+    const char *path = sample_path(study, "segments/a.h5");
+    size_t size;
+    unsigned char *bytes = sample_slurp(path, &size), *damaged = malloc(size);
+    uint64_t random = 4;
+    for (int i = 0; i < 60; i++) {
+        memcpy(damaged, bytes, size);
+        size_t first = i < 20 ? (size_t)i * 100 : sample_bits(&random) % size, length = 1 + sample_bits(&random) % 4096;
+        for (size_t at = first; at < size && at < first + length; at++) damaged[at] = (unsigned char)sample_bits(&random);
+        sample_spill(path, damaged, size);
+        assert_int_not_equal(read_all(path), WRONG);
+    }
+    free(damaged);
+    free(bytes);
+}
+
+/* ---- a full disk ---- */
+
+/* Files of this process cannot grow beyond `bytes`. */
+static void limit_files(rlim_t bytes)
+{
+    struct rlimit limit;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &limit), 0);
+    limit.rlim_cur = bytes;
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+}
+
+/* 40 realizations of up to `most` rows a part into one file. */
+static fracas_err write_some(const char *path, size_t most)
+{
+    fracas_file_header header = sample_header();
+    fracas_writer *writer;
+    fracas_file_seal seal;
+    TRY(fracas_writer_create(path, &header, &table, true, &writer));
+    for (int64_t r = 0; r < 40; r++) {
+        fracas_record record;
+        sample_record(0, r, most, &record);
+        fracas_err err = fracas_writer_append(writer, 0, r, &record);
+        fracas_record_clear(&record);
+        if (err) {
+            fracas_writer_abandon(writer);
+            return err;
+        }
+    }
+    return fracas_writer_finish(writer, true, &seal);
+}
+
+static void full_disk_is_said_and_leaves_nothing(void **state)
+{
+    (void)state;
+    signal(SIGXFSZ, SIG_IGN);
+    char *folder = sample_path(study, "segments"), *path = sample_path(study, "segments/big.h5");
+    OK(write_some(path, 4000));
+    struct stat whole;
+    assert_int_equal(stat(path, &whole), 0);
+    assert_int_equal(unlink(path), 0);
+    for (int i = 0; i < 12; i++) { /* at the start, in the middle, in the last bytes */
+        limit_files(i < 11 ? (rlim_t)(whole.st_size / 11 * i) : (rlim_t)whole.st_size - 1);
+        sample_fails(write_some(path, 4000), FRACAS_ENVIRONMENT, strerror(EFBIG));
+        assert_non_null(strstr(fracas_message(), "big.h5"));
+        assert_int_equal(sample_files(folder, "big"), 0);
+    }
+    limit_files(RLIM_INFINITY);
+    OK(write_some(path, 4000)); /* nothing of the failures is left in the library */
+    fracas_reader *reader;
+    OK(fracas_reader_open(path, &reader));
+    assert_int_equal(fracas_reader_realizations(reader), 40);
+    fracas_reader_close(reader);
+    sample_fails(write_some("/nowhere/at/all/a.h5", 1), FRACAS_ENVIRONMENT, strerror(ENOENT));
+    assert_int_equal(mkdir(sample_path(study, "segments/taken.h5"), 0777), 0);
+    sample_fails(write_some(sample_path(study, "segments/taken.h5"), 1), FRACAS_ENVIRONMENT, "taken.h5");
+    assert_int_equal(sample_files(folder, "tmp"), 0);
+}
+
+static void full_disk_leaves_the_index_as_it_was(void **state)
+{
+    (void)state;
+    fracas_index *index;
+    fracas_file_seal seal;
+    fracas_segment_row row[ALL];
+    fracas_index_counts before, after;
+    signal(SIGXFSZ, SIG_IGN);
+    write_segment(&seal, row);
+    OK(fracas_index_open(study, true, &index));
+    OK(fracas_index_plan(index, &table));
+    OK(fracas_index_count(index, &before));
+    limit_files(8192); /* less than the write-ahead log has already */
+    sample_fails(fracas_index_commit(index, "a.h5", &seal, row, ALL, "{}"), FRACAS_ENVIRONMENT, "index.sqlite");
+    limit_files(RLIM_INFINITY);
+    OK(fracas_index_count(index, &after));
+    assert_memory_equal(&after, &before, sizeof after);
+    OK(fracas_index_commit(index, "a.h5", &seal, row, ALL, "{}"));
+    OK(fracas_index_count(index, &after));
+    assert_int_equal(after.planned, 0);
+    fracas_index_close(index);
+}
+
+/* ---- kill -9 ---- */
+
+/* Commits segments of one realization until it is killed; says each commit into the pipe after it is done. */
+static void commit_until_killed(int out)
+{
+    fracas_index *index;
+    if (fracas_index_open(study, false, &index)) _exit(1);
+    for (int64_t r = 0;; r++) {
+        char name[32];
+        fracas_segment_row row = {point_row[0].hash, r, 0, FRACAS_INTACT, 1, 0, 10, 0.0, 0.0};
+        snprintf(name, sizeof name, "s%lld.h5", (long long)r);
+        if (fracas_index_commit(index, name, &(fracas_file_seal){1, 2}, &row, 1, "{}")) _exit(1);
+        if (write(out, &r, sizeof r) != sizeof r) _exit(1);
+    }
+}
+
+static void commits_survive_the_death_of_the_process(void **state)
+{
+    (void)state;
+    fracas_index *index;
+    OK(fracas_index_open(study, true, &index));
+    point_row[0].replicas = 20000;
+    OK(fracas_index_plan(index, &table));
+    int64_t committed = 0;
+    for (int kills = 0; kills < 5; kills++) {
+        int ends[2];
+        fracas_index_close(index);
+        assert_int_equal(pipe(ends), 0);
+        pid_t child = fork();
+        if (child == 0) commit_until_killed(ends[1]);
+        close(ends[1]);
+        usleep(20000 + 7000 * (unsigned)kills);
+        kill(child, SIGKILL);
+        waitpid(child, NULL, 0);
+        int64_t r, said = -1;
+        while (read(ends[0], &r, sizeof r) == sizeof r) said = r;
+        close(ends[0]);
+        OK(fracas_index_open(study, false, &index));
+        fracas_index_counts counts;
+        OK(fracas_index_count(index, &counts));
+        assert_true(counts.done >= said + 1); /* what was said is there */
+        assert_true(counts.done >= committed);
+        assert_int_equal(counts.done, counts.segments); /* and each whole */
+        committed = counts.done;
+        sqlite3_stmt *check;
+        assert_int_equal(sqlite3_prepare_v2(index->db, "PRAGMA integrity_check", -1, &check, NULL), SQLITE_OK);
+        assert_int_equal(sqlite3_step(check), SQLITE_ROW);
+        assert_string_equal((const char *)sqlite3_column_text(check, 0), "ok");
+        sqlite3_finalize(check);
+    }
+    assert_true(committed > 0);
+    fracas_index_close(index);
+}
+
+/* A writer killed at any moment leaves no segment under its final name but whole ones. */
+static void segments_are_whole_or_not_there(void **state)
+{
+    (void)state;
+    char folder[256];
+    snprintf(folder, sizeof folder, "%s/segments", study);
+    int whole = 0;
+    for (int kills = 0; kills < 12; kills++) {
+        pid_t child = fork();
+        if (child == 0) {
+            char path[512];
+            for (int n = 0;; n++) {
+                snprintf(path, sizeof path, "%s/k%d-%d.h5", folder, kills, n);
+                if (write_some(path, 300)) _exit(1);
+            }
+        }
+        usleep(15000 + 5000 * (unsigned)kills);
+        kill(child, SIGKILL);
+        waitpid(child, NULL, 0);
+    }
+    DIR *list = opendir(folder);
+    for (struct dirent *entry; (entry = readdir(list));) {
+        fracas_reader *reader;
+        if (entry->d_name[0] == '.') continue;
+        OK(fracas_reader_open(sample_path(folder, entry->d_name), &reader));
+        assert_int_equal(fracas_reader_realizations(reader), 40);
+        for (size_t row = 0; row < 40; row++) {
+            fracas_record record;
+            size_t point;
+            int64_t replica;
+            fracas_record_init(&record);
+            OK(fracas_reader_record(reader, row, FRACAS_READ_ALL, &point, &replica, &record));
+            fracas_record_clear(&record);
+        }
+        fracas_reader_close(reader);
+        whole++;
+    }
+    closedir(list);
+    assert_true(whole > 0);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(flipped_bytes_are_found),
+        TEST(truncated_files_are_found),
+        TEST(overwritten_stretches_are_found),
+        TEST(full_disk_is_said_and_leaves_nothing),
+        TEST(full_disk_leaves_the_index_as_it_was),
+        TEST(commits_survive_the_death_of_the_process),
+        TEST(segments_are_whole_or_not_there),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,28 @@
+#!/bin/sh
+# The README keeps its word: its campaign file is one, its commands exist, and every document that a page links to is there.
+set -eu
+
+fracas=$1/fracas
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+sed -n '/^```yaml$/,/^```$/p' README.md | sed '/^```/d' >"$folder/my-bar.yaml"
+"$fracas" plan --json "$folder/my-bar.yaml" >"$folder/plan"
+grep -q '"points": 12' "$folder/plan" || { cat "$folder/plan"; exit 1; }
+
+commands=$(sed -n 's/^    tools\/fracas \([a-z]*\) .*/\1/p' README.md | sort -u | grep -vx -e test -e help)
+for command in $commands; do
+    "$fracas" help "$command" >/dev/null
+done
+[ "$(echo "$commands" | wc -l)" -ge 5 ]
+
+# page: link
+find . \( -name build -o -name .git -o -name studies \) -prune -o -name '*.md' -print | while read -r page; do
+    { grep -o '](\([^)#:]*\)[)#]' "$page" || :; } | sed 's/^](//; s/[)#]$//' | while read -r link; do
+        [ -z "$link" ] || [ -e "$(dirname "$page")/$link" ] || echo "$page: no $link"
+    done
+done >"$folder/dead"
+if [ -s "$folder/dead" ]; then
+    cat "$folder/dead"
+    exit 1
+fi

@@ -1,0 +1,134 @@
+#!/bin/sh
+# tools/fracas on systems that this one is not: packages missing, root or sudo or neither, no apt-get, no network, a
+# build that fails. The system is a folder of stand-ins that note how they were called.
+set -eu
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+bin=$folder/bin tree=$folder/tree
+log=$folder/log
+export log tree
+
+stand_in() {
+    cat >"$bin/$1"
+    chmod +x "$bin/$1"
+}
+
+# A system with every package but libyaml-dev and sqlite3, the caller being root.
+fresh() {
+    rm -rf "$bin" "$tree"
+    mkdir -p "$bin" "$tree/tools"
+    : >"$log"
+    cp tools/fracas tools/packages-debian.txt "$tree/tools"
+    for tool in sh awk cat chmod dirname env find flock grep mkdir readlink sed touch tr; do
+        ln -s "$(command -v "$tool")" "$bin/$tool"
+    done
+    awk '{ sub(/#.*/, "") } NF && $1 != "libyaml-dev" && $1 != "sqlite3" { print $1 }' tools/packages-debian.txt >"$tree/installed"
+    stand_in dpkg-query <<'SCRIPT'
+#!/bin/sh
+sed 's/^/installed /' "$tree/installed"
+echo 'config-files libyaml-dev'
+exit 1
+SCRIPT
+    stand_in apt-get <<'SCRIPT'
+#!/bin/sh
+echo "apt-get $DEBIAN_FRONTEND $*" >>"$log"
+for word; do case $word in -*|[!a-z]*) ;; *) echo "$word" >>"$tree/installed" ;; esac; done
+SCRIPT
+    stand_in cmake <<'SCRIPT'
+#!/bin/sh
+echo "cmake $*" >>"$log"
+[ "$PWD" = "$tree" ] || exit 1
+if [ "$1" = --preset ]; then mkdir -p "build/$2"; touch "build/$2/build.ninja"; exit; fi
+printf '#!/bin/sh\necho "$PWD: fracas $*"\nexit 3\n' >"build/$3/fracas"
+chmod +x "build/$3/fracas"
+SCRIPT
+    stand_in ctest <<'SCRIPT'
+#!/bin/sh
+echo "ctest $*" >>"$log"
+echo "summary of $2"
+SCRIPT
+    printf '#!/bin/sh\necho 0\n' | stand_in id
+    printf '#!/bin/sh\necho 7\n' | stand_in nproc
+}
+
+# ends STATUS ARGUMENTS...: tools/fracas ARGUMENTS, called in another folder, ends with STATUS.
+ends() {
+    expected=$1
+    shift
+    got=0
+    (cd "$folder" && PATH=$bin tree/tools/fracas "$@") >"$folder/out" 2>"$folder/err" </dev/null || got=$?
+    [ "$got" = "$expected" ] || { echo "tools/fracas $*: status $got, not $expected"; cat "$folder/out" "$folder/err"; exit 1; }
+}
+
+# The file $1 contains (lacks) the text $2.
+has() { grep -qF -- "$2" "$folder/$1" || { echo "no '$2' in $1:"; cat "$folder/$1"; exit 1; }; }
+lacks() { ! grep -qF -- "$2" "$folder/$1" || { echo "'$2' in $1:"; cat "$folder/$1"; exit 1; }; }
+
+# Root: what is missing is installed, then configured, built and called with the caller's folder and status.
+fresh
+ends 3 run 'a file.yaml' --jobs 2
+has log 'apt-get noninteractive -q -o DPkg::Lock::Timeout=300 update'
+has log 'install -y --no-install-recommends libyaml-dev'
+lacks log sqlite3
+has out "$folder: fracas run a file.yaml --jobs 2"
+has err 'installing packages: libyaml-dev'
+[ "$(tail -n 2 "$log" | tr '\n' ';')" = 'cmake --preset release;cmake --build --preset release;' ]
+
+# Again: nothing is said or done but asking the builder.
+: >"$log"
+ends 3 status study
+[ ! -s "$folder/err" ] || { echo "a second call is not silent:"; cat "$folder/err"; exit 1; }
+[ "$(cat "$log")" = 'cmake --build --preset release' ]
+
+# The tests: their packages as well, all builds, the suite's summary last.
+: >"$log"
+ends 0 test
+has log 'install -y --no-install-recommends sqlite3'
+for preset in werror clang sanitize; do has log "cmake --build --preset $preset"; done
+has log 'ctest --preset sanitize -j 7 -LE storm|slow-sanitize'
+has log 'ctest --preset release -j 7 -LE storm'
+[ "$(tail -n 1 "$folder/out")" = 'summary of release' ]
+ends 0 test --all
+[ "$(tail -n 1 "$log")" = 'ctest --preset release -j 7' ]
+ends 2 test --al
+has err "unknown option '--al'"
+
+# A failure before the suite is not forgotten; the suite still runs.
+sed -i 's/^echo "summary.*/&; [ "$2" = release ]/' "$bin/ctest"
+ends 1 test
+has out 'summary of release'
+has err 'failed: sanitize'
+
+# Not root: through sudo; without sudo, what to do is said.
+fresh
+printf '#!/bin/sh\necho 1000\n' | stand_in id
+ends 6 run a.yaml
+has err 'As root: apt-get install libyaml-dev'
+printf '#!/bin/sh\necho sudo >>"$log"\nexec "$@"\n' | stand_in sudo
+ends 3 run a.yaml
+has log sudo
+
+# Packages that cannot be had.
+fresh
+printf '#!/bin/sh\nexit 100\n' | stand_in apt-get
+ends 6 run a.yaml
+has err 'By hand, as root: apt-get install libyaml-dev'
+
+# No apt-get: the packages and the commands to do it by hand.
+fresh
+rm "$bin/apt-get"
+ends 6 run a.yaml
+has err 'libyaml-dev'
+has err 'cmake --preset release && cmake --build --preset release && build/release/fracas'
+
+# A configuration or a build that fails.
+fresh
+sed -i 's/^\[ "$PWD".*/exit 1/' "$bin/cmake"
+ends 6 run a.yaml
+has err 'cmake --preset release failed'
+fresh
+sed -i 's/^printf.*/echo broken; exit 1/' "$bin/cmake"
+ends 6 run a.yaml
+has err 'cmake --build --preset release failed'
+ends 6 run a.yaml

@@ -1,0 +1,74 @@
+#!/bin/sh
+# The command line: what is wrong with it is said in one message, with status 2, and what is asked for is printed.
+set -eu
+
+fracas=$1/fracas
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+# says STATUS STREAM TEXT ARGUMENTS...: `fracas ARGUMENTS` ends with STATUS, with TEXT in out or err; a failure is one
+# message on stderr and nothing on stdout.
+says() {
+    status=$1 stream=$2 text=$3
+    shift 3
+    got=0
+    "$fracas" "$@" >"$folder/out" 2>"$folder/err" </dev/null || got=$?
+    if [ "$got" != "$status" ] || ! grep -qF -- "$text" "$folder/$stream"; then
+        echo "fracas $*: status $got, expected $status and '$text' in std$stream; it said:"
+        cat "$folder/out" "$folder/err"
+        exit 1
+    fi
+    if [ "$status" != 0 ] && { [ -s "$folder/out" ] || [ "$(grep -c '^fracas: ' "$folder/err")" != 1 ]; }; then
+        echo "fracas $*: one message on stderr and no output was expected; it said:"
+        cat "$folder/out" "$folder/err"
+        exit 1
+    fi
+}
+
+says 0 out 'fracas 0.' --version
+says 0 out 'fracas run FILE' --help
+says 0 out 'fracas verify STUDY' help
+says 0 out '--segment-age S' help run
+says 0 out '--segment-age S' run --help
+says 0 out '--segment-age S' run a.yaml b.yaml -h
+says 0 out 'material' reference
+
+says 2 err 'fracas run FILE'
+says 2 err 'unknown command `rum`; did you mean `run`?' rum
+says 2 err 'unknown command `verfiy`; did you mean `verify`?' help verfiy
+says 2 err 'there are: run, plan, status' complexity
+says 2 err 'run: FILE is missing' run
+says 2 err 'one argument too many: `b.yaml`' run a.yaml b.yaml
+says 2 err 'one argument too many: `x`' reference x
+says 2 err 'unknown option `--jbos`; did you mean `--jobs`?' run a.yaml --jbos 2
+says 2 err 'unknown option `--studdy=x`; did you mean `--study`?' run a.yaml --studdy=x
+says 2 err 'unknown option `-j`' run a.yaml -j 2
+says 2 err 'unknown option `-j`' run a.yaml -j2
+says 2 err '--jobs needs a value' run a.yaml --jobs
+says 2 err '--shuffle takes no value' run a.yaml --shuffle=yes
+says 2 err '--json takes no value' status x --json=1
+for bad in 0 -1 2x 1e3 '' 99999999999999999999; do
+    says 2 err "--jobs is \`$bad\`; it must be a whole number from 1" run a.yaml "--jobs=$bad"
+    says 2 err "--jobs is \`$bad\`; it must be a whole number from 1" plan a.yaml "--jobs=$bad"
+done
+for bad in -1 5s nan inf '' 1e999; do
+    says 2 err "--segment-age is \`$bad\`; it must be a number" run a.yaml "--segment-age=$bad"
+    says 2 err "--segment-size is \`$bad\`; it must be a number" run a.yaml "--segment-size=$bad"
+done
+says 2 err '--lanes is `2`; it can be: 1, 4, 8' run a.yaml --lanes 2
+says 2 err '--isa is `avx521`; did you mean `avx512`?' run a.yaml --isa avx521
+
+# An output that cannot be written is no success.
+if "$fracas" reference >/dev/full 2>"$folder/err"; then
+    echo "a full disk went unnoticed"
+    exit 1
+fi
+grep -q 'output could not be written' "$folder/err"
+
+# What is no study is said so, and stays as it is.
+mkdir "$folder/empty"
+for study in "$folder/none" "$folder/empty"; do
+    for command in status report verify; do says 5 err "$study is no study" "$command" "$study"; done
+done
+rmdir "$folder/empty"
+[ ! -e "$folder/none" ]

@@ -1,0 +1,66 @@
+#!/bin/sh
+# tools/check-layers: the tree obeys, and each kind of forbidden include is found where it is planted.
+set -eu
+
+tools/check-layers
+
+tree=$(mktemp -d)
+trap 'rm -rf "$tree"' EXIT
+rooms=$(for room in base engine sampler campaigns analysis cli tests; do [ ! -d "$room" ] || echo "$room"; done)
+# shellcheck disable=SC2086 # a list of words
+cp -R $rooms "$tree"
+
+# Plants line $2 as line 3 of a new file $1, which must be the only violation found.
+plant() {
+    mkdir -p "$tree/$(dirname "$1")"
+    printf '/* planted */\n\n%s\n' "$2" >"$tree/$1"
+    if found=$(tools/check-layers "$tree"); then
+        echo "not found: $2 in $1"
+        exit 1
+    fi
+    rm "$tree/$1"
+    if [ "$(echo "$found" | grep -c "^$1:3: ")" != 1 ] || [ "$(echo "$found" | wc -l)" != 2 ]; then
+        echo "planted: $2 in $1; found: $found"
+        exit 1
+    fi
+}
+
+# Who may include whom.
+plant base/planted.c '#include "engine/spec.h"'
+plant engine/planted.c '#include "sampler/sampler.h"'
+plant engine/mesh/planted.h '#  include "campaigns/points.h"'
+plant sampler/planted.c '#include "engine/spec.h"'
+plant campaigns/planted.c '#include "campaigns/store/store.h"'
+plant campaigns/file/planted.c '#include "campaigns/store/store.h"'
+plant campaigns/plan/planted.c '#include "campaigns/scheduler/run.h"'
+plant campaigns/store/planted.c '#include "engine/engine.h"'
+plant campaigns/store/planted.c '#include "campaigns/campaign.h"'
+plant campaigns/scheduler/planted.c '#include "analysis/analysis.h"'
+plant analysis/planted.c '#include "campaigns/campaign.h"'
+plant analysis/planted.c '#include "engine/engine.h"'
+plant campaigns/planted.c '#include "cli/cli.h"'
+
+# Which room alone knows a library.
+plant analysis/planted.c '#include <mpi.h>'
+plant campaigns/file/planted.h '#include <mpi.h>'
+plant analysis/planted.c '#include <hdf5.h>'
+plant tests/unit/planted.c '#include <hdf5.h>'
+plant cli/planted.c '#include <sqlite3.h>'
+plant campaigns/planted.c '#include <yaml.h>'
+plant engine/planted.c '#include <gsl/gsl_randist.h>'
+plant engine/planted.c '#include <Random123/philox.h>'
+plant campaigns/store/planted.c '#include <xxhash.h>'
+plant campaigns/file/planted.c '#include <udunits2.h>'
+
+# Ways around the rule.
+plant engine/planted.c '#include "../sampler/sampler.h"'
+plant engine/planted.c '#include "base/../sampler/sampler.h"'
+plant engine/planted.c '#include <base/../sampler/sampler.h>'
+plant engine/planted.c '#include "spec.h"'
+plant engine/planted.c '#include <sampler/sampler.h>'
+plant engine/planted.c '#include "mpi.h"'
+plant engine/planted.c '#include SAMPLER_HEADER'
+
+# A tree without sources is no success.
+mkdir "$tree/empty"
+if tools/check-layers "$tree/empty"; then exit 1; fi

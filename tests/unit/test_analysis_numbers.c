@@ -1,0 +1,291 @@
+/* Estimates, numbers as text, the columns that tell points apart, warnings, and what a figure shows. */
+#include "analysis/columns.h"
+#include "analysis/estimate.h"
+#include "analysis/format.h"
+#include "analysis/report/figures.h"
+#include "analysis/report/scale.h"
+#include "analysis/study.h"
+#include "base/param.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* 2, 4, 4, 4, 5, 5, 7, 9: mean 5, squares 32, deviation sqrt(32/7); tabulated t_(0.975, 7) = 2.364624 to 1e-6. */
+static void estimate_of_eight(void **state)
+{
+    (void)state;
+    const double value[] = {2, NAN, 4, 4, 4, INFINITY, 5, 5, 7, 9};
+    fracas_estimate estimate = fracas_estimate_of(value, 1, 10);
+    assert_int_equal(estimate.n, 8);
+    assert_true(estimate.mean == 5);
+    assert_true(fabs(estimate.deviation - sqrt(32.0 / 7)) < 1e-15);
+    assert_true(fabs(estimate.half_width - 2.364624 * sqrt(32.0 / 7 / 8)) < 1e-6);
+}
+
+static void estimate_of_few(void **state)
+{
+    (void)state;
+    const double value[] = {3, 8};
+    assert_true(isnan(fracas_estimate_of(value, 1, 0).mean));
+    assert_true(fracas_estimate_of(value, 1, 1).mean == 3);
+    assert_true(isnan(fracas_estimate_of(value, 1, 1).half_width));
+    assert_true(fracas_estimate_of(value + 1, 7, 1).mean == 8);
+    const double equal[] = {0.1, 0.1, 0.1}; /* their plain sum is not three times 0.1 */
+    assert_true(fracas_estimate_of(equal, 1, 3).mean == 0.1 && fracas_estimate_of(equal, 1, 3).half_width == 0);
+}
+
+static void assert_estimate(double mean, double half_width, double factor, const char *expected)
+{
+    char text[64];
+    fracas_estimate estimate = {.n = 3, .mean = mean, .half_width = half_width};
+    fracas_format_estimate(&estimate, factor, "+-", text, sizeof text);
+    assert_string_equal(text, expected);
+}
+
+static void estimates_as_text(void **state)
+{
+    (void)state;
+    assert_estimate(57.8123, 1.2345, 1, "57.8 +- 1.2");
+    assert_estimate(442.31e-6, 5.55e-6, 1e6, "442.3 +- 5.5"); /* 5.55 is below the tie in binary */
+    assert_estimate(1641.4, 12.3, 1, "1641 +- 12");
+    assert_estimate(1641.4, 0.996, 1, "1641.4 +- 1.0");
+    assert_estimate(1641.4, 123.4, 1, "1641 +- 123");
+    assert_estimate(1641.4, NAN, 1, "1641 +- -");
+    assert_estimate(116, 0, 1, "116.0 +- 0");
+    assert_estimate(NAN, NAN, 1, "-");
+}
+
+static void assert_short(double value, const char *expected)
+{
+    char text[64];
+    fracas_format_short(value, text, sizeof text);
+    assert_string_equal(text, expected);
+}
+
+static void numbers_as_text(void **state)
+{
+    (void)state;
+    assert_short(1e3, "1e3");
+    assert_short(2500, "2500");
+    assert_short(100, "100");
+    assert_short(0.33, "0.33");
+    assert_short(275e9, "2.75e11");
+    assert_short(3e-7, "3e-7");
+    assert_short(-2e10, "-2e10");
+    assert_short(0, "0");
+    assert_short(NAN, "-");
+    char text[64];
+    fracas_format_digits(0.9996, 3, text, sizeof text);
+    assert_string_equal(text, "1.00");
+    fracas_format_digits(2e-3, 2, text, sizeof text);
+    assert_string_equal(text, "2.0e-3");
+    fracas_format_digits(2058.7, 4, text, sizeof text);
+    assert_string_equal(text, "2059");
+}
+
+static void prefixes(void **state)
+{
+    (void)state;
+    assert_string_equal(fracas_prefix_for((double[]){31e-6, 865e-6}, 2).symbol, "u");
+    assert_string_equal(fracas_prefix_for((double[]){NAN, 1e-3, -5}, 3).symbol, "m");
+    assert_string_equal(fracas_prefix_for((double[]){999}, 1).symbol, "");
+    assert_string_equal(fracas_prefix_for((double[]){1e-14}, 1).symbol, "n");
+    assert_string_equal(fracas_prefix_for(NULL, 0).symbol, "");
+}
+
+/* rate x young, with mesh.elements zipped to the rate and density to young; derived.* never tells points apart. */
+static void columns_that_tell_points_apart(void **state)
+{
+    (void)state;
+    static const fracas_column column[] = {
+        {"derived.strength_mean", "Pa", "", false}, {"loading.rate", "1/s", "", false}, {"loading.type", "", "", true},
+        {"material.density", "kg/m3", "", false},   {"material.young", "Pa", "", false},
+        {"mesh.elements", "1", "", false},
+    };
+    enum { N = 6, P = 4 };
+    fracas_value value[P][N];
+    fracas_point_row point[P];
+    for (size_t p = 0; p < P; p++) {
+        double real[N] = {(double)p, p % 2 ? 1e4 : 1e3, NAN, p < 2 ? 2700 : 7800, p < 2 ? 70e9 : 210e9,
+                          p % 2 ? 20 : 10};
+        for (size_t c = 0; c < N; c++) value[p][c] = (fracas_value){.real = real[c], .text = ""};
+        value[p][2].text = "imposed-rate";
+        point[p] = (fracas_point_row){.value = value[p]};
+    }
+    fracas_point_table table = {.ncolumns = N, .column = column, .npoints = P, .point = point};
+    fracas_columns columns, others;
+    assert_int_equal(fracas_columns_create(&table, &columns), FRACAS_OK);
+    assert_int_equal(columns.count, 2);
+    assert_int_equal(columns.column[0], 1);
+    assert_int_equal(columns.column[1], 3);
+    char label[128];
+    fracas_columns_label(&table, &columns, 3, label, sizeof label);
+    assert_string_equal(label, "rate 1e4 1/s, density 7800 kg/m3");
+    fracas_columns_label(&table, &columns, 3, label, 12); /* cut, not overrun */
+    assert_string_equal(label, "rate 1e4 1/");
+    assert_int_equal(fracas_columns_without_rate(&table, &columns, &others), FRACAS_OK);
+    assert_int_equal(others.count, 1);
+    assert_true(fracas_columns_same(&table, &others, 0, 1));
+    assert_false(fracas_columns_same(&table, &others, 1, 2));
+    fracas_columns_clear(&others);
+    fracas_columns_clear(&columns);
+    table.npoints = 1; /* nothing differs: the rate */
+    assert_int_equal(fracas_columns_create(&table, &columns), FRACAS_OK);
+    assert_int_equal(columns.count, 1);
+    assert_int_equal(columns.column[0], 1);
+    fracas_columns_clear(&columns);
+}
+
+/* What only a list of records shows: unusable outcomes are counted and left out; NaN onset; the typical replica. */
+static void statistics_of_records(void **state)
+{
+    (void)state;
+    static const fracas_column column[] = {{"geometry.length", "m", "", false}};
+    fracas_value length = {.real = 0.06, .text = ""};
+    fracas_point_row point = {.value = &length};
+    fracas_point_table table = {.ncolumns = 1, .column = column, .npoints = 1, .point = &point};
+    fracas_point_statistics statistics;
+    fracas_point_statistics_init(&table, 0, &statistics);
+    assert_true(isnan(statistics.law[FRACAS_LAW_ZMR])); /* no material in the table */
+    const int64_t outcome[] = {FRACAS_FRAGMENTED, FRACAS_NONFINITE, FRACAS_INTACT, FRACAS_TIME_LIMIT};
+    const double dissipated[] = {5, 100, 0, 4};
+    fracas_fragment fragment[4] = {{.size = 0.03, .elements = 3}, {.size = 0.01, .elements = 1, .dust = 1},
+                                   {.size = 0.02, .elements = 2}, {.size = 0.06, .elements = 6}};
+    const size_t first[] = {0, 0, 3, 0}, count[] = {3, 3, 1, 3};
+    for (size_t i = 0; i < 4; i++) {
+        fracas_record record;
+        fracas_record_init(&record);
+        record.outcome = outcome[i];
+        record.dissipated = dissipated[i];
+        record.residual = 0.5;
+        record.created = 0.1;
+        record.fragments = (int64_t)count[i];
+        record.fragments_dust = outcome[i] == FRACAS_INTACT ? 0 : 1;
+        record.onset_time = outcome[i] == FRACAS_INTACT ? NAN : 1e-7;
+        record.fragment = fragment + first[i];
+        record.nfragment = count[i];
+        assert_int_equal(fracas_point_statistics_add(&statistics, 10 + i, (int64_t)i, &record), FRACAS_OK);
+    }
+    fracas_point_statistics_finish(&statistics);
+    assert_int_equal(statistics.realizations, 4);
+    assert_int_equal(statistics.usable, 3);
+    assert_int_equal(statistics.outcome[FRACAS_NONFINITE], 1);
+    assert_true(fabs(statistics.count.mean - 7.0 / 3) < 1e-15);
+    assert_true(fabs(statistics.count_large.mean - 5.0 / 3) < 1e-15);
+    assert_true(fabs(statistics.size.mean - (0.02 + 0.06 + 0.02) / 3) < 1e-16);
+    assert_true(statistics.dissipated.mean == 3);
+    assert_int_equal(statistics.onset_time.n, 2);
+    assert_true(statistics.residual == 0.5 / 4 && statistics.created == 0.1 / 4);
+    assert_int_equal(statistics.nfragments, 7);
+    assert_true(statistics.fragment_size[0] == 0.01 && statistics.fragment_size[6] == 0.06);
+    assert_true(statistics.elements == 18.0 / 7 && statistics.dust_share == 2.0 / 7);
+    assert_int_equal(statistics.typical_replica, 3); /* |4 - 3| < |5 - 3| */
+    assert_int_equal(statistics.typical_row, 13);
+    fracas_point_statistics_clear(&statistics);
+}
+
+/* Just within every limit: no warning; just beyond every limit, and with every unusable outcome: one each. */
+static void warnings_at_their_limits(void **state)
+{
+    (void)state;
+    static const fracas_column column[] = {{"loading.rate", "1/s", "", false}};
+    fracas_value rate[] = {{.real = 1e3, .text = ""}, {.real = 1e4, .text = ""}};
+    fracas_point_row row[] = {{.value = &rate[0]}, {.value = &rate[1]}};
+    fracas_point_table table = {.ncolumns = 1, .column = column, .npoints = 2, .point = row};
+    fracas_point_statistics point[] = {
+        {.realizations = 9, .usable = 9, .outcome = {8, 1}, .residual = 0.99e-3, .created = 0.99e-2, .elements = 10,
+         .dust_share = 0.05},
+        {.realizations = 9, .usable = 5, .outcome = {3, 1, 1, 2, 1, 1}, .residual = 1.01e-3, .created = 1.01e-2,
+         .elements = 9.9, .dust_share = 0.051},
+    };
+    fracas_analysis analysis = {.table = &table, .point = point, .header.complete = true};
+    fracas_warning *warning;
+    size_t count;
+    assert_int_equal(fracas_analysis_warnings(&analysis, &warning, &count), FRACAS_OK);
+    const char *const expected[] = {"2 of 9 realizations ended NONFINITE", "1 of 9 realizations ended ENERGY_DRIFT",
+                                    "1 of 9 realizations ended FAILED", "1 of 9 realizations were stopped",
+                                    "ledger residual up to 1.0e-3", "energy created at onset up to 0.010",
+                                    "a mean fragment has 9.9 elements", "5.1 % of the fragments are dust"};
+    assert_int_equal(count, FRACAS_COUNT(expected));
+    for (size_t i = 0; i < count; i++) {
+        assert_int_equal(warning[i].point, 1);
+        assert_ptr_equal(strstr(warning[i].text, expected[i]), warning[i].text);
+    }
+    free(warning);
+    analysis.header.complete = false;
+    assert_int_equal(fracas_analysis_warnings(&analysis, &warning, &count), FRACAS_OK);
+    assert_int_equal(count, FRACAS_COUNT(expected) + 1);
+    assert_true(warning[0].point == SIZE_MAX);
+    free(warning);
+}
+
+/* Sizes 1, 1, 2, 4 mm, of which the ones differ by rounding: all are >= 1 mm, half >= 2 mm, a quarter >= 4 mm. */
+static void figure_of_sizes(void **state)
+{
+    (void)state;
+    fracas_point_table table = {.npoints = 1};
+    double size[] = {1e-3, 1e-3 * (1 + 1e-15), 2e-3, 4e-3};
+    fracas_point_statistics point = {.nfragments = 4, .fragment_size = size, .usable = 1};
+    fracas_analysis analysis = {.table = &table, .point = &point};
+    fracas_chart chart;
+    fracas_chart_init(&chart);
+    assert_int_equal(fracas_figure_sizes(&analysis, 0, &chart), FRACAS_OK);
+    assert_int_equal(chart.panel[0].nseries, 1);
+    const fracas_series *series = chart.panel[0].series;
+    assert_int_equal(series->n, 3);
+    const double x[] = {1, 2, 4}, y[] = {1, 0.5, 0.25};
+    for (size_t i = 0; i < 3; i++) {
+        assert_true(fabs(series->x[i] - x[i]) < 1e-14);
+        assert_true(series->y[i] == y[i]);
+    }
+    fracas_chart_clear(&chart);
+    assert_int_equal(fracas_figure_sizes_together(&analysis, &chart), FRACAS_OK);
+    assert_true(fabs(chart.panel[0].series->x[2] - 2) < 1e-14); /* over the mean, 2 mm */
+    fracas_chart_clear(&chart);
+}
+
+static void assert_labels(bool log, double least, double greatest, const char *expected)
+{
+    fracas_scale scale = {.from = 0, .to = 400};
+    fracas_scale_fit(&scale, log, least, greatest);
+    assert_true(scale.low <= least * (1 + 1e-12) && scale.high >= greatest * (1 - 1e-12));
+    assert_true(fabs(fracas_scale_place(&scale, scale.high) - 400) < 1e-9);
+    fracas_tick tick[FRACAS_MAX_TICKS];
+    size_t count = fracas_scale_ticks(&scale, tick);
+    char text[512] = "";
+    for (size_t i = 0; i < count; i++)
+        if (*tick[i].label) strcat(strcat(text, tick[i].label), " ");
+    assert_string_equal(text, expected);
+}
+
+static void ticks(void **state)
+{
+    (void)state;
+    assert_labels(false, 0, 9.3, "0 2 4 6 8 10 ");
+    assert_labels(false, -0.02, 0.31, "-0.1 0.0 0.1 0.2 0.3 0.4 ");
+    assert_labels(false, 5, 5, "2 3 4 5 6 7 8 ");
+    assert_labels(true, 0.013, 60, "0.01 0.1 1 10 100 ");
+    assert_labels(true, 30, 180, "20 50 100 200 ");
+    assert_labels(true, 1e4, 1e5, "10\u2074 2\u00b710\u2074 5\u00b710\u2074 10\u2075 ");
+    assert_labels(true, 1e-12, 1, "10\u207b\u00b9\u00b2 10\u207b\u00b9\u2070 10\u207b\u2078 10\u207b\u2076 "
+                  "10\u207b\u2074 10\u207b\u00b2 10\u2070 ");
+    assert_labels(true, 3, 3, "2 5 ");
+    assert_labels(true, 2, 2, "1 10 ");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(estimate_of_eight), cmocka_unit_test(estimate_of_few), cmocka_unit_test(estimates_as_text),
+        cmocka_unit_test(numbers_as_text), cmocka_unit_test(prefixes), cmocka_unit_test(columns_that_tell_points_apart),
+        cmocka_unit_test(statistics_of_records), cmocka_unit_test(warnings_at_their_limits),
+        cmocka_unit_test(figure_of_sizes), cmocka_unit_test(ticks),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

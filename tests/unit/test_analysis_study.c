@@ -1,0 +1,359 @@
+/* A study of known truth, written through the store, analysed, and checked by a script that shares no code with us. */
+#include "analysis/analysis.h"
+
+#include "base/version.h"
+#include "campaigns/store/store.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+enum { NCOLUMNS = 10, NPOINTS = 4, HISTORY = 50 };
+
+/* What a synthetic study is made of. */
+typedef struct {
+    const char *name;
+    int64_t replicas[NPOINTS];
+    int64_t fragments[NPOINTS], elements[NPOINTS];
+    int64_t spread;  /* replicas alternate between fragments - spread and fragments + spread */
+    bool endings;    /* points 1 to 3 end in other outcomes too */
+    bool materials;  /* points 2 and 3 are of another material, at the rates of points 0 and 1 */
+} truth;
+
+static const truth sweep = {
+    .name = "sweep", .replicas = {32, 32, 32, 8}, .fragments = {58, 112, 378, 1600},
+    .elements = {1250, 2500, 8000, 32000}, .spread = 3,
+};
+static const truth awkward = {
+    .name = "awkward <&\"", .replicas = {1, 4, 3, 2}, .fragments = {60, 300, 110, 350},
+    .elements = {1250, 2400, 2500, 8000}, .spread = 2, .endings = true, .materials = true,
+};
+
+static const fracas_column column[NCOLUMNS] = {
+    {"cohesive.fracture_energy", "J/m2", "fracture energy", false},
+    {"cohesive.law", "", "law", true},
+    {"derived.strength_mean", "Pa", "mean strength", false},
+    {"geometry.area", "m2", "area", false},
+    {"geometry.length", "m", "length", false},
+    {"loading.rate", "1/s", "strain rate", false},
+    {"material.density", "kg/m3", "density", false},
+    {"material.young", "Pa", "modulus", false},
+    {"mesh.elements", "1", "elements", false},
+    {"time.end", "s", "end", false},
+};
+
+typedef struct {
+    fracas_value value[NPOINTS][NCOLUMNS];
+    fracas_point_row point[NPOINTS];
+    fracas_point_table table;
+} made_table;
+
+static void make_table(const truth *of, made_table *made)
+{
+    for (size_t p = 0; p < NPOINTS; p++) {
+        bool other = of->materials && p >= 2;
+        double rate = of->materials ? (p % 2 ? 1e5 : 1e4) : 1e3 * pow(10, (double)p);
+        double real[NCOLUMNS] = {100, NAN, 300e6, 1e-6, 50e-3, rate, 2750, other ? 70e9 : 275e9,
+                                 (double)of->elements[p], 5e-3 / rate};
+        for (size_t c = 0; c < NCOLUMNS; c++)
+            made->value[p][c] = (fracas_value){.real = real[c], .text = column[c].text ? "nitsche" : ""};
+        made->point[p] = (fracas_point_row){
+            .hash = fracas_hash_of(&p, sizeof p), .replicas = of->replicas[p], .value = made->value[p]};
+    }
+    made->table = (fracas_point_table){
+        .ncolumns = NCOLUMNS, .column = column, .npoints = NPOINTS, .point = made->point};
+}
+
+static int64_t outcome_of(const truth *of, size_t p, int64_t replica)
+{
+    if (!of->endings) return FRACAS_FRAGMENTED;
+    if (p == 1) return replica == 3 ? FRACAS_FAILED : FRACAS_TIME_LIMIT;
+    if (p == 2) return replica == 2 ? FRACAS_INTACT : FRACAS_FRAGMENTED;
+    if (p == 3) return replica == 0 ? FRACAS_NONFINITE : FRACAS_ENERGY_DRIFT;
+    return FRACAS_FRAGMENTED;
+}
+
+/* A number in [0, 1) that differs from call to call, by Knuth's MMIX generator. */
+static double next(uint64_t *state)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*state >> 11) * 0x1p-53;
+}
+
+/* Fragments between cuts near every (elements/fragments)-th interface: their sizes add up to the length. */
+static void make_fragments(const truth *of, size_t p, uint64_t *state, fracas_record *record)
+{
+    int64_t n = record->fragments, elements = of->elements[p], last = 0;
+    record->fragment = calloc((size_t)n, sizeof *record->fragment);
+    assert_non_null(record->fragment);
+    record->nfragment = (size_t)n;
+    for (int64_t k = 0; k < n; k++) {
+        double place = ((double)k + 1 + 0.9 * (next(state) - 0.5)) * (double)elements / (double)n;
+        int64_t cut = k + 1 == n ? elements : llrint(place);
+        fracas_fragment *fragment = &record->fragment[k];
+        fragment->elements = cut - last;
+        fragment->size = 50e-3 * (double)fragment->elements / (double)elements;
+        fragment->mass = 2750 * 1e-6 * fragment->size;
+        fragment->dust = fragment->elements == 1;
+        fragment->position[0] = 50e-3 * (double)(cut + last) / 2 / (double)elements;
+        fragment->velocity[0] = 1e4 * fragment->position[0];
+        record->fragments_dust += fragment->dust;
+        last = cut;
+    }
+}
+
+static void make_history(double end, fracas_record *record)
+{
+    record->history = calloc(HISTORY, sizeof *record->history);
+    assert_non_null(record->history);
+    record->nhistory = HISTORY;
+    for (size_t i = 0; i < HISTORY; i++) {
+        double part = (double)i / (HISTORY - 1), after = fmax(0, part - 0.4) / 0.6;
+        fracas_history_row *row = &record->history[i];
+        row->time = part * end;
+        row->dissipated = record->dissipated * (1 - exp(-5 * after));
+        row->elastic = 2 * record->dissipated * (part < 0.4 ? part * part / 0.16 : exp(-8 * after));
+        row->kinetic = 0.6 * record->dissipated * (1 - exp(-4 * after)) * (1 + 0.2 * sin(30 * after));
+        row->cohesive = 0.3 * record->dissipated * after * exp(-9 * after);
+        row->work = row->dissipated + row->elastic + row->kinetic + row->cohesive;
+        row->residual = record->residual * after * sin(40 * part);
+        row->fragments = record->fragments;
+    }
+}
+
+static void make_record(const truth *of, size_t p, int64_t replica, fracas_record *record)
+{
+    fracas_record_init(record);
+    record->outcome = outcome_of(of, p, replica);
+    if (record->outcome == FRACAS_FAILED) return;
+    uint64_t state = 1000 * p + (uint64_t)replica;
+    bool intact = record->outcome == FRACAS_INTACT;
+    record->fragments = intact ? 1 : of->fragments[p] + (replica % 2 ? of->spread : -of->spread);
+    record->fragments_dust = 0;
+    record->broken = intact ? 0 : record->fragments;
+    record->cracked = 2 * record->broken;
+    record->steps = 1000;
+    double end = 5e-3 / (of->materials ? (p % 2 ? 1e5 : 1e4) : 1e3 * pow(10, (double)p));
+    record->onset_time = intact ? NAN : 0.4 * end * (1 + 0.01 * next(&state));
+    record->end_time = end;
+    record->time_step = end / 1000;
+    record->mass = 2750 * 1e-6 * 50e-3;
+    record->dissipated = intact ? 0 : 1.7e-4 * (double)record->fragments * (1 + 0.02 * next(&state));
+    record->dissipated_bending = 0;
+    record->created = 1e-3 * (p == 2 ? 14 : 1) * record->dissipated;
+    record->residual = (p == 1 && of->endings ? 2e-3 : 2e-4) * record->dissipated * (1 + (double)replica / 100);
+    record->residual_end = record->residual / 2;
+    record->kinetic = record->elastic = record->cohesive = 0;
+    record->work = record->dissipated;
+    record->momentum[0] = record->momentum[1] = record->momentum[2] = 0;
+    make_fragments(of, p, &state, record);
+    make_history(end, record);
+}
+
+/* index.sqlite as a run leaves it, for docs/examples/table_from_index.sql: everything done in one segment. */
+static void write_index(const truth *of, const char *folder, const fracas_point_table *table,
+                        const fracas_file_seal *seal)
+{
+    fracas_index *index;
+    assert_int_equal(fracas_index_open(folder, true, &index), FRACAS_OK);
+    assert_int_equal(fracas_index_plan(index, table), FRACAS_OK);
+    fracas_segment_row row[4 * 32];
+    size_t count = 0;
+    for (size_t p = 0; p < NPOINTS; p++) {
+        for (int64_t replica = 0; replica < of->replicas[p]; replica++) {
+            fracas_record record;
+            make_record(of, p, replica, &record);
+            row[count] = (fracas_segment_row){
+                .point = table->point[p].hash, .replica = replica, .row = (int64_t)count, .outcome = record.outcome,
+                .fragments = record.fragments, .fragments_dust = record.fragments_dust, .steps = record.steps,
+                .dissipated = record.dissipated, .residual = record.residual};
+            count++;
+            fracas_record_clear(&record);
+        }
+    }
+    assert_int_equal(fracas_index_commit(index, "one.h5", seal, row, count, "{}"), FRACAS_OK);
+    fracas_index_close(index);
+}
+
+static void write_study(const truth *of, const char *folder)
+{
+    char path[512];
+    snprintf(path, sizeof path, "%s/study.h5", folder);
+    assert_true(mkdir(folder, 0777) == 0);
+    made_table made;
+    make_table(of, &made);
+    fracas_file_header header = {.campaign = fracas_hash_of(of->name, strlen(of->name)), .seed = UINT64_MAX,
+                                 .version = FRACAS_VERSION, .complete = !of->endings};
+    fracas_writer *writer;
+    assert_int_equal(fracas_writer_create(path, &header, &made.table, false, &writer), FRACAS_OK);
+    for (size_t p = 0; p < NPOINTS; p++) {
+        for (int64_t replica = 0; replica < of->replicas[p]; replica++) {
+            fracas_record record;
+            make_record(of, p, replica, &record);
+            assert_int_equal(fracas_writer_append(writer, p, replica, &record), FRACAS_OK);
+            fracas_record_clear(&record);
+        }
+    }
+    fracas_file_seal seal;
+    assert_int_equal(fracas_writer_finish(writer, header.complete, &seal), FRACAS_OK);
+    write_index(of, folder, &made.table, &seal);
+}
+
+/* table.txt, summary.json and report/ into the study's folder. */
+static void analyse(const char *folder)
+{
+    fracas_analysis *analysis;
+    assert_int_equal(fracas_analysis_create(folder, &analysis), FRACAS_OK);
+    char path[512];
+    snprintf(path, sizeof path, "%s/table.txt", folder);
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fracas_analysis_print_table(analysis, out);
+    assert_int_equal(fclose(out), 0);
+    snprintf(path, sizeof path, "%s/summary.json", folder);
+    out = fopen(path, "w");
+    assert_non_null(out);
+    fracas_analysis_write_json(analysis, out);
+    assert_int_equal(fclose(out), 0);
+    assert_int_equal(fracas_report_write(analysis, folder), FRACAS_OK);
+    fracas_analysis_destroy(analysis);
+}
+
+/* The temporary folder of the test. With FRACAS_KEEP set in the environment it is kept, for a look at the page. */
+static char root[256];
+
+static int make_root(void **state)
+{
+    (void)state;
+    snprintf(root, sizeof root, "%s/analysis-study-XXXXXX", FRACAS_BINARY_DIR);
+    return mkdtemp(root) ? 0 : -1;
+}
+
+static int remove_root(void **state)
+{
+    (void)state;
+    char command[sizeof root + 16];
+    snprintf(command, sizeof command, "rm -rf '%s'", root);
+    return getenv("FRACAS_KEEP") ? 0 : system(command);
+}
+
+static void make_study(const truth *of, char *folder, size_t size)
+{
+    snprintf(folder, size, "%s/%s", root, of->name);
+    write_study(of, folder);
+    analyse(folder);
+}
+
+/* Runs the script on the study; its status 77 says that python3 with h5py is not there. */
+static void check(const char *folder)
+{
+    char command[1024];
+    snprintf(command, sizeof command, "/usr/bin/python3 -c 'import h5py' 2>/dev/null || exit 77; "
+             "exec /usr/bin/python3 '" FRACAS_SOURCE_DIR "/tests/unit/check_report.py' '%s' '" FRACAS_SOURCE_DIR "'",
+             folder);
+    int status = system(command);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 77) {
+        print_message("skipped: python3-h5py is not installed\n");
+        skip();
+    }
+    assert_int_equal(status, 0);
+}
+
+static char *contents(const char *folder, const char *name)
+{
+    char path[512];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    char *text = calloc(1, 1 << 20);
+    assert_non_null(text);
+    size_t used = fread(text, 1, (1 << 20) - 1, file);
+    assert_true(used > 0);
+    fclose(file);
+    return text;
+}
+
+/* 32 replicas at n - 3 and n + 3: mean n, deviation 3 sqrt(32/31), half width t_(0.975, 31) 3/sqrt(31) with the
+ * tabulated t = 2.0395: 1.0989, printed to two digits. Sizes: L/55 = 909.09 um and L/61 = 819.67 um have the mean
+ * 864.38 um, and 2.0395 (909.09 - 819.67)/2/sqrt(31) = 16.38 um. */
+static void table_of_a_sweep(void **state)
+{
+    (void)state;
+    char folder[512];
+    make_study(&sweep, folder, sizeof folder);
+    char *table = contents(folder, "table.txt");
+    assert_non_null(strstr(table, "58.0 +- 1.1"));
+    assert_non_null(strstr(table, "1600.0 +- 2.7")); /* 8 replicas: t = 2.3646, 2.3646 3/sqrt(7) = 2.681 */
+    assert_non_null(strstr(table, " 864 +- 16 "));
+    assert_non_null(strstr(table, "32 FRAGMENTED\n"));
+    size_t lines = 0;
+    for (const char *line = table; *line != '\n'; line += strcspn(line, "\n") + 1) { /* up to the empty line */
+        assert_true(strcspn(line, "\n") <= 120);
+        lines++;
+    }
+    assert_int_equal(lines, 2 + NPOINTS);
+    free(table);
+    check(folder);
+}
+
+/* One replica; FAILED and TIME_LIMIT; INTACT; a point without any usable realization; two materials. */
+static void table_of_awkward_points(void **state)
+{
+    (void)state;
+    char folder[512];
+    make_study(&awkward, folder, sizeof folder);
+    char *table = contents(folder, "table.txt");
+    assert_non_null(strstr(table, "58.00 +- -")); /* one replica: 60 - 2 */
+    assert_non_null(strstr(table, "3 TIME_LIMIT, 1 FAILED"));
+    assert_non_null(strstr(table, "2 FRAGMENTED, 1 INTACT"));
+    assert_non_null(strstr(table, "1 NONFINITE, 1 ENERGY_DRIFT"));
+    assert_non_null(strstr(table, "no usable realization"));
+    assert_non_null(strstr(table, "warning: rate 1e5 1/s, young 2.75e11 Pa: ledger residual up to 2.0e-3"));
+    free(table);
+    check(folder);
+}
+
+static void study_that_is_not_there(void **state)
+{
+    (void)state;
+    fracas_analysis *analysis;
+    assert_int_equal(fracas_analysis_create("/nonexistent", &analysis), FRACAS_DAMAGED);
+    assert_null(analysis);
+    assert_int_equal(fracas_analysis_create(root, &analysis), FRACAS_DAMAGED);
+    assert_non_null(strstr(fracas_message(), "fracas run"));
+}
+
+static void report_that_cannot_be_written(void **state)
+{
+    (void)state;
+    char folder[512], blocker[520];
+    snprintf(folder, sizeof folder, "%s/blocked", root);
+    write_study(&awkward, folder);
+    snprintf(blocker, sizeof blocker, "%s/report", folder);
+    FILE *file = fopen(blocker, "w"); /* where the folder should be */
+    assert_non_null(file);
+    fclose(file);
+    fracas_analysis *analysis;
+    assert_int_equal(fracas_analysis_create(folder, &analysis), FRACAS_OK);
+    assert_int_equal(fracas_report_write(analysis, folder), FRACAS_ENVIRONMENT);
+    assert_non_null(strstr(fracas_message(), "blocked/report"));
+    fracas_analysis_destroy(analysis);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(table_of_a_sweep),
+        cmocka_unit_test(table_of_awkward_points),
+        cmocka_unit_test(study_that_is_not_there),
+        cmocka_unit_test(report_that_cannot_be_written),
+    };
+    return cmocka_run_group_tests(tests, make_root, remove_root);
+}

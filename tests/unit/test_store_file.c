@@ -1,0 +1,308 @@
+/* Writer and reader of segments and studies. */
+#include "tests/store_sample.h"
+
+#include "campaigns/store/disk.h"
+#include "campaigns/store/schema.h"
+
+enum { REPLICAS = 300, MOST = 40 }; /* 900 realizations and some 15000 rows a set: many chunks, none full at the end */
+
+static char *folder;
+
+static int set_up(void **state)
+{
+    (void)state;
+    folder = sample_folder();
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    sample_remove(folder);
+    return 0;
+}
+
+static void write_file(const char *path, int64_t replicas, size_t most, bool interfaces, fracas_file_seal *seal)
+{
+    fracas_point_row row[SAMPLE_POINTS];
+    fracas_point_table table = sample_table(row, replicas);
+    fracas_file_header header = sample_header();
+    fracas_writer *writer;
+    OK(fracas_writer_create(path, &header, &table, interfaces, &writer));
+    for (size_t p = 0; p < SAMPLE_POINTS; p++)
+        for (int64_t r = 0; r < replicas; r++) {
+            fracas_record record;
+            sample_record(p, r, most, &record);
+            OK(fracas_writer_append(writer, p, r, &record));
+            fracas_record_clear(&record);
+        }
+    OK(fracas_writer_finish(writer, true, seal));
+}
+
+static void check_row(fracas_reader *reader, size_t row, int64_t replicas, size_t most, unsigned parts)
+{
+    fracas_record wanted, found;
+    size_t point;
+    int64_t replica;
+    fracas_record_init(&found);
+    OK(fracas_reader_record(reader, row, parts, &point, &replica, &found));
+    assert_int_equal(point, row / (size_t)replicas);
+    assert_int_equal(replica, (int64_t)row % replicas);
+    sample_record(point, replica, most, &wanted);
+    sample_make_canonical(&wanted);
+    if (!(parts & FRACAS_READ_FRAGMENTS)) wanted.nfragment = 0;
+    if (!(parts & FRACAS_READ_HISTORY)) wanted.nhistory = 0;
+    if (!(parts & FRACAS_READ_INTERFACES)) wanted.ninterface = 0;
+    assert_true(sample_equal(&wanted, &found));
+    fracas_record_clear(&wanted);
+    fracas_record_clear(&found);
+}
+
+static void records_come_back_bit_by_bit(void **state)
+{
+    (void)state;
+    const char *path = sample_path(folder, "a.h5");
+    fracas_file_seal seal;
+    fracas_reader *reader;
+    write_file(path, REPLICAS, MOST, true, &seal);
+    OK(fracas_reader_open(path, &reader));
+    assert_int_equal(fracas_reader_realizations(reader), SAMPLE_POINTS * REPLICAS);
+    for (size_t row = 0; row < SAMPLE_POINTS * REPLICAS; row++)
+        check_row(reader, row, REPLICAS, MOST, FRACAS_READ_ALL);
+    uint64_t random = 5; /* any order, any parts */
+    for (int i = 0; i < 200; i++)
+        check_row(reader, sample_bits(&random) % (SAMPLE_POINTS * REPLICAS), REPLICAS, MOST,
+                  (unsigned)sample_bits(&random) & FRACAS_READ_ALL);
+    fracas_record record;
+    size_t point;
+    int64_t replica;
+    fracas_record_init(&record);
+    sample_fails(fracas_reader_record(reader, SAMPLE_POINTS * REPLICAS, 0, &point, &replica, &record), FRACAS_BUG,
+                 "row 900");
+    fracas_reader_close(reader);
+}
+
+static void header_and_points_come_back(void **state)
+{
+    (void)state;
+    const char *path = sample_path(folder, "a.h5");
+    fracas_file_seal seal;
+    fracas_reader *reader;
+    write_file(path, 2, 3, false, &seal);
+    OK(fracas_reader_open(path, &reader));
+    fracas_file_header wanted = sample_header();
+    const fracas_file_header *header = fracas_reader_header(reader);
+    assert_true(fracas_hash_equal(&header->campaign, &wanted.campaign));
+    assert_true(header->seed == wanted.seed);
+    assert_string_equal(header->version, "0.1.0");
+    assert_true(header->complete);
+    const fracas_point_table *table = fracas_reader_points(reader);
+    assert_int_equal(table->npoints, SAMPLE_POINTS);
+    assert_int_equal(table->ncolumns, 3);
+    for (size_t c = 0; c < 3; c++) {
+        assert_string_equal(table->column[c].path, sample_column[c].path);
+        assert_string_equal(table->column[c].unit, sample_column[c].unit);
+        assert_string_equal(table->column[c].doc, sample_column[c].doc);
+        assert_int_equal(table->column[c].text, sample_column[c].text);
+    }
+    for (size_t p = 0; p < SAMPLE_POINTS; p++) {
+        fracas_hash hash = fracas_hash_of(&(int){(int)p}, sizeof(int));
+        assert_true(fracas_hash_equal(&table->point[p].hash, &hash));
+        assert_int_equal(table->point[p].replicas, 2);
+        for (size_t c = 0; c < 3; c++) {
+            assert_string_equal(table->point[p].value[c].text, sample_value[p][c].text);
+            assert_true(isnan(sample_value[p][c].real) ? isnan(table->point[p].value[c].real)
+                                                       : table->point[p].value[c].real == sample_value[p][c].real);
+        }
+    }
+    assert_true(signbit(table->point[2].value[2].real) != 0);
+    fracas_reader_close(reader);
+}
+
+/* The second file is written with another heap and beside another open file. */
+static void same_calls_give_same_bytes(void **state)
+{
+    (void)state;
+    fracas_file_seal first, second, third;
+    char *a = sample_path(folder, "a.h5"), *b = sample_path(folder, "b.h5"), *c = sample_path(folder, "c.h5");
+    write_file(a, 77, MOST, true, &first);
+    void *holes[64];
+    for (size_t i = 0; i < 64; i++) holes[i] = memset(malloc(1000 * i + 1), 0xa5, 1000 * i + 1);
+    for (size_t i = 0; i < 64; i += 2) free(holes[i]);
+    fracas_reader *reader;
+    OK(fracas_reader_open(a, &reader));
+    write_file(b, 77, MOST, true, &second);
+    fracas_reader_close(reader);
+    for (size_t i = 1; i < 64; i += 2) free(holes[i]);
+    assert_true(sample_same_file(a, b));
+    assert_true(first.bytes == second.bytes && first.checksum == second.checksum);
+    write_file(c, 77, MOST - 1, true, &third); /* other records: other bytes */
+    assert_false(sample_same_file(a, c));
+    assert_true(first.checksum != third.checksum);
+}
+
+static void seal_is_that_of_the_bytes(void **state)
+{
+    (void)state;
+    const char *path = sample_path(folder, "a.h5");
+    fracas_file_seal seal, again;
+    size_t size;
+    write_file(path, 5, MOST, true, &seal);
+    unsigned char *bytes = sample_slurp(path, &size);
+    assert_true(seal.bytes == size && seal.checksum == fracas_checksum_of(bytes, size));
+    OK(fracas_disk_seal_path(path, &again));
+    assert_true(again.bytes == size && again.checksum == seal.checksum);
+    free(bytes);
+}
+
+/* No record at all, and none with rows. */
+static void empty_files_are_files(void **state)
+{
+    (void)state;
+    const char *path = sample_path(folder, "a.h5");
+    fracas_point_table none = {0, NULL, 0, NULL};
+    fracas_file_header header = sample_header();
+    fracas_writer *writer;
+    fracas_reader *reader;
+    fracas_file_seal seal;
+    OK(fracas_writer_create(path, &header, &none, true, &writer));
+    OK(fracas_writer_finish(writer, false, &seal));
+    OK(fracas_reader_open(path, &reader));
+    assert_int_equal(fracas_reader_realizations(reader), 0);
+    assert_int_equal(fracas_reader_points(reader)->npoints, 0);
+    assert_false(fracas_reader_header(reader)->complete);
+    fracas_reader_close(reader);
+    write_file(path, 4, 0, true, &seal);
+    OK(fracas_reader_open(path, &reader));
+    for (size_t row = 0; row < 12; row++) check_row(reader, row, 4, 0, FRACAS_READ_ALL);
+    fracas_reader_close(reader);
+}
+
+/* One realization larger than several blocks of the reader and chunks of the writer. */
+static void large_records_are_cut_and_joined(void **state)
+{
+    (void)state;
+    const char *path = sample_path(folder, "a.h5");
+    fracas_file_seal seal;
+    fracas_reader *reader;
+    write_file(path, 3, 20000, true, &seal);
+    OK(fracas_reader_open(path, &reader));
+    for (size_t row = 9; row-- > 0;) check_row(reader, row, 3, 20000, FRACAS_READ_ALL);
+    fracas_reader_close(reader);
+}
+
+static void nothing_unfinished_has_the_final_name(void **state)
+{
+    (void)state;
+    const char *path = sample_path(folder, "a.h5");
+    fracas_point_row row[SAMPLE_POINTS];
+    fracas_point_table table = sample_table(row, 1);
+    fracas_file_header header = sample_header();
+    fracas_writer *writer;
+    OK(fracas_writer_create(path, &header, &table, true, &writer));
+    assert_int_not_equal(access(path, F_OK), 0);
+    assert_int_equal(sample_files(folder, ".a.h5.tmp-"), 1);
+    fracas_writer_abandon(writer);
+    assert_int_equal(sample_files(folder, "a.h5"), 0);
+    fracas_writer_abandon(NULL);
+}
+
+static void contradicting_records_are_refused(void **state)
+{
+    (void)state;
+    const char *path = sample_path(folder, "a.h5");
+    fracas_point_row row[SAMPLE_POINTS];
+    fracas_point_table table = sample_table(row, 1);
+    fracas_file_header header = sample_header();
+    fracas_writer *writer;
+    fracas_record record;
+    OK(fracas_writer_create(path, &header, &table, true, &writer));
+    fracas_record_init(&record);
+    sample_fails(fracas_writer_append(writer, SAMPLE_POINTS, 0, &record), FRACAS_BUG, "point 3");
+    record.outcome = FRACAS_INTACT;
+    record.fragments = 1; /* and no row */
+    sample_fails(fracas_writer_append(writer, 0, 0, &record), FRACAS_BUG, "contradicts");
+    record.fragments = 0;
+    record.outcome = FRACAS_NOUTCOMES;
+    sample_fails(fracas_writer_append(writer, 0, 0, &record), FRACAS_BUG, "contradicts");
+    fracas_fragment fragment = {.dust = 300};
+    record.outcome = FRACAS_INTACT;
+    record.fragments = 1;
+    record.nfragment = 1;
+    record.fragment = &fragment;
+    sample_fails(fracas_writer_append(writer, 0, 0, &record), FRACAS_BUG, "/fragment/dust");
+    fracas_writer_abandon(writer);
+}
+
+static void other_files_are_refused(void **state)
+{
+    (void)state;
+    const char *path = sample_path(folder, "a.h5");
+    fracas_reader *reader;
+    sample_fails(fracas_reader_open(path, &reader), FRACAS_DAMAGED, "a.h5 is not there");
+    assert_null(reader);
+    sample_spill(path, "", 0);
+    sample_fails(fracas_reader_open(path, &reader), FRACAS_DAMAGED, "a.h5");
+    sample_spill(path, "campaign: x\n", 12);
+    sample_fails(fracas_reader_open(path, &reader), FRACAS_DAMAGED, "a.h5");
+    sample_fails(fracas_reader_open(folder, &reader), FRACAS_ENVIRONMENT, folder);
+}
+
+static void page_shows_the_schema(void **state)
+{
+    (void)state;
+    char *wanted;
+    size_t size;
+    FILE *out = open_memstream(&wanted, &size);
+    fracas_store_reference(out);
+    fclose(out);
+    unsigned char *page = sample_slurp(FRACAS_SOURCE_DIR "/docs/formats/study.md", &size);
+    page[size] = '\0';
+    if (!strstr((char *)page, wanted)) print_error("docs/formats/study.md must have this table:\n%s", wanted);
+    assert_non_null(strstr((char *)page, wanted));
+    free(page);
+    free(wanted);
+}
+
+static void records_survive_packing(void **state)
+{
+    (void)state;
+    for (int64_t replica = 0; replica < 50; replica++) {
+        fracas_record record, back;
+        sample_record(1, replica, 9, &record);
+        size_t size = fracas_record_packed_size(&record);
+        char *bytes = malloc(size + 1);
+        fracas_record_pack(&record, bytes);
+        fracas_record_init(&back);
+        OK(fracas_record_unpack(bytes, size, &back));
+        assert_true(sample_equal(&record, &back));
+        sample_fails(fracas_record_unpack(bytes, size - 1, &back), FRACAS_BUG, "does not fit");
+        sample_fails(fracas_record_unpack(bytes, size + 1, &back), FRACAS_BUG, "does not fit");
+        sample_fails(fracas_record_unpack(bytes, 10, &back), FRACAS_BUG, "does not fit");
+        ((fracas_record *)(void *)bytes)->nhistory = SIZE_MAX / sizeof(fracas_history_row) + 2; /* wraps around */
+        sample_fails(fracas_record_unpack(bytes, size, &back), FRACAS_BUG, "does not fit");
+        free(bytes);
+        fracas_record_clear(&record);
+        fracas_record_clear(&back);
+    }
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(records_come_back_bit_by_bit),
+        TEST(header_and_points_come_back),
+        TEST(same_calls_give_same_bytes),
+        TEST(seal_is_that_of_the_bytes),
+        TEST(empty_files_are_files),
+        TEST(large_records_are_cut_and_joined),
+        TEST(nothing_unfinished_has_the_final_name),
+        TEST(contradicting_records_are_refused),
+        TEST(other_files_are_refused),
+        TEST(page_shows_the_schema),
+        TEST(records_survive_packing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

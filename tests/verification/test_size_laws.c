@@ -1,0 +1,108 @@
+/* Size laws against the table of docs/theory/size-laws.md, digit by digit as printed, and against their limits.
+ * (Glenn-Chudnovsky at 1e3 /s is 1.99948.) */
+#include "analysis/size_laws.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+static fracas_scales reference_scales(void)
+{
+    return fracas_scales_of(275e9, 2750, 300e6, 100);
+}
+
+static void assert_prints(const char *format, double value, const char *expected)
+{
+    char text[32];
+    snprintf(text, sizeof text, format, value);
+    assert_string_equal(text, expected);
+}
+
+static void scales_of_the_reference_material(void **state)
+{
+    (void)state;
+    fracas_scales scales = reference_scales();
+    assert_prints("%.3f", scales.time * 1e9, "30.556");
+    assert_prints("%.5f", scales.size * 1e3, "0.30556");
+    assert_prints("%.1f", scales.rate, "35702.5");
+    assert_true(isnan(fracas_scales_of(275e9, 2750, NAN, 100).size));
+}
+
+static void laws_as_printed(void **state)
+{
+    (void)state;
+    static const struct {
+        double rate;
+        const char *e, *e_format, *grady, *grady_format, *gc, *gc_format, *zmr, *zmr_format, *zmr2, *zmr2_format;
+        const char *count, *count_format;
+    } row[] = {
+        {1e3, "0.02801", "%.5f", "31.28", "%.2f", "1.999", "%.3f", "3.180", "%.3f", "2.671", "%.3f", "51.5", "%.1f"},
+        {1e4, "0.28009", "%.5f", "6.738", "%.3f", "1.951", "%.3f", "1.538", "%.3f", "1.237", "%.3f", "106.4", "%.1f"},
+        {1e5, "2.8009", "%.4f", "1.452", "%.3f", "1.109", "%.3f", "0.4526", "%.4f", "0.3288", "%.4f", "361.5", "%.1f"},
+        {1e6, "28.009", "%.3f", "0.3128", "%.4f", "0.2965", "%.4f", "0.1059", "%.4f", "0.0657", "%.4f", "1546", "%.0f"},
+    };
+    fracas_scales scales = reference_scales();
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        double e = row[i].rate / scales.rate;
+        assert_prints(row[i].e_format, e, row[i].e);
+        assert_prints(row[i].grady_format, fracas_size_laws[FRACAS_LAW_GRADY].normalised(e), row[i].grady);
+        assert_prints(row[i].gc_format, fracas_size_laws[FRACAS_LAW_GLENN_CHUDNOVSKY].normalised(e), row[i].gc);
+        assert_prints(row[i].zmr_format, fracas_size_laws[FRACAS_LAW_ZMR].normalised(e), row[i].zmr);
+        assert_prints(row[i].zmr2_format, fracas_size_laws[FRACAS_LAW_ZMR2].normalised(e), row[i].zmr2);
+        double zmr_size = fracas_size_law_at(FRACAS_LAW_ZMR, &scales, row[i].rate);
+        assert_prints(row[i].count_format, 50e-3 / zmr_size, row[i].count);
+    }
+}
+
+/* The dimensional forms, written out: Grady's s = (24 Gc/(rho edot^2))^(1/3) and Glenn and Chudnovsky's
+ * s = 4 sqrt(alpha/3) sinh(phi/3). A dozen roundings of 1.1e-16, a cube root and sinh(asinh) amplify to below 1e-14. */
+static void dimensional_forms(void **state)
+{
+    (void)state;
+    double young = 70e9, density = 2700, strength = 264e6, fracture_energy = 50;
+    fracas_scales scales = fracas_scales_of(young, density, strength, fracture_energy);
+    for (double rate = 1e2; rate < 2e6; rate *= 10) {
+        double by_grady = cbrt(24 * fracture_energy / (density * rate * rate));
+        assert_true(fabs(fracas_size_law_at(FRACAS_LAW_GRADY, &scales, rate) / by_grady - 1) < 1e-14);
+        double alpha = 3 * strength * strength / (density * young * rate * rate);
+        double beta = 3 * fracture_energy / (2 * density * rate * rate);
+        double phi = asinh(beta * pow(3 / alpha, 1.5));
+        double by_gc = 4 * sqrt(alpha / 3) * sinh(phi / 3);
+        assert_true(fabs(fracas_size_law_at(FRACAS_LAW_GLENN_CHUDNOVSKY, &scales, rate) / by_gc - 1) < 1e-13);
+    }
+}
+
+/* With x = 1.5 e, s/s0 = (4/e) sinh(asinh(x)/3) = 2 (1 - 4 x^2/27 + ...) as e -> 0: 2 to 6.7e-9 at e = 1e-4.
+ * As e -> infinity sinh(asinh(x)/3) -> ((2x)^(1/3) - (2x)^(-1/3))/2, so GC/Grady -> 1 - (3e)^(-2/3):
+ * 1 to 4.8e-7 at e = 1e9. ZMR -> 4.5 as e -> 0 and e^(-2/3) as e -> infinity; ZMR-2 -> 4.5 and (4.5/5.4) e^(-3/4). */
+static void limits(void **state)
+{
+    (void)state;
+    double (*gc)(double) = fracas_size_laws[FRACAS_LAW_GLENN_CHUDNOVSKY].normalised;
+    double (*grady)(double) = fracas_size_laws[FRACAS_LAW_GRADY].normalised;
+    double (*zmr)(double) = fracas_size_laws[FRACAS_LAW_ZMR].normalised;
+    double (*zmr2)(double) = fracas_size_laws[FRACAS_LAW_ZMR2].normalised;
+    assert_true(fabs(gc(1e-4) - 2) < 1e-8);
+    assert_true(fabs(gc(1e-4) - 2) > 1e-9);
+    assert_true(fabs(gc(1e9) / grady(1e9) - 1) < 5e-7);
+    assert_true(fabs(zmr(1e-12) / 4.5 - 1) < 5e-8);     /* 4.5 e^(2/3) = 4.5e-8 */
+    assert_true(fabs(zmr(1e12) * 1e8 - 1) < 3e-9);      /* 1/(4.5 e^(2/3)) = 2.2e-9 */
+    assert_true(fabs(zmr2(1e-24) / 4.5 - 1) < 1e-6);    /* 0.77 e^(1/4) = 7.7e-7 */
+    assert_true(fabs(zmr2(1e24) * 1e18 * 5.4 / 4.5 - 1) < 1e-12); /* 0.77/5.4 e^(-1/2) = 1.4e-13 */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(scales_of_the_reference_material),
+        cmocka_unit_test(laws_as_printed),
+        cmocka_unit_test(dimensional_forms),
+        cmocka_unit_test(limits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
