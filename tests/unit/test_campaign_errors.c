@@ -1,4 +1,5 @@
 /* What a wrong campaign file is told: place, what was found, what is allowed, the nearest known key. */
+#include "campaigns/file/read.h"
 #include "tests/unit/campaign_text.h"
 
 typedef struct {
@@ -7,14 +8,14 @@ typedef struct {
     const char *words[4];   /* which the message must have */
 } wrong;
 
-static void check(const wrong *w)
+static void check(const fracas_units *units, const wrong *w)
 {
     char path[40], place[80];
     char *text = replace(plain_campaign, w->find, w->put);
     fracas_campaign *campaign = NULL;
     make_path(path);
     write_bytes(path, text, strlen(text));
-    fracas_err err = fracas_campaign_read(path, &campaign);
+    fracas_err err = fracas_campaign_read_with(units, path, &campaign);
     unlink(path);
     free(text);
     if (getenv("FRACAS_READ_ALOUD"))
@@ -28,8 +29,7 @@ static void check(const wrong *w)
 }
 
 #define CHECK_ALL(table) \
-    (void)state; \
-    for (size_t i = 0; i < FRACAS_COUNT(table); i++) check(&(table)[i])
+    for (size_t i = 0; i < FRACAS_COUNT(table); i++) check(*state, &(table)[i])
 
 static void test_yaml(void **state)
 {
@@ -253,11 +253,25 @@ static void test_whole_files(void **state)
     assert_null(campaign);
 }
 
+static int load(void **state)
+{
+    fracas_units *units;
+    if (fracas_units_create(&units)) return -1;
+    *state = units;
+    return 0;
+}
+
+static int unload(void **state)
+{
+    fracas_units_destroy(*state);
+    return 0;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_yaml),   cmocka_unit_test(test_top),    cmocka_unit_test(test_keys),
         cmocka_unit_test(test_values), cmocka_unit_test(test_sweeps), cmocka_unit_test(test_whole_files),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, load, unload);
 }
