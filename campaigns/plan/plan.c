@@ -217,10 +217,11 @@ static void print_json(const campaign_plan *plan, FILE *out)
     fracas_json_object(&json, NULL);
     fracas_json_text(&json, "name", plan->campaign->name);
     fracas_json_integer(&json, "jobs", plan->jobs);
+    fracas_json_integer(&json, "points", (int64_t)plan->table->npoints);
     fracas_json_integer(&json, "realizations", plan->realizations);
     fracas_json_real(&json, "seconds", plan->time);
     fracas_json_real(&json, "bytes", plan->bytes);
-    fracas_json_array(&json, "points");
+    fracas_json_array(&json, "point");
     for (size_t p = 0; p < plan->table->npoints; p++) print_json_point(plan, p, &json);
     fracas_json_close_array(&json);
     fracas_json_close_object(&json);

@@ -63,6 +63,7 @@ static void test_json(void **state)
     (void)state;
     fracas_campaign *campaign = read_replaced("", sweep);
     char *text = print_plan(campaign, true);
+    expect(text, "\"points\": 4,");
     expect(text, "\"realizations\": 12");
     expect(text, "\"loading.rate\": 10000");
     expect(text, "\"elements\": 100");
