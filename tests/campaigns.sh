@@ -81,7 +81,8 @@ wait_segments()
 # (one that is a zombie while its other threads still die holds its files, and so the lock).
 processes()
 {
-    cat /proc/[0-9]*/stat 2>/dev/null | sed 's/([^)]*)/x/' | awk -v session="$session" '$6 == session && ($3 != "Z" || $20 > 1) {print $1}'
+    cat /proc/[0-9]*/stat 2>/dev/null | sed 's/([^)]*)/x/' |
+        awk -v session="$session" '$6 == session && ($3 != "Z" || $20 > 1) {print $1}'
 }
 
 kill_session()

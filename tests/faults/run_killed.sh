@@ -13,7 +13,7 @@ for kill in 1 2 3; do # of 60 segments, one for each realization
     kill_session
     [ "$running" -ge 6 ] || fail "parent, mpirun, 2 ranks and 2 servers should have run, not $running processes"
     left=$(segments killed)
-    echo "kill $kill at $left segments of 40"
+    echo "kill $kill at $left segments of 60"
     [ "$left" -ge 1 ] && [ "$left" -lt 60 ] && [ ! -e killed/study.h5 ] || fail "not killed in the middle"
 done
 expect 0 "$fracas" run small.yaml --study killed --jobs 1 --segment-size 1e-6
