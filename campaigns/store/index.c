@@ -165,8 +165,8 @@ static fracas_err pragma(fracas_index *index, const char *text, const char *want
     fracas_err err = FRACAS_OK;
     if (code != SQLITE_ROW && code != SQLITE_DONE) err = fracas_index_error(index, "open");
     else if (wanted && (!found || strcmp(found, wanted) != 0))
-        err = fracas_fail(FRACAS_ENVIRONMENT, "%s: '%s' gives '%s', not '%s': nothing would be durable here", index->path,
-                          text, found ? found : "", wanted);
+        err = fracas_fail(FRACAS_ENVIRONMENT, "%s: '%s' gives '%s', not '%s': nothing would be durable here",
+                          index->path, text, found ? found : "", wanted);
     sqlite3_finalize(statement);
     return err;
 }
@@ -196,7 +196,8 @@ static fracas_err create_tables(fracas_index *index)
 static fracas_err check_version(fracas_index *index)
 {
     sqlite3_stmt *statement;
-    int code = sqlite3_prepare_v2(index->db, "SELECT value FROM meta WHERE key = 'format_version'", -1, &statement, NULL);
+    static const char query[] = "SELECT value FROM meta WHERE key = 'format_version'";
+    int code = sqlite3_prepare_v2(index->db, query, -1, &statement, NULL);
     if (code == SQLITE_ERROR) return fracas_fail(FRACAS_DAMAGED, "%s is no index of fracas", index->path);
     if (code != SQLITE_OK) return fracas_index_error(index, "open");
     const char *found = sqlite3_step(statement) == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;

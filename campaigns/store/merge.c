@@ -17,8 +17,8 @@ static fracas_err append(void *context, fracas_step *step)
     if (step->status == FRACAS_PLANNED || step->status == FRACAS_LEASED) {
         char hex[FRACAS_HASH_HEX];
         fracas_hash_hex(&m->table->point[step->point].hash, hex);
-        return fracas_fail(FRACAS_INTERRUPTED, "replica %" PRId64 " of point %s is not computed yet; run again to go on",
-                           step->replica, hex);
+        return fracas_fail(FRACAS_INTERRUPTED, "replica %" PRId64 " of point %s is not computed yet; run again to go "
+                           "on", step->replica, hex);
     }
     if (step->status != FRACAS_DONE) m->complete = false;
     return fracas_writer_append(m->writer, step->point, step->replica, &step->record);

@@ -128,7 +128,8 @@ fracas_err fracas_segments_record(fracas_segments *segments, const fracas_place 
     const char *name = segments->segment[segments->current].name;
     fracas_reader *reader = segments->reader;
     if (place->row < 0 || (uint64_t)place->row >= fracas_reader_realizations(reader))
-        return fracas_fail(FRACAS_DAMAGED, "segment %s has no row %" PRId64 ", which the index names", name, place->row);
+        return fracas_fail(FRACAS_DAMAGED, "segment %s has no row %" PRId64 ", which the index names", name,
+                           place->row);
     size_t found_point;
     int64_t found_replica;
     TRY(fracas_reader_record(reader, (size_t)place->row, FRACAS_READ_ALL, &found_point, &found_replica, record));

@@ -112,7 +112,9 @@ FRACAS_MUST_USE fracas_err fracas_index_rows(fracas_index *index, const fracas_p
  * times); never in study.h5. */
 FRACAS_MUST_USE fracas_err fracas_index_commit(fracas_index *index, const char *segment, const fracas_file_seal *seal,
                                                const fracas_segment_row *row, size_t count, const char *provenance);
-FRACAS_MUST_USE fracas_err fracas_index_lease(fracas_index *index, const fracas_hash *point, int64_t replica, int64_t count);
+/* Marks `count` replicas from `replica` on as leased, those that are planned. Not durable: the next plan undoes it. */
+FRACAS_MUST_USE fracas_err fracas_index_lease(fracas_index *index, const fracas_hash *point, int64_t replica,
+                                              int64_t count);
 /* Counts an attempt of one realization that ended without a record, with the reason; with `final` it becomes
  * failed (its row in study.h5 is outcome FAILED, values NaN), else planned. */
 FRACAS_MUST_USE fracas_err fracas_index_fail(fracas_index *index, const fracas_hash *point, int64_t replica,

@@ -95,7 +95,8 @@ static reading read_all(const char *path)
             sample_record(i / REPLICAS, (int64_t)(i % REPLICAS), MOST, &wanted);
             sample_make_canonical(&wanted);
             err = fracas_reader_record(reader, i, FRACAS_READ_ALL, &point, &replica, &found);
-            if (!err) same = point == i / REPLICAS && replica == (int64_t)(i % REPLICAS) && sample_equal(&wanted, &found);
+            if (!err)
+                same = point == i / REPLICAS && replica == (int64_t)(i % REPLICAS) && sample_equal(&wanted, &found);
             fracas_record_clear(&wanted);
             fracas_record_clear(&found);
         }
@@ -173,7 +174,8 @@ static void overwritten_stretches_are_found(void **state)
     for (int i = 0; i < 60; i++) {
         memcpy(damaged, bytes, size);
         size_t first = i < 20 ? (size_t)i * 100 : sample_bits(&random) % size, length = 1 + sample_bits(&random) % 4096;
-        for (size_t at = first; at < size && at < first + length; at++) damaged[at] = (unsigned char)sample_bits(&random);
+        for (size_t at = first; at < size && at < first + length; at++)
+            damaged[at] = (unsigned char)sample_bits(&random);
         sample_spill(path, damaged, size);
         assert_int_not_equal(read_all(path), WRONG);
     }
