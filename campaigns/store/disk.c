@@ -1,11 +1,15 @@
 #include "campaigns/store/disk.h"
 
+#include "base/param.h"
+
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <linux/magic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 static const char temporary_mark[] = ".tmp-";
@@ -89,4 +93,19 @@ fracas_err fracas_disk_seal_path(const char *path, fracas_file_seal *seal)
     fracas_err err = fracas_disk_seal(fd, path, seal);
     close(fd);
     return err;
+}
+
+fracas_err fracas_disk_is_local(const char *path, bool *local)
+{
+    /* Those whose locks and shared memory WAL can rely on; all others are taken for network filesystems. */
+    static const unsigned long known[] = {EXT4_SUPER_MAGIC, XFS_SUPER_MAGIC,  BTRFS_SUPER_MAGIC, TMPFS_MAGIC,
+                                          RAMFS_MAGIC,      F2FS_SUPER_MAGIC, OVERLAYFS_SUPER_MAGIC,
+                                          REISERFS_SUPER_MAGIC, 0x2fc12fc1 /* ZFS */, 0xca451a4e /* bcachefs */,
+                                          0x3153464a /* JFS */};
+    struct statfs info;
+    *local = false;
+    if (statfs(path, &info) < 0) return fracas_disk_fail("look at", path);
+    for (size_t k = 0; k < FRACAS_COUNT(known); k++)
+        if ((uint32_t)info.f_type == (uint32_t)known[k]) *local = true;
+    return FRACAS_OK;
 }

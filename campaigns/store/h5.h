@@ -16,7 +16,7 @@
 #include <stdint.h>
 
 typedef struct {
-    hid_t id;
+    hid_t id, driver;
     int fd;
     int error;        /* errno of the first failed read or write, 0 if none */
     bool writing;
@@ -24,13 +24,15 @@ typedef struct {
     const char *path; /* for messages; must outlive this */
 } fracas_h5;
 
-/* Creates `name` (or empties it). After an error everything is closed. */
+#define FRACAS_H5_CLOSED ((fracas_h5){.id = H5I_INVALID_HID, .driver = H5I_INVALID_HID, .fd = -1})
+
+/* Creates `name` (or empties it); `path` is what messages call it. fracas_h5_close after an error, too. */
 FRACAS_MUST_USE fracas_err fracas_h5_create(fracas_h5 *h5, const char *name, const char *path);
 /* Opens `path` to read. FRACAS_DAMAGED if it is not there or no HDF5 file. */
 FRACAS_MUST_USE fracas_err fracas_h5_open(fracas_h5 *h5, const char *path);
 /* Closes HDF5's side, so that every byte is handed to the system; the descriptor stays open. */
 FRACAS_MUST_USE fracas_err fracas_h5_flush_close(fracas_h5 *h5);
-/* Closes what is open. */
+/* Closes what is open; what was written and not flushed is lost. */
 void fracas_h5_close(fracas_h5 *h5);
 
 /* Turns HDF5's error stack into our message about `what` (a dataset, an attribute): FRACAS_ENVIRONMENT if the

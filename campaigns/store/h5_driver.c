@@ -138,12 +138,11 @@ static const H5FD_class_t driver = {
 static hid_t access_list(fracas_h5 *h5)
 {
     driver_info info = {h5};
-    hid_t id = H5FDregister(&driver), list = H5Pcreate(H5P_FILE_ACCESS);
-    bool ok = id >= 0 && list >= 0 && H5Pset_driver(list, id, &info) >= 0 &&
-              H5Pset_libver_bounds(list, H5F_LIBVER_V110, H5F_LIBVER_V110) >= 0 &&
-              H5Pset_fclose_degree(list, H5F_CLOSE_STRONG) >= 0;
-    if (id >= 0) H5FDunregister(id); /* the list holds it now */
-    if (ok) return list;
+    hid_t list = H5Pcreate(H5P_FILE_ACCESS);
+    if (list >= 0 && H5Pset_driver(list, h5->driver, &info) >= 0 &&
+        H5Pset_libver_bounds(list, H5F_LIBVER_V110, H5F_LIBVER_V110) >= 0 &&
+        H5Pset_fclose_degree(list, H5F_CLOSE_STRONG) >= 0)
+        return list;
     if (list >= 0) H5Pclose(list);
     return H5I_INVALID_HID;
 }
@@ -151,9 +150,12 @@ static hid_t access_list(fracas_h5 *h5)
 /* No handler at exit: in a forked child it would write the parent's open files. Nothing needs it here. */
 static fracas_err start(fracas_h5 *h5, const char *path, bool writing)
 {
-    *h5 = (fracas_h5){.id = H5I_INVALID_HID, .fd = -1, .path = path, .writing = writing};
+    *h5 = FRACAS_H5_CLOSED;
+    h5->path = path;
+    h5->writing = writing;
     (void)H5dont_atexit();
-    if (H5open() < 0 || H5Eset_auto2(H5E_DEFAULT, NULL, NULL) < 0)
+    if (H5open() >= 0 && H5Eset_auto2(H5E_DEFAULT, NULL, NULL) >= 0) h5->driver = H5FDregister(&driver);
+    if (h5->driver < 0)
         return fracas_fail(FRACAS_ENVIRONMENT, "the HDF5 library does not start");
     return FRACAS_OK;
 }
@@ -162,14 +164,13 @@ fracas_err fracas_h5_create(fracas_h5 *h5, const char *name, const char *path)
 {
     TRY(start(h5, path, true));
     h5->fd = open(name, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (h5->fd < 0) return fracas_disk_fail("create", name);
+    if (h5->fd < 0) return fracas_disk_fail("create", path);
     hid_t list = access_list(h5), creation = H5Pcreate(H5P_FILE_CREATE);
     if (list >= 0 && creation >= 0 && H5Pset_obj_track_times(creation, false) >= 0)
         h5->id = H5Fcreate(name, H5F_ACC_TRUNC, creation, list);
     fracas_err err = h5->id < 0 ? fracas_h5_fail(h5, "start of the file") : FRACAS_OK;
     if (list >= 0) H5Pclose(list);
     if (creation >= 0) H5Pclose(creation);
-    if (err) fracas_h5_close(h5);
     return err;
 }
 
@@ -180,17 +181,12 @@ fracas_err fracas_h5_open(fracas_h5 *h5, const char *path)
     h5->fd = open(path, O_RDONLY | O_CLOEXEC);
     if (h5->fd < 0 && errno == ENOENT) return fracas_fail(FRACAS_DAMAGED, "%s is not there", path);
     if (h5->fd < 0) return fracas_disk_fail("open", path);
-    fracas_err err = FRACAS_OK;
-    hid_t list = H5I_INVALID_HID;
-    if (fstat(h5->fd, &info) < 0) err = fracas_disk_fail("read", path);
-    if (!err) {
-        h5->bytes = (uint64_t)info.st_size;
-        list = access_list(h5);
-        if (list >= 0) h5->id = H5Fopen(path, H5F_ACC_RDONLY, list);
-        if (h5->id < 0) err = fracas_h5_fail(h5, "start of the file");
-        if (list >= 0) H5Pclose(list);
-    }
-    if (err) fracas_h5_close(h5);
+    if (fstat(h5->fd, &info) < 0) return fracas_disk_fail("read", path);
+    h5->bytes = (uint64_t)info.st_size;
+    hid_t list = access_list(h5);
+    if (list >= 0) h5->id = H5Fopen(path, H5F_ACC_RDONLY, list);
+    fracas_err err = h5->id < 0 ? fracas_h5_fail(h5, "start of the file") : FRACAS_OK;
+    if (list >= 0) H5Pclose(list);
     return err;
 }
 
@@ -198,15 +194,16 @@ fracas_err fracas_h5_flush_close(fracas_h5 *h5)
 {
     hid_t id = h5->id;
     h5->id = H5I_INVALID_HID;
-    if (H5Fclose(id) < 0 || h5->error) return fracas_h5_fail(h5, "end of the file");
-    return FRACAS_OK;
+    if (H5Fclose(id) < 0) h5->driver = H5I_INVALID_HID; /* HDF5 has not let go of the file, so of it neither */
+    else if (!h5->error) return FRACAS_OK;
+    return fracas_h5_fail(h5, "end of the file");
 }
 
 void fracas_h5_close(fracas_h5 *h5)
 {
     if (h5->writing && !h5->error) h5->error = ECANCELED; /* given up: HDF5 need not write the rest */
-    if (h5->id >= 0) H5Fclose(h5->id);
+    if (h5->id >= 0 && H5Fclose(h5->id) < 0) h5->driver = H5I_INVALID_HID;
+    if (h5->driver >= 0) H5FDunregister(h5->driver);
     if (h5->fd >= 0) close(h5->fd);
-    h5->id = H5I_INVALID_HID;
-    h5->fd = -1;
+    *h5 = FRACAS_H5_CLOSED;
 }

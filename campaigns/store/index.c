@@ -4,11 +4,9 @@
 #include "campaigns/store/disk.h"
 
 #include <errno.h>
-#include <linux/magic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/vfs.h>
 #include <unistd.h>
 
 /* docs/formats/study.md explains every column. */
@@ -17,7 +15,8 @@ static const char tables[] =
     "CREATE TABLE IF NOT EXISTS point(id INTEGER PRIMARY KEY, hash TEXT NOT NULL UNIQUE, replicas INTEGER NOT NULL)"
     " STRICT;"
     "CREATE TABLE IF NOT EXISTS segment(id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, bytes INTEGER NOT NULL,"
-    " checksum TEXT NOT NULL, provenance TEXT NOT NULL CHECK (json_valid(provenance))) STRICT;"
+    " checksum TEXT NOT NULL, rows INTEGER NOT NULL,"
+    " provenance TEXT NOT NULL CHECK (json_valid(provenance))) STRICT;"
     "CREATE TABLE IF NOT EXISTS realization(point INTEGER NOT NULL REFERENCES point(id), replica INTEGER NOT NULL,"
     " status TEXT NOT NULL CHECK (status IN ('planned', 'leased', 'done', 'failed', 'quarantined')),"
     " attempts INTEGER NOT NULL DEFAULT 0, reason TEXT, outcome INTEGER, segment INTEGER REFERENCES segment(id),"
@@ -28,14 +27,18 @@ static const char tables[] =
 
 static const char *const sql_text[FRACAS_NSQL] = {
     [FRACAS_SQL_BEGIN] = "BEGIN IMMEDIATE",
+    [FRACAS_SQL_BEGIN_READING] = "BEGIN",
     [FRACAS_SQL_COMMIT] = "COMMIT",
-    [FRACAS_SQL_ROLLBACK] = "ROLLBACK",
     [FRACAS_SQL_POINT_ADD] = "INSERT INTO point(hash, replicas) VALUES (?1, ?2)"
                              " ON CONFLICT (hash) DO UPDATE SET replicas = max(replicas, excluded.replicas)",
     [FRACAS_SQL_POINT_FIND] = "SELECT id FROM point WHERE hash = ?1",
     [FRACAS_SQL_POINT_COUNT] = "SELECT count(*) FROM point",
     [FRACAS_SQL_POINT_ALL] = "SELECT hash, replicas FROM point ORDER BY id",
-    [FRACAS_SQL_ROW_ADD] = "INSERT OR IGNORE INTO realization(point, replica, status) VALUES (?1, ?2, 'planned')",
+    [FRACAS_SQL_ROW_COUNT] = "SELECT count(*) FROM realization WHERE point = ?1 AND replica < ?2",
+    [FRACAS_SQL_ROW_ADD] = "WITH RECURSIVE n(replica) AS"
+                           " (SELECT 0 UNION ALL SELECT replica + 1 FROM n WHERE replica + 1 < ?2)"
+                           " INSERT OR IGNORE INTO realization(point, replica, status)"
+                           " SELECT ?1, replica, 'planned' FROM n",
     [FRACAS_SQL_ROW_FIND] = "SELECT status, segment, row FROM realization WHERE point = ?1 AND replica = ?2",
     [FRACAS_SQL_ROW_OF_POINT] = "SELECT replica, status, attempts FROM realization"
                                 " WHERE point = ?1 AND replica < ?2 ORDER BY replica",
@@ -58,9 +61,10 @@ static const char *const sql_text[FRACAS_NSQL] = {
                               " residual = NULL WHERE segment IN (SELECT id FROM segment WHERE bytes < 0)",
     [FRACAS_SQL_TALLY] = "SELECT status, outcome FROM realization",
     [FRACAS_SQL_TALLY_POINT] = "SELECT status, outcome FROM realization WHERE point = ?1",
-    [FRACAS_SQL_SEGMENT_ADD] = "INSERT INTO segment(name, bytes, checksum, provenance) VALUES (?1, ?2, ?3, ?4)",
+    [FRACAS_SQL_SEGMENT_ADD] = "INSERT INTO segment(name, bytes, checksum, rows, provenance)"
+                               " VALUES (?1, ?2, ?3, ?4, ?5)",
     [FRACAS_SQL_SEGMENT_FIND] = "SELECT id, bytes, checksum FROM segment WHERE name = ?1",
-    [FRACAS_SQL_SEGMENT_ALL] = "SELECT id, name, bytes, checksum FROM segment ORDER BY id",
+    [FRACAS_SQL_SEGMENT_ALL] = "SELECT id, name, bytes, checksum, rows FROM segment ORDER BY id",
     [FRACAS_SQL_SEGMENT_LOSE] = "UPDATE segment SET bytes = -1 WHERE id = ?1",
     [FRACAS_SQL_SEGMENT_FORGET] = "DELETE FROM segment WHERE bytes < 0",
     [FRACAS_SQL_SEGMENT_TOTAL] = "SELECT count(*), coalesce(sum(bytes), 0) FROM segment",
@@ -146,26 +150,11 @@ fracas_err fracas_index_end(fracas_index *index, fracas_err err)
 {
     if (!err) err = fracas_index_do(index, FRACAS_SQL_COMMIT);
     /* SQLite may have rolled back by itself (disk full); the first error is the one to tell. */
-    if (err && !sqlite3_get_autocommit(index->db)) sqlite3_exec(index->db, sql_text[FRACAS_SQL_ROLLBACK], NULL, NULL, NULL);
+    if (err && !sqlite3_get_autocommit(index->db)) sqlite3_exec(index->db, "ROLLBACK", NULL, NULL, NULL);
     return err;
 }
 
 /* ---- opening ---- */
-
-fracas_err fracas_disk_is_local(const char *path, bool *local)
-{
-    /* Those whose locks and shared memory WAL can rely on; all others are taken for network filesystems. */
-    static const unsigned long known[] = {EXT4_SUPER_MAGIC, XFS_SUPER_MAGIC,  BTRFS_SUPER_MAGIC, TMPFS_MAGIC,
-                                          RAMFS_MAGIC,      F2FS_SUPER_MAGIC, OVERLAYFS_SUPER_MAGIC,
-                                          REISERFS_SUPER_MAGIC, 0x2fc12fc1 /* ZFS */, 0xca451a4e /* bcachefs */,
-                                          0x3153464a /* JFS */};
-    struct statfs info;
-    *local = false;
-    if (statfs(path, &info) < 0) return fracas_disk_fail("look at", path);
-    for (size_t k = 0; k < sizeof known / sizeof *known; k++)
-        if ((uint32_t)info.f_type == (uint32_t)known[k]) *local = true;
-    return FRACAS_OK;
-}
 
 /* Runs a pragma and compares the first value that it gives. */
 static fracas_err pragma(fracas_index *index, const char *text, const char *wanted)
@@ -178,8 +167,8 @@ static fracas_err pragma(fracas_index *index, const char *text, const char *want
     fracas_err err = FRACAS_OK;
     if (code != SQLITE_ROW && code != SQLITE_DONE) err = fracas_index_error(index, "open");
     else if (wanted && (!found || strcmp(found, wanted) != 0))
-        err = fracas_fail(FRACAS_ENVIRONMENT, "%s: '%s' gives '%s', not '%s': nothing would be durable here", index->path,
-                          text, found ? found : "", wanted);
+        err = fracas_fail(FRACAS_ENVIRONMENT, "%s: '%s' gives '%s', not '%s': nothing would be durable here",
+                          index->path, text, found ? found : "", wanted);
     sqlite3_finalize(statement);
     return err;
 }
@@ -187,6 +176,7 @@ static fracas_err pragma(fracas_index *index, const char *text, const char *want
 static fracas_err set_durability(fracas_index *index)
 {
     sqlite3_busy_timeout(index->db, 5000);
+    TRY(pragma(index, "PRAGMA cache_size = -65536", NULL)); /* 64 MiB: a commit may touch pages all over the table */
     if (!index->local) TRY(pragma(index, "PRAGMA locking_mode = EXCLUSIVE", "exclusive"));
     TRY(index->local ? pragma(index, "PRAGMA journal_mode = WAL", "wal")
                      : pragma(index, "PRAGMA journal_mode = TRUNCATE", "truncate"));
@@ -201,14 +191,15 @@ static fracas_err create_tables(fracas_index *index)
              tables, FRACAS_FORMAT_VERSION);
     fracas_err err = sqlite3_exec(index->db, text, NULL, NULL, NULL) == SQLITE_OK
                          ? FRACAS_OK : fracas_index_error(index, "create its tables");
-    if (err) sqlite3_exec(index->db, sql_text[FRACAS_SQL_ROLLBACK], NULL, NULL, NULL);
+    if (err) sqlite3_exec(index->db, "ROLLBACK", NULL, NULL, NULL);
     return err ? err : fracas_disk_sync_folder(index->path);
 }
 
 static fracas_err check_version(fracas_index *index)
 {
     sqlite3_stmt *statement;
-    int code = sqlite3_prepare_v2(index->db, "SELECT value FROM meta WHERE key = 'format_version'", -1, &statement, NULL);
+    static const char query[] = "SELECT value FROM meta WHERE key = 'format_version'";
+    int code = sqlite3_prepare_v2(index->db, query, -1, &statement, NULL);
     if (code == SQLITE_ERROR) return fracas_fail(FRACAS_DAMAGED, "%s is no index of fracas", index->path);
     if (code != SQLITE_OK) return fracas_index_error(index, "open");
     const char *found = sqlite3_step(statement) == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;

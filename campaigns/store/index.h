@@ -9,12 +9,13 @@
 /* Statements, prepared once when the index is opened (text in index.c). */
 typedef enum {
     FRACAS_SQL_BEGIN,
+    FRACAS_SQL_BEGIN_READING,
     FRACAS_SQL_COMMIT,
-    FRACAS_SQL_ROLLBACK,
     FRACAS_SQL_POINT_ADD,
     FRACAS_SQL_POINT_FIND,
     FRACAS_SQL_POINT_COUNT,
     FRACAS_SQL_POINT_ALL,
+    FRACAS_SQL_ROW_COUNT,
     FRACAS_SQL_ROW_ADD,
     FRACAS_SQL_ROW_FIND,
     FRACAS_SQL_ROW_OF_POINT,
@@ -47,8 +48,6 @@ struct fracas_index {
 
 /* fracas_index_open with the kind of filesystem given. */
 FRACAS_MUST_USE fracas_err fracas_index_open_as(const char *study, bool create, bool local, fracas_index **index);
-/* True if `path` lies on a filesystem of this machine, false on a network one or one that we do not know. */
-FRACAS_MUST_USE fracas_err fracas_disk_is_local(const char *path, bool *local);
 
 /* The last SQLite failure as our message. */
 FRACAS_MUST_USE fracas_err fracas_index_error(const fracas_index *index, const char *doing);
@@ -84,6 +83,7 @@ typedef struct {
     int64_t id;
     char *name;
     fracas_file_seal seal;
+    int64_t rows; /* realizations in it */
 } fracas_known_segment;
 
 /* All of them by id; freed with fracas_index_segments_free. */

@@ -47,23 +47,35 @@ static fracas_err need_point(fracas_index *index, const fracas_hash *point, int6
     return fracas_fail(FRACAS_DAMAGED, "%s has no point %s", index->path, hex);
 }
 
+/* Steps a statement of one row of numbers. */
+static fracas_err one_row(fracas_index *index, fracas_sql sql, int64_t *first, int64_t *second)
+{
+    bool row = false;
+    TRY(fracas_index_step(index, sql, &row));
+    *first = sqlite3_column_int64(at(index, sql), 0);
+    if (second) *second = sqlite3_column_int64(at(index, sql), 1);
+    fracas_index_reset(index, sql);
+    return FRACAS_OK;
+}
+
 /* ---- planning ---- */
 
 static fracas_err plan_point(fracas_index *index, const fracas_point_row *point)
 {
     char hex[FRACAS_HASH_HEX];
-    int64_t id;
+    int64_t id, there;
     fracas_hash_hex(&point->hash, hex);
     TRY(fracas_index_bind_text(index, FRACAS_SQL_POINT_ADD, 1, hex));
     TRY(fracas_index_bind(index, FRACAS_SQL_POINT_ADD, 2, point->replicas));
     TRY(fracas_index_do(index, FRACAS_SQL_POINT_ADD));
     TRY(need_point(index, &point->hash, &id));
+    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_COUNT, 1, id));
+    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_COUNT, 2, point->replicas));
+    TRY(one_row(index, FRACAS_SQL_ROW_COUNT, &there, NULL));
+    if (there == point->replicas) return FRACAS_OK; /* to resume a large study is quick */
     TRY(fracas_index_bind(index, FRACAS_SQL_ROW_ADD, 1, id));
-    for (int64_t replica = 0; replica < point->replicas; replica++) {
-        TRY(fracas_index_bind(index, FRACAS_SQL_ROW_ADD, 2, replica));
-        TRY(fracas_index_do(index, FRACAS_SQL_ROW_ADD));
-    }
-    return FRACAS_OK;
+    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_ADD, 2, point->replicas));
+    return fracas_index_do(index, FRACAS_SQL_ROW_ADD);
 }
 
 fracas_err fracas_index_plan(fracas_index *index, const fracas_point_table *table)
@@ -151,6 +163,13 @@ fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point, int
     return fracas_fail(FRACAS_DAMAGED, "%s has no replica %" PRId64 " of point %s", index->path, replica, hex);
 }
 
+/* The last update changed this realization, or it is done already and stays; FRACAS_DAMAGED if it was never planned. */
+static fracas_err changed_or_done(fracas_index *index, const fracas_hash *point, int64_t replica)
+{
+    fracas_place place;
+    return sqlite3_changes(index->db) == 1 ? FRACAS_OK : fracas_index_place(index, point, replica, &place);
+}
+
 /* ---- leases, failures, events ---- */
 
 static fracas_err synchronous(fracas_index *index, const char *text)
@@ -185,7 +204,8 @@ fracas_err fracas_index_fail(fracas_index *index, const fracas_hash *point, int6
     TRY(fracas_index_bind_text(index, FRACAS_SQL_ROW_FAIL, 4, status_text[final ? FRACAS_FAILED_ROW : FRACAS_PLANNED]));
     if (final) TRY(fracas_index_bind(index, FRACAS_SQL_ROW_FAIL, 5, FRACAS_FAILED));
     else sqlite3_bind_null(at(index, FRACAS_SQL_ROW_FAIL), 5);
-    return fracas_index_do(index, FRACAS_SQL_ROW_FAIL);
+    TRY(fracas_index_do(index, FRACAS_SQL_ROW_FAIL));
+    return changed_or_done(index, point, replica);
 }
 
 fracas_err fracas_index_event(fracas_index *index, const char *kind, const char *text)
@@ -203,7 +223,7 @@ static void checksum_text(uint64_t checksum, char text[17])
 }
 
 /* Id of the segment; added if the index does not know it. */
-static fracas_err add_segment(fracas_index *index, const char *name, const fracas_file_seal *seal,
+static fracas_err add_segment(fracas_index *index, const char *name, const fracas_file_seal *seal, size_t rows,
                               const char *provenance, int64_t *id)
 {
     char checksum[17];
@@ -223,7 +243,8 @@ static fracas_err add_segment(fracas_index *index, const char *name, const fraca
     TRY(fracas_index_bind_text(index, FRACAS_SQL_SEGMENT_ADD, 1, name));
     TRY(fracas_index_bind(index, FRACAS_SQL_SEGMENT_ADD, 2, (int64_t)seal->bytes));
     TRY(fracas_index_bind_text(index, FRACAS_SQL_SEGMENT_ADD, 3, checksum));
-    TRY(fracas_index_bind_text(index, FRACAS_SQL_SEGMENT_ADD, 4, provenance));
+    TRY(fracas_index_bind(index, FRACAS_SQL_SEGMENT_ADD, 4, (int64_t)rows));
+    TRY(fracas_index_bind_text(index, FRACAS_SQL_SEGMENT_ADD, 5, provenance));
     TRY(fracas_index_do(index, FRACAS_SQL_SEGMENT_ADD));
     *id = sqlite3_last_insert_rowid(index->db);
     return FRACAS_OK;
@@ -232,7 +253,6 @@ static fracas_err add_segment(fracas_index *index, const char *name, const fraca
 static fracas_err set_done(fracas_index *index, int64_t point, int64_t segment, const fracas_segment_row *row)
 {
     bool failed = row->outcome == FRACAS_FAILED;
-    fracas_place place;
     TRY(fracas_index_bind(index, FRACAS_SQL_ROW_DONE, 1, point));
     TRY(fracas_index_bind(index, FRACAS_SQL_ROW_DONE, 2, row->replica));
     TRY(fracas_index_bind_text(index, FRACAS_SQL_ROW_DONE, 3, status_text[failed ? FRACAS_FAILED_ROW : FRACAS_DONE]));
@@ -245,8 +265,7 @@ static fracas_err set_done(fracas_index *index, int64_t point, int64_t segment, 
     TRY(fracas_index_bind_real(index, FRACAS_SQL_ROW_DONE, 10, row->dissipated));
     TRY(fracas_index_bind_real(index, FRACAS_SQL_ROW_DONE, 11, row->residual));
     TRY(fracas_index_do(index, FRACAS_SQL_ROW_DONE));
-    if (sqlite3_changes(index->db) == 1) return FRACAS_OK;
-    return fracas_index_place(index, &row->point, row->replica, &place); /* done already, or not planned: an error */
+    return changed_or_done(index, &row->point, row->replica);
 }
 
 fracas_err fracas_index_commit(fracas_index *index, const char *segment, const fracas_file_seal *seal,
@@ -254,7 +273,7 @@ fracas_err fracas_index_commit(fracas_index *index, const char *segment, const f
 {
     TRY(fracas_index_do(index, FRACAS_SQL_BEGIN));
     int64_t id = 0, point = 0;
-    fracas_err err = add_segment(index, segment, seal, provenance, &id);
+    fracas_err err = add_segment(index, segment, seal, count, provenance, &id);
     for (size_t r = 0; !err && r < count; r++) {
         if (r == 0 || !fracas_hash_equal(&row[r].point, &row[r - 1].point))
             err = need_point(index, &row[r].point, &point);
@@ -280,9 +299,10 @@ static fracas_err load_segments(fracas_index *index, fracas_known_segment **segm
         const char *name = (const char *)sqlite3_column_text(s, 1), *hex = (const char *)sqlite3_column_text(s, 3);
         char *end;
         fracas_file_seal seal = {(uint64_t)sqlite3_column_int64(s, 2), hex ? strtoull(hex, &end, 16) : 0};
-        if (!name || strchr(name, '/') || !hex || strlen(hex) != 16 || *end)
+        int64_t rows = sqlite3_column_int64(s, 4);
+        if (!name || strchr(name, '/') || !hex || strlen(hex) != 16 || *end || rows < 0)
             return fracas_fail(FRACAS_DAMAGED, "%s: a row of its table `segment` is damaged", index->path);
-        (*segment)[*count] = (fracas_known_segment){sqlite3_column_int64(s, 0), strdup(name), seal};
+        (*segment)[*count] = (fracas_known_segment){sqlite3_column_int64(s, 0), strdup(name), seal, rows};
         if (!(*segment)[(*count)++].name) return fracas_no_memory("the list of segments");
     }
 }
@@ -340,17 +360,6 @@ static fracas_err tally(fracas_index *index, fracas_sql sql, fracas_index_counts
         int64_t outcome = sqlite3_column_int64(at(index, sql), 1);
         if (outcome >= 0 && outcome < FRACAS_NOUTCOMES) counts->outcome[outcome]++;
     }
-    fracas_index_reset(index, sql);
-    return FRACAS_OK;
-}
-
-/* Steps a statement of one row of numbers. */
-static fracas_err one_row(fracas_index *index, fracas_sql sql, int64_t *first, int64_t *second)
-{
-    bool row = false;
-    TRY(fracas_index_step(index, sql, &row));
-    *first = sqlite3_column_int64(at(index, sql), 0);
-    if (second) *second = sqlite3_column_int64(at(index, sql), 1);
     fracas_index_reset(index, sql);
     return FRACAS_OK;
 }

@@ -34,8 +34,8 @@ static fracas_err take(int fd, const char *path)
     struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     if (fcntl(fd, F_SETLK, &lock) == 0) return sign(fd, path);
     if (errno == ENOLCK || errno == ENOSYS || errno == EOPNOTSUPP)
-        return fracas_fail(FRACAS_ENVIRONMENT, "cannot lock %s: %s; the filesystem has no locks: put the study on another",
-                           path, strerror(errno));
+        return fracas_fail(FRACAS_ENVIRONMENT, "cannot lock %s: %s; this filesystem has no locks: put the study on one "
+                           "that has", path, strerror(errno));
     if (errno != EACCES && errno != EAGAIN) return fracas_disk_fail("lock", path);
     if (fcntl(fd, F_GETLK, &lock) < 0) lock.l_pid = 0;
     return in_use(fd, path, lock.l_pid);

@@ -108,7 +108,7 @@ fracas_err fracas_reader_open(const char *path, fracas_reader **reader)
     *reader = calloc(1, sizeof **reader);
     if (!*reader) return fracas_no_memory("a file");
     fracas_reader *r = *reader;
-    r->h5 = (fracas_h5){.id = H5I_INVALID_HID, .fd = -1};
+    r->h5 = FRACAS_H5_CLOSED;
     fracas_err err = (r->path = strdup(path)) ? fracas_h5_open(&r->h5, r->path) : fracas_no_memory("a file");
     if (!err) err = read_header(r);
     if (!err) err = fracas_table_read(&r->h5, &r->points);
@@ -181,40 +181,34 @@ static fracas_err load_ragged(fracas_reader *reader, int offsets, int s, size_t 
 {
     int64_t begin, end;
     *rows = NULL;
-    *count = 0;
     TRY(load_rows(reader, offsets, row, 1, &begin));
     TRY(load_rows(reader, offsets, row + 1, 1, &end));
     if (begin < 0 || end < begin || (uint64_t)end > reader->set[s].rows)
         return damaged(reader, fracas_store_sets[offsets].column->path, "an offset is out of order");
-    if (begin == end) return FRACAS_OK;
-    *rows = calloc((size_t)(end - begin), fracas_store_sets[s].row_size);
-    if (!*rows) return fracas_no_memory("a record");
     *count = (size_t)(end - begin);
-    return load_rows(reader, s, (uint64_t)begin, *count, *rows);
+    if (!*count) return FRACAS_OK;
+    *rows = calloc(*count, fracas_store_sets[s].row_size);
+    fracas_err err = *rows ? load_rows(reader, s, (uint64_t)begin, *count, *rows) : fracas_no_memory("a record");
+    if (err) free(*rows), *rows = NULL;
+    return err;
 }
 
 static fracas_err load_parts(fracas_reader *reader, size_t row, unsigned parts, fracas_record *record)
 {
     void *rows;
     if (parts & FRACAS_READ_FRAGMENTS) {
-        fracas_err err = load_ragged(reader, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT, row, &rows,
-                                     &record->nfragment);
+        TRY(load_ragged(reader, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT, row, &rows, &record->nfragment));
         record->fragment = rows;
-        TRY(err);
         if (record->outcome != FRACAS_FAILED && (uint64_t)record->fragments != record->nfragment)
             return damaged(reader, "/realization/fragments", "it is not the number of rows in /fragment");
     }
     if (parts & FRACAS_READ_HISTORY) {
-        fracas_err err = load_ragged(reader, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY, row, &rows,
-                                     &record->nhistory);
+        TRY(load_ragged(reader, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY, row, &rows, &record->nhistory));
         record->history = rows;
-        TRY(err);
     }
     if (parts & FRACAS_READ_INTERFACES && reader->interfaces) {
-        fracas_err err = load_ragged(reader, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE, row, &rows,
-                                     &record->ninterface);
+        TRY(load_ragged(reader, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE, row, &rows, &record->ninterface));
         record->interface = rows;
-        TRY(err);
     }
     return FRACAS_OK;
 }

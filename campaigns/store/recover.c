@@ -1,6 +1,6 @@
 /* Sweeping a study after an interruption. */
 #include "campaigns/store/disk.h"
-#include "campaigns/store/pool.h"
+#include "campaigns/store/index.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -191,22 +191,24 @@ void fracas_rows_load(const fracas_store_column *column, const void *stored, siz
     }
 }
 
-static void reference_row(FILE *out, const fracas_store_column *column)
+static void reference_row(FILE *out, const fracas_store_column *column, size_t chunk)
 {
-    static const char *const type[] = {[FRACAS_INT8] = "int8", [FRACAS_INT32] = "int32", [FRACAS_INT64] = "int64",
-                                       [FRACAS_FLOAT64] = "float64", [FRACAS_TEXT] = "text"};
-    bool vector = column->type != FRACAS_TEXT && column->width > 1;
-    fprintf(out, "| `%s` | %s%.0d | %s | %s | %s |\n", column->path, type[column->type],
-            column->type == FRACAS_TEXT ? (int)column->width : 0, vector ? "(n, 3)" : "(n)",
-            *column->unit ? column->unit : "-", column->description);
+    static const char *const name[] = {[FRACAS_INT8] = "int8", [FRACAS_INT32] = "int32", [FRACAS_INT64] = "int64",
+                                       [FRACAS_FLOAT64] = "float64"};
+    bool text = column->type == FRACAS_TEXT;
+    fprintf(out, "| `%s` | ", column->path);
+    if (text) fprintf(out, "text%zu | (n)", column->width);
+    else if (column->width > 1) fprintf(out, "%s | (n, %zu)", name[column->type], column->width);
+    else fprintf(out, "%s | (n)", name[column->type]);
+    fprintf(out, " | %zu | %s | %s |\n", chunk, text ? "-" : column->unit, column->description);
 }
 
 void fracas_store_reference(FILE *out)
 {
-    fputs("| dataset | type | shape | unit | meaning |\n|---|---|---|---|---|\n", out);
-    reference_row(out, &fracas_store_point_hash);
-    reference_row(out, &fracas_store_point_replicas);
+    fputs("| dataset | type | shape | chunk | unit | meaning |\n|---|---|---|---|---|---|\n", out);
+    reference_row(out, &fracas_store_point_hash, FRACAS_POINT_CHUNK);
+    reference_row(out, &fracas_store_point_replicas, FRACAS_POINT_CHUNK);
     for (int s = 0; s < FRACAS_NSETS; s++)
         for (size_t c = 0; c < fracas_store_sets[s].ncolumns; c++)
-            reference_row(out, &fracas_store_sets[s].column[c]);
+            reference_row(out, &fracas_store_sets[s].column[c], fracas_store_sets[s].chunk);
 }

@@ -60,7 +60,8 @@ size_t fracas_reader_realizations(const fracas_reader *reader);
 /* Parts of a record to read beside the scalars. */
 enum { FRACAS_READ_FRAGMENTS = 1, FRACAS_READ_HISTORY = 2, FRACAS_READ_INTERFACES = 4, FRACAS_READ_ALL = 7 };
 /* Realization in row `row` (0 .. realizations-1): its point (index in the file's table), replica and record;
- * `record` initialised by the caller, cleared by the caller. Reads ahead in blocks: rows are cheapest in order. */
+ * `record` initialised by the caller, cleared by the caller (and here before it is filled again). A part not asked
+ * for, or not in the file, has 0 rows and NULL. Reads ahead in blocks: rows are cheapest in order. */
 FRACAS_MUST_USE fracas_err fracas_reader_record(fracas_reader *reader, size_t row, unsigned parts,
                                                 size_t *point, int64_t *replica, fracas_record *record);
 
@@ -106,8 +107,9 @@ FRACAS_MUST_USE fracas_err fracas_index_plan(fracas_index *index, const fracas_p
 FRACAS_MUST_USE fracas_err fracas_index_rows(fracas_index *index, const fracas_point_table *table,
                                              fracas_index_row **row, size_t *count);
 /* One transaction, durable on return: the segment and its rows, which become done (or failed for outcome FAILED).
- * A row that is done already keeps its first segment. `provenance`: one JSON object (host, pid, versions, CPU,
- * instruction set, lanes, wall times); never in study.h5. */
+ * A row that is done already keeps its first segment; the same commit twice changes nothing. `segment`: file name in
+ * STUDY/segments, with its .h5. `provenance`: one JSON object (host, pid, versions, CPU, instruction set, lanes, wall
+ * times); never in study.h5. */
 FRACAS_MUST_USE fracas_err fracas_index_commit(fracas_index *index, const char *segment, const fracas_file_seal *seal,
                                                const fracas_segment_row *row, size_t count, const char *provenance);
 /* Calls `say` with each realization of the table that failed for good, in plan order, and the reason ("" if none was
@@ -115,7 +117,9 @@ FRACAS_MUST_USE fracas_err fracas_index_commit(fracas_index *index, const char *
 FRACAS_MUST_USE fracas_err fracas_index_failures(fracas_index *index, const fracas_point_table *table,
                                                  void (*say)(void *context, const fracas_index_row *row,
                                                              const char *reason), void *context);
-FRACAS_MUST_USE fracas_err fracas_index_lease(fracas_index *index, const fracas_hash *point, int64_t replica, int64_t count);
+/* Marks `count` replicas from `replica` on as leased, those that are planned. Not durable: the next plan undoes it. */
+FRACAS_MUST_USE fracas_err fracas_index_lease(fracas_index *index, const fracas_hash *point, int64_t replica,
+                                              int64_t count);
 /* Counts an attempt of one realization that ended without a record, with the reason; with `final` it becomes
  * failed (its row in study.h5 is outcome FAILED, values NaN), else planned. */
 FRACAS_MUST_USE fracas_err fracas_index_fail(fracas_index *index, const fracas_hash *point, int64_t replica,
@@ -140,14 +144,17 @@ FRACAS_MUST_USE fracas_err fracas_index_count_point(fracas_index *index, const f
  * host and pid. Released by the system on any death. */
 FRACAS_MUST_USE fracas_err fracas_study_lock(const char *study, int *lock);
 
-/* Sweeps STUDY/segments after an interruption: temporary files are removed; a segment that the index does not know
- * is checked and adopted (its rows committed) if it belongs to this campaign's points, else removed; a row whose
- * segment is missing or has the wrong size goes back to planned. Says what it did in *report (freed by caller). */
+/* Sweeps a study after an interruption. Plans the table (fracas_index_plan), creates STUDY/segments if it is not
+ * there, and then: temporary files are removed; a segment that the index does not know is checked and adopted (its rows
+ * committed) if all its realizations are planned, else removed; a row whose segment is missing or has the wrong size
+ * goes back to planned. Says what it did in *report, one line each, "" if nothing (freed by caller). */
 FRACAS_MUST_USE fracas_err fracas_study_recover(const char *study, fracas_index *index,
                                                 const fracas_point_table *table, char **report);
 
 /* Writes STUDY/study.h5 from the segments in plan order; realizations that failed get a row of NaN, and
- * header->complete in the file is 0 if any did. FRACAS_DAMAGED names a segment whose bytes are not the index's. */
+ * header->complete in the file is 0 if any did. FRACAS_INTERRUPTED if realizations are still to be computed.
+ * FRACAS_DAMAGED names a segment whose bytes are not the index's, or that is of another seed or program version, and
+ * says what to do. */
 FRACAS_MUST_USE fracas_err fracas_study_merge(const char *study, fracas_index *index, const fracas_file_header *header,
                                               const fracas_point_table *table, bool interfaces);
 

@@ -1,6 +1,6 @@
 /* What is wrong with a study: segments against the index, study.h5 against the segments. */
 #include "campaigns/store/disk.h"
-#include "campaigns/store/pool.h"
+#include "campaigns/store/segments.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -13,8 +13,10 @@
 typedef struct {
     const char *study;
     fracas_index *index;
-    fracas_pool *pool;
+    fracas_segments *segments;
     fracas_reader *merged; /* study.h5, NULL if it is not there or not readable */
+    fracas_record record;  /* as read last from it or from a segment */
+    size_t row;            /* next one of study.h5 */
     void (*say)(void *context, const char *problem);
     void *context;
     int64_t problems;
@@ -69,10 +71,7 @@ static fracas_err check_segments(verification *v)
     size_t count;
     fracas_err err = fracas_index_segments(v->index, &segment, &count);
     if (err) return problem(v, err);
-    for (size_t s = 0; !err && s < count; s++) {
-        fracas_reader *reader;
-        err = problem(v, fracas_pool_segment(v->pool, segment[s].id, &reader));
-    }
+    for (size_t s = 0; !err && s < count; s++) err = problem(v, fracas_segments_open(v->segments, segment[s].id));
     fracas_index_segments_free(segment, count);
     return err;
 }
@@ -85,7 +84,7 @@ static bool same_real(sqlite3_stmt *row, int column, double value)
 }
 
 /* One row of FRACAS_SQL_ROW_BY_SEGMENT against its record. */
-static fracas_err check_row(verification *v, sqlite3_stmt *row, fracas_record *record)
+static fracas_err check_row(verification *v, sqlite3_stmt *row)
 {
     fracas_hash point;
     const char *hex = (const char *)sqlite3_column_text(row, 2);
@@ -93,9 +92,10 @@ static fracas_err check_row(verification *v, sqlite3_stmt *row, fracas_record *r
     fracas_place place = {fracas_index_status(sqlite3_column_text(row, 10)), sqlite3_column_int64(row, 0),
                           sqlite3_column_int64(row, 1)};
     if (!hex || !fracas_hash_parse(hex, &point)) return found(v, "%s: a point has no valid hash", v->index->path);
-    if (fracas_pool_is_bad(v->pool, place.segment)) return FRACAS_OK; /* said already */
-    fracas_err err = fracas_pool_record(v->pool, &place, &point, replica, record);
+    if (fracas_segments_is_bad(v->segments, place.segment)) return FRACAS_OK; /* said already */
+    fracas_err err = fracas_segments_record(v->segments, &place, &point, replica, &v->record);
     if (err) return problem(v, err);
+    const fracas_record *record = &v->record;
     bool same = sqlite3_column_int64(row, 4) == record->outcome && sqlite3_column_int64(row, 5) == record->fragments &&
                 sqlite3_column_int64(row, 6) == record->fragments_dust &&
                 sqlite3_column_int64(row, 7) == record->steps && same_real(row, 8, record->dissipated) &&
@@ -106,7 +106,7 @@ static fracas_err check_row(verification *v, sqlite3_stmt *row, fracas_record *r
                  "again: it is made anew from the segments", v->index->path, replica, hex);
 }
 
-static fracas_err check_rows(verification *v, fracas_record *record)
+static fracas_err check_rows(verification *v)
 {
     fracas_err err = FRACAS_OK;
     while (!err) {
@@ -114,7 +114,7 @@ static fracas_err check_rows(verification *v, fracas_record *record)
         err = fracas_index_step(v->index, FRACAS_SQL_ROW_BY_SEGMENT, &more);
         if (err) return problem(v, err);
         if (!more) break;
-        err = check_row(v, v->index->statement[FRACAS_SQL_ROW_BY_SEGMENT], record);
+        err = check_row(v, v->index->statement[FRACAS_SQL_ROW_BY_SEGMENT]);
     }
     fracas_index_reset(v->index, FRACAS_SQL_ROW_BY_SEGMENT);
     return err;
@@ -139,58 +139,39 @@ static bool same_record(const fracas_record *a, const fracas_record *b, bool *sa
     return compared;
 }
 
-/* A realization as merge would write it: *record, empty if it failed. *known is false if there are no bytes of it
- * (and this was said). */
-static fracas_err expected(verification *v, const fracas_hash *point, int64_t replica, fracas_record *record,
-                           bool *known)
+/* The next row of study.h5 against what merge would write there. */
+static fracas_err check_merged_row(void *context, fracas_step *step)
 {
-    fracas_place place;
-    *known = false;
-    fracas_record_clear(record);
-    fracas_err err = fracas_index_place(v->index, point, replica, &place);
+    verification *v = context;
+    size_t point, row = v->row++;
+    int64_t replica;
+    bool same;
+    fracas_err err = fracas_reader_record(v->merged, row, FRACAS_READ_ALL, &point, &replica, &v->record);
     if (err) return problem(v, err);
-    if (place.status == FRACAS_DONE && fracas_pool_is_bad(v->pool, place.segment)) return FRACAS_OK;
-    if (place.status == FRACAS_DONE) err = fracas_pool_record(v->pool, &place, point, replica, record);
-    if (place.status == FRACAS_PLANNED || place.status == FRACAS_LEASED)
-        return found(v, "%s/study.h5 has replica %" PRId64 " of a point, but no segment has it any more; run again",
-                     v->study, replica);
-    *known = !err;
-    return problem(v, err);
-}
-
-/* Row `row` of study.h5, which must be this realization. */
-static fracas_err check_merged_row(verification *v, size_t row, size_t point, int64_t replica, fracas_record *merged,
-                                   fracas_record *record)
-{
-    size_t found_point;
-    int64_t found_replica;
-    bool known, same;
-    fracas_err err = fracas_reader_record(v->merged, row, FRACAS_READ_ALL, &found_point, &found_replica, merged);
-    if (err) return problem(v, err);
-    if (found_point != point || found_replica != replica)
-        return found(v, "%s/study.h5: row %zu is not in plan order; run `fracas merge`", v->study, row);
-    TRY(expected(v, &fracas_reader_points(v->merged)->point[point].hash, replica, record, &known));
-    if (!known) return FRACAS_OK;
+    if (point != step->point || replica != step->replica)
+        return found(v, "%s/study.h5: row %zu is not in plan order; remove it and run again", v->study, row);
+    if (step->damaged) return FRACAS_OK; /* said already */
+    if (step->status == FRACAS_PLANNED || step->status == FRACAS_LEASED)
+        return found(v, "%s/study.h5: row %zu is in no segment any more; run again", v->study, row);
     if (!fracas_reader_has_interfaces(v->merged)) {
-        free(record->interface);
-        record->interface = NULL;
-        record->ninterface = 0;
+        free(step->record.interface);
+        step->record.interface = NULL;
+        step->record.ninterface = 0;
     }
-    if (!same_record(merged, record, &same)) return fracas_no_memory("a record");
+    if (!same_record(&v->record, &step->record, &same)) return fracas_no_memory("a record");
     if (same) return FRACAS_OK;
     return found(v, "%s/study.h5: row %zu differs from its segment; remove it and run again", v->study, row);
 }
 
-static fracas_err check_merged_rows(verification *v, fracas_record *merged, fracas_record *record)
+static fracas_err check_merged_rows(verification *v)
 {
     const fracas_point_table *table = fracas_reader_points(v->merged);
-    size_t row = 0, rows = fracas_reader_realizations(v->merged);
-    for (size_t p = 0; p < table->npoints; p++)
-        for (int64_t replica = 0; replica < table->point[p].replicas; replica++, row++) {
-            if (row >= rows) return found(v, "%s/study.h5 ends before its last realization; run again", v->study);
-            TRY(check_merged_row(v, row, p, replica, merged, record));
-        }
-    return row == rows ? FRACAS_OK : found(v, "%s/study.h5 has more realizations than planned; run again", v->study);
+    int64_t planned = 0;
+    for (size_t p = 0; p < table->npoints; p++) planned += table->point[p].replicas;
+    if (planned != (int64_t)fracas_reader_realizations(v->merged))
+        return found(v, "%s/study.h5 has %zu realizations, but %" PRId64 " in its /point/replicas; remove it and run "
+                     "again", v->study, fracas_reader_realizations(v->merged), planned);
+    return problem(v, fracas_segments_walk(v->segments, table, true, check_merged_row, v));
 }
 
 /* When everything is computed, study.h5 must be there with all of it. */
@@ -222,31 +203,27 @@ static fracas_err open_merged(verification *v)
 
 static fracas_err verify(verification *v)
 {
-    fracas_record merged, record;
     fracas_err err = fracas_index_open(v->study, false, &v->index);
     if (err) return problem(v, err);
     TRY(check_database(v, "PRAGMA integrity_check"));
     TRY(check_database(v, "PRAGMA foreign_key_check"));
     TRY(open_merged(v));
-    err = fracas_pool_create(v->study, v->index, v->merged ? fracas_reader_header(v->merged) : NULL, &v->pool);
+    err = fracas_segments_create(v->study, v->index, v->merged ? fracas_reader_header(v->merged) : NULL, &v->segments);
     if (err) return problem(v, err);
-    fracas_record_init(&merged);
-    fracas_record_init(&record);
-    err = check_segments(v);
-    if (!err) err = check_rows(v, &record);
-    if (!err && v->merged) err = check_merged_rows(v, &merged, &record);
-    if (!err) err = check_merged_whole(v);
-    fracas_record_clear(&merged);
-    fracas_record_clear(&record);
-    return err;
+    TRY(check_segments(v));
+    TRY(check_rows(v));
+    if (v->merged) TRY(check_merged_rows(v));
+    return check_merged_whole(v);
 }
 
 fracas_err fracas_study_verify(const char *study, void (*say)(void *context, const char *problem), void *context,
                                int64_t *problems)
 {
     verification v = {.study = study, .say = say, .context = context};
+    fracas_record_init(&v.record);
     fracas_err err = verify(&v);
-    fracas_pool_destroy(v.pool);
+    fracas_record_clear(&v.record);
+    fracas_segments_destroy(v.segments);
     fracas_reader_close(v.merged);
     fracas_index_close(v.index);
     *problems = v.problems;

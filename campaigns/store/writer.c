@@ -130,7 +130,7 @@ fracas_err fracas_writer_create(const char *path, const fracas_file_header *head
     *writer = calloc(1, sizeof **writer);
     if (!*writer) return fracas_no_memory("a file");
     fracas_writer *w = *writer;
-    w->h5 = (fracas_h5){.id = H5I_INVALID_HID, .fd = -1};
+    w->h5 = FRACAS_H5_CLOSED;
     w->npoints = table->npoints;
     w->interfaces = interfaces;
     fracas_err err = (w->path = strdup(path)) ? fracas_disk_temporary(path, &w->temporary) : fracas_no_memory("a file");

@@ -5,11 +5,16 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <hdf5.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 
 enum { REPLICAS = 4, ALL = SAMPLE_POINTS * REPLICAS, MOST = 12 };
+
+/* HDF5 1.10 forgets an object header whose checksum is wrong; it is no leak of ours (see open_objects). */
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void) { return "leak:libhdf5"; }
 
 static char *study;
 static fracas_point_row point_row[SAMPLE_POINTS];
@@ -35,6 +40,17 @@ static void write_segment(fracas_file_seal *seal, fracas_segment_row row[ALL])
     sample_realization what[ALL];
     for (size_t i = 0; i < ALL; i++) what[i] = (sample_realization){i / REPLICAS, (int64_t)(i % REPLICAS)};
     sample_segment(study, "a.h5", &table, what, ALL, MOST, seal, row);
+}
+
+/* What HDF5 holds for us: files, datasets, lists ... It must be the same before and after a test. */
+static int64_t open_objects(void)
+{
+    int64_t count = 0;
+    for (int type = H5I_FILE; type < H5I_NTYPES; type++) {
+        hsize_t members;
+        if (type != H5I_ERROR_STACK && H5Inmembers((H5I_type_t)type, &members) >= 0) count += (int64_t)members;
+    }
+    return count;
 }
 
 /* ---- damaged segments ---- */
@@ -79,7 +95,8 @@ static reading read_all(const char *path)
             sample_record(i / REPLICAS, (int64_t)(i % REPLICAS), MOST, &wanted);
             sample_make_canonical(&wanted);
             err = fracas_reader_record(reader, i, FRACAS_READ_ALL, &point, &replica, &found);
-            if (!err) same = point == i / REPLICAS && replica == (int64_t)(i % REPLICAS) && sample_equal(&wanted, &found);
+            if (!err)
+                same = point == i / REPLICAS && replica == (int64_t)(i % REPLICAS) && sample_equal(&wanted, &found);
             fracas_record_clear(&wanted);
             fracas_record_clear(&found);
         }
@@ -104,6 +121,7 @@ static void flipped_bytes_are_found(void **state)
     assert_int_equal(read_all(path), SAME);
     uint64_t random = 2;
     int fd = open(path, O_WRONLY), reported = 0;
+    int64_t objects = open_objects();
     enum { FLIPS = 600 };
     for (int i = 0; i < FLIPS; i++) {
         size_t at = i < 200 ? (size_t)i : sample_bits(&random) % size; /* the superblock, then anywhere */
@@ -117,6 +135,7 @@ static void flipped_bytes_are_found(void **state)
     }
     /* What is not reported is space that HDF5 keeps free; most of a file is not that. */
     assert_true(reported > FLIPS / 2);
+    assert_int_equal(open_objects(), objects);
     close(fd);
     free(bytes);
 }
@@ -131,10 +150,12 @@ static void truncated_files_are_found(void **state)
     size_t size;
     unsigned char *bytes = sample_slurp(path, &size);
     uint64_t random = 3;
+    int64_t objects = open_objects();
     for (int i = 0; i < 100; i++) {
         sample_spill(path, bytes, i < 10 ? (size_t)i : i < 20 ? size - (size_t)(i - 9) : sample_bits(&random) % size);
         assert_int_equal(read_all(path), REPORTED);
     }
+    assert_int_equal(open_objects(), objects);
     free(bytes);
 }
 
@@ -149,13 +170,16 @@ static void overwritten_stretches_are_found(void **state)
     size_t size;
     unsigned char *bytes = sample_slurp(path, &size), *damaged = malloc(size);
     uint64_t random = 4;
+    int64_t objects = open_objects();
     for (int i = 0; i < 60; i++) {
         memcpy(damaged, bytes, size);
         size_t first = i < 20 ? (size_t)i * 100 : sample_bits(&random) % size, length = 1 + sample_bits(&random) % 4096;
-        for (size_t at = first; at < size && at < first + length; at++) damaged[at] = (unsigned char)sample_bits(&random);
+        for (size_t at = first; at < size && at < first + length; at++)
+            damaged[at] = (unsigned char)sample_bits(&random);
         sample_spill(path, damaged, size);
         assert_int_not_equal(read_all(path), WRONG);
     }
+    assert_int_equal(open_objects(), objects);
     free(damaged);
     free(bytes);
 }
@@ -198,6 +222,7 @@ static void full_disk_is_said_and_leaves_nothing(void **state)
     char *folder = sample_path(study, "segments"), *path = sample_path(study, "segments/big.h5");
     OK(write_some(path, 4000));
     struct stat whole;
+    int64_t objects = open_objects();
     assert_int_equal(stat(path, &whole), 0);
     assert_int_equal(unlink(path), 0);
     for (int i = 0; i < 12; i++) { /* at the start, in the middle, in the last bytes */
@@ -216,6 +241,7 @@ static void full_disk_is_said_and_leaves_nothing(void **state)
     assert_int_equal(mkdir(sample_path(study, "segments/taken.h5"), 0777), 0);
     sample_fails(write_some(sample_path(study, "segments/taken.h5"), 1), FRACAS_ENVIRONMENT, "taken.h5");
     assert_int_equal(sample_files(folder, "tmp"), 0);
+    assert_int_equal(open_objects(), objects);
 }
 
 static void full_disk_leaves_the_index_as_it_was(void **state)
@@ -308,7 +334,7 @@ static void segments_are_whole_or_not_there(void **state)
             char path[512];
             for (int n = 0;; n++) {
                 snprintf(path, sizeof path, "%s/k%d-%d.h5", folder, kills, n);
-                if (write_some(path, 300)) _exit(1);
+                if (write_some(path, 30)) _exit(1);
             }
         }
         usleep(15000 + 5000 * (unsigned)kills);

@@ -39,6 +39,39 @@ static void write_file(const char *path, int64_t replicas, size_t most, bool int
     OK(fracas_writer_finish(writer, true, seal));
 }
 
+/* For tests/unit/store_independent.sh: a file, and on standard output what another reader must find in it, values
+ * as the digits of their 64 bits. */
+static void write_and_tell(const char *path)
+{
+    enum { SOME = 5, ROWS = 7 };
+    fracas_file_seal seal;
+    write_file(path, SOME, ROWS, true, &seal);
+    for (size_t i = 0; i < SAMPLE_POINTS * SOME; i++) {
+        fracas_record r;
+        uint64_t bits;
+        sample_record(i / SOME, (int64_t)(i % SOME), ROWS, &r);
+        sample_make_canonical(&r);
+        memcpy(&bits, &r.end_time, 8);
+        printf("%zu %zu %d %lld %lld %016llx", i / SOME, i % SOME, (int)r.outcome, (long long)r.fragments,
+               (long long)r.steps, (unsigned long long)bits);
+        for (size_t f = 0; f < r.nfragment; f++) {
+            memcpy(&bits, &r.fragment[f].velocity[2], 8);
+            printf(" f %lld %d %016llx", (long long)r.fragment[f].elements, (int)r.fragment[f].dust,
+                   (unsigned long long)bits);
+        }
+        for (size_t h = 0; h < r.nhistory; h++) {
+            memcpy(&bits, &r.history[h].residual, 8);
+            printf(" h %lld %016llx", (long long)r.history[h].broken, (unsigned long long)bits);
+        }
+        for (size_t k = 0; k < r.ninterface; k++) {
+            memcpy(&bits, &r.interface[k].damage, 8);
+            printf(" i %016llx", (unsigned long long)bits);
+        }
+        printf("\n");
+        fracas_record_clear(&r);
+    }
+}
+
 static void check_row(fracas_reader *reader, size_t row, int64_t replicas, size_t most, unsigned parts)
 {
     fracas_record wanted, found;
@@ -258,7 +291,7 @@ static void page_shows_the_schema(void **state)
     fclose(out);
     unsigned char *page = sample_slurp(FRACAS_SOURCE_DIR "/docs/formats/study.md", &size);
     page[size] = '\0';
-    if (!strstr((char *)page, wanted)) print_error("docs/formats/study.md must have this table:\n%s", wanted);
+    if (!strstr((char *)page, wanted)) fprintf(stderr, "docs/formats/study.md must have this table:\n%s", wanted);
     assert_non_null(strstr((char *)page, wanted));
     free(page);
     free(wanted);
@@ -289,8 +322,12 @@ static void records_survive_packing(void **state)
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
 
-int main(void)
+int main(int argc, char **argv)
 {
+    if (argc == 2) {
+        write_and_tell(argv[1]);
+        return 0;
+    }
     const struct CMUnitTest tests[] = {
         TEST(records_come_back_bit_by_bit),
         TEST(header_and_points_come_back),

@@ -1,0 +1,239 @@
+#include "campaigns/store/segments.h"
+
+#include "campaigns/store/disk.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct fracas_segments {
+    const char *study;
+    fracas_index *index;
+    const fracas_file_header *header;
+    fracas_known_segment *segment; /* by id */
+    size_t count;
+    bool *checked, *bad;   /* of each segment */
+    size_t current;        /* the one that is open */
+    fracas_reader *reader; /* NULL if none is */
+};
+
+fracas_err fracas_segments_create(const char *study, fracas_index *index, const fracas_file_header *header,
+                                  fracas_segments **segments)
+{
+    fracas_segments *new = *segments = calloc(1, sizeof **segments);
+    if (!new) return fracas_no_memory("the segments");
+    new->study = study;
+    new->index = index;
+    new->header = header;
+    fracas_err err = fracas_index_segments(index, &new->segment, &new->count);
+    if (!err) {
+        new->checked = calloc(new->count + 1, sizeof *new->checked);
+        new->bad = calloc(new->count + 1, sizeof *new->bad);
+        if (!new->checked || !new->bad) err = fracas_no_memory("the segments");
+    }
+    if (!err) return FRACAS_OK;
+    fracas_segments_destroy(new);
+    *segments = NULL;
+    return err;
+}
+
+void fracas_segments_destroy(fracas_segments *segments)
+{
+    if (!segments) return;
+    fracas_reader_close(segments->reader);
+    fracas_index_segments_free(segments->segment, segments->count);
+    free(segments->checked);
+    free(segments->bad);
+    free(segments);
+}
+
+/* ---- one segment ---- */
+
+static int compare_id(const void *id, const void *segment)
+{
+    int64_t a = *(const int64_t *)id, b = ((const fracas_known_segment *)segment)->id;
+    return (a > b) - (a < b);
+}
+
+/* Its place in the list, SIZE_MAX if the index has none of that id. */
+static size_t find(const fracas_segments *segments, int64_t id)
+{
+    if (!segments->count) return SIZE_MAX;
+    const fracas_known_segment *found =
+        bsearch(&id, segments->segment, segments->count, sizeof *found, compare_id);
+    return found ? (size_t)(found - segments->segment) : SIZE_MAX;
+}
+
+bool fracas_segments_is_bad(const fracas_segments *segments, int64_t id)
+{
+    size_t s = find(segments, id);
+    return s != SIZE_MAX && segments->bad[s];
+}
+
+static fracas_err check_seal(const fracas_known_segment *segment, const char *path)
+{
+    fracas_file_seal seal;
+    TRY(fracas_disk_seal_path(path, &seal));
+    if (seal.bytes == segment->seal.bytes && seal.checksum == segment->seal.checksum) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED, "%s: damaged: it has %" PRIu64 " bytes of checksum %016" PRIx64
+                       ", the index says %" PRIu64 " of %016" PRIx64, path, seal.bytes, seal.checksum,
+                       segment->seal.bytes, segment->seal.checksum);
+}
+
+static fracas_err check_header(const fracas_segments *segments, const char *path)
+{
+    const fracas_file_header *wanted = segments->header, *found = fracas_reader_header(segments->reader);
+    if (!wanted) return FRACAS_OK;
+    if (found->seed != wanted->seed)
+        return fracas_fail(FRACAS_DAMAGED, "%s: its seed is %" PRIu64 ", the study's is %" PRIu64, path, found->seed,
+                           wanted->seed);
+    if (strcmp(found->version, wanted->version) != 0)
+        return fracas_fail(FRACAS_DAMAGED, "%s: written by fracas %s, the study by %s", path, found->version,
+                           wanted->version);
+    return FRACAS_OK;
+}
+
+static fracas_err open_segment(fracas_segments *segments, size_t s)
+{
+    char *path;
+    TRY(fracas_disk_segment(segments->study, segments->segment[s].name, &path));
+    fracas_err err = segments->checked[s] ? FRACAS_OK : check_seal(&segments->segment[s], path);
+    if (!err) err = fracas_reader_open(path, &segments->reader);
+    if (!err) err = check_header(segments, path);
+    if (err) fracas_reader_close(segments->reader), segments->reader = NULL;
+    segments->checked[s] = true;
+    segments->bad[s] = err == FRACAS_DAMAGED;
+    if (segments->bad[s])
+        err = fracas_fail_within(err, "to compute its realizations again, remove %s and run again", path);
+    free(path);
+    return err;
+}
+
+fracas_err fracas_segments_open(fracas_segments *segments, int64_t id)
+{
+    size_t s = find(segments, id);
+    if (s == SIZE_MAX) return fracas_fail(FRACAS_DAMAGED, "the index has no segment %" PRId64, id);
+    if (segments->bad[s]) return fracas_fail(FRACAS_DAMAGED, "segment %s is damaged", segments->segment[s].name);
+    if (segments->reader && segments->current == s) return FRACAS_OK;
+    fracas_reader_close(segments->reader);
+    segments->reader = NULL;
+    segments->current = s;
+    return open_segment(segments, s);
+}
+
+fracas_err fracas_segments_record(fracas_segments *segments, const fracas_place *place, const fracas_hash *point,
+                                  int64_t replica, fracas_record *record)
+{
+    TRY(fracas_segments_open(segments, place->segment));
+    const char *name = segments->segment[segments->current].name;
+    fracas_reader *reader = segments->reader;
+    if (place->row < 0 || (uint64_t)place->row >= fracas_reader_realizations(reader))
+        return fracas_fail(FRACAS_DAMAGED, "segment %s has no row %" PRId64 ", which the index names", name,
+                           place->row);
+    size_t found_point;
+    int64_t found_replica;
+    TRY(fracas_reader_record(reader, (size_t)place->row, FRACAS_READ_ALL, &found_point, &found_replica, record));
+    if (fracas_hash_equal(&fracas_reader_points(reader)->point[found_point].hash, point) && found_replica == replica)
+        return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED, "segment %s: row %" PRId64 " is another realization than the index says", name,
+                       place->row);
+}
+
+/* ---- the walk in plan order ---- */
+
+typedef struct {
+    fracas_step step;
+    fracas_place place;
+} ahead;
+
+/* What is read ahead: realizations in plan order. */
+typedef struct {
+    ahead *item;
+    ahead **sorted; /* those with a record, by segment and row */
+    size_t count, room;
+    uint64_t bytes; /* expected */
+} window;
+
+enum { WINDOW_BYTES = 128 << 20 };
+
+static fracas_err window_add(window *w, fracas_segments *segments, const fracas_point_table *table, size_t point,
+                             int64_t replica)
+{
+    if (w->count == w->room) {
+        size_t room = w->room ? 2 * w->room : 256;
+        ahead *item = realloc(w->item, room * sizeof *item);
+        if (!item) return fracas_no_memory("records read ahead");
+        w->item = item;
+        ahead **sorted = realloc(w->sorted, room * sizeof *sorted);
+        if (!sorted) return fracas_no_memory("records read ahead");
+        w->sorted = sorted;
+        w->room = room;
+    }
+    ahead *item = &w->item[w->count];
+    TRY(fracas_index_place(segments->index, &table->point[point].hash, replica, &item->place));
+    item->step = (fracas_step){.point = point, .replica = replica, .status = item->place.status};
+    fracas_record_init(&item->step.record);
+    w->count++;
+    size_t s = find(segments, item->place.segment);
+    w->bytes += sizeof *item + sizeof item;
+    if (s != SIZE_MAX) w->bytes += segments->segment[s].seal.bytes / (uint64_t)(segments->segment[s].rows + 1);
+    return FRACAS_OK;
+}
+
+static int compare_places(const void *a, const void *b)
+{
+    const fracas_place *x = &(*(ahead *const *)a)->place, *y = &(*(ahead *const *)b)->place;
+    if (x->segment != y->segment) return x->segment < y->segment ? -1 : 1;
+    return (x->row > y->row) - (x->row < y->row);
+}
+
+static fracas_err window_read(window *w, fracas_segments *segments, const fracas_point_table *table, bool tolerant)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < w->count; i++)
+        if (w->item[i].step.status == FRACAS_DONE) w->sorted[n++] = &w->item[i];
+    if (n) qsort(w->sorted, n, sizeof *w->sorted, compare_places);
+    for (size_t i = 0; i < n; i++) {
+        fracas_step *step = &w->sorted[i]->step;
+        fracas_err err = fracas_segments_record(segments, &w->sorted[i]->place, &table->point[step->point].hash,
+                                                step->replica, &step->record);
+        step->damaged = err == FRACAS_DAMAGED;
+        if (err && !(tolerant && step->damaged)) return err;
+    }
+    return FRACAS_OK;
+}
+
+static void window_empty(window *w)
+{
+    for (size_t i = 0; i < w->count; i++) fracas_record_clear(&w->item[i].step.record);
+    w->count = 0;
+    w->bytes = 0;
+}
+
+/* Reads what is in the window, visits it, empties the window. */
+static fracas_err window_visit(window *w, fracas_segments *segments, const fracas_point_table *table, bool tolerant,
+                               fracas_err (*visit)(void *context, fracas_step *step), void *context)
+{
+    fracas_err err = window_read(w, segments, table, tolerant);
+    for (size_t i = 0; !err && i < w->count; i++) err = visit(context, &w->item[i].step);
+    window_empty(w);
+    return err;
+}
+
+fracas_err fracas_segments_walk(fracas_segments *segments, const fracas_point_table *table, bool tolerant,
+                                fracas_err (*visit)(void *context, fracas_step *step), void *context)
+{
+    window w = {0};
+    TRY(fracas_index_do(segments->index, FRACAS_SQL_BEGIN_READING)); /* one lock for all its look-ups */
+    fracas_err err = FRACAS_OK;
+    for (size_t p = 0; !err && p < table->npoints; p++)
+        for (int64_t replica = 0; !err && replica < table->point[p].replicas; replica++) {
+            err = window_add(&w, segments, table, p, replica);
+            if (!err && w.bytes >= WINDOW_BYTES) err = window_visit(&w, segments, table, tolerant, visit, context);
+        }
+    if (!err) err = window_visit(&w, segments, table, tolerant, visit, context);
+    window_empty(&w);
+    free(w.item);
+    free(w.sorted);
+    return fracas_index_end(segments->index, err);
+}

@@ -1,0 +1,42 @@
+/* The segments of a study and the records in them, as merge and verify read them. Private to the store. */
+#ifndef FRACAS_CAMPAIGNS_STORE_SEGMENTS_H
+#define FRACAS_CAMPAIGNS_STORE_SEGMENTS_H
+
+#include "campaigns/store/index.h"
+#include "campaigns/store/reader.h"
+
+typedef struct fracas_segments fracas_segments;
+
+/* With `header` (NULL: without), a segment of another seed or program version is FRACAS_DAMAGED. `study`, `index` and
+ * `header` must outlive it. */
+FRACAS_MUST_USE fracas_err fracas_segments_create(const char *study, fracas_index *index,
+                                                  const fracas_file_header *header, fracas_segments **segments);
+void fracas_segments_destroy(fracas_segments *segments); /* NULL is allowed */
+
+/* Opens a segment by its id and closes the one before; its bytes are compared with the index's seal the first time.
+ * FRACAS_DAMAGED names it and says what to do, or that it was found so before. */
+FRACAS_MUST_USE fracas_err fracas_segments_open(fracas_segments *segments, int64_t id);
+/* True after fracas_segments_open has found it damaged. */
+bool fracas_segments_is_bad(const fracas_segments *segments, int64_t id);
+
+/* The record in a place, which must be that of this realization; all parts. Cheapest by segment and row. */
+FRACAS_MUST_USE fracas_err fracas_segments_record(fracas_segments *segments, const fracas_place *place,
+                                                  const fracas_hash *point, int64_t replica, fracas_record *record);
+
+/* One realization on the walk below. */
+typedef struct {
+    size_t point; /* index in the table */
+    int64_t replica;
+    fracas_row_status status;
+    fracas_record record; /* empty unless status is FRACAS_DONE */
+    bool damaged;         /* it is, but the record cannot be had */
+} fracas_step;
+
+/* Calls `visit` for every realization of the table in plan order. Records are read by segment and row, as many
+ * ahead as fit some 128 MiB, so that each segment is opened a few times only, however its realizations are spread.
+ * FRACAS_DAMAGED for a record that cannot be had, or with `tolerant` a damaged step. */
+FRACAS_MUST_USE fracas_err fracas_segments_walk(fracas_segments *segments, const fracas_point_table *table,
+                                                bool tolerant, fracas_err (*visit)(void *context, fracas_step *step),
+                                                void *context);
+
+#endif
