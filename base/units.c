@@ -227,8 +227,8 @@ static double convert_once(ut_unit *from, ut_unit *to, double value)
     return converted;
 }
 
-/* Factor from `found` to `expected`; NAN when they measure different things, 0 for a unit with an origin of its own. The
- * ratio is taken because ut_are_convertible() holds s and 1/s for convertible (by the reciprocal). */
+/* Factor from `found` to `expected`; NAN when they measure different things, 0 for a unit with an origin of its own.
+ * The ratio is taken because ut_are_convertible() holds s and 1/s for convertible (by the reciprocal). */
 static double unit_factor(ut_system *system, ut_unit *found, ut_unit *expected)
 {
     double factor = NAN;
@@ -253,7 +253,8 @@ static fracas_err parse_factor(ut_system *system, const char *text, const char *
     if (!found && plain && ut_get_status() == UT_OS) {
         err = fracas_no_memory("a unit");
     } else if (!found) {
-        err = fracas_fail(FRACAS_USAGE, "`%s` has an unknown unit, `%s`; expected %s, in %s", text, name, what, write_in);
+        err =
+            fracas_fail(FRACAS_USAGE, "`%s` has an unknown unit, `%s`; expected %s, in %s", text, name, what, write_in);
     } else {
         *factor = unit_factor(system, found, expected);
         if (isnan(*factor)) {

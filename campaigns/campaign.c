@@ -72,15 +72,18 @@ static fracas_err say_point_missing(const fracas_campaign *now, const fracas_cam
         column = first;
     }
     if (!column)
-        return fracas_fail(FRACAS_DAMAGED, "the study has a point %zu that this campaign file has not; give the campaign a "
-                                           "new name or another --study", b + 1);
+        return fracas_fail(FRACAS_DAMAGED,
+                           "the study has a point %zu that this campaign file has not; give the campaign a "
+                           "new name or another --study",
+                           b + 1);
     char was[64], is[64];
     fracas_value value = value_at(&now->table, like, column->path);
     write_text(column, &value, is);
     value = value_at(&before->table, b, column->path);
     write_text(column, &value, was);
-    return fracas_fail(FRACAS_DAMAGED, "%s is %s in the study (its point %zu), but %s in this campaign file; a study can be "
-                                       "extended by points and replicas, anything else needs a new name or another --study",
+    return fracas_fail(FRACAS_DAMAGED,
+                       "%s is %s in the study (its point %zu), but %s in this campaign file; a study can be "
+                       "extended by points and replicas, anything else needs a new name or another --study",
                        column->path, was, b + 1, is);
 }
 
@@ -88,14 +91,18 @@ static fracas_err check_settings(const fracas_campaign *now, const fracas_campai
 {
     static const char *const remedy = "it must stay as it is; else give the campaign a new name or another --study";
     if (now->seed != before->seed)
-        return fracas_fail(FRACAS_DAMAGED, "seed is %" PRIu64 " in the study, but %" PRIu64 " in this campaign file; %s",
-                           before->seed, now->seed, remedy);
+        return fracas_fail(FRACAS_DAMAGED,
+                           "seed is %" PRIu64 " in the study, but %" PRIu64 " in this campaign file; %s", before->seed,
+                           now->seed, remedy);
     if (now->output.history != before->output.history)
-        return fracas_fail(FRACAS_DAMAGED, "output.history is %" PRId64 " in the study, but %" PRId64 " in this campaign "
-                                           "file; %s", before->output.history, now->output.history, remedy);
+        return fracas_fail(FRACAS_DAMAGED,
+                           "output.history is %" PRId64 " in the study, but %" PRId64 " in this campaign "
+                           "file; %s",
+                           before->output.history, now->output.history, remedy);
     if (now->output.interfaces != before->output.interfaces)
         return fracas_fail(FRACAS_DAMAGED, "output.interfaces is %s in the study, but %s in this campaign file; %s",
-                           before->output.interfaces ? "true" : "false", now->output.interfaces ? "true" : "false", remedy);
+                           before->output.interfaces ? "true" : "false", now->output.interfaces ? "true" : "false",
+                           remedy);
     return FRACAS_OK;
 }
 

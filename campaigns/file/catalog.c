@@ -7,10 +7,11 @@
 #include <string.h>
 
 static const fracas_param output_params[] = {
-    {"history", FRACAS_INTEGER, "1", "equal intervals of time.end at which energies are kept; 0: only at onset, at the "
-     "energy peak and at the end", 100, 0, 1e6, false, offsetof(fracas_output, history)},
-    {"interfaces", FRACAS_BOOLEAN, "1", "keep strength, damage, onset and break time of every interface", 0, 0, 1, false,
-     offsetof(fracas_output, interfaces)},
+    {"history", FRACAS_INTEGER, "1",
+     "equal intervals of time.end at which energies are kept; 0: only at onset, energy peak and end", 100, 0, 1e6,
+     false, offsetof(fracas_output, history)},
+    {"interfaces", FRACAS_BOOLEAN, "1", "keep strength, damage, onset and break time of every interface", 0, 0, 1,
+     false, offsetof(fracas_output, interfaces)},
 };
 static const fracas_section output_section = {
     .name = "output", .doc = "What is kept beside the results of every realization", .params = output_params,
@@ -63,7 +64,8 @@ static fracas_err add_leaf(leaf_list *list, const fracas_file_section *section, 
     return FRACAS_OK;
 }
 
-static fracas_err add_params(leaf_list *list, const fracas_file_section *section, const fracas_param *params, size_t count)
+static fracas_err add_params(leaf_list *list, const fracas_file_section *section, const fracas_param *params,
+                             size_t count)
 {
     for (size_t p = 0; p < count; p++) TRY(add_leaf(list, section, params[p].name, &params[p]));
     return FRACAS_OK;
@@ -117,7 +119,8 @@ const fracas_leaf *fracas_catalog_leaf(const fracas_catalog *catalog, const char
     return NULL;
 }
 
-const fracas_leaf *fracas_catalog_key(const fracas_catalog *catalog, const fracas_file_section *section, const char *key)
+const fracas_leaf *fracas_catalog_key(const fracas_catalog *catalog, const fracas_file_section *section,
+                                      const char *key)
 {
     for (size_t i = 0; i < catalog->nleaves; i++)
         if (catalog->leaf[i].section == section && strcmp(catalog->leaf[i].key, key) == 0) return &catalog->leaf[i];
@@ -182,6 +185,7 @@ bool fracas_leaf_get(const fracas_leaf *leaf, const void *owner, fracas_value *v
 void fracas_leaf_write(const fracas_leaf *leaf, const fracas_value *value, char text[FRACAS_LEAF_TEXT])
 {
     if (!leaf->param) snprintf(text, FRACAS_LEAF_TEXT, "%s", value->text);
-    else if (leaf->param->type == FRACAS_BOOLEAN) snprintf(text, FRACAS_LEAF_TEXT, "%s", value->real != 0.0 ? "true" : "false");
+    else if (leaf->param->type == FRACAS_BOOLEAN)
+        snprintf(text, FRACAS_LEAF_TEXT, "%s", value->real != 0.0 ? "true" : "false");
     else fracas_number_write(value->real, text);
 }

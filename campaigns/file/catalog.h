@@ -35,7 +35,8 @@ FRACAS_MUST_USE fracas_err fracas_catalog_make(fracas_campaign_memory *memory, c
 /* NULL if there is none of that name. */
 const fracas_file_section *fracas_catalog_section(const fracas_catalog *catalog, const char *name);
 const fracas_leaf *fracas_catalog_leaf(const fracas_catalog *catalog, const char *path);
-const fracas_leaf *fracas_catalog_key(const fracas_catalog *catalog, const fracas_file_section *section, const char *key);
+const fracas_leaf *fracas_catalog_key(const fracas_catalog *catalog, const fracas_file_section *section,
+                                      const char *key);
 /* The leaf that names the section's kind; NULL for a section without kinds. */
 const fracas_leaf *fracas_catalog_selector(const fracas_catalog *catalog, const fracas_file_section *section);
 

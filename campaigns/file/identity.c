@@ -36,7 +36,8 @@ static void write_campaign(const fracas_catalog *catalog, const fracas_campaign 
         char hex[FRACAS_HASH_HEX];
         fracas_hash_hex(&campaign->point[p].hash, hex);
         const char *name = named == SIZE_MAX ? "" : campaign->table.point[p].value[named].text;
-        fprintf(out, "point=%s replicas=%" PRId64 "%s%s\n", hex, campaign->point[p].replicas, *name ? " case=" : "", name);
+        fprintf(out, "point=%s replicas=%" PRId64 "%s%s\n", hex, campaign->point[p].replicas, *name ? " case=" : "",
+                name);
     }
 }
 
@@ -140,8 +141,8 @@ static size_t list_sources(const fracas_catalog *catalog, const fracas_campaign 
         const fracas_leaf *leaf = &catalog->leaf[i];
         const fracas_section *table = leaf->section->table;
         if (!table->hashed || !any_point_has(campaign, leaf)) continue;
-        fracas_column column = {leaf->path, leaf->param ? leaf->param->unit : "", leaf->param ? leaf->param->doc : table->doc,
-                                !leaf->param};
+        fracas_column column = {leaf->path, leaf->param ? leaf->param->unit : "",
+                                leaf->param ? leaf->param->doc : table->doc, !leaf->param};
         sources[count++] = (source){column, leaf};
     }
     sources[count++] = (source){{derived_strength_mean, "Pa", "mean of the distribution of strengths", false}, NULL};

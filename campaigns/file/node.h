@@ -20,9 +20,9 @@ typedef struct fracas_node {
 } fracas_node;
 
 /* Reads one YAML document whose top is a map. Refused, as FRACAS_USAGE with file:line:column: what is not YAML or
- * not UTF-8, files over 1 MiB, nesting over 16, several documents, anchors, aliases and tags, keys that are not
- * plain text, repeated keys. FRACAS_ENVIRONMENT when the file cannot be opened or read, or without memory.
- * `name` is how messages call the file. */
+ * not UTF-8, files over 16 MiB or a million values, nesting over 16, several documents, anchors, aliases and tags, keys
+ * that are not plain text, repeated keys. FRACAS_ENVIRONMENT when the file cannot be opened or read, or without memory.
+ * `name`: the file's, as it is opened and as messages call it. */
 FRACAS_MUST_USE fracas_err fracas_node_read(const char *name, fracas_campaign_memory *memory, fracas_node **root);
 
 /* The entry of `map` with this key; NULL if there is none. */

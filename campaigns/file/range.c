@@ -45,7 +45,8 @@ static fracas_err read_spacing(const fracas_file *file, const fracas_node *node,
     if (!spacing) return FRACAS_OK;
     range->logarithmic = spacing->type == FRACAS_SCALAR && strcmp(spacing->text, "log") == 0;
     if (!range->logarithmic && (spacing->type != FRACAS_SCALAR || strcmp(spacing->text, "lin") != 0))
-        return fracas_say(file->name, spacing, "`spacing`: found %s; expected lin (equal differences) or log (equal ratios)",
+        return fracas_say(file->name, spacing,
+                          "`spacing`: found %s; expected lin (equal differences) or log (equal ratios)",
                           fracas_say_found(spacing, found));
     if (range->logarithmic && (range->from <= 0.0 || range->to <= 0.0))
         return fracas_say(file->name, spacing, "spacing log needs `from` and `to` greater than 0; use spacing lin");
@@ -57,7 +58,8 @@ fracas_err fracas_range_read(const fracas_file *file, const fracas_leaf *leaf, c
 {
     *range = (fracas_range){0};
     if (!leaf->param || leaf->param->type == FRACAS_BOOLEAN)
-        return fracas_say(file->name, node, "`%s` is not a number, so it has no range; expected a list, [...]", leaf->path);
+        return fracas_say(file->name, node, "`%s` is not a number, so it has no range; expected a list, [...]",
+                          leaf->path);
     range->whole = leaf->param->type == FRACAS_INTEGER;
     TRY(check_keys(file, node));
     TRY(read_end(file, leaf, node, "from", &range->from));

@@ -41,8 +41,9 @@ static fracas_err unknown_section(const fracas_file *file, const fracas_node *ke
     for (size_t i = 0; i < catalog->nleaves; i++) {
         const fracas_leaf *leaf = &catalog->leaf[i];
         if (strcmp(leaf->key, key->text) == 0 || strcmp(leaf->path, key->text) == 0)
-            return fracas_say(file->name, key, "unknown key `%s` at the top of the file; write `%s:` indented below `%s:`",
-                              key->text, leaf->key, leaf->section->table->name);
+            return fracas_say(file->name, key,
+                              "unknown key `%s` at the top of the file; write `%s:` indented below `%s:`", key->text,
+                              leaf->key, leaf->section->table->name);
     }
     return fracas_say(file->name, key, "unknown key `%s` at the top of the file%s", key->text, hint);
 }
@@ -54,8 +55,9 @@ static fracas_err read_seed(const fracas_file *file, const fracas_node *node, ui
     errno = 0;
     unsigned long long value = strtoull(text, NULL, 10);
     if (!*text || strspn(text, "0123456789") != strlen(text) || errno == ERANGE)
-        return fracas_say(file->name, node, "`seed`: found %s; expected a whole number from 0 to 18446744073709551615, in "
-                                            "digits", fracas_say_found(node, found));
+        return fracas_say(file->name, node,
+                          "`seed`: found %s; expected a whole number from 0 to 18446744073709551615, in digits",
+                          fracas_say_found(node, found));
     *seed = value;
     return FRACAS_OK;
 }
@@ -120,13 +122,15 @@ static fracas_err count_replicas(const reading *read, size_t index, fracas_point
     for (size_t a = 0; a < read->sweep.naxes; a++) {
         const fracas_choice *choice = fracas_sweep_choice(&read->sweep, index, a);
         if (choice->replicas > 0 && owned)
-            return fracas_say(read->file.name, choice->node, "cases of two axes give `replicas`; keep them in one axis");
+            return fracas_say(read->file.name, choice->node,
+                              "cases of two axes give `replicas`; keep them in one axis");
         if (choice->replicas > 0) point->replicas = choice->replicas;
         owned = owned || choice->replicas > 0;
     }
     if (point->replicas > 0) return FRACAS_OK;
-    return fracas_say(read->file.name, read->file.root, "the file has no `replicas`; say how many realizations each point "
-                                                        "gets, as `replicas: 32`");
+    return fracas_say(read->file.name, read->file.root,
+                      "the file has no `replicas`; say how many realizations each point gets, "
+                      "as `replicas: 32`");
 }
 
 static fracas_err make_point(const reading *read, fracas_draft *draft, size_t index, fracas_point *point)
@@ -187,9 +191,10 @@ static fracas_err say_repeated(const reading *read, size_t earlier, size_t later
         here = now->node;
         there = before->node;
     }
-    return fracas_say(read->file.name, here, "points %zu and %zu of the sweep have the same values (compare line %d, column "
-                      "%d); remove one, and raise `replicas` for more realizations", earlier + 1, later + 1, there->line,
-                      there->column);
+    return fracas_say(read->file.name, here,
+                      "points %zu and %zu of the sweep have the same values (compare line %d, column "
+                      "%d); remove one, and raise `replicas` for more realizations",
+                      earlier + 1, later + 1, there->line, there->column);
 }
 
 static fracas_err identify(reading *read, fracas_campaign *campaign)

@@ -27,8 +27,8 @@ static void write_param(const fracas_param *param, FILE *out)
     fracas_number_write(param->fallback, fallback);
     const char *given = isnan(param->fallback) ? "**required**" : fallback;
     if (param->type == FRACAS_BOOLEAN) given = param->fallback != 0.0 ? "true" : "false";
-    fprintf(out, "| `%s` | %s | %s | %s | ", param->name, types[param->type], strcmp(param->unit, "1") ? param->unit : "",
-            given);
+    fprintf(out, "| `%s` | %s | %s | %s | ", param->name, types[param->type],
+            strcmp(param->unit, "1") ? param->unit : "", given);
     write_limits(param, out);
     fprintf(out, " | %s |\n", param->doc);
 }
@@ -44,7 +44,8 @@ static void write_section(const fracas_section *section, FILE *out)
 {
     const char *selector = section->selector ? section->selector : section->name;
     fprintf(out, "\n## `%s`\n\n%s.\n", section->name, section->doc);
-    if (!section->hashed) fprintf(out, "One for the whole campaign: it cannot be swept and is not part of a point's hash.\n");
+    if (!section->hashed)
+        fprintf(out, "One for the whole campaign: it cannot be swept and is not part of a point's hash.\n");
     write_params(section->params, section->nparams, out);
     if (section->nkinds == 0) return;
     fprintf(out, "\n| `%s:` | meaning |\n|---|---|\n", selector);
@@ -59,10 +60,11 @@ static void write_section(const fracas_section *section, FILE *out)
 
 void fracas_campaign_reference(FILE *out)
 {
-    fprintf(out, "# Keys of a campaign file\n\n"
-                 "Written by `fracas reference` from the tables that read the file; how a file is built: "
-                 "[campaign-file.md](campaign-file.md).\nA bare number is in the SI unit given here; any other unit of the "
-                 "same dimension may follow it after a space.\n");
+    fprintf(out,
+            "# Keys of a campaign file\n\n"
+            "Written by `fracas reference` from the tables that read the file; how a file is built: "
+            "[campaign-file.md](campaign-file.md).\nA bare number is in the SI unit given here; any other unit of the "
+            "same dimension may follow it after a space.\n");
     fracas_campaign_memory *memory = fracas_memory_create();
     const fracas_catalog *catalog;
     if (memory && fracas_catalog_make(memory, &catalog) == FRACAS_OK)

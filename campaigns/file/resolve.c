@@ -29,7 +29,7 @@ fracas_err fracas_draft_check_base(const fracas_file *file, const fracas_draft *
     return FRACAS_OK;
 }
 
-/* A value that the point needs and nothing gives. Its place is where the kind was chosen, else the section, else the file. */
+/* A value that the point needs and nothing gives; its place is where the kind was chosen, the section, or the file. */
 static fracas_err missing(const fracas_file *file, const fracas_leaf *leaf, const fracas_param *param, bool common,
                           const fracas_kind *kind, const fracas_setting *chosen)
 {
@@ -45,8 +45,8 @@ static fracas_err missing(const fracas_file *file, const fracas_leaf *leaf, cons
         return fracas_say(file->name, at, "%s needs `%s` (%s): %s%s%s", table->name, leaf->key, param->doc, what, unit,
                           write_in);
     return fracas_say(file->name, at, "%s with %s %s%s needs `%s` (%s): %s%s%s", table->name,
-                      table->selector ? table->selector : table->name, kind->name, chosen ? "" : " (the default)", leaf->key,
-                      param->doc, what, unit, write_in);
+                      table->selector ? table->selector : table->name, kind->name, chosen ? "" : " (the default)",
+                      leaf->key, param->doc, what, unit, write_in);
 }
 
 fracas_err fracas_draft_resolve(const fracas_file *file, const fracas_draft *draft, const fracas_file_section *section,

@@ -39,11 +39,13 @@ void fracas_words_init(fracas_words *words, const char *found)
 void fracas_words_add(fracas_words *words, const char *word)
 {
     size_t distance = fracas_word_distance(words->found, word);
-    if (distance <= 1 + strlen(word) / 4 && distance < strlen(word) && (!words->nearest || distance < words->distance)) {
+    if (distance <= 1 + strlen(word) / 4 && distance < strlen(word) &&
+        (!words->nearest || distance < words->distance)) {
         words->nearest = word;
         words->distance = distance;
     }
-    int added = snprintf(words->list + words->used, sizeof words->list - words->used, "%s%s", words->used ? ", " : "", word);
+    int added =
+        snprintf(words->list + words->used, sizeof words->list - words->used, "%s%s", words->used ? ", " : "", word);
     if (added > 0 && words->used + (size_t)added < sizeof words->list) words->used += (size_t)added;
     else words->list[words->used] = '\0';
 }

@@ -29,7 +29,8 @@ static fracas_err read_kind(const fracas_file *file, const fracas_leaf *leaf, co
     }
     char hint[600], label[80];
     snprintf(label, sizeof label, "%s can be", leaf->key);
-    return fracas_say(file->name, node, "unknown %s `%s`%s", leaf->key, node->text, fracas_words_hint(&words, label, hint));
+    return fracas_say(file->name, node, "unknown %s `%s`%s", leaf->key, node->text,
+                      fracas_words_hint(&words, label, hint));
 }
 
 static fracas_err read_boolean(const fracas_file *file, const char *key, const fracas_node *node, double *value)
@@ -65,8 +66,10 @@ fracas_err fracas_setting_read(const fracas_file *file, const fracas_leaf *leaf,
 {
     *setting = (fracas_setting){.leaf = leaf, .node = node};
     if (node->type == FRACAS_LIST && leaf->section->table->hashed)
-        return fracas_say(file->name, node, "`%s`: found a list; one value is expected here, several go under `sweep`, as "
-                                            "`- %s: [...]`", leaf->key, leaf->path);
+        return fracas_say(file->name, node,
+                          "`%s`: found a list; one value is expected here, several go under `sweep`, as "
+                          "`- %s: [...]`",
+                          leaf->key, leaf->path);
     if (!leaf->param) return read_kind(file, leaf, node, &setting->kind);
     switch (leaf->param->type) {
     case FRACAS_BOOLEAN: return read_boolean(file, leaf->key, node, &setting->value);
@@ -93,8 +96,10 @@ fracas_err fracas_setting_name(const fracas_file *file, const fracas_node *node,
     TRY(want_scalar(file, "name", node, "a word"));
     *name = node->text;
     if (strlen(*name) <= 100 && strspn(*name, allowed) == strlen(*name) && !strchr("._-", **name)) return FRACAS_OK;
-    return fracas_say(file->name, node, "`name`: found `%s`; a name is made of up to 100 letters a-z A-Z, digits, `.`, `_` "
-                                        "and `-`, and starts with a letter or digit", *name);
+    return fracas_say(file->name, node,
+                      "`name`: found `%s`; a name is made of up to 100 letters a-z A-Z, digits, `.`, `_` "
+                      "and `-`, and starts with a letter or digit",
+                      *name);
 }
 
 /* ---- many ---- */
@@ -110,8 +115,9 @@ fracas_err fracas_settings_add(const fracas_file *file, const fracas_setting *se
 {
     const fracas_setting *earlier = fracas_settings_find(settings, setting->leaf);
     if (earlier)
-        return fracas_say(file->name, setting->node, "`%s` is given twice; it is already at line %d, keep one of the two",
-                          setting->leaf->path, earlier->node->line);
+        return fracas_say(file->name, setting->node,
+                          "`%s` is given twice; it is already at line %d, keep one of the two", setting->leaf->path,
+                          earlier->node->line);
     fracas_setting *copy = fracas_memory_take(file->memory, 1, sizeof *copy);
     if (!copy) return fracas_no_memory("the campaign's values");
     *copy = *setting;
@@ -148,7 +154,8 @@ fracas_err fracas_settings_add_section(const fracas_file *file, const fracas_fil
         for (size_t i = 0; i < file->catalog->nleaves; i++)
             if (file->catalog->leaf[i].section == section) fracas_words_add(&words, file->catalog->leaf[i].key);
         return fracas_say(file->name, node, "`%s` is a section, but found %s%s", section->table->name,
-                          fracas_say_found(node, found), fracas_words_hint(&words, "write its keys below it, indented", hint));
+                          fracas_say_found(node, found),
+                          fracas_words_hint(&words, "write its keys below it, indented", hint));
     }
     for (const fracas_node *entry = node->first; entry; entry = entry->next) {
         fracas_setting setting;
@@ -171,8 +178,9 @@ static void write_range(const fracas_param *param, char *text, size_t size)
     fracas_number_write(param->minimum, minimum);
     fracas_number_write(param->maximum, maximum);
     const bool low = isfinite(param->minimum), high = isfinite(param->maximum);
-    int used = low ? snprintf(text, size, "%s %s%s%s", param->minimum_open ? "more than" : "at least", minimum, blank, unit)
-                   : snprintf(text, size, "any number");
+    int used =
+        low ? snprintf(text, size, "%s %s%s%s", param->minimum_open ? "more than" : "at least", minimum, blank, unit)
+            : snprintf(text, size, "any number");
     if (high && used > 0 && (size_t)used < size)
         snprintf(text + used, size - (size_t)used, "%s at most %s%s%s", low ? "," : "", maximum, blank, unit);
 }
@@ -207,6 +215,6 @@ fracas_err fracas_setting_misplaced(const fracas_file *file, const fracas_settin
     if (!chosen)
         return fracas_say(file->name, at, "`%s` belongs to %s %s; this is %s, the default, as no `%s` is given",
                           setting->leaf->key, selector, homes, kind->name, selector);
-    return fracas_say(file->name, at, "`%s` belongs to %s %s; this is %s (line %d)", setting->leaf->key, selector, homes,
-                      kind->name, chosen->node->line);
+    return fracas_say(file->name, at, "`%s` belongs to %s %s; this is %s (line %d)", setting->leaf->key, selector,
+                      homes, kind->name, chosen->node->line);
 }

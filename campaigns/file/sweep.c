@@ -41,8 +41,10 @@ static fracas_err unknown_path(const fracas_file *file, const fracas_node *key, 
             if (catalog->section[s].table->hashed) fracas_words_add(&words, catalog->section[s].table->name);
     }
     char hint[600], label[80];
-    snprintf(label, sizeof label, inside ? "paths in %s" : "known are section.key, and", inside ? inside->table->name : "");
-    return fracas_say(file->name, key, "unknown path `%s` in the sweep%s", key->text, fracas_words_hint(&words, label, hint));
+    snprintf(label, sizeof label, inside ? "paths in %s" : "known are section.key, and",
+             inside ? inside->table->name : "");
+    return fracas_say(file->name, key, "unknown path `%s` in the sweep%s", key->text,
+                      fracas_words_hint(&words, label, hint));
 }
 
 static fracas_err find_target(const fracas_file *file, const fracas_node *key, const char *const also[2], target *found)
@@ -50,16 +52,19 @@ static fracas_err find_target(const fracas_file *file, const fracas_node *key, c
     *found = (target){.leaf = fracas_catalog_leaf(file->catalog, key->text)};
     if (!found->leaf) found->section = fracas_catalog_section(file->catalog, key->text);
     if (strcmp(key->text, "replicas") == 0)
-        return fracas_say(file->name, key, "`replicas` is not a parameter to sweep; a case of `cases` may have its own");
+        return fracas_say(file->name, key,
+                          "`replicas` is not a parameter to sweep; a case of `cases` may have its own");
     if (strcmp(key->text, "name") == 0 || strcmp(key->text, "seed") == 0)
-        return fracas_say(file->name, key, "`%s` cannot be swept; a campaign has one, at the top of the file", key->text);
+        return fracas_say(file->name, key, "`%s` cannot be swept; a campaign has one, at the top of the file",
+                          key->text);
     if (!found->leaf && !found->section) return unknown_path(file, key, also);
     const fracas_section *table = (found->leaf ? found->leaf->section : found->section)->table;
     if (table->hashed) return FRACAS_OK;
     return fracas_say(file->name, key, "`%s` cannot be swept; it is one for the whole campaign", key->text);
 }
 
-static fracas_err add_target(const fracas_file *file, const target *set, const fracas_node *value, fracas_settings *settings)
+static fracas_err add_target(const fracas_file *file, const target *set, const fracas_node *value,
+                             fracas_settings *settings)
 {
     if (set->section) return fracas_settings_add_section(file, set->section, value, settings);
     fracas_setting setting;
@@ -90,8 +95,10 @@ static fracas_err add_range(const fracas_file *file, const target *set, const fr
     TRY(fracas_range_read(file, set->leaf, values, &range));
     if (axis->nchoices == 0) TRY(make_choices(file, values, range.points, axis));
     if (axis->nchoices != range.points)
-        return fracas_say(file->name, values->key, "`%s` has %zu values, the first path of this zip has %zu; all of a zip "
-                                                   "need the same number", values->key->text, range.points, axis->nchoices);
+        return fracas_say(file->name, values->key,
+                          "`%s` has %zu values, the first path of this zip has %zu; all of a zip "
+                          "need the same number",
+                          values->key->text, range.points, axis->nchoices);
     for (size_t i = 0; i < range.points; i++) {
         fracas_choice *choice = &axis->choice[i];
         fracas_setting setting = {.leaf = set->leaf, .node = values, .value = fracas_range_value(&range, i)};
@@ -105,8 +112,10 @@ static fracas_err add_list(const fracas_file *file, const target *set, const fra
 {
     if (axis->nchoices == 0) TRY(make_choices(file, values, values->count, axis));
     if (axis->nchoices != values->count)
-        return fracas_say(file->name, values->key, "`%s` has %zu values, the first path of this zip has %zu; all of a zip "
-                                                   "need the same number", values->key->text, values->count, axis->nchoices);
+        return fracas_say(file->name, values->key,
+                          "`%s` has %zu values, the first path of this zip has %zu; all of a zip "
+                          "need the same number",
+                          values->key->text, values->count, axis->nchoices);
     fracas_choice *choice = axis->choice;
     for (const fracas_node *value = values->first; value; value = value->next, choice++) {
         if (!choice->node) choice->node = value;
@@ -123,8 +132,10 @@ static fracas_err add_path(const fracas_file *file, const fracas_node *values, f
     TRY(find_target(file, values->key, axes, &set));
     if (values->type == FRACAS_LIST) return add_list(file, &set, values, axis);
     if (values->type == FRACAS_MAP) return add_range(file, &set, values, axis);
-    return fracas_say(file->name, values, "`%s`: found %s; expected a list of values, [...], or a range, {from: ..., to: "
-                                          "..., points: ...}", values->key->text, fracas_say_found(values, found));
+    return fracas_say(file->name, values,
+                      "`%s`: found %s; expected a list of values, [...], or a range, {from: ..., to: "
+                      "..., points: ...}",
+                      values->key->text, fracas_say_found(values, found));
 }
 
 static fracas_err read_zip(const fracas_file *file, const fracas_node *zip, fracas_axis *axis)
@@ -175,7 +186,8 @@ static fracas_err read_axis(const fracas_file *file, const fracas_node *node, fr
 {
     char found[256];
     if (node->type != FRACAS_MAP || node->count == 0)
-        return fracas_say(file->name, node, "an axis of the sweep: found %s; expected `path: [values]`, `zip:` or `cases:`",
+        return fracas_say(file->name, node,
+                          "an axis of the sweep: found %s; expected `path: [values]`, `zip:` or `cases:`",
                           node->type == FRACAS_MAP ? "nothing" : fracas_say_found(node, found));
     if (node->count > 1)
         return fracas_say(file->name, node->first->next->key, "a second path, `%s`, in one axis; put `- ` before it to "
@@ -213,7 +225,8 @@ fracas_err fracas_sweep_read(const fracas_file *file, const fracas_node *node, f
     if (node->type != FRACAS_LIST)
         return fracas_say(file->name, node, "`sweep`: found %s; expected a list of axes, each after `- `, as "
                                             "`- loading.rate: [1e3 1/s, 1e4 1/s]`", fracas_say_found(node, found));
-    if (node->count == 0) return fracas_say(file->name, node, "`sweep`: found no axis; give at least one, or remove `sweep`");
+    if (node->count == 0)
+        return fracas_say(file->name, node, "`sweep`: found no axis; give at least one, or remove `sweep`");
     sweep->axis = fracas_memory_take(file->memory, node->count, sizeof *sweep->axis);
     if (!sweep->axis) return fracas_no_memory("the sweep");
     for (const fracas_node *axis = node->first; axis; axis = axis->next) {
@@ -221,8 +234,10 @@ fracas_err fracas_sweep_read(const fracas_file *file, const fracas_node *node, f
         TRY(read_axis(file, axis, read));
         sweep->npoints *= read->nchoices;
         if (sweep->npoints > FRACAS_MAX_POINTS)
-            return fracas_say(file->name, axis, "the sweep makes more than %d points, the product of its axes; sweep fewer "
-                                                "values, or several together with `zip:`", FRACAS_MAX_POINTS);
+            return fracas_say(file->name, axis,
+                              "the sweep makes more than %d points, the product of its axes; sweep fewer "
+                              "values, or several together with `zip:`",
+                              FRACAS_MAX_POINTS);
     }
     const fracas_setting **owner = fracas_memory_take(file->memory, file->catalog->nleaves, sizeof *owner);
     size_t *owner_axis = fracas_memory_take(file->memory, file->catalog->nleaves, sizeof *owner_axis);

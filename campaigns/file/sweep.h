@@ -4,7 +4,8 @@
 
 #include "campaigns/file/setting.h"
 
-#define FRACAS_MAX_POINTS 100000
+/* The resolved file of so many points stays within what a file may be (campaigns/file/node.h). */
+#define FRACAS_MAX_POINTS 10000
 
 /* One value of an axis: what it sets, and, in `cases`, its name and replicas. */
 typedef struct {

@@ -13,7 +13,8 @@ static const void *owner_of(const fracas_leaf *leaf, const fracas_campaign *camp
 }
 
 /* The value as text; false if the point has none. */
-static bool write_value(const fracas_leaf *leaf, const fracas_campaign *campaign, size_t point, char text[FRACAS_LEAF_TEXT])
+static bool write_value(const fracas_leaf *leaf, const fracas_campaign *campaign, size_t point,
+                        char text[FRACAS_LEAF_TEXT])
 {
     fracas_value value;
     if (!fracas_leaf_get(leaf, owner_of(leaf, campaign, point), &value)) return false;
@@ -46,8 +47,9 @@ static bool is_base(const fracas_leaf *leaf, const fracas_campaign *campaign)
 
 /* ---- the sections ---- */
 
-/* The leaf of the section to write after `leaf` (NULL: the first): the kind's name, then the values; NULL at the end. */
-static const fracas_leaf *next_leaf(const fracas_catalog *catalog, const fracas_file_section *section, const fracas_leaf *leaf)
+/* The leaf to write after `leaf` (NULL: the first): the kind's name, then the values; NULL at the end. */
+static const fracas_leaf *next_leaf(const fracas_catalog *catalog, const fracas_file_section *section,
+                                    const fracas_leaf *leaf)
 {
     const fracas_leaf *selector = fracas_catalog_selector(catalog, section), *end = catalog->leaf + catalog->nleaves;
     if (!leaf && selector) return selector;
@@ -154,7 +156,8 @@ static fracas_err write_with(fracas_campaign_memory *memory, const fracas_campai
     for (size_t i = 0; i < catalog->nleaves; i++) base[i] = is_base(&catalog->leaf[i], campaign);
     write_file(catalog, base, campaign, out);
     if (fflush(out) == 0 && !ferror(out)) return FRACAS_OK;
-    return fracas_fail(FRACAS_ENVIRONMENT, "cannot write the resolved campaign %s: %s", campaign->name, strerror(errno));
+    return fracas_fail(FRACAS_ENVIRONMENT, "cannot write the resolved campaign %s: %s", campaign->name,
+                       strerror(errno));
 }
 
 fracas_err fracas_campaign_write(const fracas_campaign *campaign, FILE *out)

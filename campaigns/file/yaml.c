@@ -9,13 +9,15 @@
 #include <string.h>
 #include <yaml.h>
 
-enum { MAX_BYTES = 1 << 20, MAX_DEPTH = 16, MAX_TEXT = 200, MAX_KEYS = 500 };
+/* Enough for the resolved file of a campaign with as many points as there may be, each with every value of its own. */
+enum { MAX_BYTES = 16 << 20, MAX_NODES = 1000000, MAX_DEPTH = 16, MAX_TEXT = 200, MAX_KEYS = 500 };
 
 typedef struct {
     const char *name; /* of the file */
     const unsigned char *bytes;
     size_t size;
     fracas_campaign_memory *memory;
+    size_t nodes;
     yaml_parser_t parser;
 } reading;
 
@@ -33,17 +35,25 @@ static FRACAS_PRINTF(3, 4) fracas_err fail_at(const char *name, yaml_mark_t mark
 
 /* ---- from the file to bytes ---- */
 
-static fracas_err load_open(const char *name, FILE *in, unsigned char *bytes, size_t *size)
+/* Reads all of `in`; *bytes is freed by the caller, also after an error. */
+static fracas_err load_open(const char *name, FILE *in, unsigned char **bytes, size_t *size)
 {
-    *size = fread(bytes, 1, MAX_BYTES + 1, in);
-    if (ferror(in)) return fracas_fail(FRACAS_ENVIRONMENT, "cannot read the campaign file %s: %s", name, strerror(errno));
-    if (*size > MAX_BYTES)
-        return fracas_fail(FRACAS_USAGE, "%s:1:1: the file is larger than 1 MiB; a campaign file is a page of text, "
-                                         "write long lists of values as ranges {from, to, points}", name);
-    return FRACAS_OK;
+    size_t room = 1 << 16;
+    for (*size = 0; *size <= MAX_BYTES; room *= 2) {
+        unsigned char *grown = realloc(*bytes, room);
+        if (!grown) return fracas_no_memory("the campaign file");
+        *bytes = grown;
+        *size += fread(grown + *size, 1, room - *size, in);
+        if (ferror(in))
+            return fracas_fail(FRACAS_ENVIRONMENT, "cannot read the campaign file %s: %s", name, strerror(errno));
+        if (*size < room) break;
+    }
+    if (*size <= MAX_BYTES) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "%s:1:1: the file is larger than %d MiB; write long lists of values as ranges, "
+                                     "{from: ..., to: ..., points: ...}", name, MAX_BYTES >> 20);
 }
 
-static fracas_err load(const char *name, unsigned char *bytes, size_t *size)
+static fracas_err load(const char *name, unsigned char **bytes, size_t *size)
 {
     FILE *in = fopen(name, "rb");
     if (!in) return fracas_fail(FRACAS_ENVIRONMENT, "cannot open the campaign file %s: %s", name, strerror(errno));
@@ -73,8 +83,9 @@ static yaml_mark_t mark_of_byte(const reading *reader, size_t byte)
 static const char *context_words(const char *context)
 {
     static const char *const words[][2] = {
-        {"flow sequence", "the list [...]"}, {"flow mapping", "the group {...}"},  {"block mapping", "the group of keys"},
-        {"block collection", "the list"},    {"quoted scalar", "the quoted text"}, {"simple key", "the line"},
+        {"flow sequence", "the list [...]"},    {"flow mapping", "the group {...}"},
+        {"block mapping", "the group of keys"}, {"block collection", "the list"},
+        {"quoted scalar", "the quoted text"},   {"simple key", "the line"},
     };
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (strstr(context, words[i][0])) return words[i][1];
@@ -109,6 +120,8 @@ static fracas_err next_event(reading *reader, yaml_event_t *event)
 
 static fracas_err make_node(reading *reader, yaml_mark_t mark, fracas_node_type type, fracas_node **node)
 {
+    if (++reader->nodes > MAX_NODES)
+        return FAIL_AT(reader, mark, "more than %d values; write long lists as ranges", MAX_NODES);
     fracas_node *made = fracas_memory_take(reader->memory, 1, sizeof *made);
     if (!made) return fracas_no_memory("the campaign file");
     made->type = type;
@@ -139,13 +152,23 @@ static fracas_err check_plain(const reading *reader, const yaml_event_t *event)
     const yaml_char_t *anchor = NULL, *tag = NULL;
     switch (event->type) {
     case YAML_ALIAS_EVENT: anchor = event->data.alias.anchor; break;
-    case YAML_SCALAR_EVENT: anchor = event->data.scalar.anchor; tag = event->data.scalar.tag; break;
-    case YAML_SEQUENCE_START_EVENT: anchor = event->data.sequence_start.anchor; tag = event->data.sequence_start.tag; break;
-    case YAML_MAPPING_START_EVENT: anchor = event->data.mapping_start.anchor; tag = event->data.mapping_start.tag; break;
+    case YAML_SCALAR_EVENT:
+        anchor = event->data.scalar.anchor;
+        tag = event->data.scalar.tag;
+        break;
+    case YAML_SEQUENCE_START_EVENT:
+        anchor = event->data.sequence_start.anchor;
+        tag = event->data.sequence_start.tag;
+        break;
+    case YAML_MAPPING_START_EVENT:
+        anchor = event->data.mapping_start.anchor;
+        tag = event->data.mapping_start.tag;
+        break;
     default: break;
     }
     if (anchor)
-        return FAIL_AT(reader, event->start_mark, "anchors and aliases (`&`, `*`) are not allowed; write the value out");
+        return FAIL_AT(reader, event->start_mark,
+                       "anchors and aliases (`&`, `*`) are not allowed; write the value out");
     if (tag) return FAIL_AT(reader, event->start_mark, "tags (`!`) are not allowed; write the value alone");
     return FRACAS_OK;
 }
@@ -162,8 +185,9 @@ static fracas_err read_key(reading *reader, const yaml_event_t *event, const fra
         return FAIL_AT(reader, event->start_mark, "more than %d keys in one place", MAX_KEYS);
     const fracas_node *earlier = fracas_node_find(map, (*key)->text);
     if (earlier)
-        return FAIL_AT(reader, event->start_mark, "key `%s` is given twice; it is already at line %d, keep one of the two",
-                       (*key)->text, earlier->key->line);
+        return FAIL_AT(reader, event->start_mark,
+                       "key `%s` is given twice; it is already at line %d, keep one of the two", (*key)->text,
+                       earlier->key->line);
     return FRACAS_OK;
 }
 
@@ -198,7 +222,8 @@ static fracas_err read_value(reading *reader, const yaml_event_t *event, int dep
     TRY(check_plain(reader, event));
     if (event->type == YAML_SCALAR_EVENT) return read_scalar(reader, event, node);
     if (depth == MAX_DEPTH)
-        return FAIL_AT(reader, event->start_mark, "nested deeper than %d levels; a campaign file needs four", MAX_DEPTH);
+        return FAIL_AT(reader, event->start_mark, "nested deeper than %d levels; a campaign file needs four",
+                       MAX_DEPTH);
     TRY(make_node(reader, event->start_mark, event->type == YAML_MAPPING_START_EVENT ? FRACAS_MAP : FRACAS_LIST, node));
     return read_entries(reader, depth + 1, *node);
 }
@@ -217,7 +242,8 @@ static fracas_err skip_event(reading *reader, yaml_event_type_t type, const char
 
 static fracas_err read_document(reading *reader, fracas_node **root)
 {
-    static const char *const empty = "the file is empty; a campaign file starts with `name:`, see docs/formats/campaign-file.md";
+    static const char *const empty =
+        "the file is empty; a campaign file starts with `name:`, see docs/formats/campaign-file.md";
     TRY(skip_event(reader, YAML_STREAM_START_EVENT, empty));
     TRY(skip_event(reader, YAML_DOCUMENT_START_EVENT, empty));
     yaml_event_t event;
@@ -246,10 +272,10 @@ static fracas_err parse(reading *reader, fracas_node **root)
 
 fracas_err fracas_node_read(const char *name, fracas_campaign_memory *memory, fracas_node **root)
 {
-    unsigned char *bytes = malloc(MAX_BYTES + 1);
-    if (!bytes) return fracas_no_memory("the campaign file");
-    reading reader = {.name = name, .bytes = bytes, .memory = memory};
-    fracas_err err = load(name, bytes, &reader.size);
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    fracas_err err = load(name, &bytes, &size);
+    reading reader = {.name = name, .bytes = bytes, .size = size, .memory = memory};
     if (!err) err = parse(&reader, root);
     free(bytes);
     return err;

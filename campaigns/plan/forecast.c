@@ -91,9 +91,9 @@ static fracas_err time_steps(const fracas_point *point, double end, effort *spen
     return err;
 }
 
-/* Times about 2e7 element-steps, a twentieth of a second, less the time that a batch of one step takes: what a batch does
- * once counts little in a full run. A batch that is too short for the clock is repeated, and taken as it is if even
- * many are. */
+/* Times about 2e7 element-steps, a twentieth of a second, less the time that a batch of one step takes: what a batch
+ * does once counts little in a full run. A batch that is too short for the clock is repeated, and taken as it is if
+ * even many are. */
 static fracas_err time_point(const fracas_point *point, fracas_forecast *forecast)
 {
     const double step = forecast->time_step;
@@ -118,7 +118,8 @@ static double speed_of_like(const fracas_campaign *campaign, const fracas_foreca
 {
     for (size_t p = point; p-- > 0;)
         if (lanes_of(&campaign->point[p]) == lanes_of(&campaign->point[point]) &&
-            forecast[p].elements <= 2 * forecast[point].elements && forecast[point].elements <= 2 * forecast[p].elements)
+            forecast[p].elements <= 2 * forecast[point].elements &&
+            forecast[point].elements <= 2 * forecast[p].elements)
             return forecast[p].speed;
     return 0.0;
 }

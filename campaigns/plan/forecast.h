@@ -12,8 +12,9 @@ typedef struct {
     double bytes;     /* in study.h5 */
 } fracas_forecast;
 
-/* Elements, time step and steps of one point (speed 0); refused if the engine would refuse the point's mean strength. */
-FRACAS_MUST_USE fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point, fracas_forecast *forecast);
+/* Elements, time step and steps of one point (speed 0). Refused if the engine would refuse its mean strength. */
+FRACAS_MUST_USE fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point,
+                                                fracas_forecast *forecast);
 
 /* All of them, timed; `forecast` has room for every point. */
 FRACAS_MUST_USE fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs, fracas_forecast *forecast);

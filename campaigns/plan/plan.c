@@ -99,7 +99,8 @@ static void sheet_print(const text_sheet *sheet, FILE *out)
 {
     for (size_t r = 0; r < sheet->rows; r++)
         for (size_t c = 0; c < sheet->columns; c++)
-            fprintf(out, "%*s%s", sheet->width[c], sheet->cell[r * sheet->columns + c], c + 1 < sheet->columns ? "  " : "\n");
+            fprintf(out, "%*s%s", sheet->width[c], sheet->cell[r * sheet->columns + c],
+                    c + 1 < sheet->columns ? "  " : "\n");
 }
 
 static void put_duration(text_sheet *sheet, size_t row, size_t column, double time)
@@ -172,9 +173,10 @@ static fracas_err print_text(const campaign_plan *plan, FILE *out)
         fprintf(out, "Campaign %s: %zu point%s, %" PRId64 " realization%s\n\n", plan->campaign->name, points,
                 points == 1 ? "" : "s", plan->realizations, plan->realizations == 1 ? "" : "s");
         sheet_print(&sheet, out);
-        fprintf(out, "\nTimes are for %d process%s at %.2g element-steps per second each, timed just now, and for running to "
-                     "time.end;\na stop rule may end realizations earlier. Sizes count one fragment for every %d elements.\n",
-                plan->jobs, plan->jobs == 1 ? "" : "es", plan->slowest, FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
+        fprintf(out,
+            "\nTimes are for %d process%s at %.2g element-steps per second each, timed just now, and for running to "
+            "time.end;\na stop rule may end realizations earlier. Sizes count one fragment for every %d elements.\n",
+            plan->jobs, plan->jobs == 1 ? "" : "es", plan->slowest, FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
     }
     sheet_clear(&sheet);
     return err;
@@ -215,10 +217,11 @@ static void print_json(const campaign_plan *plan, FILE *out)
     fracas_json_object(&json, NULL);
     fracas_json_text(&json, "name", plan->campaign->name);
     fracas_json_integer(&json, "jobs", plan->jobs);
+    fracas_json_integer(&json, "points", (int64_t)plan->table->npoints);
     fracas_json_integer(&json, "realizations", plan->realizations);
     fracas_json_real(&json, "seconds", plan->time);
     fracas_json_real(&json, "bytes", plan->bytes);
-    fracas_json_array(&json, "points");
+    fracas_json_array(&json, "point");
     for (size_t p = 0; p < plan->table->npoints; p++) print_json_point(plan, p, &json);
     fracas_json_close_array(&json);
     fracas_json_close_object(&json);

@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 /* Relative cost of one realization of a point: elements times steps to time.end. FRACAS_USAGE, naming the point, if its
- * parameters do not go together; FRACAS_ENVIRONMENT without memory. Builds the point's model (about 1 us an element). */
+ * parameters do not go together; FRACAS_ENVIRONMENT without memory. Builds the model (about 1 us an element). */
 FRACAS_MUST_USE fracas_err fracas_plan_cost(const fracas_campaign *campaign, size_t point, double *cost);
 
 /* Prints, for each point, its varied parameters, replicas, elements, time step, steps, predicted time and size, and

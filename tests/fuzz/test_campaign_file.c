@@ -18,9 +18,10 @@ static uint64_t next_random(uint64_t *x)
 
 /* Pieces that mean something to YAML, to numbers, to units or to a sweep. */
 static const char *const pieces[] = {
-    "[", "]", "{", "}", ": ", "- ", "\n", "  ", "\t", "#", "&a ", "*a", "!!", "\"", "'", "|\n", ">", "---\n", "...", "%", "@", "?",
-    "1e", "1e308", "-", "0", "nan", "1e-400", "99999999999999999999", " MPa", " s since 1", " (((", "^", "\xff", "\xc2", "\xe2\x82",
-    "sweep:\n", "zip:", "cases:", "from: 1", "points: 50", "name: a", "strength", "shape: 1", ".", "..", ",", "<<: ", "\\x00", "\r",
+    "[", "]", "{", "}", ": ", "- ", "\n", "  ", "\t", "#", "&a ", "*a", "!!", "\"", "'", "|\n", ">", "---\n", "...",
+    "%", "@", "?", "1e", "1e308", "-", "0", "nan", "1e-400", "99999999999999999999", " MPa", " s since 1", " (((",
+    "^", "\xff", "\xc2", "\xe2\x82", "sweep:\n", "zip:", "cases:", "from: 1", "points: 50", "name: a", "strength",
+    "shape: 1", ".", "..", ",", "<<: ", "\\x00", "\r",
 };
 
 static size_t replace_bytes(unsigned char *text, size_t size, size_t at, size_t cut, const void *put, size_t length)

@@ -1,4 +1,5 @@
 /* What a wrong campaign file is told: place, what was found, what is allowed, the nearest known key. */
+#include "campaigns/file/read.h"
 #include "tests/unit/campaign_text.h"
 
 typedef struct {
@@ -7,17 +8,18 @@ typedef struct {
     const char *words[4];   /* which the message must have */
 } wrong;
 
-static void check(const wrong *w)
+static void check(const fracas_units *units, const wrong *w)
 {
     char path[40], place[80];
     char *text = replace(plain_campaign, w->find, w->put);
     fracas_campaign *campaign = NULL;
     make_path(path);
     write_bytes(path, text, strlen(text));
-    fracas_err err = fracas_campaign_read(path, &campaign);
+    fracas_err err = fracas_campaign_read_with(units, path, &campaign);
     unlink(path);
     free(text);
-    if (getenv("FRACAS_READ_ALOUD")) print_message("%s   (%d:%d)\n", fracas_message() + strlen(path), w->line, w->column);
+    if (getenv("FRACAS_READ_ALOUD"))
+        print_message("%s   (%d:%d)\n", fracas_message() + strlen(path), w->line, w->column);
     if (err != FRACAS_USAGE || campaign) fail_msg("accepted: %s", w->put);
     snprintf(place, sizeof place, "%s:%d:%d: ", path, w->line, w->column);
     if (strncmp(fracas_message(), place, strlen(place)) != 0)
@@ -27,8 +29,7 @@ static void check(const wrong *w)
 }
 
 #define CHECK_ALL(table) \
-    (void)state; \
-    for (size_t i = 0; i < FRACAS_COUNT(table); i++) check(&(table)[i])
+    for (size_t i = 0; i < FRACAS_COUNT(table); i++) check(*state, &(table)[i])
 
 static void test_yaml(void **state)
 {
@@ -46,8 +47,9 @@ static void test_yaml(void **state)
         {"model: bar", "model: !!str bar", 3, 8, {"tags"}},
         {"model: bar", "? [model]\n: bar", 3, 3, {"where a key is expected"}},
         {"model: bar", "model: [[[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]]", 3, 23, {"nested deeper than 16"}},
-        {"model: bar", "model: aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa"
-                       "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa",
+        {"model: bar", "model: aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa"
+                       "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa"
+                       "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa",
          3, 8, {"a text of 201 bytes", "at most 200"}},
         {"", "---\nname: other\n", 28, 1, {"a second document", "remove `---`"}},
         {"seed: 7", "seed: 7\nseed: 8", 3, 1, {"`seed` is given twice", "line 2"}},
@@ -73,7 +75,8 @@ static void test_top(void **state)
         {"replicas: 3", "replicas: 2.5", 25, 11, {"`2.5` is not a whole number"}},
         {"replicas: 3", "replicas: 3x", 25, 11, {"`replicas`", "`3x` is not a number"}},
         {"replicas: 3", "replicas: [3, 4]", 25, 11, {"`replicas`", "a list", "a whole number"}},
-        {"replicas: 3", "replica: 3", 25, 1, {"unknown key `replica`", "did you mean `replicas`?", "known are: name, seed"}},
+        {"replicas: 3", "replica: 3", 25, 1,
+         {"unknown key `replica`", "did you mean `replicas`?", "known are: name, seed"}},
         {"material:", "materail:", 9, 1, {"unknown key `materail`", "did you mean `material`?"}},
         {"", "rate: 5\n", 28, 1, {"unknown key `rate`", "write `rate:` indented below `loading:`"}},
         {"", "loading.rate: 5\n", 28, 1, {"unknown key `loading.rate`", "write `rate:` indented below `loading:`"}},
@@ -88,7 +91,8 @@ static void test_keys(void **state)
     static const wrong table[] = {
         {"  fracture_energy:", "  fracture_enrgy:", 14, 3,
          {"unknown key `fracture_enrgy` in cohesive", "did you mean `fracture_energy`?", "keys of cohesive: beta"}},
-        {"  elements: 100", "  elements: 100\n  density: 5", 9, 3, {"unknown key `density` in mesh", "section material"}},
+        {"  elements: 100", "  elements: 100\n  density: 5", 9, 3,
+         {"unknown key `density` in mesh", "section material"}},
         {"  elements: 100", "  12: 100", 8, 3, {"unknown key `12` in mesh", "keys of mesh: elements"}},
         {"  maximum: 301 MPa", "  maximum: 301 MPa\n  shape: 5", 19, 3,
          {"`shape` belongs to distribution weibull", "this is uniform", "line 16"}},
@@ -98,7 +102,8 @@ static void test_keys(void **state)
          {"`maximum` belongs to distribution uniform", "this is lognormal"}},
         {"  distribution: uniform", "  distribution: unifrom", 16, 17, {"unknown distribution `unifrom`", "`uniform`"}},
         {"  law: nitsche", "  law: Nitsche", 13, 8, {"unknown law `Nitsche`", "did you mean `nitsche`?", "rigid-link"}},
-        {"  maximum: 301 MPa\n", "", 16, 17, {"strength with distribution uniform needs `maximum`", "a stress, in Pa or MPa"}},
+        {"  maximum: 301 MPa\n", "", 16, 17,
+         {"strength with distribution uniform needs `maximum`", "a stress, in Pa or MPa"}},
         {"  young: 275 GPa\n", "", 9, 1, {"material needs `young` (Young's modulus E)", "a stress"}},
         {"mesh:\n  elements: 100\n", "", 1, 1, {"mesh needs `elements`", "a whole number"}},
         {"  quiet: 100 ns\n", "", 22, 9, {"time with stop settled needs `quiet`", "a time, in s or us"}},
@@ -152,7 +157,8 @@ static void test_sweeps(void **state)
         {"", "sweep:\n  - seed: [5]\n", 29, 5, {"`seed` cannot be swept"}},
         {"", "sweep:\n  - replicas: [5]\n", 29, 5, {"`replicas` is not a parameter to sweep", "cases"}},
         {"", "sweep:\n  - output.history: [5]\n", 29, 5, {"`output.history` cannot be swept", "whole campaign"}},
-        {"", "sweep:\n  - loading.rate: [1, -2 1/s]\n", 29, 23, {"`rate`", "-2 1/s is out of range", "more than 0 1/s"}},
+        {"", "sweep:\n  - loading.rate: [1, -2 1/s]\n", 29, 23,
+         {"`rate`", "-2 1/s is out of range", "more than 0 1/s"}},
         {"", "sweep:\n  - loading.rate: [1, 2 m]\n", 29, 23, {"`rate`", "`2 m` is a length", "expected a rate"}},
         {"", "sweep:\n  - loading.rate: [1, [2]]\n", 29, 23, {"`rate`", "found a list"}},
         {"", "sweep:\n  - loading.rate: [1e3, 2e3, 1000 1/s]\n", 29, 30,
@@ -160,36 +166,45 @@ static void test_sweeps(void **state)
         {"", "sweep:\n  - loading.rate: [1, 2]\n  - loading.rate: [3, 4]\n", 30, 20, {"swept by two axes", "line 29"}},
         {"", "sweep:\n  - loading.rate: {from: 1, points: 3}\n", 29, 19, {"a range without `to`"}},
         {"", "sweep:\n  - loading.rate: {from: 1, to: 3}\n", 29, 19, {"a range without `points`"}},
-        {"", "sweep:\n  - loading.rate: {from: 1, to: 3, points: 1}\n", 29, 44, {"`points`", "out of range", "2 to 100000"}},
+        {"", "sweep:\n  - loading.rate: {from: 1, to: 3, points: 1}\n", 29, 44,
+         {"`points`", "out of range", "2 to 10000"}},
         {"", "sweep:\n  - loading.rate: {from: 1, to: 1, points: 3}\n", 29, 19, {"`from` and `to` are equal"}},
-        {"", "sweep:\n  - loading.rate: {from: 1, to: 3, point: 3}\n", 29, 36, {"unknown key `point` in a range", "`points`"}},
+        {"", "sweep:\n  - loading.rate: {from: 1, to: 3, point: 3}\n", 29, 36,
+         {"unknown key `point` in a range", "`points`"}},
         {"", "sweep:\n  - loading.rate: {from: 1, to: 3, points: 3, spacing: lg}\n", 29, 56, {"`lg`", "lin", "log"}},
         {"", "sweep:\n  - loading.rate: {from: -1, to: 3, points: 3, spacing: log}\n", 29, 57, {"greater than 0"}},
         {"", "sweep:\n  - loading.rate: {from: -1, to: 3, points: 3}\n", 29, 19, {"-1 is out of range"}},
         {"", "sweep:\n  - cohesive.law: {from: 1, to: 3, points: 3}\n", 29, 19, {"`cohesive.law` is not a number"}},
-        {"", "sweep:\n  - strength: {from: 1, to: 3, points: 3}\n", 29, 15, {"`strength` is a section", "a list of sections"}},
+        {"", "sweep:\n  - strength: {from: 1, to: 3, points: 3}\n", 29, 15,
+         {"`strength` is a section", "a list of sections"}},
         {"", "sweep:\n  - strength: [5]\n", 29, 16, {"`strength` is a section, but found `5`"}},
         {"", "sweep:\n  - strength: [{distribution: weibull, scale: 3 MPa}]\n", 29, 31,
          {"strength with distribution weibull needs `shape`"}},
-        {"", "sweep:\n  - strength.shape: [5, 10]\n", 29, 22, {"`shape` belongs to distribution weibull", "this is uniform"}},
+        {"", "sweep:\n  - strength.shape: [5, 10]\n", 29, 22,
+         {"`shape` belongs to distribution weibull", "this is uniform"}},
         {"", "sweep:\n  - zip: [1]\n", 29, 10, {"`zip`", "found a list"}},
         {"", "sweep:\n  - zip: {}\n", 29, 10, {"`zip`", "found nothing"}},
         {"", "sweep:\n  - zip:\n      loading.rate: [1, 2]\n      time.end: [1, 2, 3]\n", 31, 7,
          {"`time.end` has 3 values", "has 2", "the same number"}},
         {"", "sweep:\n  - zip:\n      loading.rate: [1, 2]\n      time.end: {from: 1, to: 2, points: 3}\n", 31, 7,
          {"`time.end` has 3 values"}},
-        {"", "sweep:\n  - zip:\n      strength: [{minimum: 1}]\n      strength.minimum: [2]\n", 31, 26, {"`strength.minimum`", "twice"}},
+        {"", "sweep:\n  - zip:\n      strength: [{minimum: 1}]\n      strength.minimum: [2]\n", 31, 26,
+         {"`strength.minimum`", "twice"}},
         {"", "sweep:\n  - cases: 5\n", 29, 12, {"`cases`", "found `5`"}},
         {"", "sweep:\n  - cases: []\n", 29, 12, {"no values"}},
         {"", "sweep:\n  - cases:\n      - 5\n", 30, 9, {"a case", "found `5`"}},
-        {"", "sweep:\n  - cases:\n      - nam: a\n", 30, 9, {"unknown path `nam`", "did you mean `name`?", "section.key"}},
+        {"", "sweep:\n  - cases:\n      - nam: a\n", 30, 9,
+         {"unknown path `nam`", "did you mean `name`?", "section.key"}},
         {"", "sweep:\n  - cases:\n      - name: a b\n", 30, 15, {"`name`", "`a b`"}},
         {"", "sweep:\n  - cases:\n      - replicas: 0\n", 30, 19, {"`replicas`", "out of range"}},
         {"", "sweep:\n  - cases:\n      - loading: {rte: 5}\n", 30, 19, {"unknown key `rte` in loading", "`rate`"}},
-        {"", "sweep:\n  - cases:\n      - {name: a}\n      - {name: b}\n", 31, 9, {"points 1 and 2", "line 30, column 9"}},
-        {"", "sweep:\n  - cases:\n      - {replicas: 4}\n  - cases:\n      - {replicas: 5}\n", 32, 9, {"cases of two axes"}},
-        {"", "sweep:\n  - loading.rate: {from: 1, to: 2, points: 1000}\n  - time.end: {from: 1, to: 2, points: 1000}\n", 30, 5,
-         {"more than 100000 points"}},
+        {"", "sweep:\n  - cases:\n      - {name: a}\n      - {name: b}\n", 31, 9,
+         {"points 1 and 2", "line 30, column 9"}},
+        {"", "sweep:\n  - cases:\n      - {replicas: 4}\n  - cases:\n      - {replicas: 5}\n", 32, 9,
+         {"cases of two axes"}},
+        {"", "sweep:\n  - loading.rate: {from: 1, to: 2, points: 1000}\n"
+             "  - time.end: {from: 1, to: 2, points: 1000}\n", 30, 5,
+         {"more than 10000 points"}},
         {"", "sweep:\n  - model: [bar, shell]\n", 29, 18, {"unknown model `shell`"}},
     };
     CHECK_ALL(table);
@@ -215,21 +230,41 @@ static void test_whole_files(void **state)
         write_bytes(path, table[i].text, strlen(table[i].text));
         assert_int_equal(fracas_campaign_read(path, &campaign), FRACAS_USAGE);
         for (int w = 0; w < 2; w++)
-            if (!strstr(fracas_message(), table[i].words[w])) fail_msg("no \"%s\" in: %s", table[i].words[w], fracas_message());
+            if (!strstr(fracas_message(), table[i].words[w]))
+                fail_msg("no \"%s\" in: %s", table[i].words[w], fracas_message());
     }
-    size_t size = (1 << 20) + 1;
+    size_t size = (16 << 20) + 1;
     char *large = malloc(size);
     assert_non_null(large);
     memset(large, '#', size);
     write_bytes(path, large, size);
+    assert_int_equal(fracas_campaign_read(path, &campaign), FRACAS_USAGE);
+    assert_non_null(strstr(fracas_message(), "larger than 16 MiB"));
+    memcpy(large, "a: [", 4);
+    for (size_t i = 4; i + 1 < size; i += 2) memcpy(large + i, "1,", 2);
+    write_bytes(path, large, size / 4);
     free(large);
     assert_int_equal(fracas_campaign_read(path, &campaign), FRACAS_USAGE);
-    assert_non_null(strstr(fracas_message(), "larger than 1 MiB"));
+    assert_non_null(strstr(fracas_message(), "more than 1000000 values"));
     unlink(path);
     assert_int_equal(fracas_campaign_read(path, &campaign), FRACAS_ENVIRONMENT);
     assert_non_null(strstr(fracas_message(), "No such file"));
     assert_int_equal(fracas_campaign_read("/", &campaign), FRACAS_ENVIRONMENT);
     assert_null(campaign);
+}
+
+static int load(void **state)
+{
+    fracas_units *units;
+    if (fracas_units_create(&units)) return -1;
+    *state = units;
+    return 0;
+}
+
+static int unload(void **state)
+{
+    fracas_units_destroy(*state);
+    return 0;
 }
 
 int main(void)
@@ -238,5 +273,5 @@ int main(void)
         cmocka_unit_test(test_yaml),   cmocka_unit_test(test_top),    cmocka_unit_test(test_keys),
         cmocka_unit_test(test_values), cmocka_unit_test(test_sweeps), cmocka_unit_test(test_whole_files),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, load, unload);
 }

@@ -78,7 +78,8 @@ static void test_golden_hash(void **state)
 {
     (void)state;
     static const char text[] =
-        "cohesive.beta=4\ncohesive.fracture_energy=100\ncohesive.law=nitsche\ngeometry.area=1e-06\ngeometry.ends=periodic\n"
+        "cohesive.beta=4\ncohesive.fracture_energy=100\ncohesive.law=nitsche\ngeometry.area=1e-06\n"
+        "geometry.ends=periodic\n"
         "geometry.length=0.05\nloading.rate=10000\nloading.type=imposed-rate\nmaterial.density=2750\n"
         "material.young=275000000000\nmesh.elements=100\nmodel=bar\nstrength.distribution=uniform\n"
         "strength.maximum=301000000\nstrength.minimum=299000000\ntime.end=5e-07\ntime.quiet=1e-07\n"
@@ -214,9 +215,10 @@ static void test_changed_kind(void **state)
     assert_int_equal(campaign->npoints, 4);
     for (size_t p = 0; p < 4; p++) {
         assert_true(real(campaign, p, "strength.minimum") == (p < 2 ? 299e6 : 0));
-        assert_true(p < 2 ? isnan(real(campaign, p, "strength.shape")) : real(campaign, p, "strength.shape") == 10);
-        assert_true(p < 2 ? real(campaign, p, "strength.maximum") == 301e6 : isnan(real(campaign, p, "strength.maximum")));
-        assert_true(p % 2 == 0 ? real(campaign, p, "cohesive.beta") == 4 : isnan(real(campaign, p, "cohesive.beta")));
+        const double shape = real(campaign, p, "strength.shape"), maximum = real(campaign, p, "strength.maximum");
+        const double beta = real(campaign, p, "cohesive.beta");
+        assert_true(p < 2 ? isnan(shape) && maximum == 301e6 : shape == 10 && isnan(maximum));
+        assert_true(p % 2 == 0 ? beta == 4 : isnan(beta));
         assert_true(campaign->point[p].spec.cohesive.fracture_energy == 100);
     }
     fracas_campaign_destroy(campaign);
@@ -226,7 +228,8 @@ static void test_changed_kind(void **state)
 static void test_supplied_by_sweep(void **state)
 {
     (void)state;
-    char *text = replace(plain_campaign, "strength:\n  distribution: uniform\n  minimum: 299 MPa\n  maximum: 301 MPa\n", "");
+    static const char strength[] = "strength:\n  distribution: uniform\n  minimum: 299 MPa\n  maximum: 301 MPa\n";
+    char *text = replace(plain_campaign, strength, "");
     char *bare = replace(text, "loading:\n  rate: 1e4 1/s\n", "");
     char *swept = replace(bare, "replicas: 3\n", "");
     char *full = replace(swept, "", "sweep:\n  - loading.rate: [1e3, 1e4]\n"
@@ -247,7 +250,8 @@ static void test_supplied_by_sweep(void **state)
 static void test_table(void **state)
 {
     (void)state;
-    fracas_campaign *campaign = read_replaced("", "sweep:\n  - strength: [{}, {distribution: constant, value: 5 MPa}]\n");
+    static const char sweep[] = "sweep:\n  - strength: [{}, {distribution: constant, value: 5 MPa}]\n";
+    fracas_campaign *campaign = read_replaced("", sweep);
     const fracas_point_table *table = &campaign->table;
     static const char *const paths[] = {
         "cohesive.beta", "cohesive.fracture_energy", "cohesive.law", "derived.strength_mean", "geometry.area",
@@ -260,10 +264,14 @@ static void test_table(void **state)
         assert_int_equal(fracas_point_table_find(table, paths[c]), c);
         bool text = strcmp(table->column[c].unit, "") == 0;
         assert_int_equal(table->column[c].text, text);
-        for (size_t p = 0; p < 2; p++) assert_true(!text || (isnan(table->point[p].value[c].real) && *table->point[p].value[c].text));
+        for (size_t p = 0; p < 2; p++) {
+            const fracas_value *value = &table->point[p].value[c];
+            assert_true(!text || (isnan(value->real) && *value->text));
+        }
     }
     assert_int_equal(fracas_point_table_find(table, "case"), SIZE_MAX);
-    assert_true(real(campaign, 0, "derived.strength_mean") == 300e6 && real(campaign, 1, "derived.strength_mean") == 5e6);
+    assert_true(real(campaign, 0, "derived.strength_mean") == 300e6);
+    assert_true(real(campaign, 1, "derived.strength_mean") == 5e6);
     assert_true(isnan(real(campaign, 0, "strength.value")) && real(campaign, 1, "strength.value") == 5e6);
     assert_string_equal(at(campaign, 1, "strength.distribution")->text, "constant");
     assert_string_equal(table->column[fracas_point_table_find(table, "material.young")].unit, "Pa");
@@ -284,7 +292,8 @@ static void check_section(const fracas_section *section)
         for (size_t p = 0; p < section->kinds[k]->nparams; p++) {
             const fracas_param *param = &section->kinds[k]->params[p];
             for (size_t c = 0; c < section->nparams; c++)
-                if (strcmp(section->params[c].name, param->name) == 0) fail_msg("%s.%s is there twice", section->name, param->name);
+                if (strcmp(section->params[c].name, param->name) == 0)
+                    fail_msg("%s.%s is there twice", section->name, param->name);
             for (size_t l = 0; l < k; l++)
                 for (size_t q = 0; q < section->kinds[l]->nparams; q++)
                     check_same_key(section, param, &section->kinds[l]->params[q]);
@@ -339,8 +348,10 @@ static void test_round_trip(void **state)
         "sweep:\n  - cases: [{name: alone, replicas: 5}]\n",
         "sweep:\n  - loading.rate: {from: 1e3, to: 1e6, points: 4, spacing: log}\n  - mesh.elements: [10, 1e8]\n",
         "sweep:\n  - cases:\n      - {name: a, replicas: 1000000000}\n      - {strength.minimum: 1 Pa, replicas: 1}\n",
-        ("sweep:\n  - strength: [{}, {distribution: weibull, scale: 3 MPa, shape: 10}, {distribution: constant, value: 1}]\n"
-         "  - cohesive.law: [nitsche, rigid-link]\n  - time: [{}, {stop: time}]\n  - geometry.ends: [periodic, held]\n"),
+        ("sweep:\n  - strength: [{}, {distribution: weibull, scale: 3 MPa, shape: 10},"
+         " {distribution: constant, value: 1}]\n"
+         "  - cohesive.law: [nitsche, rigid-link]\n  - time: [{}, {stop: time}]\n"
+         "  - geometry.ends: [periodic, held]\n"),
         "sweep:\n  - zip:\n      material.young: [0.1 GPa, 0.3 GPa]\n      time.stop: [settled, time]\n",
     };
     for (size_t i = 0; i < FRACAS_COUNT(sweeps); i++) {
@@ -365,6 +376,31 @@ static void test_round_trip(void **state)
         free(text);
         free(again);
     }
+}
+
+/* The largest campaign, every number of it varied, is still one that can be read back. */
+static void test_largest_round_trip(void **state)
+{
+    (void)state;
+    static const char *const paths[] = {
+        "geometry.length", "geometry.area", "mesh.elements", "material.young", "material.density",
+        "cohesive.fracture_energy", "cohesive.beta", "loading.rate", "time.end", "time.quiet"};
+    char sweep[2000] = "sweep:\n  - zip:\n";
+    for (size_t i = 0; i < FRACAS_COUNT(paths); i++) {
+        size_t used = strlen(sweep);
+        snprintf(sweep + used, sizeof sweep - used, "      %s: {from: 17, to: 99000, points: 10000%s}\n", paths[i],
+                 i == 2 || i == 6 ? "" : ", spacing: log"); /* whole, or at most 1e4 */
+    }
+    char *text = replace(sweep, "cohesive.beta: {from: 17, to: 99000", "cohesive.beta: {from: 17, to: 9900");
+    fracas_campaign *campaign = read_replaced("", text);
+    free(text);
+    text = write_text(campaign);
+    fracas_campaign *back = read_text(text);
+    assert_int_equal(back->npoints, 10000);
+    assert_true(fracas_hash_equal(&campaign->hash, &back->hash));
+    free(text);
+    fracas_campaign_destroy(campaign);
+    fracas_campaign_destroy(back);
 }
 
 /* A file that cannot be written is said. */
@@ -396,10 +432,12 @@ static void test_extends(void **state)
         {"seed: 7", "seed: 8", {"seed is 7 in the study", "but 8"}},
         {"history: 10", "history: 20", {"output.history is 10 in the study", "but 20"}},
         {"history: 10", "history: 10\n  interfaces: true", {"output.interfaces is false", "but true"}},
-        {"rate: [1e3, 1e4]", "rate: [1e3, 2e4]", {"loading.rate is 10000 1/s in the study (its point 2)", "but 1000 1/s"}},
+        {"rate: [1e3, 1e4]", "rate: [1e3, 2e4]",
+         {"loading.rate is 10000 1/s in the study (its point 2)", "but 1000 1/s"}},
         {"young: 275 GPa", "young: 276 GPa", {"material.young is 275000000000 Pa", "but 276000000000 Pa"}},
         {"ends: periodic", "ends: held", {"geometry.ends is periodic", "but held"}},
-        {"stop: settled\n  end: 500 ns\n  quiet: 100 ns", "stop: time\n  end: 500 ns", {"time.quiet is 1e-07 s", "but nothing"}},
+        {"stop: settled\n  end: 500 ns\n  quiet: 100 ns", "stop: time\n  end: 500 ns",
+         {"time.quiet is 1e-07 s", "but nothing"}},
     };
     char *text = replace(plain_campaign, "", "sweep:\n  - loading.rate: [1e3, 1e4]\n");
     fracas_campaign *before = read_text(text);
@@ -407,9 +445,11 @@ static void test_extends(void **state)
         char *changed = replace(text, table[i].find, table[i].put);
         fracas_campaign *now = read_text(changed);
         fracas_err err = fracas_campaign_extends(now, before);
-        if (err != (table[i].words[0] ? FRACAS_DAMAGED : FRACAS_OK)) fail_msg("%s: %d %s", table[i].put, err, fracas_message());
+        if (err != (table[i].words[0] ? FRACAS_DAMAGED : FRACAS_OK))
+            fail_msg("%s: %d %s", table[i].put, err, fracas_message());
         for (int w = 0; w < 3 && table[i].words[w]; w++)
-            if (!strstr(fracas_message(), table[i].words[w])) fail_msg("no \"%s\" in: %s", table[i].words[w], fracas_message());
+            if (!strstr(fracas_message(), table[i].words[w]))
+                fail_msg("no \"%s\" in: %s", table[i].words[w], fracas_message());
         fracas_campaign_destroy(now);
         free(changed);
     }
@@ -449,7 +489,7 @@ int main(void)
         cmocka_unit_test(test_table),        cmocka_unit_test(test_tables_agree),
         cmocka_unit_test(test_round_trip),   cmocka_unit_test(test_write_fails),
         cmocka_unit_test(test_extends),      cmocka_unit_test(test_reference_page),
-        cmocka_unit_test(test_page_examples),
+        cmocka_unit_test(test_page_examples), cmocka_unit_test(test_largest_round_trip),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -63,13 +63,14 @@ static void test_json(void **state)
     (void)state;
     fracas_campaign *campaign = read_replaced("", sweep);
     char *text = print_plan(campaign, true);
+    expect(text, "\"points\": 4,");
     expect(text, "\"realizations\": 12");
     expect(text, "\"loading.rate\": 10000");
     expect(text, "\"elements\": 100");
     /* Bytes: a record's scalars and, for each of 100/20 fragments and 10 + 4 history rows, its struct. */
     char bytes[64];
-    snprintf(bytes, sizeof bytes, "\"bytes\": %zu", 3 * (offsetof(fracas_record, nfragment) + 5 * sizeof(fracas_fragment) +
-                                                         14 * sizeof(fracas_history_row)));
+    snprintf(bytes, sizeof bytes, "\"bytes\": %zu",
+             3 * (offsetof(fracas_record, nfragment) + 5 * sizeof(fracas_fragment) + 14 * sizeof(fracas_history_row)));
     expect(text, bytes);
     free(text);
     fracas_campaign_destroy(campaign);

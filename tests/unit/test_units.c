@@ -48,7 +48,8 @@ static void check_values(const fracas_units *units)
     };
     for (size_t i = 0; i < COUNT(good); i++) {
         double value = NAN;
-        if (fracas_units_read(units, good[i].text, good[i].si, &value)) fail_msg("%s: %s", good[i].text, fracas_message());
+        if (fracas_units_read(units, good[i].text, good[i].si, &value))
+            fail_msg("%s: %s", good[i].text, fracas_message());
         if (value != good[i].value || signbit(value) != signbit(good[i].value))
             fail_msg("%s in %s: %.17g, expected %.17g", good[i].text, good[i].si, value, good[i].value);
     }
