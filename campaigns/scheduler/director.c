@@ -125,7 +125,7 @@ static fracas_err set_up(fracas_director *director, bool *settled, int64_t *fail
 fracas_err fracas_settled_verdict(const char *study, int64_t failed)
 {
     if (!failed) return FRACAS_OK;
-    return fracas_fail(FRACAS_SOME_FAILED, "%lld realizations of %s FAILED (which and why: fracas status %s)",
+    return fracas_fail(FRACAS_SOME_FAILED, "%lld realization(s) of %s FAILED (which and why: fracas status %s)",
                        (long long)failed, study, study);
 }
 
@@ -194,14 +194,18 @@ static fracas_err offer_all(fracas_director *director)
 
 static fracas_err hear_ready(fracas_director *director, size_t worker, const fracas_packet *message)
 {
-    TRY(fracas_packet_expect(message, sizeof(fracas_hash)));
+    director->phase[worker] = WORKING;
+    if (director->stopping) {
+        stop_worker(director, worker);
+        return FRACAS_OK;
+    }
     fracas_hash campaign;
+    TRY(fracas_packet_expect(message, sizeof campaign));
     memcpy(&campaign, message->body, sizeof campaign);
     if (!fracas_hash_equal(&campaign, &director->setup.campaign->hash))
-        return fracas_fail(FRACAS_ENVIRONMENT, "rank %zu read another campaign from %s than rank 0: it changed while the "
-                           "run started, or is not the same file on all hosts", worker, director->setup.options->file);
-    director->phase[worker] = WORKING;
-    if (director->stopping) stop_worker(director, worker);
+        return fracas_fail(FRACAS_ENVIRONMENT, "rank %zu read another campaign from %s than rank 0: it changed while "
+                           "the run started, or is not the same file on all hosts", worker,
+                           director->setup.options->file);
     return offer(director, worker);
 }
 
@@ -226,9 +230,9 @@ static fracas_err hear_failed(fracas_director *director, size_t worker, const fr
     const fracas_hash *point = &director->setup.campaign->point[lease.point].hash;
     fracas_hash_hex(point, hex);
     if (lease.count > 1) {
-        snprintf(text, sizeof text, "%llu realizations of point %llu (%s) from replica %lld on are tried one by one: %s",
-                 (unsigned long long)lease.count, (unsigned long long)lease.point, hex, (long long)lease.replica[0],
-                 failure.reason);
+        snprintf(text, sizeof text, "%llu realizations of point %llu (%s), replica %lld the first, are tried one by "
+                 "one: %s", (unsigned long long)lease.count, (unsigned long long)lease.point, hex,
+                 (long long)lease.replica[0], failure.reason);
         TRY(fracas_index_event(director->index, "lease failed", text));
     } else {
         snprintf(text, sizeof text, "replica %lld of point %llu (%s) FAILED %s: %s", (long long)lease.replica[0],
@@ -338,14 +342,14 @@ fracas_err fracas_director_finish(fracas_director *director)
     if (!director->trouble.code && kept == total) return merge(director, &count);
     fracas_err err;
     if (director->trouble.code)
-        err = fracas_fail((fracas_err)director->trouble.code, "%s (%lld of %lld realizations are done and kept; the same "
-                          "command goes on from there)", director->trouble.text, kept, total);
+        err = fracas_fail((fracas_err)director->trouble.code, "%s (%lld of %lld realizations are done and kept; the "
+                          "same command goes on from there)", director->trouble.text, kept, total);
     else if (director->drained)
         err = fracas_fail(FRACAS_INTERRUPTED, "interrupted: %lld of %lld realizations are done and kept; the same "
                           "command goes on from there", kept, total);
     else
-        err = fracas_fail(FRACAS_ENVIRONMENT, "a compute server died at the end: %lld of %lld realizations are done and "
-                          "kept; the same command goes on from there", kept, total);
+        err = fracas_fail(FRACAS_ENVIRONMENT, "a compute server died at the end: %lld of %lld realizations are done "
+                          "and kept; the same command goes on from there", kept, total);
     /* The verdict stands, whether or not it can be noted. */
     fracas_trouble verdict;
     fracas_trouble_take(err, &verdict);

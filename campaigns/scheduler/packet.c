@@ -67,7 +67,8 @@ static fracas_err read_whole(int fd, void *to, size_t size, size_t *got)
         ssize_t n = read(fd, (unsigned char *)to + *got, size - *got);
         if (n < 0 && errno == EINTR) continue;
         if (n == 0 || (n < 0 && errno == ECONNRESET)) break;
-        if (n < 0) return fracas_fail(FRACAS_ENVIRONMENT, "cannot read from a process of this run: %s", strerror(errno));
+        if (n < 0)
+            return fracas_fail(FRACAS_ENVIRONMENT, "cannot read from a process of this run: %s", strerror(errno));
         *got += (size_t)n;
     }
     return FRACAS_OK;

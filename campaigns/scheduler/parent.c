@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -134,17 +135,28 @@ static int all_cores(void)
     return sched_getaffinity(0, sizeof set, &set) ? 1 : CPU_COUNT(&set);
 }
 
+/* Waits until mpirun and whatever it left behind have ended, so that the study is free when this process ends: ranks,
+ * servers and children die with their parents and come to this process, their reaper. Returns mpirun's status. */
+static int wait_for_all(pid_t mpirun)
+{
+    int status = 0, one;
+    for (;;) {
+        pid_t pid = waitpid(-1, &one, 0);
+        if (pid == mpirun) status = one;
+        if (pid < 0 && errno != EINTR) return status;
+    }
+}
+
 /* mpirun from start to end. */
 static fracas_err run(parent *p, const fracas_run_options *options, int argc, char **argv, bool *ran)
 {
     fracas_progress_init(&p->progress, stderr);
+    prctl(PR_SET_CHILD_SUBREAPER, 1);
     TRY(fracas_mpirun_start(options->jobs ? options->jobs : all_cores(), argc, argv, &p->mpirun));
     listen(p);
     close(p->mpirun.out);
     close(p->mpirun.errors);
-    int status = 0;
-    while (waitpid(p->mpirun.pid, &status, 0) < 0 && errno == EINTR)
-        ;
+    int status = wait_for_all(p->mpirun.pid);
     fracas_progress_end(&p->progress);
     if (!p->verdict.ended) return explain(p, status);
     *ran = p->verdict.ran;

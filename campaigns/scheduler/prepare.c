@@ -22,7 +22,8 @@ fracas_err fracas_study_folder(const fracas_run_options *options, const fracas_c
     int n = options->study ? snprintf(study, size, "%s", options->study)
                            : snprintf(study, size, "studies/%s", campaign->name);
     if ((size_t)n < size) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "the path of the study is longer than %zu characters; choose another --study", size);
+    return fracas_fail(FRACAS_USAGE, "the path of the study is longer than %zu characters; choose another --study",
+                       size);
 }
 
 fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign)

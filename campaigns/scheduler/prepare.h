@@ -20,13 +20,14 @@ FRACAS_MUST_USE fracas_err fracas_study_fits(const char *study, const fracas_cam
 FRACAS_MUST_USE fracas_err fracas_study_settled(const char *study, fracas_index *index,
                                                 const fracas_campaign *campaign, bool *settled, int64_t *failed);
 
-/* Looks at an existing study without writing to it: FRACAS_IN_USE when another run has it, FRACAS_DAMAGED when it does
- * not fit, else *settled and *failed as above (false and 0 for a new study). */
+/* Looks at a study, under its lock, without changing it: FRACAS_IN_USE when another run has it, FRACAS_DAMAGED when it
+ * does not fit, else *settled and *failed as above (false and 0 for a new study). */
 FRACAS_MUST_USE fracas_err fracas_study_examine(const char *study, const fracas_campaign *campaign, bool *settled,
                                                 int64_t *failed);
 
-/* Creates the folders, takes the lock, checks that the campaign fits, writes campaign.yaml, opens the index, recovers
- * from an interruption (*report as fracas_study_recover, freed by the caller) and plans. On failure nothing is held. */
+/* Creates the folders, takes the lock, checks that the campaign fits, writes campaign.yaml, opens the index,
+ * recovers from an interruption (*report as fracas_study_recover, freed by the caller) and plans. On failure nothing
+ * is held. */
 FRACAS_MUST_USE fracas_err fracas_study_prepare(const char *study, const fracas_campaign *campaign, int *lock,
                                                 fracas_index **index, char **report);
 

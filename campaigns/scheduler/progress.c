@@ -2,10 +2,10 @@
 
 #include "campaigns/scheduler/clock.h"
 
-#include <string.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
-enum { BAR = 24 };
+enum { BAR = 20 };
 static const double terminal_interval = 0.2, plain_interval = 5; /* s */
 
 void fracas_progress_init(fracas_progress *progress, FILE *out)
@@ -13,15 +13,16 @@ void fracas_progress_init(fracas_progress *progress, FILE *out)
     *progress = (fracas_progress){.out = out, .terminal = isatty(fileno(out))};
 }
 
-/* "128 of 512 realizations done, 16 computed, 0 failed, 12.3/s, 0:31 left". The rate and the time left count
- * computed ones, as done ones come a segment at a time. */
+/* "128 of 512 realizations done, 16 computed, 0 failed, 12.3/s, 0:31 left"; shorter on a terminal. The rate and the time left
+ * count computed ones, as done ones come a segment at a time. */
 static void describe(const fracas_progress *progress, char *text, size_t size)
 {
     const fracas_scheduler_counts *now = &progress->last, *first = &progress->first;
     double elapsed = fracas_now() - progress->began;
     double computed = (double)(now->done + now->memory + now->failed - first->done - first->memory - first->failed);
     double left = (double)(now->total - now->done - now->memory - now->failed);
-    int n = snprintf(text, size, "%lld of %lld realizations done", (long long)now->done, (long long)now->total);
+    int n = snprintf(text, size, progress->terminal ? "%lld/%lld done" : "%lld of %lld realizations done",
+                     (long long)now->done, (long long)now->total);
     if (now->memory) n += snprintf(text + n, size - (size_t)n, ", %lld computed", (long long)now->memory);
     n += snprintf(text + n, size - (size_t)n, ", %lld failed", (long long)now->failed);
     if (computed <= 0 || elapsed <= 0) return;
@@ -34,6 +35,12 @@ static void describe(const fracas_progress *progress, char *text, size_t size)
         else
             snprintf(text + n, size - (size_t)n, ", %lld:%02lld left", s / 60, s % 60);
     }
+}
+
+static int columns(FILE *terminal)
+{
+    struct winsize size;
+    return !ioctl(fileno(terminal), TIOCGWINSZ, &size) && size.ws_col > 1 ? size.ws_col : 80;
 }
 
 static void show(fracas_progress *progress)
@@ -49,7 +56,10 @@ static void show(fracas_progress *progress)
         char bar[BAR + 1];
         for (int i = 0; i < BAR; i++) bar[i] = i < full ? '#' : '.';
         bar[BAR] = '\0';
-        fprintf(progress->out, "\r[%s] %s\033[K", bar, text); /* erases what a longer line left */
+        char line[sizeof bar + sizeof text + 4];
+        snprintf(line, sizeof line, "[%s] %s", bar, text);
+        /* Cut to the terminal, as a line that wraps cannot be updated; then what a longer one left is erased. */
+        fprintf(progress->out, "\r%.*s\033[K", columns(progress->out) - 1, line);
         progress->bar = true;
     }
     fflush(progress->out);

@@ -265,7 +265,8 @@ static void catch_signals(void)
     sigaction(SIGUSR1, &drain, NULL);
     sigaction(SIGTERM, &drain, NULL);
     sigaction(SIGINT, &drain, NULL);
-    signal(SIGPIPE, SIG_IGN); /* a write to a dead process is an error like others */
+    signal(SIGPIPE, SIG_IGN); /* a write that cannot be is an error like others */
+    signal(SIGXFSZ, SIG_IGN);
 }
 
 /* What must happen before MPI_Init: the server is forked from a process that MPI does not know. */
@@ -279,7 +280,9 @@ static fracas_err set_up(rank_state *rank)
 fracas_err fracas_rank_run(const fracas_run_options *options, bool *ran)
 {
     *ran = false;
-    prctl(PR_SET_PDEATHSIG, SIGKILL); /* no rank outlives its mpirun */
+    /* No rank outlives the parent's mpirun. (The signal follows the thread that started this process: what other
+     * launchers do with their threads is not known.) */
+    if (getenv(FRACAS_PARENT_MARK)) prctl(PR_SET_PDEATHSIG, SIGKILL);
     catch_signals();
     rank_state rank = {.options = options, .server = -1};
     fracas_err err = set_up(&rank);

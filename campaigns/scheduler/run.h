@@ -24,8 +24,8 @@ void fracas_run_options_init(fracas_run_options *options);
 /* Runs (or resumes, or extends) the campaign until study.h5 is there. Called by the parent it starts
  * `mpirun -n jobs <this program> run ...` in a process group of its own and returns how the run ended; called under
  * mpirun or srun it is one rank (`argc`, `argv` of the program) and only rank 0's return value has a meaning.
- * FRACAS_OK, FRACAS_SOME_FAILED, FRACAS_INTERRUPTED and the errors of exit statuses 2 to 70. *ran is false when the study was
- * complete already and nothing had to be done. */
+ * FRACAS_OK, FRACAS_SOME_FAILED, FRACAS_INTERRUPTED and the errors of exit statuses 2 to 70. *ran is false when the
+ * study was complete already and nothing had to be done. */
 FRACAS_MUST_USE fracas_err fracas_run(const fracas_run_options *options, int argc, char **argv, bool *ran);
 
 /* True in a process that mpirun, srun or another PMI launcher started. */

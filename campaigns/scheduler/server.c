@@ -139,7 +139,8 @@ static fracas_err serve(server *s)
  * everybody are not for it, nor for the children, which inherit this. */
 static _Noreturn void run_server(server *s, pid_t rank)
 {
-    static const int ignored[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGPIPE};
+    static const int ignored[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2,
+                                  SIGPIPE, SIGXFSZ}; /* the last two: an error of write will do */
     for (size_t i = 0; i < FRACAS_COUNT(ignored); i++) signal(ignored[i], SIG_IGN);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != rank) _exit(0); /* it died before the line above */

@@ -37,8 +37,7 @@ expect 0 "$fracas" run small.yaml --study stopped
 same undisturbed stopped
 
 # Drained by the user's own mpirun.
-[ "$(id -u)" -ne 0 ] || export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-mpirun --oversubscribe -n 2 "$fracas" run small.yaml --study direct --lanes 1 --segment-size 1e-6 > background 2>&1 &
+launch -n 2 "$fracas" run small.yaml --study direct --lanes 1 --segment-size 1e-6 > background 2>&1 &
 session=$!
 wait_segments direct 2
 kill -USR1 "$session"

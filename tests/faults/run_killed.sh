@@ -2,20 +2,19 @@
 # after the first and before the last segment; what is resumed to its end is what an undisturbed run gives.
 . tests/campaigns.sh
 
-campaign small.yaml 20 '3e4 1/s, 1e5 1/s'
+campaign small.yaml 30 '3e4 1/s, 1e5 1/s'
 expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
-for range in '1 8' '12 18' '22 28'; do # of 40 segments: one for each realization
-    set -- $range
-    at=$(random "$1" "$2")
+left=0
+for kill in 1 2 3; do # of 60 segments, one for each realization
     start small.yaml --study killed --jobs 2 --lanes 1 --segment-size 1e-6
-    wait_segments killed "$at"
-    sleep "0.0$(random 10 99)"
+    wait_segments killed $((left + $(random 1 6)))
+    sleep "0.0$(random 10 49)"
     running=$(processes | wc -l)
     kill_session
     [ "$running" -ge 6 ] || fail "parent, mpirun, 2 ranks and 2 servers should have run, not $running processes"
     left=$(segments killed)
-    echo "killed at $left segments of 40"
-    [ "$left" -ge 1 ] && [ "$left" -lt 40 ] && [ ! -e killed/study.h5 ] || fail "not killed in the middle"
+    echo "kill $kill at $left segments of 60"
+    [ "$left" -ge 1 ] && [ "$left" -lt 60 ] && [ ! -e killed/study.h5 ] || fail "not killed in the middle"
 done
 expect 0 "$fracas" run small.yaml --study killed --jobs 1 --segment-size 1e-6
 [ "$(segments killed)" -gt "$left" ] || fail "the resumed run had nothing to do"

@@ -41,11 +41,12 @@ done
 fracas=$gcc_fracas
 
 # Started by mpirun itself: rank 0 speaks, and its status is mpirun's.
-[ "$(id -u)" -ne 0 ] || export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-expect 0 mpirun --oversubscribe -n 2 "$fracas" run small.yaml --study direct
+expect 0 launch -n 2 "$fracas" run small.yaml --study direct
 same one direct
-expect 1 env FRACAS_TEST_CRASH=0:1 mpirun --oversubscribe -n 1 "$fracas" run small.yaml --study direct-crash
+export FRACAS_TEST_CRASH=0:1
+expect 1 launch -n 1 "$fracas" run small.yaml --study direct-crash
 said 'FAILED'
+unset FRACAS_TEST_CRASH
 
 # More replicas, then one more point between the others: as if run at once.
 campaign part.yaml 5 '1e5 1/s'

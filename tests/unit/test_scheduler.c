@@ -15,12 +15,13 @@ static const double cost[POINTS] = {1, 100, 10};
 static void plan(fracas_index_row row[ROWS])
 {
     for (size_t i = 0; i < ROWS; i++)
-        row[i] = (fracas_index_row){.point = i / REPLICAS, .replica = (int64_t)(i % REPLICAS), .status = FRACAS_PLANNED};
+        row[i] = (fracas_index_row){.point = i / REPLICAS, .replica = (int64_t)(i % REPLICAS)};
 }
 
 static fracas_scheduler *create(const fracas_index_row *row, size_t count, size_t workers, size_t width, bool shuffle)
 {
-    fracas_scheduler_options options = {.cost = cost, .workers = workers, .width = width, .shuffle = shuffle, .seed = 7};
+    fracas_scheduler_options options = {.cost = cost, .workers = workers, .width = width,
+                                        .shuffle = shuffle, .seed = 7};
     fracas_scheduler *scheduler;
     assert_int_equal(fracas_scheduler_create(row, count, &options, &scheduler), FRACAS_OK);
     return scheduler;
