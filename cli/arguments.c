@@ -47,8 +47,7 @@ static fracas_err read_options(const fracas_command *command, fracas_arguments *
         else if (optopt < FIRST_OPTION) {
             const char letter[] = {'-', (char)optopt, '\0'};
             return unknown_option(command, optopt ? letter : arguments->argv[optind - 1]);
-        }
-        else {
+        } else {
             const fracas_option *option = &command->options[optopt - FIRST_OPTION];
             if (found == ':')
                 return fracas_fail(FRACAS_USAGE, "%s: --%s needs a value: --%s %s", command->name, option->name,

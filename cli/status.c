@@ -4,13 +4,13 @@
 #include "base/json.h"
 #include "base/param.h"
 #include "campaigns/campaign.h"
+#include "campaigns/scheduler/prepare.h"
 #include "campaigns/store/store.h"
 
 #include <inttypes.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 enum { JSON };
 static const fracas_option options[] = {[JSON] = {"json", NULL, "print it as JSON"}};
@@ -20,7 +20,7 @@ typedef struct {
     const char *study;
     const fracas_campaign *campaign;
     fracas_index *index;
-    bool complete;               /* study.h5 is there and nothing is left to compute */
+    bool complete;               /* study.h5 is of this campaign and nothing is left to compute */
     fracas_index_counts all;
     fracas_index_counts *point;  /* campaign->npoints */
 } fracas_status;
@@ -63,6 +63,7 @@ static fracas_err write_json(const fracas_status *status)
         char hash[FRACAS_HASH_HEX];
         fracas_hash_hex(&status->campaign->point[i].hash, hash);
         fracas_json_object(&json, NULL);
+        fracas_json_integer(&json, "point", (int64_t)i);
         fracas_json_text(&json, "hash", hash);
         write_counts(&json, &status->point[i]);
         fracas_json_close_object(&json);
@@ -114,7 +115,7 @@ static void print_failure(void *any, const fracas_index_row *row, const char *re
 static fracas_err print_text(const fracas_status *status)
 {
     const fracas_index_counts *all = &status->all;
-    printf("study         %s, of campaign %s\n", status->study, status->campaign->name);
+    printf("study         %s of campaign %s\n", status->study, status->campaign->name);
     printf("state         %s\n", status->complete ? "complete"
                                                   : "not complete: under way, or `fracas run` with the campaign file resumes it");
     printf("realizations  %" PRId64 ": %" PRId64 " done, %" PRId64 " failed, %" PRId64 " leased, %" PRId64 " planned\n",
@@ -134,10 +135,8 @@ static fracas_err count(fracas_status *status)
     TRY(fracas_index_count(status->index, &status->all));
     for (size_t i = 0; i < campaign->npoints; i++)
         TRY(fracas_index_count_point(status->index, &campaign->point[i].hash, &status->point[i]));
-    char result[PATH_MAX];
-    snprintf(result, sizeof result, "%s/study.h5", status->study);
-    status->complete = !access(result, R_OK) && status->all.done + status->all.failed == status->all.realizations;
-    return FRACAS_OK;
+    int64_t failed;
+    return fracas_study_settled(status->study, status->index, campaign, &status->complete, &failed);
 }
 
 static fracas_err look(const fracas_campaign *campaign, const fracas_arguments *arguments)

@@ -1,11 +1,11 @@
 /* Damage and death: flipped bytes, truncated files, a full disk, kill -9. */
 #include "tests/store_sample.h"
 
+#include "campaigns/store/h5.h"
 #include "campaigns/store/index.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <hdf5.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>

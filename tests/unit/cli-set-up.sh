@@ -8,6 +8,7 @@ trap 'rm -rf "$folder"' EXIT
 bin=$folder/bin tree=$folder/tree
 log=$folder/log
 export log tree
+unset DEBIAN_FRONTEND
 
 stand_in() {
     cat >"$bin/$1"
@@ -28,6 +29,7 @@ fresh() {
 #!/bin/sh
 sed 's/^/installed /' "$tree/installed"
 echo 'config-files libyaml-dev'
+echo 'installed yaml'
 exit 1
 SCRIPT
     stand_in apt-get <<'SCRIPT'
@@ -95,10 +97,28 @@ ends 2 test --al
 has err "unknown option '--al'"
 
 # A failure before the suite is not forgotten; the suite still runs.
-sed -i 's/^echo "summary.*/&; [ "$2" = release ]/' "$bin/ctest"
+cp "$bin/ctest" "$folder/ctest"
+for failing in sanitize release; do
+    sed "s/^echo.*/&; [ \"\$2\" != $failing ]/" "$folder/ctest" >"$bin/ctest"
+    ends 1 test
+    has out 'summary of release'
+    has err "failed: $failing"
+done
+cp "$folder/ctest" "$bin/ctest"
+sed -i 's/^printf.*/[ "$3" != clang ] || exit 1/' "$bin/cmake"
 ends 1 test
 has out 'summary of release'
-has err 'failed: sanitize'
+has err 'failed: clang'
+
+# Two calls at once: one builds, the other waits.
+fresh
+sed -i 's/^printf/mkdir building || exit 1; sleep 0.2; rmdir building; &/' "$bin/cmake"
+for tool in rmdir sleep; do ln -s "$(command -v $tool)" "$bin/$tool"; done
+(cd "$folder" && PATH=$bin tree/tools/fracas run a.yaml) >/dev/null 2>"$folder/other" </dev/null &
+ends 3 run b.yaml
+got=0
+wait $! || got=$?
+[ "$got" = 3 ] || { echo "the other call: status $got"; cat "$folder/other"; exit 1; }
 
 # Not root: through sudo; without sudo, what to do is said.
 fresh
