@@ -229,6 +229,17 @@ static void commits_are_whole(void **state)
     OK(fracas_index_commit(index_, "a.h5", &seal, row, 2, "{}"));
 }
 
+static const char *first_value(fracas_index *index, const char *query)
+{
+    static char value[64];
+    sqlite3_stmt *statement;
+    assert_int_equal(sqlite3_prepare_v2(index->db, query, -1, &statement, NULL), SQLITE_OK);
+    assert_int_equal(sqlite3_step(statement), SQLITE_ROW);
+    snprintf(value, sizeof value, "%s", (const char *)sqlite3_column_text(statement, 0));
+    sqlite3_finalize(statement);
+    return value;
+}
+
 static void index_modes_and_versions(void **state)
 {
     (void)state;
@@ -240,6 +251,12 @@ static void index_modes_and_versions(void **state)
     OK(fracas_index_open_as(sample_path(study, "segments"), true, false, &other)); /* as on a network */
     OK(fracas_index_plan(other, &table));
     OK(fracas_index_lease(other, &point_row[0].hash, 0, 3));
+    assert_string_equal(first_value(other, "PRAGMA locking_mode"), "exclusive");
+    assert_string_equal(first_value(other, "PRAGMA journal_mode"), "truncate");
+    assert_string_equal(first_value(other, "PRAGMA synchronous"), "2");
+    assert_string_equal(first_value(index_, "PRAGMA journal_mode"), "wal");
+    OK(fracas_index_lease(index_, &point_row[0].hash, 0, 3));
+    assert_string_equal(first_value(index_, "PRAGMA synchronous"), "2"); /* again, after a lease */
     assert_int_equal(access(sample_path(study, "segments/index.sqlite-wal"), F_OK), -1);
     assert_int_equal(access(sample_path(study, "segments/index.sqlite-journal"), F_OK), 0);
     fracas_index_close(other);
