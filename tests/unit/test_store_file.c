@@ -227,7 +227,7 @@ static void large_records_are_cut_and_joined(void **state)
 }
 
 /* Lists, spaces and types of HDF5 that nobody closes stay reachable, so no leak checker sees them; but the heap
- * grows. 20 rounds with one of them forgotten a file leave megabytes behind, none leave nothing. */
+ * grows: by megabytes in 20 rounds with one of them forgotten, else by the few kilobytes that malloc keeps for itself. */
 static void nothing_is_left_open(void **state)
 {
     (void)state;
@@ -242,7 +242,7 @@ static void nothing_is_left_open(void **state)
         fracas_reader_close(reader);
         if (round == 9) used = mallinfo2().uordblks;
     }
-    assert_true(mallinfo2().uordblks < used + 1024);
+    assert_true(mallinfo2().uordblks < used + 65536);
 }
 
 static void nothing_unfinished_has_the_final_name(void **state)
