@@ -236,6 +236,7 @@ fracas_err fracas_index_open_as(const char *study, bool create, bool local, frac
     fracas_err err = fracas_disk_join(study, "index.sqlite", &(*index)->path);
     if (!err) err = open_database(*index, create);
     if (!err) return FRACAS_OK;
+    if (err == FRACAS_BUG) err = fracas_fail_within(FRACAS_DAMAGED, "damaged, or no index of fracas");
     fracas_index_close(*index);
     *index = NULL;
     return err;

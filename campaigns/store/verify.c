@@ -166,10 +166,10 @@ static fracas_err check_merged_row(void *context, fracas_step *step)
 static fracas_err check_merged_rows(verification *v)
 {
     const fracas_point_table *table = fracas_reader_points(v->merged);
-    int64_t planned = 0;
-    for (size_t p = 0; p < table->npoints; p++) planned += table->point[p].replicas;
-    if (planned != (int64_t)fracas_reader_realizations(v->merged))
-        return found(v, "%s/study.h5 has %zu realizations, but %" PRId64 " in its /point/replicas; remove it and run "
+    uint64_t planned = 0;
+    for (size_t p = 0; p < table->npoints; p++) planned += (uint64_t)table->point[p].replicas;
+    if (planned != fracas_reader_realizations(v->merged))
+        return found(v, "%s/study.h5 has %zu realizations, but %" PRIu64 " in its /point/replicas; remove it and run "
                      "again", v->study, fracas_reader_realizations(v->merged), planned);
     return problem(v, fracas_segments_walk(v->segments, table, true, check_merged_row, v));
 }

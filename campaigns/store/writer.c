@@ -99,8 +99,7 @@ static fracas_err create_set(fracas_writer *writer, int s)
     for (size_t c = 0; c < schema->ncolumns; c++) {
         const fracas_store_column *column = &schema->column[c];
         TRY(fracas_h5_create_column(&writer->h5, column, schema->chunk, &writer->set[s].dataset[c]));
-        /* Zeroed, so that the unused end of a last chunk is never what malloc found. */
-        writer->set[s].stored[c] = calloc(schema->chunk, fracas_stored_size(column));
+        writer->set[s].stored[c] = malloc(schema->chunk * fracas_stored_size(column));
         if (!writer->set[s].stored[c]) return fracas_no_memory("the columns of a file");
     }
     return FRACAS_OK;
