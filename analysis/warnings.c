@@ -54,8 +54,8 @@ static void warn_of_point(const fracas_point_statistics *statistics, size_t p, w
     }
     if (statistics->created > created_limit) {
         fracas_format_digits(statistics->created, 2, value, sizeof value);
-        warn(list, p, "energy created at onset up to %s of the dissipated energy (more than 1e-2): lower time.safety "
-             "or refine the mesh", value);
+        warn(list, p, "energy created at breaks up to %s of the dissipated energy (more than 1e-2): refine the mesh or "
+             "raise cohesive.beta", value);
     }
     if (statistics->elements < elements_limit)
         warn(list, p, "a mean fragment has %.1f elements (fewer than 10): refine the mesh", statistics->elements);

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#define MOST_STEPS 1e12 /* years of computing, for a bar of two elements */
+
 fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
 {
     fracas_model *model = calloc(1, sizeof *model);
@@ -13,6 +15,9 @@ fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
     model->time_step = spec->time.safety * model->critical_step;
     if (!code && !(model->time_step > 0 && isfinite(model->time_step)))
         code = fracas_fail(FRACAS_USAGE, "time step %g s: check material, mesh and time.safety", model->time_step);
+    if (!code && spec->time.end / model->time_step > MOST_STEPS)
+        code = fracas_fail(FRACAS_USAGE, "time.end %g s is %.3g time steps of %.3g s; %g are allowed", spec->time.end,
+                           spec->time.end / model->time_step, model->time_step, MOST_STEPS);
     if (code) {
         fracas_model_destroy(model);
         return code;

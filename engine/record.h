@@ -22,7 +22,7 @@ typedef struct {
     int64_t elements;
     int64_t dust;               /* 1 when of so few elements that the mesh decides (one in 1D), else 0 */
     double position[3];         /* m, centre of mass at end_time */
-    double velocity[3];         /* m/s, of the centre of mass */
+    double velocity[3];         /* m/s, of the centre of mass, background included, half a step after end_time */
     double angular_momentum[3]; /* kg m2/s, about the centre of mass */
 } fracas_fragment;
 
@@ -51,7 +51,7 @@ typedef struct {
     double kinetic, elastic, cohesive, dissipated, dissipated_bending, created, work; /* J, at end_time */
     double residual;     /* J, largest absolute value over the run */
     double residual_end; /* J */
-    double momentum[3];  /* kg m/s */
+    double momentum[3];  /* kg m/s, of the peculiar motion, half a step after end_time */
     size_t nfragment, nhistory, ninterface; /* rows below; nfragment == fragments unless FAILED */
     fracas_fragment *fragment;       /* owned by the record, freed by fracas_record_clear */
     fracas_history_row *history;

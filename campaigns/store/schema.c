@@ -41,7 +41,7 @@ static const fracas_store_column realization[] = {
      OF(record.residual)},
     {"/realization/residual_end", FRACAS_FLOAT64, 1, "J", "the same sum, signed, at end_time",
      OF(record.residual_end)},
-    {"/realization/momentum", FRACAS_FLOAT64, 3, "kg m/s", "linear momentum (x, y, z) at end_time",
+    {"/realization/momentum", FRACAS_FLOAT64, 3, "kg m/s", "linear momentum (x, y, z) of the motion beside an imposed rate, half a time step after end_time",
      OF(record.momentum)},
 };
 
@@ -60,7 +60,7 @@ static const fracas_store_column fragment[] = {
      offsetof(fracas_fragment, dust)},
     {"/fragment/position", FRACAS_FLOAT64, 3, "m", "centre of mass (x, y, z) at end_time",
      offsetof(fracas_fragment, position)},
-    {"/fragment/velocity", FRACAS_FLOAT64, 3, "m/s", "velocity (x, y, z) of the centre of mass at end_time",
+    {"/fragment/velocity", FRACAS_FLOAT64, 3, "m/s", "velocity (x, y, z) of the centre of mass, background included, half a time step after end_time",
      offsetof(fracas_fragment, velocity)},
     {"/fragment/angular_momentum", FRACAS_FLOAT64, 3, "kg m2/s",
      "angular momentum (x, y, z) about the centre of mass at end_time", offsetof(fracas_fragment, angular_momentum)},

@@ -1,7 +1,7 @@
 #include "engine/cohesive/law.h"
 
 static const fracas_param nitsche[] = {
-    {"beta", FRACAS_REAL, "1", "interface stiffness K = beta E/h; at least 1 for a positive operator", 4, 1, 1e4, false,
+    {"beta", FRACAS_REAL, "1", "interface stiffness K = beta E/h; above 1 for a positive operator, 1.5 or more in practice", 4, 1, 1e4, true,
      offsetof(fracas_cohesive, beta)},
 };
 const fracas_kind fracas_law_nitsche = {

@@ -70,7 +70,7 @@ static void apply_bar(const void *context, const double *w, double *result)
         result[2 * e] -= stress;
         result[2 * e + 1] += stress;
     }
-    for (size_t e = 0; e < o->model->interfaces; e++) {
+    for (size_t e = 0; e < (o->bar.periodic ? n : n - 1); e++) {
         size_t r = e + 1 < n ? e + 1 : 0;
         double slip, on_left, on_right;
         apply_interface(o, w + 2 * e, w + 2 * r, &on_left, &on_right, &slip);
@@ -84,10 +84,12 @@ static void apply_bar(const void *context, const double *w, double *result)
     for (size_t i = 0; i < 2 * n; i++) result[i] /= o->bar.nodal_mass;
 }
 
+/* A regular bar's largest frequency is that of a short one: 1024 elements at most are looked at. */
 static fracas_err top_frequency_squared(const fracas_model *model, bool closed, double *omega_squared)
 {
-    const size_t n = model->elements;
+    const size_t n = model->elements < 1024 ? model->elements : 1024;
     bar_operator o = {model, constants_of(model), closed};
+    o.bar.elements = n;
     double *start = malloc(2 * n * sizeof *start);
     if (!start) return fracas_no_memory("the critical time step");
     /* The extreme modes of a regular bar: nodes of an element, or whole elements, in turn up and down; a little of
@@ -118,7 +120,7 @@ static fracas_err bar_model_init(fracas_model *model)
     model->element_size = spec->geometry.length / (double)model->elements;
     model->mass = spec->material.density * spec->geometry.area * spec->geometry.length;
     fracas_bar_constants bar = constants_of(model);
-    /* Critical step (bar.15). The penalty of rigid-link depends on each strength; check_strength keeps it below the elements' stiffness. */
+    /* Critical step (bar.16). The penalty of rigid-link depends on each strength; check_strength keeps it below the elements' stiffness. */
     model->contact = is_nitsche(model) ? bar.spring : bar.young / bar.size;
     double closed, cracked;
     TRY(top_frequency_squared(model, true, &closed));
@@ -138,8 +140,9 @@ static fracas_err bar_check_strength(const fracas_model *model, double strength)
         return fracas_fail(FRACAS_USAGE, "strength of %g Pa; it must be positive and finite: check the section strength", strength);
     if (is_nitsche(model)) {
         /* K > sigma_c/delta_c = sigma_c^2/(2 G_c), or the interface could not soften as slowly as the law asks  (cohesive.7). */
+        double margin = 2 * bar.spring * bar.fracture_energy / strength - strength; /* K delta_c - sigma_c */
         double longest = 2 * model->spec.cohesive.beta * bar.young * bar.fracture_energy / (strength * strength);
-        if (bar.size >= longest)
+        if (!(margin > 0) || !isfinite(margin))
             return fracas_fail(FRACAS_USAGE, "strength %g Pa needs elements shorter than %.4g m, they are %.4g m: "
                                "raise mesh.elements above %.0f (or cohesive.beta)", strength, longest, bar.size,
                                ceil(model->spec.geometry.length / longest));
@@ -215,8 +218,8 @@ static double lane_value(const lane_view *view, size_t element, int field)
     return *field_of(view->model, view->step, element, field, view->lane);
 }
 
-/* Adds up the elements of each fragment, moved as (bar.1). Elements after the last break of a closed bar belong to the fragment of
- * element 0 and are taken one circumference back, so that a fragment is in one piece. */
+/* Adds up the elements of each fragment, moved as (bar.1). In a closed bar whose last interface holds, the elements after the
+ * last break belong to the fragment of element 0: they are taken one circumference back, so that it is in one piece. */
 static void add_elements(const lane_view *view, const uint32_t *label, fracas_fragment *fragment)
 {
     const fracas_model *model = view->model;
@@ -224,9 +227,8 @@ static void add_elements(const lane_view *view, const uint32_t *label, fracas_fr
     const double h = model->element_size, mass = spec->material.density * spec->geometry.area * h;
     const double time = view->step->time[view->lane], rate = spec->loading.rate, length = spec->geometry.length;
     size_t back = model->elements; /* elements from here on are taken back */
-    if (is_periodic(model) && label[model->elements - 1] == label[0])
-        while (back > 0 && label[back - 1] == label[0]) back--;
-    if (back == 0) back = model->elements; /* one fragment: the whole ring */
+    while (is_periodic(model) && back > 0 && !(lane_value(view, back - 1, BAR_DAMAGE) >= 1.0)) back--;
+    if (back == 0) back = model->elements; /* not broken: the ring starts at element 0 */
     for (size_t e = 0; e < model->elements; e++) {
         fracas_fragment *f = &fragment[label[e]];
         double x = h * ((double)e + 0.5) - (e >= back ? length : 0.0);
@@ -240,7 +242,7 @@ static void add_elements(const lane_view *view, const uint32_t *label, fracas_fr
     }
 }
 
-/* Fragments as (bar.16). */
+/* Fragments as (bar.17). */
 static fracas_err harvest_fragments(const lane_view *view, fracas_record *record)
 {
     const fracas_model *model = view->model;

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* (bar.15) */
+/* (bar.16) */
 fracas_err fracas_power_iteration(fracas_operator *apply, const void *context, size_t n, double *start,
                                   double *omega_squared)
 {

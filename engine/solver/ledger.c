@@ -21,3 +21,11 @@ void fracas_ledger_update(fracas_ledger *ledger, const fracas_step *step, int la
     ledger->residual = held - ledger->created - ledger->work - ledger->initial; /* (bar.14) */
     if (!(fabs(ledger->residual) <= ledger->largest_residual)) ledger->largest_residual = fabs(ledger->residual);
 }
+
+/* (bar.15) */
+bool fracas_ledger_drifts(const fracas_ledger *ledger)
+{
+    double held = ledger->elastic + ledger->cohesive + ledger->dissipated;
+    double scale = fmax(fmax(ledger->kinetic, held), fabs(ledger->work));
+    return fabs(ledger->residual) > FRACAS_ENERGY_TOLERANCE * scale;
+}

@@ -4,6 +4,8 @@
 
 #include "engine/formulation/formulation.h"
 
+#include <stdbool.h>
+
 typedef struct {
     double kinetic, elastic, cohesive, dissipated, created, work; /* J */
     double residual;         /* J, now */
@@ -17,5 +19,10 @@ typedef struct {
  *   residual = kinetic + elastic + cohesive + dissipated - created - work - initial               (bar.14)
  * `first`: the step that the ledger starts with. */
 void fracas_ledger_update(fracas_ledger *ledger, const fracas_step *step, int lane, bool first);
+
+/* True when |residual| exceeds FRACAS_ENERGY_TOLERANCE of the largest of kinetic, stored and dissipated energy, and work: such
+ * a run computes no longer what it says  (bar.15). */
+#define FRACAS_ENERGY_TOLERANCE 0.05
+bool fracas_ledger_drifts(const fracas_ledger *ledger);
 
 #endif

@@ -210,7 +210,7 @@ static void warnings_at_their_limits(void **state)
     assert_int_equal(fracas_analysis_warnings(&analysis, &warning, &count), FRACAS_OK);
     const char *const expected[] = {"2 of 9 realizations ended NONFINITE", "1 of 9 realizations ended ENERGY_DRIFT",
                                     "1 of 9 realizations ended FAILED", "1 of 9 realizations were stopped",
-                                    "ledger residual up to 1.0e-3", "energy created at onset up to 0.010",
+                                    "ledger residual up to 1.0e-3", "energy created at breaks up to 0.010",
                                     "a mean fragment has 9.9 elements", "5.1 % of the fragments are dust"};
     assert_int_equal(count, FRACAS_COUNT(expected));
     for (size_t i = 0; i < count; i++) {
