@@ -8,6 +8,14 @@
 
 enum { MAX_LANES = 8 }; /* of a batch */
 
+static fracas_err check_strongest(const fracas_model *model, const fracas_point *point)
+{
+    const double drawn = (double)fracas_model_interfaces(model) * (double)point->replicas;
+    const double u = fmin(1.0 - 0.01 / drawn, 1.0 - 0x1p-53);
+    fracas_err err = fracas_model_check_strength(model, fracas_strength_quantile(&point->strength, u));
+    return err ? fracas_fail_within(err, "the strongest of %.3g interfaces (all replicas together)", drawn) : FRACAS_OK;
+}
+
 static fracas_err describe(const fracas_point *point, fracas_forecast *forecast)
 {
     fracas_model *model;
@@ -17,7 +25,12 @@ static fracas_err describe(const fracas_point *point, fracas_forecast *forecast)
         .steps = fracas_model_steps(model),
         .time_step = fracas_model_time_step(model),
     };
-    fracas_err err = fracas_model_check_strength(model, fracas_strength_mean(&point->strength));
+    const double mean = fracas_strength_mean(&point->strength);
+    const fracas_material *material = &point->spec.material;
+    const double softening = material->young * point->spec.cohesive.fracture_energy / (mean * mean);
+    forecast->coarseness = point->spec.geometry.length / (double)forecast->elements / softening;
+    forecast->uniform = fracas_strength_quantile(&point->strength, 0.25) == fracas_strength_quantile(&point->strength, 0.75);
+    fracas_err err = check_strongest(model, point);
     fracas_model_destroy(model);
     return err;
 }

@@ -10,9 +10,12 @@ typedef struct {
     double speed;     /* element-steps per second of one core; 0 until it is timed */
     double time;      /* s, of all replicas on all jobs */
     double bytes;     /* in study.h5 */
+    double coarseness; /* element size over E G_c/sigma_c^2, the length over which a crack softens */
+    bool uniform;      /* every interface has the same strength */
 } fracas_forecast;
 
-/* Elements, time step and steps of one point (speed 0). Refused if the engine would refuse its mean strength. */
+/* Elements, time step, steps, coarseness of one point (speed 0). Refused if the engine would refuse the strength that the
+ * strongest of all its interfaces and replicas stays below with a probability of 99 %. */
 FRACAS_MUST_USE fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point,
                                                 fracas_forecast *forecast);
 

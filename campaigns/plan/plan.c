@@ -119,6 +119,27 @@ static void put_size(text_sheet *sheet, size_t row, size_t column, double bytes)
     sheet_put(sheet, row, column, "%.1f %s", bytes, unit[u]);
 }
 
+/* ---- what a reader should know before running it ---- */
+
+/* The softening zone of a crack, some E G_c/sigma_c^2 long, should hold elements. */
+#define COARSE 0.5
+
+static bool warning_of(const campaign_plan *plan, size_t p, int which, char *text, size_t size)
+{
+    const fracas_forecast *forecast = &plan->forecast[p];
+    const bool applies = which == 0 ? forecast->coarseness > COARSE : forecast->uniform;
+    if (which == 0)
+        snprintf(text, size, "point %zu: elements are %.2g E G_c/sigma_c^2 long, above %.1g a crack's softening is not "
+                 "resolved: raise mesh.elements to %.0f", p + 1, forecast->coarseness, COARSE,
+                 ceil((double)forecast->elements * forecast->coarseness / COARSE));
+    else
+        snprintf(text, size, "point %zu: all interfaces are equally strong and qualify at once; where the body breaks is then "
+                 "up to mesh and rounding: give the strength a scatter", p + 1);
+    return applies;
+}
+
+enum { WARNINGS = 2 };
+
 /* ---- the plan as text ---- */
 
 static const char *const own_heads[][2] = {{"replicas", ""}, {"elements", ""}, {"time step", "s"}, {"steps", "at most"},
@@ -177,6 +198,10 @@ static fracas_err print_text(const campaign_plan *plan, FILE *out)
             "\nTimes are for %d process%s at %.2g element-steps per second each, timed just now, and for running to "
             "time.end;\na stop rule may end realizations earlier. Sizes count one fragment for every %d elements.\n",
             plan->jobs, plan->jobs == 1 ? "" : "es", plan->slowest, FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
+        char text[256];
+        for (size_t p = 0; p < points; p++)
+            for (int w = 0; w < WARNINGS; w++)
+                if (warning_of(plan, p, w, text, sizeof text)) fprintf(out, "warning: %s\n", text);
     }
     sheet_clear(&sheet);
     return err;
@@ -223,6 +248,12 @@ static void print_json(const campaign_plan *plan, FILE *out)
     fracas_json_real(&json, "bytes", plan->bytes);
     fracas_json_array(&json, "point");
     for (size_t p = 0; p < plan->table->npoints; p++) print_json_point(plan, p, &json);
+    fracas_json_close_array(&json);
+    fracas_json_array(&json, "warnings");
+    char text[256];
+    for (size_t p = 0; p < plan->table->npoints; p++)
+        for (int w = 0; w < WARNINGS; w++)
+            if (warning_of(plan, p, w, text, sizeof text)) fracas_json_text(&json, NULL, text);
     fracas_json_close_array(&json);
     fracas_json_close_object(&json);
     fracas_json_end(&json);

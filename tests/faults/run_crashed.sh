@@ -1,5 +1,5 @@
 # A realization that crashes costs itself alone: status 1, one FAILED row, every other one as in an undisturbed run.
-. tests/campaigns.sh
+. tests/support/campaigns.sh
 
 campaign small.yaml 12 '3e4 1/s, 1e5 1/s'
 expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2

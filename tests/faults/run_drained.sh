@@ -1,6 +1,6 @@
 # Ctrl-C drains: what runs is finished and kept, status 3, and the same command goes on. Meanwhile the study is
 # locked. A second Ctrl-C stops at once.
-. tests/campaigns.sh
+. tests/support/campaigns.sh
 
 # interrupted: the status and last words of the run in the background.
 interrupted()

@@ -1,6 +1,6 @@
 # A disk that fills up while segments are written: the message says so, status 6, and with more room the same command
 # goes on to what an undisturbed run gives.
-. tests/campaigns.sh
+. tests/support/campaigns.sh
 
 campaign small.yaml 40 '3e4 1/s, 1e5 1/s' # more than 1 MB of results
 expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2

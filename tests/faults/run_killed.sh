@@ -1,6 +1,6 @@
 # Three times kill -9 of every process of a run (parent, mpirun, ranks, servers, children) at random times, each
 # after the first and before the last segment; what is resumed to its end is what an undisturbed run gives.
-. tests/campaigns.sh
+. tests/support/campaigns.sh
 
 campaign small.yaml 30 '3e4 1/s, 1e5 1/s'
 expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2

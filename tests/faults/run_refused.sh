@@ -1,5 +1,5 @@
 # What is not run: a study that is complete, of another campaign, or that cannot be written; a wrong campaign.
-. tests/campaigns.sh
+. tests/support/campaigns.sh
 
 campaign small.yaml 4 '1e5 1/s'
 expect 0 "$fracas" run small.yaml --study done

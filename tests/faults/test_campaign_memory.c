@@ -2,7 +2,7 @@
  * file has no units: the scanner inside UDUNITS-2 ends the program when memory is short. */
 #include "campaigns/file/read.h"
 #include "campaigns/plan/plan.h"
-#include "tests/unit/campaign_text.h"
+#include "tests/support/campaign_text.h"
 
 #include <errno.h>
 #include <limits.h>

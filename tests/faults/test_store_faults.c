@@ -1,5 +1,5 @@
 /* Damage and death: flipped bytes, truncated files, a full disk, kill -9. */
-#include "tests/store_sample.h"
+#include "tests/support/store_sample.h"
 
 #include "campaigns/store/h5.h"
 #include "campaigns/store/index.h"

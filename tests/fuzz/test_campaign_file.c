@@ -1,7 +1,7 @@
 /* Damaged campaign files: thousands of deterministic mutations of the example are either read or refused with a message
  * that has a place; never a crash or a hang. What is read must survive writing and reading back. */
 #include "campaigns/file/read.h"
-#include "tests/unit/campaign_text.h"
+#include "tests/support/campaign_text.h"
 
 #include <stdint.h>
 #include <stdio.h>

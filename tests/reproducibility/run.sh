@@ -1,6 +1,6 @@
 # study.h5 is the same, byte for byte, whatever computes it: workers, lanes, instruction sets, order, compiler,
 # launcher, and whether the campaign was extended on the way.
-. tests/campaigns.sh
+. tests/support/campaigns.sh
 
 campaign small.yaml 18 '3e4 1/s, 1e5 1/s' # batches of 8, 8 and 2
 expect 0 "$fracas" run small.yaml --study one --jobs 1

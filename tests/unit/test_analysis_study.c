@@ -256,7 +256,7 @@ static void check(const char *folder)
 {
     char command[1024];
     snprintf(command, sizeof command, "/usr/bin/python3 -c 'import h5py' 2>/dev/null || exit 77; "
-             "exec /usr/bin/python3 '" FRACAS_SOURCE_DIR "/tests/unit/check_report.py' '%s' '" FRACAS_SOURCE_DIR "'",
+             "exec /usr/bin/python3 '" FRACAS_SOURCE_DIR "/tests/support/check_report.py' '%s' '" FRACAS_SOURCE_DIR "'",
              folder);
     int status = system(command);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 77) {

@@ -1,6 +1,6 @@
 /* What a wrong campaign file is told: place, what was found, what is allowed, the nearest known key. */
 #include "campaigns/file/read.h"
-#include "tests/unit/campaign_text.h"
+#include "tests/support/campaign_text.h"
 
 typedef struct {
     const char *find, *put; /* the plain campaign with this replaced (find "": appended, at line 28) */

@@ -1,5 +1,5 @@
 /* Good campaign files: values, sweeps, hashes, columns, the resolved file, extensions. */
-#include "tests/unit/campaign_text.h"
+#include "tests/support/campaign_text.h"
 
 #include <math.h>
 #include <stdio.h>

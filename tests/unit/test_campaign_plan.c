@@ -1,7 +1,7 @@
 /* The plan: what is printed, and that it is what the engine says. */
 #include "campaigns/plan/plan.h"
 #include "engine/engine.h"
-#include "tests/unit/campaign_text.h"
+#include "tests/support/campaign_text.h"
 
 #include <stdio.h>
 
@@ -76,6 +76,46 @@ static void test_json(void **state)
     fracas_campaign_destroy(campaign);
 }
 
+/* Points that run, but tell little: elements longer than a softening zone, strengths without scatter. */
+static void test_warnings(void **state)
+{
+    (void)state;
+    fracas_campaign *campaign = read_replaced("", "sweep:\n  - mesh.elements: [100, 1000]\n"
+                                                  "  - strength: [{distribution: constant, value: 300 MPa},"
+                                                  " {distribution: uniform, minimum: 299 MPa, maximum: 301 MPa}]\n");
+    double length = campaign->point[0].spec.geometry.length, softening = 275e9 * 100 / (300e6 * 300e6);
+    bool coarse = length / 100 / softening > 0.5;
+    char *text = print_plan(campaign, false), *json = print_plan(campaign, true);
+    for (int p = 1; p <= 4; p++) {
+        char uniform[64], long_elements[64];
+        snprintf(uniform, sizeof uniform, "point %d: all interfaces are equally strong", p);
+        snprintf(long_elements, sizeof long_elements, "point %d: elements are ", p);
+        assert_int_equal(strstr(text, uniform) != NULL, p % 2 == 1);
+        assert_int_equal(strstr(text, long_elements) != NULL, p <= 2 && coarse);
+        assert_int_equal(strstr(json, uniform) != NULL, p % 2 == 1);
+    }
+    assert_true(coarse);
+    free(text);
+    free(json);
+    fracas_campaign_destroy(campaign);
+}
+
+/* A heavy tail is refused for the strongest interface it will draw, not for its mean. */
+static void test_heavy_tail(void **state)
+{
+    (void)state;
+    fracas_campaign *campaign = read_replaced("", "sweep:\n  - strength: [{distribution: weibull, scale: 30 MPa, shape: 0.5}]\n");
+    fracas_model *model;
+    assert_int_equal(fracas_model_create(&campaign->point[0].spec, &model), FRACAS_OK);
+    assert_int_equal(fracas_model_check_strength(model, fracas_strength_mean(&campaign->point[0].strength)), FRACAS_OK);
+    fracas_model_destroy(model);
+    double cost;
+    assert_int_equal(fracas_plan_cost(campaign, 0, &cost), FRACAS_USAGE);
+    expect(fracas_message(), "point 1: the strongest of ");
+    expect(fracas_message(), "raise mesh.elements above");
+    fracas_campaign_destroy(campaign);
+}
+
 /* What the engine refuses is refused here, with the point. */
 static void test_refused(void **state)
 {
@@ -105,7 +145,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_cost),    cmocka_unit_test(test_text),        cmocka_unit_test(test_json),
-        cmocka_unit_test(test_refused), cmocka_unit_test(test_write_fails),
+        cmocka_unit_test(test_warnings), cmocka_unit_test(test_heavy_tail), cmocka_unit_test(test_refused), cmocka_unit_test(test_write_fails),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

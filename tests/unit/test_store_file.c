@@ -1,5 +1,5 @@
 /* Writer and reader of segments and studies. */
-#include "tests/store_sample.h"
+#include "tests/support/store_sample.h"
 
 #include "campaigns/store/disk.h"
 #include "campaigns/store/schema.h"

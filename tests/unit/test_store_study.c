@@ -1,5 +1,5 @@
 /* The index, and a study as a whole: plan, commit, recover, merge, verify, lock. */
-#include "tests/store_sample.h"
+#include "tests/support/store_sample.h"
 
 #include "campaigns/store/disk.h"
 #include "campaigns/store/index.h"
