@@ -1,5 +1,7 @@
 #include "campaigns/scheduler/prepare.h"
 
+#include "base/version.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -139,9 +141,10 @@ static fracas_err open_and_plan(const char *study, const fracas_campaign *campai
 {
     *report = NULL;
     TRY(fracas_study_fits(study, campaign));
-    TRY(write_campaign(study, campaign));
     TRY(fracas_index_open(study, true, index));
-    fracas_err err = fracas_study_recover(study, *index, &campaign->table, report);
+    fracas_err err = fracas_index_claim(*index, FRACAS_VERSION);
+    if (!err) err = write_campaign(study, campaign);
+    if (!err) err = fracas_study_recover(study, *index, &campaign->table, report);
     if (!err) err = fracas_index_plan(*index, &campaign->table);
     if (err) {
         free(*report);

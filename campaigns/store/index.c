@@ -195,22 +195,41 @@ static fracas_err create_tables(fracas_index *index)
     return err ? err : fracas_disk_sync_folder(index->path);
 }
 
-static fracas_err check_version(fracas_index *index)
+/* The value under `key` in meta, cut to `size`; "" if there is none. */
+static fracas_err read_meta(fracas_index *index, const char *key, char *value, size_t size)
 {
     sqlite3_stmt *statement;
-    static const char query[] = "SELECT value FROM meta WHERE key = 'format_version'";
-    int code = sqlite3_prepare_v2(index->db, query, -1, &statement, NULL);
+    int code = sqlite3_prepare_v2(index->db, "SELECT value FROM meta WHERE key = ?1", -1, &statement, NULL);
     if (code == SQLITE_ERROR) return fracas_fail(FRACAS_DAMAGED, "%s is no index of fracas", index->path);
-    if (code != SQLITE_OK) return fracas_index_error(index, "open");
-    const char *found = sqlite3_step(statement) == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;
-    char wanted[16];
-    snprintf(wanted, sizeof wanted, "%d", FRACAS_FORMAT_VERSION);
-    fracas_err err = FRACAS_OK;
-    if (!found || strcmp(found, wanted) != 0)
-        err = fracas_fail(FRACAS_DAMAGED, "%s has format version %s; this program reads %s", index->path,
-                          found ? found : "none", wanted);
+    if (code == SQLITE_OK) code = sqlite3_bind_text(statement, 1, key, -1, SQLITE_STATIC);
+    if (code == SQLITE_OK) code = sqlite3_step(statement);
+    const char *found = code == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;
+    snprintf(value, size, "%s", found ? found : "");
+    fracas_err err = code == SQLITE_ROW || code == SQLITE_DONE ? FRACAS_OK : fracas_index_error(index, "open");
     sqlite3_finalize(statement);
     return err;
+}
+
+static fracas_err check_version(fracas_index *index)
+{
+    char found[32], wanted[16];
+    TRY(read_meta(index, "format_version", found, sizeof found));
+    snprintf(wanted, sizeof wanted, "%d", FRACAS_FORMAT_VERSION);
+    if (strcmp(found, wanted) == 0) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED, "%s has format version %s; this program reads %s", index->path,
+                       *found ? found : "none", wanted);
+}
+
+fracas_err fracas_index_claim(fracas_index *index, const char *version)
+{
+    char found[32], text[160];
+    TRY(read_meta(index, "program_version", found, sizeof found));
+    if (*found && strcmp(found, version) != 0)
+        return fracas_fail(FRACAS_DAMAGED, "%s was begun by fracas %s, this is fracas %s: a study is of one version; go on with "
+                           "that one, or choose another --study", index->path, found, version);
+    if (*found) return FRACAS_OK;
+    char *claim = sqlite3_snprintf(sizeof text, text, "INSERT INTO meta VALUES ('program_version', %Q)", version);
+    return sqlite3_exec(index->db, claim, NULL, NULL, NULL) == SQLITE_OK ? FRACAS_OK : fracas_index_error(index, "write");
 }
 
 static fracas_err open_database(fracas_index *index, bool create)

@@ -100,6 +100,10 @@ typedef struct {
 FRACAS_MUST_USE fracas_err fracas_index_open(const char *study, bool create, fracas_index **index);
 void fracas_index_close(fracas_index *index); /* NULL is allowed */
 
+/* Claims the study for a program version, before anything is computed: FRACAS_DAMAGED naming both when another version began
+ * it, for study.h5 is of one version. */
+FRACAS_MUST_USE fracas_err fracas_index_claim(fracas_index *index, const char *version);
+
 /* Adds the points and realizations of the table that are not there yet (status planned); turns leased rows back
  * to planned (their holder is gone: the caller has the lock). */
 FRACAS_MUST_USE fracas_err fracas_index_plan(fracas_index *index, const fracas_point_table *table);

@@ -228,7 +228,6 @@ static void add_elements(const lane_view *view, const uint32_t *label, fracas_fr
     const double time = view->step->time[view->lane], rate = spec->loading.rate, length = spec->geometry.length;
     size_t back = model->elements; /* elements from here on are taken back */
     while (is_periodic(model) && back > 0 && !(lane_value(view, back - 1, BAR_DAMAGE) >= 1.0)) back--;
-    if (back == 0) back = model->elements; /* not broken: the ring starts at element 0 */
     for (size_t e = 0; e < model->elements; e++) {
         fracas_fragment *f = &fragment[label[e]];
         double x = h * ((double)e + 0.5) - (e >= back ? length : 0.0);

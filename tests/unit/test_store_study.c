@@ -272,6 +272,9 @@ static void index_modes_and_versions(void **state)
     fracas_index_close(other);
     OK(fracas_index_open(study, false, &third)); /* two at a time on a local filesystem */
     fracas_index_close(third);
+    OK(fracas_index_claim(index_, "0.1.0"));
+    OK(fracas_index_claim(index_, "0.1.0"));
+    sample_fails(fracas_index_claim(index_, "0.2.0"), FRACAS_DAMAGED, "begun by fracas 0.1.0, this is fracas 0.2.0");
     assert_int_equal(sqlite3_exec(index_->db, "UPDATE meta SET value = '99'", NULL, NULL, NULL), SQLITE_OK);
     sample_fails(fracas_index_open(study, false, &other), FRACAS_DAMAGED, "format version 99");
     sample_spill(sample_path(study, "segments/index.sqlite"), "no database, but long enough to be looked at", 44);
