@@ -5,16 +5,25 @@
 campaign small.yaml 30 '3e4 1/s, 1e5 1/s'
 expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
 left=0
-for kill in 1 2 3; do # of 60 segments, one for each realization
+kill=1 tries=0
+while [ $kill -le 3 ]; do # of 60 segments, one for each realization
     start small.yaml --study killed --jobs 2 --lanes 1 --segment-size 1e-6
     wait_segments killed $((left + $(random 1 6)))
     sleep "0.0$(random 10 49)"
     running=$(processes | wc -l)
     kill_session
-    [ "$running" -ge 6 ] || fail "parent, mpirun, 2 ranks and 2 servers should have run, not $running processes"
     left=$(segments killed)
+    if [ "$left" -ge 60 ] || [ -e killed/study.h5 ]; then # a busy machine kept this script waiting: all over again
+        tries=$((tries + 1))
+        [ $tries -lt 20 ] || fail "not killed in the middle, $tries times"
+        rm -rf killed
+        kill=1 left=0
+        continue
+    fi
     echo "kill $kill at $left segments of 60"
-    [ "$left" -ge 1 ] && [ "$left" -lt 60 ] && [ ! -e killed/study.h5 ] || fail "not killed in the middle"
+    [ "$left" -ge 1 ] || fail "killed before the first segment"
+    [ "$running" -ge 6 ] || fail "parent, mpirun, 2 ranks and 2 servers should have run, not $running processes"
+    kill=$((kill + 1))
 done
 expect 0 "$fracas" run small.yaml --study killed --jobs 1 --segment-size 1e-6
 [ "$(segments killed)" -gt "$left" ] || fail "the resumed run had nothing to do"
@@ -23,7 +32,7 @@ same undisturbed killed
 # The parent alone: the others must not outlive it.
 start small.yaml --study orphaned --jobs 2 --lanes 1 --segment-size 1e-6
 wait_segments orphaned 2
-kill -9 "$session"
+kill -9 "$session" 2>/dev/null || true # it may have ended by itself on a busy machine
 tries=0
 while [ -n "$(processes)" ]; do
     tries=$((tries + 1))
