@@ -38,7 +38,7 @@ static fracas_err describe(const fracas_point *point, fracas_forecast *forecast)
 fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point, fracas_forecast *forecast)
 {
     fracas_err err = describe(&campaign->point[point], forecast);
-    return err ? fracas_fail_within(err, "point %zu", point + 1) : FRACAS_OK;
+    return err ? fracas_fail_within(err, "point %zu", point) : FRACAS_OK;
 }
 
 fracas_err fracas_plan_cost(const fracas_campaign *campaign, size_t point, double *cost)
@@ -157,7 +157,7 @@ fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs, fracas
         forecast[p].speed = speed_of_like(campaign, forecast, p);
         if (forecast[p].speed == 0.0) {
             fracas_err err = time_point(point, &forecast[p]);
-            if (err) return fracas_fail_within(err, "point %zu", p + 1);
+            if (err) return fracas_fail_within(err, "point %zu", p);
         }
         const double work = (double)forecast[p].elements * (double)forecast[p].steps * (double)point->replicas;
         forecast[p].time = work / (forecast[p].speed * jobs);

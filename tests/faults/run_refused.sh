@@ -58,3 +58,17 @@ kill -TERM $!
 status=0
 wait $! || status=$?
 [ $status -eq 3 ] || { cat said >&2; fail "status $status of a run that was stopped before MPI came up"; }
+
+# The study's own campaign file: of another campaign, damaged.
+expect 0 "$fracas" verify done
+sed 's/fracture_energy: 100/fracture_energy: 101/' done/campaign.yaml > other.yaml
+cp done/campaign.yaml kept.yaml
+cp other.yaml done/campaign.yaml
+expect 5 "$fracas" verify done
+said 'campaign.yaml is not the campaign of study.h5'
+echo 'x: [' >> done/campaign.yaml
+expect 5 "$fracas" verify done
+said "study's campaign file is damaged"
+expect 5 "$fracas" status done
+cp kept.yaml done/campaign.yaml
+expect 0 "$fracas" verify done
