@@ -151,10 +151,15 @@ static fracas_err explain(const parent *p, int status)
                        "what was done is kept; the same command goes on from there", WEXITSTATUS(status));
 }
 
-static int all_cores(void)
+static fracas_err choose_jobs(int wanted, int *jobs)
 {
+    enum { MOST_A_CORE = 32 };
     cpu_set_t set;
-    return sched_getaffinity(0, sizeof set, &set) ? 1 : CPU_COUNT(&set);
+    const int cores = sched_getaffinity(0, sizeof set, &set) ? 1 : CPU_COUNT(&set);
+    *jobs = wanted ? wanted : cores;
+    if (*jobs <= MOST_A_CORE * cores) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "--jobs %d: this machine gives the run %d cores; %d processes are the most, one a core "
+                       "is the best", *jobs, cores, MOST_A_CORE * cores);
 }
 
 /* Waits until mpirun and whatever it left behind have ended, so that the study is free when this process ends: ranks,
@@ -175,7 +180,9 @@ static fracas_err run(parent *p, const fracas_run_options *options, int argc, ch
     fracas_progress_init(&p->progress, stderr);
     prctl(PR_SET_CHILD_SUBREAPER, 1);
     p->began = fracas_now();
-    TRY(fracas_mpirun_start(options->jobs ? options->jobs : all_cores(), argc, argv, &p->mpirun));
+    int jobs;
+    TRY(choose_jobs(options->jobs, &jobs));
+    TRY(fracas_mpirun_start(jobs, argc, argv, &p->mpirun));
     listen(p);
     close(p->mpirun.out);
     close(p->mpirun.errors);

@@ -38,6 +38,9 @@ said 'study is empty'
 expect 2 "$fracas" run small.yaml --study file
 said 'is not a folder'
 
+expect 2 "$fracas" run small.yaml --study many --jobs 100000
+said 'jobs 100000'
+
 # What goes wrong while the study is prepared is told, and nothing else goes wrong with it.
 rm done/study.h5
 mkdir done/segments/folder.h5
