@@ -123,22 +123,24 @@ static void put_size(text_sheet *sheet, size_t row, size_t column, double bytes)
 
 /* The softening zone of a crack, some E G_c/sigma_c^2 long, should hold elements. */
 #define COARSE 0.5
+enum { WARNINGS = 3 };
 
 static bool warning_of(const campaign_plan *plan, size_t p, int which, char *text, size_t size)
 {
     const fracas_forecast *forecast = &plan->forecast[p];
-    const bool applies = which == 0 ? forecast->coarseness > COARSE : forecast->uniform;
+    const bool applies[WARNINGS] = {forecast->coarseness > COARSE, forecast->uniform, forecast->early};
     if (which == 0)
         snprintf(text, size, "point %zu: elements are %.2g E G_c/sigma_c^2 long, above %.1g a crack's softening is not "
                  "resolved: raise mesh.elements to %.0f", p, forecast->coarseness, COARSE,
                  ceil((double)forecast->elements * forecast->coarseness / COARSE));
-    else
+    else if (which == 1)
         snprintf(text, size, "point %zu: all interfaces are equally strong and qualify at once; where the body breaks is then "
                  "up to mesh and rounding: give the strength a scatter", p);
-    return applies;
+    else
+        snprintf(text, size, "point %zu: at time.end the stress E rate end has not reached the mean strength: little or "
+                 "nothing will crack", p);
+    return applies[which];
 }
-
-enum { WARNINGS = 2 };
 
 /* ---- the plan as text ---- */
 
