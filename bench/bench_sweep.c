@@ -54,10 +54,10 @@ int main(int argc, char **argv)
         if (o == 'n') elements = atoll(optarg);
         else if (o == 'l') lanes = atoi(optarg);
         else if (o == 's') seconds = atof(optarg);
-        else if (o == 'i')
-            isa = !strcmp(optarg, "baseline") ? FRACAS_ISA_BASELINE : !strcmp(optarg, "avx2") ? FRACAS_ISA_AVX2
-                  : !strcmp(optarg, "avx512") ? FRACAS_ISA_AVX512 : FRACAS_ISA_BEST;
-        else return 2;
+        else if (o == 'i') {
+            for (isa = 0; isa < FRACAS_NISAS && strcmp(optarg, fracas_isa_name[isa]) != 0;) isa++;
+            if (isa == FRACAS_ISA_BEST && strcmp(optarg, "best") != 0) return 2;
+        } else return 2;
     }
     fracas_spec spec = reference(elements);
     fracas_model *model;
@@ -90,9 +90,8 @@ int main(int argc, char **argv)
         rate[block] = (double)(done * elements * lanes) / spent;
     }
     qsort(rate, 5, sizeof *rate, by_value);
-    static const char *const isa_name[] = {"baseline", "avx2", "avx512"};
     printf("elements %lld lanes %d isa %s cracked %.0f %% : %.3g element-steps/s (min %.3g, max %.3g)\n", (long long)elements,
-           lanes, isa_name[batch->step.isa], 100.0 * (double)batch->step.cracked[0] / (double)elements, rate[2], rate[0], rate[4]);
+           lanes, fracas_isa_name[batch->step.isa], 100.0 * (double)batch->step.cracked[0] / (double)elements, rate[2], rate[0], rate[4]);
     fracas_batch_destroy(batch);
     fracas_model_destroy(model);
     return 0;

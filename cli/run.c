@@ -23,8 +23,6 @@ static fracas_err read_options(const fracas_arguments *arguments, fracas_run_opt
 {
     static const char *const lanes[] = {"1", "4", "8"};
     static const int widths[] = {1, 4, 8};
-    static const char *const sets[] = {
-        [FRACAS_ISA_BASELINE] = "baseline", [FRACAS_ISA_AVX2] = "avx2", [FRACAS_ISA_AVX512] = "avx512"};
     int width = -1, isa = FRACAS_ISA_BEST;
 
     fracas_run_options_init(run);
@@ -34,7 +32,7 @@ static fracas_err read_options(const fracas_arguments *arguments, fracas_run_opt
     TRY(fracas_arguments_integer(arguments, JOBS, 1, INT_MAX, &run->jobs));
     TRY(fracas_arguments_word(arguments, LANES, lanes, FRACAS_COUNT(lanes), &width));
     if (width >= 0) run->width = widths[width];
-    TRY(fracas_arguments_word(arguments, ISA, sets, FRACAS_COUNT(sets), &isa));
+    TRY(fracas_arguments_word(arguments, ISA, fracas_isa_name, FRACAS_NISAS, &isa));
     run->isa = (fracas_isa)isa;
     TRY(fracas_arguments_real(arguments, SEGMENT_AGE, 1.0, &run->segment_age));
     return fracas_arguments_real(arguments, SEGMENT_SIZE, 1048576.0, &run->segment_bytes);

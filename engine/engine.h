@@ -30,6 +30,11 @@ FRACAS_MUST_USE fracas_err fracas_model_check_strength(const fracas_model *model
 
 /* Instruction sets a batch can run with; all give the same bits. */
 typedef enum { FRACAS_ISA_BASELINE, FRACAS_ISA_AVX2, FRACAS_ISA_AVX512, FRACAS_ISA_BEST } fracas_isa;
+#define FRACAS_NISAS FRACAS_ISA_BEST
+extern const char *const fracas_isa_name[FRACAS_NISAS]; /* "baseline", "avx2", "avx512" */
+
+/* *isa = wanted, or the best that this CPU has for FRACAS_ISA_BEST; FRACAS_USAGE if it lacks the one wanted. */
+FRACAS_MUST_USE fracas_err fracas_isa_choose(fracas_isa wanted, fracas_isa *isa);
 
 typedef struct {
     int64_t history;  /* equal intervals of time.end at which a history row is kept; 0: only the events */

@@ -68,8 +68,9 @@ static void read_cpu(char *model, size_t size)
 static fracas_err make_provenance(const fracas_segment *segment, const fracas_run_options *options, const char *host,
                                   char **text)
 {
-    static const char *const isa[] = {"baseline", "avx2", "avx512", "best"};
+    fracas_isa isa; /* what a batch of this server runs with */
     size_t size;
+    TRY(fracas_isa_choose(options->isa, &isa));
     FILE *out = open_memstream(text, &size);
     if (!out) return fracas_no_memory("the provenance of a segment");
     char cpu[256];
@@ -81,8 +82,9 @@ static fracas_err make_provenance(const fracas_segment *segment, const fracas_ru
     fracas_json_integer(&json, "pid", getpid());
     fracas_json_text(&json, "version", FRACAS_VERSION);
     fracas_json_text(&json, "cpu", cpu);
-    fracas_json_text(&json, "isa", isa[options->isa]);
-    fracas_json_integer(&json, "lanes", options->width);
+    fracas_json_text(&json, "isa", fracas_isa_name[isa]);
+    fracas_json_integer(&json, "lanes_asked", options->width); /* 0: by the number of realizations */
+    fracas_json_text(&json, "compiler", __VERSION__);
     fracas_json_real(&json, "began", (double)segment->clock.tv_sec + 1e-9 * (double)segment->clock.tv_nsec);
     fracas_json_real(&json, "wall_seconds", fracas_now() - segment->began);
     fracas_json_real(&json, "compute_seconds", segment->compute);

@@ -14,14 +14,15 @@ static bool has_isa(fracas_isa isa)
     }
 }
 
-static fracas_err choose_isa(fracas_isa wanted, fracas_isa *isa)
+const char *const fracas_isa_name[FRACAS_NISAS] = {"baseline", "avx2", "avx512"};
+
+fracas_err fracas_isa_choose(fracas_isa wanted, fracas_isa *isa)
 {
-    static const char *const name[] = {"baseline", "avx2", "avx512"};
     *isa = wanted;
     if (wanted == FRACAS_ISA_BEST)
         *isa = has_isa(FRACAS_ISA_AVX512) ? FRACAS_ISA_AVX512 : has_isa(FRACAS_ISA_AVX2) ? FRACAS_ISA_AVX2 : FRACAS_ISA_BASELINE;
     if (!has_isa(*isa))
-        return fracas_fail(FRACAS_USAGE, "this CPU has no %s: choose a lower instruction set or leave it out", name[*isa]);
+        return fracas_fail(FRACAS_USAGE, "this CPU has no %s: choose a lower instruction set or leave it out", fracas_isa_name[*isa]);
     return FRACAS_OK;
 }
 
@@ -55,7 +56,7 @@ fracas_err fracas_batch_create(const fracas_model *model, size_t count, const fr
     int width = 0;
     fracas_isa isa;
     TRY(choose_width(count, options->width, &width));
-    TRY(choose_isa(options->isa, &isa));
+    TRY(fracas_isa_choose(options->isa, &isa));
     fracas_batch *batch = aligned_alloc(64, (sizeof *batch + 63) / 64 * 64);
     if (!batch) return fracas_no_memory("a batch");
     *batch = (fracas_batch){.model = model, .count = count, .step = {.width = width, .lanes = lanes_of(isa, width), .isa = isa}};

@@ -1,4 +1,5 @@
 # ctest-labels: slow-sanitize
+# ctest-serial
 # The shipped campaign bar-rate-sweep.yaml: counts, sizes, ledger, elements a fragment, and its time on this machine.
 . tests/support/campaigns.sh
 
