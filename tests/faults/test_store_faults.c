@@ -90,6 +90,7 @@ static bool same_header(const fracas_file_header *found)
 {
     fracas_file_header wanted = sample_header();
     return fracas_hash_equal(&found->campaign, &wanted.campaign) && found->seed == wanted.seed &&
+           found->history == wanted.history && found->interfaces == wanted.interfaces &&
            !strcmp(found->version, wanted.version) && found->complete == wanted.complete;
 }
 
@@ -213,7 +214,7 @@ static fracas_err write_some(const char *path, size_t most)
     fracas_file_header header = sample_header();
     fracas_writer *writer;
     fracas_file_seal seal;
-    TRY(fracas_writer_create(path, &header, &table, true, &writer));
+    TRY(fracas_writer_create(path, &header, &table, &writer));
     for (int64_t r = 0; r < 40; r++) {
         fracas_record record;
         sample_record(0, r, most, &record);
