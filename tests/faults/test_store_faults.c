@@ -173,6 +173,28 @@ static void truncated_files_are_found(void **state)
     free(bytes);
 }
 
+/* HDF5 1.10 can go on without the links in a damaged part of a group's header: no column may be missed. */
+static void lost_columns_are_found(void **state)
+{
+    (void)state;
+    fracas_file_seal seal;
+    fracas_segment_row row[ALL];
+    write_segment(&seal, row);
+    const char *path = sample_path(study, "segments/a.h5");
+    size_t size;
+    unsigned char *bytes = sample_slurp(path, &size);
+    for (int c = 0; c < 3; c++) {
+        const char *name = sample_column[c].path;
+        unsigned char *link = memmem(bytes, size, name, strlen(name));
+        assert_non_null(link);
+        link[strlen(name)] ^= 0x40; /* the address follows the name */
+        sample_spill(path, bytes, size);
+        assert_int_equal(read_all(path), REPORTED);
+        link[strlen(name)] ^= 0x40;
+    }
+    free(bytes);
+}
+
 /* Rubbish over whole stretches: errors, never a crash. */
 static void overwritten_stretches_are_found(void **state)
 {
@@ -398,6 +420,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(flipped_bytes_are_found),
+        TEST(lost_columns_are_found),
         TEST(truncated_files_are_found),
         TEST(overwritten_stretches_are_found),
         TEST(full_disk_is_said_and_leaves_nothing),
