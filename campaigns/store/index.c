@@ -103,8 +103,8 @@ fracas_err fracas_index_error(const fracas_index *index, const char *doing)
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
     case SQLITE_PERM:
-        return fracas_fail(FRACAS_ENVIRONMENT, "%s: cannot %s: %s; make the study writable, or copy it to where you may "
-                           "write", index->path, doing, text);
+        return fracas_fail(FRACAS_ENVIRONMENT, "%s: cannot %s: %s; make the study writable, or copy it to where "
+                           "you may write", index->path, doing, text);
     default: {
         int system = sqlite3_system_errno(index->db);
         return fracas_fail(FRACAS_ENVIRONMENT, "%s: cannot %s: %s%s%s", index->path, doing, text, system ? ": " : "",

@@ -37,7 +37,7 @@ fracas_err fracas_study_merge(const char *study, fracas_index *index, const frac
     fracas_err err = fracas_segments_create(study, index, &identity, &segments);
     if (!err) err = fracas_writer_create(path, header, table, &m.writer);
     if (!err) err = fracas_segments_walk(segments, table, false, append, &m);
-    if (!err) err = fracas_index_seal_study(index, NULL); /* who dies from here on leaves no seal, and is merged again */
+    if (!err) err = fracas_index_seal_study(index, NULL); /* a death from here on leaves no seal: merged again */
     if (err) fracas_writer_abandon(m.writer);
     else err = fracas_writer_finish(m.writer, m.complete, &seal);
     if (!err) err = fracas_index_seal_study(index, &seal);

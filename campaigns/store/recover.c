@@ -168,7 +168,8 @@ static bool is_known(const fracas_known_segment *segment, size_t count, char *na
     return count > 0 && bsearch(&wanted, segment, count, sizeof *segment, compare_names);
 }
 
-static fracas_err adopt_orphans(const char *folder, fracas_index *index, const fracas_identity *identity, FILE *report)
+static fracas_err adopt_orphans(const char *folder, fracas_index *index, const fracas_identity *identity,
+                                FILE *report)
 {
     struct dirent **entry;
     int count;
