@@ -13,7 +13,7 @@ static const double created_limit = 1e-2;  /* of the dissipated energy */
 static const double elements_limit = 10;   /* elements of a mean fragment */
 static const double dust_limit = 0.05;     /* share of all fragments */
 
-enum { WARNINGS_PER_POINT = 9 }; /* at most what warn_of_point can say */
+enum { WARNINGS_PER_POINT = 10 }; /* at most what warn_of_point can say */
 
 typedef struct {
     size_t count;
@@ -37,6 +37,9 @@ static void warn_of_outcomes(const fracas_point_statistics *statistics, size_t p
         if (statistics->outcome[o] > 0)
             warn(list, p, "%lld of %lld realizations ended %s and are left out: the means may be biased",
                  (long long)statistics->outcome[o], all, fracas_outcome_name(o));
+    if (statistics->outcome[FRACAS_INTACT] > 0)
+        warn(list, p, "%lld of %lld realizations ended INTACT, nothing broken: if that is unexpected, time.end is too early",
+             (long long)statistics->outcome[FRACAS_INTACT], all);
     if (statistics->outcome[FRACAS_TIME_LIMIT] > 0)
         warn(list, p, "%lld of %lld realizations were stopped by time.end with cracks still running (TIME_LIMIT): "
              "raise time.end", (long long)statistics->outcome[FRACAS_TIME_LIMIT], all);

@@ -7,6 +7,8 @@
 #ifndef FRACAS_BASE_PARAM_H
 #define FRACAS_BASE_PARAM_H
 
+#include "base/err.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -52,6 +54,7 @@ typedef struct {
     size_t nparams;
     size_t offset;                   /* of the section's struct in its owner (see the registry) */
     bool hashed;                     /* part of a point's identity (output options are not) */
+    fracas_err (*check)(const void *section); /* of values that must fit each other; NULL: none */
 } fracas_section;
 
 #define FRACAS_COUNT(array) (sizeof(array) / sizeof *(array))

@@ -75,7 +75,7 @@ static fracas_err say_point_missing(const fracas_campaign *now, const fracas_cam
         return fracas_fail(FRACAS_DAMAGED,
                            "the study has a point %zu that this campaign file has not; give the campaign a "
                            "new name or another --study",
-                           b + 1);
+                           b);
     char was[64], is[64];
     fracas_value value = value_at(&now->table, like, column->path);
     write_text(column, &value, is);
@@ -84,7 +84,7 @@ static fracas_err say_point_missing(const fracas_campaign *now, const fracas_cam
     return fracas_fail(FRACAS_DAMAGED,
                        "%s is %s in the study (its point %zu), but %s in this campaign file; a study can be "
                        "extended by points and replicas, anything else needs a new name or another --study",
-                       column->path, was, b + 1, is);
+                       column->path, was, b, is);
 }
 
 static fracas_err check_settings(const fracas_campaign *now, const fracas_campaign *before)
@@ -124,7 +124,7 @@ static fracas_err check_points(const fracas_campaign *now, const fracas_campaign
         if (!found) return say_point_missing(now, before, b);
         if (found->point->replicas < was->replicas)
             return fracas_fail(FRACAS_DAMAGED, "replicas is %" PRId64 " in the study (its point %zu), but %" PRId64
-                                               " in this campaign file; it can only grow", was->replicas, b + 1,
+                                               " in this campaign file; it can only grow", was->replicas, b,
                                found->point->replicas);
     }
     return FRACAS_OK;

@@ -56,6 +56,10 @@ FRACAS_MUST_USE fracas_err fracas_arguments_word(const fracas_arguments *argumen
 /* FRACAS_DAMAGED, saying what makes one, where `study` is no folder of a study. */
 FRACAS_MUST_USE fracas_err fracas_cli_check_study(const char *study);
 
+/* Reads STUDY/campaign.yaml; FRACAS_DAMAGED where it is damaged. */
+struct fracas_campaign;
+FRACAS_MUST_USE fracas_err fracas_cli_read_campaign(const char *study, struct fracas_campaign **campaign);
+
 /* Prints the result table and writes the report of a study that is complete; with `json` prints the statistics as
  * JSON instead of the table. What `fracas run` ends with and `fracas report` does. */
 FRACAS_MUST_USE fracas_err fracas_cli_report(const char *study, bool json);

@@ -2,6 +2,7 @@
 
 #include "analysis/analysis.h"
 #include "base/param.h"
+#include "campaigns/campaign.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -17,6 +18,17 @@ fracas_err fracas_cli_check_study(const char *study)
     snprintf(file, sizeof file, "%s/campaign.yaml", study);
     if (!access(file, R_OK)) return FRACAS_OK;
     return fracas_fail(FRACAS_DAMAGED, "%s is no study: %s: %s; `fracas run FILE` makes one", study, file, strerror(errno));
+}
+
+fracas_err fracas_cli_read_campaign(const char *study, fracas_campaign **campaign)
+{
+    char file[PATH_MAX];
+    TRY(fracas_cli_check_study(study));
+    snprintf(file, sizeof file, "%s/campaign.yaml", study);
+    fracas_err code = fracas_campaign_read(file, campaign);
+    if (code != FRACAS_USAGE) return code;
+    return fracas_fail_within(FRACAS_DAMAGED, "the study's campaign file is damaged; run the campaign file it was made from, or "
+                              "restore it");
 }
 
 fracas_err fracas_cli_report(const char *study, bool json)

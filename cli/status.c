@@ -8,7 +8,6 @@
 #include "campaigns/store/store.h"
 
 #include <inttypes.h>
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -153,12 +152,8 @@ static fracas_err look(const fracas_campaign *campaign, const fracas_arguments *
 
 static fracas_err status(const fracas_arguments *arguments)
 {
-    const char *study = arguments->operand;
-    char file[PATH_MAX];
     fracas_campaign *campaign;
-    TRY(fracas_cli_check_study(study));
-    snprintf(file, sizeof file, "%s/campaign.yaml", study);
-    TRY(fracas_campaign_read(file, &campaign));
+    TRY(fracas_cli_read_campaign(arguments->operand, &campaign));
     fracas_err code = look(campaign, arguments);
     fracas_campaign_destroy(campaign);
     return code;

@@ -2,7 +2,11 @@
 
 #include "base/json.h"
 #include "base/param.h"
+#include "campaigns/campaign.h"
 #include "campaigns/store/store.h"
+
+#include <limits.h>
+#include <unistd.h>
 
 enum { JSON };
 static const fracas_option options[] = {[JSON] = {"json", NULL, "print the problems as JSON"}};
@@ -11,6 +15,35 @@ static void print_problem(void *json, const char *problem)
 {
     if (json) fracas_json_text(json, NULL, problem);
     else puts(problem);
+}
+
+/* The campaign file of the study against study.h5, where there is one. */
+static void verify_campaign(const char *study, void *json, int64_t *problems)
+{
+    fracas_campaign *campaign;
+    fracas_reader *reader;
+    char file[PATH_MAX];
+    if (fracas_cli_read_campaign(study, &campaign)) {
+        print_problem(json, fracas_message());
+        ++*problems;
+        return;
+    }
+    snprintf(file, sizeof file, "%s/study.h5", study);
+    if (access(file, F_OK) == 0 && !*problems && !fracas_reader_open(file, &reader)) {
+        if (!fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash)) {
+            print_problem(json, "campaign.yaml is not the campaign of study.h5: run the campaign file it was made from");
+            ++*problems;
+        }
+        fracas_reader_close(reader);
+    }
+    fracas_campaign_destroy(campaign);
+}
+
+static fracas_err verify_all(const char *study, void *json, int64_t *problems)
+{
+    TRY(fracas_study_verify(study, print_problem, json, problems));
+    verify_campaign(study, json, problems);
+    return FRACAS_OK;
 }
 
 static fracas_err verify(const fracas_arguments *arguments)
@@ -25,13 +58,13 @@ static fracas_err verify(const fracas_arguments *arguments)
         fracas_json_object(&json, NULL);
         fracas_json_text(&json, "study", study);
         fracas_json_array(&json, "problems");
-        code = fracas_study_verify(study, print_problem, &json, &problems);
+        code = verify_all(study, &json, &problems);
         fracas_json_close_array(&json);
         fracas_json_boolean(&json, "sound", !code && !problems);
         fracas_json_close_object(&json);
         fracas_json_end(&json);
     } else {
-        code = fracas_study_verify(study, print_problem, NULL, &problems);
+        code = verify_all(study, NULL, &problems);
         if (!code && !problems) printf("%s is sound\n", study);
     }
     if (code || !problems) return code;
@@ -40,7 +73,7 @@ static fracas_err verify(const fracas_arguments *arguments)
 
 const fracas_command fracas_command_verify = {
     .name = "verify", .operand = "STUDY", .doc = "Checks every byte of STUDY",
-    .more = "\nSizes and checksums of all segments, the index against them row by row, and study.h5 record by record.\n"
+    .more = "\nSizes and checksums of all segments, the index against them row by row, study.h5 record by record, and campaign.yaml.\n"
             "Each problem is one line: what, where, and what to do. Status 5 if there is any.\n",
     .options = options, .noptions = FRACAS_COUNT(options), .run = verify,
 };

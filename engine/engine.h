@@ -20,7 +20,6 @@ void fracas_model_destroy(fracas_model *model); /* NULL is allowed */
 
 size_t fracas_model_interfaces(const fracas_model *model);  /* strengths a realization needs */
 size_t fracas_model_elements(const fracas_model *model);
-double fracas_model_mass(const fracas_model *model);                /* kg */
 double fracas_model_critical_time_step(const fracas_model *model);  /* s */
 double fracas_model_time_step(const fracas_model *model);           /* s, = safety * critical */
 int64_t fracas_model_steps(const fracas_model *model);              /* steps to time.end */

@@ -33,7 +33,6 @@ void fracas_model_destroy(fracas_model *model)
 
 size_t fracas_model_interfaces(const fracas_model *model) { return model->interfaces; }
 size_t fracas_model_elements(const fracas_model *model) { return model->elements; }
-double fracas_model_mass(const fracas_model *model) { return model->mass; }
 double fracas_model_critical_time_step(const fracas_model *model) { return model->critical_step; }
 double fracas_model_time_step(const fracas_model *model) { return model->time_step; }
 

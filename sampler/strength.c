@@ -7,9 +7,15 @@ static const fracas_kind *const distributions[] = {
     &fracas_lognormal.kind,
     &fracas_constant.kind,
 };
+static fracas_err check_section(const void *section)
+{
+    return fracas_strength_check(section);
+}
+
 const fracas_section fracas_strength_section = {
     .name = "strength", .doc = "How strong interfaces are", .selector = "distribution", .kinds = distributions,
     .nkinds = FRACAS_COUNT(distributions), .kind_offset = offsetof(fracas_strength, distribution), .hashed = true,
+    .check = check_section,
 };
 
 static const fracas_distribution *distribution_of(const fracas_strength *strength)

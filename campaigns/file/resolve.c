@@ -60,6 +60,7 @@ fracas_err fracas_draft_resolve(const fracas_file *file, const fracas_draft *dra
     const fracas_kind *kind = swept ? swept_kind : base_kind;
     if (swept) chosen = swept;
     char *values = fracas_section_at(section, owner);
+    const fracas_node *last = chosen ? chosen->node : file->root; /* the value that a contradiction is told at */
     if (kind) memcpy(values + table->kind_offset, &kind, sizeof kind);
     for (size_t i = 0; i < catalog->nleaves; i++) {
         const fracas_leaf *leaf = &catalog->leaf[i];
@@ -70,9 +71,11 @@ fracas_err fracas_draft_resolve(const fracas_file *file, const fracas_draft *dra
         if (!param) continue;
         const fracas_setting *setting = draft->swept[i];
         if (!setting && (common || kind == base_kind)) setting = draft->base[i];
+        if (setting) last = setting->node;
         if (setting) TRY(fracas_setting_check(file, setting, param));
         else if (isnan(param->fallback)) return missing(file, leaf, param, common, kind, chosen);
         fracas_param_set(param, values, setting ? setting->value : fracas_number_round(param->fallback));
     }
+    if (table->check && table->check(values)) return fracas_say_within(file->name, last, table->name);
     return FRACAS_OK;
 }

@@ -30,6 +30,7 @@ static fracas_err describe(const fracas_point *point, fracas_forecast *forecast)
     const double softening = material->young * point->spec.cohesive.fracture_energy / (mean * mean);
     forecast->coarseness = point->spec.geometry.length / (double)forecast->elements / softening;
     forecast->uniform = fracas_strength_quantile(&point->strength, 0.25) == fracas_strength_quantile(&point->strength, 0.75);
+    forecast->early = material->young * point->spec.loading.rate * point->spec.time.end < mean;
     fracas_err err = check_strongest(model, point);
     fracas_model_destroy(model);
     return err;
@@ -38,7 +39,7 @@ static fracas_err describe(const fracas_point *point, fracas_forecast *forecast)
 fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point, fracas_forecast *forecast)
 {
     fracas_err err = describe(&campaign->point[point], forecast);
-    return err ? fracas_fail_within(err, "point %zu", point + 1) : FRACAS_OK;
+    return err ? fracas_fail_within(err, "point %zu", point) : FRACAS_OK;
 }
 
 fracas_err fracas_plan_cost(const fracas_campaign *campaign, size_t point, double *cost)
@@ -95,8 +96,13 @@ static fracas_err run_batch(const fracas_model *model, double strength, size_t l
 
 static fracas_err time_steps(const fracas_point *point, double end, effort *spent)
 {
+    enum { TIMED = 100000 }; /* elements: beyond them speed is that of memory */
     fracas_spec spec = point->spec;
     fracas_model *model;
+    if (spec.mesh.elements > TIMED) { /* a shorter bar of the same elements */
+        spec.geometry.length *= TIMED / (double)spec.mesh.elements;
+        spec.mesh.elements = TIMED;
+    }
     spec.time.end = fmin(spec.time.end, end);
     TRY(fracas_model_create(&spec, &model));
     fracas_err err = run_batch(model, fracas_strength_mean(&point->strength), lanes_of(point), spent);
@@ -157,7 +163,7 @@ fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs, fracas
         forecast[p].speed = speed_of_like(campaign, forecast, p);
         if (forecast[p].speed == 0.0) {
             fracas_err err = time_point(point, &forecast[p]);
-            if (err) return fracas_fail_within(err, "point %zu", p + 1);
+            if (err) return fracas_fail_within(err, "point %zu", p);
         }
         const double work = (double)forecast[p].elements * (double)forecast[p].steps * (double)point->replicas;
         forecast[p].time = work / (forecast[p].speed * jobs);

@@ -12,6 +12,7 @@ typedef struct {
     double bytes;     /* in study.h5 */
     double coarseness; /* element size over E G_c/sigma_c^2, the length over which a crack softens */
     bool uniform;      /* every interface has the same strength */
+    bool early;        /* time.end comes before the mean strength is reached */
 } fracas_forecast;
 
 /* Elements, time step, steps, coarseness of one point (speed 0). Refused if the engine would refuse the strength that the

@@ -123,22 +123,24 @@ static void put_size(text_sheet *sheet, size_t row, size_t column, double bytes)
 
 /* The softening zone of a crack, some E G_c/sigma_c^2 long, should hold elements. */
 #define COARSE 0.5
+enum { WARNINGS = 3 };
 
 static bool warning_of(const campaign_plan *plan, size_t p, int which, char *text, size_t size)
 {
     const fracas_forecast *forecast = &plan->forecast[p];
-    const bool applies = which == 0 ? forecast->coarseness > COARSE : forecast->uniform;
+    const bool applies[WARNINGS] = {forecast->coarseness > COARSE, forecast->uniform, forecast->early};
     if (which == 0)
         snprintf(text, size, "point %zu: elements are %.2g E G_c/sigma_c^2 long, above %.1g a crack's softening is not "
-                 "resolved: raise mesh.elements to %.0f", p + 1, forecast->coarseness, COARSE,
+                 "resolved: raise mesh.elements to %.0f", p, forecast->coarseness, COARSE,
                  ceil((double)forecast->elements * forecast->coarseness / COARSE));
-    else
+    else if (which == 1)
         snprintf(text, size, "point %zu: all interfaces are equally strong and qualify at once; where the body breaks is then "
-                 "up to mesh and rounding: give the strength a scatter", p + 1);
-    return applies;
+                 "up to mesh and rounding: give the strength a scatter", p);
+    else
+        snprintf(text, size, "point %zu: at time.end the stress E rate end has not reached the mean strength: little or "
+                 "nothing will crack", p);
+    return applies[which];
 }
-
-enum { WARNINGS = 2 };
 
 /* ---- the plan as text ---- */
 
@@ -163,7 +165,7 @@ static void put_point(const campaign_plan *plan, size_t p, text_sheet *sheet)
     const fracas_point_row *point = &plan->table->point[p];
     const fracas_forecast *forecast = &plan->forecast[p];
     const size_t row = p + 2, own = 1 + plan->nvaried;
-    sheet_put(sheet, row, 0, "%zu", p + 1);
+    sheet_put(sheet, row, 0, "%zu", p);
     for (size_t v = 0; v < plan->nvaried; v++) {
         const fracas_value *value = &point->value[plan->varied[v]];
         char number[FRACAS_NUMBER_TEXT];

@@ -1,5 +1,6 @@
 #include "campaigns/scheduler/parent.h"
 
+#include "campaigns/scheduler/clock.h"
 #include "campaigns/scheduler/mpirun.h"
 #include "campaigns/scheduler/progress.h"
 #include "campaigns/scheduler/voice.h"
@@ -33,6 +34,9 @@ typedef struct {
     fracas_verdict verdict;
     bool speaks;  /* rank 0 has said something: every rank can be signalled */
     int obeyed;   /* signals acted upon: 1 draining, 2 killed */
+    double asked; /* when the first signal was noticed, s */
+    double began; /* when mpirun was started, s */
+    bool warned;  /* of its silence */
     char line[4096];
     size_t nline;
     char noise[NOISE]; /* the first of stderr and of lines that are not rank 0's */
@@ -86,6 +90,23 @@ static bool read_errors(parent *p)
     return more;
 }
 
+/* MPI that does not come up within these times [s]: with a signal waiting it is killed, else something is said. */
+enum { PATIENCE_ASKED = 5, PATIENCE = 60 };
+
+static void mind_silence(parent *p)
+{
+    if (p->speaks || p->obeyed == 2) return;
+    if (asked && p->asked == 0) p->asked = fracas_now();
+    if (asked && fracas_now() - p->asked > PATIENCE_ASKED) {
+        kill(-p->mpirun.pid, SIGKILL); /* nothing has begun */
+        p->obeyed = 2;
+    } else if (!p->warned && fracas_now() - p->began > PATIENCE) {
+        fracas_progress_say(&p->progress, "MPI has not started for a minute; check the limits on open files and file sizes "
+                            "(ulimit -n, ulimit -f), or stop with Ctrl-C");
+        p->warned = true;
+    }
+}
+
 /* The first signal drains, as soon as the ranks can take it; the next one kills. */
 static void obey_signals(parent *p)
 {
@@ -106,6 +127,7 @@ static void listen(parent *p)
     struct pollfd from[2] = {{.fd = p->mpirun.out, .events = POLLIN}, {.fd = p->mpirun.errors, .events = POLLIN}};
     while (from[0].fd >= 0 || from[1].fd >= 0) {
         obey_signals(p);
+        mind_silence(p);
         /* A signal that comes just before poll waits 0.2 s at most. */
         if (poll(from, 2, 200) <= 0) continue;
         if (from[0].revents && !read_lines(p)) from[0].fd = -1;
@@ -129,10 +151,15 @@ static fracas_err explain(const parent *p, int status)
                        "what was done is kept; the same command goes on from there", WEXITSTATUS(status));
 }
 
-static int all_cores(void)
+static fracas_err choose_jobs(int wanted, int *jobs)
 {
+    enum { MOST_A_CORE = 32 };
     cpu_set_t set;
-    return sched_getaffinity(0, sizeof set, &set) ? 1 : CPU_COUNT(&set);
+    const int cores = sched_getaffinity(0, sizeof set, &set) ? 1 : CPU_COUNT(&set);
+    *jobs = wanted ? wanted : cores;
+    if (*jobs <= MOST_A_CORE * cores) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "--jobs %d: this machine gives the run %d cores; %d processes are the most, one a core "
+                       "is the best", *jobs, cores, MOST_A_CORE * cores);
 }
 
 /* Waits until mpirun and whatever it left behind have ended, so that the study is free when this process ends: ranks,
@@ -152,7 +179,10 @@ static fracas_err run(parent *p, const fracas_run_options *options, int argc, ch
 {
     fracas_progress_init(&p->progress, stderr);
     prctl(PR_SET_CHILD_SUBREAPER, 1);
-    TRY(fracas_mpirun_start(options->jobs ? options->jobs : all_cores(), argc, argv, &p->mpirun));
+    p->began = fracas_now();
+    int jobs;
+    TRY(choose_jobs(options->jobs, &jobs));
+    TRY(fracas_mpirun_start(jobs, argc, argv, &p->mpirun));
     listen(p);
     close(p->mpirun.out);
     close(p->mpirun.errors);

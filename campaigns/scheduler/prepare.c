@@ -21,6 +21,11 @@ static fracas_err join(const char *folder, const char *name, char path[PATH])
 fracas_err fracas_study_folder(const fracas_run_options *options, const fracas_campaign *campaign, char *study,
                                size_t size)
 {
+    if (options->study && !*options->study)
+        return fracas_fail(FRACAS_USAGE, "--study is empty; name a folder, or leave it out for studies/%s", campaign->name);
+    struct stat found;
+    if (options->study && !stat(options->study, &found) && !S_ISDIR(found.st_mode))
+        return fracas_fail(FRACAS_USAGE, "--study %s is not a folder; name another, or remove it", options->study);
     int n = options->study ? snprintf(study, size, "%s", options->study)
                            : snprintf(study, size, "studies/%s", campaign->name);
     if ((size_t)n < size) return FRACAS_OK;
@@ -149,7 +154,9 @@ static fracas_err open_and_plan(const char *study, const fracas_campaign *campai
     if (!err) err = fracas_index_plan(*index, &campaign->table);
     if (err) {
         free(*report);
+        *report = NULL;
         fracas_index_close(*index);
+        *index = NULL;
     }
     return err;
 }
@@ -162,6 +169,9 @@ fracas_err fracas_study_prepare(const char *study, const fracas_campaign *campai
     TRY(make_folder(segments));
     TRY(fracas_study_lock(study, lock));
     fracas_err err = open_and_plan(study, campaign, index, report);
-    if (err) close(*lock);
+    if (err) {
+        close(*lock);
+        *lock = -1;
+    }
     return err;
 }

@@ -1,7 +1,5 @@
 #include "engine/material/elastic.h"
 
-#include <math.h>
-
 static const fracas_param elastic[] = {
     {"young", FRACAS_REAL, "Pa", "Young's modulus E", FRACAS_REQUIRED, 0, INFINITY, true,
      offsetof(fracas_material, young)},
@@ -12,8 +10,3 @@ const fracas_section fracas_material_section = {
     .name = "material", .doc = "Linear elastic material", .params = elastic, .nparams = FRACAS_COUNT(elastic),
     .offset = offsetof(fracas_spec, material), .hashed = true,
 };
-
-double fracas_wave_speed(const fracas_material *material)
-{
-    return sqrt(material->young / material->density);
-}

@@ -6,7 +6,4 @@
 
 extern const fracas_section fracas_material_section;
 
-/* Speed of a longitudinal wave in a bar, c = sqrt(E/rho) [m/s]. */
-double fracas_wave_speed(const fracas_material *material);
-
 #endif

@@ -20,10 +20,19 @@ static const fracas_param time_params[] = {
     {"safety", FRACAS_REAL, "1", "time step as a fraction of the critical one", 0.25, 0, 1, true,
      offsetof(fracas_time, safety)},
 };
+static fracas_err check_time(const void *section)
+{
+    const fracas_time *time = section;
+    if (time->stop == &fracas_stop_settled && time->quiet > time->end)
+        return fracas_fail(FRACAS_USAGE, "quiet is %g s, but end is %g s already: nothing could settle; let quiet be a fraction "
+                           "of end", time->quiet, time->end);
+    return FRACAS_OK;
+}
+
 const fracas_section fracas_time_section = {
     .name = "time", .doc = "Time integration (central difference) and its end", .selector = "stop", .kinds = stops,
     .nkinds = FRACAS_COUNT(stops), .kind_offset = offsetof(fracas_time, stop), .params = time_params,
-    .nparams = FRACAS_COUNT(time_params), .offset = offsetof(fracas_spec, time), .hashed = true,
+    .nparams = FRACAS_COUNT(time_params), .offset = offsetof(fracas_spec, time), .hashed = true, .check = check_time,
 };
 
 bool fracas_stop_check(fracas_stop *stop, const fracas_time *rule, double time, double dissipated, int64_t cracked,

@@ -32,3 +32,46 @@ cp done/study.h5 kept.h5
 rm done/study.h5
 expect 0 "$fracas" run small.yaml --study done
 cmp kept.h5 done/study.h5 || fail "merged again, it differs"
+
+expect 2 "$fracas" run small.yaml --study ''
+said 'study is empty'
+expect 2 "$fracas" run small.yaml --study file
+said 'is not a folder'
+
+expect 2 "$fracas" run small.yaml --study many --jobs 100000
+said 'jobs 100000'
+
+# What goes wrong while the study is prepared is told, and nothing else goes wrong with it.
+rm done/study.h5
+mkdir done/segments/folder.h5
+expect 6 "$fracas" run small.yaml --study done
+said 'folder.h5'
+! grep -q mpirun said || { cat said >&2; fail "rank 0 died instead of telling"; }
+rmdir done/segments/folder.h5
+expect 0 "$fracas" run small.yaml --study done
+cmp kept.h5 done/study.h5 || fail "merged again, it differs"
+
+# MPI that never comes up: one signal is enough.
+mkdir bin
+printf '#!/bin/sh\nexec sleep 100\n' > bin/mpirun
+chmod +x bin/mpirun
+PATH=$PWD/bin:$PATH "$fracas" run small.yaml --study silent > said 2>&1 &
+sleep 0.5
+kill -TERM $!
+status=0
+wait $! || status=$?
+[ $status -eq 3 ] || { cat said >&2; fail "status $status of a run that was stopped before MPI came up"; }
+
+# The study's own campaign file: of another campaign, damaged.
+expect 0 "$fracas" verify done
+sed 's/fracture_energy: 100/fracture_energy: 101/' done/campaign.yaml > other.yaml
+cp done/campaign.yaml kept.yaml
+cp other.yaml done/campaign.yaml
+expect 5 "$fracas" verify done
+said 'campaign.yaml is not the campaign of study.h5'
+echo 'x: [' >> done/campaign.yaml
+expect 5 "$fracas" verify done
+said "study's campaign file is damaged"
+expect 5 "$fracas" status done
+cp kept.yaml done/campaign.yaml
+expect 0 "$fracas" verify done

@@ -84,7 +84,7 @@ static void distributions_follow_their_laws(void **state)
     }
 }
 
-/* theory/5: 308.31 +- 23.16, 413.18 +- 94.64, 443.78 +- 13.98 MPa. The closed forms give these to the last digit;
+/* docs/theory/sampling.md: 308.31 +- 23.16, 413.18 +- 94.64, 443.78 +- 13.98 MPa. The closed forms give these to the last digit;
  * the sample's mean has the standard error s/sqrt(n), its standard deviation
  * s sqrt((kurtosis - 1)/(4 n)), kurtosis from the central moments of (sigma - minimum)/scale. */
 static void weibull_moments(void **state)

@@ -199,7 +199,7 @@ static void warnings_at_their_limits(void **state)
     fracas_point_row row[] = {{.value = &rate[0]}, {.value = &rate[1]}};
     fracas_point_table table = {.ncolumns = 1, .column = column, .npoints = 2, .point = row};
     fracas_point_statistics point[] = {
-        {.realizations = 9, .usable = 9, .outcome = {8, 1}, .residual = 0.99e-3, .created = 0.99e-2, .elements = 10,
+        {.realizations = 9, .usable = 9, .outcome = {9}, .residual = 0.99e-3, .created = 0.99e-2, .elements = 10,
          .dust_share = 0.05},
         {.realizations = 9, .usable = 5, .outcome = {3, 1, 1, 2, 1, 1}, .residual = 1.01e-3, .created = 1.01e-2,
          .elements = 9.9, .dust_share = 0.051},
@@ -209,7 +209,8 @@ static void warnings_at_their_limits(void **state)
     size_t count;
     assert_int_equal(fracas_analysis_warnings(&analysis, &warning, &count), FRACAS_OK);
     const char *const expected[] = {"2 of 9 realizations ended NONFINITE", "1 of 9 realizations ended ENERGY_DRIFT",
-                                    "1 of 9 realizations ended FAILED", "1 of 9 realizations were stopped",
+                                    "1 of 9 realizations ended FAILED", "1 of 9 realizations ended INTACT",
+                                    "1 of 9 realizations were stopped",
                                     "ledger residual up to 1.0e-3", "energy created at breaks up to 0.010",
                                     "a mean fragment has 9.9 elements", "5.1 % of the fragments are dust"};
     assert_int_equal(count, FRACAS_COUNT(expected));

@@ -433,7 +433,7 @@ static void test_extends(void **state)
         {"history: 10", "history: 20", {"output.history is 10 in the study", "but 20"}},
         {"history: 10", "history: 10\n  interfaces: true", {"output.interfaces is false", "but true"}},
         {"rate: [1e3, 1e4]", "rate: [1e3, 2e4]",
-         {"loading.rate is 10000 1/s in the study (its point 2)", "but 1000 1/s"}},
+         {"loading.rate is 10000 1/s in the study (its point 1)", "but 1000 1/s"}},
         {"young: 275 GPa", "young: 276 GPa", {"material.young is 275000000000 Pa", "but 276000000000 Pa"}},
         {"ends: periodic", "ends: held", {"geometry.ends is periodic", "but held"}},
         {"stop: settled\n  end: 500 ns\n  quiet: 100 ns", "stop: time\n  end: 500 ns",

@@ -299,6 +299,50 @@ static void a_run_that_gains_energy_ends_as_drift(void **unused)
     }
 }
 
+/* Rows of the interfaces agree with the counts, and times of events lie inside steps: one at a step's end would be a clamped
+ * one, and of hundreds hardly any falls there by chance. */
+static void events_are_counted_and_timed_inside_their_steps(void **unused)
+{
+    (void)unused;
+    const fracas_kind *laws[] = {&fracas_law_nitsche, &fracas_law_rigid_link};
+    for (int law = 0; law < 2; law++) {
+        fracas_spec spec = bar_reference(1000, 1e5, 1.5e-7);
+        spec.geometry.length = 1e-2;
+        spec.cohesive.law = laws[law];
+        spec.time.safety = 0.1;
+        fracas_model *model;
+        fracas_batch *batch;
+        assert_ok(fracas_model_create(&spec, &model));
+        const fracas_batch_options options = {.interfaces = true, .isa = FRACAS_ISA_BEST};
+        assert_ok(fracas_batch_create(model, 1, &options, &batch));
+        bar_draw(batch, 0, 0.02, 1);
+        fracas_record record;
+        fracas_record_init(&record);
+        assert_ok(fracas_batch_run(batch, &record));
+        int64_t cracked = 0, broken = 0, at_step = 0;
+        double first = INFINITY;
+        for (size_t i = 0; i < record.ninterface; i++) {
+            const fracas_interface_row *row = &record.interface[i];
+            const double times[] = {row->onset_time, row->break_time};
+            cracked += !isnan(row->onset_time);
+            broken += !isnan(row->break_time);
+            first = fmin(first, row->onset_time);
+            assert_int_equal(row->damage >= 1, !isnan(row->break_time));
+            if (row->damage > 0) assert_false(isnan(row->onset_time));
+            if (!isnan(row->break_time)) assert_true(row->break_time > row->onset_time);
+            for (int k = 0; k < 2; k++)
+                at_step += !isnan(times[k]) && fabs(times[k] / record.time_step - round(times[k] / record.time_step)) < 1e-6;
+        }
+        assert_int_equal(record.cracked, cracked);
+        assert_int_equal(record.broken, broken);
+        assert_true(record.onset_time == first && broken > 20 && cracked > broken);
+        assert_true(at_step * 20 < cracked + broken);
+        fracas_record_clear(&record);
+        fracas_batch_destroy(batch);
+        fracas_model_destroy(model);
+    }
+}
+
 static void a_batch_refuses_what_it_cannot_run(void **unused)
 {
     (void)unused;
@@ -342,6 +386,7 @@ int main(void)
         cmocka_unit_test(fragments_are_sums_over_their_elements),
         cmocka_unit_test(nitsche_is_the_secant_law),
         cmocka_unit_test(a_run_that_gains_energy_ends_as_drift),
+        cmocka_unit_test(events_are_counted_and_timed_inside_their_steps),
         cmocka_unit_test(a_batch_refuses_what_it_cannot_run),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
