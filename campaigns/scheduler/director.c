@@ -1,9 +1,9 @@
 #include "campaigns/scheduler/director.h"
 
-#include "campaigns/scheduler/segment.h"
 #include "campaigns/scheduler/costs.h"
 #include "campaigns/scheduler/prepare.h"
 #include "campaigns/scheduler/scheduler.h"
+#include "campaigns/scheduler/segment.h"
 
 #include <stdio.h>
 #include <stdlib.h>

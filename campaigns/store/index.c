@@ -221,12 +221,12 @@ static fracas_err check_version(fracas_index *index)
 
 /* ---- the file ---- */
 
-/* Bytes of PATH and SUFFIX are there: a journal that a reader would have to play back. */
-static bool has_content(const char *path, const char *suffix)
+/* True if the write-ahead log holds anything, which a reader must not pass over. */
+static bool has_log(const char *path)
 {
     char *name;
     struct stat info;
-    if (asprintf(&name, "%s%s", path, suffix) < 0) return true;
+    if (asprintf(&name, "%s-wal", path) < 0) return true;
     bool has = stat(name, &info) == 0 && info.st_size > 0;
     free(name);
     return has;
@@ -258,7 +258,7 @@ static fracas_err connect_to_read(fracas_index *index)
 {
     int code = sqlite3_open_v2(index->path, &index->db, SQLITE_OPEN_READONLY, NULL);
     if (code == SQLITE_OK) code = sqlite3_exec(index->db, "SELECT 1 FROM sqlite_master", NULL, NULL, NULL);
-    if ((code == SQLITE_CANTOPEN || code == SQLITE_READONLY) && !has_content(index->path, "-wal")) {
+    if ((code == SQLITE_CANTOPEN || code == SQLITE_READONLY) && !has_log(index->path)) {
         char *uri = immutable_uri(index->path);
         if (!uri) return fracas_no_memory("a file name");
         sqlite3_close(index->db);
@@ -305,7 +305,7 @@ static fracas_err open_database(fracas_index *index, const char *study, bool cre
     if (!index->reading) TRY(set_durability(index));
     TRY(count_tables(index, &all, &meta));
     if (!all && !create)
-        return fracas_fail(FRACAS_DAMAGED, "%s is empty: a study just begun; `fracas run` makes one", index->path);
+        return fracas_fail(FRACAS_DAMAGED, "%s holds no index yet; `fracas run` makes one", index->path);
     if (all && !meta) return fracas_fail(FRACAS_DAMAGED, "%s is no index of fracas; %s", index->path, remedy);
     if (create) TRY(create_tables(index));
     TRY(check_version(index));

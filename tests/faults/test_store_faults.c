@@ -296,6 +296,36 @@ static void bytes_are_durable_before_their_name(void **state)
     fail_at = -1;
 }
 
+/* A merge that ends between the new study.h5 and its seal leaves none, so that it is merged again. */
+static void an_interrupted_merge_leaves_no_seal(void **state)
+{
+    (void)state;
+    fracas_index *index;
+    fracas_file_seal seal;
+    fracas_segment_row row[ALL];
+    fracas_file_header header = sample_header();
+    bool sealed;
+    write_segment(&seal, row);
+    OK(fracas_index_open(study, true, &index));
+    OK(fracas_index_plan(index, &table));
+    OK(fracas_index_commit(index, "a.h5", &seal, row, ALL, "{}"));
+    for (const char *call = "rd"; *call; call++) {
+        OK(fracas_study_merge(study, index, &header, &table));
+        memset(calls, 0, sizeof calls);
+        OK(fracas_study_merge(study, index, &header, &table)); /* its calls are those of the next one */
+        OK(fracas_study_sealed(study, index, &sealed));
+        assert_true(sealed);
+        assert_non_null(strchr(calls, *call));
+        fail_at = (int)(strchr(calls, *call) - calls);
+        memset(calls, 0, sizeof calls);
+        sample_fails(fracas_study_merge(study, index, &header, &table), FRACAS_ENVIRONMENT, "study.h5");
+        fail_at = -1;
+        OK(fracas_study_sealed(study, index, &sealed));
+        assert_false(sealed);
+    }
+    fracas_index_close(index);
+}
+
 static void full_disk_leaves_the_index_as_it_was(void **state)
 {
     (void)state;
@@ -425,6 +455,7 @@ int main(void)
         TEST(overwritten_stretches_are_found),
         TEST(full_disk_is_said_and_leaves_nothing),
         TEST(bytes_are_durable_before_their_name),
+        TEST(an_interrupted_merge_leaves_no_seal),
         TEST(full_disk_leaves_the_index_as_it_was),
         TEST(commits_survive_the_death_of_the_process),
         TEST(segments_are_whole_or_not_there),
