@@ -318,7 +318,7 @@ static void an_interrupted_merge_leaves_no_seal(void **state)
         assert_non_null(strchr(calls, *call));
         fail_at = (int)(strchr(calls, *call) - calls);
         memset(calls, 0, sizeof calls);
-        sample_fails(fracas_study_merge(study, index, &header, &table), FRACAS_ENVIRONMENT, "study.h5");
+        sample_fails(fracas_study_merge(study, index, &header, &table), FRACAS_ENVIRONMENT, strerror(EIO));
         fail_at = -1;
         OK(fracas_study_sealed(study, index, &sealed));
         assert_false(sealed);
