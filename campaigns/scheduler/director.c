@@ -1,9 +1,9 @@
 #include "campaigns/scheduler/director.h"
 
-#include "base/version.h"
 #include "campaigns/scheduler/costs.h"
 #include "campaigns/scheduler/prepare.h"
 #include "campaigns/scheduler/scheduler.h"
+#include "campaigns/scheduler/segment.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -325,12 +325,8 @@ bool fracas_director_over(const fracas_director *director)
 static fracas_err merge(fracas_director *director, const fracas_scheduler_counts *count)
 {
     const fracas_campaign *campaign = director->setup.campaign;
-    fracas_file_header header = {.campaign = campaign->hash,
-                                 .seed = campaign->seed,
-                                 .version = FRACAS_VERSION,
-                                 .complete = count->failed == 0};
-    TRY(fracas_study_merge(director->setup.study, director->index, &header, &campaign->table,
-                           campaign->output.interfaces));
+    fracas_file_header header = fracas_segment_header(campaign);
+    TRY(fracas_study_merge(director->setup.study, director->index, &header, &campaign->table));
     TRY(fracas_index_event(director->index, "finished", "study.h5 is written"));
     return fracas_settled_verdict(director->setup.study, count->failed);
 }

@@ -1,6 +1,6 @@
 #include "campaigns/scheduler/prepare.h"
 
-#include "base/version.h"
+#include "campaigns/scheduler/segment.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -147,9 +147,10 @@ static fracas_err open_and_plan(const char *study, const fracas_campaign *campai
     *report = NULL;
     TRY(fracas_study_fits(study, campaign));
     TRY(fracas_index_open(study, true, index));
-    fracas_err err = fracas_index_claim(*index, FRACAS_VERSION);
+    fracas_file_header header = fracas_segment_header(campaign);
+    fracas_err err = fracas_index_claim(*index, &header);
     if (!err) err = write_campaign(study, campaign);
-    if (!err) err = fracas_study_recover(study, *index, &campaign->table, report);
+    if (!err) err = fracas_study_recover(study, *index, &header, &campaign->table, report);
     if (!err) err = fracas_index_plan(*index, &campaign->table);
     if (err) {
         free(*report);

@@ -116,12 +116,21 @@ static fracas_err append(const fracas_segment *segment, size_t i, const fracas_c
     return err;
 }
 
+fracas_file_header fracas_segment_header(const fracas_campaign *campaign)
+{
+    return (fracas_file_header){.campaign = campaign->hash,
+                                .seed = campaign->seed,
+                                .history = campaign->output.history,
+                                .interfaces = campaign->output.interfaces,
+                                .version = FRACAS_VERSION};
+}
+
 static fracas_err write_file(const fracas_segment *segment, const char *path, const fracas_campaign *campaign,
                              fracas_segment_row *row, fracas_file_seal *seal)
 {
-    fracas_file_header header = {.campaign = campaign->hash, .seed = campaign->seed, .version = FRACAS_VERSION};
+    fracas_file_header header = fracas_segment_header(campaign);
     fracas_writer *writer;
-    TRY(fracas_writer_create(path, &header, &campaign->table, campaign->output.interfaces, &writer));
+    TRY(fracas_writer_create(path, &header, &campaign->table, &writer));
     for (size_t i = 0; i < segment->count; i++) {
         fracas_err err = append(segment, i, campaign, writer, &row[i]);
         if (err) {

@@ -39,4 +39,7 @@ FRACAS_MUST_USE fracas_err fracas_segment_write(fracas_segment *segment, const c
 
 void fracas_segment_clear(fracas_segment *segment);
 
+/* Header of the files of a campaign that this program computes. */
+fracas_file_header fracas_segment_header(const fracas_campaign *campaign);
+
 #endif

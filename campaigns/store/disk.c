@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/vfs.h>
 #include <unistd.h>
 
@@ -17,7 +18,10 @@ static const char temporary_mark[] = ".tmp-";
 fracas_err fracas_disk_fail(const char *verb, const char *path)
 {
     int reason = errno;
-    const char *remedy = reason == ENOSPC || reason == EDQUOT ? "; free some space and run again" : "";
+    const char *remedy = "";
+    if (reason == ENOSPC || reason == EDQUOT) remedy = "; free some space and run again";
+    if (reason == EACCES || reason == EPERM || reason == EROFS)
+        remedy = "; make it accessible to you, or copy the study to where you may write";
     return fracas_fail(FRACAS_ENVIRONMENT, "cannot %s %s: %s%s", verb, path, strerror(reason), remedy);
 }
 
@@ -93,6 +97,14 @@ fracas_err fracas_disk_seal_path(const char *path, fracas_file_seal *seal)
     fracas_err err = fracas_disk_seal(fd, path, seal);
     close(fd);
     return err;
+}
+
+fracas_err fracas_disk_has_size(const char *path, uint64_t bytes, bool *has)
+{
+    struct stat info;
+    int code = stat(path, &info);
+    *has = code == 0 && (uint64_t)info.st_size == bytes;
+    return code < 0 && errno != ENOENT ? fracas_disk_fail("look at", path) : FRACAS_OK;
 }
 
 fracas_err fracas_disk_is_local(const char *path, bool *local)

@@ -20,6 +20,9 @@ FRACAS_MUST_USE fracas_err fracas_disk_seal(int fd, const char *path, fracas_fil
 /* The same of a closed one; FRACAS_DAMAGED if it is not there. */
 FRACAS_MUST_USE fracas_err fracas_disk_seal_path(const char *path, fracas_file_seal *seal);
 
+/* True if `path` is there and has so many bytes. */
+FRACAS_MUST_USE fracas_err fracas_disk_has_size(const char *path, uint64_t bytes, bool *has);
+
 /* True if `path` lies on a filesystem of this machine, false on a network one or one that we do not know. */
 FRACAS_MUST_USE fracas_err fracas_disk_is_local(const char *path, bool *local);
 

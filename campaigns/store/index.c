@@ -3,10 +3,13 @@
 
 #include "campaigns/store/disk.h"
 
+#include <ctype.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 /* docs/formats/study.md explains every column. */
@@ -24,6 +27,8 @@ static const char tables[] =
     " PRIMARY KEY (point, replica)) STRICT, WITHOUT ROWID;"
     "CREATE TABLE IF NOT EXISTS event(id INTEGER PRIMARY KEY, time TEXT NOT NULL, kind TEXT NOT NULL,"
     " text TEXT NOT NULL) STRICT;";
+
+static const char remedy[] = "remove it: `fracas run` makes it anew from the segments";
 
 static const char *const sql_text[FRACAS_NSQL] = {
     [FRACAS_SQL_BEGIN] = "BEGIN IMMEDIATE",
@@ -88,13 +93,18 @@ fracas_err fracas_index_error(const fracas_index *index, const char *doing)
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
     case SQLITE_FORMAT:
-        return fracas_fail(FRACAS_DAMAGED, "%s: cannot %s: damaged: %s", index->path, doing, text);
+        return fracas_fail(FRACAS_DAMAGED, "%s: cannot %s: damaged: %s; %s", index->path, doing, text, remedy);
     case SQLITE_ERROR:
     case SQLITE_CONSTRAINT:
     case SQLITE_MISUSE:
     case SQLITE_RANGE:
     case SQLITE_MISMATCH:
         return fracas_fail(FRACAS_BUG, "%s: cannot %s: %s", index->path, doing, text);
+    case SQLITE_READONLY:
+    case SQLITE_CANTOPEN:
+    case SQLITE_PERM:
+        return fracas_fail(FRACAS_ENVIRONMENT, "%s: cannot %s: %s; make the study writable, or copy it to where "
+                           "you may write", index->path, doing, text);
     default: {
         int system = sqlite3_system_errno(index->db);
         return fracas_fail(FRACAS_ENVIRONMENT, "%s: cannot %s: %s%s%s", index->path, doing, text, system ? ": " : "",
@@ -173,10 +183,14 @@ static fracas_err pragma(fracas_index *index, const char *text, const char *want
     return err;
 }
 
-static fracas_err set_durability(fracas_index *index)
+static fracas_err set_memory(fracas_index *index)
 {
     sqlite3_busy_timeout(index->db, 5000);
-    TRY(pragma(index, "PRAGMA cache_size = -65536", NULL)); /* 64 MiB: a commit may touch pages all over the table */
+    return pragma(index, "PRAGMA cache_size = -65536", NULL); /* 64 MiB: a commit may touch pages all over the table */
+}
+
+static fracas_err set_durability(fracas_index *index)
+{
     if (!index->local) TRY(pragma(index, "PRAGMA locking_mode = EXCLUSIVE", "exclusive"));
     TRY(index->local ? pragma(index, "PRAGMA journal_mode = WAL", "wal")
                      : pragma(index, "PRAGMA journal_mode = TRUNCATE", "truncate"));
@@ -195,50 +209,104 @@ static fracas_err create_tables(fracas_index *index)
     return err ? err : fracas_disk_sync_folder(index->path);
 }
 
-/* The value under `key` in meta, cut to `size`; "" if there is none. */
-static fracas_err read_meta(fracas_index *index, const char *key, char *value, size_t size)
-{
-    sqlite3_stmt *statement;
-    int code = sqlite3_prepare_v2(index->db, "SELECT value FROM meta WHERE key = ?1", -1, &statement, NULL);
-    if (code == SQLITE_ERROR) return fracas_fail(FRACAS_DAMAGED, "%s is no index of fracas", index->path);
-    if (code == SQLITE_OK) code = sqlite3_bind_text(statement, 1, key, -1, SQLITE_STATIC);
-    if (code == SQLITE_OK) code = sqlite3_step(statement);
-    const char *found = code == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;
-    snprintf(value, size, "%s", found ? found : "");
-    fracas_err err = code == SQLITE_ROW || code == SQLITE_DONE ? FRACAS_OK : fracas_index_error(index, "open");
-    sqlite3_finalize(statement);
-    return err;
-}
-
 static fracas_err check_version(fracas_index *index)
 {
     char found[32], wanted[16];
-    TRY(read_meta(index, "format_version", found, sizeof found));
+    TRY(fracas_index_read_meta(index, "format_version", found, sizeof found));
     snprintf(wanted, sizeof wanted, "%d", FRACAS_FORMAT_VERSION);
     if (strcmp(found, wanted) == 0) return FRACAS_OK;
     return fracas_fail(FRACAS_DAMAGED, "%s has format version %s; this program reads %s", index->path,
                        *found ? found : "none", wanted);
 }
 
-fracas_err fracas_index_claim(fracas_index *index, const char *version)
+/* ---- the file ---- */
+
+/* True if the write-ahead log holds anything, which a reader must not pass over. */
+static bool has_log(const char *path)
 {
-    char found[32], text[160];
-    TRY(read_meta(index, "program_version", found, sizeof found));
-    if (*found && strcmp(found, version) != 0)
-        return fracas_fail(FRACAS_DAMAGED, "%s was begun by fracas %s, this is fracas %s: a study is of one version; go on with "
-                           "that one, or choose another --study", index->path, found, version);
-    if (*found) return FRACAS_OK;
-    char *claim = sqlite3_snprintf(sizeof text, text, "INSERT INTO meta VALUES ('program_version', %Q)", version);
-    return sqlite3_exec(index->db, claim, NULL, NULL, NULL) == SQLITE_OK ? FRACAS_OK : fracas_index_error(index, "write");
+    char *name;
+    struct stat info;
+    if (asprintf(&name, "%s-wal", path) < 0) return true;
+    bool has = stat(name, &info) == 0 && info.st_size > 0;
+    free(name);
+    return has;
 }
 
-static fracas_err open_database(fracas_index *index, bool create)
+/* "file:" and the path with all but plain characters as %XX; freed by the caller, NULL without memory. */
+static char *immutable_uri(const char *path)
 {
-    int flags = SQLITE_OPEN_READWRITE | (create ? SQLITE_OPEN_CREATE : 0);
+    static const char hex[] = "0123456789ABCDEF", head[] = "file://", tail[] = "?immutable=1";
+    char *uri = malloc(sizeof head + 3 * strlen(path) + sizeof tail), *to = uri;
+    if (!uri) return NULL;
+    to = stpcpy(to, *path == '/' ? head : "file:");
+    for (const unsigned char *c = (const unsigned char *)path; *c; c++) {
+        if (isalnum(*c) || strchr("/._-", *c)) {
+            *to++ = (char)*c;
+        } else {
+            *to++ = '%';
+            *to++ = hex[*c >> 4];
+            *to++ = hex[*c & 15];
+        }
+    }
+    strcpy(to, tail);
+    return uri;
+}
+
+/* A file that cannot be written. In WAL mode reading needs files beside it; where those cannot be made and the log is
+ * empty nobody writes, and SQLite may read it as it is. */
+static fracas_err connect_to_read(fracas_index *index)
+{
+    int code = sqlite3_open_v2(index->path, &index->db, SQLITE_OPEN_READONLY, NULL);
+    if (code == SQLITE_OK) code = sqlite3_exec(index->db, "SELECT 1 FROM sqlite_master", NULL, NULL, NULL);
+    if ((code == SQLITE_CANTOPEN || code == SQLITE_READONLY) && !has_log(index->path)) {
+        char *uri = immutable_uri(index->path);
+        if (!uri) return fracas_no_memory("a file name");
+        sqlite3_close(index->db);
+        code = sqlite3_open_v2(uri, &index->db, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, NULL);
+        free(uri);
+    }
+    return code == SQLITE_OK ? FRACAS_OK : fracas_index_error(index, "open");
+}
+
+static bool can_write(const char *path) { return faccessat(AT_FDCWD, path, W_OK, AT_EACCESS) == 0; }
+
+static fracas_err connect_to(fracas_index *index, const char *study, bool create)
+{
     if (!create && access(index->path, F_OK) < 0 && errno == ENOENT)
         return fracas_fail(FRACAS_DAMAGED, "%s is not there: no study of fracas; `fracas run` makes one", index->path);
-    if (sqlite3_open_v2(index->path, &index->db, flags, NULL) != SQLITE_OK) return fracas_index_error(index, "open");
-    TRY(set_durability(index));
+    index->reading = !create && !(can_write(index->path) && can_write(study));
+    if (index->reading) return connect_to_read(index);
+    int flags = SQLITE_OPEN_READWRITE | (create ? SQLITE_OPEN_CREATE : 0);
+    return sqlite3_open_v2(index->path, &index->db, flags, NULL) == SQLITE_OK ? FRACAS_OK
+                                                                              : fracas_index_error(index, "open");
+}
+
+/* Counts the tables, and those that are called `meta`. */
+static fracas_err count_tables(fracas_index *index, int *all, int *meta)
+{
+    static const char query[] = "SELECT count(*), count(CASE name WHEN 'meta' THEN 1 END) FROM sqlite_master"
+                                " WHERE type = 'table'";
+    sqlite3_stmt *statement;
+    if (sqlite3_prepare_v2(index->db, query, -1, &statement, NULL) != SQLITE_OK)
+        return fracas_index_error(index, "open");
+    bool row = sqlite3_step(statement) == SQLITE_ROW;
+    *all = sqlite3_column_int(statement, 0);
+    *meta = sqlite3_column_int(statement, 1);
+    fracas_err err = row ? FRACAS_OK : fracas_index_error(index, "open");
+    sqlite3_finalize(statement);
+    return err;
+}
+
+static fracas_err open_database(fracas_index *index, const char *study, bool create)
+{
+    int all, meta;
+    TRY(connect_to(index, study, create));
+    TRY(set_memory(index));
+    if (!index->reading) TRY(set_durability(index));
+    TRY(count_tables(index, &all, &meta));
+    if (!all && !create)
+        return fracas_fail(FRACAS_DAMAGED, "%s holds no index yet; `fracas run` makes one", index->path);
+    if (all && !meta) return fracas_fail(FRACAS_DAMAGED, "%s is no index of fracas; %s", index->path, remedy);
     if (create) TRY(create_tables(index));
     TRY(check_version(index));
     for (int s = 0; s < FRACAS_NSQL; s++)
@@ -247,15 +315,26 @@ static fracas_err open_database(fracas_index *index, bool create)
     return FRACAS_OK;
 }
 
+bool fracas_index_exists(const char *study)
+{
+    fracas_index index = {0};
+    int all, meta = 0;
+    bool exists = !fracas_disk_join(study, "index.sqlite", &index.path) && !connect_to(&index, study, false) &&
+                  !count_tables(&index, &all, &meta) && meta;
+    sqlite3_close(index.db);
+    free(index.path);
+    return exists;
+}
+
 fracas_err fracas_index_open_as(const char *study, bool create, bool local, fracas_index **index)
 {
     *index = calloc(1, sizeof **index);
     if (!*index) return fracas_no_memory("the index");
     (*index)->local = local;
     fracas_err err = fracas_disk_join(study, "index.sqlite", &(*index)->path);
-    if (!err) err = open_database(*index, create);
+    if (!err) err = open_database(*index, study, create);
     if (!err) return FRACAS_OK;
-    if (err == FRACAS_BUG) err = fracas_fail_within(FRACAS_DAMAGED, "damaged, or no index of fracas");
+    if (err == FRACAS_BUG) err = fracas_fail_within(FRACAS_DAMAGED, "damaged, or no index of fracas; %s", remedy);
     fracas_index_close(*index);
     *index = NULL;
     return err;

@@ -2,7 +2,7 @@
 #ifndef FRACAS_CAMPAIGNS_STORE_INDEX_H
 #define FRACAS_CAMPAIGNS_STORE_INDEX_H
 
-#include "campaigns/store/store.h"
+#include "campaigns/store/identity.h"
 
 #include <sqlite3.h>
 
@@ -43,6 +43,7 @@ struct fracas_index {
     sqlite3 *db;
     char *path;
     bool local; /* WAL: a filesystem of this machine */
+    bool reading; /* the study cannot be written */
     sqlite3_stmt *statement[FRACAS_NSQL];
 };
 
@@ -62,6 +63,14 @@ FRACAS_MUST_USE fracas_err fracas_index_bind_real(fracas_index *index, fracas_sq
 FRACAS_MUST_USE fracas_err fracas_index_bind_text(fracas_index *index, fracas_sql sql, int n, const char *text);
 /* Ends a transaction: commits if `err` is FRACAS_OK, else rolls back and returns `err`. */
 FRACAS_MUST_USE fracas_err fracas_index_end(fracas_index *index, fracas_err err);
+
+/* The value under `key` in meta, cut to `size`; "" if there is none. */
+FRACAS_MUST_USE fracas_err fracas_index_read_meta(fracas_index *index, const char *key, char *value, size_t size);
+/* What the study was begun with, as fracas_index_claim left it. */
+FRACAS_MUST_USE fracas_err fracas_index_identity(fracas_index *index, fracas_identity *identity);
+/* Keeps the seal of study.h5, durable on return; NULL takes it away. */
+FRACAS_MUST_USE fracas_err fracas_index_seal_study(fracas_index *index, const fracas_file_seal *seal);
+FRACAS_MUST_USE fracas_err fracas_index_study_seal(fracas_index *index, bool *sealed, fracas_file_seal *seal);
 
 /* Id of a point, 0 if it is not there. */
 FRACAS_MUST_USE fracas_err fracas_index_find_point(fracas_index *index, const fracas_hash *point, int64_t *id);
@@ -89,6 +98,8 @@ typedef struct {
 /* All of them by id; freed with fracas_index_segments_free. */
 FRACAS_MUST_USE fracas_err fracas_index_segments(fracas_index *index, fracas_known_segment **segment, size_t *count);
 void fracas_index_segments_free(fracas_known_segment *segment, size_t count);
+/* True if its file is there and has its size. */
+FRACAS_MUST_USE fracas_err fracas_segment_is_there(const char *study, const fracas_known_segment *segment, bool *there);
 /* Turns the rows of these segments back to planned and forgets the segments; one transaction. *rows counts them. */
 FRACAS_MUST_USE fracas_err fracas_index_forget(fracas_index *index, const int64_t *segment, size_t count,
                                                int64_t *rows);

@@ -25,19 +25,41 @@ static fracas_err append(void *context, fracas_step *step)
 }
 
 fracas_err fracas_study_merge(const char *study, fracas_index *index, const fracas_file_header *header,
-                              const fracas_point_table *table, bool interfaces)
+                              const fracas_point_table *table)
 {
     char *path;
     merging m = {.table = table, .complete = true};
     fracas_segments *segments = NULL;
+    fracas_identity identity;
     fracas_file_seal seal;
+    fracas_identity_of(header, &identity);
     TRY(fracas_disk_join(study, "study.h5", &path));
-    fracas_err err = fracas_segments_create(study, index, header, &segments);
-    if (!err) err = fracas_writer_create(path, header, table, interfaces, &m.writer);
+    fracas_err err = fracas_segments_create(study, index, &identity, &segments);
+    if (!err) err = fracas_writer_create(path, header, table, &m.writer);
     if (!err) err = fracas_segments_walk(segments, table, false, append, &m);
+    if (!err) err = fracas_index_seal_study(index, NULL); /* a death from here on leaves no seal: merged again */
     if (err) fracas_writer_abandon(m.writer);
     else err = fracas_writer_finish(m.writer, m.complete, &seal);
+    if (!err) err = fracas_index_seal_study(index, &seal);
     fracas_segments_destroy(segments);
     free(path);
+    return err;
+}
+
+fracas_err fracas_study_sealed(const char *study, fracas_index *index, bool *sealed)
+{
+    char *path;
+    fracas_file_seal seal;
+    fracas_known_segment *segment;
+    size_t count;
+    TRY(fracas_index_study_seal(index, sealed, &seal));
+    if (!*sealed) return FRACAS_OK;
+    TRY(fracas_disk_join(study, "study.h5", &path));
+    fracas_err err = fracas_disk_has_size(path, seal.bytes, sealed);
+    free(path);
+    TRY(err);
+    TRY(fracas_index_segments(index, &segment, &count));
+    for (size_t s = 0; !err && *sealed && s < count; s++) err = fracas_segment_is_there(study, &segment[s], sealed);
+    fracas_index_segments_free(segment, count);
     return err;
 }

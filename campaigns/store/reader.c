@@ -1,5 +1,4 @@
-#include "campaigns/store/reader.h"
-
+#include "campaigns/store/store.h"
 #include "campaigns/store/table.h"
 
 #include <stdlib.h>
@@ -18,7 +17,6 @@ struct fracas_reader {
     char *path;
     fracas_file_header header;
     fracas_stored_table points;
-    bool interfaces;
     set_reader set[FRACAS_NSETS];
 };
 
@@ -41,9 +39,17 @@ static fracas_err read_text_attribute(fracas_reader *reader, const char *name, s
     return fits ? FRACAS_OK : damaged(reader, name, "it is too long");
 }
 
+static fracas_err read_truth(fracas_reader *reader, const char *name, bool *truth)
+{
+    uint64_t value;
+    TRY(fracas_h5_get_integer(&reader->h5, "/", name, H5T_STD_I8LE, &value));
+    *truth = value == 1;
+    return value <= 1 ? FRACAS_OK : damaged(reader, name, "it is neither 0 nor 1");
+}
+
 static fracas_err read_header(fracas_reader *reader)
 {
-    uint64_t version, complete;
+    uint64_t version, history;
     char hex[FRACAS_HASH_HEX];
     fracas_file_header *header = &reader->header;
     TRY(fracas_h5_get_integer(&reader->h5, "/", "format_version", H5T_STD_I32LE, &version));
@@ -53,10 +59,11 @@ static fracas_err read_header(fracas_reader *reader)
     TRY(read_text_attribute(reader, "campaign", sizeof hex, hex));
     if (!fracas_hash_parse(hex, &header->campaign)) return damaged(reader, "campaign", "it is no hash");
     TRY(fracas_h5_get_integer(&reader->h5, "/", "seed", H5T_STD_U64LE, &header->seed));
+    TRY(fracas_h5_get_integer(&reader->h5, "/", "history", H5T_STD_I64LE, &history));
+    header->history = (int64_t)history;
+    TRY(read_truth(reader, "interfaces", &header->interfaces));
     TRY(read_text_attribute(reader, "program_version", sizeof header->version, header->version));
-    TRY(fracas_h5_get_integer(&reader->h5, "/", "complete", H5T_STD_I8LE, &complete));
-    header->complete = complete == 1;
-    return complete <= 1 ? FRACAS_OK : damaged(reader, "complete", "it is neither 0 nor 1");
+    return read_truth(reader, "complete", &header->complete);
 }
 
 static fracas_err open_set(fracas_reader *reader, int s)
@@ -99,7 +106,8 @@ static fracas_err open_sets(fracas_reader *reader)
     TRY(open_ragged(reader, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY));
     htri_t there = H5Lexists(reader->h5.id, "/interface", H5P_DEFAULT);
     if (there < 0) return fracas_h5_fail(&reader->h5, "/interface");
-    reader->interfaces = there > 0;
+    if (reader->header.interfaces != (there > 0))
+        return damaged(reader, "interfaces", "the group /interface is there when it must not be, or missing");
     return there ? open_ragged(reader, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE) : FRACAS_OK;
 }
 
@@ -133,7 +141,6 @@ void fracas_reader_close(fracas_reader *reader)
 const fracas_file_header *fracas_reader_header(const fracas_reader *reader) { return &reader->header; }
 const fracas_point_table *fracas_reader_points(const fracas_reader *reader) { return &reader->points.table; }
 size_t fracas_reader_realizations(const fracas_reader *reader) { return reader->set[FRACAS_SET_REALIZATION].rows; }
-bool fracas_reader_has_interfaces(const fracas_reader *reader) { return reader->interfaces; }
 
 /* ---- rows ---- */
 
@@ -206,7 +213,7 @@ static fracas_err load_parts(fracas_reader *reader, size_t row, unsigned parts, 
         TRY(load_ragged(reader, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY, row, &rows, &record->nhistory));
         record->history = rows;
     }
-    if (parts & FRACAS_READ_INTERFACES && reader->interfaces) {
+    if (parts & FRACAS_READ_INTERFACES && reader->header.interfaces) {
         TRY(load_ragged(reader, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE, row, &rows, &record->ninterface));
         record->interface = rows;
     }

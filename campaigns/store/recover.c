@@ -55,14 +55,11 @@ static fracas_err remove_temporaries(const char *folder, FILE *report)
 
 /* ---- segments that the index knows, but the folder has not ---- */
 
-static fracas_err is_there(const char *study, const fracas_known_segment *segment, bool *there)
+fracas_err fracas_segment_is_there(const char *study, const fracas_known_segment *segment, bool *there)
 {
     char *path;
-    struct stat info;
     TRY(fracas_disk_segment(study, segment->name, &path));
-    int code = stat(path, &info);
-    fracas_err err = code < 0 && errno != ENOENT ? fracas_disk_fail("look at", path) : FRACAS_OK;
-    *there = code == 0 && (uint64_t)info.st_size == segment->seal.bytes;
+    fracas_err err = fracas_disk_has_size(path, segment->seal.bytes, there);
     free(path);
     return err;
 }
@@ -77,7 +74,7 @@ static fracas_err forget_lost(const char *study, fracas_index *index, FILE *repo
     fracas_err err = lost ? FRACAS_OK : fracas_no_memory("the list of segments");
     for (size_t s = 0; !err && s < count; s++) {
         bool there;
-        err = is_there(study, &segment[s], &there);
+        err = fracas_segment_is_there(study, &segment[s], &there);
         if (err || there) continue;
         lost[nlost++] = segment[s].id;
         fprintf(report, "segment %s is missing or has another size than the index says\n", segment[s].name);
@@ -116,27 +113,43 @@ static fracas_err read_rows(fracas_reader *reader, fracas_index *index, fracas_s
     return err;
 }
 
-static fracas_err adopt(const char *path, const char *name, fracas_index *index, size_t *count)
+/* Commits the rows of an open segment. */
+static fracas_err adopt(const char *path, const char *name, fracas_reader *reader, const fracas_file_seal *seal,
+                        fracas_index *index)
+{
+    size_t count = fracas_reader_realizations(reader);
+    fracas_segment_row *row = calloc(count + 1, sizeof *row);
+    fracas_err err = row ? read_rows(reader, index, row) : fracas_no_memory("the rows of a segment");
+    if (!err) err = fracas_disk_sync_folder(path); /* whoever renamed it may have died before this */
+    if (!err) err = fracas_index_commit(index, name, seal, row, count, "{\"adopted\": true}");
+    free(row);
+    return err;
+}
+
+/* Adopts a segment, or leaves it: what another program or campaign computed is not ours to remove. */
+static fracas_err adopt_or_leave(const char *path, const char *name, fracas_index *index,
+                                 const fracas_identity *identity, FILE *report)
 {
     fracas_reader *reader;
     fracas_file_seal seal;
+    fracas_identity found;
+    char text[FRACAS_DIFFERENCE_TEXT];
     TRY(fracas_disk_seal_path(path, &seal));
     TRY(fracas_reader_open(path, &reader));
-    *count = fracas_reader_realizations(reader);
-    fracas_segment_row *row = calloc(*count + 1, sizeof *row);
-    fracas_err err = row ? read_rows(reader, index, row) : fracas_no_memory("the rows of a segment");
-    if (!err) err = fracas_disk_sync_folder(path); /* whoever renamed it may have died before this */
-    if (!err) err = fracas_index_commit(index, name, &seal, row, *count, "{\"adopted\": true}");
-    free(row);
+    fracas_identity_of(fracas_reader_header(reader), &found);
+    fracas_err err = FRACAS_OK;
+    if (fracas_identity_differs(&found, identity, text))
+        fprintf(report, "left %s, which is not of this study: %s; move it away\n", path, text);
+    else if (!(err = adopt(path, name, reader, &seal, index)))
+        fprintf(report, "adopted %s with %zu realizations\n", path, fracas_reader_realizations(reader));
     fracas_reader_close(reader);
     return err;
 }
 
-static fracas_err adopt_or_remove(const char *path, const char *name, fracas_index *index, FILE *report)
+static fracas_err adopt_or_remove(const char *path, const char *name, fracas_index *index,
+                                  const fracas_identity *identity, FILE *report)
 {
-    size_t count;
-    fracas_err err = adopt(path, name, index, &count);
-    if (!err) fprintf(report, "adopted %s with %zu realizations\n", path, count);
+    fracas_err err = adopt_or_leave(path, name, index, identity, report);
     if (err != FRACAS_DAMAGED) return err;
     TRY(remove_file(path));
     fprintf(report, "removed %s: %s\n", path, fracas_message());
@@ -155,7 +168,8 @@ static bool is_known(const fracas_known_segment *segment, size_t count, char *na
     return count > 0 && bsearch(&wanted, segment, count, sizeof *segment, compare_names);
 }
 
-static fracas_err adopt_orphans(const char *folder, fracas_index *index, FILE *report)
+static fracas_err adopt_orphans(const char *folder, fracas_index *index, const fracas_identity *identity,
+                                FILE *report)
 {
     struct dirent **entry;
     int count;
@@ -170,7 +184,7 @@ static fracas_err adopt_orphans(const char *folder, fracas_index *index, FILE *r
         if (name[0] == '.' || !dot || strcmp(dot, ".h5") != 0 || is_known(segment, nsegments, name)) continue;
         err = fracas_disk_join(folder, name, &path);
         if (err) break;
-        err = adopt_or_remove(path, name, index, report);
+        err = adopt_or_remove(path, name, index, identity, report);
         free(path);
     }
     free_list(entry, count);
@@ -178,7 +192,7 @@ static fracas_err adopt_orphans(const char *folder, fracas_index *index, FILE *r
     return err;
 }
 
-static fracas_err recover(const char *study, fracas_index *index, FILE *report)
+static fracas_err recover(const char *study, fracas_index *index, const fracas_identity *identity, FILE *report)
 {
     char *folder;
     TRY(fracas_disk_join(study, "segments", &folder));
@@ -187,20 +201,23 @@ static fracas_err recover(const char *study, fracas_index *index, FILE *report)
     if (!err) err = remove_temporaries(study, report); /* of a merge */
     if (!err) err = remove_temporaries(folder, report);
     if (!err) err = forget_lost(study, index, report);
-    if (!err) err = adopt_orphans(folder, index, report);
+    if (!err) err = adopt_orphans(folder, index, identity, report);
     free(folder);
     return err;
 }
 
-fracas_err fracas_study_recover(const char *study, fracas_index *index, const fracas_point_table *table, char **report)
+fracas_err fracas_study_recover(const char *study, fracas_index *index, const fracas_file_header *header,
+                                const fracas_point_table *table, char **report)
 {
     size_t size;
+    fracas_identity identity;
+    fracas_identity_of(header, &identity);
     *report = NULL;
     /* First of all: a segment of a realization that the index does not know would be removed. */
     TRY(fracas_index_plan(index, table));
     FILE *text = open_memstream(report, &size);
     if (!text) return fracas_no_memory("a report");
-    fracas_err err = recover(study, index, text);
+    fracas_err err = recover(study, index, &identity, text);
     if (fclose(text) != 0 && !err) err = fracas_no_memory("a report");
     if (err) free(*report), *report = NULL;
     return err;

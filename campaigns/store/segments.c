@@ -9,7 +9,7 @@
 struct fracas_segments {
     const char *study;
     fracas_index *index;
-    const fracas_file_header *header;
+    fracas_identity identity;
     fracas_known_segment *segment; /* by id */
     size_t count;
     bool *checked, *bad;   /* of each segment */
@@ -17,14 +17,14 @@ struct fracas_segments {
     fracas_reader *reader; /* NULL if none is */
 };
 
-fracas_err fracas_segments_create(const char *study, fracas_index *index, const fracas_file_header *header,
+fracas_err fracas_segments_create(const char *study, fracas_index *index, const fracas_identity *identity,
                                   fracas_segments **segments)
 {
     fracas_segments *new = *segments = calloc(1, sizeof **segments);
     if (!new) return fracas_no_memory("the segments");
     new->study = study;
     new->index = index;
-    new->header = header;
+    new->identity = *identity;
     fracas_err err = fracas_index_segments(index, &new->segment, &new->count);
     if (!err) {
         new->checked = calloc(new->count + 1, sizeof *new->checked);
@@ -80,17 +80,13 @@ static fracas_err check_seal(const fracas_known_segment *segment, const char *pa
                        segment->seal.bytes, segment->seal.checksum);
 }
 
-static fracas_err check_header(const fracas_segments *segments, const char *path)
+static fracas_err check_identity(const fracas_segments *segments, const char *path)
 {
-    const fracas_file_header *wanted = segments->header, *found = fracas_reader_header(segments->reader);
-    if (!wanted) return FRACAS_OK;
-    if (found->seed != wanted->seed)
-        return fracas_fail(FRACAS_DAMAGED, "%s: its seed is %" PRIu64 ", the study's is %" PRIu64, path, found->seed,
-                           wanted->seed);
-    if (strcmp(found->version, wanted->version) != 0)
-        return fracas_fail(FRACAS_DAMAGED, "%s: written by fracas %s, the study by %s", path, found->version,
-                           wanted->version);
-    return FRACAS_OK;
+    fracas_identity found;
+    char text[FRACAS_DIFFERENCE_TEXT];
+    fracas_identity_of(fracas_reader_header(segments->reader), &found);
+    if (!fracas_identity_differs(&found, &segments->identity, text)) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED, "%s: not of this study: %s", path, text);
 }
 
 static fracas_err open_segment(fracas_segments *segments, size_t s)
@@ -99,7 +95,7 @@ static fracas_err open_segment(fracas_segments *segments, size_t s)
     TRY(fracas_disk_segment(segments->study, segments->segment[s].name, &path));
     fracas_err err = segments->checked[s] ? FRACAS_OK : check_seal(&segments->segment[s], path);
     if (!err) err = fracas_reader_open(path, &segments->reader);
-    if (!err) err = check_header(segments, path);
+    if (!err) err = check_identity(segments, path);
     if (err) fracas_reader_close(segments->reader), segments->reader = NULL;
     segments->checked[s] = true;
     segments->bad[s] = err == FRACAS_DAMAGED;

@@ -3,14 +3,12 @@
 #define FRACAS_CAMPAIGNS_STORE_SEGMENTS_H
 
 #include "campaigns/store/index.h"
-#include "campaigns/store/reader.h"
 
 typedef struct fracas_segments fracas_segments;
 
-/* With `header` (NULL: without), a segment of another seed or program version is FRACAS_DAMAGED. `study`, `index` and
- * `header` must outlive it. */
+/* A segment of another identity is FRACAS_DAMAGED. `study` and `index` must outlive it. */
 FRACAS_MUST_USE fracas_err fracas_segments_create(const char *study, fracas_index *index,
-                                                  const fracas_file_header *header, fracas_segments **segments);
+                                                  const fracas_identity *identity, fracas_segments **segments);
 void fracas_segments_destroy(fracas_segments *segments); /* NULL is allowed */
 
 /* Opens a segment by its id and closes the one before; its bytes are compared with the index's seal the first time.

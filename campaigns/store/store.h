@@ -23,6 +23,8 @@
 typedef struct {
     fracas_hash campaign;       /* campaign hash */
     uint64_t seed;
+    int64_t history;            /* as the campaign's output options say: equal intervals of time.end, */
+    bool interfaces;            /* and whether the file has an /interface group */
     char version[32];           /* program version */
     bool complete;              /* every realization of every point in the file is present */
 } fracas_file_header;
@@ -36,11 +38,9 @@ typedef struct {
 typedef struct fracas_writer fracas_writer;
 typedef struct fracas_reader fracas_reader;
 
-/* Starts `path` under a temporary name in the same folder. `table` must outlive the writer. With `interfaces`
- * the file has an /interface group. */
+/* Starts `path` under a temporary name in the same folder. `table` must outlive the writer. */
 FRACAS_MUST_USE fracas_err fracas_writer_create(const char *path, const fracas_file_header *header,
-                                                const fracas_point_table *table, bool interfaces,
-                                                fracas_writer **writer);
+                                                const fracas_point_table *table, fracas_writer **writer);
 /* Appends one realization; records are buffered by column, so memory stays bounded. */
 FRACAS_MUST_USE fracas_err fracas_writer_append(fracas_writer *writer, size_t point, int64_t replica,
                                                 const fracas_record *record);
@@ -96,13 +96,17 @@ typedef struct {
 } fracas_segment_row;
 
 /* Opens (with `create`: creates) STUDY/index.sqlite. Journal: WAL with synchronous FULL on local filesystems,
- * TRUNCATE with FULL and exclusive locking on network ones; the mode is read back. */
+ * TRUNCATE with FULL and exclusive locking on network ones; the mode is read back. Without `create` a study that
+ * cannot be written is opened to read. A file without a table counts as none. FRACAS_DAMAGED says how to go on. */
 FRACAS_MUST_USE fracas_err fracas_index_open(const char *study, bool create, fracas_index **index);
 void fracas_index_close(fracas_index *index); /* NULL is allowed */
 
-/* Claims the study for a program version, before anything is computed: FRACAS_DAMAGED naming both when another version began
- * it, for study.h5 is of one version. */
-FRACAS_MUST_USE fracas_err fracas_index_claim(fracas_index *index, const char *version);
+/* True if STUDY/index.sqlite has tables of ours; a run killed at its start leaves one without. */
+bool fracas_index_exists(const char *study);
+
+/* Claims the study for the header's program version, seed, history and interfaces, before anything is computed:
+ * FRACAS_DAMAGED naming the first that is not what the study was begun with, for study.h5 is of one of each. */
+FRACAS_MUST_USE fracas_err fracas_index_claim(fracas_index *index, const fracas_file_header *header);
 
 /* Adds the points and realizations of the table that are not there yet (status planned); turns leased rows back
  * to planned (their holder is gone: the caller has the lock). */
@@ -150,21 +154,27 @@ FRACAS_MUST_USE fracas_err fracas_study_lock(const char *study, int *lock);
 
 /* Sweeps a study after an interruption. Plans the table (fracas_index_plan), creates STUDY/segments if it is not
  * there, and then: temporary files are removed; a segment that the index does not know is checked and adopted (its rows
- * committed) if all its realizations are planned, else removed; a row whose segment is missing or has the wrong size
- * goes back to planned. Says what it did in *report, one line each, "" if nothing (freed by caller). */
+ * committed) if all its realizations are planned, else removed, but left where it is if it is of another seed, history,
+ * interfaces or program version than `header`; a row whose segment is missing or has the wrong size goes back
+ * to planned. Says what it did in *report, one line each, "" if nothing (freed by caller). */
 FRACAS_MUST_USE fracas_err fracas_study_recover(const char *study, fracas_index *index,
-                                                const fracas_point_table *table, char **report);
+                                                const fracas_file_header *header, const fracas_point_table *table,
+                                                char **report);
 
 /* Writes STUDY/study.h5 from the segments in plan order; realizations that failed get a row of NaN, and
  * header->complete in the file is 0 if any did. FRACAS_INTERRUPTED if realizations are still to be computed.
- * FRACAS_DAMAGED names a segment whose bytes are not the index's, or that is of another seed or program version, and
- * says what to do. */
+ * FRACAS_DAMAGED names a segment whose bytes are not the index's, or that is of another seed, history, interfaces or
+ * program version, and says what to do. The index keeps the seal of the file: without one, study.h5 is not settled. */
 FRACAS_MUST_USE fracas_err fracas_study_merge(const char *study, fracas_index *index, const fracas_file_header *header,
-                                              const fracas_point_table *table, bool interfaces);
+                                              const fracas_point_table *table);
 
-/* What `fracas verify` found: every segment's size and checksum, index against segments row by row, integrity_check
- * of SQLite, study.h5 readable, of this campaign, and equal, record by record, to the segments. *problems counts
- * them; `say` is called once with each (what, where, remedy). */
+/* True if study.h5 has the size that its merge left, and every segment the size that the index says. */
+FRACAS_MUST_USE fracas_err fracas_study_sealed(const char *study, fracas_index *index, bool *sealed);
+
+/* What `fracas verify` found: size and checksum of every segment and of study.h5, all of the program version, seed,
+ * history and interfaces that the index says, index against segments row by row, integrity_check of SQLite, study.h5
+ * equal, record by record, to the segments. *problems counts them; `say` is called once with each (what, where,
+ * remedy). */
 FRACAS_MUST_USE fracas_err fracas_study_verify(const char *study, void (*say)(void *context, const char *problem),
                                                void *context, int64_t *problems);
 

@@ -82,6 +82,7 @@ static fracas_err write_values(const fracas_h5 *h5, const fracas_point_table *ta
 fracas_err fracas_table_write(const fracas_h5 *h5, const fracas_point_table *table)
 {
     TRY(fracas_h5_create_group(h5, "/point"));
+    TRY(fracas_h5_put_integer(h5, "/point", "columns", H5T_STD_I64LE, table->ncolumns));
     TRY(write_hashes(h5, table));
     TRY(write_replicas(h5, table));
     for (size_t c = 0; c < table->ncolumns; c++) TRY(write_values(h5, table, c));
@@ -182,8 +183,12 @@ fracas_err fracas_table_read(const fracas_h5 *h5, fracas_stored_table *stored)
     H5G_info_t info;
     if (H5Gget_info_by_name(h5->id, "/point", &info, H5P_DEFAULT) < 0) return fracas_h5_fail(h5, "/point");
     TRY(read_points(h5, stored));
-    if (info.nlinks < 2 || info.nlinks > h5->bytes) return fracas_h5_fail(h5, "/point");
-    size_t ncolumns = info.nlinks - 2, npoints = stored->table.npoints;
+    /* After a bad checksum in a part of a group's header HDF5 1.10 may go on without the links in it. */
+    uint64_t columns;
+    TRY(fracas_h5_get_integer(h5, "/point", "columns", H5T_STD_I64LE, &columns));
+    if (info.nlinks < 2 || info.nlinks > h5->bytes || info.nlinks - 2 != columns)
+        return fracas_fail(FRACAS_DAMAGED, "%s: /point: damaged: it has not the columns that it says", h5->path);
+    size_t ncolumns = columns, npoints = stored->table.npoints;
     stored->column = calloc(ncolumns + 1, sizeof *stored->column);
     stored->text = calloc(ncolumns + 1, sizeof *stored->text);
     stored->value = calloc(npoints * ncolumns + 1, sizeof *stored->value);

@@ -14,7 +14,9 @@ typedef struct {
     const char *study;
     fracas_index *index;
     fracas_segments *segments;
-    fracas_reader *merged; /* study.h5, NULL if it is not there or not readable */
+    fracas_identity identity; /* what the study was begun with */
+    fracas_reader *merged; /* study.h5, NULL if it is not there or not sound */
+    bool there;            /* study.h5 is there */
     fracas_record record;  /* as read last from it or from a segment */
     size_t row;            /* next one of study.h5 */
     void (*say)(void *context, const char *problem);
@@ -153,11 +155,6 @@ static fracas_err check_merged_row(void *context, fracas_step *step)
     if (step->damaged) return FRACAS_OK; /* said already */
     if (step->status == FRACAS_PLANNED || step->status == FRACAS_LEASED)
         return found(v, "%s/study.h5: row %zu is in no segment any more; run again", v->study, row);
-    if (!fracas_reader_has_interfaces(v->merged)) {
-        free(step->record.interface);
-        step->record.interface = NULL;
-        step->record.ninterface = 0;
-    }
     if (!same_record(&v->record, &step->record, &same)) return fracas_no_memory("a record");
     if (same) return FRACAS_OK;
     return found(v, "%s/study.h5: row %zu differs from its segment; remove it and run again", v->study, row);
@@ -190,13 +187,43 @@ static fracas_err check_merged_whole(verification *v)
 
 /* ---- all of it ---- */
 
+/* Its bytes before HDF5 sees them, for a flipped one can crash it. */
+static fracas_err check_merged_seal(verification *v, const char *path)
+{
+    bool sealed;
+    fracas_file_seal wanted, found;
+    TRY(fracas_index_study_seal(v->index, &sealed, &wanted));
+    TRY(fracas_disk_seal_path(path, &found));
+    if (!sealed)
+        return fracas_fail(FRACAS_DAMAGED, "%s has no seal: its merge was interrupted; run again", path);
+    if (found.bytes == wanted.bytes && found.checksum == wanted.checksum) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED, "%s: damaged: it has %" PRIu64 " bytes of checksum %016" PRIx64 ", the index "
+                       "says %" PRIu64 " of %016" PRIx64 "; remove it and run again", path, found.bytes,
+                       found.checksum, wanted.bytes, wanted.checksum);
+}
+
+static fracas_err check_merged_header(verification *v)
+{
+    fracas_identity found;
+    char text[FRACAS_DIFFERENCE_TEXT];
+    fracas_identity_of(fracas_reader_header(v->merged), &found);
+    if (!fracas_identity_differs(&found, &v->identity, text)) return FRACAS_OK;
+    return problem(v, fracas_fail(FRACAS_DAMAGED, "%s/study.h5: not of this study: %s; remove it and run again",
+                                  v->study, text));
+}
+
 static fracas_err open_merged(verification *v)
 {
     char *path;
     TRY(fracas_disk_join(v->study, "study.h5", &path));
     fracas_err err = FRACAS_OK;
-    if (access(path, F_OK) == 0) err = problem(v, fracas_reader_open(path, &v->merged));
-    else if (errno != ENOENT) err = fracas_disk_fail("open", path);
+    v->there = access(path, F_OK) == 0;
+    if (!v->there && errno != ENOENT) err = fracas_disk_fail("open", path);
+    if (!err && v->there) {
+        err = check_merged_seal(v, path);
+        if (!err) err = fracas_reader_open(path, &v->merged);
+        err = problem(v, err);
+    }
     free(path);
     return err;
 }
@@ -207,13 +234,16 @@ static fracas_err verify(verification *v)
     if (err) return problem(v, err);
     TRY(check_database(v, "PRAGMA integrity_check"));
     TRY(check_database(v, "PRAGMA foreign_key_check"));
+    err = fracas_index_identity(v->index, &v->identity);
+    if (err) return problem(v, err);
     TRY(open_merged(v));
-    err = fracas_segments_create(v->study, v->index, v->merged ? fracas_reader_header(v->merged) : NULL, &v->segments);
+    if (v->merged) TRY(check_merged_header(v));
+    err = fracas_segments_create(v->study, v->index, &v->identity, &v->segments);
     if (err) return problem(v, err);
     TRY(check_segments(v));
     TRY(check_rows(v));
     if (v->merged) TRY(check_merged_rows(v));
-    return check_merged_whole(v);
+    return v->there && !v->merged ? FRACAS_OK : check_merged_whole(v); /* said already */
 }
 
 fracas_err fracas_study_verify(const char *study, void (*say)(void *context, const char *problem), void *context,

@@ -17,7 +17,7 @@ struct fracas_writer {
     fracas_h5 h5;
     char *path, *temporary;
     size_t npoints;
-    bool interfaces;
+    bool interfaces; /* has an /interface group */
     set_writer set[FRACAS_NSETS];
     int64_t end[FRACAS_NSETS]; /* rows of a ragged set so far: the last offset */
 };
@@ -90,6 +90,8 @@ static fracas_err write_header(const fracas_h5 *h5, const fracas_file_header *he
     TRY(fracas_h5_put_integer(h5, "/", "format_version", H5T_STD_I32LE, FRACAS_FORMAT_VERSION));
     TRY(fracas_h5_put_text(h5, "/", "campaign", hex));
     TRY(fracas_h5_put_integer(h5, "/", "seed", H5T_STD_U64LE, header->seed));
+    TRY(fracas_h5_put_integer(h5, "/", "history", H5T_STD_I64LE, (uint64_t)header->history));
+    TRY(fracas_h5_put_integer(h5, "/", "interfaces", H5T_STD_I8LE, header->interfaces));
     return fracas_h5_put_text(h5, "/", "program_version", header->version);
 }
 
@@ -124,14 +126,14 @@ static fracas_err create_sets(fracas_writer *writer)
 }
 
 fracas_err fracas_writer_create(const char *path, const fracas_file_header *header, const fracas_point_table *table,
-                                bool interfaces, fracas_writer **writer)
+                                fracas_writer **writer)
 {
     *writer = calloc(1, sizeof **writer);
     if (!*writer) return fracas_no_memory("a file");
     fracas_writer *w = *writer;
     w->h5 = FRACAS_H5_CLOSED;
     w->npoints = table->npoints;
-    w->interfaces = interfaces;
+    w->interfaces = header->interfaces;
     fracas_err err = (w->path = strdup(path)) ? fracas_disk_temporary(path, &w->temporary) : fracas_no_memory("a file");
     if (!err) err = fracas_h5_create(&w->h5, w->temporary, w->path);
     if (!err) err = write_header(&w->h5, header);

@@ -61,7 +61,8 @@ static inline fracas_point_table sample_table(fracas_point_row row[SAMPLE_POINTS
 
 static inline fracas_file_header sample_header(void)
 {
-    return (fracas_file_header){fracas_hash_of("campaign", 8), UINT64_MAX - 4, "0.1.0", false};
+    return (fracas_file_header){.campaign = fracas_hash_of("campaign", 8), .seed = UINT64_MAX - 4, .history = 100,
+                                .interfaces = true, .version = "0.1.0"};
 }
 
 /* ---- random records ---- */
@@ -274,7 +275,7 @@ static inline void sample_segment(const char *study, const char *name, const fra
     fracas_writer *writer;
     char path[512];
     snprintf(path, sizeof path, "%s/segments/%s", study, name);
-    OK(fracas_writer_create(path, &header, table, true, &writer));
+    OK(fracas_writer_create(path, &header, table, &writer));
     for (size_t i = 0; i < count; i++) {
         fracas_record record;
         sample_record(what[i].point, what[i].replica, most, &record);

@@ -19,7 +19,9 @@ import h5py, numpy as np
 
 study, page = h5py.File(sys.argv[1], "r"), open(sys.argv[2]).read()
 assert study.attrs["format_version"] == 1 and study.attrs["seed"] == 2**64 - 5 and study.attrs["complete"] == 1
+assert study["point"].attrs["columns"] == 3
 assert len(study.attrs["campaign"]) == 32 and study.attrs["program_version"] == b"0.1.0"
+assert study.attrs["history"] == 100 and study.attrs["interfaces"] == 1
 
 # Every dataset is as the page says, and the page says every dataset.
 rows = {r[0]: r[1:] for r in re.findall(r"^\| `(/[^`]+)` \| (\S+) \| (\S.*?) \| (\d+) \| (\S.*?) \| (.*) \|$", page, re.M)}

@@ -192,7 +192,7 @@ static void write_study(const truth *of, const char *folder)
     fracas_file_header header = {.campaign = fracas_hash_of(of->name, strlen(of->name)), .seed = UINT64_MAX,
                                  .version = FRACAS_VERSION, .complete = !of->endings};
     fracas_writer *writer;
-    assert_int_equal(fracas_writer_create(path, &header, &made.table, false, &writer), FRACAS_OK);
+    assert_int_equal(fracas_writer_create(path, &header, &made.table, &writer), FRACAS_OK);
     for (size_t p = 0; p < NPOINTS; p++) {
         for (int64_t replica = 0; replica < of->replicas[p]; replica++) {
             fracas_record record;

@@ -30,7 +30,8 @@ static void write_file(const char *path, int64_t replicas, size_t most, bool int
     fracas_point_table table = sample_table(row, replicas);
     fracas_file_header header = sample_header();
     fracas_writer *writer;
-    OK(fracas_writer_create(path, &header, &table, interfaces, &writer));
+    header.interfaces = interfaces;
+    OK(fracas_writer_create(path, &header, &table, &writer));
     for (size_t p = 0; p < SAMPLE_POINTS; p++)
         for (int64_t r = 0; r < replicas; r++) {
             fracas_record record;
@@ -129,6 +130,8 @@ static void header_and_points_come_back(void **state)
     const fracas_file_header *header = fracas_reader_header(reader);
     assert_true(fracas_hash_equal(&header->campaign, &wanted.campaign));
     assert_true(header->seed == wanted.seed);
+    assert_int_equal(header->history, 100);
+    assert_false(header->interfaces);
     assert_string_equal(header->version, "0.1.0");
     assert_true(header->complete);
     const fracas_point_table *table = fracas_reader_points(reader);
@@ -200,7 +203,7 @@ static void empty_files_are_files(void **state)
     fracas_writer *writer;
     fracas_reader *reader;
     fracas_file_seal seal;
-    OK(fracas_writer_create(path, &header, &none, true, &writer));
+    OK(fracas_writer_create(path, &header, &none, &writer));
     OK(fracas_writer_finish(writer, false, &seal));
     OK(fracas_reader_open(path, &reader));
     assert_int_equal(fracas_reader_realizations(reader), 0);
@@ -253,7 +256,7 @@ static void nothing_unfinished_has_the_final_name(void **state)
     fracas_point_table table = sample_table(row, 1);
     fracas_file_header header = sample_header();
     fracas_writer *writer;
-    OK(fracas_writer_create(path, &header, &table, true, &writer));
+    OK(fracas_writer_create(path, &header, &table, &writer));
     assert_int_not_equal(access(path, F_OK), 0);
     assert_int_equal(sample_files(folder, ".a.h5.tmp-"), 1);
     fracas_writer_abandon(writer);
@@ -270,7 +273,7 @@ static void contradicting_records_are_refused(void **state)
     fracas_file_header header = sample_header();
     fracas_writer *writer;
     fracas_record record;
-    OK(fracas_writer_create(path, &header, &table, true, &writer));
+    OK(fracas_writer_create(path, &header, &table, &writer));
     fracas_record_init(&record);
     sample_fails(fracas_writer_append(writer, SAMPLE_POINTS, 0, &record), FRACAS_BUG, "point 3");
     record.outcome = FRACAS_INTACT;

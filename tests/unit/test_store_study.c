@@ -74,7 +74,7 @@ static fracas_index_counts count_all(void)
 static void merge(void)
 {
     fracas_file_header header = sample_header();
-    OK(fracas_study_merge(study, index_, &header, &table, true));
+    OK(fracas_study_merge(study, index_, &header, &table));
 }
 
 static void keep_problem(void *context, const char *problem)
@@ -107,7 +107,8 @@ static void verify_finds(int64_t wanted, const char *part)
 static void recover_says(const char *part)
 {
     char *report;
-    OK(fracas_study_recover(study, index_, &table, &report));
+    fracas_file_header header = sample_header();
+    OK(fracas_study_recover(study, index_, &header, &table, &report));
     if (!strstr(report, part)) print_error("the report is:\n%s", report);
     assert_non_null(strstr(report, part));
     if (!*part) assert_string_equal(report, "");
@@ -272,13 +273,156 @@ static void index_modes_and_versions(void **state)
     fracas_index_close(other);
     OK(fracas_index_open(study, false, &third)); /* two at a time on a local filesystem */
     fracas_index_close(third);
-    OK(fracas_index_claim(index_, "0.1.0"));
-    OK(fracas_index_claim(index_, "0.1.0"));
-    sample_fails(fracas_index_claim(index_, "0.2.0"), FRACAS_DAMAGED, "begun by fracas 0.1.0, this is fracas 0.2.0");
     assert_int_equal(sqlite3_exec(index_->db, "UPDATE meta SET value = '99'", NULL, NULL, NULL), SQLITE_OK);
     sample_fails(fracas_index_open(study, false, &other), FRACAS_DAMAGED, "format version 99");
     sample_spill(sample_path(study, "segments/index.sqlite"), "no database, but long enough to be looked at", 44);
-    sample_fails(fracas_index_open(sample_path(study, "segments"), false, &other), FRACAS_DAMAGED, "index.sqlite");
+    sample_fails(fracas_index_open(sample_path(study, "segments"), false, &other), FRACAS_DAMAGED, "remove it");
+}
+
+/* ---- what the study is of ---- */
+
+/* Headers of another campaign or program whose points are the same, and what each differs in. */
+enum { OTHERS = 4 };
+static fracas_file_header other_header(int other)
+{
+    fracas_file_header header = sample_header();
+    if (other == 0) strcpy(header.version, "0.2.0");
+    if (other == 1) header.seed++;
+    if (other == 2) header.history++;
+    if (other == 3) header.interfaces = false;
+    return header;
+}
+
+static const char *const difference[OTHERS] = {"program_version 0.1.0, not 0.2.0",
+                                               "seed 18446744073709551611, not 18446744073709551612",
+                                               "history 100, not 101", "interfaces 1, not 0"};
+
+static void a_study_is_of_one_program_and_campaign(void **state)
+{
+    (void)state;
+    fracas_file_header header = sample_header();
+    OK(fracas_index_claim(index_, &header));
+    OK(fracas_index_claim(index_, &header));
+    for (int other = 0; other < OTHERS; other++) {
+        header = other_header(other);
+        sample_fails(fracas_index_claim(index_, &header), FRACAS_DAMAGED, difference[other]);
+        assert_non_null(strstr(fracas_message(), "--study"));
+    }
+}
+
+static void segments_of_another_are_left_and_not_merged(void **state)
+{
+    (void)state;
+    commit_everything(5);
+    fracas_index_close(index_);
+    unlink(sample_path(study, "index.sqlite"));
+    OK(fracas_index_open(study, true, &index_));
+    for (int other = 0; other < OTHERS; other++) {
+        fracas_file_header header = other_header(other);
+        char *report;
+        OK(fracas_study_recover(study, index_, &header, &table, &report));
+        assert_non_null(strstr(report, difference[other]));
+        assert_null(strstr(report, "adopted"));
+        free(report);
+        assert_int_equal(count_all().planned, ALL);
+    }
+    recover_says("adopted"); /* nothing was lost */
+    assert_int_equal(count_all().planned, 0);
+    for (int other = 0; other < OTHERS; other++) {
+        fracas_file_header header = other_header(other);
+        sample_fails(fracas_study_merge(study, index_, &header, &table), FRACAS_DAMAGED, difference[other]);
+    }
+    fracas_file_header header = other_header(2);
+    OK(fracas_index_claim(index_, &header)); /* and verify compares with what the study was begun with */
+    char text[8192];
+    assert_true(verify(text) > 0);
+    assert_non_null(strstr(text, "s0.h5: not of this study: history 100, not 101"));
+}
+
+/* ---- the file of the index ---- */
+
+static void an_index_without_tables_is_none(void **state)
+{
+    (void)state;
+    fracas_index *other;
+    sqlite3 *db;
+    assert_true(fracas_index_exists(study));
+    fracas_index_close(index_);
+    index_ = NULL;
+    char path[512];
+    snprintf(path, sizeof path, "%s/index.sqlite", study);
+    for (int empty = 0; empty < 2; empty++) {
+        unlink(path);
+        assert_false(fracas_index_exists(study));
+        sample_spill(path, "", 0);
+        if (!empty) { /* as a kill between the first page and the tables leaves it */
+            assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
+            assert_int_equal(sqlite3_exec(db, "PRAGMA journal_mode = WAL", NULL, NULL, NULL), SQLITE_OK);
+            sqlite3_close(db);
+            struct stat info;
+            assert_int_equal(stat(path, &info), 0);
+            assert_true(info.st_size > 0);
+        }
+        assert_false(fracas_index_exists(study));
+        sample_fails(fracas_index_open(study, false, &other), FRACAS_DAMAGED, "`fracas run` makes one");
+        OK(fracas_index_open(study, true, &index_));
+        OK(fracas_index_plan(index_, &table));
+        fracas_index_close(index_);
+        index_ = NULL;
+        assert_true(fracas_index_exists(study));
+    }
+    /* Of something else: not touched, and the way out is named. */
+    unlink(path);
+    assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
+    assert_int_equal(sqlite3_exec(db, "CREATE TABLE letters(text)", NULL, NULL, NULL), SQLITE_OK);
+    sqlite3_close(db);
+    assert_false(fracas_index_exists(study));
+    sample_fails(fracas_index_open(study, true, &other), FRACAS_DAMAGED, "remove it: `fracas run` makes it anew");
+    sample_spill(path, "no database, but long enough to be looked at", 44);
+    assert_false(fracas_index_exists(study));
+    sample_fails(fracas_index_open(study, true, &other), FRACAS_DAMAGED, "remove it: `fracas run` makes it anew");
+}
+
+/* Reads the study as one who may not write it; the exit status says what went wrong. */
+static void look_as_another(void)
+{
+    fracas_index_counts counts;
+    char text[8192] = "";
+    int64_t problems;
+    bool sealed;
+    if (geteuid() == 0 && (setgid(65534) || setuid(65534))) _exit(1);
+    if (access(study, W_OK) == 0) _exit(2);
+    if (!fracas_index_exists(study) || fracas_index_open(study, false, &index_)) _exit(3);
+    if (fracas_index_count(index_, &counts) || counts.planned || !counts.done) _exit(4);
+    if (fracas_study_sealed(study, index_, &sealed) || !sealed) _exit(5);
+    if (fracas_index_event(index_, "kind", "text") != FRACAS_ENVIRONMENT || !strstr(fracas_message(), "copy it")) _exit(6);
+    fracas_index_close(index_);
+    if (fracas_study_verify(study, keep_problem, text, &problems) || problems) _exit(7);
+    if (fracas_index_open(study, true, &index_) != FRACAS_ENVIRONMENT || !strstr(fracas_message(), "copy it")) _exit(8);
+    _exit(0);
+}
+
+static void a_study_that_cannot_be_written_can_be_read(void **state)
+{
+    (void)state;
+    char *plain = study, *odd = NULL;
+    commit_everything(2);
+    merge();
+    fracas_index_close(index_);
+    index_ = NULL;
+    assert_true(asprintf(&odd, "%s 50%%?#", plain) > 0); /* a name that a URI must not take for its own */
+    assert_int_equal(rename(plain, odd), 0);
+    study = odd;
+    assert_int_equal(chmod(sample_path(odd, "index.sqlite"), 0444) + chmod(odd, 0555), 0);
+    pid_t child = fork();
+    if (child == 0) look_as_another();
+    int status;
+    waitpid(child, &status, 0);
+    assert_int_equal(chmod(odd, 0777) + rename(odd, plain), 0);
+    study = plain;
+    free(odd);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 0);
 }
 
 /* ---- merge ---- */
@@ -313,7 +457,7 @@ static void merged_is_as_if_written_in_order(void **state)
     fracas_writer *writer;
     fracas_file_seal seal;
     fracas_record record;
-    OK(fracas_writer_create(sample_path(study, "direct.h5"), &header, &table, true, &writer));
+    OK(fracas_writer_create(sample_path(study, "direct.h5"), &header, &table, &writer));
     for (size_t i = 0; i < ALL; i++) {
         sample_record(i / REPLICAS, (int64_t)(i % REPLICAS), MOST, &record);
         OK(fracas_writer_append(writer, i / REPLICAS, (int64_t)(i % REPLICAS), &record));
@@ -328,16 +472,16 @@ static void merge_refuses_what_is_not_whole(void **state)
 {
     (void)state;
     fracas_file_header header = sample_header();
-    sample_fails(fracas_study_merge(study, index_, &header, &table, true), FRACAS_INTERRUPTED, "run again");
+    sample_fails(fracas_study_merge(study, index_, &header, &table), FRACAS_INTERRUPTED, "run again");
     commit_everything(3);
     strcpy(header.version, "0.2.0");
-    sample_fails(fracas_study_merge(study, index_, &header, &table, true), FRACAS_DAMAGED, "written by fracas 0.1.0");
+    sample_fails(fracas_study_merge(study, index_, &header, &table), FRACAS_DAMAGED, "not of this study: program_version 0.1.0, not 0.2.0");
     header = sample_header();
     header.seed++;
-    sample_fails(fracas_study_merge(study, index_, &header, &table, true), FRACAS_DAMAGED, "seed");
+    sample_fails(fracas_study_merge(study, index_, &header, &table), FRACAS_DAMAGED, "seed");
     flip_byte(sample_path(study, "segments/s2.h5"), 30000);
     header = sample_header();
-    sample_fails(fracas_study_merge(study, index_, &header, &table, true), FRACAS_DAMAGED, "s2.h5: damaged");
+    sample_fails(fracas_study_merge(study, index_, &header, &table), FRACAS_DAMAGED, "s2.h5: damaged");
     assert_int_equal(sample_files(study, "study.h5"), 0);
     unlink(sample_path(study, "segments/s2.h5")); /* the remedy of the message */
     recover_says("s2.h5 is missing");
@@ -383,7 +527,8 @@ static void half_written_and_foreign_files_go(void **state)
     fracas_point_table more = sample_table(more_row, REPLICAS + 1);
     sample_segment(study, "more.h5", &more, what, 2, MOST, &seal, row);
     char *report;
-    OK(fracas_study_recover(study, index_, &table, &report));
+    fracas_file_header header = sample_header();
+    OK(fracas_study_recover(study, index_, &header, &table, &report));
     assert_int_equal(strstr(report, "good.h5") != NULL, 0);
     free(report);
     assert_int_equal(sample_files(sample_path(study, "segments"), ".h5"), 1);
@@ -428,16 +573,11 @@ static void lost_segments_are_planned_again(void **state)
 static void verify_names_what_is_wrong(void **state)
 {
     (void)state;
-    char text[8192];
     verify_finds(0, "");
     commit_everything(7);
     verify_finds(1, "every realization is computed");
     merge();
     verify_finds(0, "");
-    flip_byte(sample_path(study, "study.h5"), 50000);
-    assert_true(verify(text) > 0);
-    assert_non_null(strstr(text, "study.h5"));
-    merge();
     flip_byte(sample_path(study, "segments/s1.h5"), 50001);
     verify_finds(1, "s1.h5: damaged");
     flip_byte(sample_path(study, "segments/s1.h5"), 50001);
@@ -446,6 +586,45 @@ static void verify_names_what_is_wrong(void **state)
                                   "(SELECT min(replica) FROM realization WHERE point = 1 AND status = 'done')", NULL,
                                   NULL, NULL), SQLITE_OK);
     verify_finds(1, "differs from its record");
+}
+
+static bool is_sealed(void)
+{
+    bool sealed;
+    OK(fracas_study_sealed(study, index_, &sealed));
+    return sealed;
+}
+
+static void every_byte_of_the_merged_file_is_sealed(void **state)
+{
+    (void)state;
+    commit_everything(8);
+    assert_false(is_sealed());
+    merge();
+    assert_true(is_sealed());
+    struct stat info;
+    char *path = sample_path(study, "study.h5"), *segment = sample_path(study, "segments/s1.h5");
+    assert_int_equal(stat(path, &info), 0);
+    uint64_t random = 6;
+    for (int i = 0; i < 15; i++) { /* free space, too, of which HDF5 says nothing */
+        size_t at = i < 10 ? (size_t)i * 5 : sample_bits(&random) % (size_t)info.st_size;
+        flip_byte(path, at);
+        verify_finds(1, "study.h5: damaged");
+        flip_byte(path, at);
+    }
+    verify_finds(0, "");
+    assert_int_equal(truncate(path, info.st_size - 1), 0);
+    assert_false(is_sealed());
+    verify_finds(1, "study.h5: damaged");
+    merge();
+    assert_true(is_sealed());
+    assert_int_equal(stat(segment, &info), 0);
+    assert_int_equal(truncate(segment, info.st_size - 1), 0);
+    assert_false(is_sealed());
+    assert_int_equal(unlink(segment), 0);
+    assert_false(is_sealed());
+    assert_int_equal(unlink(path), 0);
+    assert_false(is_sealed());
 }
 
 /* A study.h5 whose every byte is sound, but of another run. */
@@ -457,7 +636,7 @@ static void verify_compares_every_record(void **state)
     fracas_file_header header = sample_header();
     fracas_writer *writer;
     fracas_file_seal seal;
-    OK(fracas_writer_create(sample_path(study, "study.h5"), &header, &table, true, &writer));
+    OK(fracas_writer_create(sample_path(study, "study.h5"), &header, &table, &writer));
     for (size_t i = 0; i < ALL; i++) {
         fracas_record record;
         sample_record(i / REPLICAS, (int64_t)(i % REPLICAS), MOST, &record);
@@ -467,6 +646,7 @@ static void verify_compares_every_record(void **state)
         fracas_record_clear(&record);
     }
     OK(fracas_writer_finish(writer, false, &seal));
+    OK(fracas_index_seal_study(index_, &seal)); /* as if a merge had written it */
     verify_finds(2, "row 77 differs");
 }
 
@@ -553,6 +733,10 @@ int main(void)
         TEST(first_commit_stays),
         TEST(commits_are_whole),
         TEST(index_modes_and_versions),
+        TEST(a_study_is_of_one_program_and_campaign),
+        TEST(segments_of_another_are_left_and_not_merged),
+        TEST(an_index_without_tables_is_none),
+        TEST(a_study_that_cannot_be_written_can_be_read),
         TEST(order_of_segments_changes_nothing),
         TEST(merged_is_as_if_written_in_order),
         TEST(merge_refuses_what_is_not_whole),
@@ -560,6 +744,7 @@ int main(void)
         TEST(half_written_and_foreign_files_go),
         TEST(lost_segments_are_planned_again),
         TEST(verify_names_what_is_wrong),
+        TEST(every_byte_of_the_merged_file_is_sealed),
         TEST(verify_compares_every_record),
         TEST(verify_bears_a_damaged_index),
         TEST(second_run_is_refused),
