@@ -57,6 +57,9 @@ fracas_err fracas_study_settled(const char *study, fracas_index *index, const fr
     *failed = 0;
     char path[PATH];
     TRY(join(study, "study.h5", path));
+    bool sealed;
+    TRY(fracas_study_sealed(study, index, &sealed));
+    if (!sealed) return FRACAS_OK;
     fracas_reader *reader;
     if (access(path, R_OK) || fracas_reader_open(path, &reader)) return FRACAS_OK; /* it is merged again */
     bool same = fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash);
@@ -64,7 +67,9 @@ fracas_err fracas_study_settled(const char *study, fracas_index *index, const fr
     if (!same) return FRACAS_OK;
     fracas_index_counts counts;
     TRY(fracas_index_count(index, &counts));
-    *settled = counts.planned == 0 && counts.leased == 0;
+    int64_t realizations = 0;
+    for (size_t p = 0; p < campaign->npoints; p++) realizations += campaign->point[p].replicas;
+    *settled = counts.planned == 0 && counts.leased == 0 && counts.realizations == realizations;
     *failed = counts.failed;
     return FRACAS_OK;
 }
@@ -73,10 +78,8 @@ fracas_err fracas_study_examine(const char *study, const fracas_campaign *campai
 {
     *settled = false;
     *failed = 0;
-    char path[PATH];
-    TRY(join(study, "index.sqlite", path));
     TRY(fracas_study_fits(study, campaign));
-    if (access(path, F_OK)) return FRACAS_OK;
+    if (!fracas_index_exists(study)) return FRACAS_OK;
     int lock;
     TRY(fracas_study_lock(study, &lock));
     fracas_index *index;

@@ -16,7 +16,8 @@ FRACAS_MUST_USE fracas_err fracas_study_folder(const fracas_run_options *options
  * first difference. Writes nothing. */
 FRACAS_MUST_USE fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign);
 
-/* *settled when study.h5 is of this campaign and every realization is done or failed for good (*failed of them). */
+/* *settled when study.h5 is of this campaign, it and the segments have the sizes that the index says, and every realization is
+ * done or failed for good (*failed of them). */
 FRACAS_MUST_USE fracas_err fracas_study_settled(const char *study, fracas_index *index,
                                                 const fracas_campaign *campaign, bool *settled, int64_t *failed);
 

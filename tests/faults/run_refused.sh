@@ -75,3 +75,28 @@ said "study's campaign file is damaged"
 expect 5 "$fracas" status done
 cp kept.yaml done/campaign.yaml
 expect 0 "$fracas" verify done
+
+# A complete study that lost a segment, and one whose index was cut off at its birth, are made whole by the same command.
+cp done/study.h5 kept.h5
+rm "$(ls done/segments/*.h5 | head -n 1)"
+expect 5 "$fracas" verify done
+expect 0 "$fracas" run small.yaml --study done
+cmp kept.h5 done/study.h5 || fail "computed again, it differs"
+expect 0 "$fracas" verify done
+mkdir -p begun/segments
+cp done/campaign.yaml begun
+: > begun/index.sqlite
+expect 0 "$fracas" run small.yaml --study begun
+cmp kept.h5 begun/study.h5 || fail "begun again, it differs"
+
+# Segments of the same points with other output: not taken over.
+sed 's/history: 20/history: 40/' small.yaml > longer.yaml
+expect 0 "$fracas" run longer.yaml --study longer
+rm -r longer/index.sqlite* longer/study.h5 longer/segments
+cp -r done/segments longer/segments
+expect 0 "$fracas" run longer.yaml --study longer
+expect 0 "$fracas" run longer.yaml --study fresh
+same longer fresh
+rm done/campaign.yaml
+expect 5 "$fracas" run longer.yaml --study done
+said 'history'
