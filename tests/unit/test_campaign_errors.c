@@ -146,7 +146,7 @@ static void test_sweeps(void **state)
     static const wrong table[] = {
         {"", "sweep: []\n", 28, 8, {"`sweep`", "no axis"}},
         {"", "sweep:\n  - strength.minimum: [299 MPa, 302 MPa]\n", 29, 33, {"`strength`", "swap them"}},
-        {"", "sweep:\n  - time: [{stop: settled, end: 1 us, quiet: 2 us}]\n", 29, 43, {"`time`", "quiet is 2e-06 s", "end is 1e-06 s"}},
+        {"", "sweep:\n  - time: [{stop: settled, end: 1 us, quiet: 2 us}]\n", 29, 46, {"`time`", "quiet is 2e-06 s", "end is 1e-06 s"}},
         {"", "sweep: 5\n", 28, 8, {"`sweep`", "found `5`", "a list of axes"}},
         {"", "sweep:\n  loading.rate: [1, 2]\n", 29, 3, {"`sweep`", "found a section", "after `- `"}},
         {"", "sweep:\n  - 5\n", 29, 5, {"an axis", "found `5`"}},
