@@ -58,9 +58,11 @@ static void select_columns(const fracas_point_table *table, size_t *class, size_
     int last = 0;
     for (size_t c = 0; c < table->ncolumns; c++)
         if (rank_of(table->column[c].path) > last) last = rank_of(table->column[c].path);
-    for (int rank = 0; rank <= last; rank++)
+    /* Within a section names first: a law tells points apart better than a number that only one law has. */
+    for (int place = 0; place < 2 * (last + 1); place++)
         for (size_t c = 0; c < table->ncolumns; c++)
-            if (rank_of(table->column[c].path) == rank && refine(table, c, class, scratch))
+            if (rank_of(table->column[c].path) == place / 2 && table->column[c].text == (place % 2 == 0) &&
+                refine(table, c, class, scratch))
                 columns->column[columns->count++] = c;
     size_t rate = fracas_point_table_find(table, rate_path);
     if (columns->count == 0 && rate != SIZE_MAX) columns->column[columns->count++] = rate;

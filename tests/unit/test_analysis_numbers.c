@@ -143,6 +143,25 @@ static void columns_that_tell_points_apart(void **state)
 }
 
 /* What only a list of records shows: unusable outcomes are counted and left out; NaN onset; the typical replica. */
+
+/* Two laws of which one has a beta: the law names the points. */
+static void names_come_before_their_numbers(void **state)
+{
+    (void)state;
+    static const fracas_column column[] = {{"cohesive.beta", "1", "", false}, {"cohesive.law", "", "", true}};
+    fracas_value value[2][2] = {{{.real = 4, .text = ""}, {.real = NAN, .text = "nitsche"}},
+                                {{.real = NAN, .text = ""}, {.real = NAN, .text = "rigid-link"}}};
+    fracas_point_row point[] = {{.value = value[0]}, {.value = value[1]}};
+    fracas_point_table table = {.ncolumns = 2, .column = column, .npoints = 2, .point = point};
+    fracas_columns columns;
+    char label[64];
+    assert_int_equal(fracas_columns_create(&table, &columns), FRACAS_OK);
+    assert_int_equal(columns.count, 1);
+    fracas_columns_label(&table, &columns, 1, label, sizeof label);
+    assert_string_equal(label, "law rigid-link");
+    fracas_columns_clear(&columns);
+}
+
 static void statistics_of_records(void **state)
 {
     (void)state;
@@ -285,6 +304,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(estimate_of_eight), cmocka_unit_test(estimate_of_few), cmocka_unit_test(estimates_as_text),
         cmocka_unit_test(numbers_as_text), cmocka_unit_test(prefixes), cmocka_unit_test(columns_that_tell_points_apart),
+        cmocka_unit_test(names_come_before_their_numbers),
         cmocka_unit_test(statistics_of_records), cmocka_unit_test(warnings_at_their_limits),
         cmocka_unit_test(figure_of_sizes), cmocka_unit_test(ticks),
     };
