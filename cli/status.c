@@ -20,6 +20,7 @@ typedef struct {
     const fracas_campaign *campaign;
     fracas_index *index;
     bool complete;               /* study.h5 is of this campaign and nothing is left to compute */
+    bool running;                /* somebody computes it now */
     fracas_index_counts all;
     fracas_index_counts *point;  /* campaign->npoints */
 } fracas_status;
@@ -54,6 +55,7 @@ static fracas_err write_json(const fracas_status *status)
     fracas_json_text(&json, "study", status->study);
     fracas_json_text(&json, "campaign", status->campaign->name);
     fracas_json_boolean(&json, "complete", status->complete);
+    fracas_json_boolean(&json, "running", status->running);
     write_counts(&json, &status->all);
     fracas_json_integer(&json, "segments", status->all.segments);
     fracas_json_integer(&json, "bytes", status->all.bytes);
@@ -115,8 +117,10 @@ static fracas_err print_text(const fracas_status *status)
 {
     const fracas_index_counts *all = &status->all;
     printf("study         %s of campaign %s\n", status->study, status->campaign->name);
-    printf("state         %s\n", status->complete ? "complete"
-                                                  : "not complete: under way, or `fracas run` with the campaign file resumes it");
+    printf("state         %s\n", status->running          ? "being computed"
+                                  : !status->complete       ? "interrupted: `fracas run` with the campaign file resumes it"
+                                  : status->all.failed == 0 ? "complete"
+                                                            : "computed, some realizations FAILED (below)");
     printf("realizations  %" PRId64 ": %" PRId64 " done, %" PRId64 " failed, %" PRId64 " leased, %" PRId64 " planned\n",
            all->realizations, all->done, all->failed, all->leased, all->planned);
     fputs("outcomes     ", stdout);
@@ -134,6 +138,7 @@ static fracas_err count(fracas_status *status)
     TRY(fracas_index_count(status->index, &status->all));
     for (size_t i = 0; i < campaign->npoints; i++)
         TRY(fracas_index_count_point(status->index, &campaign->point[i].hash, &status->point[i]));
+    status->running = fracas_study_held(status->study);
     int64_t failed;
     return fracas_study_settled(status->study, status->index, campaign, &status->complete, &failed);
 }

@@ -53,3 +53,15 @@ fracas_err fracas_study_lock(const char *study, int *lock)
     free(path);
     return err;
 }
+
+bool fracas_study_held(const char *study)
+{
+    char *path;
+    if (fracas_disk_join(study, "lock", &path)) return false;
+    struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    bool held = fd >= 0 && fcntl(fd, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+    if (fd >= 0) close(fd);
+    free(path);
+    return held;
+}

@@ -152,6 +152,9 @@ FRACAS_MUST_USE fracas_err fracas_index_count_point(fracas_index *index, const f
  * host and pid. Released by the system on any death. */
 FRACAS_MUST_USE fracas_err fracas_study_lock(const char *study, int *lock);
 
+/* True while another process has the lock: the study is being computed. */
+bool fracas_study_held(const char *study);
+
 /* Sweeps a study after an interruption. Plans the table (fracas_index_plan), creates STUDY/segments if it is not
  * there, and then: temporary files are removed; a segment that the index does not know is checked and adopted (its rows
  * committed) if all its realizations are planned, else removed, but left where it is if it is of another seed, history,
