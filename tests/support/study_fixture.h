@@ -1,0 +1,129 @@
+/* A study in a folder of its own, planned, and what tests do with it. */
+#ifndef FRACAS_TESTS_SUPPORT_STUDY_FIXTURE_H
+#define FRACAS_TESTS_SUPPORT_STUDY_FIXTURE_H
+
+#include "tests/support/store_sample.h"
+
+#include "campaigns/store/disk.h"
+#include "campaigns/store/index.h"
+
+#include <sys/wait.h>
+
+enum { REPLICAS = 40, ALL = SAMPLE_POINTS * REPLICAS, MOST = 30 };
+
+static char *study;
+static fracas_point_row point_row[SAMPLE_POINTS];
+static fracas_point_table table;
+static fracas_index *index_;
+
+static inline int set_up(void **state)
+{
+    (void)state;
+    study = sample_folder();
+    table = sample_table(point_row, REPLICAS);
+    assert_int_equal(mkdir(sample_path(study, "segments"), 0777), 0);
+    OK(fracas_index_open(study, true, &index_));
+    OK(fracas_index_plan(index_, &table));
+    return 0;
+}
+
+static inline int tear_down(void **state)
+{
+    (void)state;
+    fracas_index_close(index_);
+    sample_remove(study);
+    return 0;
+}
+
+/* ---- helpers ---- */
+
+/* Writes and commits one segment. */
+static inline void commit_segment(const char *name, const sample_realization *what, size_t count)
+{
+    fracas_file_seal seal;
+    fracas_segment_row row[ALL];
+    sample_segment(study, name, &table, what, count, MOST, &seal, row);
+    OK(fracas_index_commit(index_, name, &seal, row, count, "{\"host\": \"a\"}"));
+}
+
+/* Every realization in an order that `seed` shuffles, in segments of a size that it chooses. */
+static inline void commit_everything(uint64_t seed)
+{
+    sample_realization what[ALL];
+    for (size_t i = 0; i < ALL; i++) what[i] = (sample_realization){i / REPLICAS, (int64_t)(i % REPLICAS)};
+    for (size_t i = ALL; seed && i > 1; i--) {
+        size_t j = sample_bits(&seed) % i;
+        sample_realization other = what[j];
+        what[j] = what[i - 1];
+        what[i - 1] = other;
+    }
+    for (size_t first = 0, number = 0; first < ALL; number++) {
+        size_t size = seed ? 1 + sample_bits(&seed) % 40 : ALL, rest = ALL - first;
+        char name[32];
+        snprintf(name, sizeof name, "s%zu.h5", number);
+        if (size > rest) size = rest;
+        commit_segment(name, what + first, size);
+        first += size;
+    }
+}
+
+static inline fracas_index_counts count_all(void)
+{
+    fracas_index_counts counts;
+    OK(fracas_index_count(index_, &counts));
+    return counts;
+}
+
+static inline void merge(void)
+{
+    fracas_file_header header = sample_header();
+    OK(fracas_study_merge(study, index_, &header, &table));
+}
+
+static inline void keep_problem(void *context, const char *problem)
+{
+    char *text = context;
+    snprintf(text + strlen(text), 8192 - strlen(text), "%s\n", problem);
+}
+
+/* The index is closed meanwhile, as for `fracas verify`. *text: the problems, one a line. */
+static inline int64_t verify(char text[8192])
+{
+    int64_t problems;
+    text[0] = '\0';
+    fracas_index_close(index_);
+    OK(fracas_study_verify(study, keep_problem, text, &problems));
+    OK(fracas_index_open(study, false, &index_));
+    return problems;
+}
+
+static inline void verify_finds(int64_t wanted, const char *part)
+{
+    char text[8192];
+    int64_t problems = verify(text);
+    if (problems != wanted || !strstr(text, part)) print_error("%lld problems:\n%s", (long long)problems, text);
+    assert_int_equal(problems, wanted);
+    assert_non_null(strstr(text, part));
+}
+
+/* Its report must contain `part`. */
+static inline void recover_says(const char *part)
+{
+    char *report = NULL;
+    fracas_file_header header = sample_header();
+    OK(fracas_study_recover(study, index_, &header, &table, &report));
+    if (!report || !strstr(report, part)) fail_msg("no \"%s\" in the report:\n%s", part, report ? report : "");
+    if (!*part) assert_string_equal(report, "");
+    free(report);
+}
+
+static inline void flip_byte(const char *path, size_t at)
+{
+    size_t size;
+    unsigned char *bytes = sample_slurp(path, &size);
+    bytes[at % size] ^= 0x10;
+    sample_spill(path, bytes, size);
+    free(bytes);
+}
+
+#endif

@@ -1,0 +1,259 @@
+/* The index: plan, lease, commit, its modes and its file. */
+#include "tests/support/study_fixture.h"
+
+/* ---- planning and rows ---- */
+
+static void plan_is_in_order_and_grows(void **state)
+{
+    (void)state;
+    fracas_index_row *row;
+    size_t count;
+    OK(fracas_index_rows(index_, &table, &row, &count));
+    assert_int_equal(count, ALL);
+    for (size_t i = 0; i < count; i++) {
+        assert_int_equal(row[i].point, i / REPLICAS);
+        assert_int_equal(row[i].replica, i % REPLICAS);
+        assert_int_equal(row[i].status, FRACAS_PLANNED);
+        assert_int_equal(row[i].attempts, 0);
+    }
+    free(row);
+    point_row[1].replicas = REPLICAS + 2;
+    sample_fails(fracas_index_rows(index_, &table, &row, &count), FRACAS_DAMAGED, "replica 40 of point 1");
+    OK(fracas_index_plan(index_, &table));
+    OK(fracas_index_rows(index_, &table, &row, &count));
+    assert_int_equal(count, ALL + 2);
+    assert_int_equal(row[REPLICAS * 2 + 1].replica, REPLICAS + 1);
+    free(row);
+    fracas_point_table one = table;
+    one.npoints = 1; /* a point that is not in the table any more stays */
+    OK(fracas_index_plan(index_, &one));
+    assert_int_equal(count_all().realizations, ALL + 2);
+    fracas_index_counts counts;
+    OK(fracas_index_count_point(index_, &point_row[1].hash, &counts));
+    assert_int_equal(counts.realizations, REPLICAS + 2);
+    fracas_hash unknown = fracas_hash_of("unknown", 7);
+    sample_fails(fracas_index_count_point(index_, &unknown, &counts), FRACAS_DAMAGED, "has no point");
+}
+
+static void note_failure(void *said, const fracas_index_row *row, const char *reason)
+{
+    size_t used = strlen(said);
+    snprintf((char *)said + used, 100 - used, "point %zu replica %d attempts %d: %s;", row->point, (int)row->replica,
+             (int)row->attempts, reason);
+}
+
+static void leases_end_with_the_next_plan(void **state)
+{
+    (void)state;
+    OK(fracas_index_lease(index_, &point_row[2].hash, 5, 10));
+    assert_int_equal(count_all().leased, 10);
+    OK(fracas_index_fail(index_, &point_row[2].hash, 6, "signal 11", false));
+    OK(fracas_index_fail(index_, &point_row[2].hash, 7, "signal 9", true));
+    fracas_index_counts counts = count_all();
+    assert_int_equal(counts.leased, 8);
+    assert_int_equal(counts.failed, 1);
+    assert_int_equal(counts.outcome[FRACAS_FAILED], 1);
+    OK(fracas_index_plan(index_, &table));
+    counts = count_all();
+    assert_int_equal(counts.leased, 0);
+    assert_int_equal(counts.planned, ALL - 1);
+    fracas_index_row *row;
+    size_t count;
+    OK(fracas_index_rows(index_, &table, &row, &count));
+    assert_int_equal(row[2 * REPLICAS + 6].attempts, 1);
+    assert_int_equal(row[2 * REPLICAS + 6].status, FRACAS_PLANNED);
+    assert_int_equal(row[2 * REPLICAS + 7].status, FRACAS_FAILED_ROW);
+    free(row);
+    char said[100] = "";
+    OK(fracas_index_failures(index_, &table, note_failure, said));
+    assert_string_equal(said, "point 2 replica 7 attempts 1: signal 9;");
+}
+
+static void first_commit_stays(void **state)
+{
+    (void)state;
+    sample_realization what[] = {{0, 3}, {1, 1}, {0, 4}};
+    fracas_segment_row row[3];
+    fracas_file_seal seal;
+    fracas_place place;
+    sample_segment(study, "a.h5", &table, what, 3, MOST, &seal, row);
+    row[0].outcome = row[1].outcome = FRACAS_INTACT;
+    row[2].outcome = FRACAS_FAILED;
+    OK(fracas_index_commit(index_, "a.h5", &seal, row, 3, "{}"));
+    fracas_index_counts counts = count_all();
+    assert_int_equal(counts.done, 2);
+    assert_int_equal(counts.failed, 1);
+    assert_int_equal(counts.outcome[FRACAS_INTACT], 2);
+    assert_int_equal(counts.segments, 1);
+    assert_true(counts.bytes == (int64_t)seal.bytes);
+    OK(fracas_index_commit(index_, "a.h5", &seal, row, 3, "{}")); /* again: nothing changes */
+    fracas_index_counts again = count_all();
+    assert_memory_equal(&again, &counts, sizeof counts);
+    row[0].row = 7; /* another segment with the same realizations: those done stay where they are */
+    OK(fracas_index_commit(index_, "b.h5", &seal, row, 3, "{}"));
+    OK(fracas_index_place(index_, &point_row[0].hash, 3, &place));
+    assert_int_equal(place.row, 0);
+    OK(fracas_index_fail(index_, &point_row[0].hash, 3, "late", true));
+    OK(fracas_index_place(index_, &point_row[0].hash, 3, &place));
+    assert_int_equal(place.status, FRACAS_DONE);
+    seal.checksum++;
+    sample_fails(fracas_index_commit(index_, "a.h5", &seal, row, 3, "{}"), FRACAS_BUG, "another segment a.h5");
+}
+
+/* A commit of something unplanned leaves nothing behind. */
+static void commits_are_whole(void **state)
+{
+    (void)state;
+    sample_realization what[] = {{0, 3}, {1, 1}};
+    fracas_segment_row row[2];
+    fracas_file_seal seal;
+    sample_segment(study, "a.h5", &table, what, 2, MOST, &seal, row);
+    row[1].replica = REPLICAS;
+    sample_fails(fracas_index_commit(index_, "a.h5", &seal, row, 2, "{}"), FRACAS_DAMAGED, "no replica 40");
+    row[1].replica = 1;
+    sample_fails(fracas_index_commit(index_, "a.h5", &seal, row, 2, "not json"), FRACAS_BUG, "CHECK");
+    fracas_index_counts counts = count_all();
+    assert_int_equal(counts.done + counts.segments, 0);
+    OK(fracas_index_commit(index_, "a.h5", &seal, row, 2, "{}"));
+}
+
+static const char *first_value(fracas_index *index, const char *query)
+{
+    static char value[64];
+    sqlite3_stmt *statement;
+    assert_int_equal(sqlite3_prepare_v2(index->db, query, -1, &statement, NULL), SQLITE_OK);
+    assert_int_equal(sqlite3_step(statement), SQLITE_ROW);
+    snprintf(value, sizeof value, "%s", (const char *)sqlite3_column_text(statement, 0));
+    sqlite3_finalize(statement);
+    return value;
+}
+
+static void index_modes_and_versions(void **state)
+{
+    (void)state;
+    fracas_index *other, *third;
+    bool local;
+    OK(fracas_disk_is_local("/proc", &local)); /* one we do not know: taken for a network */
+    assert_false(local);
+    sample_fails(fracas_index_open(sample_path(study, "segments"), false, &other), FRACAS_DAMAGED, "fracas run");
+    OK(fracas_index_open_as(sample_path(study, "segments"), true, false, &other)); /* as on a network */
+    OK(fracas_index_plan(other, &table));
+    OK(fracas_index_lease(other, &point_row[0].hash, 0, 3));
+    assert_string_equal(first_value(other, "PRAGMA locking_mode"), "exclusive");
+    assert_string_equal(first_value(other, "PRAGMA journal_mode"), "truncate");
+    assert_string_equal(first_value(other, "PRAGMA synchronous"), "2");
+    assert_string_equal(first_value(index_, "PRAGMA journal_mode"), "wal");
+    OK(fracas_index_lease(index_, &point_row[0].hash, 0, 3));
+    assert_string_equal(first_value(index_, "PRAGMA synchronous"), "2"); /* again, after a lease */
+    assert_int_equal(access(sample_path(study, "segments/index.sqlite-wal"), F_OK), -1);
+    assert_int_equal(access(sample_path(study, "segments/index.sqlite-journal"), F_OK), 0);
+    fracas_index_close(other);
+    OK(fracas_index_open(study, false, &third)); /* two at a time on a local filesystem */
+    fracas_index_close(third);
+    assert_int_equal(sqlite3_exec(index_->db, "UPDATE meta SET value = '99'", NULL, NULL, NULL), SQLITE_OK);
+    sample_fails(fracas_index_open(study, false, &other), FRACAS_DAMAGED, "format version 99");
+    sample_spill(sample_path(study, "segments/index.sqlite"), "no database, but long enough to be looked at", 44);
+    sample_fails(fracas_index_open(sample_path(study, "segments"), false, &other), FRACAS_DAMAGED, "remove it");
+}
+
+/* ---- the file of the index ---- */
+
+static void an_index_without_tables_is_none(void **state)
+{
+    (void)state;
+    fracas_index *other;
+    sqlite3 *db;
+    assert_true(fracas_index_exists(study));
+    fracas_index_close(index_);
+    index_ = NULL;
+    char path[512];
+    snprintf(path, sizeof path, "%s/index.sqlite", study);
+    for (int empty = 0; empty < 2; empty++) {
+        unlink(path);
+        assert_false(fracas_index_exists(study));
+        sample_spill(path, "", 0);
+        if (!empty) { /* as a kill between the first page and the tables leaves it */
+            assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
+            assert_int_equal(sqlite3_exec(db, "PRAGMA journal_mode = WAL", NULL, NULL, NULL), SQLITE_OK);
+            sqlite3_close(db);
+            struct stat info;
+            assert_int_equal(stat(path, &info), 0);
+            assert_true(info.st_size > 0);
+        }
+        assert_false(fracas_index_exists(study));
+        sample_fails(fracas_index_open(study, false, &other), FRACAS_DAMAGED, "`fracas run` makes one");
+        OK(fracas_index_open(study, true, &index_));
+        OK(fracas_index_plan(index_, &table));
+        fracas_index_close(index_);
+        index_ = NULL;
+        assert_true(fracas_index_exists(study));
+    }
+    /* Of something else: not touched, and the way out is named. */
+    unlink(path);
+    assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
+    assert_int_equal(sqlite3_exec(db, "CREATE TABLE letters(text)", NULL, NULL, NULL), SQLITE_OK);
+    sqlite3_close(db);
+    assert_false(fracas_index_exists(study));
+    sample_fails(fracas_index_open(study, true, &other), FRACAS_DAMAGED, "remove it: `fracas run` makes it anew");
+    sample_spill(path, "no database, but long enough to be looked at", 44);
+    assert_false(fracas_index_exists(study));
+    sample_fails(fracas_index_open(study, true, &other), FRACAS_DAMAGED, "remove it: `fracas run` makes it anew");
+}
+
+/* Reads the study as one who may not write it; the exit status says what went wrong. */
+static void look_as_another(void)
+{
+    fracas_index_counts counts;
+    char text[8192] = "";
+    int64_t problems;
+    bool sealed;
+    if (geteuid() == 0 && (setgid(65534) || setuid(65534))) _exit(1);
+    if (access(study, W_OK) == 0) _exit(2);
+    if (!fracas_index_exists(study) || fracas_index_open(study, false, &index_)) _exit(3);
+    if (fracas_index_count(index_, &counts) || counts.planned || !counts.done) _exit(4);
+    if (fracas_study_sealed(study, index_, &sealed) || !sealed) _exit(5);
+    if (fracas_index_event(index_, "kind", "text") != FRACAS_ENVIRONMENT || !strstr(fracas_message(), "copy it")) _exit(6);
+    fracas_index_close(index_);
+    if (fracas_study_verify(study, keep_problem, text, &problems) || problems) _exit(7);
+    if (fracas_index_open(study, true, &index_) != FRACAS_ENVIRONMENT || !strstr(fracas_message(), "copy it")) _exit(8);
+    _exit(0);
+}
+
+static void a_study_that_cannot_be_written_can_be_read(void **state)
+{
+    (void)state;
+    char *plain = study, *odd = NULL;
+    commit_everything(2);
+    merge();
+    fracas_index_close(index_);
+    index_ = NULL;
+    assert_true(asprintf(&odd, "%s 50%%?#", plain) > 0); /* a name that a URI must not take for its own */
+    assert_int_equal(rename(plain, odd), 0);
+    study = odd;
+    assert_int_equal(chmod(sample_path(odd, "index.sqlite"), 0444) + chmod(odd, 0555), 0);
+    pid_t child = fork();
+    if (child == 0) look_as_another();
+    int status;
+    waitpid(child, &status, 0);
+    assert_int_equal(chmod(odd, 0777) + rename(odd, plain), 0);
+    study = plain;
+    free(odd);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 0);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(plan_is_in_order_and_grows),
+        TEST(leases_end_with_the_next_plan),
+        TEST(first_commit_stays),
+        TEST(commits_are_whole),
+        TEST(index_modes_and_versions),
+        TEST(an_index_without_tables_is_none),
+        TEST(a_study_that_cannot_be_written_can_be_read),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
