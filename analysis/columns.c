@@ -2,7 +2,6 @@
 
 #include "analysis/format.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,9 +23,7 @@ static int rank_of(const char *path)
 
 static bool same_value(const fracas_point_table *table, size_t column, size_t a, size_t b)
 {
-    const fracas_value *x = &table->point[a].value[column], *y = &table->point[b].value[column];
-    if (table->column[column].text) return !strcmp(x->text, y->text);
-    return x->real == y->real || (isnan(x->real) && isnan(y->real));
+    return fracas_value_same(&table->point[a].value[column], &table->point[b].value[column]);
 }
 
 bool fracas_columns_same(const fracas_point_table *table, const fracas_columns *columns, size_t a, size_t b)

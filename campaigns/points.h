@@ -4,6 +4,7 @@
 
 #include "base/hash.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -43,6 +44,21 @@ static inline size_t fracas_point_table_find(const fracas_point_table *table, co
     for (size_t c = 0; c < table->ncolumns; c++)
         if (!strcmp(table->column[c].path, path)) return c;
     return SIZE_MAX;
+}
+
+/* Both none, or equal. */
+static inline bool fracas_value_same(const fracas_value *a, const fracas_value *b)
+{
+    return !strcmp(a->text, b->text) && (a->real == b->real || (isnan(a->real) && isnan(b->real)));
+}
+
+/* True if a column of the campaign's own (not a derived one) is not the same at every point: what its sweep varies. */
+static inline bool fracas_point_table_varies(const fracas_point_table *table, size_t column)
+{
+    if (!strncmp(table->column[column].path, "derived.", 8)) return false;
+    for (size_t p = 1; p < table->npoints; p++)
+        if (!fracas_value_same(&table->point[0].value[column], &table->point[p].value[column])) return true;
+    return false;
 }
 
 #endif

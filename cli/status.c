@@ -78,16 +78,6 @@ static fracas_err write_json(const fracas_status *status)
     return code;
 }
 
-/* Columns whose value is not the same at every point: what the sweep varies. */
-static bool varies(const fracas_point_table *table, size_t column)
-{
-    for (size_t i = 1; i < table->npoints; i++) {
-        const fracas_value *first = &table->point[0].value[column], *value = &table->point[i].value[column];
-        if (strcmp(first->text, value->text) || memcmp(&first->real, &value->real, sizeof value->real)) return true;
-    }
-    return false;
-}
-
 static void print_points(const fracas_status *status)
 {
     const fracas_point_table *table = &status->campaign->table;
@@ -96,10 +86,10 @@ static void print_points(const fracas_status *status)
         const fracas_index_counts *counts = &status->point[i];
         printf("%12" PRId64 "%8" PRId64 "%8" PRId64 "  %zu", counts->realizations, counts->done, counts->failed, i);
         for (size_t c = 0; c < table->ncolumns; c++) {
-            if (!varies(table, c)) continue;
+            if (!fracas_point_table_varies(table, c)) continue;
             const fracas_value *value = &table->point[i].value[c];
-            if (table->column[c].text) printf(" %s=%s", table->column[c].path, value->text);
-            else printf(" %s=%g", table->column[c].path, value->real);
+            if (*value->text) printf(" %s=%s", table->column[c].path, value->text);
+            else if (!isnan(value->real)) printf(" %s=%g", table->column[c].path, value->real);
         }
         putchar('\n');
     }

@@ -24,18 +24,6 @@ typedef struct {
     double slowest;                  /* element-steps per second */
 } campaign_plan;
 
-static bool is_varied(const fracas_point_table *table, size_t c)
-{
-    if (strncmp(table->column[c].path, "derived.", 8) == 0) return false;
-    const fracas_value *first = &table->point[0].value[c];
-    for (size_t p = 1; p < table->npoints; p++) {
-        const fracas_value *value = &table->point[p].value[c];
-        bool both_none = isnan(value->real) && isnan(first->real);
-        if ((value->real != first->real && !both_none) || strcmp(value->text, first->text) != 0) return true;
-    }
-    return false;
-}
-
 static void plan_clear(campaign_plan *plan)
 {
     free(plan->forecast);
@@ -52,7 +40,7 @@ static fracas_err plan_init(const fracas_campaign *campaign, int jobs, campaign_
     if (!made->forecast || !made->varied) return fracas_no_memory("the plan");
     TRY(fracas_forecast_all(campaign, jobs, made->forecast));
     for (size_t c = 0; c < table->ncolumns; c++)
-        if (is_varied(table, c)) made->varied[made->nvaried++] = c;
+        if (fracas_point_table_varies(table, c)) made->varied[made->nvaried++] = c;
     for (size_t p = 0; p < table->npoints; p++) {
         made->realizations += table->point[p].replicas;
         made->time += made->forecast[p].time;

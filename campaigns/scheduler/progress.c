@@ -2,6 +2,7 @@
 
 #include "campaigns/scheduler/clock.h"
 
+#include <math.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -13,22 +14,21 @@ void fracas_progress_init(fracas_progress *progress, FILE *out)
     *progress = (fracas_progress){.out = out, .terminal = isatty(fileno(out))};
 }
 
-/* "128 of 512 realizations done, 16 computed, 0 failed, 12.3/s, 0:31 left"; shorter on a terminal. The rate and the time left
- * count computed ones, as done ones come a segment at a time. */
+/* "128 of 512 realizations done, 16 computed, 0 failed, 12.3/s, 0:31 left"; shorter on a terminal. The rate counts
+ * computed ones, as done ones come a segment at a time; the time left goes by predicted work, as the longest come first. */
 static void describe(const fracas_progress *progress, char *text, size_t size)
 {
     const fracas_scheduler_counts *now = &progress->last, *first = &progress->first;
     double elapsed = fracas_now() - progress->began;
     double computed = (double)(now->done + now->memory + now->failed - first->done - first->memory - first->failed);
-    double left = (double)(now->total - now->done - now->memory - now->failed);
     int n = snprintf(text, size, progress->terminal ? "%lld/%lld done" : "%lld of %lld realizations done",
                      (long long)now->done, (long long)now->total);
     if (now->memory) n += snprintf(text + n, size - (size_t)n, ", %lld computed", (long long)now->memory);
     n += snprintf(text + n, size - (size_t)n, ", %lld failed", (long long)now->failed);
     if (computed <= 0 || elapsed <= 0) return;
     n += snprintf(text + n, size - (size_t)n, ", %.3g/s", computed / elapsed);
-    double seconds = left * elapsed / computed;
-    if (left > 0 && seconds < 1e8) {
+    double seconds = now->work > 0 ? elapsed * (1 - now->work) / now->work : INFINITY;
+    if (now->work < 1 && seconds < 1e8) {
         long long s = (long long)(seconds + 0.5);
         if (s >= 3600)
             snprintf(text + n, size - (size_t)n, ", %lld:%02lld:%02lld left", s / 3600, s / 60 % 60, s % 60);

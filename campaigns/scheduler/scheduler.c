@@ -30,6 +30,7 @@ struct fracas_scheduler {
     worker_state *worker;
     size_t nworker;
     fracas_scheduler_counts count;
+    double cost, computed; /* predicted, of all leases and of those computed or failed for good */
 };
 
 static void list_append(fracas_scheduler *scheduler, list *to, size_t id)
@@ -156,6 +157,7 @@ fracas_err fracas_scheduler_create(const fracas_index_row *row, size_t count, co
         if (s->entry && s->worker) {
             for (size_t w = 0; w < s->nworker; w++) s->worker[w] = (worker_state){.memory = {NONE, NONE}};
             make_leases(s, planned, nplanned, options);
+            for (size_t i = 0; i < s->nentry; i++) s->cost += s->entry[i].cost;
             free(planned);
             *scheduler = s;
             return FRACAS_OK;
@@ -208,6 +210,7 @@ fracas_err fracas_scheduler_computed(fracas_scheduler *scheduler, size_t worker,
     TRY(let_go(scheduler, worker, id));
     list_append(scheduler, &scheduler->worker[worker].memory, (size_t)id);
     scheduler->count.memory += (int64_t)scheduler->entry[id].lease.count;
+    scheduler->computed += scheduler->entry[id].cost;
     return FRACAS_OK;
 }
 
@@ -221,13 +224,15 @@ fracas_err fracas_scheduler_failed(fracas_scheduler *scheduler, size_t worker, u
     if (lease->count > 1) {
         for (size_t i = lease->count; i-- > 0;) { /* backwards, so that the first comes first */
             size_t single = scheduler->nentry++;
-            scheduler->entry[single] = (entry){.lease = {.id = single, .point = lease->point, .count = 1}};
+            scheduler->entry[single] = (entry){.lease = {.id = single, .point = lease->point, .count = 1},
+                                                 .cost = failed->cost / (double)lease->count};
             scheduler->entry[single].lease.replica[0] = lease->replica[i];
             wait_first(scheduler, single);
         }
     } else if (++failed->attempts >= FRACAS_ATTEMPTS_MAX) {
         *final = true;
         scheduler->count.failed++;
+        scheduler->computed += failed->cost;
     } else {
         wait_last(scheduler, (size_t)id); /* the cause may be gone by then */
     }
@@ -253,6 +258,7 @@ void fracas_scheduler_lost(fracas_scheduler *scheduler, size_t worker)
     }
     for (size_t id; (id = list_take(scheduler, &w->memory)) != NONE;) {
         scheduler->count.memory -= (int64_t)scheduler->entry[id].lease.count;
+        scheduler->computed -= scheduler->entry[id].cost;
         wait_first(scheduler, id);
     }
 }
@@ -264,5 +270,7 @@ bool fracas_scheduler_computed_all(const fracas_scheduler *scheduler)
 
 fracas_scheduler_counts fracas_scheduler_count(const fracas_scheduler *scheduler)
 {
-    return scheduler->count;
+    fracas_scheduler_counts count = scheduler->count;
+    count.work = scheduler->cost > 0 ? scheduler->computed / scheduler->cost : 1;
+    return count;
 }

@@ -41,6 +41,7 @@ typedef struct {
     int64_t done;   /* durable */
     int64_t memory; /* computed, not yet durable */
     int64_t failed; /* for good */
+    double work;    /* predicted cost of what this run has computed, as a share of all it has to: 0 to 1 */
 } fracas_scheduler_counts;
 
 typedef struct fracas_scheduler fracas_scheduler;

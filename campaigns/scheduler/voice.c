@@ -24,8 +24,8 @@ void fracas_voice_progress(fracas_voice *voice, const fracas_scheduler_counts *c
         fracas_progress_update(&voice->progress, counts);
         return;
     }
-    printf("%sprogress %lld %lld %lld %lld\n", mark, (long long)counts->total, (long long)counts->done,
-           (long long)counts->memory, (long long)counts->failed);
+    printf("%sprogress %lld %lld %lld %lld %.9g\n", mark, (long long)counts->total, (long long)counts->done,
+           (long long)counts->memory, (long long)counts->failed, counts->work);
     fflush(stdout);
 }
 
@@ -64,9 +64,10 @@ bool fracas_voice_hear(char *line, fracas_progress *progress, fracas_verdict *ve
     if (strncmp(line, mark, strlen(mark))) return false;
     line += strlen(mark);
     long long total, done, memory, failed;
+    double work;
     int code, ran, text = 0;
-    if (sscanf(line, "progress %lld %lld %lld %lld", &total, &done, &memory, &failed) == 4) {
-        fracas_progress_update(progress, &(fracas_scheduler_counts){total, done, memory, failed});
+    if (sscanf(line, "progress %lld %lld %lld %lld %lg", &total, &done, &memory, &failed, &work) == 5) {
+        fracas_progress_update(progress, &(fracas_scheduler_counts){total, done, memory, failed, work});
     } else if (!strncmp(line, "say ", 4)) {
         replace(line, '\v', '\n');
         fracas_progress_say(progress, line + 4);

@@ -33,6 +33,9 @@ static void assert_counts(const fracas_scheduler *scheduler, int64_t done, int64
     assert_int_equal(count.done, done);
     assert_int_equal(count.memory, memory);
     assert_int_equal(count.failed, failed);
+    /* sums of some tens of costs: a few roundings from the exact share */
+    assert_true(count.work > -1e-12 && count.work < 1 + 1e-12);
+    assert_int_equal(count.work > 1 - 1e-12, fracas_scheduler_computed_all(scheduler));
 }
 
 static void test_longest_first(void **state)
