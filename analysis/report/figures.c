@@ -234,13 +234,22 @@ fracas_err fracas_figure_sizes_together(const fracas_analysis *analysis, fracas_
     return FRACAS_OK;
 }
 
+enum { LABEL = 160 };
+
+/* File name and title of a figure of one point, and the point's label. */
+static void name_figure(const fracas_analysis *analysis, size_t point, const char *file, const char *title,
+                        fracas_chart *chart, char label[LABEL])
+{
+    fracas_analysis_label(analysis, point, label, LABEL);
+    snprintf(chart->file, sizeof chart->file, "%s-point-%zu", file, point);
+    snprintf(chart->title, sizeof chart->title, "%s: %s", title, label);
+}
+
 fracas_err fracas_figure_sizes(const fracas_analysis *analysis, size_t point, fracas_chart *chart)
 {
     const fracas_point_statistics *statistics = &analysis->point[point];
-    char label[160];
-    fracas_analysis_label(analysis, point, label, sizeof label);
-    snprintf(chart->file, sizeof chart->file, "sizes-point-%zu", point);
-    snprintf(chart->title, sizeof chart->title, "Fragment sizes: %s", label);
+    char label[LABEL];
+    name_figure(analysis, point, "sizes", "Fragment sizes", chart, label);
     if (statistics->nfragments == 0) return FRACAS_OK;
     double mean = mean_of(statistics->fragment_size, statistics->nfragments);
     fracas_prefix prefix = fracas_prefix_for(&mean, 1);
@@ -300,10 +309,8 @@ static const double residual_floor = 1e-12;
 fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point, fracas_chart *chart)
 {
     const fracas_point_statistics *statistics = &analysis->point[point];
-    char label[160];
-    fracas_analysis_label(analysis, point, label, sizeof label);
-    snprintf(chart->file, sizeof chart->file, "energies-point-%zu", point);
-    snprintf(chart->title, sizeof chart->title, "Energies: %s", label);
+    char label[LABEL];
+    name_figure(analysis, point, "energies", "Energies", chart, label);
     double largest = largest_energy(statistics);
     if (statistics->nhistory == 0 || !(largest > 0)) return FRACAS_OK;
     fracas_prefix time = fracas_prefix_for(&statistics->history[statistics->nhistory - 1].time, 1);
