@@ -6,7 +6,7 @@ double fracas_param_get(const fracas_param *param, const void *section)
     switch (param->type) {
     case FRACAS_INTEGER: return (double)*(const int64_t *)(const void *)at;
     case FRACAS_BOOLEAN: return *(const bool *)(const void *)at ? 1.0 : 0.0;
-    case FRACAS_REAL: break;
+    case FRACAS_REAL: case FRACAS_CHOICE: case FRACAS_ATTACHMENT: break;
     }
     return *(const double *)(const void *)at;
 }
@@ -17,6 +17,7 @@ void fracas_param_set(const fracas_param *param, void *section, double value)
     switch (param->type) {
     case FRACAS_INTEGER: *(int64_t *)(void *)at = (int64_t)value; break;
     case FRACAS_BOOLEAN: *(bool *)(void *)at = value != 0.0; break;
+    case FRACAS_CHOICE: case FRACAS_ATTACHMENT: break;
     case FRACAS_REAL: *(double *)(void *)at = value; break;
     }
 }

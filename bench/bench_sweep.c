@@ -6,7 +6,7 @@
  * have); then steps are timed in five blocks and the median is printed. */
 #include "engine/cohesive/law.h"
 #include "engine/loading/loading.h"
-#include "engine/mesh/bar_mesh.h"
+#include "engine/mesh/body.h"
 #include "engine/solver/batch.h"
 
 #include <getopt.h>
@@ -38,9 +38,11 @@ static void demand(fracas_err code)
 static fracas_spec reference(int64_t elements)
 {
     return (fracas_spec){
-        .formulation = &fracas_formulation_bar.kind, .geometry = {&fracas_ends_periodic, 0.05, 1e-6}, .mesh = {elements},
-        .material = {275e9, 2750}, .cohesive = {&fracas_law_nitsche, 100, 4},
-        .loading = {&fracas_loading_imposed_rate, 1e5}, .time = {.stop = &fracas_stop_time, .end = 1, .safety = 0.25}};
+        .formulation = &fracas_formulation_bar.kind, 
+        .geometry = {.shape = &fracas_shape_bar, .ends = &fracas_ends_periodic, .length = 0.05, .area = 1e-6},
+        .mesh = {.spacing = &fracas_spacing_uniform, .elements = elements}, .material = {275e9, 2750},
+        .cohesive = {.law = &fracas_law_nitsche, .fracture_energy = 100, .beta = 4},
+        .loading = {.type = &fracas_loading_imposed_rate, .rate = 1e5}, .time = {.stop = &fracas_stop_time, .end = 1, .safety = 0.25}};
 }
 
 int main(int argc, char **argv)

@@ -41,6 +41,12 @@ int64_t fracas_model_steps(const fracas_model *model)
     return (int64_t)ceil(model->spec.time.end / model->time_step);
 }
 
+double fracas_model_interface_volume(const fracas_model *model, size_t interface)
+{
+    (void)interface;
+    return model->spec.geometry.area * model->element_size;
+}
+
 fracas_err fracas_model_check_strength(const fracas_model *model, double strength)
 {
     return model->formulation->check_strength(model, strength);

@@ -5,7 +5,7 @@
 #include "engine/formulation/formulation.h"
 #include "engine/loading/loading.h"
 #include "engine/material/elastic.h"
-#include "engine/mesh/bar_mesh.h"
+#include "engine/mesh/body.h"
 #include "engine/solver/stop.h"
 
 static const fracas_kind *const formulations[] = {&fracas_formulation_bar.kind};

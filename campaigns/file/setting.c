@@ -74,7 +74,7 @@ fracas_err fracas_setting_read(const fracas_file *file, const fracas_leaf *leaf,
     switch (leaf->param->type) {
     case FRACAS_BOOLEAN: return read_boolean(file, leaf->key, node, &setting->value);
     case FRACAS_INTEGER: return read_integer(file, leaf->key, node, &setting->value);
-    case FRACAS_REAL: break;
+    case FRACAS_REAL: case FRACAS_CHOICE: case FRACAS_ATTACHMENT: break;
     }
     return read_real(file, leaf, node, &setting->value);
 }

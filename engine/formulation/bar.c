@@ -5,8 +5,9 @@
 #include "engine/cohesive/law.h"
 #include "engine/fragments/fragments.h"
 #include "engine/integrator/critical_step.h"
+#include "engine/loading/loading.h"
 #include "engine/material/elastic.h"
-#include "engine/mesh/bar_mesh.h"
+#include "engine/mesh/body.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -303,8 +304,11 @@ static fracas_err bar_harvest(const fracas_model *model, const fracas_step *step
     return step->onset_time ? harvest_interfaces(&view, record) : FRACAS_OK;
 }
 
+static const fracas_kind *const goes_with[] = {&fracas_shape_bar, &fracas_law_nitsche, &fracas_law_rigid_link,
+                                               &fracas_loading_imposed_rate};
 const fracas_formulation fracas_formulation_bar = {
-    .kind = {.name = "bar", .doc = "a bar stretched at a uniform rate: the hoop direction of an expanding ring"},
+    .kind = {.name = "bar", .doc = "a bar stretched at a uniform rate: the hoop direction of an expanding ring",
+             .goes_with = goes_with, .ngoes_with = FRACAS_COUNT(goes_with)},
     .model_init = bar_model_init, .check_strength = bar_check_strength, .state_size = bar_state_size,
     .strength = bar_strength, .lane_init = bar_lane_init, .advance = bar_advance,
     .fragment_count = bar_fragment_count, .harvest = bar_harvest,

@@ -4,7 +4,7 @@
 
 #include "engine/cohesive/law.h"
 #include "engine/loading/loading.h"
-#include "engine/mesh/bar_mesh.h"
+#include "engine/mesh/body.h"
 #include "engine/solver/batch.h"
 #include "sampler/sampler.h"
 
@@ -23,9 +23,11 @@
 static inline fracas_spec bar_reference(int64_t elements, double rate, double end)
 {
     return (fracas_spec){
-        .formulation = &fracas_formulation_bar.kind, .geometry = {&fracas_ends_periodic, 0.05, 1e-6}, .mesh = {elements},
-        .material = {275e9, 2750}, .cohesive = {&fracas_law_nitsche, 100, 4},
-        .loading = {&fracas_loading_imposed_rate, rate}, .time = {.stop = &fracas_stop_time, .end = end, .safety = 0.25}};
+        .formulation = &fracas_formulation_bar.kind, 
+        .geometry = {.shape = &fracas_shape_bar, .ends = &fracas_ends_periodic, .length = 0.05, .area = 1e-6},
+        .mesh = {.spacing = &fracas_spacing_uniform, .elements = elements}, .material = {275e9, 2750},
+        .cohesive = {.law = &fracas_law_nitsche, .fracture_energy = 100, .beta = 4},
+        .loading = {.type = &fracas_loading_imposed_rate, .rate = rate}, .time = {.stop = &fracas_stop_time, .end = end, .safety = 0.25}};
 }
 
 /* Strengths uniform in 300 MPa (1 +- scatter) for replica `replica`, in lane `lane`. */

@@ -91,7 +91,8 @@ static void dynfrag1d_is_replayed_to_1e_8_with_every_count(void **unused)
     assert_int_equal(read_history(reference), STEPS);
 
     fracas_spec spec = bar_reference(N, RATE, 1);
-    spec.geometry = (fracas_geometry){&fracas_ends_held, LENGTH, 1.0};
+    spec.geometry.ends = &fracas_ends_held;
+    spec.geometry.area = 1.0;
     spec.cohesive.law = &fracas_law_rigid_link;
     fracas_model *model;
     assert_ok(fracas_model_create(&spec, &model));
