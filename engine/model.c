@@ -28,6 +28,7 @@ fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
 
 void fracas_model_destroy(fracas_model *model)
 {
+    if (model) free(model->table);
     free(model);
 }
 
@@ -43,8 +44,7 @@ int64_t fracas_model_steps(const fracas_model *model)
 
 double fracas_model_interface_volume(const fracas_model *model, size_t interface)
 {
-    (void)interface;
-    return model->spec.geometry.area * model->element_size;
+    return model->spec.geometry.area * model->formulation->interface_length(model, interface);
 }
 
 fracas_err fracas_model_check_strength(const fracas_model *model, double strength)

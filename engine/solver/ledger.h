@@ -15,7 +15,7 @@ typedef struct {
 } fracas_ledger;
 
 /* Takes the step's energies of `lane`, with
- *   work_n = work_{n-1} + dt (P_{n-1} + P_n)/2                                                    (bar.13)
+ *   work_n = work_{n-1} + dt (P_{n-1} + P_n)/2 + W_n, W_n the step's own account                   (bar.13)
  *   residual = kinetic + elastic + cohesive + dissipated - created - work - initial               (bar.14)
  * `first`: the step that the ledger starts with. */
 void fracas_ledger_update(fracas_ledger *ledger, const fracas_step *step, int lane, bool first);
