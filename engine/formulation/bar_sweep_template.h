@@ -3,13 +3,13 @@
 #include "base/lanes.h"
 #include "engine/cohesive/nitsche.h"
 #include "engine/cohesive/rigid_link.h"
+#include "engine/formulation/chain_events.h"
 #include "engine/integrator/central_difference.h"
 
 #define bar_element LANES_NAME(bar_element)
 #define bar_link LANES_NAME(bar_link)
 #define bar_context LANES_NAME(bar_context)
 #define bar_load LANES_NAME(bar_load)
-#define bar_note_events LANES_NAME(bar_note_events)
 #define bar_stress_rate LANES_NAME(bar_stress_rate)
 #define bar_nitsche LANES_NAME(bar_nitsche)
 #define bar_rigid_link LANES_NAME(bar_rigid_link)
@@ -61,37 +61,6 @@ LANES_FUNCTION bar_element bar_load(const bar_context *c, int uniform, size_t e)
     return element;
 }
 
-/* Rare: books onsets and breaks of one interface; `onset`, `broke` are times [s], `lost` the flux energy
- * -sigma^2/(2K) that a break drops [J/m2]. */
-__attribute__((noinline, cold)) static void bar_note_events(const bar_context *c, size_t interface, vmask cracks,
-                                                           vmask breaks, const vd *onset, const vd *broke,
-                                                           const vd *lost)
-{
-    fracas_step *step = c->step;
-    for (int i = 0; i < LANES; i++) {
-        const int l = c->first + i;
-        const size_t at = interface * (size_t)step->width + (size_t)l;
-        double earliest = step->time[l] - step->drift[l];
-        if (lanes_get(cracks, i)) {
-            double time[LANES];
-            memcpy(time, onset, sizeof time);
-            double t = fmax(earliest, fmin(time[i], step->time[l]));
-            step->cracked[l]++;
-            step->first_onset[l] = fmin(step->first_onset[l], t); /* NaN: none yet */
-            if (step->onset_time) step->onset_time[at] = t;
-        }
-        if (lanes_get(breaks, i)) {
-            double time[LANES], energy[LANES];
-            memcpy(time, broke, sizeof time);
-            memcpy(energy, lost, sizeof energy);
-            step->broken[l]++;
-            step->created[l] += c->bar->area * energy[i];
-            if (step->break_time)
-                step->break_time[at] = fmax(earliest, fmin(time[i], step->time[l]));
-        }
-    }
-}
-
 /* Time derivative of the mean stress within the step [Pa/s]. */
 LANES_FUNCTION vd bar_stress_rate(const bar_context *c, int uniform, const bar_element *left, const bar_element *right)
 {
@@ -128,7 +97,7 @@ LANES_FUNCTION bar_link bar_nitsche(bar_context *c, int uniform, size_t e, const
         vd time = lanes_load(c->step->time + c->first);
         vd onset = time - (it.trial - sigma_c) / rate, broke = time - (it.trial - sigma_c - x) / rate;
         vd lost = half * mean * mean * compliance; /* (cohesive.6) */
-        bar_note_events(c, e, cracks, breaks, &onset, &broke, &lost);
+        chain_note_events(c->step, c->first, c->bar->area, e, &(chain_events){cracks, breaks, onset, broke, zero, lost});
     }
     return (bar_link){.traction = it.traction, .slip = it.slip};
 }
@@ -161,7 +130,7 @@ LANES_FUNCTION bar_link bar_rigid_link(bar_context *c, int uniform, size_t e, co
         vd time = lanes_load(c->step->time + c->first);
         vd onset = time - (mean - sigma_c) / bar_stress_rate(c, uniform, left, right);
         vd broke = time - (q - delta_c) / (right->v_left - left->v_right);
-        bar_note_events(c, e, cracks, breaks, &onset, &broke, &zero);
+        chain_note_events(c->step, c->first, c->bar->area, e, &(chain_events){cracks, breaks, onset, broke, zero, zero});
     }
     /* both nodes accelerate as one: each takes its share, by mass, of the force on both */
     vd common = uniform ? half * (right->stress - left->stress) : (right->stress - left->stress) / (left->size + right->size);
@@ -271,7 +240,6 @@ BAR_SWEEP_OF(varied_rigid_link, 0, BAR_RIGID_LINK)
 #undef bar_link
 #undef bar_context
 #undef bar_load
-#undef bar_note_events
 #undef bar_nitsche
 #undef bar_rigid_link
 #undef bar_join
@@ -280,6 +248,8 @@ BAR_SWEEP_OF(varied_rigid_link, 0, BAR_RIGID_LINK)
 #undef bar_run
 #undef BAR_RIGID_LINK
 #undef BAR_NITSCHE
+#undef chain_events
+#undef chain_note_events
 #undef nitsche_interface
 #undef nitsche_law
 #undef rigid_link_law
