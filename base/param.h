@@ -77,10 +77,28 @@ typedef struct {
 
 #define FRACAS_COUNT(array) (sizeof(array) / sizeof *(array))
 
-/* The value that `param` describes within the section's struct at `section`, as a double. */
+/* True for numbers and booleans: what the next two functions are for, a choice by its index in `choices`. */
+static inline bool fracas_param_is_text(const fracas_param *param)
+{
+    return param->type == FRACAS_CHOICE || param->type == FRACAS_ATTACHMENT;
+}
+
+/* The value that `param` describes within the section's struct at `section`, as a double: of a choice, its index (NaN for
+ * none of them); NaN of an attachment. */
 double fracas_param_get(const fracas_param *param, const void *section);
 
-/* Stores `value` (SI, already validated) at the place that `param` describes. */
+/* Stores `value` (SI, already validated; an index of a choice) at the place that `param` describes; nothing for an attachment. */
 void fracas_param_set(const fracas_param *param, void *section, double value);
+
+/* The same of an attachment; NULL for none. */
+const fracas_attachment *fracas_param_attachment(const fracas_param *param, const void *section);
+void fracas_param_attach(const fracas_param *param, void *section, const fracas_attachment *attachment);
+
+/* What stands for the value of a choice or attachment in a point: the name, the digest; "" where there is none, and for
+ * any other type. */
+const char *fracas_param_text(const fracas_param *param, const void *section);
+
+/* Number i, from 0, of the kinds of `section` that `kind` names in goes_with; NULL after the last. */
+const fracas_kind *fracas_kind_partner(const fracas_kind *kind, const fracas_section *section, size_t i);
 
 #endif

@@ -141,8 +141,8 @@ static size_t list_sources(const fracas_catalog *catalog, const fracas_campaign 
         const fracas_leaf *leaf = &catalog->leaf[i];
         const fracas_section *table = leaf->section->table;
         if (!table->hashed || !any_point_has(campaign, leaf)) continue;
-        fracas_column column = {leaf->path, leaf->param ? leaf->param->unit : "",
-                                leaf->param ? leaf->param->doc : table->doc, !leaf->param};
+        const bool text = fracas_leaf_is_text(leaf);
+        fracas_column column = {leaf->path, text ? "" : leaf->param->unit, leaf->param ? leaf->param->doc : table->doc, text};
         sources[count++] = (source){column, leaf};
     }
     sources[count++] = (source){{derived_strength_mean, "Pa", "mean of the distribution of strengths", false}, NULL};

@@ -19,7 +19,7 @@ typedef struct fracas_setting {
     const fracas_leaf *leaf;
     const fracas_node *node;   /* where it was written */
     const fracas_kind *kind;   /* of a leaf that names a kind */
-    double value;              /* of any other, SI */
+    double value;              /* of any other, SI; of a choice, its index */
     struct fracas_setting *next;
 } fracas_setting;
 
