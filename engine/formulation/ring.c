@@ -75,9 +75,6 @@ static fracas_err ring_model_init(fracas_model *model)
     const fracas_spec *spec = &model->spec;
     if (spec->mesh.elements < 3 || spec->mesh.elements > 100000000)
         return fracas_fail(FRACAS_USAGE, "mesh.elements is %" PRId64 "; a ring takes 3 to 1e8 elements", spec->mesh.elements);
-    if (!is_nitsche(model) && spec->geometry.direction == &fracas_direction_current)
-        return fracas_fail(FRACAS_USAGE, "geometry.direction is current, but Stershic's algorithm opens links along the initial "
-                           "direction: leave it out, or use the law nitsche");
     const size_t n = model->elements = model->interfaces = (size_t)spec->mesh.elements;
     const double circumference = 2 * PI * spec->geometry.radius;
     model->element_size = model->longest = circumference / (double)n;

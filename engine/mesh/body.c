@@ -12,7 +12,7 @@ const fracas_kind fracas_direction_initial = {
     .name = "initial", .doc = "interfaces open along the circumference as it was at the start"};
 const fracas_kind fracas_direction_current = {
     .name = "current", .doc = "interfaces open along the mean of their two elements, wherever these have turned"};
-static const fracas_kind *const directions[] = {&fracas_direction_initial, &fracas_direction_current};
+static const fracas_kind *const directions[] = {&fracas_direction_current, &fracas_direction_initial};
 
 static const fracas_param bar[] = {
     {"length", FRACAS_REAL, "m", "length of the bar (circumference of the ring)", FRACAS_REQUIRED, 0, INFINITY, true,
