@@ -76,7 +76,6 @@ static void measure_spread(const dynfrag1d_run *run, const dynfrag1d_row *refere
                 spread[n][k] = fmax(spread[n][k], until);
             }
         }
-        for (int n = 0; n < rows; n++) assert_true(labs(other[n].fragments - now[n].fragments) <= 1);
     }
 }
 
@@ -93,8 +92,8 @@ static void compare_column(const dynfrag1d_row *reference, const dynfrag1d_row *
         share = fmax(share, difference / (spread[n][k] + 1e-11 * scale));
         if (worst < 1e-8 * scale) equal = now[n].time;
     }
-    print_message("[  figures ]   %s: within 1e-8 until %.2f us, %.1e J later (%.1e of its largest value; disturbed runs: %.1e J); "
-                  "at most %.1f times the disturbed runs\n", column_name[k], 1e6 * equal, worst, worst / scale,
+    print_message("[  figures ]   %s: within 1e-8 until %.2f us, later %.1e J (%.1e of its largest value; disturbed runs: "
+                  "%.1e J), at most %.1f times the disturbed runs\n", column_name[k], 1e6 * equal, worst, worst / scale,
                   spread[rows - 1][k], share);
     assert_true(share < 3);
     assert_true(equal > 0.25e-6);
@@ -112,7 +111,7 @@ static void compare_as_far_as_round_off_lets(const dynfrag1d_run *run)
                   now[last].fragments, reference[last].fragments, now[last].dissipated / theirs - 1);
     for (int k = 0; k < COLUMNS; k++) compare_column(reference, now, rows, spread, k);
     for (int n = 0; n < rows; n++) assert_true(labs(now[n].fragments - reference[n].fragments) <= 1);
-    /* 9 J: a tenth of what one interface dissipates; nine runs that differ by round-off end within 1e-3 (above) */
+    /* 9 J: a tenth of what one interface dissipates; disturbed runs end up to 1e-3 away, theirs did not */
     assert_true(fabs(now[last].dissipated / theirs - 1) < 5e-4);
     /* Interfaces whose damage differs are off the nominal strength by 1/300 at most: 5e-4/300 */
     dynfrag1d_own(reference, now, rows);
