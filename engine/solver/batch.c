@@ -142,7 +142,7 @@ static fracas_err observe_lane(fracas_batch *batch, size_t l, fracas_record *rec
         .fragments = batch->model->formulation->fragment_count(batch->model, step->broken[l]), .broken = step->broken[l]};
     fracas_history_observe(&lane->history, batch->steps, &row, step->cracked[l] > 0);
     fracas_outcome outcome = isfinite(ledger->residual) ? FRACAS_ENERGY_DRIFT : FRACAS_NONFINITE;
-    bool over = !isfinite(ledger->residual) || fracas_ledger_drifts(ledger) ||
+    bool over = !isfinite(ledger->residual) || fracas_ledger_drifts(ledger, batch->steps) ||
                 fracas_stop_check(&lane->stop, &batch->model->spec.time, step->time[l], ledger->dissipated, step->cracked[l],
                                   step->broken[l], &outcome);
     if (!over) return FRACAS_OK;

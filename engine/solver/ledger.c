@@ -23,9 +23,9 @@ void fracas_ledger_update(fracas_ledger *ledger, const fracas_step *step, int la
 }
 
 /* (bar.15) */
-bool fracas_ledger_drifts(const fracas_ledger *ledger)
+bool fracas_ledger_drifts(const fracas_ledger *ledger, int64_t step)
 {
     double held = ledger->elastic + ledger->cohesive + ledger->dissipated;
     double scale = fmax(fmax(ledger->kinetic, held), fabs(ledger->work));
-    return fabs(ledger->residual) > FRACAS_ENERGY_TOLERANCE * scale;
+    return step >= FRACAS_ENERGY_START && fabs(ledger->residual) > FRACAS_ENERGY_TOLERANCE * scale;
 }
