@@ -537,6 +537,7 @@ static void flaws_mean_is_the_integral(void **state)
     gsl_integration_cquad_workspace_free(space);
     for (double mu = 1e-3; mu < 1e6; mu *= 1.3) /* exponent 1: (1 - e^-mu)/mu */
         assert_close(fracas_stretched_exponential(mu, 1.0), -expm1(-mu) / mu, 1e-14);
+    assert_true(fracas_stretched_exponential(1e-200, 0.5) == 1.0); /* mu^-2 is beyond the largest double */
     assert_close(fracas_stretched_exponential(1e30, 2.0), 0.5e-15 * sqrt(acos(-1.0)), 1e-14);
 }
 
