@@ -21,6 +21,7 @@ static const struct {
     {"m", "a length", "m or mm"},
     {"m2", "an area", "m2 or mm2"},
     {"m3", "a volume", "m3 or mm3"},
+    {"1/m3", "a number per volume", "1/m3 or 1/mm3"},
     {"s", "a time", "s or us"},
     {"1/s", "a rate", "1/s"},
     {"kg", "a mass", "kg or g"},

@@ -1,5 +1,7 @@
 #include "engine/formulation/formulation.h"
 
+#include "engine/mesh/body.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -40,6 +42,14 @@ double fracas_model_time_step(const fracas_model *model) { return model->time_st
 int64_t fracas_model_steps(const fracas_model *model)
 {
     return (int64_t)ceil(model->spec.time.end / model->time_step);
+}
+
+double fracas_spec_interface_volume(const fracas_spec *spec)
+{
+    const double two_pi = 0x1.921fb54442d18p+2;
+    const fracas_geometry *geometry = &spec->geometry;
+    double length = geometry->shape == &fracas_shape_ring ? two_pi * geometry->radius : geometry->length;
+    return geometry->area * length / (double)spec->mesh.elements;
 }
 
 double fracas_model_interface_volume(const fracas_model *model, size_t interface)

@@ -68,6 +68,9 @@ typedef struct {
     fracas_time time;
 } fracas_spec;
 
+/* Mean volume of the body that an interface stands for [m3]. */
+double fracas_spec_interface_volume(const fracas_spec *spec);
+
 /* Registry of the engine: `model` is the section of that name without parameters of its own, and the
  * others follow in the order of the struct; offsets are into fracas_spec. */
 extern const fracas_section *const fracas_engine_sections[];

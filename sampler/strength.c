@@ -6,6 +6,9 @@ static const fracas_kind *const distributions[] = {
     &fracas_uniform.kind,
     &fracas_lognormal.kind,
     &fracas_constant.kind,
+    &fracas_normal.kind,
+    &fracas_gamma_law.kind,
+    &fracas_flaws.kind,
 };
 static fracas_err check_section(const void *section)
 {
@@ -29,21 +32,21 @@ fracas_err fracas_strength_check(const fracas_strength *strength)
     return distribution->check ? distribution->check(strength) : FRACAS_OK;
 }
 
-double fracas_strength_quantile(const fracas_strength *strength, double u)
+double fracas_strength_quantile(const fracas_strength *strength, double volume, double u)
 {
-    return distribution_of(strength)->quantile(strength, u);
+    return distribution_of(strength)->quantile(strength, volume, u);
 }
 
-double fracas_strength_mean(const fracas_strength *strength)
+double fracas_strength_mean(const fracas_strength *strength, double volume)
 {
-    return distribution_of(strength)->mean(strength);
+    return distribution_of(strength)->mean(strength, volume);
 }
 
 /* (sampling.3) */
 void fracas_strength_sample(const fracas_strength *strength, const fracas_stream *stream,
-                            size_t n, size_t stride, double *sigma_c)
+                            size_t n, const double *volume, size_t stride, double *sigma_c)
 {
     const fracas_distribution *distribution = distribution_of(strength);
     for (size_t i = 0; i < n; i++)
-        sigma_c[i * stride] = distribution->quantile(strength, fracas_stream_uniform(stream, i));
+        sigma_c[i * stride] = distribution->quantile(strength, volume[i], fracas_stream_uniform(stream, i));
 }

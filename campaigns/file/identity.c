@@ -155,7 +155,8 @@ static fracas_value value_of(const source *from, const fracas_point *point, cons
 {
     fracas_value value = {.real = NAN, .text = ""};
     if (from->leaf) fracas_leaf_get(from->leaf, point, &value);
-    else if (from->column.path == derived_strength_mean) value.real = fracas_strength_mean(&point->strength);
+    else if (from->column.path == derived_strength_mean)
+        value.real = fracas_strength_mean(&point->strength, fracas_spec_interface_volume(&point->spec));
     else value.text = name;
     return value;
 }

@@ -11,8 +11,9 @@ enum { MAX_LANES = 8 }; /* of a batch */
 static fracas_err check_strongest(const fracas_model *model, const fracas_point *point)
 {
     const double drawn = (double)fracas_model_interfaces(model) * (double)point->replicas;
+    const double volume = fracas_model_interface_volume(model, 0);
     const double u = fmin(1.0 - 0.01 / drawn, 1.0 - 0x1p-53);
-    fracas_err err = fracas_model_check_strength(model, fracas_strength_quantile(&point->strength, u));
+    fracas_err err = fracas_model_check_strength(model, fracas_strength_quantile(&point->strength, volume, u));
     return err ? fracas_fail_within(err, "the strongest of %.3g interfaces (all replicas together)", drawn) : FRACAS_OK;
 }
 
@@ -25,11 +26,13 @@ static fracas_err describe(const fracas_point *point, fracas_forecast *forecast)
         .steps = fracas_model_steps(model),
         .time_step = fracas_model_time_step(model),
     };
-    const double mean = fracas_strength_mean(&point->strength);
+    const double volume = fracas_model_interface_volume(model, 0);
+    const double mean = fracas_strength_mean(&point->strength, volume);
     const fracas_material *material = &point->spec.material;
     const double softening = material->young * point->spec.cohesive.fracture_energy / (mean * mean);
     forecast->coarseness = point->spec.geometry.length / (double)forecast->elements / softening;
-    forecast->uniform = fracas_strength_quantile(&point->strength, 0.25) == fracas_strength_quantile(&point->strength, 0.75);
+    forecast->uniform = fracas_strength_quantile(&point->strength, volume, 0.25) ==
+                        fracas_strength_quantile(&point->strength, volume, 0.75);
     forecast->early = material->young * point->spec.loading.rate * point->spec.time.end < mean;
     fracas_err err = check_strongest(model, point);
     fracas_model_destroy(model);
@@ -105,7 +108,8 @@ static fracas_err time_steps(const fracas_point *point, double end, effort *spen
     }
     spec.time.end = fmin(spec.time.end, end);
     TRY(fracas_model_create(&spec, &model));
-    fracas_err err = run_batch(model, fracas_strength_mean(&point->strength), lanes_of(point), spent);
+    const double strength = fracas_strength_mean(&point->strength, fracas_model_interface_volume(model, 0));
+    fracas_err err = run_batch(model, strength, lanes_of(point), spent);
     fracas_model_destroy(model);
     return err;
 }
