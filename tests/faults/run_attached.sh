@@ -57,8 +57,11 @@ expect 5 "$fracas" run study/extended.yaml --study study
 expect 0 "$fracas" run study/extended.yaml --study study
 expect 0 "$fracas" verify study
 attached both.yaml moved/uno.csv 1 '1e5 1/s, 2e5 1/s'
+mkdir -p fresh/attachments # another file is in the place of the copy
+tr 0 1 < moved/uno.csv > "fresh/attachments/$digest"
 expect 0 "$fracas" run both.yaml --study fresh
 same study fresh
+cmp moved/uno.csv "fresh/attachments/$digest" || fail "another file was taken for the copy"
 
 # Two files, as a sweep.
 attached sweep.yaml moved/uno.csv 1 '1e5 1/s'

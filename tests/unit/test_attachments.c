@@ -27,7 +27,7 @@ static void test_values(void **state)
     static const char *const texts[] = {
         "3\n1\n8\n", "3\n1\n8", "3\r\n1\r\n8\r\n", "\n\n3\n\n1\n8\n\n", "# about\n3\n  # more\n1\n8\n",
         "strength\n3\n1\n8\n", "# about\nindex, strength (Pa)\n0, 3\n1, 1\n2, 8\n", "0,3\n1,1\n2,8\n", "0 3\n\t1\t1 \n2 ,8\n",
-        "a;b;sigma_c\n3e0\n+1.0\n.08E2\n", "\xef\xbb\xbf" "3\n1\n8\n", "\"strength\"\n3\n1\n8\n",
+        "a;b;sigma_c\n3e0\n+1.0\n.08E2\n", ("\xef\xbb\xbf" "3\n1\n8\n"), "\"strength\"\n3\n1\n8\n",
     };
     static const double expected[3] = {3, 1, 8};
     for (size_t t = 0; t < FRACAS_COUNT(texts); t++) {
