@@ -14,6 +14,7 @@ fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
     model->spec = *spec;
     model->formulation = (const fracas_formulation *)(const void *)spec->formulation; /* .kind is its first member */
     fracas_err code = model->formulation->model_init(model);
+    model->spec.mesh.noise = NULL; /* the caller's, and done with */
     model->time_step = spec->time.safety * model->critical_step;
     if (!code && !(model->time_step > 0 && isfinite(model->time_step)))
         code = fracas_fail(FRACAS_USAGE, "time step %g s: check material, mesh and time.safety", model->time_step);

@@ -10,6 +10,9 @@ typedef struct {
     double (*quantile)(const fracas_strength *strength, double volume, double u); /* as fracas_strength_quantile */
     double (*mean)(const fracas_strength *strength, double volume);               /* as fracas_strength_mean */
     fracas_err (*check)(const fracas_strength *strength); /* what single ranges cannot say; may be NULL */
+    /* Both NULL where strengths are drawn: how many there are, and sigma_c[i*stride] = the i-th. */
+    size_t (*count)(const fracas_strength *strength);
+    void (*fill)(const fracas_strength *strength, size_t n, size_t stride, double *sigma_c);
 } fracas_distribution;
 
 extern const fracas_distribution fracas_constant;
@@ -19,5 +22,6 @@ extern const fracas_distribution fracas_lognormal;
 extern const fracas_distribution fracas_normal;
 extern const fracas_distribution fracas_gamma_law; /* fracas_gamma is the function */
 extern const fracas_distribution fracas_flaws;
+extern const fracas_distribution fracas_file_distribution; /* fracas_file is a campaign file */
 
 #endif

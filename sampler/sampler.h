@@ -22,6 +22,7 @@ typedef struct {
     double deviation; /* Pa, normal */
     double density;   /* 1/m3, flaws: their mean number per volume */
     double exponent;  /* 1, flaws: of the power law of their strengths */
+    const fracas_attachment *file; /* file: a strength for each interface */
 } fracas_strength;
 
 /* The section `strength`; its offset is 0: the owner says where the struct is. */
@@ -39,6 +40,7 @@ typedef struct {
 } fracas_stream;
 
 #define FRACAS_PURPOSE_STRENGTH 1u
+#define FRACAS_PURPOSE_MESH 2u
 
 /* u in (0, 1): word 0 of Philox4x64-10 with key (seed, purpose) and counter (site, replica, point),
  * as ((x >> 12) + 1/2) 2^-52. site = interface + Gauss point * 2^48.
@@ -46,12 +48,16 @@ typedef struct {
 double fracas_stream_uniform(const fracas_stream *stream, uint64_t site);
 
 /* sigma_c[i*stride] = F^-1(u_i) [Pa] for interfaces i = 0 .. n-1, whatever n and stride; `stride` lets a lane of a
- * batch be filled in place. `volume`: [n], as for fracas_strength_quantile. */
+ * batch be filled in place. `volume`: [n], as for fracas_strength_quantile. Of a file, its value i, whatever the stream (NaN
+ * beyond its end). */
 void fracas_strength_sample(const fracas_strength *strength, const fracas_stream *stream,
                             size_t n, const double *volume, size_t stride, double *sigma_c);
 
-/* F^-1(u) [Pa], 0 < u < 1, of an interface that stands for `volume` [m3] of the body. Only the distribution flaws
- * depends on the volume. */
+/* Number of strengths that there are, where they are given (distribution `file`) and not drawn; 0: as many as one likes. */
+size_t fracas_strength_count(const fracas_strength *strength);
+
+/* F^-1(u) [Pa], 0 < u < 1, of an interface that stands for `volume` [m3] of the body; of a file, the smallest for u < 1/2, else
+ * the largest. Only the distribution flaws depends on the volume. */
 double fracas_strength_quantile(const fracas_strength *strength, double volume, double u);
 
 /* Mean of the distribution [Pa], same bits on every CPU; `volume` as for fracas_strength_quantile. */

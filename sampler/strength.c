@@ -9,6 +9,7 @@ static const fracas_kind *const distributions[] = {
     &fracas_normal.kind,
     &fracas_gamma_law.kind,
     &fracas_flaws.kind,
+    &fracas_file_distribution.kind,
 };
 static fracas_err check_section(const void *section)
 {
@@ -42,11 +43,21 @@ double fracas_strength_mean(const fracas_strength *strength, double volume)
     return distribution_of(strength)->mean(strength, volume);
 }
 
+size_t fracas_strength_count(const fracas_strength *strength)
+{
+    const fracas_distribution *distribution = distribution_of(strength);
+    return distribution->count ? distribution->count(strength) : 0;
+}
+
 /* (sampling.3) */
 void fracas_strength_sample(const fracas_strength *strength, const fracas_stream *stream,
                             size_t n, const double *volume, size_t stride, double *sigma_c)
 {
     const fracas_distribution *distribution = distribution_of(strength);
+    if (distribution->fill) {
+        distribution->fill(strength, n, stride, sigma_c);
+        return;
+    }
     for (size_t i = 0; i < n; i++)
         sigma_c[i * stride] = distribution->quantile(strength, volume[i], fracas_stream_uniform(stream, i));
 }

@@ -132,7 +132,8 @@ fracas_err fracas_draft_resolve(const fracas_file *file, const fracas_draft *dra
         if (setting) last = setting->node;
         if (setting) TRY(fracas_setting_check(file, setting, param));
         else if (isnan(param->fallback)) return missing(file, leaf, param, common, kind, chosen);
-        fracas_param_set(param, values, setting ? setting->value : fracas_number_round(param->fallback));
+        if (param->type == FRACAS_ATTACHMENT) fracas_param_attach(param, values, setting ? setting->attachment : NULL);
+        else fracas_param_set(param, values, setting ? setting->value : fracas_number_round(param->fallback));
     }
     if (table->check && table->check(values)) return fracas_say_within(file->name, last, table->name);
     return FRACAS_OK;

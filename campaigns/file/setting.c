@@ -1,5 +1,6 @@
 #include "campaigns/file/setting.h"
 
+#include "campaigns/file/attach.h"
 #include "campaigns/file/say.h"
 
 #include <inttypes.h>
@@ -50,6 +51,13 @@ static fracas_err read_choice(const fracas_file *file, const fracas_leaf *leaf, 
     return FRACAS_OK;
 }
 
+static fracas_err read_attachment(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node,
+                                  const fracas_attachment **attachment)
+{
+    TRY(want_scalar(file, leaf->key, node, "the path of a file"));
+    return fracas_attachment_read(file, leaf->key, node, attachment);
+}
+
 static fracas_err read_boolean(const fracas_file *file, const char *key, const fracas_node *node, double *value)
 {
     TRY(want_scalar(file, key, node, "true or false"));
@@ -92,7 +100,8 @@ fracas_err fracas_setting_read(const fracas_file *file, const fracas_leaf *leaf,
     case FRACAS_BOOLEAN: return read_boolean(file, leaf->key, node, &setting->value);
     case FRACAS_INTEGER: return read_integer(file, leaf->key, node, &setting->value);
     case FRACAS_CHOICE: return read_choice(file, leaf, node, &setting->value);
-    case FRACAS_REAL: case FRACAS_ATTACHMENT: break;
+    case FRACAS_ATTACHMENT: return read_attachment(file, leaf, node, &setting->attachment);
+    case FRACAS_REAL: break;
     }
     return read_real(file, leaf, node, &setting->value);
 }

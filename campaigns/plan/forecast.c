@@ -1,7 +1,7 @@
 #include "campaigns/plan/forecast.h"
 
 #include "campaigns/plan/plan.h"
-#include "engine/engine.h"
+#include "campaigns/plan/point_model.h"
 
 #include <math.h>
 #include <time.h>
@@ -17,10 +17,19 @@ static fracas_err check_strongest(const fracas_model *model, const fracas_point 
     return err ? fracas_fail_within(err, "the strongest of %.3g interfaces (all replicas together)", drawn) : FRACAS_OK;
 }
 
-static fracas_err describe(const fracas_point *point, fracas_forecast *forecast)
+static fracas_err check_count(const fracas_model *model, const fracas_strength *strength)
 {
+    const size_t given = fracas_strength_count(strength), interfaces = fracas_model_interfaces(model);
+    if (given == 0 || given == interfaces) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "%s has %zu strengths, but the mesh has %zu interfaces; each needs one line of the file",
+                       strength->file->path, given, interfaces);
+}
+
+static fracas_err describe(const fracas_campaign *campaign, size_t index, fracas_forecast *forecast)
+{
+    const fracas_point *point = &campaign->point[index];
     fracas_model *model;
-    TRY(fracas_model_create(&point->spec, &model));
+    TRY(fracas_point_model_create(campaign, index, &model));
     *forecast = (fracas_forecast){
         .elements = (int64_t)fracas_model_elements(model),
         .steps = fracas_model_steps(model),
@@ -34,14 +43,16 @@ static fracas_err describe(const fracas_point *point, fracas_forecast *forecast)
     forecast->uniform = fracas_strength_quantile(&point->strength, volume, 0.25) ==
                         fracas_strength_quantile(&point->strength, volume, 0.75);
     forecast->early = material->young * point->spec.loading.rate * point->spec.time.end < mean;
-    fracas_err err = check_strongest(model, point);
+    forecast->repeated = fracas_strength_count(&point->strength) > 0 && point->replicas > 1;
+    fracas_err err = check_count(model, &point->strength);
+    if (!err) err = check_strongest(model, point);
     fracas_model_destroy(model);
     return err;
 }
 
 fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point, fracas_forecast *forecast)
 {
-    fracas_err err = describe(&campaign->point[point], forecast);
+    fracas_err err = describe(campaign, point, forecast);
     return err ? fracas_fail_within(err, "point %zu", point) : FRACAS_OK;
 }
 
@@ -97,9 +108,10 @@ static fracas_err run_batch(const fracas_model *model, double strength, size_t l
     return err;
 }
 
-static fracas_err time_steps(const fracas_point *point, double end, effort *spent)
+static fracas_err time_steps(const fracas_campaign *campaign, size_t index, double end, effort *spent)
 {
     enum { TIMED = 100000 }; /* elements: beyond them speed is that of memory */
+    const fracas_point *point = &campaign->point[index];
     fracas_spec spec = point->spec;
     fracas_model *model;
     if (spec.mesh.elements > TIMED) { /* a shorter bar of the same elements */
@@ -107,7 +119,7 @@ static fracas_err time_steps(const fracas_point *point, double end, effort *spen
         spec.mesh.elements = TIMED;
     }
     spec.time.end = fmin(spec.time.end, end);
-    TRY(fracas_model_create(&spec, &model));
+    TRY(fracas_point_model_like(campaign, index, &spec, &model));
     const double strength = fracas_strength_mean(&point->strength, fracas_model_interface_volume(model, 0));
     fracas_err err = run_batch(model, strength, lanes_of(point), spent);
     fracas_model_destroy(model);
@@ -117,15 +129,16 @@ static fracas_err time_steps(const fracas_point *point, double end, effort *spen
 /* Times about 2e7 element-steps, a twentieth of a second, less the time that a batch of one step takes: what a batch
  * does once counts little in a full run. A batch that is too short for the clock is repeated, and taken as it is if
  * even many are. */
-static fracas_err time_point(const fracas_point *point, fracas_forecast *forecast)
+static fracas_err time_point(const fracas_campaign *campaign, size_t index, fracas_forecast *forecast)
 {
+    const fracas_point *point = &campaign->point[index];
     const double step = forecast->time_step;
     const double steps = fmax(20.0, ceil(2e7 / ((double)forecast->elements * (double)lanes_of(point))));
     effort sum = {0}, whole = {0};
     for (int i = 0; i < 50 && sum.seconds < 0.01; i++) {
         effort brief, full;
-        TRY(time_steps(point, 0.5 * step, &brief));
-        TRY(time_steps(point, (steps - 0.5) * step, &full));
+        TRY(time_steps(campaign, index, 0.5 * step, &brief));
+        TRY(time_steps(campaign, index, (steps - 0.5) * step, &full));
         sum.element_steps += full.element_steps - brief.element_steps;
         sum.seconds += full.seconds - brief.seconds;
         whole.element_steps += full.element_steps;
@@ -166,7 +179,7 @@ fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs, fracas
         TRY(fracas_forecast_make(campaign, p, &forecast[p]));
         forecast[p].speed = speed_of_like(campaign, forecast, p);
         if (forecast[p].speed == 0.0) {
-            fracas_err err = time_point(point, &forecast[p]);
+            fracas_err err = time_point(campaign, p, &forecast[p]);
             if (err) return fracas_fail_within(err, "point %zu", p);
         }
         const double work = (double)forecast[p].elements * (double)forecast[p].steps * (double)point->replicas;

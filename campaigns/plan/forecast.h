@@ -12,10 +12,12 @@ typedef struct {
     double bytes;     /* in study.h5 */
     double coarseness; /* element size over E G_c/sigma_c^2, the length over which a crack softens */
     bool uniform;      /* every interface has the same strength */
+    bool repeated;     /* strengths are given, so that replicas are equal, and there are several */
     bool early;        /* time.end comes before the mean strength is reached */
 } fracas_forecast;
 
-/* Elements, time step, steps, coarseness of one point (speed 0). Refused if the engine would refuse the strength that the
+/* Elements, time step, steps, coarseness of one point (speed 0). Refused if strengths are given and not as many as
+ * there are interfaces, or if the engine would refuse the strength that the
  * strongest of all its interfaces and replicas stays below with a probability of 99 %. */
 FRACAS_MUST_USE fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point,
                                                 fracas_forecast *forecast);

@@ -111,12 +111,13 @@ static void put_size(text_sheet *sheet, size_t row, size_t column, double bytes)
 
 /* The softening zone of a crack, some E G_c/sigma_c^2 long, should hold elements. */
 #define COARSE 0.5
-enum { WARNINGS = 3 };
+enum { WARNINGS = 4 };
 
 static bool warning_of(const campaign_plan *plan, size_t p, int which, char *text, size_t size)
 {
     const fracas_forecast *forecast = &plan->forecast[p];
-    const bool applies[WARNINGS] = {forecast->coarseness > COARSE, forecast->uniform, forecast->early};
+    const bool applies[WARNINGS] = {forecast->coarseness > COARSE, forecast->uniform, forecast->early,
+                                      forecast->repeated};
     if (which == 0)
         snprintf(text, size, "point %zu: elements are %.2g E G_c/sigma_c^2 long, above %.1g a crack's softening is not "
                  "resolved: raise mesh.elements to %.0f", p, forecast->coarseness, COARSE,
@@ -124,6 +125,9 @@ static bool warning_of(const campaign_plan *plan, size_t p, int which, char *tex
     else if (which == 1)
         snprintf(text, size, "point %zu: all interfaces are equally strong and qualify at once; where the body breaks is then "
                  "up to mesh and rounding: give the strength a scatter", p);
+    else if (which == 3)
+        snprintf(text, size, "point %zu: its strengths are those of a file, so all its %" PRId64 " replicas are equal: give it "
+                 "replicas: 1", p, plan->campaign->point[p].replicas);
     else
         snprintf(text, size, "point %zu: at time.end the stress E rate end has not reached the mean strength: little or "
                  "nothing will crack", p);
