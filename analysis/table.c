@@ -21,6 +21,7 @@ const char *const fracas_result_table_legend[] = {
 typedef struct {
     const fracas_analysis *analysis;
     const fracas_result_table *table;
+    const fracas_columns *first; /* those that tell the points apart, and the strain rate that they make */
     const char *plus_minus;
     bool unicode;
     fracas_prefix size, energy;
@@ -68,7 +69,7 @@ static void paint_head(const painter *paint)
         [ZMR] = "ZMR", [GRADY] = "Grady", [GC] = "GC", [RATIO] = "size", [RESIDUAL] = "resid.",
         [CREATED] = "created", [OUTCOMES] = "outcomes",
     };
-    const fracas_columns *shown = &paint->analysis->shown;
+    const fracas_columns *shown = paint->first;
     const fracas_point_table *points = paint->analysis->table;
     for (size_t i = 0; i < shown->count; i++) {
         const fracas_column *column = &points->column[shown->column[i]];
@@ -87,7 +88,7 @@ static void paint_head(const painter *paint)
 static void paint_point(const painter *paint, size_t p)
 {
     const fracas_point_statistics *statistics = &paint->analysis->point[p];
-    const fracas_columns *shown = &paint->analysis->shown;
+    const fracas_columns *shown = paint->first;
     size_t row = FRACAS_RESULT_TABLE_HEAD + p;
     char *first = fracas_result_table_cell(paint->table, row, 0), *cell[NCOLUMNS];
     for (size_t i = 0; i < shown->count; i++)
@@ -110,18 +111,23 @@ static void paint_point(const painter *paint, size_t p)
 
 fracas_err fracas_result_table_create(const fracas_analysis *analysis, bool unicode, fracas_result_table *table)
 {
+    fracas_columns first;
+    TRY(fracas_columns_with_rate(analysis->table, &analysis->shown, &first));
     table->rows = FRACAS_RESULT_TABLE_HEAD + analysis->table->npoints;
-    table->columns = analysis->shown.count + NCOLUMNS;
+    table->columns = first.count + NCOLUMNS;
     table->cell = calloc(table->rows * table->columns, sizeof *table->cell);
-    if (!table->cell) return fracas_no_memory("the result table");
     painter paint = {
-        .analysis = analysis, .table = table, .unicode = unicode, .plus_minus = unicode ? "\u00b1" : "+-",
+        .analysis = analysis, .table = table, .first = &first, .unicode = unicode,
+        .plus_minus = unicode ? "\u00b1" : "+-",
         .size = prefix_of(analysis, offsetof(fracas_point_statistics, size)),
         .energy = prefix_of(analysis, offsetof(fracas_point_statistics, dissipated)),
     };
-    paint_head(&paint);
-    for (size_t p = 0; p < analysis->table->npoints; p++) paint_point(&paint, p);
-    return FRACAS_OK;
+    if (table->cell) {
+        paint_head(&paint);
+        for (size_t p = 0; p < analysis->table->npoints; p++) paint_point(&paint, p);
+    }
+    fracas_columns_clear(&first);
+    return table->cell ? FRACAS_OK : fracas_no_memory("the result table");
 }
 
 void fracas_result_table_clear(fracas_result_table *table)

@@ -16,6 +16,10 @@ FRACAS_MUST_USE fracas_err fracas_point_identify(const fracas_catalog *catalog, 
 /* The first two points of equal hash, in plan order of the later one; *later is 0 if all differ. */
 FRACAS_MUST_USE fracas_err fracas_points_repeated(const fracas_campaign *campaign, size_t *earlier, size_t *later);
 
+/* Strain rate that the loading begins with [1/s]: the imposed rate, or radial velocity / radius, initial or held; NaN
+ * for a loading that gives none (a force, a circumferential velocity). */
+double fracas_spec_strain_rate(const fracas_spec *spec);
+
 /* Fills campaign->table. `name` has the name of each point's case, "" for none. */
 FRACAS_MUST_USE fracas_err fracas_campaign_tabulate(const fracas_catalog *catalog, const char *const *name,
                                                     fracas_campaign *campaign);
