@@ -154,11 +154,12 @@ const char *fracas_columns_name(const fracas_point_table *table, const fracas_co
     return last_part(path);
 }
 
-void fracas_columns_value(const fracas_point_table *table, size_t column, size_t point, char *text, size_t size)
+void fracas_columns_value(const fracas_point_table *table, size_t column, size_t point, double factor, char *text,
+                          size_t size)
 {
     const fracas_value *value = &table->point[point].value[column];
     if (table->column[column].text) snprintf(text, size, "%s", *value->text ? value->text : "-");
-    else fracas_format_short(value->real, text, size);
+    else fracas_format_short(value->real * factor, text, size);
 }
 
 void fracas_columns_label(const fracas_point_table *table, const fracas_columns *columns, size_t point, char *text,
@@ -171,8 +172,7 @@ void fracas_columns_label(const fracas_point_table *table, const fracas_columns 
         char value[64];
         fracas_prefix prefix = {1, "", ""};
         if (!strcmp(column->unit, "m")) prefix = fracas_prefix_for(&table->point[point].value[columns->column[i]].real, 1);
-        if (column->text) fracas_columns_value(table, columns->column[i], point, value, sizeof value);
-        else fracas_format_short(table->point[point].value[columns->column[i]].real * prefix.factor, value, sizeof value);
+        fracas_columns_value(table, columns->column[i], point, prefix.factor, value, sizeof value);
         bool unit = !column->text && strcmp(column->unit, "1");
         const char *name = fracas_columns_name(table, columns, i);
         used += (size_t)snprintf(text + used, size - used, "%s%s %s%s%s%s", i ? ", " : "", name, value, unit ? " " : "",

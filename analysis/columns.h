@@ -41,8 +41,10 @@ const char *fracas_columns_name(const fracas_point_table *table, const fracas_co
 void fracas_columns_label(const fracas_point_table *table, const fracas_columns *columns, size_t point, char *text,
                           size_t size);
 
-/* The value of a column as a table shows it: text, or the shortest of plain and exponent notation to 6 digits. */
-void fracas_columns_value(const fracas_point_table *table, size_t column, size_t point, char *text, size_t size);
+/* The value of a column as a table shows it: text, or the shortest of plain and exponent notation to 6 digits of `factor`
+ * times the number. */
+void fracas_columns_value(const fracas_point_table *table, size_t column, size_t point, double factor, char *text,
+                          size_t size);
 
 /* True if both points have equal values in all of these columns. */
 bool fracas_columns_same(const fracas_point_table *table, const fracas_columns *columns, size_t a, size_t b);

@@ -62,6 +62,21 @@ static void paint_unit(const painter *paint, size_t column, const fracas_prefix 
              paint->unicode ? prefix->sign : prefix->symbol, unit);
 }
 
+/* Lengths among the first columns have a prefix of their own, so that radii are not read in exponents. */
+static fracas_prefix parameter_prefix(const painter *paint, size_t column)
+{
+    const fracas_point_table *points = paint->analysis->table;
+    if (strcmp(points->column[column].unit, "m")) return (fracas_prefix){1, "", ""};
+    double extreme[2] = {INFINITY, 0};
+    for (size_t p = 0; p < points->npoints; p++) {
+        double value = points->point[p].value[column].real;
+        if (!(value > 0)) continue;
+        extreme[0] = fmin(extreme[0], value);
+        extreme[1] = fmax(extreme[1], value);
+    }
+    return fracas_prefix_for(extreme, 2);
+}
+
 static void paint_head(const painter *paint)
 {
     static const char *const name[NCOLUMNS] = {
@@ -74,8 +89,8 @@ static void paint_head(const painter *paint)
     for (size_t i = 0; i < shown->count; i++) {
         const fracas_column *column = &points->column[shown->column[i]];
         set(paint, 0, i, fracas_columns_name(points, shown, i));
-        if (!column->text && strcmp(column->unit, "1"))
-            paint_unit(paint, i, &(fracas_prefix){1, "", ""}, column->unit);
+        fracas_prefix prefix = parameter_prefix(paint, shown->column[i]);
+        if (!column->text && strcmp(column->unit, "1")) paint_unit(paint, i, &prefix, column->unit);
     }
     for (size_t c = 0; c < NCOLUMNS; c++) set(paint, 0, shown->count + c, name[c]);
     for (size_t c = SIZE; c <= GC; c++) paint_unit(paint, shown->count + c, &paint->size, "m");
@@ -92,7 +107,8 @@ static void paint_point(const painter *paint, size_t p)
     size_t row = FRACAS_RESULT_TABLE_HEAD + p;
     char *first = fracas_result_table_cell(paint->table, row, 0), *cell[NCOLUMNS];
     for (size_t i = 0; i < shown->count; i++)
-        fracas_columns_value(paint->analysis->table, shown->column[i], p, first + i * FRACAS_CELL, FRACAS_CELL);
+        fracas_columns_value(paint->analysis->table, shown->column[i], p, parameter_prefix(paint, shown->column[i]).factor,
+                             first + i * FRACAS_CELL, FRACAS_CELL);
     for (size_t c = 0; c < NCOLUMNS; c++) cell[c] = first + (shown->count + c) * FRACAS_CELL;
     snprintf(cell[USED], FRACAS_CELL, "%lld", (long long)statistics->usable);
     snprintf(cell[FAILED], FRACAS_CELL, "%lld", (long long)statistics->unusable);

@@ -243,6 +243,8 @@ static void report_of_rings(void **state)
     report_analyse(folder);
     char *table = report_contents(folder, "table.txt"), *page = report_contents(folder, "report/index.html");
     assert_non_null(strstr(table, "radius  radial  strain rate"));
+    assert_non_null(strstr(table, "  [mm]   [m/s]        [1/s]"));
+    assert_non_null(strstr(table, "     8      25         3125"));
     assert_non_null(strstr(table, "energy drift above 1 %: 2 of 6 usable realizations, their |residual| up to 1.2 %"));
     assert_non_null(strstr(page, "replica 1, the first that ended FRAGMENTED"));
     assert_null(strstr(page, "pattern-point-0.svg"));
