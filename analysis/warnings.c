@@ -13,7 +13,7 @@ static const double created_limit = 1e-2;  /* of the dissipated energy */
 static const double elements_limit = 10;   /* elements of a mean fragment */
 static const double dust_limit = 0.05;     /* share of all fragments */
 
-enum { WARNINGS_PER_POINT = 10 }; /* at most what warn_of_point can say */
+enum { WARNINGS_PER_POINT = 11 }; /* at most what warn_of_point can say */
 
 typedef struct {
     size_t count;
@@ -54,6 +54,12 @@ static void warn_of_point(const fracas_point_statistics *statistics, size_t p, w
     if (statistics->residual > residual_limit) {
         fracas_format_digits(statistics->residual, 2, value, sizeof value);
         warn(list, p, "ledger residual up to %s of the dissipated energy (more than 1e-3): lower time.safety", value);
+    }
+    if (statistics->drifted > 0) {
+        fracas_format_digits(100 * statistics->drift, 2, value, sizeof value);
+        warn(list, p, "energy drift above 1 %%: %lld of %lld usable realizations, their |residual| up to %s %% of their "
+             "largest energy: lower time.safety (above 5 %% during its run a realization ends ENERGY_DRIFT)",
+             (long long)statistics->drifted, (long long)statistics->usable, value);
     }
     if (statistics->created > created_limit) {
         fracas_format_digits(statistics->created, 2, value, sizeof value);

@@ -1,6 +1,6 @@
 #include "engine/formulation/formulation.h"
 
-#include "engine/mesh/body.h"
+#include "engine/cohesive/law.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -42,15 +42,9 @@ double fracas_model_time_step(const fracas_model *model) { return model->time_st
 
 int64_t fracas_model_steps(const fracas_model *model)
 {
-    return (int64_t)ceil(model->spec.time.end / model->time_step);
-}
-
-double fracas_spec_interface_volume(const fracas_spec *spec)
-{
-    const double two_pi = 0x1.921fb54442d18p+2;
-    const fracas_geometry *geometry = &spec->geometry;
-    double length = geometry->shape == &fracas_shape_ring ? two_pi * geometry->radius : geometry->length;
-    return geometry->area * length / (double)spec->mesh.elements;
+    const fracas_cohesive *cohesive = &model->spec.cohesive;
+    const double finest = cohesive->law == &fracas_law_stershic ? cohesive->refinement * cohesive->refinement : 1.0;
+    return (int64_t)ceil(model->spec.time.end / (finest * model->time_step));
 }
 
 double fracas_model_interface_volume(const fracas_model *model, size_t interface)

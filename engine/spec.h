@@ -68,8 +68,14 @@ typedef struct {
     fracas_time time;
 } fracas_spec;
 
-/* Mean volume of the body that an interface stands for [m3]. */
-double fracas_spec_interface_volume(const fracas_spec *spec);
+/* What follows from the parameters alone, without a model. */
+double fracas_spec_length(const fracas_spec *spec);           /* m, of the bar or along the ring */
+double fracas_spec_interface_volume(const fracas_spec *spec); /* m3 of the body that an interface stands for, on average */
+/* Strain rate that the loading begins with [1/s]: the imposed rate, or radial velocity / radius, initial or held; NaN for a
+ * loading that gives none (a force, a circumferential velocity). */
+double fracas_spec_strain_rate(const fracas_spec *spec);
+/* G_c [J/m2] of an interface of this strength [Pa]: as given, or sigma_c delta_c/2. */
+double fracas_spec_fracture_energy(const fracas_spec *spec, double strength);
 
 /* Registry of the engine: `model` is the section of that name without parameters of its own, and the
  * others follow in the order of the struct; offsets are into fracas_spec. */

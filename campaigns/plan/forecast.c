@@ -2,6 +2,7 @@
 
 #include "campaigns/plan/plan.h"
 #include "campaigns/plan/point_model.h"
+#include "engine/loading/loading.h"
 
 #include <math.h>
 #include <time.h>
@@ -25,6 +26,17 @@ static fracas_err check_count(const fracas_model *model, const fracas_strength *
                        strength->file->path, given, interfaces);
 }
 
+/* The stress that an uncracked body reaches by time.end [Pa]; NaN where the loading gives no strain rate. A free ring swings back
+ * once its stress is E rate R/c  (docs/theory/ring.md). */
+static double highest_stress(const fracas_spec *spec)
+{
+    const double rate = fracas_spec_strain_rate(spec), young = spec->material.young;
+    double time = spec->time.end;
+    if (spec->loading.type == &fracas_loading_initial_velocity)
+        time = fmin(time, spec->geometry.radius / sqrt(young / spec->material.density));
+    return young * rate * time;
+}
+
 static fracas_err describe(const fracas_campaign *campaign, size_t index, fracas_forecast *forecast)
 {
     const fracas_point *point = &campaign->point[index];
@@ -37,12 +49,12 @@ static fracas_err describe(const fracas_campaign *campaign, size_t index, fracas
     };
     const double volume = fracas_model_interface_volume(model, 0);
     const double mean = fracas_strength_mean(&point->strength, volume);
-    const fracas_material *material = &point->spec.material;
-    const double softening = material->young * point->spec.cohesive.fracture_energy / (mean * mean);
-    forecast->coarseness = point->spec.geometry.length / (double)forecast->elements / softening;
+    const fracas_spec *spec = &point->spec;
+    const double softening = spec->material.young * fracas_spec_fracture_energy(spec, mean) / (mean * mean);
+    forecast->coarseness = fracas_spec_length(spec) / (double)forecast->elements / softening;
     forecast->uniform = fracas_strength_quantile(&point->strength, volume, 0.25) ==
                         fracas_strength_quantile(&point->strength, volume, 0.75);
-    forecast->early = material->young * point->spec.loading.rate * point->spec.time.end < mean;
+    forecast->early = highest_stress(spec) < mean;
     forecast->repeated = fracas_strength_count(&point->strength) > 0 && point->replicas > 1;
     fracas_err err = check_count(model, &point->strength);
     if (!err) err = check_strongest(model, point);
@@ -114,8 +126,9 @@ static fracas_err time_steps(const fracas_campaign *campaign, size_t index, doub
     const fracas_point *point = &campaign->point[index];
     fracas_spec spec = point->spec;
     fracas_model *model;
-    if (spec.mesh.elements > TIMED) { /* a shorter bar of the same elements */
+    if (spec.mesh.elements > TIMED) { /* a shorter bar or smaller ring of the same elements */
         spec.geometry.length *= TIMED / (double)spec.mesh.elements;
+        spec.geometry.radius *= TIMED / (double)spec.mesh.elements;
         spec.mesh.elements = TIMED;
     }
     spec.time.end = fmin(spec.time.end, end);

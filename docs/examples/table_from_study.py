@@ -66,6 +66,13 @@ def largest_ratio(values, dissipated):
     return (values[cracked] / dissipated[cracked]).max() if cracked.any() else math.nan
 
 
+def length_of(point, p):
+    """Length of a bar, circumference of a ring."""
+    if "model" in point and point["model"][p] == b"ring":
+        return 2 * math.pi * point["geometry.radius"][p]
+    return point["geometry.length"][p]
+
+
 def table(path):
     with h5py.File(path, "r") as study:
         point = {name: column[()] for name, column in study["point"].items()}
@@ -77,11 +84,12 @@ def table(path):
         mine = realization["point"] == p
         used = mine & np.isin(realization["outcome"], list(USABLE))
         of = {name: column[used] for name, column in realization.items()}
-        row = {"rate": point["loading.rate"][p], "realizations": mine.sum(), "usable": used.sum(),
+        rate = point.get("derived.strain_rate", point.get("loading.rate"))[p]  # the latter in studies before the former
+        row = {"rate": rate, "realizations": mine.sum(), "usable": used.sum(),
                "unusable": mine.sum() - used.sum()}
         estimate(row, "count", of["fragments"].astype(float))
         estimate(row, "count_large", (of["fragments"] - of["fragments_dust"]).astype(float))
-        estimate(row, "size", point["geometry.length"][p] / of["fragments"])
+        estimate(row, "size", length_of(point, p) / of["fragments"])
         estimate(row, "dissipated", of["dissipated"])
         estimate(row, "onset_time", of["onset_time"])
         row["residual"] = largest_ratio(of["residual"], of["dissipated"])
@@ -92,7 +100,7 @@ def table(path):
         row["elements"] = elements[fragment].mean() if fragment.any() else math.nan
         row["dust_share"] = dust[fragment].mean() if fragment.any() else math.nan
         laws(row, point["material.young"][p], point["material.density"][p], point["derived.strength_mean"][p],
-             point["cohesive.fracture_energy"][p], point["loading.rate"][p])
+             point["cohesive.fracture_energy"][p], rate)
         for o, name in enumerate(OUTCOMES):
             row[name] = (realization["outcome"][mine] == o).sum()
         rows.append(row)

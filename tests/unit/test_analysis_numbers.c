@@ -184,6 +184,10 @@ static void statistics_of_records(void **state)
         record.dissipated = dissipated[i];
         record.residual = 0.5;
         record.created = 0.1;
+        record.kinetic = 4; /* largest energies: 5 dissipated, work 60, and kinetic, stored and dissipated 40 */
+        record.elastic = i == 3 ? 36 : 0;
+        record.cohesive = 0;
+        record.work = i == 2 ? -60 : 0;
         record.fragments = (int64_t)count[i];
         record.fragments_dust = outcome[i] == FRACAS_INTACT ? 0 : 1;
         record.onset_time = outcome[i] == FRACAS_INTACT ? NAN : 1e-7;
@@ -201,6 +205,8 @@ static void statistics_of_records(void **state)
     assert_true(statistics.dissipated.mean == 3);
     assert_int_equal(statistics.onset_time.n, 2);
     assert_true(statistics.residual == 0.5 / 4 && statistics.created == 0.1 / 4);
+    assert_true(statistics.drift == 0.5 / 5);
+    assert_int_equal(statistics.drifted, 2); /* 0.1, 0.5/60 is not, 0.5/40 is */
     assert_int_equal(statistics.nfragments, 7);
     assert_true(statistics.fragment_size[0] == 0.01 && statistics.fragment_size[6] == 0.06);
     assert_true(statistics.elements == 18.0 / 7 && statistics.dust_share == 2.0 / 7);
@@ -219,9 +225,9 @@ static void warnings_at_their_limits(void **state)
     fracas_point_table table = {.ncolumns = 1, .column = column, .npoints = 2, .point = row};
     fracas_point_statistics point[] = {
         {.realizations = 9, .usable = 9, .outcome = {9}, .residual = 0.99e-3, .created = 0.99e-2, .elements = 10,
-         .dust_share = 0.05},
+         .dust_share = 0.05, .drift = 0.01},
         {.realizations = 9, .usable = 5, .outcome = {3, 1, 1, 2, 1, 1}, .residual = 1.01e-3, .created = 1.01e-2,
-         .elements = 9.9, .dust_share = 0.051},
+         .elements = 9.9, .dust_share = 0.051, .drift = 0.0213, .drifted = 2},
     };
     fracas_analysis analysis = {.table = &table, .point = point, .header.complete = true};
     fracas_warning *warning;
@@ -230,7 +236,9 @@ static void warnings_at_their_limits(void **state)
     const char *const expected[] = {"2 of 9 realizations ended NONFINITE", "1 of 9 realizations ended ENERGY_DRIFT",
                                     "1 of 9 realizations ended FAILED", "1 of 9 realizations ended INTACT",
                                     "1 of 9 realizations were stopped",
-                                    "ledger residual up to 1.0e-3", "energy created at breaks up to 0.010",
+                                    "ledger residual up to 1.0e-3",
+                                    "energy drift above 1 %: 2 of 5 usable realizations, their |residual| up to 2.1 %",
+                                    "energy created at breaks up to 0.010",
                                     "a mean fragment has 9.9 elements", "5.1 % of the fragments are dust"};
     assert_int_equal(count, FRACAS_COUNT(expected));
     for (size_t i = 0; i < count; i++) {

@@ -29,17 +29,17 @@ static void test_values(void **state)
         "strength\n3\n1\n8\n", "# about\nindex, strength (Pa)\n0, 3\n1, 1\n2, 8\n", "0,3\n1,1\n2,8\n", "0 3\n\t1\t1 \n2 ,8\n",
         "a;b;sigma_c\n3e0\n+1.0\n.08E2\n", ("\xef\xbb\xbf" "3\n1\n8\n"), "\"strength\"\n3\n1\n8\n",
     };
-    static const double expected[3] = {3, 1, 8};
+    static const double expected[3] = {3, 1, 8}, volume[4] = {1, 1, 1, 1};
     for (size_t t = 0; t < FRACAS_COUNT(texts); t++) {
         const fracas_attachment file = {.path = "s.csv", .text = texts[t], .size = strlen(texts[t])};
         const fracas_strength strength = {.distribution = file_kind(), .file = &file};
         if (fracas_strength_check(&strength)) fail_msg("%s\n%s", fracas_message(), texts[t]);
         assert_int_equal(fracas_strength_count(&strength), 3);
-        assert_true(fracas_strength_mean(&strength) == 4);
-        assert_true(fracas_strength_quantile(&strength, 1e-9) == 1 && fracas_strength_quantile(&strength, 1 - 1e-9) == 8);
+        assert_true(fracas_strength_mean(&strength, 1) == 4);
+        assert_true(fracas_strength_quantile(&strength, 1, 1e-9) == 1 && fracas_strength_quantile(&strength, 1, 1 - 1e-9) == 8);
         for (uint64_t replica = 0; replica < 2; replica++) { /* whatever the stream, and the stride */
             double got[8] = {0};
-            fracas_strength_sample(&strength, &(fracas_stream){.seed = 1, .replica = replica}, 4, 2, got);
+            fracas_strength_sample(&strength, &(fracas_stream){.seed = 1, .replica = replica}, 4, volume, 2, got);
             for (int i = 0; i < 3; i++)
                 if (got[2 * i] != expected[i] || got[2 * i + 1] != 0) fail_msg("%g is not %g of:\n%s", got[2 * i], expected[i], texts[t]);
             assert_true(isnan(got[6]));

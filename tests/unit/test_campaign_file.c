@@ -1,6 +1,9 @@
 /* Good campaign files: values, sweeps, hashes, columns, the resolved file, extensions. */
 #include "tests/support/campaign_text.h"
 
+#include "campaigns/file/identity.h"
+#include "engine/loading/loading.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -289,7 +292,7 @@ static void test_table(void **state)
     fracas_campaign *campaign = read_replaced("", sweep);
     const fracas_point_table *table = &campaign->table;
     static const char *const paths[] = {
-        "cohesive.beta", "cohesive.fracture_energy", "cohesive.law", "derived.strength_mean", "geometry.area",
+        "cohesive.beta", "cohesive.fracture_energy", "cohesive.law", "derived.strain_rate", "derived.strength_mean", "geometry.area",
         "geometry.ends", "geometry.length", "geometry.shape", "loading.rate", "loading.type", "material.density",
         "material.young", "mesh.elements", "mesh.spacing", "model", "strength.distribution", "strength.maximum", "strength.minimum", "strength.value",
         "time.end", "time.quiet", "time.quiet_fraction", "time.safety", "time.stop"};
@@ -305,6 +308,7 @@ static void test_table(void **state)
         }
     }
     assert_int_equal(fracas_point_table_find(table, "case"), SIZE_MAX);
+    assert_true(real(campaign, 0, "derived.strain_rate") == real(campaign, 0, "loading.rate"));
     assert_true(real(campaign, 0, "derived.strength_mean") == 300e6);
     assert_true(real(campaign, 1, "derived.strength_mean") == 5e6);
     assert_true(isnan(real(campaign, 0, "strength.value")) && real(campaign, 1, "strength.value") == 5e6);
@@ -312,6 +316,24 @@ static void test_table(void **state)
     assert_string_equal(table->column[fracas_point_table_find(table, "material.young")].unit, "Pa");
     for (size_t p = 0; p < 2; p++) assert_true(fracas_hash_equal(&table->point[p].hash, &campaign->point[p].hash));
     fracas_campaign_destroy(campaign);
+}
+
+/* Powers of two, so that quotients are exact. */
+static void test_strain_rate(void **state)
+{
+    (void)state;
+    fracas_spec spec = {.geometry.radius = 0.0078125,
+                        .loading = {.type = &fracas_loading_imposed_rate, .rate = 3e3, .radial = 128, .velocity = 64,
+                                    .direction = &fracas_axis_radial}};
+    assert_true(fracas_spec_strain_rate(&spec) == 3e3);
+    spec.loading.type = &fracas_loading_initial_velocity;
+    assert_true(fracas_spec_strain_rate(&spec) == 16384);
+    spec.loading.type = &fracas_loading_held_velocity;
+    assert_true(fracas_spec_strain_rate(&spec) == 8192);
+    spec.loading.direction = &fracas_axis_circumferential;
+    assert_true(isnan(fracas_spec_strain_rate(&spec)));
+    spec.loading = (fracas_loading){.type = &fracas_loading_force, .direction = &fracas_axis_radial, .force = 5};
+    assert_true(isnan(fracas_spec_strain_rate(&spec)));
 }
 
 /* Kinds of one section that have a key in common must give it one type, unit and list of choices: they share a leaf and a
@@ -524,6 +546,7 @@ int main(void)
         cmocka_unit_test(test_zip),          cmocka_unit_test(test_cases),
         cmocka_unit_test(test_changed_kind), cmocka_unit_test(test_supplied_by_sweep),
         cmocka_unit_test(test_table),        cmocka_unit_test(test_tables_agree),
+        cmocka_unit_test(test_strain_rate),
         cmocka_unit_test(test_round_trip),   cmocka_unit_test(test_write_fails),
         cmocka_unit_test(test_extends),      cmocka_unit_test(test_reference_page),
         cmocka_unit_test(test_choices),      cmocka_unit_test(test_key_of_all_kinds),
