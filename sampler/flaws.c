@@ -32,7 +32,7 @@ FRACAS_MUST_USE static fracas_err flaws_check(const fracas_strength *strength)
 }
 
 static const fracas_param params[] = {
-    {"density", FRACAS_REAL, "1/m3", "mean number of flaws per volume of the body", FRACAS_REQUIRED, 0, INFINITY, true,
+    {"flaw_density", FRACAS_REAL, "1/m3", "mean number of flaws per volume of the body", FRACAS_REQUIRED, 0, INFINITY, true,
      offsetof(fracas_strength, density)},
     {"minimum", FRACAS_REAL, "Pa", "strength of the largest flaws", 0, 0, INFINITY, false,
      offsetof(fracas_strength, minimum)},

@@ -81,7 +81,7 @@ static void test_top(void **state)
         {"material:", "materail:", 9, 1, {"unknown key `materail`", "did you mean `material`?"}},
         {"", "rate: 5\n", 28, 1, {"unknown key `rate`", "write `rate:` indented below `loading:`"}},
         {"", "loading.rate: 5\n", 28, 1, {"unknown key `loading.rate`", "write `rate:` indented below `loading:`"}},
-        {"model: bar", "model: ring", 3, 8, {"unknown model `ring`", "model can be: bar"}},
+        {"model: bar", "model: rod", 3, 8, {"unknown model `rod`", "model can be: bar, ring"}},
         {"model: bar", "model: {bar: 1}", 3, 8, {"`model`", "found a section", "a name"}},
     };
     CHECK_ALL(table);
