@@ -129,7 +129,7 @@ static void add_balance(fracas_point_statistics *statistics, const fracas_record
     double stored = record->elastic + record->cohesive + record->dissipated;
     double drift = record->residual / fmax(record->kinetic, fmax(stored, fabs(record->work)));
     if (drift > FRACAS_DRIFT_LIMIT) statistics->drifted++;
-    if (isfinite(drift)) statistics->drift = fmax(statistics->drift, drift); /* fmax takes the number where the other is NaN */
+    if (isfinite(drift)) statistics->drift = fmax(statistics->drift, drift); /* the number where the other is NaN */
     if (!(record->dissipated > 0)) return;
     statistics->residual = fmax(statistics->residual, record->residual / record->dissipated);
     statistics->created = fmax(statistics->created, record->created / record->dissipated);

@@ -61,8 +61,8 @@ fracas_panel *fracas_chart_add(fracas_chart *chart, double height);
 FRACAS_MUST_USE fracas_err fracas_panel_add(fracas_panel *panel, fracas_series_kind kind, unsigned look, size_t n,
                                             fracas_series **series);
 
-/* Opens the <svg> element of a drawing of so many pixels. `standalone`: a file of its own, with its style, on white; else for a page that has
- * fracas_chart_style, light or dark as the reader has it. */
+/* Opens the <svg> element of a drawing of so many pixels; who draws closes it. `standalone`: a file of its own, with its
+ * style, on white; else for a page that has fracas_chart_style, light or dark as the reader has it. */
 void fracas_svg_begin(const char *title, int width, double height, bool standalone, FILE *out);
 /* Writes the whole element. */
 void fracas_chart_write(const fracas_chart *chart, bool standalone, FILE *out);

@@ -242,8 +242,8 @@ static fracas_err put_warnings(const report_page *page)
     fputs("<h2>Warnings</h2>\n", page->out);
     if (count == 0) {
         fputs("<p>None: no realization failed or was stopped by its time limit; ledger residuals are below 1e-3 and "
-              "created energy below 1e-2 of the dissipated energy, residuals below 1 % of the largest energy; mean fragments have 10 elements or more; at most "
-              "5 % of the fragments are dust.</p>\n", page->out);
+              "created energy below 1e-2 of the dissipated energy, residuals below 1 % of the largest energy; mean "
+              "fragments have 10 elements or more; at most 5 % of the fragments are dust.</p>\n", page->out);
     } else {
         fputs("<ul class=\"warnings\">\n", page->out);
         for (size_t i = 0; i < count; i++) {

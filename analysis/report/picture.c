@@ -35,7 +35,8 @@ double fracas_picture_exaggeration(const fracas_ring_pattern *pattern)
         largest = fmax(largest, piece->displacement);
     }
     double factor = fmin(0.4 * pattern->radius * size / moved, 0.8 * pattern->radius / largest);
-    if (!(factor > 1) || !isfinite(factor)) return 1;
+    const double none = 1e9; /* displacements are rounding then */
+    if (!(factor > 1 && factor < none)) return 1;
     double power = pow(10, floor(log10(factor) + 1e-9)), mantissa = factor / power * (1 + 1e-9);
     return power * (mantissa >= 5 ? 5 : mantissa >= 2 ? 2 : 1);
 }

@@ -29,7 +29,7 @@ FRACAS_MUST_USE fracas_err fracas_picture_create(const fracas_analysis *analysis
 void fracas_picture_clear(fracas_picture *picture);
 
 /* 1, 2 or 5 times a power of ten, 1 or more: the greatest that takes the mean displacement, weighed by size, to 0.4 radii
- * and the largest to 0.8 radii at most. */
+ * and the largest to 0.8 radii at most; 1 where nothing is displaced outward but by rounding. */
 double fracas_picture_exaggeration(const fracas_ring_pattern *pattern);
 
 /* The <svg> element, as fracas_chart_write has it. */

@@ -216,8 +216,16 @@ for p in pictures:
     bands = [path for path in bands if path.get("class").startswith("band ")]
     assert len(bands) == len(lines) == realization["fragments"][i]
     assert len(drawing.findall(f".//{SVG}circle[@class='dust']")) == of["dust"].sum()
-    arrows = len(drawing.findall(f".//{SVG}path[@class='ink']"))
-    assert arrows == 0 if len(lines) > 120 else 0 < arrows <= len(lines) - of["dust"].sum()
+    arrows = drawing.findall(f".//{SVG}path[@class='ink']")
+    moving = [line for line in lines if line["dust"] == "0"]
+    fastest = max(math.hypot(float(line["relative_radial"]), float(line["relative_circumferential"])) for line in moving)
+    for line in moving if len(lines) <= 120 else []:
+        x, y = (float(line["relative_" + name]) * 30 / fastest for name in ("radial", "circumferential"))
+        if math.hypot(x, y) > 1.5:  # pixels
+            begin = [float(number) for number in re.findall(r"-?[\d.]+", arrows.pop(0).get("d"))][:4]
+            c, s = math.cos(float(line["angle"])), math.sin(float(line["angle"]))
+            assert math.hypot(begin[2] - begin[0] - (x * c - y * s), begin[3] - begin[1] + (x * s + y * c)) < 0.03
+    assert not arrows
     colours = [path.get("class") for path in bands]
     assert all(a != b for a, b in zip(colours, colours[1:] + colours[:1])) or len(colours) < 2
     scale = float(drawing.find(f".//{SVG}circle[@class='axis']").get("r")) / radius
@@ -233,6 +241,7 @@ for p in pictures:
         # The band: the ends of its arcs are as far apart as the fragment is long, and it lies where it was pushed.
         place = [float(number) for number in re.findall(r"-?[\d.]+", path.get("d"))]
         ends = np.array([place[0:2], place[7:9], place[9:11], place[16:18]]) - 235
+        assert place[4:7] == [0, half > math.pi / 2, 0] and place[13:16] == [0, half > math.pi / 2, 1]
         outer = place[2] / scale / radius
         chord = np.linalg.norm(ends[1] - ends[0]) / (2 * outer * scale * radius)
         assert abs(chord - math.sin(half)) < 0.03 / (outer * scale * radius), (chord, half)  # coordinates to 0.01

@@ -112,6 +112,8 @@ static void pattern_of_uniform_expansion(void **state)
     pattern.piece[0].displacement = 0.3 * radius; /* 0.8/0.3 = 2.7: 2; the mean would allow more */
     pattern.piece[0].size = 0;
     assert_true(fracas_picture_exaggeration(&pattern) == 2);
+    for (size_t i = 0; i < N; i++) pattern.piece[i].displacement = 1e-16 * radius;
+    assert_true(fracas_picture_exaggeration(&pattern) == 1);
     for (size_t i = 0; i < N; i++) pattern.piece[i].displacement = -0.01 * radius;
     assert_true(fracas_picture_exaggeration(&pattern) == 1);
     fracas_ring_pattern_clear(&pattern);
@@ -367,6 +369,7 @@ static void points_with_pictures(void **state)
     assert_pictures(1, 9, (size_t[]){0}, 1);
     assert_pictures(4, 2, (size_t[]){0, 1, 3}, 3);
     assert_pictures(6, 9, (size_t[]){0, 1, 2, 3, 4, 5}, 6);
+    assert_pictures(8, 9, (size_t[]){0, 1, 3, 4, 6, 7}, 6); /* 0, 1.4, 2.8, 4.2, 5.6, 7 */
     assert_pictures(11, 99, (size_t[]){0, 2, 4, 6, 8, 10}, 6);
     assert_pictures(12, 0, (size_t[]){1, 3, 5, 7, 9, 11}, 6);
 }
