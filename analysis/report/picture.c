@@ -7,7 +7,7 @@
 #include <math.h>
 
 enum { SIDE = FRACAS_CHART_WIDE, MARGIN = 10, ARROW = 30, LINE_HEIGHT = 19 }; /* pixels */
-enum { ARROWS_MOST = 120 };
+enum { ARROWS_MOST = 60 };
 static const double band = 0.1; /* thickness of the ring as drawn / radius */
 
 size_t fracas_picture_points(const fracas_analysis *analysis, size_t point[FRACAS_MAX_PICTURES])

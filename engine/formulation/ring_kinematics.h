@@ -90,7 +90,7 @@ LANES_FUNCTION void ring_stretch(const ring_context *c, size_t e, ring_element *
     vd inverse = one / (length * sum);
     element->tangent = ring_scale(sum * inverse, element->chord);
     /* (l - h)/h by the difference of squares: no digits of a small strain are lost */
-    element->strain = (ring_dot(start, du) + ring_dot(element->chord, du)) * length * inverse / size;
+    element->strain = (ring_dot(start, du) + ring_dot(element->chord, du)) * (length * inverse) * lanes_set(1.0 / h);
     element->stress = lanes_set(c->ring->young) * element->strain;
 }
 
