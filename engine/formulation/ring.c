@@ -79,6 +79,10 @@ static fracas_err ring_model_init(fracas_model *model)
     const double circumference = 2 * PI * spec->geometry.radius;
     model->element_size = model->longest = circumference / (double)n;
     model->mass = spec->material.density * spec->geometry.area * circumference;
+    if (!is_nitsche(model) && spec->cohesive.zone > 0 && spec->cohesive.zone < model->element_size)
+        return fracas_fail(FRACAS_USAGE, "cohesive.zone is %.4g m, but elements are %.4g m long, so that it holds no other interface: "
+                           "raise it, or mesh.elements above %.0f, or leave it out", spec->cohesive.zone, model->element_size,
+                           ceil(circumference / spec->cohesive.zone));
     double *table = model->table = malloc(n * RING_TABLE * sizeof *table);
     if (!table) return fracas_no_memory("the mesh of a ring");
     for (size_t e = 0; e < n; e++) {
