@@ -219,7 +219,7 @@ for p in pictures:
     arrows = drawing.findall(f".//{SVG}path[@class='ink']")
     moving = [line for line in lines if line["dust"] == "0"]
     fastest = max(math.hypot(float(line["relative_radial"]), float(line["relative_circumferential"])) for line in moving)
-    for line in moving if len(lines) <= 120 else []:
+    for line in moving if len(lines) <= 60 else []:
         x, y = (float(line["relative_" + name]) * 30 / fastest for name in ("radial", "circumferential"))
         if math.hypot(x, y) > 1.5:  # pixels
             begin = [float(number) for number in re.findall(r"-?[\d.]+", arrows.pop(0).get("d"))][:4]

@@ -229,6 +229,7 @@ static void make_record(const void *context, size_t p, int64_t replica, fracas_r
     assert_non_null(record->history);
     for (size_t i = 0; i < 2; i++)
         record->history[i] = (fracas_history_row){.time = (double)i * record->end_time, .kinetic = record->kinetic,
+                                                  .elastic = (double)i * 1e-3 * record->kinetic,
                                                   .residual = (double)i * record->residual};
 }
 
