@@ -154,7 +154,7 @@ __attribute__((noinline, cold)) static void stershic_open_one(const ring_context
         if (*ahead == RING_LINK_CLOSED) *ahead = RING_LINK_BARRED;
         if (*behind == RING_LINK_CLOSED) *behind = RING_LINK_BARRED;
     }
-    for (size_t d = 0; reach > 0 && d <= 2 * reach; d++) {
+    for (size_t d = 0; reach > 0 && d <= 2 * reach + 1; d++) { /* every element that a link just barred touches */
         const size_t i = (e + n - reach + d) % n, before = (i + n - 1) % n;
         double *largest = stershic_value(c, i, RING_STRAIN, lane);
         if (*largest >= 0 || *stershic_value(c, i, RING_LAW, lane) != RING_LINK_BARRED ||

@@ -355,6 +355,32 @@ static void barred_links_stay_barred(void **unused)
 
 /* ---- bulk damage ---- */
 
+/* Elements suffer damage from when both their links are barred, whichever opening barred the second one: zones that meet from either
+ * side, around the end of the ring, and of one opening alone. */
+static void elements_between_barred_links_are_watched(void **unused)
+{
+    (void)unused;
+    enum { N = 60, K = 4 };
+    const double zone = K * RING_CIRCUMFERENCE / N;
+    /* opened in this order, by their ratios; -1: none */
+    const int cases[][2] = {{20, -1}, {20, 29}, {29, 20}, {20, 28}, {28, 20}, {20, 30}, {30, 20}, {58, 7}, {7, 58}, {3, 54}, {54, 3},
+                            {0, 9}, {9, 0}, {59, 50}, {50, 59}, {59, 8}, {8, 59}};
+    for (size_t i = 0; i < FRACAS_COUNT(cases); i++) {
+        const candidate both[2] = {{(size_t)cases[i][0], 4}, {(size_t)(cases[i][1] < 0 ? 0 : cases[i][1]), 2}};
+        const size_t open[2] = {both[0].link, both[1].link}, count = cases[i][1] < 0 ? 1 : 2;
+        ring_run run = qualify(N, zone, both, count);
+        assert_links(&run, K, open, count);
+        for (size_t e = 0; e < N; e++) {
+            const bool expected = *link_of(&run, e) == RING_LINK_BARRED && *link_of(&run, e + N - 1) == RING_LINK_BARRED;
+            const double largest = *at(&run, e, RING_STRAIN);
+            if (expected ? fabs(largest * YOUNG / 200e6 - 1) > 1e-11 : largest != -1)
+                fail_msg("links %d, then %d open: element %zu, %s barred links, has eps_d %g", cases[i][0], cases[i][1], e,
+                         expected ? "between two" : "not between two", largest);
+        }
+        clear(&run);
+    }
+}
+
 typedef struct {
     double strain, largest; /* of the element, in eps_y; eps_d before the step, in eps_y */
     double stress, after;   /* in sigma_y; eps_d after it */
@@ -438,7 +464,7 @@ int main(void)
         cmocka_unit_test(critical_zones_refine_the_time_step), cmocka_unit_test(the_edges_of_the_first_zone_and_of_opening),
         cmocka_unit_test(the_base_step_is_the_papers), cmocka_unit_test(links_open_by_stress_over_strength),
         cmocka_unit_test(a_zone_is_as_long_as_it_says), cmocka_unit_test(barred_links_stay_barred),
-        cmocka_unit_test(the_bulk_law_at_prescribed_strains),
+        cmocka_unit_test(elements_between_barred_links_are_watched), cmocka_unit_test(the_bulk_law_at_prescribed_strains),
         cmocka_unit_test(what_is_barred_beyond_its_yield_is_booked)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
