@@ -11,6 +11,7 @@
 #define stershic_look LANES_NAME(stershic_look)
 #define stershic_watch LANES_NAME(stershic_watch)
 #define stershic_stress LANES_NAME(stershic_stress)
+#define stershic_between LANES_NAME(stershic_between)
 #define stershic_onset LANES_NAME(stershic_onset)
 #define stershic_open_links LANES_NAME(stershic_open_links)
 #define stershic_open_one LANES_NAME(stershic_open_one)
@@ -124,6 +125,12 @@ static inline double *stershic_value(const ring_context *c, size_t element, int 
     return c->state + (element * RING_FIELDS_STERSHIC + (size_t)field) * LANES + lane;
 }
 
+/* How far the right node of an element is beyond its left one in a field of theirs, one lane. */
+static inline double stershic_between(const ring_context *c, size_t element, int left, int right, int lane)
+{
+    return *stershic_value(c, element, right, lane) - *stershic_value(c, element, left, lane);
+}
+
 /* When the mean stress of link e passed its strength: within the step, at the rate that the velocities give [s]. */
 static inline double stershic_onset(const ring_context *c, size_t e, int lane)
 {
@@ -133,10 +140,12 @@ static inline double stershic_onset(const ring_context *c, size_t e, int lane)
     for (int side = 0; side < 2; side++) {
         const size_t i = side ? next : e;
         const double *table = ring->table + i * RING_TABLE;
-        double x = *stershic_value(c, i, RING_V_RIGHT, lane) - *stershic_value(c, i, RING_V_LEFT, lane);
-        double y = *stershic_value(c, i, RING_V_RIGHT + 1, lane) - *stershic_value(c, i, RING_V_LEFT + 1, lane);
+        const double x = stershic_between(c, i, RING_U_LEFT, RING_U_RIGHT, lane) - ring->size * table[RING_SIN_MIDDLE];
+        const double y = stershic_between(c, i, RING_U_LEFT + 1, RING_U_RIGHT + 1, lane) + ring->size * table[RING_COS_MIDDLE];
+        const double along = x * stershic_between(c, i, RING_V_LEFT, RING_V_RIGHT, lane) +
+                             y * stershic_between(c, i, RING_V_LEFT + 1, RING_V_RIGHT + 1, lane);
         mean += 0.5 * *stershic_value(c, i, RING_STRESS, lane);
-        rate += 0.5 * ring->young / ring->size * (table[RING_COS_MIDDLE] * y - table[RING_SIN_MIDDLE] * x);
+        rate += 0.5 * ring->young / ring->size * along / sqrt(x * x + y * y);
     }
     return c->step->time[c->first + lane] - (mean - *stershic_value(c, e, RING_STRENGTH, lane)) / rate;
 }
@@ -311,6 +320,7 @@ static void RING_SWEEP(stershic)(const fracas_ring_constants *ring, fracas_step 
 #undef stershic_look
 #undef stershic_watch
 #undef stershic_stress
+#undef stershic_between
 #undef stershic_onset
 #undef stershic_open_links
 #undef stershic_open_one
