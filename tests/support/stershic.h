@@ -99,6 +99,18 @@ static inline void set_stress(const ring_run *run, size_t e, double stress)
     }
 }
 
+/* Gives all elements this stress [Pa] by expanding the ring; nodes of a link stay at one place. */
+static inline void expand(const ring_run *run, double stress)
+{
+    const double pi = 3.14159265358979323846, radius = run->h / (2 * sin(pi / (double)run->n));
+    for (size_t e = 0; e < run->n; e++)
+        for (size_t side = 0; side < 2; side++) {
+            const double theta = 2 * pi * (double)((e + side) % run->n) / (double)run->n;
+            *at(run, e, side ? RING_U_RIGHT : RING_U_LEFT) = stress / YOUNG * radius * cos(theta);
+            *at(run, e, side ? RING_U_RIGHT + 1 : RING_U_LEFT + 1) = stress / YOUNG * radius * sin(theta);
+        }
+}
+
 /* Opens the jump of interface e by moving element e + 1 along the interface's normal, unstrained. */
 static inline void set_jump(const ring_run *run, size_t e, double q)
 {
@@ -112,10 +124,10 @@ static inline double *link_of(const ring_run *run, size_t e)
     return at(run, e, RING_LAW);
 }
 
-/* Mean stress of interface e, as the step saw it. */
-static inline double mean_of(const ring_run *run, size_t e)
+/* What the elements of interface e pull it apart with along its normal, as the step saw it [Pa]. */
+static inline double pull_of(const ring_run *run, size_t e)
 {
-    return 0.5 * (*at(run, e, RING_STRESS) + *at(run, e + 1, RING_STRESS));
+    return *at(run, e, RING_PULL);
 }
 
 #endif
