@@ -186,29 +186,35 @@ static void watch_element(const ring_run *run, size_t e, watched *w)
     assert_true(fabs(*at(run, e, RING_STRESS) - w->stress) < 1e-12 * w->yield + 1e-12 * YOUNG * fabs(w->strain));
 }
 
+enum { N = 200, WEAK = 50 };
+
+/* Under imposed rate until its weak link has just opened and barred all others. */
+static ring_run barred_ring(void)
+{
+    fracas_spec spec = ring_stershic(N, 1e4, 3e-6);
+    spec.loading = (fracas_loading){.type = &fracas_loading_imposed_rate, .rate = 1e4};
+    spec.cohesive.zone = 1;
+    spec.time.safety = 0.1;
+    ring_run run = make(&spec, 300e6);
+    for (size_t i = 0; i < N; i++) bar_set_strength(run.batch, 0, i, i == WEAK ? 300e6 : 310e6 + 1e5 * (double)((i * 37) % N));
+    assert_ok(fracas_batch_begin(run.batch));
+    while (!run.batch->step.cracked[0]) step(&run);
+    return run;
+}
+
 /* A ring under imposed rate with one weak link, that bars every other one: elements yield, each at the mean of its links' strengths,
  * until the release wave of the weak link arrives. The test follows each of them by the paper's equations. What the stress does on
  * an element, integrated by the test, is what it stores and dissipates (ring.17). */
 static void a_barred_ring_yields(void **unused)
 {
     (void)unused;
-    enum { N = 200, WEAK = 50 };
-    fracas_spec spec = ring_stershic(N, 1e4, 3e-6);
-    spec.loading = (fracas_loading){.type = &fracas_loading_imposed_rate, .rate = 1e4};
-    spec.cohesive.zone = 1;
-    spec.time.safety = 0.1;
-    ring_run run = make(&spec, 300e6);
-    size_t stride;
-    double *strength = fracas_batch_strength(run.batch, 0, &stride);
-    for (size_t i = 0; i < N; i++) strength[i * stride] = i == WEAK ? 300e6 : 310e6 + 1e5 * (double)((i * 37) % N);
-    assert_ok(fracas_batch_begin(run.batch));
-    while (!run.batch->step.cracked[0]) step(&run);
+    ring_run run = barred_ring();
     static watched element[N];
     for (size_t e = 0; e < N; e++) {
         watched *w = &element[e];
         *w = (watched){.strain = strain_of(&run, e), .regime = 2};
         const bool free = e == WEAK || e == WEAK + 1;
-        w->yield = free ? INFINITY : 0.5 * (strength[e * stride] + strength[(e + N - 1) % N * stride]);
+        w->yield = free ? INFINITY : 0.5 * (*at(&run, e, RING_STRENGTH) + *at(&run, e + N - 1, RING_STRENGTH));
         w->stress = YOUNG * w->strain;
         w->largest = w->strain;
         assert_true(free ? *at(&run, e, RING_STRAIN) == -1 : fabs(*at(&run, e, RING_STRAIN) - w->largest) < 1e-15);
@@ -226,8 +232,8 @@ static void a_barred_ring_yields(void **unused)
             if (d > 0 && element[e].regime == 1) deepest = fmax(deepest, d);
         }
     }
-    const double volume = spec.geometry.area * run.h;
-    double dissipated = spec.geometry.area * 100 * *at(&run, WEAK, RING_DAMAGE), slackest = 0, missed = 0;
+    const double area = run.model->spec.geometry.area, volume = area * run.h;
+    double dissipated = area * 100 * *at(&run, WEAK, RING_DAMAGE), slackest = 0, missed = 0;
     for (size_t e = 0; e < N; e++) {
         const watched *w = &element[e];
         if (e == WEAK || e == WEAK + 1) continue;
@@ -246,14 +252,14 @@ static void a_barred_ring_yields(void **unused)
     assert_true(r->created == 0);
     assert_true(seen[3] > 1000 && seen[1] > 1000 && deepest > 0.5);
     assert_true(fabs(r->dissipated / dissipated - 1) < 1e-11);
-    assert_true(r->dissipated > 100 * spec.geometry.area * 100); /* it is the bulk's, not the link's */
+    assert_true(r->dissipated > 100 * area * 100); /* it is the bulk's, not the link's */
     assert_true(r->residual < 1e-4 * r->work);
     clear(&run);
 }
 
 /* ---- ledger, guard, momentum ---- */
 
-/* |residual| by the largest energy, over the whole run; `worst` from where the guard looks on. */
+/* |residual| by the largest energy, the largest of the steps that the guard looks at. */
 static double residual_of(ring_run *run)
 {
     double worst = 0;
@@ -333,6 +339,34 @@ static void the_energy_guard_ends_what_has_drifted(void **unused)
     assert_true(lowest > 0.01 && highest < 0.05);
 }
 
+/* The paper's critical zones leave out links that close again on steep secants: with strengths from 240 to 360 MPa some runs drift at its
+ * 0.8 h/c, none at a fourth of that, where the residual stays below 1 % of the dissipated energy. */
+static void the_papers_time_step_is_too_long_for_some(void **unused)
+{
+    (void)unused;
+    int drifted[2] = {0, 0};
+    double worst = 0;
+    for (int fine = 0; fine < 2; fine++)
+        for (uint64_t i = 0; i < 16; i++) {
+            fracas_spec spec = ring_stershic(200, 2e4, 4e-7);
+            spec.geometry.radius = 6e-3 / (2 * PI);
+            spec.loading.radial = 2e4 * spec.geometry.radius;
+            spec.loading.circumferential = 20;
+            spec.cohesive.refinement = 0.3;
+            spec.cohesive.zone = i % 2 ? 3.5 * 6e-3 / 200 : 0;
+            spec.time.safety = fine ? 0.2 : 0.8;
+            ring_run run = scattered(&spec, 0.2, i / 2);
+            finish(&run);
+            drifted[fine] += run.record.outcome == FRACAS_ENERGY_DRIFT;
+            if (fine) worst = fmax(worst, run.record.residual / run.record.dissipated);
+            clear(&run);
+        }
+    print_message("[  figures ] %d of 16 runs drift at 0.8 h/c, %d at 0.2, there with residuals of %.1e of the dissipated energy\n",
+                  drifted[0], drifted[1], worst);
+    assert_true(drifted[0] > 0 && drifted[1] == 0);
+    assert_true(worst < 1e-2);
+}
+
 /* Linear momentum is that of the start, 0, and a ring that turns keeps its moment of momentum, but for what open links of a radial
  * jump p pass on, T p: less than 1e-7 of the momenta of the parts times R, unless links keep the directions of the start while the ring
  * turns, by 6e-4 here: contact then pushes at that angle. */
@@ -370,6 +404,6 @@ int main(void)
         cmocka_unit_test(one_weak_link_opens_as_the_closed_form), cmocka_unit_test(one_strength_needs_no_choice_of_parameters),
         cmocka_unit_test(the_clock_adds_up), cmocka_unit_test(a_barred_ring_yields),
         cmocka_unit_test(the_ledger_closes_as_the_time_step_falls), cmocka_unit_test(the_energy_guard_ends_what_has_drifted),
-        cmocka_unit_test(momentum_is_kept)};
+        cmocka_unit_test(the_papers_time_step_is_too_long_for_some), cmocka_unit_test(momentum_is_kept)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
