@@ -233,18 +233,21 @@ static void a_link_opens_by_the_pull_along_its_normal(void **unused)
     }
 }
 
-/* The base is 0.8 h/c: the power iteration finds h/c from above, to 1e-3 (bar.16). */
+/* The base is 0.8 h/c for an even number of elements; an odd one cannot swing up and down in turn: h/(c cos(pi/(2 n))). The power
+ * iteration starts in the even ring's mode, and cannot quite tell an odd one's from its neighbours: measured, 4e-11 and up to 6e-6
+ * above. Rings of more than 1024 elements take the step of 1024. */
 static void the_base_step_is_the_papers(void **unused)
 {
     (void)unused;
-    const int64_t sizes[] = {40, 41, 1000, 1250, 5000};
+    const int64_t sizes[] = {40, 41, 401, 1000, 1250, 5000};
     for (size_t i = 0; i < FRACAS_COUNT(sizes); i++) {
         const fracas_spec spec = at_rest(sizes[i]);
         fracas_model *model;
         assert_ok(fracas_model_create(&spec, &model));
         const double paper = 0.8 * RING_CIRCUMFERENCE / (double)sizes[i] / BAR_WAVE_SPEED;
+        const double odd = sizes[i] % 2 ? cos(0.5 * 3.14159265358979323846 / (double)sizes[i]) : 1;
         print_message("[  figures ] %5ld elements: time step %.2e beyond 0.8 h/c\n", (long)sizes[i], model->time_step / paper - 1);
-        assert_true(model->time_step / paper - 1 > -1e-9 && model->time_step / paper - 1 < 1e-3);
+        assert_true(fabs(model->time_step * odd / paper - 1) < (sizes[i] % 2 ? 1e-5 : 1e-9));
         fracas_model_destroy(model);
     }
 }
