@@ -11,6 +11,7 @@
 #define stershic_look LANES_NAME(stershic_look)
 #define stershic_watch LANES_NAME(stershic_watch)
 #define stershic_stress LANES_NAME(stershic_stress)
+#define stershic_between LANES_NAME(stershic_between)
 #define stershic_onset LANES_NAME(stershic_onset)
 #define stershic_open_links LANES_NAME(stershic_open_links)
 #define stershic_open_one LANES_NAME(stershic_open_one)
@@ -73,24 +74,27 @@ LANES_FUNCTION vd stershic_traction(const ring_context *c, vd q, vd *damage, vd 
     return rigid_link_law(q, damage, sigma_c, *delta_c, c->spring);
 }
 
-/* Looks at one interface: does it qualify, is it in a critical zone  (ring.14)? */
+/* Looks at one interface: does it qualify, is it in a critical zone  (ring.14)? What its elements pull it apart with is that along
+ * n, so that a link that opens does open. */
 LANES_FUNCTION void stershic_look(const ring_context *c, size_t e, const ring_element *left, const ring_element *right,
                                   stershic_watch *watch)
 {
     const vd zero = lanes_set(0.0);
-    const double *at = c->state + e * RING_FIELDS_STERSHIC * LANES;
+    double *at = c->state + e * RING_FIELDS_STERSHIC * LANES;
+    const ring_frame frame = ring_frame_of(c, e, left, right);
     vd state = lanes_load(at + RING_LAW * LANES), sigma_c = lanes_load(at + RING_STRENGTH * LANES);
     vd before = lanes_load(at + RING_DAMAGE * LANES), damage = before, delta_c;
     vmask closed = lanes_le(state, lanes_set(RING_LINK_CLOSED)), open = stershic_is_open(state);
-    vd mean = lanes_set(0.5) * (left->stress + right->stress);
-    vd q = ring_dot(ring_subtract(right->u_left, left->u_right), ring_frame_of(c, e, left, right).n);
+    vd pull = lanes_set(0.5) * (left->stress * ring_dot(left->tangent, frame.n) + right->stress * ring_dot(right->tangent, frame.n));
+    vd q = ring_dot(ring_subtract(right->u_left, left->u_right), frame.n);
     vd traction = stershic_traction(c, q, &damage, sigma_c, &delta_c);
     vmask softens = lanes_and(open, lanes_and(lanes_le(before * delta_c, q), lanes_lt(c->modulus * q, traction)));
-    vmask rises = lanes_and(closed, lanes_le(lanes_set(0.95) * sigma_c, mean));
-    vd stress = lanes_select(open, traction, mean);
-    watch->qualifies = lanes_or(watch->qualifies, lanes_and(closed, lanes_le(sigma_c, mean)));
+    vmask rises = lanes_and(closed, lanes_le(lanes_set(0.95) * sigma_c, pull));
+    vd stress = lanes_select(open, traction, pull);
+    watch->qualifies = lanes_or(watch->qualifies, lanes_and(closed, lanes_le(sigma_c, pull)));
     watch->opening = lanes_or(watch->opening, lanes_or(softens, rises));
     watch->compressed = lanes_or(watch->compressed, lanes_lt(stress, zero));
+    lanes_store(at + RING_PULL * LANES, pull);
 }
 
 /* Moves all nodes on, and looks at every interface. */
@@ -124,21 +128,28 @@ static inline double *stershic_value(const ring_context *c, size_t element, int 
     return c->state + (element * RING_FIELDS_STERSHIC + (size_t)field) * LANES + lane;
 }
 
-/* When the mean stress of link e passed its strength: within the step, at the rate that the velocities give [s]. */
+/* How far the right node of an element is beyond its left one in a field of theirs, one lane. */
+static inline double stershic_between(const ring_context *c, size_t element, int left, int right, int lane)
+{
+    return *stershic_value(c, element, right, lane) - *stershic_value(c, element, left, lane);
+}
+
+/* When the stress of link e passed its strength: within the step, at the rate that the velocities give [s]. */
 static inline double stershic_onset(const ring_context *c, size_t e, int lane)
 {
     const fracas_ring_constants *ring = c->ring;
     const size_t next = e + 1 < ring->elements ? e + 1 : 0;
-    double mean = 0, rate = 0;
+    double rate = 0;
     for (int side = 0; side < 2; side++) {
         const size_t i = side ? next : e;
         const double *table = ring->table + i * RING_TABLE;
-        double x = *stershic_value(c, i, RING_V_RIGHT, lane) - *stershic_value(c, i, RING_V_LEFT, lane);
-        double y = *stershic_value(c, i, RING_V_RIGHT + 1, lane) - *stershic_value(c, i, RING_V_LEFT + 1, lane);
-        mean += 0.5 * *stershic_value(c, i, RING_STRESS, lane);
-        rate += 0.5 * ring->young / ring->size * (table[RING_COS_MIDDLE] * y - table[RING_SIN_MIDDLE] * x);
+        const double x = stershic_between(c, i, RING_U_LEFT, RING_U_RIGHT, lane) - ring->size * table[RING_SIN_MIDDLE];
+        const double y = stershic_between(c, i, RING_U_LEFT + 1, RING_U_RIGHT + 1, lane) + ring->size * table[RING_COS_MIDDLE];
+        const double along = x * stershic_between(c, i, RING_V_LEFT, RING_V_RIGHT, lane) +
+                             y * stershic_between(c, i, RING_V_LEFT + 1, RING_V_RIGHT + 1, lane);
+        rate += 0.5 * ring->young / ring->size * along / sqrt(x * x + y * y);
     }
-    return c->step->time[c->first + lane] - (mean - *stershic_value(c, e, RING_STRENGTH, lane)) / rate;
+    return c->step->time[c->first + lane] - (*stershic_value(c, e, RING_PULL, lane) - *stershic_value(c, e, RING_STRENGTH, lane)) / rate;
 }
 
 /* Opens link e, bars the closed ones within the zone, and lets elements between two barred ones suffer damage from now on: those
@@ -154,7 +165,7 @@ __attribute__((noinline, cold)) static void stershic_open_one(const ring_context
         if (*ahead == RING_LINK_CLOSED) *ahead = RING_LINK_BARRED;
         if (*behind == RING_LINK_CLOSED) *behind = RING_LINK_BARRED;
     }
-    for (size_t d = 0; reach > 0 && d <= 2 * reach; d++) {
+    for (size_t d = 0; reach > 0 && d <= 2 * reach + 1; d++) { /* every element that a link just barred touches */
         const size_t i = (e + n - reach + d) % n, before = (i + n - 1) % n;
         double *largest = stershic_value(c, i, RING_STRAIN, lane);
         if (*largest >= 0 || *stershic_value(c, i, RING_LAW, lane) != RING_LINK_BARRED ||
@@ -176,9 +187,9 @@ __attribute__((noinline, cold)) static void stershic_open_links(const ring_conte
         size_t best = n;
         double largest = 0;
         for (size_t e = 0; e < n; e++) {
-            double mean = 0.5 * (*stershic_value(c, e, RING_STRESS, lane) + *stershic_value(c, e + 1 < n ? e + 1 : 0, RING_STRESS, lane));
-            double ratio = mean / *stershic_value(c, e, RING_STRENGTH, lane);
-            if (*stershic_value(c, e, RING_LAW, lane) != RING_LINK_CLOSED || !(mean >= *stershic_value(c, e, RING_STRENGTH, lane))) continue;
+            double pull = *stershic_value(c, e, RING_PULL, lane), strength = *stershic_value(c, e, RING_STRENGTH, lane);
+            double ratio = pull / strength;
+            if (*stershic_value(c, e, RING_LAW, lane) != RING_LINK_CLOSED || !(pull >= strength)) continue;
             if (c->ring->zone == 0) stershic_open_one(c, e, lane); /* order does not matter */
             else if (ratio > largest) {
                 largest = ratio;
@@ -311,6 +322,7 @@ static void RING_SWEEP(stershic)(const fracas_ring_constants *ring, fracas_step 
 #undef stershic_look
 #undef stershic_watch
 #undef stershic_stress
+#undef stershic_between
 #undef stershic_onset
 #undef stershic_open_links
 #undef stershic_open_one

@@ -18,6 +18,7 @@ enum {
     RING_FIELDS,                   /* of nitsche */
     RING_STRESS = RING_FIELDS,     /* stershic: stress of the element [Pa] */
     RING_STRAIN,                   /* stershic: eps_d, largest strain since both its links are barred; -1: not barred */
+    RING_PULL,                     /* stershic: stress of the interface while it is not open, along its normal [Pa] */
     RING_FIELDS_STERSHIC
 };
 
