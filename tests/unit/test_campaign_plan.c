@@ -167,7 +167,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_cost),    cmocka_unit_test(test_text),        cmocka_unit_test(test_json),
-        cmocka_unit_test(test_warnings), cmocka_unit_test(test_heavy_tail), cmocka_unit_test(test_refused), cmocka_unit_test(test_write_fails),
+        cmocka_unit_test(test_warnings), cmocka_unit_test(test_heavy_tail),
+        cmocka_unit_test(test_flaws_of_small_elements), cmocka_unit_test(test_refused), cmocka_unit_test(test_write_fails),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
