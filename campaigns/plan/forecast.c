@@ -9,10 +9,19 @@
 
 enum { MAX_LANES = 8 }; /* of a batch */
 
+/* The smallest volume of an interface [m3]: where strengths depend on it, there they are largest. */
+static double smallest_volume(const fracas_model *model)
+{
+    double volume = INFINITY;
+    for (size_t i = 0; i < fracas_model_interfaces(model); i++)
+        volume = fmin(volume, fracas_model_interface_volume(model, i));
+    return volume;
+}
+
 static fracas_err check_strongest(const fracas_model *model, const fracas_point *point)
 {
     const double drawn = (double)fracas_model_interfaces(model) * (double)point->replicas;
-    const double volume = fracas_model_interface_volume(model, 0);
+    const double volume = smallest_volume(model);
     const double u = fmin(1.0 - 0.01 / drawn, 1.0 - 0x1p-53);
     fracas_err err = fracas_model_check_strength(model, fracas_strength_quantile(&point->strength, volume, u));
     return err ? fracas_fail_within(err, "the strongest of %.3g interfaces (all replicas together)", drawn) : FRACAS_OK;
@@ -47,9 +56,8 @@ static fracas_err describe(const fracas_campaign *campaign, size_t index, fracas
         .steps = fracas_model_steps(model),
         .time_step = fracas_model_time_step(model),
     };
-    const double volume = fracas_model_interface_volume(model, 0);
-    const double mean = fracas_strength_mean(&point->strength, volume);
     const fracas_spec *spec = &point->spec;
+    const double volume = fracas_spec_interface_volume(spec), mean = fracas_strength_mean(&point->strength, volume);
     const double softening = spec->material.young * fracas_spec_fracture_energy(spec, mean) / (mean * mean);
     forecast->coarseness = fracas_spec_length(spec) / (double)forecast->elements / softening;
     forecast->uniform = fracas_strength_quantile(&point->strength, volume, 0.25) ==
@@ -133,7 +141,7 @@ static fracas_err time_steps(const fracas_campaign *campaign, size_t index, doub
     }
     spec.time.end = fmin(spec.time.end, end);
     TRY(fracas_point_model_like(campaign, index, &spec, &model));
-    const double strength = fracas_strength_mean(&point->strength, fracas_model_interface_volume(model, 0));
+    const double strength = fracas_strength_mean(&point->strength, fracas_spec_interface_volume(&spec));
     fracas_err err = run_batch(model, strength, lanes_of(point), spent);
     fracas_model_destroy(model);
     return err;

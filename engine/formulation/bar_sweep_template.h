@@ -31,7 +31,7 @@ typedef struct {
 typedef struct {
     vd traction, slip; /* T [Pa], q - delta [m] */
     vmask closed;      /* rigid-link only: both nodes move as one ... */
-    vd common;         /* ... under this force [Pa] on elements of one length, else under it per mass ratio */
+    vd common;         /* ... under this force [Pa] per mass, in units of an element's of mean length */
 } bar_link;
 
 typedef struct {
@@ -132,7 +132,7 @@ LANES_FUNCTION bar_link bar_rigid_link(bar_context *c, int uniform, size_t e, co
         vd broke = time - (q - delta_c) / (right->v_left - left->v_right);
         chain_note_events(c->step, c->first, c->bar->area, e, &(chain_events){cracks, breaks, onset, broke, zero, zero});
     }
-    /* both nodes accelerate as one: each takes its share, by mass, of the force on both */
+    /* both nodes accelerate as one, under the force on both */
     vd common = uniform ? half * (right->stress - left->stress) : (right->stress - left->stress) / (left->size + right->size);
     return (bar_link){.traction = traction, .slip = zero, .closed = lanes_lt(state, two), .common = common};
 }
@@ -153,13 +153,16 @@ LANES_FUNCTION void bar_finish(bar_context *c, int uniform, int law, size_t e, c
     vd internal = element->stress;
     if (law == BAR_NITSCHE) internal += half * element->modulus * (left->slip + right->slip);
     vd force_left = internal - left->traction, force_right = right->traction - internal;
-    if (law == BAR_RIGID_LINK) {
-        force_left = lanes_select(left->closed, uniform ? left->common : left->common * element->size, force_left);
-        force_right = lanes_select(right->closed, uniform ? right->common : right->common * element->size, force_right);
+    if (!uniform) { /* per mass */
+        force_left = force_left / element->size;
+        force_right = force_right / element->size;
     }
-    vd kick = uniform ? c->kick : c->kick / element->size;
-    vd v_left = hold_left ? element->v_left : central_kick(element->v_left, force_left, kick);
-    vd v_right = hold_right ? element->v_right : central_kick(element->v_right, force_right, kick);
+    if (law == BAR_RIGID_LINK) { /* the same number on both sides: tied nodes stay together to the bit */
+        force_left = lanes_select(left->closed, left->common, force_left);
+        force_right = lanes_select(right->closed, right->common, force_right);
+    }
+    vd v_left = hold_left ? element->v_left : central_kick(element->v_left, force_left, c->kick);
+    vd v_right = hold_right ? element->v_right : central_kick(element->v_right, force_right, c->kick);
     /* kinetic energy of leapfrog, v_{n-1/2} v_{n+1/2}: constant to round-off with the rest  (bar.11) */
     vd velocity_squared = element->v_left * v_left + element->v_right * v_right;
     vd stress_squared = element->stress * element->stress;

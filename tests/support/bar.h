@@ -40,6 +40,24 @@ static inline void bar_draw(fracas_batch *batch, size_t lane, double scatter, ui
         strength[i * stride] = BAR_STRENGTH_MEAN * (1 + scatter * (2 * fracas_stream_uniform(&stream, i) - 1));
 }
 
+/* Lengths in geometric progression, the last one `ratio` times the first. */
+static inline void bar_grade(fracas_spec *spec, double ratio)
+{
+    spec->mesh.spacing = &fracas_spacing_graded;
+    spec->mesh.ratio = ratio;
+}
+
+/* Nodes moved at random, by `amplitude` h at most: mesh number `which`. `noise` takes [elements + 1] and must last until the
+ * model is made. */
+static inline void bar_perturb(fracas_spec *spec, double amplitude, uint64_t which, double *noise)
+{
+    const fracas_stream stream = {.seed = which, .purpose = FRACAS_PURPOSE_MESH};
+    for (uint64_t i = 0; i <= (uint64_t)spec->mesh.elements; i++) noise[i] = 2 * fracas_stream_uniform(&stream, i) - 1;
+    spec->mesh.spacing = &fracas_spacing_perturbed;
+    spec->mesh.amplitude = amplitude;
+    spec->mesh.noise = noise;
+}
+
 static inline void bar_set_strength(fracas_batch *batch, size_t lane, size_t interface, double sigma_c)
 {
     size_t stride;

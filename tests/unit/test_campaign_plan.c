@@ -118,6 +118,26 @@ static void test_heavy_tail(void **state)
     fracas_campaign_destroy(campaign);
 }
 
+/* Flaws are rarest in the smallest interface: on a graded mesh it is that one, here the last, whose strength counts. In 3.5 mm3
+ * are 350 flaws, in 3.5e-3 mm3 a third of one; the longest elements bear 255 MPa. */
+static void test_flaws_of_small_elements(void **state)
+{
+    (void)state;
+    fracas_campaign *campaign = read_replaced("", "sweep:\n  - cases:\n"
+        "      - {name: small, mesh: {spacing: graded, ratio: 0.001}, strength: {distribution: flaws, density: 1e11 1/m3, "
+        "minimum: 100 MPa, maximum: 400 MPa, exponent: 2}}\n");
+    const fracas_point *point = &campaign->point[0];
+    fracas_model *model;
+    assert_int_equal(fracas_model_create(&point->spec, &model), FRACAS_OK);
+    double first = fracas_strength_quantile(&point->strength, fracas_model_interface_volume(model, 0), 1 - 1e-6);
+    assert_int_equal(fracas_model_check_strength(model, first), FRACAS_OK);
+    fracas_model_destroy(model);
+    double cost;
+    assert_int_equal(fracas_plan_cost(campaign, 0, &cost), FRACAS_USAGE);
+    expect(fracas_message(), "point 0: the strongest of ");
+    fracas_campaign_destroy(campaign);
+}
+
 /* What the engine refuses is refused here, with the point. */
 static void test_refused(void **state)
 {
@@ -147,7 +167,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_cost),    cmocka_unit_test(test_text),        cmocka_unit_test(test_json),
-        cmocka_unit_test(test_warnings), cmocka_unit_test(test_heavy_tail), cmocka_unit_test(test_refused), cmocka_unit_test(test_write_fails),
+        cmocka_unit_test(test_warnings), cmocka_unit_test(test_heavy_tail),
+        cmocka_unit_test(test_flaws_of_small_elements), cmocka_unit_test(test_refused), cmocka_unit_test(test_write_fails),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -37,11 +37,40 @@ static void interfaces_share_the_body(void **unused)
     }
 }
 
+/* The same on elements of different lengths, each interface with half of both its elements. A held bar has none at its ends,
+ * and lacks half of its first and of its last element. */
+static void interfaces_share_the_body_on_any_mesh(void **unused)
+{
+    (void)unused;
+    double noise[301];
+    for (int i = 0; i < 4; i++) {
+        fracas_spec spec = bar_reference(300, 1e4, 1e-6);
+        if (i % 2) bar_perturb(&spec, 0.45, 1, noise);
+        else bar_grade(&spec, 100);
+        if (i / 2) spec.geometry.ends = &fracas_ends_held;
+        fracas_model *model;
+        assert_ok(fracas_model_create(&spec, &model));
+        const size_t n = fracas_model_interfaces(model);
+        const double *h = model->table;
+        double sum = 0.0, body = i / 2 ? 5e-8 - 0.5e-6 * (h[0] + h[299]) : 5e-8;
+        assert_int_equal(n, i / 2 ? 299 : 300);
+        for (size_t k = 0; k < n; k++) {
+            sum += fracas_model_interface_volume(model, k);
+            assert_near(fracas_model_interface_volume(model, k), 0.5e-6 * (h[k] + h[(k + 1) % 300]));
+        }
+        assert_true(fabs(h[0] / h[150] - 1) > 0.01); /* they are different */
+        /* a rounding for each length, as much again for their sum, and one for each volume */
+        assert_true(fabs(sum - body) <= 5e-8 * 0x1p-53 * (3 * 300 + 5));
+        fracas_model_destroy(model);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mean_volume_of_each_shape),
         cmocka_unit_test(interfaces_share_the_body),
+        cmocka_unit_test(interfaces_share_the_body_on_any_mesh),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
