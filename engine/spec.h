@@ -36,6 +36,7 @@ typedef struct {
     double critical_opening; /* m, stershic: 0 where the fracture energy is given */
     double penalty;          /* stershic: stiffness of contact / (E/h); 1 */
     double refinement;       /* stershic: factor xi of the time step for each critical zone; 1 */
+    const fracas_kind *critical_zone; /* stershic: softening, steep; which open links refine the time step */
     double zone;             /* m, stershic: no interface opens within this distance of an open one; 0: no zone */
 } fracas_cohesive;
 

@@ -18,6 +18,13 @@ const fracas_kind fracas_law_rigid_link = {
                                  "contact by penalty (the algorithm of the code DynFrag1D)",
     .params = rigid_link, .nparams = FRACAS_COUNT(rigid_link)};
 
+const fracas_kind fracas_zone_softening = {
+    .name = "softening", .doc = "open links on the softening branch while they carry more than E/h times their opening (the paper's)"};
+const fracas_kind fracas_zone_steep = {
+    .name = "steep", .doc = "all open links that carry more than E/h times their opening, closing ones too: a tenth of the ledger's "
+                            "residual and less, for two to three times the steps"};
+static const fracas_kind *const zones[] = {&fracas_zone_softening, &fracas_zone_steep};
+
 static const fracas_param stershic[] = {
     FRACTURE_ENERGY(false, 0, "fracture energy G_c, the same at every interface; or give critical_opening"),
     {"critical_opening", FRACAS_REAL, "m", "opening delta_c at which an interface is broken, the same at every one; or give "
@@ -27,6 +34,8 @@ static const fracas_param stershic[] = {
     {"refinement", FRACAS_REAL, "1", "factor of the time step while an interface is about to open or softens steeply, and once "
      "more while one is in compression; 0.1 to 0.4 in the paper, 1 for none", 0.25, 0, 1, true,
      offsetof(fracas_cohesive, refinement)},
+    {.name = "critical_zone", .type = FRACAS_CHOICE, .unit = "1", .doc = "which open links refine the time step", .choices = zones,
+     .nchoices = FRACAS_COUNT(zones), .offset = offsetof(fracas_cohesive, critical_zone)},
     {"zone", FRACAS_REAL, "m", "once an interface opens, none opens within this distance of it, and elements between two "
      "interfaces so barred suffer damage; 0 for no such zone", 0, 0, INFINITY, false, offsetof(fracas_cohesive, zone)},
 };

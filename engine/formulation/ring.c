@@ -65,7 +65,7 @@ static fracas_ring_constants constants_of(const fracas_model *model)
         .radius = vertex_radius(model), .nodal_mass = 0.5 * spec->material.density * h,
         .fracture_energy = spec->cohesive.fracture_energy, .critical_opening = spec->cohesive.critical_opening,
         .area = spec->geometry.area, .refinement = spec->cohesive.refinement, .time_step = model->time_step,
-        .zone = spec->cohesive.zone};
+        .zone = spec->cohesive.zone, .steep = spec->cohesive.critical_zone == &fracas_zone_steep};
     set_drive(model, &ring);
     return ring;
 }
@@ -79,7 +79,7 @@ static fracas_err ring_model_init(fracas_model *model)
     const double circumference = 2 * PI * spec->geometry.radius;
     model->element_size = model->longest = circumference / (double)n;
     model->mass = spec->material.density * spec->geometry.area * circumference;
-    if (!is_nitsche(model) && spec->cohesive.zone > 0 && spec->cohesive.zone < model->element_size)
+    if (!is_nitsche(model) && spec->cohesive.zone > 0 && spec->cohesive.zone * (1 + 1e-12) < model->element_size)
         return fracas_fail(FRACAS_USAGE, "cohesive.zone is %.4g m, but elements are %.4g m long, so that it holds no other interface: "
                            "raise it, or mesh.elements above %.0f, or leave it out", spec->cohesive.zone, model->element_size,
                            ceil(circumference / spec->cohesive.zone));

@@ -88,7 +88,8 @@ LANES_FUNCTION void stershic_look(const ring_context *c, size_t e, const ring_el
     vd pull = lanes_set(0.5) * (left->stress * ring_dot(left->tangent, frame.n) + right->stress * ring_dot(right->tangent, frame.n));
     vd q = ring_dot(ring_subtract(right->u_left, left->u_right), frame.n);
     vd traction = stershic_traction(c, q, &damage, sigma_c, &delta_c);
-    vmask softens = lanes_and(open, lanes_and(lanes_le(before * delta_c, q), lanes_lt(c->modulus * q, traction)));
+    vd watched = c->ring->steep ? zero : before * delta_c; /* the opening from which on a link is looked at */
+    vmask softens = lanes_and(open, lanes_and(lanes_le(watched, q), lanes_lt(c->modulus * q, traction)));
     vmask rises = lanes_and(closed, lanes_le(lanes_set(0.95) * sigma_c, pull));
     vd stress = lanes_select(open, traction, pull);
     watch->qualifies = lanes_or(watch->qualifies, lanes_and(closed, lanes_le(sigma_c, pull)));

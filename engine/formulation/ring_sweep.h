@@ -41,6 +41,7 @@ typedef struct {
     double critical_opening; /* m, or 0 */
     double area;           /* m2 */
     double refinement, time_step, zone; /* stershic: xi; s, unrefined; m */
+    int steep;             /* stershic: closing links on steep secants refine the time step too */
     ring_drive drive;
     int circumferential;   /* direction of the drive; else radial */
     double level, rate;    /* of the drive: level + rate t is the velocity held [m/s], or the force on a node per area [Pa] */
