@@ -21,8 +21,8 @@ const fracas_kind fracas_law_rigid_link = {
 const fracas_kind fracas_zone_softening = {
     .name = "softening", .doc = "open links on the softening branch while they carry more than E/h times their opening (the paper's)"};
 const fracas_kind fracas_zone_steep = {
-    .name = "steep", .doc = "all open links that carry more than E/h times their opening, closing ones too: a tenth of the ledger's "
-                            "residual and less, for two to three times the steps"};
+    .name = "steep", .doc = "all open links that carry more than E/h times their opening, closing ones too: a hundredth of the "
+                            "ledger's residual and less, for a seventh more steps"};
 static const fracas_kind *const zones[] = {&fracas_zone_softening, &fracas_zone_steep};
 
 static const fracas_param stershic[] = {
