@@ -32,7 +32,7 @@ static inline ring_point ring_turned(ring_point a, double angle)
 static inline ring_sample ring_open(const fracas_spec *spec)
 {
     ring_sample s = {.running = 1};
-    const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
+    const fracas_batch_options options = {.interfaces = true, .width = 1, .isa = FRACAS_ISA_BEST};
     assert_ok(fracas_model_create(spec, &s.model));
     assert_ok(fracas_batch_create(s.model, 1, &options, &s.batch));
     for (size_t i = 0; i < s.model->interfaces; i++) bar_set_strength(s.batch, 0, i, BAR_STRENGTH_MEAN);
