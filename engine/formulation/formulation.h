@@ -38,8 +38,8 @@ typedef struct {
     /* out: energies [J] at that time; what the load does: as power then [W], or as work since the step before [J] */
     double kinetic[FRACAS_MAX_LANES], elastic[FRACAS_MAX_LANES], cohesive[FRACAS_MAX_LANES];
     double dissipated[FRACAS_MAX_LANES], power[FRACAS_MAX_LANES], work[FRACAS_MAX_LANES];
-    /* of the formulation's own: the reaction to a held velocity at the step before [N] */
-    double reaction[FRACAS_MAX_LANES];
+    /* of the formulation's own: power of the drive at the step before, at the velocities after it [W] */
+    double driven[FRACAS_MAX_LANES];
     /* accumulated: energy that a break creates [J], counts of interfaces, time of the first onset [s, NaN] */
     double created[FRACAS_MAX_LANES], first_onset[FRACAS_MAX_LANES];
     int64_t cracked[FRACAS_MAX_LANES], broken[FRACAS_MAX_LANES];

@@ -64,7 +64,8 @@ typedef struct {
     vd drive, next_drive; /* force on a node [Pa] now; velocity held half a step ahead [m/s] */
     vd inertia;     /* nodal mass/dt [Pa s/m] */
     /* sums over the body, for the ledger */
-    vd elastic, flux_energy, opening_energy, dissipated, velocity_squared, driven;
+    vd elastic, flux_energy, opening_energy, dissipated, velocity_squared;
+    vd driven, driven_next; /* power of the drive, per area, at the velocities before and after now [W/m2] */
 } ring_context;
 
 LANES_FUNCTION ring_vector ring_read(const double *at)
@@ -117,8 +118,8 @@ LANES_FUNCTION vd ring_stress_rate(const ring_context *c, const ring_element *le
                                           ring_dot(right->tangent, ring_subtract(right->v_right, right->v_left)));
 }
 
-/* The velocity of a node at `vertex` once kicked by `force` [Pa], under the drive  (ring.10); books what the drive does: the sum of
- * velocities along a force, or of the reactions to a held velocity. */
+/* The velocity of a node at `vertex` once kicked by `force` [Pa], under the drive  (ring.10); books the power of the drive's force, or
+ * of the reaction to a held velocity, at the velocities before and after. */
 LANES_FUNCTION ring_vector ring_drive_node(ring_context *c, size_t vertex, ring_vector u, ring_vector v, ring_vector force)
 {
     const fracas_ring_constants *ring = c->ring;
@@ -129,27 +130,25 @@ LANES_FUNCTION ring_vector ring_drive_node(ring_context *c, size_t vertex, ring_
     ring_vector place = {lanes_set(ring->radius * table[RING_COS]) + u.x, lanes_set(ring->radius * table[RING_SIN]) + u.y};
     ring_vector out = ring_scale(one / lanes_sqrt(ring_dot(place, place)), place);
     ring_vector along = ring->circumferential ? (ring_vector){zero - out.y, out.x} : out;
-    if (ring->drive == RING_FORCED) {
-        c->driven += ring_dot(v, along);
-        return ring_add(after, ring_scale(c->kick * c->drive, along));
+    vd change = c->kick * c->drive, push = c->drive;
+    if (ring->drive == RING_HELD) {
+        change = c->next_drive - ring_dot(after, along);
+        push = change * c->inertia;
     }
-    vd change = c->next_drive - ring_dot(after, along);
-    c->driven += change * c->inertia;
-    return ring_add(after, ring_scale(change, along));
+    after = ring_add(after, ring_scale(change, along));
+    c->driven += push * ring_dot(v, along);
+    c->driven_next += push * ring_dot(after, along);
+    return after;
 }
 
 /* Work of the drive since the step before [J]  (ring.11). */
 LANES_FUNCTION vd ring_drive_work(const ring_context *c)
 {
-    const fracas_ring_constants *ring = c->ring;
-    const vd half = lanes_set(0.5), level = lanes_set(ring->level), rate = lanes_set(ring->rate);
-    vd time = lanes_load(c->step->time + c->first);
-    if (ring->drive == RING_FREE) return lanes_set(0.0);
-    vd middle = level + rate * (time - half * c->drift); /* the drive, on average since then */
-    if (ring->drive == RING_FORCED) return c->drift * middle * lanes_set(ring->area) * c->driven;
-    vd reaction = lanes_set(ring->area) * c->driven, before = lanes_load(c->step->reaction + c->first);
-    lanes_store(c->step->reaction + c->first, reaction);
-    return c->drift * middle * (half * (before + reaction));
+    if (c->ring->drive == RING_FREE) return lanes_set(0.0);
+    const vd half = lanes_set(0.5), area = lanes_set(c->ring->area);
+    vd before = lanes_load(c->step->driven + c->first);
+    lanes_store(c->step->driven + c->first, area * c->driven_next);
+    return half * c->drift * (before + area * c->driven);
 }
 
 /* `kick` and `ahead` [s]: what velocities are advanced by, and how far beyond this step's time they are then. */
@@ -163,5 +162,5 @@ LANES_FUNCTION ring_context ring_context_of(const fracas_ring_constants *ring, f
         .drift = lanes_load(step->drift + first), .kick = kick / mass, .spring = lanes_set(ring->spring),
         .modulus = lanes_set(ring->young / ring->size), .drive = level + rate * time, .next_drive = level + rate * (time + ahead),
         .inertia = mass / kick, .elastic = zero, .flux_energy = zero, .opening_energy = zero, .dissipated = zero,
-        .velocity_squared = zero, .driven = zero};
+        .velocity_squared = zero, .driven = zero, .driven_next = zero};
 }
