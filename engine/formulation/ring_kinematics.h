@@ -48,10 +48,10 @@ typedef struct {
     ring_vector common; /* ... under this force each [Pa] */
 } ring_link;
 
-/* The directions of an interface: normal n, along which it opens, and m, outward. */
+/* The directions of an interface: normal n, along which it opens, and r, outward. */
 typedef struct {
-    ring_vector n, m;
-    vd turn; /* dn/d(chord) = m m turn [1/m]; 0 for fixed directions */
+    ring_vector n, r;
+    vd turn; /* dn/d(chord) = r r turn [1/m]; 0 for fixed directions */
 } ring_frame;
 
 typedef struct {

@@ -23,7 +23,7 @@ LANES_FUNCTION ring_link ring_join(ring_context *c, size_t e, const ring_element
     vd sigma_c = lanes_load(at + RING_STRENGTH * LANES), x = lanes_load(at + RING_LAW * LANES);
     const ring_frame frame = ring_frame_of(c, e, left, right);
     const ring_vector jump = ring_subtract(right->u_left, left->u_right);
-    vd q = ring_dot(jump, frame.n), p = ring_dot(jump, frame.m); /* (ring.5) */
+    vd q = ring_dot(jump, frame.n), p = ring_dot(jump, frame.r); /* (ring.5) */
     vd mean = half * (left->stress + right->stress), compliance = lanes_set(1.0 / c->ring->spring);
     nitsche_interface it = nitsche_law(mean, q, before, sigma_c, x, c->spring, compliance);
     lanes_store(at + RING_DAMAGE * LANES, it.damage);
@@ -46,8 +46,8 @@ LANES_FUNCTION ring_link ring_join(ring_context *c, size_t e, const ring_element
                                           .at_break = half * mean * mean * compliance}); /* (cohesive.6) */
     }
     vd couple = (it.traction * p - restraint * q) * frame.turn; /* (ring.9) */
-    return (ring_link){.force = ring_add(ring_scale(it.traction, frame.n), ring_scale(restraint, frame.m)), .slip = it.slip,
-                       .couple = ring_scale(couple, frame.m)};
+    return (ring_link){.force = ring_add(ring_scale(it.traction, frame.n), ring_scale(restraint, frame.r)), .slip = it.slip,
+                       .couple = ring_scale(couple, frame.r)};
 }
 
 /* Forces and kick of one element, and its share of the sums. */
