@@ -20,17 +20,17 @@ typedef struct {
 } ring_answer;
 
 /* n elements 20 um long. */
-static ring_sample small_ring(size_t n, double beta, const fracas_kind *direction)
+static ring_run small_ring(size_t n, double beta, const fracas_kind *direction)
 {
     fracas_spec spec = ring_reference((int64_t)n, 1e4, 1);
     spec.cohesive.beta = beta;
     spec.geometry.radius = (double)n * 2e-5 / (2 * RING_PI);
     spec.geometry.direction = direction;
-    return ring_open(&spec);
+    return begin(&spec, BAR_STRENGTH_MEAN);
 }
 
 /* What the engine makes of a state that it does not move: energies, and forces from the kick of velocities that are 0. */
-static ring_answer answer(ring_sample *s, const ring_state *state)
+static ring_answer answer(ring_run *s, const ring_state *state)
 {
     fracas_step *step = &s->batch->step;
     ring_answer a = {.largest = 0};
@@ -53,7 +53,7 @@ static ring_answer answer(ring_sample *s, const ring_state *state)
     return a;
 }
 
-static double potential(ring_sample *s, const ring_state *state)
+static double potential(ring_run *s, const ring_state *state)
 {
     const ring_answer a = answer(s, state);
     return a.elastic + a.cohesive + a.dissipated;
@@ -80,7 +80,7 @@ static void draw_joint(joint_kind kind, double x, uint64_t *seed, double *trial,
 static ring_point at_angle(double angle) { return (ring_point){cos(angle), sin(angle)}; }
 
 /* The direction of interface e when its elements lie along a and b. */
-static ring_point normal_of(const ring_sample *s, size_t e, ring_point a, ring_point b)
+static ring_point normal_of(const ring_run *s, size_t e, ring_point a, ring_point b)
 {
     const size_t n = s->model->elements;
     if (s->model->spec.geometry.direction == &fracas_direction_initial) return at_angle(RING_PI * (0.5 + 2.0 * (double)(e + 1) / (double)n));
@@ -91,7 +91,7 @@ static ring_point normal_of(const ring_sample *s, size_t e, ring_point a, ring_p
 /* A random state: the whole ring turned by `whole`, every element by up to `each` from there and strained by up to 2e-3, every
  * interface of a random kind. Laid out from element `first` on; where the ends meet the interface is broken and open, whatever is
  * between them: false if they overlap, which would press with forces beside which all others vanish. */
-static bool draw_state(const ring_sample *s, size_t first, double whole, double each, uint64_t *seed, ring_state *state, int *seen)
+static bool draw_state(const ring_run *s, size_t first, double whole, double each, uint64_t *seed, ring_state *state, int *seen)
 {
     const size_t n = s->model->elements;
     const double h = s->model->element_size, young = 275e9, spring = 4 * young / h, delta_c = 2 * 100 / BAR_STRENGTH_MEAN;
@@ -132,7 +132,7 @@ static const struct {
                      {3, true, 1.5707963267948966, 0.4}, {3, false, 0, 0.4}, {4, true, -3, 1.0}};
 enum { NSTATES = sizeof kind_of_state / sizeof *kind_of_state };
 
-static void next_state(const ring_sample *s, int kind, size_t trial, uint64_t *seed, ring_state *state, int *seen)
+static void next_state(const ring_run *s, int kind, size_t trial, uint64_t *seed, ring_state *state, int *seen)
 {
     for (int attempt = 0; attempt < 1000; attempt++) {
         int here[NKINDS] = {0};
@@ -152,7 +152,7 @@ static void forces_are_the_gradient_of_the_energy(void **unused)
     uint64_t seed = 11;
     int seen[NKINDS] = {0};
     for (int k = 0; k < NSTATES; k++) {
-        ring_sample s = small_ring(kind_of_state[k].elements, 4, kind_of_state[k].current ? &fracas_direction_current : &fracas_direction_initial);
+        ring_run s = small_ring(kind_of_state[k].elements, 4, kind_of_state[k].current ? &fracas_direction_current : &fracas_direction_initial);
         double worst = 0;
         for (size_t trial = 0; trial < 60; trial++) {
             ring_state state;
@@ -172,13 +172,13 @@ static void forces_are_the_gradient_of_the_energy(void **unused)
         print_message("[  figures ] %2zu elements, %s, turned by %g and %g: force and gradient differ by %.1e of the largest force\n",
                       s.model->elements, kind_of_state[k].current ? "current" : "initial", kind_of_state[k].whole, kind_of_state[k].each, worst);
         assert_true(worst < 2e-8);
-        ring_close(&s);
+        clear(&s);
     }
     for (int k = 0; k < NKINDS; k++) assert_true(seen[k] > 100);
 }
 
 /* The state, turned by `angle` about the origin and moved. */
-static ring_state moved(const ring_sample *s, const ring_state *state, double angle, ring_point by)
+static ring_state moved(const ring_run *s, const ring_state *state, double angle, ring_point by)
 {
     ring_state to = *state;
     for (size_t i = 0; i < 2 * s->model->elements; i++) {
@@ -201,7 +201,7 @@ static void the_energy_does_not_see_where_the_ring_is(void **unused)
     double worst = 0, turned = 0;
     for (int k = 0; k < NSTATES; k++) {
         const bool current = kind_of_state[k].current;
-        ring_sample s = small_ring(kind_of_state[k].elements, 4, current ? &fracas_direction_current : &fracas_direction_initial);
+        ring_run s = small_ring(kind_of_state[k].elements, 4, current ? &fracas_direction_current : &fracas_direction_initial);
         for (size_t trial = 0; trial < 60; trial++) {
             ring_state state;
             next_state(&s, k, trial, &seed, &state, seen);
@@ -218,7 +218,7 @@ static void the_energy_does_not_see_where_the_ring_is(void **unused)
             const ring_state aside = moved(&s, &state, 0.1, (ring_point){0, 0});
             turned = fmax(turned, fabs(potential(&s, &aside) - potential(&s, &state)) / held);
         }
-        ring_close(&s);
+        clear(&s);
     }
     print_message("[  figures ] energies and forces differ by %.1e; initial, turned by 0.1: by %.1e\n", worst, turned);
     assert_true(worst < 2e-11);
@@ -228,7 +228,7 @@ static void the_energy_does_not_see_where_the_ring_is(void **unused)
 /* One interface alone: elements 0 and 1 as they start, all others moved out by 0.1 mm, broken off and out of reach. Interface 0 has
  * this damage, both elements this strain, the jump is such that the trial traction is `trial` at t = 1 us, after a step of 1 ns in
  * which it grows at 1 m/s, and the elements' lengths at 0.5 m/s; across it is `across` [m]. Takes that step. */
-static ring_answer one_event(ring_sample *s, double damage, double strain, double trial, double across)
+static ring_answer one_event(ring_run *s, double damage, double strain, double trial, double across)
 {
     const double h = s->model->element_size, young = 275e9, spring = 4 * young / h, dt = 1e-9;
     const ring_point zero = {0, 0}, n = at_angle(RING_PI * (0.5 + 2.0 / 12)), m = {n.y, -n.x};
@@ -261,7 +261,7 @@ static void events_book_what_they_drop_at_the_time_they_happen(void **unused)
 {
     (void)unused;
     for (int i = 0; i < 2; i++) {
-        ring_sample s = small_ring(12, 4, i ? &fracas_direction_initial : &fracas_direction_current);
+        ring_run s = small_ring(12, 4, i ? &fracas_direction_initial : &fracas_direction_current);
         const double young = 275e9, spring = 4 * young / s.model->element_size, p = 1e-8, x = spring * 200 / BAR_STRENGTH_MEAN - BAR_STRENGTH_MEAN;
         const double strain = 1e-3, mean = young * strain, rate = spring + 0.5 * young / s.model->element_size;
         const fracas_step *step = &s.batch->step;
@@ -282,7 +282,7 @@ static void events_book_what_they_drop_at_the_time_they_happen(void **unused)
         }
         const ring_answer with = one_event(&s, 0, 0, 0, p), without = one_event(&s, 0, 0, 0, 0);
         assert_true(fabs((with.elastic - without.elastic) / restraint - 1) < 1e-6); /* of differences of 1e-6 J by 1e-4 J */
-        ring_close(&s);
+        clear(&s);
     }
 }
 
@@ -371,16 +371,16 @@ static void the_work_of_turning_drives_is_of_second_order(void **unused)
                                             .velocity = 100, .acceleration = 1e8, .force = i == 1 ? 3e5 : 1e5, .force_rate = i == 1 ? 0 : 1e11};
             spec.time.safety = half ? 0.2 : 0.4;
             spec.cohesive.fracture_energy = 1e4; /* strong interfaces need it of these elements */
-            ring_sample s = ring_open(&spec);
+            ring_run s = begin(&spec, BAR_STRENGTH_MEAN);
             for (size_t e = 0; e < 300; e++) {
                 *ring_field(&s, e, RING_STRENGTH) = 2e9;
                 *ring_field(&s, e, RING_LAW) = 2 * (4 * 275e9 / s.model->element_size) * 1e4 / 2e9 - 2e9;
             }
-            while (s.running) ring_step(&s);
+            while (s.running) step(&s);
             assert_int_equal(s.record.outcome, FRACAS_INTACT);
             residual[half] = s.record.residual;
             work[half] = s.record.work;
-            ring_close(&s);
+            clear(&s);
         }
         print_message("[  figures ] circumferential %s: work %.3e J, residual %.1e of it, at half the step %.1e\n",
                       i == 0 ? "velocity" : i == 1 ? "force" : "growing force", work[0], residual[0] / work[0], residual[1] / work[1]);
@@ -392,7 +392,7 @@ static void the_work_of_turning_drives_is_of_second_order(void **unused)
 /* ---- critical step ---- */
 
 /* A ring that all its interfaces press together: of a shrinkage by 1e-6 elements and contacts share beta and 1 parts. */
-static void press(const ring_sample *s)
+static void press(const ring_run *s)
 {
     const double share = s->model->spec.cohesive.beta / (1 + s->model->spec.cohesive.beta);
     for (size_t e = 0; e < s->model->elements; e++) {
@@ -404,7 +404,7 @@ static void press(const ring_sample *s)
 }
 
 /* 2/omega_max of the engine's own forces about the pressed ring, by differences. */
-static double limit_of(ring_sample *s, const double *damage)
+static double limit_of(ring_run *s, const double *damage)
 {
     const size_t n = s->model->elements;
     ring_state state;
@@ -450,7 +450,7 @@ static void no_state_of_a_small_ring_has_a_smaller_limit(void **unused)
     for (int i = 0; i < 30; i++) {
         const size_t n = elements[i % 5];
         const double beta = betas[i / 5 % 3], tilt = sin(RING_PI / (double)n);
-        ring_sample s = small_ring(n, beta, i < 15 ? &fracas_direction_current : &fracas_direction_initial);
+        ring_run s = small_ring(n, beta, i < 15 ? &fracas_direction_current : &fracas_direction_initial);
         double damage[MOST], least = INFINITY, whole = 0, broken = 0;
         for (int draw = 0; draw < 40; draw++) {
             for (size_t e = 0; e < n; e++) damage[e] = draw == 0 ? 0 : draw == 1 ? 1 : 0.5 * floor(1.5 * (1 + ring_noise(&seed)));
@@ -463,12 +463,12 @@ static void no_state_of_a_small_ring_has_a_smaller_limit(void **unused)
                       beta, whole, s.model->critical_closed / s.model->critical_step, broken, least);
         assert_true(least > 1 - 2e-6);
         assert_true(broken < (1 + 2e-6) / sqrt(1 - beta / (1 + beta) * tilt * tilt));
-        ring_close(&s);
+        clear(&s);
     }
 }
 
 /* Root of the sum of all squared velocities, less what is the same in all elements: the ring's own breathing and turning. */
-static double shaking(const ring_sample *s)
+static double shaking(const ring_run *s)
 {
     double sum = 0;
     const size_t n = s->model->elements;
@@ -494,7 +494,7 @@ static double growth(size_t n, double part, bool broken, bool current)
 {
     fracas_spec spec = ring_reference((int64_t)n, 0, 1);
     spec.geometry.direction = current ? &fracas_direction_current : &fracas_direction_initial;
-    ring_sample s = ring_open(&spec);
+    ring_run s = begin(&spec, BAR_STRENGTH_MEAN);
     const double critical = broken ? s.model->critical_cracked : s.model->critical_closed;
     s.model->time_step = part * critical;
     uint64_t seed = 3;
@@ -508,11 +508,11 @@ static double growth(size_t n, double part, bool broken, bool current)
     const double start = shaking(&s);
     double largest = 0;
     for (int i = 0; i < 200 && largest < 1e8 * start; i++) {
-        ring_step(&s);
+        step(&s);
         largest = fmax(largest, shaking(&s));
     }
     for (size_t e = 0; broken && part < 1 && e < n; e++) assert_true(ring_jump(&s, e).x < 0);
-    ring_close(&s);
+    clear(&s);
     return largest / start;
 }
 
@@ -546,11 +546,11 @@ static void a_spinning_ring_swings_about_its_hoop_stress(void **unused)
     const double speed = 10, w = BAR_WAVE_SPEED / RING_RADIUS, stress = 2750 * speed * speed;
     fracas_spec spec = ring_reference(400, 0, 3 * 2 * RING_PI / w);
     spec.loading.circumferential = speed;
-    ring_sample s = ring_open(&spec);
+    ring_run s = begin(&spec, BAR_STRENGTH_MEAN);
     const double h = s.model->element_size;
     double worst = 0, sum = 0, steps = 0;
     while (s.running) {
-        ring_step(&s);
+        step(&s);
         const ring_point chord = ring_chord(&s, 37);
         const double found = 275e9 * (sqrt(ring_inner(chord, chord)) / h - 1), t = s.batch->step.time[0];
         worst = fmax(worst, fabs(found - stress * (1 - cos(w * t))) / stress);
@@ -565,7 +565,7 @@ static void a_spinning_ring_swings_about_its_hoop_stress(void **unused)
     assert_true(worst < 2.6e-4);
     assert_true(fabs(sum / steps / stress - 1) < 3.5e-4);
     assert_true(fabs(angular / (s.model->mass * speed * RING_RADIUS) - 1 - RING_PI * RING_PI / 3 / 160000) < 1e-9);
-    ring_close(&s);
+    clear(&s);
 }
 
 int main(void)

@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* Strengths uniform in 300 MPa +- 0.33 %, of replica `replica`, interface i having that of i + shift, or backwards. */
-static void draw(ring_sample *s, uint64_t replica, size_t shift, bool mirrored)
+static void draw(ring_run *s, uint64_t replica, size_t shift, bool mirrored)
 {
     const fracas_stream stream = {.seed = 1, .purpose = FRACAS_PURPOSE_STRENGTH, .point = {2, 3}, .replica = replica};
     const size_t n = s->model->interfaces;
@@ -17,18 +17,18 @@ static void draw(ring_sample *s, uint64_t replica, size_t shift, bool mirrored)
     }
 }
 
-static ring_sample fragmenting(const fracas_kind *direction, double spin, double end)
+static ring_run fragmenting(const fracas_kind *direction, double spin, double end)
 {
     fracas_spec spec = ring_reference(1250, 1e4, end);
     spec.geometry.direction = direction;
     spec.loading.circumferential = spin;
-    return ring_open(&spec);
+    return begin(&spec, BAR_STRENGTH_MEAN);
 }
 
 /* ---- momenta ---- */
 
 /* Sum of |m v| [kg m/s], the scale of momenta. */
-static double motion_of(const ring_sample *s)
+static double motion_of(const ring_run *s)
 {
     double sum = 0;
     for (size_t i = 0; i < 2 * s->model->elements; i++) {
@@ -47,14 +47,14 @@ static void a_free_ring_keeps_its_momenta(void **unused)
     (void)unused;
     for (int i = 0; i < 4; i++) {
         const bool current = i < 2;
-        ring_sample s = fragmenting(current ? &fracas_direction_current : &fracas_direction_initial, i & 1 ? 300.0 : 0.0, 2e-6);
+        ring_run s = fragmenting(current ? &fracas_direction_current : &fracas_direction_initial, i & 1 ? 300.0 : 0.0, 2e-6);
         double angular, angular_end = 0, scale = 0, drift = 0, slide = 0;
         ring_point linear;
         draw(&s, 0, 0, false);
         ring_momenta(&s, 0, 1250, &linear, &angular);
-        for (int64_t step = 0; s.running; step++) {
-            ring_step(&s);
-            if (step % 50 && s.running) continue;
+        for (int64_t steps = 0; s.running; steps++) {
+            step(&s);
+            if (steps % 50 && s.running) continue;
             scale = fmax(scale, motion_of(&s));
             ring_momenta(&s, 0, 1250, &linear, &angular_end);
             drift = fmax(drift, fabs(angular_end - angular));
@@ -81,7 +81,7 @@ static void a_free_ring_keeps_its_momenta(void **unused)
             assert_true(fabs(whole[k] - (k ? linear.y : linear.x)) < 1e-13 * scale);
         }
         assert_true(fabs(whole[2] - angular_end) < 1e-13 * scale * radius);
-        ring_close(&s);
+        clear(&s);
     }
 }
 
@@ -95,7 +95,7 @@ typedef struct {
 } piece;
 
 /* The fragments, from the first broken interface on. */
-static size_t pieces_of(const ring_sample *s, piece *into)
+static size_t pieces_of(const ring_run *s, piece *into)
 {
     const size_t n = s->model->elements;
     size_t start = 0, count = 0;
@@ -110,7 +110,7 @@ static size_t pieces_of(const ring_sample *s, piece *into)
 }
 
 /* Marks the pieces on both sides of each broken interface that is pressed together now. */
-static void mark_contacts(const ring_sample *s, piece *of, size_t count)
+static void mark_contacts(const ring_run *s, piece *of, size_t count)
 {
     for (size_t k = 0; k < count; k++) {
         const size_t last = (of[k].first + of[k].count - 1) % s->model->elements;
@@ -120,7 +120,7 @@ static void mark_contacts(const ring_sample *s, piece *of, size_t count)
 }
 
 /* What the record says of every fragment is what its nodes say: sums of some 50 products, 1e-14 of their scales. */
-static void compare_records(const ring_sample *s, const piece *of, size_t count)
+static void compare_records(const ring_run *s, const piece *of, size_t count)
 {
     size_t zero = 0; /* records go by the smallest element: the fragment with element 0 comes first */
     while (of[zero].first != 0 && of[zero].first + of[zero].count <= s->model->elements) zero++;
@@ -143,12 +143,12 @@ static void compare_records(const ring_sample *s, const piece *of, size_t count)
 }
 
 /* Runs until `cut`, marks the pieces there, and on to the end; the same pieces then. Returns how many. */
-static size_t fly(ring_sample *s, double cut, piece *then, piece *now)
+static size_t fly(ring_run *s, double cut, piece *then, piece *now)
 {
-    while (s->batch->step.time[0] < cut) ring_step(s);
+    while (s->batch->step.time[0] < cut) step(s);
     const size_t count = pieces_of(s, then);
     while (s->running) {
-        ring_step(s);
+        step(s);
         mark_contacts(s, then, count);
     }
     assert_int_equal(pieces_of(s, now), count); /* no break in between */
@@ -165,7 +165,7 @@ static void fragments_fly_on(void **unused)
     static piece then[1250], now[1250];
     for (int i = 0; i < 2; i++) {
         const bool current = !i;
-        ring_sample s = fragmenting(current ? &fracas_direction_current : &fracas_direction_initial, 0, 2e-6);
+        ring_run s = fragmenting(current ? &fracas_direction_current : &fracas_direction_initial, 0, 2e-6);
         draw(&s, 2, 0, false);
         const size_t count = fly(&s, 1e-6, then, now);
         size_t free = 0;
@@ -186,7 +186,7 @@ static void fragments_fly_on(void **unused)
         if (current) assert_true(turned < 2.5e-13);
         assert_true(pushed > 1e-3); /* contact does push: the measure sees it */
         compare_records(&s, now, count);
-        ring_close(&s);
+        clear(&s);
     }
 }
 
@@ -198,9 +198,9 @@ typedef struct {
     size_t broken;
 } outcome;
 
-static void run_to(ring_sample *s, outcome *o)
+static void run_to(ring_run *s, outcome *o)
 {
-    while (s->running) ring_step(s);
+    while (s->running) step(s);
     *o = (outcome){.dissipated = s->record.dissipated, .elastic = s->record.elastic, .broken = (size_t)s->record.broken};
     for (size_t e = 0; e < 1250; e++) {
         o->damage[e] = *ring_field(s, e, RING_DAMAGE);
@@ -240,12 +240,12 @@ static void strengths_moved_on_or_mirrored_give_the_same_ring(void **unused)
         double off[4];
         for (int j = 0; j < 5; j++) {
             static const size_t shifts[] = {0, 1, 777};
-            ring_sample s = fragmenting(direction, 0, 4e-7);
+            ring_run s = fragmenting(direction, 0, 4e-7);
             draw(&s, 0, j < 3 ? shifts[j] : 0, j == 3);
             for (size_t e = 0; j == 4 && e < 1250; e++) *ring_field(&s, e, RING_STRENGTH) *= 1 + (e % 2 ? 1e-12 : -1e-12);
             run_to(&s, j ? &other : &plain);
             if (j) off[j - 1] = difference(&plain, &other, j < 3 ? shifts[j] : 0, j == 3);
-            ring_close(&s);
+            clear(&s);
         }
         print_message("[  figures ] %s: %zu broken; moved on by 1: off by %.1e, by 777: %.1e; mirrored: %.1e; strengths off by 1e-12: %.1e\n",
                       direction->name, plain.broken, off[0], off[1], off[2], off[3]);

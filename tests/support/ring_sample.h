@@ -9,13 +9,6 @@
 #define RING_PI 3.14159265358979323846
 
 typedef struct {
-    fracas_model *model;
-    fracas_batch *batch;
-    fracas_record record;
-    size_t running;
-} ring_sample;
-
-typedef struct {
     double x, y;
 } ring_point;
 
@@ -28,57 +21,32 @@ static inline ring_point ring_turned(ring_point a, double angle)
     return (ring_point){a.x * cos(angle) - a.y * sin(angle), a.x * sin(angle) + a.y * cos(angle)};
 }
 
-/* Every strength 300 MPa; the state is that before the first step. */
-static inline ring_sample ring_open(const fracas_spec *spec)
-{
-    ring_sample s = {.running = 1};
-    const fracas_batch_options options = {.interfaces = true, .width = 1, .isa = FRACAS_ISA_BEST};
-    assert_ok(fracas_model_create(spec, &s.model));
-    assert_ok(fracas_batch_create(s.model, 1, &options, &s.batch));
-    for (size_t i = 0; i < s.model->interfaces; i++) bar_set_strength(s.batch, 0, i, BAR_STRENGTH_MEAN);
-    assert_ok(fracas_batch_begin(s.batch));
-    fracas_record_init(&s.record);
-    return s;
-}
-
-static inline void ring_close(ring_sample *s)
-{
-    fracas_record_clear(&s->record);
-    fracas_batch_destroy(s->batch);
-    fracas_model_destroy(s->model);
-}
-
-static inline void ring_step(ring_sample *s)
-{
-    assert_ok(fracas_batch_step(s->batch, &s->record, &s->running));
-}
-
-static inline double *ring_field(const ring_sample *s, size_t element, int field)
+static inline double *ring_field(const ring_run *s, size_t element, int field)
 {
     return s->batch->step.state + element * RING_FIELDS + (size_t)field;
 }
 
 /* Of the left (0) or right (1) node of an element: where it starts, where it is, its velocity. */
-static inline ring_point ring_origin(const ring_sample *s, size_t element, size_t side)
+static inline ring_point ring_origin(const ring_run *s, size_t element, size_t side)
 {
     const size_t n = s->model->elements;
     const double radius = s->model->element_size / (2 * sin(RING_PI / (double)n)), angle = 2 * RING_PI * (double)((element + side) % n) / (double)n;
     return (ring_point){radius * cos(angle), radius * sin(angle)};
 }
 
-static inline ring_point ring_node(const ring_sample *s, size_t element, size_t side)
+static inline ring_point ring_node(const ring_run *s, size_t element, size_t side)
 {
     const double *u = ring_field(s, element, side ? RING_U_RIGHT : RING_U_LEFT);
     return ring_plus(ring_origin(s, element, side), 1, (ring_point){u[0], u[1]});
 }
 
-static inline ring_point ring_velocity(const ring_sample *s, size_t element, size_t side)
+static inline ring_point ring_velocity(const ring_run *s, size_t element, size_t side)
 {
     const double *v = ring_field(s, element, side ? RING_V_RIGHT : RING_V_LEFT);
     return (ring_point){v[0], v[1]};
 }
 
-static inline void ring_put(const ring_sample *s, size_t element, size_t side, ring_point at)
+static inline void ring_put(const ring_run *s, size_t element, size_t side, ring_point at)
 {
     const ring_point u = ring_minus(at, ring_origin(s, element, side));
     double *to = ring_field(s, element, side ? RING_U_RIGHT : RING_U_LEFT);
@@ -86,13 +54,13 @@ static inline void ring_put(const ring_sample *s, size_t element, size_t side, r
     to[1] = u.y;
 }
 
-static inline ring_point ring_chord(const ring_sample *s, size_t element)
+static inline ring_point ring_chord(const ring_run *s, size_t element)
 {
     return ring_minus(ring_node(s, element, 1), ring_node(s, element, 0));
 }
 
 /* The direction along which interface e opens. */
-static inline ring_point ring_normal(const ring_sample *s, size_t e)
+static inline ring_point ring_normal(const ring_run *s, size_t e)
 {
     const size_t n = s->model->elements, next = (e + 1) % n;
     const double angle = 2 * RING_PI * (double)next / (double)n;
@@ -102,7 +70,7 @@ static inline ring_point ring_normal(const ring_sample *s, size_t e)
 }
 
 /* What interface e has opened by, along its normal and across it [m]. */
-static inline ring_point ring_jump(const ring_sample *s, size_t e)
+static inline ring_point ring_jump(const ring_run *s, size_t e)
 {
     const ring_point n = ring_normal(s, e), outward = {n.y, -n.x};
     const ring_point jump = ring_minus(ring_node(s, (e + 1) % s->model->elements, 0), ring_node(s, e, 1));
@@ -110,13 +78,13 @@ static inline ring_point ring_jump(const ring_sample *s, size_t e)
 }
 
 /* Mass of a node [kg]. */
-static inline double ring_nodal_mass(const ring_sample *s)
+static inline double ring_nodal_mass(const ring_run *s)
 {
     return s->model->mass / (2 * (double)s->model->elements);
 }
 
 /* Linear and angular momentum about the origin of elements first .. first + count - 1, round the ring. */
-static inline void ring_momenta(const ring_sample *s, size_t first, size_t count, ring_point *linear, double *angular)
+static inline void ring_momenta(const ring_run *s, size_t first, size_t count, ring_point *linear, double *angular)
 {
     const double mass = ring_nodal_mass(s);
     *linear = (ring_point){0, 0};

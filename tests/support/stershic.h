@@ -13,58 +13,12 @@
 #define YOUNG 275e9
 #define DENSITY 2750.0
 
-typedef struct {
-    fracas_model *model;
-    fracas_batch *batch;
-    fracas_record record;
-    size_t n, running;
-    double h; /* m */
-} ring_run;
-
 /* At rest, with no load: nothing moves but by what the state holds. */
 static inline fracas_spec at_rest(int64_t elements)
 {
     fracas_spec spec = ring_stershic(elements, 1e4, 1e-3);
     spec.loading = (fracas_loading){.type = &fracas_loading_initial_velocity};
     return spec;
-}
-
-/* Strengths all `strength`, to be changed before begin(). */
-static inline ring_run make(const fracas_spec *spec, double strength)
-{
-    ring_run run = {.running = 1};
-    const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST, .interfaces = true};
-    assert_ok(fracas_model_create(spec, &run.model));
-    assert_ok(fracas_batch_create(run.model, 1, &options, &run.batch));
-    run.n = run.model->elements;
-    run.h = run.model->element_size;
-    for (size_t i = 0; i < run.n; i++) bar_set_strength(run.batch, 0, i, strength);
-    fracas_record_init(&run.record);
-    return run;
-}
-
-static inline ring_run begin(const fracas_spec *spec, double strength)
-{
-    ring_run run = make(spec, strength);
-    assert_ok(fracas_batch_begin(run.batch));
-    return run;
-}
-
-static inline void step(ring_run *run)
-{
-    assert_ok(fracas_batch_step(run->batch, &run->record, &run->running));
-}
-
-static inline void finish(ring_run *run)
-{
-    while (run->running) step(run);
-}
-
-static inline void clear(ring_run *run)
-{
-    fracas_record_clear(&run->record);
-    fracas_batch_destroy(run->batch);
-    fracas_model_destroy(run->model);
 }
 
 static inline double *at(const ring_run *run, size_t element, int field)

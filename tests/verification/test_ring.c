@@ -8,42 +8,13 @@
 
 #define YOUNG 275e9
 
-typedef struct {
-    fracas_model *model;
-    fracas_batch *batch;
-    fracas_record record;
-    size_t running;
-} ring_run;
-
 /* One realization, every interface of this strength unless `strength` is NaN: then it is replica 0 of 0.33 %. */
 static ring_run start(const fracas_spec *spec, double strength)
 {
-    ring_run run = {.running = 1};
-    const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
-    assert_ok(fracas_model_create(spec, &run.model));
-    assert_ok(fracas_batch_create(run.model, 1, &options, &run.batch));
+    ring_run run = make(spec, isnan(strength) ? BAR_STRENGTH_MEAN : strength);
     if (isnan(strength)) bar_draw(run.batch, 0, 1.0 / 300, 0);
-    for (size_t i = 0; !isnan(strength) && i < run.model->interfaces; i++) bar_set_strength(run.batch, 0, i, strength);
     assert_ok(fracas_batch_begin(run.batch));
-    fracas_record_init(&run.record);
     return run;
-}
-
-static void step(ring_run *run)
-{
-    assert_ok(fracas_batch_step(run->batch, &run->record, &run->running));
-}
-
-static void finish(ring_run *run)
-{
-    while (run->running) step(run);
-}
-
-static void clear(ring_run *run)
-{
-    fracas_record_clear(&run->record);
-    fracas_batch_destroy(run->batch);
-    fracas_model_destroy(run->model);
 }
 
 static fracas_spec either(int stershic, int64_t elements, double rate, double end)
