@@ -162,20 +162,31 @@ void fracas_columns_value(const fracas_point_table *table, size_t column, size_t
     else fracas_format_short(value->real * factor, text, size);
 }
 
+static bool is_absent(const fracas_point_table *table, size_t column, size_t point)
+{
+    const fracas_value *value = &table->point[point].value[column];
+    return table->column[column].text ? *value->text == '\0' : isnan(value->real);
+}
+
+/* A point is called by the values that it has, unless it has none of them: a load by its own keys, not by the lack of those
+ * of other loads. */
 void fracas_columns_label(const fracas_point_table *table, const fracas_columns *columns, size_t point, char *text,
                           size_t size)
 {
-    size_t used = 0;
+    size_t used = 0, present = 0;
     text[0] = '\0';
+    for (size_t i = 0; i < columns->count; i++) present += !is_absent(table, columns->column[i], point);
     for (size_t i = 0; i < columns->count && used < size; i++) {
         const fracas_column *column = &table->column[columns->column[i]];
+        const bool absent = is_absent(table, columns->column[i], point);
+        if (absent && present > 0) continue;
         char value[64];
         fracas_prefix prefix = {1, "", ""};
         if (!strcmp(column->unit, "m")) prefix = fracas_prefix_for(&table->point[point].value[columns->column[i]].real, 1);
         fracas_columns_value(table, columns->column[i], point, prefix.factor, value, sizeof value);
-        bool unit = !column->text && strcmp(column->unit, "1");
+        bool unit = !column->text && !absent && strcmp(column->unit, "1");
         const char *name = fracas_columns_name(table, columns, i);
-        used += (size_t)snprintf(text + used, size - used, "%s%s %s%s%s%s", i ? ", " : "", name, value, unit ? " " : "",
+        used += (size_t)snprintf(text + used, size - used, "%s%s %s%s%s%s", used ? ", " : "", name, value, unit ? " " : "",
                                  prefix.symbol, unit ? column->unit : "");
     }
 }

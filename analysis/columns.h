@@ -37,7 +37,7 @@ FRACAS_MUST_USE fracas_err fracas_columns_with_rate(const fracas_point_table *ta
 /* "rate" for loading.rate, the whole path if another of the columns ends the same; "strain rate" for the derived one. */
 const char *fracas_columns_name(const fracas_point_table *table, const fracas_columns *columns, size_t i);
 
-/* "rate 1e4 1/s, radius 8 mm": the point by the values of these columns; "" for none. */
+/* "rate 1e4 1/s, radius 8 mm": the point by the values of these columns that it has; all of them, with dashes, if it has none. */
 void fracas_columns_label(const fracas_point_table *table, const fracas_columns *columns, size_t point, char *text,
                           size_t size);
 

@@ -79,6 +79,14 @@ static double ring_radius(const fracas_point_table *table, size_t point)
     return ring ? fracas_columns_real(table, point, "geometry.radius") : NAN;
 }
 
+/* G_c [J/m2], of the mean strength where the critical opening is given: fracture_energy is 0 then. */
+static double fracture_energy(const fracas_point_table *table, size_t point)
+{
+    const double opening = fracas_columns_real(table, point, "cohesive.critical_opening");
+    if (opening > 0) return 0.5 * opening * fracas_columns_real(table, point, "derived.strength_mean");
+    return fracas_columns_real(table, point, "cohesive.fracture_energy");
+}
+
 void fracas_point_statistics_init(const fracas_point_table *table, size_t point, fracas_point_statistics *statistics)
 {
     *statistics = (fracas_point_statistics){
@@ -88,13 +96,14 @@ void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
         .scales = fracas_scales_of(fracas_columns_real(table, point, "material.young"),
                                    fracas_columns_real(table, point, "material.density"),
                                    fracas_columns_real(table, point, "derived.strength_mean"),
-                                   fracas_columns_real(table, point, "cohesive.fracture_energy")),
+                                   fracture_energy(table, point)),
         .residual = NAN, .created = NAN, .drift = NAN, .elements = NAN, .dust_share = NAN,
         .typical_replica = -1, .broken_replica = -1,
     };
     if (statistics->radius > 0) statistics->length = 2 * M_PI * statistics->radius;
-    for (int law = 0; law < FRACAS_NLAWS; law++)
-        statistics->law[law] = fracas_size_law_at((fracas_size_law_id)law, &statistics->scales, statistics->rate);
+    for (int law = 0; law < FRACAS_NLAWS; law++) /* at rate 0, a ring that spins or is accelerated, they say nothing */
+        statistics->law[law] = statistics->rate > 0
+            ? fracas_size_law_at((fracas_size_law_id)law, &statistics->scales, statistics->rate) : NAN;
 }
 
 /* Room for one more replica and `more` more fragments, doubling. */

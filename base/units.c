@@ -29,6 +29,8 @@ static const struct {
     {"m/s", "a velocity", "m/s"},
     {"m/s2", "an acceleration", "m/s2"},
     {"N", "a force", "N or kN"},
+    {"N/m", "a force per length", "N/m or kN/m"},
+    {"N/(m s)", "a force per length and time", "N/(m s)"},
     {"Pa", "a stress", "Pa or MPa"},
     {"J", "an energy", "J or mJ"},
     {"J/m2", "an energy per area", "J/m2 or kJ/m2"},

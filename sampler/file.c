@@ -70,8 +70,9 @@ FRACAS_MUST_USE static fracas_err next_strength(walk *w, double *value, bool *fo
     w->begun = true;
     if (*found && first && is_heading(w->field)) *found = next_field(w);
     if (!*found || (!fracas_number_read(w->field, value) && *value > 0.0)) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "%s:%" PRId64 ": found `%s`; expected a strength in Pa, a number greater than 0 at the end of "
-                                     "the line, without a unit", w->file->path, w->line, w->field);
+    return fracas_fail(FRACAS_USAGE, "%s:%" PRId64 ": found %s%s%s; expected a strength in Pa, a number greater than 0 at the end of "
+                                     "the line, after a comma or a blank if it is not alone, without a unit", w->file->path, w->line,
+                       *w->field ? "`" : "no text there", w->field, *w->field ? "`" : "");
 }
 
 /* What is known of a file once it is read. */

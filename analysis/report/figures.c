@@ -19,7 +19,7 @@ typedef struct {
 
 static bool has_mean(const fracas_point_statistics *statistics)
 {
-    return isfinite(statistics->rate) && isfinite(statistics->size.mean);
+    return isfinite(statistics->rate) && statistics->rate > 0 && isfinite(statistics->size.mean); /* the axis is a log one */
 }
 
 static bool has_scales(const fracas_point_statistics *statistics)

@@ -171,6 +171,14 @@ static fracas_err put_pictures(const report_page *page)
     return FRACAS_OK;
 }
 
+/* Instead of the figures against the rate, where there is none. */
+static void say_no_rate(const report_page *page)
+{
+    for (size_t p = 0; p < page->analysis->table->npoints; p++)
+        if (page->analysis->point[p].rate > 0) return;
+    fputs("<p>No point begins with a strain rate above 0: nothing to draw against it.</p>\n", page->out);
+}
+
 static fracas_err put_figures(const report_page *page)
 {
     const fracas_analysis *analysis = page->analysis;
@@ -181,6 +189,7 @@ static fracas_err put_figures(const report_page *page)
     TRY(put_figure(page, &chart, fracas_figure_rate(analysis, false, &chart)));
     TRY(put_figure(page, &chart, fracas_figure_rate(analysis, true, &chart)));
     fputs("</div>\n", page->out);
+    say_no_rate(page);
     TRY(put_side_table(page, "slopes", NULL, fracas_slope_table_create, fracas_slope_table_legend));
     fputs("<h2>Fragment sizes</h2>\n<div class=\"wide\">\n", page->out);
     TRY(put_figure(page, &chart, fracas_figure_sizes_together(analysis, &chart)));

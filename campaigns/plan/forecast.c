@@ -3,6 +3,7 @@
 #include "campaigns/plan/plan.h"
 #include "campaigns/plan/point_model.h"
 #include "engine/loading/loading.h"
+#include "engine/mesh/body.h"
 
 #include <math.h>
 #include <time.h>
@@ -35,15 +36,56 @@ static fracas_err check_count(const fracas_model *model, const fracas_strength *
                        strength->file->path, given, interfaces);
 }
 
-/* The stress that an uncracked body reaches by time.end [Pa]; NaN where the loading gives no strain rate. A free ring swings back
- * once its stress is E rate R/c  (docs/theory/ring.md). */
-static double highest_stress(const fracas_spec *spec)
+/* A stress that an uncracked ring with this load stays below until t [Pa]. Radially it is u'' + w^2 u = a, w = c/R, sigma = E u/R:
+ * - a radial velocity v takes a free ring to E v/c and no further, then it swings back (docs/theory/ring.md);
+ * - a radial acceleration of at most a takes it to E a t^2/(2 R), and to 2 R rho a and no further;
+ * - so does a circumferential velocity v by a = v^2/R. */
+static double ring_stress_bound(const fracas_spec *spec, double t)
 {
-    const double rate = fracas_spec_strain_rate(spec), young = spec->material.young;
-    double time = spec->time.end;
-    if (spec->loading.type == &fracas_loading_initial_velocity)
-        time = fmin(time, spec->geometry.radius / sqrt(young / spec->material.density));
-    return young * rate * time;
+    const fracas_loading *loading = &spec->loading;
+    const double young = spec->material.young, rho = spec->material.density, radius = spec->geometry.radius;
+    const double mass = rho * spec->geometry.area; /* per length */
+    const bool radial = loading->direction == &fracas_axis_radial;
+    double stress = 0, outward = 0, along = 0; /* acceleration [m/s2], velocity [m/s]: the largest until t */
+    if (loading->type == &fracas_loading_initial_velocity) {
+        stress = young * fabs(loading->radial) / radius * fmin(t, radius / sqrt(young / rho));
+        along = loading->circumferential;
+    } else if (loading->type == &fracas_loading_held_velocity && radial) {
+        stress = young * t / radius * (loading->velocity + 0.5 * t * fmax(0, loading->acceleration));
+    } else if (loading->type == &fracas_loading_held_velocity) {
+        along = fmax(fabs(loading->velocity), fabs(loading->velocity + loading->acceleration * t));
+    } else if (radial) {
+        outward = fmax(fabs(loading->force), fabs(loading->force + loading->force_rate * t)) / mass;
+    } else {
+        along = t * (fabs(loading->force) + 0.5 * t * fabs(loading->force_rate)) / mass;
+    }
+    outward += along * along / radius;
+    return stress + fmin(young * t * t / (2 * radius), 2 * radius * rho) * outward;
+}
+
+/* A stress that the uncracked body stays below until time.end [Pa]. */
+static double stress_bound(const fracas_spec *spec)
+{
+    if (spec->loading.type == &fracas_loading_imposed_rate)
+        return spec->material.young * spec->loading.rate * spec->time.end;
+    return ring_stress_bound(spec, spec->time.end);
+}
+
+static bool is_ring(const fracas_spec *spec)
+{
+    return spec->geometry.shape == &fracas_shape_ring;
+}
+
+/* True if the whole ring is compressed before time.end: a chain without bending stiffness then folds, from round-off on. Held
+ * radial velocities keep it round. */
+static bool is_folded(const fracas_spec *spec, const fracas_forecast *forecast)
+{
+    const fracas_loading *loading = &spec->loading;
+    const double last = loading->force + loading->force_rate * spec->time.end;
+    if (loading->type == &fracas_loading_force && loading->direction == &fracas_axis_radial)
+        return fmin(loading->force, last) < 0;
+    if (loading->type != &fracas_loading_initial_velocity || loading->circumferential != 0) return false;
+    return loading->radial < 0 || (forecast->bound < forecast->mean && loading->radial > 0 && spec->time.end > 2 * forecast->turn);
 }
 
 static fracas_err describe(const fracas_campaign *campaign, size_t index, fracas_forecast *forecast)
@@ -62,7 +104,14 @@ static fracas_err describe(const fracas_campaign *campaign, size_t index, fracas
     forecast->coarseness = fracas_spec_length(spec) / (double)forecast->elements / softening;
     forecast->uniform = fracas_strength_quantile(&point->strength, volume, 0.25) ==
                         fracas_strength_quantile(&point->strength, volume, 0.75);
-    forecast->early = highest_stress(spec) < mean;
+    forecast->mean = mean;
+    forecast->bound = stress_bound(spec);
+    forecast->step_stress = spec->material.young * fracas_spec_strain_rate(spec) * forecast->time_step;
+    if (is_ring(spec)) {
+        forecast->turn = M_PI_2 * spec->geometry.radius / sqrt(spec->material.young / spec->material.density);
+        forecast->folds = is_folded(spec, forecast);
+        forecast->lonely = spec->cohesive.zone > 0.5 * fracas_spec_length(spec);
+    }
     forecast->repeated = fracas_strength_count(&point->strength) > 0 && point->replicas > 1;
     fracas_err err = check_count(model, &point->strength);
     if (!err) err = check_strongest(model, point);

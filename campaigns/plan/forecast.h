@@ -11,9 +11,14 @@ typedef struct {
     double time;      /* s, of all replicas on all jobs */
     double bytes;     /* in study.h5 */
     double coarseness; /* element size over E G_c/sigma_c^2, the length over which a crack softens */
-    bool uniform;      /* every interface has the same strength */
+    bool uniform;      /* half of the interfaces and more have the same strength */
+    double step_stress; /* E rate dt [Pa]; NaN where the loading gives no strain rate */
+    double turn;       /* a ring's time from its greatest speed to its turning point: pi/2 R/c [s] */
+    bool folds;        /* a ring is driven inward, or swings back whole and then inward before time.end */
+    bool lonely;       /* the fracture-limiting zone of one interface reaches around the ring */
     bool repeated;     /* strengths are given, so that replicas are equal, and there are several */
-    bool early;        /* time.end comes before the mean strength is reached */
+    double mean;       /* strength of an interface [Pa] */
+    double bound;      /* stress that the uncracked body stays below until time.end [Pa] */
 } fracas_forecast;
 
 /* Elements, time step, steps, coarseness of one point (speed 0). Refused if strengths are given and not as many as

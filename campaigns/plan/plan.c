@@ -3,6 +3,7 @@
 #include "base/json.h"
 #include "base/units.h"
 #include "campaigns/plan/forecast.h"
+#include "engine/loading/loading.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -111,26 +112,51 @@ static void put_size(text_sheet *sheet, size_t row, size_t column, double bytes)
 
 /* The softening zone of a crack, some E G_c/sigma_c^2 long, should hold elements. */
 #define COARSE 0.5
-enum { WARNINGS = 4 };
+enum { WARNINGS = 7 };
+
+/* What would crack more of a body whose stress stays below its strength. */
+static const char *harder(const fracas_spec *spec, const fracas_forecast *forecast)
+{
+    if (spec->loading.type != &fracas_loading_initial_velocity) return "load it harder, or longer";
+    return spec->time.end < forecast->turn ? "raise its velocity or time.end" : "a free ring swings back: raise its velocity";
+}
 
 static bool warning_of(const campaign_plan *plan, size_t p, int which, char *text, size_t size)
 {
     const fracas_forecast *forecast = &plan->forecast[p];
-    const bool applies[WARNINGS] = {forecast->coarseness > COARSE, forecast->uniform, forecast->early,
-                                      forecast->repeated};
+    const char *distribution = plan->campaign->point[p].strength.distribution->name;
+    const bool applies[WARNINGS] = {forecast->coarseness > COARSE, forecast->uniform, forecast->bound < forecast->mean,
+                                      forecast->repeated,
+                                      forecast->folds, forecast->lonely,
+                                      forecast->step_stress > forecast->mean};
     if (which == 0)
         snprintf(text, size, "point %zu: elements are %.2g E G_c/sigma_c^2 long, above %.1g a crack's softening is not "
                  "resolved: raise mesh.elements to %.0f", p, forecast->coarseness, COARSE,
                  ceil((double)forecast->elements * forecast->coarseness / COARSE));
+    else if (which == 1 && strcmp(distribution, "constant"))
+        snprintf(text, size, "point %zu: half of the interfaces or more are equally strong and qualify at once; where the body "
+                 "breaks is then up to mesh and rounding: give the strength a scatter%s", p,
+                 strcmp(distribution, "flaws") ? "" : ", here by a higher flaw_density");
     else if (which == 1)
         snprintf(text, size, "point %zu: all interfaces are equally strong and qualify at once; where the body breaks is then "
                  "up to mesh and rounding: give the strength a scatter", p);
     else if (which == 3)
         snprintf(text, size, "point %zu: its strengths are those of a file, so all its %" PRId64 " replicas are equal: give it "
                  "replicas: 1", p, plan->campaign->point[p].replicas);
+    else if (which == 4)
+        snprintf(text, size, "point %zu: the whole ring comes under compression, where it folds, as it has no bending stiffness: "
+                 "what breaks then means nothing: load it outward, and end a free ring that stays whole by %.3g s", p,
+                 2 * forecast->turn);
+    else if (which == 6)
+        snprintf(text, size, "point %zu: one time step adds %.3g Pa of stress, more than the mean strength of %.3g Pa: is that in Pa? "
+                 "A bare number is SI", p, forecast->step_stress, forecast->mean);
+    else if (which == 5)
+        snprintf(text, size, "point %zu: cohesive.zone is longer than half of the ring: once an interface opens, none else can: "
+                 "shorten it to less than a quarter of a fragment", p);
     else
-        snprintf(text, size, "point %zu: at time.end the stress E rate end has not reached the mean strength: little or "
-                 "nothing will crack", p);
+        snprintf(text, size, "point %zu: until time.end the stress stays below %.3g MPa, the mean strength is %.3g MPa: the weakest "
+                 "interfaces will crack, or none: %s", p, 1e-6 * forecast->bound, 1e-6 * forecast->mean,
+                 harder(&plan->campaign->point[p].spec, forecast));
     return applies[which];
 }
 

@@ -51,9 +51,10 @@ static fracas_err check_cohesive(const void *section)
     const fracas_cohesive *cohesive = section;
     if (cohesive->law != &fracas_law_stershic || (cohesive->fracture_energy > 0) != (cohesive->critical_opening > 0))
         return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "law stershic takes either fracture_energy or critical_opening, and %s is given: %s",
-                       cohesive->fracture_energy > 0 ? "both" : "neither",
-                       cohesive->fracture_energy > 0 ? "leave one out" : "add one, for instance `fracture_energy: 100 J/m2`");
+    return fracas_fail(FRACAS_USAGE, "law stershic takes either fracture_energy or critical_opening, and %s given: %s",
+                       cohesive->fracture_energy > 0 ? "both are" : "neither is",
+                       cohesive->fracture_energy > 0 ? "leave one out, or set it to 0 where a sweep would inherit it"
+                                                     : "add one, for instance `fracture_energy: 100 J/m2`");
 }
 
 const fracas_section fracas_cohesive_section = {

@@ -15,7 +15,7 @@ const fracas_kind fracas_direction_current = {
 static const fracas_kind *const directions[] = {&fracas_direction_current, &fracas_direction_initial};
 
 static const fracas_param bar[] = {
-    {"length", FRACAS_REAL, "m", "length of the bar (circumference of the ring)", FRACAS_REQUIRED, 0, INFINITY, true,
+    {"length", FRACAS_REAL, "m", "length of the bar; with periodic ends that of the circumference it stands for", FRACAS_REQUIRED, 0, INFINITY, true,
      offsetof(fracas_geometry, length)},
     {.name = "ends", .type = FRACAS_CHOICE, .unit = "1", .doc = "what happens at the bar's two ends", .choices = ends,
      .nchoices = FRACAS_COUNT(ends), .offset = offsetof(fracas_geometry, ends)},

@@ -347,6 +347,12 @@ static void figure_of_rings(void **state)
     }
     assert_int_equal(marks, 2);
     fracas_chart_clear(&chart);
+    for (size_t p = 0; p < NPOINTS; p++) point[p].rate = p == 1 ? 1e4 : 0; /* a ring that only spins is none for a log axis */
+    fracas_chart_init(&chart);
+    assert_int_equal(fracas_figure_rate(&analysis, false, &chart), FRACAS_OK);
+    for (size_t s = 0; s < chart.panel[0].nseries; s++)
+        for (size_t i = 0; i < chart.panel[0].series[s].n; i++) assert_true(chart.panel[0].series[s].x[i] > 0);
+    fracas_chart_clear(&chart);
     fracas_columns_clear(&analysis.shown);
 }
 

@@ -57,7 +57,7 @@ static void test_bad_values(void **state)
     } table[] = {
         {"3\nx\n", "s.csv:2: found `x`; expected a strength in Pa, a number greater than 0"},
         {"strength\nPa\n3\n", "s.csv:2: found `Pa`"},
-        {"# a\n\n3\n4,\n", "s.csv:4: found ``"},
+        {"# a\n\n3\n4,\n", "s.csv:4: found no text there; expected"},
         {"3e8x\n", "s.csv:1: found `3e8x`"}, /* no heading: it starts like a number */
         {"nan\n3\n", "s.csv:1: found `nan`"},
         {"3\ninf\n", "s.csv:2: found `inf`"},
