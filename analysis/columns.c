@@ -32,11 +32,11 @@ double fracas_columns_rate(const fracas_point_table *table, size_t point)
     return fracas_columns_real(table, point, derived ? strain_rate_path : imposed_rate_path);
 }
 
-/* Causes before numerics: a zipped sweep is called by what is physical in it. The radius comes before the velocities,
+/* Causes before numerics: a zipped sweep is called by what is physical in it, and cases by their names. The radius comes before the velocities,
  * so that of radii and velocities swept together the radius stays, and makes series. */
 static int rank_of(const char *path)
 {
-    static const char *const order[] = {imposed_rate_path, radius_path, "loading", "material", "cohesive", "strength",
+    static const char *const order[] = {imposed_rate_path, radius_path, "case", "loading", "material", "cohesive", "strength",
                                         "geometry", "model", "mesh", "time"};
     const int n = (int)(sizeof order / sizeof *order);
     for (int i = 0; i < n; i++) {

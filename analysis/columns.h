@@ -17,7 +17,7 @@ double fracas_columns_real(const fracas_point_table *table, size_t point, const 
 /* The point's strain rate [1/s]: derived.strain_rate; loading.rate in an older study, which lacks that column. */
 double fracas_columns_rate(const fracas_point_table *table, size_t point);
 
-/* Columns in the order loading.rate, geometry.radius, loading, material, cohesive, strength, geometry, model, mesh,
+/* Columns in the order loading.rate, geometry.radius, case, loading, material, cohesive, strength, geometry, model, mesh,
  * time, each kept if it parts points that the columns before it do not part: for a zipped sweep its first column
  * alone. Derived columns are never among them. When no point differs from another: the first column that makes the
  * strain rate, if there is one. */

@@ -45,6 +45,11 @@ for radial in (80, 800):
     assert of["weibull"] < 0.97 * of["normal"] and of["normal"] < of["uniform"] and 1.05 * of["flaws"] < of["uniform"]
     assert 1.12 < of["uniform"] / of["weibull"] < 1.50
 
+# Points are called by the names of their cases, else by what is swept.
+assert json.load(open("ring-zoning.json"))["varying"] == ["case"]
+assert json.load(open("ring-distributions.json"))["varying"] == ["case", "loading.radial"]
+assert mott["varying"] == ["geometry.radius", "loading.radial"]
+
 # Without a zone the residual is 1 %, with 100 um 2e-5.
 zoned = {}
 for p in read("ring-zoning", lambda p: 1e-3 if p["cohesive.zone"] > 6e-5 else 5e-2)["points"]:
