@@ -88,6 +88,19 @@ static bool is_folded(const fracas_spec *spec, const fracas_forecast *forecast)
     return loading->radial < 0 || (forecast->bound < forecast->mean && loading->radial > 0 && spec->time.end > 2 * forecast->turn);
 }
 
+/* Angle that a load along the ring turns it by until time.end [rad]. */
+static double turned_angle(const fracas_spec *spec)
+{
+    const fracas_loading *loading = &spec->loading;
+    const double t = spec->time.end, mass = spec->material.density * spec->geometry.area;
+    double way = 0;
+    if (loading->type == &fracas_loading_initial_velocity) way = loading->circumferential * t;
+    else if (loading->direction != &fracas_axis_circumferential) return 0;
+    else if (loading->type == &fracas_loading_held_velocity) way = (loading->velocity + 0.5 * loading->acceleration * t) * t;
+    else if (loading->type == &fracas_loading_force) way = (0.5 * loading->force + loading->force_rate * t / 6) * t * t / mass;
+    return fabs(way) / spec->geometry.radius;
+}
+
 static fracas_err describe(const fracas_campaign *campaign, size_t index, fracas_forecast *forecast)
 {
     const fracas_point *point = &campaign->point[index];
@@ -110,6 +123,7 @@ static fracas_err describe(const fracas_campaign *campaign, size_t index, fracas
     if (is_ring(spec)) {
         forecast->turn = M_PI_2 * spec->geometry.radius / sqrt(spec->material.young / spec->material.density);
         forecast->folds = is_folded(spec, forecast);
+        if (spec->geometry.direction == &fracas_direction_initial) forecast->turned = turned_angle(spec);
         forecast->lonely = spec->cohesive.zone > 0.5 * fracas_spec_length(spec);
     }
     forecast->repeated = fracas_strength_count(&point->strength) > 0 && point->replicas > 1;

@@ -15,6 +15,7 @@ typedef struct {
     double step_stress; /* E rate dt [Pa]; NaN where the loading gives no strain rate */
     double turn;       /* a ring's time from its greatest speed to its turning point: pi/2 R/c [s] */
     bool folds;        /* a ring is driven inward, or swings back whole and then inward before time.end */
+    double turned;     /* angle by which a ring turns until time.end, where its interfaces open along initial directions [rad] */
     bool lonely;       /* the fracture-limiting zone of one interface reaches around the ring */
     bool repeated;     /* strengths are given, so that replicas are equal, and there are several */
     double mean;       /* strength of an interface [Pa] */

@@ -103,11 +103,13 @@ static void test_warnings(void **state)
 }
 
 /* A ring of 10 mm with this load (and sections after it), 1000 elements. */
+/* `more`: further keys of the case, each after a comma; or "initial", for interfaces that open along initial directions. */
 static fracas_campaign *read_ring(const char *loading, const char *more)
 {
     char sweep_of_ring[512];
-    snprintf(sweep_of_ring, sizeof sweep_of_ring, "sweep:\n  - cases:\n      - {name: ring, model: ring, geometry: {radius: 10 mm, "
-             "area: 1 mm2}, mesh: {elements: 1000}, loading: {%s}%s}\n", loading, more);
+    snprintf(sweep_of_ring, sizeof sweep_of_ring, "sweep:\n  - cases:\n      - {name: ring, model: ring, mesh: {elements: "
+             "1000}, loading: {%s}, geometry: {radius: 10 mm, area: 1 mm2%s}%s}\n", loading, strstr(more, "initial") ? ", direction: initial" : "",
+             strstr(more, "initial") ? "" : more);
     return read_replaced("", sweep_of_ring);
 }
 
@@ -155,7 +157,7 @@ static void test_warnings_of_rings(void **state)
     (void)state;
     static const char *const says[] = {"swings back: raise its velocity", "raise its velocity or time.end", "load it harder, or longer",
                                        "the whole ring comes under compression", "cohesive.zone is longer than half",
-                                       "is that in Pa?"};
+                                       "is that in Pa?", "the ring turns by"};
     const struct {
         const char *loading, *more;
         unsigned expected; /* bit i: says[i] */
@@ -173,6 +175,14 @@ static void test_warnings_of_rings(void **state)
         /* 275 GPa 1e5/s dt, dt = 62.8 um/(10 km/s) 0.25/f, f of a few units: 10 to 40 MPa */
         {"type: initial-velocity, radial: 1000 m/s", ", strength: {distribution: uniform, minimum: 299, maximum: 301}", 32},
         {"type: initial-velocity, radial: 1000 m/s", ", strength: {distribution: uniform, minimum: 45 MPa, maximum: 50 MPa}", 0},
+        /* turned until 0.5 us by V t/R, V t/R + a t^2/2R, f t^2/(2 rho A R) + f' t^3/(6 rho A R): 0.0075 or 0.0125 */
+        {"type: initial-velocity, radial: 1000 m/s, circumferential: 150 m/s", "initial", 0},
+        {"type: initial-velocity, radial: 1000 m/s, circumferential: -250 m/s", "initial", 64},
+        {"type: initial-velocity, radial: 1000 m/s, circumferential: 250 m/s", "", 0},
+        {"type: held-velocity, direction: circumferential, velocity: 50, acceleration: 4e8", "initial", 4},
+        {"type: held-velocity, direction: circumferential, velocity: 50, acceleration: 8e8", "initial", 4 | 64},
+        {"type: force, direction: circumferential, force: 1e6, force_rate: 2e12", "initial", 4},
+        {"type: force, direction: circumferential, force: 1.65e6, force_rate: 8e12", "initial", 4 | 64},
     };
     for (size_t i = 0; i < sizeof rings / sizeof *rings; i++) {
         fracas_campaign *campaign = read_ring(rings[i].loading, rings[i].more);
