@@ -102,8 +102,8 @@ static void test_warnings(void **state)
     fracas_campaign_destroy(campaign);
 }
 
-/* A ring of 10 mm with this load (and sections after it), 1000 elements. */
-/* `more`: further keys of the case, each after a comma; or "initial", for interfaces that open along initial directions. */
+/* A ring of 10 mm with this load, 1000 elements. `more`: further keys of the case, each after a comma; or "initial", for
+ * interfaces that open along initial directions. */
 static fracas_campaign *read_ring(const char *loading, const char *more)
 {
     char sweep_of_ring[512];
