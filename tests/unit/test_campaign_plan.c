@@ -126,7 +126,7 @@ static void test_flaws_of_small_elements(void **state)
 {
     (void)state;
     fracas_campaign *campaign = read_replaced("", "sweep:\n  - cases:\n"
-        "      - {name: small, mesh: {spacing: graded, ratio: 0.001}, strength: {distribution: flaws, density: 1e11 1/m3, "
+        "      - {name: small, mesh: {spacing: graded, ratio: 0.001}, strength: {distribution: flaws, flaw_density: 1e11 1/m3, "
         "minimum: 100 MPa, maximum: 400 MPa, exponent: 2}}\n");
     const fracas_point *point = &campaign->point[0];
     fracas_model *model;
