@@ -79,6 +79,15 @@ static double ring_radius(const fracas_point_table *table, size_t point)
     return ring ? fracas_columns_real(table, point, "geometry.radius") : NAN;
 }
 
+/* The point's fracture energy [J/m2]: given, or what a given critical opening makes with the mean strength (the engine's
+ * fracas_spec_fracture_energy). */
+static double fracture_energy(const fracas_point_table *table, size_t point)
+{
+    const double opening = fracas_columns_real(table, point, "cohesive.critical_opening");
+    return opening > 0 ? 0.5 * opening * fracas_columns_real(table, point, "derived.strength_mean")
+                       : fracas_columns_real(table, point, "cohesive.fracture_energy");
+}
+
 void fracas_point_statistics_init(const fracas_point_table *table, size_t point, fracas_point_statistics *statistics)
 {
     *statistics = (fracas_point_statistics){
@@ -88,7 +97,7 @@ void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
         .scales = fracas_scales_of(fracas_columns_real(table, point, "material.young"),
                                    fracas_columns_real(table, point, "material.density"),
                                    fracas_columns_real(table, point, "derived.strength_mean"),
-                                   fracas_columns_real(table, point, "cohesive.fracture_energy")),
+                                   fracture_energy(table, point)),
         .residual = NAN, .created = NAN, .drift = NAN, .elements = NAN, .dust_share = NAN,
         .typical_replica = -1, .broken_replica = -1,
     };
