@@ -36,7 +36,7 @@ static fracas_err check_copy(const fracas_attachment *read, const char *path)
 static fracas_err cannot(const char *verb, const char *path)
 {
     const int reason = errno;
-    const bool absent = reason == ENOENT || reason == ENOTDIR || reason == ENAMETOOLONG;
+    const bool absent = reason == ENOENT || reason == ENOTDIR || reason == ENAMETOOLONG || reason == ELOOP;
     return fracas_fail(absent ? FRACAS_USAGE : FRACAS_ENVIRONMENT, "cannot %s %s: %s", verb, path, strerror(reason));
 }
 

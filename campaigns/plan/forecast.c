@@ -203,6 +203,7 @@ static fracas_err time_steps(const fracas_campaign *campaign, size_t index, doub
         spec.mesh.elements = TIMED;
     }
     spec.time.end = fmin(spec.time.end, end);
+    spec.cohesive.refinement = 1.0; /* a step takes the same time however short it is, and so there are as many as asked for */
     TRY(fracas_point_model_like(campaign, index, &spec, &model));
     const double strength = fracas_strength_mean(&point->strength, fracas_spec_interface_volume(&spec));
     fracas_err err = run_batch(model, strength, lanes_of(point), spent);

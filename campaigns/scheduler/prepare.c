@@ -127,6 +127,7 @@ static fracas_err write_whole(const char *folder, const char *name, fracas_err (
     TRY(join(folder, name, path));
     if (snprintf(temporary, PATH, "%s.tmp", path) >= PATH)
         return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s", folder);
+    unlink(temporary); /* of a run that was killed; or a link or a pipe that would lead elsewhere */
     FILE *out = fopen(temporary, "w");
     fracas_err err = FRACAS_OK;
     if (out) err = write(what, out);
@@ -163,7 +164,9 @@ static bool is_copied(const char *folder, const fracas_attachment *attachment)
 {
     char path[PATH], block[1 << 14];
     size_t at = 0, got;
+    struct stat found;
     if (snprintf(path, PATH, "%s/%s", folder, attachment->digest) >= PATH) return false;
+    if (stat(path, &found) || !S_ISREG(found.st_mode)) return false; /* opening a pipe would wait */
     FILE *in = fopen(path, "rb");
     if (!in) return false;
     while ((got = fread(block, 1, sizeof block, in)) > 0 && got <= attachment->size - at &&

@@ -62,6 +62,11 @@ tr 0 1 < moved/uno.csv > "fresh/attachments/$digest"
 expect 0 "$fracas" run both.yaml --study fresh
 same study fresh
 cmp moved/uno.csv "fresh/attachments/$digest" || fail "another file was taken for the copy"
+mkdir -p piped/attachments # pipes: whoever opens one waits
+mkfifo "piped/attachments/$digest" "piped/attachments/$digest.tmp" piped/campaign.yaml.tmp
+expect 0 timeout 30 "$fracas" run both.yaml --study piped
+same study piped
+cmp moved/uno.csv "piped/attachments/$digest" || fail "a pipe was left in the place of the copy"
 
 # Two files, as a sweep.
 attached sweep.yaml moved/uno.csv 1 '1e5 1/s'

@@ -1,4 +1,5 @@
 /* Rings: arcs, the motion of fragments, where they are drawn, series by radius, and the report of a study of rings. */
+#include "tests/support/campaign_text.h"
 #include "tests/support/report.h"
 
 #include "analysis/report/figures.h"
@@ -381,9 +382,29 @@ static void points_with_pictures(void **state)
     assert_pictures(12, 0, (size_t[]){1, 3, 5, 7, 9, 11}, 6);
 }
 
+/* A critical opening stands for the fracture energy that it makes with the mean strength: delta_c sigma_c/2. */
+static void scales_of_critical_opening(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "name: r\nseed: 1\nmodel: ring\ngeometry: {radius: 8 mm}\nmesh: {elements: 100}\nmaterial: {young: 275 GPa, density: 2750 kg/m3}\n"
+        "cohesive: {law: stershic}\nstrength: {distribution: uniform, minimum: 290 MPa, maximum: 310 MPa}\n"
+        "loading: {type: initial-velocity, radial: 80 m/s}\ntime: {end: 100 ns}\nreplicas: 1\n"
+        "sweep:\n  - cohesive: [{critical_opening: 0.6 um}, {fracture_energy: 90 J/m2}]\n";
+    fracas_campaign *campaign = read_text(text);
+    fracas_point_statistics opening, energy;
+    fracas_point_statistics_init(&campaign->table, 0, &opening);
+    fracas_point_statistics_init(&campaign->table, 1, &energy);
+    assert_true(fabs(opening.scales.size / energy.scales.size - 1) < 1e-14); /* a few roundings */
+    for (int law = 0; law < FRACAS_NLAWS; law++) assert_true(fabs(opening.law[law] / energy.law[law] - 1) < 1e-13);
+    assert_true(fabs(energy.scales.size / (275e9 * 90 / 9e16) - 1) < 1e-13);
+    fracas_campaign_destroy(campaign);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(scales_of_critical_opening),
         cmocka_unit_test(arcs), cmocka_unit_test(motion_of_fragments), cmocka_unit_test(pattern_of_uniform_expansion),
         cmocka_unit_test(report_of_rings), cmocka_unit_test(strain_rate_of_a_point), cmocka_unit_test(columns_of_rings),
         cmocka_unit_test(figure_of_rings), cmocka_unit_test(points_with_pictures),

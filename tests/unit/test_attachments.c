@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 /* ---- strengths of a file ---- */
 
@@ -141,7 +142,9 @@ static void test_errors(void **state)
     put("large.csv", "");
     assert_int_equal(truncate(in_folder("large.csv"), (256 << 20) + 1), 0); /* takes no disk */
     assert_int_equal(mkdir(in_folder("folder"), 0777), 0);
+    assert_int_equal(symlink("loop.csv", in_folder("loop.csv")), 0);
     bad(FROM_FILE "absent.csv\n", "", 17, 9, "/absent.csv: No such file");
+    bad(FROM_FILE "loop.csv\n", "", 17, 9, "/loop.csv: Too many levels of symbolic links");
     bad(FROM_FILE "folder\n", "", 17, 9, "/folder is not a file");
     bad(FROM_FILE "empty.csv\n", "", 17, 9, "/empty.csv is empty");
     bad(FROM_FILE "large.csv\n", "", 17, 9, "/large.csv has 256 MiB; a file can have at most 256");
