@@ -29,7 +29,7 @@ static const char *const pieces[] = {
     "^", "\xff", "\xc2", "\xe2\x82", "sweep:\n", "zip:", "cases:", "from: 1", "points: 50", "name: a", "strength",
     "shape: 1", ".", "..", ",", "<<: ", "\\x00", "\r", "model: bar", "model: ring", "law: stershic", "law: nitsche", "shape: ring",
     "spacing: perturbed", "direction: radial", "ends: held", "critical_zone: steep", "zone: 1e300", "distribution: file",
-    "file: " STRENGTHS, "file: /dev/zero", "file: attachments/5fca4fc001bc57a73d51c9e49f315ad3", "file: ../../", "-0",
+    ("file: " STRENGTHS), "file: /dev/zero", "file: attachments/5fca4fc001bc57a73d51c9e49f315ad3", "file: ../../", "-0",
 };
 
 static const char ring[] =
