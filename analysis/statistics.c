@@ -1,9 +1,12 @@
 #include "analysis/statistics.h"
 
+#include "analysis/columns.h"
+
 #include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct {
     fracas_replica_values value;
@@ -35,8 +38,14 @@ const fracas_statistic fracas_statistics[] = {
     ESTIMATE("size", "m", "mean fragment size (length / fragments)", size),
     ESTIMATE("dissipated", "J", "dissipated energy", dissipated),
     ESTIMATE("onset_time", "s", "time of first onset", onset_time),
+    ESTIMATE("radial_velocity", "m/s", "mean velocity outward of a ring's fragments", radial_velocity),
+    ESTIMATE("radial_scatter", "m/s", "standard deviation over a ring's fragments of that velocity", radial_scatter),
+    ESTIMATE("circumferential_velocity", "m/s", "rms velocity along the ring of its fragments", circumferential_velocity),
+    ESTIMATE("angular_velocity", "rad/s", "|angular velocity| of a ring's fragments", angular_velocity),
     STATISTIC("residual", "1", "largest |residual| of the energy balance / dissipated, over replicas", residual),
     STATISTIC("created", "1", "largest created / dissipated, over replicas", created),
+    STATISTIC("drift", "1", "largest |residual| / largest energy at the end, over replicas", drift),
+    COUNTED("drifted", "usable realizations of which that is above 0.01", drifted),
     STATISTIC("elements", "1", "elements of a mean fragment", elements),
     STATISTIC("dust_share", "1", "dust fragments / all fragments", dust_share),
     STATISTIC("scale.time", "s", "t0 = E Gc/(sigma_c^2 c)", scales.time),
@@ -63,25 +72,38 @@ const char *fracas_outcome_name(int64_t outcome)
     return outcome >= 0 && outcome < FRACAS_NOUTCOMES ? name[outcome] : "?";
 }
 
-static double column_value(const fracas_point_table *table, size_t point, const char *path)
+static double ring_radius(const fracas_point_table *table, size_t point)
 {
-    size_t column = fracas_point_table_find(table, path);
-    return column == SIZE_MAX ? NAN : table->point[point].value[column].real;
+    size_t model = fracas_point_table_find(table, "model");
+    bool ring = model != SIZE_MAX && !strcmp(table->point[point].value[model].text, "ring");
+    return ring ? fracas_columns_real(table, point, "geometry.radius") : NAN;
+}
+
+/* G_c [J/m2], of the mean strength where the critical opening is given: fracture_energy is 0 then. */
+static double fracture_energy(const fracas_point_table *table, size_t point)
+{
+    const double opening = fracas_columns_real(table, point, "cohesive.critical_opening");
+    if (opening > 0) return 0.5 * opening * fracas_columns_real(table, point, "derived.strength_mean");
+    return fracas_columns_real(table, point, "cohesive.fracture_energy");
 }
 
 void fracas_point_statistics_init(const fracas_point_table *table, size_t point, fracas_point_statistics *statistics)
 {
     *statistics = (fracas_point_statistics){
-        .rate = column_value(table, point, "loading.rate"),
-        .length = column_value(table, point, "geometry.length"),
-        .scales = fracas_scales_of(column_value(table, point, "material.young"),
-                                   column_value(table, point, "material.density"),
-                                   column_value(table, point, "derived.strength_mean"),
-                                   column_value(table, point, "cohesive.fracture_energy")),
-        .residual = NAN, .created = NAN, .elements = NAN, .dust_share = NAN, .typical_replica = -1,
+        .rate = fracas_columns_rate(table, point),
+        .length = fracas_columns_real(table, point, "geometry.length"),
+        .radius = ring_radius(table, point),
+        .scales = fracas_scales_of(fracas_columns_real(table, point, "material.young"),
+                                   fracas_columns_real(table, point, "material.density"),
+                                   fracas_columns_real(table, point, "derived.strength_mean"),
+                                   fracture_energy(table, point)),
+        .residual = NAN, .created = NAN, .drift = NAN, .elements = NAN, .dust_share = NAN,
+        .typical_replica = -1, .broken_replica = -1,
     };
-    for (int law = 0; law < FRACAS_NLAWS; law++)
-        statistics->law[law] = fracas_size_law_at((fracas_size_law_id)law, &statistics->scales, statistics->rate);
+    if (statistics->radius > 0) statistics->length = 2 * M_PI * statistics->radius;
+    for (int law = 0; law < FRACAS_NLAWS; law++) /* at rate 0, a ring that spins or is accelerated, they say nothing */
+        statistics->law[law] = statistics->rate > 0
+            ? fracas_size_law_at((fracas_size_law_id)law, &statistics->scales, statistics->rate) : NAN;
 }
 
 /* Room for one more replica and `more` more fragments, doubling. */
@@ -110,6 +132,18 @@ static fracas_err make_room(fracas_point_statistics *statistics, size_t more)
     return FRACAS_OK;
 }
 
+/* As the energy guard has it, but over the energies at the end. */
+static void add_balance(fracas_point_statistics *statistics, const fracas_record *record)
+{
+    double stored = record->elastic + record->cohesive + record->dissipated;
+    double drift = record->residual / fmax(record->kinetic, fmax(stored, fabs(record->work)));
+    if (drift > FRACAS_DRIFT_LIMIT) statistics->drifted++;
+    if (isfinite(drift)) statistics->drift = fmax(statistics->drift, drift); /* the number where the other is NaN */
+    if (!(record->dissipated > 0)) return;
+    statistics->residual = fmax(statistics->residual, record->residual / record->dissipated);
+    statistics->created = fmax(statistics->created, record->created / record->dissipated);
+}
+
 fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size_t row, int64_t replica,
                                        const fracas_record *record)
 {
@@ -123,6 +157,8 @@ fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size
         return FRACAS_OK;
     }
     statistics->usable++;
+    const fracas_ring_motion still = {NAN, NAN, NAN, NAN};
+    bool ring = statistics->radius > 0;
     TRY(make_room(statistics, record->nfragment));
     struct fracas_replica_list *list = statistics->replicas;
     list->entry[list->count++] = (replica_entry){
@@ -130,11 +166,13 @@ fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size
         .value = {.count = (double)record->fragments,
                   .count_large = (double)(record->fragments - record->fragments_dust),
                   .size = statistics->length / (double)record->fragments,
-                  .dissipated = record->dissipated, .onset_time = record->onset_time},
+                  .dissipated = record->dissipated, .onset_time = record->onset_time,
+                  .motion = ring ? fracas_ring_motion_of(record, statistics->radius) : still},
     };
-    if (record->dissipated > 0) { /* fmax takes the number where the other is NaN */
-        statistics->residual = fmax(statistics->residual, record->residual / record->dissipated);
-        statistics->created = fmax(statistics->created, record->created / record->dissipated);
+    add_balance(statistics, record);
+    if (record->outcome == FRACAS_FRAGMENTED && statistics->broken_replica < 0) {
+        statistics->broken_replica = replica;
+        statistics->broken_row = row;
     }
     for (size_t i = 0; i < record->nfragment; i++) {
         statistics->fragment_size[statistics->nfragments++] = record->fragment[i].size;
@@ -163,6 +201,10 @@ void fracas_point_statistics_finish(fracas_point_statistics *statistics)
     statistics->size = fracas_estimate_of(&first->size, stride, list->count);
     statistics->dissipated = fracas_estimate_of(&first->dissipated, stride, list->count);
     statistics->onset_time = fracas_estimate_of(&first->onset_time, stride, list->count);
+    statistics->radial_velocity = fracas_estimate_of(&first->motion.radial, stride, list->count);
+    statistics->radial_scatter = fracas_estimate_of(&first->motion.scatter, stride, list->count);
+    statistics->circumferential_velocity = fracas_estimate_of(&first->motion.circumferential, stride, list->count);
+    statistics->angular_velocity = fracas_estimate_of(&first->motion.spin, stride, list->count);
     if (statistics->nfragments > 0) {
         gsl_sort(statistics->fragment_size, 1, statistics->nfragments);
         statistics->elements = (double)list->elements / (double)statistics->nfragments;
@@ -184,5 +226,5 @@ void fracas_point_statistics_clear(fracas_point_statistics *statistics)
     free_replicas(statistics);
     free(statistics->fragment_size);
     free(statistics->history);
-    *statistics = (fracas_point_statistics){.typical_replica = -1};
+    *statistics = (fracas_point_statistics){.typical_replica = -1, .broken_replica = -1};
 }

@@ -3,6 +3,7 @@
 #define FRACAS_ANALYSIS_STATISTICS_H
 
 #include "analysis/estimate.h"
+#include "analysis/ring.h"
 #include "analysis/size_laws.h"
 #include "base/err.h"
 #include "campaigns/points.h"
@@ -17,12 +18,14 @@ typedef struct {
     double size;       /* m, length of the body / fragments */
     double dissipated; /* J */
     double onset_time; /* s, NaN if nothing cracked */
+    fracas_ring_motion motion; /* NaN unless of a ring in fragments */
 } fracas_replica_values;
 
 typedef struct {
     /* Of the point itself. */
     double rate;   /* 1/s, NaN where the point has none */
-    double length; /* m */
+    double length; /* m, of a ring its circumference */
+    double radius; /* m, of a ring; NaN of anything else */
     fracas_scales scales;
     double law[FRACAS_NLAWS]; /* m, mean size by each law */
 
@@ -30,8 +33,11 @@ typedef struct {
     int64_t realizations, usable, unusable;
     int64_t outcome[FRACAS_NOUTCOMES];
     fracas_estimate count, count_large, size, dissipated, onset_time;
+    fracas_estimate radial_velocity, radial_scatter, circumferential_velocity, angular_velocity; /* of a ring's fragments */
     double residual; /* largest over replicas of (largest |residual| over the run)/dissipated */
     double created;  /* largest over replicas of created/dissipated */
+    double drift;    /* largest over replicas of (largest |residual| over the run)/(largest energy at its end) */
+    int64_t drifted; /* usable realizations of which that is above FRACAS_DRIFT_LIMIT */
 
     /* Over the fragments of all usable realizations together. */
     size_t nfragments;
@@ -42,11 +48,16 @@ typedef struct {
     /* The replica whose dissipated energy is the nearest to the mean, the first of several. */
     int64_t typical_replica; /* -1 without a usable realization */
     size_t typical_row;      /* in the study */
+    int64_t broken_replica;  /* the first that ended FRAGMENTED; -1 without one */
+    size_t broken_row;
     size_t nhistory;
     fracas_history_row *history; /* of that replica; NULL until someone reads it */
 
     struct fracas_replica_list *replicas; /* between init and finish */
 } fracas_point_statistics;
+
+/* A realization whose residual is a larger part of its largest energy is warned of; ENERGY_DRIFT begins at 0.05. */
+#define FRACAS_DRIFT_LIMIT 0.01
 
 /* Of point `point` of the table, without realizations. */
 void fracas_point_statistics_init(const fracas_point_table *table, size_t point, fracas_point_statistics *statistics);

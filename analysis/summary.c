@@ -1,4 +1,5 @@
 /* The JSON summary. Its keys are those of fracas_statistics and of /point: they do not change. */
+#include "analysis/slope.h"
 #include "analysis/study.h"
 
 #include "base/json.h"
@@ -64,6 +65,29 @@ static void write_warnings(fracas_json *json, const fracas_analysis *analysis)
     free(warning);
 }
 
+static void write_slopes(fracas_json *json, const fracas_analysis *analysis)
+{
+    fracas_size_slope *list = NULL;
+    size_t count = 0;
+    fracas_json_array(json, "slopes");
+    if (fracas_size_slopes(analysis, &list, &count)) fracas_json_text(json, NULL, fracas_message());
+    for (size_t i = 0; i < count; i++) {
+        const fracas_slope *slope = &list[i].slope;
+        fracas_json_object(json, NULL);
+        fracas_json_text(json, "series", list[i].name);
+        fracas_json_integer(json, "points", slope->n);
+        fracas_json_real(json, "slope", slope->slope);
+        fracas_json_real(json, "standard_error", slope->standard_error);
+        fracas_json_real(json, "half_width", slope->half_width);
+        fracas_json_real(json, "chi2", slope->chi2);
+        fracas_json_real(json, "mott", FRACAS_SLOPE_MOTT);
+        fracas_json_real(json, "grady", FRACAS_SLOPE_GRADY);
+        fracas_json_close_object(json);
+    }
+    fracas_json_close_array(json);
+    free(list);
+}
+
 void fracas_analysis_write_json(const fracas_analysis *analysis, FILE *out)
 {
     char hash[FRACAS_HASH_HEX], seed[24];
@@ -84,6 +108,7 @@ void fracas_analysis_write_json(const fracas_analysis *analysis, FILE *out)
     fracas_json_array(&json, "points");
     for (size_t p = 0; p < analysis->table->npoints; p++) write_point(&json, analysis, p);
     fracas_json_close_array(&json);
+    write_slopes(&json, analysis);
     write_warnings(&json, analysis);
     fracas_json_close_object(&json);
     fracas_json_end(&json);

@@ -21,6 +21,7 @@ const char *const fracas_result_table_legend[] = {
 typedef struct {
     const fracas_analysis *analysis;
     const fracas_result_table *table;
+    const fracas_columns *first; /* those that tell the points apart, and the strain rate that they make */
     const char *plus_minus;
     bool unicode;
     fracas_prefix size, energy;
@@ -61,6 +62,21 @@ static void paint_unit(const painter *paint, size_t column, const fracas_prefix 
              paint->unicode ? prefix->sign : prefix->symbol, unit);
 }
 
+/* Lengths among the first columns have a prefix of their own, so that radii are not read in exponents. */
+static fracas_prefix parameter_prefix(const painter *paint, size_t column)
+{
+    const fracas_point_table *points = paint->analysis->table;
+    if (strcmp(points->column[column].unit, "m")) return (fracas_prefix){1, "", ""};
+    double extreme[2] = {INFINITY, 0};
+    for (size_t p = 0; p < points->npoints; p++) {
+        double value = points->point[p].value[column].real;
+        if (!(value > 0)) continue;
+        extreme[0] = fmin(extreme[0], value);
+        extreme[1] = fmax(extreme[1], value);
+    }
+    return fracas_prefix_for(extreme, 2);
+}
+
 static void paint_head(const painter *paint)
 {
     static const char *const name[NCOLUMNS] = {
@@ -68,13 +84,13 @@ static void paint_head(const painter *paint)
         [ZMR] = "ZMR", [GRADY] = "Grady", [GC] = "GC", [RATIO] = "size", [RESIDUAL] = "resid.",
         [CREATED] = "created", [OUTCOMES] = "outcomes",
     };
-    const fracas_columns *shown = &paint->analysis->shown;
+    const fracas_columns *shown = paint->first;
     const fracas_point_table *points = paint->analysis->table;
     for (size_t i = 0; i < shown->count; i++) {
         const fracas_column *column = &points->column[shown->column[i]];
         set(paint, 0, i, fracas_columns_name(points, shown, i));
-        if (!column->text && strcmp(column->unit, "1"))
-            paint_unit(paint, i, &(fracas_prefix){1, "", ""}, column->unit);
+        fracas_prefix prefix = parameter_prefix(paint, shown->column[i]);
+        if (!column->text && strcmp(column->unit, "1")) paint_unit(paint, i, &prefix, column->unit);
     }
     for (size_t c = 0; c < NCOLUMNS; c++) set(paint, 0, shown->count + c, name[c]);
     for (size_t c = SIZE; c <= GC; c++) paint_unit(paint, shown->count + c, &paint->size, "m");
@@ -87,11 +103,12 @@ static void paint_head(const painter *paint)
 static void paint_point(const painter *paint, size_t p)
 {
     const fracas_point_statistics *statistics = &paint->analysis->point[p];
-    const fracas_columns *shown = &paint->analysis->shown;
+    const fracas_columns *shown = paint->first;
     size_t row = FRACAS_RESULT_TABLE_HEAD + p;
     char *first = fracas_result_table_cell(paint->table, row, 0), *cell[NCOLUMNS];
     for (size_t i = 0; i < shown->count; i++)
-        fracas_columns_value(paint->analysis->table, shown->column[i], p, first + i * FRACAS_CELL, FRACAS_CELL);
+        fracas_columns_value(paint->analysis->table, shown->column[i], p, parameter_prefix(paint, shown->column[i]).factor,
+                             first + i * FRACAS_CELL, FRACAS_CELL);
     for (size_t c = 0; c < NCOLUMNS; c++) cell[c] = first + (shown->count + c) * FRACAS_CELL;
     snprintf(cell[USED], FRACAS_CELL, "%lld", (long long)statistics->usable);
     snprintf(cell[FAILED], FRACAS_CELL, "%lld", (long long)statistics->unusable);
@@ -110,18 +127,23 @@ static void paint_point(const painter *paint, size_t p)
 
 fracas_err fracas_result_table_create(const fracas_analysis *analysis, bool unicode, fracas_result_table *table)
 {
+    fracas_columns first;
+    TRY(fracas_columns_with_rate(analysis->table, &analysis->shown, &first));
     table->rows = FRACAS_RESULT_TABLE_HEAD + analysis->table->npoints;
-    table->columns = analysis->shown.count + NCOLUMNS;
+    table->columns = first.count + NCOLUMNS;
     table->cell = calloc(table->rows * table->columns, sizeof *table->cell);
-    if (!table->cell) return fracas_no_memory("the result table");
     painter paint = {
-        .analysis = analysis, .table = table, .unicode = unicode, .plus_minus = unicode ? "\u00b1" : "+-",
+        .analysis = analysis, .table = table, .first = &first, .unicode = unicode,
+        .plus_minus = unicode ? "\u00b1" : "+-",
         .size = prefix_of(analysis, offsetof(fracas_point_statistics, size)),
         .energy = prefix_of(analysis, offsetof(fracas_point_statistics, dissipated)),
     };
-    paint_head(&paint);
-    for (size_t p = 0; p < analysis->table->npoints; p++) paint_point(&paint, p);
-    return FRACAS_OK;
+    if (table->cell) {
+        paint_head(&paint);
+        for (size_t p = 0; p < analysis->table->npoints; p++) paint_point(&paint, p);
+    }
+    fracas_columns_clear(&first);
+    return table->cell ? FRACAS_OK : fracas_no_memory("the result table");
 }
 
 void fracas_result_table_clear(fracas_result_table *table)

@@ -12,8 +12,9 @@ static const double residual_limit = 1e-3; /* of the dissipated energy */
 static const double created_limit = 1e-2;  /* of the dissipated energy */
 static const double elements_limit = 10;   /* elements of a mean fragment */
 static const double dust_limit = 0.05;     /* share of all fragments */
+static const double zone_limit = 0.25;     /* fracture-limiting zone of a mean fragment (docs/results/ring.md) */
 
-enum { WARNINGS_PER_POINT = 10 }; /* at most what warn_of_point can say */
+enum { WARNINGS_PER_POINT = 12 }; /* at most what warn_of_point can say */
 
 typedef struct {
     size_t count;
@@ -38,7 +39,8 @@ static void warn_of_outcomes(const fracas_point_statistics *statistics, size_t p
             warn(list, p, "%lld of %lld realizations ended %s and are left out: the means may be biased",
                  (long long)statistics->outcome[o], all, fracas_outcome_name(o));
     if (statistics->outcome[FRACAS_INTACT] > 0)
-        warn(list, p, "%lld of %lld realizations ended INTACT, nothing broken: if that is unexpected, time.end is too early",
+        warn(list, p, "%lld of %lld realizations ended INTACT, nothing broken: if that is unexpected, load "
+             "harder or raise time.end",
              (long long)statistics->outcome[FRACAS_INTACT], all);
     if (statistics->outcome[FRACAS_TIME_LIMIT] > 0)
         warn(list, p, "%lld of %lld realizations were stopped by time.end with cracks still running (TIME_LIMIT): "
@@ -54,6 +56,12 @@ static void warn_of_point(const fracas_point_statistics *statistics, size_t p, w
     if (statistics->residual > residual_limit) {
         fracas_format_digits(statistics->residual, 2, value, sizeof value);
         warn(list, p, "ledger residual up to %s of the dissipated energy (more than 1e-3): lower time.safety", value);
+    }
+    if (statistics->drifted > 0) {
+        fracas_format_digits(100 * statistics->drift, 2, value, sizeof value);
+        warn(list, p, "energy drift above 1 %%: %lld of %lld usable realizations, their |residual| up to %s %% of their "
+             "largest energy: lower time.safety (above 5 %% during its run a realization ends ENERGY_DRIFT)",
+             (long long)statistics->drifted, (long long)statistics->usable, value);
     }
     if (statistics->created > created_limit) {
         fracas_format_digits(statistics->created, 2, value, sizeof value);
@@ -74,7 +82,12 @@ fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warn
     if (!list.warning) return fracas_no_memory("warnings");
     if (!analysis->header.complete)
         warn(&list, SIZE_MAX, "the study is not complete: realizations are missing or FAILED");
-    for (size_t p = 0; p < npoints; p++) warn_of_point(&analysis->point[p], p, &list);
+    for (size_t p = 0; p < npoints; p++) {
+        warn_of_point(&analysis->point[p], p, &list);
+        const double zones = fracas_columns_real(analysis->table, p, "cohesive.zone") / analysis->point[p].size.mean;
+        if (zones > zone_limit)
+            warn(&list, p, "cohesive.zone is %.2g of a mean fragment (more than 0.25): it influences the size: shorten it", zones);
+    }
     *warning = list.warning;
     *count = list.count;
     return FRACAS_OK;

@@ -21,4 +21,8 @@ double fracas_pow(double x, double y);
 /* Gamma function for 1 <= x <= 171, error below 1.5 ulp up to x = 2, below x ulp above; NaN elsewhere. */
 double fracas_gamma(double x);
 
+/* sin(pi x), cos(pi x) for |x| <= 2^52, error below 1 ulp; exact at whole and half x; NaN for other x. */
+double fracas_sinpi(double x);
+double fracas_cospi(double x);
+
 #endif

@@ -8,6 +8,7 @@
  *   lanes_and / lanes_or / lanes_any         of masks
  *   lanes_select(m, a, b)                    m ? a : b
  *   lanes_get(m, l)                          truth value of lane l
+ *   lanes_sqrt(a)                            the correctly rounded square root
  * and + - * / of C. Every operation is the IEEE one in every width and instruction set (contraction is off for
  * the whole build), so a lane's bits depend on its own values alone. Intrinsics are used only where GNU C has no
  * operator: masks and selection. The names are undefined again by base/lanes_end.h. */
@@ -33,6 +34,7 @@
 #define lanes_any LANES_NAME(fracas_lanes_any)
 #define lanes_select LANES_NAME(fracas_lanes_select)
 #define lanes_get LANES_NAME(fracas_lanes_get)
+#define lanes_sqrt LANES_NAME(fracas_lanes_sqrt)
 #define LANES_FUNCTION __attribute__((unused, always_inline)) static inline
 
 #if LANES == 1
@@ -49,6 +51,7 @@ LANES_FUNCTION vmask lanes_or(vmask a, vmask b) { return a | b; }
 LANES_FUNCTION int lanes_any(vmask m) { return m; }
 LANES_FUNCTION vd lanes_select(vmask m, vd a, vd b) { return m ? a : b; }
 LANES_FUNCTION int lanes_get(vmask m, int lane) { (void)lane; return m; }
+LANES_FUNCTION vd lanes_sqrt(vd a) { return __builtin_sqrt(a); }
 
 #else
 
@@ -82,6 +85,7 @@ LANES_FUNCTION vmask lanes_or(vmask a, vmask b) { return (vmask)(a | b); }
 LANES_FUNCTION int lanes_any(vmask m) { return m != 0; }
 LANES_FUNCTION vd lanes_select(vmask m, vd a, vd b) { return (vd)_mm512_mask_blend_pd(m, (__m512d)b, (__m512d)a); }
 LANES_FUNCTION int lanes_get(vmask m, int lane) { return m >> lane & 1; }
+LANES_FUNCTION vd lanes_sqrt(vd a) { return (vd)_mm512_sqrt_pd((__m512d)a); }
 
 #elif LANES == 4 && defined(__AVX2__)
 
@@ -93,6 +97,7 @@ LANES_FUNCTION vmask lanes_or(vmask a, vmask b) { return _mm256_or_pd(a, b); }
 LANES_FUNCTION int lanes_any(vmask m) { return _mm256_movemask_pd(m) != 0; }
 LANES_FUNCTION vd lanes_select(vmask m, vd a, vd b) { return (vd)_mm256_blendv_pd((__m256d)b, (__m256d)a, m); }
 LANES_FUNCTION int lanes_get(vmask m, int lane) { return _mm256_movemask_pd(m) >> lane & 1; }
+LANES_FUNCTION vd lanes_sqrt(vd a) { return (vd)_mm256_sqrt_pd((__m256d)a); }
 
 #else
 #error "4 lanes need AVX2, 8 lanes need AVX-512: narrower lanes in turn are faster than registers the CPU lacks"

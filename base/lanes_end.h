@@ -11,6 +11,7 @@
 #undef lanes_any
 #undef lanes_select
 #undef lanes_get
+#undef lanes_sqrt
 #undef LANES_FUNCTION
 #undef LANES_NAME
 #undef LANES_JOIN

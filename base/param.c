@@ -1,22 +1,68 @@
 #include "base/param.h"
 
+static const void *place(const fracas_param *param, const void *section)
+{
+    return (const char *)section + param->offset;
+}
+
+static const fracas_kind *chosen(const fracas_param *param, const void *section)
+{
+    return *(const fracas_kind *const *)place(param, section);
+}
+
+static double index_of(const fracas_param *param, const fracas_kind *choice)
+{
+    for (size_t c = 0; c < param->nchoices; c++)
+        if (param->choices[c] == choice) return (double)c;
+    return NAN;
+}
+
 double fracas_param_get(const fracas_param *param, const void *section)
 {
-    const char *at = (const char *)section + param->offset;
     switch (param->type) {
-    case FRACAS_INTEGER: return (double)*(const int64_t *)(const void *)at;
-    case FRACAS_BOOLEAN: return *(const bool *)(const void *)at ? 1.0 : 0.0;
+    case FRACAS_INTEGER: return (double)*(const int64_t *)place(param, section);
+    case FRACAS_BOOLEAN: return *(const bool *)place(param, section) ? 1.0 : 0.0;
+    case FRACAS_CHOICE: return index_of(param, chosen(param, section));
+    case FRACAS_ATTACHMENT: return NAN;
     case FRACAS_REAL: break;
     }
-    return *(const double *)(const void *)at;
+    return *(const double *)place(param, section);
 }
 
 void fracas_param_set(const fracas_param *param, void *section, double value)
 {
-    char *at = (char *)section + param->offset;
+    void *at = (char *)section + param->offset;
     switch (param->type) {
-    case FRACAS_INTEGER: *(int64_t *)(void *)at = (int64_t)value; break;
-    case FRACAS_BOOLEAN: *(bool *)(void *)at = value != 0.0; break;
-    case FRACAS_REAL: *(double *)(void *)at = value; break;
+    case FRACAS_INTEGER: *(int64_t *)at = (int64_t)value; break;
+    case FRACAS_BOOLEAN: *(bool *)at = value != 0.0; break;
+    case FRACAS_CHOICE: *(const fracas_kind **)at = param->choices[(size_t)value]; break;
+    case FRACAS_ATTACHMENT: break;
+    case FRACAS_REAL: *(double *)at = value; break;
     }
+}
+
+const fracas_attachment *fracas_param_attachment(const fracas_param *param, const void *section)
+{
+    return *(const fracas_attachment *const *)place(param, section);
+}
+
+void fracas_param_attach(const fracas_param *param, void *section, const fracas_attachment *attachment)
+{
+    *(const fracas_attachment **)(void *)((char *)section + param->offset) = attachment;
+}
+
+const char *fracas_param_text(const fracas_param *param, const void *section)
+{
+    if (param->type == FRACAS_CHOICE && chosen(param, section)) return chosen(param, section)->name;
+    const fracas_attachment *attachment =
+        param->type == FRACAS_ATTACHMENT ? fracas_param_attachment(param, section) : NULL;
+    return attachment ? attachment->digest : "";
+}
+
+const fracas_kind *fracas_kind_partner(const fracas_kind *kind, const fracas_section *section, size_t i)
+{
+    for (size_t g = 0; g < kind->ngoes_with; g++)
+        for (size_t k = 0; k < section->nkinds; k++)
+            if (section->kinds[k] == kind->goes_with[g] && i-- == 0) return section->kinds[k];
+    return NULL;
 }

@@ -17,8 +17,21 @@
 typedef enum {
     FRACAS_REAL,    /* double, may carry a unit */
     FRACAS_INTEGER, /* int64_t */
-    FRACAS_BOOLEAN  /* bool */
+    FRACAS_BOOLEAN, /* bool */
+    FRACAS_CHOICE,  /* const fracas_kind *, one of `choices` (which have no parameters); the first is the default */
+    FRACAS_ATTACHMENT /* const fracas_attachment *, a file named by its path; NULL where none is given */
 } fracas_param_type;
+
+/* What a selector can name. Objects with functions (a law, a distribution) have this as first member. */
+typedef struct fracas_kind fracas_kind;
+
+/* A file that a campaign file names, read whole along with it: the rooms that understand its content read no files. */
+typedef struct {
+    const char *path;   /* as named */
+    const char *text;   /* content, and a NUL after it */
+    size_t size;        /* bytes, without that NUL */
+    char digest[33];    /* of the content, XXH3 in hexadecimal: stands for the file wherever a point is identified */
+} fracas_attachment;
 
 /* A required value has no default. */
 #define FRACAS_REQUIRED NAN
@@ -33,15 +46,20 @@ typedef struct {
     double maximum;         /* INFINITY: no upper limit */
     bool minimum_open;      /* value must be > minimum */
     size_t offset;          /* of the value in the section's struct */
+    const fracas_kind *const *choices; /* of a FRACAS_CHOICE */
+    size_t nchoices;
 } fracas_param;
 
-/* What a selector can name. Objects with functions (a law, a distribution) have this as first member. */
-typedef struct {
+struct fracas_kind {
     const char *name;
     const char *doc;
     const fracas_param *params;
     size_t nparams;
-} fracas_kind;
+    /* Kinds of other sections that this one can be combined with. A section of which at least one kind is named here takes
+     * those only, and the first of them by default; of any other section it takes every kind. Only `model` restricts. */
+    const fracas_kind *const *goes_with;
+    size_t ngoes_with;
+};
 
 typedef struct {
     const char *name;                /* key of the section at the top of the file */
@@ -59,10 +77,28 @@ typedef struct {
 
 #define FRACAS_COUNT(array) (sizeof(array) / sizeof *(array))
 
-/* The value that `param` describes within the section's struct at `section`, as a double. */
+/* True for numbers and booleans: what the next two functions are for, a choice by its index in `choices`. */
+static inline bool fracas_param_is_text(const fracas_param *param)
+{
+    return param->type == FRACAS_CHOICE || param->type == FRACAS_ATTACHMENT;
+}
+
+/* The value that `param` describes within the section's struct at `section`, as a double: of a choice, its index (NaN for
+ * none of them); NaN of an attachment. */
 double fracas_param_get(const fracas_param *param, const void *section);
 
-/* Stores `value` (SI, already validated) at the place that `param` describes. */
+/* Stores `value` (SI, already validated; an index of a choice) at the place that `param` describes; nothing for an attachment. */
 void fracas_param_set(const fracas_param *param, void *section, double value);
+
+/* The same of an attachment; NULL for none. */
+const fracas_attachment *fracas_param_attachment(const fracas_param *param, const void *section);
+void fracas_param_attach(const fracas_param *param, void *section, const fracas_attachment *attachment);
+
+/* What stands for the value of a choice or attachment in a point: the name, the digest; "" where there is none, and for
+ * any other type. */
+const char *fracas_param_text(const fracas_param *param, const void *section);
+
+/* Number i, from 0, of the kinds of `section` that `kind` names in goes_with; NULL after the last. */
+const fracas_kind *fracas_kind_partner(const fracas_kind *kind, const fracas_section *section, size_t i);
 
 #endif

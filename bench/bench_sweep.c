@@ -1,12 +1,12 @@
-/* Speed of the bar's sweep: element-steps a second (elements x lanes x steps), ledger included, links active.
+/* Speed of the sweeps: element-steps a second (elements x lanes x steps), ledger included, links active.
  *
- *   bench_sweep [--elements N] [--lanes 1|4|8] [--isa baseline|avx2|avx512|best] [--seconds S]
+ *   bench_sweep [--model bar|ring|stershic] [--elements N] [--lanes 1|4|8] [--isa baseline|avx2|avx512|best] [--seconds S]
  *
  * A batch at 1e5 /s with strengths 300 MPa +- 0.33 % is run until half the interfaces have cracked (within a few steps all
  * have); then steps are timed in five blocks and the median is printed. */
 #include "engine/cohesive/law.h"
 #include "engine/loading/loading.h"
-#include "engine/mesh/bar_mesh.h"
+#include "engine/mesh/body.h"
 #include "engine/solver/batch.h"
 
 #include <getopt.h>
@@ -35,23 +35,41 @@ static void demand(fracas_err code)
     exit(code);
 }
 
-static fracas_spec reference(int64_t elements)
+/* A periodic bar; a free ring of the same length; that with Stershic's algorithm. */
+static fracas_spec reference(const char *model, int64_t elements)
 {
-    return (fracas_spec){
-        .formulation = &fracas_formulation_bar.kind, .geometry = {&fracas_ends_periodic, 0.05, 1e-6}, .mesh = {elements},
-        .material = {275e9, 2750}, .cohesive = {&fracas_law_nitsche, 100, 4},
-        .loading = {&fracas_loading_imposed_rate, 1e5}, .time = {.stop = &fracas_stop_time, .end = 1, .safety = 0.25}};
+    const double radius = 0.05 / (2 * 3.14159265358979323846);
+    fracas_spec spec = {
+        .formulation = &fracas_formulation_bar.kind,
+        .geometry = {.shape = &fracas_shape_bar, .ends = &fracas_ends_periodic, .length = 0.05, .area = 1e-6},
+        .mesh = {.spacing = &fracas_spacing_uniform, .elements = elements}, .material = {275e9, 2750},
+        .cohesive = {.law = &fracas_law_nitsche, .fracture_energy = 100, .beta = 4},
+        .loading = {.type = &fracas_loading_imposed_rate, .rate = 1e5}, .time = {.stop = &fracas_stop_time, .end = 1, .safety = 0.25}};
+    if (strcmp(model, "bar") == 0) return spec;
+    spec.formulation = &fracas_formulation_ring.kind;
+    spec.geometry = (fracas_geometry){.shape = &fracas_shape_ring, .direction = &fracas_direction_current, .radius = radius, .area = 1e-6};
+    spec.loading = (fracas_loading){.type = &fracas_loading_initial_velocity, .radial = 1e5 * radius};
+    if (strcmp(model, "ring") == 0) return spec;
+    if (strcmp(model, "stershic") != 0) {
+        fprintf(stderr, "bench_sweep: no model `%s`; there are bar, ring, stershic\n", model);
+        exit(2);
+    }
+    spec.cohesive = (fracas_cohesive){.law = &fracas_law_stershic, .fracture_energy = 100, .penalty = 1, .refinement = 0.25,
+                                      .critical_zone = &fracas_zone_steep};
+    return spec;
 }
 
 int main(int argc, char **argv)
 {
+    const char *name = "bar";
     int64_t elements = 2500;
     int lanes = 8;
     double seconds = 1;
     fracas_isa isa = FRACAS_ISA_BEST;
-    static const struct option known[] = {{"elements", 1, 0, 'n'}, {"lanes", 1, 0, 'l'}, {"isa", 1, 0, 'i'}, {"seconds", 1, 0, 's'}, {0}};
+    static const struct option known[] = {{"model", 1, 0, 'm'}, {"elements", 1, 0, 'n'}, {"lanes", 1, 0, 'l'}, {"isa", 1, 0, 'i'}, {"seconds", 1, 0, 's'}, {0}};
     for (int o; (o = getopt_long(argc, argv, "", known, NULL)) != -1;) {
-        if (o == 'n') elements = atoll(optarg);
+        if (o == 'm') name = optarg;
+        else if (o == 'n') elements = atoll(optarg);
         else if (o == 'l') lanes = atoi(optarg);
         else if (o == 's') seconds = atof(optarg);
         else if (o == 'i') {
@@ -59,7 +77,7 @@ int main(int argc, char **argv)
             if (isa == FRACAS_ISA_BEST && strcmp(optarg, "best") != 0) return 2;
         } else return 2;
     }
-    fracas_spec spec = reference(elements);
+    fracas_spec spec = reference(name, elements);
     fracas_model *model;
     fracas_batch *batch;
     fracas_batch_options options = {.width = lanes, .isa = isa};
@@ -90,7 +108,7 @@ int main(int argc, char **argv)
         rate[block] = (double)(done * elements * lanes) / spent;
     }
     qsort(rate, 5, sizeof *rate, by_value);
-    printf("elements %lld lanes %d isa %s cracked %.0f %% : %.3g element-steps/s (min %.3g, max %.3g)\n", (long long)elements,
+    printf("%s: elements %lld lanes %d isa %s cracked %.0f %% : %.3g element-steps/s (min %.3g, max %.3g)\n", name, (long long)elements,
            lanes, fracas_isa_name[batch->step.isa], 100.0 * (double)batch->step.cracked[0] / (double)elements, rate[2], rate[0], rate[4]);
     fracas_batch_destroy(batch);
     fracas_model_destroy(model);

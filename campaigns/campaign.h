@@ -24,6 +24,14 @@ typedef struct {
     int64_t replicas;
 } fracas_point;
 
+/* A file that the campaign file names, as it was read. */
+typedef struct fracas_attached {
+    fracas_attachment attachment;
+    struct fracas_attached *next;
+} fracas_attached;
+
+#define FRACAS_ATTACHMENTS "attachments" /* folder beside a written campaign file */
+
 typedef struct fracas_campaign {
     char *name;
     uint64_t seed;
@@ -31,6 +39,7 @@ typedef struct fracas_campaign {
     size_t npoints;
     fracas_point *point;        /* plan order = file order of the sweep, last axis fastest */
     fracas_point_table table;   /* the same points as columns */
+    fracas_attached *attached;  /* all of them; two may have the same content */
     fracas_hash hash;           /* over seed, output, and every point's hash and replicas in order */
     struct fracas_campaign_memory *memory; /* owns what the above points to */
 } fracas_campaign;
@@ -41,7 +50,7 @@ FRACAS_MUST_USE fracas_err fracas_campaign_read(const char *path, fracas_campaig
 void fracas_campaign_destroy(fracas_campaign *campaign); /* NULL is allowed */
 
 /* Writes the campaign as resolved: SI, every default spelled out, itself a campaign file that reads back to
- * the same points, hashes and replicas. */
+ * the same points, hashes and replicas, where the files that the campaign names are beside it, as attachments/DIGEST. */
 FRACAS_MUST_USE fracas_err fracas_campaign_write(const fracas_campaign *campaign, FILE *out);
 
 /* FRACAS_OK when `now` has every point of `before` with at least its replicas, and the same seed and output

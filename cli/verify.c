@@ -73,7 +73,8 @@ static fracas_err verify(const fracas_arguments *arguments)
 
 const fracas_command fracas_command_verify = {
     .name = "verify", .operand = "STUDY", .doc = "Checks every byte of STUDY",
-    .more = "\nSizes and checksums of all segments, the index against them row by row, study.h5 record by record, and campaign.yaml.\n"
+    .more = "\nSizes and checksums of all segments, the index against them row by row, study.h5 record by record, and campaign.yaml with\n"
+            "the files it names.\n"
             "Each problem is one line: what, where, and what to do. Status 5 if there is any.\n",
     .options = options, .noptions = FRACAS_COUNT(options), .run = verify,
 };

@@ -22,7 +22,10 @@ size_t fracas_model_interfaces(const fracas_model *model);  /* strengths a reali
 size_t fracas_model_elements(const fracas_model *model);
 double fracas_model_critical_time_step(const fracas_model *model);  /* s */
 double fracas_model_time_step(const fracas_model *model);           /* s, = safety * critical */
-int64_t fracas_model_steps(const fracas_model *model);              /* steps to time.end */
+int64_t fracas_model_steps(const fracas_model *model);              /* steps to time.end, at most */
+
+/* Volume of the body that interface `interface` stands for [m3]: area times the mean length of its two elements. */
+double fracas_model_interface_volume(const fracas_model *model, size_t interface);
 
 /* Checks one strength [Pa] against the mesh: FRACAS_USAGE, saying what would do, where the law could not
  * dissipate G_c (K <= sigma_c/delta_c). */

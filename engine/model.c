@@ -1,9 +1,32 @@
 #include "engine/formulation/formulation.h"
 
+#include "engine/cohesive/law.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 #define MOST_STEPS 1e12 /* years of computing, for a bar of two elements */
+
+/* Steps to time.end, at most: stershic refines its time step twice. */
+static double most_steps(const fracas_model *model)
+{
+    const fracas_cohesive *cohesive = &model->spec.cohesive;
+    const double finest = cohesive->law == &fracas_law_stershic ? cohesive->refinement * cohesive->refinement : 1.0;
+    return ceil(model->spec.time.end / (finest * model->time_step));
+}
+
+static fracas_err check_steps(const fracas_model *model)
+{
+    const double step = model->time_step, end = model->spec.time.end;
+    if (!(step > 0 && isfinite(step)))
+        return fracas_fail(FRACAS_USAGE, "time step %g s: check material, mesh and time.safety", step);
+    if (end / step > MOST_STEPS)
+        return fracas_fail(FRACAS_USAGE, "time.end %g s is %.3g time steps of %.3g s; %g are allowed", end, end / step, step,
+                           MOST_STEPS);
+    if (most_steps(model) <= MOST_STEPS) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "time.end %g s is %.3g of the finest time steps, refined twice by cohesive.refinement %g; %g are "
+                       "allowed: raise cohesive.refinement", end, most_steps(model), model->spec.cohesive.refinement, MOST_STEPS);
+}
 
 fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
 {
@@ -12,12 +35,9 @@ fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
     model->spec = *spec;
     model->formulation = (const fracas_formulation *)(const void *)spec->formulation; /* .kind is its first member */
     fracas_err code = model->formulation->model_init(model);
+    model->spec.mesh.noise = NULL; /* the caller's, and done with */
     model->time_step = spec->time.safety * model->critical_step;
-    if (!code && !(model->time_step > 0 && isfinite(model->time_step)))
-        code = fracas_fail(FRACAS_USAGE, "time step %g s: check material, mesh and time.safety", model->time_step);
-    if (!code && spec->time.end / model->time_step > MOST_STEPS)
-        code = fracas_fail(FRACAS_USAGE, "time.end %g s is %.3g time steps of %.3g s; %g are allowed", spec->time.end,
-                           spec->time.end / model->time_step, model->time_step, MOST_STEPS);
+    if (!code) code = check_steps(model);
     if (code) {
         fracas_model_destroy(model);
         return code;
@@ -28,6 +48,7 @@ fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
 
 void fracas_model_destroy(fracas_model *model)
 {
+    if (model) free(model->table);
     free(model);
 }
 
@@ -36,9 +57,11 @@ size_t fracas_model_elements(const fracas_model *model) { return model->elements
 double fracas_model_critical_time_step(const fracas_model *model) { return model->critical_step; }
 double fracas_model_time_step(const fracas_model *model) { return model->time_step; }
 
-int64_t fracas_model_steps(const fracas_model *model)
+int64_t fracas_model_steps(const fracas_model *model) { return (int64_t)most_steps(model); }
+
+double fracas_model_interface_volume(const fracas_model *model, size_t interface)
 {
-    return (int64_t)ceil(model->spec.time.end / model->time_step);
+    return model->spec.geometry.area * model->formulation->interface_length(model, interface);
 }
 
 fracas_err fracas_model_check_strength(const fracas_model *model, double strength)

@@ -5,10 +5,10 @@
 #include "engine/formulation/formulation.h"
 #include "engine/loading/loading.h"
 #include "engine/material/elastic.h"
-#include "engine/mesh/bar_mesh.h"
+#include "engine/mesh/body.h"
 #include "engine/solver/stop.h"
 
-static const fracas_kind *const formulations[] = {&fracas_formulation_bar.kind};
+static const fracas_kind *const formulations[] = {&fracas_formulation_bar.kind, &fracas_formulation_ring.kind};
 static const fracas_section formulation_section = {
     .name = "model", .doc = "What is broken up", .kinds = formulations, .nkinds = FRACAS_COUNT(formulations),
     .kind_offset = 0, .offset = offsetof(fracas_spec, formulation), .hashed = true,

@@ -8,13 +8,20 @@
 #include <stdint.h>
 
 typedef struct {
-    const fracas_kind *ends; /* periodic, held */
-    double length;           /* m */
-    double area;             /* m2 */
+    const fracas_kind *shape;     /* bar, ring */
+    const fracas_kind *ends;      /* bar: periodic, held */
+    const fracas_kind *direction; /* ring: initial, current; in which its interfaces open */
+    double length; /* m, bar */
+    double radius; /* m, ring */
+    double area;   /* m2 */
 } fracas_geometry;
 
 typedef struct {
+    const fracas_kind *spacing; /* uniform, graded, perturbed */
     int64_t elements;
+    double ratio;        /* graded: size of the last element / size of the first; 1 */
+    double amplitude;    /* perturbed: largest move of a node / element size; 1 */
+    const double *noise; /* perturbed: [elements + 1] in [-1, 1], move of each node / largest; not a parameter: drawn outside */
 } fracas_mesh;
 
 typedef struct {
@@ -24,13 +31,24 @@ typedef struct {
 
 typedef struct {
     const fracas_kind *law;
-    double fracture_energy; /* J/m2 */
-    double beta;            /* interface stiffness K = beta E/h; 1 */
+    double fracture_energy;  /* J/m2; stershic: 0 where the critical opening is given */
+    double beta;             /* nitsche: interface stiffness K = beta E/h; 1 */
+    double critical_opening; /* m, stershic: 0 where the fracture energy is given */
+    double penalty;          /* stershic: stiffness of contact / (E/h); 1 */
+    double refinement;       /* stershic: factor xi of the time step for each critical zone; 1 */
+    const fracas_kind *critical_zone; /* stershic: softening, steep; which open links refine the time step */
+    double zone;             /* m, stershic: no interface opens within this distance of an open one; 0: no zone */
 } fracas_cohesive;
 
 typedef struct {
-    const fracas_kind *type;
-    double rate; /* 1/s */
+    const fracas_kind *type;      /* imposed-rate, initial-velocity, held-velocity, force */
+    double rate;                  /* 1/s, imposed-rate */
+    double radial, circumferential; /* m/s, initial-velocity */
+    const fracas_kind *direction; /* held-velocity, force: radial, circumferential */
+    double velocity;              /* m/s, held-velocity */
+    double acceleration;          /* m/s2, held-velocity */
+    double force;                 /* N/m, force: per length of the ring */
+    double force_rate;            /* N/(m s), force */
 } fracas_loading;
 
 typedef struct {
@@ -50,6 +68,15 @@ typedef struct {
     fracas_loading loading;
     fracas_time time;
 } fracas_spec;
+
+/* What follows from the parameters alone, without a model. */
+double fracas_spec_length(const fracas_spec *spec);           /* m, of the bar or along the ring */
+double fracas_spec_interface_volume(const fracas_spec *spec); /* m3 of the body that an interface stands for, on average */
+/* Strain rate that the loading begins with [1/s]: the imposed rate, or radial velocity / radius, initial or held; NaN for a
+ * loading that gives none (a force, a circumferential velocity). */
+double fracas_spec_strain_rate(const fracas_spec *spec);
+/* G_c [J/m2] of an interface of this strength [Pa]: as given, or sigma_c delta_c/2. */
+double fracas_spec_fracture_energy(const fracas_spec *spec, double strength);
 
 /* Registry of the engine: `model` is the section of that name without parameters of its own, and the
  * others follow in the order of the struct; offsets are into fracas_spec. */

@@ -1,14 +1,16 @@
 /* One strength for every interface. */
 #include "sampler/distribution.h"
 
-static double constant_quantile(const fracas_strength *strength, double u)
+static double constant_quantile(const fracas_strength *strength, double volume, double u)
 {
+    (void)volume;
     (void)u;
     return strength->value;
 }
 
-static double constant_mean(const fracas_strength *strength)
+static double constant_mean(const fracas_strength *strength, double volume)
 {
+    (void)volume;
     return strength->value;
 }
 

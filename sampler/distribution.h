@@ -7,14 +7,21 @@
 
 typedef struct {
     fracas_kind kind; /* first: a strength names its distribution by this */
-    double (*quantile)(const fracas_strength *strength, double u); /* F^-1(u) [Pa], 0 < u < 1 */
-    double (*mean)(const fracas_strength *strength);               /* [Pa] */
-    fracas_err (*check)(const fracas_strength *strength);          /* what single ranges cannot say; may be NULL */
+    double (*quantile)(const fracas_strength *strength, double volume, double u); /* as fracas_strength_quantile */
+    double (*mean)(const fracas_strength *strength, double volume);               /* as fracas_strength_mean */
+    fracas_err (*check)(const fracas_strength *strength); /* what single ranges cannot say; may be NULL */
+    /* Both NULL where strengths are drawn: how many there are, and sigma_c[i*stride] = the i-th. */
+    size_t (*count)(const fracas_strength *strength);
+    void (*fill)(const fracas_strength *strength, size_t n, size_t stride, double *sigma_c);
 } fracas_distribution;
 
 extern const fracas_distribution fracas_constant;
 extern const fracas_distribution fracas_uniform;
 extern const fracas_distribution fracas_weibull;
 extern const fracas_distribution fracas_lognormal;
+extern const fracas_distribution fracas_normal;
+extern const fracas_distribution fracas_gamma_law; /* fracas_gamma is the function */
+extern const fracas_distribution fracas_flaws;
+extern const fracas_distribution fracas_file_distribution; /* fracas_file is a campaign file */
 
 #endif

@@ -5,14 +5,16 @@
 #include "sampler/normal.h"
 
 /* (sampling.7) */
-static double lognormal_quantile(const fracas_strength *strength, double u)
+static double lognormal_quantile(const fracas_strength *strength, double volume, double u)
 {
+    (void)volume;
     return strength->median * fracas_exp(strength->sigma * fracas_normal_quantile(u));
 }
 
 /* (sampling.8) */
-static double lognormal_mean(const fracas_strength *strength)
+static double lognormal_mean(const fracas_strength *strength, double volume)
 {
+    (void)volume;
     return strength->median * fracas_exp(0.5 * strength->sigma * strength->sigma);
 }
 

@@ -1,4 +1,5 @@
-/* The normal quantile by rational approximation: AS 241, PPND16 (Wichura 1988). */
+/* The normal quantile by rational approximation: AS 241, PPND16 (Wichura 1988); the normal tail by a Chebyshev series
+ * in (z - 7)/(z + 7), after Shepherd and Laframboise (Math. Comp. 36, 249-253, 1981). */
 #include "sampler/normal.h"
 
 #include "base/elementary.h"
@@ -42,4 +43,41 @@ double fracas_normal_quantile(double u)
     double r = sqrt(-fracas_log(q < 0.0 ? u : 1.0 - u));
     double z = r <= 5.0 ? ratio(c, d, r - 1.6) : ratio(e, f, r - 5.0);
     return q < 0.0 ? -z : z;
+}
+
+/* c[0]/2 T_0(t) + c[1] T_1(t) + ... + c[n-1] T_(n-1)(t) by Clenshaw's recurrence. */
+static double chebyshev(const double *c, int n, double t)
+{
+    double next = 0.0, after = 0.0;
+    for (int i = n - 1; i > 0; i--) {
+        double here = 2.0 * t * next - after + c[i];
+        after = next;
+        next = here;
+    }
+    return t * next - after + 0.5 * c[0];
+}
+
+/* e^(-z^2/2): z is cut to 1/16, so that its square is exact and only the small rest is rounded. */
+static double bell(double z)
+{
+    double cut = floor(z * 16.0) * 0.0625;
+    return fracas_exp(-0.5 * cut * cut) * fracas_exp(-0.5 * (z - cut) * (z + cut));
+}
+
+/* (sampling.17) */
+double fracas_normal_upper(double z)
+{
+    static const double c[25] = {/* (1 + z) e^(z^2/2) P(Z > z) in z >= 0: 2^-58 */
+        0x1.d36deea4cdb3ap-1, -0x1.0bc4418d1b038p-4, 0x1.7c0238fbf603bp-9, 0x1.48c7bf2e330fbp-7,
+        -0x1.05865b53da31bp-7, 0x1.10421b3f77222p-8, -0x1.c4b5596594d1ep-10, 0x1.3dceb05f4176dp-11,
+        -0x1.801a5ebde5c1ep-13, 0x1.90bbc2cd1df84p-15, -0x1.655ecff672d18p-17, 0x1.0944533351bfap-19,
+        -0x1.33e822d9ab7eep-22, 0x1.cd1e1ffa7b2d9p-26, 0x1.112080ca7e8fep-33, -0x1.40c0faf572e1dp-31,
+        0x1.c02c0eee4906fp-34, -0x1.044e9576dd1a2p-38, -0x1.039ff560a7a2ep-39, 0x1.922c2afe8449ap-42,
+        -0x1.95e171c73080fp-51, -0x1.509b32d805146p-47, 0x1.3a5472cc91c1dp-50, 0x1.52b9c4b656065p-53,
+        -0x1.a636d34e0e5d9p-55,
+    };
+    double size = fabs(z);
+    if (size > 40.0) return z > 0.0 ? 0.0 : 1.0; /* below the smallest double */
+    double tail = bell(size) * chebyshev(c, 25, (size - 7.0) / (size + 7.0)) / (1.0 + size);
+    return z < 0.0 ? 1.0 - tail : tail;
 }

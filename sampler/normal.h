@@ -6,4 +6,7 @@
  * 477-484, 1988). */
 double fracas_normal_quantile(double u);
 
+/* P(Z > z) of a standard normal Z, any z, to 2e-15 relative; P(Z <= z) is fracas_normal_upper(-z). */
+double fracas_normal_upper(double z);
+
 #endif

@@ -18,6 +18,11 @@ typedef struct {
     double shape;   /* 1 */
     double median;  /* Pa, lognormal: exp(mu) */
     double sigma;   /* 1, lognormal: standard deviation of the logarithm */
+    double mean;      /* Pa, normal, before it is cut off at 0 */
+    double deviation; /* Pa, normal */
+    double density;   /* 1/m3, flaws: their mean number per volume */
+    double exponent;  /* 1, flaws: of the power law of their strengths */
+    const fracas_attachment *file; /* file: a strength for each interface */
 } fracas_strength;
 
 /* The section `strength`; its offset is 0: the owner says where the struct is. */
@@ -35,6 +40,7 @@ typedef struct {
 } fracas_stream;
 
 #define FRACAS_PURPOSE_STRENGTH 1u
+#define FRACAS_PURPOSE_MESH 2u
 
 /* u in (0, 1): word 0 of Philox4x64-10 with key (seed, purpose) and counter (site, replica, point),
  * as ((x >> 12) + 1/2) 2^-52. site = interface + Gauss point * 2^48.
@@ -42,14 +48,19 @@ typedef struct {
 double fracas_stream_uniform(const fracas_stream *stream, uint64_t site);
 
 /* sigma_c[i*stride] = F^-1(u_i) [Pa] for interfaces i = 0 .. n-1, whatever n and stride; `stride` lets a lane of a
- * batch be filled in place. */
+ * batch be filled in place. `volume`: [n], as for fracas_strength_quantile. Of a file, its value i, whatever the stream (NaN
+ * beyond its end). */
 void fracas_strength_sample(const fracas_strength *strength, const fracas_stream *stream,
-                            size_t n, size_t stride, double *sigma_c);
+                            size_t n, const double *volume, size_t stride, double *sigma_c);
 
-/* F^-1(u) [Pa], 0 < u < 1. */
-double fracas_strength_quantile(const fracas_strength *strength, double u);
+/* Number of strengths that there are, where they are given (distribution `file`) and not drawn; 0: as many as one likes. */
+size_t fracas_strength_count(const fracas_strength *strength);
 
-/* Mean of the distribution [Pa], same bits on every CPU. */
-double fracas_strength_mean(const fracas_strength *strength);
+/* F^-1(u) [Pa], 0 < u < 1, of an interface that stands for `volume` [m3] of the body; of a file, the smallest for u < 1/2, else
+ * the largest. Only the distribution flaws depends on the volume. */
+double fracas_strength_quantile(const fracas_strength *strength, double volume, double u);
+
+/* Mean of the distribution [Pa], same bits on every CPU; `volume` as for fracas_strength_quantile. */
+double fracas_strength_mean(const fracas_strength *strength, double volume);
 
 #endif

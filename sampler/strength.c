@@ -6,6 +6,10 @@ static const fracas_kind *const distributions[] = {
     &fracas_uniform.kind,
     &fracas_lognormal.kind,
     &fracas_constant.kind,
+    &fracas_normal.kind,
+    &fracas_gamma_law.kind,
+    &fracas_flaws.kind,
+    &fracas_file_distribution.kind,
 };
 static fracas_err check_section(const void *section)
 {
@@ -29,21 +33,31 @@ fracas_err fracas_strength_check(const fracas_strength *strength)
     return distribution->check ? distribution->check(strength) : FRACAS_OK;
 }
 
-double fracas_strength_quantile(const fracas_strength *strength, double u)
+double fracas_strength_quantile(const fracas_strength *strength, double volume, double u)
 {
-    return distribution_of(strength)->quantile(strength, u);
+    return distribution_of(strength)->quantile(strength, volume, u);
 }
 
-double fracas_strength_mean(const fracas_strength *strength)
+double fracas_strength_mean(const fracas_strength *strength, double volume)
 {
-    return distribution_of(strength)->mean(strength);
+    return distribution_of(strength)->mean(strength, volume);
+}
+
+size_t fracas_strength_count(const fracas_strength *strength)
+{
+    const fracas_distribution *distribution = distribution_of(strength);
+    return distribution->count ? distribution->count(strength) : 0;
 }
 
 /* (sampling.3) */
 void fracas_strength_sample(const fracas_strength *strength, const fracas_stream *stream,
-                            size_t n, size_t stride, double *sigma_c)
+                            size_t n, const double *volume, size_t stride, double *sigma_c)
 {
     const fracas_distribution *distribution = distribution_of(strength);
+    if (distribution->fill) {
+        distribution->fill(strength, n, stride, sigma_c);
+        return;
+    }
     for (size_t i = 0; i < n; i++)
-        sigma_c[i * stride] = distribution->quantile(strength, fracas_stream_uniform(stream, i));
+        sigma_c[i * stride] = distribution->quantile(strength, volume[i], fracas_stream_uniform(stream, i));
 }

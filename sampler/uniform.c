@@ -2,13 +2,15 @@
 #include "sampler/distribution.h"
 
 /* (sampling.4) */
-static double uniform_quantile(const fracas_strength *strength, double u)
+static double uniform_quantile(const fracas_strength *strength, double volume, double u)
 {
+    (void)volume;
     return strength->minimum + (strength->maximum - strength->minimum) * u;
 }
 
-static double uniform_mean(const fracas_strength *strength)
+static double uniform_mean(const fracas_strength *strength, double volume)
 {
+    (void)volume;
     return strength->minimum + 0.5 * (strength->maximum - strength->minimum);
 }
 

@@ -2,26 +2,20 @@
 #include "sampler/distribution.h"
 
 #include "base/elementary.h"
-
-/* (sampling.10) -ln(1 - u), accurate in both tails: `lost` is what the rounding of 1 - u loses, nothing for the u of
- * a stream. */
-static double exponential(double u)
-{
-    double rest = 1.0 - u;
-    double lost = (1.0 - rest) - u;
-    return -(fracas_log(rest) + lost / rest);
-}
+#include "sampler/exponential.h"
 
 /* (sampling.5) As exp(ln(t)/shape): a power with the rounded exponent 1/shape would be no more accurate. */
-static double weibull_quantile(const fracas_strength *strength, double u)
+static double weibull_quantile(const fracas_strength *strength, double volume, double u)
 {
-    double power = fracas_exp(fracas_log(exponential(u)) / strength->shape);
+    (void)volume;
+    double power = fracas_exp(fracas_log(fracas_exponential_quantile(u)) / strength->shape);
     return strength->minimum + strength->scale * power;
 }
 
 /* (sampling.6) */
-static double weibull_mean(const fracas_strength *strength)
+static double weibull_mean(const fracas_strength *strength, double volume)
 {
+    (void)volume;
     return strength->minimum + strength->scale * fracas_gamma(1.0 + 1.0 / strength->shape);
 }
 

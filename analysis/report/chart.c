@@ -8,7 +8,7 @@
 
 enum { RIGHT = 16, LINE_HEIGHT = 19, SWATCH = 30, GAP = 14, TICK = 4 }; /* pixels */
 enum { LEGEND_MOST = 12 }; /* further series are counted, not named */
-enum { COLOURS = 6, DASHES = 5, SHAPES = 4 };
+enum { COLOURS = FRACAS_CHART_COLOURS, DASHES = 5, SHAPES = 4 };
 
 static const double character = 7.6; /* width of a mean character of 13 px sans serif */
 
@@ -19,12 +19,15 @@ static const char style_light[] =
     ".chart .line{fill:none;stroke:currentColor;stroke-width:1.8;stroke-linejoin:round}\n"
     ".chart .bar{fill:none;stroke:currentColor;stroke-width:1.4}\n"
     ".chart .mark{fill:currentColor;stroke:#fff;stroke-width:.8}\n"
+    ".chart .band{fill:currentColor;stroke:#fff;stroke-width:.5}\n"
+    ".chart .ink{fill:none;stroke:#1b1f24;stroke-width:1.1;stroke-linejoin:round}.chart .dust{fill:#1b1f24}\n"
     ".chart .paper{fill:#fff}\n"
     ".c0{color:#0072B2}.c1{color:#D55E00}.c2{color:#009E73}.c3{color:#CC79A7}.c4{color:#E69F00}.c5{color:#56B4E9}\n";
 
 static const char style_dark[] =
     "@media screen and (prefers-color-scheme:dark){"
-    ".chart text{fill:#e6e9ed}.chart .grid{stroke:#30363d}.chart .axis{stroke:#9aa4af}.chart .mark{stroke:#14181d}"
+    ".chart text{fill:#e6e9ed}.chart .grid{stroke:#30363d}.chart .axis{stroke:#9aa4af}.chart .mark,"
+    ".chart .band{stroke:#14181d}.chart .ink{stroke:#e6e9ed}.chart .dust{fill:#e6e9ed}"
     ".c0{color:#3d9fdb}.c1{color:#ee7c2b}.c2{color:#1cc194}}\n";
 
 void fracas_chart_init(fracas_chart *chart)
@@ -355,20 +358,25 @@ static double place(frame *f, const fracas_chart *chart, size_t p, double left, 
     return f->y.from + (*panel->x.label ? 48 : 28);
 }
 
+void fracas_svg_begin(const char *title, int width, double height, bool standalone, FILE *out)
+{
+    fprintf(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" viewBox=\"0 0 %d %.0f\"", width,
+            height);
+    if (standalone) fprintf(out, " width=\"%d\" height=\"%.0f\"", width, height);
+    fputs(" role=\"img\" aria-label=\"", out);
+    fracas_markup_text(title, out);
+    fputs("\">\n", out);
+    if (standalone)
+        fprintf(out, "<style>\n%s</style>\n<rect class=\"paper\" width=\"%d\" height=\"%.0f\"/>\n", style_light,
+                width, height);
+}
+
 void fracas_chart_write(const fracas_chart *chart, bool standalone, FILE *out)
 {
     frame f;
     double left = left_margin(chart), height = 4;
     for (size_t p = 0; p < chart->npanels; p++) height = place(&f, chart, p, left, height, out);
-    fprintf(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" viewBox=\"0 0 %d %.0f\"", chart->width,
-            height);
-    if (standalone) fprintf(out, " width=\"%d\" height=\"%.0f\"", chart->width, height);
-    fputs(" role=\"img\" aria-label=\"", out);
-    fracas_markup_text(chart->title, out);
-    fputs("\">\n", out);
-    if (standalone)
-        fprintf(out, "<style>\n%s</style>\n<rect class=\"paper\" width=\"%d\" height=\"%.0f\"/>\n", style_light,
-                chart->width, height);
+    fracas_svg_begin(chart->title, chart->width, height, standalone, out);
     double top = 4;
     for (size_t p = 0; p < chart->npanels; p++) {
         top = place(&f, chart, p, left, top, out);

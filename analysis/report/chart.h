@@ -49,6 +49,8 @@ typedef struct {
 
 enum { FRACAS_CHART_WIDE = 470, FRACAS_CHART_NARROW = 380 }; /* narrow enough for text to be readable on a phone */
 
+enum { FRACAS_CHART_COLOURS = 6 }; /* classes c0 to c5 of the style sheet */
+
 /* A wide chart without panels. */
 void fracas_chart_init(fracas_chart *chart);
 void fracas_chart_clear(fracas_chart *chart);
@@ -59,8 +61,10 @@ fracas_panel *fracas_chart_add(fracas_chart *chart, double height);
 FRACAS_MUST_USE fracas_err fracas_panel_add(fracas_panel *panel, fracas_series_kind kind, unsigned look, size_t n,
                                             fracas_series **series);
 
-/* Writes the <svg> element. `standalone`: a file of its own, with its style, on white; else for a page that has
- * fracas_chart_style, light or dark as the reader has it. */
+/* Opens the <svg> element of a drawing of so many pixels; who draws closes it. `standalone`: a file of its own, with its
+ * style, on white; else for a page that has fracas_chart_style, light or dark as the reader has it. */
+void fracas_svg_begin(const char *title, int width, double height, bool standalone, FILE *out);
+/* Writes the whole element. */
 void fracas_chart_write(const fracas_chart *chart, bool standalone, FILE *out);
 
 /* Style sheet of the charts of a page: light, then dark inside its media query. Colours of Okabe and Ito (2008). */

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static void put_real(double value, FILE *out)
+void fracas_csv_real(double value, FILE *out)
 {
     putc(',', out);
     if (isfinite(value)) fprintf(out, "%.15g", value);
@@ -40,7 +40,7 @@ static void point_line(const fracas_analysis *analysis, size_t p, FILE *out)
     fprintf(out, "%zu,%s,%" PRId64, p, hash, table->point[p].replicas);
     for (size_t c = 0; c < table->ncolumns; c++) {
         if (!table->column[c].text) {
-            put_real(table->point[p].value[c].real, out);
+            fracas_csv_real(table->point[p].value[c].real, out);
             continue;
         }
         putc(',', out);
@@ -49,7 +49,7 @@ static void point_line(const fracas_analysis *analysis, size_t p, FILE *out)
     for (size_t i = 0; i < fracas_nstatistics; i++) {
         const void *value = (const char *)statistics + fracas_statistics[i].offset;
         if (fracas_statistics[i].integer) fprintf(out, ",%" PRId64, *(const int64_t *)value);
-        else put_real(*(const double *)value, out);
+        else fracas_csv_real(*(const double *)value, out);
     }
     for (int o = 0; o < FRACAS_NOUTCOMES; o++) fprintf(out, ",%" PRId64, statistics->outcome[o]);
     putc('\n', out);
@@ -76,11 +76,11 @@ fracas_err fracas_csv_fragments(const fracas_analysis *analysis, FILE *out)
         for (size_t i = 0; i < record.nfragment && !err; i++) {
             const fracas_fragment *fragment = &record.fragment[i];
             fprintf(out, "%zu,%" PRId64 ",%s,%zu", point, replica, fracas_outcome_name(record.outcome), i);
-            put_real(fragment->mass, out);
-            put_real(fragment->size, out);
+            fracas_csv_real(fragment->mass, out);
+            fracas_csv_real(fragment->size, out);
             fprintf(out, ",%" PRId64 ",%" PRId64, fragment->elements, fragment->dust);
-            for (int axis = 0; axis < 3; axis++) put_real(fragment->position[axis], out);
-            for (int axis = 0; axis < 3; axis++) put_real(fragment->velocity[axis], out);
+            for (int axis = 0; axis < 3; axis++) fracas_csv_real(fragment->position[axis], out);
+            for (int axis = 0; axis < 3; axis++) fracas_csv_real(fragment->velocity[axis], out);
             putc('\n', out);
         }
         fracas_record_clear(&record);

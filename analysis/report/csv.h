@@ -4,6 +4,9 @@
 
 #include "analysis/study.h"
 
+/* A comma and the value. */
+void fracas_csv_real(double value, FILE *out);
+
 /* A line a point: its index and hash, every parameter and every statistic (the keys of the JSON summary), outcomes. */
 void fracas_csv_points(const fracas_analysis *analysis, FILE *out);
 

@@ -19,7 +19,7 @@ typedef struct {
 
 static bool has_mean(const fracas_point_statistics *statistics)
 {
-    return isfinite(statistics->rate) && isfinite(statistics->size.mean);
+    return isfinite(statistics->rate) && statistics->rate > 0 && isfinite(statistics->size.mean); /* the axis is a log one */
 }
 
 static bool has_scales(const fracas_point_statistics *statistics)
@@ -273,11 +273,19 @@ static const struct {
     {"dissipated", offsetof(fracas_history_row, dissipated)}, {"cohesive", offsetof(fracas_history_row, cohesive)},
     {"work", offsetof(fracas_history_row, work)},             {"|residual|", offsetof(fracas_history_row, residual)},
 };
-enum { NENERGIES = sizeof energies / sizeof *energies, RESIDUAL = NENERGIES - 1 };
+enum { NENERGIES = sizeof energies / sizeof *energies, KINETIC = 0, RESIDUAL = NENERGIES - 1 };
 
-static double energy(const fracas_history_row *row, size_t which)
+/* Kinetic energy that a body starts with, a ring that flies: in the figure it would dwarf all the rest, and is left out [J]. */
+static double kinetic_start(const fracas_point_statistics *statistics)
 {
-    return *(const double *)((const char *)row + energies[which].offset);
+    const fracas_history_row *first = statistics->history;
+    return statistics->nhistory > 0 && first->time == 0 ? first->kinetic : 0;
+}
+
+static double energy(const fracas_point_statistics *statistics, size_t row, size_t which)
+{
+    double value = *(const double *)((const char *)&statistics->history[row] + energies[which].offset);
+    return which == KINETIC ? value - kinetic_start(statistics) : value;
 }
 
 static double largest_energy(const fracas_point_statistics *statistics)
@@ -285,7 +293,7 @@ static double largest_energy(const fracas_point_statistics *statistics)
     double largest = 0;
     for (size_t i = 0; i < statistics->nhistory; i++)
         for (size_t e = 0; e < RESIDUAL; e++)
-            largest = fmax(largest, fabs(energy(&statistics->history[i], e)));
+            largest = fmax(largest, fabs(energy(statistics, i, e)));
     return largest;
 }
 
@@ -294,9 +302,10 @@ static fracas_err add_energy(const fracas_point_statistics *statistics, size_t w
 {
     fracas_series *series;
     TRY(fracas_panel_add(panel, FRACAS_CURVE, (unsigned)which, statistics->nhistory, &series));
-    snprintf(series->name, sizeof series->name, "%s", energies[which].name);
+    const bool moving = which == KINETIC && kinetic_start(statistics) > 0;
+    snprintf(series->name, sizeof series->name, "%s%s", energies[which].name, moving ? " - start" : "");
     for (size_t i = 0; i < statistics->nhistory; i++) {
-        double value = energy(&statistics->history[i], which) * energy_factor;
+        double value = energy(statistics, i, which) * energy_factor;
         series->x[i] = statistics->history[i].time * time_factor;
         series->y[i] = which == RESIDUAL ? fabs(value) : value;
     }
@@ -324,12 +333,13 @@ fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point,
     snprintf(lower->x.label, sizeof lower->x.label, "time [%ss]", time.sign);
     for (size_t p = 0; p < chart->npanels; p++)
         snprintf(chart->panel[p].y.label, sizeof chart->panel[p].y.label, "energy [%sJ]", joule.sign);
-    char residual[32];
+    char residual[32], motion[128] = "Kinetic energy is that of the motion beside the imposed stretching, work likewise.";
     fracas_format_digits(statistics->residual, 2, residual, sizeof residual);
+    if (kinetic_start(statistics) > 0)
+        snprintf(motion, sizeof motion, "Kinetic energy less the %.4g J that the ring starts with.", kinetic_start(statistics));
     snprintf(chart->caption, sizeof chart->caption,
-             "%s: replica %lld, the one whose dissipated energy is the nearest to the mean. Kinetic energy is that of "
-             "the motion beside the imposed stretching, work likewise. Below: |residual| of the energy balance; its "
-             "largest value over all replicas is %s of the dissipated energy.",
-             label, (long long)statistics->typical_replica, residual);
+             "%s: replica %lld, the one whose dissipated energy is the nearest to the mean. %s Below: |residual| "
+             "of the energy balance; its largest value over all replicas is %s of the dissipated energy.",
+             label, (long long)statistics->typical_replica, motion, residual);
     return FRACAS_OK;
 }

@@ -2,6 +2,8 @@
 #include "analysis/report/csv.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/output.h"
+#include "analysis/report/picture.h"
+#include "analysis/side_tables.h"
 #include "analysis/study.h"
 #include "analysis/table.h"
 
@@ -27,6 +29,7 @@ static const char page_style[] =
     "dl{display:grid;grid-template-columns:max-content 1fr;gap:.1rem 1rem;margin:0}\n"
     "dd{margin:0;overflow-wrap:anywhere}\n"
     ".scroll{overflow-x:auto;border:1px solid var(--line);border-radius:6px}\n"
+    ".side{width:fit-content;max-width:100%;margin-top:1rem}\n"
     "table{border-collapse:collapse;width:100%;font-size:.9rem;font-variant-numeric:tabular-nums}\n"
     "th,td{padding:.35rem .7rem;text-align:right;white-space:nowrap}th:last-child,td:last-child{text-align:left}\n"
     "th small{font-weight:400;color:var(--quiet);display:block}thead th{vertical-align:bottom}\n"
@@ -44,6 +47,60 @@ typedef struct {
     const char *folder; /* of the report */
     FILE *out;          /* index.html */
 } report_page;
+
+/* ---- tables ---- */
+
+static void put_rows(const fracas_result_table *table, FILE *out)
+{
+    fputs("<thead><tr>", out);
+    for (size_t c = 0; c < table->columns; c++) {
+        fputs("<th>", out);
+        fracas_markup_text(fracas_result_table_cell(table, 0, c), out);
+        fputs("<small>", out);
+        const char *unit = fracas_result_table_cell(table, 1, c);
+        fracas_markup_text(*unit ? unit : "\u00a0", out); /* keeps the names on one line */
+        fputs("</small></th>", out);
+    }
+    fputs("</tr></thead>\n<tbody>\n", out);
+    for (size_t r = FRACAS_RESULT_TABLE_HEAD; r < table->rows; r++) {
+        fputs("<tr>", out);
+        for (size_t c = 0; c < table->columns; c++) {
+            fputs("<td>", out);
+            fracas_markup_text(fracas_result_table_cell(table, r, c), out);
+            fputs("</td>", out);
+        }
+        fputs("</tr>\n", out);
+    }
+    fputs("</tbody>\n", out);
+}
+
+static void put_legend(const char *const *legend, FILE *out)
+{
+    fputs("</table></div>\n<p class=\"quiet\">", out);
+    for (size_t i = 0; legend[i]; i++) {
+        fracas_markup_text(legend[i], out);
+        putc('\n', out);
+    }
+    fputs("</p>\n", out);
+}
+
+typedef fracas_err make_table(const fracas_analysis *analysis, bool unicode, fracas_result_table *table);
+
+/* Nothing if the table has no row; `heading` may be NULL. */
+static fracas_err put_side_table(const report_page *page, const char *id, const char *heading, make_table *make,
+                                 const char *const *legend)
+{
+    fracas_result_table table = {0};
+    fracas_err err = make(page->analysis, true, &table);
+    if (!err && table.rows > FRACAS_RESULT_TABLE_HEAD) {
+        if (heading) fprintf(page->out, "<h2>%s</h2>\n", heading);
+        fprintf(page->out, "<div class=\"scroll side\"><table id=\"%s\">\n", id);
+        put_rows(&table, page->out);
+        put_legend(legend, page->out);
+    }
+    fracas_result_table_clear(&table);
+    return err;
+}
 
 /* ---- figures ---- */
 
@@ -74,6 +131,54 @@ static fracas_err put_figure(const report_page *page, fracas_chart *chart, fraca
     return err;
 }
 
+static fracas_err write_picture(const report_page *page, const fracas_picture *picture)
+{
+    char name[sizeof picture->file + 8];
+    snprintf(name, sizeof name, "%s.svg", picture->file);
+    fracas_output_file output;
+    TRY(fracas_output_open(page->folder, name, &output));
+    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", output.file);
+    fracas_picture_write(picture, true, output.file);
+    TRY(fracas_output_close(&output, FRACAS_OK));
+    snprintf(name, sizeof name, "%s.csv", picture->file);
+    TRY(fracas_output_open(page->folder, name, &output));
+    fracas_picture_csv(picture, output.file);
+    return fracas_output_close(&output, FRACAS_OK);
+}
+
+static fracas_err put_picture(const report_page *page, size_t point)
+{
+    fracas_picture picture;
+    TRY(fracas_picture_create(page->analysis, point, &picture));
+    fprintf(page->out, "<figure id=\"%s\">\n", picture.file);
+    fracas_picture_write(&picture, false, page->out);
+    fputs("<figcaption>", page->out);
+    fracas_markup_text(picture.caption, page->out);
+    fprintf(page->out, " <a href=\"%s.svg\">SVG</a> <a href=\"%s.csv\">CSV</a></figcaption>\n</figure>\n", picture.file,
+            picture.file);
+    fracas_err err = write_picture(page, &picture);
+    fracas_picture_clear(&picture);
+    return err;
+}
+
+static fracas_err put_pictures(const report_page *page)
+{
+    size_t point[FRACAS_MAX_PICTURES], count = fracas_picture_points(page->analysis, point);
+    if (count == 0) return FRACAS_OK;
+    fputs("<h2>Crack patterns</h2>\n<div class=\"wide\">\n", page->out);
+    for (size_t i = 0; i < count; i++) TRY(put_picture(page, point[i]));
+    fputs("</div>\n", page->out);
+    return FRACAS_OK;
+}
+
+/* Instead of the figures against the rate, where there is none. */
+static void say_no_rate(const report_page *page)
+{
+    for (size_t p = 0; p < page->analysis->table->npoints; p++)
+        if (page->analysis->point[p].rate > 0) return;
+    fputs("<p>No point begins with a strain rate above 0: nothing to draw against it.</p>\n", page->out);
+}
+
 static fracas_err put_figures(const report_page *page)
 {
     const fracas_analysis *analysis = page->analysis;
@@ -83,14 +188,20 @@ static fracas_err put_figures(const report_page *page)
     fputs("<h2>Mean fragment size</h2>\n<div class=\"wide\">\n", page->out);
     TRY(put_figure(page, &chart, fracas_figure_rate(analysis, false, &chart)));
     TRY(put_figure(page, &chart, fracas_figure_rate(analysis, true, &chart)));
-    fputs("</div>\n<h2>Fragment sizes</h2>\n<div class=\"wide\">\n", page->out);
+    fputs("</div>\n", page->out);
+    say_no_rate(page);
+    TRY(put_side_table(page, "slopes", NULL, fracas_slope_table_create, fracas_slope_table_legend));
+    fputs("<h2>Fragment sizes</h2>\n<div class=\"wide\">\n", page->out);
     TRY(put_figure(page, &chart, fracas_figure_sizes_together(analysis, &chart)));
     fputs("</div>\n<div class=\"small\">\n", page->out);
     for (size_t p = 0; p < npoints; p++) TRY(put_figure(page, &chart, fracas_figure_sizes(analysis, p, &chart)));
-    fputs("</div>\n<h2>Energies over time</h2>\n<div class=\"wide\">\n", page->out);
+    fputs("</div>\n", page->out);
+    TRY(put_pictures(page));
+    fputs("<h2>Energies over time</h2>\n<div class=\"wide\">\n", page->out);
     for (size_t p = 0; p < npoints; p++) TRY(put_figure(page, &chart, fracas_figure_energies(analysis, p, &chart)));
     fputs("</div>\n", page->out);
-    return FRACAS_OK;
+    return put_side_table(page, "motion", "Expansion after break-up", fracas_motion_table_create,
+                          fracas_motion_table_legend);
 }
 
 /* ---- words and numbers ---- */
@@ -140,8 +251,8 @@ static fracas_err put_warnings(const report_page *page)
     fputs("<h2>Warnings</h2>\n", page->out);
     if (count == 0) {
         fputs("<p>None: no realization failed or was stopped by its time limit; ledger residuals are below 1e-3 and "
-              "created energy below 1e-2 of the dissipated energy; mean fragments have 10 elements or more; at most "
-              "5 % of the fragments are dust.</p>\n", page->out);
+              "created energy below 1e-2 of the dissipated energy, residuals below 1 % of the largest energy; mean "
+              "fragments have 10 elements or more; at most 5 % of the fragments are dust.</p>\n", page->out);
     } else {
         fputs("<ul class=\"warnings\">\n", page->out);
         for (size_t i = 0; i < count; i++) {
@@ -160,43 +271,15 @@ static fracas_err put_warnings(const report_page *page)
     return FRACAS_OK;
 }
 
-static void put_rows(const fracas_result_table *table, FILE *out)
-{
-    fputs("<thead><tr>", out);
-    for (size_t c = 0; c < table->columns; c++) {
-        fputs("<th>", out);
-        fracas_markup_text(fracas_result_table_cell(table, 0, c), out);
-        fputs("<small>", out);
-        const char *unit = fracas_result_table_cell(table, 1, c);
-        fracas_markup_text(*unit ? unit : "\u00a0", out); /* keeps the names on one line */
-        fputs("</small></th>", out);
-    }
-    fputs("</tr></thead>\n<tbody>\n", out);
-    for (size_t r = FRACAS_RESULT_TABLE_HEAD; r < table->rows; r++) {
-        fputs("<tr>", out);
-        for (size_t c = 0; c < table->columns; c++) {
-            fputs("<td>", out);
-            fracas_markup_text(fracas_result_table_cell(table, r, c), out);
-            fputs("</td>", out);
-        }
-        fputs("</tr>\n", out);
-    }
-    fputs("</tbody>\n", out);
-}
-
 static fracas_err put_table(const report_page *page)
 {
     fracas_result_table table;
     TRY(fracas_result_table_create(page->analysis, true, &table));
-    fputs("<h2>Results</h2>\n<div class=\"scroll\"><table>\n", page->out);
+    fputs("<h2>Results</h2>\n<div class=\"scroll\"><table id=\"results\">\n", page->out);
     put_rows(&table, page->out);
     fracas_result_table_clear(&table);
-    fputs("</table></div>\n<p class=\"quiet\">", page->out);
-    for (size_t i = 0; fracas_result_table_legend[i]; i++) {
-        fracas_markup_text(fracas_result_table_legend[i], page->out);
-        putc('\n', page->out);
-    }
-    fputs("</p>\n<p class=\"quiet\">As files: <a href=\"points.csv\">points.csv</a> (every parameter and statistic), "
+    put_legend(fracas_result_table_legend, page->out);
+    fputs("<p class=\"quiet\">As files: <a href=\"points.csv\">points.csv</a> (every parameter and statistic), "
           "<a href=\"fragments.csv\">fragments.csv</a> (every fragment); both in SI units.</p>\n", page->out);
     return FRACAS_OK;
 }

@@ -145,7 +145,9 @@ const fracas_param *fracas_section_param(const fracas_section *section, const fr
                                          bool *common)
 {
     const fracas_param *param = find_param(section->params, section->nparams, key);
-    *common = param != NULL;
+    *common = param || section->nkinds > 0;
+    for (size_t k = 0; k < section->nkinds && !param && *common; k++)
+        *common = find_param(section->kinds[k]->params, section->kinds[k]->nparams, key) != NULL;
     return param || !kind ? param : find_param(kind->params, kind->nparams, key);
 }
 
@@ -178,13 +180,19 @@ bool fracas_leaf_get(const fracas_leaf *leaf, const void *owner, fracas_value *v
     }
     bool common;
     const fracas_param *param = fracas_section_param(leaf->section->table, kind, leaf->key, &common);
-    if (param) value->real = fracas_param_get(param, section_in(leaf->section, owner));
+    if (param && fracas_param_is_text(param)) value->text = fracas_param_text(param, section_in(leaf->section, owner));
+    else if (param) value->real = fracas_param_get(param, section_in(leaf->section, owner));
     return param != NULL;
+}
+
+bool fracas_leaf_is_text(const fracas_leaf *leaf)
+{
+    return !leaf->param || fracas_param_is_text(leaf->param);
 }
 
 void fracas_leaf_write(const fracas_leaf *leaf, const fracas_value *value, char text[FRACAS_LEAF_TEXT])
 {
-    if (!leaf->param) snprintf(text, FRACAS_LEAF_TEXT, "%s", value->text);
+    if (fracas_leaf_is_text(leaf)) snprintf(text, FRACAS_LEAF_TEXT, "%s", value->text);
     else if (leaf->param->type == FRACAS_BOOLEAN)
         snprintf(text, FRACAS_LEAF_TEXT, "%s", value->real != 0.0 ? "true" : "false");
     else fracas_number_write(value->real, text);

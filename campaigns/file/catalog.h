@@ -24,7 +24,7 @@ typedef struct {
 
 typedef struct {
     size_t nsections;
-    const fracas_file_section *section; /* in the order of a written file */
+    const fracas_file_section *section; /* in the order of a written file; the first, `model`, restricts the kinds of others */
     size_t nleaves;
     const fracas_leaf *leaf;            /* sorted by path */
 } fracas_catalog;
@@ -40,7 +40,8 @@ const fracas_leaf *fracas_catalog_key(const fracas_catalog *catalog, const fraca
 /* The leaf that names the section's kind; NULL for a section without kinds. */
 const fracas_leaf *fracas_catalog_selector(const fracas_catalog *catalog, const fracas_file_section *section);
 
-/* The parameter `key` of a section of this kind (NULL: no kinds); NULL if it has none. *common: whatever the kind. */
+/* The parameter `key` of a section of this kind (NULL: no kinds); NULL if it has none. *common: there is one whatever the
+ * kind, be it in the section's own table or in those of all its kinds. */
 const fracas_param *fracas_section_param(const fracas_section *section, const fracas_kind *kind, const char *key,
                                          bool *common);
 
@@ -49,11 +50,14 @@ void *fracas_section_at(const fracas_file_section *section, void *owner);
 /* The kind that the section has in its owner; NULL without kinds. */
 const fracas_kind *fracas_section_kind(const fracas_file_section *section, const void *owner);
 
+/* True for a leaf whose values are text: a kind's name, a choice, an attachment. */
+bool fracas_leaf_is_text(const fracas_leaf *leaf);
+
 /* The leaf's value in its owner; false if the owner's kind has no such value. */
 bool fracas_leaf_get(const fracas_leaf *leaf, const void *owner, fracas_value *value);
 
 #define FRACAS_LEAF_TEXT 64 /* bytes that fracas_leaf_write needs: a kind's name is shorter */
-/* The value as it is written in files and hashed: a kind's name, true or false, or a number as "%.15g". */
+/* The value as it is hashed: its text, true or false, or a number as "%.15g". */
 void fracas_leaf_write(const fracas_leaf *leaf, const fracas_value *value, char text[FRACAS_LEAF_TEXT]);
 
 #endif

@@ -113,7 +113,7 @@ fracas_err fracas_points_repeated(const fracas_campaign *campaign, size_t *earli
 
 /* ---- columns ---- */
 
-static const char derived_strength_mean[] = "derived.strength_mean";
+static const char derived_strain_rate[] = "derived.strain_rate", derived_strength_mean[] = "derived.strength_mean";
 
 /* Where a column's values come from: a leaf, or (NULL) what its path says. */
 typedef struct {
@@ -141,10 +141,11 @@ static size_t list_sources(const fracas_catalog *catalog, const fracas_campaign 
         const fracas_leaf *leaf = &catalog->leaf[i];
         const fracas_section *table = leaf->section->table;
         if (!table->hashed || !any_point_has(campaign, leaf)) continue;
-        fracas_column column = {leaf->path, leaf->param ? leaf->param->unit : "",
-                                leaf->param ? leaf->param->doc : table->doc, !leaf->param};
+        const bool text = fracas_leaf_is_text(leaf);
+        fracas_column column = {leaf->path, text ? "" : leaf->param->unit, leaf->param ? leaf->param->doc : table->doc, text};
         sources[count++] = (source){column, leaf};
     }
+    sources[count++] = (source){{derived_strain_rate, "1/s", "strain rate that the loading begins with", false}, NULL};
     sources[count++] = (source){{derived_strength_mean, "Pa", "mean of the distribution of strengths", false}, NULL};
     if (named) sources[count++] = (source){{"case", "", "name of the case", true}, NULL};
     qsort(sources, count, sizeof *sources, by_path);
@@ -155,7 +156,9 @@ static fracas_value value_of(const source *from, const fracas_point *point, cons
 {
     fracas_value value = {.real = NAN, .text = ""};
     if (from->leaf) fracas_leaf_get(from->leaf, point, &value);
-    else if (from->column.path == derived_strength_mean) value.real = fracas_strength_mean(&point->strength);
+    else if (from->column.path == derived_strength_mean)
+        value.real = fracas_strength_mean(&point->strength, fracas_spec_interface_volume(&point->spec));
+    else if (from->column.path == derived_strain_rate) value.real = fracas_spec_strain_rate(&point->spec);
     else value.text = name;
     return value;
 }
@@ -164,7 +167,7 @@ fracas_err fracas_campaign_tabulate(const fracas_catalog *catalog, const char *c
 {
     bool named = false;
     for (size_t p = 0; p < campaign->npoints; p++) named = named || *name[p];
-    source *from = fracas_memory_take(campaign->memory, catalog->nleaves + 2, sizeof *from);
+    source *from = fracas_memory_take(campaign->memory, catalog->nleaves + 3, sizeof *from);
     if (!from) return fracas_no_memory("the table of points");
     size_t ncolumns = list_sources(catalog, campaign, named, from);
     fracas_column *column = fracas_memory_take(campaign->memory, ncolumns, sizeof *column);

@@ -57,7 +57,7 @@ fracas_err fracas_range_read(const fracas_file *file, const fracas_leaf *leaf, c
                              fracas_range *range)
 {
     *range = (fracas_range){0};
-    if (!leaf->param || leaf->param->type == FRACAS_BOOLEAN)
+    if (fracas_leaf_is_text(leaf) || leaf->param->type == FRACAS_BOOLEAN)
         return fracas_say(file->name, node, "`%s` is not a number, so it has no range; expected a list, [...]",
                           leaf->path);
     range->whole = leaf->param->type == FRACAS_INTEGER;

@@ -231,7 +231,7 @@ fracas_err fracas_campaign_read_with(const fracas_units *units, const char *path
     fracas_campaign *made = calloc(1, sizeof *made);
     if (!made) return fracas_no_memory("the campaign");
     made->memory = fracas_memory_create();
-    reading read = {.file = {.name = path, .memory = made->memory, .units = units}};
+    reading read = {.file = {.name = path, .memory = made->memory, .units = units, .campaign = made}};
     fracas_err err = made->memory ? read_file(&read, made) : fracas_no_memory("the campaign");
     if (err) fracas_campaign_destroy(made);
     else *campaign = made;

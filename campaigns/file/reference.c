@@ -14,7 +14,10 @@ static void write_limits(const fracas_param *param, FILE *out)
     fracas_number_write(param->maximum, maximum);
     const char *above = param->minimum_open ? "> " : "≥ ";
     if (param->type == FRACAS_BOOLEAN) fprintf(out, "true, false");
-    else if (isinf(param->minimum) && isinf(param->maximum)) fprintf(out, "any");
+    else if (param->type == FRACAS_CHOICE)
+        for (size_t c = 0; c < param->nchoices; c++) fprintf(out, "%s`%s`", c ? ", " : "", param->choices[c]->name);
+    else if (param->type == FRACAS_ATTACHMENT) fprintf(out, "any file");
+    else if (isinf(param->minimum) && isinf(param->maximum)) fprintf(out, "any number");
     else if (isinf(param->maximum)) fprintf(out, "%s%s", above, minimum);
     else if (isinf(param->minimum)) fprintf(out, "≤ %s", maximum);
     else fprintf(out, "%s%s, ≤ %s", above, minimum, maximum);
@@ -22,15 +25,20 @@ static void write_limits(const fracas_param *param, FILE *out)
 
 static void write_param(const fracas_param *param, FILE *out)
 {
-    static const char *const types[] = {"number", "whole number", "true or false"};
+    static const char *const types[] = {"number", "whole number", "true or false", "name", "path of a file"};
     char fallback[FRACAS_NUMBER_TEXT];
     fracas_number_write(param->fallback, fallback);
     const char *given = isnan(param->fallback) ? "**required**" : fallback;
     if (param->type == FRACAS_BOOLEAN) given = param->fallback != 0.0 ? "true" : "false";
+    if (param->type == FRACAS_CHOICE && !isnan(param->fallback)) given = param->choices[(size_t)param->fallback]->name;
+    if (param->type == FRACAS_ATTACHMENT && !isnan(param->fallback)) given = "none";
     fprintf(out, "| `%s` | %s | %s | %s | ", param->name, types[param->type],
             strcmp(param->unit, "1") ? param->unit : "", given);
     write_limits(param, out);
-    fprintf(out, " | %s |\n", param->doc);
+    fprintf(out, " | %s", param->doc);
+    for (size_t c = 0; c < param->nchoices; c++)
+        fprintf(out, "%s`%s`: %s", c ? "; " : ". ", param->choices[c]->name, param->choices[c]->doc);
+    fprintf(out, " |\n");
 }
 
 static void write_params(const fracas_param *params, size_t count, FILE *out)
@@ -40,18 +48,66 @@ static void write_params(const fracas_param *params, size_t count, FILE *out)
     for (size_t p = 0; p < count; p++) write_param(&params[p], out);
 }
 
-static void write_section(const fracas_section *section, FILE *out)
+static const char *selector_of(const fracas_section *section)
 {
-    const char *selector = section->selector ? section->selector : section->name;
+    return section->selector ? section->selector : section->name;
+}
+
+/* " (default)", or which models it is the default with. */
+static void write_default(const fracas_section *model, const fracas_section *section, const fracas_kind *kind, FILE *out)
+{
+    size_t count = 0, restricting = 0;
+    const fracas_kind *partner;
+    for (size_t m = 0; m < model->nkinds; m++) {
+        partner = fracas_kind_partner(model->kinds[m], section, 0);
+        restricting += partner != NULL;
+        count += (partner ? partner : section->kinds[0]) == kind;
+    }
+    if (count == 0) return;
+    fprintf(out, " (default");
+    for (size_t m = 0, written = 0; m < model->nkinds && count < model->nkinds && restricting; m++) {
+        partner = fracas_kind_partner(model->kinds[m], section, 0);
+        if ((partner ? partner : section->kinds[0]) != kind) continue;
+        fprintf(out, "%s `%s`", written++ ? " and" : " with model", model->kinds[m]->name);
+    }
+    fprintf(out, ")");
+}
+
+/* What a model takes of the sections that it restricts. */
+static void write_partners(const fracas_catalog *catalog, const fracas_kind *model, FILE *out)
+{
+    if (model->ngoes_with == 0) return;
+    fprintf(out, "\nWith `%s: %s`, only these kinds go, the first of each being the default:\n\n",
+            selector_of(catalog->section->table), model->name);
+    for (size_t s = 0; s < catalog->nsections; s++) {
+        const fracas_section *section = catalog->section[s].table;
+        const fracas_kind *partner;
+        for (size_t i = 0; (partner = fracas_kind_partner(model, section, i)); i++) {
+            if (i == 0) fprintf(out, "- `%s.%s`: `%s`", section->name, selector_of(section), partner->name);
+            else fprintf(out, ", `%s`", partner->name);
+        }
+        if (fracas_kind_partner(model, section, 0)) fprintf(out, "\n");
+    }
+}
+
+static void write_section(const fracas_catalog *catalog, const fracas_section *section, FILE *out)
+{
+    const fracas_section *model = catalog->section->table;
+    const char *selector = selector_of(section);
     fprintf(out, "\n## `%s`\n\n%s.\n", section->name, section->doc);
     if (!section->hashed)
         fprintf(out, "One for the whole campaign: it cannot be swept and is not part of a point's hash.\n");
     write_params(section->params, section->nparams, out);
     if (section->nkinds == 0) return;
     fprintf(out, "\n| `%s:` | meaning |\n|---|---|\n", selector);
-    for (size_t k = 0; k < section->nkinds; k++)
-        fprintf(out, "| `%s`%s | %s |\n", section->kinds[k]->name, k == 0 ? " (default)" : "", section->kinds[k]->doc);
     for (size_t k = 0; k < section->nkinds; k++) {
+        fprintf(out, "| `%s`", section->kinds[k]->name);
+        if (section != model) write_default(model, section, section->kinds[k], out);
+        else if (k == 0) fprintf(out, " (default)");
+        fprintf(out, " | %s |\n", section->kinds[k]->doc);
+    }
+    for (size_t k = 0; k < section->nkinds; k++) {
+        write_partners(catalog, section->kinds[k], out);
         if (section->kinds[k]->nparams == 0) continue;
         fprintf(out, "\nWith `%s: %s`:\n", selector, section->kinds[k]->name);
         write_params(section->kinds[k]->params, section->kinds[k]->nparams, out);
@@ -68,6 +124,6 @@ void fracas_campaign_reference(FILE *out)
     fracas_campaign_memory *memory = fracas_memory_create();
     const fracas_catalog *catalog;
     if (memory && fracas_catalog_make(memory, &catalog) == FRACAS_OK)
-        for (size_t s = 0; s < catalog->nsections; s++) write_section(catalog->section[s].table, out);
+        for (size_t s = 0; s < catalog->nsections; s++) write_section(catalog, catalog->section[s].table, out);
     fracas_memory_destroy(memory);
 }

@@ -2,25 +2,82 @@
 
 #include "campaigns/file/say.h"
 
+#include <stdio.h>
 #include <string.h>
 
-/* The kind that the base gives to a section, and the setting that says so (NULL: it is the default). */
-static const fracas_kind *kind_of(const fracas_file *file, const fracas_setting *const *settings,
-                                  const fracas_file_section *section, const fracas_setting **chosen)
+/* The settings that count: of a point, or of the sections of the file alone. */
+typedef enum { BASE, POINT } view;
+
+static const fracas_setting *selected(const fracas_file *file, const fracas_draft *draft, view of,
+                                      const fracas_file_section *section)
 {
     const fracas_leaf *selector = fracas_catalog_selector(file->catalog, section);
-    *chosen = selector ? settings[selector - file->catalog->leaf] : NULL;
+    if (!selector) return NULL;
+    const size_t at = (size_t)(selector - file->catalog->leaf);
+    return of == POINT && draft->swept[at] ? draft->swept[at] : draft->base[at];
+}
+
+/* The model, and the setting that names it (NULL: it is the default). */
+static const fracas_kind *model_of(const fracas_file *file, const fracas_draft *draft, view of,
+                                   const fracas_setting **chosen)
+{
+    const fracas_file_section *section = file->catalog->section;
+    *chosen = selected(file, draft, of, section);
+    return *chosen ? (*chosen)->kind : section->table->kinds[0];
+}
+
+/* The kind of a section, and the setting that names it (NULL: it is the default, which goes by the model). */
+static const fracas_kind *kind_of(const fracas_file *file, const fracas_draft *draft, view of,
+                                  const fracas_file_section *section, const fracas_setting **chosen)
+{
+    const fracas_setting *by;
+    *chosen = selected(file, draft, of, section);
     if (*chosen) return (*chosen)->kind;
-    return selector ? section->table->kinds[0] : NULL;
+    if (section->table->nkinds == 0) return NULL;
+    const fracas_kind *partner = fracas_kind_partner(model_of(file, draft, of, &by), section->table, 0);
+    return partner ? partner : section->table->kinds[0];
+}
+
+/* Refuses a kind that the model cannot be combined with; `chosen` names it (NULL: the default, which fits). */
+static fracas_err check_partner(const fracas_file *file, const fracas_draft *draft, view of,
+                                const fracas_setting *chosen)
+{
+    if (!chosen) return FRACAS_OK;
+    const fracas_section *table = chosen->leaf->section->table;
+    const fracas_setting *by;
+    const fracas_kind *model = model_of(file, draft, of, &by), *partner;
+    char takes[200] = "", line[60] = "";
+    size_t used = 0, i = 0;
+    for (; (partner = fracas_kind_partner(model, table, i)); i++) {
+        if (partner == chosen->kind) return FRACAS_OK;
+        const bool last = !fracas_kind_partner(model, table, i + 1);
+        int added = snprintf(takes + used, sizeof takes - used, "%s%s", i == 0 ? "" : last ? " or " : ", ", partner->name);
+        if (added > 0 && used + (size_t)added < sizeof takes) used += (size_t)added;
+    }
+    if (i == 0) return FRACAS_OK;
+    if (by) snprintf(line, sizeof line, "; the model is chosen at line %d", by->node->line);
+    return fracas_say(file->name, chosen->node, "`%s`: %s cannot be combined with model %s, which takes %s%s",
+                      chosen->leaf->key, chosen->kind->name, model->name, takes, line);
+}
+
+/* Where the sweep alone names models, it is for its points to say what goes with them. */
+static fracas_err check_base_partners(const fracas_file *file, const fracas_draft *draft)
+{
+    const fracas_catalog *catalog = file->catalog;
+    if (!selected(file, draft, BASE, catalog->section)) return FRACAS_OK;
+    for (size_t s = 0; s < catalog->nsections; s++)
+        TRY(check_partner(file, draft, BASE, selected(file, draft, BASE, &catalog->section[s])));
+    return FRACAS_OK;
 }
 
 fracas_err fracas_draft_check_base(const fracas_file *file, const fracas_draft *draft)
 {
+    TRY(check_base_partners(file, draft));
     for (size_t i = 0; i < file->catalog->nleaves; i++) {
         const fracas_leaf *leaf = &file->catalog->leaf[i];
         const fracas_setting *setting = draft->base[i], *chosen;
         if (!setting || !leaf->param) continue;
-        const fracas_kind *kind = kind_of(file, draft->base, leaf->section, &chosen);
+        const fracas_kind *kind = kind_of(file, draft, BASE, leaf->section, &chosen);
         bool common;
         const fracas_param *param = fracas_section_param(leaf->section->table, kind, leaf->key, &common);
         if (!param) return fracas_setting_misplaced(file, setting, kind, chosen);
@@ -38,6 +95,8 @@ static fracas_err missing(const fracas_file *file, const fracas_leaf *leaf, cons
     const char *what, *write_in;
     fracas_units_describe(param->unit, &what, &write_in);
     if (param->type == FRACAS_INTEGER) what = "a whole number";
+    if (param->type == FRACAS_CHOICE) what = "a name";
+    if (param->type == FRACAS_ATTACHMENT) what = "the path of a file";
     const char *unit = strcmp(param->unit, "1") == 0 ? "" : ", in ";
     if (!*unit) write_in = "";
     const fracas_node *at = !common && chosen ? chosen->node : section ? section->key : file->root;
@@ -54,11 +113,10 @@ fracas_err fracas_draft_resolve(const fracas_file *file, const fracas_draft *dra
 {
     const fracas_catalog *catalog = file->catalog;
     const fracas_section *table = section->table;
-    const fracas_setting *chosen, *swept;
-    const fracas_kind *base_kind = kind_of(file, draft->base, section, &chosen);
-    const fracas_kind *swept_kind = kind_of(file, draft->swept, section, &swept);
-    const fracas_kind *kind = swept ? swept_kind : base_kind;
-    if (swept) chosen = swept;
+    const fracas_setting *chosen, *before;
+    const fracas_kind *kind = kind_of(file, draft, POINT, section, &chosen);
+    const fracas_kind *base_kind = kind_of(file, draft, BASE, section, &before);
+    TRY(check_partner(file, draft, POINT, chosen));
     char *values = fracas_section_at(section, owner);
     const fracas_node *last = chosen ? chosen->node : file->root; /* the value that a contradiction is told at */
     if (kind) memcpy(values + table->kind_offset, &kind, sizeof kind);
@@ -74,7 +132,8 @@ fracas_err fracas_draft_resolve(const fracas_file *file, const fracas_draft *dra
         if (setting) last = setting->node;
         if (setting) TRY(fracas_setting_check(file, setting, param));
         else if (isnan(param->fallback)) return missing(file, leaf, param, common, kind, chosen);
-        fracas_param_set(param, values, setting ? setting->value : fracas_number_round(param->fallback));
+        if (param->type == FRACAS_ATTACHMENT) fracas_param_attach(param, values, setting ? setting->attachment : NULL);
+        else fracas_param_set(param, values, setting ? setting->value : fracas_number_round(param->fallback));
     }
     if (table->check && table->check(values)) return fracas_say_within(file->name, last, table->name);
     return FRACAS_OK;

@@ -1,5 +1,6 @@
 #include "campaigns/file/setting.h"
 
+#include "campaigns/file/attach.h"
 #include "campaigns/file/say.h"
 
 #include <inttypes.h>
@@ -15,22 +16,46 @@ static fracas_err want_scalar(const fracas_file *file, const char *key, const fr
     return fracas_say(file->name, node, "`%s`: found %s; expected %s", key, fracas_say_found(node, found), expected);
 }
 
-static fracas_err read_kind(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node,
-                            const fracas_kind **kind)
+/* The one of `count` kinds that the node names. */
+static fracas_err read_name(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node,
+                            const fracas_kind *const *kinds, size_t count, size_t *which)
 {
-    const fracas_section *table = leaf->section->table;
     TRY(want_scalar(file, leaf->key, node, "a name"));
     fracas_words words;
     fracas_words_init(&words, node->text);
-    for (size_t k = 0; k < table->nkinds; k++) {
-        *kind = table->kinds[k];
-        if (strcmp((*kind)->name, node->text) == 0) return FRACAS_OK;
-        fracas_words_add(&words, (*kind)->name);
+    for (*which = 0; *which < count; ++*which) {
+        if (strcmp(kinds[*which]->name, node->text) == 0) return FRACAS_OK;
+        fracas_words_add(&words, kinds[*which]->name);
     }
     char hint[600], label[80];
     snprintf(label, sizeof label, "%s can be", leaf->key);
     return fracas_say(file->name, node, "unknown %s `%s`%s", leaf->key, node->text,
                       fracas_words_hint(&words, label, hint));
+}
+
+static fracas_err read_kind(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node,
+                            const fracas_kind **kind)
+{
+    const fracas_section *table = leaf->section->table;
+    size_t which;
+    TRY(read_name(file, leaf, node, table->kinds, table->nkinds, &which));
+    *kind = table->kinds[which];
+    return FRACAS_OK;
+}
+
+static fracas_err read_choice(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node, double *value)
+{
+    size_t which;
+    TRY(read_name(file, leaf, node, leaf->param->choices, leaf->param->nchoices, &which));
+    *value = (double)which;
+    return FRACAS_OK;
+}
+
+static fracas_err read_attachment(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node,
+                                  const fracas_attachment **attachment)
+{
+    TRY(want_scalar(file, leaf->key, node, "the path of a file"));
+    return fracas_attachment_read(file, leaf->key, node, attachment);
 }
 
 static fracas_err read_boolean(const fracas_file *file, const char *key, const fracas_node *node, double *value)
@@ -74,6 +99,8 @@ fracas_err fracas_setting_read(const fracas_file *file, const fracas_leaf *leaf,
     switch (leaf->param->type) {
     case FRACAS_BOOLEAN: return read_boolean(file, leaf->key, node, &setting->value);
     case FRACAS_INTEGER: return read_integer(file, leaf->key, node, &setting->value);
+    case FRACAS_CHOICE: return read_choice(file, leaf, node, &setting->value);
+    case FRACAS_ATTACHMENT: return read_attachment(file, leaf, node, &setting->attachment);
     case FRACAS_REAL: break;
     }
     return read_real(file, leaf, node, &setting->value);
@@ -188,6 +215,7 @@ static void write_range(const fracas_param *param, char *text, size_t size)
 fracas_err fracas_setting_check(const fracas_file *file, const fracas_setting *setting, const fracas_param *param)
 {
     double value = setting->value;
+    if (fracas_param_is_text(param)) return FRACAS_OK;
     if ((param->minimum_open ? value > param->minimum : value >= param->minimum) && value <= param->maximum)
         return FRACAS_OK;
     char range[160], number[FRACAS_NUMBER_TEXT];

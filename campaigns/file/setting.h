@@ -11,6 +11,7 @@ typedef struct {
     const char *name;
     fracas_campaign_memory *memory;
     const fracas_units *units;
+    fracas_campaign *campaign; /* being made */
     const fracas_catalog *catalog;
     const fracas_node *root;
 } fracas_file;
@@ -19,7 +20,8 @@ typedef struct fracas_setting {
     const fracas_leaf *leaf;
     const fracas_node *node;   /* where it was written */
     const fracas_kind *kind;   /* of a leaf that names a kind */
-    double value;              /* of any other, SI */
+    double value;              /* of any other, SI; of a choice, its index */
+    const fracas_attachment *attachment; /* of a file */
     struct fracas_setting *next;
 } fracas_setting;
 

@@ -12,14 +12,16 @@ static const void *owner_of(const fracas_leaf *leaf, const fracas_campaign *camp
     return leaf->section->table->hashed ? (const void *)&campaign->point[point] : &campaign->output;
 }
 
-/* The value as text; false if the point has none. */
+/* The value as text, a file by where its copy is; false if the point has none. */
 static bool write_value(const fracas_leaf *leaf, const fracas_campaign *campaign, size_t point,
                         char text[FRACAS_LEAF_TEXT])
 {
     fracas_value value;
     if (!fracas_leaf_get(leaf, owner_of(leaf, campaign, point), &value)) return false;
-    fracas_leaf_write(leaf, &value, text);
-    return true;
+    const bool file = leaf->param && leaf->param->type == FRACAS_ATTACHMENT;
+    if (file) snprintf(text, FRACAS_LEAF_TEXT, FRACAS_ATTACHMENTS "/%s", value.text);
+    else fracas_leaf_write(leaf, &value, text);
+    return !file || *value.text;
 }
 
 static bool kind_varies(const fracas_file_section *section, const fracas_campaign *campaign)

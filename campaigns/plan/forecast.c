@@ -1,44 +1,141 @@
 #include "campaigns/plan/forecast.h"
 
 #include "campaigns/plan/plan.h"
-#include "engine/engine.h"
+#include "campaigns/plan/point_model.h"
+#include "engine/loading/loading.h"
+#include "engine/mesh/body.h"
 
 #include <math.h>
 #include <time.h>
 
 enum { MAX_LANES = 8 }; /* of a batch */
 
+/* The smallest volume of an interface [m3]: where strengths depend on it, there they are largest. */
+static double smallest_volume(const fracas_model *model)
+{
+    double volume = INFINITY;
+    for (size_t i = 0; i < fracas_model_interfaces(model); i++)
+        volume = fmin(volume, fracas_model_interface_volume(model, i));
+    return volume;
+}
+
 static fracas_err check_strongest(const fracas_model *model, const fracas_point *point)
 {
     const double drawn = (double)fracas_model_interfaces(model) * (double)point->replicas;
+    const double volume = smallest_volume(model);
     const double u = fmin(1.0 - 0.01 / drawn, 1.0 - 0x1p-53);
-    fracas_err err = fracas_model_check_strength(model, fracas_strength_quantile(&point->strength, u));
+    fracas_err err = fracas_model_check_strength(model, fracas_strength_quantile(&point->strength, volume, u));
     return err ? fracas_fail_within(err, "the strongest of %.3g interfaces (all replicas together)", drawn) : FRACAS_OK;
 }
 
-static fracas_err describe(const fracas_point *point, fracas_forecast *forecast)
+static fracas_err check_count(const fracas_model *model, const fracas_strength *strength)
 {
+    const size_t given = fracas_strength_count(strength), interfaces = fracas_model_interfaces(model);
+    if (given == 0 || given == interfaces) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "%s has %zu strengths, but the mesh has %zu interfaces; each needs one line of the file",
+                       strength->file->path, given, interfaces);
+}
+
+/* A stress that an uncracked ring with this load stays below until t [Pa]. Radially it is u'' + w^2 u = a, w = c/R, sigma = E u/R:
+ * - a radial velocity v takes a free ring to E v/c and no further, then it swings back (docs/theory/ring.md);
+ * - a radial acceleration of at most a takes it to E a t^2/(2 R), and to 2 R rho a and no further;
+ * - so does a circumferential velocity v by a = v^2/R. */
+static double ring_stress_bound(const fracas_spec *spec, double t)
+{
+    const fracas_loading *loading = &spec->loading;
+    const double young = spec->material.young, rho = spec->material.density, radius = spec->geometry.radius;
+    const double mass = rho * spec->geometry.area; /* per length */
+    const bool radial = loading->direction == &fracas_axis_radial;
+    double stress = 0, outward = 0, along = 0; /* acceleration [m/s2], velocity [m/s]: the largest until t */
+    if (loading->type == &fracas_loading_initial_velocity) {
+        stress = young * fabs(loading->radial) / radius * fmin(t, radius / sqrt(young / rho));
+        along = loading->circumferential;
+    } else if (loading->type == &fracas_loading_held_velocity && radial) {
+        stress = young * t / radius * (loading->velocity + 0.5 * t * fmax(0, loading->acceleration));
+    } else if (loading->type == &fracas_loading_held_velocity) {
+        along = fmax(fabs(loading->velocity), fabs(loading->velocity + loading->acceleration * t));
+    } else if (radial) {
+        outward = fmax(fabs(loading->force), fabs(loading->force + loading->force_rate * t)) / mass;
+    } else {
+        along = t * (fabs(loading->force) + 0.5 * t * fabs(loading->force_rate)) / mass;
+    }
+    outward += along * along / radius;
+    return stress + fmin(young * t * t / (2 * radius), 2 * radius * rho) * outward;
+}
+
+/* A stress that the uncracked body stays below until time.end [Pa]. */
+static double stress_bound(const fracas_spec *spec)
+{
+    if (spec->loading.type == &fracas_loading_imposed_rate)
+        return spec->material.young * spec->loading.rate * spec->time.end;
+    return ring_stress_bound(spec, spec->time.end);
+}
+
+static bool is_ring(const fracas_spec *spec)
+{
+    return spec->geometry.shape == &fracas_shape_ring;
+}
+
+/* True if the whole ring is compressed before time.end: a chain without bending stiffness then folds, from round-off on. Held
+ * radial velocities keep it round. */
+static bool is_folded(const fracas_spec *spec, const fracas_forecast *forecast)
+{
+    const fracas_loading *loading = &spec->loading;
+    const double last = loading->force + loading->force_rate * spec->time.end;
+    if (loading->type == &fracas_loading_force && loading->direction == &fracas_axis_radial)
+        return fmin(loading->force, last) < 0;
+    if (loading->type != &fracas_loading_initial_velocity || loading->circumferential != 0) return false;
+    return loading->radial < 0 || (forecast->bound < forecast->mean && loading->radial > 0 && spec->time.end > 2 * forecast->turn);
+}
+
+/* Angle that a load along the ring turns it by until time.end [rad]. */
+static double turned_angle(const fracas_spec *spec)
+{
+    const fracas_loading *loading = &spec->loading;
+    const double t = spec->time.end, mass = spec->material.density * spec->geometry.area;
+    double way = 0;
+    if (loading->type == &fracas_loading_initial_velocity) way = loading->circumferential * t;
+    else if (loading->direction != &fracas_axis_circumferential) return 0;
+    else if (loading->type == &fracas_loading_held_velocity) way = (loading->velocity + 0.5 * loading->acceleration * t) * t;
+    else if (loading->type == &fracas_loading_force) way = (0.5 * loading->force + loading->force_rate * t / 6) * t * t / mass;
+    return fabs(way) / spec->geometry.radius;
+}
+
+static fracas_err describe(const fracas_campaign *campaign, size_t index, fracas_forecast *forecast)
+{
+    const fracas_point *point = &campaign->point[index];
     fracas_model *model;
-    TRY(fracas_model_create(&point->spec, &model));
+    TRY(fracas_point_model_create(campaign, index, &model));
     *forecast = (fracas_forecast){
         .elements = (int64_t)fracas_model_elements(model),
         .steps = fracas_model_steps(model),
         .time_step = fracas_model_time_step(model),
     };
-    const double mean = fracas_strength_mean(&point->strength);
-    const fracas_material *material = &point->spec.material;
-    const double softening = material->young * point->spec.cohesive.fracture_energy / (mean * mean);
-    forecast->coarseness = point->spec.geometry.length / (double)forecast->elements / softening;
-    forecast->uniform = fracas_strength_quantile(&point->strength, 0.25) == fracas_strength_quantile(&point->strength, 0.75);
-    forecast->early = material->young * point->spec.loading.rate * point->spec.time.end < mean;
-    fracas_err err = check_strongest(model, point);
+    const fracas_spec *spec = &point->spec;
+    const double volume = fracas_spec_interface_volume(spec), mean = fracas_strength_mean(&point->strength, volume);
+    const double softening = spec->material.young * fracas_spec_fracture_energy(spec, mean) / (mean * mean);
+    forecast->coarseness = fracas_spec_length(spec) / (double)forecast->elements / softening;
+    forecast->uniform = fracas_strength_quantile(&point->strength, volume, 0.25) ==
+                        fracas_strength_quantile(&point->strength, volume, 0.75);
+    forecast->mean = mean;
+    forecast->bound = stress_bound(spec);
+    forecast->step_stress = spec->material.young * fracas_spec_strain_rate(spec) * forecast->time_step;
+    if (is_ring(spec)) {
+        forecast->turn = M_PI_2 * spec->geometry.radius / sqrt(spec->material.young / spec->material.density);
+        forecast->folds = is_folded(spec, forecast);
+        if (spec->geometry.direction == &fracas_direction_initial) forecast->turned = turned_angle(spec);
+        forecast->lonely = spec->cohesive.zone > 0.5 * fracas_spec_length(spec);
+    }
+    forecast->repeated = fracas_strength_count(&point->strength) > 0 && point->replicas > 1;
+    fracas_err err = check_count(model, &point->strength);
+    if (!err) err = check_strongest(model, point);
     fracas_model_destroy(model);
     return err;
 }
 
 fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point, fracas_forecast *forecast)
 {
-    fracas_err err = describe(&campaign->point[point], forecast);
+    fracas_err err = describe(campaign, point, forecast);
     return err ? fracas_fail_within(err, "point %zu", point) : FRACAS_OK;
 }
 
@@ -94,18 +191,22 @@ static fracas_err run_batch(const fracas_model *model, double strength, size_t l
     return err;
 }
 
-static fracas_err time_steps(const fracas_point *point, double end, effort *spent)
+static fracas_err time_steps(const fracas_campaign *campaign, size_t index, double end, effort *spent)
 {
     enum { TIMED = 100000 }; /* elements: beyond them speed is that of memory */
+    const fracas_point *point = &campaign->point[index];
     fracas_spec spec = point->spec;
     fracas_model *model;
-    if (spec.mesh.elements > TIMED) { /* a shorter bar of the same elements */
+    if (spec.mesh.elements > TIMED) { /* a shorter bar or smaller ring of the same elements */
         spec.geometry.length *= TIMED / (double)spec.mesh.elements;
+        spec.geometry.radius *= TIMED / (double)spec.mesh.elements;
         spec.mesh.elements = TIMED;
     }
     spec.time.end = fmin(spec.time.end, end);
-    TRY(fracas_model_create(&spec, &model));
-    fracas_err err = run_batch(model, fracas_strength_mean(&point->strength), lanes_of(point), spent);
+    spec.cohesive.refinement = 1.0; /* a step takes the same time however short it is, and so there are as many as asked for */
+    TRY(fracas_point_model_like(campaign, index, &spec, &model));
+    const double strength = fracas_strength_mean(&point->strength, fracas_spec_interface_volume(&spec));
+    fracas_err err = run_batch(model, strength, lanes_of(point), spent);
     fracas_model_destroy(model);
     return err;
 }
@@ -113,15 +214,16 @@ static fracas_err time_steps(const fracas_point *point, double end, effort *spen
 /* Times about 2e7 element-steps, a twentieth of a second, less the time that a batch of one step takes: what a batch
  * does once counts little in a full run. A batch that is too short for the clock is repeated, and taken as it is if
  * even many are. */
-static fracas_err time_point(const fracas_point *point, fracas_forecast *forecast)
+static fracas_err time_point(const fracas_campaign *campaign, size_t index, fracas_forecast *forecast)
 {
+    const fracas_point *point = &campaign->point[index];
     const double step = forecast->time_step;
     const double steps = fmax(20.0, ceil(2e7 / ((double)forecast->elements * (double)lanes_of(point))));
     effort sum = {0}, whole = {0};
     for (int i = 0; i < 50 && sum.seconds < 0.01; i++) {
         effort brief, full;
-        TRY(time_steps(point, 0.5 * step, &brief));
-        TRY(time_steps(point, (steps - 0.5) * step, &full));
+        TRY(time_steps(campaign, index, 0.5 * step, &brief));
+        TRY(time_steps(campaign, index, (steps - 0.5) * step, &full));
         sum.element_steps += full.element_steps - brief.element_steps;
         sum.seconds += full.seconds - brief.seconds;
         whole.element_steps += full.element_steps;
@@ -162,7 +264,7 @@ fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs, fracas
         TRY(fracas_forecast_make(campaign, p, &forecast[p]));
         forecast[p].speed = speed_of_like(campaign, forecast, p);
         if (forecast[p].speed == 0.0) {
-            fracas_err err = time_point(point, &forecast[p]);
+            fracas_err err = time_point(campaign, p, &forecast[p]);
             if (err) return fracas_fail_within(err, "point %zu", p);
         }
         const double work = (double)forecast[p].elements * (double)forecast[p].steps * (double)point->replicas;

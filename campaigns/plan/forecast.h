@@ -11,11 +11,19 @@ typedef struct {
     double time;      /* s, of all replicas on all jobs */
     double bytes;     /* in study.h5 */
     double coarseness; /* element size over E G_c/sigma_c^2, the length over which a crack softens */
-    bool uniform;      /* every interface has the same strength */
-    bool early;        /* time.end comes before the mean strength is reached */
+    bool uniform;      /* half of the interfaces and more have the same strength */
+    double step_stress; /* E rate dt [Pa]; NaN where the loading gives no strain rate */
+    double turn;       /* a ring's time from its greatest speed to its turning point: pi/2 R/c [s] */
+    bool folds;        /* a ring is driven inward, or swings back whole and then inward before time.end */
+    double turned;     /* angle by which a ring turns until time.end, where its interfaces open along initial directions [rad] */
+    bool lonely;       /* the fracture-limiting zone of one interface reaches around the ring */
+    bool repeated;     /* strengths are given, so that replicas are equal, and there are several */
+    double mean;       /* strength of an interface [Pa] */
+    double bound;      /* stress that the uncracked body stays below until time.end [Pa] */
 } fracas_forecast;
 
-/* Elements, time step, steps, coarseness of one point (speed 0). Refused if the engine would refuse the strength that the
+/* Elements, time step, steps, coarseness of one point (speed 0). Refused if strengths are given and not as many as
+ * there are interfaces, or if the engine would refuse the strength that the
  * strongest of all its interfaces and replicas stays below with a probability of 99 %. */
 FRACAS_MUST_USE fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point,
                                                 fracas_forecast *forecast);

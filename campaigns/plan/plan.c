@@ -3,6 +3,7 @@
 #include "base/json.h"
 #include "base/units.h"
 #include "campaigns/plan/forecast.h"
+#include "engine/loading/loading.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -111,23 +112,92 @@ static void put_size(text_sheet *sheet, size_t row, size_t column, double bytes)
 
 /* The softening zone of a crack, some E G_c/sigma_c^2 long, should hold elements. */
 #define COARSE 0.5
-enum { WARNINGS = 3 };
+/* A ring turned further than this no longer opens along the directions of its start [rad]: 1 - cos of it is 5e-5. */
+#define TURNED 0.01
 
+/* What would crack more of a body whose stress stays below its strength. */
+static const char *harder(const fracas_spec *spec, const fracas_forecast *forecast)
+{
+    if (spec->loading.type != &fracas_loading_initial_velocity) return "load it harder, or longer";
+    return spec->time.end < forecast->turn ? "raise its velocity or time.end" : "a free ring swings back: raise its velocity";
+}
+
+/* Each writes what to know of a point; false if it does not apply. */
+typedef bool warning(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size);
+
+static bool warn_coarse(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
+{
+    (void)point;
+    snprintf(text, size, "elements are %.2g E G_c/sigma_c^2 long, above %.1g a crack's softening is not resolved: raise "
+             "mesh.elements to %.0f", forecast->coarseness, COARSE, ceil((double)forecast->elements * forecast->coarseness / COARSE));
+    return forecast->coarseness > COARSE;
+}
+
+static bool warn_uniform(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
+{
+    const char *distribution = point->strength.distribution->name;
+    const bool all = strcmp(distribution, "constant") == 0;
+    snprintf(text, size, "%s interfaces %sare equally strong and qualify at once; where the body breaks is then up to mesh and "
+             "rounding: give the strength a scatter%s", all ? "all" : "half of the", all ? "" : "or more ",
+             strcmp(distribution, "flaws") ? "" : ", here by a higher flaw_density");
+    return forecast->uniform;
+}
+
+static bool warn_weak_load(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
+{
+    snprintf(text, size, "until time.end the stress stays below %.3g MPa, the mean strength is %.3g MPa: the weakest interfaces will "
+             "crack, or none: %s", 1e-6 * forecast->bound, 1e-6 * forecast->mean, harder(&point->spec, forecast));
+    return forecast->bound < forecast->mean;
+}
+
+static bool warn_repeated(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
+{
+    snprintf(text, size, "its strengths are those of a file, so all its %" PRId64 " replicas are equal: give it replicas: 1",
+             point->replicas);
+    return forecast->repeated;
+}
+
+static bool warn_folds(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
+{
+    (void)point;
+    snprintf(text, size, "the whole ring comes under compression, where it folds, as it has no bending stiffness: what breaks then "
+             "means nothing: load it outward, and end a free ring that stays whole by %.3g s", 2 * forecast->turn);
+    return forecast->folds;
+}
+
+static bool warn_lonely(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
+{
+    (void)point;
+    snprintf(text, size, "cohesive.zone is longer than half of the ring: once an interface opens, none else can: shorten it to less "
+             "than a quarter of a fragment");
+    return forecast->lonely;
+}
+
+static bool warn_step(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
+{
+    (void)point;
+    snprintf(text, size, "one time step adds %.3g Pa of stress, more than the mean strength of %.3g Pa: is that in Pa? A bare number "
+             "is SI", forecast->step_stress, forecast->mean);
+    return forecast->step_stress > forecast->mean;
+}
+
+static bool warn_turned(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
+{
+    (void)point;
+    snprintf(text, size, "the ring turns by %.2g rad until time.end, and geometry.direction is initial: interfaces that open along "
+             "directions it no longer has are off from %.2g rad on: leave direction out, for current", forecast->turned, TURNED);
+    return forecast->turned > TURNED;
+}
+
+static warning *const warnings[] = {warn_coarse, warn_uniform, warn_weak_load, warn_repeated,
+                                    warn_folds,  warn_lonely,  warn_step,      warn_turned};
+enum { WARNINGS = FRACAS_COUNT(warnings) };
+
+/* Warning `which` of point p, with its number; false if it does not apply. */
 static bool warning_of(const campaign_plan *plan, size_t p, int which, char *text, size_t size)
 {
-    const fracas_forecast *forecast = &plan->forecast[p];
-    const bool applies[WARNINGS] = {forecast->coarseness > COARSE, forecast->uniform, forecast->early};
-    if (which == 0)
-        snprintf(text, size, "point %zu: elements are %.2g E G_c/sigma_c^2 long, above %.1g a crack's softening is not "
-                 "resolved: raise mesh.elements to %.0f", p, forecast->coarseness, COARSE,
-                 ceil((double)forecast->elements * forecast->coarseness / COARSE));
-    else if (which == 1)
-        snprintf(text, size, "point %zu: all interfaces are equally strong and qualify at once; where the body breaks is then "
-                 "up to mesh and rounding: give the strength a scatter", p);
-    else
-        snprintf(text, size, "point %zu: at time.end the stress E rate end has not reached the mean strength: little or "
-                 "nothing will crack", p);
-    return applies[which];
+    int begin = snprintf(text, size, "point %zu: ", p);
+    return warnings[which](&plan->campaign->point[p], &plan->forecast[p], text + begin, size - (size_t)begin);
 }
 
 /* ---- the plan as text ---- */

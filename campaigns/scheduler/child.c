@@ -28,9 +28,13 @@ static void crash_if_asked(const fracas_lease *lease)
     }
 }
 
-static void fill_strengths(const fracas_campaign *campaign, const fracas_model *model, const fracas_lease *lease,
-                           fracas_batch *batch)
+static fracas_err fill_strengths(const fracas_campaign *campaign, const fracas_model *model, const fracas_lease *lease,
+                                 fracas_batch *batch)
 {
+    const size_t interfaces = fracas_model_interfaces(model);
+    double *volume = malloc(interfaces * sizeof *volume);
+    if (!volume) return fracas_no_memory("the volumes of the interfaces");
+    for (size_t i = 0; i < interfaces; i++) volume[i] = fracas_model_interface_volume(model, i);
     const fracas_point *point = &campaign->point[lease->point];
     fracas_stream stream = {.seed = campaign->seed, .purpose = FRACAS_PURPOSE_STRENGTH};
     fracas_hash_words(&point->hash, stream.point);
@@ -38,8 +42,10 @@ static void fill_strengths(const fracas_campaign *campaign, const fracas_model *
         size_t stride;
         double *strength = fracas_batch_strength(batch, lane, &stride);
         stream.replica = (uint64_t)lease->replica[lane];
-        fracas_strength_sample(&point->strength, &stream, fracas_model_interfaces(model), stride, strength);
+        fracas_strength_sample(&point->strength, &stream, interfaces, volume, stride, strength);
     }
+    free(volume);
+    return FRACAS_OK;
 }
 
 static fracas_err send_record(int fd, const fracas_record *record)
@@ -62,11 +68,11 @@ static fracas_err compute(const fracas_campaign *campaign, const fracas_run_opti
                                           .isa = options->isa};
     fracas_batch *batch;
     TRY(fracas_batch_create(model, lease->count, &batch_options, &batch));
-    fill_strengths(campaign, model, lease, batch);
+    fracas_err err = fill_strengths(campaign, model, lease, batch);
     crash_if_asked(lease);
     fracas_record record[FRACAS_LEASE_MAX];
     for (size_t lane = 0; lane < lease->count; lane++) fracas_record_init(&record[lane]);
-    fracas_err err = fracas_batch_run(batch, record);
+    if (!err) err = fracas_batch_run(batch, record);
     for (size_t lane = 0; lane < lease->count; lane++) {
         if (!err) err = send_record(fd, &record[lane]);
         fracas_record_clear(&record[lane]);

@@ -1,7 +1,7 @@
 #include "campaigns/scheduler/costs.h"
 
 #include "campaigns/plan/plan.h"
-#include "engine/engine.h"
+#include "campaigns/plan/point_model.h"
 
 #include <stdlib.h>
 
@@ -9,7 +9,7 @@
 static fracas_err try_batch(const fracas_campaign *campaign, const fracas_run_options *options)
 {
     fracas_model *model;
-    TRY(fracas_model_create(&campaign->point[0].spec, &model));
+    TRY(fracas_point_model_create(campaign, 0, &model));
     fracas_batch_options batch_options = {.width = options->width, .isa = options->isa};
     fracas_batch *batch;
     fracas_err err = fracas_batch_create(model, 1, &batch_options, &batch);

@@ -1,5 +1,7 @@
 #include "campaigns/scheduler/models.h"
 
+#include "campaigns/plan/point_model.h"
+
 fracas_err fracas_models_get(fracas_models *models, const fracas_campaign *campaign, size_t point,
                              const fracas_model **model)
 {
@@ -14,7 +16,7 @@ fracas_err fracas_models_get(fracas_models *models, const fracas_campaign *campa
         if (models->slot[i].used < models->slot[oldest].used) oldest = i;
     }
     fracas_model *created;
-    TRY(fracas_model_create(&campaign->point[point].spec, &created));
+    TRY(fracas_point_model_create(campaign, point, &created));
     fracas_model_destroy(models->slot[oldest].model);
     models->slot[oldest].point = point;
     models->slot[oldest].model = created;

@@ -119,15 +119,18 @@ static fracas_err sync_folder(const char *path)
     return err;
 }
 
-/* Writes campaign.yaml whole: under a temporary name, synced, renamed. */
-static fracas_err write_campaign(const char *study, const fracas_campaign *campaign)
+/* Writes FOLDER/NAME whole by `write`: under a temporary name, synced, renamed. */
+static fracas_err write_whole(const char *folder, const char *name, fracas_err (*write)(const void *what, FILE *out),
+                              const void *what)
 {
     char path[PATH], temporary[PATH];
-    TRY(join(study, "campaign.yaml", path));
-    TRY(join(study, "campaign.yaml.tmp", temporary));
+    TRY(join(folder, name, path));
+    if (snprintf(temporary, PATH, "%s.tmp", path) >= PATH)
+        return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s", folder);
+    unlink(temporary); /* of a run that was killed; or a link or a pipe that would lead elsewhere */
     FILE *out = fopen(temporary, "w");
     fracas_err err = FRACAS_OK;
-    if (out) err = fracas_campaign_write(campaign, out);
+    if (out) err = write(what, out);
     bool good = out && !err && !fflush(out) && !fsync(fileno(out));
     int reason = errno;
     if (out && fclose(out) && good) {
@@ -138,9 +141,55 @@ static fracas_err write_campaign(const char *study, const fracas_campaign *campa
         good = false;
         reason = errno;
     }
-    if (good) return sync_folder(study);
+    if (good) return sync_folder(folder);
     unlink(temporary);
     return err ? err : fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: %s", path, strerror(reason));
+}
+
+static fracas_err campaign_to(const void *campaign, FILE *out)
+{
+    return fracas_campaign_write(campaign, out);
+}
+
+static fracas_err attachment_to(const void *what, FILE *out)
+{
+    const fracas_attachment *attachment = what;
+    errno = 0;
+    if (fwrite(attachment->text, 1, attachment->size, out) == attachment->size) return FRACAS_OK;
+    return fracas_fail(FRACAS_ENVIRONMENT, "cannot copy %s into the study: %s", attachment->path, strerror(errno));
+}
+
+/* True if the study has this very content already. */
+static bool is_copied(const char *folder, const fracas_attachment *attachment)
+{
+    char path[PATH], block[1 << 14];
+    size_t at = 0, got;
+    struct stat found;
+    if (snprintf(path, PATH, "%s/%s", folder, attachment->digest) >= PATH) return false;
+    if (stat(path, &found) || !S_ISREG(found.st_mode)) return false; /* opening a pipe would wait */
+    FILE *in = fopen(path, "rb");
+    if (!in) return false;
+    while ((got = fread(block, 1, sizeof block, in)) > 0 && got <= attachment->size - at &&
+           memcmp(block, attachment->text + at, got) == 0)
+        at += got;
+    bool same = got == 0 && at == attachment->size && !ferror(in);
+    fclose(in);
+    return same;
+}
+
+/* Copies the files that the campaign names into the study, where campaign.yaml will look for them: the study does not
+ * depend on what becomes of the originals. */
+static fracas_err copy_attachments(const char *study, const fracas_campaign *campaign)
+{
+    char folder[PATH];
+    if (!campaign->attached) return FRACAS_OK;
+    TRY(join(study, FRACAS_ATTACHMENTS, folder));
+    TRY(make_folder(folder));
+    TRY(sync_folder(study));
+    for (const fracas_attached *a = campaign->attached; a; a = a->next)
+        if (!is_copied(folder, &a->attachment))
+            TRY(write_whole(folder, a->attachment.digest, attachment_to, &a->attachment));
+    return FRACAS_OK;
 }
 
 /* The part of preparation under the lock. */
@@ -152,7 +201,8 @@ static fracas_err open_and_plan(const char *study, const fracas_campaign *campai
     TRY(fracas_index_open(study, true, index));
     fracas_file_header header = fracas_segment_header(campaign);
     fracas_err err = fracas_index_claim(*index, &header);
-    if (!err) err = write_campaign(study, campaign);
+    if (!err) err = copy_attachments(study, campaign);
+    if (!err) err = write_whole(study, "campaign.yaml", campaign_to, campaign);
     if (!err) err = fracas_study_recover(study, *index, &header, &campaign->table, report);
     if (!err) err = fracas_index_plan(*index, &campaign->table);
     if (err) {

@@ -26,7 +26,7 @@ FRACAS_MUST_USE fracas_err fracas_study_settled(const char *study, fracas_index 
 FRACAS_MUST_USE fracas_err fracas_study_examine(const char *study, const fracas_campaign *campaign, bool *settled,
                                                 int64_t *failed);
 
-/* Creates the folders, takes the lock, checks that the campaign fits, writes campaign.yaml, opens the index,
+/* Creates the folders, takes the lock, checks that the campaign fits, copies the files it names, writes campaign.yaml, opens the index,
  * recovers from an interruption (*report as fracas_study_recover, freed by the caller) and plans. On failure nothing
  * is held: *lock is -1, *index and *report are NULL. */
 FRACAS_MUST_USE fracas_err fracas_study_prepare(const char *study, const fracas_campaign *campaign, int *lock,

@@ -54,7 +54,7 @@ def laws(row, young, density, strength, fracture_energy, rate):
     speed = math.sqrt(young / density)
     row["scale.size"] = s0 = young * fracture_energy / strength**2
     row["scale.rate"] = rate0 = speed * strength**3 / (young**2 * fracture_energy)
-    e = rate / rate0
+    e = rate / rate0 if rate > 0 else math.nan  # a ring that spins or is accelerated begins at 0: the laws say nothing
     row["law.zmr"] = s0 * 4.5 / (1 + 4.5 * e ** (2 / 3))
     row["law.grady"] = s0 * (24 / e**2) ** (1 / 3)
     row["law.glenn_chudnovsky"] = s0 * 4 / e * math.sinh(math.asinh(1.5 * e) / 3)
@@ -64,6 +64,19 @@ def laws(row, young, density, strength, fracture_energy, rate):
 def largest_ratio(values, dissipated):
     cracked = dissipated > 0
     return (values[cracked] / dissipated[cracked]).max() if cracked.any() else math.nan
+
+
+def length_of(point, p):
+    """Length of a bar, circumference of a ring."""
+    if "model" in point and point["model"][p] == b"ring":
+        return 2 * math.pi * point["geometry.radius"][p]
+    return point["geometry.length"][p]
+
+
+def fracture_energy_of(point, p):
+    """As given, or of the mean strength where the critical opening is given (law stershic)."""
+    opening = point["cohesive.critical_opening"][p] if "cohesive.critical_opening" in point else 0
+    return opening * point["derived.strength_mean"][p] / 2 if opening > 0 else point["cohesive.fracture_energy"][p]
 
 
 def table(path):
@@ -77,11 +90,12 @@ def table(path):
         mine = realization["point"] == p
         used = mine & np.isin(realization["outcome"], list(USABLE))
         of = {name: column[used] for name, column in realization.items()}
-        row = {"rate": point["loading.rate"][p], "realizations": mine.sum(), "usable": used.sum(),
+        rate = point.get("derived.strain_rate", point.get("loading.rate"))[p]  # the latter in studies before the former
+        row = {"rate": rate, "realizations": mine.sum(), "usable": used.sum(),
                "unusable": mine.sum() - used.sum()}
         estimate(row, "count", of["fragments"].astype(float))
         estimate(row, "count_large", (of["fragments"] - of["fragments_dust"]).astype(float))
-        estimate(row, "size", point["geometry.length"][p] / of["fragments"])
+        estimate(row, "size", length_of(point, p) / of["fragments"])
         estimate(row, "dissipated", of["dissipated"])
         estimate(row, "onset_time", of["onset_time"])
         row["residual"] = largest_ratio(of["residual"], of["dissipated"])
@@ -92,7 +106,7 @@ def table(path):
         row["elements"] = elements[fragment].mean() if fragment.any() else math.nan
         row["dust_share"] = dust[fragment].mean() if fragment.any() else math.nan
         laws(row, point["material.young"][p], point["material.density"][p], point["derived.strength_mean"][p],
-             point["cohesive.fracture_energy"][p], point["loading.rate"][p])
+             fracture_energy_of(point, p), rate)
         for o, name in enumerate(OUTCOMES):
             row[name] = (realization["outcome"][mine] == o).sum()
         rows.append(row)

@@ -5,6 +5,7 @@
 #include "engine/spec.h"
 
 extern const fracas_section fracas_cohesive_section;
-extern const fracas_kind fracas_law_nitsche, fracas_law_rigid_link;
+extern const fracas_kind fracas_law_nitsche, fracas_law_rigid_link, fracas_law_stershic;
+extern const fracas_kind fracas_zone_softening, fracas_zone_steep;
 
 #endif

@@ -23,9 +23,11 @@ typedef struct {
     size_t elements;
     int periodic;
     double young;          /* Pa */
-    double spring;         /* Pa/m: nitsche, K = beta E/h */
+    double beta, spring;   /* 1, Pa/m: nitsche, K = beta E/h */
     double contact_offset; /* Pa2: rigid-link, 4.5 rate^(2/3) E G_c^(2/3) rho^(1/3) */
-    double size;          /* m, h */
+    double size;          /* m, h: of every element, where all are alike */
+    const double *sizes;  /* m, [elements]; NULL where all are alike */
+    double density;       /* kg/m3 */
     double nodal_mass;    /* kg/m2, rho h/2 */
     double fracture_energy; /* J/m2 */
     double rate;          /* 1/s */
@@ -35,10 +37,10 @@ typedef struct {
 /* Advances the lanes first .. first + lanes - 1 of the step. */
 typedef void fracas_bar_sweep(const fracas_bar_constants *bar, fracas_step *step, int first);
 
-/* Kernels of one instruction set, for 1, 4 and 8 lanes; NULL where it has no such register. */
+/* Kernels of one instruction set: [elements of one length: 0 no, 1 yes][law: 0 rigid-link, 1 nitsche][for 1, 4, 8 lanes, NULL
+ * where it has no such register]. */
 typedef struct {
-    fracas_bar_sweep *nitsche[3];
-    fracas_bar_sweep *rigid_link[3];
+    fracas_bar_sweep *sweep[2][2][3];
 } fracas_bar_kernels;
 
 extern const fracas_bar_kernels fracas_bar_kernels_baseline, fracas_bar_kernels_avx2, fracas_bar_kernels_avx512;

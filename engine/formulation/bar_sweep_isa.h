@@ -1,4 +1,4 @@
-/* One instruction set's kernels: the template in its widths and two laws. Include with BAR_KERNELS defined as
+/* One instruction set's kernels: the template in its widths, for both laws, for elements of one length and of many. Include with BAR_KERNELS defined as
  * the name of the table. */
 #include "engine/formulation/bar_sweep.h"
 
@@ -15,19 +15,21 @@
 #define LANES 4
 #include "engine/formulation/bar_sweep_template.h"
 #undef LANES
+#define BAR_IF_4(sweep) sweep
+#else
+#define BAR_IF_4(sweep) NULL
 #endif
 #ifdef __AVX512F__
 #define LANES 8
 #include "engine/formulation/bar_sweep_template.h"
 #undef LANES
+#define BAR_IF_8(sweep) sweep
+#else
+#define BAR_IF_8(sweep) NULL
 #endif
 
 const fracas_bar_kernels BAR_KERNELS = {
-    .nitsche[0] = sweep_nitsche_1, .rigid_link[0] = sweep_rigid_link_1,
-#ifdef __AVX2__
-    .nitsche[1] = sweep_nitsche_4, .rigid_link[1] = sweep_rigid_link_4,
-#endif
-#ifdef __AVX512F__
-    .nitsche[2] = sweep_nitsche_8, .rigid_link[2] = sweep_rigid_link_8,
-#endif
-};
+    .sweep = {{{sweep_varied_rigid_link_1, BAR_IF_4(sweep_varied_rigid_link_4), BAR_IF_8(sweep_varied_rigid_link_8)},
+               {sweep_varied_nitsche_1, BAR_IF_4(sweep_varied_nitsche_4), BAR_IF_8(sweep_varied_nitsche_8)}},
+              {{sweep_rigid_link_1, BAR_IF_4(sweep_rigid_link_4), BAR_IF_8(sweep_rigid_link_8)},
+               {sweep_nitsche_1, BAR_IF_4(sweep_nitsche_4), BAR_IF_8(sweep_nitsche_8)}}}};

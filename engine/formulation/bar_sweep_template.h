@@ -3,13 +3,14 @@
 #include "base/lanes.h"
 #include "engine/cohesive/nitsche.h"
 #include "engine/cohesive/rigid_link.h"
+#include "engine/formulation/chain_events.h"
 #include "engine/integrator/central_difference.h"
 
 #define bar_element LANES_NAME(bar_element)
 #define bar_link LANES_NAME(bar_link)
 #define bar_context LANES_NAME(bar_context)
 #define bar_load LANES_NAME(bar_load)
-#define bar_note_events LANES_NAME(bar_note_events)
+#define bar_stress_rate LANES_NAME(bar_stress_rate)
 #define bar_nitsche LANES_NAME(bar_nitsche)
 #define bar_rigid_link LANES_NAME(bar_rigid_link)
 #define bar_join LANES_NAME(bar_join)
@@ -22,13 +23,15 @@
 /* An element at t_n: displacements drifted, velocities still those of t_{n-1/2}. */
 typedef struct {
     vd w_left, w_right, v_left, v_right, stress;
+    vd modulus; /* E/h [Pa/m] */
+    vd size;    /* h/h of all, where they are not alike: 1 */
 } bar_element;
 
 /* What an interface does to its two elements. */
 typedef struct {
     vd traction, slip; /* T [Pa], q - delta [m] */
     vmask closed;      /* rigid-link only: both nodes move as one ... */
-    vd common;         /* ... under this force [Pa] */
+    vd common;         /* ... under this force [Pa] per mass, in units of an element's of mean length */
 } bar_link;
 
 typedef struct {
@@ -38,12 +41,12 @@ typedef struct {
     double *state;  /* of these lanes */
     vd drift, kick; /* dt [s], dt/(nodal mass) [m/(s Pa)] */
     vd load_stress; /* E rate t [Pa] */
-    vd spring, compliance, modulus; /* K, 1/K, E/h [Pa/m] */
+    vd spring, compliance, modulus; /* K, 1/K, E/h [Pa/m] of elements of one length */
     /* sums over the body, for the ledger */
     vd stress_squared, flux_energy, opening_energy, damage, velocity_squared, stress, slip;
 } bar_context;
 
-LANES_FUNCTION bar_element bar_load(const bar_context *c, size_t e)
+LANES_FUNCTION bar_element bar_load(const bar_context *c, int uniform, size_t e)
 {
     const double *at = c->state + e * BAR_FIELDS * LANES;
     bar_element element = {
@@ -51,43 +54,22 @@ LANES_FUNCTION bar_element bar_load(const bar_context *c, size_t e)
         .w_left = lanes_load(at + BAR_W_LEFT * LANES), .w_right = lanes_load(at + BAR_W_RIGHT * LANES)};
     element.w_left = central_drift(element.w_left, element.v_left, c->drift);
     element.w_right = central_drift(element.w_right, element.v_right, c->drift);
+    element.size = lanes_set(uniform ? 1.0 : c->bar->sizes[e] / c->bar->size);
+    element.modulus = uniform ? c->modulus : c->modulus / element.size;
     /* sigma = E (rate t + dw/dx)   (bar.3) */
-    element.stress = c->load_stress + c->modulus * (element.w_right - element.w_left);
+    element.stress = c->load_stress + element.modulus * (element.w_right - element.w_left);
     return element;
 }
 
-/* Rare: books onsets and breaks of one interface; `onset`, `broke` are times [s], `lost` the flux energy
- * -sigma^2/(2K) that a break drops [J/m2]. */
-__attribute__((noinline, cold)) static void bar_note_events(const bar_context *c, size_t interface, vmask cracks,
-                                                           vmask breaks, const vd *onset, const vd *broke,
-                                                           const vd *lost)
+/* Time derivative of the mean stress within the step [Pa/s]. */
+LANES_FUNCTION vd bar_stress_rate(const bar_context *c, int uniform, const bar_element *left, const bar_element *right)
 {
-    fracas_step *step = c->step;
-    for (int i = 0; i < LANES; i++) {
-        const int l = c->first + i;
-        const size_t at = interface * (size_t)step->width + (size_t)l;
-        double earliest = step->time[l] - step->drift[l];
-        if (lanes_get(cracks, i)) {
-            double time[LANES];
-            memcpy(time, onset, sizeof time);
-            double t = fmax(earliest, fmin(time[i], step->time[l]));
-            step->cracked[l]++;
-            step->first_onset[l] = fmin(step->first_onset[l], t); /* NaN: none yet */
-            if (step->onset_time) step->onset_time[at] = t;
-        }
-        if (lanes_get(breaks, i)) {
-            double time[LANES], energy[LANES];
-            memcpy(time, broke, sizeof time);
-            memcpy(energy, lost, sizeof energy);
-            step->broken[l]++;
-            step->created[l] += c->bar->area * energy[i];
-            if (step->break_time)
-                step->break_time[at] = fmax(earliest, fmin(time[i], step->time[l]));
-        }
-    }
+    const vd half = lanes_set(0.5), load = lanes_set(c->bar->young * c->bar->rate);
+    if (uniform) return half * c->modulus * (left->v_right - left->v_left + right->v_right - right->v_left) + load;
+    return half * (left->modulus * (left->v_right - left->v_left) + right->modulus * (right->v_right - right->v_left)) + load;
 }
 
-LANES_FUNCTION bar_link bar_nitsche(bar_context *c, size_t e, const bar_element *left, const bar_element *right)
+LANES_FUNCTION bar_link bar_nitsche(bar_context *c, int uniform, size_t e, const bar_element *left, const bar_element *right)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5);
     double *at = c->state + e * BAR_FIELDS * LANES;
@@ -95,7 +77,10 @@ LANES_FUNCTION bar_link bar_nitsche(bar_context *c, size_t e, const bar_element 
     vd sigma_c = lanes_load(at + BAR_STRENGTH * LANES), x = lanes_load(at + BAR_LAW * LANES);
     vd mean = half * (left->stress + right->stress); /* (bar.2) */
     vd q = right->w_left - left->w_right;
-    nitsche_interface it = nitsche_law(mean, q, before, sigma_c, x, c->spring, c->compliance);
+    /* K = beta E/h, 1/h the mean of both elements'  (bar.18) */
+    vd spring = uniform ? c->spring : lanes_set(c->bar->beta) * (half * (left->modulus + right->modulus));
+    vd compliance = uniform ? c->compliance : one / spring;
+    nitsche_interface it = nitsche_law(mean, q, before, sigma_c, x, spring, compliance);
     lanes_store(at + BAR_DAMAGE * LANES, it.damage);
 
     /* Energies per area, twice: slip (m + T) of the flux, T delta stored in the opening or in contact  (cohesive.5) */
@@ -108,17 +93,16 @@ LANES_FUNCTION bar_link bar_nitsche(bar_context *c, size_t e, const bar_element 
     vmask cracks = lanes_and(grows, lanes_le(before, zero)), breaks = lanes_and(grows, lanes_le(one, it.damage));
     if (__builtin_expect(lanes_any(lanes_or(cracks, breaks)), 0)) {
         /* S is linear in time within the step: the crossing of sigma_c, and of K delta_c = sigma_c + x  (bar.12) */
-        vd rate = half * c->modulus * (left->v_right - left->v_left + right->v_right - right->v_left) +
-                  lanes_set(c->bar->young * c->bar->rate) + c->spring * (right->v_left - left->v_right);
+        vd rate = bar_stress_rate(c, uniform, left, right) + spring * (right->v_left - left->v_right);
         vd time = lanes_load(c->step->time + c->first);
         vd onset = time - (it.trial - sigma_c) / rate, broke = time - (it.trial - sigma_c - x) / rate;
-        vd lost = half * mean * mean * c->compliance; /* (cohesive.6) */
-        bar_note_events(c, e, cracks, breaks, &onset, &broke, &lost);
+        vd lost = half * mean * mean * compliance; /* (cohesive.6) */
+        chain_note_events(c->step, c->first, c->bar->area, e, &(chain_events){cracks, breaks, onset, broke, zero, lost});
     }
     return (bar_link){.traction = it.traction, .slip = it.slip};
 }
 
-LANES_FUNCTION bar_link bar_rigid_link(bar_context *c, size_t e, const bar_element *left, const bar_element *right)
+LANES_FUNCTION bar_link bar_rigid_link(bar_context *c, int uniform, size_t e, const bar_element *left, const bar_element *right)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5), two = lanes_set(2.0);
     double *at = c->state + e * BAR_FIELDS * LANES;
@@ -143,41 +127,48 @@ LANES_FUNCTION bar_link bar_rigid_link(bar_context *c, size_t e, const bar_eleme
 
     vmask breaks = lanes_and(lanes_lt(before, damage), lanes_le(one, damage));
     if (__builtin_expect(lanes_any(lanes_or(cracks, breaks)), 0)) {
-        vd stress_rate = half * c->modulus * (left->v_right - left->v_left + right->v_right - right->v_left) +
-                         lanes_set(c->bar->young * c->bar->rate);
         vd time = lanes_load(c->step->time + c->first);
-        vd onset = time - (mean - sigma_c) / stress_rate;
+        vd onset = time - (mean - sigma_c) / bar_stress_rate(c, uniform, left, right);
         vd broke = time - (q - delta_c) / (right->v_left - left->v_right);
-        bar_note_events(c, e, cracks, breaks, &onset, &broke, &zero);
+        chain_note_events(c->step, c->first, c->bar->area, e, &(chain_events){cracks, breaks, onset, broke, zero, zero});
     }
-    return (bar_link){.traction = traction, .slip = zero, .closed = lanes_lt(state, two),
-                      .common = half * (right->stress - left->stress)};
+    /* both nodes accelerate as one, under the force on both */
+    vd common = uniform ? half * (right->stress - left->stress) : (right->stress - left->stress) / (left->size + right->size);
+    return (bar_link){.traction = traction, .slip = zero, .closed = lanes_lt(state, two), .common = common};
 }
 
-LANES_FUNCTION bar_link bar_join(bar_context *c, int law, size_t e, const bar_element *left, const bar_element *right)
+LANES_FUNCTION bar_link bar_join(bar_context *c, int uniform, int law, size_t e, const bar_element *left,
+                                 const bar_element *right)
 {
-    return law == BAR_NITSCHE ? bar_nitsche(c, e, left, right) : bar_rigid_link(c, e, left, right);
+    return law == BAR_NITSCHE ? bar_nitsche(c, uniform, e, left, right) : bar_rigid_link(c, uniform, e, left, right);
 }
 
 /* Forces and kick of one element, and its share of the sums; a held node stays where it is. */
-LANES_FUNCTION void bar_finish(bar_context *c, int law, size_t e, const bar_element *element, const bar_link *left,
-                               const bar_link *right, int hold_left, int hold_right)
+LANES_FUNCTION void bar_finish(bar_context *c, int uniform, int law, size_t e, const bar_element *element,
+                               const bar_link *left, const bar_link *right, int hold_left, int hold_right)
 {
     const vd half = lanes_set(0.5);
     double *at = c->state + e * BAR_FIELDS * LANES;
     /* N = sigma + (E/2h) (slip of both ends): bulk and symmetrisation  (bar.6); forces per area  (bar.7) */
-    vd internal = law == BAR_NITSCHE ? element->stress + half * c->modulus * (left->slip + right->slip) : element->stress;
+    vd internal = element->stress;
+    if (law == BAR_NITSCHE) internal += half * element->modulus * (left->slip + right->slip);
     vd force_left = internal - left->traction, force_right = right->traction - internal;
-    if (law == BAR_RIGID_LINK) {
+    if (!uniform) { /* per mass */
+        force_left = force_left / element->size;
+        force_right = force_right / element->size;
+    }
+    if (law == BAR_RIGID_LINK) { /* the same number on both sides: tied nodes stay together to the bit */
         force_left = lanes_select(left->closed, left->common, force_left);
         force_right = lanes_select(right->closed, right->common, force_right);
     }
     vd v_left = hold_left ? element->v_left : central_kick(element->v_left, force_left, c->kick);
     vd v_right = hold_right ? element->v_right : central_kick(element->v_right, force_right, c->kick);
     /* kinetic energy of leapfrog, v_{n-1/2} v_{n+1/2}: constant to round-off with the rest  (bar.11) */
-    c->velocity_squared += element->v_left * v_left + element->v_right * v_right;
-    c->stress_squared += element->stress * element->stress;
-    c->stress += element->stress;
+    vd velocity_squared = element->v_left * v_left + element->v_right * v_right;
+    vd stress_squared = element->stress * element->stress;
+    c->velocity_squared += uniform ? velocity_squared : element->size * velocity_squared;
+    c->stress_squared += uniform ? stress_squared : element->size * stress_squared;
+    c->stress += uniform ? element->stress : element->size * element->stress;
     lanes_store(at + BAR_W_LEFT * LANES, element->w_left);
     lanes_store(at + BAR_W_RIGHT * LANES, element->w_right);
     lanes_store(at + BAR_V_LEFT * LANES, v_left);
@@ -198,7 +189,7 @@ LANES_FUNCTION void bar_totals(const bar_context *c)
                                  (lanes_set(bar->size) * c->stress + lanes_set(bar->young) * c->slip));
 }
 
-LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, int first, int law)
+LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, int first, int uniform, int law)
 {
     const vd zero = lanes_set(0.0);
     const size_t last = bar->elements - 1;
@@ -214,43 +205,44 @@ LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, 
 
     /* One pass in place: an element is written once both its interfaces are known, and what its right neighbour
      * needs of it is kept in registers. The interface that closes a periodic bar comes first. */
-    bar_element element = bar_load(c, 0);
+    bar_element element = bar_load(c, uniform, 0);
     bar_link closing = {.traction = zero, .slip = zero}, left;
     if (bar->periodic) {
-        bar_element end = bar_load(c, last);
-        closing = bar_join(c, law, last, &end, &element);
+        bar_element end = bar_load(c, uniform, last);
+        closing = bar_join(c, uniform, law, last, &end, &element);
     }
-    bar_element next = bar_load(c, 1);
-    bar_link right = bar_join(c, law, 0, &element, &next);
-    if (bar->periodic) bar_finish(c, law, 0, &element, &closing, &right, 0, 0);
-    else bar_finish(c, law, 0, &element, &closing, &right, 1, 0);
+    bar_element next = bar_load(c, uniform, 1);
+    bar_link right = bar_join(c, uniform, law, 0, &element, &next);
+    if (bar->periodic) bar_finish(c, uniform, law, 0, &element, &closing, &right, 0, 0);
+    else bar_finish(c, uniform, law, 0, &element, &closing, &right, 1, 0);
     for (size_t e = 1; e < last; e++) {
         left = right;
         element = next;
-        next = bar_load(c, e + 1);
-        right = bar_join(c, law, e, &element, &next);
-        bar_finish(c, law, e, &element, &left, &right, 0, 0);
+        next = bar_load(c, uniform, e + 1);
+        right = bar_join(c, uniform, law, e, &element, &next);
+        bar_finish(c, uniform, law, e, &element, &left, &right, 0, 0);
     }
-    if (bar->periodic) bar_finish(c, law, last, &next, &right, &closing, 0, 0);
-    else bar_finish(c, law, last, &next, &right, &closing, 0, 1);
+    if (bar->periodic) bar_finish(c, uniform, law, last, &next, &right, &closing, 0, 0);
+    else bar_finish(c, uniform, law, last, &next, &right, &closing, 0, 1);
     bar_totals(c);
 }
 
-static void BAR_SWEEP(nitsche)(const fracas_bar_constants *bar, fracas_step *step, int first)
-{
-    bar_run(bar, step, first, BAR_NITSCHE);
-}
+#define BAR_SWEEP_OF(name, uniform, law)                                                        \
+    static void BAR_SWEEP(name)(const fracas_bar_constants *bar, fracas_step *step, int first) \
+    {                                                                                          \
+        bar_run(bar, step, first, uniform, law);                                               \
+    }
+BAR_SWEEP_OF(nitsche, 1, BAR_NITSCHE)
+BAR_SWEEP_OF(rigid_link, 1, BAR_RIGID_LINK)
+BAR_SWEEP_OF(varied_nitsche, 0, BAR_NITSCHE)
+BAR_SWEEP_OF(varied_rigid_link, 0, BAR_RIGID_LINK)
 
-static void BAR_SWEEP(rigid_link)(const fracas_bar_constants *bar, fracas_step *step, int first)
-{
-    bar_run(bar, step, first, BAR_RIGID_LINK);
-}
-
+#undef BAR_SWEEP_OF
+#undef bar_stress_rate
 #undef bar_element
 #undef bar_link
 #undef bar_context
 #undef bar_load
-#undef bar_note_events
 #undef bar_nitsche
 #undef bar_rigid_link
 #undef bar_join
@@ -259,6 +251,8 @@ static void BAR_SWEEP(rigid_link)(const fracas_bar_constants *bar, fracas_step *
 #undef bar_run
 #undef BAR_RIGID_LINK
 #undef BAR_NITSCHE
+#undef chain_events
+#undef chain_note_events
 #undef nitsche_interface
 #undef nitsche_law
 #undef rigid_link_law

@@ -16,8 +16,8 @@ struct fracas_model {
     fracas_spec spec;
     size_t elements, interfaces;
     double mass;          /* kg */
-    double element_size;  /* m, h */
-    double contact;       /* Pa/m: largest stiffness of a closing interface, per area */
+    double element_size, longest; /* m: mean and largest length h of an element */
+    double *table;        /* of the formulation's own: what its mesh is at; freed with the model */
     double critical_closed, critical_cracked; /* s: all interfaces uncracked; all broken and in contact */
     double critical_step; /* s, the smaller of the two */
     double time_step;     /* s */
@@ -31,11 +31,15 @@ typedef struct {
     double *state;       /* owned by the batch, laid out by the formulation, group after group */
     double *onset_time;  /* [interface][lane], s; NULL unless interfaces are kept */
     double *break_time;  /* the same */
-    /* in: time of the step, and the time steps before and after it (drift is 0 in the first step) */
+    /* in: time of the step, the time step that led to it (0 in the first), and the one that velocities are advanced by */
     _Alignas(64) double time[FRACAS_MAX_LANES], drift[FRACAS_MAX_LANES], kick[FRACAS_MAX_LANES];
-    /* out: energies [J] and power of the load [W] at that time */
+    /* in, out: the time step that will follow: the model's, unless the formulation refines it */
+    double next[FRACAS_MAX_LANES];
+    /* out: energies [J] at that time; what the load does: as power then [W], or as work since the step before [J] */
     double kinetic[FRACAS_MAX_LANES], elastic[FRACAS_MAX_LANES], cohesive[FRACAS_MAX_LANES];
-    double dissipated[FRACAS_MAX_LANES], power[FRACAS_MAX_LANES];
+    double dissipated[FRACAS_MAX_LANES], power[FRACAS_MAX_LANES], work[FRACAS_MAX_LANES];
+    /* of the formulation's own: power of the drive at the step before, at the velocities after it [W] */
+    double driven[FRACAS_MAX_LANES];
     /* accumulated: energy that a break creates [J], counts of interfaces, time of the first onset [s, NaN] */
     double created[FRACAS_MAX_LANES], first_onset[FRACAS_MAX_LANES];
     int64_t cracked[FRACAS_MAX_LANES], broken[FRACAS_MAX_LANES];
@@ -43,9 +47,11 @@ typedef struct {
 
 struct fracas_formulation {
     fracas_kind kind; /* first: a registry entry */
-    /* Fills the model's sizes, mass and critical step from its spec. */
+    /* Fills the model's sizes, mass, table and critical steps from its spec. */
     fracas_err (*model_init)(fracas_model *model);
     fracas_err (*check_strength)(const fracas_model *model, double strength);
+    /* Length of the body that an interface stands for [m]. */
+    double (*interface_length)(const fracas_model *model, size_t interface);
     /* Doubles that a lane's state takes. */
     size_t (*state_size)(const fracas_model *model);
     /* Where the strength of interface 0 of a lane is in the state, and the distance to that of the next interface. */
@@ -60,6 +66,6 @@ struct fracas_formulation {
     fracas_err (*harvest)(const fracas_model *model, const fracas_step *step, int lane, fracas_record *record);
 };
 
-extern const fracas_formulation fracas_formulation_bar;
+extern const fracas_formulation fracas_formulation_bar, fracas_formulation_ring;
 
 #endif

@@ -142,7 +142,7 @@ static fracas_err observe_lane(fracas_batch *batch, size_t l, fracas_record *rec
         .fragments = batch->model->formulation->fragment_count(batch->model, step->broken[l]), .broken = step->broken[l]};
     fracas_history_observe(&lane->history, batch->steps, &row, step->cracked[l] > 0);
     fracas_outcome outcome = isfinite(ledger->residual) ? FRACAS_ENERGY_DRIFT : FRACAS_NONFINITE;
-    bool over = !isfinite(ledger->residual) || fracas_ledger_drifts(ledger) ||
+    bool over = !isfinite(ledger->residual) || fracas_ledger_drifts(ledger, batch->steps) ||
                 fracas_stop_check(&lane->stop, &batch->model->spec.time, step->time[l], ledger->dissipated, step->cracked[l],
                                   step->broken[l], &outcome);
     if (!over) return FRACAS_OK;
@@ -150,14 +150,30 @@ static fracas_err observe_lane(fracas_batch *batch, size_t l, fracas_record *rec
     return finish_lane(batch, l, outcome, record);
 }
 
+/* The clock of a lane at the next step. */
+static void advance_clock(fracas_batch *batch, int l)
+{
+    fracas_step *step = &batch->step;
+    fracas_lane *lane = &batch->lane[l];
+    const double base = batch->model->time_step;
+    step->drift[l] = batch->steps == 0 ? 0.0 : step->next[l];
+    step->kick[l] = step->next[l] = base;
+    if (batch->steps == 0) {
+        lane->pace = base;
+    } else if (step->drift[l] == lane->pace) {
+        lane->paces++;
+    } else {
+        lane->since = step->time[l];
+        lane->pace = step->drift[l];
+        lane->paces = 1;
+    }
+    step->time[l] = lane->since + (double)lane->paces * lane->pace;
+}
+
 fracas_err fracas_batch_step(fracas_batch *batch, fracas_record *record, size_t *running)
 {
     fracas_step *step = &batch->step;
-    for (int l = 0; l < step->width; l++) {
-        step->time[l] = (double)batch->steps * batch->model->time_step;
-        step->drift[l] = batch->steps == 0 ? 0.0 : batch->model->time_step;
-        step->kick[l] = batch->model->time_step;
-    }
+    for (int l = 0; l < step->width; l++) advance_clock(batch, l);
     batch->model->formulation->advance(batch->model, step);
     *running = 0;
     for (size_t l = 0; l < batch->count; l++) {

@@ -12,6 +12,9 @@ typedef struct {
     fracas_ledger ledger;
     fracas_history history;
     fracas_stop stop;
+    double pace;         /* s, time step of the last steps ... */
+    double since;        /* s, ... since this time ... */
+    int64_t paces;       /* ... and how many: time = since + paces pace, without the round-off of a sum */
     bool running;
 } fracas_lane;
 

@@ -100,6 +100,36 @@ static void test_read(void **state)
     fracas_units_destroy(from.units);
 }
 
+/* The same of a campaign that names a file. */
+static void test_read_file(void **state)
+{
+    (void)state;
+    source from;
+    char strengths[40], named[100], copy[60];
+    make_path(from.path);
+    make_path(strengths);
+    write_bytes(strengths, "3e8\n4e8\n", 8);
+    assert_int_equal(fracas_units_create(&from.units), FRACAS_OK);
+    snprintf(named, sizeof named, "sweep:\n  - strength: [{distribution: file, file: %s}]\n", strengths);
+    fracas_campaign *campaign = read_replaced("", named);
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    assert_int_equal(fracas_campaign_write(campaign, out), FRACAS_OK); /* in SI */
+    assert_int_equal(fclose(out), 0);
+    snprintf(copy, sizeof copy, FRACAS_ATTACHMENTS "/%s", campaign->point[0].strength.file->digest);
+    char *there = replace(text, copy, strengths);
+    write_bytes(from.path, there, strlen(there));
+    fail_each(read_source, &from, LONG_MAX);
+    unlink(from.path);
+    unlink(strengths);
+    free(text);
+    free(there);
+    fracas_campaign_destroy(campaign);
+    fracas_units_destroy(from.units);
+}
+
 static fracas_err write_and_compare(void *context)
 {
     const fracas_campaign *campaign = context;
@@ -132,7 +162,7 @@ static void test_use(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_read), cmocka_unit_test(test_use)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_read), cmocka_unit_test(test_read_file), cmocka_unit_test(test_use)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
 

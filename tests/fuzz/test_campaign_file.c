@@ -1,14 +1,20 @@
-/* Damaged campaign files: thousands of deterministic mutations of the example are either read or refused with a message
+/* Damaged campaign files: thousands of deterministic mutations of examples (a sweep of bars; a ring with choices, names of kinds that
+ * go with each other and files) are either read or refused with a message
  * that has a place; never a crash or a hang. What is read must survive writing and reading back. */
 #include "campaigns/file/read.h"
 #include "tests/support/campaign_text.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <sys/mman.h>
+#include <stdlib.h>
+#include <sys/stat.h>
 #include <time.h>
 
 enum { LARGEST = 1 << 14 };
+
+/* Files of strengths beside the campaign file. */
+#define STRENGTHS "strengths.csv"
 
 static uint64_t next_random(uint64_t *x)
 {
@@ -21,8 +27,23 @@ static const char *const pieces[] = {
     "[", "]", "{", "}", ": ", "- ", "\n", "  ", "\t", "#", "&a ", "*a", "!!", "\"", "'", "|\n", ">", "---\n", "...",
     "%", "@", "?", "1e", "1e308", "-", "0", "nan", "1e-400", "99999999999999999999", " MPa", " s since 1", " (((",
     "^", "\xff", "\xc2", "\xe2\x82", "sweep:\n", "zip:", "cases:", "from: 1", "points: 50", "name: a", "strength",
-    "shape: 1", ".", "..", ",", "<<: ", "\\x00", "\r",
+    "shape: 1", ".", "..", ",", "<<: ", "\\x00", "\r", "model: bar", "model: ring", "law: stershic", "law: nitsche", "shape: ring",
+    "spacing: perturbed", "direction: radial", "ends: held", "critical_zone: steep", "zone: 1e300", "distribution: file",
+    ("file: " STRENGTHS), "file: /dev/zero", "file: attachments/5fca4fc001bc57a73d51c9e49f315ad3", "file: ../../", "-0",
 };
+
+static const char ring[] =
+    "name: ring\nseed: 3\nmodel: ring\ngeometry: {radius: 1 mm, area: 1 mm2, direction: initial}\nmesh: {elements: 100}\n"
+    "material: {young: 275 GPa, density: 2750 kg/m3}\n"
+    "strength:\n  distribution: file\n  file: " STRENGTHS "\n"
+    "loading: {type: held-velocity, direction: circumferential, velocity: 100 m/s, acceleration: 0}\n"
+    "time: {stop: settled, end: 150 ns, quiet: 20 ns, safety: 0.5}\nreplicas: 2\noutput: {history: 20, interfaces: true}\n"
+    "sweep:\n  - cases:\n      - {name: zone, cohesive: {law: stershic, fracture_energy: 100 J/m2, zone: 100 um, refinement: 0.1}}\n"
+    "      - {name: steep, cohesive: {law: stershic, critical_opening: 0.6 um, critical_zone: steep}}\n"
+    "      - name: bar\n        model: bar\n        geometry: {shape: bar, length: 6 mm, ends: periodic}\n"
+    "        mesh: {elements: 100, spacing: perturbed, amplitude: 0.3}\n"
+    "        cohesive: {law: rigid-link, fracture_energy: 100 J/m2}\n        loading: {type: imposed-rate, rate: 1e5 1/s}\n"
+    "  - strength.file: [" STRENGTHS ", ./" STRENGTHS "2]\n";
 
 static size_t replace_bytes(unsigned char *text, size_t size, size_t at, size_t cut, const void *put, size_t length)
 {
@@ -52,6 +73,8 @@ static size_t mutate(unsigned char *text, size_t size, uint64_t *x)
     return replace_bytes(text, size, at, 0, copy, length);
 }
 
+static char folder[] = "/tmp/fracas-fuzz-XXXXXX";
+
 static void check_round_trip(const fracas_units *units, const fracas_campaign *campaign, const char *path)
 {
     char *text = NULL;
@@ -61,6 +84,11 @@ static void check_round_trip(const fracas_units *units, const fracas_campaign *c
     assert_int_equal(fracas_campaign_write(campaign, out), FRACAS_OK);
     assert_int_equal(fclose(out), 0);
     write_bytes(path, text, size);
+    for (const fracas_attached *a = campaign->attached; a; a = a->next) {
+        char copy[80];
+        snprintf(copy, sizeof copy, "%s/" FRACAS_ATTACHMENTS "/%s", folder, a->attachment.digest);
+        write_bytes(copy, a->attachment.text, a->attachment.size);
+    }
     fracas_campaign *back = NULL;
     if (fracas_campaign_read_with(units, path, &back)) fail_msg("%s\n%s", fracas_message(), text);
     assert_true(fracas_hash_equal(&campaign->hash, &back->hash));
@@ -76,48 +104,105 @@ static double seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static void test_mutations(void **state)
+static const char *in_folder(const char *name)
 {
-    (void)state;
-    static unsigned char example[LARGEST], text[LARGEST];
-    FILE *in = fopen(FRACAS_SOURCE_DIR "/campaigns/examples/bar-rate-sweep.yaml", "rb");
-    assert_non_null(in);
-    size_t example_size = fread(example, 1, sizeof example, in), tried = 0, accepted = 0;
-    fclose(in);
-    char path[40], place[44];
-    int file = memfd_create("campaign", 0); /* a file that needs no disk */
-    assert_true(file >= 0);
-    snprintf(path, sizeof path, "/proc/self/fd/%d", file);
+    static char path[80];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+typedef struct {
+    size_t tried, accepted;
+    double slowest; /* s */
+} tally;
+
+/* One mutation of a campaign file, or of the file of strengths beside it. */
+static void try_mutation(const fracas_units *units, const unsigned char *example, size_t example_size, bool of_strengths, uint64_t *x,
+                         tally *count)
+{
+    static unsigned char text[LARGEST];
+    char path[80], place[84];
+    snprintf(path, sizeof path, "%s", in_folder("c.yaml"));
+    snprintf(place, sizeof place, "%s:", path);
+    memcpy(text, example, example_size);
+    size_t size = example_size;
+    for (uint64_t n = 1 + next_random(x) % 4; n > 0; n--) size = mutate(text, size, x);
+    write_bytes(of_strengths ? in_folder(STRENGTHS) : path, text, size);
+    if (of_strengths) write_bytes(path, ring, sizeof ring - 1);
+    fracas_campaign *campaign = NULL;
+    double before = seconds();
+    fracas_err err = fracas_campaign_read_with(units, path, &campaign);
+    count->slowest = fmax(count->slowest, seconds() - before);
+    count->tried++;
+    if (err && (err != FRACAS_USAGE || campaign || strncmp(fracas_message(), place, strlen(place)) != 0))
+        fail_msg("mutation %zu: %d %s", count->tried, err, fracas_message());
+    if (err) return;
+    count->accepted++;
+    check_round_trip(units, campaign, path);
+    fracas_campaign_destroy(campaign);
+}
+
+/* FRACAS_FUZZ_SECONDS: for longer than the two seconds of a test, with another seed. */
+static void test_mutations_of(const unsigned char *example, size_t size, bool of_strengths)
+{
     fracas_units *units;
     assert_int_equal(fracas_units_create(&units), FRACAS_OK);
-    snprintf(place, sizeof place, "%s:", path);
-    uint64_t x = 20261121;
-    double slowest = 0.0, start = seconds();
-    for (; tried < 6000 && seconds() - start < 2.0; tried++) {
-        memcpy(text, example, example_size);
-        size_t size = example_size;
-        for (uint64_t n = 1 + next_random(&x) % 4; n > 0; n--) size = mutate(text, size, &x);
-        write_bytes(path, text, size);
-        fracas_campaign *campaign = NULL;
-        double before = seconds();
-        fracas_err err = fracas_campaign_read_with(units, path, &campaign);
-        if (seconds() - before > slowest) slowest = seconds() - before;
-        if (err && (err != FRACAS_USAGE || campaign || strncmp(fracas_message(), place, strlen(place)) != 0))
-            fail_msg("mutation %zu: %d %s", tried, err, fracas_message());
-        if (err) continue;
-        accepted++;
-        check_round_trip(units, campaign, path);
-        fracas_campaign_destroy(campaign);
-    }
-    close(file);
+    const char *longer = getenv("FRACAS_FUZZ_SECONDS");
+    const double start = seconds(), most = longer ? strtod(longer, NULL) : 2.0;
+    uint64_t x = longer ? (uint64_t)time(NULL) : 20261121;
+    tally count = {0};
+    while ((longer || count.tried < 6000) && seconds() - start < most) try_mutation(units, example, size, of_strengths, &x, &count);
     fracas_units_destroy(units);
-    print_message("%zu mutations, %zu still a campaign, slowest %.1f ms\n", tried, accepted, 1e3 * slowest);
+    print_message("%zu mutations, %zu still a campaign, slowest %.1f ms\n", count.tried, count.accepted, 1e3 * count.slowest);
     /* Fewer would mean that reading had become a hundred times slower than it is (0.2 ms). */
-    assert_true(tried > 100 && accepted > 0);
+    assert_true(count.tried > 100 && count.accepted > 0);
+}
+
+static void test_bars(void **state)
+{
+    (void)state;
+    static unsigned char example[LARGEST];
+    FILE *in = fopen(FRACAS_SOURCE_DIR "/campaigns/examples/bar-rate-sweep.yaml", "rb");
+    assert_non_null(in);
+    const size_t size = fread(example, 1, sizeof example, in);
+    fclose(in);
+    test_mutations_of(example, size, false);
+}
+
+static const char strengths[] = "# interface, strength\ni, sigma_c (Pa)\n0, 299e6\n1,3.01e8\n\n2\t300000000.5\r\n";
+
+static void test_rings(void **state)
+{
+    (void)state;
+    test_mutations_of((const unsigned char *)ring, sizeof ring - 1, false);
+}
+
+static void test_strengths(void **state)
+{
+    (void)state;
+    test_mutations_of((const unsigned char *)strengths, sizeof strengths - 1, true);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    if (!mkdtemp(folder) || mkdir(in_folder(FRACAS_ATTACHMENTS), 0777)) return -1;
+    write_bytes(in_folder(STRENGTHS), strengths, sizeof strengths - 1);
+    write_bytes(in_folder(STRENGTHS "2"), "3e8\n", 4);
+    return 0;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char command[80];
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    return system(command);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_mutations)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bars), cmocka_unit_test(test_rings), cmocka_unit_test(test_strengths)};
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

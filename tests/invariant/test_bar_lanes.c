@@ -4,9 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-static fracas_model *model_of(const fracas_kind *law, const fracas_kind *stop)
+static fracas_model *model_of(const fracas_kind *law, const fracas_kind *stop, double amplitude)
 {
+    double noise[601];
     fracas_spec spec = bar_reference(600, 1e5, 1.5e-7);
+    if (amplitude > 0) bar_perturb(&spec, amplitude, 1, noise);
     spec.geometry.length = 6e-3;
     spec.cohesive.law = law;
     spec.time.stop = stop;
@@ -54,8 +56,8 @@ static void a_lane_is_its_run_alone(void **unused)
     (void)unused;
     const fracas_kind *laws[] = {&fracas_law_nitsche, &fracas_law_rigid_link}, *stops[] = {&fracas_stop_time, &fracas_stop_settled};
     const int widths[] = {1, 4, 8};
-    for (int k = 0; k < 3; k++) {
-        fracas_model *model = model_of(laws[k == 1], stops[k == 2]);
+    for (int k = 0; k < 5; k++) { /* the last two on elements of different lengths */
+        fracas_model *model = model_of(laws[k % 3 == 1], stops[k == 2], k < 3 ? 0 : 0.2);
         fracas_record alone[8], together[8];
         for (size_t r = 0; r < 8; r++) run(model, r, 1, 1, FRACAS_ISA_BASELINE, SIZE_MAX, &alone[r]);
         assert_int_not_equal(alone[0].fragments, alone[1].fragments + alone[2].fragments); /* they are different */

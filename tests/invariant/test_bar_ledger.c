@@ -25,6 +25,25 @@ static double noise(uint64_t *state)
     return (double)(*state >> 11) * 0x1p-53 - 0.5;
 }
 
+/* Elements of one length, in progression 1 to 100, or moved at random by up to 0.45 h. */
+enum { MESHES = 3, MOST_ELEMENTS = 200 };
+static const char *const mesh_name[MESHES] = {"uniform", "graded", "perturbed"};
+
+static fracas_model *model_on(int mesh, fracas_spec *spec)
+{
+    double shift[MOST_ELEMENTS + 1];
+    fracas_model *model;
+    if (mesh == 1) bar_grade(spec, 100);
+    if (mesh == 2) bar_perturb(spec, 0.45, 1, shift);
+    assert_ok(fracas_model_create(spec, &model));
+    return model;
+}
+
+static double size_of(const fracas_model *model, size_t e)
+{
+    return model->table ? model->table[e] : model->element_size;
+}
+
 /* Random velocities under load, nothing cracks: with leapfrog's kinetic energy the ledger of a linear system is constant
  * up to round-off. Each of 2000 steps adds roundings of some 1e-16 (work, and sums over 200 elements); even if all had one
  * sign they would add to 2e-13: 1e-12 of the larger of kinetic and elastic energy, the figure promised. */
@@ -32,12 +51,12 @@ static void linear_ledger_is_constant_to_round_off(void **unused)
 {
     (void)unused;
     const fracas_kind *laws[] = {&fracas_law_nitsche, &fracas_law_rigid_link}, *ends[] = {&fracas_ends_periodic, &fracas_ends_held};
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 4 * MESHES; i++) {
         fracas_spec spec = bar_reference(200, 100, 1);
         spec.cohesive.law = laws[i % 2];
-        spec.geometry.ends = ends[i / 2];
-        fracas_model *model;
-        assert_ok(fracas_model_create(&spec, &model));
+        spec.geometry.ends = ends[i / 2 % 2];
+        if (i / 4 > 0) spec.geometry.length = 0.02; /* the longest elements bear 450 MPa */
+        fracas_model *model = model_on(i / 4, &spec);
         fracas_batch *batch = batch_of(model, 1, 1);
         for (size_t k = 0; k < model->interfaces; k++) bar_set_strength(batch, 0, k, 450e6);
         assert_ok(fracas_batch_begin(batch));
@@ -45,7 +64,7 @@ static void linear_ledger_is_constant_to_round_off(void **unused)
         for (size_t e = 0; e < 200; e++) { /* equal on both sides of an interface: rigid links move as one */
             double v = 2 * noise(&seed);
             size_t left = e > 0 ? e - 1 : 199;
-            if (e == 0 && ends[i / 2] == &fracas_ends_held) continue;
+            if (e == 0 && ends[i / 2 % 2] == &fracas_ends_held) continue;
             *field(batch, e, V_LEFT) = v;
             *field(batch, left, V_RIGHT) = v + (laws[i % 2] == &fracas_law_nitsche ? 0.5 * noise(&seed) : 0);
         }
@@ -60,7 +79,8 @@ static void linear_ledger_is_constant_to_round_off(void **unused)
             if (s == 0) kinetic_first = l->kinetic;
             kinetic_last = l->kinetic;
         }
-        print_message("[  figures ] %s %s: largest residual %.2e\n", laws[i % 2]->name, ends[i / 2]->name, worst);
+        print_message("[  figures ] %s %s %s: largest residual %.2e\n", laws[i % 2]->name, ends[i / 2 % 2]->name,
+                      mesh_name[i / 4], worst);
         assert_int_equal(batch->step.cracked[0], 0);
         assert_true(kinetic_first > 0 && fabs(kinetic_last / kinetic_first - 1) > 1e-3); /* energy did move */
         assert_true(batch->lane[0].ledger.work > 0);
@@ -133,20 +153,18 @@ static double potential_of(fracas_batch *batch)
  * so that the
  * difference is exact up to round-off of Pi, some 1e-16 * 1e-2 J over 2e-12 m = 1e-6 N beside forces of 1e2 N and more, and
  * to the curvature where a difference straddles a kink (eps over 3e-7 m): 2e-5 of the largest force covers both. */
-static void forces_are_the_gradient_of_the_potential(void **unused)
+static void check_forces(int mesh)
 {
-    (void)unused;
     enum { N = 12 };
     fracas_spec spec = bar_reference(N, 1e4, 1);
     spec.geometry.length = N * 2e-5;
-    fracas_model *model;
-    assert_ok(fracas_model_create(&spec, &model));
+    fracas_model *model = model_on(mesh, &spec);
     fracas_batch *batch = batch_of(model, 1, 1);
     bar_draw(batch, 0, 0.1, 3);
     assert_ok(fracas_batch_begin(batch));
     batch->step.time[0] = 1.05e-7;
     uint64_t seed = 11;
-    const double nodal_mass = 0.5 * 2750 * 1e-6 * model->element_size;
+    const double mass_per_length = 2750 * 1e-6;
     int seen_broken = 0, seen_unloading = 0;
     for (int trial = 0; trial < 20; trial++) {
         double w[2 * N], damage[N], force[2 * N], scale = 0;
@@ -171,6 +189,7 @@ static void forces_are_the_gradient_of_the_potential(void **unused)
                 batch->step.kick[0] = 1;
                 batch->model->formulation->advance(model, &batch->step);
                 for (size_t e = 0; e < N; e++) {
+                    const double nodal_mass = 0.5 * mass_per_length * size_of(model, e);
                     force[2 * e] = nodal_mass * *field(batch, e, V_LEFT);
                     force[2 * e + 1] = nodal_mass * *field(batch, e, V_RIGHT);
                 }
@@ -190,6 +209,12 @@ static void forces_are_the_gradient_of_the_potential(void **unused)
     assert_true(seen_broken > 20 && seen_unloading > 20);
     fracas_batch_destroy(batch);
     fracas_model_destroy(model);
+}
+
+static void forces_are_the_gradient_of_the_potential(void **unused)
+{
+    (void)unused;
+    for (int mesh = 0; mesh < MESHES; mesh++) check_forces(mesh);
 }
 
 /* A break drops the flux energy -A <sigma>^2/(2K): the potential just after less that just before is what is booked as

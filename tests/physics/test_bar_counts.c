@@ -3,12 +3,15 @@
 
 #include <math.h>
 
-static double mean_count(int64_t elements, double rate, double end, double scatter, size_t replicas)
+typedef struct {
+    double mean, variance; /* of the counts; 1 */
+} counts;
+
+static counts count_fragments(const fracas_spec *spec, double scatter, size_t replicas)
 {
-    fracas_spec spec = bar_reference(elements, rate, end);
     fracas_model *model;
-    assert_ok(fracas_model_create(&spec, &model));
-    double sum = 0;
+    assert_ok(fracas_model_create(spec, &model));
+    double sum = 0, squares = 0;
     for (size_t first = 0; first < replicas; first += 8) {
         const fracas_batch_options options = {.isa = FRACAS_ISA_BEST};
         fracas_batch *batch;
@@ -24,12 +27,20 @@ static double mean_count(int64_t elements, double rate, double end, double scatt
             assert_int_equal(record[l].fragments, record[l].broken); /* closed bar */
             assert_int_equal(record[l].fragments, (int64_t)record[l].nfragment);
             sum += (double)record[l].fragments;
+            squares += (double)record[l].fragments * (double)record[l].fragments;
             fracas_record_clear(&record[l]);
         }
         fracas_batch_destroy(batch);
     }
     fracas_model_destroy(model);
-    return sum / (double)replicas;
+    const double n = (double)replicas, mean = sum / n;
+    return (counts){mean, (squares - n * mean * mean) / (n - 1)};
+}
+
+static double mean_count(int64_t elements, double rate, double end, double scatter, size_t replicas)
+{
+    fracas_spec spec = bar_reference(elements, rate, end);
+    return count_fragments(&spec, scatter, replicas).mean;
 }
 
 /* s/s0 = 4.5/(1 + 4.5 e^(2/3)), e = rate/rate0 (Zhou, Molinari and Ramesh, 2006). */
@@ -72,11 +83,41 @@ static void wider_scatter_gives_fewer_fragments(void **unused)
     }
 }
 
+/* Where the interfaces are does not bias how many fragments there are: 1e4 /s, +- 0.33 %, 1250 elements, the same strengths of 8
+ * replicas on the uniform mesh and on meshes whose nodes are moved. The difference of two means has the standard error
+ * sqrt((s1^2 + s2^2)/8), some 2 fragments of 111; each of four meshes must be within 3 of them, where an unbiased one is in 99 %
+ * of all cases (Student, 14 degrees of freedom), and the mean of all four, 32 runs, within 3 of its own. */
+static void moved_nodes_do_not_bias_the_count(void **unused)
+{
+    (void)unused;
+    enum { N = 1250, MESHES = 4 };
+    fracas_spec spec = bar_reference(N, 1e4, 0.6e-6);
+    const counts uniform = count_fragments(&spec, 1.0 / 300, 8);
+    double all = 0, spread = 0;
+    for (int m = 0; m < MESHES; m++) {
+        double noise[N + 1], amplitude = m < 2 ? 0.2 : 0.4;
+        spec = bar_reference(N, 1e4, 0.6e-6);
+        bar_perturb(&spec, amplitude, (uint64_t)m, noise);
+        const counts moved = count_fragments(&spec, 1.0 / 300, 8);
+        const double error = sqrt((uniform.variance + moved.variance) / 8);
+        print_message("[  figures ] nodes moved by %.1f h: mean count %.2f (uniform %.2f), difference %+.2f standard errors of %.2f\n",
+                      amplitude, moved.mean, uniform.mean, (moved.mean - uniform.mean) / error, error);
+        assert_true(fabs(moved.mean - uniform.mean) < 3 * error);
+        all += moved.mean / MESHES;
+        spread += moved.variance / (MESHES * MESHES * 8);
+    }
+    const double error = sqrt(uniform.variance / 8 + spread);
+    print_message("[  figures ] all: mean count %.2f, difference %+.2f standard errors of %.2f\n", all, (all - uniform.mean) / error, error);
+    assert_true(fabs(all - uniform.mean) < 3 * error);
+    assert_true(error < 0.02 * uniform.mean); /* it could have been seen */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mean_counts_are_those_of_independent_codes),
         cmocka_unit_test(wider_scatter_gives_fewer_fragments),
+        cmocka_unit_test(moved_nodes_do_not_bias_the_count),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

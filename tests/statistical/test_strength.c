@@ -4,6 +4,7 @@
 #include "sampler/sampler.h"
 
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_randist.h>
 #include <gsl/gsl_sf_gamma.h>
 #include <math.h>
 #include <setjmp.h>
@@ -18,7 +19,7 @@
 static const double normal_bound = 4.8916; /* |z| exceeds it with probability ALPHA */
 
 enum { N = 100000 };
-static double sample[N], other[N];
+static double sample[N], other[N], volume[N];
 
 static const fracas_kind *kind(const char *name)
 {
@@ -33,17 +34,42 @@ static fracas_strength weibull(double minimum, double scale, double shape)
     return (fracas_strength){.distribution = kind("weibull"), .minimum = minimum, .scale = scale, .shape = shape};
 }
 
+/* `number` flaws in each interface, on average. */
+static fracas_strength flaws(double number)
+{
+    return (fracas_strength){.distribution = kind("flaws"), .density = number / 2e-9, .minimum = 100e6,
+                             .maximum = 400e6, .exponent = 4.0};
+}
+
 static fracas_stream stream(uint64_t seed)
 {
     return (fracas_stream){.seed = seed, .purpose = FRACAS_PURPOSE_STRENGTH, .point = {11, 22}, .replica = 3};
 }
 
+static const double body = 2e-9; /* m3, of one interface, or of a chain of them */
+
+static void fill_volumes(double each)
+{
+    for (size_t i = 0; i < N; i++)
+        volume[i] = each;
+}
+
+/* P(strength <= sigma_c), of an interface of volume `body`. */
 static double cdf(const fracas_strength *strength, double sigma_c)
 {
     const char *name = strength->distribution->name;
     if (strcmp(name, "weibull") == 0)
         return gsl_cdf_weibull_P(sigma_c - strength->minimum, strength->scale, strength->shape);
     if (strcmp(name, "lognormal") == 0) return gsl_cdf_lognormal_P(sigma_c, log(strength->median), strength->sigma);
+    if (strcmp(name, "normal") == 0) {
+        double kept = gsl_cdf_ugaussian_P(strength->mean / strength->deviation);
+        return 1.0 - gsl_cdf_gaussian_Q(sigma_c - strength->mean, strength->deviation) / kept;
+    }
+    if (strcmp(name, "gamma") == 0) return gsl_cdf_gamma_P(sigma_c, strength->shape, strength->scale);
+    if (strcmp(name, "flaws") == 0) {
+        double place = (sigma_c - strength->minimum) / (strength->maximum - strength->minimum);
+        return -expm1(-strength->density * body * pow(place, strength->exponent)); /* at the maximum: just below it */
+    }
     return gsl_cdf_flat_P(sigma_c, strength->minimum, strength->maximum);
 }
 
@@ -53,14 +79,17 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* D = sup |F_n - F|. P(D > d) <= 2 exp(-2 n d^2) for every n (Massart 1990): d = sqrt(ln(2/alpha)/(2 n)). */
+/* D = sup |F_n - F|. P(D > d) <= 2 exp(-2 n d^2) for every n (Massart 1990): d = sqrt(ln(2/alpha)/(2 n)). That holds
+ * with an atom at the maximum, too: F is then `cdf` just below the maximum and 1, as F_n, at it. */
 static void assert_follows(const fracas_strength *law, double *value, size_t n)
 {
     qsort(value, n, sizeof *value, ascending);
     double distance = 0.0;
     for (size_t i = 0; i < n; i++) {
         double f = cdf(law, value[i]);
-        distance = fmax(distance, fmax(f - (double)i / (double)n, (double)(i + 1) / (double)n - f));
+        distance = fmax(distance, f - (double)i / (double)n);
+        if (strcmp(law->distribution->name, "flaws") == 0 && value[i] == law->maximum) f = 1.0;
+        distance = fmax(distance, (double)(i + 1) / (double)n - f);
     }
     double bound = sqrt(log(2.0 / ALPHA) / (2.0 * (double)n));
     print_message("%s: D = %.2e, bound %.2e\n", law->distribution->name, distance, bound);
@@ -76,10 +105,17 @@ static void distributions_follow_their_laws(void **state)
         weibull(0.0, 450e6, 0.5),
         {.distribution = kind("lognormal"), .median = 300e6, .sigma = 0.3},
         {.distribution = kind("uniform"), .minimum = 264e6, .maximum = 364e6},
+        {.distribution = kind("normal"), .mean = 300e6, .deviation = 30e6},
+        {.distribution = kind("normal"), .mean = 100e6, .deviation = 200e6},
+        {.distribution = kind("gamma"), .shape = 0.3, .scale = 300e6},
+        {.distribution = kind("gamma"), .shape = 12.0, .scale = 25e6},
+        {.distribution = kind("gamma"), .shape = 2e4, .scale = 15e3},
+        flaws(0.7), flaws(3.0), flaws(40.0),
     };
+    fill_volumes(body);
     for (size_t k = 0; k < FRACAS_COUNT(laws); k++) {
         fracas_stream named = stream(100 + k);
-        fracas_strength_sample(&laws[k], &named, N, 1, sample);
+        fracas_strength_sample(&laws[k], &named, N, volume, 1, sample);
         assert_follows(&laws[k], sample, N);
     }
 }
@@ -103,12 +139,12 @@ static void weibull_moments(void **state)
         double kurtosis = (g4 - 4 * g1 * g3 + 6 * g1 * g1 * g2 - 3 * g1 * g1 * g1 * g1) / (variance * variance);
         double deviation = published[k].scale * sqrt(variance);
         fracas_strength law = weibull(published[k].minimum, published[k].scale, m);
-        double mean = fracas_strength_mean(&law);
+        double mean = fracas_strength_mean(&law, volume[0]);
         assert_true(fabs(mean - published[k].mean) <= 0.005e6);
         assert_true(fabs(deviation - published[k].deviation) <= 0.005e6);
 
         fracas_stream named = stream(200 + k);
-        fracas_strength_sample(&law, &named, N, 1, sample);
+        fracas_strength_sample(&law, &named, N, volume, 1, sample);
         double sum = 0.0, squares = 0.0;
         for (size_t i = 0; i < N; i++)
             sum += sample[i] - mean;
@@ -118,6 +154,97 @@ static void weibull_moments(void **state)
         print_message("m = %g: %.2f +- %.2f MPa\n", m, (mean + sum / N) * 1e-6, sample_deviation * 1e-6);
         assert_true(fabs(sum / N) < normal_bound * deviation / sqrt(N));
         assert_true(fabs(sample_deviation - deviation) < normal_bound * deviation * sqrt((kurtosis - 1) / (4.0 * N)));
+    }
+}
+
+/* `raw`: first four moments of strength - minimum. Bounds as for Weibull above. */
+static void assert_moments(const fracas_strength *law, uint64_t seed, const double raw[4])
+{
+    double m = raw[0], variance = raw[1] - m * m;
+    double fourth = raw[3] - 4 * m * raw[2] + 6 * m * m * raw[1] - 3 * m * m * m * m;
+    double deviation = sqrt(variance), kurtosis = fourth / (variance * variance);
+    double mean = law->minimum + m;
+    /* GSL's functions are good to 1e-13 here, and the first moment is one or two of them */
+    assert_true(fabs(fracas_strength_mean(law, body) - mean) <= 1e-12 * mean);
+    fracas_stream named = stream(seed);
+    fracas_strength_sample(law, &named, N, volume, 1, sample);
+    double sum = 0.0, squares = 0.0;
+    for (size_t i = 0; i < N; i++)
+        sum += sample[i] - mean;
+    for (size_t i = 0; i < N; i++)
+        squares += (sample[i] - mean - sum / N) * (sample[i] - mean - sum / N);
+    double sample_deviation = sqrt(squares / (N - 1));
+    print_message("%s: %.2f +- %.2f MPa, exactly %.2f +- %.2f\n", law->distribution->name, (mean + sum / N) * 1e-6,
+                  sample_deviation * 1e-6, mean * 1e-6, deviation * 1e-6);
+    assert_true(fabs(sum / N) < normal_bound * deviation / sqrt(N));
+    assert_true(fabs(sample_deviation - deviation) < normal_bound * deviation * sqrt((kurtosis - 1) / (4.0 * N)));
+}
+
+/* Moments of a normal law cut off at 0: M_n = mean M_(n-1) + (n - 1) deviation^2 M_(n-2) for n >= 2, by parts. */
+static void normal_moments(void **state)
+{
+    (void)state;
+    fill_volumes(body);
+    static const double means[] = {300e6, 100e6, 10e6}, d = 120e6;
+    for (size_t k = 0; k < FRACAS_COUNT(means); k++) {
+        double m = means[k], hazard = gsl_ran_ugaussian_pdf(m / d) / gsl_cdf_ugaussian_P(m / d);
+        double raw[4] = {m + d * hazard};
+        raw[1] = m * raw[0] + d * d;
+        raw[2] = m * raw[1] + 2 * d * d * raw[0];
+        raw[3] = m * raw[2] + 3 * d * d * raw[1];
+        fracas_strength law = {.distribution = kind("normal"), .mean = m, .deviation = d};
+        assert_moments(&law, 500 + k, raw);
+    }
+}
+
+/* M_n = scale^n k (k + 1) ... (k + n - 1). */
+static void gamma_moments(void **state)
+{
+    (void)state;
+    fill_volumes(body);
+    static const double shapes[] = {0.3, 2.0, 12.0, 500.0}, t = 30e6;
+    for (size_t k = 0; k < FRACAS_COUNT(shapes); k++) {
+        double a = shapes[k];
+        double raw[4] = {t * a, t * t * a * (a + 1), t * t * t * a * (a + 1) * (a + 2),
+                         t * t * t * t * a * (a + 1) * (a + 2) * (a + 3)};
+        fracas_strength law = {.distribution = kind("gamma"), .shape = a, .scale = t};
+        assert_moments(&law, 520 + k, raw);
+    }
+}
+
+/* M_n = range^n integral_0^1 n x^(n-1) exp(-mu x^p) dx = range^n Gamma(1 + n/p) mu^(-n/p) P(n/p, mu). */
+static void flaws_moments(void **state)
+{
+    (void)state;
+    fill_volumes(body);
+    static const double numbers[] = {0.1, 0.7, 3.0, 40.0};
+    for (size_t k = 0; k < FRACAS_COUNT(numbers); k++) {
+        fracas_strength law = flaws(numbers[k]);
+        double raw[4], p = law.exponent, mu = law.density * body, range = law.maximum - law.minimum;
+        for (int n = 1; n <= 4; n++)
+            raw[n - 1] = pow(range, n) * gsl_sf_gamma(1 + n / p) * pow(mu, -n / p) * gsl_sf_gamma_inc_P(n / p, mu);
+        assert_moments(&law, 540 + k, raw);
+    }
+}
+
+/* The weakest of n interfaces that share a body is that of the body, however many they are. */
+static void flaws_do_not_see_the_mesh(void **state)
+{
+    (void)state;
+    enum { CHAINS = 10000, LONGEST = 64 };
+    fracas_strength law = flaws(5.0);
+    for (size_t n = 1; n <= LONGEST; n *= 4) {
+        fill_volumes(body / (double)n);
+        fracas_stream named = stream(560 + n);
+        for (size_t chain = 0; chain < CHAINS; chain++) {
+            double strength[LONGEST];
+            named.replica = chain;
+            fracas_strength_sample(&law, &named, n, volume, 1, strength);
+            other[chain] = INFINITY;
+            for (size_t i = 0; i < n; i++)
+                other[chain] = fmin(other[chain], strength[i]);
+        }
+        assert_follows(&law, other, CHAINS);
     }
 }
 
@@ -134,7 +261,7 @@ static void the_weakest_of_n_scales(void **state)
             for (size_t chain = 0; chain < CHAINS; chain++) {
                 double strength[LONGEST];
                 named.replica = chain;
-                fracas_strength_sample(&law, &named, n, 1, strength);
+                fracas_strength_sample(&law, &named, n, volume, 1, strength);
                 other[chain] = INFINITY;
                 for (size_t i = 0; i < n; i++)
                     other[chain] = fmin(other[chain], strength[i]);
@@ -195,6 +322,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(distributions_follow_their_laws),
         cmocka_unit_test(weibull_moments),
+        cmocka_unit_test(normal_moments),
+        cmocka_unit_test(gamma_moments),
+        cmocka_unit_test(flaws_moments),
+        cmocka_unit_test(flaws_do_not_see_the_mesh),
         cmocka_unit_test(the_weakest_of_n_scales),
         cmocka_unit_test(neighbouring_streams_are_independent),
     };

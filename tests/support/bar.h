@@ -4,7 +4,7 @@
 
 #include "engine/cohesive/law.h"
 #include "engine/loading/loading.h"
-#include "engine/mesh/bar_mesh.h"
+#include "engine/mesh/body.h"
 #include "engine/solver/batch.h"
 #include "sampler/sampler.h"
 
@@ -23,9 +23,11 @@
 static inline fracas_spec bar_reference(int64_t elements, double rate, double end)
 {
     return (fracas_spec){
-        .formulation = &fracas_formulation_bar.kind, .geometry = {&fracas_ends_periodic, 0.05, 1e-6}, .mesh = {elements},
-        .material = {275e9, 2750}, .cohesive = {&fracas_law_nitsche, 100, 4},
-        .loading = {&fracas_loading_imposed_rate, rate}, .time = {.stop = &fracas_stop_time, .end = end, .safety = 0.25}};
+        .formulation = &fracas_formulation_bar.kind, 
+        .geometry = {.shape = &fracas_shape_bar, .ends = &fracas_ends_periodic, .length = 0.05, .area = 1e-6},
+        .mesh = {.spacing = &fracas_spacing_uniform, .elements = elements}, .material = {275e9, 2750},
+        .cohesive = {.law = &fracas_law_nitsche, .fracture_energy = 100, .beta = 4},
+        .loading = {.type = &fracas_loading_imposed_rate, .rate = rate}, .time = {.stop = &fracas_stop_time, .end = end, .safety = 0.25}};
 }
 
 /* Strengths uniform in 300 MPa (1 +- scatter) for replica `replica`, in lane `lane`. */
@@ -36,6 +38,24 @@ static inline void bar_draw(fracas_batch *batch, size_t lane, double scatter, ui
     double *strength = fracas_batch_strength(batch, lane, &stride);
     for (size_t i = 0; i < batch->model->interfaces; i++)
         strength[i * stride] = BAR_STRENGTH_MEAN * (1 + scatter * (2 * fracas_stream_uniform(&stream, i) - 1));
+}
+
+/* Lengths in geometric progression, the last one `ratio` times the first. */
+static inline void bar_grade(fracas_spec *spec, double ratio)
+{
+    spec->mesh.spacing = &fracas_spacing_graded;
+    spec->mesh.ratio = ratio;
+}
+
+/* Nodes moved at random, by `amplitude` h at most: mesh number `which`. `noise` takes [elements + 1] and must last until the
+ * model is made. */
+static inline void bar_perturb(fracas_spec *spec, double amplitude, uint64_t which, double *noise)
+{
+    const fracas_stream stream = {.seed = which, .purpose = FRACAS_PURPOSE_MESH};
+    for (uint64_t i = 0; i <= (uint64_t)spec->mesh.elements; i++) noise[i] = 2 * fracas_stream_uniform(&stream, i) - 1;
+    spec->mesh.spacing = &fracas_spacing_perturbed;
+    spec->mesh.amplitude = amplitude;
+    spec->mesh.noise = noise;
 }
 
 static inline void bar_set_strength(fracas_batch *batch, size_t lane, size_t interface, double sigma_c)

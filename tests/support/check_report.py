@@ -17,11 +17,16 @@ import sys
 import xml.etree.ElementTree as xml
 
 import h5py
+import numpy as np
 
 study, source = sys.argv[1:3]
 report = os.path.join(study, "report")
 summary = json.load(open(os.path.join(study, "summary.json")))
 script = os.path.join(source, "docs/examples/table_from_study.py")
+sys.path.insert(0, os.path.dirname(script))
+sys.dont_write_bytecode = True
+from table_from_study import estimate, student_quantile
+
 printed = subprocess.run([sys.executable, script, study + "/study.h5"], check=True, capture_output=True,
                          text=True).stdout.splitlines()
 keys = printed[0].split("\t")
@@ -49,8 +54,78 @@ for row, point, line in zip(rows, summary["points"], points):
         elif key in point["outcomes"]:
             assert point["outcomes"][key] == value == int(line["outcome." + key])
         else:
-            assert key == "rate" and point["parameters"]["loading.rate"] == value
+            parameters = point["parameters"]
+            assert key == "rate" and same(parameters.get("derived.strain_rate", parameters.get("loading.rate")), value)
     assert compared == len(row) - 7  # all but the rate and the outcomes
+
+
+# What the script does not print: drift of every usable realization, motion of the fragments of rings.
+with h5py.File(study + "/study.h5", "r") as file:
+    realization = {name: column[()] for name, column in file["realization"].items()}
+    fragment = {name: column[()] for name, column in file["fragment"].items()}
+model = [point["parameters"].get("model") for point in summary["points"]]
+
+
+def motion(i, radius):
+    """Outward mean, scatter, rms along and mean |spin| of the fragments of realization i, by numpy's means."""
+    of = {name: column[slice(*fragment["offset"][i:i + 2])] for name, column in fragment.items() if name != "offset"}
+    if len(of["mass"]) < 2:
+        return [math.nan] * 4
+    angle = np.arctan2(of["position"][:, 1], of["position"][:, 0])
+    outward = of["velocity"][:, 0] * np.cos(angle) + of["velocity"][:, 1] * np.sin(angle)
+    along = of["velocity"][:, 1] * np.cos(angle) - of["velocity"][:, 0] * np.sin(angle)
+    half = of["size"] / (2 * radius)
+    inertia = of["mass"] * radius**2 * (1 - np.sinc(half / np.pi)**2)
+    mean = np.average(outward, weights=of["mass"])
+    return [mean, math.sqrt(np.average((outward - mean)**2, weights=of["mass"])),
+            math.sqrt(np.average(along**2, weights=of["mass"])),
+            np.average(np.abs(of["angular_momentum"][:, 2]) / inertia, weights=of["mass"])]
+
+
+MOTION = ("radial_velocity", "radial_scatter", "circumferential_velocity", "angular_velocity")
+for p, point in enumerate(summary["points"]):
+    used = np.flatnonzero((realization["point"] == p) & (realization["outcome"] <= 2))
+    of = {name: column[used] for name, column in realization.items()}
+    largest = np.maximum.reduce([of["kinetic"], of["elastic"] + of["cohesive"] + of["dissipated"], np.abs(of["work"])])
+    drift = of["residual"][largest > 0] / largest[largest > 0]
+    assert same(point["statistics"]["drift"], drift.max() if len(drift) else math.nan)
+    assert point["statistics"]["drifted"] == (drift > 0.01).sum()
+    moving = [motion(i, point["parameters"]["geometry.radius"]) for i in used] if model[p] == "ring" else []
+    for key, values in zip(MOTION, np.array(moving).reshape(-1, 4).T):
+        row = {}
+        estimate(row, key, values)
+        for name, value in row.items():
+            ours = point["statistics"][name]
+            # Sines and the cancellation in numpy's inertia of short arcs: 1e-16/(a^2/3), a > 1e-3.
+            assert same(ours, value) or math.isclose(ours, value, rel_tol=1e-9, abs_tol=1e-9), (name, ours, value)
+
+# Slopes: numpy's weighted fit of the points that the series of that name has.
+MAKERS = ("loading.rate", "loading.radial", "loading.velocity")
+others = [path for path in summary["varying"] if path not in MAKERS]
+groups = {}
+for row, point in zip(rows, summary["points"]):
+    groups.setdefault(tuple(point["parameters"][path] for path in others), []).append(row)
+
+
+def slope(group):
+    x, y, sigma = np.array([(math.log(row["rate"]), math.log(row["size.mean"]), row["size.deviation"] /
+                             math.sqrt(row["size.n"]) / row["size.mean"]) for row in group
+                            if row["rate"] > 0 and row["size.deviation"] > 0]).reshape(-1, 3).T
+    if len(x) < 3 or np.ptp(x) == 0:
+        return None
+    (exponent, _), covariance = np.polyfit(x, y, 1, w=1 / sigma, cov="unscaled")
+    chi2 = np.sum(((y - np.polyval(np.polyfit(x, y, 1, w=1 / sigma), x)) / sigma)**2)
+    error = math.sqrt(covariance[0, 0] * max(1, chi2 / (len(x) - 2)))
+    return len(x), exponent, error, student_quantile(0.975, len(x) - 2) * error, chi2
+
+
+expected = [slope(rows)] + ([slope(group) for group in groups.values()] if len(groups) > 1 else [])
+expected = [fit for fit in expected if fit]
+assert len(summary["slopes"]) == len(expected)
+for ours, theirs in zip(summary["slopes"], expected):
+    assert ours["points"] == theirs[0] and ours["mott"] == -1 and math.isclose(ours["grady"], -2 / 3)
+    for key, value in zip(("slope", "standard_error", "half_width", "chi2"), theirs[1:]):
+        assert math.isclose(ours[key], value, rel_tol=1e-7), (key, ours[key], value)  # numpy solves by SVD
 
 # So does the SQL example, from the index, as far as the index goes.
 if shutil.which("sqlite3"):
@@ -70,7 +145,7 @@ else:
 # The terminal table shows those numbers: each to half a unit of its last digit (and a hair: ties round to even).
 UNIT = {"n": 1e-9, "u": 1e-6, "m": 1e-3, "": 1.0, "k": 1e3}
 text = open(os.path.join(study, "table.txt")).read().splitlines()
-size_unit, energy_unit = (UNIT[re.search(r"\[(\w?)%s\]" % unit, text[1]).group(1)] for unit in "mJ")
+size_unit, energy_unit = (UNIT[re.findall(r"\[(\w?)%s\]" % unit, text[1])[-1]] for unit in "mJ")  # after the parameters
 
 
 def shows(cell, value, unit=1.0):
@@ -83,7 +158,7 @@ def shows(cell, value, unit=1.0):
 
 
 for row, line in zip(rows, text[2:]):
-    cells = line.replace(" +- ", "+-").split()[len(summary["varying"]):]
+    cells = line.replace(" +- ", "+-").split()[len(summary["varying"]) + ("strain rate" in text[0]):]
     assert [int(cells[0]), int(cells[1])] == [row["usable"], row["unusable"]]
     units = {"count": 1.0, "size": size_unit, "dissipated": energy_unit}
     for cell, (key, unit) in zip(cells[2:5], units.items()):
@@ -98,8 +173,7 @@ for row, line in zip(rows, text[2:]):
     shows(cells[10], row["created"])
 
 # A line of fragments.csv for each fragment of the study, with its numbers to 15 digits.
-with h5py.File(study + "/study.h5", "r") as file:
-    size, mass, position = (file["fragment/" + name][()] for name in ("size", "mass", "position"))
+size, mass, position = (fragment[name] for name in ("size", "mass", "position"))
 fragments = list(csv.DictReader(open(os.path.join(report, "fragments.csv"))))
 assert len(fragments) == len(size)
 for line, expected, heavy, place in zip(fragments, size, mass, position):
@@ -124,17 +198,73 @@ assert len(glob.glob(os.path.join(report, "energies-point-*.svg"))) == with_mean
 together = xml.parse(os.path.join(report, "sizes.svg")).findall(f".//{SVG}path[@class='line']/{SVG}title")
 assert len(together) == with_mean
 
+# Crack patterns: of rings with a FRAGMENTED realization, six at most with the first and the last; a band a fragment.
+rings = [p for p, name in enumerate(model) if name == "ring" and summary["points"][p]["outcomes"]["FRAGMENTED"] > 0]
+pictures = sorted(int(re.search(r"(\d+)\.svg", name).group(1)) for name in glob.glob(report + "/pattern-point-*.svg"))
+assert len(pictures) == min(6, len(rings)) and set(pictures) <= set(rings)
+assert not rings or pictures[0] == rings[0] and pictures[-1] == rings[-1]
+for p in pictures:
+    i = np.flatnonzero((realization["point"] == p) & (realization["outcome"] == 0))[0]
+    of = {name: column[slice(*fragment["offset"][i:i + 2])] for name, column in fragment.items() if name != "offset"}
+    radius = summary["points"][p]["parameters"]["geometry.radius"]
+    lines = list(csv.DictReader(open(os.path.join(report, f"pattern-point-{p}.csv"))))
+    assert sorted(int(line["fragment"]) for line in lines) == list(range(len(of["mass"])))
+    angles = [float(line["angle"]) for line in lines]
+    assert angles == sorted(angles)
+    drawing = xml.parse(os.path.join(report, f"pattern-point-{p}.svg"))
+    bands = drawing.findall(f".//{SVG}path")
+    bands = [path for path in bands if path.get("class").startswith("band ")]
+    assert len(bands) == len(lines) == realization["fragments"][i]
+    assert len(drawing.findall(f".//{SVG}circle[@class='dust']")) == of["dust"].sum()
+    arrows = drawing.findall(f".//{SVG}path[@class='ink']")
+    moving = [line for line in lines if line["dust"] == "0"]
+    fastest = max(math.hypot(float(line["relative_radial"]), float(line["relative_circumferential"])) for line in moving)
+    for line in moving if len(lines) <= 60 else []:
+        x, y = (float(line["relative_" + name]) * 30 / fastest for name in ("radial", "circumferential"))
+        if math.hypot(x, y) > 1.5:  # pixels
+            begin = [float(number) for number in re.findall(r"-?[\d.]+", arrows.pop(0).get("d"))][:4]
+            c, s = math.cos(float(line["angle"])), math.sin(float(line["angle"]))
+            assert math.hypot(begin[2] - begin[0] - (x * c - y * s), begin[3] - begin[1] + (x * s + y * c)) < 0.03
+    assert not arrows
+    colours = [path.get("class") for path in bands]
+    assert all(a != b for a, b in zip(colours, colours[1:] + colours[:1])) or len(colours) < 2
+    scale = float(drawing.find(f".//{SVG}circle[@class='axis']").get("r")) / radius
+    exaggeration = {round(float(line["drawn_displacement"]) / float(line["displacement"]), 6) for line in lines}
+    assert len(exaggeration) == 1
+    for line, path in zip(lines, bands):
+        f = int(line["fragment"])
+        x, y = of["position"][f, :2]
+        half, distance, angle = of["size"][f] / (2 * radius), math.hypot(x, y), math.atan2(y, x)
+        assert math.isclose(float(line["angle"]), angle, rel_tol=1e-12, abs_tol=1e-12)
+        assert math.isclose(float(line["displacement"]), distance - radius * math.sin(half) / half, rel_tol=1e-9,
+                            abs_tol=1e-12 * radius)
+        # The band: the ends of its arcs are as far apart as the fragment is long, and it lies where it was pushed.
+        place = [float(number) for number in re.findall(r"-?[\d.]+", path.get("d"))]
+        ends = np.array([place[0:2], place[7:9], place[9:11], place[16:18]]) - 235
+        assert place[4:7] == [0, half > math.pi / 2, 0] and place[13:16] == [0, half > math.pi / 2, 1]
+        outer = place[2] / scale / radius
+        chord = np.linalg.norm(ends[1] - ends[0]) / (2 * outer * scale * radius)
+        assert abs(chord - math.sin(half)) < 0.03 / (outer * scale * radius), (chord, half)  # coordinates to 0.01
+        push = exaggeration.copy().pop() * (distance - radius * math.sin(half) / half)
+        middle = (ends[0] + ends[1]) / 2 / scale * [1, -1]
+        far = outer * radius * math.cos(half) + push
+        assert np.linalg.norm(middle - [far * math.cos(angle), far * math.sin(angle)]) * scale < 0.03
+
 
 # The page: the same marks, a table row a point, balanced, and nothing fetched from elsewhere.
 class Page(html.parser.HTMLParser):
     def __init__(self):
         super().__init__()
-        self.open, self.marks, self.rows, self.links = [], 0, 0, []
+        self.open, self.marks, self.rows, self.links, self.bands = [], 0, {}, [], 0
 
     def handle_starttag(self, tag, attributes):
         attributes = dict(attributes)
         self.marks += attributes.get("class") == "mark"
-        self.rows += tag == "tr" and "tbody" in self.open
+        self.bands += str(attributes.get("class")).startswith("band ")
+        if tag == "table":
+            self.table = attributes["id"]
+        if tag == "tr" and "tbody" in self.open:
+            self.rows[self.table] = self.rows.get(self.table, 0) + 1
         self.links += [attributes[name] for name in ("src", "href") if name in attributes]
         assert tag != "script"
         if tag not in ("meta", "link"):
@@ -154,7 +284,11 @@ page = Page()
 page.feed(source_text)
 assert page.open == []
 assert page.marks == 2 * with_mean
-assert page.rows == len(rows)
+assert page.rows.pop("results") == len(rows)
+assert page.rows.pop("slopes", 0) == len(summary["slopes"])
+assert page.rows.pop("motion", 0) == model.count("ring") and not page.rows
+firsts = [np.flatnonzero((realization["point"] == p) & (realization["outcome"] == 0))[0] for p in pictures]
+assert page.bands == sum(realization["fragments"][i] for i in firsts)
 for link in page.links:
     assert link.startswith("data:") or os.path.exists(os.path.join(report, link)), link
 assert "url(" not in source_text and "@import" not in source_text

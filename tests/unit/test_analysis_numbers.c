@@ -162,6 +162,55 @@ static void names_come_before_their_numbers(void **state)
     fracas_columns_clear(&columns);
 }
 
+/* A point is called by what it has: what only other loads have is left out, with its unit and its comma. */
+static void labels_leave_out_what_a_point_lacks(void **state)
+{
+    (void)state;
+    static const fracas_column column[] = {{"loading.acceleration", "m/s2", "", false}, {"loading.force", "N/m", "", false},
+                                           {"loading.direction", "", "", true}};
+    fracas_value value[3][3] = {{{.real = NAN, .text = ""}, {.real = 1e6, .text = ""}, {.real = NAN, .text = "radial"}},
+                                {{.real = 3, .text = ""}, {.real = NAN, .text = ""}, {.real = NAN, .text = ""}},
+                                {{.real = NAN, .text = ""}, {.real = NAN, .text = ""}, {.real = NAN, .text = ""}}};
+    fracas_point_row point[] = {{.value = value[0]}, {.value = value[1]}, {.value = value[2]}};
+    fracas_point_table table = {.ncolumns = 3, .column = column, .npoints = 3, .point = point};
+    fracas_columns columns = {.count = 3, .column = (size_t[]){0, 1, 2}};
+    static const char *const expected[] = {"force 1e6 N/m, direction radial", "acceleration 3 m/s2",
+                                           "acceleration -, force -, direction -"};
+    for (size_t p = 0; p < 3; p++) {
+        char label[64];
+        fracas_columns_label(&table, &columns, p, label, sizeof label);
+        assert_string_equal(label, expected[p]);
+    }
+}
+
+/* Where delta_c is given, G_c = sigma_c delta_c/2 of the mean strength makes the scales: 1 um at 300 MPa is 150 J/m2, and
+ * s0 = E G_c/sigma_c^2 = 275e9 150/9e16 m, each of a few roundings. No law at rate 0. */
+static void laws_of_a_given_opening(void **state)
+{
+    (void)state;
+    static const fracas_column column[] = {
+        {"cohesive.critical_opening", "m", "", false}, {"cohesive.fracture_energy", "J/m2", "", false},
+        {"derived.strain_rate", "1/s", "", false},     {"derived.strength_mean", "Pa", "", false},
+        {"material.density", "kg/m3", "", false},      {"material.young", "Pa", "", false}};
+    fracas_value value[3][6];
+    fracas_point_row point[3];
+    for (size_t p = 0; p < 3; p++) {
+        const double real[] = {p == 1 ? 0 : 1e-6, p == 1 ? 150 : 0, p == 2 ? 0 : 1e4, 300e6, 2750, 275e9};
+        for (size_t c = 0; c < 6; c++) value[p][c] = (fracas_value){.real = real[c], .text = ""};
+        point[p] = (fracas_point_row){.value = value[p]};
+    }
+    fracas_point_table table = {.ncolumns = 6, .column = column, .npoints = 3, .point = point};
+    fracas_point_statistics given, energy, still;
+    fracas_point_statistics_init(&table, 0, &given);
+    fracas_point_statistics_init(&table, 1, &energy);
+    fracas_point_statistics_init(&table, 2, &still);
+    assert_true(fabs(given.scales.size / (275e9 * 150 / 9e16) - 1) < 1e-14);
+    for (int law = 0; law < FRACAS_NLAWS; law++) {
+        assert_true(given.law[law] > 0 && fabs(given.law[law] / energy.law[law] - 1) < 1e-13);
+        assert_true(isnan(still.law[law]));
+    }
+}
+
 static void statistics_of_records(void **state)
 {
     (void)state;
@@ -184,6 +233,10 @@ static void statistics_of_records(void **state)
         record.dissipated = dissipated[i];
         record.residual = 0.5;
         record.created = 0.1;
+        record.kinetic = 4; /* largest energies: 5 dissipated, work 60, and kinetic, stored and dissipated 40 */
+        record.elastic = i == 3 ? 36 : 0;
+        record.cohesive = 0;
+        record.work = i == 2 ? -60 : 0;
         record.fragments = (int64_t)count[i];
         record.fragments_dust = outcome[i] == FRACAS_INTACT ? 0 : 1;
         record.onset_time = outcome[i] == FRACAS_INTACT ? NAN : 1e-7;
@@ -201,6 +254,8 @@ static void statistics_of_records(void **state)
     assert_true(statistics.dissipated.mean == 3);
     assert_int_equal(statistics.onset_time.n, 2);
     assert_true(statistics.residual == 0.5 / 4 && statistics.created == 0.1 / 4);
+    assert_true(statistics.drift == 0.5 / 5);
+    assert_int_equal(statistics.drifted, 2); /* 0.1, 0.5/60 is not, 0.5/40 is */
     assert_int_equal(statistics.nfragments, 7);
     assert_true(statistics.fragment_size[0] == 0.01 && statistics.fragment_size[6] == 0.06);
     assert_true(statistics.elements == 18.0 / 7 && statistics.dust_share == 2.0 / 7);
@@ -213,15 +268,15 @@ static void statistics_of_records(void **state)
 static void warnings_at_their_limits(void **state)
 {
     (void)state;
-    static const fracas_column column[] = {{"loading.rate", "1/s", "", false}};
-    fracas_value rate[] = {{.real = 1e3, .text = ""}, {.real = 1e4, .text = ""}};
-    fracas_point_row row[] = {{.value = &rate[0]}, {.value = &rate[1]}};
+    static const fracas_column column[] = {{"cohesive.zone", "m", "", false}};
+    fracas_value zone[] = {{.real = 24e-6, .text = ""}, {.real = 26e-6, .text = ""}};
+    fracas_point_row row[] = {{.value = &zone[0]}, {.value = &zone[1]}};
     fracas_point_table table = {.ncolumns = 1, .column = column, .npoints = 2, .point = row};
     fracas_point_statistics point[] = {
-        {.realizations = 9, .usable = 9, .outcome = {9}, .residual = 0.99e-3, .created = 0.99e-2, .elements = 10,
-         .dust_share = 0.05},
-        {.realizations = 9, .usable = 5, .outcome = {3, 1, 1, 2, 1, 1}, .residual = 1.01e-3, .created = 1.01e-2,
-         .elements = 9.9, .dust_share = 0.051},
+        {.size.mean = 1e-4, .realizations = 9, .usable = 9, .outcome = {9}, .residual = 0.99e-3, .created = 0.99e-2, .elements = 10,
+         .dust_share = 0.05, .drift = 0.01},
+        {.size.mean = 1e-4, .realizations = 9, .usable = 5, .outcome = {3, 1, 1, 2, 1, 1}, .residual = 1.01e-3, .created = 1.01e-2,
+         .elements = 9.9, .dust_share = 0.051, .drift = 0.0213, .drifted = 2},
     };
     fracas_analysis analysis = {.table = &table, .point = point, .header.complete = true};
     fracas_warning *warning;
@@ -230,8 +285,11 @@ static void warnings_at_their_limits(void **state)
     const char *const expected[] = {"2 of 9 realizations ended NONFINITE", "1 of 9 realizations ended ENERGY_DRIFT",
                                     "1 of 9 realizations ended FAILED", "1 of 9 realizations ended INTACT",
                                     "1 of 9 realizations were stopped",
-                                    "ledger residual up to 1.0e-3", "energy created at breaks up to 0.010",
-                                    "a mean fragment has 9.9 elements", "5.1 % of the fragments are dust"};
+                                    "ledger residual up to 1.0e-3",
+                                    "energy drift above 1 %: 2 of 5 usable realizations, their |residual| up to 2.1 %",
+                                    "energy created at breaks up to 0.010",
+                                    "a mean fragment has 9.9 elements", "5.1 % of the fragments are dust",
+                                    "cohesive.zone is 0.26 of a mean fragment"};
     assert_int_equal(count, FRACAS_COUNT(expected));
     for (size_t i = 0; i < count; i++) {
         assert_int_equal(warning[i].point, 1);
@@ -305,6 +363,8 @@ int main(void)
         cmocka_unit_test(estimate_of_eight), cmocka_unit_test(estimate_of_few), cmocka_unit_test(estimates_as_text),
         cmocka_unit_test(numbers_as_text), cmocka_unit_test(prefixes), cmocka_unit_test(columns_that_tell_points_apart),
         cmocka_unit_test(names_come_before_their_numbers),
+        cmocka_unit_test(labels_leave_out_what_a_point_lacks),
+        cmocka_unit_test(laws_of_a_given_opening),
         cmocka_unit_test(statistics_of_records), cmocka_unit_test(warnings_at_their_limits),
         cmocka_unit_test(figure_of_sizes), cmocka_unit_test(ticks),
     };

@@ -1,19 +1,9 @@
 /* A study of known truth, written through the store, analysed, and checked by a script that shares no code with us. */
-#include "analysis/analysis.h"
+#include "tests/support/report.h"
 
 #include "base/version.h"
-#include "campaigns/store/store.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cmocka.h>
 
 enum { NCOLUMNS = 10, NPOINTS = 4, HISTORY = 50 };
 
@@ -157,127 +147,25 @@ static void make_record(const truth *of, size_t p, int64_t replica, fracas_recor
     make_history(end, record);
 }
 
-/* index.sqlite as a run leaves it, for docs/examples/table_from_index.sql: everything done in one segment. */
-static void write_index(const truth *of, const char *folder, const fracas_point_table *table,
-                        const fracas_file_seal *seal)
+static void make_any_record(const void *context, size_t p, int64_t replica, fracas_record *record)
 {
-    fracas_index *index;
-    assert_int_equal(fracas_index_open(folder, true, &index), FRACAS_OK);
-    assert_int_equal(fracas_index_plan(index, table), FRACAS_OK);
-    fracas_segment_row row[4 * 32];
-    size_t count = 0;
-    for (size_t p = 0; p < NPOINTS; p++) {
-        for (int64_t replica = 0; replica < of->replicas[p]; replica++) {
-            fracas_record record;
-            make_record(of, p, replica, &record);
-            row[count] = (fracas_segment_row){
-                .point = table->point[p].hash, .replica = replica, .row = (int64_t)count, .outcome = record.outcome,
-                .fragments = record.fragments, .fragments_dust = record.fragments_dust, .steps = record.steps,
-                .dissipated = record.dissipated, .residual = record.residual};
-            count++;
-            fracas_record_clear(&record);
-        }
-    }
-    assert_int_equal(fracas_index_commit(index, "one.h5", seal, row, count, "{}"), FRACAS_OK);
-    fracas_index_close(index);
+    make_record(context, p, replica, record);
 }
 
 static void write_study(const truth *of, const char *folder)
 {
-    char path[512];
-    snprintf(path, sizeof path, "%s/study.h5", folder);
-    assert_true(mkdir(folder, 0777) == 0);
     made_table made;
     make_table(of, &made);
     fracas_file_header header = {.campaign = fracas_hash_of(of->name, strlen(of->name)), .seed = UINT64_MAX,
                                  .version = FRACAS_VERSION, .complete = !of->endings};
-    fracas_writer *writer;
-    assert_int_equal(fracas_writer_create(path, &header, &made.table, &writer), FRACAS_OK);
-    for (size_t p = 0; p < NPOINTS; p++) {
-        for (int64_t replica = 0; replica < of->replicas[p]; replica++) {
-            fracas_record record;
-            make_record(of, p, replica, &record);
-            assert_int_equal(fracas_writer_append(writer, p, replica, &record), FRACAS_OK);
-            fracas_record_clear(&record);
-        }
-    }
-    fracas_file_seal seal;
-    assert_int_equal(fracas_writer_finish(writer, header.complete, &seal), FRACAS_OK);
-    write_index(of, folder, &made.table, &seal);
-}
-
-/* table.txt, summary.json and report/ into the study's folder. */
-static void analyse(const char *folder)
-{
-    fracas_analysis *analysis;
-    assert_int_equal(fracas_analysis_create(folder, &analysis), FRACAS_OK);
-    char path[512];
-    snprintf(path, sizeof path, "%s/table.txt", folder);
-    FILE *out = fopen(path, "w");
-    assert_non_null(out);
-    fracas_analysis_print_table(analysis, out);
-    assert_int_equal(fclose(out), 0);
-    snprintf(path, sizeof path, "%s/summary.json", folder);
-    out = fopen(path, "w");
-    assert_non_null(out);
-    fracas_analysis_write_json(analysis, out);
-    assert_int_equal(fclose(out), 0);
-    assert_int_equal(fracas_report_write(analysis, folder), FRACAS_OK);
-    fracas_analysis_destroy(analysis);
-}
-
-/* The temporary folder of the test. With FRACAS_KEEP set in the environment it is kept, for a look at the page. */
-static char root[256];
-
-static int make_root(void **state)
-{
-    (void)state;
-    snprintf(root, sizeof root, "%s/analysis-study-XXXXXX", FRACAS_BINARY_DIR);
-    return mkdtemp(root) ? 0 : -1;
-}
-
-static int remove_root(void **state)
-{
-    (void)state;
-    char command[sizeof root + 16];
-    snprintf(command, sizeof command, "rm -rf '%s'", root);
-    return getenv("FRACAS_KEEP") ? 0 : system(command);
+    report_write_study(folder, &header, &made.table, make_any_record, of);
 }
 
 static void make_study(const truth *of, char *folder, size_t size)
 {
-    snprintf(folder, size, "%s/%s", root, of->name);
+    snprintf(folder, size, "%s/%s", report_root, of->name);
     write_study(of, folder);
-    analyse(folder);
-}
-
-/* Runs the script on the study; its status 77 says that python3 with h5py is not there. */
-static void check(const char *folder)
-{
-    char command[1024];
-    snprintf(command, sizeof command, "/usr/bin/python3 -c 'import h5py' 2>/dev/null || exit 77; "
-             "exec /usr/bin/python3 '" FRACAS_SOURCE_DIR "/tests/support/check_report.py' '%s' '" FRACAS_SOURCE_DIR "'",
-             folder);
-    int status = system(command);
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 77) {
-        print_message("skipped: python3-h5py is not installed\n");
-        skip();
-    }
-    assert_int_equal(status, 0);
-}
-
-static char *contents(const char *folder, const char *name)
-{
-    char path[512];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    char *text = calloc(1, 1 << 20);
-    assert_non_null(text);
-    size_t used = fread(text, 1, (1 << 20) - 1, file);
-    assert_true(used > 0);
-    fclose(file);
-    return text;
+    report_analyse(folder);
 }
 
 /* 32 replicas at n - 3 and n + 3: mean n, deviation 3 sqrt(32/31), half width t_(0.975, 31) 3/sqrt(31) with the
@@ -288,7 +176,7 @@ static void table_of_a_sweep(void **state)
     (void)state;
     char folder[512];
     make_study(&sweep, folder, sizeof folder);
-    char *table = contents(folder, "table.txt");
+    char *table = report_contents(folder, "table.txt");
     assert_non_null(strstr(table, "58.0 +- 1.1"));
     assert_non_null(strstr(table, "1600.0 +- 2.7")); /* 8 replicas: t = 2.3646, 2.3646 3/sqrt(7) = 2.681 */
     assert_non_null(strstr(table, " 864 +- 16 "));
@@ -300,7 +188,7 @@ static void table_of_a_sweep(void **state)
     }
     assert_int_equal(lines, 2 + NPOINTS);
     free(table);
-    check(folder);
+    report_check(folder);
 }
 
 /* One replica; FAILED and TIME_LIMIT; INTACT; a point without any usable realization; two materials. */
@@ -309,7 +197,7 @@ static void table_of_awkward_points(void **state)
     (void)state;
     char folder[512];
     make_study(&awkward, folder, sizeof folder);
-    char *table = contents(folder, "table.txt");
+    char *table = report_contents(folder, "table.txt");
     assert_non_null(strstr(table, "58.00 +- -")); /* one replica: 60 - 2 */
     assert_non_null(strstr(table, "3 TIME_LIMIT, 1 FAILED"));
     assert_non_null(strstr(table, "2 FRAGMENTED, 1 INTACT"));
@@ -317,7 +205,7 @@ static void table_of_awkward_points(void **state)
     assert_non_null(strstr(table, "no usable realization"));
     assert_non_null(strstr(table, "warning: rate 1e5 1/s, young 2.75e11 Pa: ledger residual up to 2.0e-3"));
     free(table);
-    check(folder);
+    report_check(folder);
 }
 
 static void study_that_is_not_there(void **state)
@@ -326,7 +214,7 @@ static void study_that_is_not_there(void **state)
     fracas_analysis *analysis;
     assert_int_equal(fracas_analysis_create("/nonexistent", &analysis), FRACAS_DAMAGED);
     assert_null(analysis);
-    assert_int_equal(fracas_analysis_create(root, &analysis), FRACAS_DAMAGED);
+    assert_int_equal(fracas_analysis_create(report_root, &analysis), FRACAS_DAMAGED);
     assert_non_null(strstr(fracas_message(), "fracas run"));
 }
 
@@ -334,7 +222,7 @@ static void report_that_cannot_be_written(void **state)
 {
     (void)state;
     char folder[512], blocker[520];
-    snprintf(folder, sizeof folder, "%s/blocked", root);
+    snprintf(folder, sizeof folder, "%s/blocked", report_root);
     write_study(&awkward, folder);
     snprintf(blocker, sizeof blocker, "%s/report", folder);
     FILE *file = fopen(blocker, "w"); /* where the folder should be */
@@ -355,5 +243,5 @@ int main(void)
         cmocka_unit_test(study_that_is_not_there),
         cmocka_unit_test(report_that_cannot_be_written),
     };
-    return cmocka_run_group_tests(tests, make_root, remove_root);
+    return cmocka_run_group_tests(tests, report_make_root, report_remove_root);
 }

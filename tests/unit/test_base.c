@@ -108,13 +108,56 @@ static void parameters_reach_their_place(void **unused)
     assert_true(section.n == -5 && section.b && section.x == 0.25);
 }
 
+static void names_and_files_reach_their_place(void **unused)
+{
+    (void)unused;
+    static const fracas_kind left = {.name = "left"}, right = {.name = "right"};
+    static const fracas_kind *const sides[] = {&left, &right};
+    struct named {
+        double before;
+        const fracas_kind *side;
+        const fracas_attachment *file;
+    } section = {.before = 1};
+    const fracas_param side = {.type = FRACAS_CHOICE, .offset = offsetof(struct named, side), .choices = sides, .nchoices = 2};
+    const fracas_param file = {.type = FRACAS_ATTACHMENT, .offset = offsetof(struct named, file)};
+    const fracas_attachment attached = {.path = "a", .text = "b", .size = 1, .digest = "0123"};
+    assert_true(isnan(fracas_param_get(&side, &section)));
+    assert_string_equal(fracas_param_text(&side, &section), "");
+    for (int i = 1; i >= 0; i--) {
+        fracas_param_set(&side, &section, i);
+        assert_true(section.side == sides[i] && fracas_param_get(&side, &section) == i);
+        assert_string_equal(fracas_param_text(&side, &section), sides[i]->name);
+    }
+    assert_string_equal(fracas_param_text(&file, &section), "");
+    fracas_param_attach(&file, &section, &attached);
+    assert_true(section.file == &attached && fracas_param_attachment(&file, &section) == &attached);
+    assert_string_equal(fracas_param_text(&file, &section), "0123");
+    assert_true(section.before == 1);
+}
+
+static void kinds_know_their_partners(void **unused)
+{
+    (void)unused;
+    static const fracas_kind a = {.name = "a"}, b = {.name = "b"}, c = {.name = "c"}, other = {.name = "other"};
+    static const fracas_kind *const kinds[] = {&a, &b, &c}, *const partners[] = {&c, &other, &a};
+    const fracas_section section = {.kinds = kinds, .nkinds = 3}, elsewhere = {.kinds = partners + 1, .nkinds = 1}, none = {0};
+    const fracas_kind picky = {.goes_with = partners, .ngoes_with = 3}, plain = {0};
+    assert_true(fracas_kind_partner(&picky, &section, 0) == &c); /* in the order of goes_with, not of the section */
+    assert_true(fracas_kind_partner(&picky, &section, 1) == &a);
+    assert_null(fracas_kind_partner(&picky, &section, 2));
+    assert_true(fracas_kind_partner(&picky, &elsewhere, 0) == &other);
+    assert_null(fracas_kind_partner(&picky, &none, 0));
+    assert_null(fracas_kind_partner(&plain, &section, 0));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_error_carries_its_message_up),
         cmocka_unit_test(hashes_are_xxh3),
         cmocka_unit_test(json_is_well_formed),
-        cmocka_unit_test(parameters_reach_their_place),
+        cmocka_unit_test(parameters_reach_their_place), cmocka_unit_test(names_and_files_reach_their_place),
+        cmocka_unit_test(kinds_know_their_partners),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

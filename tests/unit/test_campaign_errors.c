@@ -1,5 +1,6 @@
 /* What a wrong campaign file is told: place, what was found, what is allowed, the nearest known key. */
 #include "campaigns/file/read.h"
+#include "campaigns/file/setting.h"
 #include "tests/support/campaign_text.h"
 
 typedef struct {
@@ -80,7 +81,7 @@ static void test_top(void **state)
         {"material:", "materail:", 9, 1, {"unknown key `materail`", "did you mean `material`?"}},
         {"", "rate: 5\n", 28, 1, {"unknown key `rate`", "write `rate:` indented below `loading:`"}},
         {"", "loading.rate: 5\n", 28, 1, {"unknown key `loading.rate`", "write `rate:` indented below `loading:`"}},
-        {"model: bar", "model: ring", 3, 8, {"unknown model `ring`", "model can be: bar"}},
+        {"model: bar", "model: rod", 3, 8, {"unknown model `rod`", "model can be: bar, ring"}},
         {"model: bar", "model: {bar: 1}", 3, 8, {"`model`", "found a section", "a name"}},
     };
     CHECK_ALL(table);
@@ -93,7 +94,7 @@ static void test_keys(void **state)
          {"unknown key `fracture_enrgy` in cohesive", "did you mean `fracture_energy`?", "keys of cohesive: beta"}},
         {"  elements: 100", "  elements: 100\n  density: 5", 9, 3,
          {"unknown key `density` in mesh", "section material"}},
-        {"  elements: 100", "  12: 100", 8, 3, {"unknown key `12` in mesh", "keys of mesh: elements"}},
+        {"  elements: 100", "  12: 100", 8, 3, {"unknown key `12` in mesh", "keys of mesh: amplitude, elements, ratio, spacing"}},
         {"  maximum: 301 MPa", "  maximum: 301 MPa\n  shape: 5", 19, 3,
          {"`shape` belongs to distribution weibull", "this is uniform", "line 16"}},
         {"  distribution: uniform\n", "", 17, 3,
@@ -139,6 +140,60 @@ static void test_values(void **state)
         {"  history: 10", "  interfaces: [true]", 27, 15, {"`interfaces`", "found a list", "true or false"}},
     };
     CHECK_ALL(table);
+}
+
+static void test_choices(void **state)
+{
+    static const wrong table[] = {
+        {"ends: periodic", "ends: perodic", 5, 9, {"unknown ends `perodic`", "did you mean `periodic`?", "ends can be: periodic, held"}},
+        {"ends: periodic", "ends: 5", 5, 9, {"unknown ends `5`; ends can be: periodic, held"}},
+        {"ends: periodic", "ends: [held]", 5, 9, {"`ends`: found a list", "- geometry.ends: [...]"}},
+        {"ends: periodic", "ends: {a: 1}", 5, 9, {"`ends`: found a section; expected a name"}},
+        {"ends: periodic", "ends:", 5, 8, {"`ends`: found nothing; expected a name"}},
+        {"ends: periodic", "ends: periodic\n  ends: held", 6, 3, {"`ends` is given twice"}},
+        {"ends: periodic", "direction: current", 5, 3,
+         {"`direction` belongs to shape ring; this is bar, the default, as no `shape` is given"}},
+        {"ends: periodic", "shape: bar\n  direction: current", 6, 3, {"`direction` belongs to shape ring; this is bar (line 5)"}},
+        {"", "sweep:\n  - geometry.ends: [periodic, hold]\n", 29, 31, {"unknown ends `hold`", "`held`"}},
+        {"", "sweep:\n  - geometry.ends: {from: 1, to: 2, points: 2}\n", 29, 20, {"`geometry.ends` is not a number"}},
+        {"", "sweep:\n  - geometry.direction: [initial]\n", 29, 26, {"`direction` belongs to shape ring"}},
+    };
+    CHECK_ALL(table);
+}
+
+/* Kinds that the model does not take, wherever they are named. */
+static void test_combinations(void **state)
+{
+    static const wrong table[] = {
+        {"ends: periodic", "shape: ring\n  radius: 5 cm", 5, 10,
+         {"`shape`: ring cannot be combined with model bar, which takes bar; the model is chosen at line 3"}},
+        {"model: bar\ngeometry:\n  ends: periodic\n  length: 50 mm", "geometry:\n  shape: ring\n  radius: 5 cm", 4, 10,
+         {"`shape`: ring cannot be combined with model bar, which takes bar"}},
+        {"law: nitsche", "law: stershic", 13, 8, {"`law`: stershic cannot be combined with model bar, which takes nitsche or rigid-link"}},
+        {"rate: 1e4 1/s", "type: force\n  force: -1 N/m", 20, 9, {"`type`: force cannot be combined with model bar, which takes imposed-rate"}},
+        {"", "sweep:\n  - cohesive.law: [nitsche, stershic]\n", 29, 29, {"`law`: stershic cannot be combined with model bar", "line 3"}},
+        {"", "sweep:\n  - cases:\n      - {name: a}\n      - loading: {type: held-velocity, velocity: -5 m/s}\n", 31, 25,
+         {"`type`: held-velocity cannot be combined with model bar"}},
+        {"", "sweep:\n  - zip:\n      model: [bar]\n      geometry: [{shape: ring, radius: 1}]\n", 31, 26,
+         {"`shape`: ring cannot be combined with model bar, which takes bar; the model is chosen at line 30"}},
+    };
+    CHECK_ALL(table);
+}
+
+/* Ranges with no lower limit. */
+static void test_any_number(void **state)
+{
+    (void)state;
+    fracas_param any = {.name = "v", .unit = "m/s", .minimum = -INFINITY, .maximum = INFINITY}, low = any;
+    low.maximum = 5;
+    const fracas_leaf leaf = {.path = "a.v", .key = "v", .param = &any};
+    const fracas_node node = {.text = "6", .line = 2, .column = 3};
+    const fracas_file file = {.name = "f"};
+    for (double value = -1e300; value <= 1e300; value += 1e300)
+        assert_int_equal(fracas_setting_check(&file, &(fracas_setting){.leaf = &leaf, .node = &node, .value = value}, &any), FRACAS_OK);
+    const fracas_setting six = {.leaf = &leaf, .node = &node, .value = 6};
+    assert_int_equal(fracas_setting_check(&file, &six, &low), FRACAS_USAGE);
+    assert_string_equal(fracas_message(), "f:2:3: `v`: 6 is out of range; allowed is any number at most 5 m/s");
 }
 
 static void test_sweeps(void **state)
@@ -273,6 +328,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_yaml),   cmocka_unit_test(test_top),    cmocka_unit_test(test_keys),
+        cmocka_unit_test(test_choices), cmocka_unit_test(test_combinations), cmocka_unit_test(test_any_number),
         cmocka_unit_test(test_values), cmocka_unit_test(test_sweeps), cmocka_unit_test(test_whole_files),
     };
     return cmocka_run_group_tests(tests, load, unload);

@@ -1,6 +1,9 @@
 /* Good campaign files: values, sweeps, hashes, columns, the resolved file, extensions. */
 #include "tests/support/campaign_text.h"
 
+#include "campaigns/file/identity.h"
+#include "engine/loading/loading.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -80,18 +83,18 @@ static void test_golden_hash(void **state)
     static const char text[] =
         "cohesive.beta=4\ncohesive.fracture_energy=100\ncohesive.law=nitsche\ngeometry.area=1e-06\n"
         "geometry.ends=periodic\n"
-        "geometry.length=0.05\nloading.rate=10000\nloading.type=imposed-rate\nmaterial.density=2750\n"
-        "material.young=275000000000\nmesh.elements=100\nmodel=bar\nstrength.distribution=uniform\n"
+        "geometry.length=0.05\ngeometry.shape=bar\nloading.rate=10000\nloading.type=imposed-rate\nmaterial.density=2750\n"
+        "material.young=275000000000\nmesh.elements=100\nmesh.spacing=uniform\nmodel=bar\nstrength.distribution=uniform\n"
         "strength.maximum=301000000\nstrength.minimum=299000000\ntime.end=5e-07\ntime.quiet=1e-07\n"
         "time.quiet_fraction=0.001\ntime.safety=0.25\ntime.stop=settled\n";
     fracas_campaign *campaign = read_text(plain_campaign);
     fracas_hash hash = fracas_hash_of(text, strlen(text));
     assert_true(fracas_hash_equal(&campaign->point[0].hash, &hash));
-    check_hex(&hash, "ac6ceed79266ef8e5d53b946be4dd8bb");
-    check_hex(&campaign->hash, "228c6656bb24ccb1455b7b3e47ebbc32");
+    check_hex(&hash, "53c7ff3de3ea0c8cbde3f25ea63fc3a1");
+    check_hex(&campaign->hash, "dd4f4934fd1c1021f03785f89cec1baa");
     char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md");
-    assert_non_null(strstr(page, "# ac6ceed79266ef8e5d53b946be4dd8bb\n"));
-    assert_non_null(strstr(page, "# 228c6656bb24ccb1455b7b3e47ebbc32\n"));
+    assert_non_null(strstr(page, "# 53c7ff3de3ea0c8cbde3f25ea63fc3a1\n"));
+    assert_non_null(strstr(page, "# dd4f4934fd1c1021f03785f89cec1baa\n"));
     free(page);
     fracas_campaign_destroy(campaign);
 }
@@ -108,6 +111,9 @@ static void test_hashes(void **state)
         {"length: 50 mm", "length: 0.05", true, true},
         {"length: 50 mm", "length: 5 cm", true, true},
         {"length: 50 mm", "length: 50 mm\n  area: 1 mm2", true, true},
+        {"length: 50 mm", "length: 50 mm\n  shape: bar", true, true},
+        {"  ends: periodic\n", "", true, true},
+        {"elements: 100", "elements: 100\n  spacing: uniform", true, true},
         {"young: 275 GPa\n  density: 2750 kg/m3", "density: 2.75 g/cm3\n  young: 2.75e11", true, true},
         {"elements: 100", "elements: 1e2", true, true},
         {"seed: 7", "seed: 8", true, false},
@@ -119,6 +125,7 @@ static void test_hashes(void **state)
         {"length: 50 mm", "length: 50.0000000000001 mm", false, false},
         {"ends: periodic", "ends: held", false, false},
         {"law: nitsche", "law: nitsche\n  beta: 5", false, false},
+        {"elements: 100", "elements: 100\n  spacing: graded\n  ratio: 1", false, false},
         {"stop: settled\n  end: 500 ns\n  quiet: 100 ns", "stop: time\n  end: 500 ns", false, false},
     };
     fracas_campaign *plain = read_text(plain_campaign);
@@ -224,6 +231,37 @@ static void test_changed_kind(void **state)
     fracas_campaign_destroy(campaign);
 }
 
+/* A key that all kinds have stays when the kind is swept, though each has a range of its own for it. */
+static void test_key_of_all_kinds(void **state)
+{
+    (void)state;
+    fracas_campaign *campaign = read_replaced("", "sweep:\n  - cohesive.law: [nitsche, rigid-link]\n");
+    for (size_t p = 0; p < 2; p++) assert_true(real(campaign, p, "cohesive.fracture_energy") == 100);
+    assert_true(real(campaign, 0, "cohesive.beta") == 4 && isnan(real(campaign, 1, "cohesive.beta")));
+    fracas_campaign_destroy(campaign);
+}
+
+/* A value that is a name: swept, and by default the first one. */
+static void test_choices(void **state)
+{
+    (void)state;
+    fracas_campaign *campaign = read_replaced("", "sweep:\n  - geometry.ends: [held, periodic]\n"
+                                                  "  - geometry: [{}, {shape: bar, length: 1 m}]\n");
+    assert_int_equal(campaign->npoints, 4);
+    for (size_t p = 0; p < 4; p++) {
+        assert_string_equal(at(campaign, p, "geometry.ends")->text, p < 2 ? "held" : "periodic");
+        assert_string_equal(campaign->point[p].spec.geometry.ends->name, p < 2 ? "held" : "periodic");
+        assert_true(isnan(real(campaign, p, "geometry.ends")));
+        assert_true(campaign->point[p].spec.geometry.length == (p % 2 ? 1 : 0.05));
+    }
+    fracas_campaign_destroy(campaign);
+    campaign = read_replaced("  ends: periodic\n", "");
+    assert_string_equal(at(campaign, 0, "geometry.ends")->text, "periodic");
+    assert_string_equal(at(campaign, 0, "geometry.shape")->text, "bar");
+    assert_null(campaign->point[0].spec.geometry.direction); /* of the other shape */
+    fracas_campaign_destroy(campaign);
+}
+
 /* The sweep may supply what the sections leave out. */
 static void test_supplied_by_sweep(void **state)
 {
@@ -254,9 +292,9 @@ static void test_table(void **state)
     fracas_campaign *campaign = read_replaced("", sweep);
     const fracas_point_table *table = &campaign->table;
     static const char *const paths[] = {
-        "cohesive.beta", "cohesive.fracture_energy", "cohesive.law", "derived.strength_mean", "geometry.area",
-        "geometry.ends", "geometry.length", "loading.rate", "loading.type", "material.density", "material.young",
-        "mesh.elements", "model", "strength.distribution", "strength.maximum", "strength.minimum", "strength.value",
+        "cohesive.beta", "cohesive.fracture_energy", "cohesive.law", "derived.strain_rate", "derived.strength_mean", "geometry.area",
+        "geometry.ends", "geometry.length", "geometry.shape", "loading.rate", "loading.type", "material.density",
+        "material.young", "mesh.elements", "mesh.spacing", "model", "strength.distribution", "strength.maximum", "strength.minimum", "strength.value",
         "time.end", "time.quiet", "time.quiet_fraction", "time.safety", "time.stop"};
     assert_int_equal(table->ncolumns, FRACAS_COUNT(paths));
     for (size_t c = 0; c < FRACAS_COUNT(paths); c++) {
@@ -270,6 +308,7 @@ static void test_table(void **state)
         }
     }
     assert_int_equal(fracas_point_table_find(table, "case"), SIZE_MAX);
+    assert_true(real(campaign, 0, "derived.strain_rate") == real(campaign, 0, "loading.rate"));
     assert_true(real(campaign, 0, "derived.strength_mean") == 300e6);
     assert_true(real(campaign, 1, "derived.strength_mean") == 5e6);
     assert_true(isnan(real(campaign, 0, "strength.value")) && real(campaign, 1, "strength.value") == 5e6);
@@ -279,11 +318,30 @@ static void test_table(void **state)
     fracas_campaign_destroy(campaign);
 }
 
-/* Kinds of one section that have a key in common must give it one type and unit: they share a leaf and a column. */
+/* Powers of two, so that quotients are exact. */
+static void test_strain_rate(void **state)
+{
+    (void)state;
+    fracas_spec spec = {.geometry.radius = 0.0078125,
+                        .loading = {.type = &fracas_loading_imposed_rate, .rate = 3e3, .radial = 128, .velocity = 64,
+                                    .direction = &fracas_axis_radial}};
+    assert_true(fracas_spec_strain_rate(&spec) == 3e3);
+    spec.loading.type = &fracas_loading_initial_velocity;
+    assert_true(fracas_spec_strain_rate(&spec) == 16384);
+    spec.loading.type = &fracas_loading_held_velocity;
+    assert_true(fracas_spec_strain_rate(&spec) == 8192);
+    spec.loading.direction = &fracas_axis_circumferential;
+    assert_true(isnan(fracas_spec_strain_rate(&spec)));
+    spec.loading = (fracas_loading){.type = &fracas_loading_force, .direction = &fracas_axis_radial, .force = 5};
+    assert_true(isnan(fracas_spec_strain_rate(&spec)));
+}
+
+/* Kinds of one section that have a key in common must give it one type, unit and list of choices: they share a leaf and a
+ * column. */
 static void check_same_key(const fracas_section *section, const fracas_param *a, const fracas_param *b)
 {
-    if (strcmp(a->name, b->name) == 0 && (a->type != b->type || strcmp(a->unit, b->unit) != 0))
-        fail_msg("%s.%s has two types or units", section->name, a->name);
+    if (strcmp(a->name, b->name) == 0 && (a->type != b->type || strcmp(a->unit, b->unit) != 0 || a->choices != b->choices))
+        fail_msg("%s.%s has two types or units, or choices", section->name, a->name);
 }
 
 static void check_section(const fracas_section *section)
@@ -352,6 +410,7 @@ static void test_round_trip(void **state)
          " {distribution: constant, value: 1}]\n"
          "  - cohesive.law: [nitsche, rigid-link]\n  - time: [{}, {stop: time}]\n"
          "  - geometry.ends: [periodic, held]\n"),
+        "sweep:\n  - geometry.ends: [periodic, held]\n  - mesh: [{}, {spacing: graded, ratio: 3}]\n",
         "sweep:\n  - zip:\n      material.young: [0.1 GPa, 0.3 GPa]\n      time.stop: [settled, time]\n",
     };
     for (size_t i = 0; i < FRACAS_COUNT(sweeps); i++) {
@@ -487,8 +546,10 @@ int main(void)
         cmocka_unit_test(test_zip),          cmocka_unit_test(test_cases),
         cmocka_unit_test(test_changed_kind), cmocka_unit_test(test_supplied_by_sweep),
         cmocka_unit_test(test_table),        cmocka_unit_test(test_tables_agree),
+        cmocka_unit_test(test_strain_rate),
         cmocka_unit_test(test_round_trip),   cmocka_unit_test(test_write_fails),
         cmocka_unit_test(test_extends),      cmocka_unit_test(test_reference_page),
+        cmocka_unit_test(test_choices),      cmocka_unit_test(test_key_of_all_kinds),
         cmocka_unit_test(test_page_examples), cmocka_unit_test(test_largest_round_trip),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

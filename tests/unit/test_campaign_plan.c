@@ -1,9 +1,12 @@
 /* The plan: what is printed, and that it is what the engine says. */
+#include "campaigns/plan/forecast.h"
 #include "campaigns/plan/plan.h"
 #include "engine/engine.h"
 #include "tests/support/campaign_text.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <time.h>
 
 static const char sweep[] = "sweep:\n  - loading.rate: [1e3, 1e4]\n  - strength.maximum: [300 MPa, 301 MPa]\n";
 
@@ -100,6 +103,98 @@ static void test_warnings(void **state)
     fracas_campaign_destroy(campaign);
 }
 
+/* A ring of 10 mm with this load, 1000 elements. `more`: further keys of the case, each after a comma; or "initial", for
+ * interfaces that open along initial directions. */
+static fracas_campaign *read_ring(const char *loading, const char *more)
+{
+    char sweep_of_ring[512];
+    snprintf(sweep_of_ring, sizeof sweep_of_ring, "sweep:\n  - cases:\n      - {name: ring, model: ring, mesh: {elements: "
+             "1000}, loading: {%s}, geometry: {radius: 10 mm, area: 1 mm2%s}%s}\n", loading, strstr(more, "initial") ? ", direction: initial" : "",
+             strstr(more, "initial") ? "" : more);
+    return read_replaced("", sweep_of_ring);
+}
+
+static double bound_of(const char *loading)
+{
+    fracas_campaign *campaign = read_ring(loading, "");
+    fracas_forecast forecast;
+    if (fracas_forecast_make(campaign, 0, &forecast)) fail_msg("%s", fracas_message());
+    assert_true(campaign->point[0].spec.time.end == 500e-9);
+    fracas_campaign_destroy(campaign);
+    return forecast.bound;
+}
+
+/* The stress that a ring stays below: E 275 GPa, rho 2750 kg/m3, c 10 km/s, R 10 mm, until 0.5 us, half of R/c; each load from
+ * its own closed form, none from none. E rate t; E t (v + a t/2)/R; E a t^2/(2 R) of an acceleration, of a spin v^2/R, of a force
+ * per length f/(rho A). 1e-12: a few roundings. */
+static void test_bound_of_a_rings_stress(void **state)
+{
+    (void)state;
+    const double E = 275e9, R = 0.01, t = 500e-9;
+    const struct {
+        const char *loading;
+        double bound;
+    } loads[] = {
+        {"type: imposed-rate, rate: 1e4", E * 1e4 * t},
+        {"type: initial-velocity, radial: 100", E * 1e4 * t},
+        {"type: initial-velocity, radial: -100", E * 1e4 * t},
+        {"type: initial-velocity, radial: 100, circumferential: 300", E * 1e4 * t + E * t * t / 2 * 9e4 / (R * R)},
+        {"type: held-velocity, velocity: 100, acceleration: 1e8", E * t * (100 + 0.5 * 1e8 * t) / R},
+        {"type: held-velocity, direction: circumferential, velocity: 300", E * t * t / 2 * 9e4 / (R * R)},
+        {"type: force, force: 1e6", E * t * t / 2 * 1e6 / (2750e-6 * R)},
+        {"type: force, force: 0, force_rate: 2e12", E * t * t / 2 * 1e6 / (2750e-6 * R)},
+        {"type: force, direction: circumferential, force: 1e6", E * t * t / 2 * pow(1e6 * t / 2750e-6, 2) / (R * R)},
+        {"type: force, force: 0", 0},
+    };
+    for (size_t i = 0; i < sizeof loads / sizeof *loads; i++)
+        if (!(fabs(bound_of(loads[i].loading) - loads[i].bound) <= 1e-12 * loads[i].bound))
+            fail_msg("%s: %.15g, not %.15g", loads[i].loading, bound_of(loads[i].loading), loads[i].bound);
+}
+
+/* What a plan says of a ring before it is run. R/c is 1 us: the ring turns at 1.57 us and is compressed from 3.14 us on; it cracks
+ * above 300 MPa, that is radial 10.9 m/s. Half of it are 31.4 mm. */
+static void test_warnings_of_rings(void **state)
+{
+    (void)state;
+    static const char *const says[] = {"swings back: raise its velocity", "raise its velocity or time.end", "load it harder, or longer",
+                                       "the whole ring comes under compression", "cohesive.zone is longer than half",
+                                       "is that in Pa?", "the ring turns by"};
+    const struct {
+        const char *loading, *more;
+        unsigned expected; /* bit i: says[i] */
+    } rings[] = {
+        {"type: initial-velocity, radial: 12 m/s", ", time: {end: 5 us}", 0},
+        {"type: initial-velocity, radial: 10 m/s", ", time: {end: 1.5 us}", 2},
+        {"type: initial-velocity, radial: 10 m/s", ", time: {end: 3 us}", 1},
+        {"type: initial-velocity, radial: 10 m/s", ", time: {end: 3.2 us}", 1 | 8},
+        {"type: initial-velocity, radial: -100 m/s", "", 8},
+        {"type: held-velocity, velocity: 1 m/s", "", 4},
+        {"type: force, force: -1e9", "", 8},
+        {"type: force, force: 1e9", "", 0},
+        {"type: initial-velocity, radial: 1000 m/s", ", cohesive: {law: stershic, zone: 31 mm}", 0},
+        {"type: initial-velocity, radial: 1000 m/s", ", cohesive: {law: stershic, zone: 32 mm}", 16},
+        /* 275 GPa 1e5/s dt, dt = 62.8 um/(10 km/s) 0.25/f, f of a few units: 10 to 40 MPa */
+        {"type: initial-velocity, radial: 1000 m/s", ", strength: {distribution: uniform, minimum: 299, maximum: 301}", 32},
+        {"type: initial-velocity, radial: 1000 m/s", ", strength: {distribution: uniform, minimum: 45 MPa, maximum: 50 MPa}", 0},
+        /* turned until 0.5 us by V t/R, V t/R + a t^2/2R, f t^2/(2 rho A R) + f' t^3/(6 rho A R): 0.0075 or 0.0125 */
+        {"type: initial-velocity, radial: 1000 m/s, circumferential: 150 m/s", "initial", 0},
+        {"type: initial-velocity, radial: 1000 m/s, circumferential: -250 m/s", "initial", 64},
+        {"type: initial-velocity, radial: 1000 m/s, circumferential: 250 m/s", "", 0},
+        {"type: held-velocity, direction: circumferential, velocity: 50, acceleration: 4e8", "initial", 4},
+        {"type: held-velocity, direction: circumferential, velocity: 50, acceleration: 8e8", "initial", 4 | 64},
+        {"type: force, direction: circumferential, force: 1e6, force_rate: 2e12", "initial", 4},
+        {"type: force, direction: circumferential, force: 1.65e6, force_rate: 8e12", "initial", 4 | 64},
+    };
+    for (size_t i = 0; i < sizeof rings / sizeof *rings; i++) {
+        fracas_campaign *campaign = read_ring(rings[i].loading, rings[i].more);
+        char *text = print_plan(campaign, false);
+        for (unsigned w = 0; w < sizeof says / sizeof *says; w++)
+            if ((strstr(text, says[w]) != NULL) != (rings[i].expected >> w & 1)) fail_msg("ring %zu, \"%s\":\n%s", i, says[w], text);
+        free(text);
+        fracas_campaign_destroy(campaign);
+    }
+}
+
 /* A heavy tail is refused for the strongest interface it will draw, not for its mean. */
 static void test_heavy_tail(void **state)
 {
@@ -107,12 +202,34 @@ static void test_heavy_tail(void **state)
     fracas_campaign *campaign = read_replaced("", "sweep:\n  - strength: [{distribution: weibull, scale: 30 MPa, shape: 0.5}]\n");
     fracas_model *model;
     assert_int_equal(fracas_model_create(&campaign->point[0].spec, &model), FRACAS_OK);
-    assert_int_equal(fracas_model_check_strength(model, fracas_strength_mean(&campaign->point[0].strength)), FRACAS_OK);
+    const fracas_point *point = &campaign->point[0];
+    double mean = fracas_strength_mean(&point->strength, fracas_spec_interface_volume(&point->spec));
+    assert_int_equal(fracas_model_check_strength(model, mean), FRACAS_OK);
     fracas_model_destroy(model);
     double cost;
     assert_int_equal(fracas_plan_cost(campaign, 0, &cost), FRACAS_USAGE);
     expect(fracas_message(), "point 0: the strongest of ");
     expect(fracas_message(), "raise mesh.elements above");
+    fracas_campaign_destroy(campaign);
+}
+
+/* Flaws are rarest in the smallest interface: on a graded mesh it is that one, here the last, whose strength counts. In 3.5 mm3
+ * are 350 flaws, in 3.5e-3 mm3 a third of one; the longest elements bear 255 MPa. */
+static void test_flaws_of_small_elements(void **state)
+{
+    (void)state;
+    fracas_campaign *campaign = read_replaced("", "sweep:\n  - cases:\n"
+        "      - {name: small, mesh: {spacing: graded, ratio: 0.001}, strength: {distribution: flaws, flaw_density: 1e11 1/m3, "
+        "minimum: 100 MPa, maximum: 400 MPa, exponent: 2}}\n");
+    const fracas_point *point = &campaign->point[0];
+    fracas_model *model;
+    assert_int_equal(fracas_model_create(&point->spec, &model), FRACAS_OK);
+    double first = fracas_strength_quantile(&point->strength, fracas_model_interface_volume(model, 0), 1 - 1e-6);
+    assert_int_equal(fracas_model_check_strength(model, first), FRACAS_OK);
+    fracas_model_destroy(model);
+    double cost;
+    assert_int_equal(fracas_plan_cost(campaign, 0, &cost), FRACAS_USAGE);
+    expect(fracas_message(), "point 0: the strongest of ");
     fracas_campaign_destroy(campaign);
 }
 
@@ -127,6 +244,51 @@ static void test_refused(void **state)
     expect(fracas_message(), "point 1: ");
     fclose(out);
     fracas_campaign_destroy(campaign);
+}
+
+static fracas_campaign *refined_ring(const char *refinement)
+{
+    char text[1024];
+    snprintf(text, sizeof text,
+             "name: refined\nseed: 1\nmodel: ring\ngeometry: {radius: 1 mm}\nmesh: {elements: 200}\n"
+             "material: {young: 275 GPa, density: 2750 kg/m3}\n"
+             "cohesive: {law: stershic, fracture_energy: 100 J/m2, refinement: %s}\n"
+             "strength: {distribution: uniform, minimum: 290 MPa, maximum: 310 MPa}\n"
+             "loading: {rate: 100 1/s}\ntime: {end: 15 us, safety: 0.5}\nreplicas: 1\n", refinement);
+    return read_text(text);
+}
+
+/* However short steps may become, a plan is soon made. This ring's stress takes 0.55 us from 0.95 to all of its strength, 3.5
+ * million steps of 1.57 ns 1e-4, ten seconds or more; what is timed of it takes a tenth of a second (a second with sanitizers). */
+static void test_refined(void **state)
+{
+    (void)state;
+    fracas_campaign *campaign = refined_ring("1e-4");
+    const clock_t before = clock(); /* of the processor */
+    char *text = print_plan(campaign, false);
+    assert_true((double)(clock() - before) < 5.0 * CLOCKS_PER_SEC);
+    fracas_model *model;
+    assert_int_equal(fracas_model_create(&campaign->point[0].spec, &model), FRACAS_OK);
+    const double base = 15e-6 / fracas_model_time_step(model);
+    assert_true(fabs((double)fracas_model_steps(model) - 1e8 * base) <= 1.0); /* rounded up */
+    fracas_model_destroy(model);
+    free(text);
+    fracas_campaign_destroy(campaign);
+}
+
+/* More steps than can be taken, or counted, are refused. */
+static void test_refined_too_far(void **state)
+{
+    (void)state;
+    static const char *const refinements[] = {"5e-5", "1e-10", "1e-154", "1e-300"}; /* 9.5e3/25e-10 = 3.8e12, ... infinity */
+    for (size_t r = 0; r < FRACAS_COUNT(refinements); r++) {
+        fracas_campaign *campaign = refined_ring(refinements[r]);
+        fracas_model *model = NULL;
+        assert_int_equal(fracas_model_create(&campaign->point[0].spec, &model), FRACAS_USAGE);
+        assert_null(model);
+        expect(fracas_message(), "1e+12 are allowed: raise cohesive.refinement");
+        fracas_campaign_destroy(campaign);
+    }
 }
 
 static void test_write_fails(void **state)
@@ -145,7 +307,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_cost),    cmocka_unit_test(test_text),        cmocka_unit_test(test_json),
-        cmocka_unit_test(test_warnings), cmocka_unit_test(test_heavy_tail), cmocka_unit_test(test_refused), cmocka_unit_test(test_write_fails),
+        cmocka_unit_test(test_warnings), cmocka_unit_test(test_heavy_tail),
+        cmocka_unit_test(test_flaws_of_small_elements), cmocka_unit_test(test_bound_of_a_rings_stress), cmocka_unit_test(test_warnings_of_rings),
+        cmocka_unit_test(test_refused), cmocka_unit_test(test_refined), cmocka_unit_test(test_refined_too_far),
+        cmocka_unit_test(test_write_fails),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

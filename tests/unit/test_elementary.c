@@ -136,6 +136,66 @@ static void gamma_is_within_x_ulp(void **state)
     assert_true(isfinite(fracas_gamma(171.0)));
 }
 
+/* sin(pi r), cos(pi r) for a double |r| <= 1/4: long double rounds pi r by 2^-64 relative, twice, which moves either
+ * function by less than 2^-9 ulp of double. */
+static const long double pi_l = 3.14159265358979323846264338327950288L;
+
+static long double sinpi_l(double x)
+{
+    double n = rint(2.0 * x), r = x - 0.5 * n; /* exact */
+    long double s = sinl(pi_l * (long double)r), c = cosl(pi_l * (long double)r);
+    int quadrant = (int)(fmod(n, 4.0) + 4.0) % 4;
+    return quadrant == 0 ? s : quadrant == 1 ? c : quadrant == 2 ? -s : -c;
+}
+
+static long double cospi_l(double x)
+{
+    double n = rint(2.0 * x), r = x - 0.5 * n;
+    long double s = sinl(pi_l * (long double)r), c = cosl(pi_l * (long double)r);
+    int quadrant = (int)(fmod(n, 4.0) + 4.0) % 4;
+    return quadrant == 0 ? c : quadrant == 1 ? -s : quadrant == 2 ? -c : s;
+}
+
+static void sinpi_and_cospi_are_within_one_ulp(void **state)
+{
+    (void)state;
+    double sine = 0.0, cosine = 0.0;
+    for (uint64_t i = 0; i < POINTS; i++) {
+        double tiny = fmin(any_positive(i), 0x1p52), scale = ldexp(1.0, (int)(i % 54) - 1);
+        const double x[4] = {
+            between(-0.25, 0.25, i, 0),            /* the polynomials themselves */
+            tiny,                                  /* every exponent, subnormal results too */
+            between(-scale, scale, i, 0),          /* all sizes up to 2^52, spread within each */
+            floor(scale) * 0.5 + ldexp(tiny, -3),  /* close above zeros, where the result is small */
+        };
+        for (int k = 0; k < 4; k++) {
+            raise_to(&sine, ulps(fracas_sinpi(x[k]), sinpi_l(x[k])));
+            raise_to(&cosine, ulps(fracas_cospi(x[k]), cospi_l(x[k])));
+        }
+    }
+    assert_below("sinpi", sine, 1.0);
+    assert_below("cospi", cosine, 1.0);
+}
+
+/* Whole and half arguments over the whole range, and both signs. */
+static void sinpi_and_cospi_are_exact_at_halves(void **state)
+{
+    (void)state;
+    for (uint64_t i = 0; i < POINTS; i++) {
+        double n = i < 1000 ? (double)i - 500.0 : floor(ldexp(between(-1.0, 1.0, i, 0), (int)(i % 53)));
+        double odd = fmod(fabs(n), 2.0);
+        assert_true(fracas_sinpi(n) == 0.0 && fracas_cospi(n) == 1.0 - 2.0 * odd);
+        if (fabs(n) >= 0x1p51) continue; /* n + 1/2 is no double */
+        assert_true(fracas_sinpi(n + 0.5) == 1.0 - 2.0 * odd && fracas_cospi(n + 0.5) == 0.0);
+        double x = between(-300.0, 300.0, i, 1);
+        assert_true(fracas_sinpi(-x) == -fracas_sinpi(x) && fracas_cospi(-x) == fracas_cospi(x));
+    }
+    assert_true(fracas_sinpi(0x1p52) == 0.0 && fracas_cospi(0x1p52) == 1.0 && fracas_cospi(-0x1p52) == 1.0);
+    assert_true(fracas_sinpi(0x1p52 - 0.5) == -1.0 && fracas_cospi(0x1p52 - 1.0) == -1.0);
+    assert_true(isnan(fracas_sinpi(0x1.0000000000001p52)) && isnan(fracas_cospi(-INFINITY)));
+    assert_true(isnan(fracas_sinpi(NAN)) && isnan(fracas_cospi(NAN)));
+}
+
 static void special_values(void **state)
 {
     (void)state;
@@ -171,18 +231,21 @@ static void powers_of_two_are_exact(void **state)
 static void bits_are_golden(void **state)
 {
     (void)state;
-    static double value[4][65536];
+    static double value[6][65536];
     for (uint64_t i = 0; i < 65536; i++) {
         value[0][i] = fracas_log(any_positive(i));
         value[1][i] = fracas_exp(between(-746.0, 710.0, i, 0));
         value[2][i] = fracas_pow(between(0.0, 4.0, i, 0), between(-500.0, 500.0, i, 1));
         value[3][i] = fracas_gamma(between(1.0, 171.0, i, 0));
+        value[4][i] = fracas_sinpi(between(-100.0, 100.0, i, 0));
+        value[5][i] = fracas_cospi(between(-100.0, 100.0, i, 0));
     }
-    static const uint64_t golden[4] = {
+    static const uint64_t golden[6] = {
         0xbfdf2083b4417ad9, 0x8336a488abcb45d6, 0xc2b74ed1d3919bda, 0xcafa3d684bb9a879,
+        0xf59206dd7560170a, 0x89522cf0e139ff2b,
     };
-    uint64_t got[4];
-    for (int function = 0; function < 4; function++) {
+    uint64_t got[6];
+    for (int function = 0; function < 6; function++) {
         got[function] = fracas_checksum_of(value[function], sizeof value[function]);
         print_message("0x%016" PRIx64 "\n", got[function]);
     }
@@ -200,6 +263,8 @@ int main(void)
         cmocka_unit_test(exp_is_within_one_ulp),
         cmocka_unit_test(pow_is_within_two_ulp),
         cmocka_unit_test(gamma_is_within_x_ulp),
+        cmocka_unit_test(sinpi_and_cospi_are_within_one_ulp),
+        cmocka_unit_test(sinpi_and_cospi_are_exact_at_halves),
         cmocka_unit_test(special_values),
         cmocka_unit_test(powers_of_two_are_exact),
         cmocka_unit_test(bits_are_golden),

@@ -176,7 +176,8 @@ static void fragments_are_sums_over_their_elements(void **unused)
     for (int trial = 0; trial < 60; trial++) {
         const bool periodic = trial % 2 == 0;
         fracas_spec spec = bar_reference(N, 1e4, 1);
-        spec.geometry = (fracas_geometry){periodic ? &fracas_ends_periodic : &fracas_ends_held, N * 1e-4, 1e-6};
+        spec.geometry.ends = periodic ? &fracas_ends_periodic : &fracas_ends_held;
+        spec.geometry.length = N * 1e-4;
         fracas_model *model;
         fracas_batch *batch;
         assert_ok(fracas_model_create(&spec, &model));

@@ -45,6 +45,7 @@ static void check_values(const fracas_units *units)
         {"1 kg/(m s2)", "Pa", 1}, {"5", "Pa", 5}, {"+5.", "m", 5}, {".5", "m", 0.5}, {"-1.5e+3", "m", -1500},
         {"1E3 m", "m", 1000}, {"5%", "1", 0.05}, {"5 %", "1", 0.05}, {"0.33 %", "1", 0.0033}, {"0 MPa", "Pa", 0},
         {"-0 mm", "m", 0}, {"0e999", "m", 0}, {"1 mm.mm", "m2", 1e-6}, {"36 km/hour", "m/s", 10},
+        {"2 1/mm3", "1/m3", 2e9}, {"2 mm-3", "1/m3", 2e9},
     };
     for (size_t i = 0; i < COUNT(good); i++) {
         double value = NAN;

@@ -1,150 +1,134 @@
 /* Replay of another code: DynFrag1D's rigid links on its own strengths (tests/data/dynfrag1d), step by step. */
-#include "tests/support/bar.h"
+#include "tests/support/dynfrag1d.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
+enum { POTENTIAL, DISSIPATED, STORED, WORK, KINETIC, COLUMNS, DISTURBED = 8 };
+static const char *const column_name[COLUMNS] = {"potential", "dissipated", "stored", "work", "kinetic"};
 
-enum { W_LEFT, W_RIGHT, V_LEFT, V_RIGHT, DAMAGE, STRENGTH, FIELDS = 7 };
-enum { N = 1250, STEPS = 500 };
-
-#define RATE 1e5
-#define LENGTH 0.05
-#define NOMINAL 300e6
-
-typedef struct {
-    double time, potential, kinetic, dissipated, reversible, contact, work, stress;
-    long fragments, inserted;
-} history_row;
-
-static FILE *open_data(const char *name)
+static double column(const dynfrag1d_row *row, int which)
 {
-    char path[512];
-    snprintf(path, sizeof path, "%s/tests/data/dynfrag1d/r1e5_N1250_diag%s", FRACAS_SOURCE_DIR, name);
-    FILE *file = fopen(path, "r");
-    if (!file) fail_msg("cannot open %s", path);
-    char head[512];
-    assert_non_null(fgets(head, sizeof head, file));
-    return file;
+    const double all[COLUMNS] = {row->potential, row->nominal, row->stored, row->work, row->kinetic};
+    return all[which];
 }
 
-static void read_strengths(double *strength)
+static double largest(const dynfrag1d_row *row, int rows, int which)
 {
-    FILE *file = open_data("_strength.csv");
-    for (int i = 0; i < N; i++) {
-        int interface;
-        assert_int_equal(fscanf(file, "%d,%lf", &interface, &strength[i]), 2);
-        assert_int_equal(interface, i);
-    }
-    fclose(file);
+    double value = 0;
+    for (int n = 0; n < rows; n++) value = fmax(value, fabs(column(&row[n], which)));
+    return value;
 }
 
-static int read_history(history_row *row)
+/* Ours at every row of theirs, from strengths each off by up to `noise` of itself (another noise for each `seed`). */
+static void replay(const dynfrag1d_run *run, const dynfrag1d_row *reference, int rows, double noise, uint64_t seed,
+                   dynfrag1d_row *now)
 {
-    FILE *file = open_data("_history.csv");
-    int n = 0;
-    while (n < STEPS && fscanf(file, "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%ld,%ld,%lf", &row[n].time, &row[n].potential, &row[n].kinetic,
-                  &row[n].dissipated, &row[n].reversible, &row[n].contact, &row[n].work, &row[n].fragments, &row[n].inserted,
-                  &row[n].stress) == 10)
-        n++;
-    fclose(file);
-    return n;
-}
-
-static double *field(fracas_batch *batch, size_t element, int which)
-{
-    return batch->step.state + element * FIELDS + (size_t)which;
-}
-
-/* The quantities that the other code writes, from our state: its frame is the laboratory's, its dissipated energy uses the
- * nominal strength, a fragment ends where damage exceeds 0.99, and a link counts as inserted from the next step on. */
-static history_row observe(fracas_batch *batch, const double *velocity_before)
-{
-    history_row now = {.time = batch->step.time[0], .potential = batch->step.elastic[0],
-                       .reversible = batch->step.cohesive[0], .fragments = 1};
-    const double h = LENGTH / N, nodal = 0.5 * 2750 * h;
-    for (size_t e = 0; e < N; e++) {
-        for (size_t side = 0; side < 2; side++) {
-            double x = h * (double)(e + side) - LENGTH / 2;
-            double v = RATE * x + 0.5 * (velocity_before[2 * e + side] + *field(batch, e, V_LEFT + (int)side));
-            now.kinetic += 0.5 * nodal * v * v;
-        }
-        if (e + 1 == N) break;
-        double damage = *field(batch, e, DAMAGE);
-        now.dissipated += 0.5 * NOMINAL * damage * 2 * 100 / *field(batch, e, STRENGTH);
-        now.fragments += damage > 0.99;
-    }
-    return now;
-}
-
-static double end_stress(fracas_batch *batch, size_t e)
-{
-    return 275e9 * (RATE * batch->step.time[0] + (*field(batch, e, W_RIGHT) - *field(batch, e, W_LEFT)) / (LENGTH / N));
+    const fracas_stream stream = {.seed = seed, .purpose = FRACAS_PURPOSE_STRENGTH};
+    double *strength = dynfrag1d_strengths(run);
+    for (int i = 0; i < run->elements; i++)
+        strength[i] *= 1 + noise * (2 * fracas_stream_uniform(&stream, (uint64_t)i) - 1);
+    dynfrag1d_replay bar;
+    dynfrag1d_begin(&bar, run, &fracas_law_rigid_link, 1, 0, strength);
+    dynfrag1d_follow(&bar, reference, rows, now);
+    dynfrag1d_end(&bar);
+    free(strength);
 }
 
 static void dynfrag1d_is_replayed_to_1e_8_with_every_count(void **unused)
 {
     (void)unused;
-    static double strength[N];
-    static history_row reference[STEPS];
-    read_strengths(strength);
-    assert_int_equal(read_history(reference), STEPS);
-
-    fracas_spec spec = bar_reference(N, RATE, 1);
-    spec.geometry = (fracas_geometry){&fracas_ends_held, LENGTH, 1.0};
-    spec.cohesive.law = &fracas_law_rigid_link;
-    fracas_model *model;
-    assert_ok(fracas_model_create(&spec, &model));
-    model->time_step = reference[1].time; /* 0.1 h/c as that code rounds it */
-    fracas_batch *batch;
-    const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
-    assert_ok(fracas_batch_create(model, 1, &options, &batch));
-    for (size_t i = 0; i + 1 < N; i++) bar_set_strength(batch, 0, i, strength[i]);
-    assert_ok(fracas_batch_begin(batch));
-
-    double before[2 * N], work = 0, power_before = 0, scale[4] = {0}, worst[4] = {0};
-    for (int n = 0; n < STEPS; n++) {
-        scale[0] = fmax(scale[0], fabs(reference[n].potential));
-        scale[1] = fmax(scale[1], fabs(reference[n].dissipated));
-        scale[2] = fmax(scale[2], fabs(reference[n].reversible + reference[n].contact));
-        scale[3] = fmax(scale[3], fabs(reference[n].work));
+    static dynfrag1d_row reference[DYNFRAG1D_MOST_ROWS], now[DYNFRAG1D_MOST_ROWS];
+    const dynfrag1d_run *run = &dynfrag1d_runs[2];
+    const int rows = dynfrag1d_history(run, reference);
+    replay(run, reference, rows, 0, 0, now);
+    double worst[COLUMNS] = {0};
+    for (int n = 0; n < rows; n++) {
+        for (int k = 0; k < COLUMNS; k++)
+            worst[k] = fmax(worst[k], fabs(column(&now[n], k) - column(&reference[n], k)) / largest(reference, rows, k));
+        assert_int_equal(now[n].fragments, reference[n].fragments);
     }
-    fracas_record record;
-    fracas_record_init(&record);
-    double worst_kinetic = 0;
-    for (int n = 0; n < STEPS; n++) {
-        size_t running;
-        for (size_t e = 0; e < N; e++) {
-            before[2 * e] = *field(batch, e, V_LEFT);
-            before[2 * e + 1] = *field(batch, e, V_RIGHT);
-        }
-        assert_ok(fracas_batch_step(batch, &record, &running));
-        history_row now = observe(batch, before);
-        double power = 0.5 * RATE * LENGTH * (end_stress(batch, 0) + end_stress(batch, N - 1));
-        if (n > 0) work += 0.5 * model->time_step * (power_before + power);
-        power_before = power;
-        const double ours[4] = {now.potential, now.dissipated, now.reversible, work};
-        const double theirs[4] = {reference[n].potential, reference[n].dissipated,
-                                  reference[n].reversible + reference[n].contact, reference[n].work};
-        for (int k = 0; k < 4; k++) worst[k] = fmax(worst[k], fabs(ours[k] - theirs[k]) / scale[k]);
-        worst_kinetic = fmax(worst_kinetic, fabs(now.kinetic / reference[n].kinetic - 1));
-        assert_int_equal(now.fragments, reference[n].fragments);
-    }
-    print_message("[  figures ] largest difference: potential %.1e, dissipated %.1e, cohesive and contact %.1e, work %.1e "
-                  "(of the column's largest value), kinetic %.1e; last count %ld\n", worst[0], worst[1], worst[2], worst[3],
-                  worst_kinetic, reference[STEPS - 1].fragments);
-    for (int k = 0; k < 4; k++) assert_true(worst[k] < 1e-8);
+    print_message("[  figures ] %s, largest difference: potential %.1e, dissipated %.1e, cohesive and contact %.1e, work %.1e, "
+                  "kinetic %.1e (of the column's largest value); last count %ld\n", run->name, worst[POTENTIAL],
+                  worst[DISSIPATED], worst[STORED], worst[WORK], worst[KINETIC], now[rows - 1].fragments);
+    for (int k = 0; k < KINETIC; k++) assert_true(worst[k] < 1e-8);
     /* 1e-8 of the peculiar energies, which are some 1e-3 of this laboratory-frame sum: 1e-11, and its own rounding */
-    assert_true(worst_kinetic < 1e-11);
-    /* end value of the other code's summary, with each link's own strength */
-    assert_true(fabs(batch->step.dissipated[0] / 69731.9789710661 - 1) < 1e-8);
-    assert_int_equal(reference[STEPS - 1].fragments, 417);
-    fracas_batch_destroy(batch);
-    fracas_model_destroy(model);
+    assert_true(worst[KINETIC] < 1e-11);
+    assert_true(fabs(now[rows - 1].dissipated / dynfrag1d_summary(run, "dissipated_own_strength") - 1) < 1e-8);
+    assert_int_equal(now[rows - 1].fragments, 417);
+}
+
+/* A step that is off by round-off goes another way after many contacts, so that the tolerance grows with time: it is what
+ * disturbances of the size of theirs do to our own run. The other code's displacement is that of the laboratory, up to
+ * rate L/2 t = 2.5e-4 m with a last place of 5e-20 m: over an element of 4e-5 m, a stress of 275 GPa 5e-20/4e-5 = 4e-4 Pa, 1e-12
+ * of the strength, anew in every step. */
+static const double disturbance = 1e-12;
+
+/* spread[n][k]: the largest difference of column k until row n between our run and eight disturbed ones. */
+static void measure_spread(const dynfrag1d_run *run, const dynfrag1d_row *reference, int rows, const dynfrag1d_row *now,
+                           double spread[][COLUMNS])
+{
+    static dynfrag1d_row other[DYNFRAG1D_MOST_ROWS];
+    memset(spread, 0, (size_t)rows * sizeof spread[0]);
+    for (uint64_t seed = 1; seed <= DISTURBED; seed++) {
+        replay(run, reference, rows, disturbance, seed, other);
+        for (int k = 0; k < COLUMNS; k++) {
+            double until = 0;
+            for (int n = 0; n < rows; n++) {
+                until = fmax(until, fabs(column(&other[n], k) - column(&now[n], k)));
+                spread[n][k] = fmax(spread[n][k], until);
+            }
+        }
+    }
+}
+
+/* One column of the whole history. Three: theirs is one more disturbed run, and the largest of nine is within three times that
+ * of eight (measured: 1.4); 1e-11 of the column: sums of 2500 terms, rounded otherwise. Until 0.25 us, when nine tenths of
+ * what breaks has broken and pieces have not met yet, nothing has grown. */
+static void compare_column(const dynfrag1d_row *reference, const dynfrag1d_row *now, int rows, double spread[][COLUMNS], int k)
+{
+    const double scale = largest(reference, rows, k);
+    double worst = 0, share = 0, equal = 0;
+    for (int n = 0; n < rows; n++) {
+        double difference = fabs(column(&now[n], k) - column(&reference[n], k));
+        worst = fmax(worst, difference);
+        share = fmax(share, difference / (spread[n][k] + 1e-11 * scale));
+        if (worst < 1e-8 * scale) equal = now[n].time;
+    }
+    print_message("[  figures ]   %s: within 1e-8 until %.2f us, later %.1e J (%.1e of its largest value; disturbed runs: "
+                  "%.1e J), at most %.1f times the disturbed runs\n", column_name[k], 1e6 * equal, worst, worst / scale,
+                  spread[rows - 1][k], share);
+    assert_true(share < 3);
+    assert_true(equal > 0.25e-6);
+}
+
+static void compare_as_far_as_round_off_lets(const dynfrag1d_run *run)
+{
+    static dynfrag1d_row reference[DYNFRAG1D_MOST_ROWS], now[DYNFRAG1D_MOST_ROWS];
+    static double spread[DYNFRAG1D_MOST_ROWS][COLUMNS];
+    const double theirs = dynfrag1d_summary(run, "dissipated_own_strength");
+    const int rows = dynfrag1d_history(run, reference), last = rows - 1;
+    replay(run, reference, rows, 0, 0, now);
+    measure_spread(run, reference, rows, now, spread);
+    print_message("[  figures ] %s: %ld fragments (theirs %ld), dissipated %+.1e of its final value\n", run->name,
+                  now[last].fragments, reference[last].fragments, now[last].dissipated / theirs - 1);
+    for (int k = 0; k < COLUMNS; k++) compare_column(reference, now, rows, spread, k);
+    for (int n = 0; n < rows; n++) assert_true(labs(now[n].fragments - reference[n].fragments) <= 1);
+    /* 9 J: a tenth of what one interface dissipates; disturbed runs end up to 1e-3 away, theirs did not */
+    assert_true(fabs(now[last].dissipated / theirs - 1) < 5e-4);
+    /* Interfaces whose damage differs are off the nominal strength by 1/300 at most: 5e-4/300 */
+    dynfrag1d_own(reference, now, rows);
+    assert_true(fabs(reference[last].dissipated / theirs - 1) < 2e-6);
+}
+
+static void dynfrag1d_is_replayed_at_1e4_as_far_as_round_off_lets(void **unused)
+{
+    (void)unused;
+    for (int r = 0; r < 2; r++) compare_as_far_as_round_off_lets(&dynfrag1d_runs[r]);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(dynfrag1d_is_replayed_to_1e_8_with_every_count)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(dynfrag1d_is_replayed_to_1e_8_with_every_count),
+        cmocka_unit_test(dynfrag1d_is_replayed_at_1e4_as_far_as_round_off_lets),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

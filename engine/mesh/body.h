@@ -1,0 +1,15 @@
+/* The bodies that can be broken up, and their meshes: the sections `geometry` and `mesh`. */
+#ifndef FRACAS_ENGINE_MESH_BODY_H
+#define FRACAS_ENGINE_MESH_BODY_H
+
+#include "base/param.h"
+
+extern const fracas_section fracas_geometry_section;
+extern const fracas_kind fracas_shape_bar, fracas_shape_ring;
+extern const fracas_kind fracas_ends_periodic, fracas_ends_held;
+extern const fracas_kind fracas_direction_initial, fracas_direction_current;
+
+extern const fracas_section fracas_mesh_section;
+extern const fracas_kind fracas_spacing_uniform, fracas_spacing_graded, fracas_spacing_perturbed;
+
+#endif

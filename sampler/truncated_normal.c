@@ -1,0 +1,74 @@
+/* Normal distribution, cut off at strength 0. */
+#include "sampler/distribution.h"
+
+#include "base/elementary.h"
+#include "sampler/normal.h"
+
+/* The density of a standard normal variable. */
+static double normal_density(double z)
+{
+    const double one_over_sqrt_two_pi = 0x1.9884533d43651p-2;
+    return one_over_sqrt_two_pi * fracas_exp(-0.5 * z * z);
+}
+
+/* H(y) = integral_0^y exp(k t - t^2/2) dt, 0 <= y <= 1, k >= 0, by its Taylor series: the derivatives of the integrand
+ * at 0 are Hermite polynomials in k, g_(n+1) = k g_n - n g_(n-1). Here as h_n = g_n y^n/n!. */
+static double area_from_zero(double k, double y)
+{
+    double before = 0.0, term = 1.0, sum = 1.0;
+    for (double n = 1.0; n < 400.0; n += 1.0) {
+        double next = (k * y * term - y * y * before) / n;
+        before = term;
+        term = next;
+        sum += term / (n + 1.0);
+        if (fabs(term) + fabs(before) < 0x1p-56 * fabs(sum)) break;
+    }
+    return y * sum;
+}
+
+/* (sampling.18) The y = strength/deviation with H(y) = c, for small y, where mean + deviation z would cancel: Newton on
+ * ln H in y, concave, from the solution without t^2. */
+static double solve_near_zero(double k, double c)
+{
+    double y = k * c < 1e-3 ? c : fracas_log(1.0 + k * c) / k;
+    for (int i = 0; i < 20; i++) {
+        double area = area_from_zero(k, y);
+        double step = (area - c) * fracas_exp(y * (0.5 * y - k));
+        y = fmax(0.5 * y, y - step);
+        if (fabs(step) < 1e-9 * y) break; /* the next one would be below 1e-17 */
+    }
+    return y;
+}
+
+/* (sampling.16) The upper half of the untruncated law from 1 - u, the lower one from u, so that both tails are exact. */
+static double normal_quantile(const fracas_strength *strength, double volume, double u)
+{
+    (void)volume;
+    const double near_zero = 0.5;
+    double k = strength->mean / strength->deviation;
+    double kept = fracas_normal_upper(-k);
+    double above = (1.0 - u) * kept;
+    double z = above < 0.5 ? -fracas_normal_quantile(above) : fracas_normal_quantile(fracas_normal_upper(k) + u * kept);
+    if (k + z > near_zero) return strength->mean + strength->deviation * z;
+    return strength->deviation * solve_near_zero(k, u * kept / normal_density(k));
+}
+
+/* (sampling.19) */
+static double normal_mean(const fracas_strength *strength, double volume)
+{
+    (void)volume;
+    double k = strength->mean / strength->deviation;
+    return strength->mean + strength->deviation * (normal_density(k) / fracas_normal_upper(-k));
+}
+
+static const fracas_param params[] = {
+    {"mean", FRACAS_REAL, "Pa", "mean before strengths below 0 are cut off", FRACAS_REQUIRED, 0, INFINITY, true,
+     offsetof(fracas_strength, mean)},
+    {"deviation", FRACAS_REAL, "Pa", "standard deviation before strengths below 0 are cut off", FRACAS_REQUIRED, 0,
+     INFINITY, true, offsetof(fracas_strength, deviation)},
+};
+const fracas_distribution fracas_normal = {
+    .kind = {.name = "normal", .doc = "normal, cut off at 0: strengths are positive", .params = params,
+             .nparams = FRACAS_COUNT(params)},
+    .quantile = normal_quantile, .mean = normal_mean,
+};

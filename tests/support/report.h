@@ -1,0 +1,141 @@
+/* Studies of known truth, written through the store, analysed, and checked by a script that shares no code with us. */
+#ifndef FRACAS_TESTS_SUPPORT_REPORT_H
+#define FRACAS_TESTS_SUPPORT_REPORT_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "analysis/analysis.h"
+#include "campaigns/store/store.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* The record of a realization, a function of these alone. */
+typedef void report_record(const void *context, size_t point, int64_t replica, fracas_record *record);
+
+/* index.sqlite as a run leaves it, for docs/examples/table_from_index.sql: everything done in one segment. */
+static inline void report_write_index(const char *folder, const fracas_point_table *table, const fracas_file_seal *seal,
+                                      report_record *make, const void *context)
+{
+    fracas_index *index;
+    assert_int_equal(fracas_index_open(folder, true, &index), FRACAS_OK);
+    assert_int_equal(fracas_index_plan(index, table), FRACAS_OK);
+    size_t count = 0, all = 0;
+    for (size_t p = 0; p < table->npoints; p++) all += (size_t)table->point[p].replicas;
+    fracas_segment_row *row = calloc(all, sizeof *row);
+    assert_non_null(row);
+    for (size_t p = 0; p < table->npoints; p++) {
+        for (int64_t replica = 0; replica < table->point[p].replicas; replica++) {
+            fracas_record record;
+            make(context, p, replica, &record);
+            row[count] = (fracas_segment_row){
+                .point = table->point[p].hash, .replica = replica, .row = (int64_t)count, .outcome = record.outcome,
+                .fragments = record.fragments, .fragments_dust = record.fragments_dust, .steps = record.steps,
+                .dissipated = record.dissipated, .residual = record.residual};
+            count++;
+            fracas_record_clear(&record);
+        }
+    }
+    assert_int_equal(fracas_index_commit(index, "one.h5", seal, row, count, "{}"), FRACAS_OK);
+    fracas_index_close(index);
+    free(row);
+}
+
+/* Makes the folder and writes study.h5 and index.sqlite of every realization of the table into it. */
+static inline void report_write_study(const char *folder, const fracas_file_header *header,
+                                      const fracas_point_table *table, report_record *make, const void *context)
+{
+    char path[640];
+    snprintf(path, sizeof path, "%s/study.h5", folder);
+    assert_true(mkdir(folder, 0777) == 0);
+    fracas_writer *writer;
+    assert_int_equal(fracas_writer_create(path, header, table, &writer), FRACAS_OK);
+    for (size_t p = 0; p < table->npoints; p++) {
+        for (int64_t replica = 0; replica < table->point[p].replicas; replica++) {
+            fracas_record record;
+            make(context, p, replica, &record);
+            assert_int_equal(fracas_writer_append(writer, p, replica, &record), FRACAS_OK);
+            fracas_record_clear(&record);
+        }
+    }
+    fracas_file_seal seal;
+    assert_int_equal(fracas_writer_finish(writer, header->complete, &seal), FRACAS_OK);
+    report_write_index(folder, table, &seal, make, context);
+}
+
+/* table.txt, summary.json and report/ into the study's folder. */
+static inline void report_analyse(const char *folder)
+{
+    fracas_analysis *analysis;
+    assert_int_equal(fracas_analysis_create(folder, &analysis), FRACAS_OK);
+    char path[640];
+    snprintf(path, sizeof path, "%s/table.txt", folder);
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fracas_analysis_print_table(analysis, out);
+    assert_int_equal(fclose(out), 0);
+    snprintf(path, sizeof path, "%s/summary.json", folder);
+    out = fopen(path, "w");
+    assert_non_null(out);
+    fracas_analysis_write_json(analysis, out);
+    assert_int_equal(fclose(out), 0);
+    assert_int_equal(fracas_report_write(analysis, folder), FRACAS_OK);
+    fracas_analysis_destroy(analysis);
+}
+
+/* The temporary folder of the test. With FRACAS_KEEP set in the environment it is kept, for a look at the page. */
+static char report_root[256];
+
+static inline int report_make_root(void **state)
+{
+    (void)state;
+    snprintf(report_root, sizeof report_root, "%s/analysis-study-XXXXXX", FRACAS_BINARY_DIR);
+    return mkdtemp(report_root) ? 0 : -1;
+}
+
+static inline int report_remove_root(void **state)
+{
+    (void)state;
+    char command[sizeof report_root + 16];
+    snprintf(command, sizeof command, "rm -rf '%s'", report_root);
+    return getenv("FRACAS_KEEP") ? 0 : system(command);
+}
+
+/* Runs the script on the study; its status 77 says that python3 with h5py is not there. */
+static inline void report_check(const char *folder)
+{
+    char command[1024];
+    snprintf(command, sizeof command, "/usr/bin/python3 -c 'import h5py' 2>/dev/null || exit 77; "
+             "exec /usr/bin/python3 '" FRACAS_SOURCE_DIR "/tests/support/check_report.py' '%s' '" FRACAS_SOURCE_DIR "'",
+             folder);
+    int status = system(command);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 77) {
+        print_message("skipped: python3-h5py is not installed\n");
+        skip();
+    }
+    assert_int_equal(status, 0);
+}
+
+static inline char *report_contents(const char *folder, const char *name)
+{
+    char path[640];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    char *text = calloc(1, 1 << 20);
+    assert_non_null(text);
+    size_t used = fread(text, 1, (1 << 20) - 1, file);
+    assert_true(used > 0);
+    fclose(file);
+    return text;
+}
+
+#endif

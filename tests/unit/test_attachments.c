@@ -1,0 +1,319 @@
+/* Files that a campaign names: strengths given line by line, what is said of wrong ones, and what stands for a file in a
+ * point. And what is drawn once a point: the moves of a mesh's nodes. */
+#include "campaigns/file/read.h"
+#include "campaigns/plan/forecast.h"
+#include "campaigns/plan/point_model.h"
+#include "tests/support/campaign_text.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* ---- strengths of a file ---- */
+
+static const fracas_kind *file_kind(void)
+{
+    for (size_t k = 0; k < fracas_strength_section.nkinds; k++)
+        if (strcmp(fracas_strength_section.kinds[k]->name, "file") == 0) return fracas_strength_section.kinds[k];
+    fail_msg("no distribution file");
+    return NULL;
+}
+
+static void test_values(void **state)
+{
+    (void)state;
+    /* The same three strengths, 3, 1 and 8 Pa: sums and quotients of such numbers are exact. */
+    static const char *const texts[] = {
+        "3\n1\n8\n", "3\n1\n8", "3\r\n1\r\n8\r\n", "\n\n3\n\n1\n8\n\n", "# about\n3\n  # more\n1\n8\n",
+        "strength\n3\n1\n8\n", "# about\nindex, strength (Pa)\n0, 3\n1, 1\n2, 8\n", "0,3\n1,1\n2,8\n", "0 3\n\t1\t1 \n2 ,8\n",
+        "a;b;sigma_c\n3e0\n+1.0\n.08E2\n", ("\xef\xbb\xbf" "3\n1\n8\n"), "\"strength\"\n3\n1\n8\n",
+    };
+    static const double expected[3] = {3, 1, 8}, volume[4] = {1, 1, 1, 1};
+    for (size_t t = 0; t < FRACAS_COUNT(texts); t++) {
+        const fracas_attachment file = {.path = "s.csv", .text = texts[t], .size = strlen(texts[t])};
+        const fracas_strength strength = {.distribution = file_kind(), .file = &file};
+        if (fracas_strength_check(&strength)) fail_msg("%s\n%s", fracas_message(), texts[t]);
+        assert_int_equal(fracas_strength_count(&strength), 3);
+        assert_true(fracas_strength_mean(&strength, 1) == 4);
+        assert_true(fracas_strength_quantile(&strength, 1, 1e-9) == 1 && fracas_strength_quantile(&strength, 1, 1 - 1e-9) == 8);
+        for (uint64_t replica = 0; replica < 2; replica++) { /* whatever the stream, and the stride */
+            double got[8] = {0};
+            fracas_strength_sample(&strength, &(fracas_stream){.seed = 1, .replica = replica}, 4, volume, 2, got);
+            for (int i = 0; i < 3; i++)
+                if (got[2 * i] != expected[i] || got[2 * i + 1] != 0) fail_msg("%g is not %g of:\n%s", got[2 * i], expected[i], texts[t]);
+            assert_true(isnan(got[6]));
+        }
+    }
+    const fracas_strength drawn = {.distribution = fracas_strength_section.kinds[0]};
+    assert_int_equal(fracas_strength_count(&drawn), 0);
+}
+
+static void test_bad_values(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *message;
+    } table[] = {
+        {"3\nx\n", "s.csv:2: found `x`; expected a strength in Pa, a number greater than 0"},
+        {"strength\nPa\n3\n", "s.csv:2: found `Pa`"},
+        {"# a\n\n3\n4,\n", "s.csv:4: found no text there; expected"},
+        {"3e8x\n", "s.csv:1: found `3e8x`"}, /* no heading: it starts like a number */
+        {"nan\n3\n", "s.csv:1: found `nan`"},
+        {"3\ninf\n", "s.csv:2: found `inf`"},
+        {"3\n0\n", "s.csv:2: found `0`"},
+        {"3\n-4\n", "s.csv:2: found `-4`"},
+        {"3\n1e999\n", "s.csv:2: found `1e999`"},
+        {"3\n0x10\n", "s.csv:2: found `0x10`"},
+        {"3\n300 MPa\n", "s.csv:2: found `MPa`"},
+        {"300 MPa\n3\nMPa\n", "s.csv:3: found `MPa`"},
+        {"strength\n# none\n", "s.csv has no strength"},
+        {"\n", "s.csv has no strength"},
+    };
+    for (size_t t = 0; t < FRACAS_COUNT(table); t++) {
+        const fracas_attachment file = {.path = "s.csv", .text = table[t].text, .size = strlen(table[t].text)};
+        const fracas_strength strength = {.distribution = file_kind(), .file = &file};
+        assert_int_equal(fracas_strength_check(&strength), FRACAS_USAGE);
+        if (strncmp(fracas_message(), table[t].message, strlen(table[t].message)) != 0)
+            fail_msg("not \"%s\" but: %s", table[t].message, fracas_message());
+    }
+    static const char with_nul[] = "3\n4\0junk\n";
+    const fracas_attachment file = {.path = "s.csv", .text = with_nul, .size = sizeof with_nul - 1};
+    assert_int_equal(fracas_strength_check(&(fracas_strength){.distribution = file_kind(), .file = &file}), FRACAS_USAGE);
+}
+
+/* ---- campaigns with files, in a folder of their own ---- */
+
+static char folder[] = "/tmp/fracas-test-XXXXXX";
+
+static const char *in_folder(const char *name)
+{
+    static char path[2][200];
+    static int which;
+    which = !which;
+    snprintf(path[which], sizeof path[which], "%s/%s", folder, name);
+    return path[which];
+}
+
+static void put(const char *name, const char *text)
+{
+    write_bytes(in_folder(name), text, strlen(text));
+}
+
+static const char uniform[] = "  distribution: uniform\n  minimum: 299 MPa\n  maximum: 301 MPa\n";
+
+/* Reads FOLDER/c.yaml: the plain campaign, its lines 16 to 18 replaced, and something at its end (line 26 + new lines). */
+static fracas_err read_with(const char *strength, const char *end, fracas_campaign **campaign)
+{
+    char *text = replace(plain_campaign, uniform, strength), *whole = replace(text, "", end);
+    put("c.yaml", whole);
+    free(text);
+    free(whole);
+    return fracas_campaign_read(in_folder("c.yaml"), campaign);
+}
+
+static fracas_campaign *good(const char *strength, const char *end)
+{
+    fracas_campaign *campaign = NULL;
+    if (read_with(strength, end, &campaign)) fail_msg("%s", fracas_message());
+    return campaign;
+}
+
+static void bad(const char *strength, const char *end, int line, int column, const char *words)
+{
+    fracas_campaign *campaign = NULL;
+    char place[300];
+    assert_int_equal(read_with(strength, end, &campaign), FRACAS_USAGE);
+    assert_null(campaign);
+    snprintf(place, sizeof place, "%s:%d:%d: ", in_folder("c.yaml"), line, column);
+    if (strncmp(fracas_message(), place, strlen(place)) != 0) fail_msg("not at %d:%d: %s", line, column, fracas_message());
+    if (!strstr(fracas_message(), words)) fail_msg("no \"%s\" in: %s", words, fracas_message());
+}
+
+#define FROM_FILE "  distribution: file\n  file: " /* line 17, column 9 */
+
+static void test_errors(void **state)
+{
+    (void)state;
+    put("s.csv", "3e8\n");
+    put("empty.csv", "");
+    put("wrong.csv", "strength\n3e8\n4e8 Pa\n");
+    put("large.csv", "");
+    assert_int_equal(truncate(in_folder("large.csv"), (256 << 20) + 1), 0); /* takes no disk */
+    assert_int_equal(mkdir(in_folder("folder"), 0777), 0);
+    assert_int_equal(symlink("loop.csv", in_folder("loop.csv")), 0);
+    bad(FROM_FILE "absent.csv\n", "", 17, 9, "/absent.csv: No such file");
+    bad(FROM_FILE "loop.csv\n", "", 17, 9, "/loop.csv: Too many levels of symbolic links");
+    bad(FROM_FILE "folder\n", "", 17, 9, "/folder is not a file");
+    bad(FROM_FILE "empty.csv\n", "", 17, 9, "/empty.csv is empty");
+    bad(FROM_FILE "large.csv\n", "", 17, 9, "/large.csv has 256 MiB; a file can have at most 256");
+    bad(FROM_FILE "/dev/null\n", "", 17, 9, "/dev/null is not a file");
+    bad(FROM_FILE "\n", "", 17, 8, "`file`: found nothing; expected the path of a file");
+    bad(FROM_FILE "{a: 1}\n", "", 17, 9, "`file`: found a section; expected the path of a file");
+    bad(FROM_FILE "[s.csv]\n", "", 17, 9, "- strength.file: [...]");
+    bad(FROM_FILE "wrong.csv\n", "", 17, 9, "`strength`: wrong.csv:3: found `Pa`");
+    bad("  distribution: file\n", "", 16, 17, "strength with distribution file needs `file` (");
+    bad("  distribution: constant\n  value: 1 MPa\n  file: s.csv\n", "", 18, 3, "`file` belongs to distribution file");
+    bad(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: [s.csv, absent.csv]\n", 28, 28, "/absent.csv: No such file");
+    bad(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: {from: 1, to: 2, points: 2}\n", 28, 20, "is not a number");
+    bad(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: [s.csv, ./s.csv]\n", 28, 28, "the same values");
+}
+
+/* The digest was computed by xxhsum -H2. */
+static void test_identity(void **state)
+{
+    (void)state;
+    static const char digest[] = "a8656c114748e72a07935612a8c8332a";
+    put("s.csv", "strength\n300e6\n1,301e6\n");
+    put("t.csv", "strength\n300e6\n1,301e6\n");
+    put("u.csv", "strength\n300e6\n1,302e6\n");
+    fracas_campaign *one = good(FROM_FILE "s.csv\n", ""), *same = good(FROM_FILE "t.csv\n", "");
+    fracas_campaign *other = good(uniform, "sweep:\n  - strength: [{distribution: file, file: u.csv}, {distribution: file, file: t.csv}]\n"
+                                      "  - loading.rate: [1e4, 2e4]\n");
+    const size_t column = fracas_point_table_find(&one->table, "strength.file");
+    assert_int_not_equal(column, SIZE_MAX);
+    assert_true(one->table.column[column].text);
+    assert_string_equal(one->table.column[column].unit, "");
+    assert_string_equal(one->table.point[0].value[column].text, digest);
+    assert_true(one->table.point[0].value[fracas_point_table_find(&one->table, "derived.strength_mean")].real == 300.5e6);
+    assert_true(fracas_hash_equal(&one->hash, &same->hash));
+    assert_false(fracas_hash_equal(&one->point[0].hash, &other->point[0].hash));
+    assert_true(fracas_hash_equal(&one->point[0].hash, &other->point[2].hash));
+    assert_ptr_equal(other->point[0].strength.file, other->point[1].strength.file); /* read once */
+    assert_string_equal(one->point[0].strength.file->path, "s.csv");
+    assert_int_equal(fracas_campaign_extends(other, one), FRACAS_OK);
+    assert_int_equal(fracas_campaign_extends(one, other), FRACAS_DAMAGED);
+    fracas_campaign_destroy(one);
+    fracas_campaign_destroy(same);
+    fracas_campaign_destroy(other);
+}
+
+static void write_campaign(const fracas_campaign *campaign, const char *path)
+{
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    assert_int_equal(fracas_campaign_write(campaign, out), FRACAS_OK);
+    assert_int_equal(fclose(out), 0);
+}
+
+/* What is written reads back to the same points where copies of the files are beside it; a copy that is not what its name
+ * says is refused. */
+static void test_round_trip(void **state)
+{
+    (void)state;
+    put("s.csv", "300e6\n");
+    put("t.csv", "301e6\n");
+    fracas_campaign *campaign = good(uniform, "sweep:\n  - strength: [{distribution: file, file: s.csv}, {distribution: file, file: t.csv},"
+                                         " {distribution: constant, value: 5}]\n");
+    assert_int_equal(mkdir(in_folder("study"), 0777), 0);
+    assert_int_equal(mkdir(in_folder("study/attachments"), 0777), 0);
+    char name[80] = "";
+    int copies = 0;
+    for (const fracas_attached *a = campaign->attached; a; a = a->next, copies++) {
+        snprintf(name, sizeof name, "study/attachments/%s", a->attachment.digest);
+        put(name, a->attachment.text);
+    }
+    assert_int_equal(copies, 2);
+    write_campaign(campaign, in_folder("study/campaign.yaml"));
+    fracas_campaign *back = NULL;
+    if (fracas_campaign_read(in_folder("study/campaign.yaml"), &back)) fail_msg("%s", fracas_message());
+    assert_true(fracas_hash_equal(&campaign->hash, &back->hash));
+    write_campaign(back, in_folder("again.yaml"));
+    char texts[2][4096] = {"", ""};
+    for (int i = 0; i < 2; i++) {
+        FILE *in = fopen(in_folder(i ? "again.yaml" : "study/campaign.yaml"), "r");
+        assert_non_null(in);
+        assert_true(fread(texts[i], 1, sizeof texts[i] - 1, in) > 100);
+        fclose(in);
+    }
+    assert_string_equal(texts[0], texts[1]);
+    fracas_campaign_destroy(back);
+    put(name, "302e6\n");
+    assert_int_equal(fracas_campaign_read(in_folder("study/campaign.yaml"), &back), FRACAS_USAGE);
+    assert_non_null(strstr(fracas_message(), "is damaged: its content has the digest"));
+    fracas_campaign_destroy(campaign);
+}
+
+/* ---- the forecast ---- */
+
+static void test_forecast(void **state)
+{
+    (void)state;
+    char text[100 * 16] = "";
+    fracas_forecast forecast;
+    for (int i = 0; i < 99; i++) strcat(text, "300e6\n");
+    put("short.csv", text);
+    strcat(text, "300e6\n");
+    put("equal.csv", text);
+    text[strlen(text) - strlen("300e6\n")] = '2';
+    put("s.csv", text);
+    fracas_campaign *campaign = good(FROM_FILE "s.csv\n", "sweep:\n  - cases:\n      - {name: a}\n      - {replicas: 1, strength.file: equal.csv}\n"
+                                                          "      - strength.file: short.csv\n");
+    assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_OK);
+    assert_true(forecast.repeated && !forecast.uniform);
+    assert_int_equal(fracas_forecast_make(campaign, 1, &forecast), FRACAS_OK);
+    assert_true(!forecast.repeated && forecast.uniform);
+    assert_int_equal(fracas_forecast_make(campaign, 2, &forecast), FRACAS_USAGE);
+    assert_string_equal(fracas_message(),
+                        "point 2: short.csv has 99 strengths, but the mesh has 100 interfaces; each needs one line of the file");
+    fracas_campaign_destroy(campaign);
+    memcpy(text + 6, "9e20 \n", 6); /* one interface too strong for the mesh is enough */
+    put("s.csv", text);
+    campaign = good(FROM_FILE "s.csv\n", "");
+    assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_USAGE);
+    assert_non_null(strstr(fracas_message(), "the strongest of"));
+    fracas_campaign_destroy(campaign);
+}
+
+/* ---- the mesh's noise ---- */
+
+static void test_noise(void **state)
+{
+    (void)state;
+    enum { N = 1000 };
+    fracas_campaign *campaign = read_replaced("", "sweep:\n  - mesh: [{elements: 50, spacing: perturbed, amplitude: 0.2},"
+                                                  " {elements: 200000, spacing: perturbed, amplitude: 0.2}]\n");
+    double noise[N], begin[10], sum = 0;
+    fracas_point_mesh_noise(campaign, 0, N, noise);
+    fracas_point_mesh_noise(campaign, 0, 10, begin);
+    fracas_stream stream = {.seed = 7, .purpose = 2};
+    fracas_hash_words(&campaign->point[0].hash, stream.point);
+    for (uint64_t i = 0; i < N; i++) {
+        assert_true(noise[i] == 2.0 * fracas_stream_uniform(&stream, i) - 1.0 && fabs(noise[i]) <= 1);
+        if (i < 10) assert_true(begin[i] == noise[i]);
+        sum += noise[i];
+    }
+    assert_true(fabs(sum / N) < 5.0 / sqrt(3.0 * N)); /* five standard deviations of the mean, variance 1/3 */
+    fracas_point_mesh_noise(campaign, 1, 10, begin);
+    assert_true(begin[0] != noise[0]); /* of the point */
+    fracas_forecast forecast[2];
+    assert_int_equal(fracas_forecast_all(campaign, 1, forecast), FRACAS_OK); /* which times a shorter mesh of the second */
+    assert_int_equal(forecast[1].elements, 200000);
+    assert_null(campaign->point[0].spec.mesh.noise);
+    fracas_campaign_destroy(campaign);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char command[100];
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    return system(command);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_values),     cmocka_unit_test(test_bad_values), cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_identity),   cmocka_unit_test(test_round_trip), cmocka_unit_test(test_forecast),
+        cmocka_unit_test(test_noise),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

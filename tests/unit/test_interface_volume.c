@@ -1,0 +1,76 @@
+/* The volume of the body that an interface stands for: by closed form, and all of them together are the body. */
+#include "tests/support/bar.h"
+
+#include <math.h>
+
+/* Rounding: three products and a quotient, 2^-53 each; 2 pi is a double within 2^-53. */
+static void assert_near(double got, double expected)
+{
+    if (!(fabs(got - expected) <= 6e-16 * expected)) fail_msg("%.17g m3, expected %.17g m3", got, expected);
+}
+
+static void mean_volume_of_each_shape(void **unused)
+{
+    (void)unused;
+    fracas_spec spec = bar_reference(250, 1e4, 1e-6); /* 50 mm, 1 mm2 */
+    assert_near(fracas_spec_interface_volume(&spec), 2e-10);
+    spec.geometry.radius = 1.0; /* means nothing for a bar */
+    assert_near(fracas_spec_interface_volume(&spec), 2e-10);
+    spec.geometry = (fracas_geometry){.shape = &fracas_shape_ring, .radius = 0.025, .area = 4e-6};
+    assert_near(fracas_spec_interface_volume(&spec), 4e-6 * 2.0 * acos(-1.0) * 0.025 / 250.0);
+}
+
+/* A periodic bar has as many interfaces as elements; each sum rounds by 2^-53. */
+static void interfaces_share_the_body(void **unused)
+{
+    (void)unused;
+    for (int64_t elements = 2; elements < 2000; elements *= 3) {
+        fracas_spec spec = bar_reference(elements, 1e4, 1e-6);
+        fracas_model *model;
+        assert_ok(fracas_model_create(&spec, &model));
+        const size_t n = fracas_model_interfaces(model);
+        double sum = 0.0;
+        for (size_t i = 0; i < n; i++) sum += fracas_model_interface_volume(model, i);
+        assert_true(fabs(sum - 5e-8) <= 5e-8 * 0x1p-53 * (double)(n + 5));
+        assert_near(fracas_spec_interface_volume(&spec), fracas_model_interface_volume(model, n / 2));
+        fracas_model_destroy(model);
+    }
+}
+
+/* The same on elements of different lengths, each interface with half of both its elements. A held bar has none at its ends,
+ * and lacks half of its first and of its last element. */
+static void interfaces_share_the_body_on_any_mesh(void **unused)
+{
+    (void)unused;
+    double noise[301];
+    for (int i = 0; i < 4; i++) {
+        fracas_spec spec = bar_reference(300, 1e4, 1e-6);
+        if (i % 2) bar_perturb(&spec, 0.45, 1, noise);
+        else bar_grade(&spec, 100);
+        if (i / 2) spec.geometry.ends = &fracas_ends_held;
+        fracas_model *model;
+        assert_ok(fracas_model_create(&spec, &model));
+        const size_t n = fracas_model_interfaces(model);
+        const double *h = model->table;
+        double sum = 0.0, body = i / 2 ? 5e-8 - 0.5e-6 * (h[0] + h[299]) : 5e-8;
+        assert_int_equal(n, i / 2 ? 299 : 300);
+        for (size_t k = 0; k < n; k++) {
+            sum += fracas_model_interface_volume(model, k);
+            assert_near(fracas_model_interface_volume(model, k), 0.5e-6 * (h[k] + h[(k + 1) % 300]));
+        }
+        assert_true(fabs(h[0] / h[150] - 1) > 0.01); /* they are different */
+        /* a rounding for each length, as much again for their sum, and one for each volume */
+        assert_true(fabs(sum - body) <= 5e-8 * 0x1p-53 * (3 * 300 + 5));
+        fracas_model_destroy(model);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(mean_volume_of_each_shape),
+        cmocka_unit_test(interfaces_share_the_body),
+        cmocka_unit_test(interfaces_share_the_body_on_any_mesh),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,209 @@
+/* The critical time step of bars on elements of different lengths, against a dense eigenvalue solver and by running. */
+#include "tests/support/bar_spacing.h"
+
+#include <gsl/gsl_eigen.h>
+#include <math.h>
+
+static double random_number(uint64_t *state) /* in [-1/2, 1/2) */
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*state >> 11) * 0x1p-53 - 0.5;
+}
+
+typedef struct {
+    const fracas_model *model;
+    bool ring, nitsche, broken;
+    double contact; /* K of a broken interface / mean of both elements' E/h */
+    size_t size;
+    gsl_matrix *stiffness; /* of all nodes, left and right of each element */
+} dense_operator;
+
+static void add_product(dense_operator *o, const size_t *at, const double *a, const double *b, double factor)
+{
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) *gsl_matrix_ptr(o->stiffness, at[i], at[j]) += factor * (a[i] * b[j] + b[i] * a[j]);
+}
+
+/* Second derivatives of (bar.4) with delta = 0, or of elements and contact springs: bulk (E/2h) (b - a)^2; m q + K q^2/2. */
+static void assemble(dense_operator *o)
+{
+    const size_t n = o->model->elements;
+    const double *h = o->model->table;
+    o->size = 2 * n;
+    o->stiffness = gsl_matrix_calloc(o->size, o->size);
+    for (size_t e = 0; e < n; e++) {
+        const size_t at[4] = {2 * e, 2 * e + 1, 2 * e, 2 * e + 1};
+        const double strain[4] = {-1, 1, 0, 0};
+        add_product(o, at, strain, strain, 0.5 * 275e9 / h[e]);
+    }
+    for (size_t l = 0; l < (o->ring ? n : n - 1); l++) {
+        const size_t r = (l + 1) % n, at[4] = {2 * l, 2 * l + 1, 2 * r, 2 * r + 1};
+        const double left = 275e9 / h[l], right = 275e9 / h[r], jump[4] = {0, -1, 1, 0};
+        const double mean[4] = {-0.5 * left, 0.5 * left, -0.5 * right, 0.5 * right};
+        if (o->broken || o->nitsche) add_product(o, at, jump, jump, 0.25 * o->contact * (left + right));
+        if (!o->broken && o->nitsche) add_product(o, at, mean, jump, 1);
+    }
+}
+
+/* Which degree of freedom a node belongs to: tied ones share one, held ones have none (-1). */
+static size_t number_nodes(const dense_operator *o, int *number)
+{
+    const bool tied = !o->broken && !o->nitsche;
+    size_t count = 0;
+    for (size_t i = 0; i < o->size; i++) number[i] = -1;
+    for (size_t i = 0; i < o->size; i++) {
+        if (!o->ring && (i == 0 || i == o->size - 1)) continue;
+        if (number[i] < 0) number[i] = (int)count++;
+        if (tied && i % 2 == 1) number[(i + 1) % o->size] = number[i]; /* a right node and the left one of the next element */
+    }
+    if (tied && o->ring) { /* node 0 came first, and is tied to the last one */
+        const int last = number[o->size - 1];
+        number[0] = last;
+        for (size_t i = 0; i < o->size; i++) number[i]--; /* the number 0 is free */
+        count--;
+    }
+    return count;
+}
+
+/* 2/omega_max [s] by GSL's QR algorithm, for M^-1/2 K M^-1/2. */
+static double dense_step(const fracas_model *model, bool broken)
+{
+    const bool nitsche = model->spec.cohesive.law == &fracas_law_nitsche;
+    dense_operator o = {.model = model, .ring = model->interfaces == model->elements, .nitsche = nitsche, .broken = broken,
+                        .contact = nitsche ? model->spec.cohesive.beta : 1.0};
+    assemble(&o);
+    int number[2 * MOST];
+    const size_t n = number_nodes(&o, number);
+    double mass[2 * MOST] = {0};
+    for (size_t i = 0; i < o.size; i++)
+        if (number[i] >= 0) mass[number[i]] += 0.5 * 2750 * model->table[i / 2];
+    gsl_matrix *matrix = gsl_matrix_calloc(n, n);
+    for (size_t i = 0; i < o.size; i++)
+        for (size_t j = 0; j < o.size; j++)
+            if (number[i] >= 0 && number[j] >= 0)
+                *gsl_matrix_ptr(matrix, (size_t)number[i], (size_t)number[j]) +=
+                    gsl_matrix_get(o.stiffness, i, j) / sqrt(mass[number[i]] * mass[number[j]]);
+    gsl_vector *value = gsl_vector_alloc(n);
+    gsl_eigen_symm_workspace *work = gsl_eigen_symm_alloc(n);
+    assert_int_equal(gsl_eigen_symm(matrix, value, work), 0);
+    const double omega_squared = gsl_vector_max(value);
+    assert_true(gsl_vector_min(value) > -1e-10 * omega_squared); /* stiff in every direction, at every beta > 1 */
+    gsl_eigen_symm_free(work);
+    gsl_vector_free(value);
+    gsl_matrix_free(matrix);
+    gsl_matrix_free(o.stiffness);
+    return 2 / sqrt(omega_squared);
+}
+
+/* Steps above the true critical one by less than 1e-3 whatever the mesh, and below it hardly at all: power iteration ends
+ * within 1e-3 where frequencies are dense, which is where elements are nearly alike (the last meshes). */
+static void critical_step_is_that_of_the_dense_operator(void **unused)
+{
+    (void)unused;
+    static const double ratios[] = {1.001, 3, 100, 1e3, 1e-3}, amplitudes[] = {0.45, 0.3, 0.1, 0.01, 0.001};
+    static const double betas[] = {1.05, 4, 30};
+    double above[2][2] = {{0}}, below = 0, noise[301];
+    for (int i = 0; i < 122; i++) {
+        const bool large = i >= 120; /* two of 300 elements */
+        const int64_t n = large ? 300 : i % 12 == 0 ? 3 : 20 + (i * 7) % 41;
+        fracas_spec spec = bar_reference(n, 1e4, 1e-6);
+        spec.geometry.length = (double)n * 2e-5;
+        spec.geometry.ends = ends[i / 2 % 2];
+        spec.cohesive.law = laws[i % 2];
+        spec.cohesive.beta = betas[i / 8 % 3];
+        if (i / 4 % 2 && !large) bar_grade(&spec, ratios[i % 5]);
+        else bar_perturb(&spec, large ? 0.01 : amplitudes[i % 5], (uint64_t)i, noise);
+        fracas_model *model;
+        assert_ok(fracas_model_create(&spec, &model));
+        for (int broken = 0; broken < 2; broken++) {
+            const double found = broken ? model->critical_cracked : model->critical_closed;
+            const double error = found / dense_step(model, broken) - 1;
+            above[i % 2][broken] = fmax(above[i % 2][broken], error);
+            below = fmin(below, error);
+        }
+        assert_true(model->critical_step == fmin(model->critical_closed, model->critical_cracked));
+        fracas_model_destroy(model);
+    }
+    for (int i = 0; i < 4; i++) {
+        print_message("[  figures ] %s %s: step above the critical one by %.1e at most\n", laws[i / 2]->name,
+                      i % 2 ? "broken" : "uncracked", above[i / 2][i % 2]);
+        assert_true(above[i / 2][i % 2] < 1e-3);
+    }
+    assert_true(below > -1e-3);
+}
+
+/* All interfaces broken and pressed together: uniform stress sigma = E (rate t + strain) = K q, of a bar that keeps its
+ * length. Rigid links get the strengths that make them as stiff as the time step takes them to be. */
+static void press_together(const fracas_model *model, fracas_batch *batch)
+{
+    const size_t n = model->elements;
+    const bool nitsche = model->spec.cohesive.law == &fracas_law_nitsche;
+    const double offset = 4.5 * pow(model->spec.loading.rate, 2.0 / 3) * 275e9 * pow(100, 2.0 / 3) * pow(2750, 1.0 / 3);
+    double stiffness[MOST], give = model->spec.geometry.length / 275e9, left = 0;
+    for (size_t e = 0; e < model->interfaces; e++) {
+        const double mean = 0.5 * 275e9 * (1 / model->table[e] + 1 / model->table[(e + 1) % n]);
+        stiffness[e] = nitsche ? 4 * mean : mean;
+        give += 1 / stiffness[e];
+        *field(batch, e, DAMAGE) = 1;
+        if (nitsche) continue;
+        *field(batch, e, STRENGTH) = sqrt(4.5 * 100 * mean - offset);
+        *field(batch, e, LAW) = 2;
+    }
+    batch->step.time[0] = -1e-8; /* pressed by a background of -1e-4 */
+    const double load = model->spec.loading.rate * batch->step.time[0], stress = load * model->spec.geometry.length / give;
+    for (size_t e = 0; e < n; e++) {
+        *field(batch, e, W_LEFT) = left;
+        *field(batch, e, W_RIGHT) = left += (stress / 275e9 - load) * model->table[e];
+        if (e < model->interfaces) left += stress / stiffness[e];
+    }
+}
+
+/* 100 steps of `factor` times the critical one from a nm/s of noise at every node: the largest velocity after them [m/s]. */
+static double march(const fracas_model *model, bool broken, double factor)
+{
+    const size_t n = model->elements;
+    fracas_batch *batch = batch_of(model, 3e8);
+    uint64_t seed = 3;
+    batch->step.time[0] = 0;
+    if (broken) press_together(model, batch);
+    for (size_t e = 0; e < n; e++) { /* tied nodes start together */
+        *field(batch, e, V_RIGHT) = 1e-9 * random_number(&seed);
+        *field(batch, (e + 1) % n, V_LEFT) = *field(batch, e, V_RIGHT);
+    }
+    if (model->interfaces < n) *field(batch, 0, V_LEFT) = *field(batch, n - 1, V_RIGHT) = 0;
+    batch->step.drift[0] = batch->step.kick[0] = factor * dense_step(model, broken);
+    double largest = 0;
+    for (int s = 0; s < 100; s++) model->formulation->advance(model, &batch->step);
+    for (size_t e = 0; e < n; e++)
+        for (int f = V_LEFT; f <= V_RIGHT; f++) largest = fmax(largest, fabs(*field(batch, e, f)));
+    fracas_batch_destroy(batch);
+    return largest;
+}
+
+/* Below it, omega dt = 1.98, noise is magnified by 1/sqrt(1 - 0.99^2) = 7 in the worst mode; above it, omega dt = 2.02, by
+ * e^(2 arcosh 1.01) = 1.33 a step, until interfaces open. */
+static void steps_blow_up_above_the_critical_one_only(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < 8 * MESHES; i++) {
+        fracas_spec spec = bar_reference(60, 1e4, 1);
+        spec.geometry.length = 60 * 2e-5;
+        spec.cohesive.law = laws[i % 2];
+        spec.geometry.ends = ends[i / 2 % 2];
+        fracas_model *model = model_on(&spec, i / 8);
+        const double stays = march(model, i / 4 % 2, 0.99), grows = march(model, i / 4 % 2, 1.01);
+        if (!(stays < 1e-7) || !(grows > 1e-5))
+            fail_msg("%s, %s, %s, mesh %d: %g m/s below, %g m/s above", laws[i % 2]->name, ends[i / 2 % 2]->name,
+                     i / 4 % 2 ? "broken" : "uncracked", i / 8, stays, grows);
+        fracas_model_destroy(model);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(critical_step_is_that_of_the_dense_operator),
+        cmocka_unit_test(steps_blow_up_above_the_critical_one_only),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
