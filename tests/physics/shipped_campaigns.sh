@@ -1,5 +1,6 @@
 # ctest-labels: storm
 # ctest-serial
+# ctest-timeout: 3600
 # Every shipped campaign as it is: each realization ends well, and none has lost its energy balance.
 . tests/support/campaigns.sh
 
