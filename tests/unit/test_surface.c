@@ -318,7 +318,8 @@ static void test_locality(void **state)
     check_edges(surface);
     double before = 0.0, nodes_apart = 0.0;
     for (size_t i = 0; i < surface->ninterfaces; i++)
-        before += fabs((double)(surface->given[surface->interface[i].element[0]] - surface->given[surface->interface[i].element[1]]));
+        before += fabs((double)(surface->given[surface->interface[i].element[0]] -
+                                surface->given[surface->interface[i].element[1]]));
     before /= (double)surface->ninterfaces;
     for (size_t e = 0; e < surface->nelements; e++) {
         uint32_t low = UINT32_MAX, high = 0;

@@ -257,8 +257,8 @@ static double seconds(void)
 
 static size_t mutate(char *bytes, size_t size, uint64_t *x)
 {
-    static const char *const piece[] = {"-1", "999999999", "1e308", "$End", "\n", " ", "0", "2", "nan", "$Nodes\n", "\xff\xff\xff\xff",
-                                        "\0\0\0\0", "\x7f\xff\xff\xff\xff\xff\xff\xff", "\1\0\0\0"};
+    static const char *const piece[] = {"-1", "999999999", "1e308", "$End", "\n", " ", "0", "2", "nan", "$Nodes\n",
+                                        "\xff\xff\xff\xff", "\0\0\0\0", "\x7f\xff\xff\xff\xff\xff\xff\xff", "\1\0\0\0"};
     static const size_t length[] = {2, 9, 5, 4, 1, 1, 1, 1, 3, 7, 4, 4, 8, 4};
     const size_t at = (size_t)(next_share(x) * (double)size), which = (size_t)(next_share(x) * (double)FRACAS_COUNT(piece));
     switch ((int)(next_share(x) * 4.0)) {

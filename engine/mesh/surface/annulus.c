@@ -3,7 +3,6 @@
 #include "engine/mesh/surface/parts.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #define PI 3.14159265358979323846
 #define ROW 0.86602540378443865 /* altitude of an equilateral triangle by its edge */

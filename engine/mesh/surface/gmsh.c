@@ -374,7 +374,8 @@ typedef struct {
 static fracas_err read_section(mesh *m)
 {
     static const section sections[] = {
-        {"Nodes", {read_nodes_2, read_nodes_4}}, {"Elements", {read_elements_2, read_elements_4}}, {"Entities", {NULL, read_entities}}};
+        {"Nodes", {read_nodes_2, read_nodes_4}}, {"Elements", {read_elements_2, read_elements_4}},
+        {"Entities", {NULL, read_entities}}};
     char word[FRACAS_GMSH_WORD], end[FRACAS_GMSH_WORD + 8] = "$End";
     TRY(fracas_gmsh_word(&m->scan, word));
     if (word[0] != '$') return fracas_gmsh_fail(&m->scan, "expected a section, which begins with $, not `%s`", word);

@@ -2,7 +2,6 @@
 #include "engine/mesh/surface/parts.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #define LEG 0.93060485910209960 /* of half a square by the edge of an equilateral triangle as large: sqrt(sqrt(3)/2) */
 

@@ -3,7 +3,6 @@
 #include "engine/mesh/surface/parts.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #define PI 3.14159265358979323846
 #define EQUILATERAL 0.43301270189221932 /* area by the square of the edge: sqrt(3)/4 */
