@@ -252,6 +252,46 @@ static void test_jacobian(void **state)
     assert_true(accepted > TRIES / 10 && refused > TRIES / 10);
 }
 
+/* A triangle a, b, c of the complex plane under z -> z^2, which an element of order 2 is without error: the Jacobian, 4 |z|^2,
+ * is positive unless 0 lies inside. There, all nodes and edges may look well. */
+static void test_squared(void **state)
+{
+    (void)state;
+    uint64_t x = 11;
+    int accepted = 0, refused = 0, inside_only = 0;
+    for (int t = 0; t < 20000; t++) {
+        double z[6][2], node[6][3] = {{0}}, gap = INFINITY, side[3];
+        for (int k = 0; k < 3; k++)
+            for (int i = 0; i < 2; i++) z[k][i] = 2.0 * next_share(&x) - (i == 0 ? 0.5 : 1.0);
+        for (int k = 0; k < 3; k++) {
+            const double *a = z[k], *b = z[(k + 1) % 3];
+            for (int i = 0; i < 2; i++) z[3 + k][i] = 0.5 * (a[i] + b[i]);
+            side[k] = a[0] * b[1] - a[1] * b[0]; /* twice the area of 0, a, b */
+            gap = fmin(gap, fabs(side[k]));
+        }
+        for (int k = 0; k < 6; k++) {
+            node[k][0] = z[k][0] * z[k][0] - z[k][1] * z[k][1];
+            node[k][1] = 2.0 * z[k][0] * z[k][1];
+        }
+        const double flat = (node[1][0] - node[0][0]) * (node[2][1] - node[0][1]) -
+                            (node[1][1] - node[0][1]) * (node[2][0] - node[0][0]);
+        if (side[0] + side[1] + side[2] < 1e-3 || gap < 1e-3 || fabs(flat) < 1e-3) continue; /* clockwise, or hard to tell */
+        const bool is_inside = side[0] > 0.0 && side[1] > 0.0 && side[2] > 0.0;
+        const uint32_t element[6] = {0, 1, 2, 3, 4, 5};
+        const fracas_surface_arrays arrays = {
+            .order = 2, .nnodes = 6, .nelements = 1, .node = (const double (*)[3])node, .element = element};
+        const fracas_surface *surface = NULL;
+        const fracas_err err = fracas_surface_assemble(&arrays, &surface);
+        fracas_surface_destroy(surface);
+        const bool is_good = flat > 0.0 && !is_inside;
+        if (is_good ? err != FRACAS_OK : err != FRACAS_USAGE) fail_msg("try %d: %d, inside %d, flat %g", t, err, is_inside, flat);
+        accepted += is_good;
+        refused += !is_good;
+        inside_only += is_inside && flat > 0.0;
+    }
+    assert_true(accepted > 1000 && refused > 1000 && inside_only > 20);
+}
+
 static void test_refused_tags(void **state)
 {
     (void)state;
@@ -362,7 +402,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_assembled), cmocka_unit_test(test_refused_elements), cmocka_unit_test(test_refused_neighbours),
-        cmocka_unit_test(test_refused_middles), cmocka_unit_test(test_jacobian), cmocka_unit_test(test_refused_tags),
+        cmocka_unit_test(test_refused_middles), cmocka_unit_test(test_jacobian), cmocka_unit_test(test_squared),
+        cmocka_unit_test(test_refused_tags),
         cmocka_unit_test(test_names), cmocka_unit_test(test_locality), cmocka_unit_test(test_parts)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

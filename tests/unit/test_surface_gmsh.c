@@ -181,6 +181,8 @@ static const struct {
     {HEAD_4 "$Entities\n0 0 0 0\n$EndEntities\n$Entities\n0 0 0 0\n$EndEntities\n", "a second section $Entities"},
     {HEAD_4 "$Nodes\n1 1 1 1\n4 1 0 1\n1\n0 0 0\n$EndNodes\n", "nodes of an entity of 4 dimensions"},
     {HEAD_4 "$Nodes\n1 1 1 1\n2 1 0 2\n1\n0 0 0\n$EndNodes\n", "2 nodes in a block, but 1 are left"},
+    {HEAD_4 "$Nodes\n2 1 1 2\n2 1 0 1\n1\n0 0 0\n2 1 0 1\n2\n0 0 0\n$EndNodes\n", "1 nodes in a block, but 0 are left"},
+    {HEAD_4 "$Elements\n2 1 1 2\n2 1 2 1\n1 1 2 3\n2 1 2 1\n2 1 2 3\n$EndElements\n", "1 elements in a block, but 0 are left"},
     {HEAD_4 "$Elements\n1 1 1 1\n2 1 2 2\n1 1 2 3\n$EndElements\n", "2 elements in a block, but 1 are left"},
 };
 

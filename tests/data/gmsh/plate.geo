@@ -1,3 +1,7 @@
+// The files here are what Gmsh 4.8.4 (Debian 12) writes of this one: for order 1 and 2, format 22 and 41, with -bin or without,
+//     gmsh plate.geo -2 -order 1 -format msh22 -o plate-order1-msh22-text.msh
+// and, with the nodes' parameters,
+//     gmsh plate.geo -2 -order 2 -format msh41 -parametric -o plate-parametric.msh
 // A 2 x 1 plate with a quarter of a hole; physical groups 11 (left), 12 (hole), 21 (plate).
 SetFactory("Built-in");
 h = 0.4;
