@@ -1,0 +1,494 @@
+#include "engine/mesh/surface/gmsh.h"
+
+#include "engine/mesh/surface/gmsh_scan.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { GMSH_LINE = 1, GMSH_TRIANGLE = 2, GMSH_LINE_3 = 8, GMSH_TRIANGLE_6 = 9, GMSH_POINT = 15 };
+
+/* A number of Gmsh's and what it stands for. */
+typedef struct {
+    int64_t number, value;
+} entry;
+
+/* A line in a physical group. */
+typedef struct {
+    int64_t node[2], element;
+    int32_t tag;
+} line;
+
+typedef struct {
+    fracas_gmsh_scan scan;
+    bool is_4; /* MSH 4.1, else 2.2 */
+    size_t nnodes, nelements, nlines, ncurves;
+    double (*node)[3];
+    entry *node_entry;  /* sorted: index of each node */
+    int64_t (*corner)[6]; /* of triangles: Gmsh's numbers */
+    int64_t *element;   /* number of each triangle */
+    line *line;
+    entry *curve;       /* sorted: physical group of each curve */
+    int order;          /* 0: no triangle so far */
+} mesh;
+
+static void clear(mesh *m)
+{
+    free(m->node);
+    free(m->node_entry);
+    free(m->corner);
+    free(m->element);
+    free(m->line);
+    free(m->curve);
+}
+
+static int compare_entries(const void *left, const void *right)
+{
+    const entry *a = left, *b = right;
+    return a->number < b->number ? -1 : a->number > b->number;
+}
+
+static const entry *find(const entry *all, size_t count, int64_t number)
+{
+    const entry key = {.number = number};
+    return bsearch(&key, all, count, sizeof *all, compare_entries);
+}
+
+/* Sorts; FRACAS_USAGE for a number that comes twice. */
+static fracas_err sort(const mesh *m, const char *what, entry *all, size_t count)
+{
+    qsort(all, count, sizeof *all, compare_entries);
+    for (size_t i = 1; i < count; i++)
+        if (all[i].number == all[i - 1].number)
+            return fracas_gmsh_fail(&m->scan, "%s %" PRId64 " comes twice", what, all[i].number);
+    return FRACAS_OK;
+}
+
+/* ---- entities (4.1): which physical group a curve is in ---- */
+
+static fracas_err read_physical(mesh *m, int dimension, int32_t curve, int32_t *group)
+{
+    int64_t count;
+    int32_t tag;
+    *group = 0;
+    TRY(fracas_gmsh_integer(&m->scan, 8, &count));
+    TRY(fracas_gmsh_fits(&m->scan, count, 1));
+    if (dimension == 1 && count > 1)
+        return fracas_gmsh_fail(&m->scan, "curve %" PRId32 " is in %" PRId64 " physical groups: an edge has one tag at most",
+                                curve, count);
+    for (int64_t i = 0; i < count; i++) {
+        TRY(fracas_gmsh_int(&m->scan, &tag));
+        *group = tag;
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err read_entity(mesh *m, int dimension)
+{
+    int32_t number, group;
+    double box;
+    TRY(fracas_gmsh_int(&m->scan, &number));
+    for (int i = 0; i < (dimension == 0 ? 3 : 6); i++) TRY(fracas_gmsh_real(&m->scan, &box));
+    TRY(read_physical(m, dimension, number, &group));
+    if (dimension == 1) m->curve[m->ncurves++] = (entry){.number = number, .value = group};
+    if (dimension == 0) return FRACAS_OK;
+    int64_t count;
+    int32_t border;
+    TRY(fracas_gmsh_integer(&m->scan, 8, &count));
+    TRY(fracas_gmsh_fits(&m->scan, count, 1));
+    for (int64_t i = 0; i < count; i++) TRY(fracas_gmsh_int(&m->scan, &border));
+    return FRACAS_OK;
+}
+
+static fracas_err read_entities(mesh *m)
+{
+    int64_t count[4];
+    if (m->curve) return fracas_gmsh_fail(&m->scan, "a second section $Entities");
+    for (int d = 0; d < 4; d++) TRY(fracas_gmsh_integer(&m->scan, 8, &count[d]));
+    for (int d = 0; d < 4; d++) TRY(fracas_gmsh_fits(&m->scan, count[d], 5));
+    m->curve = malloc(((size_t)count[1] + 1) * sizeof *m->curve); /* there may be none */
+    if (!m->curve) return fracas_no_memory("the curves of a mesh");
+    for (int d = 0; d < 4; d++)
+        for (int64_t i = 0; i < count[d]; i++) TRY(read_entity(m, d));
+    return sort(m, "curve", m->curve, m->ncurves);
+}
+
+/* ---- nodes ---- */
+
+static fracas_err allocate_nodes(mesh *m, int64_t count)
+{
+    if (m->node) return fracas_gmsh_fail(&m->scan, "a second section $Nodes");
+    TRY(fracas_gmsh_fits(&m->scan, count, 4));
+    m->node = malloc(((size_t)count + 1) * sizeof *m->node);
+    m->node_entry = malloc(((size_t)count + 1) * sizeof *m->node_entry);
+    return m->node && m->node_entry ? FRACAS_OK : fracas_no_memory("the nodes of a mesh");
+}
+
+static fracas_err read_point(mesh *m, double point[3])
+{
+    for (int i = 0; i < 3; i++) TRY(fracas_gmsh_real(&m->scan, &point[i]));
+    return FRACAS_OK;
+}
+
+static fracas_err read_nodes_2(mesh *m)
+{
+    const bool is_binary = m->scan.is_binary;
+    int64_t count;
+    m->scan.is_binary = false; /* this number is text always */
+    fracas_err err = fracas_gmsh_integer(&m->scan, 8, &count);
+    if (!err) err = fracas_gmsh_line_end(&m->scan);
+    m->scan.is_binary = is_binary;
+    TRY(err);
+    TRY(allocate_nodes(m, count));
+    for (; m->nnodes < (size_t)count; m->nnodes++) {
+        int64_t number;
+        TRY(fracas_gmsh_integer(&m->scan, 4, &number));
+        TRY(read_point(m, m->node[m->nnodes]));
+        m->node_entry[m->nnodes] = (entry){.number = number, .value = (int64_t)m->nnodes};
+    }
+    return sort(m, "node", m->node_entry, m->nnodes);
+}
+
+/* Numbers of the block's nodes, then their coordinates, with those on the entity itself where it is `parametric`. */
+static fracas_err read_node_block(mesh *m, size_t all)
+{
+    int32_t dimension, entity, parametric;
+    int64_t count;
+    TRY(fracas_gmsh_int(&m->scan, &dimension));
+    TRY(fracas_gmsh_int(&m->scan, &entity));
+    TRY(fracas_gmsh_int(&m->scan, &parametric));
+    TRY(fracas_gmsh_integer(&m->scan, 8, &count));
+    if (dimension < 0 || dimension > 3)
+        return fracas_gmsh_fail(&m->scan, "nodes of an entity of %" PRId32 " dimensions", dimension);
+    if (count < 0 || (size_t)count > all - m->nnodes)
+        return fracas_gmsh_fail(&m->scan, "%" PRId64 " nodes in a block, but %zu are left of those announced", count,
+                                all - m->nnodes);
+    for (int64_t i = 0; i < count; i++) {
+        const size_t n = m->nnodes + (size_t)i;
+        TRY(fracas_gmsh_integer(&m->scan, 8, &m->node_entry[n].number));
+        m->node_entry[n].value = (int64_t)n;
+    }
+    for (int64_t i = 0; i < count; i++, m->nnodes++) {
+        double ignored;
+        TRY(read_point(m, m->node[m->nnodes]));
+        for (int32_t d = 0; parametric && d < dimension; d++) TRY(fracas_gmsh_real(&m->scan, &ignored));
+    }
+    return FRACAS_OK;
+}
+
+/* Blocks, things in them all, lowest and highest number. */
+static fracas_err read_head(mesh *m, int64_t head[4])
+{
+    for (int i = 0; i < 4; i++) TRY(fracas_gmsh_integer(&m->scan, 8, &head[i]));
+    return fracas_gmsh_fits(&m->scan, head[0], 4);
+}
+
+static fracas_err read_nodes_4(mesh *m)
+{
+    int64_t head[4];
+    TRY(read_head(m, head));
+    TRY(allocate_nodes(m, head[1]));
+    for (int64_t block = 0; block < head[0]; block++) TRY(read_node_block(m, (size_t)head[1]));
+    return sort(m, "node", m->node_entry, m->nnodes);
+}
+
+/* ---- elements ---- */
+
+/* Nodes of an element; FRACAS_USAGE with its name for those that are no part of a surface. */
+static fracas_err nodes_of_type(const mesh *m, int32_t type, size_t *nodes)
+{
+    static const char *const names[] = {
+        NULL, NULL, NULL, "4-node quadrangles", "4-node tetrahedra", "8-node hexahedra", "6-node prisms", "5-node pyramids",
+        NULL, NULL, "9-node quadrangles", "10-node tetrahedra", "27-node hexahedra", "18-node prisms", "14-node pyramids", NULL,
+        "8-node quadrangles", "20-node hexahedra", "15-node prisms", "13-node pyramids", "9-node triangles",
+        "10-node triangles", "12-node triangles", "15-node triangles", "15-node triangles", "21-node triangles",
+        "4-node lines", "5-node lines", "6-node lines", "20-node tetrahedra", "35-node tetrahedra", "56-node tetrahedra"};
+    switch (type) {
+    case GMSH_POINT: *nodes = 1; return FRACAS_OK;
+    case GMSH_LINE: *nodes = 2; return FRACAS_OK;
+    case GMSH_TRIANGLE:
+    case GMSH_LINE_3: *nodes = 3; return FRACAS_OK;
+    case GMSH_TRIANGLE_6: *nodes = 6; return FRACAS_OK;
+    default: break;
+    }
+    if (type > 0 && (size_t)type < sizeof names / sizeof *names)
+        return fracas_gmsh_fail(&m->scan, "%s (Gmsh's type %" PRId32 "): a surface has 3- or 6-node triangles", names[type], type);
+    return fracas_gmsh_fail(&m->scan, "elements of Gmsh's type %" PRId32 ": a surface has 3- or 6-node triangles", type);
+}
+
+static fracas_err allocate_elements(mesh *m, int64_t count)
+{
+    if (m->corner) return fracas_gmsh_fail(&m->scan, "a second section $Elements");
+    TRY(fracas_gmsh_fits(&m->scan, count, 2));
+    m->corner = malloc(((size_t)count + 1) * sizeof *m->corner);
+    m->element = malloc(((size_t)count + 1) * sizeof *m->element);
+    m->line = malloc(((size_t)count + 1) * sizeof *m->line);
+    return m->corner && m->element && m->line ? FRACAS_OK : fracas_no_memory("the elements of a mesh");
+}
+
+/* Reads the nodes of an element, and keeps it where it matters. */
+static fracas_err read_element(mesh *m, int32_t type, size_t bytes, int64_t number, int32_t tag)
+{
+    size_t nodes = 0;
+    int64_t node[6];
+    TRY(nodes_of_type(m, type, &nodes));
+    for (size_t k = 0; k < nodes; k++) TRY(fracas_gmsh_integer(&m->scan, bytes, &node[k]));
+    if (tag == INT32_MIN) return fracas_gmsh_fail(&m->scan, "element %" PRId64 " in the physical group %" PRId32, number, tag);
+    if ((type == GMSH_LINE || type == GMSH_LINE_3) && tag != 0)
+        /* Gmsh turns a group's curve round by a minus. */
+        m->line[m->nlines++] = (line){.node = {node[0], node[1]}, .element = number, .tag = tag < 0 ? -tag : tag};
+    if (type != GMSH_TRIANGLE && type != GMSH_TRIANGLE_6) return FRACAS_OK;
+    const int order = type == GMSH_TRIANGLE ? 1 : 2;
+    if (m->order != 0 && m->order != order)
+        return fracas_gmsh_fail(&m->scan, "element %" PRId64 " is a %zu-node triangle, those before are of the other order",
+                                number, nodes);
+    m->order = order;
+    memcpy(m->corner[m->nelements], node, nodes * sizeof *node);
+    m->element[m->nelements++] = number;
+    return FRACAS_OK;
+}
+
+/* The first of `count` tags is the physical group. */
+static fracas_err read_tags(mesh *m, int32_t count, int32_t *group)
+{
+    int32_t tag;
+    *group = 0;
+    TRY(fracas_gmsh_fits(&m->scan, count, 1));
+    for (int32_t i = 0; i < count; i++) {
+        TRY(fracas_gmsh_int(&m->scan, &tag));
+        if (i == 0) *group = tag;
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err read_elements_2_text(mesh *m, int64_t count)
+{
+    for (int64_t i = 0; i < count; i++) {
+        int64_t number;
+        int32_t type, tags, group;
+        TRY(fracas_gmsh_integer(&m->scan, 4, &number));
+        TRY(fracas_gmsh_int(&m->scan, &type));
+        TRY(fracas_gmsh_int(&m->scan, &tags));
+        TRY(read_tags(m, tags, &group));
+        TRY(read_element(m, type, 4, number, group));
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err read_elements_2_binary(mesh *m, int64_t count)
+{
+    for (int64_t done = 0; done < count;) {
+        int32_t type, follow, tags, group;
+        TRY(fracas_gmsh_int(&m->scan, &type));
+        TRY(fracas_gmsh_int(&m->scan, &follow));
+        TRY(fracas_gmsh_int(&m->scan, &tags));
+        if (follow < 1 || follow > count - done)
+            return fracas_gmsh_fail(&m->scan, "%" PRId32 " elements in a block, but %" PRId64 " are left of those announced",
+                                    follow, count - done);
+        for (int32_t i = 0; i < follow; i++) {
+            int64_t number;
+            TRY(fracas_gmsh_integer(&m->scan, 4, &number));
+            TRY(read_tags(m, tags, &group));
+            TRY(read_element(m, type, 4, number, group));
+        }
+        done += follow;
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err read_elements_2(mesh *m)
+{
+    const bool is_binary = m->scan.is_binary;
+    int64_t count;
+    m->scan.is_binary = false;
+    fracas_err err = fracas_gmsh_integer(&m->scan, 8, &count);
+    if (!err) err = fracas_gmsh_line_end(&m->scan);
+    m->scan.is_binary = is_binary;
+    TRY(err);
+    TRY(allocate_elements(m, count));
+    return is_binary ? read_elements_2_binary(m, count) : read_elements_2_text(m, count);
+}
+
+static fracas_err read_elements_4(mesh *m)
+{
+    int64_t head[4], left;
+    TRY(read_head(m, head));
+    TRY(allocate_elements(m, head[1]));
+    left = head[1];
+    for (int64_t block = 0; block < head[0]; block++) {
+        int32_t dimension, entity, type;
+        int64_t count;
+        TRY(fracas_gmsh_int(&m->scan, &dimension));
+        TRY(fracas_gmsh_int(&m->scan, &entity));
+        TRY(fracas_gmsh_int(&m->scan, &type));
+        TRY(fracas_gmsh_integer(&m->scan, 8, &count));
+        if (count < 0 || count > left)
+            return fracas_gmsh_fail(&m->scan, "%" PRId64 " elements in a block, but %" PRId64 " are left of those announced",
+                                    count, left);
+        const entry *curve = dimension == 1 ? find(m->curve, m->ncurves, entity) : NULL;
+        for (int64_t i = 0; i < count; i++) {
+            int64_t number;
+            TRY(fracas_gmsh_integer(&m->scan, 8, &number));
+            TRY(read_element(m, type, 8, number, curve ? (int32_t)curve->value : 0));
+        }
+        left -= count;
+    }
+    return FRACAS_OK;
+}
+
+/* ---- the file ---- */
+
+/* "$MeshFormat", version, 0 or 1 for text or binary, bytes of a double; in a binary file the number 1. */
+static fracas_err read_format(mesh *m)
+{
+    fracas_gmsh_scan *scan = &m->scan;
+    char version[FRACAS_GMSH_WORD];
+    int64_t kind, bytes;
+    if (fracas_gmsh_at_end(scan)) return fracas_gmsh_fail(scan, "an empty file");
+    TRY(fracas_gmsh_expect(scan, "$MeshFormat"));
+    TRY(fracas_gmsh_word(scan, version));
+    TRY(fracas_gmsh_integer(scan, 8, &kind));
+    TRY(fracas_gmsh_integer(scan, 8, &bytes));
+    m->is_4 = strcmp(version, "4.1") == 0;
+    if (!m->is_4 && strcmp(version, "2.2") != 0)
+        return fracas_gmsh_fail(scan, "a mesh of format %s: save it as 4.1 or 2.2 (gmsh -format msh41)", version);
+    if (bytes != 8 || (kind != 0 && kind != 1))
+        return fracas_gmsh_fail(scan, "the format %s %" PRId64 " %" PRId64 ": expected 0 or 1, and 8", version, kind, bytes);
+    if (kind == 1) {
+        TRY(fracas_gmsh_line_end(scan));
+        int32_t one;
+        scan->is_binary = true;
+        TRY(fracas_gmsh_int(scan, &one));
+        scan->is_swapped = one == 0x01000000;
+        if (one != 1 && !scan->is_swapped)
+            return fracas_gmsh_fail(scan, "the number that tells the byte order is %" PRId32 ", not 1", one);
+    }
+    return fracas_gmsh_expect(scan, "$EndMeshFormat");
+}
+
+typedef struct {
+    const char *name;
+    fracas_err (*read[2])(mesh *m); /* 2.2, 4.1; NULL: not in this version */
+} section;
+
+static fracas_err read_section(mesh *m)
+{
+    static const section sections[] = {
+        {"Nodes", {read_nodes_2, read_nodes_4}}, {"Elements", {read_elements_2, read_elements_4}},
+        {"Entities", {NULL, read_entities}}};
+    char word[FRACAS_GMSH_WORD], end[FRACAS_GMSH_WORD + 8] = "$End";
+    TRY(fracas_gmsh_word(&m->scan, word));
+    if (word[0] != '$') return fracas_gmsh_fail(&m->scan, "expected a section, which begins with $, not `%s`", word);
+    if (strcmp(word, "$PartitionedEntities") == 0)
+        return fracas_gmsh_fail(&m->scan, "a mesh in partitions: save it as one (gmsh -unpartition)");
+    for (size_t s = 0; s < sizeof sections / sizeof *sections; s++) {
+        fracas_err (*read)(mesh *) = sections[s].read[m->is_4];
+        if (strcmp(word + 1, sections[s].name) != 0 || !read) continue;
+        /* Text may go on in any place, the numbers of a binary 4.1 file begin with the next line. */
+        if (m->scan.is_binary) TRY(fracas_gmsh_line_end(&m->scan));
+        TRY(read(m));
+        strcat(end, sections[s].name);
+        return fracas_gmsh_expect(&m->scan, end);
+    }
+    return fracas_gmsh_skip(&m->scan, word + 1);
+}
+
+static fracas_err read_file(mesh *m)
+{
+    TRY(read_format(m));
+    while (!fracas_gmsh_at_end(&m->scan)) TRY(read_section(m));
+    if (!m->node) return fracas_gmsh_fail(&m->scan, "the file ends without a section $Nodes");
+    if (!m->corner) return fracas_gmsh_fail(&m->scan, "the file ends without a section $Elements");
+    if (m->nelements == 0) return fracas_gmsh_fail(&m->scan, "the file has no triangles");
+    if (m->nelements > FRACAS_SURFACE_LARGEST || m->nnodes > FRACAS_SURFACE_LARGEST)
+        return fracas_gmsh_fail(&m->scan, "the file has %zu triangles and %zu nodes: at most %zu are possible", m->nelements,
+                                m->nnodes, FRACAS_SURFACE_LARGEST);
+    return FRACAS_OK;
+}
+
+/* ---- to a surface ---- */
+
+/* What fracas_surface_assemble takes. */
+typedef struct {
+    uint32_t *new_node; /* of each node of the file, UINT32_MAX: no triangle has it */
+    uint32_t *element;
+    double (*node)[3];
+    int64_t *node_number;
+    fracas_surface_tag *tag;
+    size_t nnodes;
+} resolved;
+
+static void clear_resolved(resolved *out)
+{
+    free(out->new_node);
+    free(out->element);
+    free(out->node);
+    free(out->node_number);
+    free(out->tag);
+}
+
+static fracas_err allocate_resolved(const mesh *m, resolved *out)
+{
+    out->new_node = malloc((m->nnodes + 1) * sizeof *out->new_node);
+    out->element = malloc(m->nelements * (size_t)(3 * m->order) * sizeof *out->element);
+    out->node = malloc((m->nnodes + 1) * sizeof *out->node);
+    out->node_number = malloc((m->nnodes + 1) * sizeof *out->node_number);
+    out->tag = malloc((m->nlines + 1) * sizeof *out->tag);
+    if (out->new_node && out->element && out->node && out->node_number && out->tag) return FRACAS_OK;
+    return fracas_no_memory("a mesh");
+}
+
+static fracas_err resolve_elements(const mesh *m, resolved *out)
+{
+    const size_t corners = (size_t)(3 * m->order);
+    for (size_t n = 0; n < m->nnodes; n++) out->new_node[n] = UINT32_MAX;
+    for (size_t e = 0; e < m->nelements; e++)
+        for (size_t k = 0; k < corners; k++) {
+            const entry *at = find(m->node_entry, m->nnodes, m->corner[e][k]);
+            if (!at)
+                return fracas_fail(FRACAS_USAGE, "element %" PRId64 " names node %" PRId64 ", which the file does not have",
+                                   m->element[e], m->corner[e][k]);
+            uint32_t *node = &out->new_node[at->value];
+            if (*node == UINT32_MAX) {
+                memcpy(out->node[out->nnodes], m->node[at->value], sizeof *out->node);
+                out->node_number[out->nnodes] = at->number;
+                *node = (uint32_t)out->nnodes++;
+            }
+            out->element[corners * e + k] = *node;
+        }
+    return FRACAS_OK;
+}
+
+static fracas_err resolve_lines(const mesh *m, resolved *out)
+{
+    for (size_t l = 0; l < m->nlines; l++) {
+        out->tag[l].tag = m->line[l].tag;
+        for (int k = 0; k < 2; k++) {
+            const entry *at = find(m->node_entry, m->nnodes, m->line[l].node[k]);
+            if (!at || out->new_node[at->value] == UINT32_MAX)
+                return fracas_fail(FRACAS_USAGE, "line %" PRId64 " of the physical group %" PRId32 " has node %" PRId64
+                                                 ", which no triangle has", m->line[l].element, m->line[l].tag,
+                                   m->line[l].node[k]);
+            out->tag[l].node[k] = out->new_node[at->value];
+        }
+    }
+    return FRACAS_OK;
+}
+
+fracas_err fracas_surface_read_gmsh(const void *bytes, size_t size, const fracas_surface **surface)
+{
+    mesh m = {.scan = {.text = bytes, .size = size}};
+    resolved out = {0};
+    fracas_err err = read_file(&m);
+    if (!err) err = allocate_resolved(&m, &out);
+    if (!err) err = resolve_elements(&m, &out);
+    if (!err) err = resolve_lines(&m, &out);
+    const fracas_surface_arrays arrays = {
+        .order = m.order, .nnodes = out.nnodes, .nelements = m.nelements, .ntags = m.nlines,
+        .node = (const double (*)[3])out.node, .element = out.element, .tag = out.tag, .node_number = out.node_number,
+        .element_number = m.element};
+    if (!err) err = fracas_surface_assemble(&arrays, surface);
+    clear_resolved(&out);
+    clear(&m);
+    return err;
+}

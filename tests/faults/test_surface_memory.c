@@ -1,0 +1,134 @@
+/* Making and reading a surface when the k-th allocation fails, for every k: an error, never a crash. */
+#include "tests/support/gmsh.h"
+
+#include <errno.h>
+
+#ifdef __SANITIZE_ADDRESS__
+/* AddressSanitizer owns malloc; this program has nothing to do there. */
+int main(void)
+{
+    return 0;
+}
+#else
+
+/* glibc's own names of what is replaced below. */
+void *__libc_malloc(size_t size);
+void *__libc_calloc(size_t count, size_t size);
+void *__libc_realloc(void *old, size_t size);
+void __libc_free(void *old);
+
+/* Volatile: the compiler believes that malloc changes nothing of ours. */
+static volatile long countdown; /* allocations until one fails; 0: none does */
+static volatile bool has_failed;
+static volatile long held; /* allocations that nobody has freed */
+
+static bool fails(void)
+{
+    if (countdown == 0 || --countdown > 0) return false;
+    has_failed = true;
+    errno = ENOMEM;
+    return true;
+}
+
+void *malloc(size_t size)
+{
+    if (fails()) return NULL;
+    held++;
+    return __libc_malloc(size);
+}
+
+void *calloc(size_t count, size_t size)
+{
+    if (fails()) return NULL;
+    held++;
+    return __libc_calloc(count, size);
+}
+
+void *realloc(void *old, size_t size)
+{
+    if (fails()) return NULL;
+    held += !old;
+    return __libc_realloc(old, size);
+}
+
+void free(void *old)
+{
+    held -= old != NULL;
+    __libc_free(old);
+}
+
+/* Calls `work` with the first, second, ... allocation failing, until it succeeds without; nothing stays behind. */
+static void fail_each(fracas_err (*work)(const void *context), const void *context)
+{
+    for (long k = 1;; k++) {
+        const long before = held;
+        has_failed = false;
+        countdown = k;
+        const fracas_err err = work(context);
+        countdown = 0;
+        assert_int_equal(held, before);
+        if (!has_failed) {
+            assert_int_equal(err, FRACAS_OK);
+            assert_true(k > 10); /* it did allocate */
+            return;
+        }
+        /* glibc's qsort does without memory of its own when there is none. */
+        if (err != FRACAS_ENVIRONMENT && err != FRACAS_OK) fail_msg("allocation %ld: %d %s", k, err, fracas_message());
+        if (err && !strstr(fracas_message(), "no memory for")) fail_msg("allocation %ld: %s", k, fracas_message());
+    }
+}
+
+static const double (*shift)[2];
+static size_t nshifts;
+
+static fracas_err make_octant(const void *context)
+{
+    (void)context;
+    const fracas_surface_fineness fineness = {.divisions = 3, .order = 2, .amplitude = 0.2, .shift = shift, .nshifts = nshifts};
+    const fracas_surface *s = NULL;
+    const fracas_err err = fracas_surface_octant(1.0, &fineness, &s);
+    fracas_surface_destroy(s);
+    return err;
+}
+
+static fracas_err read_mesh(const void *context)
+{
+    const gmsh_file *f = context;
+    const fracas_surface *s = NULL;
+    const fracas_err err = fracas_surface_read_gmsh(f->bytes, f->size, &s);
+    fracas_surface_destroy(s);
+    return err;
+}
+
+static void test_made(void **state)
+{
+    (void)state;
+    static const double numbers[10][2] = {{0.5, -0.5}};
+    shift = numbers;
+    nshifts = 10;
+    fail_each(make_octant, NULL);
+}
+
+static void test_read(void **state)
+{
+    (void)state;
+    for (int order = 1; order <= 2; order++) {
+        const fracas_surface_fineness fineness = {.divisions = 2, .order = order};
+        const fracas_surface *s = NULL;
+        assert_int_equal(fracas_surface_rectangle(1.0, 1.0, &fineness, &s), FRACAS_OK);
+        for (int which = 0; which < 4; which++) {
+            gmsh_file f = gmsh_write(s, which % 2, which / 2, false);
+            fail_each(read_mesh, &f);
+            free(f.bytes);
+        }
+        fracas_surface_destroy(s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_made), cmocka_unit_test(test_read)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+#endif

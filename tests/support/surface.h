@@ -1,0 +1,83 @@
+/* Small meshes, and what is true of every surface. */
+#ifndef FRACAS_TESTS_SUPPORT_SURFACE_H
+#define FRACAS_TESTS_SUPPORT_SURFACE_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "base/hash.h"
+#include "base/param.h"
+#include "engine/mesh/surface/surface.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The numbers 2^-32 k, 0 <= k < 2^32, spread at random. */
+static inline double next_share(uint64_t *x)
+{
+    *x = *x * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*x >> 32) * 0x1p-32;
+}
+
+static inline long euler(const fracas_surface *s)
+{
+    return (long)s->nvertices - (long)(s->ninterfaces + s->nborders) + (long)s->nelements;
+}
+
+static inline uint32_t corner_of(const fracas_surface *s, size_t element, size_t corner)
+{
+    return s->element[element * s->corners + corner];
+}
+
+/* Interfaces and borders hold each edge of each element once, in order, and join sides that have the same nodes. */
+static inline void check_edges(const fracas_surface *s)
+{
+    uint8_t *seen = calloc(3 * s->nelements, 1);
+    assert_non_null(seen);
+    for (size_t i = 0; i < s->ninterfaces; i++) {
+        const fracas_surface_interface *f = &s->interface[i];
+        assert_true(f->element[0] < f->element[1] && f->element[1] < s->nelements && f->edge[0] < 3 && f->edge[1] < 3);
+        if (i > 0) {
+            const fracas_surface_interface *before = f - 1;
+            assert_true(before->element[0] < f->element[0] ||
+                        (before->element[0] == f->element[0] && before->element[1] < f->element[1]));
+        }
+        for (int k = 0; k < 2; k++) assert_int_equal(seen[3 * f->element[k] + f->edge[k]]++, 0);
+        const uint32_t a = f->edge[0], b = f->edge[1];
+        assert_int_equal(corner_of(s, f->element[0], a), corner_of(s, f->element[1], (b + 1) % 3));
+        assert_int_equal(corner_of(s, f->element[0], (a + 1) % 3), corner_of(s, f->element[1], b));
+        if (s->order == 2) assert_int_equal(corner_of(s, f->element[0], 3 + a), corner_of(s, f->element[1], 3 + b));
+    }
+    for (size_t i = 0; i < s->nborders; i++) {
+        const fracas_surface_border *f = &s->border[i];
+        assert_true(f->element < s->nelements && f->edge < 3);
+        if (i > 0) assert_true(3 * f[-1].element + f[-1].edge < 3 * f->element + f->edge);
+        assert_int_equal(seen[3 * f->element + f->edge]++, 0);
+    }
+    for (size_t i = 0; i < 3 * s->nelements; i++) assert_int_equal(seen[i], 1);
+    free(seen);
+}
+
+/* Everything in a surface, as one number: the same on every machine. */
+static inline uint64_t checksum_of(const fracas_surface *s)
+{
+    fracas_checksum *sum;
+    assert_int_equal(fracas_checksum_create(&sum), FRACAS_OK);
+    fracas_checksum_add(sum, s->node, s->nnodes * sizeof *s->node);
+    fracas_checksum_add(sum, s->element, s->nelements * s->corners * sizeof *s->element);
+    fracas_checksum_add(sum, s->interface, s->ninterfaces * sizeof *s->interface);
+    fracas_checksum_add(sum, s->border, s->nborders * sizeof *s->border);
+    fracas_checksum_add(sum, s->given, s->nelements * sizeof *s->given);
+    const uint64_t value = fracas_checksum_end(sum);
+    fracas_checksum_destroy(sum);
+    return value;
+}
+
+#endif
