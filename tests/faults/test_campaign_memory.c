@@ -4,7 +4,6 @@
 #include "campaigns/plan/plan.h"
 #include "tests/support/campaign_text.h"
 
-#include <errno.h>
 #include <limits.h>
 
 #ifdef __SANITIZE_ADDRESS__
@@ -15,37 +14,7 @@ int main(void)
 }
 #else
 
-/* glibc's own names of what is replaced below. */
-void *__libc_malloc(size_t size);
-void *__libc_calloc(size_t count, size_t size);
-void *__libc_realloc(void *old, size_t size);
-
-/* Volatile: the compiler believes that malloc changes nothing of ours. */
-static volatile long countdown; /* allocations until one fails; 0: none does */
-static volatile bool has_failed;
-
-static bool fails(void)
-{
-    if (countdown == 0 || --countdown > 0) return false;
-    has_failed = true;
-    errno = ENOMEM;
-    return true;
-}
-
-void *malloc(size_t size)
-{
-    return fails() ? NULL : __libc_malloc(size);
-}
-
-void *calloc(size_t count, size_t size)
-{
-    return fails() ? NULL : __libc_calloc(count, size);
-}
-
-void *realloc(void *old, size_t size)
-{
-    return fails() ? NULL : __libc_realloc(old, size);
-}
+#include "tests/support/failing_malloc.h"
 
 static const char sweep[] = "sweep:\n  - cases: [{name: a}, {name: b, strength.minimum: 1 MPa}]\n"
                             "  - loading.rate: {from: 1, to: 2, points: 3}\n";

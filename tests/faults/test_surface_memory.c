@@ -1,8 +1,6 @@
 /* Making and reading a surface when the k-th allocation fails, for every k: an error, never a crash. */
 #include "tests/support/gmsh.h"
 
-#include <errno.h>
-
 #ifdef __SANITIZE_ADDRESS__
 /* AddressSanitizer owns malloc; this program has nothing to do there. */
 int main(void)
@@ -11,51 +9,7 @@ int main(void)
 }
 #else
 
-/* glibc's own names of what is replaced below. */
-void *__libc_malloc(size_t size);
-void *__libc_calloc(size_t count, size_t size);
-void *__libc_realloc(void *old, size_t size);
-void __libc_free(void *old);
-
-/* Volatile: the compiler believes that malloc changes nothing of ours. */
-static volatile long countdown; /* allocations until one fails; 0: none does */
-static volatile bool has_failed;
-static volatile long held; /* allocations that nobody has freed */
-
-static bool fails(void)
-{
-    if (countdown == 0 || --countdown > 0) return false;
-    has_failed = true;
-    errno = ENOMEM;
-    return true;
-}
-
-void *malloc(size_t size)
-{
-    if (fails()) return NULL;
-    held++;
-    return __libc_malloc(size);
-}
-
-void *calloc(size_t count, size_t size)
-{
-    if (fails()) return NULL;
-    held++;
-    return __libc_calloc(count, size);
-}
-
-void *realloc(void *old, size_t size)
-{
-    if (fails()) return NULL;
-    held += !old;
-    return __libc_realloc(old, size);
-}
-
-void free(void *old)
-{
-    held -= old != NULL;
-    __libc_free(old);
-}
+#include "tests/support/failing_malloc.h"
 
 /* Calls `work` with the first, second, ... allocation failing, until it succeeds without; nothing stays behind. */
 static void fail_each(fracas_err (*work)(const void *context), const void *context)

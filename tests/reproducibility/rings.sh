@@ -39,39 +39,13 @@ rings all.yaml 11 "$zone" "$perturbed" # batches of 8 and 3
 expect 0 "$fracas" run all.yaml --study one --jobs 1
 h5dump -d /realization/outcome one/study.h5 | grep -q '^ *(0): 0, 0' || fail "nothing broke"
 
-n=0
-compare()
-{
-    n=$((n + 1))
-    expect 0 "$fracas" run all.yaml --study "other$n" "$@"
-    same one "other$n"
-}
-isas=baseline
-for isa in avx2 avx512; do
-    case $isa in avx2) flag=avx2 ;; *) flag=avx512f ;; esac
-    if grep -qw $flag /proc/cpuinfo; then
-        isas="$isas $isa"
-    else
-        echo "skipped: this CPU has no $isa"
-    fi
+for isa in baseline $(instruction_sets); do
+    compare all.yaml --jobs 2 --isa "$isa" --lanes 8 --shuffle
+    compare all.yaml --jobs 2 --isa "$isa" --lanes 4
 done
-for isa in $isas; do
-    compare --jobs 2 --isa $isa --lanes 8 --shuffle
-    compare --jobs 2 --isa $isa --lanes 4
-done
-compare --jobs 2 --lanes 1 --segment-size 1e-6 # a segment for each realization
+compare all.yaml --jobs 2 --lanes 1 --segment-size 1e-6 # a segment for each realization
 
-gcc_fracas=$fracas
-for compiler in clang release; do
-    fracas=$source/build/$compiler/fracas
-    [ "$fracas" = "$gcc_fracas" ] && continue
-    if [ -x "$fracas" ]; then
-        compare --jobs 2
-    else
-        echo "skipped: there is no build/$compiler/fracas"
-    fi
-done
-fracas=$gcc_fracas
+compare_compilers all.yaml
 
 # Killed in the middle, each realization a segment, and resumed.
 start all.yaml --study killed --jobs 2 --lanes 1 --segment-size 1e-6
@@ -88,4 +62,4 @@ rings part.yaml 11 "$perturbed"
 expect 0 "$fracas" run part.yaml --study extended
 expect 0 "$fracas" run all.yaml --study extended
 same one extended
-echo "$n other ways, a kill and an extension: the same bytes"
+echo "$others other ways, a kill and an extension: the same bytes"

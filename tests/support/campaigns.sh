@@ -112,3 +112,39 @@ random()
 {
     echo $(($1 + $(od -An -N2 -tu2 /dev/urandom) % ($2 - $1 + 1)))
 }
+
+# compare FILE OPTIONS...: runs the campaign as the study other1, other2 ..., which must be the bytes of the study one.
+others=0
+compare()
+{
+    compared=$1
+    shift
+    others=$((others + 1))
+    expect 0 "$fracas" run "$compared" --study "other$others" "$@"
+    same one "other$others"
+}
+
+# compare_compilers FILE: the same with the programs of other compilers, as far as they have been built.
+compare_compilers()
+{
+    own=$fracas
+    for compiler in clang release; do
+        fracas=$source/build/$compiler/fracas
+        [ "$fracas" = "$own" ] && continue
+        if [ -x "$fracas" ]; then
+            compare "$1" --jobs 2
+        else
+            echo "skipped: there is no build/$compiler/fracas"
+        fi
+    done
+    fracas=$own
+}
+
+# The instruction sets above baseline that this CPU has; what it lacks is said on standard error.
+instruction_sets()
+{
+    for isa in avx2 avx512; do
+        case $isa in avx2) flag=avx2 ;; *) flag=avx512f ;; esac
+        if grep -qw $flag /proc/cpuinfo; then echo $isa; else echo "skipped: this CPU has no $isa" >&2; fi
+    done
+}
