@@ -1,5 +1,5 @@
 /* The critical time step of a chain, by power iteration on its linearised operator. */
-#include "engine/formulation/chain.h"
+#include "engine/formulation/chain/chain.h"
 
 #include "engine/cohesive/law.h"
 #include "engine/integrator/critical_step.h"

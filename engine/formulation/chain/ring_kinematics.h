@@ -2,7 +2,7 @@
  * base/lanes.h. */
 #include "engine/cohesive/nitsche.h"
 #include "engine/cohesive/rigid_link.h"
-#include "engine/formulation/chain_events.h"
+#include "engine/formulation/chain/chain_events.h"
 #include "engine/integrator/central_difference.h"
 
 #define ring_vector LANES_NAME(fracas_ring_vector)

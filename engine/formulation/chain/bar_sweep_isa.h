@@ -1,6 +1,6 @@
 /* One instruction set's kernels: the template in its widths, for both laws, for elements of one length and of many. Include with BAR_KERNELS defined as
  * the name of the table. */
-#include "engine/formulation/bar_sweep.h"
+#include "engine/formulation/chain/bar_sweep.h"
 
 #include <math.h>
 
@@ -9,11 +9,11 @@
 #define BAR_SWEEP(law) BAR_PASTE(sweep, law, LANES)
 
 #define LANES 1
-#include "engine/formulation/bar_sweep_template.h"
+#include "engine/formulation/chain/bar_sweep_template.h"
 #undef LANES
 #ifdef __AVX2__
 #define LANES 4
-#include "engine/formulation/bar_sweep_template.h"
+#include "engine/formulation/chain/bar_sweep_template.h"
 #undef LANES
 #define BAR_IF_4(sweep) sweep
 #else
@@ -21,7 +21,7 @@
 #endif
 #ifdef __AVX512F__
 #define LANES 8
-#include "engine/formulation/bar_sweep_template.h"
+#include "engine/formulation/chain/bar_sweep_template.h"
 #undef LANES
 #define BAR_IF_8(sweep) sweep
 #else

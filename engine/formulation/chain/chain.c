@@ -1,4 +1,4 @@
-#include "engine/formulation/chain.h"
+#include "engine/formulation/chain/chain.h"
 
 #include "engine/cohesive/law.h"
 

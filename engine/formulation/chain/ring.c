@@ -1,9 +1,9 @@
 /* The ring: nodes in the plane, an element is a spring along its chord (docs/theory/ring.md). */
-#include "engine/formulation/ring_sweep.h"
+#include "engine/formulation/chain/ring_sweep.h"
 
 #include "base/elementary.h"
 #include "engine/cohesive/law.h"
-#include "engine/formulation/chain.h"
+#include "engine/formulation/chain/chain.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
 

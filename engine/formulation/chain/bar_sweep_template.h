@@ -3,7 +3,7 @@
 #include "base/lanes.h"
 #include "engine/cohesive/nitsche.h"
 #include "engine/cohesive/rigid_link.h"
-#include "engine/formulation/chain_events.h"
+#include "engine/formulation/chain/chain_events.h"
 #include "engine/integrator/central_difference.h"
 
 #define bar_element LANES_NAME(bar_element)

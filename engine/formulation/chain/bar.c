@@ -1,9 +1,9 @@
 /* The bar: one coordinate, background motion rate t x taken out (docs/theory/bar.md). */
-#include "engine/formulation/bar_sweep.h"
+#include "engine/formulation/chain/bar_sweep.h"
 
 #include "base/elementary.h"
 #include "engine/cohesive/law.h"
-#include "engine/formulation/chain.h"
+#include "engine/formulation/chain/chain.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
 

@@ -1,8 +1,8 @@
 /* Both sweeps of the ring for one width; included once a width by ring_sweep_isa.h, with LANES defined. */
 #include "base/lanes.h"
-#include "engine/formulation/ring_kinematics.h"
-#include "engine/formulation/ring_nitsche_template.h"
-#include "engine/formulation/ring_stershic_template.h"
+#include "engine/formulation/chain/ring_kinematics.h"
+#include "engine/formulation/chain/ring_nitsche_template.h"
+#include "engine/formulation/chain/ring_stershic_template.h"
 
 #undef ring_vector
 #undef ring_add

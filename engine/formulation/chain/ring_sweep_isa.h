@@ -1,5 +1,5 @@
 /* One instruction set's kernels: the templates in its widths. Include with RING_KERNELS defined as the name of the table. */
-#include "engine/formulation/ring_sweep.h"
+#include "engine/formulation/chain/ring_sweep.h"
 
 #include <math.h>
 
@@ -8,16 +8,16 @@
 #define RING_SWEEP(law) RING_PASTE(sweep, law, LANES)
 
 #define LANES 1
-#include "engine/formulation/ring_templates.h"
+#include "engine/formulation/chain/ring_templates.h"
 #undef LANES
 #ifdef __AVX2__
 #define LANES 4
-#include "engine/formulation/ring_templates.h"
+#include "engine/formulation/chain/ring_templates.h"
 #undef LANES
 #endif
 #ifdef __AVX512F__
 #define LANES 8
-#include "engine/formulation/ring_templates.h"
+#include "engine/formulation/chain/ring_templates.h"
 #undef LANES
 #endif
 
