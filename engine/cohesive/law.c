@@ -1,13 +1,28 @@
 #include "engine/cohesive/law.h"
 
+#include "engine/formulation/formulation.h"
+
 #define FRACTURE_ENERGY(least, otherwise, what)                                                                     \
     {"fracture_energy", FRACAS_REAL, "J/m2", what, otherwise, 0, INFINITY, least, offsetof(fracas_cohesive, fracture_energy)}
 
-static const fracas_param nitsche[] = {
-    FRACTURE_ENERGY(true, FRACAS_REQUIRED, "fracture energy G_c"),
-    {"beta", FRACAS_REAL, "1", "interface stiffness K = beta E/h; above 1 for a positive operator, 1.5 or more in practice", 4, 1, 1e4, true,
-     offsetof(fracas_cohesive, beta)},
-};
+#define BETA                                                                                                          \
+    {"beta", FRACAS_REAL, "1", "interface stiffness K = beta E/h (surfaces: E/(1 - nu^2) for E); above 1 for a positive operator, 1.5 " \
+     "or more in practice; 2.5 with quadratic triangles", 4, 1, 1e4, true, offsetof(fracas_cohesive, beta)}
+
+const fracas_kind fracas_onset_mean = {.name = "mean", .doc = "the mean of the stresses on both sides"};
+const fracas_kind fracas_onset_flux = {.name = "flux", .doc = "the traction of the discontinuous-Galerkin flux"};
+static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};
+
+/* What interfaces of surfaces, which can slide too, need beside. */
+#define IN_THE_PLANE                                                                                                  \
+    {.name = "onset", .type = FRACAS_CHOICE, .unit = "1", .doc = "what is held against the strength", .choices = onsets, \
+     .nchoices = FRACAS_COUNT(onsets), .offset = offsetof(fracas_cohesive, onset), .only = fracas_surface_models},    \
+    {"coupling", FRACAS_REAL, "1", "shear strength by normal strength, beta_c", 1, 0.01, 100, false,                  \
+     offsetof(fracas_cohesive, coupling), .only = fracas_surface_models},                                             \
+    {"friction", FRACAS_REAL, "1", "Coulomb's coefficient of friction between closed faces, mu_c", 0, 0, 10, false,   \
+     offsetof(fracas_cohesive, friction), .only = fracas_surface_models}
+
+static const fracas_param nitsche[] = {FRACTURE_ENERGY(true, FRACAS_REQUIRED, "fracture energy G_c"), BETA, IN_THE_PLANE};
 const fracas_kind fracas_law_nitsche = {
     .name = "nitsche", .doc = "linear softening, the opening in series with the discontinuous-Galerkin flux",
     .params = nitsche, .nparams = FRACAS_COUNT(nitsche)};
@@ -44,7 +59,18 @@ const fracas_kind fracas_law_stershic = {
                                "of the time step and fracture-limiting zone (the algorithm of Stershic's paper)",
     .params = stershic, .nparams = FRACAS_COUNT(stershic)};
 
-static const fracas_kind *const laws[] = {&fracas_law_nitsche, &fracas_law_rigid_link, &fracas_law_stershic};
+static const fracas_param extrinsic[] = {FRACTURE_ENERGY(true, FRACAS_REQUIRED, "fracture energy G_c"), BETA, IN_THE_PLANE};
+const fracas_kind fracas_law_camacho_ortiz_standard = {
+    .name = "camacho-ortiz-standard", .doc = "linear softening of an interface that leaves the discontinuous-Galerkin flux at onset "
+                                             "(the usual extrinsic law): wants a time.safety of 0.05",
+    .params = extrinsic, .nparams = FRACAS_COUNT(extrinsic)};
+const fracas_kind fracas_law_camacho_ortiz = {
+    .name = "camacho-ortiz", .doc = "the same with normal and shear traction scaled by those at onset (Becker and Noels' paper); "
+                                    "dissipates less than G_c on mixed paths: for comparison",
+    .params = extrinsic, .nparams = FRACAS_COUNT(extrinsic)};
+
+static const fracas_kind *const laws[] = {&fracas_law_nitsche, &fracas_law_rigid_link, &fracas_law_stershic,
+                                          &fracas_law_camacho_ortiz_standard, &fracas_law_camacho_ortiz};
 
 static fracas_err check_cohesive(const void *section)
 {

@@ -11,8 +11,13 @@ fracas_err fracas_partition_init(fracas_partition *partition, size_t elements)
         fracas_partition_clear(partition);
         return fracas_no_memory("the partition into fragments");
     }
-    for (size_t e = 0; e < elements; e++) partition->parent[e] = (uint32_t)e;
+    fracas_partition_reset(partition);
     return FRACAS_OK;
+}
+
+void fracas_partition_reset(fracas_partition *partition)
+{
+    for (size_t e = 0; e < partition->elements; e++) partition->parent[e] = (uint32_t)e;
 }
 
 void fracas_partition_clear(fracas_partition *partition)

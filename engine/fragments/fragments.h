@@ -15,6 +15,7 @@ typedef struct {
 
 /* Every element a fragment of its own. */
 FRACAS_MUST_USE fracas_err fracas_partition_init(fracas_partition *partition, size_t elements);
+void fracas_partition_reset(fracas_partition *partition); /* again */
 void fracas_partition_clear(fracas_partition *partition);
 
 /* Elements `a` and `b` belong together. */

@@ -54,9 +54,9 @@ static double spring_of(const fracas_model *model, size_t e)
     return bar.beta * (0.5 * (bar.young / size_of(model, e) + bar.young / size_of(model, next)));
 }
 
-static double bar_interface_length(const fracas_model *model, size_t e)
+static double bar_interface_volume(const fracas_model *model, size_t e)
 {
-    return 0.5 * (size_of(model, e) + size_of(model, e + 1 < model->elements ? e + 1 : 0));
+    return model->spec.geometry.area * (0.5 * (size_of(model, e) + size_of(model, e + 1 < model->elements ? e + 1 : 0)));
 }
 
 /* Lengths of the elements of a graded or perturbed mesh, in model->table  (bar.19). */
@@ -162,7 +162,7 @@ static void bar_advance(const fracas_model *model, fracas_step *step)
 
 typedef struct {
     const fracas_model *model;
-    const fracas_step *step;
+    fracas_step *step;
     int lane;
 } lane_view;
 
@@ -202,16 +202,10 @@ static void add_elements(const lane_view *view, const uint32_t *label, fracas_fr
 static fracas_err harvest_fragments(const lane_view *view, fracas_record *record)
 {
     const fracas_model *model = view->model;
-    fracas_partition partition;
-    size_t count;
-    TRY(fracas_chain_partition(&chain, model, view->step, view->lane, &partition, &count));
+    const size_t count = fracas_chain_partition(&chain, model, view->step, view->lane);
     fracas_fragment *fragment = calloc(count, sizeof *fragment);
-    if (!fragment) {
-        fracas_partition_clear(&partition);
-        return fracas_no_memory("the fragments of a realization");
-    }
-    add_elements(view, partition.label, fragment);
-    fracas_partition_clear(&partition);
+    if (!fragment) return fracas_no_memory("the fragments of a realization");
+    add_elements(view, view->step->partition.label, fragment);
     const double stretched = model->spec.geometry.length * (1 + model->spec.loading.rate * view->step->time[view->lane]);
     for (size_t f = 0; f < count; f++) {
         fragment[f].position[0] /= fragment[f].size;
@@ -229,7 +223,7 @@ static fracas_err harvest_fragments(const lane_view *view, fracas_record *record
     return FRACAS_OK;
 }
 
-static fracas_err bar_harvest(const fracas_model *model, const fracas_step *step, int lane, fracas_record *record)
+static fracas_err bar_harvest(const fracas_model *model, fracas_step *step, int lane, fracas_record *record)
 {
     lane_view view = {model, step, lane};
     const double mass_per_length = 0.5 * model->spec.material.density * model->spec.geometry.area;
@@ -241,12 +235,13 @@ static fracas_err bar_harvest(const fracas_model *model, const fracas_step *step
     return step->onset_time ? fracas_chain_harvest_interfaces(&chain, model, step, lane, record) : FRACAS_OK;
 }
 
-static const fracas_kind *const goes_with[] = {&fracas_shape_bar, &fracas_law_nitsche, &fracas_law_rigid_link,
+static const fracas_kind *const goes_with[] = {&fracas_shape_bar, &fracas_spacing_uniform, &fracas_spacing_graded,
+                                               &fracas_spacing_perturbed, &fracas_law_nitsche, &fracas_law_rigid_link,
                                                &fracas_loading_imposed_rate};
 const fracas_formulation fracas_formulation_bar = {
     .kind = {.name = "bar", .doc = "a bar stretched at a uniform rate: the hoop direction of an expanding ring",
              .goes_with = goes_with, .ngoes_with = FRACAS_COUNT(goes_with)},
-    .model_init = bar_model_init, .check_strength = bar_check_strength, .interface_length = bar_interface_length,
+    .model_init = bar_model_init, .check_strength = bar_check_strength, .interface_volume = bar_interface_volume,
     .state_size = bar_state_size, .strength = bar_strength, .lane_init = bar_lane_init, .advance = bar_advance,
     .fragment_count = fracas_chain_fragment_count, .harvest = bar_harvest,
 };

@@ -36,8 +36,9 @@ fracas_err fracas_chain_check_strength(const fracas_model *model, double strengt
                        ceil((double)model->elements * h / most));
 }
 
-int64_t fracas_chain_fragment_count(const fracas_model *model, int64_t broken)
+int64_t fracas_chain_fragment_count(const fracas_model *model, fracas_step *step, int lane)
 {
+    const int64_t broken = step->broken[lane];
     return fracas_chain_is_closed(model) ? (broken > 1 ? broken : 1) : broken + 1;
 }
 
@@ -48,15 +49,14 @@ bool fracas_chain_is_broken(const fracas_chain *chain, const fracas_model *model
 }
 
 /* (bar.17) */
-fracas_err fracas_chain_partition(const fracas_chain *chain, const fracas_model *model, const fracas_step *step, int lane,
-                                  fracas_partition *partition, size_t *count)
+size_t fracas_chain_partition(const fracas_chain *chain, const fracas_model *model, fracas_step *step, int lane)
 {
-    TRY(fracas_partition_init(partition, model->elements));
+    fracas_partition *partition = &step->partition;
+    fracas_partition_reset(partition);
     for (size_t e = 0; e < model->interfaces; e++)
         if (!fracas_chain_is_broken(chain, model, step, e, lane))
             fracas_partition_join(partition, (uint32_t)e, (uint32_t)(e + 1 < model->elements ? e + 1 : 0));
-    *count = fracas_partition_label(partition);
-    return FRACAS_OK;
+    return fracas_partition_label(partition);
 }
 
 fracas_err fracas_chain_harvest_interfaces(const fracas_chain *chain, const fracas_model *model, const fracas_step *step,

@@ -6,7 +6,6 @@
 #define FRACAS_ENGINE_FORMULATION_CHAIN_H
 
 #include "engine/formulation/formulation.h"
-#include "engine/fragments/fragments.h"
 
 typedef struct {
     int fields;   /* of an element */
@@ -32,16 +31,14 @@ double *fracas_chain_strength(const fracas_chain *chain, const fracas_model *mod
 FRACAS_MUST_USE fracas_err fracas_chain_check_strength(const fracas_model *model, double strength);
 
 /* Number of fragments: a closed chain needs two breaks to have two, an open one is cut in two by the first. */
-int64_t fracas_chain_fragment_count(const fracas_model *model, int64_t broken);
+int64_t fracas_chain_fragment_count(const fracas_model *model, fracas_step *step, int lane);
 
 /* True where the interface on the right of `element` is broken, or there is none. */
 bool fracas_chain_is_broken(const fracas_chain *chain, const fracas_model *model, const fracas_step *step, size_t element,
                             int lane);
 
-/* Elements connected by unbroken interfaces (bar.17), labelled; to be cleared by the caller. */
-FRACAS_MUST_USE fracas_err fracas_chain_partition(const fracas_chain *chain, const fracas_model *model,
-                                                  const fracas_step *step, int lane, fracas_partition *partition,
-                                                  size_t *count);
+/* Elements connected by unbroken interfaces (bar.17), labelled, as the step's partition; returns their number. */
+size_t fracas_chain_partition(const fracas_chain *chain, const fracas_model *model, fracas_step *step, int lane);
 
 /* The interface rows of a record. */
 FRACAS_MUST_USE fracas_err fracas_chain_harvest_interfaces(const fracas_chain *chain, const fracas_model *model,

@@ -95,10 +95,10 @@ static fracas_err ring_model_init(fracas_model *model)
     return fracas_chain_critical_step(model, NULL);
 }
 
-static double ring_interface_length(const fracas_model *model, size_t interface)
+static double ring_interface_volume(const fracas_model *model, size_t interface)
 {
     (void)interface;
-    return model->element_size;
+    return model->spec.geometry.area * model->element_size;
 }
 
 /* ---- state ---- */
@@ -191,18 +191,12 @@ static void add_element(const fracas_model *model, const fracas_step *step, int 
 }
 
 /* Fragments as (bar.17), in the plane  (ring.18). */
-static fracas_err ring_harvest(const fracas_model *model, const fracas_step *step, int lane, fracas_record *record)
+static fracas_err ring_harvest(const fracas_model *model, fracas_step *step, int lane, fracas_record *record)
 {
-    fracas_partition partition;
-    size_t count;
-    TRY(fracas_chain_partition(chain_of(model), model, step, lane, &partition, &count));
+    const size_t count = fracas_chain_partition(chain_of(model), model, step, lane);
     fracas_fragment *fragment = calloc(count, sizeof *fragment);
-    if (!fragment) {
-        fracas_partition_clear(&partition);
-        return fracas_no_memory("the fragments of a realization");
-    }
-    for (size_t e = 0; e < model->elements; e++) add_element(model, step, lane, e, &fragment[partition.label[e]]);
-    fracas_partition_clear(&partition);
+    if (!fragment) return fracas_no_memory("the fragments of a realization");
+    for (size_t e = 0; e < model->elements; e++) add_element(model, step, lane, e, &fragment[step->partition.label[e]]);
     for (int i = 0; i < 3; i++) record->momentum[i] = 0;
     for (fracas_fragment *f = fragment; f < fragment + count; f++) {
         for (int i = 0; i < 2; i++) {
@@ -226,7 +220,7 @@ static const fracas_kind *const goes_with[] = {
 const fracas_formulation fracas_formulation_ring = {
     .kind = {.name = "ring", .doc = "a closed ring in the plane, of springs along its circumference", .goes_with = goes_with,
              .ngoes_with = FRACAS_COUNT(goes_with)},
-    .model_init = ring_model_init, .check_strength = fracas_chain_check_strength, .interface_length = ring_interface_length,
+    .model_init = ring_model_init, .check_strength = fracas_chain_check_strength, .interface_volume = ring_interface_volume,
     .state_size = ring_state_size, .strength = ring_strength, .lane_init = ring_lane_init, .advance = ring_advance,
     .fragment_count = fracas_chain_fragment_count, .harvest = ring_harvest,
 };
