@@ -104,7 +104,7 @@ static inline void plane_step(plane_walk *w, plane_at to)
     w->rubbed += now->rubbed;
     /* second differences, each with the longer of its two steps */
     const double t[2] = {now->t_n - old.t_n, now->t_t - old.t_t}, s[2] = {now->s_n - old.s_n, now->s_t - old.s_t};
-    const double rub = w->memory.rub - was.rub, path = hypot(dq_n, dq_t);
+    const double rub = now->cracks ? 0 : w->memory.rub - was.rub, path = hypot(dq_n, dq_t);
     const double slip = now->cracks ? 0 : fabs(w->memory.slip - was.slip); /* an onset sets it */
     const double longer = fmax(path, w->step_before);
     w->slack += 0.5 * longer * hypot(t[0] - w->t_before[0], t[1] - w->t_before[1]);

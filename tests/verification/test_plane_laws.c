@@ -111,7 +111,7 @@ static void the_ledger_closes_on_every_path(void **unused)
                 plane_walk w = plane_begin(kind);
                 paths[p](&w, angle);
                 ASSERT_CLOSED(&w, "path and angle", (double)p + angle / 10);
-                assert_true(w.slack < 2e-2 * kind.energy + 5e-3 * fabs(w.work)); /* the bound says something */
+                assert_true(w.slack < 5e-2 * kind.energy + 1e-2 * fabs(w.work)); /* the bound says something */
                 assert_true(w.dissipated <= kind.energy * (1 + 1e-12) && w.rubbed >= -w.slack);
                 if (w.break_step > 0 && kind.law != PLANE_PAPER) assert_true(fabs(w.dissipated / kind.energy - 1) < 1e-12);
                 cracked += w.onset_step > 0;
@@ -266,7 +266,8 @@ static void onset_is_at_the_strength(void **unused)
         const double t_n = 300e6 * (next_random(&seed) - 0.5), t_t = 600e6 * (next_random(&seed) - 0.5) * kind.beta_c;
         const double value = t_n >= 0 ? hypot(t_n, t_t / kind.beta_c) : fmax(0, (fabs(t_t) - kind.mu_c * fabs(t_n)) / kind.beta_c);
         const double part = next_random(&seed), other = kind.onset_mean ? 0 : 1; /* the flux: any split of it; the mean: all of it */
-        const plane_at at = {.m_n = t_n * (1 - other * part), .m_t = t_t * (1 - other * part), .q_n = t_n * part / kind.k_n, .q_t = t_t * part / kind.k_t};
+        const double turned = kind.onset_mean && i % 5 == 0 ? -0.5 * part : part; /* so that the flux is below its mean */
+        const plane_at at = {.m_n = t_n * (1 - other * part), .m_t = t_t * (1 - other * part), .q_n = t_n * turned / kind.k_n, .q_t = t_t * turned / kind.k_t};
         plane_walk w = plane_begin(kind);
         plane_step(&w, at);
         assert_true(fabs(w.out.onset_value - value) <= 1e-12 * (fabs(t_n) + fabs(t_t) / kind.beta_c));
