@@ -4,8 +4,10 @@
 #include "campaigns/plan/point_model.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
+#include "engine/mesh/make.h"
 
 #include <math.h>
+#include <string.h>
 #include <time.h>
 
 enum { MAX_LANES = 8 }; /* of a batch */
@@ -19,8 +21,17 @@ static double smallest_volume(const fracas_model *model)
     return volume;
 }
 
+/* What an interface stands for on average [m3]. */
+static double mean_volume(const fracas_model *model)
+{
+    double sum = 0;
+    for (size_t i = 0; i < fracas_model_interfaces(model); i++) sum += fracas_model_interface_volume(model, i);
+    return sum / (double)fracas_model_interfaces(model);
+}
+
 static fracas_err check_strongest(const fracas_model *model, const fracas_point *point)
 {
+    if (fracas_model_interfaces(model) == 0) return FRACAS_OK; /* a single triangle */
     const double drawn = (double)fracas_model_interfaces(model) * (double)point->replicas;
     const double volume = smallest_volume(model);
     const double u = fmin(1.0 - 0.01 / drawn, 1.0 - 0x1p-53);
@@ -63,9 +74,41 @@ static double ring_stress_bound(const fracas_spec *spec, double t)
     return stress + fmin(young * t * t / (2 * radius), 2 * radius * rho) * outward;
 }
 
+/* True if a plate stretches evenly until waves from its free edges arrive, which relieve it: it is not held where it should
+ * move, nor is an edge free to shrink beside one that is not (its corner concentrates stress). */
+static bool is_even(const fracas_spec *spec)
+{
+    const bool moving = spec->loading.type == &fracas_loading_expansion;
+    bool held = false, released = false;
+    if (spec->geometry.shape != &fracas_shape_plate || (moving && spec->loading.start != &fracas_start_moving)) return false;
+    for (int tag = 1; tag <= 4; tag++) {
+        const fracas_kind *edge = spec->geometry.edge[tag];
+        if (edge == &fracas_edge_fixed || (edge != &fracas_edge_free && !moving)) return false;
+        held = held || edge == &fracas_edge_held;
+        released = released || edge == &fracas_edge_free;
+    }
+    return !(held && released);
+}
+
+/* A stress that an uncracked plate stays below until t [Pa]: as it stretches by (1, ratio) a, a = rate t or w^2 t^2/2, the larger
+ * of both stresses along its sides, E a/(1 - nu) for ratio 1. A free edge takes the stress across it away, by a wave that brings
+ * as much of compression and no tension. In any direction, traction and shear/beta_c together are at most max(1, 1/beta_c) of
+ * that. Holes and notches, held corners and shocks concentrate stress: none is known for these. */
+static double surface_stress_bound(const fracas_spec *spec, double t)
+{
+    const fracas_loading *loading = &spec->loading;
+    const bool moving = loading->type == &fracas_loading_expansion;
+    const double nu = spec->material.poisson, ratio = moving ? loading->ratio : 1.0;
+    const double strain = moving ? fabs(loading->rate) * t : 0.5 * loading->speed * loading->speed * t * t;
+    if (!is_even(spec)) return INFINITY;
+    const double largest = fmax(fabs(1 + nu * ratio), fmax(fabs(nu + ratio), fmax(1.0, fabs(ratio)) * (1 - nu * nu)));
+    return spec->material.young * strain * largest / (1 - nu * nu) * fmax(1.0, 1.0 / spec->cohesive.coupling);
+}
+
 /* A stress that the uncracked body stays below until time.end [Pa]. */
 static double stress_bound(const fracas_spec *spec)
 {
+    if (fracas_spec_is_surface(spec)) return surface_stress_bound(spec, spec->time.end);
     if (spec->loading.type == &fracas_loading_imposed_rate)
         return spec->material.young * spec->loading.rate * spec->time.end;
     return ring_stress_bound(spec, spec->time.end);
@@ -108,18 +151,20 @@ static fracas_err describe(const fracas_campaign *campaign, size_t index, fracas
     TRY(fracas_point_model_create(campaign, index, &model));
     *forecast = (fracas_forecast){
         .elements = (int64_t)fracas_model_elements(model),
+        .interfaces = (int64_t)fracas_model_interfaces(model),
         .steps = fracas_model_steps(model),
         .time_step = fracas_model_time_step(model),
     };
     const fracas_spec *spec = &point->spec;
-    const double volume = fracas_spec_interface_volume(spec), mean = fracas_strength_mean(&point->strength, volume);
+    const double volume = mean_volume(model), mean = fracas_strength_mean(&point->strength, volume);
     const double softening = spec->material.young * fracas_spec_fracture_energy(spec, mean) / (mean * mean);
-    forecast->coarseness = fracas_spec_length(spec) / (double)forecast->elements / softening;
+    forecast->coarseness = fracas_model_element_size(model) / softening;
     forecast->uniform = fracas_strength_quantile(&point->strength, volume, 0.25) ==
                         fracas_strength_quantile(&point->strength, volume, 0.75);
+    forecast->lines = forecast->uniform && spec->mesh.spacing == &fracas_spacing_triangles && spec->mesh.amplitude == 0;
     forecast->mean = mean;
     forecast->bound = stress_bound(spec);
-    forecast->step_stress = spec->material.young * fracas_spec_strain_rate(spec) * forecast->time_step;
+    forecast->step_stress = spec->material.young * fabs(fracas_spec_strain_rate(spec)) * forecast->time_step;
     if (is_ring(spec)) {
         forecast->turn = M_PI_2 * spec->geometry.radius / sqrt(spec->material.young / spec->material.density);
         forecast->folds = is_folded(spec, forecast);
@@ -197,7 +242,7 @@ static fracas_err time_steps(const fracas_campaign *campaign, size_t index, doub
     const fracas_point *point = &campaign->point[index];
     fracas_spec spec = point->spec;
     fracas_model *model;
-    if (spec.mesh.elements > TIMED) { /* a shorter bar or smaller ring of the same elements */
+    if (!fracas_spec_is_surface(&spec) && spec.mesh.elements > TIMED) { /* a shorter bar or smaller ring of the same elements */
         spec.geometry.length *= TIMED / (double)spec.mesh.elements;
         spec.geometry.radius *= TIMED / (double)spec.mesh.elements;
         spec.mesh.elements = TIMED;
@@ -205,7 +250,7 @@ static fracas_err time_steps(const fracas_campaign *campaign, size_t index, doub
     spec.time.end = fmin(spec.time.end, end);
     spec.cohesive.refinement = 1.0; /* a step takes the same time however short it is, and so there are as many as asked for */
     TRY(fracas_point_model_like(campaign, index, &spec, &model));
-    const double strength = fracas_strength_mean(&point->strength, fracas_spec_interface_volume(&spec));
+    const double strength = fracas_strength_mean(&point->strength, mean_volume(model));
     fracas_err err = run_batch(model, strength, lanes_of(point), spent);
     fracas_model_destroy(model);
     return err;
@@ -217,8 +262,9 @@ static fracas_err time_steps(const fracas_campaign *campaign, size_t index, doub
 static fracas_err time_point(const fracas_campaign *campaign, size_t index, fracas_forecast *forecast)
 {
     const fracas_point *point = &campaign->point[index];
-    const double step = forecast->time_step;
-    const double steps = fmax(20.0, ceil(2e7 / ((double)forecast->elements * (double)lanes_of(point))));
+    const double step = forecast->time_step, all = (double)forecast->elements * (double)lanes_of(point);
+    const bool surface = fracas_spec_is_surface(&point->spec);
+    const double steps = surface ? fmax(3.0, ceil(1e6 / all)) : fmax(20.0, ceil(2e7 / all));
     effort sum = {0}, whole = {0};
     for (int i = 0; i < 50 && sum.seconds < 0.01; i++) {
         effort brief, full;
@@ -234,11 +280,22 @@ static fracas_err time_point(const fracas_campaign *campaign, size_t index, frac
     return FRACAS_OK;
 }
 
+/* True if an element of a step costs both the same: what counts for surfaces only is the same for all others. */
+static bool is_alike(const fracas_spec *a, const fracas_spec *b)
+{
+    if (a->formulation != b->formulation) return false;
+    if (!fracas_spec_is_surface(a)) return true;
+    return a->mesh.order == b->mesh.order && a->geometry.file == b->geometry.file && a->cohesive.law == b->cohesive.law &&
+           (a->cohesive.friction > 0) == (b->cohesive.friction > 0) && a->time.integrator == b->time.integrator &&
+           a->time.mass == b->time.mass;
+}
+
 /* The speed of an earlier point of the same lanes and of half to twice the elements; 0 if there is none. */
 static double speed_of_like(const fracas_campaign *campaign, const fracas_forecast *forecast, size_t point)
 {
     for (size_t p = point; p-- > 0;)
-        if (lanes_of(&campaign->point[p]) == lanes_of(&campaign->point[point]) &&
+        if (is_alike(&campaign->point[p].spec, &campaign->point[point].spec) &&
+            lanes_of(&campaign->point[p]) == lanes_of(&campaign->point[point]) &&
             forecast[p].elements <= 2 * forecast[point].elements &&
             forecast[point].elements <= 2 * forecast[p].elements)
             return forecast[p].speed;
@@ -253,7 +310,7 @@ static double realization_bytes(const fracas_output *output, const fracas_foreca
     const double fragments = fmax(1.0, (double)forecast->elements / FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
     const double scalars = offsetof(fracas_record, nfragment);
     const double history = ((double)output->history + 4.0) * sizeof(fracas_history_row); /* start and three events */
-    const double interfaces = output->interfaces ? (double)forecast->elements * sizeof(fracas_interface_row) : 0.0;
+    const double interfaces = output->interfaces ? (double)forecast->interfaces * sizeof(fracas_interface_row) : 0.0;
     return scalars + fragments * sizeof(fracas_fragment) + history + interfaces;
 }
 

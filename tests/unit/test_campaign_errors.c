@@ -94,7 +94,7 @@ static void test_keys(void **state)
          {"unknown key `fracture_enrgy` in cohesive", "did you mean `fracture_energy`?", "keys of cohesive: beta"}},
         {"  elements: 100", "  elements: 100\n  density: 5", 9, 3,
          {"unknown key `density` in mesh", "section material"}},
-        {"  elements: 100", "  12: 100", 8, 3, {"unknown key `12` in mesh", "keys of mesh: amplitude, elements, ratio, spacing"}},
+        {"  elements: 100", "  12: 100", 8, 3, {"unknown key `12` in mesh", "keys of mesh: amplitude, divisions, elements, order, ratio, size, spacing"}},
         {"  maximum: 301 MPa", "  maximum: 301 MPa\n  shape: 5", 19, 3,
          {"`shape` belongs to distribution weibull", "this is uniform", "line 16"}},
         {"  distribution: uniform\n", "", 17, 3,
