@@ -8,7 +8,7 @@
  *   paper's:   T_n = max(0, T_0n) f d_n, T_t = |T_0t| f beta_c d_t                                     (cohesive.22)
  *   closed, d_n < 0:  T_n = k_n d_n, broken or not; an interface that shears under pressure starts from d_n = T_0n/k_n
  * T = T_0 while nothing has opened. Energies: stored T.d/2, dissipated G_c D (of the paper's law on mixed paths less: its
- * residual shows it). Friction as that of `nitsche`, beside the law, on d_t. */
+ * residual shows it). Friction as that of `nitsche`, beside the law, on d_t; T_0 is then less what friction carries at onset. */
 #define plane_extrinsic LANES_NAME(fracas_plane_extrinsic)
 #define plane_extrinsic_state LANES_NAME(fracas_plane_extrinsic_state)
 
@@ -38,7 +38,11 @@ LANES_FUNCTION plane_result plane_extrinsic(const plane_interface *at, const pla
     state->q_n = lanes_select(r.cracks, in->q_n - plane_min(judged_n, zero) / at->k_n, state->q_n);
     state->q_t = lanes_select(r.cracks, in->q_t, state->q_t);
     state->t_n = lanes_select(r.cracks, plane_max(judged_n, zero), state->t_n);
-    state->t_t = lanes_select(r.cracks, judged_t, state->t_t);
+    /* an onset under pressure has friction at its limit; the law starts with the rest, beta_c p */
+    vd pressed = friction ? at->mu_c * plane_max(zero, zero - judged_n) : zero;
+    vd rubs = lanes_select(lanes_lt(judged_t, zero), zero - pressed, pressed);
+    state->t_t = lanes_select(r.cracks, judged_t - rubs, state->t_t);
+    if (friction) state->slip = lanes_select(r.cracks, zero - rubs / at->k_t, state->slip);
     vd p = lanes_select(r.cracked, state->peak, at->sigma_c);
 
     vd d_n = in->q_n - state->q_n, d_t = in->q_t - state->q_t;

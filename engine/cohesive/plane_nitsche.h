@@ -7,6 +7,7 @@
  *   a pressure T'_n < 0 is kept whole; once broken T_n = k_n min(0, q_n), T_t = 0
  *   s = q - delta = (T - m)/k (unbroken), 0 (broken)                                                    (cohesive.17)
  *   energies of the flux s (m + T)/2, stored T (q - s)/2, dissipated G_c D                              (cohesive.18)
+ * Where the peak is cut at sqrt(k_n G_c) the traction falls at the onset: what energy goes with it counts as created.
  * With mu_c > 0 faces that press on each other carry friction F beside: |F| <= mu_c |T_n|, T_t = T_cohesive + F, where the
  * opening delta_t moves only while |F| is at its limit                                                 (cohesive.19) */
 #define plane_nitsche LANES_NAME(fracas_plane_nitsche)
@@ -60,7 +61,8 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
     r.cracks = lanes_and(lanes_lt(at->sigma_c, r.onset_value), lanes_le(state->peak, zero));
     r.cracked = lanes_or(was_cracked, r.cracks);
     vd fresh = at->onset_mean ? plane_max(flux, at->sigma_c) : at->sigma_c; /* (cohesive.15) */
-    vd peak = lanes_select(r.cracks, plane_min(fresh, lanes_sqrt(at->k_n * at->energy)), state->peak);
+    vd most = lanes_sqrt(at->k_n * at->energy);
+    vd peak = lanes_select(r.cracks, plane_min(fresh, most), state->peak);
     vd p = lanes_select(r.cracked, peak, at->sigma_c);
 
     plane_friction rub = {.shear = trial_t, .rub = zero};
@@ -86,14 +88,25 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
     vd slip = in->q_t - r.s_t;
     r.flux = half * (r.s_n * (m_n + r.t_n) + r.s_t * (m_t + r.t_t));
     r.stored = half * (r.t_n * (in->q_n - r.s_n) + (r.t_t - rub.rub) * slip);
-    r.rubbed = friction ? half * (state->rub + rub.rub) * (slip - state->slip) : zero;
+    /* at its onset friction acts in full already */
+    r.rubbed = friction ? half * (lanes_select(r.cracks, rub.rub, state->rub) + rub.rub) * (slip - state->slip) : zero;
+    /* a peak that is cut: the traction falls at the onset, and with it the energy */
+    vd whole = half * (in->q_n * (m_n + trial_n) + in->q_t * (m_t + trial_t));
+    vd fallen = r.flux + r.stored + at->energy * damage + r.rubbed - whole;
+    r.created = lanes_select(lanes_and(r.cracks, lanes_lt(most, fresh)), fallen, zero);
 
     /* once it is */
     vmask broken = lanes_and(r.cracked, lanes_le(one, damage));
-    vd push = plane_min(in->q_n, zero), bent = r.t_t / at->k_t;
+    vd push = plane_min(in->q_n, zero);
+    if (friction) { /* the mean presses no more */
+        vd limit = at->mu_c * (zero - at->k_n * push);
+        r.t_t = lanes_select(broken, plane_max(zero - limit, plane_min(limit, r.t_t)), r.t_t);
+        rub.rub = lanes_select(broken, r.t_t, rub.rub);
+    }
+    vd bent = r.t_t / at->k_t;
     vd after = half * (at->k_n * push * push + r.t_t * bent);
     r.breaks = lanes_and(broken, lanes_lt(state->damage, one));
-    r.created = lanes_select(r.breaks, after - (r.flux + r.stored), zero); /* (cohesive.6) */
+    r.created += lanes_select(r.breaks, after - (r.flux + r.stored), zero); /* (cohesive.6) */
     r.t_n = lanes_select(broken, at->k_n * push, r.t_n);
     r.s_n = lanes_select(broken, zero, r.s_n);
     r.s_t = lanes_select(broken, zero, r.s_t);
