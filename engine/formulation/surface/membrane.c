@@ -150,12 +150,14 @@ static double *membrane_strength(const fracas_model *model, const fracas_step *s
     return value_at(&c, step, fracas_membrane_joints_at(&c) + MEMBRANE_STRENGTH, lane);
 }
 
-/* Velocity that node k of element e starts with: that of the expansion, everywhere or where it is held  (membrane.17) */
+/* Velocity that node k of element e starts with: that of the expansion, everywhere or where it is held, none where it is fixed
+ * (membrane.17) */
 static double start_velocity(const fracas_model *model, size_t e, size_t k, int i)
 {
     const fracas_loading *loading = &model->spec.loading;
     const fracas_membrane_tables *t = tables_of(model);
     const unsigned held = t->held ? t->held[e] >> (2 * k + (size_t)i) & 1u : 0u;
+    if (held && t->fixed[e] >> (2 * k + (size_t)i) & 1u) return 0;
     if (loading->type != &fracas_loading_expansion || (loading->start == &fracas_start_rest && !held)) return 0;
     const double *x = model->surface->node[model->surface->element[e * model->surface->corners + k]];
     return (i ? loading->ratio : 1.0) * loading->rate * x[i];
