@@ -82,9 +82,8 @@ extern const fracas_membrane_kernels fracas_membrane_kernels_baseline, fracas_me
 
 /* ---- what happens at an interface in a step, booked lane by lane: it is rare ---- */
 
-/* At each Gauss point: what is held against the strength, and against the limit of a break; NaN where nothing happens. */
 typedef struct {
-    double onset[FRACAS_EDGE_MOST], value[FRACAS_EDGE_MOST], limit[FRACAS_EDGE_MOST];
+    int cracks[FRACAS_EDGE_MOST], breaks[FRACAS_EDGE_MOST]; /* which Gauss points do so in this step */
     int opens, parts; /* the interface's first point cracks, its last one breaks */
 } fracas_membrane_event;
 

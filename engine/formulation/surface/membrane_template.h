@@ -204,22 +204,15 @@ LANES_FUNCTION plane_result membrane_law_of(const membrane_context *c, int law, 
 
 /* Books what happened at an interface, lane by lane. */
 __attribute__((noinline, cold, unused)) static void membrane_book(const membrane_context *c, int law, int points, size_t i,
-                                                                 const vmask *cracks, const vmask *breaks, const vd *onset,
-                                                                 const vd *value, const vd *limit, vmask whole, vmask parts, vmask opens)
+                                                                 const vmask *cracks, const vmask *breaks, vmask opens, vmask parts)
 {
     for (int l = 0; l < LANES; l++) {
-        fracas_membrane_event event = {.opens = lanes_get(whole, l) && lanes_get(opens, l), .parts = lanes_get(parts, l)};
-        if (!event.opens && !event.parts) continue;
+        fracas_membrane_event event = {.opens = lanes_get(opens, l), .parts = lanes_get(parts, l)};
         for (int g = 0; g < points; g++) {
-            double now[3][LANES];
-            memcpy(now[0], &onset[g], sizeof now[0]);
-            memcpy(now[1], &value[g], sizeof now[1]);
-            memcpy(now[2], &limit[g], sizeof now[2]);
-            event.onset[g] = lanes_get(cracks[g], l) ? now[0][l] : NAN;
-            event.value[g] = lanes_get(breaks[g], l) ? now[1][l] : NAN;
-            event.limit[g] = now[2][l];
+            event.cracks[g] = lanes_get(cracks[g], l);
+            event.breaks[g] = lanes_get(breaks[g], l);
         }
-        fracas_membrane_book(c->membrane, (membrane_law)law, c->step, c->first + l, i, &event);
+        if (event.opens || event.parts) fracas_membrane_book(c->membrane, (membrane_law)law, c->step, c->first + l, i, &event);
     }
 }
 
@@ -236,7 +229,7 @@ LANES_FUNCTION void membrane_crack(membrane_context *c, int order, int law, size
                                 .sigma_c = sigma_c, .beta_c = lanes_set(m->beta_c), .mu_c = lanes_set(m->mu_c),
                                 .energy = lanes_set(m->energy), .onset_mean = m->onset_mean};
     vmask cracks[3], breaks[3], whole = lanes_le(zero, zero), broken = whole, opens = lanes_lt(zero, zero), parts = opens;
-    vd onset[3], value[3], limit[3], created = zero, rubbed = zero;
+    vd created = zero, rubbed = zero;
     UNROLL for (int g = 0; g < points; g++) {
         double *point = membrane_at(joint, MEMBRANE_LAW + g * m->point_fields);
         const double *place = table + MEMBRANE_POINTS + g * MEMBRANE_POINT_TABLE;
@@ -261,16 +254,13 @@ LANES_FUNCTION void membrane_crack(membrane_context *c, int order, int law, size
         breaks[g] = r.breaks;
         opens = lanes_or(opens, r.cracks);
         parts = lanes_or(parts, r.breaks);
-        onset[g] = r.onset_value;
-        value[g] = r.break_value;
-        limit[g] = r.break_limit;
     }
     double *created_at = c->step->created + c->first, *rubbed_at = c->step->rubbed + c->first;
     lanes_store(created_at, lanes_load(created_at) + created);
     lanes_store(rubbed_at, lanes_load(rubbed_at) + rubbed);
-    parts = lanes_and(parts, broken); /* the last of its points */
-    if (__builtin_expect(lanes_any(lanes_or(lanes_and(opens, whole), parts)), 0))
-        membrane_book(c, law, points, i, cracks, breaks, onset, value, limit, whole, parts, opens);
+    opens = lanes_and(opens, whole);  /* the first of its points */
+    parts = lanes_and(parts, broken); /* the last */
+    if (__builtin_expect(lanes_any(lanes_or(opens, parts)), 0)) membrane_book(c, law, points, i, cracks, breaks, opens, parts);
 }
 
 /* Interface i: jump and mean stress at its Gauss points, traction, forces. */
