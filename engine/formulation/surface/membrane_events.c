@@ -127,7 +127,8 @@ void fracas_membrane_book(const fracas_membrane_constants *membrane, membrane_la
     const double sigma_c = now.joints[interface * fracas_membrane_joint_fields(membrane) * now.lanes];
     double first = INFINITY, last = -INFINITY;
     for (int g = 0; g < MEMBRANE_EDGE(membrane->tables->order); g++) {
-        const double delta_c = 2 * membrane->energy / point_at(&now, interface, g)[MEMBRANE_PEAK * now.lanes];
+        const double peak = point_at(&now, interface, g)[MEMBRANE_PEAK * now.lanes];
+        const double delta_c = membrane->opening > 0 ? membrane->opening : 2 * membrane->energy / peak;
         double onset[2], opening[2];
         compared(&before, law, interface, g, &onset[0], &opening[0]);
         compared(&now, law, interface, g, &onset[1], &opening[1]);

@@ -38,7 +38,8 @@ typedef struct {
     const fracas_membrane_tables *tables;
     double c11, c12, c33;         /* Pa: E/(1 - nu^2), nu c11, E/(2 (1 + nu)) */
     double normal, tangential;    /* 1: k_n and k_t by K of the interface  (membrane.6) */
-    double energy, beta_c, mu_c;  /* G_c [J/m2], 1, 1 */
+    double energy, opening;       /* G_c [J/m2], or delta_c [m]: the other is 0 */
+    double beta_c, mu_c;          /* 1 */
     int onset_mean, standard, friction;
     int fields, point_fields;     /* of an element, in units of 2 MEMBRANE_NODES; of a Gauss point */
     double speed, ramp;           /* rad/s, s: w = speed min(1, t/ramp) */

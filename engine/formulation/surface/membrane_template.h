@@ -39,8 +39,8 @@ typedef struct {
     vd drift, kick;                     /* s */
     vd spin;                            /* w(t_n)^2 [1/s2] */
     int begins;                         /* the first step of all */
-    /* sums over the body, for the ledger, twice the energies [J]; power [W], sum of m r.v [kg m2/s] */
-    vd strain_energy, flux, stored, dissipated, kinetic, power, moment;
+    /* sums over the body, for the ledger: twice the energies, dissipated [J]; power [W], sum of m r.v [kg m2/s] */
+    vd strain_energy, flux, stored, kinetic, dissipated, power, moment;
 } membrane_context;
 
 /* What an interface sees of its two elements: nodes a, b (and c, the middle) of the edge, bulk points a, b at its ends and o
@@ -226,8 +226,10 @@ LANES_FUNCTION void membrane_crack(membrane_context *c, int order, int law, size
     const double *table = c->tables->joint + i * (size_t)(MEMBRANE_POINTS + points * MEMBRANE_POINT_TABLE);
     const vd stiffness = lanes_set(table[MEMBRANE_STIFFNESS]);
     const plane_interface at = {.k_n = lanes_set(m->normal) * stiffness, .k_t = lanes_set(m->tangential) * stiffness,
-                                .sigma_c = sigma_c, .beta_c = lanes_set(m->beta_c), .mu_c = lanes_set(m->mu_c),
-                                .energy = lanes_set(m->energy), .onset_mean = m->onset_mean};
+                                .softness_n = lanes_set(table[MEMBRANE_COMPLIANCE] / m->normal),
+                                .softness_t = lanes_set(table[MEMBRANE_COMPLIANCE] / m->tangential), .sigma_c = sigma_c,
+                                .beta_c = lanes_set(m->beta_c), .per_beta_c = lanes_set(1.0 / m->beta_c), .mu_c = lanes_set(m->mu_c),
+                                .energy = lanes_set(m->energy), .opening = lanes_set(m->opening), .onset_mean = m->onset_mean};
     vmask cracks[3], breaks[3], whole = lanes_le(zero, zero), broken = whole, opens = lanes_lt(zero, zero), parts = opens;
     vd created = zero, rubbed = zero;
     UNROLL for (int g = 0; g < points; g++) {
@@ -242,7 +244,7 @@ LANES_FUNCTION void membrane_crack(membrane_context *c, int order, int law, size
         vd flux_energy = q[g][0] * (mean[g][0] + flux[g].traction[0]) + q[g][1] * (mean[g][1] + flux[g].traction[1]);
         c->flux += area * lanes_select(r.cracked, two * r.flux, flux_energy);
         c->stored += area * lanes_select(r.cracked, two * r.stored, zero);
-        c->dissipated += area * damage;
+        c->dissipated += area * r.dissipated;
         created += area * r.created;
         rubbed += area * lanes_select(r.cracked, r.rubbed, zero);
         flux[g].traction[0] = lanes_select(r.cracked, r.t_n * nx - r.t_t * ny, flux[g].traction[0]);
@@ -475,7 +477,7 @@ LANES_FUNCTION void membrane_totals(const membrane_context *c)
     lanes_store(step->kinetic + first, half * c->kinetic);
     lanes_store(step->elastic + first, half * (c->strain_energy + c->flux));
     lanes_store(step->cohesive + first, half * c->stored);
-    lanes_store(step->dissipated + first, lanes_set(m->energy) * c->dissipated + lanes_load(step->rubbed + first));
+    lanes_store(step->dissipated + first, c->dissipated + lanes_load(step->rubbed + first));
     /* Central difference: exactly what the body force does between two steps is its mean times dt v_{n-1/2}. */
     vd body = lanes_set(0.0), power = c->power;
     if (c->tables->position && m->alpha) power += c->spin * c->moment;
@@ -550,6 +552,7 @@ MEMBRANE_SWEEP_OF(operator_quadratic, 2, MEMBRANE_OPERATOR)
 #undef plane_min
 #undef plane_effective
 #undef plane_onset
+#undef plane_energy
 #undef plane_nitsche
 #undef plane_nitsche_state
 #undef plane_friction
