@@ -138,6 +138,31 @@ static void test_file(void **state)
     unlink(path);
 }
 
+/* What docs/formats/campaign-file.md shows of a mesh file, of a plate that Gmsh has meshed. */
+static void test_page_example(void **state)
+{
+    (void)state;
+    FILE *in = fopen(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md", "r");
+    assert_non_null(in);
+    char *page = calloc(1, 1 << 16);
+    assert_non_null(page);
+    assert_true(fread(page, 1, (1 << 16) - 1, in) > 0);
+    fclose(in);
+    char *begin = strstr(page, "geometry: {shape: file, file: plate.msh"), *end = begin ? strstr(begin, "```") : NULL;
+    assert_non_null(end);
+    *end = '\0';
+    char *shown = replace(begin, "plate.msh", FRACAS_SOURCE_DIR "/tests/data/gmsh/plate-order2-msh41-text.msh");
+    char *text = replace(membrane_campaign, "geometry: {width: 10 mm, height: 5 mm, thickness: 0.1 mm}\nmesh:\n  divisions: 4\n", shown);
+    fracas_campaign *campaign = read_text(text);
+    fracas_model *model = model_of(campaign, 0);
+    assert_int_equal(fracas_model_surface(model)->order, 2);
+    fracas_model_destroy(model);
+    fracas_campaign_destroy(campaign);
+    free(shown);
+    free(text);
+    free(page);
+}
+
 /* A file that is no mesh is found out when it is used: by a plan, or where strengths depend on the volume of an interface. */
 static void test_no_mesh(void **state)
 {
@@ -502,7 +527,7 @@ static void test_bounds_of_others(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plate),     cmocka_unit_test(test_annulus),   cmocka_unit_test(test_file),
+        cmocka_unit_test(test_plate),     cmocka_unit_test(test_annulus),   cmocka_unit_test(test_file),  cmocka_unit_test(test_page_example),
         cmocka_unit_test(test_no_mesh),   cmocka_unit_test(test_mean_strength), cmocka_unit_test(test_swept_model),
         cmocka_unit_test(test_inherited), cmocka_unit_test(test_refused),   cmocka_unit_test(test_perturbed),
         cmocka_unit_test(test_plan),      cmocka_unit_test(test_bytes),     cmocka_unit_test(test_bound),
