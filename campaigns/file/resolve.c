@@ -118,11 +118,12 @@ static fracas_err refuse_swept(const fracas_file *file, const fracas_draft *draf
                   : fracas_setting_misplaced(file, setting, kind, chosen);
 }
 
-/* True if a value of the base holds at points of this model even if their kind is not the base's. */
+/* True if a value of the base holds at points of this model, which have the key, even if their kind is not the base's. */
 static bool is_inherited(const fracas_file *file, const fracas_draft *draft, const fracas_section *table,
                          const fracas_kind *model, const char *key)
 {
     const fracas_setting *before = selected(file, draft, BASE, file->catalog->section);
+    if (fracas_section_param(table, NULL, NULL, key)) return true; /* of the section itself */
     return fracas_section_common(table, model, key) && (!before || fracas_section_common(table, before->kind, key));
 }
 

@@ -74,12 +74,44 @@ static void interfaces_share_the_body_on_any_mesh(void **unused)
     }
 }
 
+/* Squares cut in two: every interface has a third of a square. */
+static void plates_by_closed_form(void **unused)
+{
+    (void)unused;
+    fracas_spec spec = {.geometry = {.shape = &fracas_shape_plate, .width = 3e-3, .height = 2e-3, .thickness = 1e-4},
+                        .mesh = {.spacing = &fracas_spacing_triangles, .divisions = 8}};
+    for (spec.mesh.order = 1; spec.mesh.order <= 2; spec.mesh.order++) /* 8 x 12 squares, each area and their sum of 800 rounded */
+        assert_true(fabs(mean_of(&spec) / (6e-10 / (3 * 96)) - 1) < 800 * 0x1p-53);
+}
+
+/* Each element's area counts a third for each of its edges that is an interface: all of them is the body but for a third of each
+ * element at a boundary edge. */
+static void surfaces_lack_what_is_at_edges(void **unused)
+{
+    (void)unused;
+    fracas_spec spec = {.geometry = {.shape = &fracas_shape_annulus, .inner = 1e-3, .outer = 3e-3, .thickness = 1e-4},
+                        .mesh = {.spacing = &fracas_spacing_triangles, .divisions = 6}};
+    for (spec.mesh.order = 1; spec.mesh.order <= 2; spec.mesh.order++) {
+        const fracas_surface *s;
+        fracas_surface_measures all;
+        assert_ok(fracas_mesh_make(&spec, &s));
+        fracas_surface_measure(s, &all);
+        double area = all.area;
+        for (size_t b = 0; b < s->nborders; b++) area -= fracas_surface_area(s, s->border[b].element) / 3;
+        /* sums of some 1000 positive terms, each rounded */
+        assert_true(fabs(mean_of(&spec) * (double)s->ninterfaces / (1e-4 * area) - 1) < 4000 * 0x1p-53);
+        fracas_surface_destroy(s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mean_volume_of_each_shape),
         cmocka_unit_test(interfaces_share_the_body),
         cmocka_unit_test(interfaces_share_the_body_on_any_mesh),
+        cmocka_unit_test(plates_by_closed_form),
+        cmocka_unit_test(surfaces_lack_what_is_at_edges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
