@@ -31,23 +31,24 @@ LANES_FUNCTION plane_result plane_extrinsic(const plane_interface *at, const pla
         judged_t = in->m_t + at->k_t * in->q_t;
     }
     plane_result r;
-    r.onset_value = plane_onset(judged_n, judged_t, at->beta_c, at->mu_c);
-    r.cracks = lanes_and(lanes_lt(at->sigma_c, r.onset_value), lanes_le(state->peak, zero));
+    vd judged = plane_onset(at, judged_n, judged_t);
+    r.cracks = lanes_and(lanes_lt(at->sigma_c * at->sigma_c, judged), lanes_le(state->peak, zero));
     r.cracked = lanes_or(was_cracked, r.cracks);
-    state->peak = lanes_select(r.cracks, r.onset_value, state->peak);
-    state->q_n = lanes_select(r.cracks, in->q_n - plane_min(judged_n, zero) / at->k_n, state->q_n);
+    state->peak = lanes_select(r.cracks, lanes_sqrt(judged), state->peak);
+    state->q_n = lanes_select(r.cracks, in->q_n - plane_min(judged_n, zero) * at->softness_n, state->q_n);
     state->q_t = lanes_select(r.cracks, in->q_t, state->q_t);
     state->t_n = lanes_select(r.cracks, plane_max(judged_n, zero), state->t_n);
     /* an onset under pressure has friction at its limit; the law starts with the rest, beta_c p */
     vd pressed = friction ? at->mu_c * plane_max(zero, zero - judged_n) : zero;
     vd rubs = lanes_select(lanes_lt(judged_t, zero), zero - pressed, pressed);
     state->t_t = lanes_select(r.cracks, judged_t - rubs, state->t_t);
-    if (friction) state->slip = lanes_select(r.cracks, zero - rubs / at->k_t, state->slip);
+    if (friction) state->slip = lanes_select(r.cracks, zero - rubs * at->softness_t, state->slip);
     vd p = lanes_select(r.cracked, state->peak, at->sigma_c);
 
     vd d_n = in->q_n - state->q_n, d_t = in->q_t - state->q_t;
     vd pull = plane_max(d_n, zero), shear = at->beta_c * d_t, push = plane_min(d_n, zero);
-    vd opening = lanes_sqrt(pull * pull + shear * shear), delta_c = (at->energy + at->energy) / p;
+    vd opening = lanes_sqrt(pull * pull + shear * shear), energy = plane_energy(at, p);
+    vd delta_c = (energy + energy) / p;
     vd reached = state->damage * delta_c;
     vmask loading = lanes_lt(reached, opening), opened = lanes_or(loading, lanes_lt(zero, reached));
     vd damage = lanes_select(loading, plane_min(opening / delta_c, one), state->damage);
@@ -62,21 +63,20 @@ LANES_FUNCTION plane_result plane_extrinsic(const plane_interface *at, const pla
     if (friction) {
         vd limit = at->mu_c * (zero - at->k_n * push);
         rub = plane_max(zero - limit, plane_min(limit, at->k_t * (d_t - state->slip)));
-        vd slip = d_t - rub / at->k_t;
+        vd slip = d_t - rub * at->softness_t;
         r.rubbed = lanes_select(was_cracked, half * (state->rub + rub) * (slip - state->slip), zero);
         state->slip = lanes_select(r.cracked, slip, zero);
         state->rub = lanes_select(r.cracked, rub, zero);
     }
     r.t_t = law_t + rub;
     r.s_n = r.s_t = r.flux = zero;
-    r.stored = half * (r.t_n * d_n + law_t * d_t + rub * rub / at->k_t);
+    r.stored = half * (r.t_n * d_n + law_t * d_t + rub * rub * at->softness_t);
     vmask broken = lanes_and(r.cracked, lanes_le(one, damage));
     r.breaks = lanes_and(broken, lanes_lt(state->damage, one));
     /* the flux is left with the energy it had */
     vd left = in->q_n * (in->m_n + half * at->k_n * in->q_n) + in->q_t * (in->m_t + half * at->k_t * in->q_t);
     r.created = lanes_select(r.cracks, r.stored - left, zero);
-    r.break_value = opening;
-    r.break_limit = delta_c;
     state->damage = lanes_select(r.cracked, damage, state->damage);
+    r.dissipated = energy * state->damage;
     return r;
 }

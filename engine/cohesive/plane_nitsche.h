@@ -33,7 +33,7 @@ typedef struct {
 LANES_FUNCTION plane_friction plane_rub(const plane_interface *at, vd trial_n, vd trial_t, const plane_nitsche_state *state)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0);
-    vd span = state->damage * (at->energy + at->energy); /* D delta_c p */
+    vd energy = plane_energy(at, state->peak), span = state->damage * (energy + energy); /* D delta_c p */
     vmask softened = lanes_lt(zero, span);
     vd held = trial_t - at->k_t * state->slip;
     vd secant = at->beta_c * at->beta_c * state->peak * state->peak * (one - state->damage) / lanes_select(softened, span, one);
@@ -54,19 +54,21 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
     const vd trial_n = m_n + at->k_n * in->q_n, trial_t = m_t + at->k_t * in->q_t; /* (cohesive.14) */
 
     plane_result r;
-    vd flux = plane_onset(trial_n, trial_t, at->beta_c, at->mu_c);
-    r.onset_value = at->onset_mean ? plane_onset(in->m_n, in->m_t, at->beta_c, at->mu_c) : flux;
-    r.cracks = lanes_and(lanes_lt(at->sigma_c, r.onset_value), lanes_le(state->peak, zero));
+    vd judged = at->onset_mean ? plane_onset(at, in->m_n, in->m_t) : plane_onset(at, trial_n, trial_t);
+    r.cracks = lanes_and(lanes_lt(at->sigma_c * at->sigma_c, judged), lanes_le(state->peak, zero));
     r.cracked = lanes_or(was_cracked, r.cracks);
-    vd fresh = at->onset_mean ? plane_max(flux, at->sigma_c) : at->sigma_c; /* (cohesive.15) */
-    vd most = lanes_sqrt(at->k_n * at->energy);
-    vd peak = lanes_select(r.cracks, plane_min(fresh, most), state->peak);
-    vd p = lanes_select(r.cracked, peak, at->sigma_c);
+    vd peak = state->peak, fresh = at->sigma_c, most = at->sigma_c;
+    if (lanes_any(r.cracks)) { /* (cohesive.15) */
+        if (at->onset_mean) fresh = plane_max(lanes_sqrt(plane_onset(at, trial_n, trial_t)), fresh);
+        most = lanes_sqrt(at->k_n * at->energy) + half * (at->k_n * at->opening);
+        peak = lanes_select(r.cracks, plane_min(fresh, most), peak);
+    }
+    vd p = lanes_select(r.cracked, peak, at->sigma_c), energy = plane_energy(at, p);
 
     plane_friction rub = {.shear = trial_t, .rub = zero};
     if (friction) rub = plane_rub(at, trial_n, trial_t, state);
-    vd effective = plane_effective(trial_n, rub.shear, at->beta_c);
-    vd x = (at->energy + at->energy) * at->k_n / p - p;
+    vd effective = lanes_sqrt(plane_effective(at, trial_n, rub.shear));
+    vd x = (energy + energy) * at->k_n / p - p;
     vd excess = effective - p, reached = state->damage * x;
     vmask loading = lanes_lt(reached, excess);
     vd ratio = lanes_select(loading, excess, p * (one - state->damage)) / lanes_select(loading, x, p + reached);
@@ -81,8 +83,8 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
     }
 
     /* (cohesive.17), (cohesive.18), as long as it is not broken */
-    r.s_n = (r.t_n - m_n) / at->k_n;
-    r.s_t = (r.t_t - m_t) / at->k_t;
+    r.s_n = (r.t_n - m_n) * at->softness_n;
+    r.s_t = (r.t_t - m_t) * at->softness_t;
     vd slip = in->q_t - r.s_t;
     r.flux = half * (r.s_n * (m_n + r.t_n) + r.s_t * (m_t + r.t_t));
     r.stored = half * (r.t_n * (in->q_n - r.s_n) + (r.t_t - rub.rub) * slip);
@@ -90,7 +92,7 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
     r.rubbed = friction ? half * (lanes_select(r.cracks, rub.rub, state->rub) + rub.rub) * (slip - state->slip) : zero;
     /* a peak that is cut: the traction falls at the onset, and with it the energy */
     vd whole = half * (in->q_n * (m_n + trial_n) + in->q_t * (m_t + trial_t));
-    vd fallen = r.flux + r.stored + at->energy * damage + r.rubbed - whole;
+    vd fallen = r.flux + r.stored + energy * damage + r.rubbed - whole;
     r.created = lanes_select(lanes_and(r.cracks, lanes_lt(most, fresh)), fallen, zero);
 
     /* once it is */
@@ -101,7 +103,7 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
         r.t_t = lanes_select(broken, plane_max(zero - limit, plane_min(limit, r.t_t)), r.t_t);
         rub.rub = lanes_select(broken, r.t_t, rub.rub);
     }
-    vd bent = r.t_t / at->k_t;
+    vd bent = r.t_t * at->softness_t;
     vd after = half * (at->k_n * push * push + r.t_t * bent);
     r.breaks = lanes_and(broken, lanes_lt(state->damage, one));
     r.created += lanes_select(r.breaks, after - (r.flux + r.stored), zero); /* (cohesive.6) */
@@ -110,10 +112,9 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
     r.s_t = lanes_select(broken, zero, r.s_t);
     r.flux = lanes_select(broken, zero, r.flux);
     r.stored = lanes_select(broken, after, r.stored);
-    r.break_value = effective;
-    r.break_limit = p + x;
 
     state->damage = lanes_select(r.cracked, damage, state->damage);
+    r.dissipated = energy * state->damage;
     state->peak = peak;
     if (friction) {
         state->slip = lanes_select(r.cracked, lanes_select(broken, in->q_t - bent, slip), zero);
