@@ -128,7 +128,7 @@ static void the_ledger_closes_with_a_critical_opening(void **unused)
     (void)unused;
     path *const paths[] = {straight, straight_with_mean, with_unloading, pressed_and_sheared};
     for (int i = 0; i < 3 * 2 * 2 * 2 * 4; i++) {
-        plane_case kind = plane_kind((plane_law)(i % 3), 0.8, i / 3 % 2 ? 1.5 : 8, i / 6 % 2 ? 0.3 : 0, i / 12 % 2);
+        plane_case kind = plane_kind((plane_law)(i % 3), 0.8, i / 3 % 2 ? 1 : 8, i / 6 % 2 ? 0.3 : 0, i / 12 % 2);
         kind.energy = 0;
         kind.opening = MICRON;
         plane_walk w = plane_begin(kind);
