@@ -30,8 +30,7 @@ typedef struct {
 } plane_friction;
 
 /* (cohesive.19) */
-LANES_FUNCTION plane_friction plane_rub(const plane_interface *at, vd trial_n, vd trial_t, vmask was_broken,
-                                        const plane_nitsche_state *state)
+LANES_FUNCTION plane_friction plane_rub(const plane_interface *at, vd trial_n, vd trial_t, const plane_nitsche_state *state)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0);
     vd energy = plane_energy(at, state->peak), span = state->damage * (energy + energy); /* D delta_c p */
@@ -40,7 +39,6 @@ LANES_FUNCTION plane_friction plane_rub(const plane_interface *at, vd trial_n, v
     vd secant = at->beta_c * at->beta_c * state->peak * state->peak * (one - state->damage) / lanes_select(softened, span, one);
     vd reach = at->beta_c * state->peak; /* a rigid law carries up to this */
     vd carried = lanes_select(softened, secant * state->slip, plane_max(zero - reach, plane_min(reach, held)));
-    carried = lanes_select(was_broken, zero, carried);
     vd limit = at->mu_c * plane_max(zero, zero - trial_n), rest = held - carried;
     vmask sticks = lanes_and(lanes_lt(trial_n, zero), lanes_and(lanes_lt(zero, state->peak), lanes_le(plane_abs(rest), limit)));
     vd rub = lanes_select(lanes_lt(rest, zero), zero - limit, limit);
@@ -68,7 +66,7 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
     vd p = lanes_select(r.cracked, peak, at->sigma_c), energy = plane_energy(at, p);
 
     plane_friction rub = {.shear = trial_t, .rub = zero};
-    if (friction) rub = plane_rub(at, trial_n, trial_t, was_broken, state);
+    if (friction) rub = plane_rub(at, trial_n, trial_t, state);
     vd effective = lanes_sqrt(plane_effective(at, trial_n, rub.shear));
     vd x = (energy + energy) * at->k_n / p - p;
     vd excess = effective - p, reached = state->damage * x;

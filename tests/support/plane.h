@@ -17,7 +17,8 @@ typedef enum { PLANE_NITSCHE, PLANE_STANDARD, PLANE_PAPER } plane_law;
 
 typedef struct {
     plane_law law;
-    double k_n, k_t, sigma_c, beta_c, mu_c, energy;
+    double k_n, k_t, sigma_c, beta_c, mu_c;
+    double energy, opening; /* G_c, or delta_c: the other is 0 */
     int onset_mean;
 } plane_case;
 
@@ -30,7 +31,7 @@ typedef struct {
 } plane_memory;
 
 typedef struct {
-    double t_n, t_t, s_n, s_t, flux, stored, created, rubbed, onset_value, break_value, break_limit;
+    double t_n, t_t, s_n, s_t, flux, stored, created, rubbed, dissipated;
     int cracked, cracks, breaks;
 } plane_out;
 
@@ -64,7 +65,10 @@ static inline plane_case plane_kind(plane_law law, double beta_c, double ratio, 
                         .energy = 50, .onset_mean = onset_mean};
 }
 
-static inline double plane_energy(const plane_walk *w) { return w->out.flux + w->out.stored; }
+static inline double plane_held(const plane_walk *w) { return w->out.flux + w->out.stored; }
+
+/* G_c of the peak it has. */
+static inline double plane_fracture(const plane_walk *w) { return w->kind.energy + 0.5 * w->kind.opening * w->memory.peak; }
 
 /* What the paper's law dissipates of G_c dD: T.d = p (1 - D) d_e (c u^2 + s v^2), where (u, v) is the direction of the opening
  * and (c, s) that of the traction at onset, so that with the secant's energy T.d/2 the dissipation is (c u^2 + s v^2) G_c dD. */
@@ -99,18 +103,18 @@ static inline void plane_step(plane_walk *w, plane_at to)
     w->work += 0.5 * ((old.s_n + now->s_n) * dm_n + (old.s_t + now->s_t) * dm_t);
     const double share = plane_share(w), grown = w->memory.damage - was.damage;
     const double mean_share = was.damage > 0 ? 0.5 * (share + w->share) : share;
-    w->dissipated += w->kind.energy * grown * mean_share;
+    w->dissipated += plane_fracture(w) * grown * mean_share;
     w->created += now->created;
     w->rubbed += now->rubbed;
     /* second differences, each with the longer of its two steps */
     const double t[2] = {now->t_n - old.t_n, now->t_t - old.t_t}, s[2] = {now->s_n - old.s_n, now->s_t - old.s_t};
-    const double rub = w->memory.rub - was.rub, path = hypot(dq_n, dq_t);
+    const double rub = now->cracks ? 0 : w->memory.rub - was.rub, path = hypot(dq_n, dq_t);
     const double slip = now->cracks ? 0 : fabs(w->memory.slip - was.slip); /* an onset sets it */
     const double longer = fmax(path, w->step_before);
     w->slack += 0.5 * longer * hypot(t[0] - w->t_before[0], t[1] - w->t_before[1]);
     w->slack += 0.5 * hypot(dm_n, dm_t) * hypot(s[0] - w->s_before[0], s[1] - w->s_before[1]);
     w->slack += 0.5 * (longer + slip) * fabs(rub - w->rub_before);
-    w->slack += was.damage > 0 ? 0.5 * w->kind.energy * fabs(grown * (share - w->share)) : 0;
+    w->slack += was.damage > 0 ? 0.5 * plane_fracture(w) * fabs(grown * (share - w->share)) : 0;
     w->step_before = path;
     w->rub_before = rub;
     memcpy(w->t_before, t, sizeof t);
@@ -124,7 +128,9 @@ static inline void plane_step(plane_walk *w, plane_at to)
     if (w->steps > 1) w->excess = fmax(w->excess, fabs(w->residual) / allowed);
     w->residual = w->work - (now->flux + now->stored + w->dissipated + w->rubbed - w->created);
     w->judged++;
-    if (!isfinite(w->residual) || !isfinite(now->t_n) || !isfinite(now->t_t) || grown < 0) w->excess = INFINITY;
+    if (!isfinite(w->residual) || !isfinite(now->t_n) || !isfinite(now->t_t) || grown < 0 ||
+        !(fabs(now->dissipated - plane_fracture(w) * w->memory.damage) <= 1e-14 * plane_fracture(w)))
+        w->excess = INFINITY;
 }
 
 /* Straight on, in `steps` steps. */

