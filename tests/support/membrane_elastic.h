@@ -41,6 +41,15 @@ static inline fracas_spec membrane_spec(const fracas_kind *shape, int64_t order,
     return spec;
 }
 
+#define DISTORTION 0.2
+
+/* Plates, annuli of both orders. */
+enum { BODIES = 4 };
+static inline fracas_spec body_of(int which, int64_t divisions)
+{
+    return membrane_spec(which < 2 ? &fracas_shape_plate : &fracas_shape_annulus, which % 2 + 1, divisions);
+}
+
 /* Its model; `distortion` moves inner vertices by that share of the local edge, by random numbers of this seed. */
 static inline fracas_model *membrane_model(fracas_spec spec, double distortion, uint64_t seed)
 {
@@ -99,7 +108,7 @@ static inline fracas_membrane_operator *open_operator(const fracas_model *model)
     return op;
 }
 
-/* result = M a, `inverse`: the other way round, for lumped masses. */
+/* result = M a */
 static inline void multiply_mass(const fracas_model *model, const double *a, double *result)
 {
     const fracas_membrane_tables *t = tables_of(model);
