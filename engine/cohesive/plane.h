@@ -4,9 +4,9 @@
  * Common: strength sigma_c, peak p (the effective traction at onset, 0 before), delta_c = 2 G_c/p, or delta_c the same
  * everywhere and G_c = p delta_c/2; D = delta_max/delta_c,
  * beta_c = shear strength/normal strength, stiffnesses k_n and k_t = beta_c^2 k_n of the flux, mean tractions m, jumps q.
- * Effective traction  S = sqrt(max(0, T_n)^2 + (T_t/beta_c)^2)                                       (cohesive.12)
+ * Effective traction  S = sqrt(max(0, T_n)^2 + (T_t/beta_c)^2)                                       (cohesive.10)
  * Onset               S > sigma_c for T_n >= 0, max(0, |T_t| - mu_c |T_n|)/beta_c > sigma_c for T_n < 0, of the flux
- *                     T = m + k q, or of the mean T = m                                             (cohesive.13) */
+ *                     T = m + k q, or of the mean T = m                                             (cohesive.11) */
 #define plane_interface LANES_NAME(fracas_plane_interface)
 #define plane_input LANES_NAME(fracas_plane_input)
 #define plane_result LANES_NAME(fracas_plane_result)
@@ -47,14 +47,14 @@ LANES_FUNCTION vd plane_max(vd a, vd b) { return lanes_select(lanes_lt(a, b), b,
 LANES_FUNCTION vd plane_min(vd a, vd b) { return lanes_select(lanes_lt(b, a), b, a); }
 LANES_FUNCTION vd plane_abs(vd a) { return plane_max(a, lanes_set(0.0) - a); }
 
-/* S^2  (cohesive.12) */
+/* S^2  (cohesive.10) */
 LANES_FUNCTION vd plane_effective(const plane_interface *at, vd t_n, vd t_t)
 {
     vd pull = plane_max(t_n, lanes_set(0.0)), shear = t_t * at->per_beta_c;
     return pull * pull + shear * shear;
 }
 
-/* The square of what is held against sigma_c  (cohesive.13) */
+/* The square of what is held against sigma_c  (cohesive.11) */
 LANES_FUNCTION vd plane_onset(const plane_interface *at, vd t_n, vd t_t)
 {
     const vd zero = lanes_set(0.0);

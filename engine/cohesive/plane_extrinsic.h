@@ -3,9 +3,9 @@
  *
  * At onset T_0 is the traction that was held against the strength, p its effective value, q_0 the jump; then with the opening
  * d = q - q_0, d_e = sqrt(max(0, d_n)^2 + (beta_c d_t)^2), delta_c = 2 G_c/p, D the largest d_e/delta_c so far, at most 1
- *   f = (1 - D)/d_e loading, (1 - D)/(D delta_c) on the secant                                          (cohesive.20)
- *   standard:  T_n = p f d_n,            T_t = p f beta_c^2 d_t                                        (cohesive.21)
- *   paper's:   T_n = max(0, T_0n) f d_n, T_t = |T_0t| f beta_c d_t                                     (cohesive.22)
+ *   f = (1 - D)/d_e loading, (1 - D)/(D delta_c) on the secant                                          (cohesive.18)
+ *   standard:  T_n = p f d_n,            T_t = p f beta_c^2 d_t                                        (cohesive.19)
+ *   paper's:   T_n = max(0, T_0n) f d_n, T_t = |T_0t| f beta_c d_t                                     (cohesive.20)
  *   closed, d_n < 0:  T_n = k_n d_n, broken or not; an interface that shears under pressure starts from d_n = T_0n/k_n
  * T = T_0 while nothing has opened. Energies: stored T.d/2, dissipated G_c D (of the paper's law on mixed paths less: its
  * residual shows it). Friction as that of `nitsche`, beside the law, on d_t; T_0 is then less what friction carries at onset. */
@@ -52,7 +52,7 @@ LANES_FUNCTION plane_result plane_extrinsic(const plane_interface *at, const pla
     vd reached = state->damage * delta_c;
     vmask loading = lanes_lt(reached, opening), opened = lanes_or(loading, lanes_lt(zero, reached));
     vd damage = lanes_select(loading, plane_min(opening / delta_c, one), state->damage);
-    vd factor = (one - damage) / lanes_select(loading, opening, lanes_select(opened, reached, one)); /* (cohesive.20) */
+    vd factor = (one - damage) / lanes_select(loading, opening, lanes_select(opened, reached, one)); /* (cohesive.18) */
     vd amplitude_n = standard ? p : state->t_n;
     vd amplitude_t = at->beta_c * (standard ? p * at->beta_c : plane_abs(state->t_t));
     vd open_n = lanes_select(opened, amplitude_n * factor * pull, state->t_n);

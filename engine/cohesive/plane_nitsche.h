@@ -1,15 +1,15 @@
 /* Law `nitsche` for opening and sliding: the crack's opening in series with the flux. Include after cohesive/plane.h.
  *
- *   trial T' = m + k q (unbroken), k q (broken); S' its effective traction                            (cohesive.14)
- *   at onset p = sigma_c (onset by the flux), max(S', sigma_c) (by the mean), p <= sqrt(k_n G_c)        (cohesive.15)
- *   loading, S' - p > D x, x = k_n delta_c - p:  D = min(1, (S' - p)/x), T = T' p (1 - D)/S'            (cohesive.16)
+ *   trial T' = m + k q (unbroken), k q (broken); S' its effective traction                            (cohesive.12)
+ *   at onset p = sigma_c (onset by the flux), max(S', sigma_c) (by the mean), p <= sqrt(k_n G_c)        (cohesive.13)
+ *   loading, S' - p > D x, x = k_n delta_c - p:  D = min(1, (S' - p)/x), T = T' p (1 - D)/S'            (cohesive.14)
  *   else on the secant                           T = T' p (1 - D)/(p + D x)
  *   a pressure T'_n < 0 is kept whole; once broken T_n = k_n min(0, q_n), T_t = 0
- *   s = q - delta = (T - m)/k (unbroken), 0 (broken)                                                    (cohesive.17)
- *   energies of the flux s (m + T)/2, stored T (q - s)/2, dissipated G_c D                              (cohesive.18)
+ *   s = q - delta = (T - m)/k (unbroken), 0 (broken)                                                    (cohesive.15)
+ *   energies of the flux s (m + T)/2, stored T (q - s)/2, dissipated G_c D                              (cohesive.16)
  * Where the peak is cut at sqrt(k_n G_c) the traction falls at the onset: what energy goes with it counts as created.
  * With mu_c > 0 faces that press on each other carry friction F beside: |F| <= mu_c |T_n|, T_t = T_cohesive + F, where the
- * opening delta_t moves only while |F| is at its limit                                                 (cohesive.19) */
+ * opening delta_t moves only while |F| is at its limit                                                 (cohesive.17) */
 #define plane_nitsche LANES_NAME(fracas_plane_nitsche)
 #define plane_nitsche_state LANES_NAME(fracas_plane_nitsche_state)
 #define plane_friction LANES_NAME(fracas_plane_friction)
@@ -29,7 +29,7 @@ typedef struct {
     vd carried;   /* ... of which the law carries this [Pa] */
 } plane_friction;
 
-/* (cohesive.19) */
+/* (cohesive.17) */
 LANES_FUNCTION plane_friction plane_rub(const plane_interface *at, vd trial_n, vd trial_t, const plane_nitsche_state *state)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0);
@@ -51,14 +51,14 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5);
     const vmask was_broken = lanes_le(one, state->damage), was_cracked = lanes_lt(zero, state->peak);
     const vd m_n = lanes_select(was_broken, zero, in->m_n), m_t = lanes_select(was_broken, zero, in->m_t);
-    const vd trial_n = m_n + at->k_n * in->q_n, trial_t = m_t + at->k_t * in->q_t; /* (cohesive.14) */
+    const vd trial_n = m_n + at->k_n * in->q_n, trial_t = m_t + at->k_t * in->q_t; /* (cohesive.12) */
 
     plane_result r;
     vd judged = at->onset_mean ? plane_onset(at, in->m_n, in->m_t) : plane_onset(at, trial_n, trial_t);
     r.cracks = lanes_and(lanes_lt(at->sigma_c * at->sigma_c, judged), lanes_le(state->peak, zero));
     r.cracked = lanes_or(was_cracked, r.cracks);
     vd peak = state->peak, fresh = at->sigma_c, most = at->sigma_c;
-    if (lanes_any(r.cracks)) { /* (cohesive.15) */
+    if (lanes_any(r.cracks)) { /* (cohesive.13) */
         if (at->onset_mean) fresh = plane_max(lanes_sqrt(plane_onset(at, trial_n, trial_t)), fresh);
         most = lanes_sqrt(at->k_n * at->energy) + half * (at->k_n * at->opening);
         peak = lanes_select(r.cracks, plane_min(fresh, most), peak);
@@ -74,7 +74,7 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
     vd ratio = lanes_select(loading, excess, p * (one - state->damage)) / lanes_select(loading, x, p + reached);
     vd damage = lanes_select(loading, plane_min(ratio, one), state->damage);
     if (friction) damage = lanes_select(rub.sticks, state->damage, damage);
-    vd factor = lanes_select(loading, p * (one - damage) / effective, ratio); /* (cohesive.16) */
+    vd factor = lanes_select(loading, p * (one - damage) / effective, ratio); /* (cohesive.14) */
     r.t_n = lanes_select(lanes_lt(zero, trial_n), trial_n * factor, trial_n);
     r.t_t = rub.shear * factor + rub.rub;
     if (friction) {
@@ -82,7 +82,7 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
         rub.rub = lanes_select(rub.sticks, rub.held - rub.carried, rub.rub);
     }
 
-    /* (cohesive.17), (cohesive.18), as long as it is not broken */
+    /* (cohesive.15), (cohesive.16), as long as it is not broken */
     r.s_n = (r.t_n - m_n) * at->softness_n;
     r.s_t = (r.t_t - m_t) * at->softness_t;
     vd slip = in->q_t - r.s_t;
