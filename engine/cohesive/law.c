@@ -16,8 +16,8 @@ static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_fl
     {"critical_opening", FRACAS_REAL, "m", "opening delta_c at which an interface is broken, the same at every one: its G_c is " \
      "strength delta_c/2; or give fracture_energy", 0, 0, INFINITY, false, offsetof(fracas_cohesive, critical_opening), \
      .only = fracas_surface_models},                                                                                  \
-    {"beta", FRACAS_REAL, "1", "interface stiffness K = beta E/((1 - nu^2) h), h the area of an element by its edge; above 1.3 for a " \
-     "positive operator, 2.6 with quadratic triangles", 5, 1.3, 1e4, false, offsetof(fracas_cohesive, beta),          \
+    {"beta", FRACAS_REAL, "1", "interface stiffness K = beta E/((1 - nu^2) h), h the area of an element by its edge; 1.3 or more, 2.3 " \
+     "with quadratic triangles", 5, 1.3, 1e4, false, offsetof(fracas_cohesive, beta),          \
      .only = fracas_surface_models},                                                                                  \
     {.name = "onset", .type = FRACAS_CHOICE, .unit = "1", .doc = "what is held against the strength", .choices = onsets, \
      .nchoices = FRACAS_COUNT(onsets), .offset = offsetof(fracas_cohesive, onset), .only = fracas_surface_models},    \
