@@ -17,7 +17,7 @@ static fracas_err name_of(const char *study, char **name)
     return *name ? FRACAS_OK : fracas_no_memory("the name of the study");
 }
 
-static fracas_err open_study(const char *study, fracas_reader **reader)
+fracas_err fracas_analysis_open(const char *study, fracas_reader **reader)
 {
     char *path = malloc(strlen(study) + sizeof "/study.h5");
     if (!path) return fracas_no_memory("a path");
@@ -72,7 +72,7 @@ static fracas_err read_histories(fracas_analysis *analysis)
 static fracas_err analyse(const char *study, fracas_analysis *analysis)
 {
     TRY(name_of(study, &analysis->name));
-    TRY(open_study(study, &analysis->reader));
+    TRY(fracas_analysis_open(study, &analysis->reader));
     analysis->header = *fracas_reader_header(analysis->reader);
     analysis->table = fracas_reader_points(analysis->reader);
     size_t npoints = analysis->table->npoints;

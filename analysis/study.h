@@ -16,6 +16,9 @@ struct fracas_analysis {
     fracas_reader *reader;          /* open as long as the analysis: it owns the table */
 };
 
+/* Opens STUDY/study.h5; FRACAS_DAMAGED if it is not there (the message says that `fracas run` makes it). */
+FRACAS_MUST_USE fracas_err fracas_analysis_open(const char *study, fracas_reader **reader);
+
 /* Something a reader must know before trusting a number. */
 typedef struct {
     size_t point; /* SIZE_MAX: the study as a whole */
