@@ -94,10 +94,9 @@ typedef struct {
 } fracas_spec;
 
 /* What follows from the parameters alone, without a model. */
-double fracas_spec_length(const fracas_spec *spec);           /* m, of the bar or along the ring */
-double fracas_spec_interface_volume(const fracas_spec *spec); /* m3 of the body that an interface stands for, on average */
-/* Strain rate that the loading begins with [1/s]: the imposed rate, or radial velocity / radius, initial or held; NaN for a
- * loading that gives none (a force, a circumferential velocity). */
+double fracas_spec_length(const fracas_spec *spec); /* m, of the bar or along the ring; NaN for surfaces */
+/* Strain rate that the loading begins with [1/s]: the imposed rate, radial velocity / radius, initial or held, or that of an
+ * expansion along x; NaN for a loading that gives none (a force, a circumferential velocity, a centrifugal load). */
 double fracas_spec_strain_rate(const fracas_spec *spec);
 /* G_c [J/m2] of an interface of this strength [Pa]: as given, or sigma_c delta_c/2. */
 double fracas_spec_fracture_energy(const fracas_spec *spec, double strength);

@@ -10,6 +10,7 @@ typedef struct {
     double (*quantile)(const fracas_strength *strength, double volume, double u); /* as fracas_strength_quantile */
     double (*mean)(const fracas_strength *strength, double volume);               /* as fracas_strength_mean */
     fracas_err (*check)(const fracas_strength *strength); /* what single ranges cannot say; may be NULL */
+    bool size_effect; /* both depend on the volume */
     /* Both NULL where strengths are drawn: how many there are, and sigma_c[i*stride] = the i-th. */
     size_t (*count)(const fracas_strength *strength);
     void (*fill)(const fracas_strength *strength, size_t n, size_t stride, double *sigma_c);

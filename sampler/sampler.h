@@ -57,8 +57,11 @@ void fracas_strength_sample(const fracas_strength *strength, const fracas_stream
 size_t fracas_strength_count(const fracas_strength *strength);
 
 /* F^-1(u) [Pa], 0 < u < 1, of an interface that stands for `volume` [m3] of the body; of a file, the smallest for u < 1/2, else
- * the largest. Only the distribution flaws depends on the volume. */
+ * the largest. Only strengths with a size effect depend on the volume. */
 double fracas_strength_quantile(const fracas_strength *strength, double volume, double u);
+
+/* True if the strength of an interface depends on its volume. */
+bool fracas_strength_has_size_effect(const fracas_strength *strength);
 
 /* Mean of the distribution [Pa], same bits on every CPU; `volume` as for fracas_strength_quantile. */
 double fracas_strength_mean(const fracas_strength *strength, double volume);

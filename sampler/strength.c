@@ -43,6 +43,11 @@ double fracas_strength_mean(const fracas_strength *strength, double volume)
     return distribution_of(strength)->mean(strength, volume);
 }
 
+bool fracas_strength_has_size_effect(const fracas_strength *strength)
+{
+    return distribution_of(strength)->size_effect;
+}
+
 size_t fracas_strength_count(const fracas_strength *strength)
 {
     const fracas_distribution *distribution = distribution_of(strength);

@@ -50,3 +50,23 @@ fracas_err fracas_mesh_noise_count(const fracas_spec *spec, size_t *count)
     fracas_surface_destroy(surface);
     return FRACAS_OK;
 }
+
+static double mean_area(const fracas_surface *surface)
+{
+    double area = 0;
+    for (size_t i = 0; i < surface->ninterfaces; i++)
+        for (int side = 0; side < 2; side++) area += fracas_surface_area(surface, surface->interface[i].element[side]);
+    return surface->ninterfaces ? area / 3 / (double)surface->ninterfaces : fracas_surface_area(surface, 0);
+}
+
+fracas_err fracas_mesh_interface_volume(const fracas_spec *spec, double *volume)
+{
+    const fracas_geometry *geometry = &spec->geometry;
+    *volume = geometry->area * fracas_spec_length(spec) / (double)spec->mesh.elements;
+    if (!fracas_spec_is_surface(spec)) return FRACAS_OK;
+    const fracas_surface *surface;
+    TRY(fracas_mesh_make(spec, &surface));
+    *volume = geometry->thickness * mean_area(surface);
+    fracas_surface_destroy(surface);
+    return FRACAS_OK;
+}
