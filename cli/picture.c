@@ -5,6 +5,7 @@
 #include "base/units.h"
 
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,7 +21,17 @@ static const fracas_option options[] = {
 
 enum { MOST_TIMES = 1000 };
 
-/* "26us,28 us" [s]; *time freed by the caller. */
+/* "26us" or "26 us" [s]: a campaign file wants the space, a command line is easier without. */
+static fracas_err read_time(const fracas_units *units, const char *one, double *time)
+{
+    char text[64];
+    one += strspn(one, " ");
+    const int digits = (int)strspn(one, "+-.0123456789eE");
+    snprintf(text, sizeof text, digits > 0 && one[digits] && one[digits] != ' ' ? "%.*s %s" : "%.*s%s", digits, one, one + digits);
+    return fracas_units_read(units, text, "s", time);
+}
+
+/* "26us,28us"; *time freed by the caller. */
 static fracas_err read_list(const char *text, double **time, size_t *count)
 {
     fracas_units *units;
@@ -29,7 +40,7 @@ static fracas_err read_list(const char *text, double **time, size_t *count)
     *count = 0;
     fracas_err err = copy && *time ? fracas_units_create(&units) : fracas_no_memory("the times of pictures");
     if (!err) {
-        for (char *one; !err && (one = strsep(&rest, ","));) err = fracas_units_read(units, one, "s", &(*time)[(*count)++]);
+        for (char *one; !err && (one = strsep(&rest, ","));) err = read_time(units, one, &(*time)[(*count)++]);
         if (err) err = fracas_fail_within(err, "picture: --times is `%s`", text);
         fracas_units_destroy(units);
     }

@@ -16,13 +16,13 @@ static const char style_light[] =
     ".chart .body{fill:#eceff3}.chart .dust-fill{fill:#D55E00}.chart .t0{fill:#cfe0f0}.chart .t1{fill:#f3dfc8}"
     ".chart .t2{fill:#d3ebda}.chart .t3{fill:#ecd9e6}.chart .t4{fill:#f5eec4}.chart .t5{fill:#cdeaed}.chart .t6{fill:#ddd9f0}\n"
     ".chart .mesh,.chart .cracked,.chart .broken,.chart .outline{fill:none;stroke-linejoin:round;stroke-linecap:round}\n"
-    ".chart .mesh{stroke:#fff}.chart .cracked{stroke:#8f9aa8}.chart .broken{stroke:#1b1f24}"
+    ".chart .mesh{stroke:#fff}.chart .cracked{stroke:#a9b3bf}.chart .broken{stroke:#1b1f24}"
     ".chart .outline{stroke:#57606a;stroke-width:10}\n";
 static const char style_dark[] =
     "@media screen and (prefers-color-scheme:dark){"
     ".chart .body{fill:#262d35}.chart .dust-fill{fill:#ee7c2b}.chart .t0{fill:#1f4263}.chart .t1{fill:#5c3f22}"
     ".chart .t2{fill:#1f5038}.chart .t3{fill:#55304c}.chart .t4{fill:#56501f}.chart .t5{fill:#175058}.chart .t6{fill:#403a72}"
-    ".chart .mesh{stroke:#14181d}.chart .cracked{stroke:#7d8894}.chart .broken{stroke:#f0f3f6}"
+    ".chart .mesh{stroke:#14181d}.chart .cracked{stroke:#6d7884}.chart .broken{stroke:#f0f3f6}"
     ".chart .outline{stroke:#9aa4af}}\n";
 
 void fracas_surface_style(FILE *out)
@@ -212,14 +212,13 @@ static void draw_words(const canvas *on)
 {
     const fracas_surface_state *state = on->state;
     const double bar = scale_bar(on), x = MARGIN, y = on->height + 2 * MARGIN + LINE_HEIGHT, to = x + bar * 1e-3 * on->scale;
-    char time[48], length[32], dust[48] = "";
+    char time[48], dust[48] = "";
     fracas_surface_time_text(state->time, true, time, sizeof time);
-    fracas_format_short(bar, length, sizeof length);
     if (state->ndust > 0) snprintf(dust, sizeof dust, " (dust: %zu)", state->ndust);
     fprintf(on->out, "<text x=\"%.1f\" y=\"%.1f\">%s: %zu fragment%s%s</text>\n", x, y - 5, time, state->nfragments,
             state->nfragments == 1 ? "" : "s", dust);
     fprintf(on->out, "<path class=\"ink\" d=\"M%.1f %.1fv8m0 -4H%.1fm0 -4v8\"/>\n", x, y + 6, to);
-    fprintf(on->out, "<text x=\"%.1f\" y=\"%.1f\">%s mm</text>\n", to + 8, y + 14.5, length);
+    fprintf(on->out, "<text x=\"%.1f\" y=\"%.1f\">%g mm</text>\n", to + 8, y + 14.5, bar);
 }
 
 static fracas_err draw_surface(const canvas *on)
