@@ -112,3 +112,17 @@ void fracas_analysis_label(const fracas_analysis *analysis, size_t point, char *
 {
     fracas_columns_label(analysis->table, &analysis->shown, point, text, size);
 }
+
+bool fracas_analysis_any_surface(const fracas_analysis *analysis)
+{
+    for (size_t p = 0; p < analysis->table->npoints; p++)
+        if (analysis->point[p].surface) return true;
+    return false;
+}
+
+bool fracas_analysis_all_surfaces(const fracas_analysis *analysis)
+{
+    for (size_t p = 0; p < analysis->table->npoints; p++)
+        if (!analysis->point[p].surface) return false;
+    return analysis->table->npoints > 0;
+}

@@ -29,6 +29,10 @@ typedef struct {
 FRACAS_MUST_USE fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warning **warning,
                                                     size_t *count);
 
+/* True if some point, or every one, is a surface. */
+bool fracas_analysis_any_surface(const fracas_analysis *analysis);
+bool fracas_analysis_all_surfaces(const fracas_analysis *analysis);
+
 /* "rate 1e4 1/s": the point by what it differs in. */
 void fracas_analysis_label(const fracas_analysis *analysis, size_t point, char *text, size_t size);
 

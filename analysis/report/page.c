@@ -284,7 +284,7 @@ static fracas_err put_table(const report_page *page)
     fputs("<h2>Results</h2>\n<div class=\"scroll\"><table id=\"results\">\n", page->out);
     put_rows(&table, page->out);
     fracas_result_table_clear(&table);
-    put_legend(fracas_result_table_legend, page->out);
+    put_legend(fracas_result_table_legend(page->analysis), page->out);
     fputs("<p class=\"quiet\">As files: <a href=\"points.csv\">points.csv</a> (every parameter and statistic), "
           "<a href=\"fragments.csv\">fragments.csv</a> (every fragment); both in SI units.</p>\n", page->out);
     return FRACAS_OK;

@@ -143,8 +143,8 @@ fracas_err fracas_surfaces_put(const fracas_analysis *analysis, const char *fold
     TRY(fracas_surfaces_any(analysis, &any));
     if (!any) return FRACAS_OK;
     fputs("<h2>Broken surfaces</h2>\n<p>One realization of each point, the first that ended FRAGMENTED, at even times from the "
-          "first onset to the end, drawn as it was before any motion. Dark lines: broken interfaces; grey ones: cracked, not yet "
-          "broken. Fragments have tints by which neighbours differ; orange: dust, of one or two elements. Others: "
+          "first onset to the end, drawn as it was before any motion. Strong lines: broken interfaces; faint ones: cracked, not "
+          "yet broken. Fragments have tints by which neighbours differ; orange: dust, of one or two elements. Others: "
           "<code>fracas picture STUDY</code>.</p>\n", page);
     for (size_t p = 0; p < analysis->table->npoints; p++) TRY(put_point(&to, p));
     return FRACAS_OK;
