@@ -70,13 +70,13 @@ static fracas_err picture(const fracas_arguments *arguments)
         [FRACAS_SHOW_CRACKS] = "cracks", [FRACAS_SHOW_FRAGMENTS] = "fragments", [FRACAS_SHOW_MESH] = "mesh"};
     int point = 0, replica = 0, show = FRACAS_SHOW_FRAGMENTS;
     double *time = NULL;
-    TRY(fracas_cli_check_study(arguments->operand));
     TRY(fracas_arguments_integer(arguments, POINT, 0, INT_MAX, &point));
     TRY(fracas_arguments_integer(arguments, REPLICA, 0, INT_MAX, &replica));
     TRY(fracas_arguments_word(arguments, SHOW, words, FRACAS_COUNT(words), &show));
     fracas_picture_request request = {.point = (size_t)point, .replica = replica, .show = (fracas_surface_show)show,
                                       .table = arguments->value[TABLE] != NULL, .folder = arguments->value[OUTPUT]};
     fracas_err err = read_times(arguments, &request, &time);
+    if (!err) err = fracas_cli_check_study(arguments->operand);
     if (!err) err = fracas_pictures_write(arguments->operand, &request, stdout);
     free(time);
     return err;

@@ -153,6 +153,25 @@ static fracas_err draw_against_rate(const rate_plot *plot, fracas_chart *chart)
     return FRACAS_OK;
 }
 
+static void caption_of_rate(const fracas_analysis *analysis, bool normalised, bool one_law, fracas_chart *chart)
+{
+    if (fracas_analysis_all_surfaces(analysis)) {
+        snprintf(chart->caption, sizeof chart->caption,
+                 "Mean over replicas of the mean square root of a fragment\u2019s area, dust included; bars: 95 %% interval of the "
+                 "mean (Student\u2019s t over replicas).");
+        return;
+    }
+    snprintf(chart->caption, sizeof chart->caption,
+             "%sMean over replicas of body length / fragments%s; bars: 95 %% interval of the mean (Student\u2019s t over "
+             "replicas). Lines: %s",
+             normalised ? "Sizes over s\u2080 = E G_c/\u03c3_c\u00b2, rates over "
+                          "\u03b5\u0307\u2080 = c \u03c3_c\u00b3/(E\u00b2 G_c), \u03c3_c the mean strength. " : "",
+             !normalised && fracas_analysis_any_surface(analysis) ? ", of surfaces of the mean square root of their areas" : "",
+             normalised || one_law ? "size laws of Zhou, Molinari and Ramesh (ZMR, ZMR-2), Grady, and Glenn "
+                                     "and Chudnovsky (GC)."
+                                   : "ZMR law with the material of the marks of the same colour.");
+}
+
 fracas_err fracas_figure_rate(const fracas_analysis *analysis, bool normalised, fracas_chart *chart)
 {
     double extreme[2] = {INFINITY, 0};
@@ -172,18 +191,7 @@ fracas_err fracas_figure_rate(const fracas_analysis *analysis, bool normalised, 
     snprintf(chart->file, sizeof chart->file, "size-against-rate%s", normalised ? "-normalised" : "");
     snprintf(chart->title, sizeof chart->title, "%s", normalised ? "Normalised mean fragment size against strain rate"
                                                                  : "Mean fragment size against strain rate");
-    if (fracas_analysis_all_surfaces(analysis))
-        snprintf(chart->caption, sizeof chart->caption,
-                 "Mean over replicas of the mean square root of a fragment\u2019s area, dust included; bars: 95 %% interval of the "
-                 "mean (Student\u2019s t over replicas).");
-    else snprintf(chart->caption, sizeof chart->caption,
-             "%sMean over replicas of body length / fragments; bars: 95 %% interval of the mean (Student\u2019s t over "
-             "replicas). Lines: %s",
-             normalised ? "Sizes over s\u2080 = E G_c/\u03c3_c\u00b2, rates over "
-                          "\u03b5\u0307\u2080 = c \u03c3_c\u00b3/(E\u00b2 G_c), \u03c3_c the mean strength. " : "",
-             normalised || one_law ? "size laws of Zhou, Molinari and Ramesh (ZMR, ZMR-2), Grady, and Glenn "
-                                     "and Chudnovsky (GC)."
-                                   : "ZMR law with the material of the marks of the same colour.");
+    caption_of_rate(analysis, normalised, one_law, chart);
     if (chart->npanels == 0) return FRACAS_OK;
     snprintf(chart->panel[0].x.label, sizeof chart->panel[0].x.label, "%s",
              normalised ? "strain rate \u03b5\u0307/\u03b5\u0307\u2080" : "strain rate [1/s]");
