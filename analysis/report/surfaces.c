@@ -71,7 +71,7 @@ static fracas_err put_moment(const gallery *to, const fracas_broken_surface *sur
     char label[160], title[256], moment[48], name[64], file[80];
     fracas_surface_time_text(time, true, moment, sizeof moment);
     fracas_analysis_label(to->analysis, p, label, sizeof label);
-    snprintf(title, sizeof title, "Broken surface at %s: %s", moment, label);
+    snprintf(title, sizeof title, "Broken surface at %s%s%s", moment, *label ? ": " : "", label);
     snprintf(name, sizeof name, "surface-point-%zu-%zu", p, k + 1);
     snprintf(file, sizeof file, "%s.svg", name);
     fracas_surface_picture picture = {title, FRACAS_SHOW_FRAGMENTS, FRACAS_CHART_NARROW, false};
@@ -107,7 +107,7 @@ static fracas_err put_row(gallery *to, const fracas_broken_surface *surface, siz
     fracas_analysis_label(to->analysis, p, label, sizeof label);
     fputs("<p class=\"quiet\">", to->out);
     fracas_markup_text(label, to->out);
-    fprintf(to->out, ": replica %lld", (long long)replica);
+    fprintf(to->out, "%sreplica %lld", *label ? ": " : "", (long long)replica);
     TRY(put_times(to, surface));
     fputs("<div class=\"small\">\n", to->out);
     for (size_t k = 0; k < count; k++) TRY(put_moment(to, surface, p, k, time[k]));
