@@ -228,16 +228,24 @@ static void moments_end_at_the_end(void **state)
 
 /* ---- pictures ---- */
 
-/* Twice the area inside a path of M, l and z, whole numbers: loops with the inside to the left are positive, as y is down in a
- * drawing negative. */
-static double path_area(const char *d, size_t *moves)
+typedef struct {
+    double area; /* inside loops, square units */
+    double moment[2]; /* sum of the middles of edges */
+    size_t lines, edges;
+} path_measures;
+
+/* Of a path of M, l, q and z, whole numbers. As y is down in a drawing, loops with the inside to the left are counted positive. A
+ * parabola has 2/3 of its triangle beside its chord. */
+static path_measures measure_path(const char *d)
 {
-    double area = 0, x = 0, y = 0, x0 = 0, y0 = 0;
+    path_measures path = {0};
+    double x = 0, y = 0, x0 = 0, y0 = 0, control[2] = {0, 0};
     char command = 0;
-    for (*moves = 0; *d && *d != '"';) {
-        if (*d == 'M' || *d == 'l' || *d == 'z') {
+    bool half = false; /* of a q */
+    while (*d && *d != '"') {
+        if (*d == 'M' || *d == 'l' || *d == 'q' || *d == 'z') {
             command = *d++;
-            if (command == 'z') area += x * y0 - x0 * y;
+            if (command == 'z') path.area -= (x * y0 - x0 * y) / 2;
             continue;
         }
         char *end;
@@ -246,14 +254,23 @@ static double path_area(const char *d, size_t *moves)
         if (command == 'M') {
             x = x0 = a;
             y = y0 = b;
-            ++*moves;
+            path.lines++;
+        } else if (command == 'q' && !half) {
+            control[0] = a;
+            control[1] = b;
+            half = true;
         } else {
-            area += x * (y + b) - (x + a) * y;
+            if (half) path.area -= 2.0 / 3 * (control[0] * b - control[1] * a) / 2;
+            path.area -= (x * (y + b) - (x + a) * y) / 2;
+            path.moment[0] += x + a / 2;
+            path.moment[1] += y + b / 2;
             x += a;
             y += b;
+            path.edges++;
+            half = false;
         }
     }
-    return area / 2;
+    return path;
 }
 
 static char *draw(const fracas_stored_mesh *mesh, const fracas_record *record, double time, fracas_surface_show show)
@@ -270,13 +287,13 @@ static char *draw(const fracas_stored_mesh *mesh, const fracas_record *record, d
     return text;
 }
 
-/* Of the path with this class: its area in squares of the grid; NAN if there is none. */
-static double area_of(const char *svg, const char *class, double square, size_t *moves)
+/* Of the path with this class; all 0 if there is none. */
+static path_measures measure(const char *svg, const char *class)
 {
     char start[64];
-    snprintf(start, sizeof start, "<path class=\"%s\" fill-rule=\"evenodd\" d=\"", class);
+    snprintf(start, sizeof start, "<path class=\"%s\"", class);
     const char *found = strstr(svg, start);
-    return found ? -path_area(found + strlen(start), moves) / square : NAN;
+    return found ? measure_path(strstr(found, " d=\"") + 4) : (path_measures){0};
 }
 
 /* The plate is 784 pixels wide: a square has sides of 1306.67 units, and a corner is at most 0.71 of one from where it belongs:
@@ -287,7 +304,6 @@ static void fragments_are_filled(void **state)
     fracas_stored_mesh mesh;
     fracas_record record;
     const double square = 7840.0 / 6 * 7840.0 / 6;
-    size_t moves;
     grid_make(&plate, &mesh);
     grid_record(&mesh, 100, &record);
     crack_up(&plate, &mesh, &record, 2, 0, 4, 10);
@@ -298,11 +314,12 @@ static void fragments_are_filled(void **state)
     static const double area[] = {11, 6, 4, 2}; /* the largest first, and no two of one tint */
     for (int t = 0; t < 4; t++) {
         const char class[] = {'t', (char)('0' + t), '\0'};
-        assert_true(fabs(area_of(svg, class, square, &moves) - area[t]) < 0.02);
-        assert_int_equal(moves, 1);
+        assert_true(fabs(measure(svg, class).area / square - area[t]) < 0.02);
+        assert_int_equal(measure(svg, class).lines, 1);
     }
-    assert_true(isnan(area_of(svg, "t4", square, &moves)));
-    assert_true(fabs(area_of(svg, "dust-fill", square, &moves) - 1) < 0.02);
+    assert_int_equal(measure(svg, "t4").lines, 0);
+    assert_true(fabs(measure(svg, "dust-fill").area / square - 1) < 0.02);
+    assert_int_equal(measure(svg, "broken").edges, 4 + 6 + 2);
     assert_non_null(strstr(svg, "s: 5 fragments (dust: 1)</text>"));
     assert_non_null(strstr(svg, ">1000 mm</text>")); /* 0.3 of 800 pixels are 1837 mm */
     assert_non_null(strstr(svg, "class=\"broken\""));
@@ -312,7 +329,18 @@ static void fragments_are_filled(void **state)
     assert_non_null(strstr(svg, "class=\"cracked\""));
     assert_non_null(strstr(svg, "class=\"mesh\""));
     assert_null(strstr(svg, "class=\"broken\""));
-    assert_true(fabs(area_of(svg, "t0", square, &moves) - 24) < 0.02);
+    assert_true(fabs(measure(svg, "t0").area / square - 24) < 0.02);
+    assert_int_equal(measure(svg, "cracked").edges, 1);
+    assert_int_equal(measure(svg, "mesh").edges, mesh.ninterfaces - 1);
+    assert_int_equal(measure(svg, "outline").edges, mesh.nborders);
+    double moment[2] = {0, 0}; /* of the interfaces that are not cracked yet, from the coordinates of the mesh */
+    for (size_t i = 0; i < mesh.ninterfaces; i++)
+        for (int end = 0; end < 2 && !(record.interface[i].onset_time <= 9.7); end++) {
+            moment[0] += (80 + 7840.0 / 6 * mesh.node[mesh.interface[i].node[end]].position[0]) / 2;
+            moment[1] += (80 + 7840.0 / 6 * (4 - mesh.node[mesh.interface[i].node[end]].position[1])) / 2;
+        }
+    for (int i = 0; i < 2; i++) /* half a unit for each rounding at most */
+        assert_true(fabs(measure(svg, "mesh").moment[i] - moment[i]) < 0.5 * (double)mesh.ninterfaces);
     free(svg);
     fracas_record_clear(&record);
     fracas_stored_mesh_clear(&mesh);
@@ -325,19 +353,19 @@ static void holes_stay_holes(void **state)
     (void)state;
     fracas_stored_mesh mesh;
     fracas_record record;
-    size_t moves;
     grid_make(&ring, &mesh);
     grid_record(&mesh, 100, &record);
     char *svg = draw(&mesh, &record, 1, FRACAS_SHOW_CRACKS);
-    assert_true(fabs(area_of(svg, "body", 784.0 * 784.0, &moves) - 63) < 0.05);
-    assert_int_equal(moves, 2);
+    assert_true(fabs(measure(svg, "body").area / (784.0 * 784.0) - 63) < 0.05);
+    assert_int_equal(measure(svg, "body").lines, 2);
     assert_null(strstr(svg, "class=\"t0\""));
     free(svg);
     fracas_record_clear(&record);
     fracas_stored_mesh_clear(&mesh);
 }
 
-/* Middles that lie in the middle change nothing; one that does not makes its edge a parabola, in both fragments beside it. */
+/* Middles that lie in the middle change nothing; one that is 0.1 m to the right makes its edge a parabola, in both fragments
+ * beside it, and what is left of it by 2/3 of 0.1 squares larger. */
 static void curved_edges_are_curved(void **state)
 {
     (void)state;
@@ -361,6 +389,9 @@ static void curved_edges_are_curved(void **state)
     size_t parabolas = 0;
     for (const char *at = strstr(b, "<path"); at && *at; at++) parabolas += *at == 'q';
     assert_int_equal(parabolas, 3); /* two fragments and the crack itself */
+    const double square = 7840.0 / 6 * 7840.0 / 6;
+    assert_true(fabs(measure(b, "t0").area / square - (16 - 0.2 / 3)) < 0.01); /* roundings as above, 20 sides */
+    assert_true(fabs(measure(b, "t1").area / square - (8 + 0.2 / 3)) < 0.01);
     free(a);
     free(b);
     fracas_record_clear(&record);
