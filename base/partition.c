@@ -1,4 +1,4 @@
-#include "engine/fragments/fragments.h"
+#include "base/partition.h"
 
 #include <stdlib.h>
 
@@ -27,8 +27,9 @@ void fracas_partition_clear(fracas_partition *partition)
     *partition = (fracas_partition){0};
 }
 
-static uint32_t root_of(uint32_t *parent, uint32_t e)
+uint32_t fracas_partition_root(fracas_partition *partition, uint32_t e)
 {
+    uint32_t *parent = partition->parent;
     while (parent[e] != e) {
         parent[e] = parent[parent[e]]; /* halve the path */
         e = parent[e];
@@ -38,8 +39,8 @@ static uint32_t root_of(uint32_t *parent, uint32_t e)
 
 void fracas_partition_join(fracas_partition *partition, uint32_t a, uint32_t b)
 {
-    a = root_of(partition->parent, a);
-    b = root_of(partition->parent, b);
+    a = fracas_partition_root(partition, a);
+    b = fracas_partition_root(partition, b);
     if (a < b) partition->parent[b] = a;
     else partition->parent[a] = b;
 }
@@ -48,7 +49,7 @@ size_t fracas_partition_label(fracas_partition *partition)
 {
     size_t count = 0;
     for (size_t e = 0; e < partition->elements; e++) {
-        uint32_t root = root_of(partition->parent, (uint32_t)e);
+        uint32_t root = fracas_partition_root(partition, (uint32_t)e);
         partition->label[e] = root == e ? (uint32_t)count++ : partition->label[root];
     }
     return count;
