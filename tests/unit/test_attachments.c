@@ -40,7 +40,7 @@ static void test_values(void **state)
         assert_true(fracas_strength_quantile(&strength, 1, 1e-9) == 1 && fracas_strength_quantile(&strength, 1, 1 - 1e-9) == 8);
         for (uint64_t replica = 0; replica < 2; replica++) { /* whatever the stream, and the stride */
             double got[8] = {0};
-            fracas_strength_sample(&strength, &(fracas_stream){.seed = 1, .replica = replica}, 4, volume, 2, got);
+            assert_int_equal(fracas_strength_sample(&strength, &(fracas_stream){.seed = 1, .replica = replica}, 4, volume, NULL, 2, got), FRACAS_OK);
             for (int i = 0; i < 3; i++)
                 if (got[2 * i] != expected[i] || got[2 * i + 1] != 0) fail_msg("%g is not %g of:\n%s", got[2 * i], expected[i], texts[t]);
             assert_true(isnan(got[6]));
