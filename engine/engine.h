@@ -32,6 +32,10 @@ const struct fracas_surface *fracas_model_surface(const fracas_model *model);
  * triangles of a surface. */
 double fracas_model_interface_volume(const fracas_model *model, size_t interface);
 
+/* position[i], i < fracas_model_interfaces: where interface i is at the start [m]. Of a surface, the middle between the two ends of
+ * its edge; of a bar, x along it from its left end; of a ring, on its circle in the plane, at the angle 2 pi (i + 1)/n. */
+void fracas_model_interface_positions(const fracas_model *model, double (*position)[3]);
+
 /* Checks one strength [Pa] against the mesh: FRACAS_USAGE, saying what would do, where the law could not
  * dissipate G_c (K <= sigma_c/delta_c). */
 FRACAS_MUST_USE fracas_err fracas_model_check_strength(const fracas_model *model, double strength);

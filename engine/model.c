@@ -72,6 +72,22 @@ double fracas_model_interface_volume(const fracas_model *model, size_t interface
     return model->formulation->interface_volume(model, interface);
 }
 
+static void surface_positions(const fracas_surface *surface, double (*position)[3])
+{
+    for (size_t i = 0; i < surface->ninterfaces; i++) {
+        const fracas_surface_interface *interface = &surface->interface[i];
+        const uint32_t *vertex = &surface->element[interface->element[0] * surface->corners];
+        const double *a = surface->node[vertex[interface->edge[0]]], *b = surface->node[vertex[(interface->edge[0] + 1) % 3]];
+        for (int k = 0; k < 3; k++) position[i][k] = 0.5 * (a[k] + b[k]);
+    }
+}
+
+void fracas_model_interface_positions(const fracas_model *model, double (*position)[3])
+{
+    if (model->surface) surface_positions(model->surface, position);
+    else model->formulation->interface_positions(model, position);
+}
+
 fracas_err fracas_model_check_strength(const fracas_model *model, double strength)
 {
     return model->formulation->check_strength(model, strength);

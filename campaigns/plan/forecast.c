@@ -8,6 +8,8 @@
 #include "engine/solver/batch.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 enum { MAX_LANES = 8 }; /* of a batch */
@@ -44,6 +46,38 @@ static fracas_err check_count(const fracas_model *model, const fracas_strength *
     if (given == 0 || given == interfaces) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE, "%s has %zu strengths, but the mesh has %zu interfaces; each needs one line of the file",
                        strength->file->path, given, interfaces);
+}
+
+/* Gives each interface its strength, as a run would, and checks it. */
+static fracas_err try_places(const fracas_model *model, const fracas_strength *strength, double (*position)[3], double *sigma_c)
+{
+    const size_t n = fracas_model_interfaces(model);
+    fracas_model_interface_positions(model, position);
+    TRY(fracas_strength_sample(strength, &(fracas_stream){0}, n, NULL, (const double(*)[3])position, 1, sigma_c));
+    for (size_t i = 0; i < n; i++) {
+        fracas_err err = fracas_model_check_strength(model, sigma_c[i]);
+        if (err) return fracas_fail_within(err, "%s, interface %zu at x = %.9g m, y = %.9g m", strength->file->path, i, position[i][0],
+                                           position[i][1]);
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err check_places(const fracas_model *model, const fracas_strength *strength)
+{
+    const size_t n = fracas_model_interfaces(model);
+    double(*position)[3] = malloc(n * sizeof *position), *sigma_c = malloc(n * sizeof *sigma_c);
+    fracas_err err = n > 0 && (!position || !sigma_c) ? fracas_no_memory("the strengths of a mesh")
+                                                      : try_places(model, strength, position, sigma_c);
+    free(position);
+    free(sigma_c);
+    return err;
+}
+
+static fracas_err check_strengths(const fracas_model *model, const fracas_point *point, double volume)
+{
+    if (fracas_strength_is_placed(&point->strength)) return check_places(model, &point->strength);
+    TRY(check_count(model, &point->strength));
+    return check_strongest(model, point, volume);
 }
 
 /* A stress that an uncracked ring with this load stays below until t [Pa]. Radially it is u'' + w^2 u = a, w = c/R, sigma = E u/R:
@@ -168,9 +202,8 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
         if (spec->geometry.direction == &fracas_direction_initial) forecast->turned = turned_angle(spec);
         forecast->lonely = spec->cohesive.zone > 0.5 * fracas_spec_length(spec);
     }
-    forecast->repeated = fracas_strength_count(&point->strength) > 0 && point->replicas > 1;
-    TRY(check_count(model, &point->strength));
-    return check_strongest(model, point, volume.least);
+    forecast->repeated = fracas_strength_is_given(&point->strength) && point->replicas > 1;
+    return check_strengths(model, point, volume.least);
 }
 
 /* The forecast, and the model that it was made from, or NULL after an error. */

@@ -24,7 +24,7 @@ typedef struct {
 } fracas_forecast;
 
 /* Elements, time step, steps, coarseness of one point (speed 0). Refused if strengths are given and not as many as
- * there are interfaces, or if the engine would refuse the strength that the
+ * there are interfaces, or not at their positions, or if the engine would refuse the strength that the
  * strongest of all its interfaces and replicas stays below with a probability of 99 %. */
 FRACAS_MUST_USE fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point,
                                                 fracas_forecast *forecast);

@@ -56,6 +56,8 @@ struct fracas_formulation {
     fracas_err (*check_strength)(const fracas_model *model, double strength);
     /* Volume of the body that an interface stands for [m3]. */
     double (*interface_volume)(const fracas_model *model, size_t interface);
+    /* As fracas_model_interface_positions; NULL of surfaces, whose mesh says it. */
+    void (*interface_positions)(const fracas_model *model, double (*position)[3]);
     /* Frees the model's plan; NULL: it has none. */
     void (*plan_destroy)(void *plan);
     /* Doubles that a lane's state takes. */

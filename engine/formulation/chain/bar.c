@@ -59,6 +59,16 @@ static double bar_interface_volume(const fracas_model *model, size_t e)
     return model->spec.geometry.area * (0.5 * (size_of(model, e) + size_of(model, e + 1 < model->elements ? e + 1 : 0)));
 }
 
+static void bar_interface_positions(const fracas_model *model, double (*position)[3])
+{
+    double end = 0;
+    for (size_t e = 0; e < model->interfaces; e++) {
+        end += size_of(model, e);
+        position[e][0] = is_uniform(model) ? model->element_size * (double)(e + 1) : end;
+        position[e][1] = position[e][2] = 0;
+    }
+}
+
 /* Lengths of the elements of a graded or perturbed mesh, in model->table  (bar.19). */
 static fracas_err fill_sizes(fracas_model *model)
 {
@@ -242,6 +252,6 @@ const fracas_formulation fracas_formulation_bar = {
     .kind = {.name = "bar", .doc = "a bar stretched at a uniform rate: the hoop direction of an expanding ring",
              .goes_with = goes_with, .ngoes_with = FRACAS_COUNT(goes_with)},
     .model_init = bar_model_init, .check_strength = bar_check_strength, .interface_volume = bar_interface_volume,
-    .state_size = bar_state_size, .strength = bar_strength, .lane_init = bar_lane_init, .advance = bar_advance,
+    .interface_positions = bar_interface_positions, .state_size = bar_state_size, .strength = bar_strength, .lane_init = bar_lane_init, .advance = bar_advance,
     .fragment_count = fracas_chain_fragment_count, .harvest = bar_harvest,
 };

@@ -101,6 +101,17 @@ static double ring_interface_volume(const fracas_model *model, size_t interface)
     return model->spec.geometry.area * model->element_size;
 }
 
+static void ring_interface_positions(const fracas_model *model, double (*position)[3])
+{
+    const double radius = model->spec.geometry.radius;
+    for (size_t e = 0; e < model->interfaces; e++) {
+        const double *node = model->table + (e + 1) % model->elements * RING_TABLE;
+        position[e][0] = radius * node[RING_COS];
+        position[e][1] = radius * node[RING_SIN];
+        position[e][2] = 0;
+    }
+}
+
 /* ---- state ---- */
 
 static size_t ring_state_size(const fracas_model *model)
@@ -221,6 +232,6 @@ const fracas_formulation fracas_formulation_ring = {
     .kind = {.name = "ring", .doc = "a closed ring in the plane, of springs along its circumference", .goes_with = goes_with,
              .ngoes_with = FRACAS_COUNT(goes_with)},
     .model_init = ring_model_init, .check_strength = fracas_chain_check_strength, .interface_volume = ring_interface_volume,
-    .state_size = ring_state_size, .strength = ring_strength, .lane_init = ring_lane_init, .advance = ring_advance,
+    .interface_positions = ring_interface_positions, .state_size = ring_state_size, .strength = ring_strength, .lane_init = ring_lane_init, .advance = ring_advance,
     .fragment_count = fracas_chain_fragment_count, .harvest = ring_harvest,
 };
