@@ -33,4 +33,16 @@ extern const double fracas_triangle_fine[FRACAS_TRIANGLE_FINE][3];
 #define FRACAS_EDGE_WEIGHTS_2 {0.27777777777777778, 0.44444444444444444, 0.27777777777777778}
 #define FRACAS_EDGE_MOST 3
 
+/* At s on an edge: shape functions of its ends and its middle, and the weights by which stresses at the bulk points next to its
+ * ends, and away from it, give the stress there  (membrane.2). Here, not in the C file, to be folded into the kernels. */
+static inline __attribute__((always_inline)) void fracas_edge_shape(int order, double s, double shape[3], double spread[3])
+{
+    shape[0] = order == 1 ? 1 - s : (1 - s) * (1 - 2 * s);
+    shape[1] = order == 1 ? s : s * (2 * s - 1);
+    shape[2] = 4 * s * (1 - s);
+    spread[0] = 2 * (1 - s) - 1.0 / 3;
+    spread[1] = 2 * s - 1.0 / 3;
+    spread[2] = -1.0 / 3;
+}
+
 #endif

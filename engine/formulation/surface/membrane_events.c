@@ -51,9 +51,8 @@ static void look(const view *v, size_t interface, int g, double mean[2], double 
     static const double edge_point[2][3] = {FRACAS_EDGE_POINTS_1, FRACAS_EDGE_POINTS_2};
     const fracas_membrane_tables *t = v->membrane->tables;
     const int order = t->order;
-    const double s = edge_point[order - 1][g];
-    const double shape[3] = {order == 1 ? 1 - s : (1 - s) * (1 - 2 * s), order == 1 ? s : s * (2 * s - 1), 4 * s * (1 - s)};
-    const double spread[3] = {2 * (1 - s) - 1.0 / 3, 2 * s - 1.0 / 3, -1.0 / 3};
+    double shape[3], spread[3];
+    fracas_edge_shape(order, edge_point[order - 1][g], shape, spread);
     const double *place = t->joint + interface * (size_t)(MEMBRANE_POINTS + MEMBRANE_EDGE(order) * MEMBRANE_POINT_TABLE) +
                           MEMBRANE_POINTS + g * MEMBRANE_POINT_TABLE;
     double stress[3] = {0}, q[2] = {0};

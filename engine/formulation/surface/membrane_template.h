@@ -10,12 +10,13 @@
 #include "engine/integrator/central_difference.h"
 
 #define membrane_context LANES_NAME(membrane_context)
-#define membrane_edge LANES_NAME(membrane_edge)
+#define membrane_sides LANES_NAME(membrane_sides)
+#define membrane_sides_of LANES_NAME(membrane_sides_of)
 #define membrane_at LANES_NAME(membrane_at)
 #define membrane_point LANES_NAME(membrane_point)
 #define membrane_strain LANES_NAME(membrane_strain)
 #define membrane_drift LANES_NAME(membrane_drift)
-#define membrane_read_edge LANES_NAME(membrane_read_edge)
+#define membrane_flux LANES_NAME(membrane_flux)
 #define membrane_give LANES_NAME(membrane_give)
 #define membrane_law_of LANES_NAME(membrane_law_of)
 #define membrane_crack LANES_NAME(membrane_crack)
@@ -47,15 +48,17 @@ typedef struct {
     vd strain_energy, flux, stored, kinetic, dissipated, power, moment;
 } membrane_context;
 
-/* What an interface sees of its two elements: nodes a, b (and c, the middle) of the edge, bulk points a, b at its ends and o
- * away from it. */
+/* Where an interface finds its two elements, - and +: nodes a, b (and c, the middle) of the edge and bulk points a, b at its
+ * ends, o away from it. */
 typedef struct {
-    vd jump[3][2];   /* u+ - u- [m] */
-    vd stress[3][3]; /* mean of both sides at the points a, b, o: xx, yy, xy [Pa] */
-} membrane_edge;
+    const double *element[2];
+    double *slot[2];
+    int node[2][3], bulk[2][3];
+} membrane_sides;
 
-/* At one Gauss point. */
+/* At one Gauss point of an interface. */
 typedef struct {
+    vd jump[2], mean[2];        /* q = u+ - u- [m], mean traction of both sides [Pa] */
     vd traction[2], carried[2]; /* T [Pa], s = q - delta [m] */
 } membrane_point;
 
@@ -114,49 +117,100 @@ LANES_FUNCTION void membrane_drift(membrane_context *c, int order, size_t e)
     }
 }
 
-LANES_FUNCTION void membrane_read_edge(const membrane_context *c, int order, size_t i, membrane_edge *edge)
+LANES_FUNCTION membrane_sides membrane_sides_of(const membrane_context *c, int order, size_t i)
 {
     const uint32_t *element = c->tables->element[i];
     const int k = c->tables->edge[i][0], l = c->tables->edge[i][1];
-    const int left[3] = {k, (k + 1) % 3, 3 + k}, right[3] = {(l + 1) % 3, l, 3 + l};
-    const double *minus = c->elements + element[0] * c->element_size, *plus = c->elements + element[1] * c->element_size;
-    UNROLL for (int n = 0; n < order + 1; n++)
+    membrane_sides sides = {.node = {{k, (k + 1) % 3, 3 + k}, {(l + 1) % 3, l, 3 + l}}};
+    UNROLL for (int side = 0; side < 2; side++) {
+        const int linear = order == 1, away = ((side ? l : k) + 2) % 3;
+        sides.element[side] = c->elements + element[side] * c->element_size;
+        sides.slot[side] = c->slots + (element[side] & c->tables->window) * (size_t)(MEMBRANE_SLOT(order) * LANES);
+        UNROLL for (int p = 0; p < 3; p++) sides.bulk[side][p] = linear ? 0 : p < 2 ? sides.node[side][p] : away;
+    }
+    return sides;
+}
+
+/* Jump, mean traction and the flux of interior penalty at the Gauss points, as long as nothing has cracked. */
+LANES_FUNCTION void membrane_flux(const membrane_context *c, int order, size_t i, const membrane_sides *sides, membrane_point at[3])
+{
+    static const double edge_point[2][3] = {FRACAS_EDGE_POINTS_1, FRACAS_EDGE_POINTS_2};
+    const fracas_membrane_constants *m = c->membrane;
+    const int points = MEMBRANE_EDGE(order), bulk = MEMBRANE_BULK(order), nodes = order + 1;
+    const double *table = c->tables->joint + i * (size_t)(MEMBRANE_POINTS + points * MEMBRANE_POINT_TABLE);
+    const vd stiffness = lanes_set(m->tangential * table[MEMBRANE_STIFFNESS]);
+    vd jump[3][2], stress[3][3];
+    UNROLL for (int n = 0; n < nodes; n++)
         UNROLL for (int j = 0; j < 2; j++)
-            edge->jump[n][j] = lanes_load(plus + (2 * right[n] + j) * LANES) - lanes_load(minus + (2 * left[n] + j) * LANES);
-    const size_t slot = (size_t)(MEMBRANE_SLOT(order) * LANES);
-    const double *before = c->slots + (element[0] & c->tables->window) * slot, *after = c->slots + (element[1] & c->tables->window) * slot;
-    const int far_left = (k + 2) % 3, far_right = (l + 2) % 3, bulk = MEMBRANE_BULK(order);
-    UNROLL for (int p = 0; p < bulk; p++) {
-        const int g = order == 1 ? 0 : p < 2 ? left[p] : far_left, h = order == 1 ? 0 : p < 2 ? right[p] : far_right;
+            jump[n][j] = lanes_load(sides->element[1] + (2 * sides->node[1][n] + j) * LANES) -
+                         lanes_load(sides->element[0] + (2 * sides->node[0][n] + j) * LANES);
+    UNROLL for (int p = 0; p < bulk; p++)
         UNROLL for (int j = 0; j < 3; j++)
-            edge->stress[p][j] = lanes_set(0.5) * (lanes_load(before + (3 * g + j) * LANES) + lanes_load(after + (3 * h + j) * LANES));
+            stress[p][j] = lanes_set(0.5) * (lanes_load(sides->slot[0] + (3 * sides->bulk[0][p] + j) * LANES) +
+                                             lanes_load(sides->slot[1] + (3 * sides->bulk[1][p] + j) * LANES));
+    UNROLL for (int g = 0; g < points; g++) {
+        const double *place = table + MEMBRANE_POINTS + g * MEMBRANE_POINT_TABLE;
+        const vd nx = lanes_set(place[MEMBRANE_NX]), ny = lanes_set(place[MEMBRANE_NY]);
+        double shape[3], spread[3];
+        fracas_edge_shape(order, edge_point[order - 1][g], shape, spread);
+        vd q[2], s[3];
+        UNROLL for (int j = 0; j < 2; j++) {
+            q[j] = lanes_set(shape[0]) * jump[0][j] + lanes_set(shape[1]) * jump[1][j];
+            if (nodes == 3) q[j] += lanes_set(shape[2]) * jump[2][j];
+        }
+        UNROLL for (int j = 0; j < 3; j++) /* (membrane.2) */
+            s[j] = bulk == 1 ? stress[0][j]
+                             : lanes_set(spread[0]) * stress[0][j] + lanes_set(spread[1]) * stress[1][j] + lanes_set(spread[2]) * stress[2][j];
+        const vd mean[2] = {s[0] * nx + s[2] * ny, s[2] * nx + s[1] * ny};
+        const vd more = lanes_set((m->normal - m->tangential) * table[MEMBRANE_STIFFNESS]) * (q[0] * nx + q[1] * ny);
+        const vd normal[2] = {nx, ny};
+        UNROLL for (int j = 0; j < 2; j++) { /* (membrane.4) */
+            at[g].jump[j] = at[g].carried[j] = q[j];
+            at[g].mean[j] = mean[j];
+            at[g].traction[j] = mean[j] + stiffness * q[j];
+            if (m->normal != m->tangential) at[g].traction[j] += more * normal[j];
+        }
     }
 }
 
-/* Forces on the nodes of the edge and strains at the bulk points of both sides. */
-LANES_FUNCTION void membrane_give(const membrane_context *c, int order, size_t i, vd force[3][2], vd strain[3][3])
+/* Gives the two elements the forces on the nodes of the edge, and strains at their bulk points. */
+LANES_FUNCTION void membrane_give(const membrane_context *c, int order, size_t i, const membrane_sides *sides, const membrane_point at[3])
 {
-    const uint32_t *element = c->tables->element[i];
-    const int k = c->tables->edge[i][0], l = c->tables->edge[i][1];
-    const int left[3] = {k, (k + 1) % 3, 3 + k}, right[3] = {(l + 1) % 3, l, 3 + l};
-    const size_t slot = (size_t)(MEMBRANE_SLOT(order) * LANES);
-    double *before = c->slots + (element[0] & c->tables->window) * slot, *after = c->slots + (element[1] & c->tables->window) * slot;
-    UNROLL for (int n = 0; n < order + 1; n++)
-        UNROLL for (int j = 0; j < 2; j++) {
-            double *minus = membrane_at(before, MEMBRANE_SLOT_FORCE(order) + 2 * left[n] + j);
-            double *plus = membrane_at(after, MEMBRANE_SLOT_FORCE(order) + 2 * right[n] + j);
-            lanes_store(minus, lanes_load(minus) - force[n][j]);
-            lanes_store(plus, lanes_load(plus) + force[n][j]);
+    static const double edge_point[2][3] = {FRACAS_EDGE_POINTS_1, FRACAS_EDGE_POINTS_2};
+    const int points = MEMBRANE_EDGE(order), bulk = MEMBRANE_BULK(order), nodes = order + 1;
+    const double *table = c->tables->joint + i * (size_t)(MEMBRANE_POINTS + points * MEMBRANE_POINT_TABLE);
+    vd force[3][2], strain[3][3];
+    UNROLL for (int n = 0; n < 3; n++) {
+        UNROLL for (int j = 0; j < 2; j++) force[n][j] = lanes_set(0.0);
+        UNROLL for (int j = 0; j < 3; j++) strain[n][j] = lanes_set(0.0);
+    }
+    UNROLL for (int g = 0; g < points; g++) {
+        const double *place = table + MEMBRANE_POINTS + g * MEMBRANE_POINT_TABLE;
+        const vd nx = lanes_set(place[MEMBRANE_NX]), ny = lanes_set(place[MEMBRANE_NY]), area = lanes_set(place[MEMBRANE_AREA]);
+        const vd half = lanes_set(0.5) * area, tx = area * at[g].traction[0], ty = area * at[g].traction[1];
+        const vd sx = half * at[g].carried[0], sy = half * at[g].carried[1];
+        const vd symmetric[3] = {sx * nx, sy * ny, sx * ny + sy * nx};
+        double shape[3], spread[3];
+        fracas_edge_shape(order, edge_point[order - 1][g], shape, spread);
+        UNROLL for (int n = 0; n < nodes; n++) {
+            force[n][0] += lanes_set(shape[n]) * tx;
+            force[n][1] += lanes_set(shape[n]) * ty;
         }
-    const int far_left = (k + 2) % 3, far_right = (l + 2) % 3, bulk = MEMBRANE_BULK(order);
-    UNROLL for (int p = 0; p < bulk; p++) {
-        const int g = order == 1 ? 0 : p < 2 ? left[p] : far_left, h = order == 1 ? 0 : p < 2 ? right[p] : far_right;
-        UNROLL for (int j = 0; j < 3; j++) {
-            double *minus = membrane_at(before, MEMBRANE_SLOT_EXTRA(order) + 3 * g + j);
-            double *plus = membrane_at(after, MEMBRANE_SLOT_EXTRA(order) + 3 * h + j);
-            lanes_store(minus, lanes_load(minus) + strain[p][j]);
-            lanes_store(plus, lanes_load(plus) + strain[p][j]);
-        }
+        UNROLL for (int p = 0; p < bulk; p++)
+            UNROLL for (int j = 0; j < 3; j++) strain[p][j] += bulk == 1 ? symmetric[j] : lanes_set(spread[p]) * symmetric[j];
+    }
+    UNROLL for (int side = 0; side < 2; side++) {
+        double *forces = membrane_at(sides->slot[side], MEMBRANE_SLOT_FORCE(order)), *extra = membrane_at(sides->slot[side], MEMBRANE_SLOT_EXTRA(order));
+        UNROLL for (int n = 0; n < nodes; n++)
+            UNROLL for (int j = 0; j < 2; j++) {
+                double *to = membrane_at(forces, 2 * sides->node[side][n] + j);
+                lanes_store(to, side ? lanes_load(to) + force[n][j] : lanes_load(to) - force[n][j]);
+            }
+        UNROLL for (int p = 0; p < bulk; p++)
+            UNROLL for (int j = 0; j < 3; j++) {
+                double *to = membrane_at(extra, 3 * sides->bulk[side][p] + j);
+                lanes_store(to, lanes_load(to) + strain[p][j]);
+            }
     }
 }
 
@@ -220,18 +274,17 @@ __attribute__((noinline, cold, unused)) static void membrane_book(const membrane
     }
 }
 
-/* The way of an interface at which some lane is cracked, or is about to. `flux` holds what every lane does that is not. */
-LANES_FUNCTION void membrane_crack(membrane_context *c, int order, int law, size_t i, double *joint, const vd q[3][2], const vd mean[3][2],
-                                   vd sigma_c, membrane_point *flux)
+/* The way of an interface at which some lane is cracked, or is about to. `at` holds what every lane does that is not. */
+LANES_FUNCTION void membrane_crack(membrane_context *c, int order, int law, size_t i, double *joint, membrane_point at[3])
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), two = lanes_set(2.0);
     const fracas_membrane_constants *m = c->membrane;
     const int points = MEMBRANE_EDGE(order);
     const double *table = c->tables->joint + i * (size_t)(MEMBRANE_POINTS + points * MEMBRANE_POINT_TABLE);
     const vd stiffness = lanes_set(table[MEMBRANE_STIFFNESS]);
-    const plane_interface at = {.k_n = lanes_set(m->normal) * stiffness, .k_t = lanes_set(m->tangential) * stiffness,
+    const plane_interface interface = {.k_n = lanes_set(m->normal) * stiffness, .k_t = lanes_set(m->tangential) * stiffness,
                                 .softness_n = lanes_set(table[MEMBRANE_COMPLIANCE] / m->normal),
-                                .softness_t = lanes_set(table[MEMBRANE_COMPLIANCE] / m->tangential), .sigma_c = sigma_c,
+                                .softness_t = lanes_set(table[MEMBRANE_COMPLIANCE] / m->tangential), .sigma_c = lanes_load(joint),
                                 .beta_c = lanes_set(m->beta_c), .per_beta_c = lanes_set(1.0 / m->beta_c), .mu_c = lanes_set(m->mu_c),
                                 .energy = lanes_set(m->energy), .opening = lanes_set(m->opening), .onset_mean = m->onset_mean};
     vmask cracks[3], breaks[3], whole = lanes_le(zero, zero), broken = whole, opens = lanes_lt(zero, zero), parts = opens;
@@ -240,21 +293,22 @@ LANES_FUNCTION void membrane_crack(membrane_context *c, int order, int law, size
         double *point = membrane_at(joint, MEMBRANE_LAW + g * m->point_fields);
         const double *place = table + MEMBRANE_POINTS + g * MEMBRANE_POINT_TABLE;
         const vd nx = lanes_set(place[MEMBRANE_NX]), ny = lanes_set(place[MEMBRANE_NY]), area = lanes_set(place[MEMBRANE_AREA]);
-        const plane_input in = {.m_n = mean[g][0] * nx + mean[g][1] * ny, .m_t = mean[g][1] * nx - mean[g][0] * ny,
-                                .q_n = q[g][0] * nx + q[g][1] * ny, .q_t = q[g][1] * nx - q[g][0] * ny};
+        const vd *q = at[g].jump, *mean = at[g].mean;
+        const plane_input in = {.m_n = mean[0] * nx + mean[1] * ny, .m_t = mean[1] * nx - mean[0] * ny,
+                                .q_n = q[0] * nx + q[1] * ny, .q_t = q[1] * nx - q[0] * ny};
         whole = lanes_and(whole, lanes_le(lanes_load(membrane_at(point, MEMBRANE_PEAK)), zero));
-        plane_result r = membrane_law_of(c, law, &at, &in, point);
+        plane_result r = membrane_law_of(c, law, &interface, &in, point);
         const vd damage = lanes_load(membrane_at(point, MEMBRANE_DAMAGE));
-        vd flux_energy = q[g][0] * (mean[g][0] + flux[g].traction[0]) + q[g][1] * (mean[g][1] + flux[g].traction[1]);
+        vd flux_energy = q[0] * (mean[0] + at[g].traction[0]) + q[1] * (mean[1] + at[g].traction[1]);
         c->flux += area * lanes_select(r.cracked, two * r.flux, flux_energy);
         c->stored += area * lanes_select(r.cracked, two * r.stored, zero);
         c->dissipated += area * r.dissipated;
         created += area * r.created;
         rubbed += area * lanes_select(r.cracked, r.rubbed, zero);
-        flux[g].traction[0] = lanes_select(r.cracked, r.t_n * nx - r.t_t * ny, flux[g].traction[0]);
-        flux[g].traction[1] = lanes_select(r.cracked, r.t_n * ny + r.t_t * nx, flux[g].traction[1]);
-        flux[g].carried[0] = lanes_select(r.cracked, r.s_n * nx - r.s_t * ny, q[g][0]);
-        flux[g].carried[1] = lanes_select(r.cracked, r.s_n * ny + r.s_t * nx, q[g][1]);
+        at[g].traction[0] = lanes_select(r.cracked, r.t_n * nx - r.t_t * ny, at[g].traction[0]);
+        at[g].traction[1] = lanes_select(r.cracked, r.t_n * ny + r.t_t * nx, at[g].traction[1]);
+        at[g].carried[0] = lanes_select(r.cracked, r.s_n * nx - r.s_t * ny, q[0]);
+        at[g].carried[1] = lanes_select(r.cracked, r.s_n * ny + r.s_t * nx, q[1]);
         broken = lanes_and(broken, lanes_le(one, damage));
         cracks[g] = r.cracks;
         breaks[g] = r.breaks;
@@ -269,91 +323,44 @@ LANES_FUNCTION void membrane_crack(membrane_context *c, int order, int law, size
     if (__builtin_expect(lanes_any(lanes_or(opens, parts)), 0)) membrane_book(c, law, points, i, cracks, breaks, opens, parts);
 }
 
-/* Interface i: jump and mean stress at its Gauss points, traction, forces. */
+/* Interface i: traction at its Gauss points, and what that does to its elements. */
 LANES_FUNCTION void membrane_join(membrane_context *c, int order, int law, size_t i)
 {
-    static const double edge_point[2][3] = {FRACAS_EDGE_POINTS_1, FRACAS_EDGE_POINTS_2};
     const fracas_membrane_constants *m = c->membrane;
-    const int points = MEMBRANE_EDGE(order), bulk = MEMBRANE_BULK(order), nodes = order + 1;
-    const double *table = c->tables->joint + i * (size_t)(MEMBRANE_POINTS + points * MEMBRANE_POINT_TABLE);
+    const int points = MEMBRANE_EDGE(order);
+    const membrane_sides sides = membrane_sides_of(c, order, i);
     double *joint = c->joints + i * c->joint_size;
-    const vd zero = lanes_set(0.0), stiffness = lanes_set(m->tangential * table[MEMBRANE_STIFFNESS]);
-    membrane_edge edge;
-    membrane_read_edge(c, order, i, &edge);
-    vd q[3][2], mean[3][2], largest = zero, touched = zero;
     membrane_point at[3];
-    UNROLL for (int g = 0; g < points; g++) {
-        const double s = edge_point[order - 1][g], *place = table + MEMBRANE_POINTS + g * MEMBRANE_POINT_TABLE;
-        const double shape[3] = {order == 1 ? 1 - s : (1 - s) * (1 - 2 * s), order == 1 ? s : s * (2 * s - 1), 4 * s * (1 - s)};
-        const double spread[3] = {2 * (1 - s) - 1.0 / 3, 2 * s - 1.0 / 3, -1.0 / 3}; /* (membrane.2) */
-        const vd nx = lanes_set(place[MEMBRANE_NX]), ny = lanes_set(place[MEMBRANE_NY]);
-        UNROLL for (int j = 0; j < 2; j++) {
-            q[g][j] = lanes_set(shape[0]) * edge.jump[0][j] + lanes_set(shape[1]) * edge.jump[1][j];
-            if (nodes == 3) q[g][j] += lanes_set(shape[2]) * edge.jump[2][j];
-        }
-        vd stress[3];
-        UNROLL for (int j = 0; j < 3; j++)
-            stress[j] = bulk == 1 ? edge.stress[0][j]
-                                  : lanes_set(spread[0]) * edge.stress[0][j] + lanes_set(spread[1]) * edge.stress[1][j] +
-                                        lanes_set(spread[2]) * edge.stress[2][j];
-        mean[g][0] = stress[0] * nx + stress[2] * ny;
-        mean[g][1] = stress[2] * nx + stress[1] * ny;
-        /* the flux of interior penalty, as long as nothing has cracked  (membrane.4) */
-        at[g].traction[0] = mean[g][0] + stiffness * q[g][0];
-        at[g].traction[1] = mean[g][1] + stiffness * q[g][1];
-        if (m->normal != m->tangential) {
-            vd more = lanes_set((m->normal - m->tangential) * table[MEMBRANE_STIFFNESS]) * (q[g][0] * nx + q[g][1] * ny);
-            at[g].traction[0] += more * nx;
-            at[g].traction[1] += more * ny;
-        }
-        at[g].carried[0] = q[g][0];
-        at[g].carried[1] = q[g][1];
-        if (law == MEMBRANE_OPERATOR) {
-            if (m->contact) {
-                at[g].traction[0] = at[g].traction[0] - mean[g][0];
-                at[g].traction[1] = at[g].traction[1] - mean[g][1];
-                at[g].carried[0] = at[g].carried[1] = zero;
+    membrane_flux(c, order, i, &sides, at);
+    if (law == MEMBRANE_OPERATOR) {
+        UNROLL for (int g = 0; g < points; g++)
+            UNROLL for (int j = 0; j < 2; j++) {
+                if (!m->contact) continue;
+                at[g].traction[j] = at[g].traction[j] - at[g].mean[j];
+                at[g].carried[j] = lanes_set(0.0);
             }
-            continue;
-        }
-        const vd *judged = m->onset_mean ? mean[g] : at[g].traction;
+        membrane_give(c, order, i, &sides, at);
+        return;
+    }
+    /* No lane is past its onset where none has a peak and no traction is near the strength: an onset needs
+     * |T| >= min(1, beta_c) sigma_c, and the margin covers its round-off, so that lanes do not depend on each other. */
+    vd largest = lanes_set(0.0), touched = lanes_set(0.0);
+    UNROLL for (int g = 0; g < points; g++) {
+        const vd *judged = m->onset_mean ? at[g].mean : at[g].traction;
         largest = plane_max(largest, judged[0] * judged[0] + judged[1] * judged[1]);
         touched += lanes_load(membrane_at(joint, MEMBRANE_LAW + g * m->point_fields + MEMBRANE_PEAK));
     }
-    if (law != MEMBRANE_OPERATOR) {
-        /* No lane is past its onset where none has a peak and no traction is near the strength: an onset needs
-         * |T| >= min(1, beta_c) sigma_c, and the margin covers its round-off, so that lanes do not depend on each other. */
-        const vd sigma_c = lanes_load(joint), floor = lanes_set(0.999 * (m->beta_c < 1.0 ? m->beta_c : 1.0)) * sigma_c;
-        if (lanes_any(lanes_or(lanes_lt(zero, touched), lanes_lt(floor * floor, largest)))) {
-            membrane_crack(c, order, law, i, joint, (const vd(*)[2])q, (const vd(*)[2])mean, sigma_c, at);
-        } else {
-            UNROLL for (int g = 0; g < points; g++) {
-                const vd area = lanes_set(table[MEMBRANE_POINTS + g * MEMBRANE_POINT_TABLE + MEMBRANE_AREA]);
-                c->flux += area * (q[g][0] * (mean[g][0] + at[g].traction[0]) + q[g][1] * (mean[g][1] + at[g].traction[1]));
-            }
+    const vd floor = lanes_set(0.999 * (m->beta_c < 1.0 ? m->beta_c : 1.0)) * lanes_load(joint);
+    if (lanes_any(lanes_or(lanes_lt(lanes_set(0.0), touched), lanes_lt(floor * floor, largest)))) {
+        membrane_crack(c, order, law, i, joint, at);
+    } else {
+        const double *table = c->tables->joint + i * (size_t)(MEMBRANE_POINTS + points * MEMBRANE_POINT_TABLE);
+        UNROLL for (int g = 0; g < points; g++) {
+            const vd *q = at[g].jump, area = lanes_set(table[MEMBRANE_POINTS + g * MEMBRANE_POINT_TABLE + MEMBRANE_AREA]);
+            c->flux += area * (q[0] * (at[g].mean[0] + at[g].traction[0]) + q[1] * (at[g].mean[1] + at[g].traction[1]));
         }
     }
-    vd force[3][2], strain[3][3];
-    UNROLL for (int n = 0; n < 3; n++) {
-        UNROLL for (int j = 0; j < 2; j++) force[n][j] = zero;
-        UNROLL for (int j = 0; j < 3; j++) strain[n][j] = zero;
-    }
-    UNROLL for (int g = 0; g < points; g++) {
-        const double s = edge_point[order - 1][g], *place = table + MEMBRANE_POINTS + g * MEMBRANE_POINT_TABLE;
-        const double shape[3] = {order == 1 ? 1 - s : (1 - s) * (1 - 2 * s), order == 1 ? s : s * (2 * s - 1), 4 * s * (1 - s)};
-        const double spread[3] = {2 * (1 - s) - 1.0 / 3, 2 * s - 1.0 / 3, -1.0 / 3};
-        const vd nx = lanes_set(place[MEMBRANE_NX]), ny = lanes_set(place[MEMBRANE_NY]), area = lanes_set(place[MEMBRANE_AREA]);
-        const vd half = lanes_set(0.5) * area, tx = area * at[g].traction[0], ty = area * at[g].traction[1];
-        const vd sx = half * at[g].carried[0], sy = half * at[g].carried[1];
-        const vd symmetric[3] = {sx * nx, sy * ny, sx * ny + sy * nx};
-        UNROLL for (int n = 0; n < nodes; n++) {
-            force[n][0] += lanes_set(shape[n]) * tx;
-            force[n][1] += lanes_set(shape[n]) * ty;
-        }
-        UNROLL for (int p = 0; p < bulk; p++)
-            UNROLL for (int j = 0; j < 3; j++) strain[p][j] += bulk == 1 ? symmetric[j] : lanes_set(spread[p]) * symmetric[j];
-    }
-    membrane_give(c, order, i, force, strain);
+    membrane_give(c, order, i, &sides, at);
 }
 
 /* Internal forces of element e: its own, what symmetrisation adds to its stresses, and its interfaces'  (membrane.7). */
@@ -530,12 +537,13 @@ MEMBRANE_SWEEP_OF(operator_quadratic, 2, MEMBRANE_OPERATOR)
 #endif
 #undef MEMBRANE_SWEEP_OF
 #undef membrane_context
-#undef membrane_edge
+#undef membrane_sides
+#undef membrane_sides_of
 #undef membrane_at
 #undef membrane_point
 #undef membrane_strain
 #undef membrane_drift
-#undef membrane_read_edge
+#undef membrane_flux
 #undef membrane_give
 #undef membrane_law_of
 #undef membrane_crack
