@@ -134,19 +134,19 @@ const fracas_leaf *fracas_catalog_selector(const fracas_catalog *catalog, const 
     return NULL;
 }
 
-static const fracas_param *find_param(const fracas_param *params, size_t count, const char *key)
+/* The parameter of that name that points of `model` have (NULL: any model). */
+static const fracas_param *find_param(const fracas_param *params, size_t count, const fracas_kind *model, const char *key)
 {
     for (size_t p = 0; p < count; p++)
-        if (strcmp(params[p].name, key) == 0) return &params[p];
+        if (strcmp(params[p].name, key) == 0 && (!model || fracas_param_is_of(&params[p], model))) return &params[p];
     return NULL;
 }
 
 const fracas_param *fracas_section_param(const fracas_section *section, const fracas_kind *kind, const fracas_kind *model,
                                          const char *key)
 {
-    const fracas_param *param = find_param(section->params, section->nparams, key);
-    if (!param && kind) param = find_param(kind->params, kind->nparams, key);
-    return param && (!model || fracas_param_is_of(param, model)) ? param : NULL;
+    const fracas_param *param = find_param(section->params, section->nparams, model, key);
+    return param || !kind ? param : find_param(kind->params, kind->nparams, model, key);
 }
 
 bool fracas_section_common(const fracas_section *section, const fracas_kind *model, const char *key)

@@ -78,17 +78,19 @@ fracas_err fracas_draft_check_base(const fracas_file *file, const fracas_draft *
         const fracas_setting *setting = draft->base[i], *chosen;
         if (!setting || !leaf->param) continue;
         const fracas_kind *kind = kind_of(file, draft, BASE, leaf->section, &chosen);
-        const fracas_param *param = fracas_section_param(leaf->section->table, kind, NULL, leaf->key);
-        if (!param) return fracas_setting_misplaced(file, setting, kind, chosen);
-        TRY(fracas_setting_check(file, setting, param));
+        const fracas_setting *model = selected(file, draft, BASE, file->catalog->section);
+        const fracas_param *any = fracas_section_param(leaf->section->table, kind, NULL, leaf->key);
+        const fracas_param *param = model ? fracas_section_param(leaf->section->table, kind, model->kind, leaf->key) : any;
+        if (!any) return fracas_setting_misplaced(file, setting, kind, chosen);
+        TRY(fracas_setting_check(file, setting, param ? param : any));
     }
     return FRACAS_OK;
 }
 
-static bool any_point_is_of(const fracas_param *param, const fracas_campaign *campaign)
+static bool any_point_has(const fracas_campaign *campaign, const fracas_section *table, const fracas_kind *kind, const char *key)
 {
     for (size_t p = 0; p < campaign->npoints; p++)
-        if (fracas_param_is_of(param, campaign->point[p].spec.formulation)) return true;
+        if (fracas_section_param(table, kind, campaign->point[p].spec.formulation, key)) return true;
     return false;
 }
 
@@ -99,8 +101,8 @@ fracas_err fracas_draft_check_models(const fracas_file *file, const fracas_draft
         const fracas_setting *chosen, *by;
         if (!draft->base[i] || !leaf->param) continue;
         const fracas_kind *kind = kind_of(file, draft, BASE, leaf->section, &chosen);
+        if (any_point_has(campaign, leaf->section->table, kind, leaf->key)) continue;
         const fracas_param *param = fracas_section_param(leaf->section->table, kind, NULL, leaf->key);
-        if (any_point_is_of(param, campaign)) continue;
         const fracas_kind *model = model_of(file, draft, POINT, &by);
         return fracas_setting_of_others(file, draft->base[i], param, model, by);
     }

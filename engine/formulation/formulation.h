@@ -73,6 +73,6 @@ struct fracas_formulation {
 };
 
 extern const fracas_formulation fracas_formulation_bar, fracas_formulation_ring, fracas_formulation_membrane;
-extern const fracas_kind *const fracas_surface_models[]; /* whose bodies are surfaces; then NULL */
+extern const fracas_kind *const fracas_chain_models[], *const fracas_surface_models[]; /* of such bodies; then NULL */
 
 #endif

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { LIMIT = 200, CALM = 4 };
+enum { LIMIT = 200, CALM = 12 };
 
 /* The tridiagonal matrix of the iteration. */
 typedef struct {

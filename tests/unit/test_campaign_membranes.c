@@ -178,7 +178,8 @@ static void test_no_mesh(void **state)
     if (!strstr(fracas_message(), "point 0: mesh file /tmp/")) fail_msg("%s", fracas_message());
     fracas_campaign_destroy(campaign);
     free(text);
-    text = file_campaign(path, "strength: {distribution: flaws, flaw_density: 1e11 1/m3, minimum: 100 MPa, maximum: 400 MPa, exponent: 2}\n");
+    text = file_campaign(path, "strength: {distribution: flaws, flaw_density: 1e11 1/m3, minimum: 100 MPa, maximum: 400 MPa, "
+                               "exponent: 2}\n");
     write_bytes(campaign_path, text, strlen(text));
     assert_int_equal(fracas_campaign_read(campaign_path, &campaign), FRACAS_USAGE);
     if (!strstr(fracas_message(), ":1:1: `mesh`: point 0: mesh file /tmp/")) fail_msg("%s", fracas_message());
@@ -287,7 +288,10 @@ static void test_inherited(void **state)
     /* a bar's area and number of elements are a ring's too, as they always were */
     campaign = read_replaced("  length: 50 mm\n", "  length: 50 mm\n  area: 3 mm2\nsweep:\n  - cases:\n      - {name: bar}\n"
                                                   "      - {model: ring, geometry: {shape: ring, radius: 1 cm}}\n");
-    for (size_t p = 0; p < 2; p++) assert_true(campaign->point[p].spec.geometry.area == 3e-6 && campaign->point[p].spec.mesh.elements == 100);
+    for (size_t p = 0; p < 2; p++) {
+        const fracas_spec *spec = &campaign->point[p].spec;
+        assert_true(spec->geometry.area == 3e-6 && spec->mesh.elements == 100);
+    }
     check_round_trip(campaign);
     fracas_campaign_destroy(campaign);
 }
@@ -527,7 +531,8 @@ static void test_bounds_of_others(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plate),     cmocka_unit_test(test_annulus),   cmocka_unit_test(test_file),  cmocka_unit_test(test_page_example),
+        cmocka_unit_test(test_plate),     cmocka_unit_test(test_annulus),   cmocka_unit_test(test_file),
+        cmocka_unit_test(test_page_example),
         cmocka_unit_test(test_no_mesh),   cmocka_unit_test(test_mean_strength), cmocka_unit_test(test_swept_model),
         cmocka_unit_test(test_inherited), cmocka_unit_test(test_refused),   cmocka_unit_test(test_perturbed),
         cmocka_unit_test(test_plan),      cmocka_unit_test(test_bytes),     cmocka_unit_test(test_bound),

@@ -77,6 +77,13 @@ static void look(const view *v, size_t interface, int g, double mean[2], double 
     jump[1] = q[1] * nx - q[0] * ny;
 }
 
+/* The law's fields of a Gauss point. */
+static const double *point_at(const view *v, size_t interface, int g)
+{
+    const fracas_membrane_constants *m = v->membrane;
+    return v->joints + (interface * fracas_membrane_joint_fields(m) + MEMBRANE_LAW + (size_t)(g * m->point_fields)) * v->lanes;
+}
+
 static double effective(double t_n, double t_t, double beta_c)
 {
     const double pull = fmax(t_n, 0), shear = t_t / beta_c;
@@ -88,25 +95,21 @@ static double onset_value(double t_n, double t_t, double beta_c, double mu_c)
     return effective(t_n, fmax(0, fabs(t_t) + mu_c * fmin(t_n, 0)), beta_c);
 }
 
-/* What the laws compare, a step ago: with the strength, and with the limit of a break; see plane_nitsche.h, plane_extrinsic.h. */
-static void values_at(const view *v, membrane_law law, size_t interface, int g, double *onset, double *value)
+/* What the laws compare at a Gauss point: with the strength, and with the limit of a break; see plane_nitsche.h,
+ * plane_extrinsic.h. */
+static void compared(const view *v, membrane_law law, size_t interface, int g, double *onset, double *opening)
 {
     const fracas_membrane_constants *m = v->membrane;
     const fracas_membrane_tables *t = m->tables;
     const double stiffness = t->joint[interface * (size_t)(MEMBRANE_POINTS + MEMBRANE_EDGE(t->order) * MEMBRANE_POINT_TABLE) + MEMBRANE_STIFFNESS];
     const double k_n = m->normal * stiffness, k_t = m->tangential * stiffness;
+    const double *point = point_at(v, interface, g);
     double mean[2], jump[2];
     look(v, interface, g, mean, jump);
     const double t_n = mean[0] + k_n * jump[0], t_t = mean[1] + k_t * jump[1];
     *onset = m->onset_mean ? onset_value(mean[0], mean[1], m->beta_c, m->mu_c) : onset_value(t_n, t_t, m->beta_c, m->mu_c);
-    if (law == MEMBRANE_NITSCHE) {
-        *value = effective(t_n, t_t, m->beta_c);
-        return;
-    }
-    const double *point = v->joints + (interface * fracas_membrane_joint_fields(m) + MEMBRANE_LAW + (size_t)(g * m->point_fields)) * v->lanes;
-    const double d_t = m->beta_c * (jump[1] - point[MEMBRANE_JUMP_T * v->lanes]);
-    const double pull = fmax(0, jump[0] - point[MEMBRANE_JUMP_N * v->lanes]);
-    *value = sqrt(pull * pull + d_t * d_t);
+    if (law == MEMBRANE_NITSCHE) *opening = effective(t_n, t_t, m->beta_c) / k_n; /* broken at delta_c */
+    else *opening = effective(jump[0] - point[MEMBRANE_JUMP_N * v->lanes], m->beta_c * m->beta_c * (jump[1] - point[MEMBRANE_JUMP_T * v->lanes]), m->beta_c);
 }
 
 /* t with value(t) = limit, linear between the step before and this one; held within the step  (membrane.12) */
@@ -119,15 +122,18 @@ static double crossing(const fracas_step *step, int lane, double before, double 
 void fracas_membrane_book(const fracas_membrane_constants *membrane, membrane_law law, fracas_step *step, int lane,
                           size_t interface, const fracas_membrane_event *event)
 {
-    const view before = view_of(membrane, step, lane, step->drift[lane]);
+    const view before = view_of(membrane, step, lane, step->drift[lane]), now = view_of(membrane, step, lane, 0);
     const size_t at = interface * (size_t)step->width + (size_t)lane;
-    const double sigma_c = before.joints[interface * fracas_membrane_joint_fields(membrane) * before.lanes];
+    const double sigma_c = now.joints[interface * fracas_membrane_joint_fields(membrane) * now.lanes];
     double first = INFINITY, last = -INFINITY;
     for (int g = 0; g < MEMBRANE_EDGE(membrane->tables->order); g++) {
-        double onset, value;
-        values_at(&before, law, interface, g, &onset, &value);
-        if (event->opens && !isnan(event->onset[g])) first = fmin(first, crossing(step, lane, onset, event->onset[g], sigma_c));
-        if (event->parts && !isnan(event->value[g])) last = fmax(last, crossing(step, lane, value, event->value[g], event->limit[g]));
+        const double peak = point_at(&now, interface, g)[MEMBRANE_PEAK * now.lanes];
+        const double delta_c = membrane->opening > 0 ? membrane->opening : 2 * membrane->energy / peak;
+        double onset[2], opening[2];
+        compared(&before, law, interface, g, &onset[0], &opening[0]);
+        compared(&now, law, interface, g, &onset[1], &opening[1]);
+        if (event->cracks[g]) first = fmin(first, crossing(step, lane, onset[0], onset[1], sigma_c));
+        if (event->breaks[g]) last = fmax(last, crossing(step, lane, opening[0], opening[1], delta_c));
     }
     if (event->opens) {
         step->cracked[lane]++;

@@ -105,6 +105,7 @@ static fracas_err largest_frequency(const fracas_model *model, int contact, doub
     free(start);
     fracas_membrane_operator_close(op);
     *omega = sqrt(square);
+    if (!err && !(square > 0)) return fracas_fail(FRACAS_USAGE, "every node of the mesh is held: leave an edge free, or refine the mesh");
     return err;
 }
 

@@ -38,7 +38,8 @@ typedef struct {
     const fracas_membrane_tables *tables;
     double c11, c12, c33;         /* Pa: E/(1 - nu^2), nu c11, E/(2 (1 + nu)) */
     double normal, tangential;    /* 1: k_n and k_t by K of the interface  (membrane.6) */
-    double energy, beta_c, mu_c;  /* G_c [J/m2], 1, 1 */
+    double energy, opening;       /* G_c [J/m2], or delta_c [m]: the other is 0 */
+    double beta_c, mu_c;          /* 1 */
     int onset_mean, standard, friction;
     int fields, point_fields;     /* of an element, in units of 2 MEMBRANE_NODES; of a Gauss point */
     double speed, ramp;           /* rad/s, s: w = speed min(1, t/ramp) */
@@ -82,9 +83,8 @@ extern const fracas_membrane_kernels fracas_membrane_kernels_baseline, fracas_me
 
 /* ---- what happens at an interface in a step, booked lane by lane: it is rare ---- */
 
-/* At each Gauss point: what is held against the strength, and against the limit of a break; NaN where nothing happens. */
 typedef struct {
-    double onset[FRACAS_EDGE_MOST], value[FRACAS_EDGE_MOST], limit[FRACAS_EDGE_MOST];
+    int cracks[FRACAS_EDGE_MOST], breaks[FRACAS_EDGE_MOST]; /* which Gauss points do so in this step */
     int opens, parts; /* the interface's first point cracks, its last one breaks */
 } fracas_membrane_event;
 

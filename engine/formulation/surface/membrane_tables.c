@@ -13,7 +13,7 @@ void fracas_membrane_tables_destroy(void *p)
     fracas_membrane_tables *t = p;
     if (!t) return;
     void *const owned[] = {t->bulk, t->lumped, t->consistent, t->position, t->joint, t->element, t->edge,
-                           t->held, t->join_from, t->join, t->finish_from, t->finish};
+                           t->held, t->fixed, t->join_from, t->join, t->finish_from, t->finish};
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
     free(t);
 }
@@ -27,6 +27,7 @@ static bool allocate(fracas_membrane_tables *t, bool consistent, bool positions,
     if (consistent) t->consistent = malloc(n * 3 * nodes * nodes * sizeof *t->consistent);
     if (positions) t->position = malloc(n * nodes * 2 * sizeof *t->position);
     if (held) t->held = calloc(n, sizeof *t->held);
+    if (held) t->fixed = calloc(n, sizeof *t->fixed);
     t->joint = malloc((m ? m : 1) * joint * sizeof *t->joint);
     t->element = malloc((m ? m : 1) * sizeof *t->element);
     t->edge = malloc((m ? m : 1) * sizeof *t->edge);
@@ -34,7 +35,7 @@ static bool allocate(fracas_membrane_tables *t, bool consistent, bool positions,
     t->finish_from = calloc(n + 2, sizeof *t->finish_from);
     t->join = malloc((m ? m : 1) * sizeof *t->join);
     t->finish = malloc(n * sizeof *t->finish);
-    return t->bulk && t->lumped && (t->consistent || !consistent) && (t->position || !positions) && (t->held || !held) &&
+    return t->bulk && t->lumped && (t->consistent || !consistent) && (t->position || !positions) && ((t->held && t->fixed) || !held) &&
            t->joint && t->element && t->edge && t->join_from && t->finish_from && t->join && t->finish;
 }
 
@@ -227,7 +228,11 @@ static fracas_err hold_edge(const fracas_model *model, const fracas_surface_bord
     }
     for (int n = 0; n < t->order + 1; n++)
         for (unsigned i = 0; i < 2; i++)
-            if (held[i]) t->held[border->element] |= (uint16_t)(1u << (2 * node[n] + i));
+            if (held[i]) {
+                const uint16_t bit = (uint16_t)(1u << (2 * node[n] + i));
+                t->held[border->element] |= bit;
+                if (kind == &fracas_edge_fixed) t->fixed[border->element] |= bit;
+            }
     return FRACAS_OK;
 }
 

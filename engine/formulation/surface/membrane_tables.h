@@ -30,6 +30,7 @@ typedef struct {
     uint32_t (*element)[2];      /* [interface] */
     uint8_t (*edge)[2];          /* [interface]: which of its elements' edges */
     uint16_t *held;              /* [element]: bit 2 node + component is set where the velocity is held; NULL: nowhere */
+    uint16_t *fixed;             /* [element]: of those bits the ones of edges that stay where they are; NULL with held */
     /* Element by element: the interfaces whose second element e is, join[join_from[e]] to join[join_from[e + 1] - 1]; then the
      * elements that have all their interfaces by then, finish[...] likewise. */
     uint32_t *join_from, *join, *finish_from, *finish;

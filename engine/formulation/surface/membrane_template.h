@@ -27,7 +27,11 @@
 #define membrane_run LANES_NAME(membrane_run)
 #define membrane_book LANES_NAME(membrane_book)
 #define membrane_spin LANES_NAME(membrane_spin)
+#ifdef __SANITIZE_ADDRESS__ /* unrolled, checks take minutes to compile */
+#define UNROLL
+#else
 #define UNROLL _Pragma("GCC unroll 12")
+#endif
 
 typedef struct {
     const fracas_membrane_constants *membrane;
@@ -39,8 +43,8 @@ typedef struct {
     vd drift, kick;                     /* s */
     vd spin;                            /* w(t_n)^2 [1/s2] */
     int begins;                         /* the first step of all */
-    /* sums over the body, for the ledger, twice the energies [J]; power [W], sum of m r.v [kg m2/s] */
-    vd strain_energy, flux, stored, dissipated, kinetic, power, moment;
+    /* sums over the body, for the ledger: twice the energies, dissipated [J]; power [W], sum of m r.v [kg m2/s] */
+    vd strain_energy, flux, stored, kinetic, dissipated, power, moment;
 } membrane_context;
 
 /* What an interface sees of its two elements: nodes a, b (and c, the middle) of the edge, bulk points a, b at its ends and o
@@ -204,22 +208,15 @@ LANES_FUNCTION plane_result membrane_law_of(const membrane_context *c, int law, 
 
 /* Books what happened at an interface, lane by lane. */
 __attribute__((noinline, cold, unused)) static void membrane_book(const membrane_context *c, int law, int points, size_t i,
-                                                                 const vmask *cracks, const vmask *breaks, const vd *onset,
-                                                                 const vd *value, const vd *limit, vmask whole, vmask parts, vmask opens)
+                                                                 const vmask *cracks, const vmask *breaks, vmask opens, vmask parts)
 {
     for (int l = 0; l < LANES; l++) {
-        fracas_membrane_event event = {.opens = lanes_get(whole, l) && lanes_get(opens, l), .parts = lanes_get(parts, l)};
-        if (!event.opens && !event.parts) continue;
+        fracas_membrane_event event = {.opens = lanes_get(opens, l), .parts = lanes_get(parts, l)};
         for (int g = 0; g < points; g++) {
-            double now[3][LANES];
-            memcpy(now[0], &onset[g], sizeof now[0]);
-            memcpy(now[1], &value[g], sizeof now[1]);
-            memcpy(now[2], &limit[g], sizeof now[2]);
-            event.onset[g] = lanes_get(cracks[g], l) ? now[0][l] : NAN;
-            event.value[g] = lanes_get(breaks[g], l) ? now[1][l] : NAN;
-            event.limit[g] = now[2][l];
+            event.cracks[g] = lanes_get(cracks[g], l);
+            event.breaks[g] = lanes_get(breaks[g], l);
         }
-        fracas_membrane_book(c->membrane, (membrane_law)law, c->step, c->first + l, i, &event);
+        if (event.opens || event.parts) fracas_membrane_book(c->membrane, (membrane_law)law, c->step, c->first + l, i, &event);
     }
 }
 
@@ -233,10 +230,12 @@ LANES_FUNCTION void membrane_crack(membrane_context *c, int order, int law, size
     const double *table = c->tables->joint + i * (size_t)(MEMBRANE_POINTS + points * MEMBRANE_POINT_TABLE);
     const vd stiffness = lanes_set(table[MEMBRANE_STIFFNESS]);
     const plane_interface at = {.k_n = lanes_set(m->normal) * stiffness, .k_t = lanes_set(m->tangential) * stiffness,
-                                .sigma_c = sigma_c, .beta_c = lanes_set(m->beta_c), .mu_c = lanes_set(m->mu_c),
-                                .energy = lanes_set(m->energy), .onset_mean = m->onset_mean};
+                                .softness_n = lanes_set(table[MEMBRANE_COMPLIANCE] / m->normal),
+                                .softness_t = lanes_set(table[MEMBRANE_COMPLIANCE] / m->tangential), .sigma_c = sigma_c,
+                                .beta_c = lanes_set(m->beta_c), .per_beta_c = lanes_set(1.0 / m->beta_c), .mu_c = lanes_set(m->mu_c),
+                                .energy = lanes_set(m->energy), .opening = lanes_set(m->opening), .onset_mean = m->onset_mean};
     vmask cracks[3], breaks[3], whole = lanes_le(zero, zero), broken = whole, opens = lanes_lt(zero, zero), parts = opens;
-    vd onset[3], value[3], limit[3], created = zero, rubbed = zero;
+    vd created = zero, rubbed = zero;
     UNROLL for (int g = 0; g < points; g++) {
         double *point = membrane_at(joint, MEMBRANE_LAW + g * m->point_fields);
         const double *place = table + MEMBRANE_POINTS + g * MEMBRANE_POINT_TABLE;
@@ -249,7 +248,7 @@ LANES_FUNCTION void membrane_crack(membrane_context *c, int order, int law, size
         vd flux_energy = q[g][0] * (mean[g][0] + flux[g].traction[0]) + q[g][1] * (mean[g][1] + flux[g].traction[1]);
         c->flux += area * lanes_select(r.cracked, two * r.flux, flux_energy);
         c->stored += area * lanes_select(r.cracked, two * r.stored, zero);
-        c->dissipated += area * damage;
+        c->dissipated += area * r.dissipated;
         created += area * r.created;
         rubbed += area * lanes_select(r.cracked, r.rubbed, zero);
         flux[g].traction[0] = lanes_select(r.cracked, r.t_n * nx - r.t_t * ny, flux[g].traction[0]);
@@ -261,16 +260,13 @@ LANES_FUNCTION void membrane_crack(membrane_context *c, int order, int law, size
         breaks[g] = r.breaks;
         opens = lanes_or(opens, r.cracks);
         parts = lanes_or(parts, r.breaks);
-        onset[g] = r.onset_value;
-        value[g] = r.break_value;
-        limit[g] = r.break_limit;
     }
     double *created_at = c->step->created + c->first, *rubbed_at = c->step->rubbed + c->first;
     lanes_store(created_at, lanes_load(created_at) + created);
     lanes_store(rubbed_at, lanes_load(rubbed_at) + rubbed);
-    parts = lanes_and(parts, broken); /* the last of its points */
-    if (__builtin_expect(lanes_any(lanes_or(lanes_and(opens, whole), parts)), 0))
-        membrane_book(c, law, points, i, cracks, breaks, onset, value, limit, whole, parts, opens);
+    opens = lanes_and(opens, whole);  /* the first of its points */
+    parts = lanes_and(parts, broken); /* the last */
+    if (__builtin_expect(lanes_any(lanes_or(opens, parts)), 0)) membrane_book(c, law, points, i, cracks, breaks, opens, parts);
 }
 
 /* Interface i: jump and mean stress at its Gauss points, traction, forces. */
@@ -485,7 +481,7 @@ LANES_FUNCTION void membrane_totals(const membrane_context *c)
     lanes_store(step->kinetic + first, half * c->kinetic);
     lanes_store(step->elastic + first, half * (c->strain_energy + c->flux));
     lanes_store(step->cohesive + first, half * c->stored);
-    lanes_store(step->dissipated + first, lanes_set(m->energy) * c->dissipated + lanes_load(step->rubbed + first));
+    lanes_store(step->dissipated + first, c->dissipated + lanes_load(step->rubbed + first));
     /* Central difference: exactly what the body force does between two steps is its mean times dt v_{n-1/2}. */
     vd body = lanes_set(0.0), power = c->power;
     if (c->tables->position && m->alpha) power += c->spin * c->moment;
@@ -560,6 +556,7 @@ MEMBRANE_SWEEP_OF(operator_quadratic, 2, MEMBRANE_OPERATOR)
 #undef plane_min
 #undef plane_effective
 #undef plane_onset
+#undef plane_energy
 #undef plane_nitsche
 #undef plane_nitsche_state
 #undef plane_friction
