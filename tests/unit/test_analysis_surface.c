@@ -399,6 +399,35 @@ static void curved_edges_are_curved(void **state)
     fracas_stored_mesh_clear(&curved);
 }
 
+/* A plate in space: seen from (1, 1, 1), which its normal points to, it looks as one that lies flat; from behind nothing is seen. */
+static void surfaces_in_space_show_their_face(void **state)
+{
+    (void)state;
+    const double square = 7840.0 / 6 * 7840.0 / 6;
+    for (int side = 1; side >= -1; side -= 2) {
+        fracas_stored_mesh mesh;
+        fracas_record record;
+        grid_make(&plate, &mesh);
+        grid_record(&mesh, 100, &record);
+        crack_up(&plate, &mesh, &record, 2, 0, 4, 10);
+        for (size_t n = 0; n < mesh.nnodes; n++) {
+            double *at = mesh.node[n].position;
+            const double x = side * at[0], y = at[1];
+            at[0] = -x / sqrt(2) - y / sqrt(6);
+            at[1] = x / sqrt(2) - y / sqrt(6);
+            at[2] = 2 * y / sqrt(6);
+        }
+        char *svg = draw(&mesh, &record, 50, FRACAS_SHOW_FRAGMENTS);
+        assert_true(fabs(measure(svg, "t0").area / square - (side > 0 ? 16 : 0)) < 0.02);
+        assert_true(fabs(measure(svg, "t1").area / square - (side > 0 ? 8 : 0)) < 0.02);
+        assert_int_equal(measure(svg, "broken").edges, side > 0 ? 4 : 0);
+        assert_int_equal(measure(svg, "outline").edges, side > 0 ? mesh.nborders : 0);
+        free(svg);
+        fracas_record_clear(&record);
+        fracas_stored_mesh_clear(&mesh);
+    }
+}
+
 /* Neighbours differ, whatever breaks: planar graphs need no more than four tints, and there are seven. */
 static void neighbours_have_different_tints(void **state)
 {
@@ -575,6 +604,7 @@ int main(void)
         cmocka_unit_test(fragments_are_filled),
         cmocka_unit_test(holes_stay_holes),
         cmocka_unit_test(curved_edges_are_curved),
+        cmocka_unit_test(surfaces_in_space_show_their_face),
         cmocka_unit_test(neighbours_have_different_tints),
         cmocka_unit_test(pictures_stay_small),
         cmocka_unit_test(surfaces_have_no_laws_of_one_dimension),
