@@ -115,6 +115,16 @@ static void test_places(void **state)
         for (int i = 0; i < 4; i++)
             if (got[2 * i] != i + 1 || got[2 * i + 1] != 0) fail_msg("%g at %d of:\n%s", got[2 * i], i, texts[t]);
     }
+    double edge[3][3] = {{0, 0, 0}, {0, 0, 0}, {2, 0, 0}}; /* cells of 1 from -0.002 on: the second is beside the end of one */
+    double three[3];
+    for (int side = -1; side <= 1; side += 2) {
+        char text[100];
+        edge[1][0] = 0.998 - 1e-4 * side;
+        snprintf(text, sizeof text, "0 0 1\n%g 0 2\n2 0 3\n", 0.998 + 5e-4 * side); /* in the other cell */
+        assert_int_equal(sample_places(text, 3, (const double(*)[3])edge, 1, three), FRACAS_OK);
+        assert_true(three[0] == 1 && three[1] == 2 && three[2] == 3);
+    }
+    assert_int_equal(sample_places("0 0 1\n.9975 0 2\n.9985 0 2\n2 0 3\n", 3, (const double(*)[3])edge, 1, three), FRACAS_USAGE);
     static const double one[1][3] = {{2, 3, 0}}, none[1][3] = {{0, 0, 0}}; /* without a spacing: 1e-3 of how far out it is */
     double got;
     assert_int_equal(sample_places("2.001 3.001 5", 1, one, 1, &got), FRACAS_OK);

@@ -252,6 +252,6 @@ const fracas_formulation fracas_formulation_bar = {
     .kind = {.name = "bar", .doc = "a bar stretched at a uniform rate: the hoop direction of an expanding ring",
              .goes_with = goes_with, .ngoes_with = FRACAS_COUNT(goes_with)},
     .model_init = bar_model_init, .check_strength = bar_check_strength, .interface_volume = bar_interface_volume,
-    .interface_positions = bar_interface_positions, .state_size = bar_state_size, .strength = bar_strength, .lane_init = bar_lane_init, .advance = bar_advance,
-    .fragment_count = fracas_chain_fragment_count, .harvest = bar_harvest,
+    .interface_positions = bar_interface_positions, .state_size = bar_state_size, .strength = bar_strength,
+    .lane_init = bar_lane_init, .advance = bar_advance, .fragment_count = fracas_chain_fragment_count, .harvest = bar_harvest,
 };

@@ -232,6 +232,6 @@ const fracas_formulation fracas_formulation_ring = {
     .kind = {.name = "ring", .doc = "a closed ring in the plane, of springs along its circumference", .goes_with = goes_with,
              .ngoes_with = FRACAS_COUNT(goes_with)},
     .model_init = ring_model_init, .check_strength = fracas_chain_check_strength, .interface_volume = ring_interface_volume,
-    .interface_positions = ring_interface_positions, .state_size = ring_state_size, .strength = ring_strength, .lane_init = ring_lane_init, .advance = ring_advance,
-    .fragment_count = fracas_chain_fragment_count, .harvest = ring_harvest,
+    .interface_positions = ring_interface_positions, .state_size = ring_state_size, .strength = ring_strength,
+    .lane_init = ring_lane_init, .advance = ring_advance, .fragment_count = fracas_chain_fragment_count, .harvest = ring_harvest,
 };
