@@ -1,13 +1,13 @@
 /* Law `nitsche` for opening and sliding: the crack's opening in series with the flux. Include after cohesive/plane.h.
  *
  *   trial T' = m + k q (unbroken), k q (broken); S' its effective traction                            (cohesive.12)
- *   at onset p = sigma_c (onset by the flux), max(S', sigma_c) (by the mean), p <= max(sigma_c, sqrt(k_n G_c))        (cohesive.13)
+ *   at onset p = sigma_c (onset by the flux), max(S', sigma_c) (by the mean), p <= sqrt(k_n G_c)        (cohesive.13)
  *   loading, S' - p > D x, x = k_n delta_c - p:  D = min(1, (S' - p)/x), T = T' p (1 - D)/S'            (cohesive.14)
  *   else on the secant                           T = T' p (1 - D)/(p + D x)
  *   a pressure T'_n < 0 is kept whole; once broken T_n = k_n min(0, q_n), T_t = 0
  *   s = q - delta = (T - m)/k (unbroken), 0 (broken)                                                    (cohesive.15)
  *   energies of the flux s (m + T)/2, stored T (q - s)/2, dissipated G_c D                              (cohesive.16)
- * Where the peak is cut the traction falls at the onset: what energy goes with it counts as created.
+ * Where the peak is cut, k_n delta_c = 2 p, the traction falls at the onset: what energy goes with it counts as created.
  * With mu_c > 0 faces that press on each other carry friction F beside: |F| <= mu_c |T_n|, T_t = T_cohesive + F, where the
  * opening delta_t moves only while |F| is at its limit                                                 (cohesive.17) */
 #define plane_nitsche LANES_NAME(fracas_plane_nitsche)
@@ -60,7 +60,7 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
     vd peak = state->peak, fresh = at->sigma_c, most = at->sigma_c;
     if (lanes_any(r.cracks)) { /* (cohesive.13) */
         if (at->onset_mean) fresh = plane_max(lanes_sqrt(plane_onset(at, trial_n, trial_t)), fresh);
-        most = plane_max(lanes_sqrt(at->k_n * at->energy) + half * (at->k_n * at->opening), most);
+        most = lanes_sqrt(at->k_n * at->energy) + half * (at->k_n * at->opening);
         peak = lanes_select(r.cracks, plane_min(fresh, most), peak);
     }
     vd p = lanes_select(r.cracked, peak, at->sigma_c), energy = plane_energy(at, p);

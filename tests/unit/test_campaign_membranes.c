@@ -55,7 +55,7 @@ static void test_plate(void **state)
 {
     (void)state;
     static const char text[] =
-        "cohesive.beta=4\ncohesive.coupling=1\ncohesive.fracture_energy=50\ncohesive.friction=0\ncohesive.law=nitsche\n"
+        "cohesive.beta=5\ncohesive.critical_opening=0\ncohesive.coupling=1\ncohesive.fracture_energy=50\ncohesive.friction=0\ncohesive.law=nitsche\n"
         "cohesive.onset=mean\ngeometry.bottom=free\ngeometry.height=0.005\ngeometry.left=free\ngeometry.right=free\n"
         "geometry.shape=plate\ngeometry.thickness=0.0001\ngeometry.top=free\ngeometry.width=0.01\nloading.rate=10000\n"
         "loading.ratio=1\nloading.start=moving\nloading.type=expansion\nmaterial.density=3900\nmaterial.poisson=0.25\n"
