@@ -1,5 +1,7 @@
 /* A disk with a hole that is turned faster and faster, until it would crack: the membrane against the motion along the radius
- * alone, found without the engine (tests/support/axisymmetric.h). */
+ * alone, found without the engine (tests/support/axisymmetric.h).
+ * ctest-labels: slow-sanitize
+ */
 #include "tests/support/axisymmetric.h"
 #include "tests/support/membrane_elastic.h"
 
