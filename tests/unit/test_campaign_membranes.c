@@ -20,7 +20,7 @@ static const char membrane_campaign[] =
     "  divisions: 4\n"                                                /* 6 */
     "material: {young: 370 GPa, poisson: 0.25, density: 3900}\n"      /* 7 */
     "cohesive:\n"                                                     /* 8 */
-    "  fracture_energy: 50 J/m2\n"                                    /* 9 */
+    "  fracture_energy: 150 J/m2\n"                                    /* 9 */
     "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n"         /* 10 */
     "loading: {rate: 1e4 1/s}\n"                                      /* 11 */
     "time: {end: 0.1 us}\n"                                           /* 12 */
@@ -55,7 +55,7 @@ static void test_plate(void **state)
 {
     (void)state;
     static const char text[] =
-        "cohesive.beta=5\ncohesive.critical_opening=0\ncohesive.coupling=1\ncohesive.fracture_energy=50\ncohesive.friction=0\ncohesive.law=nitsche\n"
+        "cohesive.beta=5\ncohesive.coupling=1\ncohesive.critical_opening=0\ncohesive.fracture_energy=150\ncohesive.friction=0\ncohesive.law=nitsche\n"
         "cohesive.onset=mean\ngeometry.bottom=free\ngeometry.height=0.005\ngeometry.left=free\ngeometry.right=free\n"
         "geometry.shape=plate\ngeometry.thickness=0.0001\ngeometry.top=free\ngeometry.width=0.01\nloading.rate=10000\n"
         "loading.ratio=1\nloading.start=moving\nloading.type=expansion\nmaterial.density=3900\nmaterial.poisson=0.25\n"
@@ -274,8 +274,8 @@ static void test_swept_model(void **state)
 static void test_inherited(void **state)
 {
     (void)state;
-    fracas_campaign *campaign = read_membrane("  fracture_energy: 50 J/m2\n",
-        "  fracture_energy: 50 J/m2\n  beta: 10\n  friction: 0.5\nsweep:\n  - cohesive.law: [nitsche, camacho-ortiz-standard, "
+    fracas_campaign *campaign = read_membrane("  fracture_energy: 150 J/m2\n",
+        "  fracture_energy: 150 J/m2\n  beta: 10\n  friction: 0.5\nsweep:\n  - cohesive.law: [nitsche, camacho-ortiz-standard, "
         "camacho-ortiz]\n  - geometry: [{width: 20 mm}, {shape: annulus, inner: 1 mm, outer: 2 mm}]\n");
     assert_int_equal(campaign->npoints, 6);
     for (size_t p = 0; p < 6; p++) {
@@ -484,7 +484,7 @@ static void test_bound(void **state)
             snprintf(text, sizeof text, "loading: {%s}\ntime: {end: %.2g, safety: 0.5}\n", table[i].loading, times[t]);
             snprintf(law, sizeof law, "  fracture_energy: 1e9\n  coupling: %s\n", table[i].coupling);
             char *loaded = replace(membrane_campaign, "loading: {rate: 1e4 1/s}\ntime: {end: 0.1 us}\n", text);
-            char *lawful = replace(loaded, "  fracture_energy: 50 J/m2\n", law), *square = replace(lawful, "height: 5 mm", "height: 10 mm");
+            char *lawful = replace(loaded, "  fracture_energy: 150 J/m2\n", law), *square = replace(lawful, "height: 5 mm", "height: 10 mm");
             char *fine = replace(square, "divisions: 4", "divisions: 12\n  amplitude: 0.2");
             fracas_campaign *campaign = read_text(fine);
             fracas_forecast forecast;

@@ -236,6 +236,21 @@ static fracas_err hold_edge(const fracas_model *model, const fracas_surface_bord
     return FRACAS_OK;
 }
 
+/* Edges that are to be held must be there. */
+static fracas_err check_tags(const fracas_model *model)
+{
+    const fracas_surface *surface = model->surface;
+    for (int32_t tag = 1; tag < FRACAS_EDGES; tag++) {
+        size_t found = 0;
+        for (size_t b = 0; b < surface->nborders; b++) found += surface->border[b].tag == tag;
+        const fracas_kind *edge = model->spec.geometry.edge[tag];
+        if (found == 0 && edge && edge != &fracas_edge_free)
+            return fracas_fail(FRACAS_USAGE, "geometry.edge_%d is %s, but the mesh has no edge on its boundary of the physical group %d: give "
+                               "the lines that number, or use `edges` for all others", (int)tag, edge->name, (int)tag);
+    }
+    return FRACAS_OK;
+}
+
 static bool holds_something(const fracas_model *model)
 {
     for (size_t b = 0; b < model->surface->nborders; b++)
@@ -245,6 +260,7 @@ static bool holds_something(const fracas_model *model)
 
 static fracas_err fill(const fracas_model *model, fracas_membrane_tables *t)
 {
+    TRY(check_tags(model));
     for (size_t b = 0; t->held && b < model->surface->nborders; b++) {
         const fracas_kind *kind = holding(model, model->surface->border[b].tag);
         if (kind != &fracas_edge_free) TRY(hold_edge(model, &model->surface->border[b], kind, t));
