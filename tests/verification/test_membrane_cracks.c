@@ -183,8 +183,8 @@ static bool is_of_use(const fracas_model *model, const rates *r, double strength
 }
 
 /* Runs it until it is broken, while it all moves with 100 m/s along x and y: that does not matter, and lets a ledger pass which cannot
- * close with a motion that forces do not change. Every quantity that times are found from is linear in t: round-off as above, and of a break the time of a
- * crossing of something up to 10 times the strength; the
+ * close with a motion that forces do not change. Every quantity that times are found from is linear in t: round-off as above, and of a break the
+ * time of a crossing of something up to 10 times the strength; the
  * motion adds 1.1e-16 of 100 times the displacements; 1e-11. */
 static void check_fate(fracas_model *model, double velocity[2][6], double strength, double *worst)
 {
@@ -198,7 +198,8 @@ static void check_fate(fracas_model *model, double velocity[2][6], double streng
     bar_set_strength(batch, 0, 0, strength);
     assert_ok(fracas_batch_begin(batch));
     for (size_t side = 0; side < 2; side++)
-        for (size_t i = 0; i < 6; i++) *membrane_state(batch, model->surface->interface[0].element[side], i / 2, MEMBRANE_V, (int)i % 2) = 100 + velocity[side][i];
+        for (size_t i = 0; i < 6; i++)
+            *membrane_state(batch, model->surface->interface[0].element[side], i / 2, MEMBRANE_V, (int)i % 2) = 100 + velocity[side][i];
     run_to_end(batch, &record);
     const fracas_cohesive *law = &model->spec.cohesive;
     const double area = sqrt(2) * 1e-3 * model->spec.geometry.thickness;
