@@ -247,24 +247,37 @@ static int64_t membrane_fragment_count(const fracas_model *model, fracas_step *s
     return step->broken[lane] == 0 ? 1 : (int64_t)partition(model, step, lane);
 }
 
-/* Adds mass, moments of mass, momentum and moment of momentum of an element to its fragment's; `size` collects the area. */
+/* M_kl of element e, of its lumped or consistent masses [kg]. */
+static double mass_at(const fracas_membrane_tables *t, size_t e, size_t k, size_t l)
+{
+    const size_t nodes = (size_t)MEMBRANE_NODES(t->order);
+    if (t->consistent) return t->consistent[((3 * e + 2) * nodes + k) * nodes + l];
+    return k == l ? t->lumped[(2 * e + 1) * nodes + k] : 0;
+}
+
+/* Adds mass, moments of mass, momentum and moment of momentum of an element to its fragment's. By the
+ * masses that it moves with: of quadratic elements the lumped ones give another momentum, which is not kept. */
 static void add_element(const fracas_model *model, const fracas_step *step, int lane, size_t e, fracas_fragment *f)
 {
     const fracas_membrane_constants c = fracas_membrane_constants_of(model);
     const size_t nodes = (size_t)MEMBRANE_NODES(c.tables->order), base = e * fracas_membrane_element_fields(&c);
-    const double *mass = c.tables->lumped + (2 * e + 1) * nodes;
     f->elements++;
     for (size_t k = 0; k < nodes; k++) {
         const double *start = model->surface->node[model->surface->element[e * nodes + k]];
-        double x[2], v[2];
+        double mass = 0, x[2], momentum[2] = {0};
+        for (size_t l = 0; l < nodes; l++) {
+            const double share = mass_at(c.tables, e, k, l);
+            mass += share;
+            for (size_t i = 0; i < 2; i++)
+                momentum[i] += share * *value_at(&c, step, base + (size_t)MEMBRANE_V * 2 * nodes + 2 * l + i, lane);
+        }
         for (size_t i = 0; i < 2; i++) {
             x[i] = start[i] + *value_at(&c, step, base + 2 * k + i, lane);
-            v[i] = *value_at(&c, step, base + (size_t)MEMBRANE_V * 2 * nodes + 2 * k + i, lane);
-            f->position[i] += mass[k] * x[i];
-            f->velocity[i] += mass[k] * v[i];
+            f->position[i] += mass * x[i];
+            f->velocity[i] += momentum[i];
         }
-        f->mass += mass[k];
-        f->angular_momentum[2] += mass[k] * (x[0] * v[1] - x[1] * v[0]);
+        f->mass += mass;
+        f->angular_momentum[2] += x[0] * momentum[1] - x[1] * momentum[0];
     }
 }
 
