@@ -97,7 +97,7 @@ static void test_annulus(void **state)
 /* Two triangles, the lower of which has an edge in group 2. */
 static const char two_triangles[] =
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1e-3 0 0\n3 1e-3 1e-3 0\n4 0 1e-3 0\n$EndNodes\n"
-    "$Elements\n3\n1 1 2 2 1 1 2\n2 2 2 9 1 1 2 3\n3 2 2 9 1 1 3 4\n$EndElements\n";
+    "$Elements\n4\n1 1 2 2 1 1 2\n2 2 2 9 1 1 2 3\n3 2 2 9 1 1 3 4\n4 1 2 3 1 3 4\n$EndElements\n";
 
 /* Replaces what has another size than the mesh of `path`. */
 static char *file_campaign(const char *path, const char *strength)
@@ -151,7 +151,9 @@ static void test_page_example(void **state)
     char *begin = strstr(page, "geometry: {shape: file, file: plate.msh"), *end = begin ? strstr(begin, "```") : NULL;
     assert_non_null(end);
     *end = '\0';
-    char *shown = replace(begin, "plate.msh", FRACAS_SOURCE_DIR "/tests/data/gmsh/plate-order2-msh41-text.msh");
+    char *found = replace(begin, "plate.msh", FRACAS_SOURCE_DIR "/tests/data/gmsh/plate-order2-msh41-text.msh");
+    char *shown = replace(found, "edge_1: held, edge_2: held", "edges: held"); /* that mesh has no such groups */
+    free(found);
     char *text = replace(membrane_campaign, "geometry: {width: 10 mm, height: 5 mm, thickness: 0.1 mm}\nmesh:\n  divisions: 4\n", shown);
     fracas_campaign *campaign = read_text(text);
     fracas_model *model = model_of(campaign, 0);
@@ -397,12 +399,12 @@ static void test_plan(void **state)
     assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_OK);
     assert_int_equal(forecast.elements, 64);
     assert_int_equal(forecast.interfaces, 84);
-    assert_true(fabs(forecast.coarseness / (1.25e-3 * (52 + 32 * sqrt(2)) / 84 / (370e9 * 50 / 9e16)) - 1) < 1e-12);
+    assert_true(fabs(forecast.coarseness / (1.25e-3 * (52 + 32 * sqrt(2)) / 84 / (370e9 * 150 / 9e16)) - 1) < 1e-12);
     assert_true(fabs(forecast.bound / (370e9 * 1e4 * 1e-7 / 0.75) - 1) < 1e-12);
     assert_true(fabs(forecast.step_stress / (370e9 * 1e4 * forecast.time_step) - 1) < 1e-12);
     char *text = print_plan(campaign, false);
     assert_non_null(strstr(text, lines));
-    assert_non_null(strstr(text, "a crack's softening is not resolved: raise mesh.divisions to 57"));
+    assert_non_null(strstr(text, "a crack's softening is not resolved: raise mesh.divisions to 19"));
     assert_null(strstr(text, "until time.end the stress stays"));
     free(text);
     text = print_plan(campaign, true);
@@ -515,7 +517,6 @@ static void test_bounds_of_others(void **state)
         {"thickness: 0.1 mm", "thickness: 0.1 mm, left: held", INFINITY},
         {"thickness: 0.1 mm", "thickness: 0.1 mm, left: fixed", INFINITY},
         {"width: 10 mm, height: 5 mm", "shape: annulus, inner: 1 mm, outer: 2 mm", INFINITY},
-        {"rate: 1e4 1/s", "rate: 1e4 1/s, start: rest", INFINITY},
         {"rate: 1e4 1/s", "type: centrifugal, speed: 1e5 rad/s", 370e9 * 0.5e10 * 1e-14 / 0.75},
     };
     for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
@@ -526,6 +527,11 @@ static void test_bounds_of_others(void **state)
             fail_msg("%s: %g", table[i].put, forecast.bound);
         fracas_campaign_destroy(campaign);
     }
+    fracas_campaign *still = read_membrane("rate: 1e4 1/s", "rate: 1e4 1/s, start: rest");
+    fracas_forecast forecast;
+    assert_int_equal(fracas_forecast_make(still, 0, &forecast), FRACAS_USAGE);
+    assert_non_null(strstr(fracas_message(), "nothing would ever move"));
+    fracas_campaign_destroy(still);
 }
 
 int main(void)
