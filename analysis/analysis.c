@@ -17,7 +17,7 @@ static fracas_err name_of(const char *study, char **name)
     return *name ? FRACAS_OK : fracas_no_memory("the name of the study");
 }
 
-static fracas_err open_study(const char *study, fracas_reader **reader)
+fracas_err fracas_analysis_open(const char *study, fracas_reader **reader)
 {
     char *path = malloc(strlen(study) + sizeof "/study.h5");
     if (!path) return fracas_no_memory("a path");
@@ -72,7 +72,7 @@ static fracas_err read_histories(fracas_analysis *analysis)
 static fracas_err analyse(const char *study, fracas_analysis *analysis)
 {
     TRY(name_of(study, &analysis->name));
-    TRY(open_study(study, &analysis->reader));
+    TRY(fracas_analysis_open(study, &analysis->reader));
     analysis->header = *fracas_reader_header(analysis->reader);
     analysis->table = fracas_reader_points(analysis->reader);
     size_t npoints = analysis->table->npoints;
@@ -111,4 +111,18 @@ void fracas_analysis_destroy(fracas_analysis *analysis)
 void fracas_analysis_label(const fracas_analysis *analysis, size_t point, char *text, size_t size)
 {
     fracas_columns_label(analysis->table, &analysis->shown, point, text, size);
+}
+
+bool fracas_analysis_any_surface(const fracas_analysis *analysis)
+{
+    for (size_t p = 0; p < analysis->table->npoints; p++)
+        if (analysis->point[p].surface) return true;
+    return false;
+}
+
+bool fracas_analysis_all_surfaces(const fracas_analysis *analysis)
+{
+    for (size_t p = 0; p < analysis->table->npoints; p++)
+        if (!analysis->point[p].surface) return false;
+    return analysis->table->npoints > 0;
 }

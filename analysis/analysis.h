@@ -4,6 +4,9 @@
 
 #include "base/err.h"
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 
 typedef struct fracas_analysis fracas_analysis;
@@ -21,5 +24,26 @@ void fracas_analysis_write_json(const fracas_analysis *analysis, FILE *out);
 /* STUDY/report/: index.html (self-contained), points.csv, fragments.csv and one SVG file a figure (and one CSV file a
  * crack pattern of a ring). */
 FRACAS_MUST_USE fracas_err fracas_report_write(const fracas_analysis *analysis, const char *study);
+
+/* ---- pictures of broken surfaces ---- */
+
+typedef enum { FRACAS_SHOW_CRACKS, FRACAS_SHOW_FRAGMENTS, FRACAS_SHOW_MESH } fracas_surface_show;
+
+enum { FRACAS_MOMENTS = 6 }; /* times of a row of pictures */
+
+typedef struct {
+    size_t point;
+    int64_t replica;
+    size_t count;       /* pictures */
+    const double *time; /* s, of each; NULL: evenly from the first onset (without it) to the end */
+    fracas_surface_show show;
+    bool table;         /* the first times of all replicas as CSV, too */
+    const char *folder; /* made if it is not there; NULL: STUDY/pictures */
+} fracas_picture_request;
+
+/* Writes surface-point-P-replica-R-K.svg for K from 1, with `table` times-point-P.csv, and says on `out` which, and when the
+ * realization first cracked, broke, and cracked through. FRACAS_USAGE, saying what there is, for a point, replica or time that
+ * the study has not, a point that is no surface, and a study without interfaces. */
+FRACAS_MUST_USE fracas_err fracas_pictures_write(const char *study, const fracas_picture_request *request, FILE *out);
 
 #endif

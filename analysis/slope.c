@@ -81,7 +81,7 @@ static fracas_slope fit_series(const fitter *of, size_t first)
         if (first != SIZE_MAX && !fracas_columns_same(of->analysis->table, of->others, p, first)) continue;
         const fracas_point_statistics *statistics = &of->analysis->point[p];
         double error = statistics->size.deviation / (sqrt((double)statistics->size.n) * statistics->size.mean);
-        of->x[n] = statistics->rate > 0 ? log(statistics->rate) : NAN;
+        of->x[n] = statistics->rate > 0 && !statistics->surface ? log(statistics->rate) : NAN; /* the theories are of one dimension */
         of->y[n] = log(statistics->size.mean);
         of->variance[n++] = error * error;
     }

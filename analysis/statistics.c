@@ -35,7 +35,7 @@ const fracas_statistic fracas_statistics[] = {
     COUNTED("unusable", "realizations that ended NONFINITE, ENERGY_DRIFT or FAILED", unusable),
     ESTIMATE("count", "1", "number of fragments", count),
     ESTIMATE("count_large", "1", "number of fragments without dust", count_large),
-    ESTIMATE("size", "m", "mean fragment size (length / fragments)", size),
+    ESTIMATE("size", "m", "mean fragment size (length / fragments; of a surface the mean of sqrt(area))", size),
     ESTIMATE("dissipated", "J", "dissipated energy", dissipated),
     ESTIMATE("onset_time", "s", "time of first onset", onset_time),
     ESTIMATE("radial_velocity", "m/s", "mean velocity outward of a ring's fragments", radial_velocity),
@@ -79,6 +79,12 @@ static double ring_radius(const fracas_point_table *table, size_t point)
     return ring ? fracas_columns_real(table, point, "geometry.radius") : NAN;
 }
 
+/* Surfaces alone have a thickness. */
+static bool is_surface(const fracas_point_table *table, size_t point)
+{
+    return isfinite(fracas_columns_real(table, point, "geometry.thickness"));
+}
+
 /* G_c [J/m2], of the mean strength where the critical opening is given: fracture_energy is 0 then. */
 static double fracture_energy(const fracas_point_table *table, size_t point)
 {
@@ -93,6 +99,7 @@ void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
         .rate = fracas_columns_rate(table, point),
         .length = fracas_columns_real(table, point, "geometry.length"),
         .radius = ring_radius(table, point),
+        .surface = is_surface(table, point),
         .scales = fracas_scales_of(fracas_columns_real(table, point, "material.young"),
                                    fracas_columns_real(table, point, "material.density"),
                                    fracas_columns_real(table, point, "derived.strength_mean"),
@@ -102,8 +109,17 @@ void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
     };
     if (statistics->radius > 0) statistics->length = 2 * M_PI * statistics->radius;
     for (int law = 0; law < FRACAS_NLAWS; law++) /* at rate 0, a ring that spins or is accelerated, they say nothing */
-        statistics->law[law] = statistics->rate > 0
+        statistics->law[law] = statistics->rate > 0 && !statistics->surface
             ? fracas_size_law_at((fracas_size_law_id)law, &statistics->scales, statistics->rate) : NAN;
+}
+
+/* Of the fragments of one realization. */
+static double mean_size(const fracas_point_statistics *statistics, const fracas_record *record)
+{
+    if (!statistics->surface) return statistics->length / (double)record->fragments;
+    double sum = 0;
+    for (size_t i = 0; i < record->nfragment; i++) sum += record->fragment[i].size;
+    return sum / (double)record->nfragment;
 }
 
 /* Room for one more replica and `more` more fragments, doubling. */
@@ -165,7 +181,7 @@ fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size
         .row = row, .replica = replica,
         .value = {.count = (double)record->fragments,
                   .count_large = (double)(record->fragments - record->fragments_dust),
-                  .size = statistics->length / (double)record->fragments,
+                  .size = mean_size(statistics, record),
                   .dissipated = record->dissipated, .onset_time = record->onset_time,
                   .motion = ring ? fracas_ring_motion_of(record, statistics->radius) : still},
     };

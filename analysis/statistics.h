@@ -15,7 +15,7 @@
 typedef struct {
     double count;      /* fragments */
     double count_large; /* fragments without dust */
-    double size;       /* m, length of the body / fragments */
+    double size;       /* m, length of the body / fragments; of a surface the mean over fragments of sqrt(area) */
     double dissipated; /* J */
     double onset_time; /* s, NaN if nothing cracked */
     fracas_ring_motion motion; /* NaN unless of a ring in fragments */
@@ -26,8 +26,9 @@ typedef struct {
     double rate;   /* 1/s, NaN where the point has none */
     double length; /* m, of a ring its circumference */
     double radius; /* m, of a ring; NaN of anything else */
+    bool surface;  /* a size is the square root of an area, and the size laws, of one dimension, say nothing */
     fracas_scales scales;
-    double law[FRACAS_NLAWS]; /* m, mean size by each law */
+    double law[FRACAS_NLAWS]; /* m, mean size by each law; NaN of surfaces */
 
     /* Over its realizations. Usable are FRAGMENTED, INTACT and TIME_LIMIT: their fragments mean something. */
     int64_t realizations, usable, unusable;

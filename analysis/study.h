@@ -16,6 +16,9 @@ struct fracas_analysis {
     fracas_reader *reader;          /* open as long as the analysis: it owns the table */
 };
 
+/* Opens STUDY/study.h5; FRACAS_DAMAGED if it is not there (the message says that `fracas run` makes it). */
+FRACAS_MUST_USE fracas_err fracas_analysis_open(const char *study, fracas_reader **reader);
+
 /* Something a reader must know before trusting a number. */
 typedef struct {
     size_t point; /* SIZE_MAX: the study as a whole */
@@ -25,6 +28,10 @@ typedef struct {
 /* Every warning of the study in the order of its points; *warning freed by the caller with free(). */
 FRACAS_MUST_USE fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warning **warning,
                                                     size_t *count);
+
+/* True if some point, or every one, is a surface. */
+bool fracas_analysis_any_surface(const fracas_analysis *analysis);
+bool fracas_analysis_all_surfaces(const fracas_analysis *analysis);
 
 /* "rate 1e4 1/s": the point by what it differs in. */
 void fracas_analysis_label(const fracas_analysis *analysis, size_t point, char *text, size_t size);

@@ -8,15 +8,28 @@
 #include <string.h>
 
 /* Columns after those that tell the points apart. */
-enum { USED, FAILED, COUNT, SIZE, DISSIPATED, ZMR, GRADY, GC, RATIO, RESIDUAL, CREATED, OUTCOMES, NCOLUMNS };
+enum { USED, FAILED, COUNT, LARGE, SIZE, DISSIPATED, ZMR, GRADY, GC, RATIO, RESIDUAL, CREATED, OUTCOMES, NCOLUMNS };
 
-const char *const fracas_result_table_legend[] = {
+static const char *const legend_of_chains[] = {
     "n: realizations used (FRAGMENTED, INTACT, TIME_LIMIT); fail: all others. After the mean: half width of its 95 %",
     "interval over replicas (Student's t). count: fragments, dust included. size: mean over replicas of length/count.",
     "ZMR, Grady, GC (Glenn-Chudnovsky): size laws with the point's material and mean strength; size/ZMR: ratio to ZMR.",
     "resid., created: largest over replicas of |ledger residual| and of created energy, as parts of the dissipated.",
     NULL,
 };
+static const char *const legend_with_surfaces[] = {
+    "n: realizations used (FRAGMENTED, INTACT, TIME_LIMIT); fail: all others. After the mean: half width of its 95 %",
+    "interval over replicas (Student's t). count: fragments, dust included; no dust: without it (of a surface pieces of one or",
+    "two elements). size: mean over replicas of the mean size, of a surface of the square root of a fragment's area, dust",
+    "included; of a bar or a ring length/count, beside size laws (ZMR, Grady, Glenn-Chudnovsky), which are of one dimension.",
+    "resid., created: largest over replicas of |ledger residual| and of created energy, as parts of the dissipated.",
+    NULL,
+};
+
+const char *const *fracas_result_table_legend(const fracas_analysis *analysis)
+{
+    return fracas_analysis_any_surface(analysis) ? legend_with_surfaces : legend_of_chains;
+}
 
 typedef struct {
     const fracas_analysis *analysis;
@@ -25,12 +38,30 @@ typedef struct {
     const char *plus_minus;
     bool unicode;
     fracas_prefix size, energy;
+    size_t place[NCOLUMNS]; /* of each column in the table; HIDDEN */
+    char nowhere[FRACAS_CELL]; /* what is hidden is painted here */
 } painter;
 
-static void set(const painter *paint, size_t row, size_t column, const char *text)
+static const size_t HIDDEN = SIZE_MAX;
+
+/* Counts without dust are for surfaces, size laws for what is none. Returns how many columns there are. */
+static size_t place_columns(painter *paint)
 {
-    snprintf(fracas_result_table_cell(paint->table, row, column), FRACAS_CELL, "%s", text);
+    const bool any = fracas_analysis_any_surface(paint->analysis), all = fracas_analysis_all_surfaces(paint->analysis);
+    size_t next = paint->first->count;
+    for (size_t c = 0; c < NCOLUMNS; c++) {
+        const bool law = c >= ZMR && c <= RATIO, shown = law ? !all : c != LARGE || any;
+        paint->place[c] = shown ? next++ : HIDDEN;
+    }
+    return next;
 }
+
+/* The cell of one of our columns. */
+static char *cell_of(painter *paint, size_t row, size_t c)
+{
+    return paint->place[c] == HIDDEN ? paint->nowhere : fracas_result_table_cell(paint->table, row, paint->place[c]);
+}
+
 
 /* "32 FRAGMENTED, 1 FAILED": the outcomes that occurred. */
 static void outcomes_text(const fracas_point_statistics *statistics, char *text, size_t size)
@@ -56,10 +87,9 @@ static fracas_prefix prefix_of(const fracas_analysis *analysis, size_t offset)
     return fracas_prefix_for(extreme, 2);
 }
 
-static void paint_unit(const painter *paint, size_t column, const fracas_prefix *prefix, const char *unit)
+static void paint_unit(const painter *paint, char *cell, const fracas_prefix *prefix, const char *unit)
 {
-    snprintf(fracas_result_table_cell(paint->table, 1, column), FRACAS_CELL, "[%s%s]",
-             paint->unicode ? prefix->sign : prefix->symbol, unit);
+    snprintf(cell, FRACAS_CELL, "[%s%s]", paint->unicode ? prefix->sign : prefix->symbol, unit);
 }
 
 /* Lengths among the first columns have a prefix of their own, so that radii are not read in exponents. */
@@ -77,10 +107,10 @@ static fracas_prefix parameter_prefix(const painter *paint, size_t column)
     return fracas_prefix_for(extreme, 2);
 }
 
-static void paint_head(const painter *paint)
+static void paint_head(painter *paint)
 {
     static const char *const name[NCOLUMNS] = {
-        [USED] = "n", [FAILED] = "fail", [COUNT] = "count", [SIZE] = "size", [DISSIPATED] = "dissipated",
+        [USED] = "n", [FAILED] = "fail", [COUNT] = "count", [LARGE] = "no dust", [SIZE] = "size", [DISSIPATED] = "dissipated",
         [ZMR] = "ZMR", [GRADY] = "Grady", [GC] = "GC", [RATIO] = "size", [RESIDUAL] = "resid.",
         [CREATED] = "created", [OUTCOMES] = "outcomes",
     };
@@ -88,19 +118,19 @@ static void paint_head(const painter *paint)
     const fracas_point_table *points = paint->analysis->table;
     for (size_t i = 0; i < shown->count; i++) {
         const fracas_column *column = &points->column[shown->column[i]];
-        set(paint, 0, i, fracas_columns_name(points, shown, i));
+        snprintf(fracas_result_table_cell(paint->table, 0, i), FRACAS_CELL, "%s", fracas_columns_name(points, shown, i));
         fracas_prefix prefix = parameter_prefix(paint, shown->column[i]);
-        if (!column->text && strcmp(column->unit, "1")) paint_unit(paint, i, &prefix, column->unit);
+        if (!column->text && strcmp(column->unit, "1")) paint_unit(paint, fracas_result_table_cell(paint->table, 1, i), &prefix, column->unit);
     }
-    for (size_t c = 0; c < NCOLUMNS; c++) set(paint, 0, shown->count + c, name[c]);
-    for (size_t c = SIZE; c <= GC; c++) paint_unit(paint, shown->count + c, &paint->size, "m");
-    paint_unit(paint, shown->count + DISSIPATED, &paint->energy, "J");
-    set(paint, 1, shown->count + RATIO, "/ZMR");
-    set(paint, 1, shown->count + RESIDUAL, "/diss.");
-    set(paint, 1, shown->count + CREATED, "/diss.");
+    for (size_t c = 0; c < NCOLUMNS; c++) snprintf(cell_of(paint, 0, c), FRACAS_CELL, "%s", name[c]);
+    for (size_t c = SIZE; c <= GC; c++) paint_unit(paint, cell_of(paint, 1, c), &paint->size, "m");
+    paint_unit(paint, cell_of(paint, 1, DISSIPATED), &paint->energy, "J");
+    snprintf(cell_of(paint, 1, RATIO), FRACAS_CELL, "/ZMR");
+    snprintf(cell_of(paint, 1, RESIDUAL), FRACAS_CELL, "/diss.");
+    snprintf(cell_of(paint, 1, CREATED), FRACAS_CELL, "/diss.");
 }
 
-static void paint_point(const painter *paint, size_t p)
+static void paint_point(painter *paint, size_t p)
 {
     const fracas_point_statistics *statistics = &paint->analysis->point[p];
     const fracas_columns *shown = paint->first;
@@ -109,11 +139,12 @@ static void paint_point(const painter *paint, size_t p)
     for (size_t i = 0; i < shown->count; i++)
         fracas_columns_value(paint->analysis->table, shown->column[i], p, parameter_prefix(paint, shown->column[i]).factor,
                              first + i * FRACAS_CELL, FRACAS_CELL);
-    for (size_t c = 0; c < NCOLUMNS; c++) cell[c] = first + (shown->count + c) * FRACAS_CELL;
+    for (size_t c = 0; c < NCOLUMNS; c++) cell[c] = cell_of(paint, row, c);
     snprintf(cell[USED], FRACAS_CELL, "%lld", (long long)statistics->usable);
     snprintf(cell[FAILED], FRACAS_CELL, "%lld", (long long)statistics->unusable);
     const char *sign = paint->plus_minus;
     fracas_format_estimate(&statistics->count, 1, sign, cell[COUNT], FRACAS_CELL);
+    fracas_format_estimate(&statistics->count_large, 1, sign, cell[LARGE], FRACAS_CELL);
     fracas_format_estimate(&statistics->size, paint->size.factor, sign, cell[SIZE], FRACAS_CELL);
     fracas_format_estimate(&statistics->dissipated, paint->energy.factor, sign, cell[DISSIPATED], FRACAS_CELL);
     const fracas_size_law_id law[] = {FRACAS_LAW_ZMR, FRACAS_LAW_GRADY, FRACAS_LAW_GLENN_CHUDNOVSKY};
@@ -129,15 +160,17 @@ fracas_err fracas_result_table_create(const fracas_analysis *analysis, bool unic
 {
     fracas_columns first;
     TRY(fracas_columns_with_rate(analysis->table, &analysis->shown, &first));
-    table->rows = FRACAS_RESULT_TABLE_HEAD + analysis->table->npoints;
-    table->columns = first.count + NCOLUMNS;
-    table->cell = calloc(table->rows * table->columns, sizeof *table->cell);
     painter paint = {
         .analysis = analysis, .table = table, .first = &first, .unicode = unicode,
         .plus_minus = unicode ? "\u00b1" : "+-",
         .size = prefix_of(analysis, offsetof(fracas_point_statistics, size)),
         .energy = prefix_of(analysis, offsetof(fracas_point_statistics, dissipated)),
     };
+    table->rows = FRACAS_RESULT_TABLE_HEAD + analysis->table->npoints;
+    table->columns = place_columns(&paint);
+    table->laws = paint.place[ZMR] == HIDDEN ? 0 : RATIO - ZMR + 1;
+    table->first_law = paint.place[ZMR];
+    table->cell = calloc(table->rows * table->columns, sizeof *table->cell);
     if (table->cell) {
         paint_head(&paint);
         for (size_t p = 0; p < analysis->table->npoints; p++) paint_point(&paint, p);
@@ -165,9 +198,8 @@ static int column_width(const fracas_result_table *table, size_t column)
 /* Two spaces; one between the size laws, which are one group, so that an everyday table fits 120 columns. */
 static const char *gap_before(const fracas_result_table *table, size_t column)
 {
-    size_t first = table->columns - NCOLUMNS;
     if (column == 0) return "";
-    return column > first + ZMR && column <= first + RATIO ? " " : "  ";
+    return table->laws && column > table->first_law && column < table->first_law + table->laws ? " " : "  ";
 }
 
 static void print_cells(const fracas_result_table *table, FILE *out)
@@ -206,6 +238,7 @@ void fracas_analysis_print_table(const fracas_analysis *analysis, FILE *out)
     print_cells(&table, out);
     fracas_result_table_clear(&table);
     putc('\n', out);
-    for (size_t i = 0; fracas_result_table_legend[i]; i++) fprintf(out, "%s\n", fracas_result_table_legend[i]);
+    const char *const *legend = fracas_result_table_legend(analysis);
+    for (size_t i = 0; legend[i]; i++) fprintf(out, "%s\n", legend[i]);
     print_warnings(analysis, out);
 }

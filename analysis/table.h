@@ -8,6 +8,8 @@ enum { FRACAS_CELL = 128, FRACAS_RESULT_TABLE_HEAD = 2 };
 
 typedef struct {
     size_t rows, columns; /* the first FRACAS_RESULT_TABLE_HEAD rows are names and units; then a row a point */
+    size_t laws;          /* of the columns before the last, those that are of size laws */
+    size_t first_law;     /* the first of them */
     char (*cell)[FRACAS_CELL]; /* rows x columns; the last column is text, the others numbers */
 } fracas_result_table;
 
@@ -21,7 +23,7 @@ static inline char *fracas_result_table_cell(const fracas_result_table *table, s
     return table->cell[row * table->columns + column];
 }
 
-/* What the columns mean, a line each; ends with NULL. */
-extern const char *const fracas_result_table_legend[];
+/* What the columns of the study's table mean, a line each; ends with NULL. */
+const char *const *fracas_result_table_legend(const fracas_analysis *analysis);
 
 #endif

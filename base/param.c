@@ -59,6 +59,14 @@ const char *fracas_param_text(const fracas_param *param, const void *section)
     return attachment ? attachment->digest : "";
 }
 
+bool fracas_param_is_of(const fracas_param *param, const fracas_kind *model)
+{
+    if (!param->only) return true;
+    for (const fracas_kind *const *only = param->only; *only; only++)
+        if (*only == model) return true;
+    return false;
+}
+
 const fracas_kind *fracas_kind_partner(const fracas_kind *kind, const fracas_section *section, size_t i)
 {
     for (size_t g = 0; g < kind->ngoes_with; g++)

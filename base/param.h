@@ -48,6 +48,7 @@ typedef struct {
     size_t offset;          /* of the value in the section's struct */
     const fracas_kind *const *choices; /* of a FRACAS_CHOICE */
     size_t nchoices;
+    const fracas_kind *const *only; /* models that have it, up to a NULL; NULL: all have */
 } fracas_param;
 
 struct fracas_kind {
@@ -97,6 +98,9 @@ void fracas_param_attach(const fracas_param *param, void *section, const fracas_
 /* What stands for the value of a choice or attachment in a point: the name, the digest; "" where there is none, and for
  * any other type. */
 const char *fracas_param_text(const fracas_param *param, const void *section);
+
+/* True if points of this model (NULL: none is chosen) have the parameter. */
+bool fracas_param_is_of(const fracas_param *param, const fracas_kind *model);
 
 /* Number i, from 0, of the kinds of `section` that `kind` names in goes_with; NULL after the last. */
 const fracas_kind *fracas_kind_partner(const fracas_kind *kind, const fracas_section *section, size_t i);

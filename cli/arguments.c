@@ -6,10 +6,11 @@
 #include <getopt.h>
 #include <limits.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* What getopt_long returns for options[i]; -h is 'h'. */
+/* What getopt_long returns for options[i] by its name; -h is 'h', and every letter of an option itself. */
 enum { FIRST_OPTION = 256 };
 
 static fracas_err unknown_option(const fracas_command *command, const char *given)
@@ -29,11 +30,23 @@ static fracas_err unknown_option(const fracas_command *command, const char *give
                        fracas_words_hint(&words, "it knows", hint));
 }
 
+/* The option that getopt_long names so, FRACAS_MOST_OPTIONS for none. */
+static size_t option_of(const fracas_command *command, int found)
+{
+    if (found >= FIRST_OPTION) return (size_t)(found - FIRST_OPTION);
+    for (size_t i = 0; i < command->noptions; i++)
+        if (command->options[i].letter && command->options[i].letter == found) return i;
+    return FRACAS_MOST_OPTIONS;
+}
+
 static fracas_err read_options(const fracas_command *command, fracas_arguments *arguments)
 {
     struct option table[FRACAS_MOST_OPTIONS + 2] = {{"help", no_argument, NULL, 'h'}};
+    char letters[2 * FRACAS_MOST_OPTIONS + 3] = ":h";
     for (size_t i = 0; i < command->noptions; i++) {
         const fracas_option *option = &command->options[i];
+        char *end = letters + strlen(letters);
+        if (option->letter) snprintf(end, 3, "%c%s", option->letter, option->argument ? ":" : "");
         table[i + 1] = (struct option){option->name, option->argument ? required_argument : no_argument, NULL,
                                        FIRST_OPTION + (int)i};
     }
@@ -41,14 +54,15 @@ static fracas_err read_options(const fracas_command *command, fracas_arguments *
     optind = 2;
     opterr = 0;
     int found;
-    while ((found = getopt_long(arguments->argc, arguments->argv, ":h", table, NULL)) != -1) {
+    while ((found = getopt_long(arguments->argc, arguments->argv, letters, table, NULL)) != -1) {
         if (found == 'h') arguments->help = true;
-        else if (found >= FIRST_OPTION) arguments->value[found - FIRST_OPTION] = optarg ? optarg : "";
-        else if (optopt < FIRST_OPTION) {
+        else if (option_of(command, found) < command->noptions)
+            arguments->value[option_of(command, found)] = optarg ? optarg : "";
+        else if (option_of(command, optopt) >= command->noptions) {
             const char letter[] = {'-', (char)optopt, '\0'};
             return unknown_option(command, optopt ? letter : arguments->argv[optind - 1]);
         } else {
-            const fracas_option *option = &command->options[optopt - FIRST_OPTION];
+            const fracas_option *option = &command->options[option_of(command, optopt)];
             if (found == ':')
                 return fracas_fail(FRACAS_USAGE, "%s: --%s needs a value: --%s %s", command->name, option->name,
                                    option->name, option->argument);

@@ -11,6 +11,7 @@ typedef struct {
     const char *name;     /* "jobs" for --jobs */
     const char *argument; /* what the help calls its value; NULL: it takes none */
     const char *doc;
+    char letter;          /* 'o' for -o, which is the same; 0: there is none */
 } fracas_option;
 
 enum { FRACAS_MOST_OPTIONS = 12 }; /* of one subcommand */
@@ -29,7 +30,7 @@ typedef struct {
 } fracas_command;
 
 extern const fracas_command fracas_command_run, fracas_command_plan, fracas_command_status, fracas_command_report,
-    fracas_command_verify, fracas_command_reference;
+    fracas_command_picture, fracas_command_verify, fracas_command_reference;
 
 struct fracas_arguments {
     const fracas_command *command;

@@ -3,6 +3,7 @@
 #include "base/json.h"
 #include "base/param.h"
 #include "campaigns/campaign.h"
+#include "campaigns/scheduler/meshes.h"
 #include "campaigns/store/store.h"
 
 #include <limits.h>
@@ -29,9 +30,13 @@ static void verify_campaign(const char *study, void *json, int64_t *problems)
         return;
     }
     snprintf(file, sizeof file, "%s/study.h5", study);
+    const fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
     if (access(file, F_OK) == 0 && !*problems && !fracas_reader_open(file, &reader)) {
         if (!fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash)) {
             print_problem(json, "campaign.yaml is not the campaign of study.h5: run the campaign file it was made from");
+            ++*problems;
+        } else if (fracas_reader_check_meshes(reader, &meshes)) {
+            print_problem(json, fracas_message());
             ++*problems;
         }
         fracas_reader_close(reader);

@@ -20,12 +20,21 @@ void fracas_model_destroy(fracas_model *model); /* NULL is allowed */
 
 size_t fracas_model_interfaces(const fracas_model *model);  /* strengths a realization needs */
 size_t fracas_model_elements(const fracas_model *model);
+double fracas_model_element_size(const fracas_model *model);        /* m: mean length of elements, of surfaces of their edges */
 double fracas_model_critical_time_step(const fracas_model *model);  /* s */
 double fracas_model_time_step(const fracas_model *model);           /* s, = safety * critical */
 int64_t fracas_model_steps(const fracas_model *model);              /* steps to time.end, at most */
 
-/* Volume of the body that interface `interface` stands for [m3]: area times the mean length of its two elements. */
+/* The mesh of a surface, which lives as long as the model; NULL for bars and rings. */
+const struct fracas_surface *fracas_model_surface(const fracas_model *model);
+
+/* Volume of the body that interface `interface` stands for [m3]: half of its two elements of a chain, a third of its two
+ * triangles of a surface. */
 double fracas_model_interface_volume(const fracas_model *model, size_t interface);
+
+/* position[i], i < fracas_model_interfaces: where interface i is at the start [m]. Of a surface, the middle between the two ends of
+ * its edge; of a bar, x along it from its left end; of a ring, on its circle in the plane, at the angle 2 pi (i + 1)/n. */
+void fracas_model_interface_positions(const fracas_model *model, double (*position)[3]);
 
 /* Checks one strength [Pa] against the mesh: FRACAS_USAGE, saying what would do, where the law could not
  * dissipate G_c (K <= sigma_c/delta_c). */

@@ -1,6 +1,7 @@
 #include "engine/formulation/formulation.h"
 
 #include "engine/cohesive/law.h"
+#include "engine/mesh/surface/surface.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -35,7 +36,8 @@ fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
     model->spec = *spec;
     model->formulation = (const fracas_formulation *)(const void *)spec->formulation; /* .kind is its first member */
     fracas_err code = model->formulation->model_init(model);
-    model->spec.mesh.noise = NULL; /* the caller's, and done with */
+    model->spec.mesh.noise = NULL; /* the caller's, and done with, as is a file */
+    model->spec.geometry.file = NULL;
     model->time_step = spec->time.safety * model->critical_step;
     if (!code) code = check_steps(model);
     if (code) {
@@ -48,20 +50,42 @@ fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
 
 void fracas_model_destroy(fracas_model *model)
 {
-    if (model) free(model->table);
+    if (!model) return;
+    if (model->plan) model->formulation->plan_destroy(model->plan);
+    fracas_surface_destroy(model->surface);
+    free(model->table);
     free(model);
 }
 
 size_t fracas_model_interfaces(const fracas_model *model) { return model->interfaces; }
 size_t fracas_model_elements(const fracas_model *model) { return model->elements; }
+double fracas_model_element_size(const fracas_model *model) { return model->element_size; }
 double fracas_model_critical_time_step(const fracas_model *model) { return model->critical_step; }
 double fracas_model_time_step(const fracas_model *model) { return model->time_step; }
+
+const fracas_surface *fracas_model_surface(const fracas_model *model) { return model->surface; }
 
 int64_t fracas_model_steps(const fracas_model *model) { return (int64_t)most_steps(model); }
 
 double fracas_model_interface_volume(const fracas_model *model, size_t interface)
 {
-    return model->spec.geometry.area * model->formulation->interface_length(model, interface);
+    return model->formulation->interface_volume(model, interface);
+}
+
+static void surface_positions(const fracas_surface *surface, double (*position)[3])
+{
+    for (size_t i = 0; i < surface->ninterfaces; i++) {
+        const fracas_surface_interface *interface = &surface->interface[i];
+        const uint32_t *vertex = &surface->element[interface->element[0] * surface->corners];
+        const double *a = surface->node[vertex[interface->edge[0]]], *b = surface->node[vertex[(interface->edge[0] + 1) % 3]];
+        for (int k = 0; k < 3; k++) position[i][k] = 0.5 * (a[k] + b[k]);
+    }
+}
+
+void fracas_model_interface_positions(const fracas_model *model, double (*position)[3])
+{
+    if (model->surface) surface_positions(model->surface, position);
+    else model->formulation->interface_positions(model, position);
 }
 
 fracas_err fracas_model_check_strength(const fracas_model *model, double strength)

@@ -8,7 +8,10 @@
 #include "engine/mesh/body.h"
 #include "engine/solver/stop.h"
 
-static const fracas_kind *const formulations[] = {&fracas_formulation_bar.kind, &fracas_formulation_ring.kind};
+static const fracas_kind *const formulations[] = {&fracas_formulation_bar.kind, &fracas_formulation_ring.kind,
+                                                 &fracas_formulation_membrane.kind};
+const fracas_kind *const fracas_chain_models[] = {&fracas_formulation_bar.kind, &fracas_formulation_ring.kind, NULL};
+const fracas_kind *const fracas_surface_models[] = {&fracas_formulation_membrane.kind, NULL};
 static const fracas_section formulation_section = {
     .name = "model", .doc = "What is broken up", .kinds = formulations, .nkinds = FRACAS_COUNT(formulations),
     .kind_offset = 0, .offset = offsetof(fracas_spec, formulation), .hashed = true,

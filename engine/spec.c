@@ -8,18 +8,14 @@ double fracas_spec_length(const fracas_spec *spec)
 {
     const double two_pi = 0x1.921fb54442d18p+2;
     const fracas_geometry *geometry = &spec->geometry;
-    return geometry->shape == &fracas_shape_ring ? two_pi * geometry->radius : geometry->length;
-}
-
-double fracas_spec_interface_volume(const fracas_spec *spec)
-{
-    return spec->geometry.area * fracas_spec_length(spec) / (double)spec->mesh.elements;
+    if (geometry->shape == &fracas_shape_ring) return two_pi * geometry->radius;
+    return geometry->shape == &fracas_shape_bar ? geometry->length : NAN;
 }
 
 double fracas_spec_strain_rate(const fracas_spec *spec)
 {
     const fracas_loading *loading = &spec->loading;
-    if (loading->type == &fracas_loading_imposed_rate) return loading->rate;
+    if (loading->type == &fracas_loading_imposed_rate || loading->type == &fracas_loading_expansion) return loading->rate;
     if (loading->type == &fracas_loading_initial_velocity) return loading->radial / spec->geometry.radius;
     if (loading->type == &fracas_loading_held_velocity && loading->direction == &fracas_axis_radial)
         return loading->velocity / spec->geometry.radius;

@@ -7,26 +7,38 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#define FRACAS_EDGES 5 /* tags 1 to 4, and all others */
+
 typedef struct {
-    const fracas_kind *shape;     /* bar, ring */
+    const fracas_kind *shape;     /* bar, ring; plate, annulus, file: surfaces */
     const fracas_kind *ends;      /* bar: periodic, held */
     const fracas_kind *direction; /* ring: initial, current; in which its interfaces open */
     double length; /* m, bar */
     double radius; /* m, ring */
-    double area;   /* m2 */
+    double area;   /* m2, bar and ring: of the cross-section */
+    double width, height; /* m, plate */
+    double inner, outer;  /* m, annulus: radii */
+    const fracas_attachment *file; /* file: the mesh */
+    double thickness;     /* m, surfaces */
+    const fracas_kind *edge[FRACAS_EDGES]; /* surfaces: what holds the edges of each tag; of any other tag the first */
 } fracas_geometry;
 
 typedef struct {
-    const fracas_kind *spacing; /* uniform, graded, perturbed */
-    int64_t elements;
+    const fracas_kind *spacing; /* uniform, graded, perturbed; triangles, given: surfaces */
+    int64_t elements;    /* bar and ring */
     double ratio;        /* graded: size of the last element / size of the first; 1 */
-    double amplitude;    /* perturbed: largest move of a node / element size; 1 */
-    const double *noise; /* perturbed: [elements + 1] in [-1, 1], move of each node / largest; not a parameter: drawn outside */
+    double amplitude;    /* perturbed, triangles: largest move of a node / element size; 1 */
+    double size;         /* m, triangles: see fracas_surface_fineness; or 0 and ... */
+    int64_t divisions;   /* ... a number */
+    int64_t order;       /* triangles: 1 linear, 2 quadratic */
+    const double *noise; /* in [-1, 1], move of each node / largest; not a parameter: drawn outside, where the mesh needs it */
+    size_t nnoise;       /* fracas_mesh_noise_count */
 } fracas_mesh;
 
 typedef struct {
     double young;   /* Pa */
     double density; /* kg/m3 */
+    double poisson; /* 1, surfaces */
 } fracas_material;
 
 typedef struct {
@@ -38,11 +50,18 @@ typedef struct {
     double refinement;       /* stershic: factor xi of the time step for each critical zone; 1 */
     const fracas_kind *critical_zone; /* stershic: softening, steep; which open links refine the time step */
     double zone;             /* m, stershic: no interface opens within this distance of an open one; 0: no zone */
+    const fracas_kind *onset; /* surfaces: mean, flux; the traction that is held against the strength */
+    double coupling;         /* surfaces: beta_c, shear strength / normal strength; 1 */
+    double friction;         /* surfaces: mu_c, Coulomb's coefficient; 1 */
 } fracas_cohesive;
 
 typedef struct {
-    const fracas_kind *type;      /* imposed-rate, initial-velocity, held-velocity, force */
-    double rate;                  /* 1/s, imposed-rate */
+    const fracas_kind *type;      /* imposed-rate, initial-velocity, held-velocity, force; expansion, centrifugal: surfaces */
+    double rate;                  /* 1/s, imposed-rate, expansion */
+    double ratio;                 /* 1, expansion: rate along y / rate along x */
+    const fracas_kind *start;     /* expansion: moving, rest; the inside */
+    double speed;                 /* rad/s, centrifugal */
+    double ramp;                  /* s, centrifugal: time to reach it */
     double radial, circumferential; /* m/s, initial-velocity */
     const fracas_kind *direction; /* held-velocity, force: radial, circumferential */
     double velocity;              /* m/s, held-velocity */
@@ -56,7 +75,12 @@ typedef struct {
     double end;            /* s: set time, or cap */
     double quiet;          /* s */
     double quiet_fraction; /* 1 */
+    double multiple;       /* 1, peak-multiple */
+    double drop;           /* 1, peak-multiple: fall of the potential energy that makes its maximum a peak */
     double safety;         /* time step / critical time step; 1 */
+    const fracas_kind *integrator; /* surfaces: central-difference, hulbert-chung */
+    double spectral_radius; /* 1, hulbert-chung: at the bifurcation */
+    const fracas_kind *mass; /* surfaces: lumped, consistent */
 } fracas_time;
 
 typedef struct {
@@ -70,10 +94,9 @@ typedef struct {
 } fracas_spec;
 
 /* What follows from the parameters alone, without a model. */
-double fracas_spec_length(const fracas_spec *spec);           /* m, of the bar or along the ring */
-double fracas_spec_interface_volume(const fracas_spec *spec); /* m3 of the body that an interface stands for, on average */
-/* Strain rate that the loading begins with [1/s]: the imposed rate, or radial velocity / radius, initial or held; NaN for a
- * loading that gives none (a force, a circumferential velocity). */
+double fracas_spec_length(const fracas_spec *spec); /* m, of the bar or along the ring; NaN for surfaces */
+/* Strain rate that the loading begins with [1/s]: the imposed rate, radial velocity / radius, initial or held, or that of an
+ * expansion along x; NaN for a loading that gives none (a force, a circumferential velocity, a centrifugal load). */
 double fracas_spec_strain_rate(const fracas_spec *spec);
 /* G_c [J/m2] of an interface of this strength [Pa]: as given, or sigma_c delta_c/2. */
 double fracas_spec_fracture_energy(const fracas_spec *spec, double strength);

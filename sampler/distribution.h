@@ -10,9 +10,11 @@ typedef struct {
     double (*quantile)(const fracas_strength *strength, double volume, double u); /* as fracas_strength_quantile */
     double (*mean)(const fracas_strength *strength, double volume);               /* as fracas_strength_mean */
     fracas_err (*check)(const fracas_strength *strength); /* what single ranges cannot say; may be NULL */
-    /* Both NULL where strengths are drawn: how many there are, and sigma_c[i*stride] = the i-th. */
+    bool size_effect; /* both depend on the volume */
+    /* Both NULL where strengths are drawn: how many there are, and sigma_c[i*stride] = that of interface i. */
     size_t (*count)(const fracas_strength *strength);
-    void (*fill)(const fracas_strength *strength, size_t n, size_t stride, double *sigma_c);
+    fracas_err (*fill)(const fracas_strength *strength, size_t n, const double (*position)[3], size_t stride, double *sigma_c);
+    bool placed; /* they are found by position, not by number */
 } fracas_distribution;
 
 extern const fracas_distribution fracas_constant;
@@ -23,5 +25,6 @@ extern const fracas_distribution fracas_normal;
 extern const fracas_distribution fracas_gamma_law; /* fracas_gamma is the function */
 extern const fracas_distribution fracas_flaws;
 extern const fracas_distribution fracas_file_distribution; /* fracas_file is a campaign file */
+extern const fracas_distribution fracas_positions;
 
 #endif

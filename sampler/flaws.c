@@ -44,5 +44,5 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_flaws = {
     .kind = {.name = "flaws", .doc = "weakest flaw in the volume of an interface; flaws at random in the body, their "
              "strengths by a power law", .params = params, .nparams = FRACAS_COUNT(params)},
-    .quantile = flaws_quantile, .mean = flaws_mean, .check = flaws_check,
+    .quantile = flaws_quantile, .mean = flaws_mean, .check = flaws_check, .size_effect = true,
 };

@@ -24,7 +24,7 @@ static bool has_mean(const fracas_point_statistics *statistics)
 
 static bool has_scales(const fracas_point_statistics *statistics)
 {
-    return has_mean(statistics) && isfinite(statistics->scales.size) && isfinite(statistics->scales.rate);
+    return has_mean(statistics) && !statistics->surface && isfinite(statistics->scales.size) && isfinite(statistics->scales.rate);
 }
 
 static bool drawn(const rate_plot *plot, const fracas_point_statistics *statistics)
@@ -108,14 +108,22 @@ static bool same_scales(const rate_plot *plot)
     return true;
 }
 
-/* All laws where one curve each serves all points; else ZMR in the colour of each series. */
+/* True if a series before that of point `first` has drawn the laws for all. */
+static bool laws_are_drawn(const rate_plot *plot, size_t first)
+{
+    for (size_t p = 0; p < first; p++)
+        if (has_scales(&plot->analysis->point[p])) return true;
+    return false;
+}
+
+/* All laws where one curve each serves all points; else ZMR in the colour of each series. None of surfaces. */
 static fracas_err add_laws(const rate_plot *plot, const double rate[2], size_t first, unsigned looks, unsigned look,
                            fracas_panel *panel)
 {
     const fracas_scales *scales = &plot->analysis->point[first].scales;
-    if (!isfinite(scales->rate)) return FRACAS_OK;
+    if (!isfinite(scales->rate) || plot->analysis->point[first].surface) return FRACAS_OK;
     if (plot->normalised || same_scales(plot)) {
-        if (look > 0) return FRACAS_OK;
+        if (laws_are_drawn(plot, first)) return FRACAS_OK;
         for (unsigned law = 0; law < FRACAS_NLAWS; law++)
             TRY(add_law(plot, (fracas_size_law_id)law, scales, rate, looks + law, panel));
         return FRACAS_OK;
@@ -145,6 +153,25 @@ static fracas_err draw_against_rate(const rate_plot *plot, fracas_chart *chart)
     return FRACAS_OK;
 }
 
+static void caption_of_rate(const fracas_analysis *analysis, bool normalised, bool one_law, fracas_chart *chart)
+{
+    if (fracas_analysis_all_surfaces(analysis)) {
+        snprintf(chart->caption, sizeof chart->caption,
+                 "Mean over replicas of the mean square root of a fragment\u2019s area, dust included; bars: 95 %% interval of the "
+                 "mean (Student\u2019s t over replicas).");
+        return;
+    }
+    snprintf(chart->caption, sizeof chart->caption,
+             "%sMean over replicas of body length / fragments%s; bars: 95 %% interval of the mean (Student\u2019s t over "
+             "replicas). Lines: %s",
+             normalised ? "Sizes over s\u2080 = E G_c/\u03c3_c\u00b2, rates over "
+                          "\u03b5\u0307\u2080 = c \u03c3_c\u00b3/(E\u00b2 G_c), \u03c3_c the mean strength. " : "",
+             !normalised && fracas_analysis_any_surface(analysis) ? ", of surfaces of the mean square root of their areas" : "",
+             normalised || one_law ? "size laws of Zhou, Molinari and Ramesh (ZMR, ZMR-2), Grady, and Glenn "
+                                     "and Chudnovsky (GC)."
+                                   : "ZMR law with the material of the marks of the same colour.");
+}
+
 fracas_err fracas_figure_rate(const fracas_analysis *analysis, bool normalised, fracas_chart *chart)
 {
     double extreme[2] = {INFINITY, 0};
@@ -164,14 +191,7 @@ fracas_err fracas_figure_rate(const fracas_analysis *analysis, bool normalised, 
     snprintf(chart->file, sizeof chart->file, "size-against-rate%s", normalised ? "-normalised" : "");
     snprintf(chart->title, sizeof chart->title, "%s", normalised ? "Normalised mean fragment size against strain rate"
                                                                  : "Mean fragment size against strain rate");
-    snprintf(chart->caption, sizeof chart->caption,
-             "%sMean over replicas of body length / fragments; bars: 95 %% interval of the mean (Student\u2019s t over "
-             "replicas). Lines: %s",
-             normalised ? "Sizes over s\u2080 = E G_c/\u03c3_c\u00b2, rates over "
-                          "\u03b5\u0307\u2080 = c \u03c3_c\u00b3/(E\u00b2 G_c), \u03c3_c the mean strength. " : "",
-             normalised || one_law ? "size laws of Zhou, Molinari and Ramesh (ZMR, ZMR-2), Grady, and Glenn "
-                                     "and Chudnovsky (GC)."
-                                   : "ZMR law with the material of the marks of the same colour.");
+    caption_of_rate(analysis, normalised, one_law, chart);
     if (chart->npanels == 0) return FRACAS_OK;
     snprintf(chart->panel[0].x.label, sizeof chart->panel[0].x.label, "%s",
              normalised ? "strain rate \u03b5\u0307/\u03b5\u0307\u2080" : "strain rate [1/s]");
@@ -218,7 +238,8 @@ fracas_err fracas_figure_sizes_together(const fracas_analysis *analysis, fracas_
     snprintf(chart->title, sizeof chart->title, "Fragment sizes of all points");
     snprintf(chart->caption, sizeof chart->caption,
              "Share of the fragments that are at least of size s, over s / mean size of the point\u2019s "
-             "fragments; fragments of all usable replicas together, dust included.");
+             "fragments; fragments of all usable replicas together, dust included.%s",
+             fracas_analysis_any_surface(analysis) ? " The size of a piece of a surface is the square root of its area." : "");
     fracas_panel *panel = NULL;
     for (size_t p = 0; p < analysis->table->npoints; p++) {
         const fracas_point_statistics *statistics = &analysis->point[p];
@@ -336,7 +357,9 @@ fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point,
     char residual[32], motion[128] = "Kinetic energy is that of the motion beside the imposed stretching, work likewise.";
     fracas_format_digits(statistics->residual, 2, residual, sizeof residual);
     if (kinetic_start(statistics) > 0)
-        snprintf(motion, sizeof motion, "Kinetic energy less the %.4g J that the ring starts with.", kinetic_start(statistics));
+        snprintf(motion, sizeof motion, "Kinetic energy less the %.4g J that the %s starts with.", kinetic_start(statistics),
+                 statistics->surface ? "surface" : "ring");
+    else if (statistics->surface) motion[0] = '\0';
     snprintf(chart->caption, sizeof chart->caption,
              "%s: replica %lld, the one whose dissipated energy is the nearest to the mean. %s Below: |residual| "
              "of the energy balance; its largest value over all replicas is %s of the dissipated energy.",

@@ -3,6 +3,7 @@
 #include "analysis/report/figures.h"
 #include "analysis/report/output.h"
 #include "analysis/report/picture.h"
+#include "analysis/report/surfaces.h"
 #include "analysis/side_tables.h"
 #include "analysis/study.h"
 #include "analysis/table.h"
@@ -197,6 +198,7 @@ static fracas_err put_figures(const report_page *page)
     for (size_t p = 0; p < npoints; p++) TRY(put_figure(page, &chart, fracas_figure_sizes(analysis, p, &chart)));
     fputs("</div>\n", page->out);
     TRY(put_pictures(page));
+    TRY(fracas_surfaces_put(analysis, page->folder, page->out));
     fputs("<h2>Energies over time</h2>\n<div class=\"wide\">\n", page->out);
     for (size_t p = 0; p < npoints; p++) TRY(put_figure(page, &chart, fracas_figure_energies(analysis, p, &chart)));
     fputs("</div>\n", page->out);
@@ -213,15 +215,18 @@ static void put_term(FILE *out, const char *term, const char *value)
     fputs("</dd>\n", out);
 }
 
-static void put_head(const report_page *page)
+static fracas_err put_head(const report_page *page)
 {
     const fracas_analysis *analysis = page->analysis;
+    bool surfaces;
+    TRY(fracas_surfaces_any(analysis, &surfaces));
     fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
           "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"/>\n"
           "<link rel=\"icon\" href=\"data:,\"/>\n<title>", page->out);
     fracas_markup_text(analysis->name, page->out);
     fprintf(page->out, " \u00b7 fracas</title>\n<style>\n%s", page_style);
     fracas_chart_style(page->out);
+    if (surfaces) fracas_surface_style(page->out);
     fputs("</style>\n</head>\n<body>\n<h1>", page->out);
     fracas_markup_text(analysis->name, page->out);
     fputs("</h1>\n<dl>\n", page->out);
@@ -241,6 +246,7 @@ static void put_head(const report_page *page)
     snprintf(text, sizeof text, "fracas %s", analysis->header.version);
     put_term(page->out, "program", text);
     fputs("</dl>\n", page->out);
+    return FRACAS_OK;
 }
 
 static fracas_err put_warnings(const report_page *page)
@@ -278,7 +284,7 @@ static fracas_err put_table(const report_page *page)
     fputs("<h2>Results</h2>\n<div class=\"scroll\"><table id=\"results\">\n", page->out);
     put_rows(&table, page->out);
     fracas_result_table_clear(&table);
-    put_legend(fracas_result_table_legend, page->out);
+    put_legend(fracas_result_table_legend(page->analysis), page->out);
     fputs("<p class=\"quiet\">As files: <a href=\"points.csv\">points.csv</a> (every parameter and statistic), "
           "<a href=\"fragments.csv\">fragments.csv</a> (every fragment); both in SI units.</p>\n", page->out);
     return FRACAS_OK;
@@ -286,7 +292,7 @@ static fracas_err put_table(const report_page *page)
 
 static fracas_err put_page(const report_page *page)
 {
-    put_head(page);
+    TRY(put_head(page));
     TRY(put_table(page));
     TRY(put_warnings(page));
     TRY(put_figures(page));

@@ -134,21 +134,30 @@ const fracas_leaf *fracas_catalog_selector(const fracas_catalog *catalog, const 
     return NULL;
 }
 
-static const fracas_param *find_param(const fracas_param *params, size_t count, const char *key)
+/* The parameter of that name that points of `model` have (NULL: any model). */
+static const fracas_param *find_param(const fracas_param *params, size_t count, const fracas_kind *model, const char *key)
 {
     for (size_t p = 0; p < count; p++)
-        if (strcmp(params[p].name, key) == 0) return &params[p];
+        if (strcmp(params[p].name, key) == 0 && (!model || fracas_param_is_of(&params[p], model))) return &params[p];
     return NULL;
 }
 
-const fracas_param *fracas_section_param(const fracas_section *section, const fracas_kind *kind, const char *key,
-                                         bool *common)
+const fracas_param *fracas_section_param(const fracas_section *section, const fracas_kind *kind, const fracas_kind *model,
+                                         const char *key)
 {
-    const fracas_param *param = find_param(section->params, section->nparams, key);
-    *common = param || section->nkinds > 0;
-    for (size_t k = 0; k < section->nkinds && !param && *common; k++)
-        *common = find_param(section->kinds[k]->params, section->kinds[k]->nparams, key) != NULL;
-    return param || !kind ? param : find_param(kind->params, kind->nparams, key);
+    const fracas_param *param = find_param(section->params, section->nparams, model, key);
+    return param || !kind ? param : find_param(kind->params, kind->nparams, model, key);
+}
+
+bool fracas_section_common(const fracas_section *section, const fracas_kind *model, const char *key)
+{
+    if (fracas_section_param(section, NULL, model, key)) return true;
+    const bool restricts = fracas_kind_partner(model, section, 0) != NULL;
+    for (size_t k = 0; restricts ? fracas_kind_partner(model, section, k) != NULL : k < section->nkinds; k++) {
+        const fracas_kind *kind = restricts ? fracas_kind_partner(model, section, k) : section->kinds[k];
+        if (!fracas_section_param(section, kind, model, key)) return false;
+    }
+    return section->nkinds > 0;
 }
 
 /* ---- values ---- */
@@ -170,6 +179,12 @@ const fracas_kind *fracas_section_kind(const fracas_file_section *section, const
     return *(const fracas_kind *const *)(const void *)(at + section->table->kind_offset);
 }
 
+/* The model of the point that owns a section; NULL for sections of the campaign. */
+static const fracas_kind *model_in(const fracas_file_section *section, const void *owner)
+{
+    return section->table->hashed ? ((const fracas_point *)owner)->spec.formulation : NULL;
+}
+
 bool fracas_leaf_get(const fracas_leaf *leaf, const void *owner, fracas_value *value)
 {
     const fracas_kind *kind = fracas_section_kind(leaf->section, owner);
@@ -178,8 +193,8 @@ bool fracas_leaf_get(const fracas_leaf *leaf, const void *owner, fracas_value *v
         value->text = kind->name;
         return true;
     }
-    bool common;
-    const fracas_param *param = fracas_section_param(leaf->section->table, kind, leaf->key, &common);
+    const fracas_kind *model = model_in(leaf->section, owner);
+    const fracas_param *param = fracas_section_param(leaf->section->table, kind, model, leaf->key);
     if (param && fracas_param_is_text(param)) value->text = fracas_param_text(param, section_in(leaf->section, owner));
     else if (param) value->real = fracas_param_get(param, section_in(leaf->section, owner));
     return param != NULL;

@@ -40,10 +40,13 @@ const fracas_leaf *fracas_catalog_key(const fracas_catalog *catalog, const fraca
 /* The leaf that names the section's kind; NULL for a section without kinds. */
 const fracas_leaf *fracas_catalog_selector(const fracas_catalog *catalog, const fracas_file_section *section);
 
-/* The parameter `key` of a section of this kind (NULL: no kinds); NULL if it has none. *common: there is one whatever the
- * kind, be it in the section's own table or in those of all its kinds. */
-const fracas_param *fracas_section_param(const fracas_section *section, const fracas_kind *kind, const char *key,
-                                         bool *common);
+/* The parameter `key` of a section of this kind (NULL: no kinds) at points of this model (NULL: of whichever model has it);
+ * NULL if there is none. */
+const fracas_param *fracas_section_param(const fracas_section *section, const fracas_kind *kind, const fracas_kind *model,
+                                         const char *key);
+/* True if points of this model have the parameter whatever the kind, be it in the section's own table or in those of all
+ * kinds that go with the model. */
+bool fracas_section_common(const fracas_section *section, const fracas_kind *model, const char *key);
 
 /* The section's struct within its owner. */
 void *fracas_section_at(const fracas_file_section *section, void *owner);
@@ -53,7 +56,7 @@ const fracas_kind *fracas_section_kind(const fracas_file_section *section, const
 /* True for a leaf whose values are text: a kind's name, a choice, an attachment. */
 bool fracas_leaf_is_text(const fracas_leaf *leaf);
 
-/* The leaf's value in its owner; false if the owner's kind has no such value. */
+/* The leaf's value in its owner; false if the owner's kind or model has no such value. */
 bool fracas_leaf_get(const fracas_leaf *leaf, const void *owner, fracas_value *value);
 
 #define FRACAS_LEAF_TEXT 64 /* bytes that fracas_leaf_write needs: a kind's name is shorter */

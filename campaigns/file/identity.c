@@ -1,6 +1,7 @@
 #include "campaigns/file/identity.h"
 
 #include "base/units.h"
+#include "engine/mesh/make.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -152,12 +153,36 @@ static size_t list_sources(const fracas_catalog *catalog, const fracas_campaign 
     return count;
 }
 
-static fracas_value value_of(const source *from, const fracas_point *point, const char *name)
+/* The last mesh that was made to learn the volume of an interface. */
+typedef struct {
+    const fracas_spec *spec; /* NULL: none yet */
+    double volume;
+} known_mesh;
+
+static bool is_same_mesh(const fracas_spec *a, const fracas_spec *b)
+{
+    return memcmp(&a->geometry, &b->geometry, sizeof a->geometry) == 0 && memcmp(&a->mesh, &b->mesh, sizeof a->mesh) == 0;
+}
+
+/* Few strengths need the mesh, which takes time; neighbours in a plan often have the same. */
+static fracas_err mean_strength(const fracas_campaign *campaign, size_t p, known_mesh *mesh, double *mean)
+{
+    const fracas_point *point = &campaign->point[p];
+    const bool needed = fracas_strength_has_size_effect(&point->strength);
+    if (needed && !(mesh->spec && is_same_mesh(mesh->spec, &point->spec))) {
+        fracas_err err = fracas_mesh_interface_volume(&point->spec, &mesh->volume);
+        if (err) return fracas_fail_within(err, "point %zu", p);
+        mesh->spec = &point->spec;
+    }
+    *mean = fracas_strength_mean(&point->strength, mesh->volume);
+    return FRACAS_OK;
+}
+
+static fracas_value value_of(const source *from, const fracas_point *point, const char *name, double mean)
 {
     fracas_value value = {.real = NAN, .text = ""};
     if (from->leaf) fracas_leaf_get(from->leaf, point, &value);
-    else if (from->column.path == derived_strength_mean)
-        value.real = fracas_strength_mean(&point->strength, fracas_spec_interface_volume(&point->spec));
+    else if (from->column.path == derived_strength_mean) value.real = mean;
     else if (from->column.path == derived_strain_rate) value.real = fracas_spec_strain_rate(&point->spec);
     else value.text = name;
     return value;
@@ -175,9 +200,12 @@ fracas_err fracas_campaign_tabulate(const fracas_catalog *catalog, const char *c
     fracas_value *value = fracas_memory_take(campaign->memory, campaign->npoints * ncolumns, sizeof *value);
     if (!column || !row || !value) return fracas_no_memory("the table of points");
     for (size_t c = 0; c < ncolumns; c++) column[c] = from[c].column;
+    known_mesh mesh = {0};
     for (size_t p = 0; p < campaign->npoints; p++) {
         const fracas_point *point = &campaign->point[p];
-        for (size_t c = 0; c < ncolumns; c++) value[p * ncolumns + c] = value_of(&from[c], point, name[p]);
+        double mean = NAN;
+        TRY(mean_strength(campaign, p, &mesh, &mean));
+        for (size_t c = 0; c < ncolumns; c++) value[p * ncolumns + c] = value_of(&from[c], point, name[p], mean);
         row[p] = (fracas_point_row){point->hash, point->replicas, value + p * ncolumns};
     }
     campaign->table = (fracas_point_table){ncolumns, column, campaign->npoints, row};

@@ -160,7 +160,7 @@ static fracas_err make_points(reading *read, fracas_campaign *campaign)
         if (!catalog->section[s].table->hashed)
             TRY(fracas_draft_resolve(file, &draft, &catalog->section[s], &campaign->output));
     for (size_t p = 0; p < campaign->npoints; p++) TRY(make_point(read, &draft, p, &campaign->point[p]));
-    return FRACAS_OK;
+    return fracas_draft_check_models(file, &draft, campaign);
 }
 
 /* Names of the cases that make a point, joined by '/'; "" if none has a name. */
@@ -206,7 +206,8 @@ static fracas_err identify(reading *read, fracas_campaign *campaign)
     size_t earlier, later;
     TRY(fracas_points_repeated(campaign, &earlier, &later));
     if (later > 0) return say_repeated(read, earlier, later);
-    TRY(fracas_campaign_tabulate(read->file.catalog, name, campaign));
+    fracas_err err = fracas_campaign_tabulate(read->file.catalog, name, campaign);
+    if (err) return err == FRACAS_USAGE ? fracas_say_within(read->file.name, read->file.root, "mesh") : err;
     return fracas_campaign_identify(read->file.catalog, campaign);
 }
 

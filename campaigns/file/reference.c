@@ -38,6 +38,8 @@ static void write_param(const fracas_param *param, FILE *out)
     fprintf(out, " | %s", param->doc);
     for (size_t c = 0; c < param->nchoices; c++)
         fprintf(out, "%s`%s`: %s", c ? "; " : ". ", param->choices[c]->name, param->choices[c]->doc);
+    for (const fracas_kind *const *only = param->only; only && *only; only++)
+        fprintf(out, "%s`%s`", only == param->only ? ". Only with model " : " or ", (*only)->name);
     fprintf(out, " |\n");
 }
 

@@ -78,12 +78,55 @@ fracas_err fracas_draft_check_base(const fracas_file *file, const fracas_draft *
         const fracas_setting *setting = draft->base[i], *chosen;
         if (!setting || !leaf->param) continue;
         const fracas_kind *kind = kind_of(file, draft, BASE, leaf->section, &chosen);
-        bool common;
-        const fracas_param *param = fracas_section_param(leaf->section->table, kind, leaf->key, &common);
-        if (!param) return fracas_setting_misplaced(file, setting, kind, chosen);
-        TRY(fracas_setting_check(file, setting, param));
+        const fracas_setting *model = selected(file, draft, BASE, file->catalog->section);
+        const fracas_param *any = fracas_section_param(leaf->section->table, kind, NULL, leaf->key);
+        const fracas_param *param = model ? fracas_section_param(leaf->section->table, kind, model->kind, leaf->key) : any;
+        if (!any) return fracas_setting_misplaced(file, setting, kind, chosen);
+        TRY(fracas_setting_check(file, setting, param ? param : any));
     }
     return FRACAS_OK;
+}
+
+static bool any_point_has(const fracas_campaign *campaign, const fracas_section *table, const fracas_kind *kind, const char *key)
+{
+    for (size_t p = 0; p < campaign->npoints; p++)
+        if (fracas_section_param(table, kind, campaign->point[p].spec.formulation, key)) return true;
+    return false;
+}
+
+fracas_err fracas_draft_check_models(const fracas_file *file, const fracas_draft *draft, const fracas_campaign *campaign)
+{
+    for (size_t i = 0; i < file->catalog->nleaves; i++) {
+        const fracas_leaf *leaf = &file->catalog->leaf[i];
+        const fracas_setting *chosen, *by;
+        if (!draft->base[i] || !leaf->param) continue;
+        const fracas_kind *kind = kind_of(file, draft, BASE, leaf->section, &chosen);
+        if (any_point_has(campaign, leaf->section->table, kind, leaf->key)) continue;
+        const fracas_param *param = fracas_section_param(leaf->section->table, kind, NULL, leaf->key);
+        const fracas_kind *model = model_of(file, draft, POINT, &by);
+        return fracas_setting_of_others(file, draft->base[i], param, model, by);
+    }
+    return FRACAS_OK;
+}
+
+/* The swept key of `setting` is for another kind, or for another model. */
+static fracas_err refuse_swept(const fracas_file *file, const fracas_draft *draft, const fracas_setting *setting,
+                               const fracas_kind *kind, const fracas_setting *chosen)
+{
+    const fracas_setting *by;
+    const fracas_kind *model = model_of(file, draft, POINT, &by);
+    const fracas_param *others = fracas_section_param(setting->leaf->section->table, kind, NULL, setting->leaf->key);
+    return others ? fracas_setting_of_others(file, setting, others, model, by)
+                  : fracas_setting_misplaced(file, setting, kind, chosen);
+}
+
+/* True if a value of the base holds at points of this model, which have the key, even if their kind is not the base's. */
+static bool is_inherited(const fracas_file *file, const fracas_draft *draft, const fracas_section *table,
+                         const fracas_kind *model, const char *key)
+{
+    const fracas_setting *before = selected(file, draft, BASE, file->catalog->section);
+    if (fracas_section_param(table, NULL, NULL, key)) return true; /* of the section itself */
+    return fracas_section_common(table, model, key) && (!before || fracas_section_common(table, before->kind, key));
 }
 
 /* A value that the point needs and nothing gives; its place is where the kind was chosen, the section, or the file. */
@@ -113,7 +156,8 @@ fracas_err fracas_draft_resolve(const fracas_file *file, const fracas_draft *dra
 {
     const fracas_catalog *catalog = file->catalog;
     const fracas_section *table = section->table;
-    const fracas_setting *chosen, *before;
+    const fracas_setting *chosen, *before, *by;
+    const fracas_kind *model = model_of(file, draft, POINT, &by);
     const fracas_kind *kind = kind_of(file, draft, POINT, section, &chosen);
     const fracas_kind *base_kind = kind_of(file, draft, BASE, section, &before);
     TRY(check_partner(file, draft, POINT, chosen));
@@ -123,10 +167,10 @@ fracas_err fracas_draft_resolve(const fracas_file *file, const fracas_draft *dra
     for (size_t i = 0; i < catalog->nleaves; i++) {
         const fracas_leaf *leaf = &catalog->leaf[i];
         if (leaf->section != section || !leaf->param) continue;
-        bool common;
-        const fracas_param *param = fracas_section_param(table, kind, leaf->key, &common);
-        if (!param && draft->swept[i]) return fracas_setting_misplaced(file, draft->swept[i], kind, chosen);
+        const fracas_param *param = fracas_section_param(table, kind, model, leaf->key);
+        if (!param && draft->swept[i]) return refuse_swept(file, draft, draft->swept[i], kind, chosen);
         if (!param) continue;
+        const bool common = is_inherited(file, draft, table, model, leaf->key);
         const fracas_setting *setting = draft->swept[i];
         if (!setting && (common || kind == base_kind)) setting = draft->base[i];
         if (setting) last = setting->node;

@@ -226,23 +226,45 @@ fracas_err fracas_setting_check(const fracas_file *file, const fracas_setting *s
                       range);
 }
 
+/* Names of kinds, "a or b". */
+typedef struct {
+    char text[200];
+    size_t used;
+} homes;
+
+static void add_home(homes *names, const fracas_kind *kind)
+{
+    const size_t room = sizeof names->text - names->used;
+    int added = snprintf(names->text + names->used, room, "%s%s", names->used ? " or " : "", kind->name);
+    if (added > 0 && (size_t)added < room) names->used += (size_t)added;
+}
+
+/* `kind` is what it has instead, of the section in which `selector` names it. */
+static fracas_err say_misplaced(const fracas_file *file, const fracas_setting *setting, const char *selector,
+                                const homes *names, const fracas_kind *kind, const fracas_setting *chosen)
+{
+    const fracas_node *at = setting->node->key ? setting->node->key : setting->node;
+    if (!chosen)
+        return fracas_say(file->name, at, "`%s` belongs to %s %s; this is %s, the default, as no `%s` is given",
+                          setting->leaf->key, selector, names->text, kind->name, selector);
+    return fracas_say(file->name, at, "`%s` belongs to %s %s; this is %s (line %d)", setting->leaf->key, selector,
+                      names->text, kind->name, chosen->node->line);
+}
+
 fracas_err fracas_setting_misplaced(const fracas_file *file, const fracas_setting *setting, const fracas_kind *kind,
                                     const fracas_setting *chosen)
 {
     const fracas_section *table = setting->leaf->section->table;
-    const char *selector = table->selector ? table->selector : table->name;
-    char homes[200] = "";
-    size_t used = 0;
-    for (size_t k = 0; k < table->nkinds; k++) {
-        bool common;
-        if (!fracas_section_param(table, table->kinds[k], setting->leaf->key, &common)) continue;
-        int added = snprintf(homes + used, sizeof homes - used, "%s%s", used ? " or " : "", table->kinds[k]->name);
-        if (added > 0 && used + (size_t)added < sizeof homes) used += (size_t)added;
-    }
-    const fracas_node *at = setting->node->key ? setting->node->key : setting->node;
-    if (!chosen)
-        return fracas_say(file->name, at, "`%s` belongs to %s %s; this is %s, the default, as no `%s` is given",
-                          setting->leaf->key, selector, homes, kind->name, selector);
-    return fracas_say(file->name, at, "`%s` belongs to %s %s; this is %s (line %d)", setting->leaf->key, selector,
-                      homes, kind->name, chosen->node->line);
+    homes names = {.used = 0};
+    for (size_t k = 0; k < table->nkinds; k++)
+        if (fracas_section_param(table, table->kinds[k], NULL, setting->leaf->key)) add_home(&names, table->kinds[k]);
+    return say_misplaced(file, setting, table->selector ? table->selector : table->name, &names, kind, chosen);
+}
+
+fracas_err fracas_setting_of_others(const fracas_file *file, const fracas_setting *setting, const fracas_param *param,
+                                    const fracas_kind *model, const fracas_setting *chosen)
+{
+    homes names = {.used = 0};
+    for (const fracas_kind *const *only = param->only; *only; only++) add_home(&names, *only);
+    return say_misplaced(file, setting, file->catalog->section->table->name, &names, model, chosen);
 }

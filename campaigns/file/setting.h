@@ -60,4 +60,9 @@ FRACAS_MUST_USE fracas_err fracas_setting_check(const fracas_file *file, const f
 FRACAS_MUST_USE fracas_err fracas_setting_misplaced(const fracas_file *file, const fracas_setting *setting,
                                                     const fracas_kind *kind, const fracas_setting *chosen);
 
+/* The same where the kind would have the key, but not at points of this model. */
+FRACAS_MUST_USE fracas_err fracas_setting_of_others(const fracas_file *file, const fracas_setting *setting,
+                                                    const fracas_param *param, const fracas_kind *model,
+                                                    const fracas_setting *chosen);
+
 #endif

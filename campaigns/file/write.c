@@ -33,13 +33,27 @@ static bool kind_varies(const fracas_file_section *section, const fracas_campaig
     return false;
 }
 
+/* True if the leaf's value is inherited where its section's kind changes: at points of every model that there is, and of
+ * that of a file which names none. */
+static bool is_common(const fracas_leaf *leaf, const fracas_kind *unnamed, const fracas_campaign *campaign)
+{
+    if (!leaf->param) return false;
+    const fracas_kind *first = campaign->point[0].spec.formulation;
+    bool common = fracas_section_common(leaf->section->table, first, leaf->key);
+    for (size_t p = 1; p < campaign->npoints && common; p++) {
+        const fracas_kind *model = campaign->point[p].spec.formulation;
+        if (model != first)
+            common = fracas_section_common(leaf->section->table, model, leaf->key) &&
+                     fracas_section_common(leaf->section->table, unnamed, leaf->key);
+    }
+    return common;
+}
+
 /* True if the leaf is written once, in its section: it is the same in all points. What belongs to a kind stays together
  * with the kind's name, as a sweep that changes the kind drops the base's keys of the old one. */
-static bool is_base(const fracas_leaf *leaf, const fracas_campaign *campaign)
+static bool is_base(const fracas_leaf *leaf, const fracas_kind *unnamed, const fracas_campaign *campaign)
 {
-    bool common = false;
-    if (leaf->param) fracas_section_param(leaf->section->table, NULL, leaf->key, &common);
-    if (!common && kind_varies(leaf->section, campaign)) return false;
+    if (kind_varies(leaf->section, campaign) && !is_common(leaf, unnamed, campaign)) return false;
     char first[FRACAS_LEAF_TEXT], other[FRACAS_LEAF_TEXT];
     if (!write_value(leaf, campaign, 0, first)) return false;
     for (size_t p = 1; p < campaign->npoints && leaf->section->table->hashed; p++)
@@ -155,7 +169,10 @@ static fracas_err write_with(fracas_campaign_memory *memory, const fracas_campai
     TRY(fracas_catalog_make(memory, &catalog));
     bool *base = fracas_memory_take(memory, catalog->nleaves, sizeof *base);
     if (!base) return fracas_no_memory("the resolved campaign");
-    for (size_t i = 0; i < catalog->nleaves; i++) base[i] = is_base(&catalog->leaf[i], campaign);
+    for (size_t i = 0; i < catalog->nleaves; i++) {
+        const fracas_kind *unnamed = catalog->section->table->kinds[0];
+        base[i] = is_base(&catalog->leaf[i], unnamed, campaign);
+    }
     write_file(catalog, base, campaign, out);
     if (fflush(out) == 0 && !ferror(out)) return FRACAS_OK;
     return fracas_fail(FRACAS_ENVIRONMENT, "cannot write the resolved campaign %s: %s", campaign->name,

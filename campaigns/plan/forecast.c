@@ -4,25 +4,37 @@
 #include "campaigns/plan/point_model.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
+#include "engine/mesh/make.h"
+#include "engine/solver/batch.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 enum { MAX_LANES = 8 }; /* of a batch */
 
-/* The smallest volume of an interface [m3]: where strengths depend on it, there they are largest. */
-static double smallest_volume(const fracas_model *model)
+/* Volumes that interfaces stand for [m3]. */
+typedef struct {
+    double mean, least; /* where strengths depend on it, they are largest at the least */
+} volumes;
+
+static volumes volumes_of(const fracas_model *model)
 {
-    double volume = INFINITY;
-    for (size_t i = 0; i < fracas_model_interfaces(model); i++)
-        volume = fmin(volume, fracas_model_interface_volume(model, i));
-    return volume;
+    const size_t count = fracas_model_interfaces(model);
+    double sum = 0, least = INFINITY;
+    for (size_t i = 0; i < count; i++) {
+        const double volume = fracas_model_interface_volume(model, i);
+        sum += volume;
+        least = fmin(least, volume);
+    }
+    return (volumes){.mean = sum / (double)count, .least = least};
 }
 
-static fracas_err check_strongest(const fracas_model *model, const fracas_point *point)
+static fracas_err check_strongest(const fracas_model *model, const fracas_point *point, double volume)
 {
+    if (fracas_model_interfaces(model) == 0) return FRACAS_OK; /* a single triangle */
     const double drawn = (double)fracas_model_interfaces(model) * (double)point->replicas;
-    const double volume = smallest_volume(model);
     const double u = fmin(1.0 - 0.01 / drawn, 1.0 - 0x1p-53);
     fracas_err err = fracas_model_check_strength(model, fracas_strength_quantile(&point->strength, volume, u));
     return err ? fracas_fail_within(err, "the strongest of %.3g interfaces (all replicas together)", drawn) : FRACAS_OK;
@@ -34,6 +46,38 @@ static fracas_err check_count(const fracas_model *model, const fracas_strength *
     if (given == 0 || given == interfaces) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE, "%s has %zu strengths, but the mesh has %zu interfaces; each needs one line of the file",
                        strength->file->path, given, interfaces);
+}
+
+/* Gives each interface its strength, as a run would, and checks it. */
+static fracas_err try_places(const fracas_model *model, const fracas_strength *strength, double (*position)[3], double *sigma_c)
+{
+    const size_t n = fracas_model_interfaces(model);
+    fracas_model_interface_positions(model, position);
+    TRY(fracas_strength_sample(strength, &(fracas_stream){0}, n, NULL, (const double(*)[3])position, 1, sigma_c));
+    for (size_t i = 0; i < n; i++) {
+        fracas_err err = fracas_model_check_strength(model, sigma_c[i]);
+        if (err) return fracas_fail_within(err, "%s, interface %zu at x = %.9g m, y = %.9g m", strength->file->path, i, position[i][0],
+                                           position[i][1]);
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err check_places(const fracas_model *model, const fracas_strength *strength)
+{
+    const size_t n = fracas_model_interfaces(model);
+    double(*position)[3] = malloc(n * sizeof *position), *sigma_c = malloc(n * sizeof *sigma_c);
+    fracas_err err = n > 0 && (!position || !sigma_c) ? fracas_no_memory("the strengths of a mesh")
+                                                      : try_places(model, strength, position, sigma_c);
+    free(position);
+    free(sigma_c);
+    return err;
+}
+
+static fracas_err check_strengths(const fracas_model *model, const fracas_point *point, double volume)
+{
+    if (fracas_strength_is_placed(&point->strength)) return check_places(model, &point->strength);
+    TRY(check_count(model, &point->strength));
+    return check_strongest(model, point, volume);
 }
 
 /* A stress that an uncracked ring with this load stays below until t [Pa]. Radially it is u'' + w^2 u = a, w = c/R, sigma = E u/R:
@@ -63,9 +107,41 @@ static double ring_stress_bound(const fracas_spec *spec, double t)
     return stress + fmin(young * t * t / (2 * radius), 2 * radius * rho) * outward;
 }
 
+/* True if a plate stretches evenly until waves from its free edges arrive, which relieve it: it is not held where it should
+ * move, nor is an edge free to shrink beside one that is not (its corner concentrates stress). */
+static bool is_even(const fracas_spec *spec)
+{
+    const bool moving = spec->loading.type == &fracas_loading_expansion;
+    bool held = false, released = false;
+    if (spec->geometry.shape != &fracas_shape_plate || (moving && spec->loading.start != &fracas_start_moving)) return false;
+    for (int tag = 1; tag <= 4; tag++) {
+        const fracas_kind *edge = spec->geometry.edge[tag];
+        if (edge == &fracas_edge_fixed || (edge != &fracas_edge_free && !moving)) return false;
+        held = held || edge == &fracas_edge_held;
+        released = released || edge == &fracas_edge_free;
+    }
+    return !(held && released);
+}
+
+/* A stress that an uncracked plate stays below until t [Pa]: as it stretches by (1, ratio) a, a = rate t or w^2 t^2/2, the larger
+ * of both stresses along its sides, E a/(1 - nu) for ratio 1. A free edge takes the stress across it away, by a wave that brings
+ * as much of compression and no tension. In any direction, traction and shear/beta_c together are at most max(1, 1/beta_c) of
+ * that. Holes and notches, held corners and shocks concentrate stress: none is known for these. */
+static double surface_stress_bound(const fracas_spec *spec, double t)
+{
+    const fracas_loading *loading = &spec->loading;
+    const bool moving = loading->type == &fracas_loading_expansion;
+    const double nu = spec->material.poisson, ratio = moving ? loading->ratio : 1.0;
+    const double strain = moving ? fabs(loading->rate) * t : 0.5 * loading->speed * loading->speed * t * t;
+    if (!is_even(spec)) return INFINITY;
+    const double largest = fmax(fabs(1 + nu * ratio), fmax(fabs(nu + ratio), fmax(1.0, fabs(ratio)) * (1 - nu * nu)));
+    return spec->material.young * strain * largest / (1 - nu * nu) * fmax(1.0, 1.0 / spec->cohesive.coupling);
+}
+
 /* A stress that the uncracked body stays below until time.end [Pa]. */
 static double stress_bound(const fracas_spec *spec)
 {
+    if (fracas_spec_is_surface(spec)) return surface_stress_bound(spec, spec->time.end);
     if (spec->loading.type == &fracas_loading_imposed_rate)
         return spec->material.young * spec->loading.rate * spec->time.end;
     return ring_stress_bound(spec, spec->time.end);
@@ -101,42 +177,53 @@ static double turned_angle(const fracas_spec *spec)
     return fabs(way) / spec->geometry.radius;
 }
 
-static fracas_err describe(const fracas_campaign *campaign, size_t index, fracas_forecast *forecast)
+static fracas_err describe(const fracas_point *point, const fracas_model *model, fracas_forecast *forecast)
 {
-    const fracas_point *point = &campaign->point[index];
-    fracas_model *model;
-    TRY(fracas_point_model_create(campaign, index, &model));
     *forecast = (fracas_forecast){
         .elements = (int64_t)fracas_model_elements(model),
+        .interfaces = (int64_t)fracas_model_interfaces(model),
         .steps = fracas_model_steps(model),
         .time_step = fracas_model_time_step(model),
     };
     const fracas_spec *spec = &point->spec;
-    const double volume = fracas_spec_interface_volume(spec), mean = fracas_strength_mean(&point->strength, volume);
+    const volumes volume = volumes_of(model);
+    const double mean = fracas_strength_mean(&point->strength, volume.mean);
     const double softening = spec->material.young * fracas_spec_fracture_energy(spec, mean) / (mean * mean);
-    forecast->coarseness = fracas_spec_length(spec) / (double)forecast->elements / softening;
-    forecast->uniform = fracas_strength_quantile(&point->strength, volume, 0.25) ==
-                        fracas_strength_quantile(&point->strength, volume, 0.75);
+    forecast->coarseness = fracas_model_element_size(model) / softening;
+    forecast->uniform = fracas_strength_quantile(&point->strength, volume.mean, 0.25) ==
+                        fracas_strength_quantile(&point->strength, volume.mean, 0.75);
+    forecast->lines = forecast->uniform && spec->mesh.spacing == &fracas_spacing_triangles && spec->mesh.amplitude == 0;
     forecast->mean = mean;
     forecast->bound = stress_bound(spec);
-    forecast->step_stress = spec->material.young * fracas_spec_strain_rate(spec) * forecast->time_step;
+    forecast->step_stress = spec->material.young * fabs(fracas_spec_strain_rate(spec)) * forecast->time_step;
     if (is_ring(spec)) {
         forecast->turn = M_PI_2 * spec->geometry.radius / sqrt(spec->material.young / spec->material.density);
         forecast->folds = is_folded(spec, forecast);
         if (spec->geometry.direction == &fracas_direction_initial) forecast->turned = turned_angle(spec);
         forecast->lonely = spec->cohesive.zone > 0.5 * fracas_spec_length(spec);
     }
-    forecast->repeated = fracas_strength_count(&point->strength) > 0 && point->replicas > 1;
-    fracas_err err = check_count(model, &point->strength);
-    if (!err) err = check_strongest(model, point);
-    fracas_model_destroy(model);
-    return err;
+    forecast->repeated = fracas_strength_is_given(&point->strength) && point->replicas > 1;
+    return check_strengths(model, point, volume.least);
+}
+
+/* The forecast, and the model that it was made from, or NULL after an error. */
+static fracas_err forecast_with(const fracas_campaign *campaign, size_t point, fracas_forecast *forecast, fracas_model **model)
+{
+    *model = NULL;
+    fracas_err err = fracas_point_model_create(campaign, point, model);
+    if (!err) err = describe(&campaign->point[point], *model, forecast);
+    if (!err) return FRACAS_OK;
+    fracas_model_destroy(*model);
+    *model = NULL;
+    return fracas_fail_within(err, "point %zu", point);
 }
 
 fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point, fracas_forecast *forecast)
 {
-    fracas_err err = describe(campaign, point, forecast);
-    return err ? fracas_fail_within(err, "point %zu", point) : FRACAS_OK;
+    fracas_model *model;
+    fracas_err err = forecast_with(campaign, point, forecast, &model);
+    fracas_model_destroy(model);
+    return err;
 }
 
 fracas_err fracas_plan_cost(const fracas_campaign *campaign, size_t point, double *cost)
@@ -167,19 +254,27 @@ typedef struct {
     double element_steps, seconds;
 } effort;
 
-/* Runs one batch of `lanes` realizations in which every interface has this strength. */
+/* A batch of `lanes` realizations in which every interface has this strength. */
+static fracas_err make_batch(const fracas_model *model, double strength, size_t lanes, fracas_record *record,
+                             fracas_batch **batch)
+{
+    const fracas_batch_options options = {.isa = FRACAS_ISA_BEST};
+    TRY(fracas_batch_create(model, lanes, &options, batch));
+    for (size_t l = 0; l < lanes; l++) {
+        size_t stride, interfaces = fracas_model_interfaces(model);
+        double *sigma_c = fracas_batch_strength(*batch, l, &stride);
+        for (size_t i = 0; i < interfaces; i++) sigma_c[i * stride] = strength;
+        fracas_record_init(&record[l]);
+    }
+    return FRACAS_OK;
+}
+
+/* Runs one. */
 static fracas_err run_batch(const fracas_model *model, double strength, size_t lanes, effort *spent)
 {
     fracas_batch *batch;
     fracas_record record[MAX_LANES];
-    const fracas_batch_options options = {.isa = FRACAS_ISA_BEST};
-    TRY(fracas_batch_create(model, lanes, &options, &batch));
-    for (size_t l = 0; l < lanes; l++) {
-        size_t stride, interfaces = fracas_model_interfaces(model);
-        double *sigma_c = fracas_batch_strength(batch, l, &stride);
-        for (size_t i = 0; i < interfaces; i++) sigma_c[i * stride] = strength;
-        fracas_record_init(&record[l]);
-    }
+    TRY(make_batch(model, strength, lanes, record, &batch));
     const double start = seconds();
     fracas_err err = fracas_batch_run(batch, record);
     *spent = (effort){.seconds = seconds() - start};
@@ -205,9 +300,34 @@ static fracas_err time_steps(const fracas_campaign *campaign, size_t index, doub
     spec.time.end = fmin(spec.time.end, end);
     spec.cohesive.refinement = 1.0; /* a step takes the same time however short it is, and so there are as many as asked for */
     TRY(fracas_point_model_like(campaign, index, &spec, &model));
-    const double strength = fracas_strength_mean(&point->strength, fracas_spec_interface_volume(&spec));
+    const double strength = fracas_strength_mean(&point->strength, volumes_of(model).mean);
     fracas_err err = run_batch(model, strength, lanes_of(point), spent);
     fracas_model_destroy(model);
+    return err;
+}
+
+/* Steps of a surface, on the model that is there: making one takes as long as many of its steps, which are long. Interfaces are so
+ * weak that they crack at once: what is broken takes twice the time of what is whole. The first step, which finds nothing in a
+ * cache, does not count unless it is the last. */
+static fracas_err time_surface(const fracas_model *model, double mean, size_t lanes, fracas_forecast *forecast)
+{
+    const double strength = 1e-12 * mean;
+    fracas_batch *batch;
+    fracas_record record[MAX_LANES];
+    effort spent = {0};
+    size_t running = lanes;
+    TRY(make_batch(model, strength, lanes, record, &batch));
+    fracas_err err = fracas_batch_begin(batch);
+    for (int step = 0; !err && running > 0 && spent.seconds < 0.05; step++) {
+        const double start = seconds();
+        err = fracas_batch_step(batch, record, &running);
+        if (step == 1) spent = (effort){0};
+        spent.seconds += seconds() - start;
+        spent.element_steps += (double)fracas_model_elements(model) * (double)lanes;
+    }
+    for (size_t l = 0; l < lanes; l++) fracas_record_clear(&record[l]);
+    fracas_batch_destroy(batch);
+    forecast->speed = spent.element_steps / fmax(spent.seconds, 1e-9);
     return err;
 }
 
@@ -234,11 +354,22 @@ static fracas_err time_point(const fracas_campaign *campaign, size_t index, frac
     return FRACAS_OK;
 }
 
+/* True if an element of a step costs both the same: what counts for surfaces only is the same for all others. */
+static bool is_alike(const fracas_spec *a, const fracas_spec *b)
+{
+    if (a->formulation != b->formulation) return false;
+    if (!fracas_spec_is_surface(a)) return true;
+    return a->mesh.order == b->mesh.order && a->geometry.file == b->geometry.file && a->cohesive.law == b->cohesive.law &&
+           (a->cohesive.friction > 0) == (b->cohesive.friction > 0) && a->time.integrator == b->time.integrator &&
+           a->time.mass == b->time.mass;
+}
+
 /* The speed of an earlier point of the same lanes and of half to twice the elements; 0 if there is none. */
 static double speed_of_like(const fracas_campaign *campaign, const fracas_forecast *forecast, size_t point)
 {
     for (size_t p = point; p-- > 0;)
-        if (lanes_of(&campaign->point[p]) == lanes_of(&campaign->point[point]) &&
+        if (is_alike(&campaign->point[p].spec, &campaign->point[point].spec) &&
+            lanes_of(&campaign->point[p]) == lanes_of(&campaign->point[point]) &&
             forecast[p].elements <= 2 * forecast[point].elements &&
             forecast[point].elements <= 2 * forecast[p].elements)
             return forecast[p].speed;
@@ -253,20 +384,30 @@ static double realization_bytes(const fracas_output *output, const fracas_foreca
     const double fragments = fmax(1.0, (double)forecast->elements / FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
     const double scalars = offsetof(fracas_record, nfragment);
     const double history = ((double)output->history + 4.0) * sizeof(fracas_history_row); /* start and three events */
-    const double interfaces = output->interfaces ? (double)forecast->elements * sizeof(fracas_interface_row) : 0.0;
+    const double interfaces = output->interfaces ? (double)forecast->interfaces * sizeof(fracas_interface_row) : 0.0;
     return scalars + fragments * sizeof(fracas_fragment) + history + interfaces;
+}
+
+/* Forecast p, with its speed; those before it are there. */
+static fracas_err forecast_timed(const fracas_campaign *campaign, size_t p, fracas_forecast *forecast)
+{
+    const fracas_point *point = &campaign->point[p];
+    fracas_model *model;
+    fracas_err err;
+    TRY(forecast_with(campaign, p, &forecast[p], &model));
+    forecast[p].speed = speed_of_like(campaign, forecast, p);
+    if (forecast[p].speed > 0.0) err = FRACAS_OK;
+    else if (fracas_model_surface(model)) err = time_surface(model, forecast[p].mean, lanes_of(point), &forecast[p]);
+    else err = time_point(campaign, p, &forecast[p]);
+    fracas_model_destroy(model);
+    return err ? fracas_fail_within(err, "point %zu", p) : FRACAS_OK;
 }
 
 fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs, fracas_forecast *forecast)
 {
     for (size_t p = 0; p < campaign->npoints; p++) {
         const fracas_point *point = &campaign->point[p];
-        TRY(fracas_forecast_make(campaign, p, &forecast[p]));
-        forecast[p].speed = speed_of_like(campaign, forecast, p);
-        if (forecast[p].speed == 0.0) {
-            fracas_err err = time_point(campaign, p, &forecast[p]);
-            if (err) return fracas_fail_within(err, "point %zu", p);
-        }
+        TRY(forecast_timed(campaign, p, forecast));
         const double work = (double)forecast[p].elements * (double)forecast[p].steps * (double)point->replicas;
         forecast[p].time = work / (forecast[p].speed * jobs);
         forecast[p].bytes = realization_bytes(&campaign->output, &forecast[p]) * (double)point->replicas;

@@ -5,25 +5,26 @@
 #include "campaigns/campaign.h"
 
 typedef struct {
-    int64_t elements, steps;
+    int64_t elements, interfaces, steps;
     double time_step; /* s */
     double speed;     /* element-steps per second of one core; 0 until it is timed */
     double time;      /* s, of all replicas on all jobs */
     double bytes;     /* in study.h5 */
     double coarseness; /* element size over E G_c/sigma_c^2, the length over which a crack softens */
     bool uniform;      /* half of the interfaces and more have the same strength */
-    double step_stress; /* E rate dt [Pa]; NaN where the loading gives no strain rate */
+    bool lines;        /* so it is, and the mesh is a regular one of triangles: cracks will follow its lines */
+    double step_stress; /* E |rate| dt [Pa]; NaN where the loading gives no strain rate */
     double turn;       /* a ring's time from its greatest speed to its turning point: pi/2 R/c [s] */
     bool folds;        /* a ring is driven inward, or swings back whole and then inward before time.end */
     double turned;     /* angle by which a ring turns until time.end, where its interfaces open along initial directions [rad] */
     bool lonely;       /* the fracture-limiting zone of one interface reaches around the ring */
     bool repeated;     /* strengths are given, so that replicas are equal, and there are several */
     double mean;       /* strength of an interface [Pa] */
-    double bound;      /* stress that the uncracked body stays below until time.end [Pa] */
+    double bound;      /* stress that the uncracked body stays below until time.end [Pa]; INFINITY where none is known */
 } fracas_forecast;
 
 /* Elements, time step, steps, coarseness of one point (speed 0). Refused if strengths are given and not as many as
- * there are interfaces, or if the engine would refuse the strength that the
+ * there are interfaces, or not at their positions, or if the engine would refuse the strength that the
  * strongest of all its interfaces and replicas stays below with a probability of 99 %. */
 FRACAS_MUST_USE fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point,
                                                 fracas_forecast *forecast);

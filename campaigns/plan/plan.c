@@ -4,6 +4,8 @@
 #include "base/units.h"
 #include "campaigns/plan/forecast.h"
 #include "engine/loading/loading.h"
+#include "engine/mesh/body.h"
+#include "engine/mesh/make.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -122,14 +124,25 @@ static const char *harder(const fracas_spec *spec, const fracas_forecast *foreca
     return spec->time.end < forecast->turn ? "raise its velocity or time.end" : "a free ring swings back: raise its velocity";
 }
 
+/* What would resolve a crack's softening. */
+static void finer(const fracas_spec *spec, const fracas_forecast *forecast, char *text, size_t size)
+{
+    const double times = forecast->coarseness / COARSE;
+    if (!fracas_spec_is_surface(spec)) snprintf(text, size, "raise mesh.elements to %.0f", ceil((double)forecast->elements * times));
+    else if (spec->mesh.spacing == &fracas_spacing_given) snprintf(text, size, "give a mesh with edges %.2g times shorter", times);
+    else if (spec->mesh.size > 0) snprintf(text, size, "lower mesh.size to %.2g m", spec->mesh.size / times);
+    else snprintf(text, size, "raise mesh.divisions to %.0f", ceil((double)spec->mesh.divisions * times));
+}
+
 /* Each writes what to know of a point; false if it does not apply. */
 typedef bool warning(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size);
 
 static bool warn_coarse(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
 {
-    (void)point;
-    snprintf(text, size, "elements are %.2g E G_c/sigma_c^2 long, above %.1g a crack's softening is not resolved: raise "
-             "mesh.elements to %.0f", forecast->coarseness, COARSE, ceil((double)forecast->elements * forecast->coarseness / COARSE));
+    char remedy[80];
+    finer(&point->spec, forecast, remedy, sizeof remedy);
+    snprintf(text, size, "elements are %.2g E G_c/sigma_c^2 long, above %.1g a crack's softening is not resolved: %s",
+             forecast->coarseness, COARSE, remedy);
     return forecast->coarseness > COARSE;
 }
 
@@ -141,6 +154,14 @@ static bool warn_uniform(const fracas_point *point, const fracas_forecast *forec
              "rounding: give the strength a scatter%s", all ? "all" : "half of the", all ? "" : "or more ",
              strcmp(distribution, "flaws") ? "" : ", here by a higher flaw_density");
     return forecast->uniform;
+}
+
+static bool warn_lines(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
+{
+    (void)point;
+    snprintf(text, size, "interfaces are equally strong and the mesh is regular, so that cracks follow its lines: give mesh.amplitude, "
+             "for instance 0.2");
+    return forecast->lines;
 }
 
 static bool warn_weak_load(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
@@ -189,8 +210,8 @@ static bool warn_turned(const fracas_point *point, const fracas_forecast *foreca
     return forecast->turned > TURNED;
 }
 
-static warning *const warnings[] = {warn_coarse, warn_uniform, warn_weak_load, warn_repeated,
-                                    warn_folds,  warn_lonely,  warn_step,      warn_turned};
+static warning *const warnings[] = {warn_coarse, warn_uniform, warn_lines, warn_weak_load, warn_repeated,
+                                    warn_folds,  warn_lonely,  warn_step,  warn_turned};
 enum { WARNINGS = FRACAS_COUNT(warnings) };
 
 /* Warning `which` of point p, with its number; false if it does not apply. */

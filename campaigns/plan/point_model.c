@@ -1,6 +1,6 @@
 #include "campaigns/plan/point_model.h"
 
-#include "engine/mesh/body.h"
+#include "engine/mesh/make.h"
 
 #include <stdlib.h>
 
@@ -16,13 +16,15 @@ fracas_err fracas_point_model_like(const fracas_campaign *campaign, size_t point
 {
     fracas_spec drawn = *spec;
     double *noise = NULL;
-    if (spec->mesh.spacing == &fracas_spacing_perturbed) {
-        const size_t nodes = (size_t)spec->mesh.elements + 1;
-        noise = malloc(nodes * sizeof *noise);
+    size_t count;
+    TRY(fracas_mesh_noise_count(spec, &count));
+    if (count > 0) {
+        noise = malloc(count * sizeof *noise);
         if (!noise) return fracas_no_memory("the mesh of a point");
-        fracas_point_mesh_noise(campaign, point, nodes, noise);
+        fracas_point_mesh_noise(campaign, point, count, noise);
     }
     drawn.mesh.noise = noise;
+    drawn.mesh.nnoise = count;
     fracas_err err = fracas_model_create(&drawn, model); /* which keeps no noise */
     free(noise);
     return err;

@@ -12,8 +12,9 @@ FRACAS_MUST_USE fracas_err fracas_point_model_create(const fracas_campaign *camp
 FRACAS_MUST_USE fracas_err fracas_point_model_like(const fracas_campaign *campaign, size_t point, const fracas_spec *spec,
                                                    fracas_model **model);
 
-/* noise[i] = 2 u_i - 1, the move of node i by the largest one: u_i from the stream of the campaign's seed, the point's hash,
- * replica 0 and FRACAS_PURPOSE_MESH, whatever `count`. All realizations of a point have one mesh. */
+/* noise[i] = 2 u_i - 1, the move of node i of a chain by the largest one, or of vertex i/2 of a surface along its direction i%2:
+ * u_i from the stream of the campaign's seed, the point's hash, replica 0 and FRACAS_PURPOSE_MESH, whatever `count`. All realizations of a
+ * point have one mesh. */
 void fracas_point_mesh_noise(const fracas_campaign *campaign, size_t point, size_t count, double *noise);
 
 #endif

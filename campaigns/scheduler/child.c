@@ -28,24 +28,53 @@ static void crash_if_asked(const fracas_lease *lease)
     }
 }
 
+/* What strengths depend on. */
+typedef struct {
+    size_t n;
+    double *volume;         /* m3 */
+    double (*position)[3];  /* m; NULL where nobody asks */
+} interfaces;
+
+static fracas_err interfaces_init(const fracas_model *model, bool placed, interfaces *of)
+{
+    of->n = fracas_model_interfaces(model);
+    of->volume = malloc(of->n * sizeof *of->volume);
+    of->position = placed ? malloc(of->n * sizeof *of->position) : NULL;
+    if (of->n > 0 && (!of->volume || (placed && !of->position))) return fracas_no_memory("the interfaces of a mesh");
+    for (size_t i = 0; i < of->n; i++) of->volume[i] = fracas_model_interface_volume(model, i);
+    if (placed) fracas_model_interface_positions(model, of->position);
+    return FRACAS_OK;
+}
+
+/* Strengths that are given are those of the first lane in all. */
+static fracas_err fill_lanes(const fracas_campaign *campaign, const fracas_lease *lease, const interfaces *of, fracas_batch *batch)
+{
+    const fracas_point *point = &campaign->point[lease->point];
+    const bool given = fracas_strength_is_given(&point->strength);
+    fracas_stream stream = {.seed = campaign->seed, .purpose = FRACAS_PURPOSE_STRENGTH};
+    fracas_hash_words(&point->hash, stream.point);
+    size_t stride;
+    const double *first = fracas_batch_strength(batch, 0, &stride);
+    for (size_t lane = 0; lane < lease->count; lane++) {
+        double *strength = fracas_batch_strength(batch, lane, &stride);
+        stream.replica = (uint64_t)lease->replica[lane];
+        if (lane == 0 || !given)
+            TRY(fracas_strength_sample(&point->strength, &stream, of->n, of->volume, of->position, stride, strength));
+        else
+            for (size_t i = 0; i < of->n; i++) strength[i * stride] = first[i * stride];
+    }
+    return FRACAS_OK;
+}
+
 static fracas_err fill_strengths(const fracas_campaign *campaign, const fracas_model *model, const fracas_lease *lease,
                                  fracas_batch *batch)
 {
-    const size_t interfaces = fracas_model_interfaces(model);
-    double *volume = malloc(interfaces * sizeof *volume);
-    if (!volume) return fracas_no_memory("the volumes of the interfaces");
-    for (size_t i = 0; i < interfaces; i++) volume[i] = fracas_model_interface_volume(model, i);
-    const fracas_point *point = &campaign->point[lease->point];
-    fracas_stream stream = {.seed = campaign->seed, .purpose = FRACAS_PURPOSE_STRENGTH};
-    fracas_hash_words(&point->hash, stream.point);
-    for (size_t lane = 0; lane < lease->count; lane++) {
-        size_t stride;
-        double *strength = fracas_batch_strength(batch, lane, &stride);
-        stream.replica = (uint64_t)lease->replica[lane];
-        fracas_strength_sample(&point->strength, &stream, interfaces, volume, stride, strength);
-    }
-    free(volume);
-    return FRACAS_OK;
+    interfaces of = {0};
+    fracas_err err = interfaces_init(model, fracas_strength_is_placed(&campaign->point[lease->point].strength), &of);
+    if (!err) err = fill_lanes(campaign, lease, &of, batch);
+    free(of.volume);
+    free(of.position);
+    return err;
 }
 
 static fracas_err send_record(int fd, const fracas_record *record)

@@ -1,6 +1,7 @@
 #include "campaigns/scheduler/director.h"
 
 #include "campaigns/scheduler/costs.h"
+#include "campaigns/scheduler/meshes.h"
 #include "campaigns/scheduler/prepare.h"
 #include "campaigns/scheduler/scheduler.h"
 #include "campaigns/scheduler/segment.h"
@@ -327,7 +328,8 @@ static fracas_err merge(fracas_director *director, const fracas_scheduler_counts
 {
     const fracas_campaign *campaign = director->setup.campaign;
     fracas_file_header header = fracas_segment_header(campaign);
-    TRY(fracas_study_merge(director->setup.study, director->index, &header, &campaign->table));
+    fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
+    TRY(fracas_study_merge(director->setup.study, director->index, &header, &campaign->table, &meshes));
     TRY(fracas_index_event(director->index, "finished", "study.h5 is written"));
     return fracas_settled_verdict(director->setup.study, count->failed);
 }

@@ -24,8 +24,21 @@ static fracas_err append(void *context, fracas_step *step)
     return fracas_writer_append(m->writer, step->point, step->replica, &step->record);
 }
 
+/* After all records, point by point: the order depends on nothing else. */
+static fracas_err append_meshes(const merging *m, const fracas_mesh_source *meshes)
+{
+    fracas_err err = FRACAS_OK;
+    for (size_t p = 0; !err && p < m->table->npoints; p++) {
+        fracas_stored_mesh mesh = {0};
+        err = meshes->get(meshes->context, p, &mesh);
+        if (!err) err = fracas_writer_mesh(m->writer, &mesh);
+        fracas_stored_mesh_clear(&mesh);
+    }
+    return err;
+}
+
 fracas_err fracas_study_merge(const char *study, fracas_index *index, const fracas_file_header *header,
-                              const fracas_point_table *table)
+                              const fracas_point_table *table, const fracas_mesh_source *meshes)
 {
     char *path;
     merging m = {.table = table, .complete = true};
@@ -37,6 +50,7 @@ fracas_err fracas_study_merge(const char *study, fracas_index *index, const frac
     fracas_err err = fracas_segments_create(study, index, &identity, &segments);
     if (!err) err = fracas_writer_create(path, header, table, &m.writer);
     if (!err) err = fracas_segments_walk(segments, table, false, append, &m);
+    if (!err && meshes && header->interfaces) err = append_meshes(&m, meshes);
     if (!err) err = fracas_index_seal_study(index, NULL); /* a death from here on leaves no seal: merged again */
     if (err) fracas_writer_abandon(m.writer);
     else err = fracas_writer_finish(m.writer, m.complete, &seal);

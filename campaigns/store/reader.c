@@ -17,6 +17,7 @@ struct fracas_reader {
     char *path;
     fracas_file_header header;
     fracas_stored_table points;
+    bool meshes; /* has a group /mesh */
     set_reader set[FRACAS_NSETS];
 };
 
@@ -82,33 +83,52 @@ static fracas_err open_set(fracas_reader *reader, int s)
 
 static fracas_err load_rows(fracas_reader *reader, int s, uint64_t first, size_t count, void *rows);
 
-/* Offsets go from 0 to the rows of the set; that they never fall is checked where they are used. */
-static fracas_err open_ragged(fracas_reader *reader, int offsets, int s)
+/* Offsets of `owners` things go from 0 to the rows of the set; that they never fall is checked where they are used. */
+static fracas_err open_ragged(fracas_reader *reader, uint64_t owners, int offsets, int s)
 {
     const char *path = fracas_store_sets[offsets].column->path;
     TRY(open_set(reader, offsets));
     TRY(open_set(reader, s));
-    uint64_t realizations = reader->set[FRACAS_SET_REALIZATION].rows;
-    if (reader->set[offsets].rows != realizations + 1)
-        return damaged(reader, path, "it must have one value more than there are realizations");
+    if (reader->set[offsets].rows != owners + 1)
+        return damaged(reader, path, "it must have one value more than there are realizations, or points");
     int64_t first, last;
-    TRY(load_rows(reader, offsets, realizations, 1, &last));
+    TRY(load_rows(reader, offsets, owners, 1, &last));
     TRY(load_rows(reader, offsets, 0, 1, &first));
     if (first != 0 || last < 0 || (uint64_t)last != reader->set[s].rows)
         return damaged(reader, path, "it does not go from 0 to the number of rows");
     return FRACAS_OK;
 }
 
+static fracas_err is_there(const fracas_reader *reader, const char *group, bool *there)
+{
+    htri_t found = H5Lexists(reader->h5.id, group, H5P_DEFAULT);
+    if (found < 0) return fracas_h5_fail(&reader->h5, group);
+    *there = found > 0;
+    return FRACAS_OK;
+}
+
+static fracas_err open_meshes(fracas_reader *reader)
+{
+    TRY(is_there(reader, "/mesh", &reader->meshes));
+    if (reader->meshes && !reader->header.interfaces)
+        return damaged(reader, "/mesh", "there are meshes, but no interfaces");
+    for (int s = FRACAS_SET_MESH_NODE_OFFSET; reader->meshes && s < FRACAS_NSETS; s += 2)
+        TRY(open_ragged(reader, reader->points.table.npoints, s, s + 1));
+    return FRACAS_OK;
+}
+
 static fracas_err open_sets(fracas_reader *reader)
 {
     TRY(open_set(reader, FRACAS_SET_REALIZATION));
-    TRY(open_ragged(reader, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT));
-    TRY(open_ragged(reader, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY));
-    htri_t there = H5Lexists(reader->h5.id, "/interface", H5P_DEFAULT);
-    if (there < 0) return fracas_h5_fail(&reader->h5, "/interface");
-    if (reader->header.interfaces != (there > 0))
+    const uint64_t realizations = reader->set[FRACAS_SET_REALIZATION].rows;
+    TRY(open_ragged(reader, realizations, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT));
+    TRY(open_ragged(reader, realizations, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY));
+    bool there = false;
+    TRY(is_there(reader, "/interface", &there));
+    if (reader->header.interfaces != there)
         return damaged(reader, "interfaces", "the group /interface is there when it must not be, or missing");
-    return there ? open_ragged(reader, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE) : FRACAS_OK;
+    if (there) TRY(open_ragged(reader, realizations, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE));
+    return open_meshes(reader);
 }
 
 fracas_err fracas_reader_open(const char *path, fracas_reader **reader)
@@ -183,16 +203,24 @@ static fracas_err load_rows(fracas_reader *reader, int s, uint64_t first, size_t
     return FRACAS_OK;
 }
 
-/* The rows of realization `row` in a ragged set; *rows freed by the caller, NULL if there are none. */
+/* Where the rows of realization or point `row` are in a ragged set. */
+static fracas_err find_ragged(fracas_reader *reader, int offsets, int s, size_t row, int64_t *begin, size_t *count)
+{
+    int64_t end;
+    TRY(load_rows(reader, offsets, row, 1, begin));
+    TRY(load_rows(reader, offsets, row + 1, 1, &end));
+    if (*begin < 0 || end < *begin || (uint64_t)end > reader->set[s].rows)
+        return damaged(reader, fracas_store_sets[offsets].column->path, "an offset is out of order");
+    *count = (size_t)(end - *begin);
+    return FRACAS_OK;
+}
+
+/* Those rows; *rows freed by the caller, NULL if there are none. */
 static fracas_err load_ragged(fracas_reader *reader, int offsets, int s, size_t row, void **rows, size_t *count)
 {
-    int64_t begin, end;
+    int64_t begin;
     *rows = NULL;
-    TRY(load_rows(reader, offsets, row, 1, &begin));
-    TRY(load_rows(reader, offsets, row + 1, 1, &end));
-    if (begin < 0 || end < begin || (uint64_t)end > reader->set[s].rows)
-        return damaged(reader, fracas_store_sets[offsets].column->path, "an offset is out of order");
-    *count = (size_t)(end - begin);
+    TRY(find_ragged(reader, offsets, s, row, &begin, count));
     if (!*count) return FRACAS_OK;
     *rows = calloc(*count, fracas_store_sets[s].row_size);
     fracas_err err = *rows ? load_rows(reader, s, (uint64_t)begin, *count, *rows) : fracas_no_memory("a record");
@@ -238,5 +266,59 @@ fracas_err fracas_reader_record(fracas_reader *reader, size_t row, unsigned part
     *record = stored.record;
     fracas_err err = load_parts(reader, row, parts, record);
     if (err) fracas_record_clear(record);
+    return err;
+}
+
+/* ---- meshes ---- */
+
+fracas_err fracas_reader_mesh_interfaces(fracas_reader *reader, size_t point, size_t *interfaces)
+{
+    int64_t begin;
+    *interfaces = 0;
+    if (!reader->meshes) return FRACAS_OK;
+    return find_ragged(reader, FRACAS_SET_MESH_INTERFACE_OFFSET, FRACAS_SET_MESH_INTERFACE, point, &begin, interfaces);
+}
+
+static fracas_err load_mesh(fracas_reader *reader, size_t point, fracas_stored_mesh *mesh)
+{
+    void *rows;
+    TRY(load_ragged(reader, FRACAS_SET_MESH_NODE_OFFSET, FRACAS_SET_MESH_NODE, point, &rows, &mesh->nnodes));
+    mesh->node = rows;
+    TRY(load_ragged(reader, FRACAS_SET_MESH_ELEMENT_OFFSET, FRACAS_SET_MESH_ELEMENT, point, &rows, &mesh->nelements));
+    mesh->element = rows;
+    TRY(load_ragged(reader, FRACAS_SET_MESH_INTERFACE_OFFSET, FRACAS_SET_MESH_INTERFACE, point, &rows,
+                    &mesh->ninterfaces));
+    mesh->interface = rows;
+    TRY(load_ragged(reader, FRACAS_SET_MESH_BORDER_OFFSET, FRACAS_SET_MESH_BORDER, point, &rows, &mesh->nborders));
+    mesh->border = rows;
+    const char *fault = fracas_stored_mesh_fault(mesh);
+    return fault ? damaged(reader, "/mesh", fault) : FRACAS_OK;
+}
+
+fracas_err fracas_reader_mesh(fracas_reader *reader, size_t point, fracas_stored_mesh *mesh)
+{
+    *mesh = (fracas_stored_mesh){0};
+    if (point >= reader->points.table.npoints)
+        return fracas_fail(FRACAS_BUG, "%s has %zu points; the mesh of point %zu was asked for", reader->path,
+                           reader->points.table.npoints, point);
+    if (!reader->meshes) return FRACAS_OK;
+    fracas_err err = load_mesh(reader, point, mesh);
+    if (err) fracas_stored_mesh_clear(mesh);
+    return err;
+}
+
+fracas_err fracas_reader_check_meshes(fracas_reader *reader, const fracas_mesh_source *meshes)
+{
+    fracas_err err = FRACAS_OK;
+    for (size_t p = 0; !err && reader->header.interfaces && p < reader->points.table.npoints; p++) {
+        fracas_stored_mesh wanted = {0}, found = {0};
+        err = meshes->get(meshes->context, p, &wanted);
+        if (!err) err = fracas_reader_mesh(reader, p, &found);
+        if (!err && !fracas_stored_mesh_same(&wanted, &found))
+            err = fracas_fail(FRACAS_DAMAGED, "%s: the mesh of point %zu is not that of the campaign; remove the file and run "
+                              "again", reader->path, p);
+        fracas_stored_mesh_clear(&wanted);
+        fracas_stored_mesh_clear(&found);
+    }
     return err;
 }

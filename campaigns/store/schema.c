@@ -1,6 +1,7 @@
 #include "campaigns/store/schema.h"
 
 #include "base/param.h"
+#include "campaigns/store/mesh.h"
 
 #include <stdbool.h>
 #include <string.h>
@@ -107,6 +108,47 @@ static const fracas_store_column interface[] = {
      offsetof(fracas_interface_row, break_time)},
 };
 
+#define MESH_OFFSET(name, things)                                                                               \
+    static const fracas_store_column name[] = {                                                                 \
+        {"/mesh/" things "_offset", FRACAS_INT64, 1, "1",                                                       \
+         things "s of the mesh of point i are rows offset[i] to offset[i + 1] - 1; one value more than points", 0}, \
+    }
+MESH_OFFSET(mesh_node_offset, "node");
+MESH_OFFSET(mesh_element_offset, "element");
+MESH_OFFSET(mesh_interface_offset, "interface");
+MESH_OFFSET(mesh_border_offset, "border");
+
+static const fracas_store_column mesh_node[] = {
+    {"/mesh/node_position", FRACAS_FLOAT64, 3, "m", "position (x, y, z) of a node before any motion",
+     offsetof(fracas_stored_node, position)},
+};
+
+static const fracas_store_column mesh_element[] = {
+    {"/mesh/element_node", FRACAS_INT32, 6, "1",
+     "nodes of a triangle, numbered from 0 in the mesh of its point: three vertices, then the middles of the edges from "
+     "each to the next, -1 where there are none", offsetof(fracas_stored_element, node)},
+};
+
+static const fracas_store_column mesh_interface[] = {
+    {"/mesh/interface_element", FRACAS_INT32, 2, "1",
+     "the two elements of an interface; interfaces are in the order of those of a realization in /interface",
+     offsetof(fracas_stored_interface, element)},
+    {"/mesh/interface_node", FRACAS_INT32, 3, "1",
+     "its two ends, as the first element goes round, and its middle, -1 where it has none",
+     offsetof(fracas_stored_interface, node)},
+};
+
+static const fracas_store_column mesh_border[] = {
+    {"/mesh/border_element", FRACAS_INT32, 1, "1", "element of an edge that no other element has",
+     offsetof(fracas_stored_border, element)},
+    {"/mesh/border_node", FRACAS_INT32, 3, "1",
+     "its two ends, as the element goes round, and its middle, -1 where it has none",
+     offsetof(fracas_stored_border, node)},
+    {"/mesh/border_tag", FRACAS_INT32, 1, "1",
+     "tag of the edge, 0: none; plate: 1 smallest x, 2 largest x, 3 smallest y, 4 largest y; annulus: 1 inner, 2 outer circle",
+     offsetof(fracas_stored_border, tag)},
+};
+
 /* Chunks are small enough for a segment of one realization (a chunk is never stored in part) and large enough for
  * a study of millions of fragments. They are part of the format: another size is another format version. */
 #define SET(columns, rows, type) {columns, FRACAS_COUNT(columns), rows, sizeof(type)}
@@ -118,6 +160,14 @@ const fracas_store_set fracas_store_sets[FRACAS_NSETS] = {
     [FRACAS_SET_HISTORY] = SET(history, 512, fracas_history_row),
     [FRACAS_SET_INTERFACE_OFFSET] = SET(interface_offset, 256, int64_t),
     [FRACAS_SET_INTERFACE] = SET(interface, 2048, fracas_interface_row),
+    [FRACAS_SET_MESH_NODE_OFFSET] = SET(mesh_node_offset, 64, int64_t),
+    [FRACAS_SET_MESH_NODE] = SET(mesh_node, 1024, fracas_stored_node),
+    [FRACAS_SET_MESH_ELEMENT_OFFSET] = SET(mesh_element_offset, 64, int64_t),
+    [FRACAS_SET_MESH_ELEMENT] = SET(mesh_element, 1024, fracas_stored_element),
+    [FRACAS_SET_MESH_INTERFACE_OFFSET] = SET(mesh_interface_offset, 64, int64_t),
+    [FRACAS_SET_MESH_INTERFACE] = SET(mesh_interface, 1024, fracas_stored_interface),
+    [FRACAS_SET_MESH_BORDER_OFFSET] = SET(mesh_border_offset, 64, int64_t),
+    [FRACAS_SET_MESH_BORDER] = SET(mesh_border, 256, fracas_stored_border),
 };
 _Static_assert(FRACAS_COUNT(realization) <= FRACAS_MAX_COLUMNS, "FRACAS_MAX_COLUMNS is too small");
 

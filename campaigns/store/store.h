@@ -10,6 +10,7 @@
 #include "base/err.h"
 #include "base/hash.h"
 #include "campaigns/points.h"
+#include "campaigns/store/mesh.h"
 #include "engine/record.h"
 
 #include <stdbool.h>
@@ -44,6 +45,9 @@ FRACAS_MUST_USE fracas_err fracas_writer_create(const char *path, const fracas_f
 /* Appends one realization; records are buffered by column, so memory stays bounded. */
 FRACAS_MUST_USE fracas_err fracas_writer_append(fracas_writer *writer, size_t point, int64_t replica,
                                                 const fracas_record *record);
+/* The mesh of the next point, points in their order, in a file with interfaces: once for each, or for none of them.
+ * The file has a group /mesh if any of them has elements. */
+FRACAS_MUST_USE fracas_err fracas_writer_mesh(fracas_writer *writer, const fracas_stored_mesh *mesh);
 /* Closes, syncs, renames to the final name, syncs the folder; frees the writer whatever happens. Equal
  * sequences of calls give equal bytes. */
 FRACAS_MUST_USE fracas_err fracas_writer_finish(fracas_writer *writer, bool complete, fracas_file_seal *seal);
@@ -64,6 +68,12 @@ enum { FRACAS_READ_FRAGMENTS = 1, FRACAS_READ_HISTORY = 2, FRACAS_READ_INTERFACE
  * for, or not in the file, has 0 rows and NULL. Reads ahead in blocks: rows are cheapest in order. */
 FRACAS_MUST_USE fracas_err fracas_reader_record(fracas_reader *reader, size_t row, unsigned parts,
                                                 size_t *point, int64_t *replica, fracas_record *record);
+
+/* *interfaces: of the mesh of a point, 0 if the file has none of it: a bar, a ring, or no interfaces kept. */
+FRACAS_MUST_USE fracas_err fracas_reader_mesh_interfaces(fracas_reader *reader, size_t point, size_t *interfaces);
+/* The mesh of a point, all zero if the file has none of it. Cleared by the caller. FRACAS_DAMAGED if it is none
+ * (fracas_stored_mesh_fault). */
+FRACAS_MUST_USE fracas_err fracas_reader_mesh(fracas_reader *reader, size_t point, fracas_stored_mesh *mesh);
 
 /* ---- a record as bytes, for a pipe between processes of one program ---- */
 
@@ -167,18 +177,22 @@ FRACAS_MUST_USE fracas_err fracas_study_recover(const char *study, fracas_index 
 /* Writes STUDY/study.h5 from the segments in plan order; realizations that failed get a row of NaN, and
  * header->complete in the file is 0 if any did. FRACAS_INTERRUPTED if realizations are still to be computed.
  * FRACAS_DAMAGED names a segment whose bytes are not the index's, or that is of another seed, history, interfaces or
- * program version, and says what to do. The index keeps the seal of the file: without one, study.h5 is not settled. */
+ * program version, and says what to do. `meshes` (NULL: there are none) are kept where interfaces are. The index keeps
+ * the seal of the file: without one, study.h5 is not settled. */
 FRACAS_MUST_USE fracas_err fracas_study_merge(const char *study, fracas_index *index, const fracas_file_header *header,
-                                              const fracas_point_table *table);
+                                              const fracas_point_table *table, const fracas_mesh_source *meshes);
 
 /* True if study.h5 has the size that its merge left, and every segment the size that the index says. */
 FRACAS_MUST_USE fracas_err fracas_study_sealed(const char *study, fracas_index *index, bool *sealed);
 
 /* What `fracas verify` found: size and checksum of every segment and of study.h5, all of the program version, seed,
  * history and interfaces that the index says, index against segments row by row, integrity_check of SQLite, study.h5
- * equal, record by record, to the segments. *problems counts them; `say` is called once with each (what, where,
- * remedy). */
+ * equal, record by record, to the segments, and its meshes with as many interfaces. *problems counts them; `say` is
+ * called once with each (what, where, remedy). */
 FRACAS_MUST_USE fracas_err fracas_study_verify(const char *study, void (*say)(void *context, const char *problem),
                                                void *context, int64_t *problems);
+
+/* FRACAS_DAMAGED, naming the point and what to do, unless the meshes of the file are those of `meshes`. */
+FRACAS_MUST_USE fracas_err fracas_reader_check_meshes(fracas_reader *reader, const fracas_mesh_source *meshes);
 
 #endif

@@ -141,6 +141,27 @@ static bool same_record(const fracas_record *a, const fracas_record *b, bool *sa
     return compared;
 }
 
+/* Interfaces of a record, where any are kept, are those of its point's mesh. */
+static fracas_err check_mesh_fits(verification *v, size_t row, size_t point)
+{
+    size_t interfaces;
+    TRY(fracas_reader_mesh_interfaces(v->merged, point, &interfaces));
+    if (!interfaces || !v->record.ninterface || interfaces == v->record.ninterface) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED, "%s/study.h5: row %zu has %zu interfaces, the mesh of its point %zu; remove it and run "
+                       "again", v->study, row, v->record.ninterface, interfaces);
+}
+
+static fracas_err check_meshes(verification *v)
+{
+    fracas_err err = FRACAS_OK;
+    for (size_t p = 0; !err && p < fracas_reader_points(v->merged)->npoints; p++) {
+        fracas_stored_mesh mesh;
+        err = problem(v, fracas_reader_mesh(v->merged, p, &mesh));
+        fracas_stored_mesh_clear(&mesh);
+    }
+    return err;
+}
+
 /* The next row of study.h5 against what merge would write there. */
 static fracas_err check_merged_row(void *context, fracas_step *step)
 {
@@ -152,6 +173,7 @@ static fracas_err check_merged_row(void *context, fracas_step *step)
     if (err) return problem(v, err);
     if (point != step->point || replica != step->replica)
         return found(v, "%s/study.h5: row %zu is not in plan order; remove it and run again", v->study, row);
+    TRY(problem(v, check_mesh_fits(v, row, point)));
     if (step->damaged) return FRACAS_OK; /* said already */
     if (step->status == FRACAS_PLANNED || step->status == FRACAS_LEASED)
         return found(v, "%s/study.h5: row %zu is in no segment any more; run again", v->study, row);
@@ -243,6 +265,7 @@ static fracas_err verify(verification *v)
     TRY(check_segments(v));
     TRY(check_rows(v));
     if (v->merged) TRY(check_merged_rows(v));
+    if (v->merged) TRY(check_meshes(v));
     return v->there && !v->merged ? FRACAS_OK : check_merged_whole(v); /* said already */
 }
 

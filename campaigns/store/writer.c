@@ -18,12 +18,15 @@ struct fracas_writer {
     char *path, *temporary;
     size_t npoints;
     bool interfaces; /* has an /interface group */
+    bool meshes;     /* has a /mesh group */
+    size_t npassed;  /* points whose mesh was given, or that have none */
     set_writer set[FRACAS_NSETS];
     int64_t end[FRACAS_NSETS]; /* rows of a ragged set so far: the last offset */
 };
 
 static bool has_set(const fracas_writer *writer, int set)
 {
+    if (set >= FRACAS_SET_MESH_NODE_OFFSET) return writer->meshes;
     return writer->interfaces || (set != FRACAS_SET_INTERFACE_OFFSET && set != FRACAS_SET_INTERFACE);
 }
 
@@ -107,6 +110,13 @@ static fracas_err create_set(fracas_writer *writer, int s)
     return FRACAS_OK;
 }
 
+static fracas_err create_ragged(fracas_writer *writer, int offsets, int s)
+{
+    TRY(create_set(writer, offsets));
+    TRY(create_set(writer, s));
+    return put_ragged(writer, offsets, s, NULL, 0); /* the first offset, 0 */
+}
+
 static fracas_err create_sets(fracas_writer *writer)
 {
     static const int ragged[][2] = {{FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT},
@@ -118,9 +128,7 @@ static fracas_err create_sets(fracas_writer *writer)
     for (int g = 0; g < 3; g++) {
         if (!has_set(writer, ragged[g][0])) continue;
         TRY(fracas_h5_create_group(&writer->h5, group[g]));
-        TRY(create_set(writer, ragged[g][0]));
-        TRY(create_set(writer, ragged[g][1]));
-        TRY(put_ragged(writer, ragged[g][0], ragged[g][1], NULL, 0)); /* the first offset, 0 */
+        TRY(create_ragged(writer, ragged[g][0], ragged[g][1]));
     }
     return FRACAS_OK;
 }
@@ -169,8 +177,45 @@ fracas_err fracas_writer_append(fracas_writer *writer, size_t point, int64_t rep
                       record->ninterface);
 }
 
+/* ---- meshes ---- */
+
+static fracas_err put_mesh(fracas_writer *writer, const fracas_stored_mesh *mesh)
+{
+    TRY(put_ragged(writer, FRACAS_SET_MESH_NODE_OFFSET, FRACAS_SET_MESH_NODE, mesh->node, mesh->nnodes));
+    TRY(put_ragged(writer, FRACAS_SET_MESH_ELEMENT_OFFSET, FRACAS_SET_MESH_ELEMENT, mesh->element, mesh->nelements));
+    TRY(put_ragged(writer, FRACAS_SET_MESH_INTERFACE_OFFSET, FRACAS_SET_MESH_INTERFACE, mesh->interface,
+                   mesh->ninterfaces));
+    return put_ragged(writer, FRACAS_SET_MESH_BORDER_OFFSET, FRACAS_SET_MESH_BORDER, mesh->border, mesh->nborders);
+}
+
+/* The group comes with the first surface, so that a study without one has the bytes that it always had. */
+static fracas_err begin_meshes(fracas_writer *writer)
+{
+    static const fracas_stored_mesh none = {0};
+    TRY(fracas_h5_create_group(&writer->h5, "/mesh"));
+    writer->meshes = true;
+    for (int s = FRACAS_SET_MESH_NODE_OFFSET; s < FRACAS_NSETS; s += 2) TRY(create_ragged(writer, s, s + 1));
+    for (size_t p = 0; p < writer->npassed; p++) TRY(put_mesh(writer, &none));
+    return FRACAS_OK;
+}
+
+fracas_err fracas_writer_mesh(fracas_writer *writer, const fracas_stored_mesh *mesh)
+{
+    const char *fault = fracas_stored_mesh_fault(mesh);
+    if (!writer->interfaces) fault = "the file keeps no interfaces";
+    if (writer->npassed >= writer->npoints) fault = "every point has had its mesh";
+    if (fault)
+        return fracas_fail(FRACAS_BUG, "%s: mesh of point %zu: %s", writer->path, writer->npassed, fault);
+    if (!writer->meshes && mesh->nelements > 0) TRY(begin_meshes(writer));
+    writer->npassed++;
+    return writer->meshes ? put_mesh(writer, mesh) : FRACAS_OK;
+}
+
 static fracas_err finish(fracas_writer *writer, bool complete, fracas_file_seal *seal)
 {
+    if (writer->meshes && writer->npassed != writer->npoints)
+        return fracas_fail(FRACAS_BUG, "%s: %zu of %zu points have had their mesh", writer->path, writer->npassed,
+                           writer->npoints);
     for (int s = 0; s < FRACAS_NSETS; s++)
         if (has_set(writer, s)) TRY(flush(writer, s));
     TRY(fracas_h5_put_integer(&writer->h5, "/", "complete", H5T_STD_I8LE, complete));

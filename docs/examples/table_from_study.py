@@ -66,6 +66,10 @@ def largest_ratio(values, dissipated):
     return (values[cracked] / dissipated[cracked]).max() if cracked.any() else math.nan
 
 
+def is_surface(point, p):
+    return "geometry.thickness" in point and math.isfinite(point["geometry.thickness"][p])
+
+
 def length_of(point, p):
     """Length of a bar, circumference of a ring."""
     if "model" in point and point["model"][p] == b"ring":
@@ -85,6 +89,7 @@ def table(path):
         realization = {name: column[()] for name, column in study["realization"].items()}
         offset = study["fragment/offset"][()]
         elements, dust = study["fragment/elements"][()], study["fragment/dust"][()]
+        size = study["fragment/size"][()]
     rows = []
     for p in range(len(point["hash"])):
         mine = realization["point"] == p
@@ -95,7 +100,10 @@ def table(path):
                "unusable": mine.sum() - used.sum()}
         estimate(row, "count", of["fragments"].astype(float))
         estimate(row, "count_large", (of["fragments"] - of["fragments_dust"]).astype(float))
-        estimate(row, "size", length_of(point, p) / of["fragments"])
+        if is_surface(point, p):  # mean over fragments of the square root of the area
+            estimate(row, "size", np.array([size[offset[i]:offset[i + 1]].mean() for i in np.flatnonzero(used)]))
+        else:
+            estimate(row, "size", length_of(point, p) / of["fragments"])
         estimate(row, "dissipated", of["dissipated"])
         estimate(row, "onset_time", of["onset_time"])
         row["residual"] = largest_ratio(of["residual"], of["dissipated"])
@@ -106,7 +114,7 @@ def table(path):
         row["elements"] = elements[fragment].mean() if fragment.any() else math.nan
         row["dust_share"] = dust[fragment].mean() if fragment.any() else math.nan
         laws(row, point["material.young"][p], point["material.density"][p], point["derived.strength_mean"][p],
-             fracture_energy_of(point, p), rate)
+             fracture_energy_of(point, p), math.nan if is_surface(point, p) else rate)
         for o, name in enumerate(OUTCOMES):
             row[name] = (realization["outcome"][mine] == o).sum()
         rows.append(row)

@@ -1,12 +1,37 @@
 #include "engine/cohesive/law.h"
 
+#include "engine/formulation/formulation.h"
+
 #define FRACTURE_ENERGY(least, otherwise, what)                                                                     \
     {"fracture_energy", FRACAS_REAL, "J/m2", what, otherwise, 0, INFINITY, least, offsetof(fracas_cohesive, fracture_energy)}
 
+const fracas_kind fracas_onset_mean = {.name = "mean", .doc = "the mean of the stresses on both sides"};
+const fracas_kind fracas_onset_flux = {.name = "flux", .doc = "the traction of the discontinuous-Galerkin flux"};
+static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};
+
+/* Of surfaces, whose interfaces can slide too. */
+#define OF_SURFACES                                                                                                   \
+    {"fracture_energy", FRACAS_REAL, "J/m2", "fracture energy G_c, the same at every interface; or give critical_opening", 0, 0, \
+     INFINITY, false, offsetof(fracas_cohesive, fracture_energy), .only = fracas_surface_models},                     \
+    {"critical_opening", FRACAS_REAL, "m", "opening delta_c at which an interface is broken, the same at every one: its G_c is " \
+     "strength delta_c/2; or give fracture_energy", 0, 0, INFINITY, false, offsetof(fracas_cohesive, critical_opening), \
+     .only = fracas_surface_models},                                                                                  \
+    {"beta", FRACAS_REAL, "1", "interface stiffness K = beta E/((1 - nu^2) h), h the area of an element by its edge; 1.3 or more, 2.3 " \
+     "with quadratic triangles", 5, 1.3, 1e4, false, offsetof(fracas_cohesive, beta),          \
+     .only = fracas_surface_models},                                                                                  \
+    {.name = "onset", .type = FRACAS_CHOICE, .unit = "1", .doc = "what is held against the strength", .choices = onsets, \
+     .nchoices = FRACAS_COUNT(onsets), .offset = offsetof(fracas_cohesive, onset), .only = fracas_surface_models},    \
+    {"coupling", FRACAS_REAL, "1", "shear strength by normal strength, beta_c", 1, 0.01, 100, false,                  \
+     offsetof(fracas_cohesive, coupling), .only = fracas_surface_models},                                             \
+    {"friction", FRACAS_REAL, "1", "Coulomb's coefficient of friction between closed faces, mu_c", 0, 0, 10, false,   \
+     offsetof(fracas_cohesive, friction), .only = fracas_surface_models}
+
 static const fracas_param nitsche[] = {
-    FRACTURE_ENERGY(true, FRACAS_REQUIRED, "fracture energy G_c"),
+    {"fracture_energy", FRACAS_REAL, "J/m2", "fracture energy G_c", FRACAS_REQUIRED, 0, INFINITY, true,
+     offsetof(fracas_cohesive, fracture_energy), .only = fracas_chain_models},
     {"beta", FRACAS_REAL, "1", "interface stiffness K = beta E/h; above 1 for a positive operator, 1.5 or more in practice", 4, 1, 1e4, true,
-     offsetof(fracas_cohesive, beta)},
+     offsetof(fracas_cohesive, beta), .only = fracas_chain_models},
+    OF_SURFACES,
 };
 const fracas_kind fracas_law_nitsche = {
     .name = "nitsche", .doc = "linear softening, the opening in series with the discontinuous-Galerkin flux",
@@ -44,14 +69,25 @@ const fracas_kind fracas_law_stershic = {
                                "of the time step and fracture-limiting zone (the algorithm of Stershic's paper)",
     .params = stershic, .nparams = FRACAS_COUNT(stershic)};
 
-static const fracas_kind *const laws[] = {&fracas_law_nitsche, &fracas_law_rigid_link, &fracas_law_stershic};
+static const fracas_param extrinsic[] = {OF_SURFACES};
+const fracas_kind fracas_law_camacho_ortiz_standard = {
+    .name = "camacho-ortiz-standard", .doc = "linear softening of an interface that leaves the discontinuous-Galerkin flux at onset "
+                                             "(the usual extrinsic law): wants a time.safety of 0.05",
+    .params = extrinsic, .nparams = FRACAS_COUNT(extrinsic)};
+const fracas_kind fracas_law_camacho_ortiz = {
+    .name = "camacho-ortiz", .doc = "the same with normal and shear traction scaled by those at onset (Becker and Noels' paper); "
+                                    "dissipates less than G_c on mixed paths: for comparison",
+    .params = extrinsic, .nparams = FRACAS_COUNT(extrinsic)};
 
+static const fracas_kind *const laws[] = {&fracas_law_nitsche, &fracas_law_rigid_link, &fracas_law_stershic,
+                                          &fracas_law_camacho_ortiz_standard, &fracas_law_camacho_ortiz};
+
+/* Where the table leaves the choice between two keys; it demands the fracture energy elsewhere. */
 static fracas_err check_cohesive(const void *section)
 {
     const fracas_cohesive *cohesive = section;
-    if (cohesive->law != &fracas_law_stershic || (cohesive->fracture_energy > 0) != (cohesive->critical_opening > 0))
-        return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "law stershic takes either fracture_energy or critical_opening, and %s given: %s",
+    if ((cohesive->fracture_energy > 0) != (cohesive->critical_opening > 0)) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "law %s takes either fracture_energy or critical_opening, and %s given: %s", cohesive->law->name,
                        cohesive->fracture_energy > 0 ? "both are" : "neither is",
                        cohesive->fracture_energy > 0 ? "leave one out, or set it to 0 where a sweep would inherit it"
                                                      : "add one, for instance `fracture_energy: 100 J/m2`");

@@ -6,6 +6,7 @@
 #define FRACAS_ENGINE_FORMULATION_FORMULATION_H
 
 #include "engine/engine.h"
+#include "engine/fragments/fragments.h"
 
 #define FRACAS_MAX_LANES 8
 
@@ -18,6 +19,8 @@ struct fracas_model {
     double mass;          /* kg */
     double element_size, longest; /* m: mean and largest length h of an element */
     double *table;        /* of the formulation's own: what its mesh is at; freed with the model */
+    const struct fracas_surface *surface; /* mesh of a surface; NULL of a chain; destroyed with the model */
+    void *plan;           /* of the formulation's own, freed by plan_destroy */
     double critical_closed, critical_cracked; /* s: all interfaces uncracked; all broken and in contact */
     double critical_step; /* s, the smaller of the two */
     double time_step;     /* s */
@@ -29,6 +32,7 @@ typedef struct {
     int lanes;           /* lanes of one kernel: what a register holds; the batch is width/lanes such groups */
     fracas_isa isa;
     double *state;       /* owned by the batch, laid out by the formulation, group after group */
+    fracas_partition partition; /* room for it: of one lane at a time, found anew for each use */
     double *onset_time;  /* [interface][lane], s; NULL unless interfaces are kept */
     double *break_time;  /* the same */
     /* in: time of the step, the time step that led to it (0 in the first), and the one that velocities are advanced by */
@@ -40,8 +44,8 @@ typedef struct {
     double dissipated[FRACAS_MAX_LANES], power[FRACAS_MAX_LANES], work[FRACAS_MAX_LANES];
     /* of the formulation's own: power of the drive at the step before, at the velocities after it [W] */
     double driven[FRACAS_MAX_LANES];
-    /* accumulated: energy that a break creates [J], counts of interfaces, time of the first onset [s, NaN] */
-    double created[FRACAS_MAX_LANES], first_onset[FRACAS_MAX_LANES];
+    /* accumulated: energy that friction dissipates, and that a break creates [J], counts of interfaces, time of the first onset [s, NaN] */
+    double rubbed[FRACAS_MAX_LANES], created[FRACAS_MAX_LANES], first_onset[FRACAS_MAX_LANES];
     int64_t cracked[FRACAS_MAX_LANES], broken[FRACAS_MAX_LANES];
 } fracas_step;
 
@@ -50,8 +54,12 @@ struct fracas_formulation {
     /* Fills the model's sizes, mass, table and critical steps from its spec. */
     fracas_err (*model_init)(fracas_model *model);
     fracas_err (*check_strength)(const fracas_model *model, double strength);
-    /* Length of the body that an interface stands for [m]. */
-    double (*interface_length)(const fracas_model *model, size_t interface);
+    /* Volume of the body that an interface stands for [m3]. */
+    double (*interface_volume)(const fracas_model *model, size_t interface);
+    /* As fracas_model_interface_positions; NULL of surfaces, whose mesh says it. */
+    void (*interface_positions)(const fracas_model *model, double (*position)[3]);
+    /* Frees the model's plan; NULL: it has none. */
+    void (*plan_destroy)(void *plan);
     /* Doubles that a lane's state takes. */
     size_t (*state_size)(const fracas_model *model);
     /* Where the strength of interface 0 of a lane is in the state, and the distance to that of the next interface. */
@@ -60,12 +68,13 @@ struct fracas_formulation {
     void (*lane_init)(const fracas_model *model, const fracas_step *step, int lane);
     /* Drift, forces, energies, events, kick of all lanes. */
     void (*advance)(const fracas_model *model, fracas_step *step);
-    /* Number of fragments when `broken` interfaces are broken. */
-    int64_t (*fragment_count)(const fracas_model *model, int64_t broken);
+    /* Number of fragments of a lane after a step. */
+    int64_t (*fragment_count)(const fracas_model *model, fracas_step *step, int lane);
     /* Fragments, momentum and (if kept) interface rows of one lane after a step, into the record. */
-    fracas_err (*harvest)(const fracas_model *model, const fracas_step *step, int lane, fracas_record *record);
+    fracas_err (*harvest)(const fracas_model *model, fracas_step *step, int lane, fracas_record *record);
 };
 
-extern const fracas_formulation fracas_formulation_bar, fracas_formulation_ring;
+extern const fracas_formulation fracas_formulation_bar, fracas_formulation_ring, fracas_formulation_membrane;
+extern const fracas_kind *const fracas_chain_models[], *const fracas_surface_models[]; /* of such bodies; then NULL */
 
 #endif

@@ -1,26 +1,7 @@
-/* Fragments: connected sets of elements, by union-find over unbroken interfaces. */
+/* Fragments: connected sets of elements over unbroken interfaces. */
 #ifndef FRACAS_ENGINE_FRAGMENTS_FRAGMENTS_H
 #define FRACAS_ENGINE_FRAGMENTS_FRAGMENTS_H
 
-#include "base/err.h"
-
-#include <stddef.h>
-#include <stdint.h>
-
-typedef struct {
-    size_t elements;
-    uint32_t *parent; /* union-find forest; the root of a set is its smallest element */
-    uint32_t *label;  /* fragment of each element, after fracas_partition_label */
-} fracas_partition;
-
-/* Every element a fragment of its own. */
-FRACAS_MUST_USE fracas_err fracas_partition_init(fracas_partition *partition, size_t elements);
-void fracas_partition_clear(fracas_partition *partition);
-
-/* Elements `a` and `b` belong together. */
-void fracas_partition_join(fracas_partition *partition, uint32_t a, uint32_t b);
-
-/* Numbers the fragments 0 .. count-1 by their smallest element, fills label, returns count. */
-size_t fracas_partition_label(fracas_partition *partition);
+#include "base/partition.h"
 
 #endif

@@ -47,8 +47,32 @@ const fracas_kind fracas_loading_force = {
     .name = "force", .doc = "a force per length, force + force_rate t, on a ring at rest", .params = force,
     .nparams = FRACAS_COUNT(force)};
 
+const fracas_kind fracas_start_moving = {.name = "moving", .doc = "with the same velocities"};
+const fracas_kind fracas_start_rest = {.name = "rest", .doc = "at rest, so that held edges send a shock into it"};
+static const fracas_kind *const starts[] = {&fracas_start_moving, &fracas_start_rest};
+
+static const fracas_param expansion[] = {
+    {"rate", FRACAS_REAL, "1/s", "strain rate along x: velocities are rate x and ratio rate y", FRACAS_REQUIRED, -INFINITY, INFINITY,
+     false, offsetof(fracas_loading, rate)},
+    {"ratio", FRACAS_REAL, "1", "strain rate along y by that along x", 1, -INFINITY, INFINITY, false, offsetof(fracas_loading, ratio)},
+    {.name = "start", .type = FRACAS_CHOICE, .unit = "1", .doc = "how the inside starts", .choices = starts,
+     .nchoices = FRACAS_COUNT(starts), .offset = offsetof(fracas_loading, start)},
+};
+const fracas_kind fracas_loading_expansion = {
+    .name = "expansion", .doc = "velocities (rate x, ratio rate y): all nodes start with them, those of held edges keep them",
+    .params = expansion, .nparams = FRACAS_COUNT(expansion)};
+
+static const fracas_param centrifugal[] = {
+    {"speed", FRACAS_REAL, "rad/s", "angular velocity w in the end", FRACAS_REQUIRED, 0, INFINITY, false, offsetof(fracas_loading, speed)},
+    {"ramp", FRACAS_REAL, "s", "time in which w rises from 0, in proportion to time", 0, 0, INFINITY, false, offsetof(fracas_loading, ramp)},
+};
+const fracas_kind fracas_loading_centrifugal = {
+    .name = "centrifugal", .doc = "a force w^2 r on every unit of mass of a body at rest, r from the origin to where it started",
+    .params = centrifugal, .nparams = FRACAS_COUNT(centrifugal)};
+
 static const fracas_kind *const loadings[] = {&fracas_loading_imposed_rate, &fracas_loading_initial_velocity,
-                                              &fracas_loading_held_velocity, &fracas_loading_force};
+                                              &fracas_loading_held_velocity, &fracas_loading_force,
+                                              &fracas_loading_expansion, &fracas_loading_centrifugal};
 
 const fracas_section fracas_loading_section = {
     .name = "loading", .doc = "What drives the body", .selector = "type", .kinds = loadings,

@@ -6,7 +6,8 @@
 
 extern const fracas_section fracas_loading_section;
 extern const fracas_kind fracas_loading_imposed_rate, fracas_loading_initial_velocity, fracas_loading_held_velocity,
-    fracas_loading_force;
+    fracas_loading_force, fracas_loading_expansion, fracas_loading_centrifugal;
+extern const fracas_kind fracas_start_moving, fracas_start_rest;
 extern const fracas_kind fracas_axis_radial, fracas_axis_circumferential;
 
 #endif

@@ -66,6 +66,7 @@ fracas_err fracas_batch_create(const fracas_model *model, size_t count, const fr
         enough = (batch->step.onset_time = allocate(model->interfaces * lanes)) != NULL && enough;
         enough = (batch->step.break_time = allocate(model->interfaces * lanes)) != NULL && enough;
     }
+    enough = !fracas_partition_init(&batch->step.partition, model->elements) && enough;
     for (size_t l = 0; l < lanes; l++)
         enough = !fracas_history_init(&batch->lane[l].history, options->history, model->spec.time.end) && enough;
     if (!enough) {
@@ -82,6 +83,7 @@ void fracas_batch_destroy(fracas_batch *batch)
     free(batch->step.state);
     free(batch->step.onset_time);
     free(batch->step.break_time);
+    fracas_partition_clear(&batch->step.partition);
     for (int l = 0; l < FRACAS_MAX_LANES; l++) fracas_history_clear(&batch->lane[l].history);
     free(batch);
 }
@@ -108,6 +110,7 @@ fracas_err fracas_batch_begin(fracas_batch *batch)
         model->formulation->lane_init(model, step, (int)l);
         step->first_onset[l] = NAN;
         batch->lane[l].running = l < batch->count;
+        batch->lane[l].counted = -1;
         for (size_t i = 0; step->onset_time && i < model->interfaces; i++)
             step->onset_time[i * width + l] = step->break_time[i * width + l] = NAN;
     }
@@ -115,7 +118,7 @@ fracas_err fracas_batch_begin(fracas_batch *batch)
 }
 
 /* The record of a lane that is over. */
-static fracas_err finish_lane(const fracas_batch *batch, size_t l, fracas_outcome outcome, fracas_record *record)
+static fracas_err finish_lane(fracas_batch *batch, size_t l, fracas_outcome outcome, fracas_record *record)
 {
     const fracas_lane *lane = &batch->lane[l];
     const fracas_ledger *ledger = &lane->ledger;
@@ -129,25 +132,45 @@ static fracas_err finish_lane(const fracas_batch *batch, size_t l, fracas_outcom
     return batch->model->formulation->harvest(batch->model, &batch->step, (int)l, record);
 }
 
+/* The fragments of a lane, counted again only when something has broken since. */
+static int64_t count_fragments(fracas_batch *batch, size_t l)
+{
+    fracas_lane *lane = &batch->lane[l];
+    if (lane->counted == batch->step.broken[l]) return lane->fragments;
+    lane->counted = batch->step.broken[l];
+    return lane->fragments = batch->model->formulation->fragment_count(batch->model, &batch->step, (int)l);
+}
+
+/* True when the lane is over. */
+static bool is_over(fracas_batch *batch, size_t l, fracas_outcome *outcome)
+{
+    fracas_lane *lane = &batch->lane[l];
+    const fracas_step *step = &batch->step;
+    const fracas_ledger *ledger = &lane->ledger;
+    const fracas_progress progress = {.time = step->time[l], .potential = ledger->elastic + ledger->cohesive,
+                                      .dissipated = ledger->dissipated, .cracked = step->cracked[l], .broken = step->broken[l]};
+    *outcome = isfinite(ledger->residual) ? FRACAS_ENERGY_DRIFT : FRACAS_NONFINITE;
+    return !isfinite(ledger->residual) || fracas_ledger_drifts(ledger, batch->steps) ||
+           fracas_stop_check(&lane->stop, &batch->model->spec.time, &progress, outcome);
+}
+
 /* One lane after a step: ledger, history, stop. */
 static fracas_err observe_lane(fracas_batch *batch, size_t l, fracas_record *record)
 {
     fracas_lane *lane = &batch->lane[l];
     const fracas_step *step = &batch->step;
     fracas_ledger *ledger = &lane->ledger;
+    const bool cracked = step->cracked[l] > 0;
+    fracas_outcome outcome;
     fracas_ledger_update(ledger, step, (int)l, batch->steps == 0);
-    const fracas_history_row row = {
+    fracas_history_row row = {
         .time = step->time[l], .kinetic = ledger->kinetic, .elastic = ledger->elastic, .cohesive = ledger->cohesive,
         .dissipated = ledger->dissipated, .created = ledger->created, .work = ledger->work, .residual = ledger->residual,
-        .fragments = batch->model->formulation->fragment_count(batch->model, step->broken[l]), .broken = step->broken[l]};
-    fracas_history_observe(&lane->history, batch->steps, &row, step->cracked[l] > 0);
-    fracas_outcome outcome = isfinite(ledger->residual) ? FRACAS_ENERGY_DRIFT : FRACAS_NONFINITE;
-    bool over = !isfinite(ledger->residual) || fracas_ledger_drifts(ledger, batch->steps) ||
-                fracas_stop_check(&lane->stop, &batch->model->spec.time, step->time[l], ledger->dissipated, step->cracked[l],
-                                  step->broken[l], &outcome);
-    if (!over) return FRACAS_OK;
-    lane->running = false;
-    return finish_lane(batch, l, outcome, record);
+        .broken = step->broken[l]};
+    lane->running = !is_over(batch, l, &outcome);
+    if (!lane->running || fracas_history_keeps(&lane->history, &row, cracked)) row.fragments = count_fragments(batch, l);
+    fracas_history_observe(&lane->history, batch->steps, &row, cracked);
+    return lane->running ? FRACAS_OK : finish_lane(batch, l, outcome, record);
 }
 
 /* The clock of a lane at the next step. */

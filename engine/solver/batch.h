@@ -15,6 +15,7 @@ typedef struct {
     double pace;         /* s, time step of the last steps ... */
     double since;        /* s, ... since this time ... */
     int64_t paces;       /* ... and how many: time = since + paces pace, without the round-off of a sum */
+    int64_t counted, fragments; /* number of fragments when `counted` interfaces were broken; -1: not counted yet */
     bool running;
 } fracas_lane;
 

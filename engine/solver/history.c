@@ -18,6 +18,17 @@ void fracas_history_clear(fracas_history *history)
     *history = (fracas_history){0};
 }
 
+static bool is_due(const fracas_history *history, double time)
+{
+    return history->intervals > 0 && history->next <= history->intervals &&
+           time >= (double)history->next * history->end / (double)history->intervals;
+}
+
+bool fracas_history_keeps(const fracas_history *history, const fracas_history_row *row, bool cracked)
+{
+    return (cracked && !history->cracked) || row->elastic + row->cohesive > history->peak || is_due(history, row->time);
+}
+
 void fracas_history_observe(fracas_history *history, int64_t step, const fracas_history_row *row, bool cracked)
 {
     const fracas_history_entry entry = {step, *row};
@@ -31,8 +42,7 @@ void fracas_history_observe(fracas_history *history, int64_t step, const fracas_
     }
     history->last = entry;
     bool due = false;
-    while (history->intervals > 0 && history->next <= history->intervals &&
-           row->time >= (double)history->next * history->end / (double)history->intervals) {
+    while (is_due(history, row->time)) {
         due = true;
         history->next++;
     }

@@ -27,6 +27,9 @@ typedef struct {
 FRACAS_MUST_USE fracas_err fracas_history_init(fracas_history *history, int64_t intervals, double end);
 void fracas_history_clear(fracas_history *history);
 
+/* True if observing this row would keep it for more than the last one. */
+bool fracas_history_keeps(const fracas_history *history, const fracas_history_row *row, bool cracked);
+
 /* Shows one step to the history: it is kept if it is the first at or after an interval's end, the first with a crack,
  * or the highest in potential energy so far. `cracked`: some interface has cracked. */
 void fracas_history_observe(fracas_history *history, int64_t step, const fracas_history_row *row, bool cracked);

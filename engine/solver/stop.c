@@ -1,5 +1,8 @@
 #include "engine/solver/stop.h"
 
+#include "engine/formulation/formulation.h"
+#include "engine/integrator/integrator.h"
+
 const fracas_kind fracas_stop_time = {.name = "time", .doc = "at the set time `end`"};
 
 static const fracas_param settled[] = {
@@ -12,13 +15,32 @@ const fracas_kind fracas_stop_settled = {
     .name = "settled", .doc = "once the cracks have settled (armed by the first onset), at `end` at the latest",
     .params = settled, .nparams = FRACAS_COUNT(settled)};
 
-static const fracas_kind *const stops[] = {&fracas_stop_time, &fracas_stop_settled};
+static const fracas_param peak_multiple[] = {
+    {"multiple", FRACAS_REAL, "1", "end by the time of the first peak of the potential energy (elastic and cohesive)", 2, 1, INFINITY,
+     false, offsetof(fracas_time, multiple)},
+    {"drop", FRACAS_REAL, "1", "share of its largest value that the potential energy must have lost for that to be a peak", 0.05, 0, 1,
+     true, offsetof(fracas_time, drop)},
+};
+const fracas_kind fracas_stop_peak_multiple = {
+    .name = "peak-multiple", .doc = "at a multiple of the time of the first peak of the potential energy, at `end` at the latest",
+    .params = peak_multiple, .nparams = FRACAS_COUNT(peak_multiple)};
+
+static const fracas_kind *const stops[] = {&fracas_stop_time, &fracas_stop_settled, &fracas_stop_peak_multiple};
+
+static const fracas_kind *const integrators[] = {&fracas_integrator_central_difference, &fracas_integrator_hulbert_chung};
+static const fracas_kind *const masses[] = {&fracas_mass_lumped, &fracas_mass_consistent};
 
 static const fracas_param time_params[] = {
     {"end", FRACAS_REAL, "s", "set time, or the cap of other stop rules", FRACAS_REQUIRED, 0, INFINITY, true,
      offsetof(fracas_time, end)},
     {"safety", FRACAS_REAL, "1", "time step as a fraction of the critical one", 0.25, 0, 1, true,
      offsetof(fracas_time, safety)},
+    {.name = "integrator", .type = FRACAS_CHOICE, .unit = "1", .doc = "scheme of time integration", .choices = integrators,
+     .nchoices = FRACAS_COUNT(integrators), .offset = offsetof(fracas_time, integrator), .only = fracas_surface_models},
+    {"spectral_radius", FRACAS_REAL, "1", "of hulbert-chung, at its bifurcation: the less, the more it damps high frequencies; "
+     "central-difference damps nothing", 0.95, 0, 1, false, offsetof(fracas_time, spectral_radius), .only = fracas_surface_models},
+    {.name = "mass", .type = FRACAS_CHOICE, .unit = "1", .doc = "mass matrix of an element", .choices = masses,
+     .nchoices = FRACAS_COUNT(masses), .offset = offsetof(fracas_time, mass), .only = fracas_surface_models},
 };
 static fracas_err check_time(const void *section)
 {
@@ -30,20 +52,38 @@ static fracas_err check_time(const void *section)
 }
 
 const fracas_section fracas_time_section = {
-    .name = "time", .doc = "Time integration (central difference) and its end", .selector = "stop", .kinds = stops,
+    .name = "time", .doc = "Time integration and its end", .selector = "stop", .kinds = stops,
     .nkinds = FRACAS_COUNT(stops), .kind_offset = offsetof(fracas_time, stop), .params = time_params,
     .nparams = FRACAS_COUNT(time_params), .offset = offsetof(fracas_spec, time), .hashed = true, .check = check_time,
 };
 
-bool fracas_stop_check(fracas_stop *stop, const fracas_time *rule, double time, double dissipated, int64_t cracked,
-                       int64_t broken, fracas_outcome *outcome)
+static bool is_settled(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now)
 {
-    *outcome = broken > 0 ? FRACAS_FRAGMENTED : FRACAS_INTACT;
-    if (rule->stop == &fracas_stop_settled) {
-        if (cracked + broken > stop->events || dissipated - stop->dissipated > rule->quiet_fraction * dissipated)
-            *stop = (fracas_stop){time, dissipated, cracked + broken};
-        if (cracked > 0 && time - stop->time >= rule->quiet) return true;
-        if (cracked > 0 && time >= rule->end) *outcome = FRACAS_TIME_LIMIT;
+    const int64_t events = now->cracked + now->broken;
+    if (events > stop->events || now->dissipated - stop->dissipated > rule->quiet_fraction * now->dissipated) {
+        stop->time = now->time;
+        stop->dissipated = now->dissipated;
+        stop->events = events;
     }
-    return time >= rule->end;
+    return now->cracked > 0 && now->time - stop->time >= rule->quiet;
+}
+
+static bool is_past_peak(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now)
+{
+    if (!stop->peaked && now->potential > stop->peak) {
+        stop->peak = now->potential;
+        stop->peak_time = now->time;
+    }
+    stop->peaked = stop->peaked || now->potential < (1.0 - rule->drop) * stop->peak;
+    return stop->peaked && now->time >= rule->multiple * stop->peak_time;
+}
+
+bool fracas_stop_check(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now, fracas_outcome *outcome)
+{
+    *outcome = now->broken > 0 ? FRACAS_FRAGMENTED : FRACAS_INTACT;
+    if (rule->stop == &fracas_stop_time) return now->time >= rule->end;
+    if (rule->stop == &fracas_stop_settled && is_settled(stop, rule, now)) return true;
+    if (rule->stop == &fracas_stop_peak_multiple && is_past_peak(stop, rule, now)) return true;
+    if (now->time >= rule->end && now->cracked > 0) *outcome = FRACAS_TIME_LIMIT;
+    return now->time >= rule->end;
 }

@@ -8,19 +8,28 @@
 #include <stdbool.h>
 
 extern const fracas_section fracas_time_section;
-extern const fracas_kind fracas_stop_time, fracas_stop_settled;
+extern const fracas_kind fracas_stop_time, fracas_stop_settled, fracas_stop_peak_multiple;
 
 /* Where a lane stands with its rule: the last step at which it was not quiet. */
 typedef struct {
     double time, dissipated; /* s, J */
     int64_t events;          /* onsets and breaks */
+    double peak, peak_time;  /* J, s: largest potential energy so far */
+    bool peaked;             /* it has fallen since */
 } fracas_stop;
+
+/* What a rule looks at. */
+typedef struct {
+    double time, potential, dissipated; /* s, J */
+    int64_t cracked, broken;
+} fracas_progress;
 
 /* Shows one step to the rule. True when the realization is over, then *outcome says how it ended.
  * `time`: over at the first step at or after `end`.
  * `settled`: armed by the first onset; over when for `quiet` seconds no interface cracked or broke and the dissipated
- * energy D grew by at most quiet_fraction D; at `end` at the latest, with TIME_LIMIT if armed. */
-bool fracas_stop_check(fracas_stop *stop, const fracas_time *rule, double time, double dissipated, int64_t cracked,
-                       int64_t broken, fracas_outcome *outcome);
+ * energy D grew by at most quiet_fraction D; at `end` at the latest, with TIME_LIMIT if armed.
+ * `peak-multiple`: over at `multiple` times the time of the first peak of the potential energy: a maximum that it has fallen
+ * from by more than `drop` of it; at `end` at the latest, with TIME_LIMIT if something has cracked. */
+bool fracas_stop_check(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now, fracas_outcome *outcome);
 
 #endif

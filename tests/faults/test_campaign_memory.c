@@ -129,9 +129,38 @@ static void test_use(void **state)
     fracas_campaign_destroy(campaign);
 }
 
+static fracas_err count_cost(void *context)
+{
+    double cost;
+    return fracas_plan_cost(context, 0, &cost);
+}
+
+/* Strengths of flaws need the mesh when the file is read; a perturbed one is made twice, then planned, and timed. */
+static void test_surface(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "name: test\nseed: 7\nmodel: membrane\ngeometry: {width: 0.01, height: 0.005, thickness: 1e-4}\n"
+        "mesh: {divisions: 2, amplitude: 0.2}\nmaterial: {young: 370e9, poisson: 0.25, density: 3900}\n"
+        "cohesive: {fracture_energy: 5000}\nloading: {rate: 1e4}\ntime: {end: 1e-7}\nreplicas: 2\n"
+        "strength: {distribution: flaws, flaw_density: 1e11, minimum: 1e8, maximum: 4e8, exponent: 2}\n";
+    source from;
+    make_path(from.path);
+    write_bytes(from.path, text, strlen(text));
+    assert_int_equal(fracas_units_create(&from.units), FRACAS_OK);
+    fail_each(read_source, &from, LONG_MAX);
+    fracas_campaign *campaign = read_text(text);
+    fail_each(count_cost, campaign, LONG_MAX);
+    fail_each(print_plan, campaign, LONG_MAX);
+    unlink(from.path);
+    fracas_campaign_destroy(campaign);
+    fracas_units_destroy(from.units);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_read), cmocka_unit_test(test_read_file), cmocka_unit_test(test_use)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_read), cmocka_unit_test(test_read_file), cmocka_unit_test(test_use),
+                                       cmocka_unit_test(test_surface)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
 

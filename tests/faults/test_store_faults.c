@@ -310,15 +310,15 @@ static void an_interrupted_merge_leaves_no_seal(void **state)
     OK(fracas_index_plan(index, &table));
     OK(fracas_index_commit(index, "a.h5", &seal, row, ALL, "{}"));
     for (const char *call = "rd"; *call; call++) {
-        OK(fracas_study_merge(study, index, &header, &table));
+        OK(fracas_study_merge(study, index, &header, &table, NULL));
         memset(calls, 0, sizeof calls);
-        OK(fracas_study_merge(study, index, &header, &table)); /* its calls are those of the next one */
+        OK(fracas_study_merge(study, index, &header, &table, NULL)); /* its calls are those of the next one */
         OK(fracas_study_sealed(study, index, &sealed));
         assert_true(sealed);
         assert_non_null(strchr(calls, *call));
         fail_at = (int)(strchr(calls, *call) - calls);
         memset(calls, 0, sizeof calls);
-        sample_fails(fracas_study_merge(study, index, &header, &table), FRACAS_ENVIRONMENT, strerror(EIO));
+        sample_fails(fracas_study_merge(study, index, &header, &table, NULL), FRACAS_ENVIRONMENT, strerror(EIO));
         fail_at = -1;
         OK(fracas_study_sealed(study, index, &sealed));
         assert_false(sealed);

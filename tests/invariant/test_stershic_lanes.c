@@ -2,7 +2,7 @@
  * links one by one. */
 #include "tests/support/ring.h"
 
-#include "engine/formulation/ring_sweep.h"
+#include "engine/formulation/chain/ring_sweep.h"
 
 #include <string.h>
 

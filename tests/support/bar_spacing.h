@@ -4,7 +4,7 @@
 
 #include "tests/support/bar.h"
 
-enum { W_LEFT, W_RIGHT, V_LEFT, V_RIGHT, DAMAGE, STRENGTH, LAW, FIELDS }; /* as in engine/formulation/bar_sweep.h */
+enum { W_LEFT, W_RIGHT, V_LEFT, V_RIGHT, DAMAGE, STRENGTH, LAW, FIELDS }; /* as in engine/formulation/chain/bar_sweep.h */
 enum { MOST = 2000 };                                                     /* elements */
 
 static const fracas_kind *const laws[] = {&fracas_law_nitsche, &fracas_law_rigid_link};

@@ -4,7 +4,7 @@
 
 #include "tests/support/ring.h"
 
-#include "engine/formulation/ring_sweep.h"
+#include "engine/formulation/chain/ring_sweep.h"
 
 #define RING_PI 3.14159265358979323846
 

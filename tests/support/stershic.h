@@ -5,7 +5,7 @@
 
 #include "tests/support/ring.h"
 
-#include "engine/formulation/ring_sweep.h"
+#include "engine/formulation/chain/ring_sweep.h"
 
 #include <stdlib.h>
 #include <string.h>

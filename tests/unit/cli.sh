@@ -47,6 +47,10 @@ says 2 err 'unknown option `-j`' run a.yaml -j2
 says 2 err '--jobs needs a value' run a.yaml --jobs
 says 2 err '--shuffle takes no value' run a.yaml --shuffle=yes
 says 2 err '--json takes no value' status x --json=1
+says 0 out '--times LIST' help picture
+says 2 err '--output needs a value' picture x -o
+says 2 err 'unknown option `-t`' picture x -t
+says 2 err '--point is `-1`; it must be a whole number from 0' picture . --point -1
 for bad in 0 -1 2x 1e3 '' 99999999999999999999; do
     says 2 err "--jobs is \`$bad\`; it must be a whole number from 1" run a.yaml "--jobs=$bad"
     says 2 err "--jobs is \`$bad\`; it must be a whole number from 1" plan a.yaml "--jobs=$bad"
@@ -68,7 +72,7 @@ grep -q 'output could not be written' "$folder/err"
 # What is no study is said so, and stays as it is.
 mkdir "$folder/empty"
 for study in "$folder/none" "$folder/empty"; do
-    for command in status report verify; do says 5 err "$study is no study" "$command" "$study"; done
+    for command in status report picture verify; do says 5 err "$study is no study" "$command" "$study"; done
 done
 rmdir "$folder/empty"
 [ ! -e "$folder/none" ]

@@ -35,7 +35,7 @@ def check(name, dataset):
         kind, shape, chunk, page_unit, page_text = rows["/" + name]
         stored = "text%d" % dataset.dtype.itemsize if dataset.dtype.kind == "S" else str(dataset.dtype)
         assert (stored, text, unit or "-") == (kind, page_text, page_unit), (name, stored, unit, text)
-        assert dataset.shape[1:] == ((3,) if "3" in shape else ()) and dataset.chunks[0] == int(chunk), name
+        assert dataset.shape[1:] == tuple(int(n) for n in re.findall(r"\d+", shape)) and dataset.chunks[0] == int(chunk), name
         seen.append("/" + name)
     else:
         assert name.startswith("point/"), name
@@ -58,6 +58,19 @@ for i in range(len(z["point"])):
     for j in range(k["offset"][i], k["offset"][i + 1]):
         line += ["i", bits(k["damage"][j])]
     print(" ".join(line))
+
+m = study["mesh"] # of point 1 alone
+for what in ("node", "element", "interface", "border"):
+    offset = list(m[what + "_offset"])
+    assert len(offset) == 4 and offset[:2] == [0, 0] and offset[2] == offset[3] > 0, (what, offset)
+for row in m["element_node"]:
+    print("element", *row)
+for element, node in zip(m["interface_element"], m["interface_node"]):
+    print("interface", *element, *node)
+for element, node, tag in zip(m["border_element"], m["border_node"], m["border_tag"]):
+    print("border", element, *node, tag)
+for position in m["node_position"]:
+    print("node", *(bits(x) for x in position))
 EOF
 diff "$folder/wanted" "$folder/found"
-echo "$(wc -l < "$folder/found") realizations read alike"
+echo "$(wc -l < "$folder/found") realizations and parts of a mesh read alike"

@@ -9,17 +9,20 @@
 #include <math.h>
 #include <stdio.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 /* ---- strengths of a file ---- */
 
-static const fracas_kind *file_kind(void)
+static const fracas_kind *kind_named(const char *name)
 {
     for (size_t k = 0; k < fracas_strength_section.nkinds; k++)
-        if (strcmp(fracas_strength_section.kinds[k]->name, "file") == 0) return fracas_strength_section.kinds[k];
-    fail_msg("no distribution file");
+        if (strcmp(fracas_strength_section.kinds[k]->name, name) == 0) return fracas_strength_section.kinds[k];
+    fail_msg("no distribution %s", name);
     return NULL;
 }
+
+static const fracas_kind *file_kind(void) { return kind_named("file"); }
 
 static void test_values(void **state)
 {
@@ -40,7 +43,7 @@ static void test_values(void **state)
         assert_true(fracas_strength_quantile(&strength, 1, 1e-9) == 1 && fracas_strength_quantile(&strength, 1, 1 - 1e-9) == 8);
         for (uint64_t replica = 0; replica < 2; replica++) { /* whatever the stream, and the stride */
             double got[8] = {0};
-            fracas_strength_sample(&strength, &(fracas_stream){.seed = 1, .replica = replica}, 4, volume, 2, got);
+            assert_int_equal(fracas_strength_sample(&strength, &(fracas_stream){.seed = 1, .replica = replica}, 4, volume, NULL, 2, got), FRACAS_OK);
             for (int i = 0; i < 3; i++)
                 if (got[2 * i] != expected[i] || got[2 * i + 1] != 0) fail_msg("%g is not %g of:\n%s", got[2 * i], expected[i], texts[t]);
             assert_true(isnan(got[6]));
@@ -81,6 +84,121 @@ static void test_bad_values(void **state)
     static const char with_nul[] = "3\n4\0junk\n";
     const fracas_attachment file = {.path = "s.csv", .text = with_nul, .size = sizeof with_nul - 1};
     assert_int_equal(fracas_strength_check(&(fracas_strength){.distribution = file_kind(), .file = &file}), FRACAS_USAGE);
+}
+
+/* ---- strengths by position ---- */
+
+/* The corners of a unit square: the spacing is 1, so that a line lies on an interface up to 1e-3 away. */
+static const double square[4][3] = {{0, 0, 7}, {1, 0, 7}, {0, 1, 7}, {1, 1, 7}};
+
+static fracas_err sample_places(const char *text, size_t n, const double (*position)[3], size_t stride, double *got)
+{
+    const fracas_attachment file = {.path = "p.csv", .text = text, .size = strlen(text)};
+    const fracas_strength strength = {.distribution = kind_named("positions"), .file = &file};
+    TRY(fracas_strength_check(&strength));
+    assert_true(fracas_strength_is_placed(&strength) && fracas_strength_is_given(&strength));
+    return fracas_strength_sample(&strength, &(fracas_stream){.seed = 1}, n, NULL, position, stride, got);
+}
+
+static void test_places(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        "0,0,1\n1,0,2\n0,1,3\n1,1,4\n",
+        "1 1 4\n0 1 3\n1 0 2\n0 0 1",                                            /* in any order */
+        "x,y,sigma_c,elements\n0 , 0,1,2\n1,0 2 5\n# away\n9,9,99\n-1e300,0,7,1\n0,1,3,2\n1,1,4,x\n", /* what else is there is skipped */
+        "-9.9e-4,0,1\n1,-9.9e-4,2\n9.9e-4,1,3\n1.0007,1.0007,4\n",              /* nearer than 1e-3, on every side */
+    };
+    for (size_t t = 0; t < FRACAS_COUNT(texts); t++) {
+        double got[8] = {0};
+        if (sample_places(texts[t], 4, square, 2, got)) fail_msg("%s\n%s", fracas_message(), texts[t]);
+        for (int i = 0; i < 4; i++)
+            if (got[2 * i] != i + 1 || got[2 * i + 1] != 0) fail_msg("%g at %d of:\n%s", got[2 * i], i, texts[t]);
+    }
+    double edge[3][3] = {{0, 0, 0}, {0, 0, 0}, {2, 0, 0}}; /* cells of 1 from -0.002 on: the second is beside the end of one */
+    double three[3];
+    for (int side = -1; side <= 1; side += 2) {
+        char text[100];
+        edge[1][0] = 0.998 - 1e-4 * side;
+        snprintf(text, sizeof text, "0 0 1\n%g 0 2\n2 0 3\n", 0.998 + 5e-4 * side); /* in the other cell */
+        assert_int_equal(sample_places(text, 3, (const double(*)[3])edge, 1, three), FRACAS_OK);
+        assert_true(three[0] == 1 && three[1] == 2 && three[2] == 3);
+    }
+    assert_int_equal(sample_places("0 0 1\n.9975 0 2\n.9985 0 2\n2 0 3\n", 3, (const double(*)[3])edge, 1, three), FRACAS_USAGE);
+    static const double one[1][3] = {{2, 3, 0}}, none[1][3] = {{0, 0, 0}}; /* without a spacing: 1e-3 of how far out it is */
+    double got;
+    assert_int_equal(sample_places("2.001 3.001 5", 1, one, 1, &got), FRACAS_OK);
+    assert_true(got == 5);
+    assert_int_equal(sample_places("0,0,6", 1, none, 1, &got), FRACAS_OK);
+    assert_true(got == 6);
+    assert_int_equal(sample_places("0,0,6", 0, NULL, 1, NULL), FRACAS_OK); /* a single triangle */
+    const fracas_attachment file = {.path = "p.csv", .text = texts[2], .size = strlen(texts[2])};
+    const fracas_strength strength = {.distribution = kind_named("positions"), .file = &file};
+    assert_int_equal(fracas_strength_count(&strength), 6); /* all lines */
+    assert_true(fracas_strength_quantile(&strength, 1, 0.1) == 1 && fracas_strength_quantile(&strength, 1, 0.9) == 99);
+    assert_true(fracas_strength_mean(&strength, 1) == (1 + 2 + 99 + 7 + 3 + 4) / 6.0);
+}
+
+static void test_bad_places(void **state)
+{
+    (void)state;
+    static const double twice[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
+    static const struct {
+        const char *text, *message;
+    } table[] = {
+        {"x,y,s\n0,0,1\n1,0,2\n0,z,3\n", "p.csv:4: found `z` as y; a line begins with x [m], y [m], strength [Pa]"},
+        {"0,0,1\n1,0\n", "p.csv:2: found nothing as strength"},
+        {"0,0,1\n1,,3\n", "p.csv:2: found nothing as y"},
+        {"0,0,1\nx,0,1\n", "p.csv:2: found `x` as x"},
+        {"nan,0,1\n", "p.csv:1: found `nan` as x"},
+        {"0,inf,1\n", "p.csv:1: found `inf` as y"},
+        {"0,0,300 MPa\n1,0,0\n", "p.csv:2: a strength of 0 Pa"},
+        {"0,0,-1\n", "p.csv:1: a strength of -1 Pa"},
+        {"# none\n", "p.csv has no strength"},
+        {"0,0,1\n1,0,2\n1,1,4\n", "p.csv has no line for 1 of 4 interfaces; interface 2 is at x = 0 m, y = 1 m, and the nearest line, 1, is 1 m away"},
+        {"0,0,1\n1,0,2\n0,1.0011,3\n1,1,4\n", "p.csv has no line for 1 of 4 interfaces; interface 2 is at x = 0 m, y = 1 m, and the nearest line, 3, is 0.0011 m away"},
+        {"0,0,1\n1e3,0,2\n0,1e3,3\n1e3,1e3,4\n", "p.csv has no line for 3 of 4 interfaces; interface 1 is at x = 1 m"}, /* in mm */
+        {"0,0,1\n1,0,2\n0,1,3\n1,1,4\n1.0009,1,5\n", "p.csv: lines 4 and 5 are both at interface 3, x = 1 m, y = 1 m"},
+        {"1,1,5\n1,0,2\n0,1,3\n0,0,1\n1,1,5\n", "p.csv: lines 1 and 5 are both at interface 3"},
+    };
+    double got[4];
+    for (size_t t = 0; t < FRACAS_COUNT(table); t++) {
+        assert_int_equal(sample_places(table[t].text, 4, square, 1, got), FRACAS_USAGE);
+        if (strncmp(fracas_message(), table[t].message, strlen(table[t].message)) != 0)
+            fail_msg("not \"%s\" but: %s", table[t].message, fracas_message());
+    }
+    assert_int_equal(sample_places("0,0,1\n1,0,2\n", 3, twice, 1, got), FRACAS_USAGE);
+    assert_non_null(strstr(fracas_message(), "p.csv:1: x = 0 m, y = 0 m is at two interfaces, 0 and 2"));
+}
+
+/* A jittered grid of 200 by 200 and a ring of 40 000, lines in another order: each finds its own, and soon. */
+static void test_many_places(void **state)
+{
+    (void)state;
+    enum { SIDE = 200, N = SIDE * SIDE, LINE = 64 };
+    double(*position)[3] = calloc(N, sizeof *position), *got = calloc(N, sizeof *got);
+    char *text = malloc((size_t)N * LINE);
+    assert_true(position && got && text);
+    for (int body = 0; body < 2; body++) {
+        for (uint64_t i = 0; i < N; i++) {
+            const fracas_stream stream = {.seed = 3};
+            const double angle = 2 * M_PI * (double)i / N;
+            position[i][0] = body ? cos(angle) : (double)(i % SIDE) + 0.8 * fracas_stream_uniform(&stream, 2 * i);
+            position[i][1] = body ? sin(angle) : (double)(i / SIDE) + 0.8 * fracas_stream_uniform(&stream, 2 * i + 1);
+        }
+        char *at = text;
+        for (size_t k = 0; k < N; k++) { /* 9973 is prime: every interface once */
+            const size_t i = k * 9973 % N;
+            at += sprintf(at, "%.9g,%.9g,%zu\n", position[i][0], position[i][1], i + 1);
+        }
+        const clock_t start = clock();
+        if (sample_places(text, N, (const double(*)[3])position, 1, got)) fail_msg("%s", fracas_message());
+        print_message("[  figures ] %d strengths by position: %.3f s\n", N, (double)(clock() - start) / CLOCKS_PER_SEC);
+        for (size_t i = 0; i < N; i++) assert_true(got[i] == (double)(i + 1));
+    }
+    free(position);
+    free(got);
+    free(text);
 }
 
 /* ---- campaigns with files, in a folder of their own ---- */
@@ -266,6 +384,96 @@ static void test_forecast(void **state)
     fracas_campaign_destroy(campaign);
 }
 
+/* The model of point 0, and where its interfaces are. */
+static fracas_model *model_of(const fracas_campaign *campaign, double (*position)[3])
+{
+    fracas_model *model;
+    if (fracas_point_model_create(campaign, 0, &model)) fail_msg("%s", fracas_message());
+    fracas_model_interface_positions(model, position);
+    return model;
+}
+
+static const char ring[] =
+    "name: ring\nseed: 1\nmodel: ring\ngeometry: {radius: 8 mm, area: 1 mm2}\nmesh: {elements: 8}\n"
+    "material: {young: 275 GPa, density: 2750 kg/m3}\ncohesive: {fracture_energy: 100 J/m2}\n"
+    "strength: {distribution: constant, value: 1 MPa}\nloading: {type: initial-velocity, radial: 80 m/s}\ntime: {end: 1 us}\nreplicas: 1\n";
+
+/* The plain campaign, a periodic bar of 100 elements; a graded one; a ring, whose interfaces are on its circle, 2 pi/8 apart. */
+static void test_positions(void **state)
+{
+    (void)state;
+    double x[100][3];
+    fracas_campaign *campaign = read_replaced("", "");
+    fracas_model *model = model_of(campaign, x);
+    const double length = campaign->point[0].spec.geometry.length;
+    for (int i = 0; i < 100; i++) assert_true(fabs(x[i][0] - length * (i + 1) / 100) < 1e-15 * length && x[i][1] == 0 && x[i][2] == 0);
+    fracas_model_destroy(model);
+    fracas_campaign_destroy(campaign);
+    campaign = read_replaced("", "sweep:\n  - mesh: [{elements: 100, spacing: graded, ratio: 4}]\n");
+    model = model_of(campaign, x);
+    assert_true(fabs(x[99][0] - length) < 1e-14 * length); /* elements in geometric progression: so are their ends' distances */
+    for (int i = 1; i < 99; i++)
+        assert_true(fabs((x[i + 1][0] - x[i][0]) / (x[i][0] - x[i - 1][0]) - pow(4, 1.0 / 99)) < 1e-11);
+    fracas_model_destroy(model);
+    fracas_campaign_destroy(campaign);
+    campaign = read_text(ring);
+    model = model_of(campaign, x);
+    assert_int_equal(fracas_model_interfaces(model), 8);
+    for (int i = 0; i < 8; i++)
+        assert_true(fabs(x[i][0] - 8e-3 * cos(M_PI_4 * (i + 1))) < 1e-15 * 8e-3 &&
+                    fabs(x[i][1] - 8e-3 * sin(M_PI_4 * (i + 1))) < 1e-15 * 8e-3 && x[i][2] == 0);
+    fracas_model_destroy(model);
+    fracas_campaign_destroy(campaign);
+}
+
+static const char by_position[] =
+    "name: by-position\nseed: 1\nmodel: membrane\ngeometry: {shape: plate, width: 2 mm, height: 2 mm, thickness: 1 mm}\n"
+    "mesh: {spacing: triangles, divisions: 2}\nmaterial: {young: 370 GPa, density: 3900 kg/m3, poisson: 0.22}\n"
+    "cohesive: {law: nitsche, fracture_energy: 50 J/m2, beta: 10}\nstrength: {distribution: positions, file: p.csv}\n"
+    "loading: {type: expansion, rate: 1e4 1/s}\ntime: {stop: time, end: 10 ns}\nreplicas: 1\n";
+
+/* Two by two squares of 1 mm, cut in two: eight interfaces, of which four are sides of squares and four diagonals. Written by
+ * position with a strength that tells where each is, every interface has its own, drawn and in the plan's check. */
+static void test_positions_of_a_surface(void **state)
+{
+    (void)state;
+    double x[8][3], got[8];
+    char text[1000] = "x,y,strength\n";
+    put("p.csv", "0,0,3e8\n");
+    put("c.yaml", by_position);
+    fracas_campaign *campaign;
+    if (fracas_campaign_read(in_folder("c.yaml"), &campaign)) fail_msg("%s", fracas_message());
+    fracas_model *model = model_of(campaign, x);
+    assert_int_equal(fracas_model_interfaces(model), 8);
+    int sides = 0, diagonals = 0;
+    for (int i = 7; i >= 0; i--) { /* middles of sides are at (0, +-0.5), (+-0.5, 0) mm, of diagonals at (+-0.5, +-0.5) mm */
+        const double a = fabs(x[i][0]), b = fabs(x[i][1]);
+        sides += fabs(a + b - 0.5e-3) < 1e-15;
+        diagonals += fabs(a - 0.5e-3) < 1e-15 && fabs(b - 0.5e-3) < 1e-15;
+        sprintf(text + strlen(text), "%.9g,%.9g,%.15g\n", x[i][0], x[i][1], 3e8 + 1e11 * x[i][0] + 1e10 * x[i][1]);
+    }
+    assert_true(sides == 4 && diagonals == 4);
+    fracas_forecast forecast;
+    assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_USAGE);
+    assert_non_null(strstr(fracas_message(), "point 0: p.csv has no line for 8 of 8 interfaces"));
+    fracas_campaign_destroy(campaign);
+    put("p.csv", text);
+    if (fracas_campaign_read(in_folder("c.yaml"), &campaign)) fail_msg("%s", fracas_message());
+    assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_OK);
+    assert_int_equal(fracas_strength_sample(&campaign->point[0].strength, &(fracas_stream){0}, 8, NULL, (const double(*)[3])x, 1, got),
+                     FRACAS_OK);
+    for (int i = 0; i < 8; i++) assert_true(fabs(got[i] - (3e8 + 1e11 * x[i][0] + 1e10 * x[i][1])) < 1e-6);
+    fracas_campaign_destroy(campaign);
+    char *end = strrchr(text, ',');
+    strcpy(end, ",9e20\n"); /* one interface too strong for the mesh is enough, and is named: the first, whose line is the last */
+    put("p.csv", text);
+    if (fracas_campaign_read(in_folder("c.yaml"), &campaign)) fail_msg("%s", fracas_message());
+    assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_USAGE);
+    assert_non_null(strstr(fracas_message(), "p.csv, interface 0 at x = "));
+    fracas_campaign_destroy(campaign);
+    fracas_model_destroy(model);
+}
+
 /* ---- the mesh's noise ---- */
 
 static void test_noise(void **state)
@@ -313,7 +521,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_values),     cmocka_unit_test(test_bad_values), cmocka_unit_test(test_errors),
         cmocka_unit_test(test_identity),   cmocka_unit_test(test_round_trip), cmocka_unit_test(test_forecast),
-        cmocka_unit_test(test_noise),
+        cmocka_unit_test(test_noise),      cmocka_unit_test(test_places),     cmocka_unit_test(test_bad_places),
+        cmocka_unit_test(test_many_places), cmocka_unit_test(test_positions), cmocka_unit_test(test_positions_of_a_surface),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

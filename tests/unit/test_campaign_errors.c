@@ -94,7 +94,7 @@ static void test_keys(void **state)
          {"unknown key `fracture_enrgy` in cohesive", "did you mean `fracture_energy`?", "keys of cohesive: beta"}},
         {"  elements: 100", "  elements: 100\n  density: 5", 9, 3,
          {"unknown key `density` in mesh", "section material"}},
-        {"  elements: 100", "  12: 100", 8, 3, {"unknown key `12` in mesh", "keys of mesh: amplitude, elements, ratio, spacing"}},
+        {"  elements: 100", "  12: 100", 8, 3, {"unknown key `12` in mesh", "keys of mesh: amplitude, divisions, elements, order, ratio, size, spacing"}},
         {"  maximum: 301 MPa", "  maximum: 301 MPa\n  shape: 5", 19, 3,
          {"`shape` belongs to distribution weibull", "this is uniform", "line 16"}},
         {"  distribution: uniform\n", "", 17, 3,
@@ -109,7 +109,7 @@ static void test_keys(void **state)
         {"mesh:\n  elements: 100\n", "", 1, 1, {"mesh needs `elements`", "a whole number"}},
         {"  quiet: 100 ns\n", "", 22, 9, {"time with stop settled needs `quiet`", "a time, in s or us"}},
         {"material:\n  young: 275 GPa\n  density: 2750 kg/m3", "material: steel", 9, 11,
-         {"`material` is a section, but found `steel`", "density, young"}},
+         {"`material` is a section, but found `steel`", "density, poisson, young"}},
         {"material:\n  young: 275 GPa\n  density: 2750 kg/m3", "material: [5]", 9, 11, {"found a list"}},
     };
     CHECK_ALL(table);
@@ -176,6 +176,28 @@ static void test_combinations(void **state)
          {"`type`: held-velocity cannot be combined with model bar"}},
         {"", "sweep:\n  - zip:\n      model: [bar]\n      geometry: [{shape: ring, radius: 1}]\n", 31, 26,
          {"`shape`: ring cannot be combined with model bar, which takes bar; the model is chosen at line 30"}},
+    };
+    CHECK_ALL(table);
+}
+
+/* Keys that other models have. */
+static void test_other_models(void **state)
+{
+    static const wrong table[] = {
+        {"density: 2750 kg/m3", "density: 2750 kg/m3\n  poisson: 0.2", 12, 3, {"`poisson` belongs to model membrane; this is bar (line 3)"}},
+        {"law: nitsche", "law: nitsche\n  onset: flux", 14, 3, {"`onset` belongs to model membrane; this is bar (line 3)"}},
+        {"law: nitsche", "law: rigid-link\n  onset: flux", 14, 3,
+         {"`onset` belongs to law nitsche or camacho-ortiz-standard or camacho-ortiz; this is rigid-link (line 13)"}},
+        {"stop: settled", "mass: lumped\n  stop: settled", 22, 3, {"`mass` belongs to model membrane; this is bar (line 3)"}},
+        {"density: 2750 kg/m3", "density: 2750 kg/m3\n  poisson: 2", 12, 12, {"2 is out of range"}},
+        {"model: bar\ngeometry:\n  ends: periodic\n  length: 50 mm\nmesh:\n  elements: 100\nmaterial:",
+         "geometry:\n  ends: periodic\n  length: 50 mm\nmesh:\n  elements: 100\nmaterial:\n  poisson: 0.2", 9, 3,
+         {"`poisson` belongs to model membrane; this is bar, the default, as no `model` is given"}},
+        {"", "sweep:\n  - material.poisson: [0.2, 0.3]\n", 29, 24, {"`poisson` belongs to model membrane; this is bar (line 3)"}},
+        {"", "sweep:\n  - zip:\n      material: [{young: 1 GPa}, {poisson: 0.2}]\n", 30, 35, {"`poisson` belongs to model membrane"}},
+        {"  quiet: 100 ns\n", "  quiet: 100 ns\n  mass: lumped\nsweep:\n  - model: [bar]\n", 25, 3,
+         {"`mass` belongs to model membrane; this is bar (line 27)"}},
+        {"ends: periodic", "thickness: 1 mm", 5, 3, {"`thickness` belongs to shape plate or annulus or file; this is bar"}},
     };
     CHECK_ALL(table);
 }
@@ -328,7 +350,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_yaml),   cmocka_unit_test(test_top),    cmocka_unit_test(test_keys),
-        cmocka_unit_test(test_choices), cmocka_unit_test(test_combinations), cmocka_unit_test(test_any_number),
+        cmocka_unit_test(test_choices), cmocka_unit_test(test_combinations), cmocka_unit_test(test_other_models), cmocka_unit_test(test_any_number),
         cmocka_unit_test(test_values), cmocka_unit_test(test_sweeps), cmocka_unit_test(test_whole_files),
     };
     return cmocka_run_group_tests(tests, load, unload);

@@ -203,7 +203,7 @@ static void test_heavy_tail(void **state)
     fracas_model *model;
     assert_int_equal(fracas_model_create(&campaign->point[0].spec, &model), FRACAS_OK);
     const fracas_point *point = &campaign->point[0];
-    double mean = fracas_strength_mean(&point->strength, fracas_spec_interface_volume(&point->spec));
+    double mean = fracas_strength_mean(&point->strength, fracas_model_interface_volume(model, 0));
     assert_int_equal(fracas_model_check_strength(model, mean), FRACAS_OK);
     fracas_model_destroy(model);
     double cost;

@@ -1,7 +1,16 @@
 /* The volume of the body that an interface stands for: by closed form, and all of them together are the body. */
 #include "tests/support/bar.h"
 
+#include "engine/mesh/make.h"
+
 #include <math.h>
+
+static double mean_of(const fracas_spec *spec)
+{
+    double volume;
+    assert_ok(fracas_mesh_interface_volume(spec, &volume));
+    return volume;
+}
 
 /* Rounding: three products and a quotient, 2^-53 each; 2 pi is a double within 2^-53. */
 static void assert_near(double got, double expected)
@@ -13,11 +22,11 @@ static void mean_volume_of_each_shape(void **unused)
 {
     (void)unused;
     fracas_spec spec = bar_reference(250, 1e4, 1e-6); /* 50 mm, 1 mm2 */
-    assert_near(fracas_spec_interface_volume(&spec), 2e-10);
+    assert_near(mean_of(&spec), 2e-10);
     spec.geometry.radius = 1.0; /* means nothing for a bar */
-    assert_near(fracas_spec_interface_volume(&spec), 2e-10);
+    assert_near(mean_of(&spec), 2e-10);
     spec.geometry = (fracas_geometry){.shape = &fracas_shape_ring, .radius = 0.025, .area = 4e-6};
-    assert_near(fracas_spec_interface_volume(&spec), 4e-6 * 2.0 * acos(-1.0) * 0.025 / 250.0);
+    assert_near(mean_of(&spec), 4e-6 * 2.0 * acos(-1.0) * 0.025 / 250.0);
 }
 
 /* A periodic bar has as many interfaces as elements; each sum rounds by 2^-53. */
@@ -32,7 +41,7 @@ static void interfaces_share_the_body(void **unused)
         double sum = 0.0;
         for (size_t i = 0; i < n; i++) sum += fracas_model_interface_volume(model, i);
         assert_true(fabs(sum - 5e-8) <= 5e-8 * 0x1p-53 * (double)(n + 5));
-        assert_near(fracas_spec_interface_volume(&spec), fracas_model_interface_volume(model, n / 2));
+        assert_near(mean_of(&spec), fracas_model_interface_volume(model, n / 2));
         fracas_model_destroy(model);
     }
 }
@@ -65,12 +74,44 @@ static void interfaces_share_the_body_on_any_mesh(void **unused)
     }
 }
 
+/* Squares cut in two: every interface has a third of a square. */
+static void plates_by_closed_form(void **unused)
+{
+    (void)unused;
+    fracas_spec spec = {.geometry = {.shape = &fracas_shape_plate, .width = 3e-3, .height = 2e-3, .thickness = 1e-4},
+                        .mesh = {.spacing = &fracas_spacing_triangles, .divisions = 8}};
+    for (spec.mesh.order = 1; spec.mesh.order <= 2; spec.mesh.order++) /* 8 x 12 squares, each area and their sum of 800 rounded */
+        assert_true(fabs(mean_of(&spec) / (6e-10 / (3 * 96)) - 1) < 800 * 0x1p-53);
+}
+
+/* Each element's area counts a third for each of its edges that is an interface: all of them is the body but for a third of each
+ * element at a boundary edge. */
+static void surfaces_lack_what_is_at_edges(void **unused)
+{
+    (void)unused;
+    fracas_spec spec = {.geometry = {.shape = &fracas_shape_annulus, .inner = 1e-3, .outer = 3e-3, .thickness = 1e-4},
+                        .mesh = {.spacing = &fracas_spacing_triangles, .divisions = 6}};
+    for (spec.mesh.order = 1; spec.mesh.order <= 2; spec.mesh.order++) {
+        const fracas_surface *s;
+        fracas_surface_measures all;
+        assert_ok(fracas_mesh_make(&spec, &s));
+        fracas_surface_measure(s, &all);
+        double area = all.area;
+        for (size_t b = 0; b < s->nborders; b++) area -= fracas_surface_area(s, s->border[b].element) / 3;
+        /* sums of some 1000 positive terms, each rounded */
+        assert_true(fabs(mean_of(&spec) * (double)s->ninterfaces / (1e-4 * area) - 1) < 4000 * 0x1p-53);
+        fracas_surface_destroy(s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mean_volume_of_each_shape),
         cmocka_unit_test(interfaces_share_the_body),
         cmocka_unit_test(interfaces_share_the_body_on_any_mesh),
+        cmocka_unit_test(plates_by_closed_form),
+        cmocka_unit_test(surfaces_lack_what_is_at_edges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

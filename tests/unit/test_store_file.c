@@ -1,5 +1,6 @@
 /* Writer and reader of segments and studies. */
 #include "tests/support/store_sample.h"
+#include "tests/support/stored_mesh.h"
 
 #include "campaigns/store/disk.h"
 #include "campaigns/store/schema.h"
@@ -24,7 +25,19 @@ static int tear_down(void **state)
     return 0;
 }
 
-static void write_file(const char *path, int64_t replicas, size_t most, bool interfaces, fracas_file_seal *seal)
+/* Point 1 a surface; none if shape is NULL. */
+static void write_meshes(fracas_writer *writer, const grid_shape *shape)
+{
+    for (size_t p = 0; shape && p < SAMPLE_POINTS; p++) {
+        fracas_stored_mesh mesh = {0};
+        if (p == 1) grid_make(shape, &mesh);
+        OK(fracas_writer_mesh(writer, &mesh));
+        fracas_stored_mesh_clear(&mesh);
+    }
+}
+
+static void write_file_of(const char *path, int64_t replicas, size_t most, bool interfaces, const grid_shape *shape,
+                          fracas_file_seal *seal)
 {
     fracas_point_row row[SAMPLE_POINTS];
     fracas_point_table table = sample_table(row, replicas);
@@ -39,7 +52,39 @@ static void write_file(const char *path, int64_t replicas, size_t most, bool int
             OK(fracas_writer_append(writer, p, r, &record));
             fracas_record_clear(&record);
         }
+    write_meshes(writer, shape);
     OK(fracas_writer_finish(writer, true, seal));
+}
+
+static void write_file(const char *path, int64_t replicas, size_t most, bool interfaces, fracas_file_seal *seal)
+{
+    write_file_of(path, replicas, most, interfaces, NULL, seal);
+}
+
+/* A line for each element, interface, border and node. */
+static void tell_mesh(const fracas_stored_mesh *mesh)
+{
+    for (size_t e = 0; e < mesh->nelements; e++) {
+        printf("element");
+        for (int k = 0; k < 6; k++) printf(" %lld", (long long)mesh->element[e].node[k]);
+        printf("\n");
+    }
+    for (size_t i = 0; i < mesh->ninterfaces; i++) {
+        const fracas_stored_interface *of = &mesh->interface[i];
+        printf("interface %lld %lld %lld %lld %lld\n", (long long)of->element[0], (long long)of->element[1],
+               (long long)of->node[0], (long long)of->node[1], (long long)of->node[2]);
+    }
+    for (size_t b = 0; b < mesh->nborders; b++) {
+        const fracas_stored_border *of = &mesh->border[b];
+        printf("border %lld %lld %lld %lld %lld\n", (long long)of->element, (long long)of->node[0], (long long)of->node[1],
+               (long long)of->node[2], (long long)of->tag);
+    }
+    for (size_t n = 0; n < mesh->nnodes; n++) {
+        uint64_t bits[3];
+        memcpy(bits, mesh->node[n].position, sizeof bits);
+        printf("node %016llx %016llx %016llx\n", (unsigned long long)bits[0], (unsigned long long)bits[1],
+               (unsigned long long)bits[2]);
+    }
 }
 
 /* For tests/unit/store_independent.sh: a file, and on standard output what another reader must find in it, values
@@ -47,8 +92,10 @@ static void write_file(const char *path, int64_t replicas, size_t most, bool int
 static void write_and_tell(const char *path)
 {
     enum { SOME = 5, ROWS = 7 };
+    static const grid_shape shape = {.nx = 3, .ny = 2, .rolled = true, .middles = true};
     fracas_file_seal seal;
-    write_file(path, SOME, ROWS, true, &seal);
+    fracas_stored_mesh mesh;
+    write_file_of(path, SOME, ROWS, true, &shape, &seal);
     for (size_t i = 0; i < SAMPLE_POINTS * SOME; i++) {
         fracas_record r;
         uint64_t bits;
@@ -73,6 +120,9 @@ static void write_and_tell(const char *path)
         printf("\n");
         fracas_record_clear(&r);
     }
+    grid_make(&shape, &mesh);
+    tell_mesh(&mesh);
+    fracas_stored_mesh_clear(&mesh);
 }
 
 static void check_row(fracas_reader *reader, size_t row, int64_t replicas, size_t most, unsigned parts)

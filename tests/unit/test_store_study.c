@@ -52,7 +52,7 @@ static void segments_of_another_are_left_and_not_merged(void **state)
     assert_int_equal(count_all().planned, 0);
     for (int other = 0; other < OTHERS; other++) {
         fracas_file_header header = other_header(other);
-        sample_fails(fracas_study_merge(study, index_, &header, &table), FRACAS_DAMAGED, difference[other]);
+        sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED, difference[other]);
     }
     fracas_file_header header = other_header(2);
     OK(fracas_index_claim(index_, &header)); /* and verify compares with what the study was begun with */
@@ -108,16 +108,16 @@ static void merge_refuses_what_is_not_whole(void **state)
 {
     (void)state;
     fracas_file_header header = sample_header();
-    sample_fails(fracas_study_merge(study, index_, &header, &table), FRACAS_INTERRUPTED, "run again");
+    sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_INTERRUPTED, "run again");
     commit_everything(3);
     strcpy(header.version, "0.2.0");
-    sample_fails(fracas_study_merge(study, index_, &header, &table), FRACAS_DAMAGED, "not of this study: program_version 0.1.0, not 0.2.0");
+    sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED, "not of this study: program_version 0.1.0, not 0.2.0");
     header = sample_header();
     header.seed++;
-    sample_fails(fracas_study_merge(study, index_, &header, &table), FRACAS_DAMAGED, "seed");
+    sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED, "seed");
     flip_byte(sample_path(study, "segments/s2.h5"), 30000);
     header = sample_header();
-    sample_fails(fracas_study_merge(study, index_, &header, &table), FRACAS_DAMAGED, "s2.h5: damaged");
+    sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED, "s2.h5: damaged");
     assert_int_equal(sample_files(study, "study.h5"), 0);
     unlink(sample_path(study, "segments/s2.h5")); /* the remedy of the message */
     recover_says("s2.h5 is missing");

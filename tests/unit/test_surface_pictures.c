@@ -31,7 +31,7 @@ static const struct {
     double centre[2], scale;
     bool is_round; /* seen from x = y = z, else from above */
 } pictures[] = {
-    {"rectangle", make_rectangle, 6, {0.9, 0.6}, 150.0, false},
+    {"rectangle", make_rectangle, 6, {0.0, 0.0}, 150.0, false},
     {"annulus", make_annulus, 4, {0.0, 0.0}, 140.0, false},
     {"sphere", make_sphere, 4, {0.0, 0.0}, 140.0, true},
     {"octant", make_octant, 8, {0.0, 0.0}, 165.0, true},

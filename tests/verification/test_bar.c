@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { W_LEFT, W_RIGHT, V_LEFT, V_RIGHT, DAMAGE, FIELDS = 7 }; /* as in engine/formulation/bar_sweep.h */
+enum { W_LEFT, W_RIGHT, V_LEFT, V_RIGHT, DAMAGE, FIELDS = 7 }; /* as in engine/formulation/chain/bar_sweep.h */
 
 static fracas_batch *batch_of(const fracas_model *model, double sigma_c)
 {

@@ -1,7 +1,7 @@
 /* The ring against exact solutions, and against the bar. */
 #include "tests/support/ring.h"
 
-#include "engine/formulation/ring_sweep.h"
+#include "engine/formulation/chain/ring_sweep.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -11,8 +11,8 @@ static void fill(fracas_surface_draft *draft, double width, double height, size_
     for (size_t j = 0; j <= ny; j++)
         for (size_t i = 0; i <= nx; i++) {
             double *node = draft->node[row * j + i];
-            node[0] = width * ((double)i / (double)nx);
-            node[1] = height * ((double)j / (double)ny);
+            node[0] = width * ((double)i / (double)nx - 0.5);
+            node[1] = height * ((double)j / (double)ny - 0.5);
             node[2] = 0.0;
         }
     uint32_t *put = draft->element;

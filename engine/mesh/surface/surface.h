@@ -30,7 +30,7 @@ typedef struct {
     int32_t tag; /* 0: none given */
 } fracas_surface_border;
 
-typedef struct {
+typedef struct fracas_surface {
     int order;        /* 1 or 2 */
     size_t corners;   /* nodes of an element: 3 or 6 */
     size_t nnodes, nelements, ninterfaces, nborders;
@@ -78,8 +78,8 @@ typedef struct {
     size_t nshifts;           /* as many as `nvertices` of the mesh without perturbation */
 } fracas_surface_fineness;
 
-/* 0 <= x <= width, 0 <= y <= height, normal +z; squares cut in two, diagonals alternating. `divisions` of the shorter
- * side. Tags: 1 x = 0, 2 x = width, 3 y = 0, 4 y = height. */
+/* -width/2 <= x <= width/2, -height/2 <= y <= height/2, normal +z; squares cut in two, diagonals alternating. `divisions` of the shorter
+ * side. Tags: 1 smallest x, 2 largest x, 3 smallest y, 4 largest y. */
 FRACAS_MUST_USE fracas_err fracas_surface_rectangle(double width, double height, const fracas_surface_fineness *fineness,
                                                     const fracas_surface **surface);
 /* Around the origin, normal +z. `divisions` layers of elements between the circles. Tags: 1 inner, 2 outer circle. */

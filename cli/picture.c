@@ -1,0 +1,92 @@
+#include "cli/cli.h"
+
+#include "analysis/analysis.h"
+#include "base/param.h"
+#include "base/units.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { POINT, REPLICA, TIMES, SHOW, TABLE, OUTPUT };
+static const fracas_option options[] = {
+    [POINT] = {"point", "P", "which point (0): the first column of report/points.csv"},
+    [REPLICA] = {"replica", "R", "which of its replicas (0)"},
+    [TIMES] = {"times", "LIST", "times, as 26us,28us, or how many, evenly from the first onset to the end (6)"},
+    [SHOW] = {"show", "WHAT", "cracks, fragments (these, and the cracks), or mesh (that, too) (fragments)"},
+    [TABLE] = {"table", NULL, "first onset, break and crack through of all replicas of the point, as CSV"},
+    [OUTPUT] = {"output", "FOLDER", "where to; also -o FOLDER (STUDY/pictures)", 'o'},
+};
+
+enum { MOST_TIMES = 1000 };
+
+/* "26us" or "26 us" [s]: a campaign file wants the space, a command line is easier without. */
+static fracas_err read_time(const fracas_units *units, const char *one, double *time)
+{
+    char text[64];
+    one += strspn(one, " ");
+    const int digits = (int)strspn(one, "+-.0123456789eE");
+    snprintf(text, sizeof text, digits > 0 && one[digits] && one[digits] != ' ' ? "%.*s %s" : "%.*s%s", digits, one, one + digits);
+    return fracas_units_read(units, text, "s", time);
+}
+
+/* "26us,28us"; *time freed by the caller. */
+static fracas_err read_list(const char *text, double **time, size_t *count)
+{
+    fracas_units *units;
+    char *copy = strdup(text), *rest = copy;
+    *time = malloc((strlen(text) + 1) * sizeof **time); /* there are at most as many as characters */
+    *count = 0;
+    fracas_err err = copy && *time ? fracas_units_create(&units) : fracas_no_memory("the times of pictures");
+    if (!err) {
+        for (char *one; !err && (one = strsep(&rest, ","));) err = read_time(units, one, &(*time)[(*count)++]);
+        if (err) err = fracas_fail_within(err, "picture: --times is `%s`", text);
+        fracas_units_destroy(units);
+    }
+    free(copy);
+    return err;
+}
+
+/* A whole number is how many, anything else the times themselves. */
+static fracas_err read_times(const fracas_arguments *arguments, fracas_picture_request *request, double **time)
+{
+    const char *text = arguments->value[TIMES];
+    int count = FRACAS_MOMENTS;
+    *time = NULL;
+    if (text && strspn(text, "0123456789") != strlen(text)) {
+        TRY(read_list(text, time, &request->count));
+        request->time = *time;
+        return FRACAS_OK;
+    }
+    TRY(fracas_arguments_integer(arguments, TIMES, 1, MOST_TIMES, &count));
+    request->count = (size_t)count;
+    return FRACAS_OK;
+}
+
+static fracas_err picture(const fracas_arguments *arguments)
+{
+    static const char *const words[] = {
+        [FRACAS_SHOW_CRACKS] = "cracks", [FRACAS_SHOW_FRAGMENTS] = "fragments", [FRACAS_SHOW_MESH] = "mesh"};
+    int point = 0, replica = 0, show = FRACAS_SHOW_FRAGMENTS;
+    double *time = NULL;
+    TRY(fracas_arguments_integer(arguments, POINT, 0, INT_MAX, &point));
+    TRY(fracas_arguments_integer(arguments, REPLICA, 0, INT_MAX, &replica));
+    TRY(fracas_arguments_word(arguments, SHOW, words, FRACAS_COUNT(words), &show));
+    fracas_picture_request request = {.point = (size_t)point, .replica = replica, .show = (fracas_surface_show)show,
+                                      .table = arguments->value[TABLE] != NULL, .folder = arguments->value[OUTPUT]};
+    fracas_err err = read_times(arguments, &request, &time);
+    if (!err) err = fracas_cli_check_study(arguments->operand);
+    if (!err) err = fracas_pictures_write(arguments->operand, &request, stdout);
+    free(time);
+    return err;
+}
+
+const fracas_command fracas_command_picture = {
+    .name = "picture", .operand = "STUDY", .doc = "Draws broken surfaces of STUDY as SVG files",
+    .more = "\nOne file a time: the surface as it was before any motion, its broken interfaces dark, cracked ones grey, each fragment\n"
+            "filled, dust in orange. Then it prints when the realization first cracked, first broke, and first cracked through, from one\n"
+            "edge to the other (annulus: inner and outer; plate: left and right, or bottom and top). The campaign must say\n"
+            "`output: {interfaces: true}`.\n",
+    .options = options, .noptions = FRACAS_COUNT(options), .run = picture,
+};

@@ -1,2 +1,0 @@
-#define BAR_KERNELS fracas_bar_kernels_baseline
-#include "engine/formulation/bar_sweep_isa.h"

@@ -1,0 +1,2 @@
+#define BAR_KERNELS fracas_bar_kernels_avx512
+#include "engine/formulation/chain/bar_sweep_isa.h"

@@ -1,0 +1,2 @@
+#define BAR_KERNELS fracas_bar_kernels_baseline
+#include "engine/formulation/chain/bar_sweep_isa.h"

@@ -1,0 +1,261 @@
+/* The bar's sweep for one width (docs/theory/bar.md, docs/theory/cohesive.md). No include guard: included once a
+ * width by bar_sweep_isa.h, with LANES defined. */
+#include "base/lanes.h"
+#include "engine/cohesive/nitsche.h"
+#include "engine/cohesive/rigid_link.h"
+#include "engine/formulation/chain/chain_events.h"
+#include "engine/integrator/central_difference.h"
+
+#define bar_element LANES_NAME(bar_element)
+#define bar_link LANES_NAME(bar_link)
+#define bar_context LANES_NAME(bar_context)
+#define bar_load LANES_NAME(bar_load)
+#define bar_stress_rate LANES_NAME(bar_stress_rate)
+#define bar_nitsche LANES_NAME(bar_nitsche)
+#define bar_rigid_link LANES_NAME(bar_rigid_link)
+#define bar_join LANES_NAME(bar_join)
+#define bar_finish LANES_NAME(bar_finish)
+#define bar_totals LANES_NAME(bar_totals)
+#define bar_run LANES_NAME(bar_run)
+#define BAR_RIGID_LINK 1
+#define BAR_NITSCHE 0
+
+/* An element at t_n: displacements drifted, velocities still those of t_{n-1/2}. */
+typedef struct {
+    vd w_left, w_right, v_left, v_right, stress;
+    vd modulus; /* E/h [Pa/m] */
+    vd size;    /* h/h of all, where they are not alike: 1 */
+} bar_element;
+
+/* What an interface does to its two elements. */
+typedef struct {
+    vd traction, slip; /* T [Pa], q - delta [m] */
+    vmask closed;      /* rigid-link only: both nodes move as one ... */
+    vd common;         /* ... under this force [Pa] per mass, in units of an element's of mean length */
+} bar_link;
+
+typedef struct {
+    const fracas_bar_constants *bar;
+    fracas_step *step;
+    int first;      /* lane of the step that is lane 0 here */
+    double *state;  /* of these lanes */
+    vd drift, kick; /* dt [s], dt/(nodal mass) [m/(s Pa)] */
+    vd load_stress; /* E rate t [Pa] */
+    vd spring, compliance, modulus; /* K, 1/K, E/h [Pa/m] of elements of one length */
+    /* sums over the body, for the ledger */
+    vd stress_squared, flux_energy, opening_energy, damage, velocity_squared, stress, slip;
+} bar_context;
+
+LANES_FUNCTION bar_element bar_load(const bar_context *c, int uniform, size_t e)
+{
+    const double *at = c->state + e * BAR_FIELDS * LANES;
+    bar_element element = {
+        .v_left = lanes_load(at + BAR_V_LEFT * LANES), .v_right = lanes_load(at + BAR_V_RIGHT * LANES),
+        .w_left = lanes_load(at + BAR_W_LEFT * LANES), .w_right = lanes_load(at + BAR_W_RIGHT * LANES)};
+    element.w_left = central_drift(element.w_left, element.v_left, c->drift);
+    element.w_right = central_drift(element.w_right, element.v_right, c->drift);
+    element.size = lanes_set(uniform ? 1.0 : c->bar->sizes[e] / c->bar->size);
+    element.modulus = uniform ? c->modulus : c->modulus / element.size;
+    /* sigma = E (rate t + dw/dx)   (bar.3) */
+    element.stress = c->load_stress + element.modulus * (element.w_right - element.w_left);
+    return element;
+}
+
+/* Time derivative of the mean stress within the step [Pa/s]. */
+LANES_FUNCTION vd bar_stress_rate(const bar_context *c, int uniform, const bar_element *left, const bar_element *right)
+{
+    const vd half = lanes_set(0.5), load = lanes_set(c->bar->young * c->bar->rate);
+    if (uniform) return half * c->modulus * (left->v_right - left->v_left + right->v_right - right->v_left) + load;
+    return half * (left->modulus * (left->v_right - left->v_left) + right->modulus * (right->v_right - right->v_left)) + load;
+}
+
+LANES_FUNCTION bar_link bar_nitsche(bar_context *c, int uniform, size_t e, const bar_element *left, const bar_element *right)
+{
+    const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5);
+    double *at = c->state + e * BAR_FIELDS * LANES;
+    vd before = lanes_load(at + BAR_DAMAGE * LANES);
+    vd sigma_c = lanes_load(at + BAR_STRENGTH * LANES), x = lanes_load(at + BAR_LAW * LANES);
+    vd mean = half * (left->stress + right->stress); /* (bar.2) */
+    vd q = right->w_left - left->w_right;
+    /* K = beta E/h, 1/h the mean of both elements'  (bar.18) */
+    vd spring = uniform ? c->spring : lanes_set(c->bar->beta) * (half * (left->modulus + right->modulus));
+    vd compliance = uniform ? c->compliance : one / spring;
+    nitsche_interface it = nitsche_law(mean, q, before, sigma_c, x, spring, compliance);
+    lanes_store(at + BAR_DAMAGE * LANES, it.damage);
+
+    /* Energies per area, twice: slip (m + T) of the flux, T delta stored in the opening or in contact  (cohesive.5) */
+    c->flux_energy += it.slip * (mean + it.traction);
+    c->opening_energy += it.traction * (q - it.slip);
+    c->damage += it.damage;
+    c->slip += it.slip;
+
+    vmask grows = lanes_lt(before, it.damage);
+    vmask cracks = lanes_and(grows, lanes_le(before, zero)), breaks = lanes_and(grows, lanes_le(one, it.damage));
+    if (__builtin_expect(lanes_any(lanes_or(cracks, breaks)), 0)) {
+        /* S is linear in time within the step: the crossing of sigma_c, and of K delta_c = sigma_c + x  (bar.12) */
+        vd rate = bar_stress_rate(c, uniform, left, right) + spring * (right->v_left - left->v_right);
+        vd time = lanes_load(c->step->time + c->first);
+        vd onset = time - (it.trial - sigma_c) / rate, broke = time - (it.trial - sigma_c - x) / rate;
+        vd lost = half * mean * mean * compliance; /* (cohesive.6) */
+        chain_note_events(c->step, c->first, c->bar->area, e, &(chain_events){cracks, breaks, onset, broke, zero, lost});
+    }
+    return (bar_link){.traction = it.traction, .slip = it.slip};
+}
+
+LANES_FUNCTION bar_link bar_rigid_link(bar_context *c, int uniform, size_t e, const bar_element *left, const bar_element *right)
+{
+    const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5), two = lanes_set(2.0);
+    double *at = c->state + e * BAR_FIELDS * LANES;
+    vd before = lanes_load(at + BAR_DAMAGE * LANES), state = lanes_load(at + BAR_LAW * LANES);
+    vd sigma_c = lanes_load(at + BAR_STRENGTH * LANES);
+    vd mean = half * (left->stress + right->stress);
+    vd q = right->w_left - left->w_right;
+    vd delta_c = lanes_set(2.0 * c->bar->fracture_energy) / sigma_c;
+    vmask open = lanes_le(two, state), exceeded = lanes_lt(zero, state);
+    vmask cracks = lanes_and(lanes_le(state, zero), lanes_lt(sigma_c, mean));
+    /* closed 0 -> exceeded 1 -> open 2 */
+    lanes_store(at + BAR_LAW * LANES, lanes_select(exceeded, two, lanes_select(cracks, one, zero)));
+
+    vd penalty = (sigma_c * sigma_c + lanes_set(c->bar->contact_offset)) / lanes_set(4.5 * c->bar->fracture_energy);
+    vd damage = before;
+    vd traction = rigid_link_law(q, &damage, sigma_c, delta_c, penalty);
+    damage = lanes_select(open, damage, before);
+    traction = lanes_select(open, traction, mean);
+    lanes_store(at + BAR_DAMAGE * LANES, damage);
+    c->opening_energy += lanes_select(open, traction * q, zero);
+    c->damage += damage;
+
+    vmask breaks = lanes_and(lanes_lt(before, damage), lanes_le(one, damage));
+    if (__builtin_expect(lanes_any(lanes_or(cracks, breaks)), 0)) {
+        vd time = lanes_load(c->step->time + c->first);
+        vd onset = time - (mean - sigma_c) / bar_stress_rate(c, uniform, left, right);
+        vd broke = time - (q - delta_c) / (right->v_left - left->v_right);
+        chain_note_events(c->step, c->first, c->bar->area, e, &(chain_events){cracks, breaks, onset, broke, zero, zero});
+    }
+    /* both nodes accelerate as one, under the force on both */
+    vd common = uniform ? half * (right->stress - left->stress) : (right->stress - left->stress) / (left->size + right->size);
+    return (bar_link){.traction = traction, .slip = zero, .closed = lanes_lt(state, two), .common = common};
+}
+
+LANES_FUNCTION bar_link bar_join(bar_context *c, int uniform, int law, size_t e, const bar_element *left,
+                                 const bar_element *right)
+{
+    return law == BAR_NITSCHE ? bar_nitsche(c, uniform, e, left, right) : bar_rigid_link(c, uniform, e, left, right);
+}
+
+/* Forces and kick of one element, and its share of the sums; a held node stays where it is. */
+LANES_FUNCTION void bar_finish(bar_context *c, int uniform, int law, size_t e, const bar_element *element,
+                               const bar_link *left, const bar_link *right, int hold_left, int hold_right)
+{
+    const vd half = lanes_set(0.5);
+    double *at = c->state + e * BAR_FIELDS * LANES;
+    /* N = sigma + (E/2h) (slip of both ends): bulk and symmetrisation  (bar.6); forces per area  (bar.7) */
+    vd internal = element->stress;
+    if (law == BAR_NITSCHE) internal += half * element->modulus * (left->slip + right->slip);
+    vd force_left = internal - left->traction, force_right = right->traction - internal;
+    if (!uniform) { /* per mass */
+        force_left = force_left / element->size;
+        force_right = force_right / element->size;
+    }
+    if (law == BAR_RIGID_LINK) { /* the same number on both sides: tied nodes stay together to the bit */
+        force_left = lanes_select(left->closed, left->common, force_left);
+        force_right = lanes_select(right->closed, right->common, force_right);
+    }
+    vd v_left = hold_left ? element->v_left : central_kick(element->v_left, force_left, c->kick);
+    vd v_right = hold_right ? element->v_right : central_kick(element->v_right, force_right, c->kick);
+    /* kinetic energy of leapfrog, v_{n-1/2} v_{n+1/2}: constant to round-off with the rest  (bar.11) */
+    vd velocity_squared = element->v_left * v_left + element->v_right * v_right;
+    vd stress_squared = element->stress * element->stress;
+    c->velocity_squared += uniform ? velocity_squared : element->size * velocity_squared;
+    c->stress_squared += uniform ? stress_squared : element->size * stress_squared;
+    c->stress += uniform ? element->stress : element->size * element->stress;
+    lanes_store(at + BAR_W_LEFT * LANES, element->w_left);
+    lanes_store(at + BAR_W_RIGHT * LANES, element->w_right);
+    lanes_store(at + BAR_V_LEFT * LANES, v_left);
+    lanes_store(at + BAR_V_RIGHT * LANES, v_right);
+}
+
+/* Sums to energies [J], those of the potential (bar.4), and power [W]  (bar.8). */
+LANES_FUNCTION void bar_totals(const bar_context *c)
+{
+    const fracas_bar_constants *bar = c->bar;
+    fracas_step *step = c->step;
+    lanes_store(step->kinetic + c->first, lanes_set(0.5 * bar->area * bar->nodal_mass) * c->velocity_squared);
+    lanes_store(step->elastic + c->first, lanes_set(0.5 * bar->area * bar->size / bar->young) * c->stress_squared +
+                                   lanes_set(0.5 * bar->area) * c->flux_energy);
+    lanes_store(step->cohesive + c->first, lanes_set(0.5 * bar->area) * c->opening_energy);
+    lanes_store(step->dissipated + c->first, lanes_set(bar->area * bar->fracture_energy) * c->damage);
+    lanes_store(step->power + c->first, lanes_set(bar->area * bar->rate) *
+                                 (lanes_set(bar->size) * c->stress + lanes_set(bar->young) * c->slip));
+}
+
+LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, int first, int uniform, int law)
+{
+    const vd zero = lanes_set(0.0);
+    const size_t last = bar->elements - 1;
+    bar_context context = {
+        .bar = bar, .step = step, .first = first, .state = step->state + (size_t)first * bar->elements * BAR_FIELDS,
+        .drift = lanes_load(step->drift + first), .kick = lanes_load(step->kick + first) / lanes_set(bar->nodal_mass),
+        .load_stress = lanes_set(bar->young) * (lanes_set(bar->rate) * lanes_load(step->time + first)),
+        .spring = lanes_set(bar->spring), .compliance = lanes_set(1.0 / bar->spring),
+        .modulus = lanes_set(bar->young / bar->size),
+        .stress_squared = zero, .flux_energy = zero, .opening_energy = zero, .damage = zero,
+        .velocity_squared = zero, .stress = zero, .slip = zero};
+    bar_context *c = &context;
+
+    /* One pass in place: an element is written once both its interfaces are known, and what its right neighbour
+     * needs of it is kept in registers. The interface that closes a periodic bar comes first. */
+    bar_element element = bar_load(c, uniform, 0);
+    bar_link closing = {.traction = zero, .slip = zero}, left;
+    if (bar->periodic) {
+        bar_element end = bar_load(c, uniform, last);
+        closing = bar_join(c, uniform, law, last, &end, &element);
+    }
+    bar_element next = bar_load(c, uniform, 1);
+    bar_link right = bar_join(c, uniform, law, 0, &element, &next);
+    if (bar->periodic) bar_finish(c, uniform, law, 0, &element, &closing, &right, 0, 0);
+    else bar_finish(c, uniform, law, 0, &element, &closing, &right, 1, 0);
+    for (size_t e = 1; e < last; e++) {
+        left = right;
+        element = next;
+        next = bar_load(c, uniform, e + 1);
+        right = bar_join(c, uniform, law, e, &element, &next);
+        bar_finish(c, uniform, law, e, &element, &left, &right, 0, 0);
+    }
+    if (bar->periodic) bar_finish(c, uniform, law, last, &next, &right, &closing, 0, 0);
+    else bar_finish(c, uniform, law, last, &next, &right, &closing, 0, 1);
+    bar_totals(c);
+}
+
+#define BAR_SWEEP_OF(name, uniform, law)                                                        \
+    static void BAR_SWEEP(name)(const fracas_bar_constants *bar, fracas_step *step, int first) \
+    {                                                                                          \
+        bar_run(bar, step, first, uniform, law);                                               \
+    }
+BAR_SWEEP_OF(nitsche, 1, BAR_NITSCHE)
+BAR_SWEEP_OF(rigid_link, 1, BAR_RIGID_LINK)
+BAR_SWEEP_OF(varied_nitsche, 0, BAR_NITSCHE)
+BAR_SWEEP_OF(varied_rigid_link, 0, BAR_RIGID_LINK)
+
+#undef BAR_SWEEP_OF
+#undef bar_stress_rate
+#undef bar_element
+#undef bar_link
+#undef bar_context
+#undef bar_load
+#undef bar_nitsche
+#undef bar_rigid_link
+#undef bar_join
+#undef bar_finish
+#undef bar_totals
+#undef bar_run
+#undef BAR_RIGID_LINK
+#undef BAR_NITSCHE
+#undef chain_events
+#undef chain_note_events
+#undef nitsche_interface
+#undef nitsche_law
+#undef rigid_link_law
+#undef central_drift
+#undef central_kick
+#include "base/lanes_end.h"

@@ -1,0 +1,166 @@
+/* What both sweeps of the ring are made of: elements, directions, drives, over lanes (docs/theory/ring.md). Include after
+ * base/lanes.h. */
+#include "engine/cohesive/nitsche.h"
+#include "engine/cohesive/rigid_link.h"
+#include "engine/formulation/chain/chain_events.h"
+#include "engine/integrator/central_difference.h"
+
+#define ring_vector LANES_NAME(fracas_ring_vector)
+#define ring_add LANES_NAME(fracas_ring_add)
+#define ring_subtract LANES_NAME(fracas_ring_subtract)
+#define ring_scale LANES_NAME(fracas_ring_scale)
+#define ring_dot LANES_NAME(fracas_ring_dot)
+#define ring_element LANES_NAME(fracas_ring_element)
+#define ring_link LANES_NAME(fracas_ring_link)
+#define ring_frame LANES_NAME(fracas_ring_frame)
+#define ring_context LANES_NAME(fracas_ring_context)
+#define ring_read LANES_NAME(fracas_ring_read)
+#define ring_write LANES_NAME(fracas_ring_write)
+#define ring_stretch LANES_NAME(fracas_ring_stretch)
+#define ring_frame_of LANES_NAME(fracas_ring_frame_of)
+#define ring_stress_rate LANES_NAME(fracas_ring_stress_rate)
+#define ring_drive_node LANES_NAME(fracas_ring_drive_node)
+#define ring_drive_work LANES_NAME(fracas_ring_drive_work)
+#define ring_context_of LANES_NAME(fracas_ring_context_of)
+
+typedef struct {
+    vd x, y;
+} ring_vector;
+
+LANES_FUNCTION ring_vector ring_add(ring_vector a, ring_vector b) { return (ring_vector){a.x + b.x, a.y + b.y}; }
+LANES_FUNCTION ring_vector ring_subtract(ring_vector a, ring_vector b) { return (ring_vector){a.x - b.x, a.y - b.y}; }
+LANES_FUNCTION ring_vector ring_scale(vd s, ring_vector a) { return (ring_vector){s * a.x, s * a.y}; }
+LANES_FUNCTION vd ring_dot(ring_vector a, ring_vector b) { return a.x * b.x + a.y * b.y; }
+
+/* An element at t_n: displacements drifted, velocities still those of t_{n-1/2}. */
+typedef struct {
+    ring_vector u_left, u_right, v_left, v_right;
+    ring_vector chord, tangent; /* from left to right node [m], and its direction */
+    vd strain, stress;          /* of the chord; E strain [Pa] */
+} ring_element;
+
+/* What an interface does to its two elements. */
+typedef struct {
+    ring_vector force;  /* on the left element's node, minus that on the right one's [Pa] */
+    ring_vector couple; /* turns both chords along with the interface's direction [Pa] */
+    vd slip;            /* q - delta [m] */
+    vmask open;         /* stershic only: else both nodes move as one ... */
+    ring_vector common; /* ... under this force each [Pa] */
+} ring_link;
+
+/* The directions of an interface: normal n, along which it opens, and r, outward. */
+typedef struct {
+    ring_vector n, r;
+    vd turn; /* dn/d(chord) = r r turn [1/m]; 0 for fixed directions */
+} ring_frame;
+
+typedef struct {
+    const fracas_ring_constants *ring;
+    fracas_step *step;
+    int first;      /* lane of the step that is lane 0 here */
+    double *state;  /* of these lanes */
+    vd drift, kick; /* dt [s]; what a velocity is advanced by, per force: dt/(nodal mass) [m/(s Pa)] */
+    vd spring, modulus; /* K, E/h [Pa/m] */
+    vd drive, next_drive; /* force on a node [Pa] now; velocity held half a step ahead [m/s] */
+    vd inertia;     /* nodal mass/dt [Pa s/m] */
+    /* sums over the body, for the ledger */
+    vd elastic, flux_energy, opening_energy, dissipated, velocity_squared;
+    vd driven, driven_next; /* power of the drive, per area, at the velocities before and after now [W/m2] */
+} ring_context;
+
+LANES_FUNCTION ring_vector ring_read(const double *at)
+{
+    return (ring_vector){lanes_load(at), lanes_load(at + LANES)};
+}
+
+LANES_FUNCTION void ring_write(double *at, ring_vector a)
+{
+    lanes_store(at, a.x);
+    lanes_store(at + LANES, a.y);
+}
+
+/* Chord and strain of element e  (ring.2), (ring.3), from its displacements. */
+LANES_FUNCTION void ring_stretch(const ring_context *c, size_t e, ring_element *element)
+{
+    const double *table = c->ring->table + e * RING_TABLE, h = c->ring->size;
+    const vd one = lanes_set(1.0), size = lanes_set(h);
+    const ring_vector start = {lanes_set(-h * table[RING_SIN_MIDDLE]), lanes_set(h * table[RING_COS_MIDDLE])};
+    const ring_vector du = ring_subtract(element->u_right, element->u_left);
+    element->chord = ring_add(start, du);
+    vd length = lanes_sqrt(ring_dot(element->chord, element->chord)), sum = length + size;
+    vd inverse = one / (length * sum);
+    element->tangent = ring_scale(sum * inverse, element->chord);
+    /* (l - h)/h by the difference of squares: no digits of a small strain are lost */
+    element->strain = (ring_dot(start, du) + ring_dot(element->chord, du)) * (length * inverse) * lanes_set(1.0 / h);
+    element->stress = lanes_set(c->ring->young) * element->strain;
+}
+
+/* The directions of interface e, between these elements  (ring.4). */
+LANES_FUNCTION ring_frame ring_frame_of(const ring_context *c, size_t e, const ring_element *left, const ring_element *right)
+{
+    if (c->ring->current) {
+        const vd one = lanes_set(1.0), zero = lanes_set(0.0);
+        ring_vector sum = ring_add(left->chord, right->chord);
+        vd turn = one / lanes_sqrt(ring_dot(sum, sum));
+        ring_vector n = ring_scale(turn, sum);
+        return (ring_frame){n, {n.y, zero - n.x}, turn};
+    }
+    const size_t vertex = e + 1 < c->ring->elements ? e + 1 : 0;
+    const double *table = c->ring->table + vertex * RING_TABLE;
+    const vd cosine = lanes_set(table[RING_COS]), sine = lanes_set(table[RING_SIN]);
+    return (ring_frame){{lanes_set(-table[RING_SIN]), cosine}, {cosine, sine}, lanes_set(0.0)};
+}
+
+/* Time derivative of an interface's mean stress within the step [Pa/s]. */
+LANES_FUNCTION vd ring_stress_rate(const ring_context *c, const ring_element *left, const ring_element *right)
+{
+    return lanes_set(0.5) * c->modulus * (ring_dot(left->tangent, ring_subtract(left->v_right, left->v_left)) +
+                                          ring_dot(right->tangent, ring_subtract(right->v_right, right->v_left)));
+}
+
+/* The velocity of a node at `vertex` once kicked by `force` [Pa], under the drive  (ring.10); books the power of the drive's force, or
+ * of the reaction to a held velocity, at the velocities before and after. */
+LANES_FUNCTION ring_vector ring_drive_node(ring_context *c, size_t vertex, ring_vector u, ring_vector v, ring_vector force)
+{
+    const fracas_ring_constants *ring = c->ring;
+    ring_vector after = {central_kick(v.x, force.x, c->kick), central_kick(v.y, force.y, c->kick)};
+    if (ring->drive == RING_FREE) return after;
+    const double *table = ring->table + vertex * RING_TABLE;
+    const vd zero = lanes_set(0.0), one = lanes_set(1.0);
+    ring_vector place = {lanes_set(ring->radius * table[RING_COS]) + u.x, lanes_set(ring->radius * table[RING_SIN]) + u.y};
+    ring_vector out = ring_scale(one / lanes_sqrt(ring_dot(place, place)), place);
+    ring_vector along = ring->circumferential ? (ring_vector){zero - out.y, out.x} : out;
+    vd change = c->kick * c->drive, push = c->drive;
+    if (ring->drive == RING_HELD) {
+        change = c->next_drive - ring_dot(after, along);
+        push = change * c->inertia;
+    }
+    after = ring_add(after, ring_scale(change, along));
+    c->driven += push * ring_dot(v, along);
+    c->driven_next += push * ring_dot(after, along);
+    return after;
+}
+
+/* Work of the drive since the step before [J]  (ring.11). */
+LANES_FUNCTION vd ring_drive_work(const ring_context *c)
+{
+    if (c->ring->drive == RING_FREE) return lanes_set(0.0);
+    const vd half = lanes_set(0.5), area = lanes_set(c->ring->area);
+    vd before = lanes_load(c->step->driven + c->first);
+    lanes_store(c->step->driven + c->first, area * c->driven_next);
+    return half * c->drift * (before + area * c->driven);
+}
+
+/* `kick` and `ahead` [s]: what velocities are advanced by, and how far beyond this step's time they are then. */
+LANES_FUNCTION ring_context ring_context_of(const fracas_ring_constants *ring, fracas_step *step, int first, int fields, vd kick,
+                                            vd ahead)
+{
+    const vd zero = lanes_set(0.0), mass = lanes_set(ring->nodal_mass), level = lanes_set(ring->level);
+    const vd rate = lanes_set(ring->rate), time = lanes_load(step->time + first);
+    return (ring_context){
+        .ring = ring, .step = step, .first = first, .state = step->state + (size_t)first * ring->elements * (size_t)fields,
+        .drift = lanes_load(step->drift + first), .kick = kick / mass, .spring = lanes_set(ring->spring),
+        .modulus = lanes_set(ring->young / ring->size), .drive = level + rate * time, .next_drive = level + rate * (time + ahead),
+        .inertia = mass / kick, .elastic = zero, .flux_energy = zero, .opening_energy = zero, .dissipated = zero,
+        .velocity_squared = zero, .driven = zero, .driven_next = zero};
+}

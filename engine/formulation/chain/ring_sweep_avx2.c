@@ -1,0 +1,2 @@
+#define RING_KERNELS fracas_ring_kernels_avx2
+#include "engine/formulation/chain/ring_sweep_isa.h"

@@ -1,0 +1,2 @@
+#define RING_KERNELS fracas_ring_kernels_baseline
+#include "engine/formulation/chain/ring_sweep_isa.h"

@@ -1,2 +1,0 @@
-#define RING_KERNELS fracas_ring_kernels_avx512
-#include "engine/formulation/ring_sweep_isa.h"

@@ -1,0 +1,2 @@
+#define MEMBRANE_KERNELS fracas_membrane_kernels_baseline
+#include "engine/formulation/surface/membrane_isa.h"

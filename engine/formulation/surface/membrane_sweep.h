@@ -1,0 +1,96 @@
+/* The membrane's sweep: one step of central difference or Hulbert-Chung for all lanes, in one pass over the elements
+ * (docs/theory/membrane.md).
+ *
+ * State of a group of lanes, one part after another:
+ *   [element][field][lane]    MEMBRANE_U ..., see below
+ *   [interface][field][lane]  MEMBRANE_STRENGTH, then the law's fields of each Gauss point
+ *   [slot][field][lane]       what an element collects from its interfaces while it is under way: slot = element & window */
+#ifndef FRACAS_ENGINE_FORMULATION_SURFACE_MEMBRANE_SWEEP_H
+#define FRACAS_ENGINE_FORMULATION_SURFACE_MEMBRANE_SWEEP_H
+
+#include "engine/element/triangle.h"
+#include "engine/formulation/surface/membrane_tables.h"
+
+/* Fields of an element, each 2 MEMBRANE_NODES wide (node 0 x, y, node 1 x, ...): displacement at t_n; velocity, half a step
+ * behind before the sweep and ahead after (Hulbert-Chung: at t_n); Hulbert-Chung: acceleration a_n and a_{n+1}. */
+enum { MEMBRANE_U, MEMBRANE_V, MEMBRANE_FIELDS, MEMBRANE_A = MEMBRANE_FIELDS, MEMBRANE_A_NEXT, MEMBRANE_FIELDS_ALPHA };
+
+/* Of an interface. */
+enum { MEMBRANE_STRENGTH, MEMBRANE_LAW };
+/* Of a Gauss point: D, p of every law; the rest of nitsche with friction; of the extrinsic laws; of those with friction. */
+enum { MEMBRANE_DAMAGE, MEMBRANE_PEAK, MEMBRANE_POINT_FIELDS };
+enum { MEMBRANE_SLIP = MEMBRANE_POINT_FIELDS, MEMBRANE_RUB, MEMBRANE_POINT_FIELDS_FRICTION };
+enum {
+    MEMBRANE_JUMP_N = MEMBRANE_POINT_FIELDS, MEMBRANE_JUMP_T, MEMBRANE_START_N, MEMBRANE_START_T, MEMBRANE_POINT_FIELDS_EXTRINSIC,
+    MEMBRANE_EXTRINSIC_SLIP = MEMBRANE_POINT_FIELDS_EXTRINSIC, MEMBRANE_EXTRINSIC_RUB, MEMBRANE_POINT_FIELDS_EXTRINSIC_FRICTION
+};
+
+/* Of a slot: at each bulk point the stress and what symmetrisation adds to it (xx, yy, xy), then the forces of interfaces. */
+#define MEMBRANE_SLOT_STRESS 0
+#define MEMBRANE_SLOT_EXTRA(order) (3 * MEMBRANE_BULK(order))
+#define MEMBRANE_SLOT_FORCE(order) (6 * MEMBRANE_BULK(order))
+#define MEMBRANE_SLOT(order) (6 * MEMBRANE_BULK(order) + 2 * MEMBRANE_NODES(order))
+
+typedef enum { MEMBRANE_NITSCHE, MEMBRANE_EXTRINSIC, MEMBRANE_OPERATOR } membrane_law;
+
+/* Everything a sweep needs that is the same for all lanes. */
+typedef struct {
+    const fracas_membrane_tables *tables;
+    double c11, c12, c33;         /* Pa: E/(1 - nu^2), nu c11, E/(2 (1 + nu)) */
+    double normal, tangential;    /* 1: k_n and k_t by K of the interface  (membrane.6) */
+    double energy, opening;       /* G_c [J/m2], or delta_c [m]: the other is 0 */
+    double beta_c, mu_c;          /* 1 */
+    int onset_mean, standard, friction;
+    int fields, point_fields;     /* of an element, in units of 2 MEMBRANE_NODES; of a Gauss point */
+    double speed, ramp;           /* rad/s, s: w = speed min(1, t/ramp) */
+    int alpha;                    /* Hulbert-Chung, with its parameters: */
+    double alpha_m, b, g;         /* 1 */
+    int contact;                  /* MEMBRANE_OPERATOR: all interfaces broken and in contact; else whole */
+} fracas_membrane_constants;
+
+/* Places in a group's state, in units of one field's lanes. */
+static inline size_t fracas_membrane_element_fields(const fracas_membrane_constants *c)
+{
+    return (size_t)c->fields * 2 * (size_t)MEMBRANE_NODES(c->tables->order);
+}
+static inline size_t fracas_membrane_joint_fields(const fracas_membrane_constants *c)
+{
+    return MEMBRANE_LAW + (size_t)MEMBRANE_EDGE(c->tables->order) * (size_t)c->point_fields;
+}
+static inline size_t fracas_membrane_joints_at(const fracas_membrane_constants *c)
+{
+    return c->tables->nelements * fracas_membrane_element_fields(c);
+}
+static inline size_t fracas_membrane_slots_at(const fracas_membrane_constants *c)
+{
+    return fracas_membrane_joints_at(c) + c->tables->ninterfaces * fracas_membrane_joint_fields(c);
+}
+static inline size_t fracas_membrane_state_fields(const fracas_membrane_constants *c)
+{
+    return fracas_membrane_slots_at(c) + (c->tables->window + 1) * (size_t)MEMBRANE_SLOT(c->tables->order);
+}
+
+/* Advances the lanes first .. first + lanes - 1 of the step. */
+typedef void fracas_membrane_sweep(const fracas_membrane_constants *membrane, fracas_step *step, int first);
+
+/* Kernels of one instruction set, [law][order - 1][for 1, 4, 8 lanes]; NULL where there is no such register. The operator's,
+ * for one lane alone, leaves M^-1 (-f)(u) where velocities are. */
+typedef struct {
+    fracas_membrane_sweep *sweep[3][2][3];
+} fracas_membrane_kernels;
+
+extern const fracas_membrane_kernels fracas_membrane_kernels_baseline, fracas_membrane_kernels_avx2, fracas_membrane_kernels_avx512;
+
+/* ---- what happens at an interface in a step, booked lane by lane: it is rare ---- */
+
+typedef struct {
+    int cracks[FRACAS_EDGE_MOST], breaks[FRACAS_EDGE_MOST]; /* which Gauss points do so in this step */
+    int opens, parts; /* the interface's first point cracks, its last one breaks */
+} fracas_membrane_event;
+
+/* Books the event of lane `lane` of the step, at the times interpolated between the step before and this one (membrane.12).
+ * `law` as of the sweep. */
+void fracas_membrane_book(const fracas_membrane_constants *membrane, membrane_law law, fracas_step *step, int lane,
+                          size_t interface, const fracas_membrane_event *event);
+
+#endif

@@ -1,0 +1,576 @@
+/* The membrane's sweep for one width; included once a width by membrane_isa.h, with LANES defined.
+ *
+ * An element is drifted and strained when its turn comes, then the interfaces with elements before it are visited; once an
+ * element has all its interfaces it gets its forces and is kicked. Interfaces see an element through the stresses at its bulk
+ * points, and give back forces on nodes and strains at those points: both are few. */
+#include "base/lanes.h"
+#include "engine/cohesive/plane.h"
+#include "engine/cohesive/plane_nitsche.h"
+#include "engine/cohesive/plane_extrinsic.h"
+#include "engine/integrator/central_difference.h"
+
+#define membrane_context LANES_NAME(membrane_context)
+#define membrane_sides LANES_NAME(membrane_sides)
+#define membrane_sides_of LANES_NAME(membrane_sides_of)
+#define membrane_at LANES_NAME(membrane_at)
+#define membrane_point LANES_NAME(membrane_point)
+#define membrane_strain LANES_NAME(membrane_strain)
+#define membrane_drift LANES_NAME(membrane_drift)
+#define membrane_flux LANES_NAME(membrane_flux)
+#define membrane_give LANES_NAME(membrane_give)
+#define membrane_law_of LANES_NAME(membrane_law_of)
+#define membrane_crack LANES_NAME(membrane_crack)
+#define membrane_join LANES_NAME(membrane_join)
+#define membrane_forces LANES_NAME(membrane_forces)
+#define membrane_accelerate LANES_NAME(membrane_accelerate)
+#define membrane_kick LANES_NAME(membrane_kick)
+#define membrane_totals LANES_NAME(membrane_totals)
+#define membrane_run LANES_NAME(membrane_run)
+#define membrane_book LANES_NAME(membrane_book)
+#define membrane_spin LANES_NAME(membrane_spin)
+#ifdef __SANITIZE_ADDRESS__ /* unrolled, checks take minutes to compile */
+#define UNROLL
+#else
+#define UNROLL _Pragma("GCC unroll 12")
+#endif
+
+typedef struct {
+    const fracas_membrane_constants *membrane;
+    const fracas_membrane_tables *tables;
+    fracas_step *step;
+    int first;                          /* lane of the step that is lane 0 here */
+    double *elements, *joints, *slots;  /* of these lanes */
+    size_t element_size, joint_size;    /* doubles */
+    vd drift, kick;                     /* s */
+    vd spin;                            /* w(t_n)^2 [1/s2] */
+    int begins;                         /* the first step of all */
+    /* sums over the body, for the ledger: twice the energies, dissipated [J]; power [W], sum of m r.v [kg m2/s] */
+    vd strain_energy, flux, stored, kinetic, dissipated, power, moment;
+} membrane_context;
+
+/* Where an interface finds its two elements, - and +: nodes a, b (and c, the middle) of the edge and bulk points a, b at its
+ * ends, o away from it. */
+typedef struct {
+    const double *element[2];
+    double *slot[2];
+    int node[2][3], bulk[2][3];
+} membrane_sides;
+
+/* At one Gauss point of an interface. */
+typedef struct {
+    vd jump[2], mean[2];        /* q = u+ - u- [m], mean traction of both sides [Pa] */
+    vd traction[2], carried[2]; /* T [Pa], s = q - delta [m] */
+} membrane_point;
+
+LANES_FUNCTION double *membrane_at(double *record, int field) { return record + field * LANES; }
+
+/* Drift, stress and energy of element e; its slot is cleared of what it held before. */
+LANES_FUNCTION void membrane_strain(membrane_context *c, int order, size_t e)
+{
+    static const double shape[2][3][6][2] = {FRACAS_TRIANGLE_DERIVATIVES_1, FRACAS_TRIANGLE_DERIVATIVES_2};
+    const int nodes = MEMBRANE_NODES(order), points = MEMBRANE_BULK(order);
+    const vd zero = lanes_set(0.0);
+    double *at = c->elements + e * c->element_size;
+    double *slot = c->slots + (e & c->tables->window) * (size_t)(MEMBRANE_SLOT(order) * LANES);
+    vd u[12];
+    UNROLL for (int i = 0; i < 2 * nodes; i++) u[i] = lanes_load(membrane_at(at, i));
+    const double *bulk = c->tables->bulk + e * (size_t)(points * MEMBRANE_BULK_TABLE);
+    const vd c11 = lanes_set(c->membrane->c11), c12 = lanes_set(c->membrane->c12), c33 = lanes_set(c->membrane->c33);
+    UNROLL for (int g = 0; g < points; g++, bulk += MEMBRANE_BULK_TABLE) {
+        vd by_xi[2], by_eta[2], by_x[2], by_y[2];
+        UNROLL for (int i = 0; i < 2; i++) {
+            by_xi[i] = by_eta[i] = zero;
+            UNROLL for (int k = 0; k < nodes; k++) {
+                if (shape[order - 1][g][k][0] != 0.0) by_xi[i] += lanes_set(shape[order - 1][g][k][0]) * u[2 * k + i];
+                if (shape[order - 1][g][k][1] != 0.0) by_eta[i] += lanes_set(shape[order - 1][g][k][1]) * u[2 * k + i];
+            }
+            by_x[i] = lanes_set(bulk[MEMBRANE_XI_X]) * by_xi[i] + lanes_set(bulk[MEMBRANE_ETA_X]) * by_eta[i];
+            by_y[i] = lanes_set(bulk[MEMBRANE_XI_Y]) * by_xi[i] + lanes_set(bulk[MEMBRANE_ETA_Y]) * by_eta[i];
+        }
+        vd xx = by_x[0], yy = by_y[1], xy = by_y[0] + by_x[1];
+        vd s_xx = c11 * xx + c12 * yy, s_yy = c12 * xx + c11 * yy, s_xy = c33 * xy; /* (membrane.3) */
+        c->strain_energy += lanes_set(bulk[MEMBRANE_WEIGHT]) * (s_xx * xx + s_yy * yy + s_xy * xy);
+        lanes_store(membrane_at(slot, 3 * g), s_xx);
+        lanes_store(membrane_at(slot, 3 * g + 1), s_yy);
+        lanes_store(membrane_at(slot, 3 * g + 2), s_xy);
+    }
+    const int from = MEMBRANE_SLOT_EXTRA(order), end = MEMBRANE_SLOT(order);
+    UNROLL for (int i = from; i < end; i++) lanes_store(membrane_at(slot, i), zero);
+}
+
+/* Displacements at t_n, from where the last kick left them. */
+LANES_FUNCTION void membrane_drift(membrane_context *c, int order, size_t e)
+{
+    const int size = 2 * MEMBRANE_NODES(order);
+    const fracas_membrane_constants *m = c->membrane;
+    double *at = c->elements + e * c->element_size;
+    UNROLL for (int i = 0; i < size; i++) {
+        double *u = membrane_at(at, MEMBRANE_U * size + i), *v = membrane_at(at, MEMBRANE_V * size + i);
+        if (!m->alpha) {
+            lanes_store(u, central_drift(lanes_load(u), lanes_load(v), c->drift));
+        } else { /* (membrane.15) */
+            const vd old = lanes_load(membrane_at(at, MEMBRANE_A * size + i)), dt = c->drift;
+            const vd now = lanes_load(membrane_at(at, MEMBRANE_A_NEXT * size + i));
+            lanes_store(u, lanes_load(u) + dt * lanes_load(v) + dt * dt * (lanes_set(0.5 - m->b) * old + lanes_set(m->b) * now));
+            lanes_store(v, lanes_load(v) + dt * (lanes_set(1.0 - m->g) * old + lanes_set(m->g) * now));
+        }
+    }
+}
+
+LANES_FUNCTION membrane_sides membrane_sides_of(const membrane_context *c, int order, size_t i)
+{
+    const uint32_t *element = c->tables->element[i];
+    const int k = c->tables->edge[i][0], l = c->tables->edge[i][1];
+    membrane_sides sides = {.node = {{k, (k + 1) % 3, 3 + k}, {(l + 1) % 3, l, 3 + l}}};
+    UNROLL for (int side = 0; side < 2; side++) {
+        const int linear = order == 1, away = ((side ? l : k) + 2) % 3;
+        sides.element[side] = c->elements + element[side] * c->element_size;
+        sides.slot[side] = c->slots + (element[side] & c->tables->window) * (size_t)(MEMBRANE_SLOT(order) * LANES);
+        UNROLL for (int p = 0; p < 3; p++) sides.bulk[side][p] = linear ? 0 : p < 2 ? sides.node[side][p] : away;
+    }
+    return sides;
+}
+
+/* Jump, mean traction and the flux of interior penalty at the Gauss points, as long as nothing has cracked. */
+LANES_FUNCTION void membrane_flux(const membrane_context *c, int order, size_t i, const membrane_sides *sides, membrane_point at[3])
+{
+    static const double edge_point[2][3] = {FRACAS_EDGE_POINTS_1, FRACAS_EDGE_POINTS_2};
+    const fracas_membrane_constants *m = c->membrane;
+    const int points = MEMBRANE_EDGE(order), bulk = MEMBRANE_BULK(order), nodes = order + 1;
+    const double *table = c->tables->joint + i * (size_t)(MEMBRANE_POINTS + points * MEMBRANE_POINT_TABLE);
+    const vd stiffness = lanes_set(m->tangential * table[MEMBRANE_STIFFNESS]);
+    vd jump[3][2], stress[3][3];
+    UNROLL for (int n = 0; n < nodes; n++)
+        UNROLL for (int j = 0; j < 2; j++)
+            jump[n][j] = lanes_load(sides->element[1] + (2 * sides->node[1][n] + j) * LANES) -
+                         lanes_load(sides->element[0] + (2 * sides->node[0][n] + j) * LANES);
+    UNROLL for (int p = 0; p < bulk; p++)
+        UNROLL for (int j = 0; j < 3; j++)
+            stress[p][j] = lanes_set(0.5) * (lanes_load(sides->slot[0] + (3 * sides->bulk[0][p] + j) * LANES) +
+                                             lanes_load(sides->slot[1] + (3 * sides->bulk[1][p] + j) * LANES));
+    UNROLL for (int g = 0; g < points; g++) {
+        const double *place = table + MEMBRANE_POINTS + g * MEMBRANE_POINT_TABLE;
+        const vd nx = lanes_set(place[MEMBRANE_NX]), ny = lanes_set(place[MEMBRANE_NY]);
+        double shape[3], spread[3];
+        fracas_edge_shape(order, edge_point[order - 1][g], shape, spread);
+        vd q[2], s[3];
+        UNROLL for (int j = 0; j < 2; j++) {
+            q[j] = lanes_set(shape[0]) * jump[0][j] + lanes_set(shape[1]) * jump[1][j];
+            if (nodes == 3) q[j] += lanes_set(shape[2]) * jump[2][j];
+        }
+        UNROLL for (int j = 0; j < 3; j++) /* (membrane.2) */
+            s[j] = bulk == 1 ? stress[0][j]
+                             : lanes_set(spread[0]) * stress[0][j] + lanes_set(spread[1]) * stress[1][j] + lanes_set(spread[2]) * stress[2][j];
+        const vd mean[2] = {s[0] * nx + s[2] * ny, s[2] * nx + s[1] * ny};
+        const vd more = lanes_set((m->normal - m->tangential) * table[MEMBRANE_STIFFNESS]) * (q[0] * nx + q[1] * ny);
+        const vd normal[2] = {nx, ny};
+        UNROLL for (int j = 0; j < 2; j++) { /* (membrane.4) */
+            at[g].jump[j] = at[g].carried[j] = q[j];
+            at[g].mean[j] = mean[j];
+            at[g].traction[j] = mean[j] + stiffness * q[j];
+            if (m->normal != m->tangential) at[g].traction[j] += more * normal[j];
+        }
+    }
+}
+
+/* Gives the two elements the forces on the nodes of the edge, and strains at their bulk points. */
+LANES_FUNCTION void membrane_give(const membrane_context *c, int order, size_t i, const membrane_sides *sides, const membrane_point at[3])
+{
+    static const double edge_point[2][3] = {FRACAS_EDGE_POINTS_1, FRACAS_EDGE_POINTS_2};
+    const int points = MEMBRANE_EDGE(order), bulk = MEMBRANE_BULK(order), nodes = order + 1;
+    const double *table = c->tables->joint + i * (size_t)(MEMBRANE_POINTS + points * MEMBRANE_POINT_TABLE);
+    vd force[3][2], strain[3][3];
+    UNROLL for (int n = 0; n < 3; n++) {
+        UNROLL for (int j = 0; j < 2; j++) force[n][j] = lanes_set(0.0);
+        UNROLL for (int j = 0; j < 3; j++) strain[n][j] = lanes_set(0.0);
+    }
+    UNROLL for (int g = 0; g < points; g++) {
+        const double *place = table + MEMBRANE_POINTS + g * MEMBRANE_POINT_TABLE;
+        const vd nx = lanes_set(place[MEMBRANE_NX]), ny = lanes_set(place[MEMBRANE_NY]), area = lanes_set(place[MEMBRANE_AREA]);
+        const vd half = lanes_set(0.5) * area, tx = area * at[g].traction[0], ty = area * at[g].traction[1];
+        const vd sx = half * at[g].carried[0], sy = half * at[g].carried[1];
+        const vd symmetric[3] = {sx * nx, sy * ny, sx * ny + sy * nx};
+        double shape[3], spread[3];
+        fracas_edge_shape(order, edge_point[order - 1][g], shape, spread);
+        UNROLL for (int n = 0; n < nodes; n++) {
+            force[n][0] += lanes_set(shape[n]) * tx;
+            force[n][1] += lanes_set(shape[n]) * ty;
+        }
+        UNROLL for (int p = 0; p < bulk; p++)
+            UNROLL for (int j = 0; j < 3; j++) strain[p][j] += bulk == 1 ? symmetric[j] : lanes_set(spread[p]) * symmetric[j];
+    }
+    UNROLL for (int side = 0; side < 2; side++) {
+        double *forces = membrane_at(sides->slot[side], MEMBRANE_SLOT_FORCE(order)), *extra = membrane_at(sides->slot[side], MEMBRANE_SLOT_EXTRA(order));
+        UNROLL for (int n = 0; n < nodes; n++)
+            UNROLL for (int j = 0; j < 2; j++) {
+                double *to = membrane_at(forces, 2 * sides->node[side][n] + j);
+                lanes_store(to, side ? lanes_load(to) + force[n][j] : lanes_load(to) - force[n][j]);
+            }
+        UNROLL for (int p = 0; p < bulk; p++)
+            UNROLL for (int j = 0; j < 3; j++) {
+                double *to = membrane_at(extra, 3 * sides->bulk[side][p] + j);
+                lanes_store(to, lanes_load(to) + strain[p][j]);
+            }
+    }
+}
+
+/* The law at one Gauss point: reads and writes its fields. */
+LANES_FUNCTION plane_result membrane_law_of(const membrane_context *c, int law, const plane_interface *at, const plane_input *in, double *point)
+{
+    const fracas_membrane_constants *m = c->membrane;
+    if (law == MEMBRANE_NITSCHE) {
+        plane_nitsche_state state = {.damage = lanes_load(point), .peak = lanes_load(point + LANES)};
+        if (!m->friction) {
+            plane_result r = plane_nitsche(at, in, 0, &state);
+            lanes_store(membrane_at(point, MEMBRANE_DAMAGE), state.damage);
+            lanes_store(membrane_at(point, MEMBRANE_PEAK), state.peak);
+            return r;
+        }
+        state.slip = lanes_load(membrane_at(point, MEMBRANE_SLIP));
+        state.rub = lanes_load(membrane_at(point, MEMBRANE_RUB));
+        plane_result r = plane_nitsche(at, in, 1, &state);
+        lanes_store(membrane_at(point, MEMBRANE_DAMAGE), state.damage);
+        lanes_store(membrane_at(point, MEMBRANE_PEAK), state.peak);
+        lanes_store(membrane_at(point, MEMBRANE_SLIP), state.slip);
+        lanes_store(membrane_at(point, MEMBRANE_RUB), state.rub);
+        return r;
+    }
+    plane_extrinsic_state state = {.damage = lanes_load(membrane_at(point, MEMBRANE_DAMAGE)),
+                                   .peak = lanes_load(membrane_at(point, MEMBRANE_PEAK)),
+                                   .q_n = lanes_load(membrane_at(point, MEMBRANE_JUMP_N)),
+                                   .q_t = lanes_load(membrane_at(point, MEMBRANE_JUMP_T)),
+                                   .t_n = lanes_load(membrane_at(point, MEMBRANE_START_N)),
+                                   .t_t = lanes_load(membrane_at(point, MEMBRANE_START_T)),
+                                   .slip = lanes_set(0.0), .rub = lanes_set(0.0)};
+    if (m->friction) {
+        state.slip = lanes_load(membrane_at(point, MEMBRANE_EXTRINSIC_SLIP));
+        state.rub = lanes_load(membrane_at(point, MEMBRANE_EXTRINSIC_RUB));
+    }
+    plane_result r = plane_extrinsic(at, in, m->standard, m->friction, &state);
+    lanes_store(membrane_at(point, MEMBRANE_DAMAGE), state.damage);
+    lanes_store(membrane_at(point, MEMBRANE_PEAK), state.peak);
+    lanes_store(membrane_at(point, MEMBRANE_JUMP_N), state.q_n);
+    lanes_store(membrane_at(point, MEMBRANE_JUMP_T), state.q_t);
+    lanes_store(membrane_at(point, MEMBRANE_START_N), state.t_n);
+    lanes_store(membrane_at(point, MEMBRANE_START_T), state.t_t);
+    if (m->friction) {
+        lanes_store(membrane_at(point, MEMBRANE_EXTRINSIC_SLIP), state.slip);
+        lanes_store(membrane_at(point, MEMBRANE_EXTRINSIC_RUB), state.rub);
+    }
+    return r;
+}
+
+/* Books what happened at an interface, lane by lane. */
+__attribute__((noinline, cold, unused)) static void membrane_book(const membrane_context *c, int law, int points, size_t i,
+                                                                 const vmask *cracks, const vmask *breaks, vmask opens, vmask parts)
+{
+    for (int l = 0; l < LANES; l++) {
+        fracas_membrane_event event = {.opens = lanes_get(opens, l), .parts = lanes_get(parts, l)};
+        for (int g = 0; g < points; g++) {
+            event.cracks[g] = lanes_get(cracks[g], l);
+            event.breaks[g] = lanes_get(breaks[g], l);
+        }
+        if (event.opens || event.parts) fracas_membrane_book(c->membrane, (membrane_law)law, c->step, c->first + l, i, &event);
+    }
+}
+
+/* The way of an interface at which some lane is cracked, or is about to. `at` holds what every lane does that is not. */
+LANES_FUNCTION void membrane_crack(membrane_context *c, int order, int law, size_t i, double *joint, membrane_point at[3])
+{
+    const vd zero = lanes_set(0.0), one = lanes_set(1.0), two = lanes_set(2.0);
+    const fracas_membrane_constants *m = c->membrane;
+    const int points = MEMBRANE_EDGE(order);
+    const double *table = c->tables->joint + i * (size_t)(MEMBRANE_POINTS + points * MEMBRANE_POINT_TABLE);
+    const vd stiffness = lanes_set(table[MEMBRANE_STIFFNESS]);
+    const plane_interface interface = {.k_n = lanes_set(m->normal) * stiffness, .k_t = lanes_set(m->tangential) * stiffness,
+                                .softness_n = lanes_set(table[MEMBRANE_COMPLIANCE] / m->normal),
+                                .softness_t = lanes_set(table[MEMBRANE_COMPLIANCE] / m->tangential), .sigma_c = lanes_load(joint),
+                                .beta_c = lanes_set(m->beta_c), .per_beta_c = lanes_set(1.0 / m->beta_c), .mu_c = lanes_set(m->mu_c),
+                                .energy = lanes_set(m->energy), .opening = lanes_set(m->opening), .onset_mean = m->onset_mean};
+    vmask cracks[3], breaks[3], whole = lanes_le(zero, zero), broken = whole, opens = lanes_lt(zero, zero), parts = opens;
+    vd created = zero, rubbed = zero;
+    UNROLL for (int g = 0; g < points; g++) {
+        double *point = membrane_at(joint, MEMBRANE_LAW + g * m->point_fields);
+        const double *place = table + MEMBRANE_POINTS + g * MEMBRANE_POINT_TABLE;
+        const vd nx = lanes_set(place[MEMBRANE_NX]), ny = lanes_set(place[MEMBRANE_NY]), area = lanes_set(place[MEMBRANE_AREA]);
+        const vd *q = at[g].jump, *mean = at[g].mean;
+        const plane_input in = {.m_n = mean[0] * nx + mean[1] * ny, .m_t = mean[1] * nx - mean[0] * ny,
+                                .q_n = q[0] * nx + q[1] * ny, .q_t = q[1] * nx - q[0] * ny};
+        whole = lanes_and(whole, lanes_le(lanes_load(membrane_at(point, MEMBRANE_PEAK)), zero));
+        plane_result r = membrane_law_of(c, law, &interface, &in, point);
+        const vd damage = lanes_load(membrane_at(point, MEMBRANE_DAMAGE));
+        vd flux_energy = q[0] * (mean[0] + at[g].traction[0]) + q[1] * (mean[1] + at[g].traction[1]);
+        c->flux += area * lanes_select(r.cracked, two * r.flux, flux_energy);
+        c->stored += area * lanes_select(r.cracked, two * r.stored, zero);
+        c->dissipated += area * r.dissipated;
+        created += area * r.created;
+        rubbed += area * lanes_select(r.cracked, r.rubbed, zero);
+        at[g].traction[0] = lanes_select(r.cracked, r.t_n * nx - r.t_t * ny, at[g].traction[0]);
+        at[g].traction[1] = lanes_select(r.cracked, r.t_n * ny + r.t_t * nx, at[g].traction[1]);
+        at[g].carried[0] = lanes_select(r.cracked, r.s_n * nx - r.s_t * ny, q[0]);
+        at[g].carried[1] = lanes_select(r.cracked, r.s_n * ny + r.s_t * nx, q[1]);
+        broken = lanes_and(broken, lanes_le(one, damage));
+        cracks[g] = r.cracks;
+        breaks[g] = r.breaks;
+        opens = lanes_or(opens, r.cracks);
+        parts = lanes_or(parts, r.breaks);
+    }
+    double *created_at = c->step->created + c->first, *rubbed_at = c->step->rubbed + c->first;
+    lanes_store(created_at, lanes_load(created_at) + created);
+    lanes_store(rubbed_at, lanes_load(rubbed_at) + rubbed);
+    opens = lanes_and(opens, whole);  /* the first of its points */
+    parts = lanes_and(parts, broken); /* the last */
+    if (__builtin_expect(lanes_any(lanes_or(opens, parts)), 0)) membrane_book(c, law, points, i, cracks, breaks, opens, parts);
+}
+
+/* Interface i: traction at its Gauss points, and what that does to its elements. */
+LANES_FUNCTION void membrane_join(membrane_context *c, int order, int law, size_t i)
+{
+    const fracas_membrane_constants *m = c->membrane;
+    const int points = MEMBRANE_EDGE(order);
+    const membrane_sides sides = membrane_sides_of(c, order, i);
+    double *joint = c->joints + i * c->joint_size;
+    membrane_point at[3];
+    membrane_flux(c, order, i, &sides, at);
+    if (law == MEMBRANE_OPERATOR) {
+        UNROLL for (int g = 0; g < points; g++)
+            UNROLL for (int j = 0; j < 2; j++) {
+                if (!m->contact) continue;
+                at[g].traction[j] = at[g].traction[j] - at[g].mean[j];
+                at[g].carried[j] = lanes_set(0.0);
+            }
+        membrane_give(c, order, i, &sides, at);
+        return;
+    }
+    /* No lane is past its onset where none has a peak and no traction is near the strength: an onset needs
+     * |T| >= min(1, beta_c) sigma_c, and the margin covers its round-off, so that lanes do not depend on each other. */
+    vd largest = lanes_set(0.0), touched = lanes_set(0.0);
+    UNROLL for (int g = 0; g < points; g++) {
+        const vd *judged = m->onset_mean ? at[g].mean : at[g].traction;
+        largest = plane_max(largest, judged[0] * judged[0] + judged[1] * judged[1]);
+        touched += lanes_load(membrane_at(joint, MEMBRANE_LAW + g * m->point_fields + MEMBRANE_PEAK));
+    }
+    const vd floor = lanes_set(0.999 * (m->beta_c < 1.0 ? m->beta_c : 1.0)) * lanes_load(joint);
+    if (lanes_any(lanes_or(lanes_lt(lanes_set(0.0), touched), lanes_lt(floor * floor, largest)))) {
+        membrane_crack(c, order, law, i, joint, at);
+    } else {
+        const double *table = c->tables->joint + i * (size_t)(MEMBRANE_POINTS + points * MEMBRANE_POINT_TABLE);
+        UNROLL for (int g = 0; g < points; g++) {
+            const vd *q = at[g].jump, area = lanes_set(table[MEMBRANE_POINTS + g * MEMBRANE_POINT_TABLE + MEMBRANE_AREA]);
+            c->flux += area * (q[0] * (at[g].mean[0] + at[g].traction[0]) + q[1] * (at[g].mean[1] + at[g].traction[1]));
+        }
+    }
+    membrane_give(c, order, i, &sides, at);
+}
+
+/* Internal forces of element e: its own, what symmetrisation adds to its stresses, and its interfaces'  (membrane.7). */
+LANES_FUNCTION void membrane_forces(const membrane_context *c, int order, size_t e, vd force[12])
+{
+    static const double shape[2][3][6][2] = {FRACAS_TRIANGLE_DERIVATIVES_1, FRACAS_TRIANGLE_DERIVATIVES_2};
+    const int nodes = MEMBRANE_NODES(order), points = MEMBRANE_BULK(order);
+    double *slot = c->slots + (e & c->tables->window) * (size_t)(MEMBRANE_SLOT(order) * LANES);
+    const double *bulk = c->tables->bulk + e * (size_t)(points * MEMBRANE_BULK_TABLE);
+    const vd c11 = lanes_set(c->membrane->c11), c12 = lanes_set(c->membrane->c12), c33 = lanes_set(c->membrane->c33);
+    UNROLL for (int i = 0; i < 2 * nodes; i++) force[i] = lanes_load(membrane_at(slot, MEMBRANE_SLOT_FORCE(order) + i));
+    UNROLL for (int g = 0; g < points; g++, bulk += MEMBRANE_BULK_TABLE) {
+        const double *extra = membrane_at(slot, MEMBRANE_SLOT_EXTRA(order) + 3 * g), *stress = membrane_at(slot, 3 * g);
+        const vd weight = lanes_set(bulk[MEMBRANE_WEIGHT]);
+        const vd xx = lanes_load(extra), yy = lanes_load(extra + LANES), xy = lanes_load(extra + 2 * LANES);
+        const vd n_xx = weight * lanes_load(stress) + (c11 * xx + c12 * yy);
+        const vd n_yy = weight * lanes_load(stress + LANES) + (c12 * xx + c11 * yy);
+        const vd n_xy = weight * lanes_load(stress + 2 * LANES) + c33 * xy;
+        const vd xi_x = lanes_set(bulk[MEMBRANE_XI_X]), xi_y = lanes_set(bulk[MEMBRANE_XI_Y]);
+        const vd eta_x = lanes_set(bulk[MEMBRANE_ETA_X]), eta_y = lanes_set(bulk[MEMBRANE_ETA_Y]);
+        const vd along_xi[2] = {n_xx * xi_x + n_xy * xi_y, n_xy * xi_x + n_yy * xi_y};
+        const vd along_eta[2] = {n_xx * eta_x + n_xy * eta_y, n_xy * eta_x + n_yy * eta_y};
+        UNROLL for (int k = 0; k < nodes; k++)
+            UNROLL for (int i = 0; i < 2; i++) {
+                if (shape[order - 1][g][k][0] != 0.0) force[2 * k + i] += lanes_set(shape[order - 1][g][k][0]) * along_xi[i];
+                if (shape[order - 1][g][k][1] != 0.0) force[2 * k + i] += lanes_set(shape[order - 1][g][k][1]) * along_eta[i];
+            }
+    }
+}
+
+/* Accelerations from internal and body forces, held components 0; the power of what holds them. */
+LANES_FUNCTION void membrane_accelerate(membrane_context *c, int order, size_t e, const vd *velocity, const vd *force, vd *acceleration)
+{
+    const int nodes = MEMBRANE_NODES(order), size = 2 * nodes;
+    const fracas_membrane_tables *t = c->tables;
+    const unsigned held = t->held ? t->held[e] : 0;
+    const double *consistent = t->consistent ? t->consistent + e * (size_t)(3 * nodes * nodes) : NULL;
+    UNROLL for (int i = 0; i < size; i++) {
+        if (!consistent) {
+            acceleration[i] = lanes_set(-t->lumped[e * (size_t)size + (size_t)(i / 2)]) * force[i];
+        } else {
+            acceleration[i] = lanes_set(0.0);
+            UNROLL for (int k = 0; k < nodes; k++)
+                acceleration[i] += lanes_set(-consistent[(i % 2 * nodes + i / 2) * nodes + k]) * force[2 * k + i % 2];
+        }
+        if (t->position) acceleration[i] += c->spin * lanes_set(t->position[e * (size_t)size + (size_t)i]); /* (membrane.10) */
+    }
+    if (__builtin_expect(held != 0, 0))
+        for (int i = 0; i < size; i++) {
+            if (!(held >> i & 1)) continue;
+            acceleration[i] = lanes_set(0.0);
+            vd reaction = force[i]; /* (membrane.11) */
+            for (int k = 0; consistent && k < nodes; k++)
+                if (!(held >> (2 * k + i % 2) & 1))
+                    reaction += lanes_set(consistent[(2 * nodes + i / 2) * nodes + k]) * acceleration[2 * k + i % 2];
+            c->power += reaction * velocity[i];
+        }
+}
+
+/* Forces and kick of element e, and its share of kinetic energy. */
+LANES_FUNCTION void membrane_kick(membrane_context *c, int order, int law, size_t e)
+{
+    const int nodes = MEMBRANE_NODES(order), size = 2 * nodes;
+    const fracas_membrane_constants *m = c->membrane;
+    const fracas_membrane_tables *t = c->tables;
+    double *at = c->elements + e * c->element_size;
+    const double *consistent = t->consistent ? t->consistent + e * (size_t)(3 * nodes * nodes) + 2 * nodes * nodes : NULL;
+    vd force[12], v[12], a[12], after[12];
+    membrane_forces(c, order, e, force);
+    UNROLL for (int i = 0; i < size; i++) v[i] = lanes_load(membrane_at(at, MEMBRANE_V * size + i));
+    membrane_accelerate(c, order, e, v, force, a);
+    if (law == MEMBRANE_OPERATOR) {
+        UNROLL for (int i = 0; i < size; i++) lanes_store(membrane_at(at, MEMBRANE_V * size + i), a[i]);
+        return;
+    }
+    UNROLL for (int i = 0; i < size; i++) after[i] = v[i];
+    if (!m->alpha) {
+        UNROLL for (int i = 0; i < size; i++) {
+            after[i] = central_kick(v[i], a[i], c->kick);
+            lanes_store(membrane_at(at, MEMBRANE_V * size + i), after[i]);
+        }
+    } else { /* (membrane.14); the first acceleration is the force's own */
+        const vd keep = lanes_set(c->begins ? 0.0 : m->alpha_m), share = lanes_set(c->begins ? 1.0 : 1.0 - m->alpha_m);
+        UNROLL for (int i = 0; i < size; i++) {
+            const vd old = c->begins ? a[i] : lanes_load(membrane_at(at, MEMBRANE_A_NEXT * size + i));
+            lanes_store(membrane_at(at, MEMBRANE_A * size + i), old);
+            lanes_store(membrane_at(at, MEMBRANE_A_NEXT * size + i), (a[i] - keep * old) / share);
+        }
+    }
+    UNROLL for (int k = 0; k < nodes; k++) { /* leapfrog: v_{n-1/2} M v_{n+1/2}  (membrane.9) */
+        vd momentum[2];
+        if (!consistent) {
+            const vd mass = lanes_set(t->lumped[e * (size_t)size + (size_t)(nodes + k)]);
+            momentum[0] = mass * v[2 * k];
+            momentum[1] = mass * v[2 * k + 1];
+        } else {
+            momentum[0] = momentum[1] = lanes_set(0.0);
+            UNROLL for (int l = 0; l < nodes; l++)
+                UNROLL for (int i = 0; i < 2; i++) momentum[i] += lanes_set(consistent[k * nodes + l]) * v[2 * l + i];
+        }
+        c->kinetic += momentum[0] * after[2 * k] + momentum[1] * after[2 * k + 1];
+        if (t->position) {
+            const double *x = t->position + e * (size_t)size + 2 * k;
+            c->moment += momentum[0] * lanes_set(x[0]) + momentum[1] * lanes_set(x[1]);
+        }
+    }
+}
+
+/* Angular velocity squared at a time. */
+LANES_FUNCTION vd membrane_spin(const fracas_membrane_constants *m, vd time)
+{
+    const vd zero = lanes_set(0.0), one = lanes_set(1.0);
+    vd share = m->ramp > 0 ? plane_max(zero, plane_min(one, time / lanes_set(m->ramp))) : one;
+    vd w = lanes_set(m->speed) * share;
+    return w * w;
+}
+
+/* Sums to energies [J], those of the potential (membrane.8), power [W] and work [J]. */
+LANES_FUNCTION void membrane_totals(const membrane_context *c)
+{
+    const fracas_membrane_constants *m = c->membrane;
+    fracas_step *step = c->step;
+    const vd half = lanes_set(0.5);
+    const int first = c->first;
+    lanes_store(step->kinetic + first, half * c->kinetic);
+    lanes_store(step->elastic + first, half * (c->strain_energy + c->flux));
+    lanes_store(step->cohesive + first, half * c->stored);
+    lanes_store(step->dissipated + first, c->dissipated + lanes_load(step->rubbed + first));
+    /* Central difference: exactly what the body force does between two steps is its mean times dt v_{n-1/2}. */
+    vd body = lanes_set(0.0), power = c->power;
+    if (c->tables->position && m->alpha) power += c->spin * c->moment;
+    if (c->tables->position && !m->alpha) {
+        const vd before = membrane_spin(m, lanes_load(step->time + first) - c->drift);
+        body = c->drift * half * (before + c->spin) * c->moment;
+    }
+    lanes_store(step->power + first, power);
+    lanes_store(step->work + first, body);
+}
+
+LANES_FUNCTION void membrane_run(const fracas_membrane_constants *m, fracas_step *step, int first, int order, int law)
+{
+    const vd zero = lanes_set(0.0);
+    const fracas_membrane_tables *t = m->tables;
+    double *state = step->state + (size_t)first * fracas_membrane_state_fields(m);
+    membrane_context context = {
+        .membrane = m, .tables = t, .step = step, .first = first, .elements = state,
+        .joints = state + fracas_membrane_joints_at(m) * LANES, .slots = state + fracas_membrane_slots_at(m) * LANES,
+        .element_size = fracas_membrane_element_fields(m) * LANES, .joint_size = fracas_membrane_joint_fields(m) * LANES,
+        .drift = lanes_load(step->drift + first), .kick = lanes_load(step->kick + first), .begins = !(step->drift[first] > 0),
+        .strain_energy = zero, .flux = zero, .stored = zero, .dissipated = zero, .kinetic = zero, .power = zero, .moment = zero};
+    membrane_context *c = &context;
+    c->spin = membrane_spin(m, lanes_load(step->time + first));
+    for (size_t e = 0; e < t->nelements; e++) {
+        if (law != MEMBRANE_OPERATOR) membrane_drift(c, order, e);
+        membrane_strain(c, order, e);
+        for (size_t j = t->join_from[e]; j < t->join_from[e + 1]; j++) membrane_join(c, order, law, t->join[j]);
+        for (size_t f = t->finish_from[e]; f < t->finish_from[e + 1]; f++) membrane_kick(c, order, law, t->finish[f]);
+    }
+    if (law != MEMBRANE_OPERATOR) membrane_totals(c);
+}
+
+#define MEMBRANE_SWEEP_OF(name, order, law)                                                                \
+    static void MEMBRANE_SWEEP(name)(const fracas_membrane_constants *membrane, fracas_step *step, int first) \
+    {                                                                                                      \
+        membrane_run(membrane, step, first, order, law);                                                   \
+    }
+MEMBRANE_SWEEP_OF(nitsche_linear, 1, MEMBRANE_NITSCHE)
+MEMBRANE_SWEEP_OF(nitsche_quadratic, 2, MEMBRANE_NITSCHE)
+MEMBRANE_SWEEP_OF(extrinsic_linear, 1, MEMBRANE_EXTRINSIC)
+MEMBRANE_SWEEP_OF(extrinsic_quadratic, 2, MEMBRANE_EXTRINSIC)
+#if LANES == 1
+MEMBRANE_SWEEP_OF(operator_linear, 1, MEMBRANE_OPERATOR)
+MEMBRANE_SWEEP_OF(operator_quadratic, 2, MEMBRANE_OPERATOR)
+#endif
+#undef MEMBRANE_SWEEP_OF
+#undef membrane_context
+#undef membrane_sides
+#undef membrane_sides_of
+#undef membrane_at
+#undef membrane_point
+#undef membrane_strain
+#undef membrane_drift
+#undef membrane_flux
+#undef membrane_give
+#undef membrane_law_of
+#undef membrane_crack
+#undef membrane_join
+#undef membrane_forces
+#undef membrane_accelerate
+#undef membrane_kick
+#undef membrane_totals
+#undef membrane_run
+#undef membrane_book
+#undef membrane_spin
+#undef UNROLL
+#undef plane_interface
+#undef plane_input
+#undef plane_result
+#undef plane_abs
+#undef plane_max
+#undef plane_min
+#undef plane_effective
+#undef plane_onset
+#undef plane_energy
+#undef plane_nitsche
+#undef plane_nitsche_state
+#undef plane_friction
+#undef plane_rub
+#undef plane_extrinsic
+#undef plane_extrinsic_state
+#undef central_drift
+#undef central_kick
+#include "base/lanes_end.h"

@@ -1,0 +1,10 @@
+/* Schemes of time integration and mass matrices that a campaign file can name. */
+#ifndef FRACAS_ENGINE_INTEGRATOR_INTEGRATOR_H
+#define FRACAS_ENGINE_INTEGRATOR_INTEGRATOR_H
+
+#include "base/param.h"
+
+extern const fracas_kind fracas_integrator_central_difference, fracas_integrator_hulbert_chung;
+extern const fracas_kind fracas_mass_lumped, fracas_mass_consistent;
+
+#endif

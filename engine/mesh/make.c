@@ -1,0 +1,72 @@
+#include "engine/mesh/make.h"
+
+#include "engine/mesh/body.h"
+#include "engine/mesh/surface/gmsh.h"
+
+bool fracas_spec_is_surface(const fracas_spec *spec)
+{
+    const fracas_kind *shape = spec->geometry.shape;
+    return shape == &fracas_shape_plate || shape == &fracas_shape_annulus || shape == &fracas_shape_file;
+}
+
+static fracas_err check_spacing(const fracas_spec *spec)
+{
+    const bool from_file = spec->geometry.shape == &fracas_shape_file;
+    if (from_file == (spec->mesh.spacing == &fracas_spacing_given)) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "geometry.shape is %s, and mesh.spacing %s: %s", spec->geometry.shape->name,
+                       spec->mesh.spacing->name,
+                       from_file ? "write `spacing: given`, as the file has the elements"
+                                 : "write `spacing: triangles` with size or divisions");
+}
+
+fracas_err fracas_mesh_make(const fracas_spec *spec, const fracas_surface **surface)
+{
+    const fracas_geometry *geometry = &spec->geometry;
+    const fracas_mesh *mesh = &spec->mesh;
+    TRY(check_spacing(spec));
+    if (geometry->shape == &fracas_shape_file) {
+        fracas_err err = fracas_surface_read_gmsh(geometry->file->text, geometry->file->size, surface);
+        return err ? fracas_fail_within(err, "mesh file %s", geometry->file->path) : FRACAS_OK;
+    }
+    const fracas_surface_fineness fineness = {
+        .size = mesh->size, .divisions = (size_t)mesh->divisions, .order = (int)mesh->order,
+        .amplitude = mesh->noise ? mesh->amplitude : 0.0, .shift = (const double(*)[2])(const void *)mesh->noise,
+        .nshifts = mesh->nnoise / 2};
+    return geometry->shape == &fracas_shape_plate
+               ? fracas_surface_rectangle(geometry->width, geometry->height, &fineness, surface)
+               : fracas_surface_annulus(geometry->inner, geometry->outer, &fineness, surface);
+}
+
+fracas_err fracas_mesh_noise_count(const fracas_spec *spec, size_t *count)
+{
+    *count = 0;
+    if (spec->mesh.spacing == &fracas_spacing_perturbed) *count = (size_t)spec->mesh.elements + 1;
+    if (spec->mesh.spacing != &fracas_spacing_triangles || !(spec->mesh.amplitude > 0)) return FRACAS_OK;
+    fracas_spec regular = *spec;
+    const fracas_surface *surface;
+    regular.mesh.noise = NULL;
+    TRY(fracas_mesh_make(&regular, &surface));
+    *count = 2 * surface->nvertices;
+    fracas_surface_destroy(surface);
+    return FRACAS_OK;
+}
+
+static double mean_area(const fracas_surface *surface)
+{
+    double area = 0;
+    for (size_t i = 0; i < surface->ninterfaces; i++)
+        for (int side = 0; side < 2; side++) area += fracas_surface_area(surface, surface->interface[i].element[side]);
+    return surface->ninterfaces ? area / 3 / (double)surface->ninterfaces : fracas_surface_area(surface, 0);
+}
+
+fracas_err fracas_mesh_interface_volume(const fracas_spec *spec, double *volume)
+{
+    const fracas_geometry *geometry = &spec->geometry;
+    *volume = geometry->area * fracas_spec_length(spec) / (double)spec->mesh.elements;
+    if (!fracas_spec_is_surface(spec)) return FRACAS_OK;
+    const fracas_surface *surface;
+    TRY(fracas_mesh_make(spec, &surface));
+    *volume = geometry->thickness * mean_area(surface);
+    fracas_surface_destroy(surface);
+    return FRACAS_OK;
+}

@@ -1,0 +1,87 @@
+#include "sampler/lines.h"
+
+#include <string.h>
+#include <strings.h>
+
+fracas_lines fracas_lines_begin(const fracas_attachment *file)
+{
+    static const char mark[] = "\xef\xbb\xbf"; /* some programs put it before UTF-8 */
+    const size_t skip = strncmp(file->text, mark, 3) == 0 ? 3 : 0;
+    return (fracas_lines){.file = file, .at = file->text + skip, .end = file->text + file->size};
+}
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+bool fracas_lines_next(fracas_lines *lines)
+{
+    const bool begun = lines->start != NULL;
+    while (lines->at < lines->end) {
+        const char *start = lines->at, *stop = memchr(start, '\n', (size_t)(lines->end - start));
+        if (!stop) stop = lines->end;
+        lines->at = stop < lines->end ? stop + 1 : stop;
+        lines->line++;
+        while (start < stop && is_blank(*start)) start++;
+        while (start < stop && is_blank(stop[-1])) stop--;
+        if (start == stop || *start == '#') continue;
+        lines->start = start;
+        lines->stop = stop;
+        lines->first = !begun;
+        return true;
+    }
+    return false;
+}
+
+static void take(const char *start, const char *stop, char field[FRACAS_FIELD])
+{
+    const size_t length = (size_t)(stop - start), kept = length < FRACAS_FIELD ? length : FRACAS_FIELD - 1;
+    memcpy(field, start, kept);
+    field[kept] = '\0';
+    if (strlen(field) != kept) field[0] = '\0';
+}
+
+void fracas_lines_last_field(const fracas_lines *lines, char field[FRACAS_FIELD])
+{
+    const char *start = lines->stop;
+    while (start > lines->start && start[-1] != ',' && !is_blank(start[-1])) start--;
+    take(start, lines->stop, field);
+}
+
+void fracas_lines_field(fracas_lines *lines, char field[FRACAS_FIELD])
+{
+    const char *stop = lines->start;
+    while (stop < lines->stop && *stop != ',' && !is_blank(*stop)) stop++;
+    take(lines->start, stop, field);
+    while (stop < lines->stop && is_blank(*stop)) stop++;
+    if (stop < lines->stop && *stop == ',') stop++;
+    while (stop < lines->stop && is_blank(*stop)) stop++;
+    lines->start = stop;
+}
+
+bool fracas_lines_is_heading(const char *field)
+{
+    static const char *const words[] = {"nan", "inf", "infinity"};
+    for (size_t w = 0; w < FRACAS_COUNT(words); w++)
+        if (strcasecmp(field, words[w]) == 0) return false;
+    return *field && !strchr("0123456789+-.", *field);
+}
+
+fracas_err fracas_lines_summarize(const fracas_attachment *file, fracas_lines_reader *read, fracas_lines_summary *summary)
+{
+    fracas_lines lines = fracas_lines_begin(file);
+    *summary = (fracas_lines_summary){.smallest = INFINITY};
+    for (;;) {
+        bool found;
+        double strength;
+        TRY(read(&lines, &strength, &found));
+        if (!found) break;
+        summary->count++;
+        summary->sum += strength;
+        summary->smallest = fmin(summary->smallest, strength);
+        summary->largest = fmax(summary->largest, strength);
+    }
+    if (summary->count > 0) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "%s has no strength; expected one in Pa on each line", file->path);
+}

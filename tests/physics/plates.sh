@@ -1,0 +1,39 @@
+# ctest-labels: slow-sanitize
+# ctest-serial
+# The shipped plates, smaller: a homogeneous plate ring bursts later and into more pieces than a scattered one; a homogeneous plate
+# pulled on its sides breaks into more and smaller pieces than a scattered one.
+. tests/support/campaigns.sh
+
+sed 's/^replicas: .*/replicas: 8/; s/size: 0.3 mm/size: 0.7 mm/' "$source/campaigns/examples/plate-ring.yaml" > ring.yaml
+sed 's/^replicas: .*/replicas: 8/; s/size: 0.05 mm/size: 0.07 mm/; s/end: 200 ns/end: 100 ns/' "$source/campaigns/examples/plate-biaxial.yaml" > biaxial.yaml
+for name in ring biaxial; do
+    expect 0 "$fracas" run "$name.yaml" --study "$name"
+    "$fracas" report "$name" --json > "$name.json"
+done
+for point in 0 1; do expect 0 "$fracas" picture ring --point $point --table --times 30us -o times; done
+/usr/bin/python3 - <<'END'
+import csv, json
+
+def points(name):
+    found = json.load(open(name + ".json"))["points"]
+    for p in found:
+        s = p["statistics"]
+        assert s["usable"] == s["realizations"] == 8, p
+        assert s["residual"] < 5e-3 and s["created"] < 5e-2, s # coarse: 3e-3 and 2e-2
+    return found
+
+# The paper: m = 5 cracks at about 28 us, m = 40 at 36 to 44 us. Between the last of the one and the first of the other are some 5 us.
+first = [[float(r["first_break"]) for r in csv.DictReader(l for l in open(f"times/times-point-{p}.csv") if l[0] != "#")] for p in (0, 1)]
+through = [[r["through_1_2"] for r in csv.DictReader(l for l in open(f"times/times-point-{p}.csv") if l[0] != "#")] for p in (0, 1)]
+print("first break", [f"{1e6 * min(t):.1f} to {1e6 * max(t):.1f} us" for t in first])
+assert 26e-6 < min(first[0]) and max(first[0]) < 33e-6 and 34e-6 < min(first[1]) and max(first[1]) < 40e-6
+assert all(all(t) for t in through) # every ring is cracked through
+scattered, homogeneous = (p["statistics"] for p in points("ring"))
+print("pieces", scattered["count.mean"], homogeneous["count.mean"])
+assert homogeneous["count.mean"] > 1.2 * scattered["count.mean"]
+
+uniform, weibull = (p["statistics"] for p in points("biaxial"))
+print("biaxial", {k: (uniform[k], weibull[k]) for k in ("count.mean", "count.half_width", "size.mean", "size.half_width", "residual", "created")})
+assert uniform["count.mean"] - uniform["count.half_width"] > weibull["count.mean"] + weibull["count.half_width"]
+assert uniform["size.mean"] + uniform["size.half_width"] < weibull["size.mean"] - weibull["size.half_width"]
+END

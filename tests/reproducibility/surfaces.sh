@@ -1,0 +1,96 @@
+# A plate, an annulus of curved elements and a bar in one study: study.h5 with its meshes is the same, byte for byte, whatever
+# computes it; the report and `fracas picture` draw the surfaces, and only them.
+. tests/support/campaigns.sh
+
+annulus='{name: annulus, geometry: {shape: annulus, inner: 2 mm, outer: 4 mm, thickness: 0.1 mm}, mesh: {divisions: 4, order: 2}}'
+bar='{name: bar, model: bar, geometry: {shape: bar, length: 5 mm, area: 1 mm2}, mesh: {elements: 50}, material: {young: 370 GPa, density: 3900 kg/m3}, cohesive: {law: nitsche, fracture_energy: 50 J/m2}, loading: {type: imposed-rate, rate: 1e4 1/s}}'
+# surfaces FILE REPLICAS: a second of one core.
+surfaces()
+{
+    cat > "$1" <<END
+name: surfaces
+seed: 5
+model: membrane
+geometry: {width: 10 mm, height: 5 mm, thickness: 0.1 mm}
+mesh: {divisions: 6, amplitude: 0.2}
+material: {young: 370 GPa, poisson: 0.25, density: 3900 kg/m3}
+cohesive: {fracture_energy: 50 J/m2}
+strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}
+loading: {rate: 1e4 1/s}
+time: {end: 0.6 us}
+replicas: $2
+output: {interfaces: true}
+sweep:
+  - cases:
+      - $bar
+      - {name: plate}
+      - $annulus
+END
+}
+
+surfaces all.yaml 3
+expect 0 "$fracas" run all.yaml --study one --jobs 1
+said 'no dust'
+[ "$(h5dump -d /mesh/node_offset one/study.h5 | grep -c '(0): 0, 0, 91, ')" = 1 ] || fail "the plate's mesh has not 13 x 7 nodes"
+h5dump -d /realization/outcome one/study.h5 | grep -q '^ *(0): [02], [02], [02], 0, 0, 0, 0, 0, 0$' || fail "not every surface broke"
+compare all.yaml --jobs 2 --shuffle
+compare all.yaml --jobs 2 --lanes 1 --segment-size 1e-6 # a segment for each realization
+for isa in baseline $(instruction_sets); do
+    compare all.yaml --jobs 2 --isa "$isa" --lanes 8
+done
+expect 0 "$fracas" verify one
+
+# Extended: merged again, with the meshes of all points.
+surfaces part.yaml 2
+sed -i '/name: annulus/d' part.yaml
+expect 0 "$fracas" run part.yaml --study extended
+expect 0 "$fracas" run all.yaml --study extended
+same one extended
+
+# The first times are those of the interfaces, by another reader; fragments at the end are those of the run.
+expect 0 "$fracas" picture one --point 1 --replica 1 --table -o drawn
+said '^drawn/surface-point-1-replica-1-6.svg: '
+said '^first crack through: [0-9.]* ns$'
+onset=$(awk -F, '$1 == 1 {print $3}' drawn/times-point-1.csv)
+awk -v onset="$onset" 'BEGIN {exit !(onset > 0 && onset < 6e-7)}' || fail "onset $onset"
+fragments=$(awk -F, '$1 == 1 {print $9}' drawn/times-point-1.csv)
+grep -q ": $fragments fragments" drawn/surface-point-1-replica-1-6.svg || fail "the picture at the end has not $fragments fragments"
+[ "$(ls drawn | wc -l)" = 7 ] || fail "six pictures and a table were expected"
+
+expect 0 "$fracas" picture one --point 2 --times "0.2us,3e-7, 600 ns" --show mesh
+[ "$(ls one/pictures | wc -l)" = 3 ] || fail "three pictures were expected"
+grep -q 'class="mesh"' one/pictures/surface-point-2-replica-0-1.svg || fail "no mesh was drawn"
+expect 0 "$fracas" picture one --point 2 --times 2 --show cracks -o cracks
+! grep -q 'class="t0"' cracks/surface-point-2-replica-0-2.svg || fail "fragments were drawn"
+
+# The report has the pictures of both surfaces.
+expect 0 "$fracas" report one
+for point in 1 2; do
+    for k in 1 2 3 4 5 6; do
+        grep -q "<figure id=\"surface-point-$point-$k\">" one/report/index.html || fail "the page lacks picture $k of point $point"
+        [ -s "one/report/surface-point-$point-$k.svg" ] || fail "picture $k of point $point is no file"
+    done
+done
+! grep -q 'surface-point-0' one/report/index.html || fail "the bar was drawn as a surface"
+
+# refuses TEXT ARGUMENTS...
+refuses()
+{
+    text=$1
+    shift
+    expect 2 "$fracas" picture "$@" -o nowhere
+    said "$text"
+    [ ! -e nowhere ] || fail "a folder was made for nothing"
+}
+refuses 'there is no point 3: one has 3 of them' one --point 3
+refuses 'there is no replica 3: point 1 has 3 of them' one --point 1 --replica 3
+refuses 'point 0 is no surface' one
+refuses 'time 1.000 us is outside of the realization, which goes from 0 to 60' one --point 1 --times 1us
+refuses '`5 mm` is a length; expected a time' one --point 1 --times 5mm
+refuses '`x` is not a number' one --point 1 --times 100ns,x
+refuses 'it must be a whole number from 1 to 1000' one --point 1 --times 0
+refuses 'it can be: cracks, fragments, mesh' one --point 1 --show fragment
+sed '/^output/d' part.yaml > without.yaml
+expect 0 "$fracas" run without.yaml --study without
+! h5ls without/study.h5 | grep -q mesh || fail "meshes are kept without interfaces"
+refuses 'keeps no interfaces' without --point 1

@@ -1,0 +1,261 @@
+/* Uncracked membranes: their meshes, fields on them, and K as a matrix (docs/theory/membrane.md). */
+#ifndef FRACAS_TESTS_SUPPORT_MEMBRANE_ELASTIC_H
+#define FRACAS_TESTS_SUPPORT_MEMBRANE_ELASTIC_H
+
+#include "engine/cohesive/law.h"
+#include "engine/formulation/surface/membrane.h"
+#include "engine/integrator/integrator.h"
+#include "engine/loading/loading.h"
+#include "engine/mesh/body.h"
+#include "engine/mesh/make.h"
+#include "engine/solver/batch.h"
+#include "sampler/sampler.h"
+#include "tests/support/bar.h"
+
+#include <gsl/gsl_eigen.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+
+/* A free plate or annulus of order `order`, `divisions` of its shorter side or between its circles; lumped masses, beta 4. */
+static inline fracas_spec membrane_spec(const fracas_kind *shape, int64_t order, int64_t divisions)
+{
+    fracas_spec spec = {
+        .formulation = &fracas_formulation_membrane.kind,
+        .geometry = {.shape = shape, .thickness = 1e-3},
+        .mesh = {.spacing = &fracas_spacing_triangles, .divisions = divisions, .order = order},
+        .material = {.young = 320e9, .density = 3300, .poisson = 0.3},
+        .cohesive = {.law = &fracas_law_nitsche, .fracture_energy = 200, .beta = 4, .onset = &fracas_onset_mean, .coupling = 1},
+        .loading = {.type = &fracas_loading_expansion, .rate = 1e4, .ratio = 1, .start = &fracas_start_moving},
+        .time = {.stop = &fracas_stop_time, .end = 1e-6, .safety = 0.9, .integrator = &fracas_integrator_central_difference,
+                 .spectral_radius = 0.8, .mass = &fracas_mass_lumped}};
+    if (shape == &fracas_shape_plate) {
+        spec.geometry.width = 12e-3;
+        spec.geometry.height = 10e-3;
+    } else {
+        spec.geometry.inner = 6.5e-3;
+        spec.geometry.outer = 13e-3;
+    }
+    return spec;
+}
+
+#define DISTORTION 0.2
+
+/* Plates, annuli of both orders. */
+enum { BODIES = 4 };
+static inline fracas_spec body_of(int which, int64_t divisions)
+{
+    return membrane_spec(which < 2 ? &fracas_shape_plate : &fracas_shape_annulus, which % 2 + 1, divisions);
+}
+
+/* Its model; `distortion` moves inner vertices by that share of the local edge, by random numbers of this seed. */
+static inline fracas_model *membrane_model(fracas_spec spec, double distortion, uint64_t seed)
+{
+    const fracas_stream stream = {.seed = seed, .purpose = FRACAS_PURPOSE_MESH};
+    fracas_model *model = NULL;
+    size_t count = 0;
+    spec.mesh.amplitude = distortion;
+    assert_ok(fracas_mesh_noise_count(&spec, &count));
+    double *noise = malloc((count + 1) * sizeof *noise);
+    assert_non_null(noise);
+    for (size_t i = 0; i < count; i++) noise[i] = 2 * fracas_stream_uniform(&stream, i) - 1;
+    spec.mesh.noise = count ? noise : NULL;
+    spec.mesh.nnoise = count;
+    assert_ok(fracas_model_create(&spec, &model));
+    free(noise);
+    return model;
+}
+
+static inline const fracas_membrane_tables *tables_of(const fracas_model *model) { return model->plan; }
+
+static inline size_t unknowns_of(const fracas_model *model) { return 2 * model->surface->corners * model->elements; }
+
+static inline double *vector_of(size_t n)
+{
+    double *v = calloc(n, sizeof *v);
+    assert_non_null(v);
+    return v;
+}
+
+static inline const double *node_at(const fracas_model *model, size_t element, size_t k)
+{
+    return model->surface->node[model->surface->element[element * model->surface->corners + k]];
+}
+
+static inline bool is_held(const fracas_model *model, size_t unknown)
+{
+    const size_t size = 2 * model->surface->corners;
+    const fracas_membrane_tables *t = tables_of(model);
+    return t->held && (t->held[unknown / size] >> (unknown % size) & 1);
+}
+
+/* Displacements at a place. */
+typedef void membrane_field(const void *how, const double x[2], double u[2]);
+
+static inline void interpolate(const fracas_model *model, membrane_field *field, const void *how, double *u)
+{
+    for (size_t e = 0; e < model->elements; e++)
+        for (size_t k = 0; k < model->surface->corners; k++)
+            field(how, node_at(model, e, k), u + 2 * (model->surface->corners * e + k));
+}
+
+static inline fracas_membrane_operator *open_operator(const fracas_model *model)
+{
+    fracas_membrane_operator *op = NULL;
+    assert_ok(fracas_membrane_operator_open(model, 0, &op));
+    return op;
+}
+
+/* result = M a */
+static inline void multiply_mass(const fracas_model *model, const double *a, double *result)
+{
+    const fracas_membrane_tables *t = tables_of(model);
+    const size_t nodes = model->surface->corners;
+    for (size_t e = 0; e < model->elements; e++)
+        for (size_t k = 0; k < nodes; k++)
+            for (size_t i = 0; i < 2; i++) {
+                double sum = t->consistent ? 0 : t->lumped[(2 * e + 1) * nodes + k] * a[2 * (nodes * e + k) + i];
+                for (size_t l = 0; t->consistent && l < nodes; l++)
+                    sum += t->consistent[((3 * e + 2) * nodes + k) * nodes + l] * a[2 * (nodes * e + l) + i];
+                result[2 * (nodes * e + k) + i] = sum;
+            }
+}
+
+/* f = K u [N], 0 where nodes are held. */
+static inline void apply_stiffness(const fracas_model *model, fracas_membrane_operator *op, const double *u, double *f)
+{
+    const size_t n = unknowns_of(model);
+    double *a = vector_of(n);
+    fracas_membrane_operator_apply(op, u, a);
+    multiply_mass(model, a, f);
+    for (size_t i = 0; i < n; i++) f[i] = is_held(model, i) ? 0 : -f[i];
+    free(a);
+}
+
+/* K as a matrix, [n][n]: column j is the force of a unit displacement j. */
+static inline double *stiffness_matrix(const fracas_model *model, size_t n)
+{
+    fracas_membrane_operator *op = open_operator(model);
+    double *unit = vector_of(n), *column = vector_of(n), *matrix = vector_of(n * n);
+    for (size_t j = 0; j < n; j++) {
+        unit[j] = 1;
+        apply_stiffness(model, op, unit, column);
+        unit[j] = 0;
+        for (size_t i = 0; i < n; i++) matrix[i * n + j] = column[i];
+    }
+    free(unit);
+    free(column);
+    fracas_membrane_operator_close(op);
+    return matrix;
+}
+
+/* Eigenvalues of a symmetric matrix, ascending. */
+static inline double *eigenvalues_of(const double *matrix, size_t n)
+{
+    gsl_matrix *copy = gsl_matrix_alloc(n, n);
+    gsl_vector *values = gsl_vector_alloc(n);
+    gsl_eigen_symm_workspace *work = gsl_eigen_symm_alloc(n);
+    assert_true(copy && values && work);
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++) gsl_matrix_set(copy, i, j, 0.5 * (matrix[i * n + j] + matrix[j * n + i]));
+    gsl_eigen_symm(copy, values, work);
+    double *sorted = vector_of(n);
+    for (size_t i = 0; i < n; i++) {
+        size_t at = i;
+        const double value = gsl_vector_get(values, i);
+        for (; at > 0 && sorted[at - 1] > value; at--) sorted[at] = sorted[at - 1];
+        sorted[at] = value;
+    }
+    gsl_eigen_symm_free(work);
+    gsl_vector_free(values);
+    gsl_matrix_free(copy);
+    return sorted;
+}
+
+/* Shape functions and their derivatives by xi, eta, from the Lagrange polynomials in the barycentric coordinates. */
+static inline void lagrange(size_t nodes, double xi, double eta, double *value, double (*slope)[2])
+{
+    const double l[3] = {1 - xi - eta, xi, eta}, grad[3][2] = {{-1, -1}, {1, 0}, {0, 1}};
+    for (size_t k = 0; k < nodes; k++)
+        for (int i = -1; i < 2; i++) {
+            const size_t a = k < 3 ? k : k - 3, b = k < 3 ? k : (k - 2) % 3;
+            double by[3] = {0}; /* dN/dl */
+            double of = nodes == 3 ? l[a] : k < 3 ? 2 * l[a] * (l[a] - 0.5) : 4 * l[a] * l[b];
+            if (nodes == 3) by[a] = 1;
+            else if (k < 3) by[a] = 4 * l[a] - 1;
+            else by[a] = 4 * l[b], by[b] = 4 * l[a];
+            if (i < 0) value[k] = of;
+            else slope[k][i] = by[0] * grad[0][i] + by[1] * grad[1][i] + by[2] * grad[2][i];
+        }
+}
+
+/* A place in an element: its coordinates, shape functions, their derivatives by x, y, the Jacobian's determinant. */
+typedef struct {
+    double x[2], shape[6], by[6][2], det;
+} membrane_place;
+
+static inline membrane_place place_at(const fracas_model *model, size_t e, double xi, double eta)
+{
+    const size_t nodes = model->surface->corners;
+    membrane_place p = {.x = {0, 0}};
+    double slope[6][2], j[2][2] = {{0}};
+    lagrange(nodes, xi, eta, p.shape, slope);
+    for (size_t k = 0; k < nodes; k++)
+        for (int i = 0; i < 2; i++) {
+            p.x[i] += p.shape[k] * node_at(model, e, k)[i];
+            for (int a = 0; a < 2; a++) j[i][a] += slope[k][a] * node_at(model, e, k)[i];
+        }
+    p.det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
+    for (size_t k = 0; k < nodes; k++) {
+        p.by[k][0] = (slope[k][0] * j[1][1] - slope[k][1] * j[1][0]) / p.det;
+        p.by[k][1] = (slope[k][1] * j[0][0] - slope[k][0] * j[0][1]) / p.det;
+    }
+    return p;
+}
+
+/* xi, eta at s along an edge, from its first vertex. */
+static inline void on_edge(size_t edge, double s, double at[2])
+{
+    const double corner[3][2] = {{0, 0}, {1, 0}, {0, 1}};
+    for (int i = 0; i < 2; i++) at[i] = (1 - s) * corner[edge][i] + s * corner[(edge + 1) % 3][i];
+}
+
+/* Outward normal by |dx/ds| at s along an edge, by differences: exact for the quadratic. */
+static inline void edge_normal(const fracas_model *model, size_t e, size_t edge, double s, double normal[2])
+{
+    double from[2], to[2];
+    on_edge(edge, s - 0.25, from);
+    on_edge(edge, s + 0.25, to);
+    const membrane_place a = place_at(model, e, from[0], from[1]), b = place_at(model, e, to[0], to[1]);
+    normal[0] = 2 * (b.x[1] - a.x[1]);
+    normal[1] = -2 * (b.x[0] - a.x[0]);
+}
+
+/* Stress xx, yy, xy of plane stress from du_i/dx_j. */
+static inline void hooke(const fracas_material *m, double by[2][2], double stress[3])
+{
+    const double c = m->young / (1 - m->poisson * m->poisson);
+    stress[0] = c * (by[0][0] + m->poisson * by[1][1]);
+    stress[1] = c * (by[1][1] + m->poisson * by[0][0]);
+    stress[2] = c * (1 - m->poisson) / 2 * (by[0][1] + by[1][0]);
+}
+
+static inline void stress_at(const fracas_model *model, const membrane_place *p, const double *u, double stress[3])
+{
+    double by[2][2] = {{0}};
+    for (size_t k = 0; k < model->surface->corners; k++)
+        for (int i = 0; i < 2; i++)
+            for (int j = 0; j < 2; j++) by[i][j] += p->by[k][j] * u[2 * k + (size_t)i];
+    hooke(&model->spec.material, by, stress);
+}
+
+static inline double largest_of(const double *v, size_t n)
+{
+    double largest = 0;
+    for (size_t i = 0; i < n; i++) largest = fmax(largest, fabs(v[i]));
+    return largest;
+}
+
+#endif

@@ -1,0 +1,15 @@
+#!/bin/sh
+# No fused multiply-add anywhere in what computes: with one, a realization's bits would depend on the instruction set. That
+# contraction is off does not keep every compiler from it.
+set -eu
+
+command -v objdump >/dev/null || { echo "skipped: there is no objdump"; exit 0; }
+for library in base engine sampler; do
+    objdump -d --no-show-raw-insn "$1/libfracas_$library.a" >"$1/disassembled"
+    grep -q 'vmulpd' "$1/disassembled" || [ $library != engine ] || { echo "no vector instruction was found: is this the engine?"; exit 1; }
+    if grep -E 'vf(n?m)(add|sub)' "$1/disassembled"; then
+        echo "libfracas_$library.a has fused operations"
+        exit 1
+    fi
+done
+rm "$1/disassembled"

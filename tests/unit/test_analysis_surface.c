@@ -1,0 +1,613 @@
+/* Broken surfaces: their state at a time, cracks through the width, their pictures, and what `fracas picture` refuses. Meshes are
+ * made by hand: grids of squares of 1 m, cut in two. */
+#include "tests/support/store_sample.h"
+#include "tests/support/stored_mesh.h"
+
+#include "analysis/analysis.h"
+#include "analysis/report/figures.h"
+#include "analysis/report/tint.h"
+#include "analysis/report/trail.h"
+#include "analysis/report/surface_picture.h"
+#include "analysis/slope.h"
+#include "analysis/study.h"
+#include "analysis/surface.h"
+#include "analysis/table.h"
+
+static const grid_shape plate = {.nx = 6, .ny = 4}, ring = {.nx = 12, .ny = 3, .rolled = true};
+
+/* Breaks the vertical line at column `i` from row `from` to row `to`: the interface above row j at time start + j. */
+static void crack_up(const grid_shape *shape, const fracas_stored_mesh *mesh, fracas_record *record, size_t i, size_t from,
+                     size_t to, double start)
+{
+    for (size_t j = from; j < to; j++)
+        assert_true(grid_crack(mesh, record, grid_vertex(shape, i, j), grid_vertex(shape, i, j + 1), start + (double)j - 0.5,
+                               start + (double)j));
+}
+
+/* The horizontal line at row `j`, likewise. */
+static void crack_across(const grid_shape *shape, const fracas_stored_mesh *mesh, fracas_record *record, size_t j, size_t from,
+                         size_t to, double start)
+{
+    for (size_t i = from; i < to; i++)
+        assert_true(grid_crack(mesh, record, grid_vertex(shape, i, j), grid_vertex(shape, i + 1, j), start + (double)i - 0.5,
+                               start + (double)i));
+}
+
+static void assert_state(const fracas_stored_mesh *mesh, const fracas_record *record, double time, size_t fragments,
+                         size_t cracked, size_t broken)
+{
+    fracas_surface_state state;
+    OK(fracas_surface_state_create(mesh, record, time, &state));
+    assert_int_equal(state.nfragments, fragments);
+    assert_int_equal(state.ncracked, cracked);
+    assert_int_equal(state.nbroken, broken);
+    size_t sum = 0;
+    for (size_t f = 0; f < state.nfragments; f++) sum += state.elements[f];
+    assert_int_equal(sum, mesh->nelements);
+    fracas_surface_state_clear(&state);
+}
+
+/* A vertical cut at column 2 makes pieces of 2 by 4 and 4 by 4 squares; one along row 1 then 4 of them. */
+static void a_plate_is_cut_in_two_and_in_four(void **state)
+{
+    (void)state;
+    fracas_stored_mesh mesh;
+    fracas_record record;
+    fracas_surface_state now;
+    fracas_surface_times times;
+    grid_make(&plate, &mesh);
+    assert_null(fracas_stored_mesh_fault(&mesh));
+    assert_int_equal(mesh.ninterfaces, 6 * 4 + 5 * 4 + 6 * 3);
+    grid_record(&mesh, 100, &record);
+    OK(fracas_surface_times_of(&mesh, &record, &times));
+    assert_true(isnan(times.onset) && isnan(times.broken) && isnan(times.through[0]) && isnan(times.through[1]));
+    assert_state(&mesh, &record, 100, 1, 0, 0);
+    crack_up(&plate, &mesh, &record, 2, 0, 4, 10);      /* breaks at 10, 11, 12, 13 */
+    crack_across(&plate, &mesh, &record, 1, 0, 6, 20);  /* at 20 to 25 */
+    assert_state(&mesh, &record, 9.4, 1, 0, 0);
+    assert_state(&mesh, &record, 9.5, 1, 1, 0); /* cracked from the very time on */
+    assert_state(&mesh, &record, 10, 1, 0, 1);
+    assert_state(&mesh, &record, 12.5, 1, 1, 3);
+    assert_state(&mesh, &record, 13, 2, 0, 4);
+    assert_state(&mesh, &record, 21, 3, 0, 6); /* the left half is cut through first */
+    assert_state(&mesh, &record, 25, 4, 0, 10);
+    OK(fracas_surface_state_create(&mesh, &record, 13, &now));
+    for (size_t e = 0; e < mesh.nelements; e++) assert_int_equal(now.fragment[e], e / 2 % plate.nx >= 2);
+    assert_int_equal(now.elements[0], 2 * 2 * 4);
+    assert_int_equal(now.ndust, 0);
+    fracas_surface_state_clear(&now);
+    OK(fracas_surface_times_of(&mesh, &record, &times));
+    assert_true(times.onset == 9.5 && times.broken == 10);
+    assert_true(times.through[1] == 13); /* bottom to top */
+    assert_true(times.through[0] == 25); /* left to right */
+    fracas_record_clear(&record);
+    fracas_stored_mesh_clear(&mesh);
+}
+
+/* One element cut out, or two that are neighbours: dust. Three are none. Elements 0 and 1 are a square, 3 is beside 0, and 2
+ * beside 3. */
+static void small_pieces_are_dust(void **state)
+{
+    (void)state;
+    static const struct {
+        unsigned cut; /* bit e: element e is cut out */
+        size_t fragments, dust;
+    } expected[] = {{1, 2, 1}, {1 | 2, 2, 1}, {1 | 2 | 4, 3, 2}, {1 | 2 | 8, 2, 0}, {1 | 2 | 4 | 8, 2, 0}};
+    for (size_t k = 0; k < sizeof expected / sizeof *expected; k++) {
+        fracas_stored_mesh mesh;
+        fracas_record record;
+        fracas_surface_state now;
+        grid_make(&plate, &mesh);
+        grid_record(&mesh, 1, &record);
+        for (size_t i = 0; i < mesh.ninterfaces; i++) {
+            const int64_t *element = mesh.interface[i].element;
+            bool inside[2];
+            for (int side = 0; side < 2; side++) inside[side] = element[side] < 4 && expected[k].cut >> element[side] & 1;
+            if (inside[0] != inside[1]) record.interface[i].break_time = 0.5;
+        }
+        OK(fracas_surface_state_create(&mesh, &record, 1, &now));
+        assert_int_equal(now.nfragments, expected[k].fragments);
+        assert_int_equal(now.ndust, expected[k].dust);
+        fracas_surface_state_clear(&now);
+        fracas_record_clear(&record);
+        fracas_stored_mesh_clear(&mesh);
+    }
+}
+
+/* Inner and outer edge are connected by the last of the broken interfaces, wherever it is and whatever breaks elsewhere. */
+static void a_ring_cracks_through(void **state)
+{
+    (void)state;
+    static const int64_t width[2] = {1, 2}, nowhere[2] = {1, 7};
+    fracas_stored_mesh mesh;
+    fracas_record record;
+    double time;
+    grid_make(&ring, &mesh);
+    assert_null(fracas_stored_mesh_fault(&mesh));
+    grid_record(&mesh, 100, &record);
+    crack_up(&ring, &mesh, &record, 3, 0, 2, 1);  /* from within, but not to the end */
+    crack_up(&ring, &mesh, &record, 7, 1, 3, 1);  /* from the outside, elsewhere */
+    crack_across(&ring, &mesh, &record, 1, 8, 12, 5);
+    OK(fracas_surface_through(&mesh, &record, width, &time));
+    assert_true(isnan(time));
+    crack_across(&ring, &mesh, &record, 2, 3, 7, 40); /* joins both: at 46 */
+    OK(fracas_surface_through(&mesh, &record, width, &time));
+    assert_true(time == 46);
+    assert_state(&mesh, &record, 46, 1, 0, 12); /* through, yet in one piece: a ring is cut by two such cracks */
+    assert_true(grid_crack(&mesh, &record, grid_vertex(&ring, 4, 2), grid_vertex(&ring, 5, 2), 2, NAN)); /* cracked, not broken */
+    OK(fracas_surface_through(&mesh, &record, width, &time));
+    assert_true(isnan(time));
+    OK(fracas_surface_through(&mesh, &record, nowhere, &time));
+    assert_true(isnan(time));
+    record.ninterface--;
+    sample_fails(fracas_surface_through(&mesh, &record, width, &time), FRACAS_DAMAGED, "has 95 interfaces, the mesh of its point 96");
+    fracas_record_clear(&record);
+    fracas_stored_mesh_clear(&mesh);
+}
+
+/* A plate whose left and lower edge meet in a corner: every crack from there would reach both. */
+static void edges_that_meet_have_no_width(void **state)
+{
+    (void)state;
+    static const int64_t corner[2] = {1, 3};
+    fracas_stored_mesh mesh;
+    fracas_record record;
+    double time;
+    grid_make(&plate, &mesh);
+    grid_record(&mesh, 100, &record);
+    crack_up(&plate, &mesh, &record, 2, 0, 4, 10);
+    crack_across(&plate, &mesh, &record, 1, 0, 6, 20);
+    OK(fracas_surface_through(&mesh, &record, corner, &time));
+    assert_true(isnan(time));
+    fracas_record_clear(&record);
+    fracas_stored_mesh_clear(&mesh);
+}
+
+/* Against a second algorithm: at every break time, walk from the inner edge over all interfaces broken by then. */
+static bool walk_through(const fracas_stored_mesh *mesh, const fracas_record *record, double time)
+{
+    bool reached[512] = {false}, grown = true;
+    assert_true(mesh->nnodes <= 512);
+    for (size_t i = 0; i < mesh->ninterfaces; i++)
+        for (size_t b = 0; record->interface[i].break_time <= time && b < mesh->nborders; b++)
+            for (int k = 0; k < 4; k++)
+                if (mesh->border[b].tag == 1 && mesh->border[b].node[k / 2] == mesh->interface[i].node[k % 2])
+                    reached[mesh->border[b].node[k / 2]] = true;
+    while (grown) {
+        grown = false;
+        for (size_t i = 0; i < mesh->ninterfaces; i++) {
+            const int64_t *node = mesh->interface[i].node;
+            if (!(record->interface[i].break_time <= time) || reached[node[0]] == reached[node[1]]) continue;
+            reached[node[0]] = reached[node[1]] = grown = true;
+        }
+    }
+    for (size_t b = 0; b < mesh->nborders; b++)
+        if (mesh->border[b].tag == 2 && (reached[mesh->border[b].node[0]] || reached[mesh->border[b].node[1]])) return true;
+    return false;
+}
+
+static void crack_through_against_a_walk(void **state)
+{
+    (void)state;
+    static const int64_t width[2] = {1, 2};
+    uint64_t random = 11;
+    size_t through = 0;
+    for (int round = 0; round < 60; round++) {
+        fracas_stored_mesh mesh;
+        fracas_record record;
+        double found, least = NAN;
+        grid_make(round % 2 ? &plate : &ring, &mesh);
+        grid_record(&mesh, 100, &record);
+        for (size_t i = 0; i < mesh.ninterfaces; i++)
+            if (sample_bits(&random) % 100 < 35) record.interface[i].break_time = (double)(sample_bits(&random) % 50);
+        for (int time = 49; time >= 0; time--)
+            if (walk_through(&mesh, &record, time)) least = time;
+        OK(fracas_surface_through(&mesh, &record, width, &found));
+        assert_true(isnan(least) ? isnan(found) : found == least);
+        through += !isnan(found);
+        fracas_record_clear(&record);
+        fracas_stored_mesh_clear(&mesh);
+    }
+    assert_true(through > 10 && through < 60); /* both happen */
+}
+
+static void moments_end_at_the_end(void **state)
+{
+    (void)state;
+    fracas_record record;
+    double time[6];
+    fracas_record_init(&record);
+    record.onset_time = 2;
+    record.end_time = 14;
+    assert_int_equal(fracas_surface_moments(&record, 6, time), 6);
+    for (int k = 0; k < 6; k++) assert_true(time[k] == 4 + 2 * k); /* multiples of 1/6 of 12 round to these */
+    record.onset_time = NAN;
+    assert_int_equal(fracas_surface_moments(&record, 6, time), 1);
+    assert_true(time[0] == 14);
+}
+
+/* ---- pictures ---- */
+
+typedef struct {
+    double area; /* inside loops, square units */
+    double moment[2]; /* sum of the middles of edges */
+    size_t lines, edges;
+} path_measures;
+
+/* Of a path of M, l, q and z, whole numbers. As y is down in a drawing, loops with the inside to the left are counted positive. A
+ * parabola has 2/3 of its triangle beside its chord. */
+static path_measures measure_path(const char *d)
+{
+    path_measures path = {0};
+    double x = 0, y = 0, x0 = 0, y0 = 0, control[2] = {0, 0};
+    char command = 0;
+    bool half = false; /* of a q */
+    while (*d && *d != '"') {
+        if (*d == 'M' || *d == 'l' || *d == 'q' || *d == 'z') {
+            command = *d++;
+            if (command == 'z') path.area -= (x * y0 - x0 * y) / 2;
+            continue;
+        }
+        char *end;
+        const double a = strtod(d, &end), b = strtod(end, (char **)&d);
+        while (*d == ' ') d++;
+        if (command == 'M') {
+            x = x0 = a;
+            y = y0 = b;
+            path.lines++;
+        } else if (command == 'q' && !half) {
+            control[0] = a;
+            control[1] = b;
+            half = true;
+        } else {
+            if (half) path.area -= 2.0 / 3 * (control[0] * b - control[1] * a) / 2;
+            path.area -= (x * (y + b) - (x + a) * y) / 2;
+            path.moment[0] += x + a / 2;
+            path.moment[1] += y + b / 2;
+            x += a;
+            y += b;
+            path.edges++;
+            half = false;
+        }
+    }
+    return path;
+}
+
+static char *draw(const fracas_stored_mesh *mesh, const fracas_record *record, double time, fracas_surface_show show)
+{
+    char *text;
+    size_t size;
+    fracas_surface_state now;
+    FILE *out = open_memstream(&text, &size);
+    OK(fracas_surface_state_create(mesh, record, time, &now));
+    const fracas_surface_picture picture = {"a & b", show, 800, true};
+    OK(fracas_surface_picture_write(mesh, &now, &picture, out));
+    fclose(out);
+    fracas_surface_state_clear(&now);
+    return text;
+}
+
+/* Of the path with this class; all 0 if there is none. */
+static path_measures measure(const char *svg, const char *class)
+{
+    char start[64];
+    snprintf(start, sizeof start, "<path class=\"%s\"", class);
+    const char *found = strstr(svg, start);
+    return found ? measure_path(strstr(found, " d=\"") + 4) : (path_measures){0};
+}
+
+/* The plate is 784 pixels wide: a square has sides of 1306.67 units, and a corner is at most 0.71 of one from where it belongs:
+ * areas are right to 0.71/1306 of a square for each side of the outline, of which there are 30 at most: 0.02. */
+static void fragments_are_filled(void **state)
+{
+    (void)state;
+    fracas_stored_mesh mesh;
+    fracas_record record;
+    const double square = 7840.0 / 6 * 7840.0 / 6;
+    grid_make(&plate, &mesh);
+    grid_record(&mesh, 100, &record);
+    crack_up(&plate, &mesh, &record, 2, 0, 4, 10);
+    crack_across(&plate, &mesh, &record, 1, 0, 6, 20);
+    const int64_t a = grid_vertex(&plate, 5, 3), b = grid_vertex(&plate, 6, 3), c = grid_vertex(&plate, 5, 4);
+    assert_true(grid_crack(&mesh, &record, a, b, 29, 30) && grid_crack(&mesh, &record, a, c, 29, 30)); /* the upper right square */
+    char *svg = draw(&mesh, &record, 100, FRACAS_SHOW_FRAGMENTS);
+    static const double area[] = {11, 6, 4, 2}; /* the largest first, and no two of one tint */
+    for (int t = 0; t < 4; t++) {
+        const char class[] = {'t', (char)('0' + t), '\0'};
+        assert_true(fabs(measure(svg, class).area / square - area[t]) < 0.02);
+        assert_int_equal(measure(svg, class).lines, 1);
+    }
+    assert_int_equal(measure(svg, "t4").lines, 0);
+    assert_true(fabs(measure(svg, "dust-fill").area / square - 1) < 0.02);
+    assert_int_equal(measure(svg, "broken").edges, 4 + 6 + 2);
+    assert_non_null(strstr(svg, "s: 5 fragments (dust: 1)</text>"));
+    assert_non_null(strstr(svg, ">1000 mm</text>")); /* 0.3 of 800 pixels are 1837 mm */
+    assert_non_null(strstr(svg, "class=\"broken\""));
+    assert_null(strstr(svg, "class=\"cracked\""));
+    free(svg);
+    svg = draw(&mesh, &record, 9.7, FRACAS_SHOW_MESH); /* one interface cracked, none broken */
+    assert_non_null(strstr(svg, "class=\"cracked\""));
+    assert_non_null(strstr(svg, "class=\"mesh\""));
+    assert_null(strstr(svg, "class=\"broken\""));
+    assert_true(fabs(measure(svg, "t0").area / square - 24) < 0.02);
+    assert_int_equal(measure(svg, "cracked").edges, 1);
+    assert_int_equal(measure(svg, "mesh").edges, mesh.ninterfaces - 1);
+    assert_int_equal(measure(svg, "outline").edges, mesh.nborders);
+    double moment[2] = {0, 0}; /* of the interfaces that are not cracked yet, from the coordinates of the mesh */
+    for (size_t i = 0; i < mesh.ninterfaces; i++)
+        for (int end = 0; end < 2 && !(record.interface[i].onset_time <= 9.7); end++) {
+            moment[0] += (80 + 7840.0 / 6 * mesh.node[mesh.interface[i].node[end]].position[0]) / 2;
+            moment[1] += (80 + 7840.0 / 6 * (4 - mesh.node[mesh.interface[i].node[end]].position[1])) / 2;
+        }
+    for (int i = 0; i < 2; i++) /* half a unit for each rounding at most */
+        assert_true(fabs(measure(svg, "mesh").moment[i] - moment[i]) < 0.5 * (double)mesh.ninterfaces);
+    free(svg);
+    fracas_record_clear(&record);
+    fracas_stored_mesh_clear(&mesh);
+}
+
+/* A polygon with 12 sides from radius 2 to 5, in 784 pixels from -5 to 5 both ways: area 12/2 sin(30 deg) (25 - 4) = 63. Its
+ * coordinates are wrong by 0.71/784 m at most along outlines of 12 sides, 45 m long altogether. */
+static void holes_stay_holes(void **state)
+{
+    (void)state;
+    fracas_stored_mesh mesh;
+    fracas_record record;
+    grid_make(&ring, &mesh);
+    grid_record(&mesh, 100, &record);
+    char *svg = draw(&mesh, &record, 1, FRACAS_SHOW_CRACKS);
+    assert_true(fabs(measure(svg, "body").area / (784.0 * 784.0) - 63) < 0.05);
+    assert_int_equal(measure(svg, "body").lines, 2);
+    assert_null(strstr(svg, "class=\"t0\""));
+    free(svg);
+    fracas_record_clear(&record);
+    fracas_stored_mesh_clear(&mesh);
+}
+
+/* Middles that lie in the middle change nothing; one that is 0.1 m to the right makes its edge a parabola, in both fragments
+ * beside it, and what is left of it by 2/3 of 0.1 squares larger. */
+static void curved_edges_are_curved(void **state)
+{
+    (void)state;
+    fracas_stored_mesh straight, curved;
+    fracas_record record;
+    grid_shape shape = plate;
+    grid_make(&shape, &straight);
+    shape.middles = true;
+    grid_make(&shape, &curved);
+    assert_null(fracas_stored_mesh_fault(&curved));
+    grid_record(&straight, 100, &record);
+    crack_up(&plate, &straight, &record, 2, 0, 4, 10);
+    char *a = draw(&straight, &record, 50, FRACAS_SHOW_MESH), *b = draw(&curved, &record, 50, FRACAS_SHOW_MESH);
+    assert_string_equal(a, b);
+    free(b);
+    for (size_t i = 0; i < curved.ninterfaces; i++) {
+        const fracas_stored_interface *interface = &curved.interface[i];
+        if (record.interface[i].break_time == 11) curved.node[interface->node[2]].position[0] += 0.1;
+    }
+    b = draw(&curved, &record, 50, FRACAS_SHOW_FRAGMENTS);
+    size_t parabolas = 0;
+    for (const char *at = strstr(b, "<path"); at && *at; at++) parabolas += *at == 'q';
+    assert_int_equal(parabolas, 3); /* two fragments and the crack itself */
+    const double square = 7840.0 / 6 * 7840.0 / 6;
+    assert_true(fabs(measure(b, "t0").area / square - (16 - 0.2 / 3)) < 0.01); /* roundings as above, 20 sides */
+    assert_true(fabs(measure(b, "t1").area / square - (8 + 0.2 / 3)) < 0.01);
+    free(a);
+    free(b);
+    fracas_record_clear(&record);
+    fracas_stored_mesh_clear(&straight);
+    fracas_stored_mesh_clear(&curved);
+}
+
+/* A plate in space: seen from (1, 1, 1), which its normal points to, it looks as one that lies flat; from behind nothing is seen. */
+static void surfaces_in_space_show_their_face(void **state)
+{
+    (void)state;
+    const double square = 7840.0 / 6 * 7840.0 / 6;
+    for (int side = 1; side >= -1; side -= 2) {
+        fracas_stored_mesh mesh;
+        fracas_record record;
+        grid_make(&plate, &mesh);
+        grid_record(&mesh, 100, &record);
+        crack_up(&plate, &mesh, &record, 2, 0, 4, 10);
+        for (size_t n = 0; n < mesh.nnodes; n++) {
+            double *at = mesh.node[n].position;
+            const double x = side * at[0], y = at[1];
+            at[0] = -x / sqrt(2) - y / sqrt(6);
+            at[1] = x / sqrt(2) - y / sqrt(6);
+            at[2] = 2 * y / sqrt(6);
+        }
+        char *svg = draw(&mesh, &record, 50, FRACAS_SHOW_FRAGMENTS);
+        assert_true(fabs(measure(svg, "t0").area / square - (side > 0 ? 16 : 0)) < 0.02);
+        assert_true(fabs(measure(svg, "t1").area / square - (side > 0 ? 8 : 0)) < 0.02);
+        assert_int_equal(measure(svg, "broken").edges, side > 0 ? 4 : 0);
+        assert_int_equal(measure(svg, "outline").edges, side > 0 ? mesh.nborders : 0);
+        free(svg);
+        fracas_record_clear(&record);
+        fracas_stored_mesh_clear(&mesh);
+    }
+}
+
+/* Neighbours differ, whatever breaks: planar graphs need no more than four tints, and there are seven. */
+static void neighbours_have_different_tints(void **state)
+{
+    (void)state;
+    uint64_t random = 5;
+    const grid_shape large = {.nx = 30, .ny = 20};
+    fracas_stored_mesh mesh;
+    fracas_record record;
+    grid_make(&large, &mesh);
+    for (int round = 0; round < 20; round++) {
+        fracas_surface_state now;
+        uint8_t *tint;
+        grid_record(&mesh, 1, &record);
+        for (size_t i = 0; i < mesh.ninterfaces; i++)
+            if (sample_bits(&random) % 100 < 55) record.interface[i].break_time = 0.5;
+        OK(fracas_surface_state_create(&mesh, &record, 1, &now));
+        assert_true(now.nfragments > 20);
+        OK(fracas_tint_fragments(&mesh, &now, &tint));
+        for (size_t f = 0; f < now.nfragments; f++) assert_int_equal(tint[f] == FRACAS_TINT_DUST, now.elements[f] <= 2);
+        for (size_t i = 0; i < mesh.ninterfaces; i++) {
+            const uint32_t a = now.fragment[mesh.interface[i].element[0]], b = now.fragment[mesh.interface[i].element[1]];
+            if (a != b && tint[a] != FRACAS_TINT_DUST) assert_int_not_equal(tint[a], tint[b]);
+        }
+        free(tint);
+        fracas_surface_state_clear(&now);
+        fracas_record_clear(&record);
+    }
+    fracas_stored_mesh_clear(&mesh);
+}
+
+/* Of 30 000 elements, everything broken: the largest picture that such a mesh makes. */
+static void pictures_stay_small(void **state)
+{
+    (void)state;
+    uint64_t random = 7;
+    const grid_shape huge = {.nx = 150, .ny = 100};
+    fracas_stored_mesh mesh;
+    fracas_record record;
+    grid_make(&huge, &mesh);
+    grid_record(&mesh, 1, &record);
+    for (size_t i = 0; i < mesh.ninterfaces; i++) record.interface[i].break_time = 0.1;
+    char *svg = draw(&mesh, &record, 1, FRACAS_SHOW_FRAGMENTS);
+    assert_true(strlen(svg) < 1000000);
+    free(svg);
+    for (size_t i = 0; i < mesh.ninterfaces; i++) record.interface[i].break_time = sample_bits(&random) % 2 ? 0.1 : NAN;
+    svg = draw(&mesh, &record, 1, FRACAS_SHOW_FRAGMENTS);
+    assert_true(strlen(svg) < 1000000);
+    free(svg);
+    fracas_record_clear(&record);
+    fracas_stored_mesh_clear(&mesh);
+}
+
+/* ---- statistics ---- */
+
+enum { NPOINTS = 4 };
+
+/* `bars` bars of 10 mm, then plates; rates 1e3, 2e3, ... Each point has two realizations of fragments of 1, 2 and 3 mm and of
+ * 1 (dust) and 4 mm: mean sizes of a plate 2 and 2.5 mm. Cleared by fracas_point_statistics_clear and fracas_columns_clear. */
+static void make_analysis(size_t bars, fracas_point_statistics point[NPOINTS], fracas_analysis *analysis)
+{
+    static const fracas_column columns[] = {
+        {"cohesive.fracture_energy", "J/m2", "", false}, {"derived.strain_rate", "1/s", "", false},
+        {"derived.strength_mean", "Pa", "", false},      {"geometry.length", "m", "", false},
+        {"geometry.thickness", "m", "", false},          {"loading.rate", "1/s", "", false},
+        {"material.density", "kg/m3", "", false},        {"material.young", "Pa", "", false}};
+    enum { NCOLUMNS = sizeof columns / sizeof *columns };
+    static fracas_value value[NPOINTS][NCOLUMNS];
+    static fracas_point_row row[NPOINTS];
+    static fracas_point_table points;
+    static const double size[2][3] = {{1e-3, 2e-3, 3e-3}, {1e-3, 4e-3}};
+    for (size_t p = 0; p < NPOINTS; p++) {
+        const double rate = 1e3 * (double)(p + 1), of[NCOLUMNS] = {100, rate, 3e8, p < bars ? 1e-2 : NAN, p < bars ? NAN : 1e-4,
+                                                                   rate, 2750, 275e9};
+        for (size_t c = 0; c < NCOLUMNS; c++) value[p][c] = (fracas_value){of[c], ""};
+        row[p] = (fracas_point_row){.replicas = 2, .value = value[p]};
+    }
+    points = (fracas_point_table){NCOLUMNS, columns, NPOINTS, row};
+    *analysis = (fracas_analysis){.table = &points, .point = point, .header = {.complete = true}};
+    for (size_t p = 0; p < NPOINTS; p++) {
+        fracas_point_statistics_init(&points, p, &point[p]);
+        for (size_t r = 0; r < 2; r++) {
+            fracas_fragment fragment[3] = {0};
+            fracas_record record;
+            fracas_record_init(&record);
+            record.outcome = FRACAS_FRAGMENTED;
+            record.nfragment = 3 - r;
+            record.fragments = (int64_t)record.nfragment;
+            record.fragments_dust = fragment[0].dust = r == 1;
+            record.fragment = fragment;
+            for (size_t i = 0; i < record.nfragment; i++) fragment[i].size = size[r][i], fragment[i].elements = 20;
+            OK(fracas_point_statistics_add(&point[p], 2 * p + r, (int64_t)r, &record));
+        }
+        fracas_point_statistics_finish(&point[p]);
+    }
+    OK(fracas_columns_create(&points, &analysis->shown));
+}
+
+/* The names of the table's columns in a row, as "rate n fail ...". */
+static void names_of(const fracas_analysis *analysis, char names[512])
+{
+    fracas_result_table table;
+    OK(fracas_result_table_create(analysis, false, &table));
+    names[0] = '\0';
+    for (size_t c = 0; c < table.columns; c++) strcat(strcat(names, fracas_result_table_cell(&table, 0, c)), " ");
+    fracas_result_table_clear(&table);
+}
+
+static size_t curves_of(const fracas_analysis *analysis, bool normalised, size_t *marks)
+{
+    fracas_chart chart;
+    size_t curves = 0;
+    *marks = 0;
+    fracas_chart_init(&chart);
+    OK(fracas_figure_rate(analysis, normalised, &chart));
+    for (size_t s = 0; chart.npanels > 0 && s < chart.panel[0].nseries; s++) {
+        const bool curve = chart.panel[0].series[s].kind == FRACAS_CURVE;
+        curves += curve;
+        *marks += curve ? 0 : chart.panel[0].series[s].n;
+    }
+    fracas_chart_clear(&chart);
+    return curves;
+}
+
+/* Sizes of plates are means of their fragments' sizes, of bars 10 mm over their number; laws and slopes are those of bars alone, and
+ * a study without a bar does not speak of them. */
+static void surfaces_have_no_laws_of_one_dimension(void **state)
+{
+    (void)state;
+    static const struct {
+        size_t bars, curves, slopes, normalised;
+        const char *names;
+    } expected[] = {
+        {0, 0, 0, 0, "rate n fail count no dust size dissipated resid. created outcomes "},
+        {3, 4, 1, 3, "rate n fail count no dust size dissipated ZMR Grady GC size resid. created outcomes "},
+        {4, 4, 1, 4, "rate n fail count size dissipated ZMR Grady GC size resid. created outcomes "}};
+    for (size_t k = 0; k < 3; k++) {
+        fracas_point_statistics point[NPOINTS];
+        fracas_analysis analysis;
+        fracas_size_slope *slope;
+        size_t count, marks;
+        char names[512];
+        make_analysis(expected[k].bars, point, &analysis);
+        for (size_t p = 0; p < NPOINTS; p++) {
+            const bool bar = p < expected[k].bars;
+            assert_int_equal(point[p].surface, !bar);
+            assert_true(fabs(point[p].size.mean - (bar ? (1e-2 / 3 + 1e-2 / 2) / 2 : 2.25e-3)) < 1e-15); /* a few roundings */
+            assert_true(point[p].count.mean == 2.5 && point[p].count_large.mean == 2);
+            for (int law = 0; law < FRACAS_NLAWS; law++) assert_int_equal(isfinite(point[p].law[law]) != 0, bar);
+        }
+        assert_int_equal(curves_of(&analysis, false, &marks), expected[k].curves);
+        assert_int_equal(marks, NPOINTS);
+        assert_int_equal(curves_of(&analysis, true, &marks), expected[k].curves);
+        assert_int_equal(marks, expected[k].normalised);
+        OK(fracas_size_slopes(&analysis, &slope, &count));
+        assert_int_equal(count, expected[k].slopes);
+        if (count) assert_int_equal(slope->slope.n, expected[k].bars);
+        free(slope);
+        names_of(&analysis, names);
+        assert_string_equal(names, expected[k].names);
+        for (size_t p = 0; p < NPOINTS; p++) fracas_point_statistics_clear(&point[p]);
+        fracas_columns_clear(&analysis.shown);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_plate_is_cut_in_two_and_in_four),
+        cmocka_unit_test(small_pieces_are_dust),
+        cmocka_unit_test(a_ring_cracks_through),
+        cmocka_unit_test(edges_that_meet_have_no_width),
+        cmocka_unit_test(crack_through_against_a_walk),
+        cmocka_unit_test(moments_end_at_the_end),
+        cmocka_unit_test(fragments_are_filled),
+        cmocka_unit_test(holes_stay_holes),
+        cmocka_unit_test(curved_edges_are_curved),
+        cmocka_unit_test(surfaces_in_space_show_their_face),
+        cmocka_unit_test(neighbours_have_different_tints),
+        cmocka_unit_test(pictures_stay_small),
+        cmocka_unit_test(surfaces_have_no_laws_of_one_dimension),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

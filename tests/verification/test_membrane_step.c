@@ -1,0 +1,217 @@
+/* A step of the membrane in a batch: what its kick and energies are by the operator, and what edges hold. */
+#include "tests/support/membrane_elastic.h"
+#include "tests/support/surface.h"
+
+typedef struct {
+    fracas_model *model;
+    fracas_batch *batch;
+    fracas_record record;
+    size_t running;
+} membrane_run;
+
+/* One realization that never cracks, before its first step. */
+static membrane_run begin(const fracas_spec *spec, int width)
+{
+    membrane_run run = {.model = membrane_model(*spec, DISTORTION, 9), .running = 1};
+    const fracas_batch_options options = {.width = width, .isa = FRACAS_ISA_BEST};
+    size_t stride;
+    assert_ok(fracas_batch_create(run.model, 1, &options, &run.batch));
+    double *strength = fracas_batch_strength(run.batch, 0, &stride);
+    for (size_t i = 0; i < run.model->interfaces; i++) strength[i * stride] = 1e12;
+    assert_ok(fracas_batch_begin(run.batch));
+    fracas_record_init(&run.record);
+    return run;
+}
+
+static void step(membrane_run *run) { assert_ok(fracas_batch_step(run->batch, &run->record, &run->running)); }
+
+static void clear(membrane_run *run)
+{
+    fracas_record_clear(&run->record);
+    fracas_batch_destroy(run->batch);
+    fracas_model_destroy(run->model);
+}
+
+static double *value_of(const membrane_run *run, size_t unknown, int field)
+{
+    const size_t size = 2 * run->model->surface->corners;
+    return fracas_membrane_value(run->model, &run->batch->step, unknown / size, field, (int)(unknown % size), 0);
+}
+
+/* One step from displacements and velocities at random: the kick is that of the operator, the elastic energy u.K u/2, the
+ * kinetic one v.M v'/2 with the velocities before and after. Sums of n terms: 1e-12 by the largest. */
+static void check_first_step(fracas_spec spec, int width)
+{
+    spec.cohesive.fracture_energy = 1e12;
+    membrane_run run = begin(&spec, width);
+    const size_t n = unknowns_of(run.model);
+    double *u = vector_of(n), *v = vector_of(n), *f = vector_of(n), *a = vector_of(n), *momentum = vector_of(n), worst = 0;
+    uint64_t noise = 3;
+    for (size_t i = 0; i < n; i++) {
+        *value_of(&run, i, MEMBRANE_U) = u[i] = is_held(run.model, i) ? 0 : 1e-9 * (next_share(&noise) - 0.5);
+        *value_of(&run, i, MEMBRANE_V) = v[i] = is_held(run.model, i) ? 0 : 1e-3 * (next_share(&noise) - 0.5);
+    }
+    fracas_membrane_operator *op = open_operator(run.model);
+    fracas_membrane_operator_apply(op, u, a);
+    apply_stiffness(run.model, op, u, f);
+    step(&run);
+    const double kick = run.batch->step.kick[0];
+    assert_true(kick > 0);
+    double elastic = 0, kinetic = 0;
+    multiply_mass(run.model, v, momentum);
+    for (size_t i = 0; i < n; i++) {
+        worst = fmax(worst, fabs(*value_of(&run, i, MEMBRANE_V) - v[i] - kick * a[i]));
+        elastic += 0.5 * u[i] * f[i];
+        kinetic += 0.5 * momentum[i] * (v[i] + kick * a[i]);
+    }
+    assert_true(elastic > 0);
+    assert_true(worst <= 1e-12 * (kick * largest_of(a, n) + largest_of(v, n)));
+    assert_true(fabs(run.batch->step.elastic[0] / elastic - 1) < 1e-12);
+    assert_true(fabs(run.batch->step.kinetic[0] - kinetic) < 1e-12 * fabs(kinetic));
+    fracas_membrane_operator_close(op);
+    free(u);
+    free(v);
+    free(f);
+    free(a);
+    free(momentum);
+    clear(&run);
+}
+
+static void a_step_is_the_operator(void **unused)
+{
+    (void)unused;
+    const fracas_kind *const laws[] = {&fracas_law_nitsche, &fracas_law_camacho_ortiz_standard, &fracas_law_camacho_ortiz};
+    const int widths[] = {1, 4, 8};
+    for (int which = 0; which < BODIES; which++)
+        for (int law = 0; law < 3; law++)
+            for (int w = 0; w < 3; w++)
+                for (int consistent = 0; consistent < 2; consistent++) {
+                    fracas_spec spec = body_of(which, 2);
+                    spec.cohesive.law = laws[law];
+                    spec.time.mass = consistent ? &fracas_mass_consistent : &fracas_mass_lumped;
+                    spec.geometry.edge[1] = consistent ? &fracas_edge_held : NULL;
+                    check_first_step(spec, widths[w]);
+                }
+}
+
+/* left held, right sliding, bottom fixed, top free */
+static fracas_spec held_plate(int64_t order, bool consistent, bool rest)
+{
+    fracas_spec spec = membrane_spec(&fracas_shape_plate, order, 3);
+    const fracas_kind *const edge[FRACAS_EDGES] = {NULL, &fracas_edge_held, &fracas_edge_sliding, &fracas_edge_fixed, &fracas_edge_free};
+    memcpy(spec.geometry.edge, edge, sizeof edge);
+    spec.cohesive.fracture_energy = 1e12;
+    spec.loading.ratio = 0.5;
+    if (rest) spec.loading.start = &fracas_start_rest;
+    if (consistent) spec.time.mass = &fracas_mass_consistent;
+    return spec;
+}
+
+/* What an unknown should be held at by the edges of its element: NaN for nothing. An edge that is fixed has the last word. */
+static double expected_velocity(const fracas_model *model, size_t unknown)
+{
+    const size_t size = 2 * model->surface->corners, e = unknown / size, k = unknown % size / 2, i = unknown % 2;
+    const double place = node_at(model, e, k)[i], of_loading = model->spec.loading.rate * (i ? 0.5 : 1) * place;
+    double held = NAN;
+    for (size_t b = 0; b < model->surface->nborders; b++) {
+        const fracas_surface_border *border = &model->surface->border[b];
+        if (border->element != e || (k != border->edge && k != (border->edge + 1) % 3 && k != 3 + border->edge)) continue;
+        if (border->tag == 3) return 0;
+        if (border->tag == 1 || (border->tag == 2 && i == 0)) held = of_loading;
+    }
+    return held;
+}
+
+/* Held unknowns move as u = v t, each step rounding u and v dt once: 1e-14 after 40. All the others start with the loading's
+ * velocity or none. The ledger has the power of what holds: 1e-12 of its largest term, as sums round. */
+static void check_edges_hold(int64_t order, bool consistent, bool rest)
+{
+    const fracas_spec spec = held_plate(order, consistent, rest);
+    membrane_run run = begin(&spec, 1);
+    const size_t n = unknowns_of(run.model), size = 2 * run.model->surface->corners;
+    size_t count[2] = {0, 0};
+    for (size_t i = 0; i < n; i++) {
+        const double held = expected_velocity(run.model, i), *x = node_at(run.model, i / size, i % size / 2);
+        const double free_start = rest ? 0 : spec.loading.rate * (i % 2 ? 0.5 : 1) * x[i % 2];
+        assert_int_equal(is_held(run.model, i), !isnan(held));
+        assert_true(fabs(*value_of(&run, i, MEMBRANE_V) - (isnan(held) ? free_start : held)) < 1e-14);
+    }
+    for (int s = 0; s < 40; s++) step(&run);
+    const double time = run.batch->step.time[0];
+    for (size_t i = 0; i < n; i++) {
+        const double held = expected_velocity(run.model, i);
+        if (!isnan(held)) assert_true(fabs(*value_of(&run, i, MEMBRANE_U) - held * time) < 1e-14 * fmax(1e-9, fabs(held * time)));
+        if (!isnan(held)) count[held != 0]++;
+        else count[0] += *value_of(&run, i, MEMBRANE_U) == 0;
+    }
+    assert_true(count[0] > 0 && count[1] > 0);
+    const fracas_ledger *ledger = &run.batch->lane[0].ledger;
+    print_message("order %d, %s, %s: residual %.1e of %.2e J\n", (int)order, spec.time.mass->name, spec.loading.start->name,
+                  ledger->largest_residual / fmax(ledger->kinetic, ledger->elastic), fmax(ledger->kinetic, ledger->elastic));
+    assert_true(fabs(ledger->work) > 0.01 * ledger->kinetic);
+    assert_true(ledger->largest_residual < 1e-12 * fmax(fabs(ledger->work), fmax(ledger->kinetic, ledger->elastic)));
+    clear(&run);
+}
+
+static void edges_hold_what_they_should(void **unused)
+{
+    (void)unused;
+    for (int order = 1; order <= 2; order++)
+        for (int which = 0; which < 4; which++) check_edges_hold(order, which % 2, which / 2);
+}
+
+/* Nodes that are free do not know what is held elsewhere: lumped, their accelerations are those of the free plate; with
+ * consistent masses M a = -K u on them, where a is 0 on those that are held. */
+static void held_edges_change_nothing_else(void **unused)
+{
+    (void)unused;
+    for (int order = 1; order <= 2; order++)
+        for (int consistent = 0; consistent < 2; consistent++) {
+            const fracas_spec spec = held_plate(order, consistent, false);
+            fracas_model *held = membrane_model(spec, DISTORTION, 9);
+            fracas_model *loose = membrane_model(membrane_spec(&fracas_shape_plate, order, 3), DISTORTION, 9);
+            const size_t n = unknowns_of(held);
+            double *u = vector_of(n), *a = vector_of(n), *force = vector_of(n), *balance = vector_of(n);
+            uint64_t noise = 5;
+            for (size_t i = 0; i < n; i++) u[i] = next_share(&noise) - 0.5;
+            fracas_membrane_operator *op = open_operator(held), *free_op = open_operator(loose);
+            fracas_membrane_operator_apply(op, u, a);
+            apply_stiffness(loose, free_op, u, force);
+            multiply_mass(held, a, balance);
+            const double scale = largest_of(force, n);
+            for (size_t i = 0; i < n; i++) {
+                if (is_held(held, i)) assert_true(a[i] == 0);
+                else assert_true(fabs(balance[i] + force[i]) < 1e-12 * scale);
+            }
+            fracas_membrane_operator_close(op);
+            fracas_membrane_operator_close(free_op);
+            fracas_model_destroy(held);
+            fracas_model_destroy(loose);
+            free(u);
+            free(a);
+            free(force);
+            free(balance);
+        }
+}
+
+/* Only straight edges along an axis can slide. */
+static void a_circle_does_not_slide(void **unused)
+{
+    (void)unused;
+    fracas_spec spec = membrane_spec(&fracas_shape_annulus, 1, 1);
+    fracas_model *model;
+    spec.geometry.edge[2] = &fracas_edge_sliding;
+    assert_int_equal(fracas_model_create(&spec, &model), FRACAS_USAGE);
+    assert_non_null(strstr(fracas_message(), "slides"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_step_is_the_operator),
+        cmocka_unit_test(edges_hold_what_they_should),
+        cmocka_unit_test(held_edges_change_nothing_else),
+        cmocka_unit_test(a_circle_does_not_slide),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
