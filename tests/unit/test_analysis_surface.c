@@ -3,15 +3,8 @@
 #include "tests/support/store_sample.h"
 #include "tests/support/stored_mesh.h"
 
-#include "analysis/analysis.h"
-#include "analysis/report/figures.h"
 #include "analysis/report/tint.h"
-#include "analysis/report/trail.h"
 #include "analysis/report/surface_picture.h"
-#include "analysis/slope.h"
-#include "analysis/study.h"
-#include "analysis/surface.h"
-#include "analysis/table.h"
 
 static const grid_shape plate = {.nx = 6, .ny = 4}, ring = {.nx = 12, .ny = 3, .rolled = true};
 
@@ -480,118 +473,6 @@ static void pictures_stay_small(void **state)
     fracas_stored_mesh_clear(&mesh);
 }
 
-/* ---- statistics ---- */
-
-enum { NPOINTS = 4 };
-
-/* `bars` bars of 10 mm, then plates; rates 1e3, 2e3, ... Each point has two realizations of fragments of 1, 2 and 3 mm and of
- * 1 (dust) and 4 mm: mean sizes of a plate 2 and 2.5 mm. Cleared by fracas_point_statistics_clear and fracas_columns_clear. */
-static void make_analysis(size_t bars, fracas_point_statistics point[NPOINTS], fracas_analysis *analysis)
-{
-    static const fracas_column columns[] = {
-        {"cohesive.fracture_energy", "J/m2", "", false}, {"derived.strain_rate", "1/s", "", false},
-        {"derived.strength_mean", "Pa", "", false},      {"geometry.length", "m", "", false},
-        {"geometry.thickness", "m", "", false},          {"loading.rate", "1/s", "", false},
-        {"material.density", "kg/m3", "", false},        {"material.young", "Pa", "", false}};
-    enum { NCOLUMNS = sizeof columns / sizeof *columns };
-    static fracas_value value[NPOINTS][NCOLUMNS];
-    static fracas_point_row row[NPOINTS];
-    static fracas_point_table points;
-    static const double size[2][3] = {{1e-3, 2e-3, 3e-3}, {1e-3, 4e-3}};
-    for (size_t p = 0; p < NPOINTS; p++) {
-        const double rate = 1e3 * (double)(p + 1), of[NCOLUMNS] = {100, rate, 3e8, p < bars ? 1e-2 : NAN, p < bars ? NAN : 1e-4,
-                                                                   rate, 2750, 275e9};
-        for (size_t c = 0; c < NCOLUMNS; c++) value[p][c] = (fracas_value){of[c], ""};
-        row[p] = (fracas_point_row){.replicas = 2, .value = value[p]};
-    }
-    points = (fracas_point_table){NCOLUMNS, columns, NPOINTS, row};
-    *analysis = (fracas_analysis){.table = &points, .point = point, .header = {.complete = true}};
-    for (size_t p = 0; p < NPOINTS; p++) {
-        fracas_point_statistics_init(&points, p, &point[p]);
-        for (size_t r = 0; r < 2; r++) {
-            fracas_fragment fragment[3] = {0};
-            fracas_record record;
-            fracas_record_init(&record);
-            record.outcome = FRACAS_FRAGMENTED;
-            record.nfragment = 3 - r;
-            record.fragments = (int64_t)record.nfragment;
-            record.fragments_dust = fragment[0].dust = r == 1;
-            record.fragment = fragment;
-            for (size_t i = 0; i < record.nfragment; i++) fragment[i].size = size[r][i], fragment[i].elements = 20;
-            OK(fracas_point_statistics_add(&point[p], 2 * p + r, (int64_t)r, &record));
-        }
-        fracas_point_statistics_finish(&point[p]);
-    }
-    OK(fracas_columns_create(&points, &analysis->shown));
-}
-
-/* The names of the table's columns in a row, as "rate n fail ...". */
-static void names_of(const fracas_analysis *analysis, char names[512])
-{
-    fracas_result_table table;
-    OK(fracas_result_table_create(analysis, false, &table));
-    names[0] = '\0';
-    for (size_t c = 0; c < table.columns; c++) strcat(strcat(names, fracas_result_table_cell(&table, 0, c)), " ");
-    fracas_result_table_clear(&table);
-}
-
-static size_t curves_of(const fracas_analysis *analysis, bool normalised, size_t *marks)
-{
-    fracas_chart chart;
-    size_t curves = 0;
-    *marks = 0;
-    fracas_chart_init(&chart);
-    OK(fracas_figure_rate(analysis, normalised, &chart));
-    for (size_t s = 0; chart.npanels > 0 && s < chart.panel[0].nseries; s++) {
-        const bool curve = chart.panel[0].series[s].kind == FRACAS_CURVE;
-        curves += curve;
-        *marks += curve ? 0 : chart.panel[0].series[s].n;
-    }
-    fracas_chart_clear(&chart);
-    return curves;
-}
-
-/* Sizes of plates are means of their fragments' sizes, of bars 10 mm over their number; laws and slopes are those of bars alone, and
- * a study without a bar does not speak of them. */
-static void surfaces_have_no_laws_of_one_dimension(void **state)
-{
-    (void)state;
-    static const struct {
-        size_t bars, curves, slopes, normalised;
-        const char *names;
-    } expected[] = {
-        {0, 0, 0, 0, "rate n fail count no dust size dissipated resid. created outcomes "},
-        {3, 4, 1, 3, "rate n fail count no dust size dissipated ZMR Grady GC size resid. created outcomes "},
-        {4, 4, 1, 4, "rate n fail count size dissipated ZMR Grady GC size resid. created outcomes "}};
-    for (size_t k = 0; k < 3; k++) {
-        fracas_point_statistics point[NPOINTS];
-        fracas_analysis analysis;
-        fracas_size_slope *slope;
-        size_t count, marks;
-        char names[512];
-        make_analysis(expected[k].bars, point, &analysis);
-        for (size_t p = 0; p < NPOINTS; p++) {
-            const bool bar = p < expected[k].bars;
-            assert_int_equal(point[p].surface, !bar);
-            assert_true(fabs(point[p].size.mean - (bar ? (1e-2 / 3 + 1e-2 / 2) / 2 : 2.25e-3)) < 1e-15); /* a few roundings */
-            assert_true(point[p].count.mean == 2.5 && point[p].count_large.mean == 2);
-            for (int law = 0; law < FRACAS_NLAWS; law++) assert_int_equal(isfinite(point[p].law[law]) != 0, bar);
-        }
-        assert_int_equal(curves_of(&analysis, false, &marks), expected[k].curves);
-        assert_int_equal(marks, NPOINTS);
-        assert_int_equal(curves_of(&analysis, true, &marks), expected[k].curves);
-        assert_int_equal(marks, expected[k].normalised);
-        OK(fracas_size_slopes(&analysis, &slope, &count));
-        assert_int_equal(count, expected[k].slopes);
-        if (count) assert_int_equal(slope->slope.n, expected[k].bars);
-        free(slope);
-        names_of(&analysis, names);
-        assert_string_equal(names, expected[k].names);
-        for (size_t p = 0; p < NPOINTS; p++) fracas_point_statistics_clear(&point[p]);
-        fracas_columns_clear(&analysis.shown);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -607,7 +488,6 @@ int main(void)
         cmocka_unit_test(surfaces_in_space_show_their_face),
         cmocka_unit_test(neighbours_have_different_tints),
         cmocka_unit_test(pictures_stay_small),
-        cmocka_unit_test(surfaces_have_no_laws_of_one_dimension),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
