@@ -307,8 +307,8 @@ static fracas_err time_steps(const fracas_campaign *campaign, size_t index, doub
 }
 
 /* Steps of a surface, on the model that is there: making one takes as long as many of its steps, which are long. Interfaces are so
- * weak that they crack at once: what is broken takes twice the time of what is whole. The first step, which finds nothing in a
- * cache, does not count unless it is the last. */
+ * weak that they crack at once: what is broken takes twice the time of what is whole. The first two steps, which find nothing in a
+ * cache and book every onset, do not count unless they are the last. */
 static fracas_err time_surface(const fracas_model *model, double mean, size_t lanes, fracas_forecast *forecast)
 {
     const double strength = 1e-12 * mean;
@@ -318,10 +318,11 @@ static fracas_err time_surface(const fracas_model *model, double mean, size_t la
     size_t running = lanes;
     TRY(make_batch(model, strength, lanes, record, &batch));
     fracas_err err = fracas_batch_begin(batch);
-    for (int step = 0; !err && running > 0 && spent.seconds < 0.05; step++) {
+    enum { FIRST = 2 };
+    for (int step = 0; !err && running > 0 && (step <= FIRST || spent.seconds < 0.05); step++) {
         const double start = seconds();
         err = fracas_batch_step(batch, record, &running);
-        if (step == 1) spent = (effort){0};
+        if (step == FIRST) spent = (effort){0};
         spent.seconds += seconds() - start;
         spent.element_steps += (double)fracas_model_elements(model) * (double)lanes;
     }
