@@ -236,11 +236,11 @@ static fracas_err hold_edge(const fracas_model *model, const fracas_surface_bord
     return FRACAS_OK;
 }
 
-/* Edges that are to be held must be there. */
+/* Edges of a file that are to be held must be there. */
 static fracas_err check_tags(const fracas_model *model)
 {
     const fracas_surface *surface = model->surface;
-    for (int32_t tag = 1; tag < FRACAS_EDGES; tag++) {
+    for (int32_t tag = 1; model->spec.geometry.shape == &fracas_shape_file && tag < FRACAS_EDGES; tag++) {
         size_t found = 0;
         for (size_t b = 0; b < surface->nborders; b++) found += surface->border[b].tag == tag;
         const fracas_kind *edge = model->spec.geometry.edge[tag];
