@@ -29,11 +29,14 @@ print("first break", [f"{1e6 * min(t):.1f} to {1e6 * max(t):.1f} us" for t in fi
 assert 26e-6 < min(first[0]) and max(first[0]) < 33e-6 and 34e-6 < min(first[1]) and max(first[1]) < 40e-6
 assert all(all(t) for t in through) # every ring is cracked through
 scattered, homogeneous = (p["statistics"] for p in points("ring"))
-print("pieces", scattered["count.mean"], homogeneous["count.mean"])
-assert homogeneous["count.mean"] > 1.2 * scattered["count.mean"]
+# On this mesh 10 and 11.6 pieces (+- 2); 9 and 16 on the shipped one. What the cracks dissipate tells them apart sooner.
+print("pieces", scattered["count.mean"], homogeneous["count.mean"], "dissipated", scattered["dissipated.mean"], homogeneous["dissipated.mean"])
+assert homogeneous["count.mean"] > scattered["count.mean"]
+assert homogeneous["dissipated.mean"] - homogeneous["dissipated.half_width"] > scattered["dissipated.mean"] + scattered["dissipated.half_width"]
 
 uniform, weibull = (p["statistics"] for p in points("biaxial"))
 print("biaxial", {k: (uniform[k], weibull[k]) for k in ("count.mean", "count.half_width", "size.mean", "size.half_width", "residual", "created")})
+assert uniform["count.half_width"] > 0 # the step resolves strengths 2 % apart, so that no replica is like another
 assert uniform["count.mean"] - uniform["count.half_width"] > weibull["count.mean"] + weibull["count.half_width"]
 assert uniform["size.mean"] + uniform["size.half_width"] < weibull["size.mean"] - weibull["size.half_width"]
 END
