@@ -89,19 +89,5 @@ __attribute__((unused)) static void LANES_NAME(plane_call)(const plane_case *con
 #undef SCATTER
 }
 
-#undef plane_interface
-#undef plane_input
-#undef plane_result
-#undef plane_abs
-#undef plane_max
-#undef plane_min
-#undef plane_effective
-#undef plane_onset
-#undef plane_energy
-#undef plane_nitsche
-#undef plane_nitsche_state
-#undef plane_friction
-#undef plane_rub
-#undef plane_extrinsic
-#undef plane_extrinsic_state
+#include "engine/cohesive/plane_end.h"
 #include "base/lanes_end.h"

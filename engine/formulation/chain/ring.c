@@ -208,20 +208,7 @@ static fracas_err ring_harvest(const fracas_model *model, fracas_step *step, int
     fracas_fragment *fragment = calloc(count, sizeof *fragment);
     if (!fragment) return fracas_no_memory("the fragments of a realization");
     for (size_t e = 0; e < model->elements; e++) add_element(model, step, lane, e, &fragment[step->partition.label[e]]);
-    for (int i = 0; i < 3; i++) record->momentum[i] = 0;
-    for (fracas_fragment *f = fragment; f < fragment + count; f++) {
-        for (int i = 0; i < 2; i++) {
-            record->momentum[i] += f->velocity[i];
-            f->position[i] /= f->mass;
-            f->velocity[i] /= f->mass;
-        }
-        f->angular_momentum[2] -= f->mass * (f->position[0] * f->velocity[1] - f->position[1] * f->velocity[0]);
-        f->dust = f->elements == 1;
-        record->fragments_dust += f->dust;
-    }
-    record->fragment = fragment;
-    record->nfragment = count;
-    record->fragments = (int64_t)count;
+    fracas_record_take_fragments(record, fragment, count, 1);
     return step->onset_time ? fracas_chain_harvest_interfaces(chain_of(model), model, step, lane, record) : FRACAS_OK;
 }
 
