@@ -2,6 +2,7 @@
 
 #include "campaigns/plan/plan.h"
 #include "campaigns/plan/point_model.h"
+#include "engine/cohesive/law.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
 #include "engine/mesh/make.h"
@@ -195,6 +196,10 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     forecast->lines = forecast->uniform && spec->mesh.spacing == &fracas_spacing_triangles && spec->mesh.amplitude == 0;
     forecast->mean = mean;
     forecast->bound = stress_bound(spec);
+    forecast->spread = fracas_model_surface(model) && spec->cohesive.onset == &fracas_onset_mean
+                           ? fracas_strength_quantile(&point->strength, volume.mean, 0.99) -
+                                 fracas_strength_quantile(&point->strength, volume.mean, 0.01)
+                           : NAN;
     forecast->step_stress = spec->material.young * fabs(fracas_spec_strain_rate(spec)) * forecast->time_step;
     if (is_ring(spec)) {
         forecast->turn = M_PI_2 * spec->geometry.radius / sqrt(spec->material.young / spec->material.density);

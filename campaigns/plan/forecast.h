@@ -13,6 +13,7 @@ typedef struct {
     double coarseness; /* element size over E G_c/sigma_c^2, the length over which a crack softens */
     bool uniform;      /* half of the interfaces and more have the same strength */
     bool lines;        /* so it is, and the mesh is a regular one of triangles: cracks will follow its lines */
+    double spread;     /* of the strengths of 98 of 100 interfaces [Pa], where a step forgets those that it passes; else NaN */
     double step_stress; /* E |rate| dt [Pa]; NaN where the loading gives no strain rate */
     double turn;       /* a ring's time from its greatest speed to its turning point: pi/2 R/c [s] */
     bool folds;        /* a ring is driven inward, or swings back whole and then inward before time.end */

@@ -194,6 +194,16 @@ static bool warn_lonely(const fracas_point *point, const fracas_forecast *foreca
     return forecast->lonely;
 }
 
+/* The peak of an onset by the mean is what the step has reached: docs/decisions/onset-of-surfaces.md. */
+static bool warn_passed(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
+{
+    (void)point;
+    snprintf(text, size, "one time step adds %.3g Pa of stress, and nearly all strengths lie within %.3g Pa: interfaces that a step passes "
+             "together are equally strong; lower time.safety %.2g times", forecast->step_stress, forecast->spread,
+             4 * forecast->step_stress / forecast->spread);
+    return forecast->spread > 0 && forecast->step_stress > 0.25 * forecast->spread;
+}
+
 static bool warn_step(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
 {
     (void)point;
@@ -211,7 +221,7 @@ static bool warn_turned(const fracas_point *point, const fracas_forecast *foreca
 }
 
 static warning *const warnings[] = {warn_coarse, warn_uniform, warn_lines, warn_weak_load, warn_repeated,
-                                    warn_folds,  warn_lonely,  warn_step,  warn_turned};
+                                    warn_folds,  warn_lonely,  warn_step,  warn_turned, warn_passed};
 enum { WARNINGS = FRACAS_COUNT(warnings) };
 
 /* Warning `which` of point p, with its number; false if it does not apply. */

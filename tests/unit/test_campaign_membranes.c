@@ -504,6 +504,32 @@ static void test_bound(void **state)
         }
 }
 
+/* A step adds E rate dt; of strengths uniform over w, 98 of 100 are within 0.98 w. The plan warns where the one is over a quarter of
+ * the other, for onsets by the mean. */
+static void test_steps_that_pass_strengths(void **state)
+{
+    (void)state;
+    static const struct {
+        double widths; /* w by what a step adds */
+        bool warned;
+        const char *onset;
+    } table[] = {{3.9, true, "mean"}, {4.3, false, "mean"}, {3.9, false, "flux"}};
+    fracas_campaign *campaign = read_membrane("", "");
+    fracas_forecast forecast;
+    assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_OK);
+    fracas_campaign_destroy(campaign);
+    for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
+        char put[200];
+        snprintf(put, sizeof put, "  onset: %s\nstrength: {distribution: uniform, minimum: 300 MPa, maximum: %.17g}\n", table[i].onset,
+                 300e6 + table[i].widths * forecast.step_stress);
+        campaign = read_membrane("strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n", put);
+        char *text = print_plan(campaign, false);
+        assert_true((strstr(text, "interfaces that a step passes together") != NULL) == table[i].warned);
+        free(text);
+        fracas_campaign_destroy(campaign);
+    }
+}
+
 /* Where stress concentrates, at holes, held corners and shocks, none is known; a centrifugal load stretches by w^2 t^2/2. */
 static void test_bounds_of_others(void **state)
 {
@@ -542,6 +568,7 @@ int main(void)
         cmocka_unit_test(test_no_mesh),   cmocka_unit_test(test_mean_strength), cmocka_unit_test(test_swept_model),
         cmocka_unit_test(test_inherited), cmocka_unit_test(test_refused),   cmocka_unit_test(test_perturbed),
         cmocka_unit_test(test_plan),      cmocka_unit_test(test_bytes),     cmocka_unit_test(test_bound),
+        cmocka_unit_test(test_steps_that_pass_strengths),
         cmocka_unit_test(test_bounds_of_others),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
