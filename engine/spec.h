@@ -10,11 +10,12 @@
 #define FRACAS_EDGES 5 /* tags 1 to 4, and all others */
 
 typedef struct {
-    const fracas_kind *shape;     /* bar, ring; plate, annulus, file: surfaces */
+    const fracas_kind *shape;     /* bar, ring; plate, annulus, sphere, file: surfaces */
     const fracas_kind *ends;      /* bar: periodic, held */
     const fracas_kind *direction; /* ring: initial, current; in which its interfaces open */
+    const fracas_kind *part;      /* sphere: whole, octant */
     double length; /* m, bar */
-    double radius; /* m, ring */
+    double radius; /* m, ring, sphere */
     double area;   /* m2, bar and ring: of the cross-section */
     double width, height; /* m, plate */
     double inner, outer;  /* m, annulus: radii */
@@ -50,6 +51,7 @@ typedef struct {
     double refinement;       /* stershic: factor xi of the time step for each critical zone; 1 */
     const fracas_kind *critical_zone; /* stershic: softening, steep; which open links refine the time step */
     double zone;             /* m, stershic: no interface opens within this distance of an open one; 0: no zone */
+    double beta_shear;       /* shells: stiffness against shearing off; 1 */
     const fracas_kind *onset; /* surfaces: mean, flux; the traction that is held against the strength */
     double coupling;         /* surfaces: beta_c, shear strength / normal strength; 1 */
     double friction;         /* surfaces: mu_c, Coulomb's coefficient; 1 */

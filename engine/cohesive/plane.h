@@ -41,6 +41,8 @@ typedef struct {
     vd created, rubbed; /* in this step: energy put in by an onset or break, energy dissipated by friction [J/m2] */
     vmask cracked;    /* past onset: the above holds; elsewhere the flux's own T = m + k q, s = q */
     vmask cracks, breaks; /* in this step */
+    /* of nitsche: G_c D of this step alone [J/m2], and the traction at the D halfway through it [Pa] */
+    vd spent, midway_n, midway_t;
 } plane_result;
 
 LANES_FUNCTION vd plane_max(vd a, vd b) { return lanes_select(lanes_lt(a, b), b, a); }

@@ -77,6 +77,10 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
     vd factor = lanes_select(loading, p * (one - damage) / effective, ratio); /* (cohesive.14) */
     r.t_n = lanes_select(lanes_lt(zero, trial_n), trial_n * factor, trial_n);
     r.t_t = rub.shear * factor + rub.rub;
+    vd midway = lanes_select(loading, p * (one - half * (state->damage + damage)) / effective, ratio);
+    r.midway_n = lanes_select(lanes_lt(zero, trial_n), trial_n * midway, trial_n);
+    r.midway_t = rub.shear * midway + rub.rub;
+    r.spent = energy * (damage - state->damage);
     if (friction) {
         r.t_t = lanes_select(rub.sticks, rub.held, r.t_t);
         rub.rub = lanes_select(rub.sticks, rub.held - rub.carried, rub.rub);

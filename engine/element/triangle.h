@@ -21,6 +21,10 @@ void fracas_triangle_shape(int order, double xi, double eta, double *value, doub
      {{T_(1.0), T_(1.0)}, {T_(5.0), 0.0}, {0.0, T_(-1.0)}, {-2.0, T_(-8.0)}, {T_(2.0), T_(8.0)}, {T_(-2.0), 0.0}},      \
      {{T_(1.0), T_(1.0)}, {T_(-1.0), 0.0}, {0.0, T_(5.0)}, {0.0, T_(-2.0)}, {T_(8.0), T_(2.0)}, {T_(-8.0), -2.0}}}
 
+/* Second derivatives of the shape functions of order 2, the same everywhere: by xi xi, by eta eta, by xi eta. */
+#define FRACAS_TRIANGLE_SECOND_2 \
+    {{4.0, 4.0, 0.0, -8.0, 0.0, 0.0}, {4.0, 0.0, 4.0, 0.0, 0.0, -8.0}, {4.0, 0.0, 0.0, -4.0, 4.0, -4.0}}
+
 /* A rule of degree 6 with 12 points (Dunavant 1985): xi, eta, weight; weights sum to 1/2. */
 enum { FRACAS_TRIANGLE_FINE = 12 };
 extern const double fracas_triangle_fine[FRACAS_TRIANGLE_FINE][3];
@@ -43,6 +47,14 @@ static inline __attribute__((always_inline)) void fracas_edge_shape(int order, d
     spread[0] = 2 * (1 - s) - 1.0 / 3;
     spread[1] = 2 * s - 1.0 / 3;
     spread[2] = -1.0 / 3;
+}
+
+/* Derivatives by s of those shape functions, of order 2. */
+static inline __attribute__((always_inline)) void fracas_edge_slope(double s, double slope[3])
+{
+    slope[0] = 4 * s - 3;
+    slope[1] = 4 * s - 1;
+    slope[2] = 4 - 8 * s;
 }
 
 #endif

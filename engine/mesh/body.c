@@ -17,16 +17,27 @@ static const fracas_kind *const directions[] = {&fracas_direction_current, &frac
 
 const fracas_kind fracas_edge_free = {.name = "free", .doc = "nothing holds the edge"};
 const fracas_kind fracas_edge_held = {
-    .name = "held", .doc = "the edge moves with the velocity of the loading all the time: that of the expansion, or none"};
+    .name = "held", .doc = "the edge moves with the velocity of the loading all the time: that of the expansion, or none; a shell may turn "
+                           "about it"};
 const fracas_kind fracas_edge_sliding = {
-    .name = "sliding", .doc = "as held, but free to slide along itself; an edge along x or y only"};
-const fracas_kind fracas_edge_fixed = {.name = "fixed", .doc = "the edge stays where it is"};
-static const fracas_kind *const edges[] = {&fracas_edge_free, &fracas_edge_held, &fracas_edge_sliding, &fracas_edge_fixed};
+    .name = "sliding", .doc = "membranes: as held, but free to slide along itself; an edge along x or y only"};
+const fracas_kind fracas_edge_fixed = {.name = "fixed", .doc = "the edge stays where it is; a shell may turn about it"};
+const fracas_kind fracas_edge_clamped = {.name = "clamped", .doc = "shells: the edge stays where it is and does not turn"};
+const fracas_kind fracas_edge_symmetry = {
+    .name = "symmetry", .doc = "shells: the edge lies in a plane x, y or z = const, and what is beyond is the mirror image"};
+const fracas_kind fracas_edge_diaphragm = {
+    .name = "diaphragm", .doc = "shells: the edge lies in a plane x, y or z = const and does not move in it; it may leave it, and the shell "
+                                "turn about it"};
+static const fracas_kind *const edges[] = {&fracas_edge_free, &fracas_edge_held, &fracas_edge_sliding, &fracas_edge_fixed,
+                                           &fracas_edge_clamped, &fracas_edge_symmetry, &fracas_edge_diaphragm};
+const fracas_kind fracas_part_whole = {.name = "whole", .doc = "all of it"};
+const fracas_kind fracas_part_octant = {.name = "octant", .doc = "x, y, z >= 0; the other seven are mirror images"};
+static const fracas_kind *const parts[] = {&fracas_part_whole, &fracas_part_octant};
 #define EDGE(key, tag, what)                                                                                          \
     {.name = key, .type = FRACAS_CHOICE, .unit = "1", .doc = "what holds " what, .choices = edges,                    \
      .nchoices = FRACAS_COUNT(edges), .offset = offsetof(fracas_geometry, edge) + tag * sizeof(const fracas_kind *)}
 #define AREA {"area", FRACAS_REAL, "m2", "area of the cross-section", 1e-6, 0, INFINITY, true, offsetof(fracas_geometry, area)}
-#define THICKNESS {"thickness", FRACAS_REAL, "m", "thickness of the plate", FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_geometry, thickness)}
+#define THICKNESS {"thickness", FRACAS_REAL, "m", "thickness of the plate or shell", FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_geometry, thickness)}
 #define LENGTH(key, member, what) {key, FRACAS_REAL, "m", what, FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_geometry, member)}
 
 static const fracas_param bar[] = {
@@ -71,6 +82,15 @@ static const fracas_param annulus[] = {
 const fracas_kind fracas_shape_annulus = {
     .name = "annulus", .doc = "a flat plate ring about the origin", .params = annulus, .nparams = FRACAS_COUNT(annulus)};
 
+static const fracas_param sphere[] = {
+    LENGTH("radius", radius, "radius of the mid-surface"),
+    THICKNESS,
+    {.name = "part", .type = FRACAS_CHOICE, .unit = "1", .doc = "how much of it is there", .choices = parts,
+     .nchoices = FRACAS_COUNT(parts), .offset = offsetof(fracas_geometry, part)},
+};
+const fracas_kind fracas_shape_sphere = {
+    .name = "sphere", .doc = "a thin spherical shell about the origin", .params = sphere, .nparams = FRACAS_COUNT(sphere)};
+
 static const fracas_param file[] = {
     {.name = "file", .type = FRACAS_ATTACHMENT, .unit = "1", .doc = "Gmsh file (MSH 2.2 or 4.1) of triangles with 3 or 6 nodes, in m",
      .fallback = FRACAS_REQUIRED, .offset = offsetof(fracas_geometry, file)},
@@ -85,7 +105,7 @@ const fracas_kind fracas_shape_file = {
     .name = "file", .doc = "the surface of a mesh file", .params = file, .nparams = FRACAS_COUNT(file)};
 
 static const fracas_kind *const shapes[] = {&fracas_shape_bar, &fracas_shape_ring, &fracas_shape_plate, &fracas_shape_annulus,
-                                            &fracas_shape_file};
+                                            &fracas_shape_sphere, &fracas_shape_file};
 const fracas_section fracas_geometry_section = {
     .name = "geometry", .doc = "The body", .selector = "shape", .kinds = shapes, .nkinds = FRACAS_COUNT(shapes),
     .kind_offset = offsetof(fracas_geometry, shape),
@@ -118,7 +138,8 @@ const fracas_kind fracas_spacing_perturbed = {
 static const fracas_param triangles[] = {
     {"size", FRACAS_REAL, "m", "edge of the equilateral triangle with the mean area of the elements; or give divisions", 0, 0, INFINITY,
      false, offsetof(fracas_mesh, size)},
-    {"divisions", FRACAS_INTEGER, "1", "elements along the shorter side of a plate, or layers of elements of an annulus; or give size", 0, 0,
+    {"divisions", FRACAS_INTEGER, "1", "elements along the shorter side of a plate, layers of elements of an annulus, elements along each edge of an octant of "
+     "a sphere or of the 20 faces of a whole one; or give size", 0, 0,
      1e4, false, offsetof(fracas_mesh, divisions)},
     {"order", FRACAS_INTEGER, "1", "1: linear triangles, 2: quadratic ones, which follow curved edges", 1, 1, 2, false,
      offsetof(fracas_mesh, order)},

@@ -6,7 +6,8 @@
 bool fracas_spec_is_surface(const fracas_spec *spec)
 {
     const fracas_kind *shape = spec->geometry.shape;
-    return shape == &fracas_shape_plate || shape == &fracas_shape_annulus || shape == &fracas_shape_file;
+    return shape == &fracas_shape_plate || shape == &fracas_shape_annulus || shape == &fracas_shape_sphere ||
+           shape == &fracas_shape_file;
 }
 
 static fracas_err check_spacing(const fracas_spec *spec)
@@ -32,9 +33,10 @@ fracas_err fracas_mesh_make(const fracas_spec *spec, const fracas_surface **surf
         .size = mesh->size, .divisions = (size_t)mesh->divisions, .order = (int)mesh->order,
         .amplitude = mesh->noise ? mesh->amplitude : 0.0, .shift = (const double(*)[2])(const void *)mesh->noise,
         .nshifts = mesh->nnoise / 2};
-    return geometry->shape == &fracas_shape_plate
-               ? fracas_surface_rectangle(geometry->width, geometry->height, &fineness, surface)
-               : fracas_surface_annulus(geometry->inner, geometry->outer, &fineness, surface);
+    if (geometry->shape == &fracas_shape_plate) return fracas_surface_rectangle(geometry->width, geometry->height, &fineness, surface);
+    if (geometry->shape == &fracas_shape_annulus) return fracas_surface_annulus(geometry->inner, geometry->outer, &fineness, surface);
+    return geometry->part == &fracas_part_octant ? fracas_surface_octant(geometry->radius, &fineness, surface)
+                                                 : fracas_surface_sphere(geometry->radius, &fineness, surface);
 }
 
 fracas_err fracas_mesh_noise_count(const fracas_spec *spec, size_t *count)

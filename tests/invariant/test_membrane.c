@@ -133,8 +133,8 @@ static void momenta_are_kept_to_round_off(void **unused)
         for (size_t e = 0; e < model->elements; e++)
             for (size_t k = 0; k < model->surface->corners; k++) {
                 const double *x = node_at(model, e, k);
-                *membrane_state(batch, e, k, MEMBRANE_V, 0) += drift[0] - spin * x[1];
-                *membrane_state(batch, e, k, MEMBRANE_V, 1) += drift[1] + spin * x[0];
+                *membrane_state(batch, e, k, SURFACE_V, 0) += drift[0] - spin * x[1];
+                *membrane_state(batch, e, k, SURFACE_V, 1) += drift[1] + spin * x[0];
             }
         const membrane_sums before = sums_of(batch);
         double worst = 0, turn = 0;

@@ -73,10 +73,10 @@ static inline void add_sums(const fracas_batch *batch, size_t e, membrane_sums *
         const double *x = node_at(model, e, k);
         double p[2] = {0}, moved[2];
         for (int i = 0; i < 2; i++) {
-            moved[i] = x[i] + *membrane_state(batch, e, k, MEMBRANE_U, i);
+            moved[i] = x[i] + *membrane_state(batch, e, k, SURFACE_U, i);
             for (size_t l = 0; l < model->surface->corners; l++) {
-                p[i] += mass_of(model, e, k, l) * *membrane_state(batch, e, l, MEMBRANE_V, i);
-                sums->centre[i] += mass_of(model, e, k, l) * (node_at(model, e, l)[i] + *membrane_state(batch, e, l, MEMBRANE_U, i));
+                p[i] += mass_of(model, e, k, l) * *membrane_state(batch, e, l, SURFACE_V, i);
+                sums->centre[i] += mass_of(model, e, k, l) * (node_at(model, e, l)[i] + *membrane_state(batch, e, l, SURFACE_U, i));
             }
             sums->momentum[i] += p[i];
             sums->scale += fabs(p[i]);

@@ -193,8 +193,8 @@ static void start(body *b, const double *mode, double u, double v)
     for (size_t i = 0; i < b->model->interfaces; i++) bar_set_strength(b->batch, 0, i, 1e9);
     assert_ok(fracas_batch_begin(b->batch));
     for (size_t i = 0; i < b->n; i++) {
-        *fracas_membrane_value(b->model, &b->batch->step, i / b->size, MEMBRANE_U, (int)(i % b->size), 0) = u * mode[i];
-        *fracas_membrane_value(b->model, &b->batch->step, i / b->size, MEMBRANE_V, (int)(i % b->size), 0) = v * mode[i];
+        *fracas_membrane_value(b->model, &b->batch->step, i / b->size, SURFACE_U, (int)(i % b->size), 0) = u * mode[i];
+        *fracas_membrane_value(b->model, &b->batch->step, i / b->size, SURFACE_V, (int)(i % b->size), 0) = v * mode[i];
     }
 }
 
@@ -237,12 +237,12 @@ static void follow(body *b, size_t which, double omega_dt)
         /* bounded: by 306 for r = 1 at 0.999 of its limit, where three roots of size 1 lie close together */
         largest = fmax(largest, fmax(fabs(x.u), fabs(x.v)));
         assert_true(largest < 400 * u);
-        assert_true(apart(b, mode, MEMBRANE_U, x.u) < 1e-9 * largest);
-        assert_true(apart(b, mode, MEMBRANE_V, x.v / dt) < 1e-9 * largest / dt);
+        assert_true(apart(b, mode, SURFACE_U, x.u) < 1e-9 * largest);
+        assert_true(apart(b, mode, SURFACE_V, x.v / dt) < 1e-9 * largest / dt);
         if (alpha) {
             const motion next = advance(&h, square, x);
-            assert_true(apart(b, mode, MEMBRANE_A, x.a / (dt * dt)) < 1e-8 * largest / (dt * dt));
-            assert_true(apart(b, mode, MEMBRANE_A_NEXT, next.a / (dt * dt)) < 1e-8 * largest / (dt * dt));
+            assert_true(apart(b, mode, SURFACE_A, x.a / (dt * dt)) < 1e-8 * largest / (dt * dt));
+            assert_true(apart(b, mode, SURFACE_A_NEXT, next.a / (dt * dt)) < 1e-8 * largest / (dt * dt));
         }
         /* energies are v^2 and omega^2 u^2 times the same mass */
         const double kinetic = alpha ? x.v * x.v : before * after, elastic = square * x.u * x.u;
@@ -301,7 +301,7 @@ static void the_batch_blows_up_above_the_limit_only(void **unused)
         size_t running = 1;
         for (int n = 0; n < 20000 && largest < 1e-12; n++) {
             assert_ok(fracas_batch_step(b.batch, &record, &running));
-            largest = apart(&b, b.mode, MEMBRANE_U, 0);
+            largest = apart(&b, b.mode, SURFACE_U, 0);
         }
         assert_true(above ? largest >= 1e-12 : largest < 1e-15);
         fracas_record_clear(&record);

@@ -199,7 +199,7 @@ static void check_fate(fracas_model *model, double velocity[2][6], double streng
     assert_ok(fracas_batch_begin(batch));
     for (size_t side = 0; side < 2; side++)
         for (size_t i = 0; i < 6; i++)
-            *membrane_state(batch, model->surface->interface[0].element[side], i / 2, MEMBRANE_V, (int)i % 2) = 100 + velocity[side][i];
+            *membrane_state(batch, model->surface->interface[0].element[side], i / 2, SURFACE_V, (int)i % 2) = 100 + velocity[side][i];
     run_to_end(batch, &record);
     const fracas_cohesive *law = &model->spec.cohesive;
     const double area = sqrt(2) * 1e-3 * model->spec.geometry.thickness;
@@ -262,7 +262,7 @@ static void move_halves(fracas_batch *batch, int mode, double speed)
     const fracas_model *model = batch->model;
     for (size_t e = 0; e < model->elements; e++) {
         const double sign = node_at(model, e, 0)[1] + node_at(model, e, 1)[1] + node_at(model, e, 2)[1] > 0 ? 1 : -1;
-        for (size_t k = 0; k < model->surface->corners; k++) *membrane_state(batch, e, k, MEMBRANE_V, mode == OPENS) = sign * speed;
+        for (size_t k = 0; k < model->surface->corners; k++) *membrane_state(batch, e, k, SURFACE_V, mode == OPENS) = sign * speed;
     }
 }
 
@@ -280,7 +280,7 @@ static double energy_of_row(const fracas_batch *batch, const fracas_record *reco
         const double *a = node_at(model, joint->element[0], joint->edge[0]), *b = node_at(model, joint->element[0], (joint->edge[0] + 1) % 3);
         const double area = hypot(b[0] - a[0], b[1] - a[1]) * model->spec.geometry.thickness;
         for (int g = 0; g < order + 1; g++) {
-            const double peak = *fracas_membrane_point(model, &batch->step, i, g, MEMBRANE_PEAK, 0);
+            const double peak = *fracas_membrane_point(model, &batch->step, i, g, SURFACE_PEAK, 0);
             if (law->onset == &fracas_onset_flux) assert_true(peak == record->interface[i].strength);
             energy += weight[order - 1][g] * area * (law->critical_opening > 0 ? law->critical_opening * peak / 2 : law->fracture_energy);
         }
@@ -461,8 +461,8 @@ static void an_interface_holds_by_its_last_point(void **unused)
     assert_ok(fracas_batch_begin(batch));
     for (size_t i = 0; i < model->interfaces; i++)
         for (int g = 0; g < 3; g++) {
-            *fracas_membrane_point(model, &batch->step, i, g, MEMBRANE_PEAK, 0) = BAR_STRENGTH_MEAN;
-            *fracas_membrane_point(model, &batch->step, i, g, MEMBRANE_DAMAGE, 0) = g < 2 ? 1 : 1 - 0x1p-53;
+            *fracas_membrane_point(model, &batch->step, i, g, SURFACE_PEAK, 0) = BAR_STRENGTH_MEAN;
+            *fracas_membrane_point(model, &batch->step, i, g, SURFACE_DAMAGE, 0) = g < 2 ? 1 : 1 - 0x1p-53;
         }
     run_to_end(batch, &record);
     assert_true(record.fragments == 1 && record.nfragment == 1 && record.broken == 0 && record.interface[0].damage < 1);

@@ -48,8 +48,8 @@ static void check_first_step(fracas_spec spec, int width)
     double *u = vector_of(n), *v = vector_of(n), *f = vector_of(n), *a = vector_of(n), *momentum = vector_of(n), worst = 0;
     uint64_t noise = 3;
     for (size_t i = 0; i < n; i++) {
-        *value_of(&run, i, MEMBRANE_U) = u[i] = is_held(run.model, i) ? 0 : 1e-9 * (next_share(&noise) - 0.5);
-        *value_of(&run, i, MEMBRANE_V) = v[i] = is_held(run.model, i) ? 0 : 1e-3 * (next_share(&noise) - 0.5);
+        *value_of(&run, i, SURFACE_U) = u[i] = is_held(run.model, i) ? 0 : 1e-9 * (next_share(&noise) - 0.5);
+        *value_of(&run, i, SURFACE_V) = v[i] = is_held(run.model, i) ? 0 : 1e-3 * (next_share(&noise) - 0.5);
     }
     fracas_membrane_operator *op = open_operator(run.model);
     fracas_membrane_operator_apply(op, u, a);
@@ -60,7 +60,7 @@ static void check_first_step(fracas_spec spec, int width)
     double elastic = 0, kinetic = 0;
     multiply_mass(run.model, v, momentum);
     for (size_t i = 0; i < n; i++) {
-        worst = fmax(worst, fabs(*value_of(&run, i, MEMBRANE_V) - v[i] - kick * a[i]));
+        worst = fmax(worst, fabs(*value_of(&run, i, SURFACE_V) - v[i] - kick * a[i]));
         elastic += 0.5 * u[i] * f[i];
         kinetic += 0.5 * momentum[i] * (v[i] + kick * a[i]);
     }
@@ -134,15 +134,15 @@ static void check_edges_hold(int64_t order, bool consistent, bool rest)
         const double held = expected_velocity(run.model, i), *x = node_at(run.model, i / size, i % size / 2);
         const double free_start = rest ? 0 : spec.loading.rate * (i % 2 ? 0.5 : 1) * x[i % 2];
         assert_int_equal(is_held(run.model, i), !isnan(held));
-        assert_true(fabs(*value_of(&run, i, MEMBRANE_V) - (isnan(held) ? free_start : held)) < 1e-14);
+        assert_true(fabs(*value_of(&run, i, SURFACE_V) - (isnan(held) ? free_start : held)) < 1e-14);
     }
     for (int s = 0; s < 40; s++) step(&run);
     const double time = run.batch->step.time[0];
     for (size_t i = 0; i < n; i++) {
         const double held = expected_velocity(run.model, i);
-        if (!isnan(held)) assert_true(fabs(*value_of(&run, i, MEMBRANE_U) - held * time) < 1e-14 * fmax(1e-9, fabs(held * time)));
+        if (!isnan(held)) assert_true(fabs(*value_of(&run, i, SURFACE_U) - held * time) < 1e-14 * fmax(1e-9, fabs(held * time)));
         if (!isnan(held)) count[held != 0]++;
-        else count[0] += *value_of(&run, i, MEMBRANE_U) == 0;
+        else count[0] += *value_of(&run, i, SURFACE_U) == 0;
     }
     assert_true(count[0] > 0 && count[1] > 0);
     const fracas_ledger *ledger = &run.batch->lane[0].ledger;

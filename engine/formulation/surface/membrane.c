@@ -2,8 +2,6 @@
 #include "engine/formulation/surface/membrane.h"
 
 #include "engine/cohesive/law.h"
-#include "engine/integrator/hulbert_chung.h"
-#include "engine/integrator/integrator.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
 #include "engine/mesh/make.h"
@@ -18,7 +16,7 @@ static bool is_nitsche(const fracas_model *model) { return model->spec.cohesive.
 static int point_fields_of(const fracas_model *model)
 {
     const bool friction = model->spec.cohesive.friction > 0;
-    if (is_nitsche(model)) return friction ? MEMBRANE_POINT_FIELDS_FRICTION : MEMBRANE_POINT_FIELDS;
+    if (is_nitsche(model)) return friction ? SURFACE_POINT_FIELDS_FRICTION : SURFACE_POINT_FIELDS;
     return friction ? MEMBRANE_POINT_FIELDS_EXTRINSIC_FRICTION : MEMBRANE_POINT_FIELDS_EXTRINSIC;
 }
 
@@ -27,7 +25,6 @@ fracas_membrane_constants fracas_membrane_constants_of(const fracas_model *model
 {
     const fracas_spec *spec = &model->spec;
     const double nu = spec->material.poisson, c11 = spec->material.young / (1 - nu * nu), beta_c = spec->cohesive.coupling;
-    const fracas_hulbert_chung alpha = fracas_hulbert_chung_of(spec->time.spectral_radius);
     const bool centrifugal = spec->loading.type == &fracas_loading_centrifugal;
     fracas_membrane_constants c = {
         .tables = tables_of(model), .c11 = c11, .c12 = nu * c11, .c33 = spec->material.young / (2 * (1 + nu)),
@@ -35,9 +32,9 @@ fracas_membrane_constants fracas_membrane_constants_of(const fracas_model *model
         .mu_c = spec->cohesive.friction, .onset_mean = spec->cohesive.onset != &fracas_onset_flux,
         .standard = spec->cohesive.law != &fracas_law_camacho_ortiz, .friction = spec->cohesive.friction > 0,
         .point_fields = point_fields_of(model), .speed = centrifugal ? spec->loading.speed : 0, .ramp = spec->loading.ramp,
-        .alpha = spec->time.integrator == &fracas_integrator_hulbert_chung, .alpha_m = alpha.alpha_m, .b = alpha.beta, .g = alpha.gamma};
+        .motion = fracas_surface_motion_of(&spec->time)};
     c.tangential = beta_c * beta_c * c.normal;
-    c.fields = c.alpha ? MEMBRANE_FIELDS_ALPHA : MEMBRANE_FIELDS;
+    c.fields = c.motion.alpha ? SURFACE_FIELDS_ALPHA : SURFACE_FIELDS;
     return c;
 }
 
@@ -193,7 +190,7 @@ static void membrane_lane_init(const fracas_model *model, const fracas_step *ste
         for (size_t f = 0; f < fields; f++) *value_at(&c, step, e * fields + f, lane) = 0;
         for (size_t k = 0; k < nodes; k++)
             for (int i = 0; i < 2; i++)
-                *value_at(&c, step, e * fields + (size_t)MEMBRANE_V * 2 * nodes + 2 * k + (size_t)i, lane) = start_velocity(model, e, k, i);
+                *value_at(&c, step, e * fields + (size_t)SURFACE_V * 2 * nodes + 2 * k + (size_t)i, lane) = start_velocity(model, e, k, i);
     }
     for (size_t i = 0; i < model->interfaces; i++)
         for (size_t f = MEMBRANE_LAW; f < joint; f++) *value_at(&c, step, joints + i * joint + f, lane) = 0;
@@ -226,7 +223,7 @@ static double damage_of(const fracas_membrane_constants *c, const fracas_step *s
     double damage = 0;
     bool broken = true;
     for (int g = 0; g < MEMBRANE_EDGE(order); g++) {
-        const double at = point_value(c, step, i, g, MEMBRANE_DAMAGE, lane);
+        const double at = point_value(c, step, i, g, SURFACE_DAMAGE, lane);
         damage += weight[order - 1][g] * at;
         broken = broken && at >= 1.0;
     }
@@ -269,7 +266,7 @@ static void add_element(const fracas_model *model, const fracas_step *step, int 
             const double share = mass_at(c.tables, e, k, l);
             mass += share;
             for (size_t i = 0; i < 2; i++)
-                momentum[i] += share * *value_at(&c, step, base + (size_t)MEMBRANE_V * 2 * nodes + 2 * l + i, lane);
+                momentum[i] += share * *value_at(&c, step, base + (size_t)SURFACE_V * 2 * nodes + 2 * l + i, lane);
         }
         for (size_t i = 0; i < 2; i++) {
             x[i] = start[i] + *value_at(&c, step, base + 2 * k + i, lane);

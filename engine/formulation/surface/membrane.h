@@ -7,9 +7,9 @@
 
 fracas_membrane_constants fracas_membrane_constants_of(const fracas_model *model);
 
-/* Where the state has component i (2 node + 0 or 1) of MEMBRANE_U, MEMBRANE_V, ... of an element. */
+/* Where the state has component i (2 node + 0 or 1) of SURFACE_U, SURFACE_V, ... of an element. */
 double *fracas_membrane_value(const fracas_model *model, const fracas_step *step, size_t element, int field, int i, int lane);
-/* Where it has a field of Gauss point g of an interface: MEMBRANE_DAMAGE, ... */
+/* Where it has a field of Gauss point g of an interface: SURFACE_DAMAGE, ... */
 double *fracas_membrane_point(const fracas_model *model, const fracas_step *step, size_t interface, int g, int field, int lane);
 
 /* The operator K of all interfaces whole, or all broken and pressed together:

@@ -23,7 +23,7 @@ static double displacement(const view *v, size_t element, int i)
 {
     const int size = 2 * MEMBRANE_NODES(v->membrane->tables->order);
     const double *at = v->elements + element * fracas_membrane_element_fields(v->membrane) * v->lanes;
-    return at[(size_t)(MEMBRANE_U * size + i) * v->lanes] - v->back * at[(size_t)(MEMBRANE_V * size + i) * v->lanes];
+    return at[(size_t)(SURFACE_U * size + i) * v->lanes] - v->back * at[(size_t)(SURFACE_V * size + i) * v->lanes];
 }
 
 /* Stress at bulk point g (membrane.3). */
@@ -126,7 +126,7 @@ void fracas_membrane_book(const fracas_membrane_constants *membrane, membrane_la
     const double sigma_c = now.joints[interface * fracas_membrane_joint_fields(membrane) * now.lanes];
     double first = INFINITY, last = -INFINITY;
     for (int g = 0; g < MEMBRANE_EDGE(membrane->tables->order); g++) {
-        const double peak = point_at(&now, interface, g)[MEMBRANE_PEAK * now.lanes];
+        const double peak = point_at(&now, interface, g)[SURFACE_PEAK * now.lanes];
         const double delta_c = membrane->opening > 0 ? membrane->opening : 2 * membrane->energy / peak;
         double onset[2], opening[2];
         compared(&before, law, interface, g, &onset[0], &opening[0]);

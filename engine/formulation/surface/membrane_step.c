@@ -1,12 +1,8 @@
 /* The membrane as an operator, and its critical time step. */
 #include "engine/formulation/surface/membrane.h"
 
-#include "engine/integrator/critical_step.h"
-#include "engine/integrator/hulbert_chung.h"
-#include "engine/integrator/integrator.h"
-#include "engine/integrator/lanczos.h"
+#include "engine/formulation/surface/critical_step.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 struct fracas_membrane_operator {
@@ -20,8 +16,8 @@ fracas_err fracas_membrane_operator_open(const fracas_model *model, int contact,
     if (!op) return fracas_no_memory("the critical time step");
     *op = (fracas_membrane_operator){.step = {.width = 1, .lanes = 1}, .constants = fracas_membrane_constants_of(model)};
     op->constants.contact = contact;
-    op->constants.alpha = 0;
-    op->constants.fields = MEMBRANE_FIELDS;
+    op->constants.motion.alpha = 0;
+    op->constants.fields = SURFACE_FIELDS;
     op->constants.point_fields = 0; /* no law: interfaces have no state */
     op->constants.speed = 0;
     op->step.state = calloc(fracas_membrane_state_fields(&op->constants), sizeof *op->step.state);
@@ -41,7 +37,7 @@ void fracas_membrane_operator_apply(fracas_membrane_operator *op, const double *
         for (size_t i = 0; i < size; i++) op->step.state[e * fields + i] = u[e * size + i];
     fracas_membrane_kernels_baseline.sweep[MEMBRANE_OPERATOR][c->tables->order - 1][0](c, &op->step, 0);
     for (size_t e = 0; e < c->tables->nelements; e++)
-        for (size_t i = 0; i < size; i++) acceleration[e * size + i] = op->step.state[e * fields + MEMBRANE_V * size + i];
+        for (size_t i = 0; i < size; i++) acceleration[e * size + i] = op->step.state[e * fields + SURFACE_V * size + i];
 }
 
 void fracas_membrane_operator_close(fracas_membrane_operator *op)
@@ -74,52 +70,29 @@ static void multiply_by_mass(void *context, const double *w, double *result)
             }
 }
 
-/* A little of everything, most of it where elements are small; nothing where nodes are held. */
-static void fill_start(const fracas_membrane_tables *t, double *start)
-{
-    const size_t nodes = (size_t)MEMBRANE_NODES(t->order);
-    double least = INFINITY;
-    for (size_t e = 0; e < t->nelements; e++) least = fmin(least, t->lumped[(2 * e + 1) * nodes]);
-    uint64_t noise = 1;
-    for (size_t e = 0; e < t->nelements; e++)
-        for (size_t i = 0; i < 2 * nodes; i++) {
-            const double part = least / t->lumped[(2 * e + 1) * nodes];
-            noise = noise * 6364136223846793005u + 1442695040888963407u;
-            const bool held = t->held && (t->held[e] >> i & 1);
-            start[2 * nodes * e + i] = held ? 0 : part * part * ((double)(noise >> 40) / 16777216.0 - 0.5);
-        }
-}
-
 static fracas_err largest_frequency(const fracas_model *model, int contact, double *omega)
 {
     fracas_membrane_operator *op;
     TRY(fracas_membrane_operator_open(model, contact, &op));
     const fracas_membrane_tables *t = op->constants.tables;
-    const size_t n = 2 * (size_t)MEMBRANE_NODES(t->order) * t->nelements;
-    double square = 0, *start = malloc(n * sizeof *start);
-    fracas_err err = start ? FRACAS_OK : fracas_no_memory("the critical time step");
-    if (!err) {
-        fill_start(t, start);
-        err = fracas_lanczos(&(fracas_lanczos_problem){apply, multiply_by_mass, op, n}, start, &square);
+    const size_t nodes = (size_t)MEMBRANE_NODES(t->order), n = 2 * nodes * t->nelements;
+    double *scale = malloc(n * sizeof *scale);
+    fracas_err err = scale ? FRACAS_OK : fracas_no_memory("the critical time step");
+    for (size_t i = 0; scale && i < n; i++) {
+        const size_t e = i / (2 * nodes);
+        scale[i] = t->held && (t->held[e] >> i % (2 * nodes) & 1) ? 0 : t->lumped[(2 * e + 1) * nodes];
     }
-    free(start);
+    if (!err) err = fracas_surface_frequency(&(fracas_lanczos_problem){apply, multiply_by_mass, op, n}, scale, omega);
+    free(scale);
     fracas_membrane_operator_close(op);
-    *omega = sqrt(square);
-    if (!err && !(square > 0)) return fracas_fail(FRACAS_USAGE, "every node of the mesh is held: leave an edge free, or refine the mesh");
     return err;
 }
 
-/* dt_c = Omega_c/omega_max, Omega_c = 2 of central difference, of both operators  (membrane.16) */
 fracas_err fracas_membrane_critical_step(fracas_model *model)
 {
-    const fracas_time *time = &model->spec.time;
-    const double limit = time->integrator == &fracas_integrator_hulbert_chung ? fracas_hulbert_chung_of(time->spectral_radius).limit
-                                                                             : FRACAS_CENTRAL_DIFFERENCE_LIMIT;
     double whole, pressed;
     TRY(largest_frequency(model, 0, &whole));
     TRY(largest_frequency(model, 1, &pressed));
-    model->critical_closed = limit / whole;
-    model->critical_cracked = limit / pressed;
-    model->critical_step = fmin(model->critical_closed, model->critical_cracked);
+    fracas_surface_set_critical_step(model, whole, pressed);
     return FRACAS_OK;
 }

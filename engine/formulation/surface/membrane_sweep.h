@@ -2,26 +2,21 @@
  * (docs/theory/membrane.md).
  *
  * State of a group of lanes, one part after another:
- *   [element][field][lane]    MEMBRANE_U ..., see below
+ *   [element][field][lane]    SURFACE_U ..., each 2 MEMBRANE_NODES wide (node 0 x, y, node 1 x, ...)
  *   [interface][field][lane]  MEMBRANE_STRENGTH, then the law's fields of each Gauss point
  *   [slot][field][lane]       what an element collects from its interfaces while it is under way: slot = element & window */
 #ifndef FRACAS_ENGINE_FORMULATION_SURFACE_MEMBRANE_SWEEP_H
 #define FRACAS_ENGINE_FORMULATION_SURFACE_MEMBRANE_SWEEP_H
 
 #include "engine/element/triangle.h"
+#include "engine/formulation/surface/sweep.h"
 #include "engine/formulation/surface/membrane_tables.h"
-
-/* Fields of an element, each 2 MEMBRANE_NODES wide (node 0 x, y, node 1 x, ...): displacement at t_n; velocity, half a step
- * behind before the sweep and ahead after (Hulbert-Chung: at t_n); Hulbert-Chung: acceleration a_n and a_{n+1}. */
-enum { MEMBRANE_U, MEMBRANE_V, MEMBRANE_FIELDS, MEMBRANE_A = MEMBRANE_FIELDS, MEMBRANE_A_NEXT, MEMBRANE_FIELDS_ALPHA };
 
 /* Of an interface. */
 enum { MEMBRANE_STRENGTH, MEMBRANE_LAW };
-/* Of a Gauss point: D, p of every law; the rest of nitsche with friction; of the extrinsic laws; of those with friction. */
-enum { MEMBRANE_DAMAGE, MEMBRANE_PEAK, MEMBRANE_POINT_FIELDS };
-enum { MEMBRANE_SLIP = MEMBRANE_POINT_FIELDS, MEMBRANE_RUB, MEMBRANE_POINT_FIELDS_FRICTION };
+/* Of a Gauss point, beside those of every law: of the extrinsic laws; of those with friction. */
 enum {
-    MEMBRANE_JUMP_N = MEMBRANE_POINT_FIELDS, MEMBRANE_JUMP_T, MEMBRANE_START_N, MEMBRANE_START_T, MEMBRANE_POINT_FIELDS_EXTRINSIC,
+    MEMBRANE_JUMP_N = SURFACE_POINT_FIELDS, MEMBRANE_JUMP_T, MEMBRANE_START_N, MEMBRANE_START_T, MEMBRANE_POINT_FIELDS_EXTRINSIC,
     MEMBRANE_EXTRINSIC_SLIP = MEMBRANE_POINT_FIELDS_EXTRINSIC, MEMBRANE_EXTRINSIC_RUB, MEMBRANE_POINT_FIELDS_EXTRINSIC_FRICTION
 };
 
@@ -43,8 +38,7 @@ typedef struct {
     int onset_mean, standard, friction;
     int fields, point_fields;     /* of an element, in units of 2 MEMBRANE_NODES; of a Gauss point */
     double speed, ramp;           /* rad/s, s: w = speed min(1, t/ramp) */
-    int alpha;                    /* Hulbert-Chung, with its parameters: */
-    double alpha_m, b, g;         /* 1 */
+    fracas_surface_motion motion;
     int contact;                  /* MEMBRANE_OPERATOR: all interfaces broken and in contact; else whole */
 } fracas_membrane_constants;
 
@@ -67,7 +61,7 @@ static inline size_t fracas_membrane_slots_at(const fracas_membrane_constants *c
 }
 static inline size_t fracas_membrane_state_fields(const fracas_membrane_constants *c)
 {
-    return fracas_membrane_slots_at(c) + (c->tables->window + 1) * (size_t)MEMBRANE_SLOT(c->tables->order);
+    return fracas_membrane_slots_at(c) + (c->tables->visits.window + 1) * (size_t)MEMBRANE_SLOT(c->tables->order);
 }
 
 /* Advances the lanes first .. first + lanes - 1 of the step. */

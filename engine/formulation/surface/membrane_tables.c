@@ -1,6 +1,8 @@
 #include "engine/formulation/surface/membrane_tables.h"
 
 #include "engine/element/triangle.h"
+#include "engine/formulation/surface/edges.h"
+#include "engine/formulation/surface/nodal_mass.h"
 #include "engine/integrator/integrator.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
@@ -13,8 +15,9 @@ void fracas_membrane_tables_destroy(void *p)
     fracas_membrane_tables *t = p;
     if (!t) return;
     void *const owned[] = {t->bulk, t->lumped, t->consistent, t->position, t->joint, t->element, t->edge,
-                           t->held, t->fixed, t->join_from, t->join, t->finish_from, t->finish};
+                           t->held, t->fixed};
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
+    fracas_surface_visits_clear(&t->visits);
     free(t);
 }
 
@@ -31,12 +34,8 @@ static bool allocate(fracas_membrane_tables *t, bool consistent, bool positions,
     t->joint = malloc((m ? m : 1) * joint * sizeof *t->joint);
     t->element = malloc((m ? m : 1) * sizeof *t->element);
     t->edge = malloc((m ? m : 1) * sizeof *t->edge);
-    t->join_from = calloc(n + 2, sizeof *t->join_from);
-    t->finish_from = calloc(n + 2, sizeof *t->finish_from);
-    t->join = malloc((m ? m : 1) * sizeof *t->join);
-    t->finish = malloc(n * sizeof *t->finish);
     return t->bulk && t->lumped && (t->consistent || !consistent) && (t->position || !positions) && ((t->held && t->fixed) || !held) &&
-           t->joint && t->element && t->edge && t->join_from && t->finish_from && t->join && t->finish;
+           t->joint && t->element && t->edge;
 }
 
 /* Coordinates of the nodes of an element in the plane. */
@@ -105,27 +104,12 @@ static void invert_free(const double *mass, int nodes, unsigned held, int compon
         if (held >> (2 * r + component) & 1) inverse[r * nodes + r] = 0.0;
 }
 
-/* Consistent mass rho h int N_k N_l, and the rule of Hinton, Rock and Zienkiewicz: its diagonal, scaled to the element's mass
- * (membrane.13). */
 static void fill_mass(const fracas_model *model, fracas_membrane_tables *t, size_t e)
 {
     const int nodes = MEMBRANE_NODES(t->order);
-    const double density = model->spec.material.density * model->spec.geometry.thickness;
-    double x[6][2], shape[6], j[2][2], mass[36] = {0}, total = 0, trace = 0;
-    nodes_of(model->surface, e, x);
-    for (int g = 0; g < FRACAS_TRIANGLE_FINE; g++) {
-        const double *point = fracas_triangle_fine[g];
-        const double weight = density * point[2] * jacobian(t->order, (const double(*)[2])x, point[0], point[1], shape, j);
-        total += weight;
-        for (int k = 0; k < nodes; k++)
-            for (int l = 0; l < nodes; l++) mass[k * nodes + l] += weight * shape[k] * shape[l];
-    }
-    for (int k = 0; k < nodes; k++) trace += mass[k * nodes + k];
-    double *lumped = t->lumped + 2 * (size_t)nodes * e;
-    for (int k = 0; k < nodes; k++) {
-        lumped[nodes + k] = total * mass[k * nodes + k] / trace;
-        lumped[k] = 1.0 / lumped[nodes + k];
-    }
+    double mass[36], *lumped = t->lumped + 2 * (size_t)nodes * e;
+    fracas_nodal_mass(model->surface, e, model->spec.material.density * model->spec.geometry.thickness, mass, lumped + nodes);
+    for (int k = 0; k < nodes; k++) lumped[k] = 1.0 / lumped[nodes + k];
     if (!t->consistent) return;
     const size_t entries = (size_t)(nodes * nodes);
     double *consistent = t->consistent + 3 * entries * e;
@@ -170,47 +154,6 @@ static void fill_joint(const fracas_model *model, fracas_membrane_tables *t, siz
     }
 }
 
-/* Interfaces by their second element, elements by the last of their interfaces: two counting sorts. */
-static void fill_order(fracas_membrane_tables *t)
-{
-    const size_t n = t->nelements, m = t->ninterfaces;
-    for (size_t i = 0; i < m; i++) t->join_from[t->element[i][1] + 2]++;
-    for (size_t e = 0; e < n; e++) t->join_from[e + 1] += t->join_from[e];
-    for (size_t i = 0; i < m; i++) t->join[t->join_from[t->element[i][1] + 1]++] = (uint32_t)i;
-    uint32_t *last = t->finish; /* of each element, its highest neighbour, for a while */
-    for (size_t e = 0; e < n; e++) last[e] = (uint32_t)e;
-    for (size_t i = 0; i < m; i++)
-        if (t->element[i][1] > last[t->element[i][0]]) last[t->element[i][0]] = t->element[i][1];
-    for (size_t e = 0; e < n; e++) {
-        t->finish_from[last[e] + 1]++;
-        while (last[e] - e > t->window) t->window = 2 * t->window + 1;
-    }
-    for (size_t e = 0; e < n; e++) t->finish_from[e + 1] += t->finish_from[e];
-}
-
-/* finish[], from what fill_order left in it. */
-static bool fill_finish(fracas_membrane_tables *t)
-{
-    const size_t n = t->nelements;
-    uint32_t *next = malloc(n * sizeof *next), *last = malloc(n * sizeof *last);
-    for (size_t e = 0; next && last && e < n; e++) {
-        last[e] = t->finish[e];
-        next[e] = t->finish_from[e];
-    }
-    for (size_t e = 0; next && last && e < n; e++) t->finish[next[last[e]]++] = (uint32_t)e;
-    const bool enough = next && last;
-    free(next);
-    free(last);
-    return enough;
-}
-
-static const fracas_kind *holding(const fracas_model *model, int32_t tag)
-{
-    const fracas_kind *const *edge = model->spec.geometry.edge;
-    const fracas_kind *kind = tag > 0 && tag < FRACAS_EDGES ? edge[tag] : edge[0];
-    return kind ? kind : &fracas_edge_free;
-}
-
 static fracas_err hold_edge(const fracas_model *model, const fracas_surface_border *border, const fracas_kind *kind,
                             fracas_membrane_tables *t)
 {
@@ -218,6 +161,9 @@ static fracas_err hold_edge(const fracas_model *model, const fracas_surface_bord
     nodes_of(model->surface, border->element, x);
     const uint32_t k = border->edge, node[3] = {k, (k + 1) % 3, 3 + k};
     bool held[2] = {true, true};
+    if (kind == &fracas_edge_clamped || kind == &fracas_edge_symmetry || kind == &fracas_edge_diaphragm)
+        return fracas_fail(FRACAS_USAGE, "an edge with tag %d is %s, which edges of shells are: let an edge of a membrane be %s", (int)border->tag,
+                           kind->name, kind == &fracas_edge_symmetry ? "sliding" : "fixed, held, sliding or free");
     if (kind == &fracas_edge_sliding) {
         const double dx = fabs(x[node[1]][0] - x[node[0]][0]), dy = fabs(x[node[1]][1] - x[node[0]][1]);
         if (fmin(dx, dy) > 1e-9 * fmax(dx, dy))
@@ -236,33 +182,18 @@ static fracas_err hold_edge(const fracas_model *model, const fracas_surface_bord
     return FRACAS_OK;
 }
 
-/* Edges of a file that are to be held must be there. */
-static fracas_err check_tags(const fracas_model *model)
-{
-    const fracas_surface *surface = model->surface;
-    for (int32_t tag = 1; model->spec.geometry.shape == &fracas_shape_file && tag < FRACAS_EDGES; tag++) {
-        size_t found = 0;
-        for (size_t b = 0; b < surface->nborders; b++) found += surface->border[b].tag == tag;
-        const fracas_kind *edge = model->spec.geometry.edge[tag];
-        if (found == 0 && edge && edge != &fracas_edge_free)
-            return fracas_fail(FRACAS_USAGE, "geometry.edge_%d is %s, but the mesh has no edge on its boundary of the physical group %d: give "
-                               "the lines that number, or use `edges` for all others", (int)tag, edge->name, (int)tag);
-    }
-    return FRACAS_OK;
-}
-
 static bool holds_something(const fracas_model *model)
 {
     for (size_t b = 0; b < model->surface->nborders; b++)
-        if (holding(model, model->surface->border[b].tag) != &fracas_edge_free) return true;
+        if (fracas_surface_edge_kind(&model->spec, model->surface->border[b].tag) != &fracas_edge_free) return true;
     return false;
 }
 
 static fracas_err fill(const fracas_model *model, fracas_membrane_tables *t)
 {
-    TRY(check_tags(model));
+    TRY(fracas_surface_check_edge_tags(model));
     for (size_t b = 0; t->held && b < model->surface->nborders; b++) {
-        const fracas_kind *kind = holding(model, model->surface->border[b].tag);
+        const fracas_kind *kind = fracas_surface_edge_kind(&model->spec, model->surface->border[b].tag);
         if (kind != &fracas_edge_free) TRY(hold_edge(model, &model->surface->border[b], kind, t));
     }
     for (size_t e = 0; e < t->nelements; e++) {
@@ -271,8 +202,7 @@ static fracas_err fill(const fracas_model *model, fracas_membrane_tables *t)
         if (t->position) nodes_of(model->surface, e, (double(*)[2])(void *)(t->position + e * 2 * (size_t)MEMBRANE_NODES(t->order)));
     }
     for (size_t i = 0; i < t->ninterfaces; i++) fill_joint(model, t, i);
-    fill_order(t);
-    return fill_finish(t) ? FRACAS_OK : fracas_no_memory("the tables of a membrane");
+    return fracas_surface_visits_init(&t->visits, model->surface);
 }
 
 fracas_err fracas_membrane_tables_create(const fracas_model *model, fracas_membrane_tables **tables)

@@ -4,6 +4,7 @@
 #define FRACAS_ENGINE_FORMULATION_SURFACE_MEMBRANE_TABLES_H
 
 #include "engine/formulation/formulation.h"
+#include "engine/formulation/surface/visits.h"
 #include "engine/mesh/surface/surface.h"
 
 /* Of one order of elements: nodes, bulk points, Gauss points of an edge. */
@@ -31,10 +32,7 @@ typedef struct {
     uint8_t (*edge)[2];          /* [interface]: which of its elements' edges */
     uint16_t *held;              /* [element]: bit 2 node + component is set where the velocity is held; NULL: nowhere */
     uint16_t *fixed;             /* [element]: of those bits the ones of edges that stay where they are; NULL with held */
-    /* Element by element: the interfaces whose second element e is, join[join_from[e]] to join[join_from[e + 1] - 1]; then the
-     * elements that have all their interfaces by then, finish[...] likewise. */
-    uint32_t *join_from, *join, *finish_from, *finish;
-    size_t window; /* 2^k - 1: elements under way at one time differ in (number & window) */
+    fracas_surface_visits visits;
 } fracas_membrane_tables;
 
 /* Tables of model->surface and model->spec. The caller destroys. */

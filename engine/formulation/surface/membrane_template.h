@@ -7,15 +7,13 @@
 #include "engine/cohesive/plane.h"
 #include "engine/cohesive/plane_nitsche.h"
 #include "engine/cohesive/plane_extrinsic.h"
-#include "engine/integrator/central_difference.h"
+#include "engine/formulation/surface/sweep_template.h"
 
 #define membrane_context LANES_NAME(membrane_context)
 #define membrane_sides LANES_NAME(membrane_sides)
 #define membrane_sides_of LANES_NAME(membrane_sides_of)
-#define membrane_at LANES_NAME(membrane_at)
 #define membrane_point LANES_NAME(membrane_point)
 #define membrane_strain LANES_NAME(membrane_strain)
-#define membrane_drift LANES_NAME(membrane_drift)
 #define membrane_flux LANES_NAME(membrane_flux)
 #define membrane_give LANES_NAME(membrane_give)
 #define membrane_law_of LANES_NAME(membrane_law_of)
@@ -28,11 +26,6 @@
 #define membrane_run LANES_NAME(membrane_run)
 #define membrane_book LANES_NAME(membrane_book)
 #define membrane_spin LANES_NAME(membrane_spin)
-#ifdef __SANITIZE_ADDRESS__ /* unrolled, checks take minutes to compile */
-#define UNROLL
-#else
-#define UNROLL _Pragma("GCC unroll 12")
-#endif
 
 typedef struct {
     const fracas_membrane_constants *membrane;
@@ -62,8 +55,6 @@ typedef struct {
     vd traction[2], carried[2]; /* T [Pa], s = q - delta [m] */
 } membrane_point;
 
-LANES_FUNCTION double *membrane_at(double *record, int field) { return record + field * LANES; }
-
 /* Drift, stress and energy of element e; its slot is cleared of what it held before. */
 LANES_FUNCTION void membrane_strain(membrane_context *c, int order, size_t e)
 {
@@ -71,9 +62,9 @@ LANES_FUNCTION void membrane_strain(membrane_context *c, int order, size_t e)
     const int nodes = MEMBRANE_NODES(order), points = MEMBRANE_BULK(order);
     const vd zero = lanes_set(0.0);
     double *at = c->elements + e * c->element_size;
-    double *slot = c->slots + (e & c->tables->window) * (size_t)(MEMBRANE_SLOT(order) * LANES);
+    double *slot = c->slots + (e & c->tables->visits.window) * (size_t)(MEMBRANE_SLOT(order) * LANES);
     vd u[12];
-    UNROLL for (int i = 0; i < 2 * nodes; i++) u[i] = lanes_load(membrane_at(at, i));
+    UNROLL for (int i = 0; i < 2 * nodes; i++) u[i] = lanes_load(surface_at(at, i));
     const double *bulk = c->tables->bulk + e * (size_t)(points * MEMBRANE_BULK_TABLE);
     const vd c11 = lanes_set(c->membrane->c11), c12 = lanes_set(c->membrane->c12), c33 = lanes_set(c->membrane->c33);
     UNROLL for (int g = 0; g < points; g++, bulk += MEMBRANE_BULK_TABLE) {
@@ -90,31 +81,12 @@ LANES_FUNCTION void membrane_strain(membrane_context *c, int order, size_t e)
         vd xx = by_x[0], yy = by_y[1], xy = by_y[0] + by_x[1];
         vd s_xx = c11 * xx + c12 * yy, s_yy = c12 * xx + c11 * yy, s_xy = c33 * xy; /* (membrane.3) */
         c->strain_energy += lanes_set(bulk[MEMBRANE_WEIGHT]) * (s_xx * xx + s_yy * yy + s_xy * xy);
-        lanes_store(membrane_at(slot, 3 * g), s_xx);
-        lanes_store(membrane_at(slot, 3 * g + 1), s_yy);
-        lanes_store(membrane_at(slot, 3 * g + 2), s_xy);
+        lanes_store(surface_at(slot, 3 * g), s_xx);
+        lanes_store(surface_at(slot, 3 * g + 1), s_yy);
+        lanes_store(surface_at(slot, 3 * g + 2), s_xy);
     }
     const int from = MEMBRANE_SLOT_EXTRA(order), end = MEMBRANE_SLOT(order);
-    UNROLL for (int i = from; i < end; i++) lanes_store(membrane_at(slot, i), zero);
-}
-
-/* Displacements at t_n, from where the last kick left them. */
-LANES_FUNCTION void membrane_drift(membrane_context *c, int order, size_t e)
-{
-    const int size = 2 * MEMBRANE_NODES(order);
-    const fracas_membrane_constants *m = c->membrane;
-    double *at = c->elements + e * c->element_size;
-    UNROLL for (int i = 0; i < size; i++) {
-        double *u = membrane_at(at, MEMBRANE_U * size + i), *v = membrane_at(at, MEMBRANE_V * size + i);
-        if (!m->alpha) {
-            lanes_store(u, central_drift(lanes_load(u), lanes_load(v), c->drift));
-        } else { /* (membrane.15) */
-            const vd old = lanes_load(membrane_at(at, MEMBRANE_A * size + i)), dt = c->drift;
-            const vd now = lanes_load(membrane_at(at, MEMBRANE_A_NEXT * size + i));
-            lanes_store(u, lanes_load(u) + dt * lanes_load(v) + dt * dt * (lanes_set(0.5 - m->b) * old + lanes_set(m->b) * now));
-            lanes_store(v, lanes_load(v) + dt * (lanes_set(1.0 - m->g) * old + lanes_set(m->g) * now));
-        }
-    }
+    UNROLL for (int i = from; i < end; i++) lanes_store(surface_at(slot, i), zero);
 }
 
 LANES_FUNCTION membrane_sides membrane_sides_of(const membrane_context *c, int order, size_t i)
@@ -125,7 +97,7 @@ LANES_FUNCTION membrane_sides membrane_sides_of(const membrane_context *c, int o
     UNROLL for (int side = 0; side < 2; side++) {
         const int linear = order == 1, away = ((side ? l : k) + 2) % 3;
         sides.element[side] = c->elements + element[side] * c->element_size;
-        sides.slot[side] = c->slots + (element[side] & c->tables->window) * (size_t)(MEMBRANE_SLOT(order) * LANES);
+        sides.slot[side] = c->slots + (element[side] & c->tables->visits.window) * (size_t)(MEMBRANE_SLOT(order) * LANES);
         UNROLL for (int p = 0; p < 3; p++) sides.bulk[side][p] = linear ? 0 : p < 2 ? sides.node[side][p] : away;
     }
     return sides;
@@ -200,15 +172,15 @@ LANES_FUNCTION void membrane_give(const membrane_context *c, int order, size_t i
             UNROLL for (int j = 0; j < 3; j++) strain[p][j] += bulk == 1 ? symmetric[j] : lanes_set(spread[p]) * symmetric[j];
     }
     UNROLL for (int side = 0; side < 2; side++) {
-        double *forces = membrane_at(sides->slot[side], MEMBRANE_SLOT_FORCE(order)), *extra = membrane_at(sides->slot[side], MEMBRANE_SLOT_EXTRA(order));
+        double *forces = surface_at(sides->slot[side], MEMBRANE_SLOT_FORCE(order)), *extra = surface_at(sides->slot[side], MEMBRANE_SLOT_EXTRA(order));
         UNROLL for (int n = 0; n < nodes; n++)
             UNROLL for (int j = 0; j < 2; j++) {
-                double *to = membrane_at(forces, 2 * sides->node[side][n] + j);
+                double *to = surface_at(forces, 2 * sides->node[side][n] + j);
                 lanes_store(to, side ? lanes_load(to) + force[n][j] : lanes_load(to) - force[n][j]);
             }
         UNROLL for (int p = 0; p < bulk; p++)
             UNROLL for (int j = 0; j < 3; j++) {
-                double *to = membrane_at(extra, 3 * sides->bulk[side][p] + j);
+                double *to = surface_at(extra, 3 * sides->bulk[side][p] + j);
                 lanes_store(to, lanes_load(to) + strain[p][j]);
             }
     }
@@ -218,44 +190,28 @@ LANES_FUNCTION void membrane_give(const membrane_context *c, int order, size_t i
 LANES_FUNCTION plane_result membrane_law_of(const membrane_context *c, int law, const plane_interface *at, const plane_input *in, double *point)
 {
     const fracas_membrane_constants *m = c->membrane;
-    if (law == MEMBRANE_NITSCHE) {
-        plane_nitsche_state state = {.damage = lanes_load(point), .peak = lanes_load(point + LANES)};
-        if (!m->friction) {
-            plane_result r = plane_nitsche(at, in, 0, &state);
-            lanes_store(membrane_at(point, MEMBRANE_DAMAGE), state.damage);
-            lanes_store(membrane_at(point, MEMBRANE_PEAK), state.peak);
-            return r;
-        }
-        state.slip = lanes_load(membrane_at(point, MEMBRANE_SLIP));
-        state.rub = lanes_load(membrane_at(point, MEMBRANE_RUB));
-        plane_result r = plane_nitsche(at, in, 1, &state);
-        lanes_store(membrane_at(point, MEMBRANE_DAMAGE), state.damage);
-        lanes_store(membrane_at(point, MEMBRANE_PEAK), state.peak);
-        lanes_store(membrane_at(point, MEMBRANE_SLIP), state.slip);
-        lanes_store(membrane_at(point, MEMBRANE_RUB), state.rub);
-        return r;
-    }
-    plane_extrinsic_state state = {.damage = lanes_load(membrane_at(point, MEMBRANE_DAMAGE)),
-                                   .peak = lanes_load(membrane_at(point, MEMBRANE_PEAK)),
-                                   .q_n = lanes_load(membrane_at(point, MEMBRANE_JUMP_N)),
-                                   .q_t = lanes_load(membrane_at(point, MEMBRANE_JUMP_T)),
-                                   .t_n = lanes_load(membrane_at(point, MEMBRANE_START_N)),
-                                   .t_t = lanes_load(membrane_at(point, MEMBRANE_START_T)),
+    if (law == MEMBRANE_NITSCHE) return surface_nitsche(at, in, m->friction != 0, point);
+    plane_extrinsic_state state = {.damage = lanes_load(surface_at(point, SURFACE_DAMAGE)),
+                                   .peak = lanes_load(surface_at(point, SURFACE_PEAK)),
+                                   .q_n = lanes_load(surface_at(point, MEMBRANE_JUMP_N)),
+                                   .q_t = lanes_load(surface_at(point, MEMBRANE_JUMP_T)),
+                                   .t_n = lanes_load(surface_at(point, MEMBRANE_START_N)),
+                                   .t_t = lanes_load(surface_at(point, MEMBRANE_START_T)),
                                    .slip = lanes_set(0.0), .rub = lanes_set(0.0)};
     if (m->friction) {
-        state.slip = lanes_load(membrane_at(point, MEMBRANE_EXTRINSIC_SLIP));
-        state.rub = lanes_load(membrane_at(point, MEMBRANE_EXTRINSIC_RUB));
+        state.slip = lanes_load(surface_at(point, MEMBRANE_EXTRINSIC_SLIP));
+        state.rub = lanes_load(surface_at(point, MEMBRANE_EXTRINSIC_RUB));
     }
     plane_result r = plane_extrinsic(at, in, m->standard, m->friction, &state);
-    lanes_store(membrane_at(point, MEMBRANE_DAMAGE), state.damage);
-    lanes_store(membrane_at(point, MEMBRANE_PEAK), state.peak);
-    lanes_store(membrane_at(point, MEMBRANE_JUMP_N), state.q_n);
-    lanes_store(membrane_at(point, MEMBRANE_JUMP_T), state.q_t);
-    lanes_store(membrane_at(point, MEMBRANE_START_N), state.t_n);
-    lanes_store(membrane_at(point, MEMBRANE_START_T), state.t_t);
+    lanes_store(surface_at(point, SURFACE_DAMAGE), state.damage);
+    lanes_store(surface_at(point, SURFACE_PEAK), state.peak);
+    lanes_store(surface_at(point, MEMBRANE_JUMP_N), state.q_n);
+    lanes_store(surface_at(point, MEMBRANE_JUMP_T), state.q_t);
+    lanes_store(surface_at(point, MEMBRANE_START_N), state.t_n);
+    lanes_store(surface_at(point, MEMBRANE_START_T), state.t_t);
     if (m->friction) {
-        lanes_store(membrane_at(point, MEMBRANE_EXTRINSIC_SLIP), state.slip);
-        lanes_store(membrane_at(point, MEMBRANE_EXTRINSIC_RUB), state.rub);
+        lanes_store(surface_at(point, MEMBRANE_EXTRINSIC_SLIP), state.slip);
+        lanes_store(surface_at(point, MEMBRANE_EXTRINSIC_RUB), state.rub);
     }
     return r;
 }
@@ -290,15 +246,15 @@ LANES_FUNCTION void membrane_crack(membrane_context *c, int order, int law, size
     vmask cracks[3], breaks[3], whole = lanes_le(zero, zero), broken = whole, opens = lanes_lt(zero, zero), parts = opens;
     vd created = zero, rubbed = zero;
     UNROLL for (int g = 0; g < points; g++) {
-        double *point = membrane_at(joint, MEMBRANE_LAW + g * m->point_fields);
+        double *point = surface_at(joint, MEMBRANE_LAW + g * m->point_fields);
         const double *place = table + MEMBRANE_POINTS + g * MEMBRANE_POINT_TABLE;
         const vd nx = lanes_set(place[MEMBRANE_NX]), ny = lanes_set(place[MEMBRANE_NY]), area = lanes_set(place[MEMBRANE_AREA]);
         const vd *q = at[g].jump, *mean = at[g].mean;
         const plane_input in = {.m_n = mean[0] * nx + mean[1] * ny, .m_t = mean[1] * nx - mean[0] * ny,
                                 .q_n = q[0] * nx + q[1] * ny, .q_t = q[1] * nx - q[0] * ny};
-        whole = lanes_and(whole, lanes_le(lanes_load(membrane_at(point, MEMBRANE_PEAK)), zero));
+        whole = lanes_and(whole, lanes_le(lanes_load(surface_at(point, SURFACE_PEAK)), zero));
         plane_result r = membrane_law_of(c, law, &interface, &in, point);
-        const vd damage = lanes_load(membrane_at(point, MEMBRANE_DAMAGE));
+        const vd damage = lanes_load(surface_at(point, SURFACE_DAMAGE));
         vd flux_energy = q[0] * (mean[0] + at[g].traction[0]) + q[1] * (mean[1] + at[g].traction[1]);
         c->flux += area * lanes_select(r.cracked, two * r.flux, flux_energy);
         c->stored += area * lanes_select(r.cracked, two * r.stored, zero);
@@ -348,7 +304,7 @@ LANES_FUNCTION void membrane_join(membrane_context *c, int order, int law, size_
     UNROLL for (int g = 0; g < points; g++) {
         const vd *judged = m->onset_mean ? at[g].mean : at[g].traction;
         largest = plane_max(largest, judged[0] * judged[0] + judged[1] * judged[1]);
-        touched += lanes_load(membrane_at(joint, MEMBRANE_LAW + g * m->point_fields + MEMBRANE_PEAK));
+        touched += lanes_load(surface_at(joint, MEMBRANE_LAW + g * m->point_fields + SURFACE_PEAK));
     }
     const vd floor = lanes_set(0.999 * (m->beta_c < 1.0 ? m->beta_c : 1.0)) * lanes_load(joint);
     if (lanes_any(lanes_or(lanes_lt(lanes_set(0.0), touched), lanes_lt(floor * floor, largest)))) {
@@ -368,12 +324,12 @@ LANES_FUNCTION void membrane_forces(const membrane_context *c, int order, size_t
 {
     static const double shape[2][3][6][2] = {FRACAS_TRIANGLE_DERIVATIVES_1, FRACAS_TRIANGLE_DERIVATIVES_2};
     const int nodes = MEMBRANE_NODES(order), points = MEMBRANE_BULK(order);
-    double *slot = c->slots + (e & c->tables->window) * (size_t)(MEMBRANE_SLOT(order) * LANES);
+    double *slot = c->slots + (e & c->tables->visits.window) * (size_t)(MEMBRANE_SLOT(order) * LANES);
     const double *bulk = c->tables->bulk + e * (size_t)(points * MEMBRANE_BULK_TABLE);
     const vd c11 = lanes_set(c->membrane->c11), c12 = lanes_set(c->membrane->c12), c33 = lanes_set(c->membrane->c33);
-    UNROLL for (int i = 0; i < 2 * nodes; i++) force[i] = lanes_load(membrane_at(slot, MEMBRANE_SLOT_FORCE(order) + i));
+    UNROLL for (int i = 0; i < 2 * nodes; i++) force[i] = lanes_load(surface_at(slot, MEMBRANE_SLOT_FORCE(order) + i));
     UNROLL for (int g = 0; g < points; g++, bulk += MEMBRANE_BULK_TABLE) {
-        const double *extra = membrane_at(slot, MEMBRANE_SLOT_EXTRA(order) + 3 * g), *stress = membrane_at(slot, 3 * g);
+        const double *extra = surface_at(slot, MEMBRANE_SLOT_EXTRA(order) + 3 * g), *stress = surface_at(slot, 3 * g);
         const vd weight = lanes_set(bulk[MEMBRANE_WEIGHT]);
         const vd xx = lanes_load(extra), yy = lanes_load(extra + LANES), xy = lanes_load(extra + 2 * LANES);
         const vd n_xx = weight * lanes_load(stress) + (c11 * xx + c12 * yy);
@@ -430,26 +386,13 @@ LANES_FUNCTION void membrane_kick(membrane_context *c, int order, int law, size_
     const double *consistent = t->consistent ? t->consistent + e * (size_t)(3 * nodes * nodes) + 2 * nodes * nodes : NULL;
     vd force[12], v[12], a[12], after[12];
     membrane_forces(c, order, e, force);
-    UNROLL for (int i = 0; i < size; i++) v[i] = lanes_load(membrane_at(at, MEMBRANE_V * size + i));
+    UNROLL for (int i = 0; i < size; i++) v[i] = lanes_load(surface_at(at, SURFACE_V * size + i));
     membrane_accelerate(c, order, e, v, force, a);
     if (law == MEMBRANE_OPERATOR) {
-        UNROLL for (int i = 0; i < size; i++) lanes_store(membrane_at(at, MEMBRANE_V * size + i), a[i]);
+        UNROLL for (int i = 0; i < size; i++) lanes_store(surface_at(at, SURFACE_V * size + i), a[i]);
         return;
     }
-    UNROLL for (int i = 0; i < size; i++) after[i] = v[i];
-    if (!m->alpha) {
-        UNROLL for (int i = 0; i < size; i++) {
-            after[i] = central_kick(v[i], a[i], c->kick);
-            lanes_store(membrane_at(at, MEMBRANE_V * size + i), after[i]);
-        }
-    } else { /* (membrane.14); the first acceleration is the force's own */
-        const vd keep = lanes_set(c->begins ? 0.0 : m->alpha_m), share = lanes_set(c->begins ? 1.0 : 1.0 - m->alpha_m);
-        UNROLL for (int i = 0; i < size; i++) {
-            const vd old = c->begins ? a[i] : lanes_load(membrane_at(at, MEMBRANE_A_NEXT * size + i));
-            lanes_store(membrane_at(at, MEMBRANE_A * size + i), old);
-            lanes_store(membrane_at(at, MEMBRANE_A_NEXT * size + i), (a[i] - keep * old) / share);
-        }
-    }
+    surface_kick(&m->motion, c->kick, c->begins, size, at, a, v, after);
     UNROLL for (int k = 0; k < nodes; k++) { /* leapfrog: v_{n-1/2} M v_{n+1/2}  (membrane.9) */
         vd momentum[2];
         if (!consistent) {
@@ -491,8 +434,8 @@ LANES_FUNCTION void membrane_totals(const membrane_context *c)
     lanes_store(step->dissipated + first, c->dissipated + lanes_load(step->rubbed + first));
     /* Central difference: exactly what the body force does between two steps is its mean times dt v_{n-1/2}. */
     vd body = lanes_set(0.0), power = c->power;
-    if (c->tables->position && m->alpha) power += c->spin * c->moment;
-    if (c->tables->position && !m->alpha) {
+    if (c->tables->position && m->motion.alpha) power += c->spin * c->moment;
+    if (c->tables->position && !m->motion.alpha) {
         const vd before = membrane_spin(m, lanes_load(step->time + first) - c->drift);
         body = c->drift * half * (before + c->spin) * c->moment;
     }
@@ -514,10 +457,10 @@ LANES_FUNCTION void membrane_run(const fracas_membrane_constants *m, fracas_step
     membrane_context *c = &context;
     c->spin = membrane_spin(m, lanes_load(step->time + first));
     for (size_t e = 0; e < t->nelements; e++) {
-        if (law != MEMBRANE_OPERATOR) membrane_drift(c, order, e);
+        if (law != MEMBRANE_OPERATOR) surface_drift(&m->motion, c->drift, 2 * MEMBRANE_NODES(order), c->elements + e * c->element_size);
         membrane_strain(c, order, e);
-        for (size_t j = t->join_from[e]; j < t->join_from[e + 1]; j++) membrane_join(c, order, law, t->join[j]);
-        for (size_t f = t->finish_from[e]; f < t->finish_from[e + 1]; f++) membrane_kick(c, order, law, t->finish[f]);
+        for (size_t j = t->visits.join_from[e]; j < t->visits.join_from[e + 1]; j++) membrane_join(c, order, law, t->visits.join[j]);
+        for (size_t f = t->visits.finish_from[e]; f < t->visits.finish_from[e + 1]; f++) membrane_kick(c, order, law, t->visits.finish[f]);
     }
     if (law != MEMBRANE_OPERATOR) membrane_totals(c);
 }
@@ -539,10 +482,8 @@ MEMBRANE_SWEEP_OF(operator_quadratic, 2, MEMBRANE_OPERATOR)
 #undef membrane_context
 #undef membrane_sides
 #undef membrane_sides_of
-#undef membrane_at
 #undef membrane_point
 #undef membrane_strain
-#undef membrane_drift
 #undef membrane_flux
 #undef membrane_give
 #undef membrane_law_of
@@ -555,8 +496,4 @@ MEMBRANE_SWEEP_OF(operator_quadratic, 2, MEMBRANE_OPERATOR)
 #undef membrane_run
 #undef membrane_book
 #undef membrane_spin
-#undef UNROLL
-#include "engine/cohesive/plane_end.h"
-#undef central_drift
-#undef central_kick
-#include "base/lanes_end.h"
+#include "engine/formulation/surface/sweep_template_end.h"

@@ -1,0 +1,2 @@
+#define SHELL_KERNELS fracas_shell_kernels_baseline
+#include "engine/formulation/shell/shell_isa.h"

@@ -1,0 +1,261 @@
+#include "engine/formulation/shell/shell_tables.h"
+
+#include "engine/element/triangle.h"
+#include "engine/formulation/shell/geometry.h"
+#include "engine/formulation/surface/nodal_mass.h"
+#include "engine/formulation/surface/edges.h"
+#include "engine/mesh/body.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const double edge_point[3] = FRACAS_EDGE_POINTS_2, edge_weight[3] = FRACAS_EDGE_WEIGHTS_2;
+
+void fracas_shell_tables_destroy(void *p)
+{
+    fracas_shell_tables *t = p;
+    if (!t) return;
+    void *const owned[] = {t->bulk, t->mass, t->joint, t->rim, t->element, t->edge, t->rim_edge, t->rim_from, t->held, t->fixed};
+    for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
+    fracas_surface_visits_clear(&t->visits);
+    free(t);
+}
+
+static bool allocate(fracas_shell_tables *t)
+{
+    const size_t n = t->nelements, m = t->ninterfaces ? t->ninterfaces : 1, rims = t->nrims ? t->nrims : 1;
+    t->bulk = malloc(n * SHELL_BULK * SHELL_BULK_TABLE * sizeof *t->bulk);
+    t->mass = malloc(n * 2 * SHELL_NODES * sizeof *t->mass);
+    t->joint = malloc(m * SHELL_JOINT_TABLE * sizeof *t->joint);
+    t->rim = malloc(rims * SHELL_RIM_TABLE * sizeof *t->rim);
+    t->element = malloc(m * sizeof *t->element);
+    t->edge = malloc(m * sizeof *t->edge);
+    t->rim_edge = malloc(rims * sizeof *t->rim_edge);
+    t->rim_from = calloc(n + 1, sizeof *t->rim_from);
+    t->held = calloc(n, sizeof *t->held);
+    t->fixed = calloc(n, sizeof *t->fixed);
+    return t->bulk && t->mass && t->joint && t->rim && t->element && t->edge && t->rim_edge && t->rim_from && t->held && t->fixed;
+}
+
+/* Coefficients of u,xixi, u,etaeta and u,xieta in the second derivatives along xx, yy, 2 xy, with
+ * c[a][i] = phi^a . e_i  (shell.4). */
+static void second_derivatives(double c[2][2], double of[3][3])
+{
+    for (int i = 0; i < 2; i++) {
+        of[i][0] = c[0][i] * c[0][i];
+        of[i][1] = c[1][i] * c[1][i];
+        of[i][2] = 2 * c[0][i] * c[1][i];
+    }
+    of[2][0] = 2 * c[0][0] * c[0][1];
+    of[2][1] = 2 * c[1][0] * c[1][1];
+    of[2][2] = 2 * (c[0][0] * c[1][1] + c[0][1] * c[1][0]);
+}
+
+static void fill_bulk(const fracas_surface *surface, fracas_shell_tables *t, size_t e)
+{
+    static const double at[3][2] = {{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}};
+    for (int g = 0; g < SHELL_BULK; g++) {
+        double *bulk = t->bulk + (e * SHELL_BULK + (size_t)g) * SHELL_BULK_TABLE, c[2][2], of[3][3];
+        fracas_shell_geometry here;
+        fracas_shell_geometry_at(surface, e, at[g][0], at[g][1], &here);
+        for (int a = 0; a < 2; a++) {
+            c[a][0] = bulk[SHELL_XI_X + 2 * a] = fracas_shell_dot(here.dual[a], here.x);
+            c[a][1] = bulk[SHELL_XI_Y + 2 * a] = fracas_shell_dot(here.dual[a], here.y);
+        }
+        for (int i = 0; i < 3; i++) {
+            bulk[SHELL_X + i] = here.x[i];
+            bulk[SHELL_Y + i] = here.y[i];
+            bulk[SHELL_T + i] = here.normal[i];
+        }
+        second_derivatives(c, of);
+        for (int ij = 0; ij < 3; ij++)
+            for (int b = 0; b < 3; b++) {
+                bulk[SHELL_SECOND + 3 * ij + b] = -of[ij][b];
+                for (int a = 0; a < 2; a++) { /* Christoffel's symbols G^a_b */
+                    double *first = &bulk[SHELL_FIRST + 2 * ij + a];
+                    *first = (b ? *first : 0) + of[ij][b] * fracas_shell_dot(here.second[b], here.dual[a]);
+                }
+            }
+        bulk[SHELL_WEIGHT] = 0.5 / SHELL_BULK * here.area;
+    }
+}
+
+static void fill_mass(const fracas_model *model, fracas_shell_tables *t, size_t e)
+{
+    double consistent[SHELL_NODES * SHELL_NODES], *mass = t->mass + 2 * SHELL_NODES * e;
+    fracas_nodal_mass(model->surface, e, model->spec.material.density * model->spec.geometry.thickness, consistent, mass + SHELL_NODES);
+    for (int k = 0; k < SHELL_NODES; k++) mass[k] = 1.0 / mass[SHELL_NODES + k];
+}
+
+/* One side of an edge at a point where the edge runs along `tangent`: its normal in the surface, n = s x t, comes back. */
+static void fill_side(const fracas_shell_geometry *at, const double tangent[3], double sign, double share, double *side, double normal[3])
+{
+    fracas_shell_cross(tangent, at->normal, normal);
+    const double nx = fracas_shell_dot(normal, at->x), ny = fracas_shell_dot(normal, at->y);
+    side[SHELL_SQUARE_X] = share * nx * nx;
+    side[SHELL_SQUARE_Y] = share * ny * ny;
+    side[SHELL_PRODUCT] = share * nx * ny;
+    const double along[2] = {fracas_shell_dot(normal, at->dual[0]), fracas_shell_dot(normal, at->dual[1])};
+    for (int k = 0; k < SHELL_NODES; k++) side[SHELL_SLOPE + k] = along[0] * at->slope[k][0] + along[1] * at->slope[k][1];
+    for (int i = 0; i < 3; i++) side[SHELL_TURN + i] = sign * at->normal[i];
+}
+
+/* L_ij = -t . d_i d_j phi of directions a, b in the surface  (shell.3) */
+static double curvature(const fracas_shell_geometry *at, const double a[3], const double b[3])
+{
+    const double ax = fracas_shell_dot(a, at->dual[0]), ay = fracas_shell_dot(a, at->dual[1]);
+    const double bx = fracas_shell_dot(b, at->dual[0]), by = fracas_shell_dot(b, at->dual[1]);
+    return -(ax * bx * fracas_shell_dot(at->normal, at->second[0]) + ay * by * fracas_shell_dot(at->normal, at->second[1]) +
+             (ax * by + ay * bx) * fracas_shell_dot(at->normal, at->second[2]));
+}
+
+static void fill_point(const fracas_surface *surface, const fracas_surface_interface *interface, int g, double *point)
+{
+    fracas_shell_geometry at[2];
+    double tangent[3], normal[2][3], speed = 0;
+    for (int side = 0; side < 2; side++) {
+        double xi, eta;
+        fracas_shell_edge_point(interface->edge[side], side ? 1 - edge_point[g] : edge_point[g], &xi, &eta);
+        fracas_shell_geometry_at(surface, interface->element[side], xi, eta, &at[side]);
+        if (side == 0) speed = fracas_shell_edge_tangent(&at[0], interface->edge[0], tangent);
+        fill_side(&at[side], tangent, side ? -1 : 1, 0.5, point + SHELL_SIDES + side * SHELL_SIDE, normal[side]);
+    }
+    double *lift = point + SHELL_LIFT, length = 0;
+    for (int i = 0; i < 3; i++) lift[i] = at[0].normal[i] + at[1].normal[i];
+    length = sqrt(fracas_shell_dot(lift, lift));
+    for (int i = 0; i < 3; i++) {
+        lift[i] /= length;
+        point[SHELL_S + i] = tangent[i];
+    }
+    fracas_shell_cross(tangent, lift, point + SHELL_N);
+    point[SHELL_PER_SPEED] = 1.0 / speed;
+    point[SHELL_LENGTH] = edge_weight[g] * speed;
+    point[SHELL_L_NN] = 0.5 * (curvature(&at[0], normal[0], normal[0]) + curvature(&at[1], normal[1], normal[1]));
+    point[SHELL_L_NS] = 0.5 * (curvature(&at[0], normal[0], tangent) + curvature(&at[1], normal[1], tangent));
+    point[SHELL_L_SS] = 0.5 * (curvature(&at[0], tangent, tangent) + curvature(&at[1], tangent, tangent));
+}
+
+/* K = beta E/(1 - nu^2)/h_s, 1/h_s = (|e|/A- + |e|/A+)/2  (membrane.5) */
+static void fill_joint(const fracas_model *model, fracas_shell_tables *t, size_t i)
+{
+    const fracas_spec *spec = &model->spec;
+    const fracas_surface_interface *interface = &model->surface->interface[i];
+    const double nu = spec->material.poisson, young = spec->material.young;
+    const double length = fracas_surface_length(model->surface, interface->element[0], interface->edge[0]);
+    double *joint = t->joint + i * SHELL_JOINT_TABLE, inverse_size = 0;
+    for (int side = 0; side < 2; side++) {
+        t->element[i][side] = interface->element[side];
+        t->edge[i][side] = (uint8_t)interface->edge[side];
+        inverse_size += 0.5 * length / fracas_surface_area(model->surface, interface->element[side]);
+    }
+    joint[SHELL_STIFFNESS] = spec->cohesive.beta * young / (1 - nu * nu) * inverse_size;
+    joint[SHELL_COMPLIANCE] = 1.0 / joint[SHELL_STIFFNESS];
+    joint[SHELL_SHEARING] = spec->cohesive.beta_shear * young / (2 * (1 + nu)) * spec->geometry.thickness * inverse_size;
+    for (int g = 0; g < SHELL_EDGE; g++) fill_point(model->surface, interface, g, joint + SHELL_POINTS + g * SHELL_POINT_TABLE);
+}
+
+/* ---- edges ---- */
+
+static bool holds_director(const fracas_kind *kind) { return kind == &fracas_edge_clamped || kind == &fracas_edge_symmetry; }
+
+/* The director's turn about the edge has twice the stiffness of an interface's: the other side is its mirror image  (shell.9) */
+static void fill_rim(const fracas_model *model, fracas_shell_tables *t, const fracas_surface_border *border, size_t r)
+{
+    const fracas_spec *spec = &model->spec;
+    const double nu = spec->material.poisson, h = spec->geometry.thickness, modulus = spec->material.young / (1 - nu * nu);
+    const double length = fracas_surface_length(model->surface, border->element, border->edge);
+    double *rim = t->rim + r * SHELL_RIM_TABLE;
+    t->rim_edge[r] = (uint8_t)border->edge;
+    rim[SHELL_RIM_STIFFNESS] = 2 * spec->cohesive.beta * modulus * (h * h * h / 12) * length / fracas_surface_area(model->surface, border->element);
+    for (int g = 0; g < SHELL_EDGE; g++) {
+        double xi, eta, tangent[3], normal[3], *point = rim + SHELL_RIM_POINTS + g * SHELL_RIM_POINT_TABLE;
+        fracas_shell_geometry at;
+        fracas_shell_edge_point(border->edge, edge_point[g], &xi, &eta);
+        fracas_shell_geometry_at(model->surface, border->element, xi, eta, &at);
+        point[SHELL_RIM_LENGTH] = edge_weight[g] * fracas_shell_edge_tangent(&at, border->edge, tangent);
+        fill_side(&at, tangent, 1, 1, point + SHELL_RIM_SIDE, normal);
+    }
+}
+
+/* The axis along the normal of an edge in a plane of symmetry or a diaphragm; 3: it lies in no such plane. */
+static int axis_of(const fracas_surface *surface, const fracas_surface_border *border)
+{
+    double xi, eta, tangent[3], normal[3];
+    fracas_shell_geometry at;
+    fracas_shell_edge_point(border->edge, 0.5, &xi, &eta);
+    fracas_shell_geometry_at(surface, border->element, xi, eta, &at);
+    const double speed = fracas_shell_edge_tangent(&at, border->edge, tangent);
+    fracas_shell_cross(tangent, at.normal, normal);
+    int axis = 0;
+    for (int i = 1; i < 3; i++)
+        if (fabs(normal[i]) > fabs(normal[axis])) axis = i;
+    const uint32_t *node = surface->element + border->element * surface->corners, k = border->edge;
+    const double *a = surface->node[node[k]], *b = surface->node[node[(k + 1) % 3]], *c = surface->node[node[3 + k]];
+    return fmax(fabs(b[axis] - a[axis]), fabs(c[axis] - a[axis])) <= 1e-9 * speed ? axis : 3;
+}
+
+static fracas_err hold_edge(const fracas_model *model, fracas_shell_tables *t, const fracas_surface_border *border, const fracas_kind *kind)
+{
+    const uint32_t k = border->edge, node[3] = {k, (k + 1) % 3, 3 + k};
+    const bool one = kind == &fracas_edge_symmetry, others = kind == &fracas_edge_diaphragm;
+    const int axis = one || others ? axis_of(model->surface, border) : 3;
+    const double *at = model->surface->node[model->surface->element[border->element * SHELL_NODES + k]];
+    if (kind == &fracas_edge_sliding)
+        return fracas_fail(FRACAS_USAGE, "an edge with tag %d is to slide, which edges of shells do not: let it be a symmetry, a diaphragm, "
+                           "held, fixed, clamped or free", (int)border->tag);
+    if ((one || others) && axis == 3)
+        return fracas_fail(FRACAS_USAGE, "an edge with tag %d is a %s, but at (%g, %g, %g) m it does not lie in a plane x, y or z = const that "
+                           "the shell meets at a right angle: hold it otherwise, or leave it free", (int)border->tag, kind->name, at[0], at[1], at[2]);
+    for (int n = 0; n < 3; n++)
+        for (uint32_t i = 0; i < 3; i++) {
+            if ((one && (int)i != axis) || (others && (int)i == axis)) continue;
+            t->held[border->element] |= 1u << (3 * node[n] + i);
+            if (kind != &fracas_edge_held) t->fixed[border->element] |= 1u << (3 * node[n] + i);
+        }
+    return FRACAS_OK;
+}
+
+/* Nodes held, and rims, element by element: borders are sorted by element. */
+static fracas_err fill_edges(const fracas_model *model, fracas_shell_tables *t)
+{
+    size_t r = 0, e = 0;
+    for (size_t b = 0; b < model->surface->nborders; b++) {
+        const fracas_surface_border *border = &model->surface->border[b];
+        const fracas_kind *kind = fracas_surface_edge_kind(&model->spec, border->tag);
+        if (kind != &fracas_edge_free) TRY(hold_edge(model, t, border, kind));
+        while (e < border->element) t->rim_from[++e] = (uint32_t)r;
+        if (holds_director(kind)) fill_rim(model, t, border, r++);
+    }
+    while (e < t->nelements) t->rim_from[++e] = (uint32_t)r;
+    return FRACAS_OK;
+}
+
+static fracas_err fill(const fracas_model *model, fracas_shell_tables *t)
+{
+    TRY(fracas_surface_check_edge_tags(model));
+    TRY(fill_edges(model, t));
+    for (size_t e = 0; e < t->nelements; e++) {
+        fill_bulk(model->surface, t, e);
+        fill_mass(model, t, e);
+    }
+    for (size_t i = 0; i < t->ninterfaces; i++) fill_joint(model, t, i);
+    return fracas_surface_visits_init(&t->visits, model->surface);
+}
+
+fracas_err fracas_shell_tables_create(const fracas_model *model, fracas_shell_tables **tables)
+{
+    const fracas_surface *surface = model->surface;
+    fracas_shell_tables *t = calloc(1, sizeof *t);
+    if (!t) return fracas_no_memory("the tables of a shell");
+    t->nelements = surface->nelements;
+    t->ninterfaces = surface->ninterfaces;
+    for (size_t b = 0; b < surface->nborders; b++)
+        t->nrims += holds_director(fracas_surface_edge_kind(&model->spec, surface->border[b].tag));
+    fracas_err err = allocate(t) ? fill(model, t) : fracas_no_memory("the tables of a shell");
+    if (err) {
+        fracas_shell_tables_destroy(t);
+        return err;
+    }
+    *tables = t;
+    return FRACAS_OK;
+}
