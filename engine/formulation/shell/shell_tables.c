@@ -2,8 +2,9 @@
 
 #include "engine/element/triangle.h"
 #include "engine/formulation/shell/geometry.h"
-#include "engine/formulation/surface/nodal_mass.h"
+#include "engine/formulation/surface/common.h"
 #include "engine/formulation/surface/edges.h"
+#include "engine/formulation/surface/nodal_mass.h"
 #include "engine/mesh/body.h"
 
 #include <math.h>
@@ -141,12 +142,11 @@ static void fill_joint(const fracas_model *model, fracas_shell_tables *t, size_t
     const fracas_spec *spec = &model->spec;
     const fracas_surface_interface *interface = &model->surface->interface[i];
     const double nu = spec->material.poisson, young = spec->material.young;
-    const double length = fracas_surface_length(model->surface, interface->element[0], interface->edge[0]);
-    double *joint = t->joint + i * SHELL_JOINT_TABLE, inverse_size = 0;
+    const double inverse_size = fracas_surface_inverse_size(model->surface, i);
+    double *joint = t->joint + i * SHELL_JOINT_TABLE;
     for (int side = 0; side < 2; side++) {
         t->element[i][side] = interface->element[side];
         t->edge[i][side] = (uint8_t)interface->edge[side];
-        inverse_size += 0.5 * length / fracas_surface_area(model->surface, interface->element[side]);
     }
     joint[SHELL_STIFFNESS] = spec->cohesive.beta * young / (1 - nu * nu) * inverse_size;
     joint[SHELL_COMPLIANCE] = 1.0 / joint[SHELL_STIFFNESS];

@@ -2,6 +2,7 @@
 #include "engine/formulation/surface/membrane.h"
 
 #include "engine/cohesive/law.h"
+#include "engine/formulation/surface/common.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
 #include "engine/mesh/make.h"
@@ -52,22 +53,6 @@ static fracas_err check_flat(const fracas_surface *surface)
     return fracas_fail(FRACAS_USAGE, "the mesh's elements go round clockwise, seen from +z: turn them round");
 }
 
-/* The operator is positive from 1.15 (linear) and 2.25 (quadratic) on, measured on meshes distorted by up to 30 %, nu up to 0.49:
- * tests/verification/test_membrane_patch.c. */
-static fracas_err check_beta(const fracas_model *model)
-{
-    const double least = model->surface->order == 2 ? 2.3 : 1.3;
-    if (model->spec.cohesive.beta >= least) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "cohesive.beta is %g, too soft for %s triangles: give %g or more; twice as much is usual",
-                       model->spec.cohesive.beta, model->surface->order == 2 ? "quadratic" : "linear", least);
-}
-
-static fracas_err check_noise(const fracas_mesh *mesh)
-{
-    if (mesh->noise || mesh->spacing != &fracas_spacing_triangles || mesh->amplitude == 0) return FRACAS_OK;
-    return fracas_fail(FRACAS_BUG, "a perturbed mesh without random numbers");
-}
-
 static fracas_err check_motion(const fracas_model *model)
 {
     const fracas_loading *loading = &model->spec.loading;
@@ -79,27 +64,19 @@ static fracas_err check_motion(const fracas_model *model)
 static void measure(fracas_model *model)
 {
     const fracas_membrane_tables *t = tables_of(model);
-    const fracas_spec *spec = &model->spec;
-    const size_t nodes = (size_t)MEMBRANE_NODES(t->order), joint = MEMBRANE_POINTS + (size_t)MEMBRANE_EDGE(t->order) * MEMBRANE_POINT_TABLE;
-    const double nu = spec->material.poisson, beta_modulus = spec->cohesive.beta * spec->material.young / (1 - nu * nu);
-    double length = 0;
+    const size_t nodes = (size_t)MEMBRANE_NODES(t->order);
     for (size_t e = 0; e < t->nelements; e++)
         for (size_t k = 0; k < nodes; k++) model->mass += t->lumped[(2 * e + 1) * nodes + k];
-    for (size_t i = 0; i < t->ninterfaces; i++) {
-        const fracas_surface_interface *interface = &model->surface->interface[i];
-        length += fracas_surface_length(model->surface, interface->element[0], interface->edge[0]);
-        model->longest = fmax(model->longest, beta_modulus / t->joint[i * joint + MEMBRANE_STIFFNESS]);
-    }
-    model->element_size = t->ninterfaces ? length / (double)t->ninterfaces : sqrt(model->mass / (spec->material.density * spec->geometry.thickness));
+    fracas_surface_measure_model(model);
 }
 
 static fracas_err membrane_model_init(fracas_model *model)
 {
     fracas_membrane_tables *tables;
-    TRY(check_noise(&model->spec.mesh));
+    TRY(fracas_surface_check_noise(&model->spec.mesh));
     TRY(fracas_mesh_make(&model->spec, &model->surface));
     TRY(check_flat(model->surface));
-    TRY(check_beta(model));
+    TRY(fracas_surface_check_beta(model));
     model->elements = model->surface->nelements;
     model->interfaces = model->surface->ninterfaces;
     TRY(fracas_membrane_tables_create(model, &tables));
@@ -107,29 +84,6 @@ static fracas_err membrane_model_init(fracas_model *model)
     TRY(check_motion(model));
     measure(model);
     return fracas_membrane_critical_step(model);
-}
-
-/* K >= 2 sigma_c/delta_c at the softest interface: twice what the law asks for (cohesive.7), so that no peak as small as the strength
- * is cut  (cohesive.13) */
-static fracas_err membrane_check_strength(const fracas_model *model, double strength)
-{
-    const fracas_spec *spec = &model->spec;
-    if (!(strength > 0) || !isfinite(strength))
-        return fracas_fail(FRACAS_USAGE, "strength of %g Pa; it must be positive and finite: check the section strength", strength);
-    const double nu = spec->material.poisson, modulus = spec->material.young / (1 - nu * nu);
-    const double most = spec->cohesive.beta * modulus * fracas_spec_fracture_energy(spec, strength) / (strength * strength);
-    if (!is_nitsche(model) || (isfinite(most) && model->longest <= most)) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "strength %g Pa needs elements of which area/edge is below %.4g m, the largest is %.4g m: refine the "
-                       "mesh %.3g times (or raise cohesive.beta)", strength, most, model->longest, model->longest / most);
-}
-
-/* A third of its two elements. */
-static double membrane_interface_volume(const fracas_model *model, size_t i)
-{
-    const fracas_surface_interface *interface = &model->surface->interface[i];
-    double area = 0;
-    for (int side = 0; side < 2; side++) area += fracas_surface_area(model->surface, interface->element[side]);
-    return model->spec.geometry.thickness * (area / 3);
 }
 
 /* ---- state ---- */
@@ -168,17 +122,14 @@ static double *membrane_strength(const fracas_model *model, const fracas_step *s
     return value_at(&c, step, fracas_membrane_joints_at(&c) + MEMBRANE_STRENGTH, lane);
 }
 
-/* Velocity that node k of element e starts with: that of the expansion, everywhere or where it is held, none where it is fixed
- * (membrane.17) */
+/* Velocity that node k of element e starts with. */
 static double start_velocity(const fracas_model *model, size_t e, size_t k, int i)
 {
-    const fracas_loading *loading = &model->spec.loading;
     const fracas_membrane_tables *t = tables_of(model);
-    const unsigned held = t->held ? t->held[e] >> (2 * k + (size_t)i) & 1u : 0u;
-    if (held && t->fixed[e] >> (2 * k + (size_t)i) & 1u) return 0;
-    if (loading->type != &fracas_loading_expansion || (loading->start == &fracas_start_rest && !held)) return 0;
+    const size_t bit = 2 * k + (size_t)i;
+    const bool held = t->held && (t->held[e] >> bit & 1), fixed = held && (t->fixed[e] >> bit & 1);
     const double *x = model->surface->node[model->surface->element[e * model->surface->corners + k]];
-    return (i ? loading->ratio : 1.0) * loading->rate * x[i];
+    return fracas_surface_start_velocity(&model->spec.loading, x, i, held, fixed);
 }
 
 static void membrane_lane_init(const fracas_model *model, const fracas_step *step, int lane)
@@ -216,32 +167,24 @@ static double point_value(const fracas_membrane_constants *c, const fracas_step 
 }
 
 /* D of an interface: the mean over its points by their weights, 1 only where all are broken  (membrane.18) */
-static double damage_of(const fracas_membrane_constants *c, const fracas_step *step, size_t i, int lane)
+static double membrane_damage(const fracas_model *model, const fracas_step *step, size_t i, int lane)
 {
     static const double weight[2][3] = {FRACAS_EDGE_WEIGHTS_1, FRACAS_EDGE_WEIGHTS_2};
-    const int order = c->tables->order;
+    const fracas_membrane_constants c = fracas_membrane_constants_of(model);
+    const int order = c.tables->order;
     double damage = 0;
     bool broken = true;
     for (int g = 0; g < MEMBRANE_EDGE(order); g++) {
-        const double at = point_value(c, step, i, g, SURFACE_DAMAGE, lane);
+        const double at = point_value(&c, step, i, g, SURFACE_DAMAGE, lane);
         damage += weight[order - 1][g] * at;
         broken = broken && at >= 1.0;
     }
     return broken ? 1.0 : fmin(damage, 1.0 - 0x1p-53);
 }
 
-static size_t partition(const fracas_model *model, fracas_step *step, int lane)
-{
-    const fracas_membrane_constants c = fracas_membrane_constants_of(model);
-    fracas_partition_reset(&step->partition);
-    for (size_t i = 0; i < model->interfaces; i++)
-        if (damage_of(&c, step, i, lane) < 1.0) fracas_partition_join(&step->partition, c.tables->element[i][0], c.tables->element[i][1]);
-    return fracas_partition_label(&step->partition);
-}
-
 static int64_t membrane_fragment_count(const fracas_model *model, fracas_step *step, int lane)
 {
-    return step->broken[lane] == 0 ? 1 : (int64_t)partition(model, step, lane);
+    return fracas_surface_fragment_count(model, step, lane, membrane_damage);
 }
 
 /* M_kl of element e, of its lumped or consistent masses [kg]. */
@@ -278,33 +221,17 @@ static void add_element(const fracas_model *model, const fracas_step *step, int 
     }
 }
 
-static fracas_err harvest_interfaces(const fracas_model *model, const fracas_step *step, int lane, fracas_record *record)
-{
-    const fracas_membrane_constants c = fracas_membrane_constants_of(model);
-    size_t stride;
-    const double *strength = membrane_strength(model, step, lane, &stride);
-    record->interface = calloc(model->interfaces ? model->interfaces : 1, sizeof *record->interface);
-    if (!record->interface) return fracas_no_memory("the interfaces of a realization");
-    record->ninterface = model->interfaces;
-    for (size_t i = 0; i < model->interfaces; i++) {
-        const size_t at = i * (size_t)step->width + (size_t)lane;
-        record->interface[i] = (fracas_interface_row){.strength = strength[i * stride], .damage = damage_of(&c, step, i, lane),
-                                                      .onset_time = step->onset_time[at], .break_time = step->break_time[at]};
-    }
-    return FRACAS_OK;
-}
-
 /* (membrane.19) */
 static fracas_err membrane_harvest(const fracas_model *model, fracas_step *step, int lane, fracas_record *record)
 {
-    const size_t count = partition(model, step, lane);
+    const size_t count = fracas_surface_partition(model, step, lane, membrane_damage);
     const double surface_density = model->spec.material.density * model->spec.geometry.thickness;
     fracas_fragment *fragment = calloc(count, sizeof *fragment);
     if (!fragment) return fracas_no_memory("the fragments of a realization");
     for (size_t e = 0; e < model->elements; e++) add_element(model, step, lane, e, &fragment[step->partition.label[e]]);
     for (size_t f = 0; f < count; f++) fragment[f].size = sqrt(fragment[f].mass / surface_density);
     fracas_record_take_fragments(record, fragment, count, 2);
-    return step->onset_time ? harvest_interfaces(model, step, lane, record) : FRACAS_OK;
+    return fracas_surface_harvest_interfaces(model, step, lane, membrane_damage, record);
 }
 
 static const fracas_kind *const goes_with[] = {
@@ -314,7 +241,7 @@ static const fracas_kind *const goes_with[] = {
 const fracas_formulation fracas_formulation_membrane = {
     .kind = {.name = "membrane", .doc = "a plate in plane stress, of triangles in its plane", .goes_with = goes_with,
              .ngoes_with = FRACAS_COUNT(goes_with)},
-    .model_init = membrane_model_init, .check_strength = membrane_check_strength, .interface_volume = membrane_interface_volume,
+    .model_init = membrane_model_init, .check_strength = fracas_surface_check_strength, .interface_volume = fracas_surface_interface_volume,
     .plan_destroy = fracas_membrane_tables_destroy, .state_size = membrane_state_size, .strength = membrane_strength,
     .lane_init = membrane_lane_init, .advance = membrane_advance, .fragment_count = membrane_fragment_count,
     .harvest = membrane_harvest,

@@ -1,6 +1,7 @@
 #include "engine/formulation/surface/membrane_tables.h"
 
 #include "engine/element/triangle.h"
+#include "engine/formulation/surface/common.h"
 #include "engine/formulation/surface/edges.h"
 #include "engine/formulation/surface/nodal_mass.h"
 #include "engine/integrator/integrator.h"
@@ -134,14 +135,12 @@ static void fill_joint(const fracas_model *model, fracas_membrane_tables *t, siz
     const fracas_surface_interface *interface = &model->surface->interface[i];
     const size_t size = MEMBRANE_POINTS + (size_t)MEMBRANE_EDGE(t->order) * MEMBRANE_POINT_TABLE;
     const double nu = spec->material.poisson, modulus = spec->material.young / (1 - nu * nu);
-    const double length = fracas_surface_length(model->surface, interface->element[0], interface->edge[0]);
-    double *joint = t->joint + i * size, x[6][2], inverse_size = 0;
+    double *joint = t->joint + i * size, x[6][2];
     for (int side = 0; side < 2; side++) {
         t->element[i][side] = interface->element[side];
         t->edge[i][side] = (uint8_t)interface->edge[side];
-        inverse_size += 0.5 * length / fracas_surface_area(model->surface, interface->element[side]);
     }
-    joint[MEMBRANE_STIFFNESS] = spec->cohesive.beta * modulus * inverse_size;
+    joint[MEMBRANE_STIFFNESS] = spec->cohesive.beta * modulus * fracas_surface_inverse_size(model->surface, i);
     joint[MEMBRANE_COMPLIANCE] = 1.0 / joint[MEMBRANE_STIFFNESS];
     nodes_of(model->surface, interface->element[0], x);
     for (int g = 0; g < MEMBRANE_EDGE(t->order); g++) {
