@@ -42,6 +42,8 @@ typedef struct {
     /* out: energies [J] at that time; what the load does: as power then [W], or as work since the step before [J] */
     double kinetic[FRACAS_MAX_LANES], elastic[FRACAS_MAX_LANES], cohesive[FRACAS_MAX_LANES];
     double dissipated[FRACAS_MAX_LANES], power[FRACAS_MAX_LANES], work[FRACAS_MAX_LANES];
+    /* out: part of dissipated that went into opening by bending [J]; a body without bending leaves it 0 */
+    double dissipated_bending[FRACAS_MAX_LANES];
     /* of the formulation's own: power of the drive at the step before, at the velocities after it [W] */
     double driven[FRACAS_MAX_LANES];
     /* accumulated: energy that friction dissipates, and that a break creates [J], counts of interfaces, time of the first onset [s, NaN] */

@@ -126,8 +126,8 @@ static fracas_err finish_lane(fracas_batch *batch, size_t l, fracas_outcome outc
         .outcome = outcome, .broken = batch->step.broken[l], .cracked = batch->step.cracked[l], .steps = batch->steps,
         .onset_time = batch->step.first_onset[l], .end_time = batch->step.time[l], .time_step = batch->model->time_step,
         .mass = batch->model->mass, .kinetic = ledger->kinetic, .elastic = ledger->elastic, .cohesive = ledger->cohesive,
-        .dissipated = ledger->dissipated, .created = ledger->created, .work = ledger->work,
-        .residual = ledger->largest_residual, .residual_end = ledger->residual};
+        .dissipated = ledger->dissipated, .dissipated_bending = ledger->dissipated_bending, .created = ledger->created,
+        .work = ledger->work, .residual = ledger->largest_residual, .residual_end = ledger->residual};
     TRY(fracas_history_harvest(&lane->history, record));
     return batch->model->formulation->harvest(batch->model, &batch->step, (int)l, record);
 }
@@ -165,8 +165,8 @@ static fracas_err observe_lane(fracas_batch *batch, size_t l, fracas_record *rec
     fracas_ledger_update(ledger, step, (int)l, batch->steps == 0);
     fracas_history_row row = {
         .time = step->time[l], .kinetic = ledger->kinetic, .elastic = ledger->elastic, .cohesive = ledger->cohesive,
-        .dissipated = ledger->dissipated, .created = ledger->created, .work = ledger->work, .residual = ledger->residual,
-        .broken = step->broken[l]};
+        .dissipated = ledger->dissipated, .dissipated_bending = ledger->dissipated_bending, .created = ledger->created,
+        .work = ledger->work, .residual = ledger->residual, .broken = step->broken[l]};
     lane->running = !is_over(batch, l, &outcome);
     if (!lane->running || fracas_history_keeps(&lane->history, &row, cracked)) row.fragments = count_fragments(batch, l);
     fracas_history_observe(&lane->history, batch->steps, &row, cracked);

@@ -9,6 +9,7 @@ void fracas_ledger_update(fracas_ledger *ledger, const fracas_step *step, int la
     ledger->elastic = step->elastic[lane];
     ledger->cohesive = step->cohesive[lane];
     ledger->dissipated = step->dissipated[lane];
+    ledger->dissipated_bending = step->dissipated_bending[lane];
     ledger->created = step->created[lane];
     ledger->power = step->power[lane];
     double held = ledger->kinetic + ledger->elastic + ledger->cohesive + ledger->dissipated;

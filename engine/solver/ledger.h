@@ -8,6 +8,7 @@
 
 typedef struct {
     double kinetic, elastic, cohesive, dissipated, created, work; /* J */
+    double dissipated_bending; /* J, part of dissipated */
     double residual;         /* J, now */
     double largest_residual; /* J, of its absolute values so far */
     double initial;          /* J, kinetic + elastic + cohesive + dissipated of the first step */
