@@ -24,6 +24,7 @@ typedef struct {
     double position[3];         /* m, centre of mass at end_time */
     double velocity[3];         /* m/s, of the centre of mass, background included, half a step after end_time */
     double angular_momentum[3]; /* kg m2/s, about the centre of mass */
+    double spin[3];             /* rad/s, of the rigid body with that angular momentum; 0 about an axis without inertia, and of a bar's */
 } fracas_fragment;
 
 typedef struct {
@@ -60,11 +61,6 @@ typedef struct {
 
 /* An empty record of outcome FAILED, every value NaN and every count 0. */
 void fracas_record_init(fracas_record *record);
-
-/* Gives the record `count` fragments in the plane, allocated by malloc, whose position, velocity and angular_momentum[2] are sums of
- * m x, m v and m x x v over their nodes: they become averages, and the moment about the centre of mass; momentum is the sum of m v.
- * Dust are fragments of at most `dust` elements. */
-void fracas_record_take_fragments(fracas_record *record, fracas_fragment *fragment, size_t count, int64_t dust);
 
 /* Frees what the record owns and makes it empty. */
 void fracas_record_clear(fracas_record *record);

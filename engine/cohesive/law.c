@@ -19,6 +19,8 @@ static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_fl
     {"beta", FRACAS_REAL, "1", "interface stiffness K = beta E/((1 - nu^2) h), h the area of an element by its edge; 1.3 or more, 2.3 " \
      "with quadratic triangles", 5, 1.3, 1e4, false, offsetof(fracas_cohesive, beta),          \
      .only = fracas_surface_models},                                                                                  \
+    {"beta_shear", FRACAS_REAL, "1", "stiffness that keeps faces from shearing off across the shell: beta_shear E thickness/(2 (1 + nu) h) by " \
+     "length of the edge", 1, 0, 1e4, true, offsetof(fracas_cohesive, beta_shear), .only = fracas_shell_models},      \
     {.name = "onset", .type = FRACAS_CHOICE, .unit = "1", .doc = "what is held against the strength", .choices = onsets, \
      .nchoices = FRACAS_COUNT(onsets), .offset = offsetof(fracas_cohesive, onset), .only = fracas_surface_models},    \
     {"coupling", FRACAS_REAL, "1", "shear strength by normal strength, beta_c", 1, 0.01, 100, false,                  \

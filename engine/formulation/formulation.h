@@ -76,7 +76,8 @@ struct fracas_formulation {
     fracas_err (*harvest)(const fracas_model *model, fracas_step *step, int lane, fracas_record *record);
 };
 
-extern const fracas_formulation fracas_formulation_bar, fracas_formulation_ring, fracas_formulation_membrane;
+extern const fracas_formulation fracas_formulation_bar, fracas_formulation_ring, fracas_formulation_membrane, fracas_formulation_shell;
 extern const fracas_kind *const fracas_chain_models[], *const fracas_surface_models[]; /* of such bodies; then NULL */
+extern const fracas_kind *const fracas_membrane_models[], *const fracas_shell_models[]; /* of surfaces, those; then NULL */
 
 #endif

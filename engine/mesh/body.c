@@ -1,5 +1,6 @@
 #include "engine/mesh/body.h"
 
+#include "engine/formulation/formulation.h"
 #include "engine/mesh/surface/surface.h"
 #include "engine/spec.h"
 
@@ -142,7 +143,9 @@ static const fracas_param triangles[] = {
      "a sphere or of the 20 faces of a whole one; or give size", 0, 0,
      1e4, false, offsetof(fracas_mesh, divisions)},
     {"order", FRACAS_INTEGER, "1", "1: linear triangles, 2: quadratic ones, which follow curved edges", 1, 1, 2, false,
-     offsetof(fracas_mesh, order)},
+     offsetof(fracas_mesh, order), .only = fracas_membrane_models},
+    {"order", FRACAS_INTEGER, "1", "2: quadratic triangles, which bend", 2, 2, 2, false, offsetof(fracas_mesh, order),
+     .only = fracas_shell_models},
     {"amplitude", FRACAS_REAL, "1", "largest random move of an inner node, in local edge lengths, once a point: regular meshes "
      "lead cracks along their lines", 0, 0, FRACAS_SURFACE_AMPLITUDE, false, offsetof(fracas_mesh, amplitude)},
 };

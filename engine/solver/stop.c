@@ -40,7 +40,7 @@ static const fracas_param time_params[] = {
     {"spectral_radius", FRACAS_REAL, "1", "of hulbert-chung, at its bifurcation: the less, the more it damps high frequencies; "
      "central-difference damps nothing", 0.95, 0, 1, false, offsetof(fracas_time, spectral_radius), .only = fracas_surface_models},
     {.name = "mass", .type = FRACAS_CHOICE, .unit = "1", .doc = "mass matrix of an element", .choices = masses,
-     .nchoices = FRACAS_COUNT(masses), .offset = offsetof(fracas_time, mass), .only = fracas_surface_models},
+     .nchoices = FRACAS_COUNT(masses), .offset = offsetof(fracas_time, mass), .only = fracas_membrane_models},
 };
 static fracas_err check_time(const void *section)
 {

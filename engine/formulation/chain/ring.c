@@ -179,36 +179,35 @@ static void ring_advance(const fracas_model *model, fracas_step *step)
 
 /* ---- what is left of a lane ---- */
 
-/* Adds mass, momentum and moment of momentum of one element's two nodes to its fragment's. */
-static void add_element(const fracas_model *model, const fracas_step *step, int lane, size_t e, fracas_fragment *f)
+/* Adds one element's two nodes to its fragment's sums. */
+static void add_element(const fracas_model *model, const fracas_step *step, int lane, size_t e, fracas_fragment_sums *f)
 {
     const double radius = vertex_radius(model);
     const double mass = 0.5 * model->spec.material.density * model->spec.geometry.area * model->element_size;
+    const double before = f->mass;
     f->elements++;
-    f->mass += 2 * mass;
     f->size += model->element_size;
     for (size_t side = 0; side < 2; side++) {
         const double *table = model->table + (e + side) % model->elements * RING_TABLE;
         const int u = side ? RING_U_RIGHT : RING_U_LEFT, v = side ? RING_V_RIGHT : RING_V_LEFT;
-        const double x[2] = {radius * table[RING_COS] + *field_of(model, step, e, u, lane),
+        const double x[3] = {radius * table[RING_COS] + *field_of(model, step, e, u, lane),
                              radius * table[RING_SIN] + *field_of(model, step, e, u + 1, lane)};
-        const double w[2] = {*field_of(model, step, e, v, lane), *field_of(model, step, e, v + 1, lane)};
-        for (int i = 0; i < 2; i++) {
-            f->position[i] += mass * x[i];
-            f->velocity[i] += mass * w[i];
-        }
-        f->angular_momentum[2] += mass * (x[0] * w[1] - x[1] * w[0]);
+        const double w[3] = {*field_of(model, step, e, v, lane), *field_of(model, step, e, v + 1, lane)};
+        fracas_fragment_sums_add(f, mass, x, w);
     }
+    f->mass = before + 2 * mass; /* rounded once an element */
 }
 
 /* Fragments as (bar.17), in the plane  (ring.18). */
 static fracas_err ring_harvest(const fracas_model *model, fracas_step *step, int lane, fracas_record *record)
 {
     const size_t count = fracas_chain_partition(chain_of(model), model, step, lane);
-    fracas_fragment *fragment = calloc(count, sizeof *fragment);
-    if (!fragment) return fracas_no_memory("the fragments of a realization");
-    for (size_t e = 0; e < model->elements; e++) add_element(model, step, lane, e, &fragment[step->partition.label[e]]);
-    fracas_record_take_fragments(record, fragment, count, 1);
+    fracas_fragment_sums *sums = calloc(count, sizeof *sums);
+    if (!sums) return fracas_no_memory("the fragments of a realization");
+    for (size_t e = 0; e < model->elements; e++) add_element(model, step, lane, e, &sums[step->partition.label[e]]);
+    fracas_err err = fracas_fragments_take(sums, count, 1, record);
+    free(sums);
+    TRY(err);
     return step->onset_time ? fracas_chain_harvest_interfaces(chain_of(model), model, step, lane, record) : FRACAS_OK;
 }
 

@@ -149,7 +149,24 @@ static int64_t shell_fragment_count(const fracas_model *model, fracas_step *step
     return fracas_surface_fragment_count(model, step, lane, shell_damage);
 }
 
-HARVEST
+static void add_element(const fracas_model *model, const fracas_step *step, int lane, size_t e, fracas_fragment_sums *f)
+{
+    const fracas_shell_constants c = fracas_shell_constants_of(model);
+    for (int k = 0; k < SHELL_NODES; k++) {
+        const double *start = model->surface->node[model->surface->element[e * SHELL_NODES + (size_t)k]];
+        double x[3], v[3];
+        for (int i = 0; i < 3; i++) {
+            x[i] = start[i] + *element_value(&c, step, e, SURFACE_U, 3 * k + i, lane);
+            v[i] = *element_value(&c, step, e, SURFACE_V, 3 * k + i, lane);
+        }
+        fracas_fragment_sums_add(f, c.tables->mass[e * 2 * SHELL_NODES + SHELL_NODES + (size_t)k], x, v);
+    }
+}
+
+static fracas_err shell_harvest(const fracas_model *model, fracas_step *step, int lane, fracas_record *record)
+{
+    return fracas_surface_harvest(model, step, lane, shell_damage, add_element, record);
+}
 
 static const fracas_kind *const goes_with[] = {&fracas_shape_sphere, &fracas_shape_plate, &fracas_shape_annulus, &fracas_shape_file,
                                                &fracas_spacing_triangles, &fracas_spacing_given, &fracas_law_nitsche,

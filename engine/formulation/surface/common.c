@@ -75,7 +75,8 @@ double fracas_surface_start_velocity(const fracas_loading *loading, const double
     return (i == 1 ? loading->ratio : 1.0) * loading->rate * x[i];
 }
 
-size_t fracas_surface_partition(const fracas_model *model, fracas_step *step, int lane, fracas_surface_damage *damage)
+/* Labels which elements hang together; the number of fragments. */
+static size_t partition(const fracas_model *model, fracas_step *step, int lane, fracas_surface_damage *damage)
 {
     fracas_partition_reset(&step->partition);
     for (size_t i = 0; i < model->interfaces; i++) {
@@ -87,13 +88,12 @@ size_t fracas_surface_partition(const fracas_model *model, fracas_step *step, in
 
 int64_t fracas_surface_fragment_count(const fracas_model *model, fracas_step *step, int lane, fracas_surface_damage *damage)
 {
-    return step->broken[lane] == 0 ? 1 : (int64_t)fracas_surface_partition(model, step, lane, damage);
+    return step->broken[lane] == 0 ? 1 : (int64_t)partition(model, step, lane, damage);
 }
 
-fracas_err fracas_surface_harvest_interfaces(const fracas_model *model, const fracas_step *step, int lane, fracas_surface_damage *damage,
-                                             fracas_record *record)
+static fracas_err harvest_interfaces(const fracas_model *model, const fracas_step *step, int lane, fracas_surface_damage *damage,
+                                     fracas_record *record)
 {
-    if (!step->onset_time) return FRACAS_OK;
     size_t stride;
     const double *strength = model->formulation->strength(model, step, lane, &stride);
     record->interface = calloc(model->interfaces ? model->interfaces : 1, sizeof *record->interface);
@@ -105,4 +105,23 @@ fracas_err fracas_surface_harvest_interfaces(const fracas_model *model, const fr
                                                       .onset_time = step->onset_time[at], .break_time = step->break_time[at]};
     }
     return FRACAS_OK;
+}
+
+fracas_err fracas_surface_harvest(const fracas_model *model, fracas_step *step, int lane, fracas_surface_damage *damage,
+                                  fracas_surface_add_element *add, fracas_record *record)
+{
+    const size_t count = partition(model, step, lane, damage);
+    const double surface_density = model->spec.material.density * model->spec.geometry.thickness;
+    fracas_fragment_sums *sums = calloc(count, sizeof *sums);
+    if (!sums) return fracas_no_memory("the fragments of a realization");
+    for (size_t e = 0; e < model->elements; e++) {
+        fracas_fragment_sums *f = &sums[step->partition.label[e]];
+        f->elements++;
+        add(model, step, lane, e, f);
+    }
+    for (size_t f = 0; f < count; f++) sums[f].size = sqrt(sums[f].mass / surface_density);
+    fracas_err err = fracas_fragments_take(sums, count, 2, record);
+    free(sums);
+    TRY(err);
+    return step->onset_time ? harvest_interfaces(model, step, lane, damage, record) : FRACAS_OK;
 }

@@ -24,11 +24,12 @@ double fracas_surface_start_velocity(const fracas_loading *loading, const double
 /* D of an interface of a lane: the mean over its points by their weights, 1 only where all are broken  (membrane.18) */
 typedef double fracas_surface_damage(const fracas_model *model, const fracas_step *step, size_t interface, int lane);
 
-/* Labels in step->partition which elements hang together in a lane; the number of fragments. */
-size_t fracas_surface_partition(const fracas_model *model, fracas_step *step, int lane, fracas_surface_damage *damage);
+/* Adds the nodes of an element to its fragment's sums. */
+typedef void fracas_surface_add_element(const fracas_model *model, const fracas_step *step, int lane, size_t element, fracas_fragment_sums *sums);
+
+/* As fragment_count and harvest of a formulation  (membrane.19). */
 int64_t fracas_surface_fragment_count(const fracas_model *model, fracas_step *step, int lane, fracas_surface_damage *damage);
-/* The record's interface rows, if they are kept. */
-FRACAS_MUST_USE fracas_err fracas_surface_harvest_interfaces(const fracas_model *model, const fracas_step *step, int lane,
-                                                            fracas_surface_damage *damage, fracas_record *record);
+FRACAS_MUST_USE fracas_err fracas_surface_harvest(const fracas_model *model, fracas_step *step, int lane, fracas_surface_damage *damage,
+                                                  fracas_surface_add_element *add, fracas_record *record);
 
 #endif

@@ -195,43 +195,33 @@ static double mass_at(const fracas_membrane_tables *t, size_t e, size_t k, size_
     return k == l ? t->lumped[(2 * e + 1) * nodes + k] : 0;
 }
 
-/* Adds mass, moments of mass, momentum and moment of momentum of an element to its fragment's. By the
- * masses that it moves with: of quadratic elements the lumped ones give another momentum, which is not kept. */
-static void add_element(const fracas_model *model, const fracas_step *step, int lane, size_t e, fracas_fragment *f)
+/* Adds the nodes of an element to its fragment's sums. By the masses that it moves with: of quadratic elements the lumped ones
+ * give another momentum, which is not kept. */
+static void add_element(const fracas_model *model, const fracas_step *step, int lane, size_t e, fracas_fragment_sums *f)
 {
     const fracas_membrane_constants c = fracas_membrane_constants_of(model);
     const size_t nodes = (size_t)MEMBRANE_NODES(c.tables->order), base = e * fracas_membrane_element_fields(&c);
-    f->elements++;
+    double x[6][3] = {{0}};
+    for (size_t k = 0; k < nodes; k++)
+        for (size_t i = 0; i < 2; i++)
+            x[k][i] = model->surface->node[model->surface->element[e * nodes + k]][i] + *value_at(&c, step, base + 2 * k + i, lane);
     for (size_t k = 0; k < nodes; k++) {
-        const double *start = model->surface->node[model->surface->element[e * nodes + k]];
-        double mass = 0, x[2], momentum[2] = {0};
+        double mass = 0, carried[3] = {0}, momentum[3] = {0};
         for (size_t l = 0; l < nodes; l++) {
             const double share = mass_at(c.tables, e, k, l);
             mass += share;
-            for (size_t i = 0; i < 2; i++)
+            for (size_t i = 0; i < 2; i++) {
+                carried[i] += share * x[l][i];
                 momentum[i] += share * *value_at(&c, step, base + (size_t)SURFACE_V * 2 * nodes + 2 * l + i, lane);
+            }
         }
-        for (size_t i = 0; i < 2; i++) {
-            x[i] = start[i] + *value_at(&c, step, base + 2 * k + i, lane);
-            f->position[i] += mass * x[i];
-            f->velocity[i] += momentum[i];
-        }
-        f->mass += mass;
-        f->angular_momentum[2] += x[0] * momentum[1] - x[1] * momentum[0];
+        fracas_fragment_sums_add_coupled(f, mass, x[k], carried, momentum);
     }
 }
 
-/* (membrane.19) */
 static fracas_err membrane_harvest(const fracas_model *model, fracas_step *step, int lane, fracas_record *record)
 {
-    const size_t count = fracas_surface_partition(model, step, lane, membrane_damage);
-    const double surface_density = model->spec.material.density * model->spec.geometry.thickness;
-    fracas_fragment *fragment = calloc(count, sizeof *fragment);
-    if (!fragment) return fracas_no_memory("the fragments of a realization");
-    for (size_t e = 0; e < model->elements; e++) add_element(model, step, lane, e, &fragment[step->partition.label[e]]);
-    for (size_t f = 0; f < count; f++) fragment[f].size = sqrt(fragment[f].mass / surface_density);
-    fracas_record_take_fragments(record, fragment, count, 2);
-    return fracas_surface_harvest_interfaces(model, step, lane, membrane_damage, record);
+    return fracas_surface_harvest(model, step, lane, membrane_damage, add_element, record);
 }
 
 static const fracas_kind *const goes_with[] = {
