@@ -40,6 +40,28 @@ for isa in baseline $(instruction_sets); do
 done
 expect 0 "$fracas" verify one
 
+# The spin of a plate's fragments is upright, and half of L . spin, by another reader, is what the report says.
+expect 0 "$fracas" report one --json
+/usr/bin/python3 - <<'END' || fail "the spins in study.h5 are not those of the report"
+import json
+import h5py, numpy as np
+
+study, points = h5py.File("one/study.h5"), json.load(open("said"))["points"]
+of = {name: study["fragment/" + name][()] for name in ("offset", "mass", "velocity", "angular_momentum", "spin")}
+assert study["fragment/spin"].attrs["unit"] == b"rad/s"
+moment, spin = of["angular_momentum"], of["spin"]
+flat = of["offset"][3]  # after the bars
+assert not spin[:flat].any() and not spin[:, :2].any() and (spin[flat:, 2] * moment[flat:, 2] > 0).all()
+for p, point in enumerate(points):
+    energies = []
+    for i in np.flatnonzero((study["realization/point"][()] == p) & (study["realization/fragments"][()] > 1)):
+        rows = slice(*of["offset"][i:i + 2])
+        energies.append([(of["mass"][rows] * (of["velocity"][rows]**2).sum(axis=1)).sum() / 2, (moment[rows] * spin[rows]).sum() / 2])
+    for key, value in zip(("translation", "rotation"), np.mean(energies, axis=0)):
+        said = point["statistics"][key + ".mean"]
+        assert said is None if p == 0 else abs(said / value - 1) < 1e-12 and value > 0, (key, said, value)  # sums of one sign
+END
+
 # Extended: merged again, with the meshes of all points.
 surfaces part.yaml 2
 sed -i '/name: annulus/d' part.yaml
