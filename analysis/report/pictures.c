@@ -78,7 +78,8 @@ static fracas_err save_pictures(const making *m, const fracas_broken_surface *su
         fracas_surface_time_text(time[k], true, text, sizeof text);
         snprintf(title, sizeof title, "Point %zu, replica %" PRId64 " at %s", request->point, request->replica, text);
         snprintf(name, sizeof name, "surface-point-%zu-replica-%" PRId64 "-%zu.svg", request->point, request->replica, k + 1);
-        const fracas_surface_picture picture = {title, request->show, FRACAS_SURFACE_WIDTH, true};
+        const fracas_surface_picture picture = {title, request->show, FRACAS_SURFACE_WIDTH, true, request->view,
+                                                request->explode, surface->thickness};
         err = fracas_broken_surface_save(surface, time[k], &picture, m->folder, name);
         fracas_surface_time_text(time[k], false, text, sizeof text);
         if (!err) fprintf(m->out, "%s/%s: %s\n", m->folder, name, text);

@@ -13,6 +13,8 @@ fracas_err fracas_broken_surface_read(fracas_reader *reader, size_t point, size_
     int64_t replica;
     *surface = (fracas_broken_surface){0};
     fracas_record_init(&surface->record);
+    const double thickness = fracas_columns_real(fracas_reader_points(reader), point, "geometry.thickness");
+    if (thickness > 0) surface->thickness = thickness;
     TRY(fracas_reader_mesh(reader, point, &surface->mesh));
     return fracas_reader_record(reader, row, FRACAS_READ_INTERFACES, &of, &replica, &surface->record);
 }
@@ -74,7 +76,8 @@ static fracas_err put_moment(const gallery *to, const fracas_broken_surface *sur
     snprintf(title, sizeof title, "Broken surface at %s%s%s", moment, *label ? ": " : "", label);
     snprintf(name, sizeof name, "surface-point-%zu-%zu", p, k + 1);
     snprintf(file, sizeof file, "%s.svg", name);
-    fracas_surface_picture picture = {title, FRACAS_SHOW_FRAGMENTS, FRACAS_CHART_NARROW, false};
+    fracas_surface_picture picture = {.title = title, .show = FRACAS_SHOW_FRAGMENTS, .width = FRACAS_CHART_NARROW,
+                                      .thickness = surface->thickness};
     fprintf(to->out, "<figure id=\"%s\">\n", name);
     TRY(write_picture(surface, time, &picture, to->out));
     fprintf(to->out, "<figcaption><a href=\"%s\">SVG</a></figcaption>\n</figure>\n", file);
