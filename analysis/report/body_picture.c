@@ -137,7 +137,7 @@ static fracas_err draw(const drawing *d, fracas_trail *trail, fracas_err err, bo
 {
     if (!err && trail->count > 0) {
         fprintf(d->out, "<g%s>\n", attributes);
-        err = fracas_trail_write(trail, d->body->spot, d->body->facets.nnodes, closed, class, d->out);
+        err = fracas_trail_write(trail, d->body->spot, closed, class, d->out);
         fputs("</g>\n", d->out);
     }
     fracas_trail_clear(trail);

@@ -246,6 +246,12 @@ static bool is_parted(const shaping *s, int64_t i)
     return s->apart && s->state->fragment[element[0]] != s->state->fragment[element[1]];
 }
 
+/* Dust that is apart has neither lines nor cuts: it would be nothing else. */
+static bool is_dust(const shaping *s, size_t e)
+{
+    return s->apart && s->state->elements[s->state->fragment[e]] <= FRACAS_SURFACE_DUST;
+}
+
 static void join_skins(const shaping *s)
 {
     for (size_t e = 0; e < s->mesh->nelements; e++)
@@ -256,7 +262,7 @@ static void join_skins(const shaping *s)
             skin->side[side] = FRACAS_SIDE_EDGE;
             if (i < 0) continue;
             const int64_t *element = s->mesh->interface[i].element, other = element[element[0] == (int64_t)e];
-            if (is_parted(s, i)) skin->side[side] = FRACAS_SIDE_PARTED;
+            if (is_parted(s, i)) skin->side[side] = is_dust(s, e) ? FRACAS_SIDE_NONE : FRACAS_SIDE_PARTED;
             else if (s->to->facet[other].kind == skin->kind) {
                 skin->side[side] = s->state->interface[i];
                 skin->neighbour[side] = (int32_t)other;
@@ -264,34 +270,43 @@ static void join_skins(const shaping *s)
         }
 }
 
-/* One half of the cut at a side, if it faces the reader; `line` is drawn along its first side, which is the one along the surface. */
-static void put_half(const shaping *s, const uint32_t node[3], int32_t middle, fracas_side line, uint32_t fragment)
+static void facet_normal(const shaping *s, const uint32_t node[3], double normal[3])
 {
-    double normal[3];
     double (*at)[3] = s->to->node;
     normal_of(at[node[0]], at[node[1]], at[node[2]], normal);
-    if (!(normal[2] > 0)) return;
-    s->to->facet[s->to->nfacets++] = (fracas_facet){
-        .node = {node[0], node[1], node[2]}, .middle = {middle, -1, -1}, .neighbour = {-1, -1, -1},
-        .side = {(uint8_t)line, FRACAS_SIDE_NONE, FRACAS_SIDE_NONE}, .kind = FRACAS_FACET_CUT, .fragment = fragment,
-        .light = (float)light_on(normal)};
 }
 
-/* The cut at side k of an element: from its inner skin to its outer one, seen from where the element is not. Where it meets the
- * skin that faces the reader, the line is that of the skin. */
+/* The cut at side k of an element, as far as it faces the reader: from its inner skin to its outer one, seen from where the element is
+ * not, in two halves. Where it meets the skin that faces the reader, the line is that of the skin. */
 static void put_cut(const shaping *s, size_t e, int k)
 {
     const uint32_t *corner = s->corner[e], a = corner[k], b = corner[(k + 1) % 3];
     const bool curved = s->mesh->element[e].node[3 + k] >= 0, inner = s->to->facet[e].kind == FRACAS_FACET_INNER;
     const fracas_side line = s->across[e][k] < 0 ? FRACAS_SIDE_EDGE : FRACAS_SIDE_PARTED;
-    const uint32_t within[3] = {a + 1, b + 1, b}, without[3] = {b, a, a + 1}, fragment = s->state->fragment[e];
-    put_half(s, within, curved ? (int32_t)corner[3 + k] + 1 : -1, inner ? FRACAS_SIDE_NONE : line, fragment);
-    put_half(s, without, curved ? (int32_t)corner[3 + k] : -1, inner ? line : FRACAS_SIDE_NONE, fragment);
+    const uint32_t node[2][3] = {{a + 1, b + 1, b}, {b, a, a + 1}}; /* the inner edge first, and the outer one */
+    double normal[2][3], sum[3];
+    for (int half = 0; half < 2; half++) facet_normal(s, node[half], normal[half]);
+    for (int i = 0; i < 3; i++) sum[i] = normal[0][i] + normal[1][i];
+    for (int half = 0; half < 2; half++) {
+        if (!(normal[half][2] > 0)) continue;
+        fracas_facet *facet = &s->to->facet[s->to->nfacets++];
+        const uint32_t *of = node[half];
+        *facet = (fracas_facet){.node = {of[0], of[1], of[2]}, .neighbour = {-1, -1, -1}, .kind = FRACAS_FACET_CUT,
+                                .fragment = s->state->fragment[e], .light = (float)light_on(sum)};
+        for (int i = 0; i < 3; i++) facet->middle[i] = -1, facet->side[i] = FRACAS_SIDE_NONE;
+        if (curved) facet->middle[0] = (int32_t)corner[3 + k] + !half;
+        if (inner == half) facet->side[0] = (uint8_t)line;
+    }
+    if (normal[0][2] > 0 && normal[1][2] > 0) { /* side 2 of the first half is side 2 of the other: b to a + 1 */
+        const int32_t last = (int32_t)s->to->nfacets - 1;
+        s->to->facet[last].neighbour[2] = last - 1;
+        s->to->facet[last - 1].neighbour[2] = last;
+    }
 }
 
 static bool is_cut(const shaping *s, size_t e, int k)
 {
-    return s->form->thickness > 0 && (s->across[e][k] < 0 || is_parted(s, s->across[e][k]));
+    return s->form->thickness > 0 && !is_dust(s, e) && (s->across[e][k] < 0 || is_parted(s, s->across[e][k]));
 }
 
 static fracas_err put_facets(const shaping *s)

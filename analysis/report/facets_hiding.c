@@ -1,12 +1,14 @@
 /* fracas_facets_hide: pairs of facets that overlap in the picture, by a grid of cells; what is hidden altogether; layers. */
 #include "analysis/report/facets.h"
 
+#include "base/partition.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 
 enum { MOST_CORNERS = 6, POINTS = 10 };
-enum { MOST_LAYERS = 64 }; /* facets that hide each other in a circle stop there */
+enum { MOST_LAYERS = 32 }; /* what hides each other in a circle stops there */
 static const double touching = 1e-6; /* areas that overlap / that of the smaller facet, and depths / size of the facets */
 
 typedef struct {
@@ -244,24 +246,88 @@ static bool is_hidden(const hiding *h, size_t f)
     return true;
 }
 
-/* One more than the largest layer of all that show and hide some of it. */
-static void find_layers(const hiding *h)
+/* ---- layers ---- */
+
+/* Facets that are drawn at once: what is connected, as long as it hides nothing that hides it. */
+typedef struct {
+    size_t count;
+    uint32_t *of;   /* of each facet */
+    int32_t *layer; /* of each part */
+    bool *split;    /* of each part: it hides some of itself, or what hides it */
+} parts;
+
+static void free_parts(parts *p)
 {
-    fracas_facet *facet = h->facets->facet;
+    free(p->of);
+    free(p->layer);
+    free(p->split);
+}
+
+static fracas_err find_parts(const hiding *h, parts *p)
+{
+    const fracas_facets *facets = h->facets;
+    fracas_partition partition;
+    TRY(fracas_partition_init(&partition, facets->nfacets));
+    for (size_t f = 0; f < facets->nfacets; f++)
+        for (int side = 0; side < 3; side++) {
+            const int32_t other = facets->facet[f].neighbour[side];
+            if (other >= 0 && facets->facet[f].layer >= 0 && facets->facet[other].layer >= 0)
+                fracas_partition_join(&partition, (uint32_t)f, (uint32_t)other);
+        }
+    p->count = fracas_partition_label(&partition);
+    p->of = partition.label;
+    partition.label = NULL;
+    fracas_partition_clear(&partition);
+    p->layer = calloc(p->count + facets->nfacets + 1, sizeof *p->layer); /* room for all of them split */
+    p->split = calloc(p->count + facets->nfacets + 1, sizeof *p->split);
+    return p->layer && p->split ? FRACAS_OK : fracas_no_memory("the facets of a picture");
+}
+
+/* One more than the largest layer of all that hide some of it. Parts that hide each other in a circle are split, and those far behind
+ * them. */
+static void raise_parts(const hiding *h, parts *p)
+{
+    const fracas_facet *facet = h->facets->facet;
     bool grown = true;
-    for (size_t f = 0; f < h->facets->nfacets; f++) facet[f].layer = is_hidden(h, f) ? -1 : 0;
-    for (int32_t pass = 1; grown && pass < MOST_LAYERS; pass++) {
+    for (size_t k = 0; k < p->count; k++) p->layer[k] = 0;
+    while (grown) { /* some layer grows each time, and none beyond the last */
         grown = false;
         for (size_t c = 0; c < h->ncovers; c++) {
-            const int32_t front = facet[h->covers[c].front].layer, behind = facet[h->covers[c].behind].layer;
-            if (front < 0 || behind < 0 || behind > front || front + 1 >= MOST_LAYERS) continue;
-            facet[h->covers[c].behind].layer = front + 1;
-            grown = true;
+            const cover *pair = &h->covers[c];
+            if (facet[pair->front].layer < 0 || facet[pair->behind].layer < 0) continue;
+            const uint32_t front = p->of[pair->front], behind = p->of[pair->behind];
+            if (front == behind || p->layer[front] + 1 >= MOST_LAYERS) p->split[front] = p->split[behind] = true;
+            else if (p->layer[behind] <= p->layer[front]) p->layer[behind] = p->layer[front] + 1, grown = true;
         }
     }
-    h->facets->nlayers = 1;
+}
+
+static void split_parts(const hiding *h, parts *p)
+{
     for (size_t f = 0; f < h->facets->nfacets; f++)
-        if (facet[f].layer >= (int32_t)h->facets->nlayers) h->facets->nlayers = (size_t)facet[f].layer + 1;
+        if (p->split[p->of[f]]) p->of[f] = (uint32_t)p->count++;
+}
+
+static fracas_err find_layers(const hiding *h)
+{
+    fracas_facets *facets = h->facets;
+    parts p = {0};
+    for (size_t f = 0; f < facets->nfacets; f++) facets->facet[f].layer = is_hidden(h, f) ? -1 : 0;
+    fracas_err err = find_parts(h, &p);
+    if (!err) {
+        raise_parts(h, &p);
+        split_parts(h, &p);
+        raise_parts(h, &p);
+    }
+    facets->nlayers = 1;
+    for (size_t f = 0; f < facets->nfacets && !err; f++) {
+        fracas_facet *facet = &facets->facet[f];
+        if (facet->layer < 0) continue;
+        facet->layer = p.layer[p.of[f]];
+        if (facet->layer >= (int32_t)facets->nlayers) facets->nlayers = (size_t)facet->layer + 1;
+    }
+    free_parts(&p);
+    return err;
 }
 
 fracas_err fracas_facets_hide(fracas_facets *facets)
@@ -270,7 +336,7 @@ fracas_err fracas_facets_hide(fracas_facets *facets)
     fracas_err err = make_grid(&h);
     if (!err) err = find_covers(&h);
     if (!err) err = sort_covers(&h);
-    if (!err) find_layers(&h);
+    if (!err) err = find_layers(&h);
     free_hiding(&h);
     return err;
 }

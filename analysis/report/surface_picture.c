@@ -95,7 +95,7 @@ static double line_width(const canvas *on)
 
 static fracas_err draw(const canvas *on, fracas_trail *trail, fracas_err err, bool closed, const char *class)
 {
-    if (!err) err = fracas_trail_write(trail, on->spot, on->mesh->nnodes, closed, class, on->out);
+    if (!err) err = fracas_trail_write(trail, on->spot, closed, class, on->out);
     fracas_trail_clear(trail);
     return err;
 }
