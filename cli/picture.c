@@ -120,6 +120,8 @@ const fracas_command fracas_command_picture = {
     .more = "\nOne file a time: the surface as it was before any motion, its broken interfaces dark, cracked ones grey, each fragment\n"
             "filled, dust in orange. Then it prints when the realization first cracked, first broke, and first cracked through, from one\n"
             "edge to the other (annulus: inner and outer; plate: left and right, or bottom and top). The campaign must say\n"
-            "`output: {interfaces: true}`.\n",
+            "`output: {interfaces: true}`.\n\n"
+            "A surface that is not flat is shaded and seen from --view (45,35.264: the direction (1, 1, 1)), z upward; what is hidden is left\n"
+            "out. --explode 0.15 moves its fragments apart, so that the gaps and the inside show.\n",
     .options = options, .noptions = FRACAS_COUNT(options), .run = picture,
 };

@@ -34,7 +34,7 @@ static fracas_err check_point(making *m)
     size_t interfaces;
     TRY(fracas_reader_mesh_interfaces(m->reader, point, &interfaces));
     if (interfaces) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "point %zu is no surface: only surfaces of the model `membrane` have pictures; "
+    return fracas_fail(FRACAS_USAGE, "point %zu is no surface: only membranes and shells have pictures; "
                        "`fracas report` draws the fragments of rings", point);
 }
 

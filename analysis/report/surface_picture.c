@@ -53,7 +53,7 @@ typedef struct {
 
 /* ---- where things are ---- */
 
-static bool is_flat(const fracas_stored_mesh *mesh)
+bool fracas_surface_is_flat(const fracas_stored_mesh *mesh)
 {
     double least = INFINITY, largest = -INFINITY, reach = 0;
     for (size_t n = 0; n < mesh->nnodes; n++) {
@@ -231,7 +231,7 @@ fracas_err fracas_surface_picture_write(const fracas_stored_mesh *mesh, const fr
                                         const fracas_surface_picture *picture, FILE *out)
 {
     static const fracas_view above = {-90, 90}, corner = FRACAS_VIEW_DEFAULT;
-    const bool flat = is_flat(mesh);
+    const bool flat = fracas_surface_is_flat(mesh);
     const fracas_view *view = picture->view ? picture->view : flat ? &above : &corner;
     canvas on = {.mesh = mesh, .state = state, .picture = picture, .out = out};
     fracas_body_picture body = {0};

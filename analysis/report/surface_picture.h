@@ -20,6 +20,9 @@ typedef struct {
     double thickness;         /* of the shell in space [m]; 0: its cuts do not show */
 } fracas_surface_picture;
 
+/* All at one z, to rounding: drawn as it lies. */
+bool fracas_surface_is_flat(const fracas_stored_mesh *mesh);
+
 /* The <svg> element: cracked interfaces light, broken ones dark, the outline, fragments (unless it shows cracks alone) filled,
  * dust in a colour of its own, the mesh if asked for; time, fragments and a scale bar below. Fragments are drawn as loops, so that
  * its size goes with the length of cracks, at most some 20 bytes an interface. A surface in space, or one with a view or fragments
