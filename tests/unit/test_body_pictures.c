@@ -14,7 +14,7 @@ typedef struct {
 } body;
 
 /* cells: 0 for none broken. */
-static void make_body(bool octant, size_t divisions, int order, size_t cells, body *b)
+static void make_body(bool octant, size_t divisions, int order, size_t cells, bool late, body *b)
 {
     const fracas_surface_fineness fineness = {.divisions = divisions, .order = order};
     const fracas_surface *surface;
@@ -22,9 +22,9 @@ static void make_body(bool octant, size_t divisions, int order, size_t cells, bo
     else OK(fracas_surface_sphere(1, &fineness, &surface));
     body_copy(surface, &b->mesh);
     assert_null(fracas_stored_mesh_fault(&b->mesh));
-    b->cell = body_break(&b->mesh, cells ? cells : 1, octant, false, &b->record);
+    b->cell = body_break(&b->mesh, cells ? cells : 1, octant, late, &b->record);
     OK(fracas_surface_state_create(&b->mesh, &b->record, 5, &b->now));
-    assert_true(b->now.nfragments >= (cells ? cells / 2 : 1));
+    assert_true(late || b->now.nfragments >= (cells ? cells / 2 : 1));
 }
 
 static void clear_body(body *b)
@@ -83,7 +83,7 @@ static void half_of_a_sphere_shows(void **state)
     (void)state;
     static const double view[][2] = {{45, 35.264389682754654}, {20, 30}, {-100, -70}, {0.3, 89.1}, {-90, 90}};
     body b;
-    make_body(false, 8, 2, 30, &b);
+    make_body(false, 8, 2, 30, false, &b);
     const double c = widest(&b.mesh);
     for (size_t v = 0; v < sizeof view / sizeof *view; v++) {
         fracas_facets facets = look(&b, view[v][0], view[v][1], 0, 0);
@@ -112,7 +112,7 @@ static void all_of_an_octant_shows(void **state)
 {
     (void)state;
     body b;
-    make_body(true, 20, 1, 20, &b);
+    make_body(true, 20, 1, 20, false, &b);
     const double h = M_PI / 2 / 20, exact = 3 * M_PI / 4 / sqrt(3);
     for (int side = 1; side >= -1; side -= 2) {
         fracas_facets facets = look(&b, side > 0 ? 45 : 225, side * 35.264389682754654, 0, 0);
@@ -158,8 +158,7 @@ static double depth_at(const fracas_facets *facets, size_t f, const double point
     return depth;
 }
 
-/* What is drawn last at a point is what is nearest there. Points are spread at random; where facets cut through each other, or one that
- * shows less than between ten points of it was left out, it is not: in at most 1 of 1000. */
+/* What is drawn last at a point is what is nearest there: a search over all facets. Points are spread at random. */
 static void assert_nearest_last(const fracas_facets *facets, size_t at_least)
 {
     uint64_t x = 5;
@@ -184,7 +183,7 @@ static void assert_nearest_last(const fracas_facets *facets, size_t at_least)
         wrong += front != last;
     }
     assert_true(seen >= at_least);
-    assert_true(1000 * wrong <= seen);
+    assert_int_equal(wrong, 0);
 }
 
 static void the_nearest_is_drawn_last(void **state)
@@ -198,7 +197,7 @@ static void the_nearest_is_drawn_last(void **state)
         {false, {45, 35}, 0.15, 0.01}, {false, {10, 0}, 0.4, 0},      {false, {200, -50}, 1, 0.1}};
     for (size_t l = 0; l < sizeof looks / sizeof *looks; l++) {
         body b;
-        make_body(looks[l].octant, looks[l].octant ? 16 : 8, 2, 25, &b);
+        make_body(looks[l].octant, looks[l].octant ? 16 : 8, 2, 25, false, &b);
         fracas_facets facets = look(&b, looks[l].view[0], looks[l].view[1], looks[l].explode, looks[l].thickness);
         size_t hidden = 0;
         for (size_t f = 0; f < facets.nfacets; f++) hidden += facets.facet[f].layer < 0;
@@ -218,7 +217,7 @@ static void fragments_move_apart(void **state)
 {
     (void)state;
     body b;
-    make_body(true, 12, 2, 9, &b);
+    make_body(true, 12, 2, 9, false, &b);
     fracas_facets still = look(&b, 45, 35, 0, 0), apart = look(&b, 45, 35, 0.3, 0);
     const fracas_view view = {45, 35};
     const size_t nfragments = b.now.nfragments;
@@ -263,7 +262,7 @@ static void the_thickness_shows_at_borders(void **state)
 {
     (void)state;
     body b;
-    make_body(true, 20, 1, 0, &b);
+    make_body(true, 20, 1, 0, false, &b);
     const double t = 0.04, exact = M_PI / 2 * t;
     fracas_facets back = look(&b, 225, -35.264389682754654, 0, t), front = look(&b, 45, 35.264389682754654, 0, t);
     fracas_facets side = look(&b, 180, 0, 0, t);
@@ -325,50 +324,62 @@ static double length_of(const char *svg, const char *class, size_t *edges)
     return length;
 }
 
-/* Cracks are as long as the edges along which they run are in the projection to the plane across (1, 1, 1), those that face there
- * or whose neighbour does; each end is rounded by at most 0.71 units. */
+/* Edges along which a sphere is cracked and whose two elements face (1, 1, 1): how many, and how long in the plane across, in m. On the
+ * silhouette they are outlines. */
+static size_t cracks_of(const body *b, fracas_interface_state state, double *length)
+{
+    const double r = sqrt(1.0 / 3);
+    size_t count = 0;
+    *length = 0;
+    for (size_t i = 0; i < b->mesh.ninterfaces; i++) {
+        const fracas_stored_interface *interface = &b->mesh.interface[i];
+        const double *p = b->mesh.node[interface->node[0]].position, *q = b->mesh.node[interface->node[1]].position;
+        bool both = b->now.interface[i] == state;
+        for (int side = 0; side < 2; side++) { /* an element of the sphere faces where its corners are */
+            double toward = 0;
+            for (int k = 0; k < 3; k++)
+                for (int c = 0; c < 3; c++) toward += b->mesh.node[b->mesh.element[interface->element[side]].node[k]].position[c];
+            both = both && toward > 0;
+        }
+        double square = 0, along = 0;
+        for (int c = 0; c < 3; c++) square += (q[c] - p[c]) * (q[c] - p[c]), along += r * (q[c] - p[c]);
+        if (both) *length += sqrt(square - along * along), count++;
+    }
+    return count;
+}
+
+/* Each end of an edge is rounded by at most 0.71 units. */
 static void cracks_have_their_length(void **state)
 {
     (void)state;
+    static const struct {
+        fracas_interface_state state;
+        const char *class;
+    } kinds[] = {{FRACAS_INTERFACE_BROKEN, "broken"}, {FRACAS_INTERFACE_CRACKED, "cracked"}, {FRACAS_INTERFACE_CLOSED, "mesh"}};
     body b;
-    make_body(false, 8, 1, 30, &b);
-    const double r = sqrt(1.0 / 3);
-    double exact = 0, least = INFINITY, largest = -INFINITY;
-    size_t expected = 0, edges;
+    make_body(false, 8, 1, 30, true, &b);
+    double least = INFINITY, largest = -INFINITY, exact, drawn[3];
+    size_t edges;
     for (size_t n = 0; n < b.mesh.nnodes; n++) {
         const double *p = b.mesh.node[n].position;
         least = fmin(least, (p[1] - p[0]) / sqrt(2));
         largest = fmax(largest, (p[1] - p[0]) / sqrt(2));
     }
     const double scale = 7840 / (largest - least);
-    for (size_t i = 0; i < b.mesh.ninterfaces; i++) {
-        if (b.now.interface[i] != FRACAS_INTERFACE_BROKEN) continue;
-        bool both = true;
-        for (int side = 0; side < 2; side++) { /* an element of the sphere faces where its corners are */
-            double toward = 0;
-            for (int k = 0; k < 3; k++)
-                for (int c = 0; c < 3; c++)
-                    toward += r * b.mesh.node[b.mesh.element[b.mesh.interface[i].element[side]].node[k]].position[c];
-            both = both && toward > 0;
-        }
-        if (!both) continue; /* on the silhouette it is an outline */
-        const double *p = b.mesh.node[b.mesh.interface[i].node[0]].position, *q = b.mesh.node[b.mesh.interface[i].node[1]].position;
-        double square = 0, along = 0;
-        for (int c = 0; c < 3; c++) square += (q[c] - p[c]) * (q[c] - p[c]), along += r * (q[c] - p[c]);
-        exact += scale * sqrt(square - along * along);
-        expected++;
+    char *svg = draw(&b, NULL, 0, 0, FRACAS_SHOW_MESH);
+    for (int k = 0; k < 3; k++) {
+        const size_t expected = cracks_of(&b, kinds[k].state, &exact);
+        drawn[k] = length_of(svg, kinds[k].class, &edges);
+        assert_true(expected > 40);
+        assert_int_equal(edges, expected);
+        assert_true(fabs(drawn[k] - scale * exact) < 1.42 * (double)expected);
     }
-    char *svg = draw(&b, NULL, 0, 0, FRACAS_SHOW_FRAGMENTS);
-    const double drawn = length_of(svg, "broken", &edges);
-    assert_true(expected > 100);
-    assert_int_equal(edges, expected);
-    assert_true(fabs(drawn - exact) < 1.42 * (double)expected);
-    assert_null(strstr(svg, "class=\"mesh\""));
     assert_non_null(strstr(svg, "text-anchor=\"middle\">z</text>"));
     free(svg);
     svg = draw(&b, NULL, 0, 0, FRACAS_SHOW_CRACKS);
-    assert_true(length_of(svg, "broken", &edges) == drawn);
+    assert_true(length_of(svg, "broken", &edges) == drawn[0] && length_of(svg, "cracked", &edges) == drawn[1]);
     assert_null(strstr(svg, "class=\"t0\""));
+    assert_null(strstr(svg, "class=\"mesh\""));
     assert_non_null(strstr(svg, "class=\"body\""));
     free(svg);
     svg = draw(&b, NULL, 0.2, 0.01, FRACAS_SHOW_FRAGMENTS);
@@ -377,8 +388,60 @@ static void cracks_have_their_length(void **state)
     clear_body(&b);
 }
 
+/* Area inside the loops of all paths with these classes, in square units; a parabola has 2/3 of its triangle beside its chord. */
+static double filled(const char *svg, const char *classes)
+{
+    double sum = 0;
+    for (const char *found = strstr(svg, "<path class=\""); found; found = strstr(found + 1, "<path class=\"")) {
+        if (!strchr(classes, found[13]) || found[14] < '0' || found[14] > '9') continue;
+        double x = 0, y = 0, first[2] = {0, 0}, control[2], area = 0;
+        char command = 0;
+        bool half = false;
+        for (const char *d = strstr(found, " d=\"") + 4; *d != '"';) {
+            if (strchr("Mlqz", *d)) {
+                command = *d++;
+                if (command == 'z') area += (x * first[1] - first[0] * y) / 2;
+                continue;
+            }
+            char *end;
+            const double a = strtod(d, &end), c = strtod(end, (char **)&d);
+            while (*d == ' ') d++;
+            if (command == 'M') {
+                x = first[0] = a, y = first[1] = c;
+            } else if (command == 'q' && !half) {
+                control[0] = a, control[1] = c, half = true;
+            } else {
+                if (half) area += 2.0 / 3 * (control[0] * c - control[1] * a) / 2;
+                area += (x * (y + c) - (x + a) * y) / 2;
+                x += a, y += c, half = false;
+            }
+        }
+        sum += fabs(area);
+    }
+    return sum;
+}
+
+/* A coarse octant of quadratic triangles, from before and from behind: its parabolas make the area that its arcs have, 3 pi/4/sqrt(3),
+ * to 0.01 %: of a parabola through the ends and the middle of an arc of h = pi/2/6, whose height above the chord is wrong by
+ * h^2/16 of that, h^2/12 of the area: h^4/192. Rounding: 0.71 units along an outline of some 3 widths. */
+static void curved_edges_are_curved(void **state)
+{
+    (void)state;
+    static const fracas_view views[] = {{45, 35.264389682754654}, {225, -35.264389682754654}};
+    body b;
+    make_body(true, 6, 2, 4, false, &b);
+    for (int v = 0; v < 2; v++) {
+        char *svg = draw(&b, &views[v], 0, 0, FRACAS_SHOW_FRAGMENTS);
+        const double scale = 7840 / sqrt(2), exact = 3 * M_PI / 4 / sqrt(3) * scale * scale; /* from x = 1 to y = 1 */
+        assert_true(fabs(filled(svg, "t") / exact - 1) < 1e-4 + 0.71 * 3 * 7840 / exact);
+        free(svg);
+    }
+    clear_body(&b);
+}
+
 /* A plate that lies flat, seen from above by a view of its own, has its fragments where the flat picture has them; from below it
- * shows its other side, mirrored. */
+ * shows its other side, upside down. The lamp is 0.8 of its length toward the reader: the share 0.45 + 0.55 0.8 = 0.89 of the light comes
+ * back from above, which is 6 shades of 0.98 (0.886), and 0.6 of that from the inner side, 31 shades (0.535). */
 static void flat_surfaces_can_be_looked_at_too(void **state)
 {
     (void)state;
@@ -398,6 +461,7 @@ static void flat_surfaces_can_be_looked_at_too(void **state)
         char *svg = draw(&b, side ? &below : &above, 0, 0, FRACAS_SHOW_FRAGMENTS);
         assert_true(fabs(length_of(svg, "broken", &edges) - length) <= 4);
         assert_int_equal(edges, flat_edges);
+        assert_non_null(strstr(svg, side ? "fill-opacity=\"0.465\"" : "fill-opacity=\"0.114\""));
         assert_non_null(strstr(svg, "M2693 ")); /* 8 + 784/3 pixels from the left, either way up */
         free(svg);
     }
@@ -411,7 +475,7 @@ static void pictures_of_bodies_stay_small(void **state)
     (void)state;
     uint64_t random = 7;
     body b;
-    make_body(false, 31, 2, 60, &b);
+    make_body(false, 31, 2, 60, false, &b);
     for (unsigned share = 0; share <= 100; share += 50) {
         for (size_t i = 0; share > 0 && i < b.mesh.ninterfaces; i++)
             b.record.interface[i].break_time = sample_bits(&random) % 100 < share ? 1 : NAN;
@@ -436,6 +500,7 @@ int main(void)
         cmocka_unit_test(fragments_move_apart),
         cmocka_unit_test(the_thickness_shows_at_borders),
         cmocka_unit_test(cracks_have_their_length),
+        cmocka_unit_test(curved_edges_are_curved),
         cmocka_unit_test(flat_surfaces_can_be_looked_at_too),
         cmocka_unit_test(pictures_of_bodies_stay_small),
     };
