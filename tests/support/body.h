@@ -2,8 +2,11 @@
 #ifndef FRACAS_TESTS_SUPPORT_BODY_H
 #define FRACAS_TESTS_SUPPORT_BODY_H
 
+#include "tests/support/store_sample.h"
 #include "tests/support/stored_mesh.h"
 
+#include "analysis/report/facets.h"
+#include "analysis/report/surface_picture.h"
 #include "engine/mesh/surface/surface.h"
 
 #include <math.h>
@@ -74,6 +77,74 @@ static inline uint32_t *body_break(const fracas_stored_mesh *mesh, size_t cells,
     }
     free(seed);
     return cell;
+}
+
+/* ---- a body, broken or not, and what is seen of it ---- */
+
+typedef struct {
+    fracas_stored_mesh mesh;
+    fracas_record record;
+    fracas_surface_state now;
+    uint32_t *cell;
+} body;
+
+/* cells: 0 for none broken. */
+static inline void make_body(bool octant, size_t divisions, int order, size_t cells, bool late, body *b)
+{
+    const fracas_surface_fineness fineness = {.divisions = divisions, .order = order};
+    const fracas_surface *surface;
+    if (octant) OK(fracas_surface_octant(1, &fineness, &surface));
+    else OK(fracas_surface_sphere(1, &fineness, &surface));
+    body_copy(surface, &b->mesh);
+    assert_null(fracas_stored_mesh_fault(&b->mesh));
+    b->cell = body_break(&b->mesh, cells ? cells : 1, octant, late, &b->record);
+    OK(fracas_surface_state_create(&b->mesh, &b->record, 5, &b->now));
+    assert_true(late || b->now.nfragments >= (cells ? cells / 2 : 1));
+}
+
+static inline void clear_body(body *b)
+{
+    fracas_surface_state_clear(&b->now);
+    fracas_record_clear(&b->record);
+    fracas_stored_mesh_clear(&b->mesh);
+    free(b->cell);
+}
+
+static inline fracas_facets look(const body *b, double azimuth, double elevation, double explode, double thickness)
+{
+    const fracas_facets_form form = {{azimuth, elevation}, explode, thickness};
+    fracas_facets facets;
+    OK(fracas_facets_create(&b->mesh, &b->now, &form, &facets));
+    OK(fracas_facets_hide(&facets));
+    return facets;
+}
+
+static inline double turn(const double a[2], const double b[2], const double c[2])
+{
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+static inline const double *corner(const fracas_facets *facets, size_t f, int k)
+{
+    return facets->node[facets->facet[f].node[k]];
+}
+
+static inline double area_of(const fracas_facets *facets, size_t f)
+{
+    return turn(corner(facets, f, 0), corner(facets, f, 1), corner(facets, f, 2)) / 2;
+}
+
+/* How near a facet is at a point, -INFINITY beside it; `close` is set where the point is on an edge, to 1e-6 of the facet. */
+static inline double depth_at(const fracas_facets *facets, size_t f, const double point[2], bool *close)
+{
+    double share[3], depth = 0;
+    for (int k = 0; k < 3; k++) {
+        share[k] = turn(corner(facets, f, (k + 1) % 3), corner(facets, f, (k + 2) % 3), point) / (2 * area_of(facets, f));
+        if (!(share[k] > -1e-6)) return -INFINITY;
+        if (share[k] < 1e-6) *close = true;
+        depth += share[k] * corner(facets, f, k)[2];
+    }
+    return depth;
 }
 
 #endif
