@@ -272,6 +272,27 @@ static void curved_edges_are_curved(void **state)
     clear_body(&b);
 }
 
+static size_t count_of(const char *svg, const char *part)
+{
+    size_t count = 0;
+    for (const char *found = strstr(svg, part); found; found = strstr(found + 1, part)) count++;
+    return count;
+}
+
+/* From behind, each of the three planes in which an octant is cut has a shade of its own, at once. */
+static void cuts_are_shaded(void **state)
+{
+    (void)state;
+    static const fracas_view behind = {225, -35.264389682754654};
+    body b;
+    make_body(true, 10, 1, 0, false, &b);
+    char *thin = draw(&b, &behind, 0, 0, FRACAS_SHOW_FRAGMENTS), *thick = draw(&b, &behind, 0, 0.02, FRACAS_SHOW_FRAGMENTS);
+    assert_true(count_of(thick, " fill-opacity=\"0.") >= count_of(thin, " fill-opacity=\"0.") + 3);
+    free(thin);
+    free(thick);
+    clear_body(&b);
+}
+
 /* A plate that lies flat, seen from above by a view of its own, has its fragments where the flat picture has them; from below it
  * shows its other side, upside down. The lamp is 0.8 of its length toward the reader: the share 0.45 + 0.55 0.8 = 0.89 of the light comes
  * back from above, which is 6 shades of 0.98 (0.886), and 0.6 of that from the inner side, 31 shades (0.535). */
@@ -329,6 +350,7 @@ int main(void)
         cmocka_unit_test(drawings_show_the_nearest),
         cmocka_unit_test(cracks_have_their_length),
         cmocka_unit_test(curved_edges_are_curved),
+        cmocka_unit_test(cuts_are_shaded),
         cmocka_unit_test(flat_surfaces_can_be_looked_at_too),
         cmocka_unit_test(pictures_of_bodies_stay_small),
     };

@@ -205,13 +205,15 @@ static void the_thickness_shows_at_borders(void **state)
 {
     (void)state;
     body b;
-    make_body(true, 20, 1, 0, false, &b);
+    make_body(true, 20, 2, 0, false, &b);
     const double t = 0.04, exact = M_PI / 2 * t;
     fracas_facets back = look(&b, 225, -35.264389682754654, 0, t), front = look(&b, 45, 35.264389682754654, 0, t);
     fracas_facets side = look(&b, 180, 0, 0, t);
     double area = 0;
     size_t lines = 0;
     for (size_t f = back.nskin; f < back.nfacets; f++) {
+        const double *m = back.node[back.facet[f].middle[0]], *end = corner(&back, f, 0);
+        assert_int_equal(hypot(hypot(m[0], m[1]), m[2]) > 1, hypot(hypot(end[0], end[1]), end[2]) > 1); /* in the same skin */
         assert_int_equal(back.facet[f].kind, FRACAS_FACET_CUT);
         for (int k = 0; k < 3; k++) {
             if (back.facet[f].side[k] != FRACAS_SIDE_EDGE) continue;
