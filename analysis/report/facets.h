@@ -57,7 +57,7 @@ void fracas_facets_clear(fracas_facets *facets);
  * t = (cos h cos a, cos h sin a, sin h) with a azimuth and h elevation. */
 void fracas_view_turn(const fracas_view *view, const double vector[3], double turned[3]);
 
-/* Finds what hides what, and so the layers (facets_hiding.c). Facets of a layer do not hide each other. A facet counts as hidden
+/* Finds what hides what, and so the layers (facets_hiding.c). Facets of a layer do not hide each other, but for circles of them. A facet counts as hidden
  * if 45 points spread over it are. */
 FRACAS_MUST_USE fracas_err fracas_facets_hide(fracas_facets *facets);
 
