@@ -48,7 +48,7 @@ typedef struct {
     double least[2], largest[2]; /* m, right and up: room for it at any time of its run */
 } fracas_facets;
 
-/* Without layers: those are all 0. A facet that is seen edge on has an area of 0. Cleared by the caller, after an error too. */
+/* Without layers: those are all 0. Cleared by the caller, after an error too. */
 FRACAS_MUST_USE fracas_err fracas_facets_create(const fracas_stored_mesh *mesh, const fracas_surface_state *state,
                                                 const fracas_facets_form *form, fracas_facets *facets);
 void fracas_facets_clear(fracas_facets *facets);
@@ -57,8 +57,8 @@ void fracas_facets_clear(fracas_facets *facets);
  * t = (cos h cos a, cos h sin a, sin h) with a azimuth and h elevation. */
 void fracas_view_turn(const fracas_view *view, const double vector[3], double turned[3]);
 
-/* Finds what hides what, and so the layers (facets_hiding.c). Facets of a layer do not hide each other, but for circles of them. A facet counts as hidden
- * if 45 points spread over it are. */
+/* Finds what hides what, and so the layers (facets_hiding.c). Facets of a layer do not hide each other, but for circles of them. A
+ * facet counts as hidden if 45 points spread over it are, or if it is seen edge on. */
 FRACAS_MUST_USE fracas_err fracas_facets_hide(fracas_facets *facets);
 
 #endif

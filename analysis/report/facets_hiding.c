@@ -249,6 +249,17 @@ static bool is_hidden(const hiding *h, size_t f)
     return true;
 }
 
+/* To rounding, of lengths that it has in space. */
+static bool is_edge_on(const fracas_facets *facets, size_t f)
+{
+    double longest = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *a = corner_of(facets, f, k), *b = corner_of(facets, f, (k + 1) % 3);
+        longest = fmax(longest, hypot(hypot(b[0] - a[0], b[1] - a[1]), b[2] - a[2]));
+    }
+    return !(twice_area(facets, f) > touching * longest * longest);
+}
+
 /* ---- layers ---- */
 
 /* Facets that are drawn at once: what is connected, as long as it hides nothing that hides it. */
@@ -315,7 +326,7 @@ static fracas_err find_layers(const hiding *h)
 {
     fracas_facets *facets = h->facets;
     parts p = {0};
-    for (size_t f = 0; f < facets->nfacets; f++) facets->facet[f].layer = is_hidden(h, f) ? -1 : 0;
+    for (size_t f = 0; f < facets->nfacets; f++) facets->facet[f].layer = is_edge_on(facets, f) || is_hidden(h, f) ? -1 : 0;
     fracas_err err = find_parts(h, &p);
     if (!err) {
         raise_parts(h, &p);
