@@ -85,6 +85,11 @@ grep -q 'class="mesh"' one/pictures/surface-point-2-replica-0-1.svg || fail "no 
 expect 0 "$fracas" picture one --point 2 --times 2 --show cracks -o cracks
 ! grep -q 'class="t0"' cracks/surface-point-2-replica-0-2.svg || fail "fragments were drawn"
 
+# From another side, and with gaps: still only what is there.
+expect 0 "$fracas" picture one --point 2 --times 600ns --view -30,45 --explode 0.2 -o seen
+grep -q ', fragments apart: 0.2</text>' seen/surface-point-2-replica-0-1.svg || fail "the fragments are not apart"
+grep -q '>z</text>' seen/surface-point-2-replica-0-1.svg || fail "no axes were drawn"
+
 # The report has the pictures of both surfaces.
 expect 0 "$fracas" report one
 for point in 1 2; do
@@ -112,6 +117,12 @@ refuses '`5 mm` is a length; expected a time' one --point 1 --times 5mm
 refuses '`x` is not a number' one --point 1 --times 100ns,x
 refuses 'it must be a whole number from 1 to 1000' one --point 1 --times 0
 refuses 'it can be: cracks, fragments, mesh' one --point 1 --show fragment
+refuses 'picture: --view is `45`; it must be two numbers, as 45,30: an azimuth from -360 to 360' one --point 1 --view 45
+refuses 'picture: --view is `45,95`; it must be two numbers' one --point 1 --view 45,95
+refuses 'picture: --view is `nan,5`; it must be two numbers' one --point 1 --view nan,5
+refuses 'picture: --view is `45,5deg`; it must be two numbers' one --point 1 --view 45,5deg
+refuses 'picture: --explode is `11`; it must be a number from 0 to 10, such as 0.15' one --point 1 --explode 11
+refuses 'picture: --explode is `-1`; it must be a number, 0 or more' one --point 1 --explode -1
 sed '/^output/d' part.yaml > without.yaml
 expect 0 "$fracas" run without.yaml --study without
 ! h5ls without/study.h5 | grep -q mesh || fail "meshes are kept without interfaces"
