@@ -41,7 +41,7 @@ LANES_FUNCTION plane_friction plane_rub(const plane_interface *at, vd trial_n, v
     vd reach = at->beta_c * state->peak; /* a rigid law carries up to this */
     vd carried = lanes_select(softened, secant * state->slip, plane_max(zero - reach, plane_min(reach, held)));
     vd limit = at->mu_c * plane_max(zero, zero - trial_n), rest = held - carried;
-    vmask sticks = lanes_and(lanes_lt(trial_n, zero), lanes_and(lanes_lt(zero, state->peak), lanes_le(plane_abs(rest), limit)));
+    vmask sticks = lanes_and(lanes_lt(trial_n, zero), lanes_le(plane_abs(rest), limit));
     vd rub = lanes_select(lanes_lt(rest, zero), zero - limit, limit);
     return (plane_friction){.shear = trial_t - rub, .rub = rub, .sticks = sticks, .held = held, .carried = carried};
 }

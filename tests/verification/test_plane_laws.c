@@ -341,6 +341,21 @@ static void steps_do_not_decide_the_peak(void **unused)
     assert_true(opened > 300);
 }
 
+/* The mean pulls the point past its strength while the flux presses its faces together and shears them by less than friction
+ * holds: they stick from the start, T is the flux's, nothing opens. Exact, but for the rounding of m + k q. */
+static void pressed_faces_stick_at_the_onset(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < 20; i++) {
+        const plane_case kind = plane_kind(PLANE_NITSCHE, 1, 10, 1.2, 1);
+        const double m_n = 1.5 * kind.sigma_c, t_n = -5 * kind.sigma_c, t_t = (i - 10) * 0.5 * kind.sigma_c;
+        plane_walk w = plane_begin(kind);
+        plane_step(&w, (plane_at){.m_n = m_n, .q_n = (t_n - m_n) / kind.k_n, .q_t = t_t / kind.k_t});
+        assert_true(w.out.cracks && w.memory.damage == 0 && fabs(w.out.rubbed) <= 1e-15 * t_t * t_t / kind.k_t);
+        assert_true(fabs(w.out.t_n - t_n) < 1e-14 * 8 * kind.sigma_c && fabs(w.out.t_t - t_t) < 1e-14 * 8 * kind.sigma_c);
+    }
+}
+
 /* Broken faces: T_n = k_n min(0, q_n), whatever m; friction that sticks up to mu_c |T_n|, T_t = k_t (q_t - slip), then slides. */
 static void broken_faces_touch_and_rub(void **unused)
 {
@@ -565,6 +580,7 @@ int main(void)
         cmocka_unit_test(extrinsic_onset_is_continuous),
         cmocka_unit_test(onset_is_at_the_strength),
         cmocka_unit_test(steps_do_not_decide_the_peak),
+        cmocka_unit_test(pressed_faces_stick_at_the_onset),
         cmocka_unit_test(broken_faces_touch_and_rub),
         cmocka_unit_test(friction_obeys_the_pressure_at_the_break),
         cmocka_unit_test(no_cycle_gains_energy),
