@@ -1,0 +1,372 @@
+/* Cracked interfaces of a shell, whatever its nodes do: tractions, what the flux carries, energies and forces against the law written
+ * once more for one layer and kinematics written once more from the nodes (docs/theory/shell.md, docs/theory/cohesive.md). */
+#include "tests/support/plane.h"
+#include "tests/support/shell_cracks.h"
+
+/* ---- a layer ---- */
+
+typedef struct {
+    double widest, peak; /* delta_max [m], p [Pa] */
+    plane_memory rubbed; /* with friction, by the law that test_plane_laws verifies */
+} layer;
+
+/* What a layer does in a step. */
+typedef struct {
+    double t[2], s[2], flux, stored, dissipated, created, rubbed, spent, midway[2];
+    int cracked, loads, broken, breaks, cut, pressed;
+} layer_answer;
+
+typedef struct {
+    double k[2], sigma_c, beta_c, mu_c, energy, opening;
+    int by_mean;
+} layer_law;
+
+static double effective_of(const double t[2], double beta_c) { return hypot(fmax(0, t[0]), t[1] / beta_c); }
+
+/* What is held against the strength  (cohesive.11) */
+static double judged_of(const double t[2], double beta_c, double mu_c)
+{
+    return t[0] >= 0 ? effective_of(t, beta_c) : fmax(0, fabs(t[1]) - mu_c * fabs(t[0])) / beta_c;
+}
+
+/* Energies of a traction that the law gave: of the flux s, stored in the opening q - s. */
+static void energies_of(const layer_law *law, const double m[2], const double q[2], layer_answer *a)
+{
+    a->flux = a->stored = 0;
+    for (int i = 0; i < 2; i++) {
+        a->s[i] = (a->t[i] - m[i]) / law->k[i];
+        a->flux += m[i] * a->s[i] + 0.5 * law->k[i] * a->s[i] * a->s[i];
+        a->stored += 0.5 * a->t[i] * (q[i] - a->s[i]);
+    }
+}
+
+/* Without friction, by openings: theory of the law, not its code. */
+static layer_answer layer_of(const layer_law *law, layer *x, const double mean[2], const double q[2])
+{
+    layer_answer a = {.spent = 0};
+    const double old_c = law->opening > 0 ? law->opening : 2 * law->energy / x->peak; /* of the peak it had */
+    const int was_broken = x->peak > 0 && x->widest >= old_c;
+    const double m[2] = {was_broken ? 0 : mean[0], was_broken ? 0 : mean[1]}, trial[2] = {m[0] + law->k[0] * q[0], m[1] + law->k[1] * q[1]};
+    const double s = effective_of(trial, law->beta_c);
+    double whole = 0;
+    for (int i = 0; i < 2; i++) whole += q[i] * (m[i] + 0.5 * law->k[i] * q[i]);
+    if (x->peak == 0 && judged_of(law->by_mean ? mean : trial, law->beta_c, 0) > law->sigma_c) {
+        const double most = law->opening > 0 ? 0.5 * law->k[0] * law->opening : sqrt(law->k[0] * law->energy);
+        x->peak = law->by_mean ? fmax(judged_of(trial, law->beta_c, 0), law->sigma_c) : law->sigma_c;
+        a.cut = x->peak > most;
+        x->peak = fmin(x->peak, most);
+    }
+    a.pressed = trial[0] < 0;
+    if (x->peak == 0) {
+        for (int i = 0; i < 2; i++) a.midway[i] = a.t[i] = trial[i], a.s[i] = q[i];
+        a.flux = whole;
+        return a;
+    }
+    const double p = x->peak, delta_c = law->opening > 0 ? law->opening : 2 * law->energy / p, was = x->widest;
+    const double reach = (s - p) / (law->k[0] - p / delta_c);
+    double factor, midway;
+    a.cracked = 1;
+    if (reach > x->widest) {
+        a.loads = 1;
+        x->widest = fmin(reach, delta_c);
+        factor = p * (1 - x->widest / delta_c) / s;
+        midway = p * (1 - 0.5 * (was + x->widest) / delta_c) / s;
+    } else {
+        const double stiff = x->widest > 0 ? p * (1 - x->widest / delta_c) / x->widest : INFINITY;
+        midway = factor = isinf(stiff) ? 1 : stiff / (law->k[0] + stiff);
+    }
+    for (int i = 0; i < 2; i++) {
+        const int kept = i == 0 && trial[0] < 0;
+        a.t[i] = trial[i] * (kept ? 1 : factor);
+        a.midway[i] = trial[i] * (kept ? 1 : midway);
+    }
+    energies_of(law, m, q, &a);
+    a.dissipated = 0.5 * p * x->widest;
+    a.spent = 0.5 * p * (x->widest - was);
+    if (a.cut) a.created = a.flux + a.stored + a.dissipated - whole;
+    if (x->widest >= delta_c) {
+        const double held = a.flux + a.stored;
+        a.broken = 1;
+        a.breaks = !was_broken;
+        a.t[0] = law->k[0] * fmin(0, q[0]);
+        a.t[1] = a.s[0] = a.s[1] = a.flux = 0;
+        a.stored = 0.5 * law->k[0] * fmin(0, q[0]) * fmin(0, q[0]);
+        if (a.breaks) a.created += a.stored - held;
+    }
+    return a;
+}
+
+static layer_answer rubbed_layer(const layer_law *law, layer *x, const double mean[2], const double q[2])
+{
+    const plane_case kind = {.law = PLANE_NITSCHE, .k_n = law->k[0], .k_t = law->k[1], .sigma_c = law->sigma_c, .beta_c = law->beta_c,
+                             .mu_c = law->mu_c, .energy = law->energy, .opening = law->opening, .onset_mean = law->by_mean};
+    const plane_case *kinds[] = {&kind};
+    const plane_at at = {mean[0], mean[1], q[0], q[1]};
+    const double was = x->rubbed.damage;
+    plane_out out;
+    plane_call_1(kinds, &at, &x->rubbed, &out);
+    layer_answer a = {.t = {out.t_n, out.t_t}, .s = {out.s_n, out.s_t}, .flux = out.flux, .stored = out.stored, .dissipated = out.dissipated,
+                      .created = out.created, .rubbed = out.cracked ? out.rubbed : 0, .cracked = out.cracked,
+                      .loads = x->rubbed.damage > was, .broken = out.cracked && x->rubbed.damage >= 1, .breaks = out.breaks, .pressed = out.t_n < 0};
+    x->peak = x->rubbed.peak;
+    return a;
+}
+
+/* ---- a body ---- */
+
+typedef struct {
+    const fracas_model *model;
+    shell_sight *unit; /* [interface][Gauss point][36]: of each displacement of the - element, then of the + element */
+    layer *memory;     /* [interface][Gauss point][layer] */
+    double *strength, *force;
+    double elastic, cohesive, dissipated, created, rubbed, bending;
+    long seen[7]; /* layers: intact, loading, unloading, broken, pressed and broken, pressed and cracked, cut */
+} twin;
+
+static twin twin_of(const fracas_model *model, const fracas_batch *batch)
+{
+    const size_t n = model->interfaces * SHELL_EDGE;
+    twin t = {.model = model, .unit = calloc(36 * n, sizeof *t.unit), .memory = calloc(SHELL_LAYERS * n, sizeof *t.memory),
+              .strength = calloc(model->interfaces, sizeof(double)), .force = calloc(unknowns_of(model), sizeof(double))};
+    assert_true(t.unit && t.memory && t.strength && t.force);
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < 36; j++) {
+            double u[2][SHELL_UNKNOWNS] = {{0}};
+            u[j / 18][j % 18] = 1;
+            t.unit[36 * i + j] = sight_at(model, i / SHELL_EDGE, (int)(i % SHELL_EDGE), (const double *const[2]){u[0], u[1]});
+        }
+    for (size_t i = 0; i < model->interfaces; i++) {
+        size_t stride;
+        t.strength[i] = fracas_batch_strength((fracas_batch *)batch, 0, &stride)[i * stride];
+    }
+    return t;
+}
+
+static void twin_clear(twin *t)
+{
+    free(t->unit);
+    free(t->memory);
+    free(t->strength);
+    free(t->force);
+}
+
+/* K of the bulk times u, by the polarisation of its energy with displacements of `scale`. */
+static void bulk_forces(twin *t, const double *u, double scale)
+{
+    for (size_t e = 0; e < t->model->elements; e++) {
+        double v[SHELL_UNKNOWNS];
+        const double *from = u + SHELL_UNKNOWNS * e;
+        t->elastic += bulk_energy(t->model, e, from);
+        for (int j = 0; j < SHELL_UNKNOWNS; j++) {
+            double energy[2];
+            for (int sign = 0; sign < 2; sign++) {
+                memcpy(v, from, sizeof v);
+                v[j] += sign ? -scale : scale;
+                energy[sign] = bulk_energy(t->model, e, v);
+            }
+            t->force[SHELL_UNKNOWNS * e + (size_t)j] -= (energy[0] - energy[1]) / (2 * scale);
+        }
+    }
+}
+
+static void count(twin *t, const layer_answer *a)
+{
+    if (!a->cracked) t->seen[0]++;
+    else if (a->broken) t->seen[a->pressed ? 4 : 3]++;
+    else t->seen[a->pressed ? 5 : a->loads ? 1 : 2]++;
+    t->seen[6] += a->cut;
+}
+
+static void twin_point(twin *t, size_t i, int g, const double *u)
+{
+    static const double place[SHELL_LAYERS] = {-0.5, 0, 0.5}, weight[SHELL_LAYERS] = {1.0 / 6, 2.0 / 3, 1.0 / 6};
+    const fracas_cohesive *cohesive = &t->model->spec.cohesive;
+    const double h = t->model->spec.geometry.thickness, beta_c = cohesive->coupling;
+    const shell_sight *unit = t->unit + 36 * (3 * i + (size_t)g);
+    const uint32_t *element = t->model->surface->interface[i].element;
+    double shearing;
+    const double spring = spring_of(t->model, i, &shearing) * fmax(1, 1 / (beta_c * beta_c));
+    const layer_law law = {.k = {spring, beta_c * beta_c * spring}, .sigma_c = t->strength[i], .beta_c = beta_c, .mu_c = cohesive->friction,
+                           .energy = cohesive->fracture_energy, .opening = cohesive->critical_opening, .by_mean = cohesive->onset == &fracas_onset_mean};
+    shell_sight at = {.lift = 0};
+    for (int j = 0; j < 36; j++) {
+        const double x = u[SHELL_UNKNOWNS * element[j / 18] + (size_t)j % 18];
+        for (int k = 0; k < 2; k++) {
+            at.n[k] += unit[j].n[k] * x;
+            at.m[k] += unit[j].m[k] * x;
+            at.jump[k] += unit[j].jump[k] * x;
+            at.turn[k] += unit[j].turn[k] * x;
+        }
+        at.lift += unit[j].lift * x;
+    }
+    double n[2] = {0}, m[2] = {0}, carried_u[2] = {0}, carried_t[2] = {0}, half_n[2] = {0}, half_m[2] = {0}, spent = 0;
+    int broken = 1, breaks = 0;
+    for (int k = 0; k < SHELL_LAYERS; k++) {
+        const double z = place[k] * h, w = weight[k] * h;
+        double mean[2], q[2];
+        for (int d = 0; d < 2; d++) {
+            mean[d] = at.n[d] / h + 12 * z * at.m[d] / (h * h * h);
+            q[d] = at.jump[d] + z * at.turn[d];
+        }
+        layer *memory = &t->memory[(3 * i + (size_t)g) * SHELL_LAYERS + (size_t)k];
+        const layer_answer a = law.mu_c > 0 ? rubbed_layer(&law, memory, mean, q) : layer_of(&law, memory, mean, q);
+        count(t, &a);
+        for (int d = 0; d < 2; d++) {
+            n[d] += w * a.t[d];
+            m[d] += w * z * a.t[d];
+            carried_u[d] += weight[k] * a.s[d];
+            carried_t[d] += 12 / (h * h) * weight[k] * z * a.s[d];
+            half_n[d] += w * a.midway[d];
+            half_m[d] += w * z * a.midway[d];
+        }
+        t->elastic += unit->length * w * a.flux;
+        t->cohesive += unit->length * w * a.stored;
+        t->dissipated += unit->length * w * (a.dissipated + a.rubbed);
+        t->created += unit->length * w * a.created;
+        t->rubbed += unit->length * w * a.rubbed;
+        spent += unit->length * w * a.spent;
+        broken = broken && a.broken;
+        breaks = breaks || a.breaks;
+    }
+    const double sheared = 0.5 * unit->length * shearing * at.lift * at.lift;
+    if (!broken) t->elastic += sheared;
+    if (broken && breaks) t->created -= sheared;
+    const double stretched = fmax(0, half_n[0] * at.jump[0] + half_n[1] * at.jump[1]), bent = fmax(0, half_m[0] * at.turn[0] + half_m[1] * at.turn[1]);
+    if (spent > 0) t->bending += spent * bent / (stretched + bent);
+    for (int j = 0; j < 36; j++) {
+        double work = broken ? 0 : shearing * at.lift * unit[j].lift;
+        for (int d = 0; d < 2; d++)
+            work += n[d] * unit[j].jump[d] + m[d] * unit[j].turn[d] + carried_u[d] * unit[j].n[d] + carried_t[d] * unit[j].m[d];
+        t->force[SHELL_UNKNOWNS * element[j / 18] + (size_t)j % 18] -= unit->length * work;
+    }
+}
+
+static void twin_evaluate(twin *t, const double *u, double scale)
+{
+    t->elastic = t->cohesive = t->dissipated = t->created = t->rubbed = t->bending = 0;
+    memset(t->force, 0, unknowns_of(t->model) * sizeof *t->force);
+    bulk_forces(t, u, scale);
+    for (size_t i = 0; i < t->model->interfaces; i++)
+        for (int g = 0; g < SHELL_EDGE; g++) twin_point(t, i, g, u);
+}
+
+/* ---- walks ---- */
+
+enum { SEGMENTS = 5, STEPS = 40 };
+
+/* Forces are the slope of Pi + dissipated, along any direction: central differences over 2e-7 of the displacements, in which Pi is
+ * quadratic but for points that turn from loading to unloading (a share of 1e-7 of the force), with 1e-16/1e-7 of round-off. */
+static double slope_error(fracas_batch *batch, const double *u, double scale, const fracas_stream *stream, uint64_t *draw)
+{
+    const size_t n = unknowns_of(batch->model);
+    shell_answer here = {.force = calloc(n, sizeof(double))}, there = {.force = calloc(n, sizeof(double))};
+    double *direction = calloc(n, sizeof *direction), *moved = calloc(n, sizeof *moved), energy[2], worst = 0;
+    assert_true(here.force && there.force && direction && moved);
+    look_at(batch, u, &here);
+    for (int trial = 0; trial < 4; trial++) {
+        double power = 0, size = 0;
+        for (size_t i = 0; i < n; i++) direction[i] = 2 * fracas_stream_uniform(stream, (*draw)++) - 1;
+        for (int sign = 0; sign < 2; sign++) {
+            for (size_t i = 0; i < n; i++) moved[i] = u[i] + (sign ? -1 : 1) * 1e-7 * scale * direction[i];
+            look_at(batch, moved, &there);
+            energy[sign] = there.elastic + there.cohesive + there.dissipated;
+            assert_true(there.created == 0 && here.created == 0);
+        }
+        for (size_t i = 0; i < n; i++) {
+            power -= here.force[i] * direction[i];
+            size += fabs(here.force[i]);
+        }
+        worst = fmax(worst, fabs((energy[0] - energy[1]) / (2e-7 * scale) - power) / size);
+    }
+    free(here.force);
+    free(there.force);
+    free(direction);
+    free(moved);
+    return worst;
+}
+
+static double relative(double a, double b, double scale) { return fabs(a - b)/scale; }
+
+/* Straight from one random state to the next, the third of which is a tenth of the second: it unloads. Energies are sums of some
+ * thousand terms of which each has, through stresses that are differences of displacements, 1e-13 of it: 1e-11. */
+static void walk(const fracas_spec *spec, double scale, double distortion, long seen[7], double worst[3])
+{
+    fracas_model *model = shell_model(*spec, distortion, 3);
+    fracas_batch *batch = lane_of(model, 0.3, 5);
+    assert_ok(fracas_batch_begin(batch));
+    const size_t n = unknowns_of(model);
+    twin t = twin_of(model, batch);
+    shell_answer answer = {.force = calloc(n, sizeof(double))};
+    double *from = calloc(n, sizeof *from), *to = calloc(n, sizeof *to), *u = calloc(n, sizeof *u), size = 0, largest = 0, bending[2] = {0};
+    assert_true(answer.force && from && to && u);
+    const fracas_stream stream = {.seed = 8, .purpose = FRACAS_PURPOSE_MESH};
+    uint64_t draw = 0;
+    for (int segment = 0; segment < SEGMENTS; segment++) {
+        for (size_t i = 0; i < n; i++) to[i] = segment == 2 ? 0.1 * from[i] : scale * (2 * fracas_stream_uniform(&stream, draw++) - 1);
+        for (int step = 1; step <= STEPS; step++) {
+            const double x = segment == 0 ? pow((double)step / STEPS, 3) : (double)step / STEPS; /* so that onsets are not all in one step */
+            for (size_t i = 0; i < n; i++) u[i] = (1 - x) * from[i] + x * to[i];
+            evaluate(batch, u, &answer);
+            twin_evaluate(&t, u, scale);
+            for (size_t i = 0; i < n; i++) largest = fmax(largest, fabs(t.force[i]));
+            size = fmax(size, fmax(t.elastic + t.cohesive, t.dissipated));
+            for (size_t i = 0; i < n; i++) worst[0] = fmax(worst[0], relative(answer.force[i], t.force[i], largest));
+            worst[1] = fmax(worst[1], relative(answer.elastic, t.elastic, size));
+            worst[1] = fmax(worst[1], relative(answer.cohesive, t.cohesive, size));
+            /* the sum of what rubs so far is in the step, what layers rub now in the twin */
+            worst[1] = fmax(worst[1], relative(answer.dissipated - batch->step.rubbed[0] + answer.rubbed, t.dissipated, size));
+            worst[1] = fmax(worst[1], relative(answer.rubbed, t.rubbed, size));
+            worst[1] = fmax(worst[1], relative(answer.created, t.created, size));
+            if (spec->cohesive.friction == 0) worst[1] = fmax(worst[1], relative(answer.bending, t.bending, size));
+            bending[0] += answer.bending;
+            assert_true(answer.bending >= 0);
+        }
+        memcpy(from, to, n * sizeof *from);
+        if (spec->cohesive.friction == 0) {
+            for (size_t i = 0; i < n; i++) u[i] *= 0.999; /* back a little */
+            worst[2] = fmax(worst[2], slope_error(batch, u, scale, &stream, &draw));
+        }
+    }
+    bending[1] = t.dissipated;
+    for (int i = 0; i < 7; i++) seen[i] += t.seen[i];
+    print_message("%-7s onset %s, beta_c %.1f, mu_c %.1f, %s: forces within %.1e, energies %.1e, slopes %.1e; bending %.2f of it; layers "
+                  "%ld %ld %ld %ld %ld %ld %ld\n", spec->geometry.shape->name, spec->cohesive.onset->name, spec->cohesive.coupling,
+                  spec->cohesive.friction, spec->cohesive.critical_opening > 0 ? "delta_c" : "G_c", worst[0], worst[1], worst[2],
+                  bending[0] / bending[1], t.seen[0], t.seen[1], t.seen[2], t.seen[3], t.seen[4], t.seen[5], t.seen[6]);
+    free(from);
+    free(to);
+    free(u);
+    free(answer.force);
+    twin_clear(&t);
+    fracas_batch_destroy(batch);
+    fracas_model_destroy(model);
+}
+
+static void interfaces_do_what_their_layers_do(void **unused)
+{
+    (void)unused;
+    static const fracas_kind *const shapes[] = {&fracas_shape_plate, &fracas_shape_annulus, &fracas_shape_sphere};
+    static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};
+    static const double coupling[] = {1, 0.6, 1.7};
+    long seen[7] = {0};
+    for (int which = 0; which < 12; which++) {
+        fracas_spec spec = brittle_shell(shapes[which % 3], 1);
+        double worst[3] = {0};
+        spec.cohesive.onset = onsets[which % 2];
+        spec.cohesive.coupling = coupling[(which + which / 3) % 3];
+        if (which / 3 % 2) spec.cohesive.friction = 0.4;
+        if (which / 6) {
+            spec.cohesive.fracture_energy = 0;
+            spec.cohesive.critical_opening = 1.2e-6;
+        }
+        walk(&spec, 8e-7, which % 3 == 0 ? 0 : 0.1, seen, worst);
+        assert_true(worst[0] < 1e-11 && worst[1] < 1e-11 && worst[2] < 1e-6);
+    }
+    for (int i = 0; i < 7; i++) assert_true(seen[i] > 100);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(interfaces_do_what_their_layers_do)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
