@@ -285,7 +285,7 @@ static double slope_error(fracas_batch *batch, const double *u, double scale, co
     return worst;
 }
 
-static double relative(double a, double b, double scale) { return fabs(a - b)/scale; }
+static double relative(double a, double b, double scale) { return fabs(a - b) / scale; }
 
 /* Straight from one random state to the next, the third of which is a tenth of the second: it unloads. Energies are sums of some
  * thousand terms of which each has, through stresses that are differences of displacements, 1e-13 of it: 1e-11. */
@@ -365,8 +365,127 @@ static void interfaces_do_what_their_layers_do(void **unused)
     for (int i = 0; i < 7; i++) assert_true(seen[i] > 100);
 }
 
+/* ---- when ---- */
+
+/* When an interface cracks and breaks, if every node moves with a velocity of its own: mean tractions and jumps grow as t, but what the
+ * law keeps from an onset is that of the step at which it was seen. INFINITY: never. False where a layer breaks in the step of its
+ * onset, or slips while it is pressed: then times are not such crossings. */
+static bool fate_of(const fracas_model *model, size_t i, double strength, const double *velocity, double *onset, double *broken)
+{
+    const fracas_cohesive *law = &model->spec.cohesive;
+    const uint32_t *element = model->surface->interface[i].element;
+    const double h = model->spec.geometry.thickness, dt = model->time_step, beta_c = law->coupling;
+    double shearing;
+    const double k_n = spring_of(model, i, &shearing) * fmax(1, 1 / (beta_c * beta_c)), k_t = beta_c * beta_c * k_n;
+    bool ok = true;
+    *onset = INFINITY;
+    *broken = 0;
+    for (int g = 0; g < SHELL_EDGE; g++) {
+        const shell_sight r = sight_at(model, i, g, (const double *const[2]){velocity + 18 * element[0], velocity + 18 * element[1]});
+        for (int k = -1; k <= 1; k++) {
+            const double z = 0.5 * h * k;
+            double mean[2], flux[2];
+            for (int d = 0; d < 2; d++) {
+                mean[d] = r.n[d] / h + 12 * z * r.m[d] / (h * h * h);
+                flux[d] = mean[d] + (d ? k_t : k_n) * (r.jump[d] + z * r.turn[d]);
+            }
+            const bool by_mean = law->onset == &fracas_onset_mean;
+            const double opens = strength / judged_of(by_mean ? mean : flux, beta_c, law->friction), seen = (floor(opens / dt) + 1) * dt;
+            const double most = law->critical_opening > 0 ? 0.5 * k_n * law->critical_opening : sqrt(k_n * law->fracture_energy);
+            const double peak = fmin(most, by_mean ? fmax(strength, judged_of(flux, beta_c, law->friction) * seen) : strength);
+            const double delta_c = law->critical_opening > 0 ? law->critical_opening : 2 * law->fracture_energy / peak;
+            const double breaks = isfinite(opens) ? k_n * delta_c / effective_of(flux, beta_c) : INFINITY;
+            *onset = fmin(*onset, opens);
+            *broken = fmax(*broken, breaks);
+            ok = ok && (!isfinite(opens) || (breaks > seen && (law->friction == 0 || flux[0] > 0)));
+        }
+    }
+    return ok;
+}
+
+/* Every node of a body moves with a velocity of its own, and 100 m/s beside, which does not matter but lets a ledger pass which cannot
+ * close with a motion that forces do not change. What is crossed is linear in t: round-off of stresses, which are differences of
+ * displacements up to 30 times as large as those over an element, and of sums of some 1000 steps, and 1.1e-16 of the displacements by
+ * those 100 m/s, which are 1000 times as large: 1e-10 of the time, and ten times that
+ * for an onset by what shear has over friction. */
+static void check_times(const fracas_spec *spec, double distortion, double worst[2], long counts[2])
+{
+    fracas_model *model = shell_model(*spec, distortion, 3);
+    const size_t n = unknowns_of(model);
+    const double dt = model->time_step, speed = spec->cohesive.onset == &fracas_onset_flux || spec->cohesive.critical_opening > 0 ? 2.5 : 1;
+    for (size_t e = 0; e < model->elements; e++) shell_tables(model)->held[e] = shell_tables(model)->fixed[e] = 0x3ffff;
+    double *velocity = calloc(n, sizeof *velocity);
+    assert_non_null(velocity);
+    const fracas_stream stream = {.seed = 12, .purpose = FRACAS_PURPOSE_MESH};
+    for (uint64_t trial = 0; trial < 160 / model->interfaces; trial++) {
+        const bool pressed = spec->cohesive.friction > 0 && trial % 2; /* and sheared at random */
+        for (size_t i = 0; i < n; i++) velocity[i] = speed * (pressed ? 8e-7 : 1e-7) / (200 * dt) * (2 * fracas_stream_uniform(&stream, trial * n + i) - 1);
+        for (size_t i = 0; i < n; i++) { /* elements fly apart and stretch, so that much opens */
+            const double *element = node_at(model, i / 18, 0), *other = node_at(model, i / 18, 1), *third = node_at(model, i / 18, 2);
+            const double centre = (element[i % 3] + other[i % 3] + third[i % 3]) / 3;
+            velocity[i] += (pressed ? -0.3 : 1) * speed * (2.1e-3 * centre + 1.5e-3 * (node_at(model, i / 18, i % 18 / 3)[i % 3] - centre)) / (200 * dt);
+        }
+        fracas_batch *batch = lane_of(model, 0.3, trial);
+        double end = 0, onset, broken;
+        for (size_t i = 0; i < model->interfaces; i++) {
+            size_t stride;
+            const double strength = fracas_batch_strength(batch, 0, &stride)[i * stride];
+            if (fate_of(model, i, strength, velocity, &onset, &broken) && isfinite(broken)) end = fmax(end, broken);
+            if (isfinite(onset)) end = fmax(end, onset);
+        }
+        model->spec.time.end = fmin(end + 1.5 * dt, 2000 * dt);
+        fracas_record record;
+        fracas_record_init(&record);
+        assert_ok(fracas_batch_begin(batch));
+        for (size_t i = 0; i < n; i++) *shell_state(batch, i / 18, SURFACE_V, i % 18) = 100 + velocity[i];
+        run_to_end(batch, &record);
+        assert_int_equal(record.outcome == FRACAS_ENERGY_DRIFT, 0);
+        double first = INFINITY;
+        for (size_t i = 0; i < model->interfaces; i++) {
+            const fracas_interface_row *row = &record.interface[i];
+            const bool breaks = fate_of(model, i, row->strength, velocity, &onset, &broken);
+            first = fmin(first, isnan(row->onset_time) ? INFINITY : row->onset_time);
+            if (onset > record.end_time) assert_true(isnan(row->onset_time));
+            else worst[0] = fmax(worst[0], fabs(row->onset_time / onset - 1)), counts[0]++;
+            if (!breaks) continue;
+            if (broken > record.end_time) assert_true(isnan(row->break_time) && row->damage < 1);
+            else worst[1] = fmax(worst[1], fabs(row->break_time / broken - 1)), counts[1]++;
+        }
+        assert_true(isinf(first) ? isnan(record.onset_time) : record.onset_time == first);
+        fracas_record_clear(&record);
+        fracas_batch_destroy(batch);
+    }
+    free(velocity);
+    fracas_model_destroy(model);
+}
+
+static void onsets_and_breaks_come_when_they_must(void **unused)
+{
+    (void)unused;
+    static const fracas_kind *const shapes[] = {&fracas_shape_plate, &fracas_shape_annulus, &fracas_shape_sphere};
+    static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};
+    for (int which = 0; which < 12; which++) {
+        fracas_spec spec = brittle_shell(shapes[which % 3], 1);
+        double worst[2] = {0};
+        long counts[2] = {0};
+        spec.cohesive.onset = onsets[which % 2];
+        spec.cohesive.coupling = which / 3 % 2 ? 0.6 : 1.5;
+        spec.cohesive.friction = which / 6 ? 0.3 : 0;
+        spec.time.integrator = which / 3 % 2 ? &fracas_integrator_hulbert_chung : &fracas_integrator_central_difference;
+        if (which / 6) {
+            spec.cohesive.fracture_energy = 0;
+            spec.cohesive.critical_opening = 1.2e-6;
+        }
+        check_times(&spec, which % 3 == 0 ? 0 : 0.1, worst, counts);
+        print_message("%-7s onset %s, beta_c %.1f, mu_c %.1f: %ld onsets within %.1e, %ld breaks within %.1e\n", spec.geometry.shape->name,
+                      spec.cohesive.onset->name, spec.cohesive.coupling, spec.cohesive.friction, counts[0], worst[0], counts[1], worst[1]);
+        assert_true(counts[0] > 100 && counts[1] > 20);
+        assert_true(worst[0] < 1e-9 && worst[1] < 1e-10);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(interfaces_do_what_their_layers_do)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(interfaces_do_what_their_layers_do), cmocka_unit_test(onsets_and_breaks_come_when_they_must)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
