@@ -139,8 +139,8 @@ static shell_sums sums_of(const fracas_batch *batch)
 /* Every force is a derivative by the displacements of strains, bending strains, jumps and turns, whatever the tractions and the
  * openings that the flux carries: a translation and a small rotation of the body as it was at the start change none of these, on a curved
  * surface with edges as on a plane. Round-off: in each step each velocity is rounded, 1.1e-16 of it, and gets the rounded sum of some 40
- * forces that cancel in part: those of bending, differences of displacements by h^2/12 and the square of an edge, and those of K kick by
- * up to some times the velocity itself; over 500 steps, were they not independent, 40 x 1.1e-16 x 500 = 2e-12: 1e-11 is the bound. */
+ * forces that cancel in part: of which none kicks by more than the velocity itself; over 500 steps, were they not independent, 40 x
+ * 1.1e-16 x 500 = 2e-12 of the sum of sizes, of which the largest is no tenth: 1e-12 is the bound. */
 static void momenta_are_kept_to_round_off(void **unused)
 {
     (void)unused;
@@ -174,7 +174,7 @@ static void momenta_are_kept_to_round_off(void **unused)
         const shell_sums after = sums_of(batch);
         print_message("variant %d: %zu elements, %lld steps, %lld fragments, momentum within %.1e, moment of momentum within %.1e\n", v, model->elements,
                       (long long)record.steps, (long long)record.fragments, worst, turn);
-        assert_true(record.fragments > 3 && worst < 1e-11 && turn < 1e-11);
+        assert_true(record.fragments > 3 && worst < 1e-12 && turn < 1e-12);
         for (int i = 0; i < 3; i++) { /* there is some, and the record has it */
             assert_true(fabs(after.moment[i]) > 1e-3 * after.turned);
             assert_true(fabs(record.momentum[i] - before.momentum[i]) < 1e-11 * before.size);
@@ -202,74 +202,88 @@ static double residual_of(fracas_spec spec, double distortion, double safety, do
         residual = fmax(residual, record[l].residual / record[l].dissipated);
         *created = fmax(*created, fabs(record[l].created) / record[l].dissipated);
         *broken += record[l].broken;
-        assert_true(record[l].dissipated_bending > 0 && record[l].dissipated_bending < record[l].dissipated);
+        assert_true((record[l].dissipated_bending > 0) == (spec.geometry.shape == &fracas_shape_sphere));
+        assert_true(record[l].dissipated_bending < record[l].dissipated);
         fracas_record_clear(&record[l]);
     }
     fracas_model_destroy(model);
     return residual;
 }
 
+/* As of membranes (tests/invariant/test_membrane.c): the square of the step, and at most its share of the critical one times what is
+ * created, where breaks take stresses away that have not faded, as on these coarse bodies. On finer ones they have: both fall by ten
+ * or more for edges half as long. */
 static void ledgers_close(void **unused)
 {
     (void)unused;
     for (int v = 0; v < VARIANTS; v++) {
         double residual[3], created;
         int64_t broken;
-        for (int half = 0; half < 3; half++) residual[half] = residual_of(spec_of(&variants[v]), distortion_of(&variants[v]), 0.5 / (1 << half), &created, &broken);
+        for (int half = 0; half < 3; half++) {
+            const double safety = 0.5 / (1 << half);
+            residual[half] = residual_of(spec_of(&variants[v]), distortion_of(&variants[v]), safety, &created, &broken);
+            assert_true(broken > 10 && residual[half] < 1e-3 * (safety / 0.25) * (safety / 0.25) + safety * created);
+        }
         print_message("variant %d: %lld broken, residual/dissipated %.2e %.2e %.2e, created %.2e\n", v, (long long)broken, residual[0], residual[1],
                       residual[2], created);
+        assert_true(residual[2] < 0.5 * residual[0]);
     }
-    for (int64_t divisions = 6; divisions <= 24; divisions *= 2) {
+    double residual[3], created[3];
+    for (int finer = 0; finer < 3; finer++) {
         fracas_spec spec = spec_of(&variants[1]);
-        double created;
         int64_t broken;
         spec.time.integrator = &fracas_integrator_central_difference;
         spec.cohesive.onset = &fracas_onset_mean;
-        spec.mesh.divisions = divisions;
+        spec.mesh.divisions = 6 << finer;
         spec.loading.rate = 5e4;
         spec.time.end = 1e-7;
         spec.geometry.thickness = 1e-4;
-        const double residual = residual_of(spec, 0.1, 0.25, &created, &broken);
-        print_message("octant of %lld: %lld broken, residual/dissipated %.2e, created %.2e\n", (long long)(divisions * divisions), (long long)broken, residual, created);
+        residual[finer] = residual_of(spec, 0.1, 0.25, &created[finer], &broken);
+        print_message("octant of %d: %lld broken, residual/dissipated %.2e, created %.2e\n", 36 << 2 * finer, (long long)broken, residual[finer], created[finer]);
+        assert_true(broken > 10 && created[finer] > 0 && residual[finer] < 1e-3);
+        assert_true(finer == 0 || (created[finer] < 0.1 * created[finer - 1] && residual[finer] < 0.1 * residual[finer - 1]));
     }
 }
 
 /* ---- a sphere ---- */
 
+/* A sphere that expands with rate e' breathes: strain (e'/w) sin w t all over, with w^2 = 2 E (1 + h^2/12 R^2)/(rho (1 - nu) R^2); its
+ * bending strain is the strain by R, and so its outer skin has (1 + h/2R + h^2/12 R^2) times the mean stress E strain/(1 - nu)
+ * (docs/theory/shell.md): the weak interface cracks there. Elements approach that as the square of their size; they are curved
+ * themselves, with masses that do not take part in the same motion until edges are short of sqrt(R h) = 0.67 mm: measured. */
 static void a_sphere_cracks_when_its_stress_says_so(void **unused)
 {
     (void)unused;
-    double worst[2][4];
-    for (int part = 0; part < 2; part++)
-        for (int half = 0; half < 3; half++) {
-            fracas_spec spec = brittle_shell(&fracas_shape_sphere, (part ? 2 : 1) << half);
+    for (int part = 0; part < 2; part++) {
+        double error[3];
+        for (int finer = 0; finer < 3; finer++) {
+            fracas_spec spec = brittle_shell(&fracas_shape_sphere, (part ? 4 : 1) << finer);
             spec.geometry.part = part ? &fracas_part_octant : &fracas_part_whole;
-            spec.geometry.radius = 9.95e-3;
-            spec.geometry.thickness = 1e-4;
-            spec.material = (fracas_material){.young = 370e9, .density = 3900, .poisson = 0.22};
-            spec.cohesive.fracture_energy = 1e6;
-            spec.loading.rate = 1e3;
-            spec.time.end = 1e-6;
-            const double w = sqrt(2 * 370e9 / (3900 * 0.78)) / 9.95e-3, sigma = 264e6, expected = asin(sigma * 0.78 * w / (370e9 * 1e3)) / w;
+            spec.cohesive.fracture_energy = 1e6; /* for strengths of 2 GPa */
+            spec.loading.rate = 8e3;
+            spec.time.end = 1.5e-7;
+            const fracas_material *m = &spec.material;
+            const double radius = spec.geometry.radius, h = spec.geometry.thickness, thin = 1 + h * h / (12 * radius * radius), sigma = 300e6;
+            const double w = sqrt(2 * m->young * thin / (m->density * (1 - m->poisson))) / radius;
+            const double expected = asin(sigma * (1 - m->poisson) * w / (m->young * (thin + h / (2 * radius)) * spec.loading.rate)) / w;
             fracas_model *model = shell_model(spec, 0, 0);
-            worst[part][half] = 0;
-            double fewest = INFINITY;
-            for (size_t weak = 0; weak < model->interfaces; weak += 1 + model->interfaces / 6) {
+            error[finer] = 0;
+            for (size_t weak = model->interfaces / 8; weak < model->interfaces; weak += model->interfaces / 4) {
                 fracas_batch *batch = lane_of(model, 0, 0);
                 for (size_t i = 0; i < model->interfaces; i++) bar_set_strength(batch, 0, i, i == weak ? sigma : 2e9);
                 fracas_record record;
                 fracas_record_init(&record);
                 assert_ok(fracas_batch_run(batch, &record));
-                worst[part][half] = fmax(worst[part][half], fabs(record.onset_time / expected - 1));
-                fewest = fmin(fewest, record.onset_time / expected - 1);
+                error[finer] = fmax(error[finer], fabs(record.onset_time / expected - 1));
                 assert_true(record.cracked == 1 && record.interface[weak].onset_time == record.onset_time);
                 fracas_record_clear(&record);
                 fracas_batch_destroy(batch);
             }
-            print_message("%s, %zu elements, step %.1e: onset at %.3f ns within %.1e (%.1e)\n", part ? "octant" : "sphere", model->elements,
-                          model->time_step, 1e9 * expected, worst[part][half], fewest);
+            print_message("%s of %zu elements: onset at %.3f ns within %.1e\n", part ? "octant" : "sphere", model->elements, 1e9 * expected, error[finer]);
             fracas_model_destroy(model);
         }
+        assert_true(error[2] < 0.5 * error[1] && error[1] < error[0] && error[2] < (part ? 0.01 : 0.03));
+    }
 }
 
 int main(void)
