@@ -403,6 +403,15 @@ static bool fate_of(const fracas_model *model, size_t i, double strength, const 
     return ok;
 }
 
+/* The mean of an interface's damage by the weights of its points and layers; 1 only when all are. */
+static double damage_of(const fracas_batch *batch, size_t i)
+{
+    static const double along[SHELL_EDGE] = {5.0 / 18, 8.0 / 18, 5.0 / 18}, across[SHELL_LAYERS] = {1.0 / 6, 2.0 / 3, 1.0 / 6};
+    double damage = 0;
+    for (int p = 0; p < SHELL_EDGE * SHELL_LAYERS; p++) damage += along[p / 3] * across[p % 3] * *fracas_shell_point(batch->model, &batch->step, i, p / 3, p % 3, SURFACE_DAMAGE, 0);
+    return damage;
+}
+
 /* Every node of a body moves with a velocity of its own, and 100 m/s beside, which does not matter but lets a ledger pass which cannot
  * close with a motion that forces do not change. What is crossed is linear in t: round-off of stresses, which are differences of
  * displacements up to 30 times as large as those over an element, and of sums of some 1000 steps, and 1.1e-16 of the displacements by
@@ -445,6 +454,7 @@ static void check_times(const fracas_spec *spec, double distortion, double worst
             const fracas_interface_row *row = &record.interface[i];
             const bool breaks = fate_of(model, i, row->strength, velocity, &onset, &broken);
             first = fmin(first, isnan(row->onset_time) ? INFINITY : row->onset_time);
+            assert_true(fabs(row->damage - damage_of(batch, i)) < 1e-15 && (row->damage == 1) == !isnan(row->break_time));
             if (onset > record.end_time) assert_true(isnan(row->onset_time));
             else worst[0] = fmax(worst[0], fabs(row->onset_time / onset - 1)), counts[0]++;
             if (!breaks) continue;
