@@ -54,7 +54,8 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
     const vd trial_n = m_n + at->k_n * in->q_n, trial_t = m_t + at->k_t * in->q_t; /* (cohesive.12) */
 
     plane_result r;
-    vd judged = at->onset_mean ? plane_onset(at, in->m_n, in->m_t) : plane_onset(at, trial_n, trial_t);
+    vd judged = at->onset_mean ? lanes_select(in->opened, plane_onset(at, trial_n, trial_t), plane_onset(at, in->m_n, in->m_t))
+                               : plane_onset(at, trial_n, trial_t);
     r.cracks = lanes_and(lanes_lt(at->sigma_c * at->sigma_c, judged), lanes_le(state->peak, zero));
     r.cracked = lanes_or(was_cracked, r.cracks);
     vd peak = state->peak, fresh = at->sigma_c, most = at->sigma_c;

@@ -40,8 +40,8 @@ static void energies_of(const layer_law *law, const double m[2], const double q[
     }
 }
 
-/* Without friction, by openings: theory of the law, not its code. */
-static layer_answer layer_of(const layer_law *law, layer *x, const double mean[2], const double q[2])
+/* Without friction, by openings: theory of the law, not its code. `opened`: another layer of the point has cracked before. */
+static layer_answer layer_of(const layer_law *law, layer *x, const double mean[2], const double q[2], bool opened)
 {
     layer_answer a = {.spent = 0};
     const double old_c = law->opening > 0 ? law->opening : 2 * law->energy / x->peak; /* of the peak it had */
@@ -50,7 +50,7 @@ static layer_answer layer_of(const layer_law *law, layer *x, const double mean[2
     const double s = effective_of(trial, law->beta_c);
     double whole = 0;
     for (int i = 0; i < 2; i++) whole += q[i] * (m[i] + 0.5 * law->k[i] * q[i]);
-    if (x->peak == 0 && judged_of(law->by_mean ? mean : trial, law->beta_c, 0) > law->sigma_c) {
+    if (x->peak == 0 && judged_of(law->by_mean && !opened ? mean : trial, law->beta_c, 0) > law->sigma_c) {
         const double most = law->opening > 0 ? 0.5 * law->k[0] * law->opening : sqrt(law->k[0] * law->energy);
         x->peak = law->by_mean ? fmax(judged_of(trial, law->beta_c, 0), law->sigma_c) : law->sigma_c;
         a.cut = x->peak > most;
@@ -96,12 +96,12 @@ static layer_answer layer_of(const layer_law *law, layer *x, const double mean[2
     return a;
 }
 
-static layer_answer rubbed_layer(const layer_law *law, layer *x, const double mean[2], const double q[2])
+static layer_answer rubbed_layer(const layer_law *law, layer *x, const double mean[2], const double q[2], bool opened)
 {
     const plane_case kind = {.law = PLANE_NITSCHE, .k_n = law->k[0], .k_t = law->k[1], .sigma_c = law->sigma_c, .beta_c = law->beta_c,
                              .mu_c = law->mu_c, .energy = law->energy, .opening = law->opening, .onset_mean = law->by_mean};
     const plane_case *kinds[] = {&kind};
-    const plane_at at = {mean[0], mean[1], q[0], q[1]};
+    const plane_at at = {.m_n = mean[0], .m_t = mean[1], .q_n = q[0], .q_t = q[1], .opened = opened};
     const double was = x->rubbed.damage;
     plane_out out;
     plane_call_1(kinds, &at, &x->rubbed, &out);
@@ -201,6 +201,8 @@ static void twin_point(twin *t, size_t i, int g, const double *u)
     }
     double n[2] = {0}, m[2] = {0}, carried_u[2] = {0}, carried_t[2] = {0}, half_n[2] = {0}, half_m[2] = {0}, spent = 0;
     int broken = 1, breaks = 0;
+    const layer *layers = &t->memory[(3 * i + (size_t)g) * SHELL_LAYERS];
+    const bool opened = layers[0].peak > 0 || layers[1].peak > 0 || layers[2].peak > 0;
     for (int k = 0; k < SHELL_LAYERS; k++) {
         const double z = place[k] * h, w = weight[k] * h;
         double mean[2], q[2];
@@ -209,7 +211,7 @@ static void twin_point(twin *t, size_t i, int g, const double *u)
             q[d] = at.jump[d] + z * at.turn[d];
         }
         layer *memory = &t->memory[(3 * i + (size_t)g) * SHELL_LAYERS + (size_t)k];
-        const layer_answer a = law.mu_c > 0 ? rubbed_layer(&law, memory, mean, q) : layer_of(&law, memory, mean, q);
+        const layer_answer a = law.mu_c > 0 ? rubbed_layer(&law, memory, mean, q, opened) : layer_of(&law, memory, mean, q, opened);
         count(t, &a);
         for (int d = 0; d < 2; d++) {
             n[d] += w * a.t[d];
@@ -323,7 +325,11 @@ static void walk(const fracas_spec *spec, double scale, double distortion, long 
         }
         memcpy(from, to, n * sizeof *from);
         if (spec->cohesive.friction == 0) {
-            for (size_t i = 0; i < n; i++) u[i] *= 0.999; /* back a little */
+            for (size_t i = 0; i < n; i++) u[i] *= 0.999; /* back a little, and until no layer cracks beside one that has */
+            for (int again = 0; again < 3; again++) {
+                evaluate(batch, u, &answer);
+                twin_evaluate(&t, u, scale);
+            }
             worst[2] = fmax(worst[2], slope_error(batch, u, scale, &stream, &draw));
         }
     }
@@ -382,22 +388,29 @@ static bool fate_of(const fracas_model *model, size_t i, double strength, const 
     *broken = 0;
     for (int g = 0; g < SHELL_EDGE; g++) {
         const shell_sight r = sight_at(model, i, g, (const double *const[2]){velocity + 18 * element[0], velocity + 18 * element[1]});
-        for (int k = -1; k <= 1; k++) {
-            const double z = 0.5 * h * k;
-            double mean[2], flux[2];
+        const bool by_mean = law->onset == &fracas_onset_mean;
+        double flux[3][2], opens[3], seen[3], first = INFINITY;
+        for (int k = 0; k < 3; k++) {
+            const double z = 0.5 * h * (k - 1);
+            double mean[2];
             for (int d = 0; d < 2; d++) {
                 mean[d] = r.n[d] / h + 12 * z * r.m[d] / (h * h * h);
-                flux[d] = mean[d] + (d ? k_t : k_n) * (r.jump[d] + z * r.turn[d]);
+                flux[k][d] = mean[d] + (d ? k_t : k_n) * (r.jump[d] + z * r.turn[d]);
             }
-            const bool by_mean = law->onset == &fracas_onset_mean;
-            const double opens = strength / judged_of(by_mean ? mean : flux, beta_c, law->friction), seen = (floor(opens / dt) + 1) * dt;
+            opens[k] = strength / judged_of(by_mean ? mean : flux[k], beta_c, law->friction);
+            seen[k] = (floor(opens[k] / dt) + 1) * dt;
+            first = fmin(first, seen[k]);
+            *onset = fmin(*onset, opens[k]);
+        }
+        for (int k = 0; k < 3; k++) {
+            const double judged = judged_of(flux[k], beta_c, law->friction);
+            if (by_mean) seen[k] = fmin(seen[k], fmax(first + dt, (floor(strength / judged / dt) + 1) * dt)); /* by the flux from then on */
             const double most = law->critical_opening > 0 ? 0.5 * k_n * law->critical_opening : sqrt(k_n * law->fracture_energy);
-            const double peak = fmin(most, by_mean ? fmax(strength, judged_of(flux, beta_c, law->friction) * seen) : strength);
+            const double peak = fmin(most, by_mean ? fmax(strength, judged * seen[k]) : strength);
             const double delta_c = law->critical_opening > 0 ? law->critical_opening : 2 * law->fracture_energy / peak;
-            const double breaks = isfinite(opens) ? k_n * delta_c / effective_of(flux, beta_c) : INFINITY;
-            *onset = fmin(*onset, opens);
+            const double breaks = isfinite(seen[k]) ? k_n * delta_c / effective_of(flux[k], beta_c) : INFINITY;
             *broken = fmax(*broken, breaks);
-            ok = ok && (!isfinite(opens) || (breaks > seen && (law->friction == 0 || flux[0] > 0)));
+            ok = ok && (!isfinite(seen[k]) || (breaks > seen[k] && (law->friction == 0 || flux[k][0] > 0)));
         }
     }
     return ok;
