@@ -31,12 +31,21 @@ typedef enum { FRACAS_SHOW_CRACKS, FRACAS_SHOW_FRAGMENTS, FRACAS_SHOW_MESH } fra
 
 enum { FRACAS_MOMENTS = 6 }; /* times of a row of pictures */
 
+/* Where the reader is, far away, z upward: from x toward y by the azimuth, above the plane of both by the elevation [degrees]. */
+typedef struct {
+    double azimuth, elevation;
+} fracas_view;
+
+#define FRACAS_VIEW_DEFAULT {45, 35.264389682754654} /* in the direction (1, 1, 1) */
+
 typedef struct {
     size_t point;
     int64_t replica;
     size_t count;       /* pictures */
     const double *time; /* s, of each; NULL: evenly from the first onset (without it) to the end */
     fracas_surface_show show;
+    const fracas_view *view; /* NULL: a flat surface as it lies, any other by FRACAS_VIEW_DEFAULT */
+    double explode;     /* >= 0: fragments moved apart by this times (their centroid - that of the surface) */
     bool table;         /* the first times of all replicas as CSV, too */
     const char *folder; /* made if it is not there; NULL: STUDY/pictures */
 } fracas_picture_request;

@@ -37,11 +37,14 @@ const fracas_statistic fracas_statistics[] = {
     ESTIMATE("count_large", "1", "number of fragments without dust", count_large),
     ESTIMATE("size", "m", "mean fragment size (length / fragments; of a surface the mean of sqrt(area))", size),
     ESTIMATE("dissipated", "J", "dissipated energy", dissipated),
+    ESTIMATE("dissipated_bending", "J", "part of bending in the dissipated energy", bending),
     ESTIMATE("onset_time", "s", "time of first onset", onset_time),
     ESTIMATE("radial_velocity", "m/s", "mean velocity outward of a ring's fragments", radial_velocity),
     ESTIMATE("radial_scatter", "m/s", "standard deviation over a ring's fragments of that velocity", radial_scatter),
     ESTIMATE("circumferential_velocity", "m/s", "rms velocity along the ring of its fragments", circumferential_velocity),
     ESTIMATE("angular_velocity", "rad/s", "|angular velocity| of a ring's fragments", angular_velocity),
+    ESTIMATE("translation", "J", "kinetic energy of the centres of mass of a surface's fragments", translation),
+    ESTIMATE("rotation", "J", "kinetic energy of the spins of a surface's fragments", rotation),
     STATISTIC("residual", "1", "largest |residual| of the energy balance / dissipated, over replicas", residual),
     STATISTIC("created", "1", "largest created / dissipated, over replicas", created),
     STATISTIC("drift", "1", "largest |residual| / largest energy at the end, over replicas", drift),
@@ -122,6 +125,24 @@ static double mean_size(const fracas_point_statistics *statistics, const fracas_
     return sum / (double)record->nfragment;
 }
 
+/* Kinetic energy of the centres of mass [J]  (estimators.12) */
+static double translation_of(const fracas_record *record)
+{
+    double sum = 0;
+    for (const fracas_fragment *f = record->fragment; f < record->fragment + record->nfragment; f++)
+        for (int i = 0; i < 3; i++) sum += 0.5 * f->mass * f->velocity[i] * f->velocity[i];
+    return sum;
+}
+
+/* That of the spins [J]  (estimators.13) */
+static double rotation_of(const fracas_record *record)
+{
+    double sum = 0;
+    for (const fracas_fragment *f = record->fragment; f < record->fragment + record->nfragment; f++)
+        for (int i = 0; i < 3; i++) sum += 0.5 * f->angular_momentum[i] * f->spin[i];
+    return sum;
+}
+
 /* Room for one more replica and `more` more fragments, doubling. */
 static fracas_err make_room(fracas_point_statistics *statistics, size_t more)
 {
@@ -174,7 +195,7 @@ fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size
     }
     statistics->usable++;
     const fracas_ring_motion still = {NAN, NAN, NAN, NAN};
-    bool ring = statistics->radius > 0;
+    bool ring = statistics->radius > 0, flies = statistics->surface && record->nfragment > 1;
     TRY(make_room(statistics, record->nfragment));
     struct fracas_replica_list *list = statistics->replicas;
     list->entry[list->count++] = (replica_entry){
@@ -182,7 +203,9 @@ fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size
         .value = {.count = (double)record->fragments,
                   .count_large = (double)(record->fragments - record->fragments_dust),
                   .size = mean_size(statistics, record),
-                  .dissipated = record->dissipated, .onset_time = record->onset_time,
+                  .dissipated = record->dissipated, .bending = record->dissipated_bending,
+                  .translation = flies ? translation_of(record) : NAN, .rotation = flies ? rotation_of(record) : NAN,
+                  .onset_time = record->onset_time,
                   .motion = ring ? fracas_ring_motion_of(record, statistics->radius) : still},
     };
     add_balance(statistics, record);
@@ -216,6 +239,9 @@ void fracas_point_statistics_finish(fracas_point_statistics *statistics)
     statistics->count_large = fracas_estimate_of(&first->count_large, stride, list->count);
     statistics->size = fracas_estimate_of(&first->size, stride, list->count);
     statistics->dissipated = fracas_estimate_of(&first->dissipated, stride, list->count);
+    statistics->bending = fracas_estimate_of(&first->bending, stride, list->count);
+    statistics->translation = fracas_estimate_of(&first->translation, stride, list->count);
+    statistics->rotation = fracas_estimate_of(&first->rotation, stride, list->count);
     statistics->onset_time = fracas_estimate_of(&first->onset_time, stride, list->count);
     statistics->radial_velocity = fracas_estimate_of(&first->motion.radial, stride, list->count);
     statistics->radial_scatter = fracas_estimate_of(&first->motion.scatter, stride, list->count);

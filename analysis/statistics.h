@@ -17,6 +17,8 @@ typedef struct {
     double count_large; /* fragments without dust */
     double size;       /* m, length of the body / fragments; of a surface the mean over fragments of sqrt(area) */
     double dissipated; /* J */
+    double bending;    /* J, the part of bending */
+    double translation, rotation; /* J, kinetic energy of the fragments as rigid bodies; NaN unless of a surface in fragments */
     double onset_time; /* s, NaN if nothing cracked */
     fracas_ring_motion motion; /* NaN unless of a ring in fragments */
 } fracas_replica_values;
@@ -33,7 +35,8 @@ typedef struct {
     /* Over its realizations. Usable are FRAGMENTED, INTACT and TIME_LIMIT: their fragments mean something. */
     int64_t realizations, usable, unusable;
     int64_t outcome[FRACAS_NOUTCOMES];
-    fracas_estimate count, count_large, size, dissipated, onset_time;
+    fracas_estimate count, count_large, size, dissipated, bending, onset_time;
+    fracas_estimate translation, rotation; /* of a surface's fragments */
     fracas_estimate radial_velocity, radial_scatter, circumferential_velocity, angular_velocity; /* of a ring's fragments */
     double residual; /* largest over replicas of (largest |residual| over the run)/dissipated */
     double created;  /* largest over replicas of created/dissipated */

@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* Columns after those that tell the points apart. */
-enum { USED, FAILED, COUNT, LARGE, SIZE, DISSIPATED, ZMR, GRADY, GC, RATIO, RESIDUAL, CREATED, OUTCOMES, NCOLUMNS };
+enum { USED, FAILED, COUNT, LARGE, SIZE, DISSIPATED, BENDING, ZMR, GRADY, GC, RATIO, RESIDUAL, CREATED, ROTATION, OUTCOMES, NCOLUMNS };
 
 static const char *const legend_of_chains[] = {
     "n: realizations used (FRAGMENTED, INTACT, TIME_LIMIT); fail: all others. After the mean: half width of its 95 %",
@@ -22,7 +22,9 @@ static const char *const legend_with_surfaces[] = {
     "interval over replicas (Student's t). count: fragments, dust included; no dust: without it (of a surface pieces of one or",
     "two elements). size: mean over replicas of the mean size, of a surface of the square root of a fragment's area, dust",
     "included; of a bar or a ring length/count, beside size laws (ZMR, Grady, Glenn-Chudnovsky), which are of one dimension.",
-    "resid., created: largest over replicas of |ledger residual| and of created energy, as parts of the dissipated.",
+    "bending, where there is any: its part of dissipated. resid., created: largest over replicas of |ledger residual| and of",
+    "created energy, as parts of the dissipated. rotation: mean kinetic energy of the spins of a surface's fragments, as part of",
+    "that of their centres of mass.",
     NULL,
 };
 
@@ -44,13 +46,21 @@ typedef struct {
 
 static const size_t HIDDEN = SIZE_MAX;
 
-/* Counts without dust are for surfaces, size laws for what is none. Returns how many columns there are. */
+static bool any_bending(const fracas_analysis *analysis)
+{
+    for (size_t p = 0; p < analysis->table->npoints; p++)
+        if (analysis->point[p].bending.mean > 0) return true;
+    return false;
+}
+
+/* Counts without dust and rotation are for surfaces, size laws for what is none. Returns how many columns there are. */
 static size_t place_columns(painter *paint)
 {
     const bool any = fracas_analysis_any_surface(paint->analysis), all = fracas_analysis_all_surfaces(paint->analysis);
     size_t next = paint->first->count;
     for (size_t c = 0; c < NCOLUMNS; c++) {
-        const bool law = c >= ZMR && c <= RATIO, shown = law ? !all : c != LARGE || any;
+        const bool law = c >= ZMR && c <= RATIO, of_surfaces = c == LARGE || c == ROTATION;
+        const bool shown = law ? !all : of_surfaces ? any : c != BENDING || any_bending(paint->analysis);
         paint->place[c] = shown ? next++ : HIDDEN;
     }
     return next;
@@ -111,8 +121,9 @@ static void paint_head(painter *paint)
 {
     static const char *const name[NCOLUMNS] = {
         [USED] = "n", [FAILED] = "fail", [COUNT] = "count", [LARGE] = "no dust", [SIZE] = "size", [DISSIPATED] = "dissipated",
+        [BENDING] = "bending",
         [ZMR] = "ZMR", [GRADY] = "Grady", [GC] = "GC", [RATIO] = "size", [RESIDUAL] = "resid.",
-        [CREATED] = "created", [OUTCOMES] = "outcomes",
+        [CREATED] = "created", [ROTATION] = "rotation", [OUTCOMES] = "outcomes",
     };
     const fracas_columns *shown = paint->first;
     const fracas_point_table *points = paint->analysis->table;
@@ -125,9 +136,11 @@ static void paint_head(painter *paint)
     for (size_t c = 0; c < NCOLUMNS; c++) snprintf(cell_of(paint, 0, c), FRACAS_CELL, "%s", name[c]);
     for (size_t c = SIZE; c <= GC; c++) paint_unit(paint, cell_of(paint, 1, c), &paint->size, "m");
     paint_unit(paint, cell_of(paint, 1, DISSIPATED), &paint->energy, "J");
+    paint_unit(paint, cell_of(paint, 1, BENDING), &paint->energy, "J");
     snprintf(cell_of(paint, 1, RATIO), FRACAS_CELL, "/ZMR");
     snprintf(cell_of(paint, 1, RESIDUAL), FRACAS_CELL, "/diss.");
     snprintf(cell_of(paint, 1, CREATED), FRACAS_CELL, "/diss.");
+    snprintf(cell_of(paint, 1, ROTATION), FRACAS_CELL, "/transl.");
 }
 
 static void paint_point(painter *paint, size_t p)
@@ -147,12 +160,14 @@ static void paint_point(painter *paint, size_t p)
     fracas_format_estimate(&statistics->count_large, 1, sign, cell[LARGE], FRACAS_CELL);
     fracas_format_estimate(&statistics->size, paint->size.factor, sign, cell[SIZE], FRACAS_CELL);
     fracas_format_estimate(&statistics->dissipated, paint->energy.factor, sign, cell[DISSIPATED], FRACAS_CELL);
+    fracas_format_estimate(&statistics->bending, paint->energy.factor, sign, cell[BENDING], FRACAS_CELL);
     const fracas_size_law_id law[] = {FRACAS_LAW_ZMR, FRACAS_LAW_GRADY, FRACAS_LAW_GLENN_CHUDNOVSKY};
     for (size_t i = 0; i < 3; i++)
         fracas_format_digits(statistics->law[law[i]] * paint->size.factor, 4, cell[ZMR + i], FRACAS_CELL);
     fracas_format_digits(statistics->size.mean / statistics->law[FRACAS_LAW_ZMR], 3, cell[RATIO], FRACAS_CELL);
     fracas_format_digits(statistics->residual, 2, cell[RESIDUAL], FRACAS_CELL);
     fracas_format_digits(statistics->created, 2, cell[CREATED], FRACAS_CELL);
+    fracas_format_digits(statistics->rotation.mean / statistics->translation.mean, 2, cell[ROTATION], FRACAS_CELL);
     outcomes_text(statistics, cell[OUTCOMES], FRACAS_CELL);
 }
 

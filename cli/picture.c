@@ -5,21 +5,25 @@
 #include "base/units.h"
 
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { POINT, REPLICA, TIMES, SHOW, TABLE, OUTPUT };
+enum { POINT, REPLICA, TIMES, SHOW, VIEW, EXPLODE, TABLE, OUTPUT };
 static const fracas_option options[] = {
     [POINT] = {"point", "P", "which point (0): the first column of report/points.csv"},
     [REPLICA] = {"replica", "R", "which of its replicas (0)"},
     [TIMES] = {"times", "LIST", "times, as 26us,28us, or how many, evenly from the first onset to the end (6)"},
     [SHOW] = {"show", "WHAT", "cracks, fragments (these, and the cracks), or mesh (that, too) (fragments)"},
+    [VIEW] = {"view", "A,H", "from where, as 45,30: azimuth from x toward y, elevation above the plane of both, in degrees"},
+    [EXPLODE] = {"explode", "FACTOR", "fragments apart: moved by FACTOR times (their centroid - that of the surface) (0)"},
     [TABLE] = {"table", NULL, "first onset, break and crack through of all replicas of the point, as CSV"},
     [OUTPUT] = {"output", "FOLDER", "where to; also -o FOLDER (STUDY/pictures)", 'o'},
 };
 
 enum { MOST_TIMES = 1000 };
+static const double most_apart = 10;
 
 /* "26us" or "26 us" [s]: a campaign file wants the space, a command line is easier without. */
 static fracas_err read_time(const fracas_units *units, const char *one, double *time)
@@ -64,17 +68,46 @@ static fracas_err read_times(const fracas_arguments *arguments, fracas_picture_r
     return FRACAS_OK;
 }
 
+/* "45,30"; false if it is no such pair. */
+static bool read_pair(const char *text, double *first, double *second)
+{
+    char *end;
+    *first = strtod(text, &end);
+    if (end == text || *end != ',') return false;
+    text = end + 1;
+    *second = strtod(text, &end);
+    return end != text && !*end;
+}
+
+/* What is not given stays as it is. */
+static fracas_err read_view(const fracas_arguments *arguments, fracas_picture_request *request, fracas_view *view)
+{
+    const char *text = arguments->value[VIEW];
+    if (text) {
+        if (!read_pair(text, &view->azimuth, &view->elevation) || !(fabs(view->azimuth) <= 360) || !(fabs(view->elevation) <= 90))
+            return fracas_fail(FRACAS_USAGE, "picture: --view is `%s`; it must be two numbers, as 45,30: an azimuth from -360 to 360 "
+                               "and an elevation from -90 to 90, in degrees", text);
+        request->view = view;
+    }
+    TRY(fracas_arguments_real(arguments, EXPLODE, 1, &request->explode));
+    if (request->explode <= most_apart) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "picture: --explode is `%s`; it must be a number from 0 to %g, such as 0.15",
+                       arguments->value[EXPLODE], most_apart);
+}
+
 static fracas_err picture(const fracas_arguments *arguments)
 {
     static const char *const words[] = {
         [FRACAS_SHOW_CRACKS] = "cracks", [FRACAS_SHOW_FRAGMENTS] = "fragments", [FRACAS_SHOW_MESH] = "mesh"};
     int point = 0, replica = 0, show = FRACAS_SHOW_FRAGMENTS;
     double *time = NULL;
+    fracas_view view;
     TRY(fracas_arguments_integer(arguments, POINT, 0, INT_MAX, &point));
     TRY(fracas_arguments_integer(arguments, REPLICA, 0, INT_MAX, &replica));
     TRY(fracas_arguments_word(arguments, SHOW, words, FRACAS_COUNT(words), &show));
     fracas_picture_request request = {.point = (size_t)point, .replica = replica, .show = (fracas_surface_show)show,
                                       .table = arguments->value[TABLE] != NULL, .folder = arguments->value[OUTPUT]};
+    TRY(read_view(arguments, &request, &view));
     fracas_err err = read_times(arguments, &request, &time);
     if (!err) err = fracas_cli_check_study(arguments->operand);
     if (!err) err = fracas_pictures_write(arguments->operand, &request, stdout);
@@ -87,6 +120,8 @@ const fracas_command fracas_command_picture = {
     .more = "\nOne file a time: the surface as it was before any motion, its broken interfaces dark, cracked ones grey, each fragment\n"
             "filled, dust in orange. Then it prints when the realization first cracked, first broke, and first cracked through, from one\n"
             "edge to the other (annulus: inner and outer; plate: left and right, or bottom and top). The campaign must say\n"
-            "`output: {interfaces: true}`.\n",
+            "`output: {interfaces: true}`.\n\n"
+            "A surface that is not flat is shaded and seen from --view (45,35.264: the direction (1, 1, 1)), z upward; what is hidden is left\n"
+            "out. --explode 0.15 moves its fragments apart, so that the gaps and the inside show.\n",
     .options = options, .noptions = FRACAS_COUNT(options), .run = picture,
 };

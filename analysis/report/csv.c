@@ -64,7 +64,7 @@ void fracas_csv_points(const fracas_analysis *analysis, FILE *out)
 fracas_err fracas_csv_fragments(const fracas_analysis *analysis, FILE *out)
 {
     fputs("point,replica,outcome,fragment,mass,size,elements,dust,position_x,position_y,position_z,"
-          "velocity_x,velocity_y,velocity_z\n", out);
+          "velocity_x,velocity_y,velocity_z,spin_x,spin_y,spin_z\n", out);
     fracas_record record;
     fracas_record_init(&record);
     fracas_err err = FRACAS_OK;
@@ -81,6 +81,7 @@ fracas_err fracas_csv_fragments(const fracas_analysis *analysis, FILE *out)
             fprintf(out, ",%" PRId64 ",%" PRId64, fragment->elements, fragment->dust);
             for (int axis = 0; axis < 3; axis++) fracas_csv_real(fragment->position[axis], out);
             for (int axis = 0; axis < 3; axis++) fracas_csv_real(fragment->velocity[axis], out);
+            for (int axis = 0; axis < 3; axis++) fracas_csv_real(fragment->spin[axis], out);
             putc('\n', out);
         }
         fracas_record_clear(&record);

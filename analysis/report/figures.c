@@ -293,8 +293,9 @@ static const struct {
     {"kinetic", offsetof(fracas_history_row, kinetic)},       {"elastic", offsetof(fracas_history_row, elastic)},
     {"dissipated", offsetof(fracas_history_row, dissipated)}, {"cohesive", offsetof(fracas_history_row, cohesive)},
     {"work", offsetof(fracas_history_row, work)},             {"|residual|", offsetof(fracas_history_row, residual)},
+    {"dissipated, bending", offsetof(fracas_history_row, dissipated_bending)},
 };
-enum { NENERGIES = sizeof energies / sizeof *energies, KINETIC = 0, RESIDUAL = NENERGIES - 1 };
+enum { KINETIC = 0, RESIDUAL = 5, BENDING = 6, LOOK_OF_BENDING = 8 }; /* the colour of dissipated, other dashes */
 
 /* Kinetic energy that a body starts with, a ring that flies: in the figure it would dwarf all the rest, and is left out [J]. */
 static double kinetic_start(const fracas_point_statistics *statistics)
@@ -318,11 +319,19 @@ static double largest_energy(const fracas_point_statistics *statistics)
     return largest;
 }
 
+static bool has_bending(const fracas_point_statistics *statistics)
+{
+    for (size_t i = 0; i < statistics->nhistory; i++)
+        if (energy(statistics, i, BENDING) > 0) return true;
+    return false;
+}
+
 static fracas_err add_energy(const fracas_point_statistics *statistics, size_t which, double time_factor,
                              double energy_factor, fracas_panel *panel)
 {
     fracas_series *series;
-    TRY(fracas_panel_add(panel, FRACAS_CURVE, (unsigned)which, statistics->nhistory, &series));
+    const unsigned look = which == BENDING ? LOOK_OF_BENDING : (unsigned)which;
+    TRY(fracas_panel_add(panel, FRACAS_CURVE, look, statistics->nhistory, &series));
     const bool moving = which == KINETIC && kinetic_start(statistics) > 0;
     snprintf(series->name, sizeof series->name, "%s%s", energies[which].name, moving ? " - start" : "");
     for (size_t i = 0; i < statistics->nhistory; i++) {
@@ -347,6 +356,7 @@ fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point,
     fracas_prefix joule = fracas_prefix_for(&largest, 1);
     fracas_panel *upper = fracas_chart_add(chart, LOW);
     for (size_t e = 0; e < RESIDUAL; e++) TRY(add_energy(statistics, e, time.factor, joule.factor, upper));
+    if (has_bending(statistics)) TRY(add_energy(statistics, BENDING, time.factor, joule.factor, upper));
     fracas_panel *lower = fracas_chart_add(chart, STRIP);
     TRY(add_energy(statistics, RESIDUAL, time.factor, joule.factor, lower));
     lower->y.log = true;

@@ -34,7 +34,7 @@ static fracas_err check_point(making *m)
     size_t interfaces;
     TRY(fracas_reader_mesh_interfaces(m->reader, point, &interfaces));
     if (interfaces) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "point %zu is no surface: only surfaces of the model `membrane` have pictures; "
+    return fracas_fail(FRACAS_USAGE, "point %zu is no surface: only membranes and shells have pictures; "
                        "`fracas report` draws the fragments of rings", point);
 }
 
@@ -78,7 +78,8 @@ static fracas_err save_pictures(const making *m, const fracas_broken_surface *su
         fracas_surface_time_text(time[k], true, text, sizeof text);
         snprintf(title, sizeof title, "Point %zu, replica %" PRId64 " at %s", request->point, request->replica, text);
         snprintf(name, sizeof name, "surface-point-%zu-replica-%" PRId64 "-%zu.svg", request->point, request->replica, k + 1);
-        const fracas_surface_picture picture = {title, request->show, FRACAS_SURFACE_WIDTH, true};
+        const fracas_surface_picture picture = {title, request->show, FRACAS_SURFACE_WIDTH, true, request->view,
+                                                request->explode, surface->thickness};
         err = fracas_broken_surface_save(surface, time[k], &picture, m->folder, name);
         fracas_surface_time_text(time[k], false, text, sizeof text);
         if (!err) fprintf(m->out, "%s/%s: %s\n", m->folder, name, text);

@@ -1,15 +1,16 @@
 #include "analysis/report/surface_picture.h"
 
 #include "analysis/format.h"
+#include "analysis/report/body_picture.h"
 #include "analysis/report/chart.h"
+#include "analysis/report/frame.h"
 #include "analysis/report/tint.h"
 #include "analysis/report/trail.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { MARGIN = 8, LINE_HEIGHT = 19, BAR_ROOM = 26, UNITS = 10 }; /* pixels; units of a drawing a pixel */
-static const double tallest = 1.3; /* height of the surface as drawn / width of the picture, at most */
+enum { MARGIN = FRACAS_FRAME_MARGIN, UNITS = FRACAS_FRAME_UNITS, LINE_HEIGHT = 19, BAR_ROOM = 26, AXIS = 18 }; /* pixels */
 
 /* Tints light enough for broken interfaces to stand out on them. */
 static const char style_light[] =
@@ -44,17 +45,15 @@ typedef struct {
     const fracas_surface_state *state;
     const fracas_surface_picture *picture;
     FILE *out;
+    fracas_frame frame;
     fracas_spot *spot; /* of each node */
-    bool *seen;        /* of each element: it faces the reader */
     uint8_t *tint;     /* of each fragment */
-    double scale;      /* pixels a metre */
-    double width, height; /* of the surface as drawn, pixels */
     double line;       /* width of a broken interface, units */
 } canvas;
 
 /* ---- where things are ---- */
 
-static bool is_flat(const fracas_stored_mesh *mesh)
+bool fracas_surface_is_flat(const fracas_stored_mesh *mesh)
 {
     double least = INFINITY, largest = -INFINITY, reach = 0;
     for (size_t n = 0; n < mesh->nnodes; n++) {
@@ -66,46 +65,18 @@ static bool is_flat(const fracas_stored_mesh *mesh)
     return largest - least <= 1e-9 * reach;
 }
 
-/* To the right and upward [m]. */
-static void project(const double position[3], bool flat, double at[2])
-{
-    const double x = position[0], y = position[1], z = position[2];
-    at[0] = flat ? x : (y - x) / sqrt(2);
-    at[1] = flat ? y : (2 * z - x - y) / sqrt(6);
-}
-
-/* Of a surface in space, what turns its normal to (1, 1, 1). */
-static bool faces_reader(const fracas_stored_mesh *mesh, size_t element)
-{
-    const int64_t *node = mesh->element[element].node;
-    double at[3][2];
-    for (int k = 0; k < 3; k++) project(mesh->node[node[k]].position, false, at[k]);
-    return (at[1][0] - at[0][0]) * (at[2][1] - at[0][1]) - (at[1][1] - at[0][1]) * (at[2][0] - at[0][0]) > 0;
-}
-
 static fracas_err place_nodes(canvas *on)
 {
     const fracas_stored_mesh *mesh = on->mesh;
-    const bool flat = is_flat(mesh);
-    double least[2] = {INFINITY, INFINITY}, largest[2] = {-INFINITY, -INFINITY}, at[2];
+    double least[2] = {INFINITY, INFINITY}, largest[2] = {-INFINITY, -INFINITY};
     on->spot = calloc(mesh->nnodes + 1, sizeof *on->spot);
-    on->seen = calloc(mesh->nelements + 1, sizeof *on->seen);
-    if (!on->spot || !on->seen) return fracas_no_memory("a picture");
+    if (!on->spot) return fracas_no_memory("a picture");
     for (size_t n = 0; n < mesh->nnodes; n++) {
-        project(mesh->node[n].position, flat, at);
+        const double *at = mesh->node[n].position;
         for (int i = 0; i < 2; i++) least[i] = fmin(least[i], at[i]), largest[i] = fmax(largest[i], at[i]);
     }
-    const double room = on->picture->width - 2 * MARGIN, extent[2] = {largest[0] - least[0], largest[1] - least[1]};
-    on->scale = fmin(room / extent[0], tallest * on->picture->width / extent[1]);
-    on->width = extent[0] * on->scale;
-    on->height = extent[1] * on->scale;
-    const double left = (on->picture->width - on->width) / 2;
-    for (size_t n = 0; n < mesh->nnodes; n++) {
-        project(mesh->node[n].position, flat, at);
-        on->spot[n].x = (int32_t)lround(UNITS * (left + (at[0] - least[0]) * on->scale));
-        on->spot[n].y = (int32_t)lround(UNITS * (MARGIN + (largest[1] - at[1]) * on->scale));
-    }
-    for (size_t e = 0; e < mesh->nelements; e++) on->seen[e] = flat || faces_reader(mesh, e);
+    fracas_frame_fit(least, largest, on->picture->width, &on->frame);
+    for (size_t n = 0; n < mesh->nnodes; n++) on->spot[n] = fracas_frame_place(&on->frame, mesh->node[n].position);
     return FRACAS_OK;
 }
 
@@ -124,7 +95,7 @@ static double line_width(const canvas *on)
 
 static fracas_err draw(const canvas *on, fracas_trail *trail, fracas_err err, bool closed, const char *class)
 {
-    if (!err) err = fracas_trail_write(trail, on->spot, on->mesh->nnodes, closed, class, on->out);
+    if (!err) err = fracas_trail_write(trail, on->spot, closed, class, on->out);
     fracas_trail_clear(trail);
     return err;
 }
@@ -134,38 +105,28 @@ static fracas_err draw_interfaces(const canvas *on, fracas_interface_state state
 {
     fracas_trail trail = {0};
     fracas_err err = FRACAS_OK;
-    for (size_t i = 0; !err && i < on->mesh->ninterfaces; i++) {
-        const fracas_stored_interface *interface = &on->mesh->interface[i];
-        const bool seen = on->seen[interface->element[0]] || on->seen[interface->element[1]];
-        if (seen && on->state->interface[i] == state) err = fracas_trail_add(&trail, interface->node, false);
-    }
+    for (size_t i = 0; !err && i < on->mesh->ninterfaces; i++)
+        if (on->state->interface[i] == state) err = fracas_trail_add(&trail, on->mesh->interface[i].node, false);
     fprintf(on->out, "<g stroke-width=\"%.1f\">\n", width * on->line);
     err = draw(on, &trail, err, false, class);
     fputs("</g>\n", on->out);
     return err;
 }
 
-/* The edge of what is seen. */
 static fracas_err draw_outline(const canvas *on)
 {
     fracas_trail trail = {0};
     fracas_err err = FRACAS_OK;
     for (size_t b = 0; !err && b < on->mesh->nborders; b++)
-        if (on->seen[on->mesh->border[b].element]) err = fracas_trail_add(&trail, on->mesh->border[b].node, false);
-    for (size_t i = 0; !err && i < on->mesh->ninterfaces; i++) {
-        const fracas_stored_interface *interface = &on->mesh->interface[i];
-        if (on->seen[interface->element[0]] != on->seen[interface->element[1]])
-            err = fracas_trail_add(&trail, interface->node, false);
-    }
+        err = fracas_trail_add(&trail, on->mesh->border[b].node, false);
     return draw(on, &trail, err, false, "outline");
 }
 
 /* ---- areas ---- */
 
-/* The tint of an element, -1 if it is not seen; with cracks alone they are all of one body. */
+/* The tint of an element; with cracks alone they are all of one body. */
 static int tint_of(const canvas *on, int64_t element)
 {
-    if (!on->seen[element]) return -1;
     return on->tint ? on->tint[on->state->fragment[element]] : 0;
 }
 
@@ -203,7 +164,7 @@ static fracas_err draw_areas(const canvas *on)
 /* The largest 1, 2 or 5 times a power of ten [mm] that is at most 0.3 of the width. */
 static double scale_bar(const canvas *on)
 {
-    const double most = 0.3 * on->picture->width / on->scale * 1e3, power = pow(10, floor(log10(most) + 1e-9));
+    const double most = 0.3 * on->picture->width / on->frame.scale * 1e3, power = pow(10, floor(log10(most) + 1e-9));
     const double mantissa = most / power * (1 + 1e-9);
     return power * (mantissa >= 5 ? 5 : mantissa >= 2 ? 2 : 1);
 }
@@ -211,45 +172,81 @@ static double scale_bar(const canvas *on)
 static void draw_words(const canvas *on)
 {
     const fracas_surface_state *state = on->state;
-    const double bar = scale_bar(on), x = MARGIN, y = on->height + 2 * MARGIN + LINE_HEIGHT, to = x + bar * 1e-3 * on->scale;
-    char time[48], dust[48] = "";
+    const double bar = scale_bar(on), x = MARGIN, y = on->frame.height + 2 * MARGIN + LINE_HEIGHT;
+    const double to = x + bar * 1e-3 * on->frame.scale;
+    char time[48], dust[48] = "", apart[48] = "";
     fracas_surface_time_text(state->time, true, time, sizeof time);
     if (state->ndust > 0) snprintf(dust, sizeof dust, " (dust: %zu)", state->ndust);
+    if (on->picture->explode > 0) snprintf(apart, sizeof apart, ", fragments apart: %g", on->picture->explode);
     fprintf(on->out, "<text x=\"%.1f\" y=\"%.1f\">%s: %zu fragment%s%s</text>\n", x, y - 5, time, state->nfragments,
             state->nfragments == 1 ? "" : "s", dust);
     fprintf(on->out, "<path class=\"ink\" d=\"M%.1f %.1fv8m0 -4H%.1fm0 -4v8\"/>\n", x, y + 6, to);
-    fprintf(on->out, "<text x=\"%.1f\" y=\"%.1f\">%g mm</text>\n", to + 8, y + 14.5, bar);
+    fprintf(on->out, "<text x=\"%.1f\" y=\"%.1f\">%g mm%s</text>\n", to + 8, y + 14.5, bar, apart);
 }
 
-static fracas_err draw_surface(const canvas *on)
+/* Where x, y and z point, at the lower right; none for an axis that points to or from the reader. */
+static void draw_axes(const canvas *on, const fracas_view *view)
 {
-    fprintf(on->out, "<g transform=\"scale(%g)\">\n", 1.0 / UNITS);
+    const double x = on->picture->width - MARGIN - AXIS - 12, y = on->frame.height + 2 * MARGIN + 22;
+    for (int i = 0; i < 3; i++) {
+        double axis[3] = {i == 0, i == 1, i == 2}, at[3];
+        fracas_view_turn(view, axis, at);
+        const double length = hypot(at[0], at[1]), label = AXIS + 7 / length;
+        if (!(length > 0.1)) continue;
+        fprintf(on->out, "<path class=\"ink\" d=\"M%.1f %.1fl%.1f %.1f\"/>\n", x, y, AXIS * at[0], -AXIS * at[1]);
+        fprintf(on->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%c</text>\n", x + label * at[0],
+                y - label * at[1] + 4, "xyz"[i]);
+    }
+}
+
+/* ---- pictures ---- */
+
+static fracas_err draw_flat(const canvas *on)
+{
     TRY(draw_areas(on));
     if (on->picture->show == FRACAS_SHOW_MESH) TRY(draw_interfaces(on, FRACAS_INTERFACE_CLOSED, "mesh", 0.5));
     TRY(draw_interfaces(on, FRACAS_INTERFACE_CRACKED, "cracked", 0.9));
     TRY(draw_interfaces(on, FRACAS_INTERFACE_BROKEN, "broken", 1.0));
-    TRY(draw_outline(on));
+    return draw_outline(on);
+}
+
+/* body: NULL where the surface is drawn as a flat one. */
+static fracas_err draw_picture(canvas *on, const fracas_body_picture *body, const fracas_view *view)
+{
+    const fracas_surface_picture *picture = on->picture;
+    if (picture->show != FRACAS_SHOW_CRACKS) TRY(fracas_tint_fragments(on->mesh, on->state, &on->tint));
+    fracas_svg_begin(picture->title, picture->width, on->frame.height + 2 * MARGIN + LINE_HEIGHT + BAR_ROOM,
+                     picture->standalone, on->out);
+    if (picture->standalone) fprintf(on->out, "<style>\n%s</style>\n", style_light);
+    fprintf(on->out, "<g transform=\"scale(%g)\">\n", 1.0 / UNITS);
+    TRY(body ? fracas_body_picture_draw(body, on->tint, picture->show, on->out) : draw_flat(on));
     fputs("</g>\n", on->out);
+    draw_words(on);
+    if (body) draw_axes(on, view);
+    fputs("</svg>\n", on->out);
     return FRACAS_OK;
 }
 
 fracas_err fracas_surface_picture_write(const fracas_stored_mesh *mesh, const fracas_surface_state *state,
                                         const fracas_surface_picture *picture, FILE *out)
 {
+    static const fracas_view above = {-90, 90}, corner = FRACAS_VIEW_DEFAULT;
+    const bool flat = fracas_surface_is_flat(mesh);
+    const fracas_view *view = picture->view ? picture->view : flat ? &above : &corner;
     canvas on = {.mesh = mesh, .state = state, .picture = picture, .out = out};
-    fracas_err err = place_nodes(&on);
-    if (!err && picture->show != FRACAS_SHOW_CRACKS) err = fracas_tint_fragments(mesh, state, &on.tint);
-    if (!err) {
-        on.line = line_width(&on);
-        fracas_svg_begin(picture->title, picture->width, on.height + 2 * MARGIN + LINE_HEIGHT + BAR_ROOM, picture->standalone,
-                         out);
-        if (picture->standalone) fprintf(out, "<style>\n%s</style>\n", style_light);
-        err = draw_surface(&on);
-        draw_words(&on);
-        fputs("</svg>\n", out);
+    fracas_body_picture body = {0};
+    fracas_err err;
+    if (flat && !picture->view && !(picture->explode > 0)) {
+        err = place_nodes(&on);
+        if (!err) on.line = line_width(&on);
+        if (!err) err = draw_picture(&on, NULL, NULL);
+    } else {
+        err = fracas_body_picture_create(mesh, state, picture, view, &body);
+        on.frame = body.frame;
+        if (!err) err = draw_picture(&on, &body, view);
     }
+    fracas_body_picture_clear(&body);
     free(on.spot);
-    free(on.seen);
     free(on.tint);
     return err;
 }

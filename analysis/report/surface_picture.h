@@ -15,12 +15,18 @@ typedef struct {
     fracas_surface_show show;
     int width;                /* pixels */
     bool standalone;          /* as fracas_svg_begin has it */
+    const fracas_view *view;  /* NULL: a flat surface from +z, any other from (1, 1, 1) */
+    double explode;           /* fragments are moved by this times (their centroid - that of the surface) */
+    double thickness;         /* of the shell in space [m]; 0: its cuts do not show */
 } fracas_surface_picture;
 
+/* All at one z, to rounding: drawn as it lies. */
+bool fracas_surface_is_flat(const fracas_stored_mesh *mesh);
+
 /* The <svg> element: cracked interfaces light, broken ones dark, the outline, fragments (unless it shows cracks alone) filled,
- * dust in a colour of its own, the mesh if asked for; time, fragments and a scale bar below. A flat surface is seen from +z, any
- * other from (1, 1, 1), the part of it that faces there. Fragments are drawn as loops, so that its size goes with the length of
- * cracks, at most some 20 bytes an interface. */
+ * dust in a colour of its own, the mesh if asked for; time, fragments and a scale bar below. Fragments are drawn as loops, so that
+ * its size goes with the length of cracks, at most some 20 bytes an interface. A surface in space, or one with a view or fragments
+ * apart, is shaded; what is hidden is not drawn, its inner side is darker, and its axes are at the lower right. */
 FRACAS_MUST_USE fracas_err fracas_surface_picture_write(const fracas_stored_mesh *mesh, const fracas_surface_state *state,
                                                         const fracas_surface_picture *picture, FILE *out);
 

@@ -6,6 +6,8 @@
 #include <math.h>
 
 static const size_t most_elements = 1500000; /* drawn on a page, some 20 MB of it */
+static const double apart = 0.1;             /* fragments of surfaces in space on a page */
+static const size_t most_apart = 50000;      /* elements of a mesh; of larger ones the gaps are not worth the room they take */
 
 fracas_err fracas_broken_surface_read(fracas_reader *reader, size_t point, size_t row, fracas_broken_surface *surface)
 {
@@ -13,6 +15,8 @@ fracas_err fracas_broken_surface_read(fracas_reader *reader, size_t point, size_
     int64_t replica;
     *surface = (fracas_broken_surface){0};
     fracas_record_init(&surface->record);
+    const double thickness = fracas_columns_real(fracas_reader_points(reader), point, "geometry.thickness");
+    if (thickness > 0) surface->thickness = thickness;
     TRY(fracas_reader_mesh(reader, point, &surface->mesh));
     return fracas_reader_record(reader, row, FRACAS_READ_INTERFACES, &of, &replica, &surface->record);
 }
@@ -63,8 +67,13 @@ typedef struct {
     const fracas_analysis *analysis;
     const char *folder;
     FILE *out;
-    size_t drawn; /* elements so far */
+    size_t drawn; /* elements so far; a gap takes twice the room of an element */
 } gallery;
+
+static double explode_of(const fracas_stored_mesh *mesh)
+{
+    return fracas_surface_is_flat(mesh) || mesh->nelements > most_apart ? 0 : apart;
+}
 
 static fracas_err put_moment(const gallery *to, const fracas_broken_surface *surface, size_t p, size_t k, double time)
 {
@@ -74,7 +83,8 @@ static fracas_err put_moment(const gallery *to, const fracas_broken_surface *sur
     snprintf(title, sizeof title, "Broken surface at %s%s%s", moment, *label ? ": " : "", label);
     snprintf(name, sizeof name, "surface-point-%zu-%zu", p, k + 1);
     snprintf(file, sizeof file, "%s.svg", name);
-    fracas_surface_picture picture = {title, FRACAS_SHOW_FRAGMENTS, FRACAS_CHART_NARROW, false};
+    fracas_surface_picture picture = {.title = title, .show = FRACAS_SHOW_FRAGMENTS, .width = FRACAS_CHART_NARROW,
+                                      .explode = explode_of(&surface->mesh), .thickness = surface->thickness};
     fprintf(to->out, "<figure id=\"%s\">\n", name);
     TRY(write_picture(surface, time, &picture, to->out));
     fprintf(to->out, "<figcaption><a href=\"%s\">SVG</a></figcaption>\n</figure>\n", file);
@@ -95,7 +105,11 @@ static fracas_err put_times(const gallery *to, const fracas_broken_surface *surf
         fracas_surface_time_text(at[k], true, text, sizeof text);
         fprintf(to->out, "; %s: %s", what[k], text);
     }
-    fputs(".</p>\n", to->out);
+    putc('.', to->out);
+    if (!fracas_surface_is_flat(&surface->mesh)) fputs(" Seen from the direction (1, 1, 1)", to->out);
+    if (explode_of(&surface->mesh) > 0)
+        fprintf(to->out, ", each fragment moved by %g of the way from the centroid of the surface to its own", apart);
+    fputs(fracas_surface_is_flat(&surface->mesh) ? "</p>\n" : ".</p>\n", to->out);
     return FRACAS_OK;
 }
 
@@ -112,7 +126,7 @@ static fracas_err put_row(gallery *to, const fracas_broken_surface *surface, siz
     fputs("<div class=\"small\">\n", to->out);
     for (size_t k = 0; k < count; k++) TRY(put_moment(to, surface, p, k, time[k]));
     fputs("</div>\n", to->out);
-    to->drawn += count * surface->mesh.nelements;
+    to->drawn += (explode_of(&surface->mesh) > 0 ? 3 : 1) * count * surface->mesh.nelements;
     return FRACAS_OK;
 }
 

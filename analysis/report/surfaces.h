@@ -12,6 +12,7 @@
 typedef struct {
     fracas_stored_mesh mesh;
     fracas_record record; /* with its interfaces */
+    double thickness;     /* m; 0 if the point has none */
 } fracas_broken_surface;
 
 /* The realization in row `row` of the study. Cleared by the caller, after an error too. */

@@ -29,7 +29,7 @@ void fracas_trail_clear(fracas_trail *trail);
 
 /* Writes `<path class=... d=.../>` through every edge once; nothing without an edge. `closed`: edges have a direction, as many
  * end in a node as start there, and the loops that they make are filled by the even-odd rule; else either way round will do. */
-FRACAS_MUST_USE fracas_err fracas_trail_write(const fracas_trail *trail, const fracas_spot *spot, size_t nspots, bool closed,
-                                              const char *class, FILE *out);
+FRACAS_MUST_USE fracas_err fracas_trail_write(const fracas_trail *trail, const fracas_spot *spot, bool closed, const char *class,
+                                              FILE *out);
 
 #endif

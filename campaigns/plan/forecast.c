@@ -196,7 +196,7 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     forecast->lines = forecast->uniform && spec->mesh.spacing == &fracas_spacing_triangles && spec->mesh.amplitude == 0;
     forecast->mean = mean;
     forecast->bound = stress_bound(spec);
-    forecast->spread = fracas_model_surface(model) && spec->cohesive.onset == &fracas_onset_mean
+    forecast->spread = fracas_model_surface(model) && spec->cohesive.law != &fracas_law_nitsche
                            ? fracas_strength_quantile(&point->strength, volume.mean, 0.99) -
                                  fracas_strength_quantile(&point->strength, volume.mean, 0.01)
                            : NAN;

@@ -194,7 +194,7 @@ static bool warn_lonely(const fracas_point *point, const fracas_forecast *foreca
     return forecast->lonely;
 }
 
-/* The peak of an onset by the mean is what the step has reached: docs/decisions/onset-of-surfaces.md. */
+/* Laws that leave the flux soften from what the step has reached: docs/decisions/onset-of-surfaces.md. */
 static bool warn_passed(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
 {
     (void)point;

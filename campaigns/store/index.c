@@ -215,7 +215,8 @@ static fracas_err check_version(fracas_index *index)
     TRY(fracas_index_read_meta(index, "format_version", found, sizeof found));
     snprintf(wanted, sizeof wanted, "%d", FRACAS_FORMAT_VERSION);
     if (strcmp(found, wanted) == 0) return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED, "%s has format version %s; this program reads %s", index->path,
+    return fracas_fail(FRACAS_DAMAGED, "%s has format version %s; this program reads %s: use the program version that wrote "
+                       "it, or compute the study again in another folder", index->path,
                        *found ? found : "none", wanted);
 }
 

@@ -48,6 +48,15 @@ static fracas_err read_truth(fracas_reader *reader, const char *name, bool *trut
     return value <= 1 ? FRACAS_OK : damaged(reader, name, "it is neither 0 nor 1");
 }
 
+fracas_err fracas_file_version(const char *path, uint64_t *version)
+{
+    fracas_h5 h5 = FRACAS_H5_CLOSED;
+    TRY(fracas_h5_open(&h5, path));
+    fracas_err err = fracas_h5_get_integer(&h5, "/", "format_version", H5T_STD_I32LE, version);
+    fracas_h5_close(&h5);
+    return err;
+}
+
 static fracas_err read_header(fracas_reader *reader)
 {
     uint64_t version, history;
@@ -55,7 +64,8 @@ static fracas_err read_header(fracas_reader *reader)
     fracas_file_header *header = &reader->header;
     TRY(fracas_h5_get_integer(&reader->h5, "/", "format_version", H5T_STD_I32LE, &version));
     if (version != FRACAS_FORMAT_VERSION)
-        return fracas_fail(FRACAS_DAMAGED, "%s has format version %llu; this program reads %d", reader->path,
+        return fracas_fail(FRACAS_DAMAGED, "%s has format version %llu; this program reads %d: use the program version "
+                           "that wrote it, or compute the study again in another folder", reader->path,
                            (unsigned long long)version, FRACAS_FORMAT_VERSION);
     TRY(read_text_attribute(reader, "campaign", sizeof hex, hex));
     if (!fracas_hash_parse(hex, &header->campaign)) return damaged(reader, "campaign", "it is no hash");

@@ -134,6 +134,12 @@ static fracas_err adopt_or_leave(const char *path, const char *name, fracas_inde
     fracas_file_seal seal;
     fracas_identity found;
     char text[FRACAS_DIFFERENCE_TEXT];
+    uint64_t version;
+    TRY(fracas_file_version(path, &version));
+    if (version != FRACAS_FORMAT_VERSION) {
+        fprintf(report, "left %s, which has format version %" PRIu64 ", not %d; move it away\n", path, version, FRACAS_FORMAT_VERSION);
+        return FRACAS_OK;
+    }
     TRY(fracas_disk_seal_path(path, &seal));
     TRY(fracas_reader_open(path, &reader));
     fracas_identity_of(fracas_reader_header(reader), &found);

@@ -65,6 +65,9 @@ static const fracas_store_column fragment[] = {
      offsetof(fracas_fragment, velocity)},
     {"/fragment/angular_momentum", FRACAS_FLOAT64, 3, "kg m2/s",
      "angular momentum (x, y, z) about the centre of mass at end_time", offsetof(fracas_fragment, angular_momentum)},
+    {"/fragment/spin", FRACAS_FLOAT64, 3, "rad/s",
+     "angular velocity (x, y, z) of the rigid body of the same inertia with that angular momentum; 0 about an axis without inertia, and in a bar",
+     offsetof(fracas_fragment, spin)},
 };
 
 static const fracas_store_column history_offset[] = {

@@ -19,7 +19,7 @@
 
 /* ---- one HDF5 file: a segment or a study, same schema (docs/formats/study.md) ---- */
 
-#define FRACAS_FORMAT_VERSION 1
+#define FRACAS_FORMAT_VERSION 2 /* 1 had no /fragment/spin */
 
 typedef struct {
     fracas_hash campaign;       /* campaign hash */
@@ -54,6 +54,8 @@ FRACAS_MUST_USE fracas_err fracas_writer_finish(fracas_writer *writer, bool comp
 /* Gives up: removes the temporary file, frees the writer. NULL is allowed. */
 void fracas_writer_abandon(fracas_writer *writer);
 
+/* *version: the format version that the file gives itself, of this program or another. FRACAS_DAMAGED if it gives none. */
+FRACAS_MUST_USE fracas_err fracas_file_version(const char *path, uint64_t *version);
 /* FRACAS_DAMAGED if it is not a fracas file of a known format version, naming the file. */
 FRACAS_MUST_USE fracas_err fracas_reader_open(const char *path, fracas_reader **reader);
 void fracas_reader_close(fracas_reader *reader); /* NULL is allowed */

@@ -1,7 +1,8 @@
 /* Law `nitsche` for opening and sliding: the crack's opening in series with the flux. Include after cohesive/plane.h.
  *
  *   trial T' = m + k q (unbroken), k q (broken); S' its effective traction                            (cohesive.12)
- *   at onset p = sigma_c (onset by the flux), max(S', sigma_c) (by the mean), p <= sqrt(k_n G_c)        (cohesive.13)
+ *   at onset p = sigma_c (by the flux), max(sigma_c, S' - (S_m - sigma_c)) (by the mean, effective value S_m),
+ *   p <= sqrt(k_n G_c)                                                                                  (cohesive.13)
  *   loading, S' - p > D x, x = k_n delta_c - p:  D = min(1, (S' - p)/x), T = T' p (1 - D)/S'            (cohesive.14)
  *   else on the secant                           T = T' p (1 - D)/(p + D x)
  *   a pressure T'_n < 0 is kept whole; once broken T_n = k_n min(0, q_n), T_t = 0
@@ -60,7 +61,8 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
     r.cracked = lanes_or(was_cracked, r.cracks);
     vd peak = state->peak, fresh = at->sigma_c, most = at->sigma_c;
     if (lanes_any(r.cracks)) { /* (cohesive.13) */
-        if (at->onset_mean) fresh = plane_max(lanes_sqrt(plane_onset(at, trial_n, trial_t)), fresh);
+        const vd passed = lanes_sqrt(judged) - at->sigma_c; /* S_m - sigma_c: the step is late by that */
+        if (at->onset_mean) fresh = plane_max(lanes_sqrt(plane_onset(at, trial_n, trial_t)) - passed, fresh);
         most = lanes_sqrt(at->k_n * at->energy) + half * (at->k_n * at->opening);
         peak = lanes_select(r.cracks, plane_min(fresh, most), peak);
     }

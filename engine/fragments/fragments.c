@@ -102,7 +102,8 @@ static void inertia_of(const fracas_fragment_sums *sums, const double centre[3],
     }
 }
 
-/* Rounding of places and sums leaves some 1e-16 M r (r + |X|), times the root of the number of nodes, of an inertia that is 0. */
+/* Of an inertia that is 0, sums leave some 1e-16 of the largest, times the root of the number of nodes, and places rounded to
+ * 1e-16 |X| leave 1e-32 m X.X. */
 static const double no_inertia = 1e-12;
 
 /* (fragments.4) */
@@ -115,7 +116,7 @@ static void find_spin(const fracas_fragment_sums *sums, fracas_fragment *f)
         largest = fmax(largest, inertia[a][a]);
         away += f->position[a] * f->position[a];
     }
-    const double least = no_inertia * (largest + sqrt(f->mass * largest * away));
+    const double least = no_inertia * (largest + no_inertia * f->mass * away);
     for (int a = 0; a < 3; a++) {
         if (inertia[a][a] <= least) continue;
         double along = 0;

@@ -40,6 +40,28 @@ for isa in baseline $(instruction_sets); do
 done
 expect 0 "$fracas" verify one
 
+# The spin of a plate's fragments is upright, and half of L . spin, by another reader, is what the report says.
+expect 0 "$fracas" report one --json
+/usr/bin/python3 - <<'END' || fail "the spins in study.h5 are not those of the report"
+import json
+import h5py, numpy as np
+
+study, points = h5py.File("one/study.h5"), json.load(open("said"))["points"]
+of = {name: study["fragment/" + name][()] for name in ("offset", "mass", "velocity", "angular_momentum", "spin")}
+assert study["fragment/spin"].attrs["unit"] == b"rad/s"
+moment, spin = of["angular_momentum"], of["spin"]
+flat = of["offset"][3]  # after the bars
+assert not spin[:flat].any() and not spin[:, :2].any() and (spin[flat:, 2] * moment[flat:, 2] > 0).all()
+for p, point in enumerate(points):
+    energies = []
+    for i in np.flatnonzero((study["realization/point"][()] == p) & (study["realization/fragments"][()] > 1)):
+        rows = slice(*of["offset"][i:i + 2])
+        energies.append([(of["mass"][rows] * (of["velocity"][rows]**2).sum(axis=1)).sum() / 2, (moment[rows] * spin[rows]).sum() / 2])
+    for key, value in zip(("translation", "rotation"), np.mean(energies, axis=0)):
+        said = point["statistics"][key + ".mean"]
+        assert said is None if p == 0 else abs(said / value - 1) < 1e-12 and value > 0, (key, said, value)  # sums of one sign
+END
+
 # Extended: merged again, with the meshes of all points.
 surfaces part.yaml 2
 sed -i '/name: annulus/d' part.yaml
@@ -62,6 +84,11 @@ expect 0 "$fracas" picture one --point 2 --times "0.2us,3e-7, 600 ns" --show mes
 grep -q 'class="mesh"' one/pictures/surface-point-2-replica-0-1.svg || fail "no mesh was drawn"
 expect 0 "$fracas" picture one --point 2 --times 2 --show cracks -o cracks
 ! grep -q 'class="t0"' cracks/surface-point-2-replica-0-2.svg || fail "fragments were drawn"
+
+# From another side, and with gaps: still only what is there.
+expect 0 "$fracas" picture one --point 2 --times 600ns --view -30,45 --explode 0.2 -o seen
+grep -q ', fragments apart: 0.2</text>' seen/surface-point-2-replica-0-1.svg || fail "the fragments are not apart"
+grep -q '>z</text>' seen/surface-point-2-replica-0-1.svg || fail "no axes were drawn"
 
 # The report has the pictures of both surfaces.
 expect 0 "$fracas" report one
@@ -90,6 +117,12 @@ refuses '`5 mm` is a length; expected a time' one --point 1 --times 5mm
 refuses '`x` is not a number' one --point 1 --times 100ns,x
 refuses 'it must be a whole number from 1 to 1000' one --point 1 --times 0
 refuses 'it can be: cracks, fragments, mesh' one --point 1 --show fragment
+refuses 'picture: --view is `45`; it must be two numbers, as 45,30: an azimuth from -360 to 360' one --point 1 --view 45
+refuses 'picture: --view is `45,95`; it must be two numbers' one --point 1 --view 45,95
+refuses 'picture: --view is `nan,5`; it must be two numbers' one --point 1 --view nan,5
+refuses 'picture: --view is `45,5deg`; it must be two numbers' one --point 1 --view 45,5deg
+refuses 'picture: --explode is `11`; it must be a number from 0 to 10, such as 0.15' one --point 1 --explode 11
+refuses 'picture: --explode is `-1`; it must be a number, 0 or more' one --point 1 --explode -1
 sed '/^output/d' part.yaml > without.yaml
 expect 0 "$fracas" run without.yaml --study without
 ! h5ls without/study.h5 | grep -q mesh || fail "meshes are kept without interfaces"

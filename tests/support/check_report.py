@@ -173,13 +173,14 @@ for row, line in zip(rows, text[2:]):
     shows(cells[10], row["created"])
 
 # A line of fragments.csv for each fragment of the study, with its numbers to 15 digits.
-size, mass, position = (fragment[name] for name in ("size", "mass", "position"))
+size, mass, position, spin = (fragment[name] for name in ("size", "mass", "position", "spin"))
 fragments = list(csv.DictReader(open(os.path.join(report, "fragments.csv"))))
 assert len(fragments) == len(size)
-for line, expected, heavy, place in zip(fragments, size, mass, position):
+for line, expected, heavy, place, turning in zip(fragments, size, mass, position, spin):
     assert math.isclose(float(line["size"]), expected, rel_tol=1e-14)
     assert math.isclose(float(line["mass"]), heavy, rel_tol=1e-14)
     assert math.isclose(float(line["position_x"]), place[0], rel_tol=1e-14)
+    assert all(math.isclose(float(line["spin_" + axis]), turning[i], rel_tol=1e-14) for i, axis in enumerate("xyz"))
 
 # Every SVG is well-formed; with the size figures, a mark for each row of data.
 with_mean = sum(not math.isnan(row["size.mean"]) for row in rows)

@@ -127,6 +127,7 @@ static inline void sample_record(size_t point, int64_t replica, size_t most, fra
         sample_reals(&state, f->position, 3);
         sample_reals(&state, f->velocity, 3);
         sample_reals(&state, f->angular_momentum, 3);
+        sample_reals(&state, f->spin, 3);
     }
     for (size_t i = 0; i < record->nhistory; i++) {
         sample_reals(&state, &record->history[i].time, 9); /* time to residual lie in a row */
@@ -152,7 +153,7 @@ static inline void sample_make_canonical(fracas_record *record)
     sample_canonical(record->momentum, 3);
     for (size_t i = 0; i < record->nfragment; i++) {
         sample_canonical(&record->fragment[i].mass, 2);
-        sample_canonical(record->fragment[i].position, 9);
+        sample_canonical(record->fragment[i].position, 12); /* to spin they lie in a row */
     }
     for (size_t i = 0; i < record->nhistory; i++) sample_canonical(&record->history[i].time, 9);
     for (size_t i = 0; i < record->ninterface; i++) sample_canonical(&record->interface[i].strength, 4);

@@ -193,6 +193,7 @@ static void make_fragments(size_t p, uint64_t *state, fracas_record *record)
         fragment->velocity[0] = (speed * out + scatter) * cos(angle) - along * sin(angle);
         fragment->velocity[1] = (speed * out + scatter) * sin(angle) + along * cos(angle);
         fragment->angular_momentum[2] = fragment->mass * radius * radius * half * half / 3 * 2e4 * (next(state) - 0.5);
+        for (int i = 0; i < 3; i++) fragment->spin[i] = 1e4 * (next(state) - 0.5);
         record->fragments_dust += fragment->dust;
         last = cut;
     }

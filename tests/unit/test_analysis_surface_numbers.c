@@ -7,9 +7,9 @@
 
 enum { NPOINTS = 4 };
 
-/* `bars` bars of 10 mm, then plates; rates 1e3, 2e3, ... Each point has two realizations of fragments of 1, 2 and 3 mm and of
+/* `bars` bars of 10 mm, then plates, the first `bent` points with a part of bending of 2 J and 4 J in 8 J; rates 1e3, 2e3, ... Each point has two realizations of fragments of 1, 2 and 3 mm and of
  * 1 (dust) and 4 mm: mean sizes of a plate 2 and 2.5 mm. Cleared by fracas_point_statistics_clear and fracas_columns_clear. */
-static void make_analysis(size_t bars, fracas_point_statistics point[NPOINTS], fracas_analysis *analysis)
+static void make_analysis(size_t bars, size_t bent, fracas_point_statistics point[NPOINTS], fracas_analysis *analysis)
 {
     static const fracas_column columns[] = {
         {"cohesive.fracture_energy", "J/m2", "", false}, {"derived.strain_rate", "1/s", "", false},
@@ -40,7 +40,11 @@ static void make_analysis(size_t bars, fracas_point_statistics point[NPOINTS], f
             record.fragments = (int64_t)record.nfragment;
             record.fragments_dust = fragment[0].dust = r == 1;
             record.fragment = fragment;
-            for (size_t i = 0; i < record.nfragment; i++) fragment[i].size = size[r][i], fragment[i].elements = 20;
+            record.dissipated = 8;
+            record.dissipated_bending = p < bent ? 2 + 2 * (double)r : 0;
+            for (size_t i = 0; i < record.nfragment; i++) /* 2 (9 + 16 + 144)/2 = 169 J and (2 + 2 + 2)/2 = 3 J each */
+                fragment[i] = (fracas_fragment){.size = size[r][i], .elements = 20, .dust = fragment[i].dust, .mass = 2, .velocity = {3, -4, 12},
+                                                .angular_momentum = {1, 2, -1}, .spin = {2, 1, -2}};
             OK(fracas_point_statistics_add(&point[p], 2 * p + r, (int64_t)r, &record));
         }
         fracas_point_statistics_finish(&point[p]);
@@ -83,8 +87,8 @@ static void surfaces_have_no_laws_of_one_dimension(void **state)
         size_t bars, curves, slopes, normalised;
         const char *names;
     } expected[] = {
-        {0, 0, 0, 0, "rate n fail count no dust size dissipated resid. created outcomes "},
-        {3, 4, 1, 3, "rate n fail count no dust size dissipated ZMR Grady GC size resid. created outcomes "},
+        {0, 0, 0, 0, "rate n fail count no dust size dissipated resid. created rotation outcomes "},
+        {3, 4, 1, 3, "rate n fail count no dust size dissipated ZMR Grady GC size resid. created rotation outcomes "},
         {4, 4, 1, 4, "rate n fail count size dissipated ZMR Grady GC size resid. created outcomes "}};
     for (size_t k = 0; k < 3; k++) {
         fracas_point_statistics point[NPOINTS];
@@ -92,7 +96,7 @@ static void surfaces_have_no_laws_of_one_dimension(void **state)
         fracas_size_slope *slope;
         size_t count, marks;
         char names[512];
-        make_analysis(expected[k].bars, point, &analysis);
+        make_analysis(expected[k].bars, 0, point, &analysis);
         for (size_t p = 0; p < NPOINTS; p++) {
             const bool bar = p < expected[k].bars;
             assert_int_equal(point[p].surface, !bar);
@@ -115,8 +119,91 @@ static void surfaces_have_no_laws_of_one_dimension(void **state)
     }
 }
 
+static void cell_says(const fracas_analysis *analysis, size_t row, const char *name, const char *wanted)
+{
+    fracas_result_table table;
+    size_t c = 0;
+    OK(fracas_result_table_create(analysis, false, &table));
+    while (strcmp(fracas_result_table_cell(&table, 0, c), name)) assert_true(++c < table.columns);
+    assert_string_equal(fracas_result_table_cell(&table, row, c), wanted);
+    fracas_result_table_clear(&table);
+}
+
+/* Of three and of two fragments with 169 J and 3 J each: means 422.5 J and 7.5 J, a ratio of 0.01775. A bar has none, nor has a
+ * body in one piece. */
+static void fragments_of_surfaces_fly_and_turn(void **state)
+{
+    (void)state;
+    fracas_point_statistics point[NPOINTS];
+    fracas_analysis analysis;
+    make_analysis(1, 0, point, &analysis);
+    assert_int_equal(point[0].translation.n, 0);
+    assert_int_equal(point[0].rotation.n, 0);
+    for (size_t p = 1; p < NPOINTS; p++) {
+        assert_int_equal(point[p].translation.n, 2);
+        assert_true(point[p].translation.mean == 422.5 && point[p].rotation.mean == 7.5); /* whole numbers */
+    }
+    cell_says(&analysis, FRACAS_RESULT_TABLE_HEAD, "rotation", "-");
+    cell_says(&analysis, FRACAS_RESULT_TABLE_HEAD + 1, "rotation", "0.018");
+    cell_says(&analysis, 1, "rotation", "/transl.");
+    fracas_fragment whole = {.mass = 1, .velocity = {1}, .angular_momentum = {1}, .spin = {1}};
+    fracas_record record;
+    fracas_record_init(&record);
+    record.outcome = FRACAS_INTACT;
+    record.fragments = (int64_t)(record.nfragment = 1);
+    record.fragment = &whole;
+    fracas_point_statistics one;
+    fracas_point_statistics_init(analysis.table, 1, &one);
+    OK(fracas_point_statistics_add(&one, 0, 0, &record));
+    fracas_point_statistics_finish(&one);
+    assert_true(one.usable == 1 && one.translation.n == 0 && one.rotation.n == 0);
+    fracas_point_statistics_clear(&one);
+    for (size_t p = 0; p < NPOINTS; p++) fracas_point_statistics_clear(&point[p]);
+    fracas_columns_clear(&analysis.shown);
+}
+
+/* Where bending dissipated anything there are a column and a curve of it, and nowhere else. */
+static void bending_is_shown_where_it_is(void **state)
+{
+    (void)state;
+    for (size_t bent = 0; bent < 2; bent++) {
+        fracas_point_statistics point[NPOINTS];
+        fracas_analysis analysis;
+        char names[512];
+        make_analysis(0, bent, point, &analysis);
+        assert_true(point[0].bending.mean == (bent ? 3 : 0) && point[1].bending.mean == 0 && point[0].bending.n == 2);
+        names_of(&analysis, names);
+        assert_int_equal(strstr(names, " dissipated bending resid. ") != NULL, bent);
+        if (bent) {
+            cell_says(&analysis, 1, "bending", "[J]");
+            /* t_(0.975, 1) = 12.706 times sqrt(2)/sqrt(2) J */
+            cell_says(&analysis, FRACAS_RESULT_TABLE_HEAD, "bending", "3 +- 13");
+        }
+        point[0].nhistory = 2;
+        point[0].history = calloc(2, sizeof *point[0].history);
+        assert_non_null(point[0].history);
+        point[0].history[1] = (fracas_history_row){.time = 1, .dissipated = 8, .dissipated_bending = bent ? 2 : 0};
+        fracas_chart chart;
+        size_t curves = 0;
+        fracas_chart_init(&chart);
+        OK(fracas_figure_energies(&analysis, 0, &chart));
+        for (size_t s = 0; s < chart.panel[0].nseries; s++) {
+            const fracas_series *series = &chart.panel[0].series[s];
+            if (strcmp(series->name, "dissipated, bending")) continue;
+            curves++;
+            assert_true(series->n == 2 && series->y[0] == 0 && series->y[1] == 2);
+        }
+        assert_int_equal(curves, bent);
+        assert_int_equal(chart.panel[1].nseries, 1); /* the residual */
+        fracas_chart_clear(&chart);
+        for (size_t p = 0; p < NPOINTS; p++) fracas_point_statistics_clear(&point[p]);
+        fracas_columns_clear(&analysis.shown);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(surfaces_have_no_laws_of_one_dimension)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(surfaces_have_no_laws_of_one_dimension), cmocka_unit_test(fragments_of_surfaces_fly_and_turn),
+                                       cmocka_unit_test(bending_is_shown_where_it_is)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -184,20 +184,20 @@ static void test_combinations(void **state)
 static void test_other_models(void **state)
 {
     static const wrong table[] = {
-        {"density: 2750 kg/m3", "density: 2750 kg/m3\n  poisson: 0.2", 12, 3, {"`poisson` belongs to model membrane; this is bar (line 3)"}},
-        {"law: nitsche", "law: nitsche\n  onset: flux", 14, 3, {"`onset` belongs to model membrane; this is bar (line 3)"}},
+        {"density: 2750 kg/m3", "density: 2750 kg/m3\n  poisson: 0.2", 12, 3, {"`poisson` belongs to model membrane or shell; this is bar (line 3)"}},
+        {"law: nitsche", "law: nitsche\n  onset: flux", 14, 3, {"`onset` belongs to model membrane or shell; this is bar (line 3)"}},
         {"law: nitsche", "law: rigid-link\n  onset: flux", 14, 3,
          {"`onset` belongs to law nitsche or camacho-ortiz-standard or camacho-ortiz; this is rigid-link (line 13)"}},
         {"stop: settled", "mass: lumped\n  stop: settled", 22, 3, {"`mass` belongs to model membrane; this is bar (line 3)"}},
         {"density: 2750 kg/m3", "density: 2750 kg/m3\n  poisson: 2", 12, 12, {"2 is out of range"}},
         {"model: bar\ngeometry:\n  ends: periodic\n  length: 50 mm\nmesh:\n  elements: 100\nmaterial:",
          "geometry:\n  ends: periodic\n  length: 50 mm\nmesh:\n  elements: 100\nmaterial:\n  poisson: 0.2", 9, 3,
-         {"`poisson` belongs to model membrane; this is bar, the default, as no `model` is given"}},
-        {"", "sweep:\n  - material.poisson: [0.2, 0.3]\n", 29, 24, {"`poisson` belongs to model membrane; this is bar (line 3)"}},
-        {"", "sweep:\n  - zip:\n      material: [{young: 1 GPa}, {poisson: 0.2}]\n", 30, 35, {"`poisson` belongs to model membrane"}},
+         {"`poisson` belongs to model membrane or shell; this is bar, the default, as no `model` is given"}},
+        {"", "sweep:\n  - material.poisson: [0.2, 0.3]\n", 29, 24, {"`poisson` belongs to model membrane or shell; this is bar (line 3)"}},
+        {"", "sweep:\n  - zip:\n      material: [{young: 1 GPa}, {poisson: 0.2}]\n", 30, 35, {"`poisson` belongs to model membrane or shell"}},
         {"  quiet: 100 ns\n", "  quiet: 100 ns\n  mass: lumped\nsweep:\n  - model: [bar]\n", 25, 3,
          {"`mass` belongs to model membrane; this is bar (line 27)"}},
-        {"ends: periodic", "thickness: 1 mm", 5, 3, {"`thickness` belongs to shape plate or annulus or file; this is bar"}},
+        {"ends: periodic", "thickness: 1 mm", 5, 3, {"`thickness` belongs to shape plate or annulus or sphere or file; this is bar"}},
     };
     CHECK_ALL(table);
 }
@@ -284,7 +284,7 @@ static void test_sweeps(void **state)
         {"", "sweep:\n  - loading.rate: {from: 1, to: 2, points: 1000}\n"
              "  - time.end: {from: 1, to: 2, points: 1000}\n", 30, 5,
          {"more than 10000 points"}},
-        {"", "sweep:\n  - model: [bar, shell]\n", 29, 18, {"unknown model `shell`"}},
+        {"", "sweep:\n  - model: [bar, rope]\n", 29, 18, {"unknown model `rope`"}},
     };
     CHECK_ALL(table);
 }

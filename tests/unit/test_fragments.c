@@ -121,7 +121,8 @@ static void a_box_that_turns(void **unused)
 }
 
 /* Two masses a distance D apart: L = mu D x (v_2 - v_1), mu = m_1 m_2/(m_1 + m_2), and of all spins that have it the least is
- * D x (v_2 - v_1)/D^2: none about D. Seen from 1 m away, too, where rounding gives the line a thickness of 1e-16 m. Bounds as for
+ * D x (v_2 - v_1)/D^2: none about D. Seen from 1 m and 100 m away, too, where rounding gives the line a thickness of 1e-16 m
+ * and 1e-14 m. Bounds as for
  * the plate. So for more nodes on a line; a single node has no spin, wherever it is. */
 static void what_lies_on_a_line_does_not_turn_about_it(void **unused)
 {
@@ -129,8 +130,8 @@ static void what_lies_on_a_line_does_not_turn_about_it(void **unused)
     const vector still = {{0, 0, 0}}, omega = {{3e3, -5e3, 7e3}}, speed = {{40, 20, -70}};
     const vector seen = plus(omega, -inner(omega, along), along); /* without the part about the line */
     for (int nodes = 1; nodes <= 7; nodes++)
-        for (int d = 0; d < 3; d++) {
-            const double distance = d == 2 ? 1 : d * 1e-3, size = 1e-3;
+        for (int d = 0; d < 4; d++) {
+            const double distances[] = {0, 1e-3, 1, 100}, distance = distances[d], size = 1e-3;
             const vector centre = plus(still, distance, normal);
             fracas_fragment_sums sums = {0};
             double mass = 0, middle = 0;
@@ -151,6 +152,17 @@ static void what_lies_on_a_line_does_not_turn_about_it(void **unused)
             assert_true(off(f.spin, plus(still, 1 / (size * size), turned(apart, relative))) <= bound);
             assert_true(off(f.position, plus(centre, middle, along)) < 1e-15 * (distance + size));
         }
+}
+
+/* Two nodes in one place but for its rounding are a point: without the bound on that the spin would be 1 m/s over 1e-16 m. */
+static void a_rounding_is_no_body(void **unused)
+{
+    (void)unused;
+    fracas_fragment_sums sums = {0};
+    const double x[2][3] = {{1, -0.7, 0.3}, {nextafter(1, 2), -0.7, 0.3}}, v[2][3] = {{0, 1, 2}, {0.5, -1, 1}};
+    for (int k = 0; k < 2; k++) fracas_fragment_sums_add(&sums, 1, x[k], v[k]);
+    const fracas_fragment f = only(&sums);
+    for (int i = 0; i < 3; i++) assert_true(f.spin[i] == 0);
 }
 
 /* In a plane only L_z is there, and spin = L_z/(sum of m y.y) about z: the others are 0 to the bit. */
@@ -261,6 +273,7 @@ int main(void)
         cmocka_unit_test(a_plate_that_turns),
         cmocka_unit_test(a_box_that_turns),
         cmocka_unit_test(what_lies_on_a_line_does_not_turn_about_it),
+        cmocka_unit_test(a_rounding_is_no_body),
         cmocka_unit_test(in_the_plane_the_spin_is_upright),
         cmocka_unit_test(consistent_masses_turn_as_the_triangle_does),
         cmocka_unit_test(momenta_are_those_of_the_nodes),

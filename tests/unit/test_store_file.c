@@ -108,6 +108,8 @@ static void write_and_tell(const char *path)
             memcpy(&bits, &r.fragment[f].velocity[2], 8);
             printf(" f %lld %d %016llx", (long long)r.fragment[f].elements, (int)r.fragment[f].dust,
                    (unsigned long long)bits);
+            memcpy(&bits, &r.fragment[f].spin[1], 8);
+            printf(" %016llx", (unsigned long long)bits);
         }
         for (size_t h = 0; h < r.nhistory; h++) {
             memcpy(&bits, &r.history[h].residual, 8);

@@ -1,8 +1,9 @@
 /* Meshes in study.h5: what is merged comes back, whatever else is damaged, and what pictures are refused of it. */
-#include "tests/support/stored_mesh.h"
+#include "tests/support/body.h"
 #include "tests/support/study_fixture.h"
 
 #include "analysis/analysis.h"
+#include "analysis/report/surface_picture.h"
 
 enum { SURFACE = 1, EACH = 5 }; /* the one of the three points that is a surface; replicas of each */
 
@@ -280,6 +281,114 @@ static void pictures_and_first_times(void **state)
     free(said);
 }
 
+/* ---- a body in space ---- */
+
+static const double thickness = 0.02;
+
+static fracas_err get_octant(const void *context, size_t point, fracas_stored_mesh *mesh)
+{
+    (void)context;
+    const fracas_surface_fineness fineness = {.divisions = 4, .order = 2};
+    const fracas_surface *surface;
+    if (point != SURFACE) return FRACAS_OK;
+    TRY(fracas_surface_octant(1, &fineness, &surface));
+    body_copy(surface, mesh);
+    return FRACAS_OK;
+}
+
+/* The octant's study: the sample's columns, and the thickness. */
+static void make_octant_study(void)
+{
+    static const fracas_column column[] = {{"cohesive.law", "", "Law of the interfaces", true},
+                                           {"geometry.thickness", "m", "Thickness of the shell", false}};
+    static const fracas_value value[SAMPLE_POINTS][2] = {
+        {{NAN, "nitsche"}, {NAN, ""}}, {{NAN, "nitsche"}, {thickness, ""}}, {{NAN, "linear"}, {NAN, ""}}};
+    static const fracas_mesh_source octant = {get_octant, NULL};
+    table.ncolumns = 2;
+    table.column = column;
+    for (int p = 0; p < SAMPLE_POINTS; p++) point_row[p].value = value[p];
+    commit(4, 18); /* interfaces of 16 elements in a triangle */
+    merge_with(&octant);
+}
+
+/* What is asked for arrives at the drawing: time, view, gaps, and the thickness of the point. */
+static void bodies_are_drawn_as_asked_for(void **state)
+{
+    (void)state;
+    static const fracas_view view = {225, -30};
+    static const double time = 9e-6;
+    char *said, *wanted, *folder = strdup(sample_path(study, "drawn"));
+    size_t size;
+    fracas_stored_mesh mesh = {0};
+    fracas_record record;
+    fracas_surface_state now;
+    make_octant_study();
+    FILE *out = open_memstream(&said, &size);
+    const fracas_picture_request request = {.point = SURFACE, .replica = 1, .count = 1, .time = &time, .show = FRACAS_SHOW_MESH,
+                                            .view = &view, .explode = 0.15, .folder = folder};
+    OK(fracas_pictures_write(study, &request, out));
+    fclose(out);
+    OK(get_octant(NULL, SURFACE, &mesh));
+    make_record(SURFACE, 1, 18, &record);
+    OK(fracas_surface_state_create(&mesh, &record, time, &now));
+    const fracas_surface_picture picture = {"Point 1, replica 1 at 9.000 \u00b5s", FRACAS_SHOW_MESH, 800, true, &view, 0.15, thickness};
+    out = open_memstream(&wanted, &size);
+    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", out);
+    OK(fracas_surface_picture_write(&mesh, &now, &picture, out));
+    fclose(out);
+    char *svg = (char *)sample_slurp(sample_path(folder, "surface-point-1-replica-1-1.svg"), &size);
+    svg[size] = '\0';
+    assert_string_equal(svg, wanted);
+    fracas_surface_state_clear(&now);
+    fracas_record_clear(&record);
+    fracas_stored_mesh_clear(&mesh);
+    free(svg);
+    free(wanted);
+    free(said);
+    free(folder);
+}
+
+/* The page of the study has `part`, or has it not. */
+static void page_has(const char *part, bool wanted)
+{
+    size_t size;
+    char *page = (char *)sample_slurp(sample_path(study, "report/index.html"), &size);
+    page[size] = '\0';
+    assert_int_equal(strstr(page, part) != NULL, wanted);
+    free(page);
+}
+
+static void report(void)
+{
+    fracas_analysis *analysis;
+    OK(fracas_analysis_create(study, &analysis));
+    OK(fracas_report_write(analysis, study));
+    fracas_analysis_destroy(analysis);
+}
+
+static void the_report_shows_bodies_with_gaps(void **state)
+{
+    (void)state;
+    make_octant_study();
+    report();
+    page_has("Seen from the direction (1, 1, 1), each fragment moved by 0.1 of the way", true);
+    page_has("<figure id=\"surface-point-1-6\">", true);
+    page_has(" mm, fragments apart: 0.1</text>", true);
+    page_has("class=\"shade\"", true);
+}
+
+static void the_report_shows_flat_surfaces_as_they_lie(void **state)
+{
+    (void)state;
+    commit(4, interfaces_of(&shape));
+    merge_with(&source);
+    report();
+    page_has("<figure id=\"surface-point-1-6\">", true);
+    page_has("Seen from", false);
+    page_has("class=\"shade\"", false);
+    page_has("fragments apart", false);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, set_up_surface, tear_down)
 
 int main(void)
@@ -288,7 +397,8 @@ int main(void)
         TEST(meshes_come_back_bit_by_bit),   TEST(order_of_segments_changes_no_mesh),
         TEST(without_surfaces_nothing_is_added), TEST(faulty_meshes_are_refused),
         TEST(faults_of_meshes),              TEST(pictures_of_what_is_not_there),
-        TEST(pictures_and_first_times),
+        TEST(pictures_and_first_times),      TEST(bodies_are_drawn_as_asked_for),
+        TEST(the_report_shows_bodies_with_gaps), TEST(the_report_shows_flat_surfaces_as_they_lie),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

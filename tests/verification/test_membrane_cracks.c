@@ -159,7 +159,7 @@ static fate fate_of(const fracas_model *model, const rates *r, int g, double str
     const double judged = judged_of(by_mean ? r->mean[g] : flux, law);
     fate f = {.onset = strength / judged};
     const double seen = (floor(f.onset / dt) + 1) * dt;
-    if (nitsche) f.peak = by_mean ? fmax(strength, judged_of(flux, law) * seen) : strength;
+    if (nitsche) f.peak = by_mean ? fmax(strength, (judged_of(flux, law) - judged) * seen + strength) : strength;
     else f.peak = judged * seen;
     const double delta_c = law->critical_opening > 0 ? law->critical_opening : 2 * law->fracture_energy / f.peak;
     if (nitsche) f.broken = delta_c * k_n / effective_of(flux, beta_c);

@@ -23,6 +23,7 @@ static const double *node_of(const fracas_surface *surface, size_t element, int 
     return surface->node[surface->element[element * surface->corners + (size_t)k]];
 }
 
+/* (shell.1), (shell.2) */
 void fracas_shell_geometry_at(const fracas_surface *surface, size_t element, double xi, double eta, fracas_shell_geometry *at)
 {
     static const double second[3][6] = FRACAS_TRIANGLE_SECOND_2;

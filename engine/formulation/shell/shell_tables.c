@@ -81,6 +81,7 @@ static void fill_bulk(const fracas_surface *surface, fracas_shell_tables *t, siz
     }
 }
 
+/* (membrane.13) */
 static void fill_mass(const fracas_model *model, fracas_shell_tables *t, size_t e)
 {
     double consistent[SHELL_NODES * SHELL_NODES], *mass = t->mass + 2 * SHELL_NODES * e;
@@ -136,7 +137,7 @@ static void fill_point(const fracas_surface *surface, const fracas_surface_inter
     point[SHELL_L_SS] = 0.5 * (curvature(&at[0], tangent, tangent) + curvature(&at[1], tangent, tangent));
 }
 
-/* K = beta E/(1 - nu^2)/h_s, 1/h_s = (|e|/A- + |e|/A+)/2  (membrane.5) */
+/* (membrane.5), (shell.7) */
 static void fill_joint(const fracas_model *model, fracas_shell_tables *t, size_t i)
 {
     const fracas_spec *spec = &model->spec;

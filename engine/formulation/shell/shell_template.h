@@ -154,21 +154,30 @@ LANES_FUNCTION vd shell_turn(const double *side, const vd u[SHELL_UNKNOWNS])
     return shell_dot(side + SHELL_TURN, along);
 }
 
-/* Resultants of an element at a Gauss point of its edge of which the ends are at the bulk points a, b: n_nn, n_ns, m_nn, m_ns of the
- * side (times the share that its table has), in the order of the element's frame  (membrane.2). */
-LANES_FUNCTION void shell_resultants(const double *slot, const int node[3], const double spread[3], const double *side, vd of[4])
+/* Adds the resultants n_nn, n_ns, m_nn, m_ns of a side at the three Gauss points of its edge (times the share that its table has) to
+ * `of`; the ends of the edge are at the bulk points node[0], node[1], and resultants are linear between them  (membrane.2). */
+LANES_FUNCTION void shell_resultants(const double *slot, const int node[3], const double *table, size_t stride, vd of[SHELL_EDGE][4])
 {
+    static const double edge_point[3] = FRACAS_EDGE_POINTS_2;
     const double *a = slot + node[0] * SHELL_RESULTANTS * LANES, *b = slot + node[1] * SHELL_RESULTANTS * LANES;
     const double *o = slot + (3 - node[0] - node[1]) * SHELL_RESULTANTS * LANES;
-    const vd xx = lanes_set(side[SHELL_SQUARE_X]), yy = lanes_set(side[SHELL_SQUARE_Y]), xy = lanes_set(side[SHELL_PRODUCT]);
-    UNROLL for (int part = 0; part < 2; part++) {
-        vd r[3];
-        UNROLL for (int j = 0; j < 3; j++) {
-            const int at = (3 * part + j) * LANES;
-            r[j] = lanes_set(spread[0]) * lanes_load(a + at) + lanes_set(spread[1]) * lanes_load(b + at) + lanes_set(spread[2]) * lanes_load(o + at);
+    vd at[SHELL_EDGE][SHELL_RESULTANTS];
+    UNROLL for (int j = 0; j < SHELL_RESULTANTS; j++) {
+        const vd first = lanes_load(a + j * LANES), last = lanes_load(b + j * LANES);
+        const vd half_way = lanes_set(2.0 / 3) * (first + last) - lanes_set(1.0 / 3) * lanes_load(o + j * LANES);
+        const vd off = lanes_set(2 * edge_point[2] - 1) * (last - first);
+        at[0][j] = half_way - off;
+        at[1][j] = half_way;
+        at[2][j] = half_way + off;
+    }
+    UNROLL for (int g = 0; g < SHELL_EDGE; g++) {
+        const double *side = table + (size_t)g * stride;
+        const vd xx = lanes_set(side[SHELL_SQUARE_X]), yy = lanes_set(side[SHELL_SQUARE_Y]), xy = lanes_set(side[SHELL_PRODUCT]);
+        UNROLL for (int part = 0; part < 2; part++) {
+            const vd *r = at[g] + 3 * part;
+            of[g][2 * part] += xx * r[0] + yy * r[1] + (xy + xy) * r[2];
+            of[g][2 * part + 1] += xy * (r[1] - r[0]) + (xx - yy) * r[2];
         }
-        of[2 * part] = xx * r[0] + yy * r[1] + (xy + xy) * r[2];
-        of[2 * part + 1] = xy * (r[1] - r[0]) + (xx - yy) * r[2];
     }
 }
 
@@ -181,8 +190,13 @@ LANES_FUNCTION void shell_flux(const shell_context *c, size_t i, const shell_sid
     const double membrane = table[SHELL_STIFFNESS] * h, bending = membrane * (h * h / 12);
     const vd stiff[2] = {lanes_set(s->normal * membrane), lanes_set(s->tangential * membrane)};
     const vd turning[2] = {lanes_set(s->normal * bending), lanes_set(s->tangential * bending)}, shearing = lanes_set(table[SHELL_SHEARING]);
-    vd u[2][SHELL_UNKNOWNS], jump[3][3];
-    UNROLL for (int side = 0; side < 2; side++) shell_load(sides->element[side], u[side]);
+    vd u[2][SHELL_UNKNOWNS], jump[3][3], means[SHELL_EDGE][4];
+    UNROLL for (int g = 0; g < SHELL_EDGE; g++)
+        UNROLL for (int j = 0; j < 4; j++) means[g][j] = lanes_set(0.0);
+    UNROLL for (int side = 0; side < 2; side++) {
+        shell_load(sides->element[side], u[side]);
+        shell_resultants(sides->slot[side], sides->node[side], table + SHELL_POINTS + SHELL_SIDES + side * SHELL_SIDE, SHELL_POINT_TABLE, means);
+    }
     UNROLL for (int n = 0; n < 3; n++)
         UNROLL for (int j = 0; j < 3; j++)
             jump[n][j] = lanes_load(sides->element[1] + (3 * sides->node[1][n] + j) * LANES) -
@@ -192,14 +206,17 @@ LANES_FUNCTION void shell_flux(const shell_context *c, size_t i, const shell_sid
         double shape[3], spread[3], slope[3];
         fracas_edge_shape(2, edge_point[g], shape, spread);
         fracas_edge_slope(edge_point[g], slope);
-        vd q[3], along[3], of[2][4], mean[4];
+        vd q[3], along[3];
+        const vd *mean = means[g];
         UNROLL for (int j = 0; j < 3; j++) {
+            if (g == 1) { /* half-way: the middle node's own */
+                q[j] = jump[2][j];
+                along[j] = jump[1][j] - jump[0][j];
+                continue;
+            }
             q[j] = lanes_set(shape[0]) * jump[0][j] + lanes_set(shape[1]) * jump[1][j] + lanes_set(shape[2]) * jump[2][j];
             along[j] = lanes_set(slope[0]) * jump[0][j] + lanes_set(slope[1]) * jump[1][j] + lanes_set(slope[2]) * jump[2][j];
         }
-        UNROLL for (int side = 0; side < 2; side++)
-            shell_resultants(sides->slot[side], sides->node[side], spread, place + SHELL_SIDES + side * SHELL_SIDE, of[side]);
-        UNROLL for (int j = 0; j < 4; j++) mean[j] = of[0][j] + of[1][j];
         const vd nn = lanes_set(place[SHELL_L_NN]), ns = lanes_set(place[SHELL_L_NS]), ss = lanes_set(place[SHELL_L_SS]);
         shell_point *p = &at[g];
         p->jump[0] = shell_dot(place + SHELL_N, q);
@@ -226,33 +243,32 @@ LANES_FUNCTION void shell_give_side(const double *table, size_t stride, double *
 {
     static const double edge_point[3] = FRACAS_EDGE_POINTS_2;
     const vd zero = lanes_set(0.0);
-    vd force[SHELL_UNKNOWNS], extra[3][SHELL_RESULTANTS];
+    vd force[SHELL_UNKNOWNS], strain[SHELL_EDGE][SHELL_RESULTANTS];
     UNROLL for (int i = 0; i < SHELL_UNKNOWNS; i++) force[i] = zero;
-    UNROLL for (int p = 0; p < 3; p++)
-        UNROLL for (int j = 0; j < SHELL_RESULTANTS; j++) extra[p][j] = zero;
     UNROLL for (int g = 0; g < SHELL_EDGE; g++) {
         const double *side = table + (size_t)g * stride;
-        double shape[3], spread[3];
-        fracas_edge_shape(2, edge_point[g], shape, spread);
         const vd pull[3] = {turned[g] * lanes_set(side[SHELL_TURN]), turned[g] * lanes_set(side[SHELL_TURN + 1]), turned[g] * lanes_set(side[SHELL_TURN + 2])};
         UNROLL for (int k = 0; k < SHELL_NODES; k++)
             UNROLL for (int i = 0; i < 3; i++) force[3 * k + i] += lanes_set(side[SHELL_SLOPE + k]) * pull[i];
         const vd xx = lanes_set(side[SHELL_SQUARE_X]), yy = lanes_set(side[SHELL_SQUARE_Y]), xy = lanes_set(side[SHELL_PRODUCT]);
         UNROLL for (int part = 0; part < 2; part++) {
             const vd nn = work[g][2 * part], ns = work[g][2 * part + 1];
-            const vd strain[3] = {xx * nn - xy * ns, yy * nn + xy * ns, (xy + xy) * nn + (xx - yy) * ns};
-            UNROLL for (int p = 0; p < 3; p++)
-                UNROLL for (int j = 0; j < 3; j++) extra[p][3 * part + j] += lanes_set(spread[p]) * strain[j];
+            strain[g][3 * part] = xx * nn - xy * ns;
+            strain[g][3 * part + 1] = yy * nn + xy * ns;
+            strain[g][3 * part + 2] = (xy + xy) * nn + (xx - yy) * ns;
         }
     }
     double *forces = surface_at(slot, SHELL_SLOT_FORCE);
     UNROLL for (int i = 0; i < SHELL_UNKNOWNS; i++) lanes_store(surface_at(forces, i), lanes_load(surface_at(forces, i)) + force[i]);
     const int bulk[3] = {node[0], node[1], 3 - node[0] - node[1]};
-    UNROLL for (int p = 0; p < 3; p++)
-        UNROLL for (int j = 0; j < SHELL_RESULTANTS; j++) {
+    UNROLL for (int j = 0; j < SHELL_RESULTANTS; j++) { /* as resultants are read */
+        const vd sum = strain[0][j] + strain[1][j] + strain[2][j], off = lanes_set(2 * edge_point[2] - 1) * (strain[2][j] - strain[0][j]);
+        const vd share = lanes_set(2.0 / 3) * sum, extra[3] = {share - off, share + off, lanes_set(-1.0 / 3) * sum};
+        UNROLL for (int p = 0; p < 3; p++) {
             double *to = surface_at(slot, SHELL_SLOT_EXTRA + SHELL_RESULTANTS * bulk[p] + j);
-            lanes_store(to, lanes_load(to) + extra[p][j]);
+            lanes_store(to, lanes_load(to) + extra[p]);
         }
+    }
 }
 
 /* Gives the two elements forces, and strains at their bulk points  (shell.10). */
@@ -275,7 +291,10 @@ LANES_FUNCTION void shell_give(const shell_context *c, size_t i, const shell_sid
         UNROLL for (int j = 0; j < 3; j++) {
             const vd out = lanes_set(place[SHELL_LIFT + j]);
             const vd pull = lanes_set(place[SHELL_N + j]) * n + lanes_set(place[SHELL_S + j]) * s + out * lift, bend = out * twist;
-            UNROLL for (int k = 0; k < 3; k++) force[k][j] += lanes_set(shape[k]) * pull + lanes_set(slope[k]) * bend;
+            UNROLL for (int k = 0; k < 3; k++) {
+                if (shape[k] != 0.0) force[k][j] += lanes_set(shape[k]) * pull;
+                if (slope[k] != 0.0) force[k][j] += lanes_set(slope[k]) * bend;
+            }
         }
         turned[g] = length * p->m[0];
         work[g][0] = length * p->carried_u[0];
@@ -297,21 +316,19 @@ LANES_FUNCTION void shell_give(const shell_context *c, size_t i, const shell_sid
 /* Rim r of element e, whose director does not turn about the edge  (shell.9). */
 LANES_FUNCTION void shell_rim(shell_context *c, size_t e, size_t r)
 {
-    static const double edge_point[3] = FRACAS_EDGE_POINTS_2;
     const double *rim = c->tables->rim + r * (size_t)SHELL_RIM_TABLE;
     const int k = c->tables->rim_edge[r], node[3] = {k, (k + 1) % 3, 3 + k};
     double *slot = c->slots + (e & c->tables->visits.window) * (size_t)(SHELL_SLOT * LANES);
     const vd zero = lanes_set(0.0), stiff = lanes_set(rim[SHELL_RIM_STIFFNESS]);
-    vd u[SHELL_UNKNOWNS], turned[SHELL_EDGE], work[SHELL_EDGE][4];
+    vd u[SHELL_UNKNOWNS], turned[SHELL_EDGE], work[SHELL_EDGE][4], of[SHELL_EDGE][4];
     shell_load(c->elements + e * c->element_size, u);
+    UNROLL for (int g = 0; g < SHELL_EDGE; g++)
+        UNROLL for (int j = 0; j < 4; j++) of[g][j] = zero;
+    shell_resultants(slot, node, rim + SHELL_RIM_POINTS + SHELL_RIM_SIDE, SHELL_RIM_POINT_TABLE, of);
     UNROLL for (int g = 0; g < SHELL_EDGE; g++) {
         const double *point = rim + SHELL_RIM_POINTS + g * SHELL_RIM_POINT_TABLE, *side = point + SHELL_RIM_SIDE;
-        double shape[3], spread[3];
-        vd of[4];
-        fracas_edge_shape(2, edge_point[g], shape, spread);
-        shell_resultants(slot, node, spread, side, of);
-        const vd turn = shell_turn(side, u), length = lanes_set(point[SHELL_RIM_LENGTH]), moment = of[2] + stiff * turn;
-        c->flux += length * (turn * (of[2] + moment));
+        const vd turn = shell_turn(side, u), length = lanes_set(point[SHELL_RIM_LENGTH]), moment = of[g][2] + stiff * turn;
+        c->flux += length * (turn * (of[g][2] + moment));
         turned[g] = length * moment;
         work[g][0] = work[g][1] = work[g][3] = zero;
         work[g][2] = length * turn;
@@ -319,7 +336,7 @@ LANES_FUNCTION void shell_rim(shell_context *c, size_t e, size_t r)
     shell_give_side(rim + SHELL_RIM_POINTS + SHELL_RIM_SIDE, SHELL_RIM_POINT_TABLE, slot, node, turned, work);
 }
 
-/* The layers of a Gauss point by the law  (shell.12) to (shell.15). */
+/* The layers of a Gauss point by the law  (shell.12), (shell.13), (shell.15). */
 LANES_FUNCTION shell_layers shell_layers_point(const shell_context *c, const plane_interface *interface, const shell_point *p, double *fields,
                                                int g, shell_booked *booked)
 {
@@ -393,7 +410,7 @@ __attribute__((noinline, cold, unused)) static void shell_book(const shell_conte
     }
 }
 
-/* The way of an interface at which some lane is cracked, or is about to. `at` holds what every lane does that is not. */
+/* The way of an interface at which some lane is cracked, or is about to  (shell.14). `at` holds what every lane does that is not. */
 LANES_FUNCTION void shell_crack(shell_context *c, size_t i, double *joint, shell_point at[SHELL_EDGE])
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), two = lanes_set(2.0);

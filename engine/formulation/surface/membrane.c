@@ -122,7 +122,7 @@ static double *membrane_strength(const fracas_model *model, const fracas_step *s
     return value_at(&c, step, fracas_membrane_joints_at(&c) + MEMBRANE_STRENGTH, lane);
 }
 
-/* Velocity that node k of element e starts with. */
+/* Velocity that node k of element e starts with  (membrane.17) */
 static double start_velocity(const fracas_model *model, size_t e, size_t k, int i)
 {
     const fracas_membrane_tables *t = tables_of(model);
@@ -219,6 +219,7 @@ static void add_element(const fracas_model *model, const fracas_step *step, int 
     }
 }
 
+/* (membrane.19) */
 static fracas_err membrane_harvest(const fracas_model *model, fracas_step *step, int lane, fracas_record *record)
 {
     return fracas_surface_harvest(model, step, lane, membrane_damage, add_element, record);

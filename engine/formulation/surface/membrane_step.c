@@ -88,6 +88,7 @@ static fracas_err largest_frequency(const fracas_model *model, int contact, doub
     return err;
 }
 
+/* (membrane.16) */
 fracas_err fracas_membrane_critical_step(fracas_model *model)
 {
     double whole, pressed;
