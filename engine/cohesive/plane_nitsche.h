@@ -61,7 +61,8 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
     r.cracked = lanes_or(was_cracked, r.cracks);
     vd peak = state->peak, fresh = at->sigma_c, most = at->sigma_c;
     if (lanes_any(r.cracks)) { /* (cohesive.13) */
-        const vd passed = lanes_sqrt(judged) - at->sigma_c; /* S_m - sigma_c: the step is late by that */
+        /* S_m - sigma_c: the step is late by that; beside an open layer the flux may have been above for long: all of it is the peak */
+        const vd passed = lanes_select(in->opened, zero, lanes_sqrt(judged) - at->sigma_c);
         if (at->onset_mean) fresh = plane_max(lanes_sqrt(plane_onset(at, trial_n, trial_t)) - passed, fresh);
         most = lanes_sqrt(at->k_n * at->energy) + half * (at->k_n * at->opening);
         peak = lanes_select(r.cracks, plane_min(fresh, most), peak);

@@ -52,7 +52,8 @@ static layer_answer layer_of(const layer_law *law, layer *x, const double mean[2
     for (int i = 0; i < 2; i++) whole += q[i] * (m[i] + 0.5 * law->k[i] * q[i]);
     if (x->peak == 0 && judged_of(law->by_mean && !opened ? mean : trial, law->beta_c, 0) > law->sigma_c) {
         const double most = law->opening > 0 ? 0.5 * law->k[0] * law->opening : sqrt(law->k[0] * law->energy);
-        x->peak = law->by_mean ? fmax(judged_of(trial, law->beta_c, 0), law->sigma_c) : law->sigma_c;
+        const double late = opened ? 0 : judged_of(mean, law->beta_c, 0) - law->sigma_c;
+        x->peak = law->by_mean ? fmax(judged_of(trial, law->beta_c, 0) - late, law->sigma_c) : law->sigma_c;
         a.cut = x->peak > most;
         x->peak = fmin(x->peak, most);
     }
@@ -404,9 +405,11 @@ static bool fate_of(const fracas_model *model, size_t i, double strength, const 
         }
         for (int k = 0; k < 3; k++) {
             const double judged = judged_of(flux[k], beta_c, law->friction);
-            if (by_mean) seen[k] = fmin(seen[k], fmax(first + dt, (floor(strength / judged / dt) + 1) * dt)); /* by the flux from then on */
+            const bool beside = by_mean && seen[k] > first; /* a layer that is open: by the flux from then on */
+            if (beside) seen[k] = fmax(first + dt, (floor(strength / judged / dt) + 1) * dt);
+            const double late = beside ? 0 : strength * (seen[k] / opens[k] - 1);
             const double most = law->critical_opening > 0 ? 0.5 * k_n * law->critical_opening : sqrt(k_n * law->fracture_energy);
-            const double peak = fmin(most, by_mean ? fmax(strength, judged * seen[k]) : strength);
+            const double peak = fmin(most, by_mean ? fmax(strength, judged * seen[k] - late) : strength);
             const double delta_c = law->critical_opening > 0 ? law->critical_opening : 2 * law->fracture_energy / peak;
             const double breaks = isfinite(seen[k]) ? k_n * delta_c / effective_of(flux[k], beta_c) : INFINITY;
             *broken = fmax(*broken, breaks);
