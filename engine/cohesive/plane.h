@@ -31,6 +31,7 @@ typedef struct {
 typedef struct {
     vd m_n, m_t; /* Pa */
     vd q_n, q_t; /* m */
+    vmask opened; /* nitsche: the flux is held against the strength even where the mean is to be */
 } plane_input;
 
 typedef struct {

@@ -55,12 +55,14 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
     const vd trial_n = m_n + at->k_n * in->q_n, trial_t = m_t + at->k_t * in->q_t; /* (cohesive.12) */
 
     plane_result r;
-    vd judged = at->onset_mean ? plane_onset(at, in->m_n, in->m_t) : plane_onset(at, trial_n, trial_t);
+    vd judged = at->onset_mean ? lanes_select(in->opened, plane_onset(at, trial_n, trial_t), plane_onset(at, in->m_n, in->m_t))
+                               : plane_onset(at, trial_n, trial_t);
     r.cracks = lanes_and(lanes_lt(at->sigma_c * at->sigma_c, judged), lanes_le(state->peak, zero));
     r.cracked = lanes_or(was_cracked, r.cracks);
     vd peak = state->peak, fresh = at->sigma_c, most = at->sigma_c;
     if (lanes_any(r.cracks)) { /* (cohesive.13) */
-        const vd passed = lanes_sqrt(judged) - at->sigma_c; /* S_m - sigma_c: the step is late by that */
+        /* S_m - sigma_c: the step is late by that; beside an open layer the flux may have been above for long: all of it is the peak */
+        const vd passed = lanes_select(in->opened, zero, lanes_sqrt(judged) - at->sigma_c);
         if (at->onset_mean) fresh = plane_max(lanes_sqrt(plane_onset(at, trial_n, trial_t)) - passed, fresh);
         most = lanes_sqrt(at->k_n * at->energy) + half * (at->k_n * at->opening);
         peak = lanes_select(r.cracks, plane_min(fresh, most), peak);

@@ -24,6 +24,7 @@ typedef struct {
 
 typedef struct {
     double m_n, m_t, q_n, q_t;
+    int opened; /* another layer is */
 } plane_at;
 
 typedef struct {

@@ -40,7 +40,8 @@ __attribute__((unused)) static void LANES_NAME(plane_call)(const plane_case *con
     const plane_interface at = {.k_n = k_n, .k_t = k_t, .sigma_c = sigma_c, .beta_c = beta_c, .mu_c = mu_c, .energy = energy, .opening = opening,
                                 .softness_n = lanes_set(1.0) / k_n, .softness_t = lanes_set(1.0) / k_t, .per_beta_c = lanes_set(1.0) / beta_c,
                                 .onset_mean = kind[0]->onset_mean};
-    const plane_input input = {.m_n = m_n, .m_t = m_t, .q_n = q_n, .q_t = q_t};
+    GATHER(opened, in[l].opened);
+    const plane_input input = {.m_n = m_n, .m_t = m_t, .q_n = q_n, .q_t = q_t, .opened = lanes_lt(lanes_set(0.0), opened)};
     const int friction = kind[0]->mu_c > 0;
     plane_result r;
     if (kind[0]->law == PLANE_NITSCHE) {

@@ -348,6 +348,11 @@ LANES_FUNCTION shell_layers shell_layers_point(const shell_context *c, const pla
                         .dissipated = zero, .created = zero, .rubbed = zero, .spent = zero};
     vd used_n[2], used_m[2];
     UNROLL for (int j = 0; j < 2; j++) all.n[j] = all.m[j] = all.carried_u[j] = all.carried_t[j] = used_n[j] = used_m[j] = zero;
+    /* The mean stress is linear through the thickness and knows nothing of a face that is open: what the layers beside it then carry,
+     * and what cracks them, is the flux  (shell.12) */
+    vmask opened = lanes_lt(one, zero);
+    UNROLL for (int k = 0; k < SHELL_LAYERS; k++)
+        opened = lanes_or(opened, lanes_lt(zero, lanes_load(surface_at(fields, k * s->point_fields + SURFACE_PEAK))));
     UNROLL for (int k = 0; k < SHELL_LAYERS; k++) {
         double *point = surface_at(fields, k * s->point_fields);
         const vd z = lanes_set(place[k] * s->thickness), w = lanes_set(weight[k] * s->thickness), bending = lanes_set(place[k] * s->thickness * per_h3);
@@ -357,7 +362,7 @@ LANES_FUNCTION shell_layers shell_layers_point(const shell_context *c, const pla
             mean[j] = p->mean_n[j] * per_h + bending * p->mean_m[j];
             q[j] = p->jump[j] + z * p->turn[j];
         }
-        const plane_input in = {.m_n = mean[0], .m_t = mean[1], .q_n = q[0], .q_t = q[1]};
+        const plane_input in = {.m_n = mean[0], .m_t = mean[1], .q_n = q[0], .q_t = q[1], .opened = opened};
         all.whole = lanes_and(all.whole, lanes_le(lanes_load(surface_at(point, SURFACE_PEAK)), zero));
         const plane_result r = surface_nitsche(interface, &in, s->friction, point);
         const vd flux_n = mean[0] + interface->k_n * q[0], flux_t = mean[1] + interface->k_t * q[1];

@@ -1,0 +1,517 @@
+/* Cracked interfaces of a shell, whatever its nodes do: tractions, what the flux carries, energies and forces against the law written
+ * once more for one layer and kinematics written once more from the nodes (docs/theory/shell.md, docs/theory/cohesive.md). */
+#include "tests/support/plane.h"
+#include "tests/support/shell_cracks.h"
+
+/* ---- a layer ---- */
+
+typedef struct {
+    double widest, peak; /* delta_max [m], p [Pa] */
+    plane_memory rubbed; /* with friction, by the law that test_plane_laws verifies */
+} layer;
+
+/* What a layer does in a step. */
+typedef struct {
+    double t[2], s[2], flux, stored, dissipated, created, rubbed, spent, midway[2];
+    int cracked, loads, broken, breaks, cut, pressed;
+} layer_answer;
+
+typedef struct {
+    double k[2], sigma_c, beta_c, mu_c, energy, opening;
+    int by_mean;
+} layer_law;
+
+static double effective_of(const double t[2], double beta_c) { return hypot(fmax(0, t[0]), t[1] / beta_c); }
+
+/* What is held against the strength  (cohesive.11) */
+static double judged_of(const double t[2], double beta_c, double mu_c)
+{
+    return t[0] >= 0 ? effective_of(t, beta_c) : fmax(0, fabs(t[1]) - mu_c * fabs(t[0])) / beta_c;
+}
+
+/* Energies of a traction that the law gave: of the flux s, stored in the opening q - s. */
+static void energies_of(const layer_law *law, const double m[2], const double q[2], layer_answer *a)
+{
+    a->flux = a->stored = 0;
+    for (int i = 0; i < 2; i++) {
+        a->s[i] = (a->t[i] - m[i]) / law->k[i];
+        a->flux += m[i] * a->s[i] + 0.5 * law->k[i] * a->s[i] * a->s[i];
+        a->stored += 0.5 * a->t[i] * (q[i] - a->s[i]);
+    }
+}
+
+/* Without friction, by openings: theory of the law, not its code. `opened`: another layer of the point has cracked before. */
+static layer_answer layer_of(const layer_law *law, layer *x, const double mean[2], const double q[2], bool opened)
+{
+    layer_answer a = {.spent = 0};
+    const double old_c = law->opening > 0 ? law->opening : 2 * law->energy / x->peak; /* of the peak it had */
+    const int was_broken = x->peak > 0 && x->widest >= old_c;
+    const double m[2] = {was_broken ? 0 : mean[0], was_broken ? 0 : mean[1]}, trial[2] = {m[0] + law->k[0] * q[0], m[1] + law->k[1] * q[1]};
+    const double s = effective_of(trial, law->beta_c);
+    double whole = 0;
+    for (int i = 0; i < 2; i++) whole += q[i] * (m[i] + 0.5 * law->k[i] * q[i]);
+    if (x->peak == 0 && judged_of(law->by_mean && !opened ? mean : trial, law->beta_c, 0) > law->sigma_c) {
+        const double most = law->opening > 0 ? 0.5 * law->k[0] * law->opening : sqrt(law->k[0] * law->energy);
+        const double late = opened ? 0 : judged_of(mean, law->beta_c, 0) - law->sigma_c;
+        x->peak = law->by_mean ? fmax(judged_of(trial, law->beta_c, 0) - late, law->sigma_c) : law->sigma_c;
+        a.cut = x->peak > most;
+        x->peak = fmin(x->peak, most);
+    }
+    a.pressed = trial[0] < 0;
+    if (x->peak == 0) {
+        for (int i = 0; i < 2; i++) a.midway[i] = a.t[i] = trial[i], a.s[i] = q[i];
+        a.flux = whole;
+        return a;
+    }
+    const double p = x->peak, delta_c = law->opening > 0 ? law->opening : 2 * law->energy / p, was = x->widest;
+    const double reach = (s - p) / (law->k[0] - p / delta_c);
+    double factor, midway;
+    a.cracked = 1;
+    if (reach > x->widest) {
+        a.loads = 1;
+        x->widest = fmin(reach, delta_c);
+        factor = p * (1 - x->widest / delta_c) / s;
+        midway = p * (1 - 0.5 * (was + x->widest) / delta_c) / s;
+    } else {
+        const double stiff = x->widest > 0 ? p * (1 - x->widest / delta_c) / x->widest : INFINITY;
+        midway = factor = isinf(stiff) ? 1 : stiff / (law->k[0] + stiff);
+    }
+    for (int i = 0; i < 2; i++) {
+        const int kept = i == 0 && trial[0] < 0;
+        a.t[i] = trial[i] * (kept ? 1 : factor);
+        a.midway[i] = trial[i] * (kept ? 1 : midway);
+    }
+    energies_of(law, m, q, &a);
+    a.dissipated = 0.5 * p * x->widest;
+    a.spent = 0.5 * p * (x->widest - was);
+    if (a.cut) a.created = a.flux + a.stored + a.dissipated - whole;
+    if (x->widest >= delta_c) {
+        const double held = a.flux + a.stored;
+        a.broken = 1;
+        a.breaks = !was_broken;
+        a.t[0] = law->k[0] * fmin(0, q[0]);
+        a.t[1] = a.s[0] = a.s[1] = a.flux = 0;
+        a.stored = 0.5 * law->k[0] * fmin(0, q[0]) * fmin(0, q[0]);
+        if (a.breaks) a.created += a.stored - held;
+    }
+    return a;
+}
+
+static layer_answer rubbed_layer(const layer_law *law, layer *x, const double mean[2], const double q[2], bool opened)
+{
+    const plane_case kind = {.law = PLANE_NITSCHE, .k_n = law->k[0], .k_t = law->k[1], .sigma_c = law->sigma_c, .beta_c = law->beta_c,
+                             .mu_c = law->mu_c, .energy = law->energy, .opening = law->opening, .onset_mean = law->by_mean};
+    const plane_case *kinds[] = {&kind};
+    const plane_at at = {.m_n = mean[0], .m_t = mean[1], .q_n = q[0], .q_t = q[1], .opened = opened};
+    const double was = x->rubbed.damage;
+    plane_out out;
+    plane_call_1(kinds, &at, &x->rubbed, &out);
+    layer_answer a = {.t = {out.t_n, out.t_t}, .s = {out.s_n, out.s_t}, .flux = out.flux, .stored = out.stored, .dissipated = out.dissipated,
+                      .created = out.created, .rubbed = out.cracked ? out.rubbed : 0, .cracked = out.cracked,
+                      .loads = x->rubbed.damage > was, .broken = out.cracked && x->rubbed.damage >= 1, .breaks = out.breaks, .pressed = out.t_n < 0};
+    x->peak = x->rubbed.peak;
+    return a;
+}
+
+/* ---- a body ---- */
+
+typedef struct {
+    const fracas_model *model;
+    shell_sight *unit; /* [interface][Gauss point][36]: of each displacement of the - element, then of the + element */
+    layer *memory;     /* [interface][Gauss point][layer] */
+    double *strength, *force;
+    double elastic, cohesive, dissipated, created, rubbed, bending;
+    long seen[7]; /* layers: intact, loading, unloading, broken, pressed and broken, pressed and cracked, cut */
+} twin;
+
+static twin twin_of(const fracas_model *model, const fracas_batch *batch)
+{
+    const size_t n = model->interfaces * SHELL_EDGE;
+    twin t = {.model = model, .unit = calloc(36 * n, sizeof *t.unit), .memory = calloc(SHELL_LAYERS * n, sizeof *t.memory),
+              .strength = calloc(model->interfaces, sizeof(double)), .force = calloc(unknowns_of(model), sizeof(double))};
+    assert_true(t.unit && t.memory && t.strength && t.force);
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < 36; j++) {
+            double u[2][SHELL_UNKNOWNS] = {{0}};
+            u[j / 18][j % 18] = 1;
+            t.unit[36 * i + j] = sight_at(model, i / SHELL_EDGE, (int)(i % SHELL_EDGE), (const double *const[2]){u[0], u[1]});
+        }
+    for (size_t i = 0; i < model->interfaces; i++) {
+        size_t stride;
+        t.strength[i] = fracas_batch_strength((fracas_batch *)batch, 0, &stride)[i * stride];
+    }
+    return t;
+}
+
+static void twin_clear(twin *t)
+{
+    free(t->unit);
+    free(t->memory);
+    free(t->strength);
+    free(t->force);
+}
+
+/* K of the bulk times u, by the polarisation of its energy with displacements of `scale`. */
+static void bulk_forces(twin *t, const double *u, double scale)
+{
+    for (size_t e = 0; e < t->model->elements; e++) {
+        double v[SHELL_UNKNOWNS];
+        const double *from = u + SHELL_UNKNOWNS * e;
+        t->elastic += bulk_energy(t->model, e, from);
+        for (int j = 0; j < SHELL_UNKNOWNS; j++) {
+            double energy[2];
+            for (int sign = 0; sign < 2; sign++) {
+                memcpy(v, from, sizeof v);
+                v[j] += sign ? -scale : scale;
+                energy[sign] = bulk_energy(t->model, e, v);
+            }
+            t->force[SHELL_UNKNOWNS * e + (size_t)j] -= (energy[0] - energy[1]) / (2 * scale);
+        }
+    }
+}
+
+static void count(twin *t, const layer_answer *a)
+{
+    if (!a->cracked) t->seen[0]++;
+    else if (a->broken) t->seen[a->pressed ? 4 : 3]++;
+    else t->seen[a->pressed ? 5 : a->loads ? 1 : 2]++;
+    t->seen[6] += a->cut;
+}
+
+static void twin_point(twin *t, size_t i, int g, const double *u)
+{
+    static const double place[SHELL_LAYERS] = {-0.5, 0, 0.5}, weight[SHELL_LAYERS] = {1.0 / 6, 2.0 / 3, 1.0 / 6};
+    const fracas_cohesive *cohesive = &t->model->spec.cohesive;
+    const double h = t->model->spec.geometry.thickness, beta_c = cohesive->coupling;
+    const shell_sight *unit = t->unit + 36 * (3 * i + (size_t)g);
+    const uint32_t *element = t->model->surface->interface[i].element;
+    double shearing;
+    const double spring = spring_of(t->model, i, &shearing) * fmax(1, 1 / (beta_c * beta_c));
+    const layer_law law = {.k = {spring, beta_c * beta_c * spring}, .sigma_c = t->strength[i], .beta_c = beta_c, .mu_c = cohesive->friction,
+                           .energy = cohesive->fracture_energy, .opening = cohesive->critical_opening, .by_mean = cohesive->onset == &fracas_onset_mean};
+    shell_sight at = {.lift = 0};
+    for (int j = 0; j < 36; j++) {
+        const double x = u[SHELL_UNKNOWNS * element[j / 18] + (size_t)j % 18];
+        for (int k = 0; k < 2; k++) {
+            at.n[k] += unit[j].n[k] * x;
+            at.m[k] += unit[j].m[k] * x;
+            at.jump[k] += unit[j].jump[k] * x;
+            at.turn[k] += unit[j].turn[k] * x;
+        }
+        at.lift += unit[j].lift * x;
+    }
+    double n[2] = {0}, m[2] = {0}, carried_u[2] = {0}, carried_t[2] = {0}, half_n[2] = {0}, half_m[2] = {0}, spent = 0;
+    int broken = 1, breaks = 0;
+    const layer *layers = &t->memory[(3 * i + (size_t)g) * SHELL_LAYERS];
+    const bool opened = layers[0].peak > 0 || layers[1].peak > 0 || layers[2].peak > 0;
+    for (int k = 0; k < SHELL_LAYERS; k++) {
+        const double z = place[k] * h, w = weight[k] * h;
+        double mean[2], q[2];
+        for (int d = 0; d < 2; d++) {
+            mean[d] = at.n[d] / h + 12 * z * at.m[d] / (h * h * h);
+            q[d] = at.jump[d] + z * at.turn[d];
+        }
+        layer *memory = &t->memory[(3 * i + (size_t)g) * SHELL_LAYERS + (size_t)k];
+        const layer_answer a = law.mu_c > 0 ? rubbed_layer(&law, memory, mean, q, opened) : layer_of(&law, memory, mean, q, opened);
+        count(t, &a);
+        for (int d = 0; d < 2; d++) {
+            n[d] += w * a.t[d];
+            m[d] += w * z * a.t[d];
+            carried_u[d] += weight[k] * a.s[d];
+            carried_t[d] += 12 / (h * h) * weight[k] * z * a.s[d];
+            half_n[d] += w * a.midway[d];
+            half_m[d] += w * z * a.midway[d];
+        }
+        t->elastic += unit->length * w * a.flux;
+        t->cohesive += unit->length * w * a.stored;
+        t->dissipated += unit->length * w * (a.dissipated + a.rubbed);
+        t->created += unit->length * w * a.created;
+        t->rubbed += unit->length * w * a.rubbed;
+        spent += unit->length * w * a.spent;
+        broken = broken && a.broken;
+        breaks = breaks || a.breaks;
+    }
+    const double sheared = 0.5 * unit->length * shearing * at.lift * at.lift;
+    if (!broken) t->elastic += sheared;
+    if (broken && breaks) t->created -= sheared;
+    const double stretched = fmax(0, half_n[0] * at.jump[0] + half_n[1] * at.jump[1]), bent = fmax(0, half_m[0] * at.turn[0] + half_m[1] * at.turn[1]);
+    if (spent > 0) t->bending += spent * bent / (stretched + bent);
+    for (int j = 0; j < 36; j++) {
+        double work = broken ? 0 : shearing * at.lift * unit[j].lift;
+        for (int d = 0; d < 2; d++)
+            work += n[d] * unit[j].jump[d] + m[d] * unit[j].turn[d] + carried_u[d] * unit[j].n[d] + carried_t[d] * unit[j].m[d];
+        t->force[SHELL_UNKNOWNS * element[j / 18] + (size_t)j % 18] -= unit->length * work;
+    }
+}
+
+static void twin_evaluate(twin *t, const double *u, double scale)
+{
+    t->elastic = t->cohesive = t->dissipated = t->created = t->rubbed = t->bending = 0;
+    memset(t->force, 0, unknowns_of(t->model) * sizeof *t->force);
+    bulk_forces(t, u, scale);
+    for (size_t i = 0; i < t->model->interfaces; i++)
+        for (int g = 0; g < SHELL_EDGE; g++) twin_point(t, i, g, u);
+}
+
+/* ---- walks ---- */
+
+enum { SEGMENTS = 5, STEPS = 40 };
+
+/* Forces are the slope of Pi + dissipated, along any direction: central differences over 2e-7 of the displacements, in which Pi is
+ * quadratic but for points that turn from loading to unloading (a share of 1e-7 of the force), with 1e-16/1e-7 of round-off. */
+static double slope_error(fracas_batch *batch, const double *u, double scale, const fracas_stream *stream, uint64_t *draw)
+{
+    const size_t n = unknowns_of(batch->model);
+    shell_answer here = {.force = calloc(n, sizeof(double))}, there = {.force = calloc(n, sizeof(double))};
+    double *direction = calloc(n, sizeof *direction), *moved = calloc(n, sizeof *moved), energy[2], worst = 0;
+    assert_true(here.force && there.force && direction && moved);
+    look_at(batch, u, &here);
+    for (int trial = 0; trial < 4; trial++) {
+        double power = 0, size = 0;
+        for (size_t i = 0; i < n; i++) direction[i] = 2 * fracas_stream_uniform(stream, (*draw)++) - 1;
+        for (int sign = 0; sign < 2; sign++) {
+            for (size_t i = 0; i < n; i++) moved[i] = u[i] + (sign ? -1 : 1) * 1e-7 * scale * direction[i];
+            look_at(batch, moved, &there);
+            energy[sign] = there.elastic + there.cohesive + there.dissipated;
+            assert_true(there.created == 0 && here.created == 0);
+        }
+        for (size_t i = 0; i < n; i++) {
+            power -= here.force[i] * direction[i];
+            size += fabs(here.force[i]);
+        }
+        worst = fmax(worst, fabs((energy[0] - energy[1]) / (2e-7 * scale) - power) / size);
+    }
+    free(here.force);
+    free(there.force);
+    free(direction);
+    free(moved);
+    return worst;
+}
+
+static double relative(double a, double b, double scale) { return fabs(a - b) / scale; }
+
+/* Straight from one random state to the next, the third of which is a tenth of the second: it unloads. Energies are sums of some
+ * thousand terms of which each has, through stresses that are differences of displacements, 1e-13 of it: 1e-11. */
+static void walk(const fracas_spec *spec, double scale, double distortion, long seen[7], double worst[3])
+{
+    fracas_model *model = shell_model(*spec, distortion, 3);
+    fracas_batch *batch = lane_of(model, 0.3, 5);
+    assert_ok(fracas_batch_begin(batch));
+    const size_t n = unknowns_of(model);
+    twin t = twin_of(model, batch);
+    shell_answer answer = {.force = calloc(n, sizeof(double))};
+    double *from = calloc(n, sizeof *from), *to = calloc(n, sizeof *to), *u = calloc(n, sizeof *u), size = 0, largest = 0, bending[2] = {0};
+    assert_true(answer.force && from && to && u);
+    const fracas_stream stream = {.seed = 8, .purpose = FRACAS_PURPOSE_MESH};
+    uint64_t draw = 0;
+    for (int segment = 0; segment < SEGMENTS; segment++) {
+        for (size_t i = 0; i < n; i++) to[i] = segment == 2 ? 0.1 * from[i] : scale * (2 * fracas_stream_uniform(&stream, draw++) - 1);
+        for (int step = 1; step <= STEPS; step++) {
+            const double x = segment == 0 ? pow((double)step / STEPS, 3) : (double)step / STEPS; /* so that onsets are not all in one step */
+            for (size_t i = 0; i < n; i++) u[i] = (1 - x) * from[i] + x * to[i];
+            evaluate(batch, u, &answer);
+            twin_evaluate(&t, u, scale);
+            for (size_t i = 0; i < n; i++) largest = fmax(largest, fabs(t.force[i]));
+            size = fmax(size, fmax(t.elastic + t.cohesive, t.dissipated));
+            for (size_t i = 0; i < n; i++) worst[0] = fmax(worst[0], relative(answer.force[i], t.force[i], largest));
+            worst[1] = fmax(worst[1], relative(answer.elastic, t.elastic, size));
+            worst[1] = fmax(worst[1], relative(answer.cohesive, t.cohesive, size));
+            /* the sum of what rubs so far is in the step, what layers rub now in the twin */
+            worst[1] = fmax(worst[1], relative(answer.dissipated - batch->step.rubbed[0] + answer.rubbed, t.dissipated, size));
+            worst[1] = fmax(worst[1], relative(answer.rubbed, t.rubbed, size));
+            worst[1] = fmax(worst[1], relative(answer.created, t.created, size));
+            if (spec->cohesive.friction == 0) worst[1] = fmax(worst[1], relative(answer.bending, t.bending, size));
+            bending[0] += answer.bending;
+            assert_true(answer.bending >= 0);
+        }
+        memcpy(from, to, n * sizeof *from);
+        if (spec->cohesive.friction == 0) {
+            for (size_t i = 0; i < n; i++) u[i] *= 0.999; /* back a little, and until no layer cracks beside one that has */
+            for (int again = 0; again < 3; again++) {
+                evaluate(batch, u, &answer);
+                twin_evaluate(&t, u, scale);
+            }
+            worst[2] = fmax(worst[2], slope_error(batch, u, scale, &stream, &draw));
+        }
+    }
+    bending[1] = t.dissipated;
+    for (int i = 0; i < 7; i++) seen[i] += t.seen[i];
+    print_message("%-7s onset %s, beta_c %.1f, mu_c %.1f, %s: forces within %.1e, energies %.1e, slopes %.1e; bending %.2f of it; layers "
+                  "%ld %ld %ld %ld %ld %ld %ld\n", spec->geometry.shape->name, spec->cohesive.onset->name, spec->cohesive.coupling,
+                  spec->cohesive.friction, spec->cohesive.critical_opening > 0 ? "delta_c" : "G_c", worst[0], worst[1], worst[2],
+                  bending[0] / bending[1], t.seen[0], t.seen[1], t.seen[2], t.seen[3], t.seen[4], t.seen[5], t.seen[6]);
+    free(from);
+    free(to);
+    free(u);
+    free(answer.force);
+    twin_clear(&t);
+    fracas_batch_destroy(batch);
+    fracas_model_destroy(model);
+}
+
+static void interfaces_do_what_their_layers_do(void **unused)
+{
+    (void)unused;
+    static const fracas_kind *const shapes[] = {&fracas_shape_plate, &fracas_shape_annulus, &fracas_shape_sphere};
+    static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};
+    static const double coupling[] = {1, 0.6, 1.7};
+    long seen[7] = {0};
+    for (int which = 0; which < 12; which++) {
+        fracas_spec spec = brittle_shell(shapes[which % 3], 1);
+        double worst[3] = {0};
+        spec.cohesive.onset = onsets[which % 2];
+        spec.cohesive.coupling = coupling[(which + which / 3) % 3];
+        if (which / 3 % 2) spec.cohesive.friction = 0.4;
+        if (which / 6) {
+            spec.cohesive.fracture_energy = 0;
+            spec.cohesive.critical_opening = 1.2e-6;
+        }
+        walk(&spec, 8e-7, which % 3 == 0 ? 0 : 0.1, seen, worst);
+        assert_true(worst[0] < 1e-11 && worst[1] < 1e-11 && worst[2] < 1e-6);
+    }
+    for (int i = 0; i < 7; i++) assert_true(seen[i] > 100);
+}
+
+/* ---- when ---- */
+
+/* When an interface cracks and breaks, if every node moves with a velocity of its own: mean tractions and jumps grow as t, but what the
+ * law keeps from an onset is that of the step at which it was seen. INFINITY: never. False where a layer breaks in the step of its
+ * onset, or slips while it is pressed: then times are not such crossings. */
+static bool fate_of(const fracas_model *model, size_t i, double strength, const double *velocity, double *onset, double *broken)
+{
+    const fracas_cohesive *law = &model->spec.cohesive;
+    const uint32_t *element = model->surface->interface[i].element;
+    const double h = model->spec.geometry.thickness, dt = model->time_step, beta_c = law->coupling;
+    double shearing;
+    const double k_n = spring_of(model, i, &shearing) * fmax(1, 1 / (beta_c * beta_c)), k_t = beta_c * beta_c * k_n;
+    bool ok = true;
+    *onset = INFINITY;
+    *broken = 0;
+    for (int g = 0; g < SHELL_EDGE; g++) {
+        const shell_sight r = sight_at(model, i, g, (const double *const[2]){velocity + 18 * element[0], velocity + 18 * element[1]});
+        const bool by_mean = law->onset == &fracas_onset_mean;
+        double flux[3][2], opens[3], seen[3], first = INFINITY;
+        for (int k = 0; k < 3; k++) {
+            const double z = 0.5 * h * (k - 1);
+            double mean[2];
+            for (int d = 0; d < 2; d++) {
+                mean[d] = r.n[d] / h + 12 * z * r.m[d] / (h * h * h);
+                flux[k][d] = mean[d] + (d ? k_t : k_n) * (r.jump[d] + z * r.turn[d]);
+            }
+            opens[k] = strength / judged_of(by_mean ? mean : flux[k], beta_c, law->friction);
+            seen[k] = (floor(opens[k] / dt) + 1) * dt;
+            first = fmin(first, seen[k]);
+            *onset = fmin(*onset, opens[k]);
+        }
+        for (int k = 0; k < 3; k++) {
+            const double judged = judged_of(flux[k], beta_c, law->friction);
+            const bool beside = by_mean && seen[k] > first; /* a layer that is open: by the flux from then on */
+            if (beside) seen[k] = fmax(first + dt, (floor(strength / judged / dt) + 1) * dt);
+            const double late = beside ? 0 : strength * (seen[k] / opens[k] - 1);
+            const double most = law->critical_opening > 0 ? 0.5 * k_n * law->critical_opening : sqrt(k_n * law->fracture_energy);
+            const double peak = fmin(most, by_mean ? fmax(strength, judged * seen[k] - late) : strength);
+            const double delta_c = law->critical_opening > 0 ? law->critical_opening : 2 * law->fracture_energy / peak;
+            const double breaks = isfinite(seen[k]) ? k_n * delta_c / effective_of(flux[k], beta_c) : INFINITY;
+            *broken = fmax(*broken, breaks);
+            ok = ok && (!isfinite(seen[k]) || (breaks > seen[k] && (law->friction == 0 || flux[k][0] > 0)));
+        }
+    }
+    return ok;
+}
+
+/* The mean of an interface's damage by the weights of its points and layers; 1 only when all are. */
+static double damage_of(const fracas_batch *batch, size_t i)
+{
+    static const double along[SHELL_EDGE] = {5.0 / 18, 8.0 / 18, 5.0 / 18}, across[SHELL_LAYERS] = {1.0 / 6, 2.0 / 3, 1.0 / 6};
+    double damage = 0;
+    for (int p = 0; p < SHELL_EDGE * SHELL_LAYERS; p++) damage += along[p / 3] * across[p % 3] * *fracas_shell_point(batch->model, &batch->step, i, p / 3, p % 3, SURFACE_DAMAGE, 0);
+    return damage;
+}
+
+/* Every node of a body moves with a velocity of its own, and 100 m/s beside, which does not matter but lets a ledger pass which cannot
+ * close with a motion that forces do not change. What is crossed is linear in t: round-off of stresses, which are differences of
+ * displacements up to 30 times as large as those over an element, and of sums of some 1000 steps, and 1.1e-16 of the displacements by
+ * those 100 m/s, which are 1000 times as large: 1e-10 of the time, and ten times that
+ * for an onset by what shear has over friction. */
+static void check_times(const fracas_spec *spec, double distortion, double worst[2], long counts[2])
+{
+    fracas_model *model = shell_model(*spec, distortion, 3);
+    const size_t n = unknowns_of(model);
+    const double dt = model->time_step, speed = spec->cohesive.onset == &fracas_onset_flux || spec->cohesive.critical_opening > 0 ? 2.5 : 1;
+    for (size_t e = 0; e < model->elements; e++) shell_tables(model)->held[e] = shell_tables(model)->fixed[e] = 0x3ffff;
+    double *velocity = calloc(n, sizeof *velocity);
+    assert_non_null(velocity);
+    const fracas_stream stream = {.seed = 12, .purpose = FRACAS_PURPOSE_MESH};
+    for (uint64_t trial = 0; trial < 160 / model->interfaces; trial++) {
+        const bool pressed = spec->cohesive.friction > 0 && trial % 2; /* and sheared at random */
+        for (size_t i = 0; i < n; i++) velocity[i] = speed * (pressed ? 8e-7 : 1e-7) / (200 * dt) * (2 * fracas_stream_uniform(&stream, trial * n + i) - 1);
+        for (size_t i = 0; i < n; i++) { /* elements fly apart and stretch, so that much opens */
+            const double *element = node_at(model, i / 18, 0), *other = node_at(model, i / 18, 1), *third = node_at(model, i / 18, 2);
+            const double centre = (element[i % 3] + other[i % 3] + third[i % 3]) / 3;
+            velocity[i] += (pressed ? -0.3 : 1) * speed * (2.1e-3 * centre + 1.5e-3 * (node_at(model, i / 18, i % 18 / 3)[i % 3] - centre)) / (200 * dt);
+        }
+        fracas_batch *batch = lane_of(model, 0.3, trial);
+        double end = 0, onset, broken;
+        for (size_t i = 0; i < model->interfaces; i++) {
+            size_t stride;
+            const double strength = fracas_batch_strength(batch, 0, &stride)[i * stride];
+            if (fate_of(model, i, strength, velocity, &onset, &broken) && isfinite(broken)) end = fmax(end, broken);
+            if (isfinite(onset)) end = fmax(end, onset);
+        }
+        model->spec.time.end = fmin(end + 1.5 * dt, 2000 * dt);
+        fracas_record record;
+        fracas_record_init(&record);
+        assert_ok(fracas_batch_begin(batch));
+        for (size_t i = 0; i < n; i++) *shell_state(batch, i / 18, SURFACE_V, i % 18) = 100 + velocity[i];
+        run_to_end(batch, &record);
+        assert_int_equal(record.outcome == FRACAS_ENERGY_DRIFT, 0);
+        double first = INFINITY;
+        for (size_t i = 0; i < model->interfaces; i++) {
+            const fracas_interface_row *row = &record.interface[i];
+            const bool breaks = fate_of(model, i, row->strength, velocity, &onset, &broken);
+            first = fmin(first, isnan(row->onset_time) ? INFINITY : row->onset_time);
+            assert_true(fabs(row->damage - damage_of(batch, i)) < 1e-15 && (row->damage == 1) == !isnan(row->break_time));
+            if (onset > record.end_time) assert_true(isnan(row->onset_time));
+            else worst[0] = fmax(worst[0], fabs(row->onset_time / onset - 1)), counts[0]++;
+            if (!breaks) continue;
+            if (broken > record.end_time) assert_true(isnan(row->break_time) && row->damage < 1);
+            else worst[1] = fmax(worst[1], fabs(row->break_time / broken - 1)), counts[1]++;
+        }
+        assert_true(isinf(first) ? isnan(record.onset_time) : record.onset_time == first);
+        fracas_record_clear(&record);
+        fracas_batch_destroy(batch);
+    }
+    free(velocity);
+    fracas_model_destroy(model);
+}
+
+static void onsets_and_breaks_come_when_they_must(void **unused)
+{
+    (void)unused;
+    static const fracas_kind *const shapes[] = {&fracas_shape_plate, &fracas_shape_annulus, &fracas_shape_sphere};
+    static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};
+    for (int which = 0; which < 12; which++) {
+        fracas_spec spec = brittle_shell(shapes[which % 3], 1);
+        double worst[2] = {0};
+        long counts[2] = {0};
+        spec.cohesive.onset = onsets[which % 2];
+        spec.cohesive.coupling = which / 3 % 2 ? 0.6 : 1.5;
+        spec.cohesive.friction = which / 6 ? 0.3 : 0;
+        spec.time.integrator = which / 3 % 2 ? &fracas_integrator_hulbert_chung : &fracas_integrator_central_difference;
+        if (which / 6) {
+            spec.cohesive.fracture_energy = 0;
+            spec.cohesive.critical_opening = 1.2e-6;
+        }
+        check_times(&spec, which % 3 == 0 ? 0 : 0.1, worst, counts);
+        print_message("%-7s onset %s, beta_c %.1f, mu_c %.1f: %ld onsets within %.1e, %ld breaks within %.1e\n", spec.geometry.shape->name,
+                      spec.cohesive.onset->name, spec.cohesive.coupling, spec.cohesive.friction, counts[0], worst[0], counts[1], worst[1]);
+        assert_true(counts[0] > 100 && counts[1] > 20);
+        assert_true(worst[0] < 1e-9 && worst[1] < 1e-10);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(interfaces_do_what_their_layers_do), cmocka_unit_test(onsets_and_breaks_come_when_they_must)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
