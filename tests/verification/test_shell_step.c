@@ -128,8 +128,47 @@ static void edges_hold_what_they_should(void **unused)
         }
 }
 
+/* `how`: the angle by which the plate is turned about y, out of the plane z = 0 [rad]. */
+static void tilted_map(const void *how, double s, double t, double x[3])
+{
+    const double angle = *(const double *)how;
+    x[0] = s * cos(angle);
+    x[1] = t;
+    x[2] = s * sin(angle);
+}
+
+/* A symmetry or diaphragm lies in a plane x, y or z = const that the shell meets at a right angle: the edge s = 1 is in a plane x = const
+ * and in one z = const, which only plates that lie or stand meet so. An octant of one element passes: its edges lean by less than coarse meshes may. */
+static void oblique_edges_are_refused(void **unused)
+{
+    (void)unused;
+    const double degrees[] = {0, 30, 45, 60, 90};
+    for (int k = 0; k < 5; k++)
+        for (int which = 0; which < 2; which++) {
+            const double angle = degrees[k] * PI / 180;
+            fracas_spec spec = shell_spec(&fracas_shape_file);
+            fracas_model *free_one = grid_model(&spec, &(shell_grid){.nx = 2, .ny = 2, .map = tilted_map, .how = &angle}), *model = NULL;
+            gmsh_file file = gmsh_write(free_one->surface, false, true, false);
+            const fracas_attachment mesh = {.path = "tilted", .text = file.bytes, .size = file.size};
+            spec.geometry.file = &mesh;
+            spec.geometry.edge[2] = which ? &fracas_edge_diaphragm : &fracas_edge_symmetry;
+            spec.mesh = (fracas_mesh){.spacing = &fracas_spacing_given};
+            const fracas_err err = fracas_model_create(&spec, &model);
+            assert_int_equal(err, k == 0 || k == 4 ? FRACAS_OK : FRACAS_USAGE);
+            if (err) assert_non_null(strstr(fracas_message(), "right angle"));
+            if (!err) fracas_model_destroy(model);
+            free(file.bytes);
+            fracas_model_destroy(free_one);
+        }
+    fracas_spec spec = shell_spec(&fracas_shape_sphere);
+    spec.geometry.part = &fracas_part_octant;
+    spec.mesh.divisions = 1;
+    fracas_model_destroy(shell_model(spec, 0, 0));
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_step_is_the_operator), cmocka_unit_test(edges_hold_what_they_should)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_step_is_the_operator), cmocka_unit_test(edges_hold_what_they_should),
+                                       cmocka_unit_test(oblique_edges_are_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
