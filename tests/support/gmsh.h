@@ -172,17 +172,17 @@ static inline void gmsh_elements(gmsh_file *f, const fracas_surface *s)
 {
     const int line = s->order == 1 ? 1 : 8, triangle = s->order == 1 ? 2 : 9;
     gmsh_text(f, "$Elements\n");
-    const size_t all = s->nelements + s->nborders + 2;
+    const size_t lines = s->nborders ? s->nborders + 1 : 0, all = s->nelements + lines + 1;
     if (!f->is_4) gmsh_count(f, all);
     if (f->is_4) {
-        gmsh_long(f, (int64_t)s->nborders + 3), gmsh_long(f, (int64_t)all), gmsh_long(f, 1), gmsh_long(f, 99999);
+        gmsh_long(f, (int64_t)lines + 2), gmsh_long(f, (int64_t)all), gmsh_long(f, 1), gmsh_long(f, 99999);
         gmsh_line_end(f);
     }
     gmsh_block(f, 0, 1, 15, 1);
     gmsh_one(f, 1, 15, 0, 1);
     gmsh_name(f, 7);
     gmsh_line_end(f);
-    for (size_t i = 0; i <= s->nborders; i++) {
+    for (size_t i = 0; i < lines; i++) {
         const fracas_surface_border *b = &s->border[i ? i - 1 : 0];
         const int group = i ? b->tag : 0, curve = i ? b->tag : 5;
         gmsh_block(f, 1, curve, line, 1);

@@ -178,7 +178,9 @@ static void fill_rim(const fracas_model *model, fracas_shell_tables *t, const fr
     }
 }
 
-/* The axis along the normal of an edge in a plane of symmetry or a diaphragm; 3: it lies in no such plane. */
+#define UPRIGHT 0.9 /* least cosine: bent edges of coarse meshes are off by some degrees */
+
+/* The axis along the normal of an edge in a plane of symmetry or a diaphragm; 3: it lies in no such plane, or leans on it. */
 static int axis_of(const fracas_surface *surface, const fracas_surface_border *border)
 {
     double xi, eta, tangent[3], normal[3];
@@ -192,7 +194,8 @@ static int axis_of(const fracas_surface *surface, const fracas_surface_border *b
         if (fabs(normal[i]) > fabs(normal[axis])) axis = i;
     const uint32_t *node = surface->element + border->element * surface->corners, k = border->edge;
     const double *a = surface->node[node[k]], *b = surface->node[node[(k + 1) % 3]], *c = surface->node[node[3 + k]];
-    return fmax(fabs(b[axis] - a[axis]), fabs(c[axis] - a[axis])) <= 1e-9 * speed ? axis : 3;
+    const bool is_in_plane = fmax(fabs(b[axis] - a[axis]), fabs(c[axis] - a[axis])) <= 1e-9 * speed;
+    return is_in_plane && fabs(normal[axis]) >= UPRIGHT ? axis : 3;
 }
 
 static fracas_err hold_edge(const fracas_model *model, fracas_shell_tables *t, const fracas_surface_border *border, const fracas_kind *kind)

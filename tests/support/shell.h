@@ -1,0 +1,252 @@
+/* Uncracked shells: their models, on meshes that a map bends or from the engine's makers, and K as an operator
+ * (docs/theory/shell.md). */
+#ifndef FRACAS_TESTS_SUPPORT_SHELL_H
+#define FRACAS_TESTS_SUPPORT_SHELL_H
+
+#include "engine/formulation/shell/shell.h"
+#include "engine/formulation/shell/geometry.h"
+#include "engine/integrator/integrator.h"
+#include "engine/mesh/make.h"
+#include "tests/support/bar.h"
+#include "tests/support/gmsh.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+#define DISTORTION 0.2
+
+/* Steel-like in units of its own, thickness 0.1; beta 5, beta_shear 1; never cracks. */
+static inline fracas_spec shell_spec(const fracas_kind *shape)
+{
+    return (fracas_spec){
+        .formulation = &fracas_formulation_shell.kind,
+        .geometry = {.shape = shape, .part = &fracas_part_whole, .thickness = 0.1, .radius = 1, .width = 1, .height = 1},
+        .mesh = {.spacing = &fracas_spacing_triangles, .order = 2},
+        .material = {.young = 200, .density = 2, .poisson = 0.3},
+        .cohesive = {.law = &fracas_law_nitsche, .fracture_energy = 1e12, .beta = 5, .beta_shear = 1, .onset = &fracas_onset_mean, .coupling = 1},
+        .loading = {.type = &fracas_loading_expansion, .rate = 0, .ratio = 1, .start = &fracas_start_moving},
+        .time = {.stop = &fracas_stop_time, .end = 1, .safety = 0.5, .integrator = &fracas_integrator_central_difference,
+                 .spectral_radius = 0.8, .mass = &fracas_mass_lumped}};
+}
+
+/* Its model; inner vertices moved by at most `distortion` of the local edge, by random numbers of this seed. */
+static inline fracas_model *shell_model(fracas_spec spec, double distortion, uint64_t seed)
+{
+    const fracas_stream stream = {.seed = seed, .purpose = FRACAS_PURPOSE_MESH};
+    fracas_model *model = NULL;
+    size_t count = 0;
+    spec.mesh.amplitude = distortion;
+    if (spec.mesh.spacing == &fracas_spacing_triangles) assert_ok(fracas_mesh_noise_count(&spec, &count));
+    double *noise = malloc((count + 1) * sizeof *noise);
+    assert_non_null(noise);
+    for (size_t i = 0; i < count; i++) noise[i] = 2 * fracas_stream_uniform(&stream, i) - 1;
+    spec.mesh.noise = count ? noise : NULL;
+    spec.mesh.nnoise = count;
+    assert_ok(fracas_model_create(&spec, &model));
+    free(noise);
+    return model;
+}
+
+/* The model of a surface as a mesh file. */
+static inline fracas_model *shell_of(fracas_spec spec, const fracas_surface *surface)
+{
+    gmsh_file file = gmsh_write(surface, false, true, false);
+    const fracas_attachment mesh = {.path = "mesh", .text = file.bytes, .size = file.size};
+    spec.geometry.shape = &fracas_shape_file;
+    spec.geometry.file = &mesh;
+    spec.mesh = (fracas_mesh){.spacing = &fracas_spacing_given};
+    fracas_model *model = shell_model(spec, 0, 0);
+    model->spec.geometry.file = NULL; /* it is gone */
+    free(file.bytes);
+    return model;
+}
+
+/* ---- a rectangle of nx x ny cells, two triangles each, that a map of [0, 1]^2 puts in space ---- */
+
+typedef void shell_map(const void *how, double s, double t, double x[3]);
+
+typedef struct {
+    size_t nx, ny;
+    shell_map *map;
+    const void *how;
+    double distortion; /* of inner vertices, in cells; middles of edges stay in the middle, before the map */
+    uint64_t seed;
+    int diagonals; /* 0: alternate, 1: all along s = t, 2: all across */
+} shell_grid;
+
+static inline size_t grid_node(const shell_grid *g, size_t i, size_t j) { return j * (2 * g->nx + 1) + i; }
+
+static inline void grid_places(const shell_grid *g, double (*at)[2])
+{
+    uint64_t noise = g->seed + 1;
+    const size_t nx = 2 * g->nx, ny = 2 * g->ny;
+    for (size_t j = 0; j <= ny; j += 2)
+        for (size_t i = 0; i <= nx; i += 2)
+            for (int c = 0; c < 2; c++) {
+                const bool inner = i > 0 && j > 0 && i < nx && j < ny;
+                const double move = inner ? g->distortion * (2 * next_share(&noise) - 1) : 0;
+                at[grid_node(g, i, j)][c] = c ? ((double)j / 2 + move) / (double)g->ny : ((double)i / 2 + move) / (double)g->nx;
+            }
+}
+
+/* Which way the cell's diagonal goes: from its corner of the smallest s, t to that of the largest. */
+static inline bool goes_up(const shell_grid *g, size_t i, size_t j)
+{
+    return g->diagonals == 1 || (g->diagonals == 0 && (i + j) % 2 == 0);
+}
+
+/* Tags: 1 s = 0, 2 s = 1, 3 t = 0, 4 t = 1. The caller frees. */
+static inline fracas_surface_tag *grid_tags(const shell_grid *g, size_t *count)
+{
+    fracas_surface_tag *tag = malloc(2 * (g->nx + g->ny) * sizeof *tag), *put = tag;
+    assert_non_null(tag);
+    for (size_t j = 0; j < g->ny; j++)
+        for (int side = 0; side < 2; side++) {
+            const size_t i = side ? 2 * g->nx : 0;
+            *put++ = (fracas_surface_tag){{(uint32_t)grid_node(g, i, 2 * j), (uint32_t)grid_node(g, i, 2 * j + 2)}, 1 + side};
+        }
+    for (size_t i = 0; i < g->nx; i++)
+        for (int side = 0; side < 2; side++) {
+            const size_t j = side ? 2 * g->ny : 0;
+            *put++ = (fracas_surface_tag){{(uint32_t)grid_node(g, 2 * i, j), (uint32_t)grid_node(g, 2 * i + 2, j)}, 3 + side};
+        }
+    *count = (size_t)(put - tag);
+    return tag;
+}
+
+static inline uint32_t *grid_elements(const shell_grid *g, double (*at)[2])
+{
+    uint32_t *element = malloc(12 * g->nx * g->ny * sizeof *element), *put = element;
+    assert_non_null(element);
+    for (size_t j = 0; j < g->ny; j++)
+        for (size_t i = 0; i < g->nx; i++) {
+            const size_t corner[4][2] = {{2 * i, 2 * j}, {2 * i + 2, 2 * j}, {2 * i + 2, 2 * j + 2}, {2 * i, 2 * j + 2}};
+            const int up[2][3] = {{0, 1, 2}, {0, 2, 3}}, down[2][3] = {{0, 1, 3}, {1, 2, 3}};
+            for (int half = 0; half < 2; half++) {
+                const int *c = goes_up(g, i, j) ? up[half] : down[half];
+                for (int k = 0; k < 6; k++) {
+                    const size_t *a = corner[c[k % 3]], *b = corner[c[(k + (k > 2)) % 3]];
+                    const size_t n = grid_node(g, (a[0] + b[0]) / 2, (a[1] + b[1]) / 2);
+                    for (int x = 0; x < 2 && k > 2; x++)
+                        at[n][x] = 0.5 * (at[grid_node(g, a[0], a[1])][x] + at[grid_node(g, b[0], b[1])][x]);
+                    *put++ = (uint32_t)n;
+                }
+            }
+        }
+    return element;
+}
+
+static inline fracas_model *grid_model(const fracas_spec *spec, const shell_grid *g)
+{
+    const size_t nodes = (2 * g->nx + 1) * (2 * g->ny + 1);
+    double (*at)[2] = calloc(nodes, sizeof *at), (*node)[3] = calloc(nodes, sizeof *node);
+    assert_non_null(at);
+    assert_non_null(node);
+    grid_places(g, at);
+    uint32_t *element = grid_elements(g, at);
+    size_t ntags;
+    fracas_surface_tag *tag = grid_tags(g, &ntags);
+    for (size_t n = 0; n < nodes; n++) g->map(g->how, at[n][0], at[n][1], node[n]);
+    const fracas_surface_arrays arrays = {.order = 2, .nnodes = nodes, .nelements = 2 * g->nx * g->ny, .ntags = ntags,
+                                          .node = (const double (*)[3])node, .element = element, .tag = tag};
+    const fracas_surface *surface;
+    assert_ok(fracas_surface_assemble(&arrays, &surface));
+    fracas_model *model = shell_of(*spec, surface);
+    fracas_surface_destroy(surface);
+    free(tag);
+    free(element);
+    free(node);
+    free(at);
+    return model;
+}
+
+/* `how`: width and height. */
+static inline void flat_map(const void *how, double s, double t, double x[3])
+{
+    const double *size = how;
+    x[0] = s * size[0];
+    x[1] = t * size[1];
+    x[2] = 0;
+}
+
+/* `how`: radius, length along y, half the angle from the top. */
+static inline void roof_map(const void *how, double s, double t, double x[3])
+{
+    const double *size = how, angle = (2 * s - 1) * size[2];
+    x[0] = size[0] * sin(angle);
+    x[1] = (t - 0.5) * size[1];
+    x[2] = size[0] * cos(angle);
+}
+
+/* ---- unknowns ---- */
+
+static inline const fracas_shell_tables *tables_of(const fracas_model *model) { return model->plan; }
+static inline size_t unknowns_of(const fracas_model *model) { return SHELL_UNKNOWNS * model->elements; }
+
+static inline double *vector_of(size_t n)
+{
+    double *v = calloc(n, sizeof *v);
+    assert_non_null(v);
+    return v;
+}
+
+static inline const double *node_at(const fracas_model *model, size_t element, size_t k)
+{
+    return model->surface->node[model->surface->element[element * SHELL_NODES + k]];
+}
+
+/* x of the node that an unknown is of. */
+static inline const double *place_of(const fracas_model *model, size_t unknown)
+{
+    return node_at(model, unknown / SHELL_UNKNOWNS, unknown % SHELL_UNKNOWNS / 3);
+}
+
+static inline bool is_held(const fracas_model *model, size_t unknown)
+{
+    return tables_of(model)->held[unknown / SHELL_UNKNOWNS] >> (unknown % SHELL_UNKNOWNS) & 1;
+}
+
+static inline double mass_of(const fracas_model *model, size_t unknown)
+{
+    return tables_of(model)->mass[unknown / SHELL_UNKNOWNS * 2 * SHELL_NODES + SHELL_NODES + unknown % SHELL_UNKNOWNS / 3];
+}
+
+/* Displacements at a place. */
+typedef void shell_field(const void *how, const double x[3], double u[3]);
+
+static inline void interpolate(const fracas_model *model, shell_field *field, const void *how, double *u)
+{
+    for (size_t i = 0; i < unknowns_of(model); i += 3) field(how, place_of(model, i), u + i);
+}
+
+static inline fracas_shell_operator *open_operator(const fracas_model *model)
+{
+    fracas_shell_operator *op = NULL;
+    assert_ok(fracas_shell_operator_open(model, 0, &op));
+    return op;
+}
+
+/* f = K u [N], 0 where nodes are held. */
+static inline void apply_stiffness(const fracas_model *model, fracas_shell_operator *op, const double *u, double *f)
+{
+    fracas_shell_operator_apply(op, u, f);
+    for (size_t i = 0; i < unknowns_of(model); i++) f[i] = is_held(model, i) ? 0 : -mass_of(model, i) * f[i];
+}
+
+static inline double dot_of(const double *a, const double *b, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) sum += a[i] * b[i];
+    return sum;
+}
+
+static inline double largest_of(const double *v, size_t n)
+{
+    double largest = 0;
+    for (size_t i = 0; i < n; i++) largest = fmax(largest, fabs(v[i]));
+    return largest;
+}
+
+#endif
