@@ -510,8 +510,31 @@ static void onsets_and_breaks_come_when_they_must(void **unused)
     }
 }
 
+/* An interface whose last layer is short of its end by the last bit is not broken, however the weights sum. */
+static void an_interface_breaks_with_its_last_layer(void **unused)
+{
+    (void)unused;
+    fracas_model *model = shell_model(brittle_shell(&fracas_shape_plate, 1), 0, 0);
+    fracas_batch *batch = lane_of(model, 0, 0);
+    assert_ok(fracas_batch_begin(batch));
+    for (int last = 0; last <= SHELL_EDGE * SHELL_LAYERS; last++) {
+        for (int p = 0; p < SHELL_EDGE * SHELL_LAYERS; p++)
+            *fracas_shell_point(model, &batch->step, 0, p / 3, p % 3, SURFACE_DAMAGE, 0) = p == last ? 1 - 0x1p-53 : 1;
+        fracas_record record;
+        fracas_record_init(&record);
+        batch->step.broken[0] = 1;
+        assert_ok(model->formulation->harvest(model, &batch->step, 0, &record));
+        assert_true((record.interface[0].damage == 1) == (last == SHELL_EDGE * SHELL_LAYERS));
+        assert_int_equal(record.nfragment, last == SHELL_EDGE * SHELL_LAYERS ? 2 : 1);
+        fracas_record_clear(&record);
+    }
+    fracas_batch_destroy(batch);
+    fracas_model_destroy(model);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(interfaces_do_what_their_layers_do), cmocka_unit_test(onsets_and_breaks_come_when_they_must)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(interfaces_do_what_their_layers_do), cmocka_unit_test(onsets_and_breaks_come_when_they_must),
+                                       cmocka_unit_test(an_interface_breaks_with_its_last_layer)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
