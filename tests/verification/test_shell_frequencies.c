@@ -1,5 +1,6 @@
 /* Frequencies of thin plates and strips by the shell's operator, masses lumped.
- * ctest-labels: slow-sanitize */
+ * ctest-labels: slow-sanitize
+ */
 #include "tests/support/shell_statics.h"
 
 static double wave(const fracas_spec *spec) /* sqrt(D/(rho h)) */

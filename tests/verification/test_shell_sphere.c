@@ -1,5 +1,6 @@
 /* A spherical shell that expands, and does not crack: breathing frequency, stress, energies; the octant and the whole.
- * ctest-labels: slow-sanitize */
+ * ctest-labels: slow-sanitize
+ */
 #include "tests/support/shell.h"
 
 /* The alumina sphere of docs/theory/shell.md: mid radius 9.95 mm, 0.1 mm thick; it grows at 1e4 /s at the start. */

@@ -1,6 +1,7 @@
 /* Shells at rest under loads: the pinched hemisphere, the Scordelis-Lo roof, plates with exact solutions. Tables of
  * docs/results/shell.md.
- * ctest-labels: slow-sanitize */
+ * ctest-labels: slow-sanitize
+ */
 #include "tests/support/shell_statics.h"
 
 /* ---- loads ---- */
