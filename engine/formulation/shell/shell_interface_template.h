@@ -3,6 +3,7 @@
 #define shell_turn LANES_NAME(shell_turn)
 #define shell_resultants LANES_NAME(shell_resultants)
 #define shell_flux LANES_NAME(shell_flux)
+#define shell_flux_energy LANES_NAME(shell_flux_energy)
 #define shell_give LANES_NAME(shell_give)
 #define shell_give_side LANES_NAME(shell_give_side)
 #define shell_rim LANES_NAME(shell_rim)
@@ -150,6 +151,13 @@ LANES_FUNCTION void shell_flux(const shell_context *c, size_t i, const shell_sid
             p->m[j] = p->mean_m[j] + turning[j] * p->turn[j];
         }
     }
+}
+
+/* Twice the flux's energy at a Gauss point that has not cracked, but for what shears it off [J/m]  (shell.7) */
+LANES_FUNCTION vd shell_flux_energy(const shell_point *p)
+{
+    return p->jump[0] * (p->mean_n[0] + p->n[0]) + p->jump[1] * (p->mean_n[1] + p->n[1]) +
+           (p->turn[0] * (p->mean_m[0] + p->m[0]) + p->turn[1] * (p->mean_m[1] + p->m[1]));
 }
 
 /* Gives one side of an interface what its turn and its resultants do: `turned` is the moment [N m], `work` the strains that go with
@@ -352,9 +360,7 @@ LANES_FUNCTION void shell_crack(shell_context *c, size_t i, double *joint, shell
         }
         /* what holds the faces against shearing off goes with the last layer */
         const vd sheared = p->shearing * p->lift, kept = lanes_select(all.broken, zero, sheared);
-        const vd flux_energy = p->jump[0] * (p->mean_n[0] + p->n[0]) + p->jump[1] * (p->mean_n[1] + p->n[1]) +
-                               (p->turn[0] * (p->mean_m[0] + p->m[0]) + p->turn[1] * (p->mean_m[1] + p->m[1]));
-        c->flux += length * (lanes_select(all.cracked, two * all.flux, flux_energy) + kept);
+        c->flux += length * (lanes_select(all.cracked, two * all.flux, shell_flux_energy(p)) + kept);
         c->stored += length * lanes_select(all.cracked, two * all.stored, zero);
         c->dissipated += length * all.dissipated;
         created += length * (all.created - lanes_select(lanes_and(all.broken, breaks), lanes_set(0.5) * sheared, zero));
@@ -424,9 +430,7 @@ LANES_FUNCTION void shell_join(shell_context *c, int law, size_t i)
         UNROLL for (int g = 0; g < SHELL_EDGE; g++) {
             const shell_point *p = &at[g];
             const vd length = lanes_set(table[SHELL_POINTS + g * SHELL_POINT_TABLE + SHELL_LENGTH]);
-            const vd flux_energy = p->jump[0] * (p->mean_n[0] + p->n[0]) + p->jump[1] * (p->mean_n[1] + p->n[1]) +
-                                   (p->turn[0] * (p->mean_m[0] + p->m[0]) + p->turn[1] * (p->mean_m[1] + p->m[1]));
-            c->flux += length * (flux_energy + p->shearing * p->lift);
+            c->flux += length * (shell_flux_energy(p) + p->shearing * p->lift);
         }
     }
     shell_give(c, i, &sides, at);

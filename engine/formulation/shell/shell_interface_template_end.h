@@ -3,6 +3,7 @@
 #undef shell_turn
 #undef shell_resultants
 #undef shell_flux
+#undef shell_flux_energy
 #undef shell_give
 #undef shell_give_side
 #undef shell_rim
