@@ -78,7 +78,7 @@ typedef struct {
     double quiet;          /* s */
     double quiet_fraction; /* 1 */
     double multiple;       /* 1, peak-multiple */
-    double drop;           /* 1, peak-multiple: fall of the potential energy that makes its maximum a peak */
+    double drop;           /* 1, peak-multiple: fall of the elastic energy that makes its maximum a peak */
     double safety;         /* time step / critical time step; 1 */
     const fracas_kind *integrator; /* surfaces: central-difference, hulbert-chung */
     double spectral_radius; /* 1, hulbert-chung: at the bifurcation */

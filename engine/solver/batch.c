@@ -147,7 +147,7 @@ static bool is_over(fracas_batch *batch, size_t l, fracas_outcome *outcome)
     fracas_lane *lane = &batch->lane[l];
     const fracas_step *step = &batch->step;
     const fracas_ledger *ledger = &lane->ledger;
-    const fracas_progress progress = {.time = step->time[l], .potential = ledger->elastic + ledger->cohesive,
+    const fracas_progress progress = {.time = step->time[l], .elastic = ledger->elastic,
                                       .dissipated = ledger->dissipated, .cracked = step->cracked[l], .broken = step->broken[l]};
     *outcome = isfinite(ledger->residual) ? FRACAS_ENERGY_DRIFT : FRACAS_NONFINITE;
     return !isfinite(ledger->residual) || fracas_ledger_drifts(ledger, batch->steps) ||

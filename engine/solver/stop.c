@@ -16,13 +16,13 @@ const fracas_kind fracas_stop_settled = {
     .params = settled, .nparams = FRACAS_COUNT(settled)};
 
 static const fracas_param peak_multiple[] = {
-    {"multiple", FRACAS_REAL, "1", "end by the time of the first peak of the potential energy (elastic and cohesive)", 2, 1, INFINITY,
+    {"multiple", FRACAS_REAL, "1", "end by the time of the first peak of the elastic energy", 2, 1, INFINITY,
      false, offsetof(fracas_time, multiple)},
-    {"drop", FRACAS_REAL, "1", "share of its largest value that the potential energy must have lost for that to be a peak", 0.05, 0, 1,
+    {"drop", FRACAS_REAL, "1", "share of its largest value that the elastic energy must have lost for that to be a peak", 0.05, 0, 1,
      true, offsetof(fracas_time, drop)},
 };
 const fracas_kind fracas_stop_peak_multiple = {
-    .name = "peak-multiple", .doc = "at a multiple of the time of the first peak of the potential energy, at `end` at the latest",
+    .name = "peak-multiple", .doc = "at a multiple of the time of the first peak of the elastic energy, at `end` at the latest",
     .params = peak_multiple, .nparams = FRACAS_COUNT(peak_multiple)};
 
 static const fracas_kind *const stops[] = {&fracas_stop_time, &fracas_stop_settled, &fracas_stop_peak_multiple};
@@ -70,11 +70,11 @@ static bool is_settled(fracas_stop *stop, const fracas_time *rule, const fracas_
 
 static bool is_past_peak(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now)
 {
-    if (!stop->peaked && now->potential > stop->peak) {
-        stop->peak = now->potential;
+    if (!stop->peaked && now->elastic > stop->peak) {
+        stop->peak = now->elastic;
         stop->peak_time = now->time;
     }
-    stop->peaked = stop->peaked || now->potential < (1.0 - rule->drop) * stop->peak;
+    stop->peaked = stop->peaked || now->elastic < (1.0 - rule->drop) * stop->peak;
     return stop->peaked && now->time >= rule->multiple * stop->peak_time;
 }
 

@@ -14,13 +14,13 @@ extern const fracas_kind fracas_stop_time, fracas_stop_settled, fracas_stop_peak
 typedef struct {
     double time, dissipated; /* s, J */
     int64_t events;          /* onsets and breaks */
-    double peak, peak_time;  /* J, s: largest potential energy so far */
+    double peak, peak_time;  /* J, s: largest elastic energy so far */
     bool peaked;             /* it has fallen since */
 } fracas_stop;
 
 /* What a rule looks at. */
 typedef struct {
-    double time, potential, dissipated; /* s, J */
+    double time, elastic, dissipated; /* s, J */
     int64_t cracked, broken;
 } fracas_progress;
 
@@ -28,7 +28,7 @@ typedef struct {
  * `time`: over at the first step at or after `end`.
  * `settled`: armed by the first onset; over when for `quiet` seconds no interface cracked or broke and the dissipated
  * energy D grew by at most quiet_fraction D; at `end` at the latest, with TIME_LIMIT if armed.
- * `peak-multiple`: over at `multiple` times the time of the first peak of the potential energy: a maximum that it has fallen
+ * `peak-multiple`: over at `multiple` times the time of the first peak of the elastic energy: a maximum that it has fallen
  * from by more than `drop` of it; at `end` at the latest, with TIME_LIMIT if something has cracked. */
 bool fracas_stop_check(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now, fracas_outcome *outcome);
 
