@@ -24,7 +24,7 @@ static const char *const legend_with_surfaces[] = {
     "included; of a bar or a ring length/count, beside size laws (ZMR, Grady, Glenn-Chudnovsky), which are of one dimension.",
     "bending, where there is any: its part of dissipated. resid., created: largest over replicas of |ledger residual| and of",
     "created energy, as parts of the dissipated. rotation: mean kinetic energy of the spins of a surface's fragments, as part of",
-    "that of their centres of mass.",
+    "that of their centres of mass. Of an octant (geometry.part) all this is the octant's own, an eighth of the sphere.",
     NULL,
 };
 

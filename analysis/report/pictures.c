@@ -94,7 +94,7 @@ static fracas_err say_times(const making *m, const fracas_broken_surface *surfac
     fracas_surface_times times;
     TRY(fracas_surface_times_of(&surface->mesh, &surface->record, &times));
     const double at[] = {times.onset, times.broken, fmin(times.through[0], times.through[1])};
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < (fracas_surface_is_flat(&surface->mesh) ? 3 : 2); k++) { /* a body in space has no width */
         char text[48];
         fracas_surface_time_text(at[k], false, text, sizeof text);
         fprintf(m->out, "%s: %s\n", what[k], text);

@@ -93,23 +93,24 @@ static fracas_err put_moment(const gallery *to, const fracas_broken_surface *sur
     return fracas_broken_surface_save(surface, time, &picture, to->folder, file);
 }
 
-/* ", first crack through the width at 27.1 us", over both pairs of borders. */
+/* "; first crack through the width: 27.1 us" and the like, that one over both pairs of borders of a flat surface. */
 static fracas_err put_times(const gallery *to, const fracas_broken_surface *surface)
 {
     static const char *const what[] = {"first onset", "first break", "first crack through the width"};
     fracas_surface_times times;
     TRY(fracas_surface_times_of(&surface->mesh, &surface->record, &times));
     const double at[] = {times.onset, times.broken, fmin(times.through[0], times.through[1])};
-    for (int k = 0; k < 3; k++) {
+    const bool flat = fracas_surface_is_flat(&surface->mesh);
+    for (int k = 0; k < (flat ? 3 : 2); k++) {
         char text[48];
         fracas_surface_time_text(at[k], true, text, sizeof text);
         fprintf(to->out, "; %s: %s", what[k], text);
     }
     putc('.', to->out);
-    if (!fracas_surface_is_flat(&surface->mesh)) fputs(" Seen from the direction (1, 1, 1)", to->out);
+    if (!flat) fputs(" Seen from the direction (1, 1, 1)", to->out);
     if (explode_of(&surface->mesh) > 0)
         fprintf(to->out, ", each fragment moved by %g of the way from the centroid of the surface to its own", apart);
-    fputs(fracas_surface_is_flat(&surface->mesh) ? "</p>\n" : ".</p>\n", to->out);
+    fputs(flat ? "</p>\n" : ".</p>\n", to->out);
     return FRACAS_OK;
 }
 

@@ -17,8 +17,9 @@ static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_fl
      "strength delta_c/2; or give fracture_energy", 0, 0, INFINITY, false, offsetof(fracas_cohesive, critical_opening), \
      .only = fracas_surface_models},                                                                                  \
     {"beta", FRACAS_REAL, "1", "interface stiffness K = beta E/((1 - nu^2) h), h the area of an element by its edge; 1.3 or more, 2.3 " \
-     "with quadratic triangles", 5, 1.3, 1e4, false, offsetof(fracas_cohesive, beta),          \
-     .only = fracas_surface_models},                                                                                  \
+     "with quadratic triangles", 5, 1.3, 1e4, false, offsetof(fracas_cohesive, beta), .only = fracas_membrane_models}, \
+    {"beta", FRACAS_REAL, "1", "interface stiffness K = beta E/((1 - nu^2) h), h the area of an element by its edge", 5, 2.3, 1e4, false, \
+     offsetof(fracas_cohesive, beta), .only = fracas_shell_models},                                                   \
     {"beta_shear", FRACAS_REAL, "1", "stiffness that keeps faces from shearing off across the shell: beta_shear E thickness/(2 (1 + nu) h) by " \
      "length of the edge", 1, 0, 1e4, true, offsetof(fracas_cohesive, beta_shear), .only = fracas_shell_models},      \
     {.name = "onset", .type = FRACAS_CHOICE, .unit = "1", .doc = "what is held against the strength", .choices = onsets, \

@@ -52,14 +52,14 @@ const fracas_kind fracas_start_rest = {.name = "rest", .doc = "at rest, so that 
 static const fracas_kind *const starts[] = {&fracas_start_moving, &fracas_start_rest};
 
 static const fracas_param expansion[] = {
-    {"rate", FRACAS_REAL, "1/s", "strain rate along x: velocities are rate x and ratio rate y", FRACAS_REQUIRED, -INFINITY, INFINITY,
+    {"rate", FRACAS_REAL, "1/s", "strain rate along x: velocities are rate x, ratio rate y and, of shells, rate z", FRACAS_REQUIRED, -INFINITY, INFINITY,
      false, offsetof(fracas_loading, rate)},
     {"ratio", FRACAS_REAL, "1", "strain rate along y by that along x", 1, -INFINITY, INFINITY, false, offsetof(fracas_loading, ratio)},
     {.name = "start", .type = FRACAS_CHOICE, .unit = "1", .doc = "how the inside starts", .choices = starts,
      .nchoices = FRACAS_COUNT(starts), .offset = offsetof(fracas_loading, start)},
 };
 const fracas_kind fracas_loading_expansion = {
-    .name = "expansion", .doc = "velocities (rate x, ratio rate y): all nodes start with them, those of held edges keep them",
+    .name = "expansion", .doc = "velocities (rate x, ratio rate y; of shells also rate z): all nodes start with them, those of held edges keep them",
     .params = expansion, .nparams = FRACAS_COUNT(expansion)};
 
 static const fracas_param centrifugal[] = {

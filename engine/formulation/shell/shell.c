@@ -38,6 +38,30 @@ static fracas_err check_order(const fracas_surface *surface)
     return fracas_fail(FRACAS_USAGE, "a shell's elements bend, which linear triangles cannot: make the mesh of quadratic ones");
 }
 
+/* As thick as it is bent, it is no shell: its curvatures, those of the edges, are to be below 1/(2 h). */
+static fracas_err check_thickness(const fracas_model *model)
+{
+    const fracas_shell_tables *t = tables_of(model);
+    const double h = model->spec.geometry.thickness;
+    double most = 0;
+    for (size_t i = 0; i < t->ninterfaces; i++)
+        for (int g = 0; g < SHELL_EDGE; g++) {
+            const double *place = t->joint + i * SHELL_JOINT_TABLE + SHELL_POINTS + g * SHELL_POINT_TABLE;
+            most = fmax(most, fmax(fabs(place[SHELL_L_NN]), fabs(place[SHELL_L_SS])));
+        }
+    if (most * h <= 0.5) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "geometry.thickness is %g m, and the mid-surface has a radius of curvature of %g m: a shell is thin, a tenth "
+                       "of its radius at most; above a half nothing is computed", h, 1 / most);
+}
+
+/* Some edge moves with the loading. */
+static bool holds_moving(const fracas_shell_tables *t)
+{
+    for (size_t e = 0; e < t->nelements; e++)
+        if (t->held[e] & ~t->fixed[e]) return true;
+    return false;
+}
+
 static fracas_err shell_model_init(fracas_model *model)
 {
     fracas_shell_tables *tables;
@@ -49,6 +73,8 @@ static fracas_err shell_model_init(fracas_model *model)
     model->interfaces = model->surface->ninterfaces;
     TRY(fracas_shell_tables_create(model, &tables));
     model->plan = tables;
+    TRY(check_thickness(model));
+    TRY(fracas_surface_check_motion(model, holds_moving(tables)));
     for (size_t k = 0; k < SHELL_NODES * tables->nelements; k++)
         model->mass += tables->mass[k / SHELL_NODES * 2 * SHELL_NODES + SHELL_NODES + k % SHELL_NODES];
     fracas_surface_measure_model(model);

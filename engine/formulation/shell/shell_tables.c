@@ -178,10 +178,11 @@ static void fill_rim(const fracas_model *model, fracas_shell_tables *t, const fr
     }
 }
 
-#define UPRIGHT 0.9 /* least cosine: bent edges of coarse meshes are off by some degrees */
+#define UPRIGHT 0.97 /* least cosine at a plane of symmetry: bent edges of coarse meshes are off by some degrees */
 
-/* The axis along the normal of an edge in a plane of symmetry or a diaphragm; 3: it lies in no such plane, or leans on it. */
-static int axis_of(const fracas_surface *surface, const fracas_surface_border *border)
+/* The axis that is normal to the plane of an edge, the one nearest to the edge's own normal where two are; 3: there is none, or the
+ * shell leans on it by more than its cosine `least`. */
+static int axis_of(const fracas_surface *surface, const fracas_surface_border *border, double least)
 {
     double xi, eta, tangent[3], normal[3];
     fracas_shell_geometry at;
@@ -189,27 +190,29 @@ static int axis_of(const fracas_surface *surface, const fracas_surface_border *b
     fracas_shell_geometry_at(surface, border->element, xi, eta, &at);
     const double speed = fracas_shell_edge_tangent(&at, border->edge, tangent);
     fracas_shell_cross(tangent, at.normal, normal);
-    int axis = 0;
-    for (int i = 1; i < 3; i++)
-        if (fabs(normal[i]) > fabs(normal[axis])) axis = i;
     const uint32_t *node = surface->element + border->element * surface->corners, k = border->edge;
     const double *a = surface->node[node[k]], *b = surface->node[node[(k + 1) % 3]], *c = surface->node[node[3 + k]];
-    const bool is_in_plane = fmax(fabs(b[axis] - a[axis]), fabs(c[axis] - a[axis])) <= 1e-9 * speed;
-    return is_in_plane && fabs(normal[axis]) >= UPRIGHT ? axis : 3;
+    int axis = 3;
+    for (int i = 0; i < 3; i++) {
+        const bool is_in_plane = fmax(fabs(b[i] - a[i]), fabs(c[i] - a[i])) <= 1e-9 * speed;
+        if (is_in_plane && fabs(normal[i]) >= least && (axis == 3 || fabs(normal[i]) > fabs(normal[axis]))) axis = i;
+    }
+    return axis;
 }
 
 static fracas_err hold_edge(const fracas_model *model, fracas_shell_tables *t, const fracas_surface_border *border, const fracas_kind *kind)
 {
     const uint32_t k = border->edge, node[3] = {k, (k + 1) % 3, 3 + k};
     const bool one = kind == &fracas_edge_symmetry, others = kind == &fracas_edge_diaphragm;
-    const int axis = one || others ? axis_of(model->surface, border) : 3;
+    const int axis = one || others ? axis_of(model->surface, border, one ? UPRIGHT : 0) : 3;
     const double *at = model->surface->node[model->surface->element[border->element * SHELL_NODES + k]];
     if (kind == &fracas_edge_sliding)
         return fracas_fail(FRACAS_USAGE, "an edge with tag %d is to slide, which edges of shells do not: let it be a symmetry, a diaphragm, "
                            "held, fixed, clamped or free", (int)border->tag);
     if ((one || others) && axis == 3)
-        return fracas_fail(FRACAS_USAGE, "an edge with tag %d is a %s, but at (%g, %g, %g) m it does not lie in a plane x, y or z = const that "
-                           "the shell meets at a right angle: hold it otherwise, or leave it free", (int)border->tag, kind->name, at[0], at[1], at[2]);
+        return fracas_fail(FRACAS_USAGE, "an edge with tag %d is a %s, but at (%g, %g, %g) m it does not lie in a plane x, y or z = const%s: "
+                           "hold it otherwise, or leave it free", (int)border->tag, kind->name, at[0], at[1], at[2],
+                           one ? " that the shell meets at a right angle" : "");
     for (int n = 0; n < 3; n++)
         for (uint32_t i = 0; i < 3; i++) {
             if ((one && (int)i != axis) || (others && (int)i == axis)) continue;

@@ -24,6 +24,14 @@ fracas_err fracas_surface_check_beta(const fracas_model *model)
                        model->spec.cohesive.beta, model->surface->order == 2 ? "quadratic" : "linear", least);
 }
 
+fracas_err fracas_surface_check_motion(const fracas_model *model, bool held)
+{
+    const fracas_loading *loading = &model->spec.loading;
+    if (loading->type != &fracas_loading_expansion || loading->start != &fracas_start_rest || held) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "loading.start is rest, and all edges are free: nothing would ever move; let an edge be held, or start "
+                       "moving");
+}
+
 /* K >= 2 sigma_c/delta_c at the softest interface: twice what the law asks for (cohesive.7), so that no peak as small as the strength
  * is cut  (cohesive.13) */
 fracas_err fracas_surface_check_strength(const fracas_model *model, double strength)
@@ -35,7 +43,7 @@ fracas_err fracas_surface_check_strength(const fracas_model *model, double stren
     const double most = spec->cohesive.beta * modulus * fracas_spec_fracture_energy(spec, strength) / (strength * strength);
     if (spec->cohesive.law != &fracas_law_nitsche || (isfinite(most) && model->longest <= most)) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE, "strength %g Pa needs elements of which area/edge is below %.4g m, the largest is %.4g m: refine the "
-                       "mesh %.3g times (or raise cohesive.beta)", strength, most, model->longest, model->longest / most);
+                       "mesh %.3g times (or raise cohesive.beta)", strength, most, model->longest, ceil(100 * model->longest / most) / 100);
 }
 
 /* A third of its two elements. */

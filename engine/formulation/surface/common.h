@@ -8,6 +8,8 @@
 FRACAS_MUST_USE fracas_err fracas_surface_check_noise(const fracas_mesh *mesh);
 /* cohesive.beta makes the operator of such elements positive. */
 FRACAS_MUST_USE fracas_err fracas_surface_check_beta(const fracas_model *model);
+/* Something moves: not all starts at rest, or edges are held that move (`held`). */
+FRACAS_MUST_USE fracas_err fracas_surface_check_motion(const fracas_model *model, bool held);
 /* As check_strength and interface_volume of a formulation. */
 FRACAS_MUST_USE fracas_err fracas_surface_check_strength(const fracas_model *model, double strength);
 double fracas_surface_interface_volume(const fracas_model *model, size_t interface);

@@ -53,14 +53,6 @@ static fracas_err check_flat(const fracas_surface *surface)
     return fracas_fail(FRACAS_USAGE, "the mesh's elements go round clockwise, seen from +z: turn them round");
 }
 
-static fracas_err check_motion(const fracas_model *model)
-{
-    const fracas_loading *loading = &model->spec.loading;
-    if (loading->type != &fracas_loading_expansion || loading->start != &fracas_start_rest || tables_of(model)->held) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "loading.start is rest, and all edges are free: nothing would ever move; let an edge be held, or start "
-                       "moving");
-}
-
 static void measure(fracas_model *model)
 {
     const fracas_membrane_tables *t = tables_of(model);
@@ -81,7 +73,7 @@ static fracas_err membrane_model_init(fracas_model *model)
     model->interfaces = model->surface->ninterfaces;
     TRY(fracas_membrane_tables_create(model, &tables));
     model->plan = tables;
-    TRY(check_motion(model));
+    TRY(fracas_surface_check_motion(model, tables->held != NULL));
     measure(model);
     return fracas_membrane_critical_step(model);
 }
