@@ -38,7 +38,7 @@ static fracas_err check_order(const fracas_surface *surface)
     return fracas_fail(FRACAS_USAGE, "a shell's elements bend, which linear triangles cannot: make the mesh of quadratic ones");
 }
 
-/* As thick as it is bent, it is no shell: its curvatures, those of the edges, are to be below 1/(2 h). */
+/* As thick as its radius of curvature, at the edges of elements, it is no shell. */
 static fracas_err check_thickness(const fracas_model *model)
 {
     const fracas_shell_tables *t = tables_of(model);
@@ -49,9 +49,9 @@ static fracas_err check_thickness(const fracas_model *model)
             const double *place = t->joint + i * SHELL_JOINT_TABLE + SHELL_POINTS + g * SHELL_POINT_TABLE;
             most = fmax(most, fmax(fabs(place[SHELL_L_NN]), fabs(place[SHELL_L_SS])));
         }
-    if (most * h <= 0.5) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "geometry.thickness is %g m, and the mid-surface has a radius of curvature of %g m: a shell is thin, a tenth "
-                       "of its radius at most; above a half nothing is computed", h, 1 / most);
+    if (most * h < 1) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "geometry.thickness is %g m, and the mid-surface has a radius of curvature of %g m: a shell is thin, "
+                       "a tenth of its radius and less: lower the thickness", h, 1 / most);
 }
 
 /* Some edge moves with the loading. */
