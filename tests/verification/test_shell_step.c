@@ -137,8 +137,8 @@ static void tilted_map(const void *how, double s, double t, double x[3])
     x[2] = s * sin(angle);
 }
 
-/* A symmetry or diaphragm lies in a plane x, y or z = const that the shell meets at a right angle: the edge s = 1 is in a plane x = const
- * and in one z = const, which only plates that lie or stand meet so. An octant of one element passes: its edges lean by less than coarse meshes may. */
+/* A symmetry lies in a plane x, y or z = const that the shell meets at a right angle: the edge s = 1 is in a plane x = const
+ * and in one z = const, which only plates that lie or stand meet so; a diaphragm may be met at any angle. An octant of one element passes: its edges lean by less than coarse meshes may. */
 static void oblique_edges_are_refused(void **unused)
 {
     (void)unused;

@@ -178,7 +178,7 @@ static void fill_rim(const fracas_model *model, fracas_shell_tables *t, const fr
     }
 }
 
-#define UPRIGHT 0.97 /* least cosine at a plane of symmetry: bent edges of coarse meshes are off by some degrees */
+#define UPRIGHT 0.93 /* least cosine at a plane of symmetry: bent edges of coarse meshes are off by some degrees */
 
 /* The axis that is normal to the plane of an edge, the one nearest to the edge's own normal where two are; 3: there is none, or the
  * shell leans on it by more than its cosine `least`. */
