@@ -1,6 +1,7 @@
 /* Membranes that break: lanes do not depend on each other, momenta are kept, ledgers close, and the numbers of nodes and
  * elements and the directions of axes do not matter. */
 #include "tests/support/gmsh.h"
+#include "tests/support/same_record.h"
 #include "tests/support/membrane_cracks.h"
 
 /* ---- lanes ---- */
@@ -59,22 +60,13 @@ static void run(const fracas_model *model, uint64_t first, size_t count, int wid
     fracas_batch_destroy(batch);
 }
 
-static void assert_same(const fracas_record *a, const fracas_record *b)
-{
-    /* every scalar, then every row, byte by byte; pointers apart */
-    assert_memory_equal(a, b, offsetof(fracas_record, fragment));
-    assert_memory_equal(a->fragment, b->fragment, a->nfragment * sizeof *a->fragment);
-    assert_memory_equal(a->history, b->history, a->nhistory * sizeof *a->history);
-    assert_memory_equal(a->interface, b->interface, a->ninterface * sizeof *a->interface);
-}
-
 /* Replicas first to first + count - 1 in every place they can have in such a batch. */
 static void check_batch(const fracas_model *model, const fracas_record alone[8], uint64_t first, size_t count, int width, fracas_isa isa)
 {
     fracas_record together[8];
     run(model, first, count, width, isa, together);
     for (size_t l = 0; l < count; l++) {
-        assert_same(&alone[first + l], &together[l]);
+        assert_same_record(&alone[first + l], &together[l]);
         fracas_record_clear(&together[l]);
     }
 }
@@ -83,7 +75,7 @@ static void a_lane_is_its_run_alone(void **unused)
 {
     (void)unused;
     for (int v = 0; v < VARIANTS; v++) {
-        fracas_model *model = membrane_model(spec_of(&variants[v], variants[v].order == 1 ? 10 : 6, 3e4, 4e-7), DISTORTION, 3);
+        fracas_model *model = distorted_model(spec_of(&variants[v], variants[v].order == 1 ? 10 : 6, 3e4, 4e-7), DISTORTION, 3);
         fracas_record alone[8];
         int64_t fewest = INT64_MAX, most = 0, cracked = 0;
         for (size_t r = 0; r < 8; r++) {
@@ -124,7 +116,7 @@ static void momenta_are_kept_to_round_off(void **unused)
 {
     (void)unused;
     for (int v = 0; v < VARIANTS; v++) {
-        fracas_model *model = membrane_model(spec_of(&variants[v], 6, 3e4, 4e-7), DISTORTION, 3);
+        fracas_model *model = distorted_model(spec_of(&variants[v], 6, 3e4, 4e-7), DISTORTION, 3);
         fracas_batch *batch = lane_of(model, 0.3, 1, 0);
         fracas_record record;
         fracas_record_init(&record);
@@ -175,7 +167,7 @@ static void a_body_that_turns_has_that_spin(void **unused)
     (void)unused;
     uint64_t state = 7;
     for (int v = 0; v < VARIANTS; v++) {
-        fracas_model *model = membrane_model(spec_of(&variants[v], 6, 0, 4e-7), DISTORTION, 3);
+        fracas_model *model = distorted_model(spec_of(&variants[v], 6, 0, 4e-7), DISTORTION, 3);
         fracas_batch *batch = lane_of(model, 0.3, 1, 0);
         fracas_record record;
         fracas_record_init(&record);
@@ -236,7 +228,7 @@ static double residual_of(int which, double safety, double *created, double *wor
 {
     fracas_spec spec = ledger_spec(which);
     spec.time.safety = which == RUBBING ? safety / 5 : safety; /* cohesive.md */
-    fracas_model *model = membrane_model(spec, DISTORTION, 3);
+    fracas_model *model = distorted_model(spec, DISTORTION, 3);
     fracas_record record[4];
     double residual = 0;
     run(model, 0, 4, 4, FRACAS_ISA_BEST, record);
@@ -319,7 +311,7 @@ static fracas_model *moved_model(const fracas_model *model, bool mirrored)
         spec.loading.rate = model->spec.loading.rate * model->spec.loading.ratio;
         spec.loading.ratio = 1 / model->spec.loading.ratio;
     }
-    fracas_model *moved = membrane_model(spec, 0, 0);
+    fracas_model *moved = distorted_model(spec, 0, 0);
     free(file.bytes);
     free(node);
     free(element);
@@ -359,7 +351,7 @@ static void check_moved(const variant *v, bool mirrored)
     fracas_spec spec = spec_of(v, v->order == 1 ? 8 : 5, 4e4, 4e-7);
     spec.loading.ratio = 0.5;
     if (v->law != &fracas_law_nitsche) spec.time.safety = 0.1;
-    fracas_model *model = membrane_model(spec, DISTORTION, 3), *moved = moved_model(model, mirrored);
+    fracas_model *model = distorted_model(spec, DISTORTION, 3), *moved = moved_model(model, mirrored);
     size_t *image = images_of(model, moved, mirrored), stride;
     moved->time_step = model->time_step; /* Lanczos' iteration starts from numbers of unknowns */
     fracas_batch *a = lane_of(model, 0.3, 2, 0), *b = lane_of(moved, 0.3, 2, 0);

@@ -1,5 +1,6 @@
 /* Shells that break: lanes do not depend on each other, momenta are kept, ledgers close, and a sphere cracks when it must. */
 #include "tests/support/shell_cracks.h"
+#include "tests/support/same_record.h"
 
 typedef struct {
     const fracas_kind *shape, *part;
@@ -57,22 +58,13 @@ static void run(const fracas_model *model, uint64_t first, size_t count, int wid
     fracas_batch_destroy(batch);
 }
 
-static void assert_same(const fracas_record *a, const fracas_record *b)
-{
-    /* every scalar, then every row, byte by byte; pointers apart */
-    assert_memory_equal(a, b, offsetof(fracas_record, fragment));
-    assert_memory_equal(a->fragment, b->fragment, a->nfragment * sizeof *a->fragment);
-    assert_memory_equal(a->history, b->history, a->nhistory * sizeof *a->history);
-    assert_memory_equal(a->interface, b->interface, a->ninterface * sizeof *a->interface);
-}
-
 /* Replicas first to first + count - 1 in every place they can have in such a batch. */
 static void check_batch(const fracas_model *model, const fracas_record alone[8], uint64_t first, size_t count, int width, fracas_isa isa)
 {
     fracas_record together[8];
     run(model, first, count, width, isa, together);
     for (size_t l = 0; l < count; l++) {
-        assert_same(&alone[first + l], &together[l]);
+        assert_same_record(&alone[first + l], &together[l]);
         fracas_record_clear(&together[l]);
     }
 }
@@ -82,7 +74,7 @@ static void a_lane_is_its_run_alone(void **unused)
     (void)unused;
     for (int v = 0; v < VARIANTS; v++) {
         const fracas_spec spec = spec_of(&variants[v]);
-        fracas_model *model = shell_model(spec, distortion_of(&variants[v]), 3);
+        fracas_model *model = distorted_model(spec, distortion_of(&variants[v]), 3);
         fracas_record alone[8];
         int64_t most = 0, cracked = 0, least = INT64_MAX;
         for (size_t r = 0; r < 8; r++) {
@@ -149,7 +141,7 @@ static void momenta_are_kept_to_round_off(void **unused)
         spec.geometry.part = &fracas_part_whole;
         if (variants[v].part == &fracas_part_octant) spec.mesh.divisions = 2;
         if (spec.geometry.shape == &fracas_shape_sphere) spec.loading.rate = v < 4 ? 1e6 : 1e5;
-        fracas_model *model = shell_model(spec, distortion_of(&variants[v]), 3);
+        fracas_model *model = distorted_model(spec, distortion_of(&variants[v]), 3);
         fracas_batch *batch = lane_of(model, 0.3, 1);
         fracas_record record;
         fracas_record_init(&record);
@@ -191,7 +183,7 @@ static void momenta_are_kept_to_round_off(void **unused)
 static double residual_of(fracas_spec spec, double distortion, double safety, double *created, int64_t *broken)
 {
     spec.time.safety = safety;
-    fracas_model *model = shell_model(spec, distortion, 3);
+    fracas_model *model = distorted_model(spec, distortion, 3);
     fracas_record record[4];
     double residual = 0;
     run(model, 4, 3, 4, FRACAS_ISA_BEST, record);
@@ -266,7 +258,7 @@ static void a_sphere_cracks_when_its_stress_says_so(void **unused)
             const double radius = spec.geometry.radius, h = spec.geometry.thickness, thin = 1 + h * h / (12 * radius * radius), sigma = 300e6;
             const double w = sqrt(2 * m->young * thin / (m->density * (1 - m->poisson))) / radius;
             const double expected = asin(sigma * (1 - m->poisson) * w / (m->young * (thin + h / (2 * radius)) * spec.loading.rate)) / w;
-            fracas_model *model = shell_model(spec, 0, 0);
+            fracas_model *model = distorted_model(spec, 0, 0);
             error[finer] = 0;
             for (size_t weak = model->interfaces / 8; weak < model->interfaces; weak += model->interfaces / 4) {
                 fracas_batch *batch = lane_of(model, 0, 0);

@@ -10,9 +10,9 @@
 #include "engine/mesh/make.h"
 #include "engine/solver/batch.h"
 #include "sampler/sampler.h"
-#include "tests/support/bar.h"
+#include "tests/support/dense.h"
+#include "tests/support/distorted_model.h"
 
-#include <gsl/gsl_eigen.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -50,34 +50,9 @@ static inline fracas_spec body_of(int which, int64_t divisions)
     return membrane_spec(which < 2 ? &fracas_shape_plate : &fracas_shape_annulus, which % 2 + 1, divisions);
 }
 
-/* Its model; `distortion` moves inner vertices by that share of the local edge, by random numbers of this seed. */
-static inline fracas_model *membrane_model(fracas_spec spec, double distortion, uint64_t seed)
-{
-    const fracas_stream stream = {.seed = seed, .purpose = FRACAS_PURPOSE_MESH};
-    fracas_model *model = NULL;
-    size_t count = 0;
-    spec.mesh.amplitude = distortion;
-    assert_ok(fracas_mesh_noise_count(&spec, &count));
-    double *noise = malloc((count + 1) * sizeof *noise);
-    assert_non_null(noise);
-    for (size_t i = 0; i < count; i++) noise[i] = 2 * fracas_stream_uniform(&stream, i) - 1;
-    spec.mesh.noise = count ? noise : NULL;
-    spec.mesh.nnoise = count;
-    assert_ok(fracas_model_create(&spec, &model));
-    free(noise);
-    return model;
-}
-
 static inline const fracas_membrane_tables *tables_of(const fracas_model *model) { return model->plan; }
 
 static inline size_t unknowns_of(const fracas_model *model) { return 2 * model->surface->corners * model->elements; }
-
-static inline double *vector_of(size_t n)
-{
-    double *v = calloc(n, sizeof *v);
-    assert_non_null(v);
-    return v;
-}
 
 static inline const double *node_at(const fracas_model *model, size_t element, size_t k)
 {
@@ -149,29 +124,6 @@ static inline double *stiffness_matrix(const fracas_model *model, size_t n)
     free(column);
     fracas_membrane_operator_close(op);
     return matrix;
-}
-
-/* Eigenvalues of a symmetric matrix, ascending. */
-static inline double *eigenvalues_of(const double *matrix, size_t n)
-{
-    gsl_matrix *copy = gsl_matrix_alloc(n, n);
-    gsl_vector *values = gsl_vector_alloc(n);
-    gsl_eigen_symm_workspace *work = gsl_eigen_symm_alloc(n);
-    assert_true(copy && values && work);
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < n; j++) gsl_matrix_set(copy, i, j, 0.5 * (matrix[i * n + j] + matrix[j * n + i]));
-    gsl_eigen_symm(copy, values, work);
-    double *sorted = vector_of(n);
-    for (size_t i = 0; i < n; i++) {
-        size_t at = i;
-        const double value = gsl_vector_get(values, i);
-        for (; at > 0 && sorted[at - 1] > value; at--) sorted[at] = sorted[at - 1];
-        sorted[at] = value;
-    }
-    gsl_eigen_symm_free(work);
-    gsl_vector_free(values);
-    gsl_matrix_free(copy);
-    return sorted;
 }
 
 /* Shape functions and their derivatives by xi, eta, from the Lagrange polynomials in the barycentric coordinates. */

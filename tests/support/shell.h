@@ -7,7 +7,8 @@
 #include "engine/formulation/shell/geometry.h"
 #include "engine/integrator/integrator.h"
 #include "engine/mesh/make.h"
-#include "tests/support/bar.h"
+#include "tests/support/dense.h"
+#include "tests/support/distorted_model.h"
 #include "tests/support/gmsh.h"
 
 #include <math.h>
@@ -31,24 +32,6 @@ static inline fracas_spec shell_spec(const fracas_kind *shape)
                  .spectral_radius = 0.8, .mass = &fracas_mass_lumped}};
 }
 
-/* Its model; inner vertices moved by at most `distortion` of the local edge, by random numbers of this seed. */
-static inline fracas_model *shell_model(fracas_spec spec, double distortion, uint64_t seed)
-{
-    const fracas_stream stream = {.seed = seed, .purpose = FRACAS_PURPOSE_MESH};
-    fracas_model *model = NULL;
-    size_t count = 0;
-    spec.mesh.amplitude = distortion;
-    if (spec.mesh.spacing == &fracas_spacing_triangles) assert_ok(fracas_mesh_noise_count(&spec, &count));
-    double *noise = malloc((count + 1) * sizeof *noise);
-    assert_non_null(noise);
-    for (size_t i = 0; i < count; i++) noise[i] = 2 * fracas_stream_uniform(&stream, i) - 1;
-    spec.mesh.noise = count ? noise : NULL;
-    spec.mesh.nnoise = count;
-    assert_ok(fracas_model_create(&spec, &model));
-    free(noise);
-    return model;
-}
-
 /* The model of a surface as a mesh file. */
 static inline fracas_model *shell_of(fracas_spec spec, const fracas_surface *surface)
 {
@@ -57,7 +40,7 @@ static inline fracas_model *shell_of(fracas_spec spec, const fracas_surface *sur
     spec.geometry.shape = &fracas_shape_file;
     spec.geometry.file = &mesh;
     spec.mesh = (fracas_mesh){.spacing = &fracas_spacing_given};
-    fracas_model *model = shell_model(spec, 0, 0);
+    fracas_model *model = distorted_model(spec, 0, 0);
     model->spec.geometry.file = NULL; /* it is gone */
     free(file.bytes);
     return model;
@@ -184,13 +167,6 @@ static inline void roof_map(const void *how, double s, double t, double x[3])
 
 static inline const fracas_shell_tables *tables_of(const fracas_model *model) { return model->plan; }
 static inline size_t unknowns_of(const fracas_model *model) { return SHELL_UNKNOWNS * model->elements; }
-
-static inline double *vector_of(size_t n)
-{
-    double *v = calloc(n, sizeof *v);
-    assert_non_null(v);
-    return v;
-}
 
 static inline const double *node_at(const fracas_model *model, size_t element, size_t k)
 {

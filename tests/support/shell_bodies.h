@@ -30,7 +30,7 @@ static inline fracas_model *body_of(int which, fracas_spec spec, size_t n, uint6
     static const double plate[2] = {1.2, 1}, panel[3] = {1, 1.2, 0.6};
     if (which == SPHERE) {
         spec.mesh.divisions = 1;
-        return shell_model(spec, DISTORTION, seed);
+        return distorted_model(spec, DISTORTION, seed);
     }
     spec.geometry.shape = &fracas_shape_file;
     shell_map *const map[] = {flat_map, roof_map, saddle_map};

@@ -11,7 +11,7 @@
 #include "engine/mesh/make.h"
 #include "engine/solver/batch.h"
 #include "sampler/sampler.h"
-#include "tests/support/bar.h"
+#include "tests/support/distorted_model.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -35,24 +35,6 @@ static inline fracas_spec brittle_shell(const fracas_kind *shape, int64_t divisi
     else if (shape == &fracas_shape_annulus) spec.geometry.inner = 1e-3, spec.geometry.outer = 3e-3;
     else spec.geometry.radius = 1.5e-3;
     return spec;
-}
-
-/* `distortion` moves inner vertices by that share of the local edge, by random numbers of this seed. */
-static inline fracas_model *shell_model(fracas_spec spec, double distortion, uint64_t seed)
-{
-    const fracas_stream stream = {.seed = seed, .purpose = FRACAS_PURPOSE_MESH};
-    fracas_model *model = NULL;
-    size_t count = 0;
-    spec.mesh.amplitude = distortion;
-    assert_ok(fracas_mesh_noise_count(&spec, &count));
-    double *noise = malloc((count + 1) * sizeof *noise);
-    assert_non_null(noise);
-    for (size_t i = 0; i < count; i++) noise[i] = 2 * fracas_stream_uniform(&stream, i) - 1;
-    spec.mesh.noise = count ? noise : NULL;
-    spec.mesh.nnoise = count;
-    assert_ok(fracas_model_create(&spec, &model));
-    free(noise);
-    return model;
 }
 
 static inline fracas_shell_tables *shell_tables(const fracas_model *model) { return model->plan; }

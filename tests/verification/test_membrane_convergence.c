@@ -115,7 +115,7 @@ static double static_error(fracas_spec spec, double distortion, double *size)
 {
     hold_all(&spec, &fracas_edge_held);
     spec.material.poisson = 0.22;
-    fracas_model *model = membrane_model(spec, distortion, (uint64_t)spec.mesh.divisions);
+    fracas_model *model = distorted_model(spec, distortion, (uint64_t)spec.mesh.divisions);
     const size_t n = unknowns_of(model);
     double *u = vector_of(n), *f = vector_of(n);
     interpolate(model, exact, NULL, u);
@@ -189,7 +189,7 @@ static double frequency_error(int64_t order, int64_t divisions, const fracas_kin
     spec.material.poisson = 0.22;
     spec.time.mass = mass;
     hold_all(&spec, &fracas_edge_sliding);
-    fracas_model *model = membrane_model(spec, DISTORTION, (uint64_t)divisions);
+    fracas_model *model = distorted_model(spec, DISTORTION, (uint64_t)divisions);
     const fracas_geometry *g = &spec.geometry;
     const wave exact_wave = {PI / g->width, PI / g->height, -0.5 * g->width, -0.5 * g->height};
     const double shear = spec.material.young / (2 * (1 + spec.material.poisson) * spec.material.density);

@@ -51,7 +51,7 @@ static double growth_of(const fracas_model *model, size_t i)
  * stress/u: 1e-14; 1e-12 of the time. */
 static void check_onsets(const fracas_spec *spec)
 {
-    fracas_model *model = membrane_model(*spec, DISTORTION, 9);
+    fracas_model *model = distorted_model(*spec, DISTORTION, 9);
     double fastest = 0, expected[MOST], end = 0;
     size_t weak[MOST], count = 0;
     for (size_t i = 0; i < model->interfaces; i++) fastest = fmax(fastest, growth_of(model, i));
@@ -228,7 +228,7 @@ static void two_triangles_crack_and_break_in_time(void **unused)
             spec.cohesive.critical_opening = 1.2e-6;
         }
         spec.time.integrator = schemes[(which / 2) % 2];
-        fracas_model *model = membrane_model(spec, 0, 0);
+        fracas_model *model = distorted_model(spec, 0, 0);
         assert_true(model->elements == 2 && model->interfaces == 1);
         for (size_t e = 0; e < 2; e++) ((fracas_membrane_tables *)model->plan)->held[e] = 0x3f; /* every node: edges alone may not */
         const fracas_stream stream = {.seed = 4, .purpose = FRACAS_PURPOSE_MESH};
@@ -354,7 +354,7 @@ static void a_row_of_weak_interfaces(void **unused)
             spec.cohesive.fracture_energy = 0;
             spec.cohesive.critical_opening = 1.2e-6;
         }
-        fracas_model *model = membrane_model(spec, 0, 0);
+        fracas_model *model = distorted_model(spec, 0, 0);
         check_row(model, which / 2 % 2, which % 2 ? 8 : 16); /* squares along x: 4 times those along y */
         fracas_model_destroy(model);
     }
@@ -429,7 +429,7 @@ static void fragments_and_histories_of_a_plate(void **unused)
         if (which / 2 % 2) spec.time.mass = &fracas_mass_consistent;
         spec.cohesive.law = laws[which / 4];
         if (which / 4) spec.time.safety = 0.1;
-        fracas_model *model = membrane_model(spec, DISTORTION, 3);
+        fracas_model *model = distorted_model(spec, DISTORTION, 3);
         fracas_batch *batch = lane_of(model, 0.3, (uint64_t)which, 60);
         fracas_record record;
         fracas_record_init(&record);
@@ -454,7 +454,7 @@ static void an_interface_holds_by_its_last_point(void **unused)
 {
     (void)unused;
     fracas_spec spec = brittle_plate(2, 1, 0, 1e-7);
-    fracas_model *model = membrane_model(spec, 0, 0);
+    fracas_model *model = distorted_model(spec, 0, 0);
     fracas_batch *batch = lane_of(model, 0, 0, 0);
     fracas_record record;
     fracas_record_init(&record);
@@ -505,7 +505,7 @@ static void it_stops_at_the_multiple_of_the_peak(void **unused)
         spec.time.stop = &fracas_stop_peak_multiple;
         spec.time.multiple = which ? 1 : 1.7;
         spec.time.drop = which ? 0.5 : 0.05;
-        fracas_model *model = membrane_model(spec, DISTORTION, 3);
+        fracas_model *model = distorted_model(spec, DISTORTION, 3);
         for (uint64_t replica = 0; replica < 4; replica++) check_stop(model, replica);
         fracas_model_destroy(model);
     }

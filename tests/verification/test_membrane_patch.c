@@ -12,7 +12,7 @@ enum { BENT = BODIES, ALL_BODIES };
 static fracas_model *bent_plate(int64_t divisions, uint64_t seed)
 {
     fracas_spec spec = membrane_spec(&fracas_shape_plate, 2, divisions);
-    fracas_model *flat = membrane_model(spec, DISTORTION, seed), *model;
+    fracas_model *flat = distorted_model(spec, DISTORTION, seed), *model;
     fracas_surface bent = *flat->surface;
     double (*node)[3] = malloc(bent.nnodes * sizeof *node);
     assert_non_null(node);
@@ -28,7 +28,7 @@ static fracas_model *bent_plate(int64_t divisions, uint64_t seed)
     spec.geometry.shape = &fracas_shape_file;
     spec.geometry.file = &mesh;
     spec.mesh = (fracas_mesh){.spacing = &fracas_spacing_given};
-    model = membrane_model(spec, 0, 0);
+    model = distorted_model(spec, 0, 0);
     free(file.bytes);
     free(node);
     fracas_model_destroy(flat);
@@ -37,7 +37,7 @@ static fracas_model *bent_plate(int64_t divisions, uint64_t seed)
 
 static fracas_model *distorted(int which, int64_t divisions, uint64_t seed)
 {
-    return which == BENT ? bent_plate(divisions, seed) : membrane_model(body_of(which, divisions), DISTORTION, seed);
+    return which == BENT ? bent_plate(divisions, seed) : distorted_model(body_of(which, divisions), DISTORTION, seed);
 }
 
 /* u = g x + c, g = du_i/dx_j */
@@ -286,7 +286,7 @@ static void only_rigid_motions_cost_no_energy(void **unused)
 {
     (void)unused;
     for (int which = 0; which < BODIES; which++) {
-        fracas_model *model = membrane_model(body_of(which, which < 2 ? 2 : 1), DISTORTION, 7);
+        fracas_model *model = distorted_model(body_of(which, which < 2 ? 2 : 1), DISTORTION, 7);
         const size_t n = unknowns_of(model);
         double *matrix = stiffness_matrix(model, n), *value = eigenvalues_of(matrix, n);
         print_message("body %d: %.1e %.1e %.1e, then %.1e of the largest\n", which, value[0] / value[n - 1], value[1] / value[n - 1],
@@ -312,7 +312,7 @@ static void masses_are_those_of_the_textbook(void **unused)
     for (int order = 1; order <= 2; order++) {
         fracas_spec spec = membrane_spec(&fracas_shape_plate, order, 3);
         spec.time.mass = &fracas_mass_consistent;
-        fracas_model *model = membrane_model(spec, DISTORTION, 4);
+        fracas_model *model = distorted_model(spec, DISTORTION, 4);
         const fracas_membrane_tables *t = tables_of(model);
         const size_t nodes = model->surface->corners;
         for (size_t e = 0; e < model->elements; e++) {
@@ -382,7 +382,7 @@ static double smallest_beta(fracas_spec spec, double distortion)
     size_t n = 0;
     for (int i = 0; i < 2; i++) {
         spec.cohesive.beta = i ? 20 : 10;
-        fracas_model *model = membrane_model(spec, distortion, 2);
+        fracas_model *model = distorted_model(spec, distortion, 2);
         n = unknowns_of(model);
         k[i] = stiffness_matrix(model, n);
         fracas_model_destroy(model);

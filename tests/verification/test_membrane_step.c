@@ -12,7 +12,7 @@ typedef struct {
 /* One realization that never cracks, before its first step. */
 static membrane_run begin(const fracas_spec *spec, int width)
 {
-    membrane_run run = {.model = membrane_model(*spec, DISTORTION, 9), .running = 1};
+    membrane_run run = {.model = distorted_model(*spec, DISTORTION, 9), .running = 1};
     const fracas_batch_options options = {.width = width, .isa = FRACAS_ISA_BEST};
     size_t stride;
     assert_ok(fracas_batch_create(run.model, 1, &options, &run.batch));
@@ -168,8 +168,8 @@ static void held_edges_change_nothing_else(void **unused)
     for (int order = 1; order <= 2; order++)
         for (int consistent = 0; consistent < 2; consistent++) {
             const fracas_spec spec = held_plate(order, consistent, false);
-            fracas_model *held = membrane_model(spec, DISTORTION, 9);
-            fracas_model *loose = membrane_model(membrane_spec(&fracas_shape_plate, order, 3), DISTORTION, 9);
+            fracas_model *held = distorted_model(spec, DISTORTION, 9);
+            fracas_model *loose = distorted_model(membrane_spec(&fracas_shape_plate, order, 3), DISTORTION, 9);
             const size_t n = unknowns_of(held);
             double *u = vector_of(n), *a = vector_of(n), *force = vector_of(n), *balance = vector_of(n);
             uint64_t noise = 5;

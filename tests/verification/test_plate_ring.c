@@ -107,7 +107,7 @@ static fracas_model *disk_model(int64_t order, double size, const fracas_kind *m
     spec.time.end = 27e-6;
     spec.time.mass = mass;
     spec.time.integrator = integrator;
-    return membrane_model(spec, 0, 0);
+    return distorted_model(spec, 0, 0);
 }
 
 /* Until 26 us. */

@@ -294,7 +294,7 @@ static double relative(double a, double b, double scale) { return fabs(a - b) / 
  * thousand terms of which each has, through stresses that are differences of displacements, 1e-13 of it: 1e-11. */
 static void walk(const fracas_spec *spec, double scale, double distortion, long seen[7], double worst[3])
 {
-    fracas_model *model = shell_model(*spec, distortion, 3);
+    fracas_model *model = distorted_model(*spec, distortion, 3);
     fracas_batch *batch = lane_of(model, 0.3, 5);
     assert_ok(fracas_batch_begin(batch));
     const size_t n = unknowns_of(model);
@@ -435,7 +435,7 @@ static double damage_of(const fracas_batch *batch, size_t i)
  * for an onset by what shear has over friction. */
 static void check_times(const fracas_spec *spec, double distortion, double worst[2], long counts[2])
 {
-    fracas_model *model = shell_model(*spec, distortion, 3);
+    fracas_model *model = distorted_model(*spec, distortion, 3);
     const size_t n = unknowns_of(model);
     const double dt = model->time_step, speed = spec->cohesive.onset == &fracas_onset_flux || spec->cohesive.critical_opening > 0 ? 2.5 : 1;
     for (size_t e = 0; e < model->elements; e++) shell_tables(model)->held[e] = shell_tables(model)->fixed[e] = 0x3ffff;
@@ -514,7 +514,7 @@ static void onsets_and_breaks_come_when_they_must(void **unused)
 static void an_interface_breaks_with_its_last_layer(void **unused)
 {
     (void)unused;
-    fracas_model *model = shell_model(brittle_shell(&fracas_shape_plate, 1), 0, 0);
+    fracas_model *model = distorted_model(brittle_shell(&fracas_shape_plate, 1), 0, 0);
     fracas_batch *batch = lane_of(model, 0, 0);
     assert_ok(fracas_batch_begin(batch));
     for (int last = 0; last <= SHELL_EDGE * SHELL_LAYERS; last++) {

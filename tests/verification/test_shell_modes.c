@@ -1,30 +1,12 @@
 /* Eigenvalues of the shell's operator: rigid motions alone have none, beta that keeps it positive, critical step. */
 #include "tests/support/shell_bodies.h"
 
-#include <gsl/gsl_eigen.h>
-
-/* Of M^-1/2 K M^-1/2, ascending: omega^2. */
-static double *eigenvalues_of(const fracas_model *model, double *matrix, size_t n)
+/* Of M^-1/2 K M^-1/2, ascending: omega^2; the matrix becomes that. */
+static double *squares_of_frequencies(const fracas_model *model, double *matrix, size_t n)
 {
-    gsl_matrix *copy = gsl_matrix_alloc(n, n);
-    gsl_vector *values = gsl_vector_alloc(n);
-    gsl_eigen_symm_workspace *work = gsl_eigen_symm_alloc(n);
-    assert_true(copy && values && work);
     for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < n; j++)
-            gsl_matrix_set(copy, i, j, 0.5 * (matrix[i * n + j] + matrix[j * n + i]) / sqrt(mass_of(model, i) * mass_of(model, j)));
-    gsl_eigen_symm(copy, values, work);
-    double *sorted = vector_of(n);
-    for (size_t i = 0; i < n; i++) {
-        size_t at = i;
-        const double value = gsl_vector_get(values, i);
-        for (; at > 0 && sorted[at - 1] > value; at--) sorted[at] = sorted[at - 1];
-        sorted[at] = value;
-    }
-    gsl_eigen_symm_free(work);
-    gsl_vector_free(values);
-    gsl_matrix_free(copy);
-    return sorted;
+        for (size_t j = 0; j < n; j++) matrix[i * n + j] /= sqrt(mass_of(model, i) * mass_of(model, j));
+    return eigenvalues_of(matrix, n);
 }
 
 /* None negative, and 0 for the 6 rigid motions alone, for every beta that the model takes. Round-off is some n^0.5 1.1e-16 of the
@@ -41,7 +23,7 @@ static void free_bodies_have_six_rigid_motions(void **unused)
             spec.cohesive.beta_shear = shear[k < 3 ? 1 : k == 3 ? 0 : 2];
             fracas_model *model = body_of(which, spec, 3, 11);
             const size_t n = unknowns_of(model);
-            double *matrix = stiffness_matrix(model, n), *value = eigenvalues_of(model, matrix, n);
+            double *matrix = stiffness_matrix(model, n), *value = squares_of_frequencies(model, matrix, n);
             const double step = 2 / sqrt(value[n - 1]);
             print_message("%s, beta %g, beta_shear %g: eigenvalues %.1e, 6 below %.1e, next %.1e of the largest; step by it %+.1e\n", body_name[which],
                           spec.cohesive.beta, spec.cohesive.beta_shear, value[0] / value[n - 1], fmax(value[5], -value[0]) / value[n - 1],

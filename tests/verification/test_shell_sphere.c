@@ -2,6 +2,7 @@
  * ctest-labels: slow-sanitize
  */
 #include "tests/support/shell.h"
+#include "tests/support/shell_run.h"
 
 /* The alumina sphere of docs/theory/shell.md: mid radius 9.95 mm, 0.1 mm thick; it grows at 1e4 /s at the start. */
 #define RADIUS 9.95e-3
@@ -42,7 +43,7 @@ static void breathing_frequency(void **unused)
         for (int64_t n = 2; n < 33; n *= 2) {
             if (whole && n > 8) continue;
             const fracas_spec spec = alumina(whole ? &fracas_part_whole : &fracas_part_octant, n);
-            fracas_model *model = shell_model(spec, n > 2 && !whole ? DISTORTION : 0, 5);
+            fracas_model *model = distorted_model(spec, n > 2 && !whole ? DISTORTION : 0, 5);
             const size_t size = unknowns_of(model);
             double *u = vector_of(size), *f = vector_of(size), stretch = 0, mass = 0;
             fracas_shell_operator *op = open_operator(model);
@@ -66,35 +67,6 @@ static void breathing_frequency(void **unused)
 }
 
 /* ---- runs ---- */
-
-typedef struct {
-    fracas_model *model;
-    fracas_batch *batch;
-    fracas_record record;
-    size_t running;
-} shell_run;
-
-static shell_run begin(fracas_model *model)
-{
-    shell_run run = {.model = model, .running = 1};
-    const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
-    size_t stride;
-    assert_ok(fracas_batch_create(model, 1, &options, &run.batch));
-    double *strength = fracas_batch_strength(run.batch, 0, &stride);
-    for (size_t i = 0; i < model->interfaces; i++) strength[i * stride] = 1e10;
-    assert_ok(fracas_batch_begin(run.batch));
-    fracas_record_init(&run.record);
-    return run;
-}
-
-static void step(shell_run *run) { assert_ok(fracas_batch_step(run->batch, &run->record, &run->running)); }
-
-static void clear(shell_run *run)
-{
-    fracas_record_clear(&run->record);
-    fracas_batch_destroy(run->batch);
-    fracas_model_destroy(run->model);
-}
 
 /* Mean stress of stretching of an element, E/(1 - nu) times half the trace of the strain at the points where resultants are. */
 static double stress_of(const shell_run *run, size_t e)
@@ -139,13 +111,13 @@ static void a_growing_sphere(void **unused)
     (void)unused;
     for (int whole = 0; whole < 2; whole++) {
         const fracas_spec spec = alumina(whole ? &fracas_part_whole : &fracas_part_octant, whole ? 16 : 32);
-        shell_run run = begin(shell_model(spec, 0.1, 5));
+        shell_run run = shell_begin(distorted_model(spec, 0.1, 5), 1, 1e10);
         const double omega = breathing(&spec), amplitude = spec.material.young * 1e4 / (1 - spec.material.poisson) / omega;
         const double end = whole ? 200e-9 : 2 * PI / omega;
         double worst = 0, drift = 0, spread = 0, furthest = 0, early = 0, start = 0;
         assert_true(fabs(amplitude * sin(omega * 55.725e-9) - 264e6) < 0.01e6);
         while (run.batch->step.time[0] < end) {
-            step(&run);
+            shell_step(&run);
             const fracas_ledger *ledger = &run.batch->lane[0].ledger;
             const double time = run.batch->step.time[0], sigma = mean_stress(&run, &spread), expected = amplitude * sin(omega * time);
             if (time == 0) start = ledger->kinetic / (whole ? 8 : 1);
@@ -159,7 +131,7 @@ static void a_growing_sphere(void **unused)
         assert_true(fabs(start - 0.3002) < 5e-5);
         assert_true(worst < 1e-3 && early < 1e-3);
         assert_true(drift < 1e-12);
-        clear(&run);
+        shell_clear(&run);
     }
 }
 
@@ -251,7 +223,7 @@ static void symmetry_is_a_mirror(void **unused)
     (void)unused;
     fracas_spec spec = alumina(&fracas_part_octant, 4);
     spec.geometry.thickness = 1e-3; /* bending as large as stretching */
-    fracas_model *octant = shell_model(spec, DISTORTION, 5), *whole = mirrored(octant);
+    fracas_model *octant = distorted_model(spec, DISTORTION, 5), *whole = mirrored(octant);
     const size_t n = unknowns_of(octant), all = unknowns_of(whole);
     double *u = vector_of(n), *f = vector_of(n), *u_all = vector_of(all), *f_all = vector_of(all), *sign = vector_of(all), worst = 0;
     size_t *from = calloc(all, sizeof *from);
@@ -293,24 +265,24 @@ static void start_ellipsoid(shell_run *run)
 static double ellipsoids_differ(int64_t divisions)
 {
     const fracas_spec spec = alumina(&fracas_part_octant, divisions);
-    fracas_model *octant = shell_model(spec, 0, 5);
+    fracas_model *octant = distorted_model(spec, 0, 5);
     octant->time_step *= 0.9; /* below both critical steps */
     fracas_model *whole = mirrored(octant);
     whole->time_step = octant->time_step;
-    shell_run one = begin(octant), all = begin(whole);
+    shell_run one = shell_begin(octant, 1, 1e10), all = shell_begin(whole, 1, 1e10);
     start_ellipsoid(&one);
     start_ellipsoid(&all);
     double worst = 0;
     while (one.batch->step.time[0] < 2 * PI / breathing(&spec)) {
-        step(&one);
-        step(&all);
+        shell_step(&one);
+        shell_step(&all);
         const fracas_ledger *a = &one.batch->lane[0].ledger, *b = &all.batch->lane[0].ledger;
         worst = fmax(worst, fabs(b->elastic / 8 - a->elastic) / a->initial);
         assert_true(fabs(b->kinetic + b->elastic - b->initial) < 1e-12 * b->initial);
         assert_true(fabs(a->kinetic + a->elastic - a->initial) < 1e-12 * a->initial);
     }
-    clear(&one);
-    clear(&all);
+    shell_clear(&one);
+    shell_clear(&all);
     return worst;
 }
 

@@ -1,35 +1,6 @@
 /* A step of the shell in a batch: what its kick and energies are by the operator, and what edges hold. */
 #include "tests/support/shell_bodies.h"
-
-typedef struct {
-    fracas_model *model;
-    fracas_batch *batch;
-    fracas_record record;
-    size_t running;
-} shell_run;
-
-/* One realization that never cracks, before its first step. */
-static shell_run begin(fracas_model *model, int width)
-{
-    shell_run run = {.model = model, .running = 1};
-    const fracas_batch_options options = {.width = width, .isa = FRACAS_ISA_BEST};
-    size_t stride;
-    assert_ok(fracas_batch_create(model, 1, &options, &run.batch));
-    double *strength = fracas_batch_strength(run.batch, 0, &stride);
-    for (size_t i = 0; i < model->interfaces; i++) strength[i * stride] = 1e3;
-    assert_ok(fracas_batch_begin(run.batch));
-    fracas_record_init(&run.record);
-    return run;
-}
-
-static void step(shell_run *run) { assert_ok(fracas_batch_step(run->batch, &run->record, &run->running)); }
-
-static void clear(shell_run *run)
-{
-    fracas_record_clear(&run->record);
-    fracas_batch_destroy(run->batch);
-    fracas_model_destroy(run->model);
-}
+#include "tests/support/shell_run.h"
 
 static double *value_of(const shell_run *run, size_t unknown, int field)
 {
@@ -46,7 +17,7 @@ static void a_step_is_the_operator(void **unused)
         for (int w = 0; w < 3; w++) {
             fracas_spec spec = shell_spec(&fracas_shape_sphere);
             if (which != SPHERE) spec.geometry.edge[1] = spec.geometry.edge[3] = &fracas_edge_clamped;
-            shell_run run = begin(body_of(which, spec, 3, 5), widths[w]);
+            shell_run run = shell_begin(body_of(which, spec, 3, 5), widths[w], 1e3);
             const size_t n = unknowns_of(run.model);
             double *u = vector_of(n), *v = vector_of(n), *f = vector_of(n), worst = 0, kinetic = 0, largest = 0;
             uint64_t noise = 3;
@@ -56,7 +27,7 @@ static void a_step_is_the_operator(void **unused)
             }
             fracas_shell_operator *op = open_operator(run.model);
             apply_stiffness(run.model, op, u, f);
-            step(&run);
+            shell_step(&run);
             const double kick = run.batch->step.kick[0], elastic = 0.5 * dot_of(u, f, n);
             assert_true(kick > 0 && elastic > 0);
             for (size_t i = 0; i < n; i++) {
@@ -74,7 +45,7 @@ static void a_step_is_the_operator(void **unused)
             free(u);
             free(v);
             free(f);
-            clear(&run);
+            shell_clear(&run);
         }
 }
 
@@ -104,10 +75,10 @@ static void edges_hold_what_they_should(void **unused)
             spec.geometry.edge[tag] = kinds[k];
             spec.loading.rate = rate;
             spec.loading.ratio = 0.5;
-            shell_run run = begin(grid_model(&spec, &(shell_grid){.nx = 3, .ny = 3, .map = flat_map, .how = unit, .distortion = 0.1, .seed = 3}), 1);
+            shell_run run = shell_begin(grid_model(&spec, &(shell_grid){.nx = 3, .ny = 3, .map = flat_map, .how = unit, .distortion = 0.1, .seed = 3}), 1, 1e3);
             const fracas_surface *s = run.model->surface;
             const double speed[3] = {rate, 0.5 * rate, rate};
-            for (int n = 0; n < 20; n++) step(&run);
+            for (int n = 0; n < 20; n++) shell_step(&run);
             for (size_t i = 0; i < unknowns_of(run.model); i++) {
                 const size_t e = i / SHELL_UNKNOWNS, node = i % SHELL_UNKNOWNS / 3;
                 char expected = 'f';
@@ -124,7 +95,7 @@ static void edges_hold_what_they_should(void **unused)
             }
             const fracas_ledger *ledger = &run.batch->lane[0].ledger;
             assert_true(fabs(ledger->residual) < 0.02 * fmax(fabs(ledger->work), 1e-10 * ledger->initial));
-            clear(&run);
+            shell_clear(&run);
         }
 }
 
@@ -163,7 +134,7 @@ static void oblique_edges_are_refused(void **unused)
     fracas_spec spec = shell_spec(&fracas_shape_sphere);
     spec.geometry.part = &fracas_part_octant;
     spec.mesh.divisions = 1;
-    fracas_model_destroy(shell_model(spec, 0, 0));
+    fracas_model_destroy(distorted_model(spec, 0, 0));
 }
 
 int main(void)

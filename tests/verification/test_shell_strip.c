@@ -52,7 +52,7 @@ static void fill_fields(strip *s, bool sliding)
 
 static strip strip_of(const fracas_spec *spec, bool sliding, double strength)
 {
-    strip s = {.model = shell_model(*spec, 0, 0), .field = calloc(FIELDS, sizeof *s.field)};
+    strip s = {.model = distorted_model(*spec, 0, 0), .field = calloc(FIELDS, sizeof *s.field)};
     assert_true(s.field && s.model->elements == 2 && s.model->interfaces == 1);
     s.batch = lane_of(s.model, 0, 0);
     bar_set_strength(s.batch, 0, 0, strength);
