@@ -26,6 +26,7 @@ output: {history: 50}
 END
 expect 0 "$fracas" run sphere.yaml --study sphere
 "$fracas" report sphere --json > sphere.json
+/usr/bin/python3 "$source/docs/examples/fragments_from_study.py" sphere/study.h5 1e-4 > fragments.tsv
 /usr/bin/python3 - <<'END'
 import json, math
 import h5py
@@ -58,6 +59,13 @@ for p, point in enumerate(points):
     bending = sum(realization["dissipated_bending"][r] / realization["dissipated"][r] for r in mine) / len(mine)
     print("count", s["count.mean"], "+-", s["count.half_width"], "residual", s["residual"], "created", s["created"], "bending", bending)
     assert 0 < bending < 0.02
+
+# The script for readers counts the same fragments, and their masses are the body's.
+for point, line in zip(points, open("fragments.tsv").read().splitlines()[1:]):
+    row, s = line.split("\t"), point["statistics"]
+    assert int(row[1]) == round(8 * s["count.mean"]) and int(row[1]) - int(row[2]) == round(8 * s["count_large.mean"]), row
+    large = (1 - float(row[3])) * 8 * realization["mass"][8 * points.index(point)]
+    assert abs(float(row[4]) * (int(row[1]) - int(row[2])) / large - 1) < 2e-3, row # four digits are printed
 
 slow, fast, whole = (p["statistics"] for p in points)
 assert fast["count.mean"] - fast["count.half_width"] > 1.3 * (slow["count.mean"] + slow["count.half_width"])
