@@ -41,6 +41,21 @@ void fracas_param_set(const fracas_param *param, void *section, double value)
     }
 }
 
+void fracas_param_clear(const fracas_param *param, void *section)
+{
+    void *at = (char *)section + param->offset;
+    if (param->type == FRACAS_REAL) *(double *)at = NAN;
+    else if (param->type == FRACAS_CHOICE) *(const fracas_kind **)at = NULL;
+    else if (param->type == FRACAS_ATTACHMENT) fracas_param_attach(param, section, NULL);
+}
+
+bool fracas_param_is_given(const fracas_param *param, const void *section)
+{
+    if (!param->optional) return true;
+    if (param->type == FRACAS_ATTACHMENT) return fracas_param_attachment(param, section) != NULL;
+    return !isnan(fracas_param_get(param, section));
+}
+
 const fracas_attachment *fracas_param_attachment(const fracas_param *param, const void *section)
 {
     return *(const fracas_attachment *const *)place(param, section);

@@ -49,6 +49,7 @@ typedef struct {
     const fracas_kind *const *choices; /* of a FRACAS_CHOICE */
     size_t nchoices;
     const fracas_kind *const *only; /* models that have it, up to a NULL; NULL: all have */
+    bool optional; /* no default: where it is not given the point has none (NaN, NULL). Not of FRACAS_INTEGER, FRACAS_BOOLEAN */
 } fracas_param;
 
 struct fracas_kind {
@@ -87,6 +88,12 @@ static inline bool fracas_param_is_text(const fracas_param *param)
 /* The value that `param` describes within the section's struct at `section`, as a double: of a choice, its index (NaN for
  * none of them); NaN of an attachment. */
 double fracas_param_get(const fracas_param *param, const void *section);
+
+/* Makes it what it is where nothing gives it: NaN, or NULL. */
+void fracas_param_clear(const fracas_param *param, void *section);
+
+/* False of an optional parameter that nothing gives. */
+bool fracas_param_is_given(const fracas_param *param, const void *section);
 
 /* Stores `value` (SI, already validated; an index of a choice) at the place that `param` describes; nothing for an attachment. */
 void fracas_param_set(const fracas_param *param, void *section, double value);

@@ -94,6 +94,10 @@ static fracas_err check_settings(const fracas_campaign *now, const fracas_campai
         return fracas_fail(FRACAS_DAMAGED,
                            "seed is %" PRIu64 " in the study, but %" PRIu64 " in this campaign file; %s", before->seed,
                            now->seed, remedy);
+    if (now->common_random_numbers != before->common_random_numbers)
+        return fracas_fail(FRACAS_DAMAGED, "random_numbers is %s in the study, but %s in this campaign file; %s",
+                           before->common_random_numbers ? "common" : "independent",
+                           now->common_random_numbers ? "common" : "independent", remedy);
     if (now->output.history != before->output.history)
         return fracas_fail(FRACAS_DAMAGED,
                            "output.history is %" PRId64 " in the study, but %" PRId64 " in this campaign "

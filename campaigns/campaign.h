@@ -35,6 +35,7 @@ typedef struct fracas_attached {
 typedef struct fracas_campaign {
     char *name;
     uint64_t seed;
+    bool common_random_numbers; /* replica r draws the same at every point; else points are independent */
     fracas_output output;       /* one for the whole campaign */
     size_t npoints;
     fracas_point *point;        /* plan order = file order of the sweep, last axis fastest */

@@ -36,6 +36,12 @@ double fracas_model_interface_volume(const fracas_model *model, size_t interface
  * its edge; of a bar, x along it from its left end; of a ring, on its circle in the plane, at the angle 2 pi (i + 1)/n. */
 void fracas_model_interface_positions(const fracas_model *model, double (*position)[3]);
 
+/* Area of interface `interface` itself [m2]: the cross-section of a chain, length times thickness of a surface. */
+double fracas_model_interface_area(const fracas_model *model, size_t interface);
+
+/* Length of a bar whose ends are joined [m], 0 of any other body. */
+double fracas_model_period(const fracas_model *model);
+
 /* Checks one strength [Pa] against the mesh: FRACAS_USAGE, saying what would do, where the law could not
  * dissipate G_c (K <= sigma_c/delta_c). */
 FRACAS_MUST_USE fracas_err fracas_model_check_strength(const fracas_model *model, double strength);

@@ -1,6 +1,7 @@
 #include "engine/formulation/formulation.h"
 
 #include "engine/cohesive/law.h"
+#include "engine/mesh/body.h"
 #include "engine/mesh/surface/surface.h"
 
 #include <math.h>
@@ -70,6 +71,20 @@ int64_t fracas_model_steps(const fracas_model *model) { return (int64_t)most_ste
 double fracas_model_interface_volume(const fracas_model *model, size_t interface)
 {
     return model->formulation->interface_volume(model, interface);
+}
+
+double fracas_model_interface_area(const fracas_model *model, size_t interface)
+{
+    const fracas_geometry *geometry = &model->spec.geometry;
+    if (!model->surface) return geometry->area;
+    return fracas_surface_length(model->surface, model->surface->interface[interface].element[0], model->surface->interface[interface].edge[0]) *
+           geometry->thickness;
+}
+
+double fracas_model_period(const fracas_model *model)
+{
+    const fracas_geometry *geometry = &model->spec.geometry;
+    return geometry->ends == &fracas_ends_periodic ? geometry->length : 0;
 }
 
 static void surface_positions(const fracas_surface *surface, double (*position)[3])

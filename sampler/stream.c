@@ -1,5 +1,5 @@
 /* Streams of random numbers by name: Philox4x64-10 (Salmon et al., SC11, 2011). */
-#include "sampler/sampler.h"
+#include "sampler/stream.h"
 
 #include <Random123/philox.h>
 

@@ -1,5 +1,5 @@
 /* The registry of distributions, and what is done with any of them. */
-#include "sampler/distribution.h"
+#include "sampler/distribution/distribution.h"
 
 static const fracas_kind *const distributions[] = {
     &fracas_weibull.kind,
@@ -23,55 +23,44 @@ const fracas_section fracas_strength_section = {
     .check = check_section,
 };
 
-static const fracas_distribution *distribution_of(const fracas_strength *strength)
+const fracas_distribution *fracas_distribution_of(const fracas_strength *strength)
 {
     return (const fracas_distribution *)(const void *)strength->distribution;
 }
 
 fracas_err fracas_strength_check(const fracas_strength *strength)
 {
-    const fracas_distribution *distribution = distribution_of(strength);
+    const fracas_distribution *distribution = fracas_distribution_of(strength);
     return distribution->check ? distribution->check(strength) : FRACAS_OK;
 }
 
-double fracas_strength_quantile(const fracas_strength *strength, double volume, double u)
+double fracas_strength_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
 {
-    return distribution_of(strength)->quantile(strength, volume, u);
+    return fracas_distribution_of(strength)->quantile(strength, extent, p);
 }
 
-double fracas_strength_mean(const fracas_strength *strength, double volume)
+double fracas_strength_mean(const fracas_strength *strength, fracas_extent extent)
 {
-    return distribution_of(strength)->mean(strength, volume);
+    return fracas_distribution_of(strength)->mean(strength, extent);
 }
 
 bool fracas_strength_has_size_effect(const fracas_strength *strength)
 {
-    return distribution_of(strength)->size_effect;
+    return fracas_distribution_of(strength)->size_effect;
 }
 
 size_t fracas_strength_count(const fracas_strength *strength)
 {
-    const fracas_distribution *distribution = distribution_of(strength);
+    const fracas_distribution *distribution = fracas_distribution_of(strength);
     return distribution->count ? distribution->count(strength) : 0;
 }
 
 bool fracas_strength_is_given(const fracas_strength *strength)
 {
-    return distribution_of(strength)->fill != NULL;
+    return fracas_distribution_of(strength)->fill != NULL;
 }
 
 bool fracas_strength_is_placed(const fracas_strength *strength)
 {
-    return distribution_of(strength)->placed;
-}
-
-/* (sampling.3) */
-fracas_err fracas_strength_sample(const fracas_strength *strength, const fracas_stream *stream, size_t n, const double *volume,
-                                  const double (*position)[3], size_t stride, double *sigma_c)
-{
-    const fracas_distribution *distribution = distribution_of(strength);
-    if (distribution->fill) return distribution->fill(strength, n, position, stride, sigma_c);
-    for (size_t i = 0; i < n; i++)
-        sigma_c[i * stride] = distribution->quantile(strength, volume[i], fracas_stream_uniform(stream, i));
-    return FRACAS_OK;
+    return fracas_distribution_of(strength)->placed;
 }

@@ -195,9 +195,11 @@ bool fracas_leaf_get(const fracas_leaf *leaf, const void *owner, fracas_value *v
     }
     const fracas_kind *model = model_in(leaf->section, owner);
     const fracas_param *param = fracas_section_param(leaf->section->table, kind, model, leaf->key);
-    if (param && fracas_param_is_text(param)) value->text = fracas_param_text(param, section_in(leaf->section, owner));
-    else if (param) value->real = fracas_param_get(param, section_in(leaf->section, owner));
-    return param != NULL;
+    const void *section = section_in(leaf->section, owner);
+    if (!param || !fracas_param_is_given(param, section)) return false;
+    if (fracas_param_is_text(param)) value->text = fracas_param_text(param, section);
+    else value->real = fracas_param_get(param, section);
+    return true;
 }
 
 bool fracas_leaf_is_text(const fracas_leaf *leaf)

@@ -24,6 +24,7 @@ void fracas_point_write(const fracas_catalog *catalog, const fracas_point *point
 static void write_campaign(const fracas_catalog *catalog, const fracas_campaign *campaign, FILE *out)
 {
     fprintf(out, "seed=%" PRIu64 "\n", campaign->seed);
+    if (campaign->common_random_numbers) fprintf(out, "random_numbers=common\n");
     for (size_t i = 0; i < catalog->nleaves; i++) {
         const fracas_leaf *leaf = &catalog->leaf[i];
         fracas_value value;
@@ -153,10 +154,10 @@ static size_t list_sources(const fracas_catalog *catalog, const fracas_campaign 
     return count;
 }
 
-/* The last mesh that was made to learn the volume of an interface. */
+/* The last mesh that was made to learn the extent of an interface. */
 typedef struct {
     const fracas_spec *spec; /* NULL: none yet */
-    double volume;
+    fracas_extent extent;
 } known_mesh;
 
 static bool is_same_mesh(const fracas_spec *a, const fracas_spec *b)
@@ -170,11 +171,11 @@ static fracas_err mean_strength(const fracas_campaign *campaign, size_t p, known
     const fracas_point *point = &campaign->point[p];
     const bool needed = fracas_strength_has_size_effect(&point->strength);
     if (needed && !(mesh->spec && is_same_mesh(mesh->spec, &point->spec))) {
-        fracas_err err = fracas_mesh_interface_volume(&point->spec, &mesh->volume);
+        fracas_err err = fracas_mesh_interface_extent(&point->spec, &mesh->extent.volume, &mesh->extent.area);
         if (err) return fracas_fail_within(err, "point %zu", p);
         mesh->spec = &point->spec;
     }
-    *mean = fracas_strength_mean(&point->strength, mesh->volume);
+    *mean = fracas_strength_mean(&point->strength, mesh->extent);
     return FRACAS_OK;
 }
 

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const own_keys[] = {"name", "seed", "sweep", "replicas"};
+static const char *const own_keys[] = {"name", "seed", "random_numbers", "sweep", "replicas"};
 
 /* What has been read of a file. */
 typedef struct {
@@ -62,6 +62,17 @@ static fracas_err read_seed(const fracas_file *file, const fracas_node *node, ui
     return FRACAS_OK;
 }
 
+/* `independent` or `common`. */
+static fracas_err read_random_numbers(const fracas_file *file, const fracas_node *node, bool *common)
+{
+    char found[256];
+    const char *text = node->type == FRACAS_SCALAR ? node->text : "";
+    *common = strcmp(text, "common") == 0;
+    if (*common || strcmp(text, "independent") == 0) return FRACAS_OK;
+    return fracas_say(file->name, node, "`random_numbers`: found %s; expected independent (each point draws its own) or common (replica r "
+                      "draws the same at every point)", fracas_say_found(node, found));
+}
+
 /* The entry `key`, which must be there. */
 static fracas_err need(const fracas_file *file, const char *key, const char *what, const fracas_node **node)
 {
@@ -84,6 +95,8 @@ static fracas_err read_heading(reading *read, fracas_campaign *campaign)
     if (!campaign->name) return fracas_no_memory("the campaign's name");
     TRY(need(file, "seed", "give the seed of its random numbers, a whole number, as `seed: 1`", &node));
     TRY(read_seed(file, node, &campaign->seed));
+    node = fracas_node_find(file->root, "random_numbers");
+    if (node) TRY(read_random_numbers(file, node, &campaign->common_random_numbers));
     node = fracas_node_find(file->root, "replicas");
     if (node) TRY(fracas_setting_integer(file, "replicas", node, 1, 1000000000, &read->replicas));
     return FRACAS_OK;

@@ -175,7 +175,9 @@ fracas_err fracas_draft_resolve(const fracas_file *file, const fracas_draft *dra
         if (!setting && (common || kind == base_kind)) setting = draft->base[i];
         if (setting) last = setting->node;
         if (setting) TRY(fracas_setting_check(file, setting, param));
+        else if (param->optional) fracas_param_clear(param, values);
         else if (isnan(param->fallback)) return missing(file, leaf, param, common, kind, chosen);
+        if (!setting && param->optional) continue;
         if (param->type == FRACAS_ATTACHMENT) fracas_param_attach(param, values, setting ? setting->attachment : NULL);
         else fracas_param_set(param, values, setting ? setting->value : fracas_number_round(param->fallback));
     }

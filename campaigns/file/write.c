@@ -155,6 +155,7 @@ static void write_file(const fracas_catalog *catalog, const bool *base, const fr
         own_replicas = own_replicas || campaign->point[p].replicas != campaign->point[0].replicas;
     fprintf(out, "# A campaign as resolved by fracas: SI units, every default spelled out.\n");
     fprintf(out, "name: %s\nseed: %" PRIu64 "\n", campaign->name, campaign->seed);
+    if (campaign->common_random_numbers) fprintf(out, "random_numbers: common\n");
     for (size_t s = 0; s < catalog->nsections; s++)
         if (catalog->section[s].table->hashed) write_section(catalog, base, &catalog->section[s], campaign, out);
     write_cases(catalog, base, campaign, own_replicas, out);

@@ -15,29 +15,38 @@
 
 enum { MAX_LANES = 8 }; /* of a batch */
 
-/* Volumes that interfaces stand for [m3]. */
+/* Extents of a mesh's interfaces. */
 typedef struct {
-    double mean, least; /* where strengths depend on it, they are largest at the least */
-} volumes;
+    fracas_extent mean, least; /* where strengths depend on it, they are largest at the least */
+} extents;
 
-static volumes volumes_of(const fracas_model *model)
+static extents extents_of(const fracas_model *model)
 {
     const size_t count = fracas_model_interfaces(model);
-    double sum = 0, least = INFINITY;
+    extents of = {.least = {INFINITY, INFINITY}};
     for (size_t i = 0; i < count; i++) {
-        const double volume = fracas_model_interface_volume(model, i);
-        sum += volume;
-        least = fmin(least, volume);
+        const fracas_extent one = {fracas_model_interface_volume(model, i), fracas_model_interface_area(model, i)};
+        of.mean.volume += one.volume;
+        of.mean.area += one.area;
+        of.least = (fracas_extent){fmin(of.least.volume, one.volume), fmin(of.least.area, one.area)};
     }
-    return (volumes){.mean = sum / (double)count, .least = least};
+    of.mean.volume /= (double)count;
+    of.mean.area /= (double)count;
+    return of;
 }
 
-static fracas_err check_strongest(const fracas_model *model, const fracas_point *point, double volume)
+/* The strength of an interface of this extent that the share `u` of them does not reach. */
+static double strength_at(const fracas_point *point, fracas_extent extent, double u)
+{
+    return fracas_strength_quantile(&point->strength, extent, fracas_probability_of(u));
+}
+
+static fracas_err check_strongest(const fracas_model *model, const fracas_point *point, fracas_extent extent)
 {
     if (fracas_model_interfaces(model) == 0) return FRACAS_OK; /* a single triangle */
     const double drawn = (double)fracas_model_interfaces(model) * (double)point->replicas;
     const double u = fmin(1.0 - 0.01 / drawn, 1.0 - 0x1p-53);
-    fracas_err err = fracas_model_check_strength(model, fracas_strength_quantile(&point->strength, volume, u));
+    fracas_err err = fracas_model_check_strength(model, strength_at(point, extent, u));
     return err ? fracas_fail_within(err, "the strongest of %.3g interfaces (all replicas together)", drawn) : FRACAS_OK;
 }
 
@@ -50,12 +59,12 @@ static fracas_err check_count(const fracas_model *model, const fracas_strength *
 }
 
 /* Gives each interface its strength, as a run would, and checks it. */
-static fracas_err try_places(const fracas_model *model, const fracas_strength *strength, double (*position)[3], double *sigma_c)
+static fracas_err try_places(const fracas_model *model, const fracas_strength *strength, const fracas_field *field,
+                             double (*position)[3], double *sigma_c)
 {
-    const size_t n = fracas_model_interfaces(model);
     fracas_model_interface_positions(model, position);
-    TRY(fracas_strength_sample(strength, &(fracas_stream){0}, n, NULL, (const double(*)[3])position, 1, sigma_c));
-    for (size_t i = 0; i < n; i++) {
+    TRY(fracas_field_sample(field, &(fracas_stream){0}, 1, sigma_c));
+    for (size_t i = 0; i < fracas_model_interfaces(model); i++) {
         fracas_err err = fracas_model_check_strength(model, sigma_c[i]);
         if (err) return fracas_fail_within(err, "%s, interface %zu at x = %.9g m, y = %.9g m", strength->file->path, i, position[i][0],
                                            position[i][1]);
@@ -66,19 +75,22 @@ static fracas_err try_places(const fracas_model *model, const fracas_strength *s
 static fracas_err check_places(const fracas_model *model, const fracas_strength *strength)
 {
     const size_t n = fracas_model_interfaces(model);
+    fracas_field *field;
+    TRY(fracas_model_field(model, strength, &field));
     double(*position)[3] = malloc(n * sizeof *position), *sigma_c = malloc(n * sizeof *sigma_c);
     fracas_err err = n > 0 && (!position || !sigma_c) ? fracas_no_memory("the strengths of a mesh")
-                                                      : try_places(model, strength, position, sigma_c);
+                                                      : try_places(model, strength, field, position, sigma_c);
     free(position);
     free(sigma_c);
+    fracas_field_destroy(field);
     return err;
 }
 
-static fracas_err check_strengths(const fracas_model *model, const fracas_point *point, double volume)
+static fracas_err check_strengths(const fracas_model *model, const fracas_point *point, fracas_extent extent)
 {
     if (fracas_strength_is_placed(&point->strength)) return check_places(model, &point->strength);
     TRY(check_count(model, &point->strength));
-    return check_strongest(model, point, volume);
+    return check_strongest(model, point, extent);
 }
 
 /* A stress that an uncracked ring with this load stays below until t [Pa]. Radially it is u'' + w^2 u = a, w = c/R, sigma = E u/R:
@@ -187,18 +199,16 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
         .time_step = fracas_model_time_step(model),
     };
     const fracas_spec *spec = &point->spec;
-    const volumes volume = volumes_of(model);
-    const double mean = fracas_strength_mean(&point->strength, volume.mean);
+    const extents extent = extents_of(model);
+    const double mean = fracas_strength_mean(&point->strength, extent.mean);
     const double softening = spec->material.young * fracas_spec_fracture_energy(spec, mean) / (mean * mean);
     forecast->coarseness = fracas_model_element_size(model) / softening;
-    forecast->uniform = fracas_strength_quantile(&point->strength, volume.mean, 0.25) ==
-                        fracas_strength_quantile(&point->strength, volume.mean, 0.75);
+    forecast->uniform = strength_at(point, extent.mean, 0.25) == strength_at(point, extent.mean, 0.75);
     forecast->lines = forecast->uniform && spec->mesh.spacing == &fracas_spacing_triangles && spec->mesh.amplitude == 0;
     forecast->mean = mean;
     forecast->bound = stress_bound(spec);
     forecast->spread = fracas_model_surface(model) && spec->cohesive.law != &fracas_law_nitsche
-                           ? fracas_strength_quantile(&point->strength, volume.mean, 0.99) -
-                                 fracas_strength_quantile(&point->strength, volume.mean, 0.01)
+                           ? strength_at(point, extent.mean, 0.99) - strength_at(point, extent.mean, 0.01)
                            : NAN;
     forecast->step_stress = spec->material.young * fabs(fracas_spec_strain_rate(spec)) * forecast->time_step;
     if (is_ring(spec)) {
@@ -208,7 +218,7 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
         forecast->lonely = spec->cohesive.zone > 0.5 * fracas_spec_length(spec);
     }
     forecast->repeated = fracas_strength_is_given(&point->strength) && point->replicas > 1;
-    return check_strengths(model, point, volume.least);
+    return check_strengths(model, point, extent.least);
 }
 
 /* The forecast, and the model that it was made from, or NULL after an error. */
@@ -305,7 +315,7 @@ static fracas_err time_steps(const fracas_campaign *campaign, size_t index, doub
     spec.time.end = fmin(spec.time.end, end);
     spec.cohesive.refinement = 1.0; /* a step takes the same time however short it is, and so there are as many as asked for */
     TRY(fracas_point_model_like(campaign, index, &spec, &model));
-    const double strength = fracas_strength_mean(&point->strength, volumes_of(model).mean);
+    const double strength = fracas_strength_mean(&point->strength, extents_of(model).mean);
     fracas_err err = run_batch(model, strength, lanes_of(point), spent);
     fracas_model_destroy(model);
     return err;

@@ -4,10 +4,16 @@
 
 #include <stdlib.h>
 
+fracas_stream fracas_point_stream(const fracas_campaign *campaign, size_t point, uint64_t purpose, uint64_t replica)
+{
+    fracas_stream stream = {.seed = campaign->seed, .purpose = purpose, .replica = replica};
+    if (!campaign->common_random_numbers) fracas_hash_words(&campaign->point[point].hash, stream.point);
+    return stream;
+}
+
 void fracas_point_mesh_noise(const fracas_campaign *campaign, size_t point, size_t count, double *noise)
 {
-    fracas_stream stream = {.seed = campaign->seed, .purpose = FRACAS_PURPOSE_MESH};
-    fracas_hash_words(&campaign->point[point].hash, stream.point);
+    const fracas_stream stream = fracas_point_stream(campaign, point, FRACAS_PURPOSE_MESH, 0);
     for (size_t i = 0; i < count; i++) noise[i] = 2.0 * fracas_stream_uniform(&stream, i) - 1.0;
 }
 
@@ -33,4 +39,28 @@ fracas_err fracas_point_model_like(const fracas_campaign *campaign, size_t point
 fracas_err fracas_point_model_create(const fracas_campaign *campaign, size_t point, fracas_model **model)
 {
     return fracas_point_model_like(campaign, point, &campaign->point[point].spec, model);
+}
+
+static fracas_err field_over(const fracas_model *model, const fracas_strength *strength, fracas_extent *extent, double (*position)[3],
+                             fracas_field **field)
+{
+    const size_t n = fracas_model_interfaces(model);
+    if (n > 0 && (!extent || !position)) return fracas_no_memory("the interfaces of a mesh");
+    for (size_t i = 0; i < n; i++)
+        extent[i] = (fracas_extent){fracas_model_interface_volume(model, i), fracas_model_interface_area(model, i)};
+    fracas_model_interface_positions(model, position);
+    const fracas_sites sites = {.n = n, .points = 1, .extent = extent, .position = (const double(*)[3])position,
+                                .period = fracas_model_period(model)};
+    return fracas_field_create(strength, &sites, field);
+}
+
+fracas_err fracas_model_field(const fracas_model *model, const fracas_strength *strength, fracas_field **field)
+{
+    const size_t n = fracas_model_interfaces(model);
+    fracas_extent *extent = malloc(n * sizeof *extent);
+    double(*position)[3] = malloc(n * sizeof *position);
+    fracas_err err = field_over(model, strength, extent, position, field);
+    free(extent);
+    free(position);
+    return err;
 }

@@ -1,4 +1,4 @@
-/* The engine's model of a point of a campaign, with what is drawn for it. */
+/* The engine's model of a point of a campaign, the strength field on it, and the names of what is drawn for it. */
 #ifndef FRACAS_CAMPAIGNS_PLAN_POINT_MODEL_H
 #define FRACAS_CAMPAIGNS_PLAN_POINT_MODEL_H
 
@@ -12,8 +12,14 @@ FRACAS_MUST_USE fracas_err fracas_point_model_create(const fracas_campaign *camp
 FRACAS_MUST_USE fracas_err fracas_point_model_like(const fracas_campaign *campaign, size_t point, const fracas_spec *spec,
                                                    fracas_model **model);
 
+/* The field of `strength` (of the point; it must outlive the field) on the interfaces of its model. Errors as fracas_field_create. */
+FRACAS_MUST_USE fracas_err fracas_model_field(const fracas_model *model, const fracas_strength *strength, fracas_field **field);
+
+/* The stream of a point: (campaign's seed, purpose; point hash, replica), 0 for the hash with common random numbers. */
+fracas_stream fracas_point_stream(const fracas_campaign *campaign, size_t point, uint64_t purpose, uint64_t replica);
+
 /* noise[i] = 2 u_i - 1, the move of node i of a chain by the largest one, or of vertex i/2 of a surface along its direction i%2:
- * u_i from the stream of the campaign's seed, the point's hash, replica 0 and FRACAS_PURPOSE_MESH, whatever `count`. All realizations of a
+ * u_i from the stream of FRACAS_PURPOSE_MESH, replica 0, whatever `count`. All realizations of a
  * point have one mesh. */
 void fracas_point_mesh_noise(const fracas_campaign *campaign, size_t point, size_t count, double *noise);
 

@@ -1,5 +1,6 @@
 #include "campaigns/scheduler/child.h"
 
+#include "campaigns/plan/point_model.h"
 #include "campaigns/scheduler/clock.h"
 
 #include <errno.h>
@@ -28,53 +29,17 @@ static void crash_if_asked(const fracas_lease *lease)
     }
 }
 
-/* What strengths depend on. */
-typedef struct {
-    size_t n;
-    double *volume;         /* m3 */
-    double (*position)[3];  /* m; NULL where nobody asks */
-} interfaces;
-
-static fracas_err interfaces_init(const fracas_model *model, bool placed, interfaces *of)
-{
-    of->n = fracas_model_interfaces(model);
-    of->volume = malloc(of->n * sizeof *of->volume);
-    of->position = placed ? malloc(of->n * sizeof *of->position) : NULL;
-    if (of->n > 0 && (!of->volume || (placed && !of->position))) return fracas_no_memory("the interfaces of a mesh");
-    for (size_t i = 0; i < of->n; i++) of->volume[i] = fracas_model_interface_volume(model, i);
-    if (placed) fracas_model_interface_positions(model, of->position);
-    return FRACAS_OK;
-}
-
-/* Strengths that are given are those of the first lane in all. */
-static fracas_err fill_lanes(const fracas_campaign *campaign, const fracas_lease *lease, const interfaces *of, fracas_batch *batch)
-{
-    const fracas_point *point = &campaign->point[lease->point];
-    const bool given = fracas_strength_is_given(&point->strength);
-    fracas_stream stream = {.seed = campaign->seed, .purpose = FRACAS_PURPOSE_STRENGTH};
-    fracas_hash_words(&point->hash, stream.point);
-    size_t stride;
-    const double *first = fracas_batch_strength(batch, 0, &stride);
-    for (size_t lane = 0; lane < lease->count; lane++) {
-        double *strength = fracas_batch_strength(batch, lane, &stride);
-        stream.replica = (uint64_t)lease->replica[lane];
-        if (lane == 0 || !given)
-            TRY(fracas_strength_sample(&point->strength, &stream, of->n, of->volume, of->position, stride, strength));
-        else
-            for (size_t i = 0; i < of->n; i++) strength[i * stride] = first[i * stride];
-    }
-    return FRACAS_OK;
-}
-
-static fracas_err fill_strengths(const fracas_campaign *campaign, const fracas_model *model, const fracas_lease *lease,
+static fracas_err fill_strengths(const fracas_campaign *campaign, const fracas_field *field, const fracas_lease *lease,
                                  fracas_batch *batch)
 {
-    interfaces of = {0};
-    fracas_err err = interfaces_init(model, fracas_strength_is_placed(&campaign->point[lease->point].strength), &of);
-    if (!err) err = fill_lanes(campaign, lease, &of, batch);
-    free(of.volume);
-    free(of.position);
-    return err;
+    for (size_t lane = 0; lane < lease->count; lane++) {
+        size_t stride;
+        double *strength = fracas_batch_strength(batch, lane, &stride);
+        const fracas_stream stream =
+            fracas_point_stream(campaign, (size_t)lease->point, FRACAS_PURPOSE_STRENGTH, (uint64_t)lease->replica[lane]);
+        TRY(fracas_field_sample(field, &stream, stride, strength));
+    }
+    return FRACAS_OK;
 }
 
 static fracas_err send_record(int fd, const fracas_record *record)
@@ -89,7 +54,7 @@ static fracas_err send_record(int fd, const fracas_record *record)
 }
 
 static fracas_err compute(const fracas_campaign *campaign, const fracas_run_options *options,
-                          const fracas_model *model, const fracas_lease *lease, int fd)
+                          const fracas_model *model, const fracas_field *field, const fracas_lease *lease, int fd)
 {
     fracas_batch_options batch_options = {.history = campaign->output.history,
                                           .interfaces = campaign->output.interfaces,
@@ -97,7 +62,7 @@ static fracas_err compute(const fracas_campaign *campaign, const fracas_run_opti
                                           .isa = options->isa};
     fracas_batch *batch;
     TRY(fracas_batch_create(model, lease->count, &batch_options, &batch));
-    fracas_err err = fill_strengths(campaign, model, lease, batch);
+    fracas_err err = fill_strengths(campaign, field, lease, batch);
     crash_if_asked(lease);
     fracas_record record[FRACAS_LEASE_MAX];
     for (size_t lane = 0; lane < lease->count; lane++) fracas_record_init(&record[lane]);
@@ -113,7 +78,7 @@ static fracas_err compute(const fracas_campaign *campaign, const fracas_run_opti
 /* ---- in the server ---- */
 
 fracas_err fracas_child_start(fracas_child *child, const fracas_campaign *campaign, const fracas_run_options *options,
-                              const fracas_model *model, const fracas_lease *lease, int server_fd)
+                              const fracas_model *model, const fracas_field *field, const fracas_lease *lease, int server_fd)
 {
     int fd[2];
     if (pipe2(fd, O_CLOEXEC)) return fracas_fail(FRACAS_ENVIRONMENT, "no pipe for a lease: %s", strerror(errno));
@@ -130,7 +95,7 @@ fracas_err fracas_child_start(fracas_child *child, const fracas_campaign *campai
         if (getppid() != server) _exit(FRACAS_INTERRUPTED); /* it died before the line above */
         close(fd[0]);
         close(server_fd);
-        fracas_err err = compute(campaign, options, model, lease, fd[1]);
+        fracas_err err = compute(campaign, options, model, field, lease, fd[1]);
         fracas_trouble fault;
         if (err) fracas_trouble_take(err, &fault);
         if (err && fracas_packet_send(fd[1], FRACAS_PACKET_FAULT, &fault, sizeof fault))

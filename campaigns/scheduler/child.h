@@ -19,14 +19,14 @@ typedef struct {
     size_t size, capacity;
 } fracas_child;
 
-/* Forks a child that computes `lease` of `model`. It closes `server_fd`, its server's own connection.
+/* Forks a child that computes `lease` of `model`, with strengths of `field`. It closes `server_fd`, its server's own connection.
  * FRACAS_ENVIRONMENT if no process or pipe can be had.
  *
  * For tests: FRACAS_TEST_CRASH=POINT:REPLICA in the environment (point counted from 0 in plan order) makes every
  * child that is about to compute this realization die of SIGSEGV. */
 FRACAS_MUST_USE fracas_err fracas_child_start(fracas_child *child, const fracas_campaign *campaign,
                                               const fracas_run_options *options, const fracas_model *model,
-                                              const fracas_lease *lease, int server_fd);
+                                              const fracas_field *field, const fracas_lease *lease, int server_fd);
 
 /* Takes what the child has sent, blocking until there is something; *ended when nothing more will come. */
 FRACAS_MUST_USE fracas_err fracas_child_receive(fracas_child *child, bool *ended);

@@ -53,12 +53,13 @@ static fracas_err start_next(server *s)
     s->nwaiting--;
     memmove(s->waiting, s->waiting + 1, s->nwaiting * sizeof *s->waiting);
     const fracas_model *model;
-    if (fracas_models_get(&s->models, s->campaign, (size_t)lease.point, &model)) {
+    const fracas_field *field;
+    if (fracas_models_get(&s->models, s->campaign, (size_t)lease.point, &model, &field)) {
         fracas_lease_failure failure = {.lease = lease.id};
         strncpy(failure.reason, fracas_message(), sizeof failure.reason - 1);
         return say_failed(s, &failure);
     }
-    return fracas_child_start(&s->child, s->campaign, s->options, model, &lease, s->rank);
+    return fracas_child_start(&s->child, s->campaign, s->options, model, field, &lease, s->rank);
 }
 
 /* The child sent something, or ended: then its records go to the segment and rank 0 hears of the lease. */

@@ -61,14 +61,24 @@ static double mean_area(const fracas_surface *surface)
     return surface->ninterfaces ? area / 3 / (double)surface->ninterfaces : fracas_surface_area(surface, 0);
 }
 
-fracas_err fracas_mesh_interface_volume(const fracas_spec *spec, double *volume)
+static double mean_length(const fracas_surface *surface)
+{
+    double length = 0;
+    for (size_t i = 0; i < surface->ninterfaces; i++)
+        length += fracas_surface_length(surface, surface->interface[i].element[0], surface->interface[i].edge[0]);
+    return surface->ninterfaces ? length / (double)surface->ninterfaces : 0;
+}
+
+fracas_err fracas_mesh_interface_extent(const fracas_spec *spec, double *volume, double *area)
 {
     const fracas_geometry *geometry = &spec->geometry;
+    *area = geometry->area;
     *volume = geometry->area * fracas_spec_length(spec) / (double)spec->mesh.elements;
     if (!fracas_spec_is_surface(spec)) return FRACAS_OK;
     const fracas_surface *surface;
     TRY(fracas_mesh_make(spec, &surface));
     *volume = geometry->thickness * mean_area(surface);
+    *area = geometry->thickness * mean_length(surface);
     fracas_surface_destroy(surface);
     return FRACAS_OK;
 }

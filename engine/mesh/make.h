@@ -15,9 +15,9 @@ FRACAS_MUST_USE fracas_err fracas_mesh_make(const fracas_spec *spec, const fraca
  * once. */
 FRACAS_MUST_USE fracas_err fracas_mesh_noise_count(const fracas_spec *spec, size_t *count);
 
-/* *volume: what an interface of the body stands for, on average [m3] (fracas_model_interface_volume); of a mesh with a single
- * element, its own. Makes the mesh of a surface once; one that needs random numbers and is given none counts as it is before its
+/* *volume, *area: what an interface of the body stands for, and its own area, on average [m3, m2] (fracas_model_interface_volume,
+ * fracas_model_interface_area); of a mesh with a single element, its own volume and no area. Makes the mesh of a surface once; one that needs random numbers and is given none counts as it is before its
  * inner nodes move, which changes the average by the share of the elements at its edges at most. */
-FRACAS_MUST_USE fracas_err fracas_mesh_interface_volume(const fracas_spec *spec, double *volume);
+FRACAS_MUST_USE fracas_err fracas_mesh_interface_extent(const fracas_spec *spec, double *volume, double *area);
 
 #endif

@@ -1,7 +1,7 @@
 /* Strength fields against their exact laws: moments, Kolmogorov-Smirnov, minima, independence of streams.
  * Seeds are fixed, so a result is the same in every run; every bound is the one that a right sampler
  * exceeds with probability ALPHA or less. */
-#include "sampler/sampler.h"
+#include "tests/support/strengths.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_randist.h>
@@ -115,7 +115,7 @@ static void distributions_follow_their_laws(void **state)
     fill_volumes(body);
     for (size_t k = 0; k < FRACAS_COUNT(laws); k++) {
         fracas_stream named = stream(100 + k);
-        assert_int_equal(fracas_strength_sample(&laws[k], &named, N, volume, NULL, 1, sample), FRACAS_OK);
+        assert_int_equal(sample_strengths(&laws[k], &named, N, volume, NULL, 1, sample), FRACAS_OK);
         assert_follows(&laws[k], sample, N);
     }
 }
@@ -139,12 +139,12 @@ static void weibull_moments(void **state)
         double kurtosis = (g4 - 4 * g1 * g3 + 6 * g1 * g1 * g2 - 3 * g1 * g1 * g1 * g1) / (variance * variance);
         double deviation = published[k].scale * sqrt(variance);
         fracas_strength law = weibull(published[k].minimum, published[k].scale, m);
-        double mean = fracas_strength_mean(&law, volume[0]);
+        double mean = mean_of_strength(&law, volume[0]);
         assert_true(fabs(mean - published[k].mean) <= 0.005e6);
         assert_true(fabs(deviation - published[k].deviation) <= 0.005e6);
 
         fracas_stream named = stream(200 + k);
-        assert_int_equal(fracas_strength_sample(&law, &named, N, volume, NULL, 1, sample), FRACAS_OK);
+        assert_int_equal(sample_strengths(&law, &named, N, volume, NULL, 1, sample), FRACAS_OK);
         double sum = 0.0, squares = 0.0;
         for (size_t i = 0; i < N; i++)
             sum += sample[i] - mean;
@@ -165,9 +165,9 @@ static void assert_moments(const fracas_strength *law, uint64_t seed, const doub
     double deviation = sqrt(variance), kurtosis = fourth / (variance * variance);
     double mean = law->minimum + m;
     /* GSL's functions are good to 1e-13 here, and the first moment is one or two of them */
-    assert_true(fabs(fracas_strength_mean(law, body) - mean) <= 1e-12 * mean);
+    assert_true(fabs(mean_of_strength(law, body) - mean) <= 1e-12 * mean);
     fracas_stream named = stream(seed);
-    assert_int_equal(fracas_strength_sample(law, &named, N, volume, NULL, 1, sample), FRACAS_OK);
+    assert_int_equal(sample_strengths(law, &named, N, volume, NULL, 1, sample), FRACAS_OK);
     double sum = 0.0, squares = 0.0;
     for (size_t i = 0; i < N; i++)
         sum += sample[i] - mean;
@@ -239,7 +239,7 @@ static void flaws_do_not_see_the_mesh(void **state)
         for (size_t chain = 0; chain < CHAINS; chain++) {
             double strength[LONGEST];
             named.replica = chain;
-            assert_int_equal(fracas_strength_sample(&law, &named, n, volume, NULL, 1, strength), FRACAS_OK);
+            assert_int_equal(sample_strengths(&law, &named, n, volume, NULL, 1, strength), FRACAS_OK);
             other[chain] = INFINITY;
             for (size_t i = 0; i < n; i++)
                 other[chain] = fmin(other[chain], strength[i]);
@@ -261,7 +261,7 @@ static void the_weakest_of_n_scales(void **state)
             for (size_t chain = 0; chain < CHAINS; chain++) {
                 double strength[LONGEST];
                 named.replica = chain;
-                assert_int_equal(fracas_strength_sample(&law, &named, n, volume, NULL, 1, strength), FRACAS_OK);
+                assert_int_equal(sample_strengths(&law, &named, n, volume, NULL, 1, strength), FRACAS_OK);
                 other[chain] = INFINITY;
                 for (size_t i = 0; i < n; i++)
                     other[chain] = fmin(other[chain], strength[i]);

@@ -1,5 +1,6 @@
 /* Files that a campaign names: strengths given line by line, what is said of wrong ones, and what stands for a file in a
  * point. And what is drawn once a point: the moves of a mesh's nodes. */
+#include "tests/support/strengths.h"
 #include "campaigns/file/read.h"
 #include "campaigns/plan/forecast.h"
 #include "campaigns/plan/point_model.h"
@@ -39,11 +40,11 @@ static void test_values(void **state)
         const fracas_strength strength = {.distribution = file_kind(), .file = &file};
         if (fracas_strength_check(&strength)) fail_msg("%s\n%s", fracas_message(), texts[t]);
         assert_int_equal(fracas_strength_count(&strength), 3);
-        assert_true(fracas_strength_mean(&strength, 1) == 4);
-        assert_true(fracas_strength_quantile(&strength, 1, 1e-9) == 1 && fracas_strength_quantile(&strength, 1, 1 - 1e-9) == 8);
+        assert_true(mean_of_strength(&strength, 1) == 4);
+        assert_true(quantile_of(&strength, 1, 1e-9) == 1 && quantile_of(&strength, 1, 1 - 1e-9) == 8);
         for (uint64_t replica = 0; replica < 2; replica++) { /* whatever the stream, and the stride */
             double got[8] = {0};
-            assert_int_equal(fracas_strength_sample(&strength, &(fracas_stream){.seed = 1, .replica = replica}, 4, volume, NULL, 2, got), FRACAS_OK);
+            assert_int_equal(sample_strengths(&strength, &(fracas_stream){.seed = 1, .replica = replica}, 4, volume, NULL, 2, got), FRACAS_OK);
             for (int i = 0; i < 3; i++)
                 if (got[2 * i] != expected[i] || got[2 * i + 1] != 0) fail_msg("%g is not %g of:\n%s", got[2 * i], expected[i], texts[t]);
             assert_true(isnan(got[6]));
@@ -97,7 +98,7 @@ static fracas_err sample_places(const char *text, size_t n, const double (*posit
     const fracas_strength strength = {.distribution = kind_named("positions"), .file = &file};
     TRY(fracas_strength_check(&strength));
     assert_true(fracas_strength_is_placed(&strength) && fracas_strength_is_given(&strength));
-    return fracas_strength_sample(&strength, &(fracas_stream){.seed = 1}, n, NULL, position, stride, got);
+    return sample_strengths(&strength, &(fracas_stream){.seed = 1}, n, NULL, position, stride, got);
 }
 
 static void test_places(void **state)
@@ -135,8 +136,8 @@ static void test_places(void **state)
     const fracas_attachment file = {.path = "p.csv", .text = texts[2], .size = strlen(texts[2])};
     const fracas_strength strength = {.distribution = kind_named("positions"), .file = &file};
     assert_int_equal(fracas_strength_count(&strength), 6); /* all lines */
-    assert_true(fracas_strength_quantile(&strength, 1, 0.1) == 1 && fracas_strength_quantile(&strength, 1, 0.9) == 99);
-    assert_true(fracas_strength_mean(&strength, 1) == (1 + 2 + 99 + 7 + 3 + 4) / 6.0);
+    assert_true(quantile_of(&strength, 1, 0.1) == 1 && quantile_of(&strength, 1, 0.9) == 99);
+    assert_true(mean_of_strength(&strength, 1) == (1 + 2 + 99 + 7 + 3 + 4) / 6.0);
 }
 
 static void test_bad_places(void **state)
@@ -460,7 +461,7 @@ static void test_positions_of_a_surface(void **state)
     put("p.csv", text);
     if (fracas_campaign_read(in_folder("c.yaml"), &campaign)) fail_msg("%s", fracas_message());
     assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_OK);
-    assert_int_equal(fracas_strength_sample(&campaign->point[0].strength, &(fracas_stream){0}, 8, NULL, (const double(*)[3])x, 1, got),
+    assert_int_equal(sample_strengths(&campaign->point[0].strength, &(fracas_stream){0}, 8, NULL, (const double(*)[3])x, 1, got),
                      FRACAS_OK);
     for (int i = 0; i < 8; i++) assert_true(fabs(got[i] - (3e8 + 1e11 * x[i][0] + 1e10 * x[i][1])) < 1e-6);
     fracas_campaign_destroy(campaign);

@@ -1,4 +1,5 @@
 /* Campaign files of membranes: shapes, keys that only this model has, meshes drawn from the seed, plans. */
+#include "tests/support/strengths.h"
 #include "tests/support/campaign_text.h"
 
 #include "campaigns/file/read.h"
@@ -199,7 +200,7 @@ static void test_mean_strength(void **state)
         "sweep:\n  - mesh.divisions: [4, 2]\n  - loading.rate: [1, 2]");
     for (size_t p = 0; p < 4; p++) {
         const double squares = p < 2 ? 4 * 8 : 2 * 4, volume = 1e-4 * 50e-6 / (3 * squares);
-        const double expected = fracas_strength_mean(&campaign->point[p].strength, volume);
+        const double expected = mean_of_strength(&campaign->point[p].strength, volume);
         /* the mean moves by less than the volume does, which is within some 40 roundings */
         assert_true(fabs(at(campaign, p, "derived.strength_mean")->real / expected - 1) < 40 * 0x1p-53);
     }

@@ -1,4 +1,5 @@
 /* The plan: what is printed, and that it is what the engine says. */
+#include "tests/support/strengths.h"
 #include "campaigns/plan/forecast.h"
 #include "campaigns/plan/plan.h"
 #include "engine/engine.h"
@@ -203,7 +204,7 @@ static void test_heavy_tail(void **state)
     fracas_model *model;
     assert_int_equal(fracas_model_create(&campaign->point[0].spec, &model), FRACAS_OK);
     const fracas_point *point = &campaign->point[0];
-    double mean = fracas_strength_mean(&point->strength, fracas_model_interface_volume(model, 0));
+    double mean = mean_of_strength(&point->strength, fracas_model_interface_volume(model, 0));
     assert_int_equal(fracas_model_check_strength(model, mean), FRACAS_OK);
     fracas_model_destroy(model);
     double cost;
@@ -224,7 +225,7 @@ static void test_flaws_of_small_elements(void **state)
     const fracas_point *point = &campaign->point[0];
     fracas_model *model;
     assert_int_equal(fracas_model_create(&point->spec, &model), FRACAS_OK);
-    double first = fracas_strength_quantile(&point->strength, fracas_model_interface_volume(model, 0), 1 - 1e-6);
+    double first = quantile_of(&point->strength, fracas_model_interface_volume(model, 0), 1 - 1e-6);
     assert_int_equal(fracas_model_check_strength(model, first), FRACAS_OK);
     fracas_model_destroy(model);
     double cost;

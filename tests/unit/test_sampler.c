@@ -1,8 +1,8 @@
 /* Streams by name, inverse transforms against GSL, and the contract that a value depends on its name alone. */
 #include "base/hash.h"
-#include "sampler/incomplete_gamma.h"
-#include "sampler/normal.h"
-#include "sampler/sampler.h"
+#include "sampler/special/incomplete_gamma.h"
+#include "sampler/special/normal.h"
+#include "tests/support/strengths.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>
@@ -97,14 +97,14 @@ static void weibull_is_gsl_in_both_tails(void **state)
         three.minimum = 264e6;
         for (int i = 0; i < PROBES; i++) {
             double rest, u = probe(i, &rest);
-            double got = fracas_strength_quantile(&two, VOLUME, u);
+            double got = quantile_of(&two, VOLUME, u);
             double expected = u < 0.5 ? gsl_cdf_weibull_Pinv(u, two.scale, two.shape)
                                       : gsl_cdf_weibull_Qinv(rest, two.scale, two.shape);
             assert_close(got, expected, 1e-12);
-            assert_true(fracas_strength_quantile(&three, VOLUME, u) == 264e6 + got);
+            assert_true(quantile_of(&three, VOLUME, u) == 264e6 + got);
         }
         /* far below what a stream gives, where 1 - u is 1 */
-        assert_close(fracas_strength_quantile(&two, VOLUME, 1e-25), gsl_cdf_weibull_Pinv(1e-25, two.scale, two.shape), 1e-12);
+        assert_close(quantile_of(&two, VOLUME, 1e-25), gsl_cdf_weibull_Pinv(1e-25, two.scale, two.shape), 1e-12);
     }
 }
 
@@ -116,14 +116,14 @@ static void normal_quantile_is_gsl_and_inverts_erfc(void **state)
     (void)state;
     for (int i = 0; i < PROBES; i++) {
         double rest, u = probe(i, &rest);
-        double z = fracas_normal_quantile(u);
+        double z = fracas_normal_quantile(fracas_probability_of(u));
         assert_close(z, u < 0.5 ? gsl_cdf_ugaussian_Pinv(u) : gsl_cdf_ugaussian_Qinv(rest), 5e-15);
         double tail = (double)(0.5L * erfcl(fabsl((long double)z) / sqrtl(2.0L)));
         assert_close(tail, u < 0.5 ? u : rest, 1e-13);
-        if (1.0 - rest == u) assert_true(fracas_normal_quantile(rest) == -z);
+        if (1.0 - rest == u) assert_true(fracas_normal_quantile(fracas_probability_of(rest)) == -z);
     }
-    assert_true(fracas_normal_quantile(0.5) == 0.0);
-    assert_close(fracas_normal_quantile(1e-300), gsl_cdf_ugaussian_Pinv(1e-300), 1e-12);
+    assert_true(fracas_normal_quantile(fracas_probability_of(0.5)) == 0.0);
+    assert_close(fracas_normal_quantile(fracas_probability_of(1e-300)), gsl_cdf_ugaussian_Pinv(1e-300), 1e-12);
 }
 
 static void lognormal_is_gsl_in_both_tails(void **state)
@@ -136,7 +136,7 @@ static void lognormal_is_gsl_in_both_tails(void **state)
             double rest, u = probe(i, &rest);
             double expected = u < 0.5 ? gsl_cdf_lognormal_Pinv(u, log(300e6), sigmas[k])
                                       : gsl_cdf_lognormal_Qinv(rest, log(300e6), sigmas[k]);
-            assert_close(fracas_strength_quantile(&strength, VOLUME, u), expected, 1e-12);
+            assert_close(quantile_of(&strength, VOLUME, u), expected, 1e-12);
         }
     }
 }
@@ -148,11 +148,11 @@ static void uniform_and_constant(void **state)
     fracas_strength constant = {.distribution = kind("constant"), .value = 123e6};
     for (int i = 0; i < PROBES; i++) {
         double rest, u = probe(i, &rest);
-        assert_close(fracas_strength_quantile(&uniform, VOLUME, u), gsl_cdf_flat_Pinv(u, 100e6, 350e6), 1e-15);
-        assert_true(fracas_strength_quantile(&constant, VOLUME, u) == 123e6);
+        assert_close(quantile_of(&uniform, VOLUME, u), gsl_cdf_flat_Pinv(u, 100e6, 350e6), 1e-15);
+        assert_true(quantile_of(&constant, VOLUME, u) == 123e6);
     }
-    assert_true(fracas_strength_mean(&uniform, VOLUME) == 225e6);
-    assert_true(fracas_strength_mean(&constant, VOLUME) == 123e6);
+    assert_true(mean_of_strength(&uniform, VOLUME) == 225e6);
+    assert_true(mean_of_strength(&constant, VOLUME) == 123e6);
 }
 
 /* GSL's gamma function is good to 1e-14 relative up to x = 11. */
@@ -161,10 +161,10 @@ static void means_are_exact(void **state)
     (void)state;
     for (double shape = 0.1; shape < 1000.0; shape *= 1.07) {
         fracas_strength weibull = {.distribution = kind("weibull"), .minimum = 1e6, .scale = 50e6, .shape = shape};
-        assert_close(fracas_strength_mean(&weibull, VOLUME), 1e6 + 50e6 * gsl_sf_gamma(1.0 + 1.0 / shape), 1e-14);
+        assert_close(mean_of_strength(&weibull, VOLUME), 1e6 + 50e6 * gsl_sf_gamma(1.0 + 1.0 / shape), 1e-14);
     }
     fracas_strength lognormal = {.distribution = kind("lognormal"), .median = 300e6, .sigma = 0.7};
-    assert_close(fracas_strength_mean(&lognormal, VOLUME), 300e6 * exp(0.245), 1e-15 * 2);
+    assert_close(mean_of_strength(&lognormal, VOLUME), 300e6 * exp(0.245), 1e-15 * 2);
 }
 
 /* One distribution after another, as in the file. */
@@ -197,18 +197,18 @@ static void a_value_depends_on_its_name_alone(void **state)
     for (size_t k = 0; k < EXAMPLES; k++) {
         for (size_t i = 0; i < N * STRIDE; i++)
             lanes[i] = -1.0;
-        assert_int_equal(fracas_strength_sample(example(k), &name, N, volume, NULL, STRIDE, lanes + LANE), FRACAS_OK);
-        assert_int_equal(fracas_strength_sample(example(k), &name, N, volume, NULL, 1, plain), FRACAS_OK);
+        assert_int_equal(sample_strengths(example(k), &name, N, volume, NULL, STRIDE, lanes + LANE), FRACAS_OK);
+        assert_int_equal(sample_strengths(example(k), &name, N, volume, NULL, 1, plain), FRACAS_OK);
         for (size_t call = 0; call < N; call++) {
             size_t i = call * 617 % N; /* 617 and 1000 have no common factor: every interface once, shuffled */
-            double alone = fracas_strength_quantile(example(k), volume[i], fracas_stream_uniform(&name, i));
+            double alone = quantile_of(example(k), volume[i], fracas_stream_uniform(&name, i));
             assert_memory_equal(&alone, &plain[i], sizeof alone);
             assert_memory_equal(&alone, &lanes[i * STRIDE + LANE], sizeof alone);
             for (size_t lane = 0; lane < STRIDE; lane++)
                 assert_true(lane == LANE || lanes[i * STRIDE + lane] == -1.0);
         }
         double subset[10];
-        assert_int_equal(fracas_strength_sample(example(k), &name, 10, volume, NULL, 1, subset), FRACAS_OK);
+        assert_int_equal(sample_strengths(example(k), &name, 10, volume, NULL, 1, subset), FRACAS_OK);
         assert_memory_equal(subset, plain, sizeof subset);
     }
 }
@@ -230,9 +230,9 @@ static void bits_are_golden(void **state)
     for (size_t i = 0; i < 65536; i++)
         volume[i] = VOLUME;
     for (size_t k = 0; k < EXAMPLES; k++) {
-        assert_int_equal(fracas_strength_sample(example(k), &name, 65536, volume, NULL, 1, strength), FRACAS_OK);
+        assert_int_equal(sample_strengths(example(k), &name, 65536, volume, NULL, 1, strength), FRACAS_OK);
         uint64_t checksum = fracas_checksum_of(strength, sizeof strength);
-        double mean = fracas_strength_mean(example(k), VOLUME);
+        double mean = mean_of_strength(example(k), VOLUME);
         print_message("{0x%016" PRIx64 ", %a}\n", checksum, mean);
         assert_true(checksum == golden[k].checksum && mean == golden[k].mean);
     }
@@ -255,10 +255,10 @@ static void corners_are_positive_and_finite(void **state)
             }
             if (fracas_strength_check(&strength)) continue;
             for (int i = 0; i < PROBES; i++) {
-                double rest, sigma_c = fracas_strength_quantile(&strength, VOLUME, probe(i, &rest));
+                double rest, sigma_c = quantile_of(&strength, VOLUME, probe(i, &rest));
                 assert_true(sigma_c > 0.0 && isfinite(sigma_c));
             }
-            double mean = fracas_strength_mean(&strength, VOLUME);
+            double mean = mean_of_strength(&strength, VOLUME);
             assert_true(mean > 0.0 && isfinite(mean));
         }
     }
@@ -303,9 +303,9 @@ static void normal_far_from_zero_is_gsl(void **state)
     for (int i = 0; i < PROBES; i++) {
         double rest, u = probe(i, &rest);
         double z = u < 0.5 ? gsl_cdf_ugaussian_Pinv(u) : gsl_cdf_ugaussian_Qinv(rest);
-        assert_close(fracas_strength_quantile(&normal, VOLUME, u), 300e6 + 10e6 * z, 2e-15);
+        assert_close(quantile_of(&normal, VOLUME, u), 300e6 + 10e6 * z, 2e-15);
     }
-    assert_true(fracas_strength_mean(&normal, VOLUME) == 300e6);
+    assert_true(mean_of_strength(&normal, VOLUME) == 300e6);
 }
 
 /* P(strength <= s) kept = integral over (0, s) of the density, by Gauss-Legendre in long double, which does not cancel;
@@ -342,7 +342,7 @@ static void normal_inverts_its_law_in_both_tails(void **state)
         for (int i = 0; i < PROBES; i++) {
             double rest, u = probe(i, &rest);
             bool upper = u > 0.5;
-            long double y = (long double)fracas_strength_quantile(&normal, VOLUME, u) / 50e6L;
+            long double y = (long double)quantile_of(&normal, VOLUME, u) / 50e6L;
             long double tail = (upper ? rest : u) * kept;
             long double density = expl(-0.5L * (y - k) * (y - k)) / sqrtl(2.0L * acosl(-1.0L));
             double error = (double)(fabsl(normal_share(k, y, upper) - tail) / (y * density));
@@ -353,7 +353,7 @@ static void normal_inverts_its_law_in_both_tails(void **state)
             }
         }
         long double mean = k + expl(-0.5L * k * k) / sqrtl(2.0L * acosl(-1.0L)) / kept;
-        assert_close(fracas_strength_mean(&normal, VOLUME), (double)(50e6L * mean), 2e-15);
+        assert_close(mean_of_strength(&normal, VOLUME), (double)(50e6L * mean), 2e-15);
     }
     print_message("normal, cut off at 0: largest error %.2g\n", largest);
     assert_true(largest < 2e-14);
@@ -420,7 +420,7 @@ static void gamma_inverts_its_law_in_both_tails(void **state)
         const long double a = shapes[k];
         double largest = 0.0, before = 0.0;
         for (int i = 0; i < PROBES; i += shapes[k] > 900.0 && i >= TAIL && i < TAIL + MIDDLE ? 37 : 1) {
-            double rest, u = probe(i, &rest), x = fracas_incomplete_gamma_inverse(shapes[k], u);
+            double rest, u = probe(i, &rest), x = fracas_incomplete_gamma_inverse(shapes[k], fracas_probability_of(u));
             bool upper = u > 0.5;
             long double tail = gamma_tail(a, x, upper), wanted = upper ? rest : u;
             long double slope = expl(a * logl(x) - x - lgammal(a)) / wanted;
@@ -448,9 +448,9 @@ static void gamma_is_gsl_in_both_tails(void **state)
             asked++;
             if (!isfinite(expected)) continue;
             compared++;
-            assert_close(fracas_strength_quantile(&gamma, VOLUME, u), expected, 1e-9);
+            assert_close(quantile_of(&gamma, VOLUME, u), expected, 1e-9);
         }
-        assert_close(fracas_strength_mean(&gamma, VOLUME), shapes[k] * 30e6, 1e-15);
+        assert_close(mean_of_strength(&gamma, VOLUME), shapes[k] * 30e6, 1e-15);
     }
     gsl_set_error_handler(handler);
     print_message("gamma: %d of %d compared with GSL\n", compared, asked);
@@ -458,10 +458,10 @@ static void gamma_is_gsl_in_both_tails(void **state)
     /* shape 1 is the exponential law, shape 1/2 the square of a normal variable */
     for (int i = 0; i < PROBES; i++) {
         double rest, u = probe(i, &rest);
-        assert_close(fracas_incomplete_gamma_inverse(1.0, u), i < TAIL ? -log1p(-u) : -log(rest), 2e-14);
+        assert_close(fracas_incomplete_gamma_inverse(1.0, fracas_probability_of(u)), i < TAIL ? -log1p(-u) : -log(rest), 2e-14);
         if (i > TAIL + MIDDLE) continue; /* u/2 + 1/2 is no double */
         double z = gsl_cdf_ugaussian_Qinv(0.5 * rest);
-        if (u > 0.01) assert_close(fracas_incomplete_gamma_inverse(0.5, u), 0.5 * z * z, 1e-13);
+        if (u > 0.01) assert_close(fracas_incomplete_gamma_inverse(0.5, fracas_probability_of(u)), 0.5 * z * z, 1e-13);
     }
 }
 
@@ -483,12 +483,12 @@ static void flaws_invert_their_law(void **state)
             for (int i = 0; i < PROBES; i++) {
                 fracas_strength flaws = {.distribution = kind("flaws"), .density = numbers[m] / VOLUME,
                                          .maximum = 400e6, .exponent = exponents[e]};
-                double rest, u = probe(i, &rest), sigma_c = fracas_strength_quantile(&flaws, VOLUME, u);
+                double rest, u = probe(i, &rest), sigma_c = quantile_of(&flaws, VOLUME, u);
                 double t = i < TAIL ? -log1p(-u) : -log(rest);
                 if (t >= numbers[m] * (1.0 + 1e-15)) assert_true(sigma_c == 400e6);
                 else assert_close(share_weaker(&flaws, sigma_c) * numbers[m], t, 1e-12);
                 flaws.minimum = 100e6;
-                double above = fracas_strength_quantile(&flaws, VOLUME, u);
+                double above = quantile_of(&flaws, VOLUME, u);
                 assert_close(above, 100e6 + 0.75 * sigma_c, 1e-15);
             }
 }
@@ -502,13 +502,13 @@ static void flaws_do_not_see_the_mesh(void **state)
     for (double n = 1.0; n < 2000.0; n *= 3.0)
         for (int i = 1; i < 1000; i++) {
             double w = i / 1000.0, u = -expm1(log1p(-w) / n);
-            double part = fracas_strength_quantile(flaws, VOLUME / n, u);
-            assert_close(part, fracas_strength_quantile(flaws, VOLUME, w), 1e-14);
+            double part = quantile_of(flaws, VOLUME / n, u);
+            assert_close(part, quantile_of(flaws, VOLUME, w), 1e-14);
         }
     /* n interfaces without a flaw are one without a flaw */
     double none = exp(-flaws->density * VOLUME);
-    assert_true(fracas_strength_quantile(flaws, VOLUME, 1.0 - 0.999 * none) == 400e6);
-    assert_true(fracas_strength_quantile(flaws, VOLUME, 1.0 - 1.001 * none) < 400e6);
+    assert_true(quantile_of(flaws, VOLUME, 1.0 - 0.999 * none) == 400e6);
+    assert_true(quantile_of(flaws, VOLUME, 1.0 - 1.001 * none) < 400e6);
 }
 
 /* The mean is the integral of P(strength > s): minimum + range integral_0^1 exp(-mu x^p) dx, by GSL's quadrature, which
@@ -533,7 +533,7 @@ static void flaws_mean_is_the_integral(void **state)
             assert_close(fracas_stretched_exponential(numbers[m], exponents[e]), integral, 2e-11);
             fracas_strength flaws = {.distribution = kind("flaws"), .density = numbers[m] / VOLUME, .minimum = 100e6,
                                      .maximum = 400e6, .exponent = exponents[e]};
-            assert_close(fracas_strength_mean(&flaws, VOLUME), 100e6 + 300e6 * integral, 2e-11);
+            assert_close(mean_of_strength(&flaws, VOLUME), 100e6 + 300e6 * integral, 2e-11);
         }
     gsl_integration_cquad_workspace_free(space);
     for (double mu = 1e-3; mu < 1e6; mu *= 1.3) /* exponent 1: (1 - e^-mu)/mu */

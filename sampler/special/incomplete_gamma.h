@@ -5,12 +5,14 @@
 #ifndef FRACAS_SAMPLER_INCOMPLETE_GAMMA_H
 #define FRACAS_SAMPLER_INCOMPLETE_GAMMA_H
 
+#include "sampler/probability.h"
+
 /* P and Q. For a >= 0.1 both are within 1e-13 relative at the given x while above 1e-17, for a up to 1e6; P stays so
  * for smaller a. (x itself, rounded, moves them by up to sqrt(a) 1e-15.) */
 void fracas_incomplete_gamma(double a, double x, double *lower, double *upper);
 
-/* The x with P(a, x) = u, 0 < u < 1 and a >= 0.1, to 5e-14 relative for u from 2^-53 to 1 - 2^-53. */
-double fracas_incomplete_gamma_inverse(double a, double u);
+/* The x with P(a, x) = p.below, Q(a, x) = p.above, a >= 0.1, to 5e-14 relative for tails from 2^-53 on. */
+double fracas_incomplete_gamma_inverse(double a, fracas_probability p);
 
 /* integral_0^1 exp(-mu x^p) dx = Gamma(1 + 1/p) mu^(-1/p) P(1/p, mu), mu >= 0 and 0.5 <= p <= 1000, to 1e-14 relative. */
 double fracas_stretched_exponential(double mu, double p);

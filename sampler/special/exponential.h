@@ -2,7 +2,9 @@
 #ifndef FRACAS_SAMPLER_EXPONENTIAL_H
 #define FRACAS_SAMPLER_EXPONENTIAL_H
 
-/* -ln(1 - u), 0 < u < 1, accurate in both tails. */
-double fracas_exponential_quantile(double u);
+#include "sampler/probability.h"
+
+/* -ln(p.above), accurate in both tails. */
+double fracas_exponential_quantile(fracas_probability p);
 
 #endif

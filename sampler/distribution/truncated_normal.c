@@ -1,8 +1,8 @@
 /* Normal distribution, cut off at strength 0. */
-#include "sampler/distribution.h"
+#include "sampler/distribution/distribution.h"
 
 #include "base/elementary.h"
-#include "sampler/normal.h"
+#include "sampler/special/normal.h"
 
 /* The density of a standard normal variable. */
 static double normal_density(double z)
@@ -41,22 +41,22 @@ static double solve_near_zero(double k, double c)
 }
 
 /* (sampling.16) The upper half of the untruncated law from 1 - u, the lower one from u, so that both tails are exact. */
-static double normal_quantile(const fracas_strength *strength, double volume, double u)
+static double normal_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
 {
-    (void)volume;
+    (void)extent;
     const double near_zero = 0.5;
     double k = strength->mean / strength->deviation;
     double kept = fracas_normal_upper(-k);
-    double above = (1.0 - u) * kept;
-    double z = above < 0.5 ? -fracas_normal_quantile(above) : fracas_normal_quantile(fracas_normal_upper(k) + u * kept);
+    double above = p.above * kept, below = fracas_normal_upper(k) + p.below * kept;
+    double z = above < 0.5 ? -fracas_normal_quantile(fracas_probability_of(above)) : fracas_normal_quantile(fracas_probability_of(below));
     if (k + z > near_zero) return strength->mean + strength->deviation * z;
-    return strength->deviation * solve_near_zero(k, u * kept / normal_density(k));
+    return strength->deviation * solve_near_zero(k, p.below * kept / normal_density(k));
 }
 
 /* (sampling.19) */
-static double normal_mean(const fracas_strength *strength, double volume)
+static double normal_mean(const fracas_strength *strength, fracas_extent extent)
 {
-    (void)volume;
+    (void)extent;
     double k = strength->mean / strength->deviation;
     return strength->mean + strength->deviation * (normal_density(k) / fracas_normal_upper(-k));
 }

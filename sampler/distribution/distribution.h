@@ -3,19 +3,21 @@
 #define FRACAS_SAMPLER_DISTRIBUTION_H
 
 #include "base/err.h"
-#include "sampler/sampler.h"
+#include "sampler/strength.h"
 
 typedef struct {
     fracas_kind kind; /* first: a strength names its distribution by this */
-    double (*quantile)(const fracas_strength *strength, double volume, double u); /* as fracas_strength_quantile */
-    double (*mean)(const fracas_strength *strength, double volume);               /* as fracas_strength_mean */
+    double (*quantile)(const fracas_strength *strength, fracas_extent extent, fracas_probability p); /* as fracas_strength_quantile */
+    double (*mean)(const fracas_strength *strength, fracas_extent extent); /* as fracas_strength_mean */
     fracas_err (*check)(const fracas_strength *strength); /* what single ranges cannot say; may be NULL */
-    bool size_effect; /* both depend on the volume */
+    bool size_effect; /* both depend on the extent */
     /* Both NULL where strengths are drawn: how many there are, and sigma_c[i*stride] = that of interface i. */
     size_t (*count)(const fracas_strength *strength);
     fracas_err (*fill)(const fracas_strength *strength, size_t n, const double (*position)[3], size_t stride, double *sigma_c);
     bool placed; /* they are found by position, not by number */
 } fracas_distribution;
+
+const fracas_distribution *fracas_distribution_of(const fracas_strength *strength);
 
 extern const fracas_distribution fracas_constant;
 extern const fracas_distribution fracas_uniform;

@@ -1,19 +1,19 @@
 /* Gamma distribution. */
-#include "sampler/distribution.h"
+#include "sampler/distribution/distribution.h"
 
-#include "sampler/incomplete_gamma.h"
+#include "sampler/special/incomplete_gamma.h"
 
 /* (sampling.20) */
-static double gamma_quantile(const fracas_strength *strength, double volume, double u)
+static double gamma_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
 {
-    (void)volume;
-    return strength->scale * fracas_incomplete_gamma_inverse(strength->shape, u);
+    (void)extent;
+    return strength->scale * fracas_incomplete_gamma_inverse(strength->shape, p);
 }
 
 /* (sampling.20) */
-static double gamma_mean(const fracas_strength *strength, double volume)
+static double gamma_mean(const fracas_strength *strength, fracas_extent extent)
 {
-    (void)volume;
+    (void)extent;
     return strength->scale * strength->shape;
 }
 

@@ -1,20 +1,20 @@
 /* Lognormal distribution. */
-#include "sampler/distribution.h"
+#include "sampler/distribution/distribution.h"
 
 #include "base/elementary.h"
-#include "sampler/normal.h"
+#include "sampler/special/normal.h"
 
 /* (sampling.7) */
-static double lognormal_quantile(const fracas_strength *strength, double volume, double u)
+static double lognormal_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
 {
-    (void)volume;
-    return strength->median * fracas_exp(strength->sigma * fracas_normal_quantile(u));
+    (void)extent;
+    return strength->median * fracas_exp(strength->sigma * fracas_normal_quantile(p));
 }
 
 /* (sampling.8) */
-static double lognormal_mean(const fracas_strength *strength, double volume)
+static double lognormal_mean(const fracas_strength *strength, fracas_extent extent)
 {
-    (void)volume;
+    (void)extent;
     return strength->median * fracas_exp(0.5 * strength->sigma * strength->sigma);
 }
 

@@ -1,16 +1,16 @@
 /* One strength for every interface. */
-#include "sampler/distribution.h"
+#include "sampler/distribution/distribution.h"
 
-static double constant_quantile(const fracas_strength *strength, double volume, double u)
+static double constant_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
 {
-    (void)volume;
-    (void)u;
+    (void)extent;
+    (void)p;
     return strength->value;
 }
 
-static double constant_mean(const fracas_strength *strength, double volume)
+static double constant_mean(const fracas_strength *strength, fracas_extent extent)
 {
-    (void)volume;
+    (void)extent;
     return strength->value;
 }
 

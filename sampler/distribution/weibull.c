@@ -1,21 +1,21 @@
 /* Weibull distribution with two or three parameters. */
-#include "sampler/distribution.h"
+#include "sampler/distribution/distribution.h"
 
 #include "base/elementary.h"
-#include "sampler/exponential.h"
+#include "sampler/special/exponential.h"
 
 /* (sampling.5) As exp(ln(t)/shape): a power with the rounded exponent 1/shape would be no more accurate. */
-static double weibull_quantile(const fracas_strength *strength, double volume, double u)
+static double weibull_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
 {
-    (void)volume;
-    double power = fracas_exp(fracas_log(fracas_exponential_quantile(u)) / strength->shape);
+    (void)extent;
+    double power = fracas_exp(fracas_log(fracas_exponential_quantile(p)) / strength->shape);
     return strength->minimum + strength->scale * power;
 }
 
 /* (sampling.6) */
-static double weibull_mean(const fracas_strength *strength, double volume)
+static double weibull_mean(const fracas_strength *strength, fracas_extent extent)
 {
-    (void)volume;
+    (void)extent;
     return strength->minimum + strength->scale * fracas_gamma(1.0 + 1.0 / strength->shape);
 }
 

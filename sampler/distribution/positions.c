@@ -3,8 +3,8 @@
  * Lines are sorted into the cells of a grid that has about as many cells as there are interfaces, so that each interface looks at
  * a few lines. Nothing depends on the order of the lines. */
 #include "base/units.h"
-#include "sampler/distribution.h"
-#include "sampler/lines.h"
+#include "sampler/distribution/distribution.h"
+#include "sampler/distribution/lines.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -71,16 +71,16 @@ static fracas_lines_summary summary_of(const fracas_strength *strength)
     return fracas_lines_summarize(strength->file, next_strength, &of) ? (fracas_lines_summary){.sum = NAN} : of;
 }
 
-static double positions_quantile(const fracas_strength *strength, double volume, double u)
+static double positions_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
 {
-    (void)volume;
+    (void)extent;
     const fracas_lines_summary of = summary_of(strength);
-    return u < 0.5 ? of.smallest : of.largest;
+    return p.below < 0.5 ? of.smallest : of.largest;
 }
 
-static double positions_mean(const fracas_strength *strength, double volume)
+static double positions_mean(const fracas_strength *strength, fracas_extent extent)
 {
-    (void)volume;
+    (void)extent;
     const fracas_lines_summary of = summary_of(strength);
     return of.sum / (double)of.count;
 }

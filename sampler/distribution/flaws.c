@@ -1,25 +1,25 @@
 /* Flaws scattered in the body at random; an interface is as strong as the weakest of them in its volume. */
-#include "sampler/distribution.h"
+#include "sampler/distribution/distribution.h"
 
 #include "base/elementary.h"
-#include "sampler/exponential.h"
-#include "sampler/incomplete_gamma.h"
+#include "sampler/special/exponential.h"
+#include "sampler/special/incomplete_gamma.h"
 
 /* (sampling.21) The share of flaws that is weaker, -ln(1 - u)/(mean number of flaws), and the strength it has; a share
  * of 1 or more means that there is no flaw. As a power of the share, so that the minimum is added last. */
-static double flaws_quantile(const fracas_strength *strength, double volume, double u)
+static double flaws_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
 {
-    double share = fracas_exponential_quantile(u) / (strength->density * volume);
+    double share = fracas_exponential_quantile(p) / (strength->density * extent.volume);
     if (share >= 1.0) return strength->maximum;
     double range = strength->maximum - strength->minimum;
     return strength->minimum + range * fracas_exp(fracas_log(share) / strength->exponent);
 }
 
 /* (sampling.22) */
-static double flaws_mean(const fracas_strength *strength, double volume)
+static double flaws_mean(const fracas_strength *strength, fracas_extent extent)
 {
     double range = strength->maximum - strength->minimum;
-    return strength->minimum + range * fracas_stretched_exponential(strength->density * volume, strength->exponent);
+    return strength->minimum + range * fracas_stretched_exponential(strength->density * extent.volume, strength->exponent);
 }
 
 FRACAS_MUST_USE static fracas_err flaws_check(const fracas_strength *strength)

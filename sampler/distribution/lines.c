@@ -1,4 +1,4 @@
-#include "sampler/lines.h"
+#include "sampler/distribution/lines.h"
 
 #include <string.h>
 #include <strings.h>

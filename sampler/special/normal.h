@@ -2,9 +2,11 @@
 #ifndef FRACAS_SAMPLER_NORMAL_H
 #define FRACAS_SAMPLER_NORMAL_H
 
-/* Phi^-1(u), 0 < u < 1, to 1e-15 relative: algorithm AS 241, routine PPND16 (Wichura, Applied Statistics 37,
+#include "sampler/probability.h"
+
+/* Phi^-1(p.below) to 1e-15 relative: algorithm AS 241, routine PPND16 (Wichura, Applied Statistics 37,
  * 477-484, 1988). */
-double fracas_normal_quantile(double u);
+double fracas_normal_quantile(fracas_probability p);
 
 /* P(Z > z) of a standard normal Z, any z, to 2e-15 relative; P(Z <= z) is fracas_normal_upper(-z). */
 double fracas_normal_upper(double z);

@@ -1,8 +1,8 @@
 /* Strengths that are given, not drawn: a line of a file for each interface. */
-#include "sampler/distribution.h"
+#include "sampler/distribution/distribution.h"
 
 #include "base/units.h"
-#include "sampler/lines.h"
+#include "sampler/distribution/lines.h"
 
 #include <inttypes.h>
 
@@ -32,16 +32,16 @@ static fracas_lines_summary summary_of(const fracas_strength *strength)
     return fracas_lines_summarize(strength->file, next_strength, &of) ? (fracas_lines_summary){.sum = NAN} : of;
 }
 
-static double file_quantile(const fracas_strength *strength, double volume, double u)
+static double file_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
 {
-    (void)volume;
+    (void)extent;
     const fracas_lines_summary of = summary_of(strength);
-    return u < 0.5 ? of.smallest : of.largest;
+    return p.below < 0.5 ? of.smallest : of.largest;
 }
 
-static double file_mean(const fracas_strength *strength, double volume)
+static double file_mean(const fracas_strength *strength, fracas_extent extent)
 {
-    (void)volume;
+    (void)extent;
     const fracas_lines_summary of = summary_of(strength);
     return of.sum / (double)of.count;
 }

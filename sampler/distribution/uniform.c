@@ -1,16 +1,16 @@
 /* Uniform distribution between two strengths. */
-#include "sampler/distribution.h"
+#include "sampler/distribution/distribution.h"
 
 /* (sampling.4) */
-static double uniform_quantile(const fracas_strength *strength, double volume, double u)
+static double uniform_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
 {
-    (void)volume;
-    return strength->minimum + (strength->maximum - strength->minimum) * u;
+    (void)extent;
+    return strength->minimum + (strength->maximum - strength->minimum) * p.below;
 }
 
-static double uniform_mean(const fracas_strength *strength, double volume)
+static double uniform_mean(const fracas_strength *strength, fracas_extent extent)
 {
-    (void)volume;
+    (void)extent;
     return strength->minimum + 0.5 * (strength->maximum - strength->minimum);
 }
 

@@ -1,11 +1,12 @@
 /* Incomplete gamma functions: a series below x = a + 1, a continued fraction above, and for large a, where both take
  * some sqrt(a) terms, the uniform expansion of Temme (SIAM J. Math. Anal. 10, 757-766, 1979; DLMF 8.12). */
-#include "sampler/incomplete_gamma.h"
+#include "sampler/special/incomplete_gamma.h"
 
 #include "base/elementary.h"
-#include "sampler/normal.h"
+#include "sampler/special/normal.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 static const double stirling_from = 10.0; /* a */
@@ -133,27 +134,28 @@ void fracas_incomplete_gamma(double a, double x, double *lower, double *upper)
 
 /* Where the search for x begins. Small a: P is near x^a/Gamma(a + 1) as long as x is small; else Wilson and Hilferty,
  * for whom (x/a)^(1/3) is normal. */
-static double first_guess(double a, double u)
+static double first_guess(double a, fracas_probability p)
 {
-    if (a < 1.0 || (a < stirling_from && u < 0.1))
-        return fracas_exp(fracas_log(u * fracas_gamma(1.0 + a)) / a);
-    double root = 1.0 - 1.0 / (9.0 * a) + fracas_normal_quantile(u) / (3.0 * sqrt(a));
+    if (a < 1.0 || (a < stirling_from && p.below < 0.1))
+        return fracas_exp(fracas_log(p.below * fracas_gamma(1.0 + a)) / a);
+    double root = 1.0 - 1.0 / (9.0 * a) + fracas_normal_quantile(p) / (3.0 * sqrt(a));
     root = fmax(root, 0.05);
     return a * root * root * root;
 }
 
-/* (sampling.27) The zero of g(y) = ln P - ln u, or ln Q - ln(1 - u) for u above 1/2, in y = ln x. g is concave, so
+/* (sampling.27) The zero of g(y) = ln P - ln u, or ln Q - ln(1 - u) in the upper half, in y = ln x. g is concave, so
  * Newton's steps cannot fail; close to the zero they are Halley's. */
-double fracas_incomplete_gamma_inverse(double a, double u)
+double fracas_incomplete_gamma_inverse(double a, fracas_probability p)
 {
     const double largest_step = 2.0;
-    double x = first_guess(a, u);
+    const bool low = p.below <= 0.5;
+    double x = first_guess(a, p);
     for (int i = 0; i < 50 && x > 0.0; i++) {
         double lower, upper;
         fracas_incomplete_gamma(a, x, &lower, &upper);
-        double tail = u <= 0.5 ? lower : upper;
-        double slope = weight(a, x) / (u <= 0.5 ? lower : -upper);
-        double ratio = tail / (u <= 0.5 ? u : 1.0 - u);
+        double tail = low ? lower : upper;
+        double slope = weight(a, x) / (low ? lower : -upper);
+        double ratio = tail / (low ? p.below : p.above);
         double g = fracas_log(ratio);
         double step = -g / slope;
         double bend = 0.5 * step * (a - x - slope); /* g''/g' = a - x - g' */

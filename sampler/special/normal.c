@@ -1,6 +1,6 @@
 /* The normal quantile by rational approximation: AS 241, PPND16 (Wichura 1988); the normal tail by a Chebyshev series
  * in (z - 7)/(z + 7), after Shepherd and Laframboise (Math. Comp. 36, 249-253, 1981). */
-#include "sampler/normal.h"
+#include "sampler/special/normal.h"
 
 #include "base/elementary.h"
 
@@ -18,7 +18,7 @@ static double ratio(const double n[8], const double d[8], double x)
 }
 
 /* (sampling.9) */
-double fracas_normal_quantile(double u)
+double fracas_normal_quantile(fracas_probability p)
 {
     static const double a[8] = {3.3871328727963666080e0,  1.3314166789178437745e2, 1.9715909503065514427e3,
                                 1.3731693765509461125e4,  4.5921953931549871457e4, 6.7265770927008700853e4,
@@ -38,9 +38,9 @@ double fracas_normal_quantile(double u)
     static const double f[8] = {1.0,                       5.99832206555887937690e-1, 1.36929880922735805310e-1,
                                 1.48753612908506148525e-2, 7.86869131145613259100e-4, 1.84631831751005468180e-5,
                                 1.42151175831644588870e-7, 2.04426310338993978564e-15};
-    double q = u - 0.5;
+    double q = p.below <= 0.5 ? p.below - 0.5 : 0.5 - p.above;
     if (fabs(q) <= 0.425) return q * ratio(a, b, 0.180625 - q * q);
-    double r = sqrt(-fracas_log(q < 0.0 ? u : 1.0 - u));
+    double r = sqrt(-fracas_log(q < 0.0 ? p.below : p.above));
     double z = r <= 5.0 ? ratio(c, d, r - 1.6) : ratio(e, f, r - 5.0);
     return q < 0.0 ? -z : z;
 }

@@ -1,0 +1,33 @@
+/* Strength fields: what all replicas of a point share, made once, and the strengths of each replica. */
+#ifndef FRACAS_SAMPLER_FIELD_FIELD_H
+#define FRACAS_SAMPLER_FIELD_FIELD_H
+
+#include "sampler/strength.h"
+#include "sampler/stream.h"
+
+/* Where strengths are: a mesh as the sampler sees it. Strength k = i*points + g is that of Gauss point g of interface i. */
+typedef struct {
+    size_t n;                    /* interfaces */
+    size_t points;               /* strengths of each: 1, or one for each of its Gauss points */
+    const fracas_extent *extent; /* [n] */
+    const double (*position)[3]; /* [n*points] m, at the start */
+    double period;               /* m: of a body whose ends, along x, are joined; 0: of none */
+} fracas_sites;
+
+typedef struct fracas_field fracas_field;
+
+/* The field of these strengths over these sites, which are copied as far as they are needed; `strength` must outlive it.
+ * FRACAS_USAGE where they do not go together (a file with other places than these), FRACAS_ENVIRONMENT without memory. */
+FRACAS_MUST_USE fracas_err fracas_field_create(const fracas_strength *strength, const fracas_sites *sites, fracas_field **field);
+void fracas_field_destroy(fracas_field *field); /* NULL is allowed */
+
+/* Number of strengths of a realization, n*points. */
+size_t fracas_field_size(const fracas_field *field);
+
+/* sigma_c[k*stride] = strength k [Pa] of the realization that the stream names; `stride` lets a lane of a batch be filled in
+ * place. Each value depends on the field and the name of the stream alone. Of strengths that are given they are those of the file,
+ * whatever the stream; NaN beyond its end. FRACAS_ENVIRONMENT without memory. */
+FRACAS_MUST_USE fracas_err fracas_field_sample(const fracas_field *field, const fracas_stream *stream, size_t stride,
+                                               double *sigma_c);
+
+#endif

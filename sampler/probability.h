@@ -1,0 +1,17 @@
+/* A probability with both of its tails. */
+#ifndef FRACAS_SAMPLER_PROBABILITY_H
+#define FRACAS_SAMPLER_PROBABILITY_H
+
+/* That a variable is below a value, and above it: below + above = 1, each between 0 and 1, the smaller of the two right to its last
+ * digits however small it is. */
+typedef struct {
+    double below, above;
+} fracas_probability;
+
+/* u and 1 - u, 0 < u < 1. Both are exact for a u of a stream. */
+static inline fracas_probability fracas_probability_of(double u)
+{
+    return (fracas_probability){u, 1.0 - u};
+}
+
+#endif

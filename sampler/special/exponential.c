@@ -1,0 +1,11 @@
+#include "sampler/special/exponential.h"
+
+#include "base/elementary.h"
+
+/* (sampling.10) `lost` is what p.above, near 1, has lost to rounding: nothing for the u of a stream. */
+double fracas_exponential_quantile(fracas_probability p)
+{
+    if (p.below > 0.5) return -fracas_log(p.above);
+    double lost = (1.0 - p.above) - p.below;
+    return -(fracas_log(p.above) + lost / p.above);
+}

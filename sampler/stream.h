@@ -1,0 +1,30 @@
+/* Streams of random numbers by name. */
+#ifndef FRACAS_SAMPLER_STREAM_H
+#define FRACAS_SAMPLER_STREAM_H
+
+#include <stdint.h>
+
+/* The name of a stream of random numbers: a value depends on this and its place, on nothing else. */
+typedef struct {
+    uint64_t seed;     /* of the campaign */
+    uint64_t purpose;  /* FRACAS_PURPOSE_... */
+    uint64_t point[2]; /* point hash; 0 of what is common to all points */
+    uint64_t replica;
+} fracas_stream;
+
+#define FRACAS_PURPOSE_STRENGTH 1u
+#define FRACAS_PURPOSE_MESH 2u
+#define FRACAS_PURPOSE_DESIGN 3u
+
+/* The site of Gauss point `point` of interface `interface`. */
+static inline uint64_t fracas_stream_site(uint64_t interface, uint64_t point)
+{
+    return interface + (point << 48);
+}
+
+/* u in (0, 1): word 0 of Philox4x64-10 with key (seed, purpose) and counter (site, replica, point),
+ * as ((x >> 12) + 1/2) 2^-52.
+ * u and 1 - u are both exact, from 2^-53 to 1 - 2^-53 (with 53 bits of x, u could round to 1). */
+double fracas_stream_uniform(const fracas_stream *stream, uint64_t site);
+
+#endif
