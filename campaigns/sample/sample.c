@@ -1,0 +1,98 @@
+#include "campaigns/sample/sample.h"
+
+#include "campaigns/plan/point_model.h"
+#include "engine/mesh/surface/surface.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+static fracas_err fill(const fracas_field *field, fracas_sample *sample)
+{
+    const size_t interfaces = fracas_model_interfaces(sample->model);
+    sample->n = fracas_field_size(field);
+    sample->points = interfaces > 0 ? sample->n / interfaces : 1;
+    sample->strength = malloc((sample->n + 1) * sizeof *sample->strength);
+    sample->position = malloc((sample->n + 1) * sizeof *sample->position);
+    if (!sample->strength || !sample->position) return fracas_no_memory("the strengths of a realization");
+    for (size_t i = 0; i < interfaces; i++) {
+        sample->extent.volume += fracas_model_interface_volume(sample->model, i) / (double)interfaces;
+        sample->extent.area += fracas_model_interface_area(sample->model, i) / (double)interfaces;
+    }
+    fracas_model_interface_positions(sample->model, sample->position);
+    const fracas_stream stream =
+        fracas_point_stream(sample->campaign, sample->point, FRACAS_PURPOSE_STRENGTH, (uint64_t)sample->replica);
+    return fracas_field_sample(field, &stream, 1, sample->strength);
+}
+
+fracas_err fracas_sample_draw(const fracas_campaign *campaign, size_t point, int64_t replica, fracas_sample *sample)
+{
+    *sample = (fracas_sample){.campaign = campaign, .point = point, .replica = replica};
+    if (point >= campaign->npoints)
+        return fracas_fail(FRACAS_USAGE, "there is no point %zu in campaign %s; it has %zu, from 0 on (fracas plan FILE lists them)",
+                           point, campaign->name, campaign->npoints);
+    fracas_field *field = NULL;
+    fracas_err err = fracas_point_model_create(campaign, point, &sample->model);
+    if (!err) err = fracas_model_field(sample->model, &campaign->point[point].strength, &field);
+    if (!err) err = fill(field, sample);
+    fracas_field_destroy(field);
+    if (err) fracas_sample_clear(sample);
+    return err ? fracas_fail_within(err, "point %zu", point) : FRACAS_OK;
+}
+
+void fracas_sample_clear(fracas_sample *sample)
+{
+    fracas_model_destroy(sample->model);
+    free(sample->strength);
+    free(sample->position);
+    *sample = (fracas_sample){0};
+}
+
+/* ---- files ---- */
+
+void fracas_sample_write_csv(const fracas_sample *sample, FILE *out)
+{
+    fprintf(out, "interface,gauss_point,x_m,y_m,z_m,strength_Pa\n");
+    for (size_t k = 0; k < sample->n; k++) {
+        const double *x = sample->position[k];
+        fprintf(out, "%zu,%zu,%.12g,%.12g,%.12g,%.17g\n", k / sample->points, k % sample->points, x[0], x[1], x[2],
+                sample->strength[k]);
+    }
+}
+
+static void write_points(const double (*position)[3], size_t n, FILE *out)
+{
+    fprintf(out, "DATASET POLYDATA\nPOINTS %zu double\n", n);
+    for (size_t i = 0; i < n; i++) fprintf(out, "%.12g %.12g %.12g\n", position[i][0], position[i][1], position[i][2]);
+}
+
+static void write_edges(const fracas_surface *surface, FILE *out)
+{
+    write_points(surface->node, surface->nnodes, out);
+    fprintf(out, "LINES %zu %zu\n", surface->ninterfaces, 3 * surface->ninterfaces);
+    for (size_t i = 0; i < surface->ninterfaces; i++) {
+        const fracas_surface_interface *interface = &surface->interface[i];
+        const uint32_t *vertex = &surface->element[interface->element[0] * surface->corners];
+        fprintf(out, "2 %" PRIu32 " %" PRIu32 "\n", vertex[interface->edge[0]], vertex[(interface->edge[0] + 1) % 3]);
+    }
+    fprintf(out, "CELL_DATA %zu\n", surface->ninterfaces);
+}
+
+static void write_vertices(const fracas_sample *sample, FILE *out)
+{
+    write_points((const double(*)[3])sample->position, sample->n, out);
+    fprintf(out, "VERTICES %zu %zu\n", sample->n, 2 * sample->n);
+    for (size_t k = 0; k < sample->n; k++) fprintf(out, "1 %zu\n", k);
+    fprintf(out, "POINT_DATA %zu\n", sample->n);
+}
+
+void fracas_sample_write_vtk(const fracas_sample *sample, FILE *out)
+{
+    const fracas_surface *surface = fracas_model_surface(sample->model);
+    fprintf(out, "# vtk DataFile Version 3.0\nfracas: strengths of %s, point %zu, replica %" PRId64 "\nASCII\n", sample->campaign->name,
+            sample->point, sample->replica);
+    if (surface && sample->points == 1) write_edges(surface, out);
+    else write_vertices(sample, out);
+    fprintf(out, "SCALARS strength double 1\nLOOKUP_TABLE default\n");
+    for (size_t k = 0; k < sample->n; k++) fprintf(out, "%.17g\n", sample->strength[k]);
+}

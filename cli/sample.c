@@ -1,0 +1,69 @@
+#include "cli/cli.h"
+
+#include "base/param.h"
+#include "campaigns/sample/sample.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { POINT, REPLICA, CSV, VTK, JSON };
+static const fracas_option options[] = {
+    [POINT] = {"point", "P", "which point (0): the first column of `fracas plan FILE`"},
+    [REPLICA] = {"replica", "R", "which of its replicas (0)"},
+    [CSV] = {"csv", "PATH", "write strengths and positions to PATH, a line each; - for standard output"},
+    [VTK] = {"vtk", "PATH", "write them to PATH for ParaView"},
+    [JSON] = {"json", NULL, "print the summary as JSON"},
+};
+
+/* Writes the file whole, or removes what there is of it; `write` reports nothing, the stream does. */
+static fracas_err write_file(const fracas_sample *sample, void (*write)(const fracas_sample *sample, FILE *out), const char *path)
+{
+    errno = 0;
+    FILE *out = fopen(path, "w");
+    bool good = out != NULL;
+    if (out) {
+        write(sample, out);
+        good = !ferror(out);
+        good = fclose(out) == 0 && good;
+    }
+    if (good) return FRACAS_OK;
+    const fracas_err err = fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: %s", path, strerror(errno));
+    if (out) remove(path);
+    return err;
+}
+
+static fracas_err show(const fracas_arguments *arguments, const fracas_sample *sample)
+{
+    const char *csv = arguments->value[CSV], *vtk = arguments->value[VTK];
+    const bool piped = csv && strcmp(csv, "-") == 0;
+    if (csv && !piped) TRY(write_file(sample, fracas_sample_write_csv, csv));
+    if (vtk) TRY(write_file(sample, fracas_sample_write_vtk, vtk));
+    if (!piped) return fracas_sample_summarize(sample, arguments->value[JSON], stdout);
+    fracas_sample_write_csv(sample, stdout);
+    return FRACAS_OK;
+}
+
+static fracas_err sample(const fracas_arguments *arguments)
+{
+    int point = 0, replica = 0;
+    TRY(fracas_arguments_integer(arguments, POINT, 0, INT_MAX, &point));
+    TRY(fracas_arguments_integer(arguments, REPLICA, 0, INT_MAX, &replica));
+    fracas_campaign *campaign;
+    TRY(fracas_campaign_read(arguments->operand, &campaign));
+    fracas_sample drawn = {0};
+    fracas_err err = fracas_sample_draw(campaign, (size_t)point, replica, &drawn);
+    if (!err) err = show(arguments, &drawn);
+    fracas_sample_clear(&drawn);
+    fracas_campaign_destroy(campaign);
+    return err;
+}
+
+const fracas_command fracas_command_sample = {
+    .name = "sample", .operand = "FILE", .doc = "Draws the strengths of one realization of FILE, and computes nothing",
+    .more = "\nThe values are those that `fracas run FILE` gives that realization, to the last bit: a strength depends on the campaign's\n"
+            "seed, the point, the replica and its place alone. Prints what they are like; with --csv and --vtk writes all of them, with\n"
+            "where they are at the start. FILE may be the campaign.yaml of a study.\n",
+    .options = options, .noptions = FRACAS_COUNT(options), .run = sample,
+};
