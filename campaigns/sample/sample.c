@@ -60,39 +60,48 @@ void fracas_sample_write_csv(const fracas_sample *sample, FILE *out)
     }
 }
 
+/* Cell types of VTK. */
+enum { VTK_VERTEX = 1, VTK_LINE = 3 };
+
 static void write_points(const double (*position)[3], size_t n, FILE *out)
 {
-    fprintf(out, "DATASET POLYDATA\nPOINTS %zu double\n", n);
+    fprintf(out, "POINTS %zu double\n", n);
     for (size_t i = 0; i < n; i++) fprintf(out, "%.12g %.12g %.12g\n", position[i][0], position[i][1], position[i][2]);
+}
+
+static void write_types(size_t n, int type, FILE *out)
+{
+    fprintf(out, "CELL_TYPES %zu\n", n);
+    for (size_t i = 0; i < n; i++) fprintf(out, "%d\n", type);
 }
 
 static void write_edges(const fracas_surface *surface, FILE *out)
 {
     write_points(surface->node, surface->nnodes, out);
-    fprintf(out, "LINES %zu %zu\n", surface->ninterfaces, 3 * surface->ninterfaces);
+    fprintf(out, "CELLS %zu %zu\n", surface->ninterfaces, 3 * surface->ninterfaces);
     for (size_t i = 0; i < surface->ninterfaces; i++) {
         const fracas_surface_interface *interface = &surface->interface[i];
         const uint32_t *vertex = &surface->element[interface->element[0] * surface->corners];
         fprintf(out, "2 %" PRIu32 " %" PRIu32 "\n", vertex[interface->edge[0]], vertex[(interface->edge[0] + 1) % 3]);
     }
-    fprintf(out, "CELL_DATA %zu\n", surface->ninterfaces);
+    write_types(surface->ninterfaces, VTK_LINE, out);
 }
 
 static void write_vertices(const fracas_sample *sample, FILE *out)
 {
     write_points((const double(*)[3])sample->position, sample->n, out);
-    fprintf(out, "VERTICES %zu %zu\n", sample->n, 2 * sample->n);
+    fprintf(out, "CELLS %zu %zu\n", sample->n, 2 * sample->n);
     for (size_t k = 0; k < sample->n; k++) fprintf(out, "1 %zu\n", k);
-    fprintf(out, "POINT_DATA %zu\n", sample->n);
+    write_types(sample->n, VTK_VERTEX, out);
 }
 
 void fracas_sample_write_vtk(const fracas_sample *sample, FILE *out)
 {
     const fracas_surface *surface = fracas_model_surface(sample->model);
-    fprintf(out, "# vtk DataFile Version 3.0\nfracas: strengths of %s, point %zu, replica %" PRId64 "\nASCII\n", sample->campaign->name,
-            sample->point, sample->replica);
+    fprintf(out, "# vtk DataFile Version 3.0\nfracas: strengths of %s, point %zu, replica %" PRId64 "\nASCII\nDATASET UNSTRUCTURED_GRID\n",
+            sample->campaign->name, sample->point, sample->replica);
     if (surface && sample->points == 1) write_edges(surface, out);
     else write_vertices(sample, out);
-    fprintf(out, "SCALARS strength double 1\nLOOKUP_TABLE default\n");
+    fprintf(out, "CELL_DATA %zu\nSCALARS strength double 1\nLOOKUP_TABLE default\n", sample->n);
     for (size_t k = 0; k < sample->n; k++) fprintf(out, "%.17g\n", sample->strength[k]);
 }

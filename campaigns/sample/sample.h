@@ -28,8 +28,8 @@ void fracas_sample_clear(fracas_sample *sample); /* all zero is allowed */
  * bits. */
 void fracas_sample_write_csv(const fracas_sample *sample, FILE *out);
 
-/* Legacy VTK, ASCII, for ParaView: interfaces of a surface as the lines of their edges with cell data `strength` [Pa]; those of a chain,
- * and Gauss points, as vertices with point data. */
+/* Legacy VTK, ASCII, for ParaView: a cell a strength, with the cell data `strength` [Pa]; an interface of a surface is the line of its
+ * edge, one of a chain, and a Gauss point, a vertex. */
 void fracas_sample_write_vtk(const fracas_sample *sample, FILE *out);
 
 /* What there is to say of it: how many, mean, standard deviation (with n - 1), quantiles, the weakest and where it is; as JSON with

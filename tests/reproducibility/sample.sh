@@ -54,7 +54,7 @@ assert [float(x) for x in words[at:]] == drawn, "VTK and CSV differ"
 if body == "bar":
     assert len(points) == len(drawn) and all(math.dist(p, x) < 1e-13 for p, x in zip(points, where))
 else: # each line's middle is where the interface is
-    lines = [[int(x) for x in line[1:]] for line in block("LINES", 3, 3)]
+    lines = [[int(x) for x in line[1:]] for line in block("CELLS", 3, 3)]
     assert len(lines) == len(drawn)
     for (a, b), x in zip(lines, where):
         assert math.dist([(p + q) / 2 for p, q in zip(points[a], points[b])], x) < 1e-13
