@@ -167,6 +167,27 @@ double fracas_incomplete_gamma_inverse(double a, fracas_probability p)
     return x;
 }
 
+/* ln of the weight, where it is no double. */
+static double log_weight(double a, double x)
+{
+    const double two_pi = 0x1.921fb54442d18p+2;
+    if (a >= stirling_from) return 0.5 * fracas_log(a / two_pi) - a * excess(a, x) - stirling(a);
+    return a * fracas_log(x) - x - fracas_log(fracas_gamma(1.0 + a) / a);
+}
+
+/* (laws.14) Newton on ln Q = ln w + ln fraction, nearly a straight line there; its slope is -1/(x fraction). */
+double fracas_incomplete_gamma_far(double a, double t)
+{
+    const double root = 1.0 - 1.0 / (9.0 * a) + fracas_normal_far(t) / (3.0 * sqrt(a));
+    double x = a < stirling_from ? t : a * root * root * root;
+    for (int i = 0; i < 50; i++) {
+        const double rest = fraction(a, x), step = (log_weight(a, x) + fracas_log(rest) + t) * x * rest;
+        x += step;
+        if (fabs(step) < 1e-9 * x) break; /* the next one would be below 1e-18 */
+    }
+    return x;
+}
+
 /* (sampling.22) The series for small mu, free of powers; beyond it P is near 1. */
 double fracas_stretched_exponential(double mu, double p)
 {
