@@ -132,41 +132,6 @@ void fracas_incomplete_gamma(double a, double x, double *lower, double *upper)
     }
 }
 
-/* Where the search for x begins. Small a: P is near x^a/Gamma(a + 1) as long as x is small; else Wilson and Hilferty,
- * for whom (x/a)^(1/3) is normal. */
-static double first_guess(double a, fracas_probability p)
-{
-    if (a < 1.0 || (a < stirling_from && p.below < 0.1))
-        return fracas_exp(fracas_log(p.below * fracas_gamma(1.0 + a)) / a);
-    double root = 1.0 - 1.0 / (9.0 * a) + fracas_normal_quantile(p) / (3.0 * sqrt(a));
-    root = fmax(root, 0.05);
-    return a * root * root * root;
-}
-
-/* (sampling.27) The zero of g(y) = ln P - ln u, or ln Q - ln(1 - u) in the upper half, in y = ln x. g is concave, so
- * Newton's steps cannot fail; close to the zero they are Halley's. */
-double fracas_incomplete_gamma_inverse(double a, fracas_probability p)
-{
-    const double largest_step = 2.0;
-    const bool low = p.below <= 0.5;
-    double x = first_guess(a, p);
-    for (int i = 0; i < 50 && x > 0.0; i++) {
-        double lower, upper;
-        fracas_incomplete_gamma(a, x, &lower, &upper);
-        double tail = low ? lower : upper;
-        double slope = weight(a, x) / (low ? lower : -upper);
-        double ratio = tail / (low ? p.below : p.above);
-        double g = fracas_log(ratio);
-        double step = -g / slope;
-        double bend = 0.5 * step * (a - x - slope); /* g''/g' = a - x - g' */
-        if (fabs(bend) < 0.5) step /= 1.0 + bend;
-        step = fmax(-largest_step, fmin(step, largest_step));
-        x *= fracas_exp(step);
-        if (fabs(step) * (1.0 + sqrt(a)) < 1e-6) break; /* the next one would be below 1e-18 */
-    }
-    return x;
-}
-
 /* ln of the weight, where it is no double. */
 static double log_weight(double a, double x)
 {
@@ -184,6 +149,42 @@ double fracas_incomplete_gamma_far(double a, double t)
         const double rest = fraction(a, x), step = (log_weight(a, x) + fracas_log(rest) + t) * x * rest;
         x += step;
         if (fabs(step) < 1e-9 * x) break; /* the next one would be below 1e-18 */
+    }
+    return x;
+}
+
+/* Where the search for x begins. Small a: P is near x^a/Gamma(a + 1) as long as x is small; else Wilson and Hilferty,
+ * for whom (x/a)^(1/3) is normal. */
+static double first_guess(double a, fracas_probability p)
+{
+    if (a < 1.0 || (a < stirling_from && p.below < 0.1))
+        return fracas_exp(fracas_log(p.below * fracas_gamma(1.0 + a)) / a);
+    double root = 1.0 - 1.0 / (9.0 * a) + fracas_normal_quantile(p) / (3.0 * sqrt(a));
+    root = fmax(root, 0.05);
+    return a * root * root * root;
+}
+
+/* (sampling.27) The zero of g(y) = ln P - ln u, or ln Q - ln(1 - u) in the upper half, in y = ln x. g is concave, so
+ * Newton's steps cannot fail; close to the zero they are Halley's. */
+double fracas_incomplete_gamma_inverse(double a, fracas_probability p)
+{
+    const double largest_step = 2.0;
+    const bool low = p.below <= 0.5;
+    if (p.above < 0x1p-60) return fracas_incomplete_gamma_far(a, -fracas_log(p.above)); /* beyond any stream */
+    double x = first_guess(a, p);
+    for (int i = 0; i < 50 && x > 0.0; i++) {
+        double lower, upper;
+        fracas_incomplete_gamma(a, x, &lower, &upper);
+        double tail = low ? lower : upper;
+        double slope = weight(a, x) / (low ? lower : -upper);
+        double ratio = tail / (low ? p.below : p.above);
+        double g = fracas_log(ratio);
+        double step = -g / slope;
+        double bend = 0.5 * step * (a - x - slope); /* g''/g' = a - x - g' */
+        if (fabs(bend) < 0.5) step /= 1.0 + bend;
+        step = fmax(-largest_step, fmin(step, largest_step));
+        x *= fracas_exp(step);
+        if (fabs(step) * (1.0 + sqrt(a)) < 1e-6) break; /* the next one would be below 1e-18 */
     }
     return x;
 }

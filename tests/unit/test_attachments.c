@@ -273,7 +273,7 @@ static void test_errors(void **state)
     bad(FROM_FILE "[s.csv]\n", "", 17, 9, "- strength.file: [...]");
     bad(FROM_FILE "wrong.csv\n", "", 17, 9, "`strength`: wrong.csv:3: found `Pa`");
     bad("  distribution: file\n", "", 16, 17, "strength with distribution file needs `file` (");
-    bad("  distribution: constant\n  value: 1 MPa\n  file: s.csv\n", "", 18, 3, "`file` belongs to distribution file");
+    bad("  distribution: constant\n  value: 1 MPa\n  file: s.csv\n", "", 18, 3, "`file` belongs to distribution empirical or file or positions");
     bad(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: [s.csv, absent.csv]\n", 28, 28, "/absent.csv: No such file");
     bad(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: {from: 1, to: 2, points: 2}\n", 28, 20, "is not a number");
     bad(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: [s.csv, ./s.csv]\n", 28, 28, "the same values");
