@@ -259,7 +259,7 @@ static void test_sweeps(void **state)
         {"", "sweep:\n  - strength: [5]\n", 29, 16, {"`strength` is a section, but found `5`"}},
         {"", "sweep:\n  - strength: [{distribution: weibull, scale: 3 MPa}]\n", 29, 47,
          {"distribution weibull needs `scale` and `shape`", "add `shape`"}},
-        {"", "sweep:\n  - strength.mean: [300 MPa]\n", 29, 21,
+        {"", "sweep:\n  - strength.mean: [300 MPa]\n", 17, 12,
          {"distribution uniform needs", "`minimum` and `maximum` say all: take out `mean`"}},
         {"", "sweep:\n  - strength.shape: [5, 10]\n", 29, 22,
          {"`shape` belongs to distribution weibull", "this is uniform"}},
