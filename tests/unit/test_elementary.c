@@ -121,9 +121,9 @@ static void expm1_and_log1p_are_exact_near_zero(void **state)
         raise_to(&log_all, ulps(fracas_log1p(x), log1pl(x)));
         raise_to(&log_all, ulps(fracas_log1p(-between(0.0, 1.0, i, 0)), log1pl(-between(0.0, 1.0, i, 0))));
     }
-    assert_below("expm1 below 0", below, 2.5);
-    assert_below("expm1 above 0", above, 2.5);
-    assert_below("expm1 in [0.3, 0.75]", seams, 2.5);
+    assert_below("expm1 below 0", below, 3.0);
+    assert_below("expm1 above 0", above, 3.0);
+    assert_below("expm1 in [0.3, 0.75]", seams, 3.0);
     assert_below("expm1 near 0", small, 1.0);
     assert_below("log1p", log_all, 2.0);
     assert_below("log1p near 0", log_small, 2.0);

@@ -1,9 +1,11 @@
 /* Laws of strengths by mean and standard deviation, and from measured strengths. */
+#include "base/hash.h"
 #include "sampler/special/weibull_shape.h"
 #include "tests/support/laws.h"
 #include "tests/support/strengths.h"
 
 #include <gsl/gsl_cdf.h>
+#include <inttypes.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -111,6 +113,23 @@ static void deviations_are_exact(void **state)
     const fracas_attachment numbers = FILE_OF("s.csv", "1e8\n2e8\n4e8\n5e8\n");
     fracas_strength file = {.distribution = law_named("file"), .file = &numbers};
     assert_close(fracas_strength_deviation(&file, one), sqrt(2.5) * 1e8, 1e-15); /* of 1, 2, 4, 5 about 3 */
+}
+
+/* The bits of the shapes hang on every term. */
+static void bits_are_golden(void **state)
+{
+    (void)state;
+    static double value[3000];
+    for (int i = 0; i < 1000; i++) {
+        const double x = 0.001 * (i < 500 ? 1.0 + 0.5 * i : 0.5 * i * i / 25.0);
+        value[i] = fracas_weibull_variation(fmin(x, 10.0));
+        value[1000 + i] = fracas_weibull_shape_inverse(value[i], 0.001, 10.0);
+        const fracas_strength law = law_by_moments("normal", 0.0, 300e6, 300e6 * (0.0005 + 0.00075 * i));
+        value[2000 + i] = fracas_strength_quantile(&law, one, fracas_probability_of(0.25));
+    }
+    const uint64_t got = fracas_checksum_of(value, sizeof value);
+    print_message("0x%016" PRIx64 "\n", got);
+    assert_true(got == 0x1042b69bfd225376);
 }
 
 static void refused(const fracas_strength *law, const char *words)
@@ -244,6 +263,7 @@ int main(void)
         cmocka_unit_test(published_moments_are_the_published_shapes),
         cmocka_unit_test(moments_come_back),
         cmocka_unit_test(deviations_are_exact),
+        cmocka_unit_test(bits_are_golden),
         cmocka_unit_test(one_pair_is_given_whole),
         cmocka_unit_test(moments_beyond_a_law_are_refused),
         cmocka_unit_test(empirical_is_what_the_file_says),

@@ -1,5 +1,6 @@
 /* The weakest-link size effect: laws of an interface from those of a specimen. */
 #include "base/elementary.h"
+#include "base/hash.h"
 #include "sampler/special/exponential.h"
 #include "sampler/special/incomplete_gamma.h"
 #include "sampler/special/normal.h"
@@ -8,6 +9,7 @@
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_integration.h>
+#include <inttypes.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -295,6 +297,25 @@ static void empirical_moments_are_exact(void **state)
                  sqrt((36 + 43.75 + 45 + 48 + 25) / 25 - 2.7 * 2.7) * 1e8, 1e-13);
 }
 
+/* Whoever compiles it, and for whatever CPU; as in test_sampler.c. */
+static void bits_are_golden(void **state)
+{
+    (void)state;
+    static double value[LAWS * 3][1000];
+    for (int k = 0; k < LAWS; k++)
+        for (int step = 0; step < 3; step++) {
+            const fracas_strength law = example(k, VOLUME);
+            const fracas_extent extent = {(double[]){1e-4, 0.5, 300.0}[step] * VOLUME, 1.0};
+            double *of = value[3 * k + step];
+            for (int i = 0; i < 998; i++) of[i] = fracas_strength_quantile(&law, extent, fracas_probability_of((i + 1) / 1000.0));
+            of[998] = fracas_strength_mean(&law, extent);
+            of[999] = fracas_strength_deviation(&law, extent);
+        }
+    const uint64_t got = fracas_checksum_of(value, sizeof value);
+    print_message("0x%016" PRIx64 "\n", got);
+    assert_true(got == 0x2cee0db5a6aed1d9);
+}
+
 static void refused(fracas_strength law, const char *words)
 {
     assert_int_equal(fracas_strength_check(&law), FRACAS_USAGE);
@@ -326,6 +347,7 @@ int main(void)
         cmocka_unit_test(moments_are_the_integrals),
         cmocka_unit_test(quadrature_is_within_1e12),
         cmocka_unit_test(empirical_moments_are_exact),
+        cmocka_unit_test(bits_are_golden),
         cmocka_unit_test(references_that_say_nothing_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
