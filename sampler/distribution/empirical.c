@@ -63,7 +63,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* (laws.15) Every strength is as likely as every other. */
+/* (laws.16) Every strength is as likely as every other. */
 static fracas_err spread(const fracas_strength *strength, struct fracas_table *table)
 {
     const bool is_linear = strength->interpolation != &steps;
@@ -143,7 +143,7 @@ static void empirical_clear(fracas_strength *strength)
 
 /* ---- the law ---- */
 
-/* (laws.15), (laws.16) From the nearer end, so that both tails are exact. */
+/* (laws.17) From the nearer end, so that both tails are exact. */
 static double empirical_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
 {
     (void)extent;
@@ -163,7 +163,7 @@ static double empirical_quantile(const fracas_strength *strength, fracas_extent 
     return x[after] - range * ((p.above - (1.0 - f[after])) / width);
 }
 
-/* integral_0^1 (1 - delta y)^power dy and the same of y (1 - delta y)^power, 0 <= delta <= 1. */
+/* (laws.18) integral_0^1 (1 - delta y)^power dy and the same of y (1 - delta y)^power, 0 <= delta <= 1. */
 static void decay(double delta, double power, double *plain, double *first)
 {
     if (delta * fmax(power, 1.0) >= 0.5) {
@@ -182,7 +182,7 @@ static void decay(double delta, double power, double *plain, double *first)
     }
 }
 
-/* (laws.17) mean = x_1 + sum of range integral S^size, variance = (x_1 - mean)^2 + 2 sum of integral (s - mean) S^size ds. */
+/* (laws.18) mean = x_1 + sum of range integral S^size, variance = (x_1 - mean)^2 + 2 sum of integral (s - mean) S^size ds. */
 static fracas_moments linear_moments(const struct fracas_table *table, double size)
 {
     const double *x = table->strength;
@@ -204,7 +204,7 @@ static fracas_moments linear_moments(const struct fracas_table *table, double si
     return (fracas_moments){mean, sqrt(fmax(variance, 0.0))};
 }
 
-/* (laws.18) */
+/* (laws.19) */
 static fracas_moments steps_moments(const struct fracas_table *table, double size)
 {
     double mean = 0.0, variance = 0.0;

@@ -82,7 +82,7 @@ double fracas_normal_upper(double z)
     return z < 0.0 ? 1.0 - tail : tail;
 }
 
-/* (laws.13) P(Z > z) = density(z)/hazard(z), the hazard a continued fraction: z + 1/(z + 2/(z + 3/(z + ...))), z > 34. Newton on
+/* (laws.14) P(Z > z) = density(z)/hazard(z), the hazard a continued fraction: z + 1/(z + 2/(z + 3/(z + ...))), z > 34. Newton on
  * ln P, whose slope is minus the hazard. */
 double fracas_normal_far(double t)
 {

@@ -110,6 +110,14 @@ static void deviations_are_exact(void **state)
     assert_close(fracas_strength_deviation(&gamma, one), 40e6, 1e-15);
     fracas_strength constant = {.distribution = law_named("constant"), .value = 1e8};
     assert_true(fracas_strength_deviation(&constant, one) == 0.0);
+    for (double mu = 0.5; mu < 100.0; mu *= 3.0) { /* exponents 1/2 and 1: integrals over e^-z by parts, in long double */
+        const long double m = mu, e = expl(-m), r1 = (1 - e) / m, r2 = 2 * (1 - e * (1 + m)) / (m * m);
+        const long double r4 = 4 * (6 - e * (((m + 3) * m + 6) * m + 6)) / (m * m * m * m);
+        fracas_strength flaws = {.distribution = law_named("flaws"), .density = mu, .minimum = 100e6, .maximum = 400e6, .exponent = 1.0};
+        assert_close(fracas_strength_deviation(&flaws, one), (double)(300e6L * sqrtl(r2 - r1 * r1)), 1e-12);
+        flaws.exponent = 0.5;
+        assert_close(fracas_strength_deviation(&flaws, one), (double)(300e6L * sqrtl(r4 - r2 * r2)), 1e-12);
+    }
     const fracas_attachment numbers = FILE_OF("s.csv", "1e8\n2e8\n4e8\n5e8\n");
     fracas_strength file = {.distribution = law_named("file"), .file = &numbers};
     assert_close(fracas_strength_deviation(&file, one), sqrt(2.5) * 1e8, 1e-15); /* of 1, 2, 4, 5 about 3 */
