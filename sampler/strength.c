@@ -16,8 +16,9 @@ static const fracas_kind *const distributions[] = {
     &fracas_positions.kind,
 };
 static const fracas_param reference[] = {
-    {"reference_volume", FRACAS_REAL, "m3", "volume of a specimen that has the strengths that are given: an interface has those of the weakest "
-     "of as many specimens as fill its volume", FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, reference_volume), .optional = true},
+    {"reference_volume", FRACAS_REAL, "m3", "volume of a specimen that has the strengths that are given: an interface has those of the "
+     "weakest of as many specimens as fill its volume", FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, reference_volume),
+     .optional = true},
     {"reference_area", FRACAS_REAL, "m2", "area of a specimen, in place of its volume: an interface counts by its own area",
      FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, reference_area), .optional = true},
 };

@@ -29,8 +29,8 @@ typedef struct {
 
 static fracas_err refuse(const fracas_lines *lines, const char *found, const char *expected)
 {
-    return fracas_fail(FRACAS_USAGE, "%s:%" PRId64 ": found %s%s%s; expected %s", lines->file->path, lines->line, *found ? "`" : "no text there",
-                       found, *found ? "`" : "", expected);
+    return fracas_fail(FRACAS_USAGE, "%s:%" PRId64 ": found %s%s%s; expected %s", lines->file->path, lines->line,
+                       *found ? "`" : "no text there", found, *found ? "`" : "", expected);
 }
 
 /* The next line; *found is false at the end of the file. */
@@ -68,8 +68,8 @@ static fracas_err spread(const fracas_strength *strength, struct fracas_table *t
 {
     const bool is_linear = strength->interpolation != &steps;
     if (is_linear && table->n < 2)
-        return fracas_fail(FRACAS_USAGE, "%s has one strength; a linear distribution function needs two: give more, or take interpolation: steps",
-                           strength->file->path);
+        return fracas_fail(FRACAS_USAGE, "%s has one strength; a linear distribution function needs two: give more, or take interpolation: "
+                                         "steps", strength->file->path);
     qsort(table->strength, table->n, sizeof *table->strength, ascending);
     for (size_t k = 0; k < table->n; k++)
         table->below[k] = is_linear ? (double)k / (double)(table->n - 1) : (double)(k + 1) / (double)table->n;

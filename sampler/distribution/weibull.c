@@ -47,8 +47,8 @@ FRACAS_MUST_USE static fracas_err weibull_init(fracas_strength *strength)
     if (!by_moments) return FRACAS_OK;
     const double above = strength->mean - strength->minimum;
     if (!(above > 0.0))
-        return fracas_fail(FRACAS_USAGE, "strength.mean is %.15g Pa and strength.minimum %.15g Pa; the mean is above the minimum: raise it, "
-                                         "or lower the minimum", strength->mean, strength->minimum);
+        return fracas_fail(FRACAS_USAGE, "strength.mean is %.15g Pa and strength.minimum %.15g Pa; the mean is above the minimum: raise "
+                                         "it, or lower the minimum", strength->mean, strength->minimum);
     const double least = 1.0 / largest_shape, most = 1.0 / smallest_shape, ratio = strength->deviation / above;
     TRY(fracas_choice_check(name, "deviation/(mean - minimum)", ratio, sqrt(fracas_weibull_variation(least)),
                             sqrt(fracas_weibull_variation(most))));

@@ -54,7 +54,8 @@ static double cdf(const fracas_strength *law, double s)
     const double f[2][7] = {{0, 1 / 6.0, 2 / 6.0, 3 / 6.0, 4 / 6.0, 5 / 6.0, 1}, {0, 0.1, 0.4, 0.9, 1}};
     const int which = law->file == &table;
     for (int k = 1;; k++)
-        if (s <= x[which][k]) return f[which][k - 1] + (f[which][k] - f[which][k - 1]) * (s - x[which][k - 1]) / (x[which][k] - x[which][k - 1]);
+        if (s <= x[which][k])
+            return f[which][k - 1] + (f[which][k] - f[which][k - 1]) * (s - x[which][k - 1]) / (x[which][k] - x[which][k - 1]);
 }
 
 /* D = sup |F_n - F|, with P(D > d) <= 2 exp(-2 n d^2) (Massart 1990), F that of the weakest of `size`. */
@@ -106,8 +107,8 @@ static void interfaces_are_as_weak_as_the_weakest_specimen(void **state)
 {
     (void)state;
     fracas_strength laws[] = {
-        law_by_moments("lognormal", 0.0, 308e6, 60e6), law_by_moments("gamma", 0.0, 308e6, 60e6), law_by_moments("uniform", 0.0, 308e6, 60e6),
-        law_of_file(&measured, false), law_of_file(&table, false),
+        law_by_moments("lognormal", 0.0, 308e6, 60e6), law_by_moments("gamma", 0.0, 308e6, 60e6),
+        law_by_moments("uniform", 0.0, 308e6, 60e6), law_of_file(&measured, false), law_of_file(&table, false),
     };
     for (size_t k = 0; k < FRACAS_COUNT(laws); k++)
         for (int step = 0; step < 3; step++) {

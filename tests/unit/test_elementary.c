@@ -127,7 +127,8 @@ static void expm1_and_log1p_are_exact_near_zero(void **state)
     assert_below("expm1 near 0", small, 1.0);
     assert_below("log1p", log_all, 2.0);
     assert_below("log1p near 0", log_small, 2.0);
-    assert_true(fracas_expm1(0.0) == 0.0 && fracas_expm1(-INFINITY) == -1.0 && fracas_expm1(INFINITY) == INFINITY && isnan(fracas_expm1(NAN)));
+    assert_true(fracas_expm1(0.0) == 0.0 && fracas_expm1(-INFINITY) == -1.0 && fracas_expm1(INFINITY) == INFINITY);
+    assert_true(isnan(fracas_expm1(NAN)));
     assert_true(fracas_log1p(0.0) == 0.0 && fracas_log1p(-1.0) == -INFINITY && fracas_log1p(INFINITY) == INFINITY);
     assert_true(isnan(fracas_log1p(-1.5)) && isnan(fracas_log1p(NAN)));
 }

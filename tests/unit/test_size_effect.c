@@ -17,6 +17,7 @@
 
 #include <cmocka.h>
 
+static const fracas_extent one = {1.0, 1.0};
 static const double VOLUME = 2e-9, AREA = 3e-6; /* of a specimen, m3 and m2 */
 
 static void assert_close(double got, double expected, double relative)
@@ -95,18 +96,18 @@ static void tails_are_exact_to_1e300(void **state)
         assert_close(fracas_exponential_quantile(high), -log(tail), 1e-15);
         for (double shape = 0.5; shape < 100.0; shape *= 3.0) {
             const fracas_strength law = {.distribution = law_named("weibull"), .scale = 50e6, .shape = shape};
-            assert_close(fracas_strength_quantile(&law, (fracas_extent){1, 1}, low), gsl_cdf_weibull_Pinv(tail, 50e6, shape), 1e-12);
-            assert_close(fracas_strength_quantile(&law, (fracas_extent){1, 1}, high), gsl_cdf_weibull_Qinv(tail, 50e6, shape), 1e-12);
+            assert_close(fracas_strength_quantile(&law, one, low), gsl_cdf_weibull_Pinv(tail, 50e6, shape), 1e-12);
+            assert_close(fracas_strength_quantile(&law, one, high), gsl_cdf_weibull_Qinv(tail, 50e6, shape), 1e-12);
         }
         const fracas_strength lognormal = {.distribution = law_named("lognormal"), .median = 300e6, .sigma = 0.3};
-        assert_close(fracas_strength_quantile(&lognormal, (fracas_extent){1, 1}, low), gsl_cdf_lognormal_Pinv(tail, log(300e6), 0.3), 1e-12);
-        assert_close(fracas_strength_quantile(&lognormal, (fracas_extent){1, 1}, high), gsl_cdf_lognormal_Qinv(tail, log(300e6), 0.3), 1e-12);
-        const fracas_strength normal = {.distribution = law_named("normal"), .mean = 600e6, .deviation = 15e6}; /* k = 40: nothing is cut off */
-        assert_close(fracas_strength_quantile(&normal, (fracas_extent){1, 1}, high), 600e6 + gsl_cdf_gaussian_Qinv(tail, 15e6), 1e-12);
-        assert_close(fracas_strength_quantile(&normal, (fracas_extent){1, 1}, low), 600e6 + gsl_cdf_gaussian_Pinv(tail, 15e6), 1e-12);
+        assert_close(fracas_strength_quantile(&lognormal, one, low), gsl_cdf_lognormal_Pinv(tail, log(300e6), 0.3), 1e-12);
+        assert_close(fracas_strength_quantile(&lognormal, one, high), gsl_cdf_lognormal_Qinv(tail, log(300e6), 0.3), 1e-12);
+        const fracas_strength normal = {.distribution = law_named("normal"), .mean = 600e6, .deviation = 15e6}; /* nothing is cut off */
+        assert_close(fracas_strength_quantile(&normal, one, high), 600e6 + gsl_cdf_gaussian_Qinv(tail, 15e6), 1e-12);
+        assert_close(fracas_strength_quantile(&normal, one, low), 600e6 + gsl_cdf_gaussian_Pinv(tail, 15e6), 1e-12);
         const fracas_strength gamma = {.distribution = law_named("gamma"), .shape = 1.0, .scale = 30e6}; /* exponential */
-        assert_close(fracas_strength_quantile(&gamma, (fracas_extent){1, 1}, high), -30e6 * log(tail), 1e-13);
-        assert_close(fracas_strength_quantile(&gamma, (fracas_extent){1, 1}, low), -30e6 * log1p(-tail), 1e-13);
+        assert_close(fracas_strength_quantile(&gamma, one, high), -30e6 * log(tail), 1e-13);
+        assert_close(fracas_strength_quantile(&gamma, one, low), -30e6 * log1p(-tail), 1e-13);
         static const double shapes[] = {2.0, 9.0, 12.0, 150.0, 1e4};
         for (size_t k = 0; k < FRACAS_COUNT(shapes); k++) { /* from the law: P as a sum, its slope the density */
             const double a = shapes[k], x = fracas_incomplete_gamma_inverse(a, low);
@@ -228,7 +229,7 @@ static void moments_are_the_integrals(void **state)
 {
     (void)state;
     for (int k = 1; k < 6; k++) /* lognormal, normal, gamma, uniform */
-        for (double size = 0.1; size < 200.0; size *= 4.0) { /* below, P^size is not small where GSL's P is 0 */
+        for (double size = 0.1; size < 200.0; size *= 4.0) { /* below, P^size counts where GSL's P is 0 */
             const fracas_strength law = example(k, VOLUME);
             const fracas_extent extent = {size * VOLUME, 1.0};
             const double mean = moment(&law, size, 1), square = moment(&law, size, 2);
@@ -257,7 +258,8 @@ static void quadrature_is_within_1e12(void **state)
     }
     fracas_strength wide = {.distribution = law_named("lognormal"), .median = 300e6, .sigma = 5.0}, same = wide;
     wide.reference_volume = VOLUME;
-    assert_close(fracas_strength_mean(&wide, (fracas_extent){VOLUME, 1.0}), fracas_strength_mean(&same, (fracas_extent){VOLUME, 1.0}), 1e-12);
+    const fracas_extent extent = {VOLUME, 1.0};
+    assert_close(fracas_strength_mean(&wide, extent), fracas_strength_mean(&same, extent), 1e-12);
 }
 
 /* Two measured strengths are a uniform law; of more, sums over n equal steps of each segment in long double, right to 1/n^2. */
@@ -330,7 +332,8 @@ static void references_that_say_nothing_are_refused(void **state)
     refused(both, "`reference_volume` and `reference_area` are both given: take out one");
     refused((fracas_strength){.distribution = law_named("constant"), .value = 1e8, .reference_area = AREA},
             "`reference_area` does not go with the distribution constant, whose strengths are the same whatever");
-    refused((fracas_strength){.distribution = law_named("flaws"), .density = 1e9, .maximum = 4e8, .exponent = 3, .reference_volume = VOLUME},
+    refused((fracas_strength){.distribution = law_named("flaws"), .density = 1e9, .maximum = 4e8, .exponent = 3,
+                              .reference_volume = VOLUME},
             "`reference_volume` does not go with the distribution flaws, whose strengths depend on the volume by themselves: take it out");
     refused((fracas_strength){.distribution = law_named("file"), .file = &measured, .reference_volume = VOLUME}, "the distribution file");
 }
