@@ -20,7 +20,8 @@ typedef struct {
     bool size_effect; /* both depend on the extent */
     /* True if it can have the weakest-link size effect of a reference; then also: */
     bool takes_reference;
-    double (*far)(const fracas_strength *strength, double t); /* [Pa] F^-1 where p.above is e^-t, t > 700; NULL: the largest there is */
+    double (*far)(const fracas_strength *strength, double t); /* [Pa] F^-1 where p.above is e^-t; NULL: the largest there is */
+    double far_from; /* the t that it holds from, 700 at most: beyond 745 e^-t is no double */
     fracas_moments (*weakest)(const fracas_strength *strength, double size); /* of the weakest of `size`; NULL: by quadrature */
     /* Both NULL where strengths are drawn: how many there are, and sigma_c[i*stride] = that of interface i. */
     size_t (*count)(const fracas_strength *strength);

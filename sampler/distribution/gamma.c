@@ -48,5 +48,6 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_gamma_law = {
     .kind = {.name = "gamma", .doc = "gamma: mean shape scale, variance shape scale^2", .params = params,
              .nparams = FRACAS_COUNT(params)},
-    .quantile = gamma_quantile, .moments = gamma_moments, .init = gamma_init, .takes_reference = true, .far = gamma_far,
+    .quantile = gamma_quantile, .moments = gamma_moments, .init = gamma_init,
+    .takes_reference = true, .far = gamma_far, .far_from = 700.0,
 };

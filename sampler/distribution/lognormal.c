@@ -50,5 +50,6 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_lognormal = {
     .kind = {.name = "lognormal", .doc = "logarithm normally distributed: median exp(sigma z)", .params = params,
              .nparams = FRACAS_COUNT(params)},
-    .quantile = lognormal_quantile, .moments = lognormal_moments, .init = lognormal_init, .takes_reference = true, .far = lognormal_far,
+    .quantile = lognormal_quantile, .moments = lognormal_moments, .init = lognormal_init,
+    .takes_reference = true, .far = lognormal_far, .far_from = 700.0,
 };

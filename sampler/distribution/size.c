@@ -13,9 +13,8 @@ double fracas_size_of(const fracas_strength *strength, fracas_extent extent)
 /* Where the law of the reference has P(strength > s) = e^-t. */
 static double strength_at(const fracas_strength *strength, double t)
 {
-    const double representable = 700.0;
     const fracas_distribution *distribution = fracas_distribution_of(strength);
-    if (t > representable && distribution->far) return distribution->far(strength, t);
+    if (distribution->far && t >= distribution->far_from) return distribution->far(strength, t);
     return distribution->quantile(strength, (fracas_extent){0}, (fracas_probability){-fracas_expm1(-t), fracas_exp(-t)});
 }
 

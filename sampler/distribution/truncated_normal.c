@@ -110,5 +110,6 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_normal = {
     .kind = {.name = "normal", .doc = "normal, cut off at 0: strengths are positive", .params = params,
              .nparams = FRACAS_COUNT(params)},
-    .quantile = normal_quantile, .moments = normal_moments, .init = normal_init, .takes_reference = true, .far = normal_far,
+    .quantile = normal_quantile, .moments = normal_moments, .init = normal_init,
+    .takes_reference = true, .far = normal_far, .far_from = 700.0,
 };

@@ -8,7 +8,7 @@
 
 static const double smallest_shape = 0.1, largest_shape = 1000.0;
 
-/* Where -ln p.above = t. As exp(ln(t)/shape): a power with the rounded exponent 1/shape would be no more accurate. */
+/* (laws.11) Any t. As exp(ln(t)/shape): a power with the rounded exponent 1/shape would be no more accurate. */
 static double weibull_far(const fracas_strength *strength, double t)
 {
     return strength->minimum + strength->scale * fracas_exp(fracas_log(t) / strength->shape);
@@ -70,6 +70,6 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_weibull = {
     .kind = {.name = "weibull", .doc = "weakest of many flaws: minimum + scale (-ln(1 - u))^(1/shape)",
              .params = params, .nparams = FRACAS_COUNT(params)},
-    .quantile = weibull_quantile, .moments = weibull_moments, .init = weibull_init, .takes_reference = true, .far = weibull_far,
-    .weakest = weibull_weakest,
+    .quantile = weibull_quantile, .moments = weibull_moments, .init = weibull_init,
+    .takes_reference = true, .far = weibull_far, .far_from = 0.0, .weakest = weibull_weakest,
 };
