@@ -67,15 +67,17 @@ double fracas_log(double x)
     return k * ln2_hi - ((half_square - (s * (half_square + z * poly8(r, z)) + k * ln2_lo)) - f);
 }
 
+/* (e^r - 1 - r)/r^2 in |r| <= 0.3467: 2^-60 */
+static const double exp_rest[12] = {
+    0x1.0000000000000p-1, 0x1.5555555555555p-3, 0x1.5555555555557p-5, 0x1.1111111111111p-7,
+    0x1.6c16c16c15a5fp-10, 0x1.a01a01a0196a7p-13, 0x1.a01a01a9ed901p-16, 0x1.71de3a5aa9dc9p-19,
+    0x1.27e4d40eb84dfp-22, 0x1.ae642c777eecbp-26, 0x1.1f7f3b37e9a58p-29, 0x1.61bfbf339abc9p-33,
+};
+
 /* (sampling.12) e^(hi + lo) for |lo| << |hi|. hi = k ln 2 + r (Cody and Waite), e^r = 1 + r + r^2 P(r), times 2^k in
  * two steps because k is outside the range of exponents when the result is subnormal or near the largest double. */
 static inline double exp_sum(double hi, double lo)
 {
-    static const double p[12] = {/* (e^r - 1 - r)/r^2 in |r| <= 0.3467: 2^-60 */
-        0x1.0000000000000p-1, 0x1.5555555555555p-3, 0x1.5555555555557p-5, 0x1.1111111111111p-7,
-        0x1.6c16c16c15a5fp-10, 0x1.a01a01a0196a7p-13, 0x1.a01a01a9ed901p-16, 0x1.71de3a5aa9dc9p-19,
-        0x1.27e4d40eb84dfp-22, 0x1.ae642c777eecbp-26, 0x1.1f7f3b37e9a58p-29, 0x1.61bfbf339abc9p-33,
-    };
     const double log2_e = 0x1.71547652b82fep+0, to_integer = 0x1.8p52;
     if (hi > 710.0 || hi < -746.0) { /* infinity and 0 all the same, and k fits */
         hi = hi > 0.0 ? 710.0 : -746.0;
@@ -92,7 +94,7 @@ static inline double exp_sum(double hi, double lo)
     double r8 = (r2 * r2) * (r2 * r2);
     double sum = 1.0 + r;
     double sum_lo = ((1.0 - sum) + r) + r_lo;
-    double y = sum + (sum_lo + r2 * (poly8(p, r) + r8 * poly4(p + 8, r)));
+    double y = sum + (sum_lo + r2 * (poly8(exp_rest, r) + r8 * poly4(exp_rest + 8, r)));
     int64_t half = k >> 1;
     return y * double_of((uint64_t)(1023 + half) << 52) * double_of((uint64_t)(1023 + k - half) << 52);
 }
@@ -100,6 +102,22 @@ static inline double exp_sum(double hi, double lo)
 double fracas_exp(double x)
 {
     return exp_sum(x, 0.0);
+}
+
+/* (laws.1) */
+double fracas_expm1(double x)
+{
+    if (fabs(x) > 0.6931) return fracas_exp(x) - 1.0;
+    const double r = fabs(x) > 0.3466 ? 0.5 * x : x, r2 = r * r, r8 = (r2 * r2) * (r2 * r2);
+    const double y = r + r2 * (poly8(exp_rest, r) + r8 * poly4(exp_rest + 8, r));
+    return r == x ? y : y * (2.0 + y);
+}
+
+/* (laws.2) What 1 + x loses to rounding is put back. */
+double fracas_log1p(double x)
+{
+    const double w = 1.0 + x;
+    return w > 0.0 && w < INFINITY ? fracas_log(w) + (x - (w - 1.0)) / w : fracas_log(w);
 }
 
 /* a b = product + low, to 2^-104 relative, without FMA: a and b are cut into 26 + 27 bits. */

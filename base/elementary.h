@@ -14,6 +14,12 @@ double fracas_log(double x);
 /* e^x, error below 1 ulp. +infinity from 709.79 on, 0 from -745.14 down; NaN gives NaN. */
 double fracas_exp(double x);
 
+/* e^x - 1, error below 3 ulp, below 1 ulp for |x| < 0.34. -1 from -37.5 down, +infinity from 709.79 on; NaN gives NaN. */
+double fracas_expm1(double x);
+
+/* ln(1 + x), error below 2 ulp. -1 gives -infinity; x < -1 and NaN give NaN; infinity itself. */
+double fracas_log1p(double x);
+
 /* x^y for x >= 0, error below 2 ulp, below 1 ulp where |y ln x| < 100. x^0 = 1 and 1^y = 1 for every x and y, as in
  * C; x < 0 gives NaN (also for whole y, unlike C), and so does a NaN in any other place. */
 double fracas_pow(double x, double y);

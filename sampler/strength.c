@@ -1,6 +1,8 @@
 /* The registry of distributions, and what is done with any of them. */
 #include "sampler/distribution/distribution.h"
 
+#include "sampler/distribution/size.h"
+
 static const fracas_kind *const distributions[] = {
     &fracas_weibull.kind,
     &fracas_uniform.kind,
@@ -9,9 +11,18 @@ static const fracas_kind *const distributions[] = {
     &fracas_normal.kind,
     &fracas_gamma_law.kind,
     &fracas_flaws.kind,
+    &fracas_empirical.kind,
     &fracas_file_distribution.kind,
     &fracas_positions.kind,
 };
+static const fracas_param reference[] = {
+    {"reference_volume", FRACAS_REAL, "m3", "volume of a specimen that has the strengths that are given: an interface has those of the "
+     "weakest of as many specimens as fill its volume", FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, reference_volume),
+     .optional = true},
+    {"reference_area", FRACAS_REAL, "m2", "area of a specimen, in place of its volume: an interface counts by its own area",
+     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, reference_area), .optional = true},
+};
+
 static fracas_err check_section(const void *section)
 {
     return fracas_strength_check(section);
@@ -20,7 +31,7 @@ static fracas_err check_section(const void *section)
 const fracas_section fracas_strength_section = {
     .name = "strength", .doc = "How strong interfaces are", .selector = "distribution", .kinds = distributions,
     .nkinds = FRACAS_COUNT(distributions), .kind_offset = offsetof(fracas_strength, distribution), .hashed = true,
-    .check = check_section,
+    .params = reference, .nparams = FRACAS_COUNT(reference), .check = check_section,
 };
 
 const fracas_distribution *fracas_distribution_of(const fracas_strength *strength)
@@ -28,25 +39,92 @@ const fracas_distribution *fracas_distribution_of(const fracas_strength *strengt
     return (const fracas_distribution *)(const void *)strength->distribution;
 }
 
+static bool has_reference(const fracas_strength *strength)
+{
+    return strength->reference_volume > 0.0 || strength->reference_area > 0.0;
+}
+
+static fracas_err check_reference(const fracas_strength *strength)
+{
+    const char *key = strength->reference_volume > 0.0 ? "reference_volume" : "reference_area";
+    if (!has_reference(strength)) return FRACAS_OK;
+    if (strength->reference_volume > 0.0 && strength->reference_area > 0.0)
+        return fracas_fail(FRACAS_USAGE, "`reference_volume` and `reference_area` are both given: take out one of them");
+    if (fracas_distribution_of(strength)->takes_reference) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "`%s` does not go with the distribution %s, whose strengths %s: take it out", key,
+                       strength->distribution->name, fracas_distribution_of(strength)->size_effect ? "depend on the volume by themselves"
+                       : "are the same whatever the extent of an interface");
+}
+
+fracas_err fracas_strength_init(const fracas_strength *given, fracas_strength *ready)
+{
+    const fracas_distribution *distribution = fracas_distribution_of(given);
+    *ready = *given;
+    TRY(check_reference(given));
+    if (distribution->init) TRY(distribution->init(ready));
+    ready->ready = true;
+    return FRACAS_OK;
+}
+
+void fracas_strength_clear(fracas_strength *ready)
+{
+    const fracas_distribution *distribution = fracas_distribution_of(ready);
+    if (distribution->clear) distribution->clear(ready);
+}
+
 fracas_err fracas_strength_check(const fracas_strength *strength)
 {
-    const fracas_distribution *distribution = fracas_distribution_of(strength);
-    return distribution->check ? distribution->check(strength) : FRACAS_OK;
+    fracas_strength ready;
+    TRY(fracas_strength_init(strength, &ready));
+    fracas_strength_clear(&ready);
+    return FRACAS_OK;
+}
+
+/* Strengths from a file, which may be long, need nothing to be ready. */
+static bool is_ready(const fracas_strength *strength)
+{
+    return strength->ready || fracas_strength_is_given(strength);
 }
 
 double fracas_strength_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
 {
+    if (!is_ready(strength)) {
+        fracas_strength ready;
+        if (fracas_strength_init(strength, &ready)) return NAN;
+        const double quantile = fracas_strength_quantile(&ready, extent, p);
+        fracas_strength_clear(&ready);
+        return quantile;
+    }
+    if (has_reference(strength)) return fracas_size_quantile(strength, fracas_size_of(strength, extent), p);
     return fracas_distribution_of(strength)->quantile(strength, extent, p);
+}
+
+static fracas_moments moments_of(const fracas_strength *strength, fracas_extent extent)
+{
+    if (!is_ready(strength)) {
+        fracas_strength ready;
+        if (fracas_strength_init(strength, &ready)) return (fracas_moments){NAN, NAN};
+        const fracas_moments moments = moments_of(&ready, extent);
+        fracas_strength_clear(&ready);
+        return moments;
+    }
+    if (has_reference(strength)) return fracas_size_moments(strength, fracas_size_of(strength, extent));
+    return fracas_distribution_of(strength)->moments(strength, extent);
 }
 
 double fracas_strength_mean(const fracas_strength *strength, fracas_extent extent)
 {
-    return fracas_distribution_of(strength)->mean(strength, extent);
+    return moments_of(strength, extent).mean;
+}
+
+double fracas_strength_deviation(const fracas_strength *strength, fracas_extent extent)
+{
+    return moments_of(strength, extent).deviation;
 }
 
 bool fracas_strength_has_size_effect(const fracas_strength *strength)
 {
-    return fracas_distribution_of(strength)->size_effect;
+    return fracas_distribution_of(strength)->size_effect || has_reference(strength);
 }
 
 size_t fracas_strength_count(const fracas_strength *strength)

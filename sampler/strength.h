@@ -21,18 +21,33 @@ typedef struct {
     double shape;   /* 1 */
     double median;  /* Pa, lognormal: exp(mu) */
     double sigma;   /* 1, lognormal: standard deviation of the logarithm */
-    double mean;      /* Pa, normal, before it is cut off at 0 */
-    double deviation; /* Pa, normal */
+    double mean;      /* Pa; normal: before it is cut off at 0 */
+    double deviation; /* Pa, standard deviation, as mean */
     double density;   /* 1/m3, flaws: their mean number per volume */
     double exponent;  /* 1, flaws: of the power law of their strengths */
-    const fracas_attachment *file; /* file, positions: a strength for each interface */
+    double kept_mean;      /* Pa, normal, after it is cut off at 0 */
+    double kept_deviation; /* Pa, normal */
+    const fracas_attachment *file; /* file, positions: a strength for each interface; empirical: measured ones */
+    const fracas_kind *interpolation; /* empirical: between its strengths */
+    double reference_volume; /* m3, or */
+    double reference_area;   /* m2: of interfaces that have the strengths that are given */
+    bool ready;                 /* made by fracas_strength_init */
+    struct fracas_table *table; /* empirical, ready: owned */
 } fracas_strength;
 
 /* The section `strength`; its offset is 0: the owner says where the struct is. */
 extern const fracas_section fracas_strength_section;
 
-/* FRACAS_USAGE when values that are each in range do not go together (uniform: minimum < maximum). */
+/* FRACAS_USAGE when values that are each in range do not go together (uniform: minimum < maximum), or if the parameters are not
+ * exactly one of the sets that the distribution can be given by. */
 FRACAS_MUST_USE fracas_err fracas_strength_check(const fracas_strength *strength);
+
+/* *ready = the same strengths, whatever they were given by, by the distribution's own parameters (from mean and deviation, say; a
+ * table sorted): what is asked for below needs them. Of one that is not ready it finds them at each call, which takes longer and
+ * gives the same bits, or NaN where this function fails. To be cleared; `given` must outlive it. FRACAS_USAGE as
+ * fracas_strength_check, FRACAS_ENVIRONMENT without memory; then there is nothing to clear. */
+FRACAS_MUST_USE fracas_err fracas_strength_init(const fracas_strength *given, fracas_strength *ready);
+void fracas_strength_clear(fracas_strength *ready);
 
 /* What an interface stands for. */
 typedef struct {
@@ -44,8 +59,9 @@ typedef struct {
  * strengths with a size effect depend on the extent. */
 double fracas_strength_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p);
 
-/* Mean of the distribution [Pa], same bits on every CPU. */
+/* Mean and standard deviation of the distribution of an interface of this extent [Pa], same bits on every CPU. */
 double fracas_strength_mean(const fracas_strength *strength, fracas_extent extent);
+double fracas_strength_deviation(const fracas_strength *strength, fracas_extent extent);
 
 /* True if the strength of an interface depends on its extent. */
 bool fracas_strength_has_size_effect(const fracas_strength *strength);

@@ -8,10 +8,10 @@ static double constant_quantile(const fracas_strength *strength, fracas_extent e
     return strength->value;
 }
 
-static double constant_mean(const fracas_strength *strength, fracas_extent extent)
+static fracas_moments constant_moments(const fracas_strength *strength, fracas_extent extent)
 {
     (void)extent;
-    return strength->value;
+    return (fracas_moments){strength->value, 0.0};
 }
 
 static const fracas_param params[] = {
@@ -21,5 +21,5 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_constant = {
     .kind = {.name = "constant", .doc = "the same strength for every interface", .params = params,
              .nparams = FRACAS_COUNT(params)},
-    .quantile = constant_quantile, .mean = constant_mean,
+    .quantile = constant_quantile, .moments = constant_moments,
 };

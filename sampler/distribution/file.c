@@ -19,7 +19,7 @@ FRACAS_MUST_USE static fracas_err next_strength(fracas_lines *lines, double *val
                        lines->line, *field ? "`" : "no text there", field, *field ? "`" : "");
 }
 
-FRACAS_MUST_USE static fracas_err file_check(const fracas_strength *strength)
+FRACAS_MUST_USE static fracas_err file_init(fracas_strength *strength)
 {
     fracas_lines_summary of;
     return fracas_lines_summarize(strength->file, next_strength, &of);
@@ -39,11 +39,11 @@ static double file_quantile(const fracas_strength *strength, fracas_extent exten
     return p.below < 0.5 ? of.smallest : of.largest;
 }
 
-static double file_mean(const fracas_strength *strength, fracas_extent extent)
+static fracas_moments file_moments(const fracas_strength *strength, fracas_extent extent)
 {
     (void)extent;
     const fracas_lines_summary of = summary_of(strength);
-    return of.sum / (double)of.count;
+    return (fracas_moments){of.sum / (double)of.count, sqrt(of.squares / (double)of.count)};
 }
 
 static size_t file_count(const fracas_strength *strength)
@@ -71,5 +71,5 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_file_distribution = {
     .kind = {.name = "file", .doc = "strengths of all interfaces from a file, the same for every replica", .params = params,
              .nparams = FRACAS_COUNT(params)},
-    .quantile = file_quantile, .mean = file_mean, .check = file_check, .count = file_count, .fill = file_fill,
+    .quantile = file_quantile, .moments = file_moments, .init = file_init, .count = file_count, .fill = file_fill,
 };

@@ -15,14 +15,16 @@ static double flaws_quantile(const fracas_strength *strength, fracas_extent exte
     return strength->minimum + range * fracas_exp(fracas_log(share) / strength->exponent);
 }
 
-/* (sampling.22) */
-static double flaws_mean(const fracas_strength *strength, fracas_extent extent)
+/* (sampling.22), (laws.8) */
+static fracas_moments flaws_moments(const fracas_strength *strength, fracas_extent extent)
 {
-    double range = strength->maximum - strength->minimum;
-    return strength->minimum + range * fracas_stretched_exponential(strength->density * extent.volume, strength->exponent);
+    const double range = strength->maximum - strength->minimum, mu = strength->density * extent.volume;
+    const double first = fracas_stretched_exponential(mu, strength->exponent);
+    const double second = fracas_stretched_exponential(mu, 0.5 * strength->exponent);
+    return (fracas_moments){strength->minimum + range * first, range * sqrt(fmax(second - first * first, 0.0))};
 }
 
-FRACAS_MUST_USE static fracas_err flaws_check(const fracas_strength *strength)
+FRACAS_MUST_USE static fracas_err flaws_init(fracas_strength *strength)
 {
     if (strength->minimum < strength->maximum) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
@@ -44,5 +46,5 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_flaws = {
     .kind = {.name = "flaws", .doc = "weakest flaw in the volume of an interface; flaws at random in the body, their "
              "strengths by a power law", .params = params, .nparams = FRACAS_COUNT(params)},
-    .quantile = flaws_quantile, .mean = flaws_mean, .check = flaws_check, .size_effect = true,
+    .quantile = flaws_quantile, .moments = flaws_moments, .init = flaws_init, .size_effect = true,
 };

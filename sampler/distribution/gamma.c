@@ -1,6 +1,7 @@
 /* Gamma distribution. */
 #include "sampler/distribution/distribution.h"
 
+#include "sampler/distribution/choice.h"
 #include "sampler/special/incomplete_gamma.h"
 
 /* (sampling.20) */
@@ -10,21 +11,43 @@ static double gamma_quantile(const fracas_strength *strength, fracas_extent exte
     return strength->scale * fracas_incomplete_gamma_inverse(strength->shape, p);
 }
 
-/* (sampling.20) */
-static double gamma_mean(const fracas_strength *strength, fracas_extent extent)
+static double gamma_far(const fracas_strength *strength, double t)
+{
+    return strength->scale * fracas_incomplete_gamma_far(strength->shape, t);
+}
+
+/* (sampling.20), (laws.6) */
+static fracas_moments gamma_moments(const fracas_strength *strength, fracas_extent extent)
 {
     (void)extent;
-    return strength->scale * strength->shape;
+    return (fracas_moments){strength->scale * strength->shape, strength->scale * sqrt(strength->shape)};
+}
+
+/* (laws.6) */
+FRACAS_MUST_USE static fracas_err gamma_init(fracas_strength *strength)
+{
+    bool by_moments;
+    const char *name = strength->distribution->name;
+    TRY(fracas_choice_of(name, (fracas_choice[]){{"shape", strength->shape}, {"scale", strength->scale}},
+                         (fracas_choice[]){{"mean", strength->mean}, {"deviation", strength->deviation}}, &by_moments));
+    if (!by_moments) return FRACAS_OK;
+    const double ratio = strength->deviation / strength->mean;
+    TRY(fracas_choice_check(name, "deviation/mean", ratio, 1e-3, sqrt(10.0)));
+    strength->shape = 1.0 / (ratio * ratio);
+    strength->scale = strength->deviation * ratio;
+    return FRACAS_OK;
 }
 
 static const fracas_param params[] = {
     {"shape", FRACAS_REAL, "1", "shape k: the coefficient of variation is 1/sqrt(k)", FRACAS_REQUIRED, 0.1, 1e6, false,
-     offsetof(fracas_strength, shape)},
+     offsetof(fracas_strength, shape), .optional = true},
     {"scale", FRACAS_REAL, "Pa", "scale theta: the mean is k theta", FRACAS_REQUIRED, 0, INFINITY, true,
-     offsetof(fracas_strength, scale)},
+     offsetof(fracas_strength, scale), .optional = true},
+    FRACAS_STRENGTH_MOMENTS("shape and scale"),
 };
 const fracas_distribution fracas_gamma_law = {
     .kind = {.name = "gamma", .doc = "gamma: mean shape scale, variance shape scale^2", .params = params,
              .nparams = FRACAS_COUNT(params)},
-    .quantile = gamma_quantile, .mean = gamma_mean,
+    .quantile = gamma_quantile, .moments = gamma_moments, .init = gamma_init,
+    .takes_reference = true, .far = gamma_far, .far_from = 700.0,
 };

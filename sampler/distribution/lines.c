@@ -77,8 +77,10 @@ fracas_err fracas_lines_summarize(const fracas_attachment *file, fracas_lines_re
         double strength;
         TRY(read(&lines, &strength, &found));
         if (!found) break;
+        const double before = summary->count > 0 ? strength - summary->sum / (double)summary->count : 0.0;
         summary->count++;
         summary->sum += strength;
+        summary->squares += before * (strength - summary->sum / (double)summary->count);
         summary->smallest = fmin(summary->smallest, strength);
         summary->largest = fmax(summary->largest, strength);
     }

@@ -35,6 +35,7 @@ bool fracas_lines_is_heading(const char *field);
 typedef struct {
     size_t count;
     double sum, smallest, largest; /* Pa */
+    double squares;                /* Pa2, sum of squared distances from the mean */
 } fracas_lines_summary;
 
 /* Reads the strength of the next line; *found is false at the end of the file. */

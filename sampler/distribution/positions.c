@@ -58,7 +58,7 @@ FRACAS_MUST_USE static fracas_err next_strength(fracas_lines *lines, double *val
     return FRACAS_OK;
 }
 
-FRACAS_MUST_USE static fracas_err positions_check(const fracas_strength *strength)
+FRACAS_MUST_USE static fracas_err positions_init(fracas_strength *strength)
 {
     fracas_lines_summary of;
     return fracas_lines_summarize(strength->file, next_strength, &of);
@@ -78,11 +78,11 @@ static double positions_quantile(const fracas_strength *strength, fracas_extent 
     return p.below < 0.5 ? of.smallest : of.largest;
 }
 
-static double positions_mean(const fracas_strength *strength, fracas_extent extent)
+static fracas_moments positions_moments(const fracas_strength *strength, fracas_extent extent)
 {
     (void)extent;
     const fracas_lines_summary of = summary_of(strength);
-    return of.sum / (double)of.count;
+    return (fracas_moments){of.sum / (double)of.count, sqrt(of.squares / (double)of.count)};
 }
 
 static size_t positions_count(const fracas_strength *strength)
@@ -254,6 +254,6 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_positions = {
     .kind = {.name = "positions", .doc = "strengths of all interfaces from a file, found by where they are, the same for every replica",
              .params = params, .nparams = FRACAS_COUNT(params)},
-    .quantile = positions_quantile, .mean = positions_mean, .check = positions_check, .count = positions_count, .fill = positions_fill,
+    .quantile = positions_quantile, .moments = positions_moments, .init = positions_init, .count = positions_count, .fill = positions_fill,
     .placed = true,
 };

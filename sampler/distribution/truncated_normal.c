@@ -2,6 +2,7 @@
 #include "sampler/distribution/distribution.h"
 
 #include "base/elementary.h"
+#include "sampler/distribution/choice.h"
 #include "sampler/special/normal.h"
 
 /* The density of a standard normal variable. */
@@ -53,22 +54,62 @@ static double normal_quantile(const fracas_strength *strength, fracas_extent ext
     return strength->deviation * solve_near_zero(k, p.below * kept / normal_density(k));
 }
 
+/* Far above the mean the probability that is kept only moves t. */
+static double normal_far(const fracas_strength *strength, double t)
+{
+    const double kept = fracas_normal_upper(-strength->mean / strength->deviation);
+    return strength->mean + strength->deviation * fracas_normal_far(t - fracas_log(kept));
+}
+
+/* Standard deviation of what is left of a standard normal variable above -k. */
+static double kept_deviation(double k)
+{
+    const double h = normal_density(k) / fracas_normal_upper(-k);
+    return sqrt(1.0 - k * h - h * h);
+}
+
 /* (sampling.19) */
-static double normal_mean(const fracas_strength *strength, fracas_extent extent)
+static fracas_moments normal_moments(const fracas_strength *strength, fracas_extent extent)
 {
     (void)extent;
     double k = strength->mean / strength->deviation;
-    return strength->mean + strength->deviation * (normal_density(k) / fracas_normal_upper(-k));
+    const double mean = strength->mean + strength->deviation * (normal_density(k) / fracas_normal_upper(-k));
+    return (fracas_moments){mean, strength->deviation * kept_deviation(k)};
+}
+
+/* (laws.9) The ratio of the moments falls as k grows, and is below 1/k. */
+FRACAS_MUST_USE static fracas_err normal_init(fracas_strength *strength)
+{
+    bool by_moments;
+    const char *name = strength->distribution->name;
+    TRY(fracas_choice_of(name, (fracas_choice[]){{"mean", strength->mean}, {"deviation", strength->deviation}},
+                         (fracas_choice[]){{"kept_mean", strength->kept_mean}, {"kept_deviation", strength->kept_deviation}}, &by_moments));
+    if (!by_moments) return FRACAS_OK;
+    const double ratio = strength->kept_deviation / strength->kept_mean;
+    TRY(fracas_choice_check(name, "kept_deviation/kept_mean", ratio, 1e-9, 0.7555));
+    double least = 0.0, most = 1.0 / ratio, k;
+    while ((k = 0.5 * (least + most)) > least && k < most) {
+        if (kept_deviation(k) > ratio * (k + normal_density(k) / fracas_normal_upper(-k))) least = k;
+        else most = k;
+    }
+    strength->deviation = strength->kept_deviation / kept_deviation(k);
+    strength->mean = k * strength->deviation;
+    return FRACAS_OK;
 }
 
 static const fracas_param params[] = {
     {"mean", FRACAS_REAL, "Pa", "mean before strengths below 0 are cut off", FRACAS_REQUIRED, 0, INFINITY, true,
-     offsetof(fracas_strength, mean)},
+     offsetof(fracas_strength, mean), .optional = true},
     {"deviation", FRACAS_REAL, "Pa", "standard deviation before strengths below 0 are cut off", FRACAS_REQUIRED, 0,
-     INFINITY, true, offsetof(fracas_strength, deviation)},
+     INFINITY, true, offsetof(fracas_strength, deviation), .optional = true},
+    {"kept_mean", FRACAS_REAL, "Pa", "mean of the strengths above 0 that are kept, given with kept_deviation instead of mean and deviation",
+     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, kept_mean), .optional = true},
+    {"kept_deviation", FRACAS_REAL, "Pa", "standard deviation of the strengths above 0 that are kept, given with kept_mean",
+     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, kept_deviation), .optional = true},
 };
 const fracas_distribution fracas_normal = {
     .kind = {.name = "normal", .doc = "normal, cut off at 0: strengths are positive", .params = params,
              .nparams = FRACAS_COUNT(params)},
-    .quantile = normal_quantile, .mean = normal_mean,
+    .quantile = normal_quantile, .moments = normal_moments, .init = normal_init,
+    .takes_reference = true, .far = normal_far, .far_from = 700.0,
 };

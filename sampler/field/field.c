@@ -6,7 +6,8 @@
 #include <string.h>
 
 struct fracas_field {
-    const fracas_strength *strength;
+    const fracas_strength *strength; /* ready: the field's own `drawn`, or as it was, where strengths are given */
+    fracas_strength drawn;
     size_t n, points;
     fracas_extent *extent; /* [n] */
     double *given;         /* [n*points], where strengths are given; else NULL */
@@ -35,6 +36,7 @@ fracas_err fracas_field_create(const fracas_strength *strength, const fracas_sit
     made->extent = copy_of(sites->extent, sites->n, sizeof *made->extent);
     fracas_err err = made->extent ? FRACAS_OK : fracas_no_memory("a strength field");
     if (!err && fracas_strength_is_given(strength)) err = read_given(made, sites);
+    else if (!err && !(err = fracas_strength_init(strength, &made->drawn))) made->strength = &made->drawn;
     if (err) fracas_field_destroy(made);
     else *field = made;
     return err;
@@ -43,6 +45,7 @@ fracas_err fracas_field_create(const fracas_strength *strength, const fracas_sit
 void fracas_field_destroy(fracas_field *field)
 {
     if (!field) return;
+    if (field->strength == &field->drawn) fracas_strength_clear(&field->drawn);
     free(field->extent);
     free(field->given);
     free(field);

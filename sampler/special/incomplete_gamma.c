@@ -132,6 +132,27 @@ void fracas_incomplete_gamma(double a, double x, double *lower, double *upper)
     }
 }
 
+/* ln of the weight, where it is no double. */
+static double log_weight(double a, double x)
+{
+    const double two_pi = 0x1.921fb54442d18p+2;
+    if (a >= stirling_from) return 0.5 * fracas_log(a / two_pi) - a * excess(a, x) - stirling(a);
+    return a * fracas_log(x) - x - fracas_log(fracas_gamma(1.0 + a) / a);
+}
+
+/* (laws.15) Newton on ln Q = ln w + ln fraction, nearly a straight line there; its slope is -1/(x fraction). */
+double fracas_incomplete_gamma_far(double a, double t)
+{
+    const double root = 1.0 - 1.0 / (9.0 * a) + fracas_normal_far(t) / (3.0 * sqrt(a));
+    double x = a < stirling_from ? t : a * root * root * root;
+    for (int i = 0; i < 50; i++) {
+        const double rest = fraction(a, x), step = (log_weight(a, x) + fracas_log(rest) + t) * x * rest;
+        x += step;
+        if (fabs(step) < 1e-9 * x) break; /* the next one would be below 1e-18 */
+    }
+    return x;
+}
+
 /* Where the search for x begins. Small a: P is near x^a/Gamma(a + 1) as long as x is small; else Wilson and Hilferty,
  * for whom (x/a)^(1/3) is normal. */
 static double first_guess(double a, fracas_probability p)
@@ -149,6 +170,7 @@ double fracas_incomplete_gamma_inverse(double a, fracas_probability p)
 {
     const double largest_step = 2.0;
     const bool low = p.below <= 0.5;
+    if (p.above < 0x1p-60) return fracas_incomplete_gamma_far(a, -fracas_log(p.above)); /* beyond any stream */
     double x = first_guess(a, p);
     for (int i = 0; i < 50 && x > 0.0; i++) {
         double lower, upper;

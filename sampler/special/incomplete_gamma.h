@@ -14,7 +14,10 @@ void fracas_incomplete_gamma(double a, double x, double *lower, double *upper);
 /* The x with P(a, x) = p.below, Q(a, x) = p.above, a >= 0.1, to 5e-14 relative for tails from 2^-53 on. */
 double fracas_incomplete_gamma_inverse(double a, fracas_probability p);
 
-/* integral_0^1 exp(-mu x^p) dx = Gamma(1 + 1/p) mu^(-1/p) P(1/p, mu), mu >= 0 and 0.5 <= p <= 1000, to 1e-14 relative. */
+/* The x with Q(a, x) = e^-t, t >= 40 (beyond 745 the probability is no double), a >= 0.1, to 5e-14 relative. */
+double fracas_incomplete_gamma_far(double a, double t);
+
+/* integral_0^1 exp(-mu x^p) dx = Gamma(1 + 1/p) mu^(-1/p) P(1/p, mu), mu >= 0 and 0.25 <= p <= 1000, to 1e-14 relative. */
 double fracas_stretched_exponential(double mu, double p);
 
 #endif

@@ -166,6 +166,8 @@ static void assert_moments(const fracas_strength *law, uint64_t seed, const doub
     double mean = law->minimum + m;
     /* GSL's functions are good to 1e-13 here, and the first moment is one or two of them */
     assert_true(fabs(mean_of_strength(law, body) - mean) <= 1e-12 * mean);
+    /* the variance is the difference of two that are 100 times larger at most */
+    assert_true(fabs(fracas_strength_deviation(law, (fracas_extent){body, 1.0}) - deviation) <= 1e-10 * deviation);
     fracas_stream named = stream(seed);
     assert_int_equal(sample_strengths(law, &named, N, volume, NULL, 1, sample), FRACAS_OK);
     double sum = 0.0, squares = 0.0;

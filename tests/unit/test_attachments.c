@@ -273,10 +273,26 @@ static void test_errors(void **state)
     bad(FROM_FILE "[s.csv]\n", "", 17, 9, "- strength.file: [...]");
     bad(FROM_FILE "wrong.csv\n", "", 17, 9, "`strength`: wrong.csv:3: found `Pa`");
     bad("  distribution: file\n", "", 16, 17, "strength with distribution file needs `file` (");
-    bad("  distribution: constant\n  value: 1 MPa\n  file: s.csv\n", "", 18, 3, "`file` belongs to distribution file");
+    bad("  distribution: constant\n  value: 1 MPa\n  file: s.csv\n", "", 18, 3, "`file` belongs to distribution empirical or file or positions");
     bad(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: [s.csv, absent.csv]\n", 28, 28, "/absent.csv: No such file");
     bad(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: {from: 1, to: 2, points: 2}\n", 28, 20, "is not a number");
     bad(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: [s.csv, ./s.csv]\n", 28, 28, "the same values");
+}
+
+static void test_empirical(void **state)
+{
+    (void)state;
+    put("m.csv", "strength\n3e8\n5e8\n4e8\n");
+    put("bad.csv", "3e8\n5e8\n4e8;\n");
+    fracas_campaign *campaign = good("  distribution: empirical\n  file: m.csv\n", "sweep:\n  - strength.interpolation: [linear, steps]\n");
+    const size_t mean = fracas_point_table_find(&campaign->table, "derived.strength_mean");
+    assert_true(campaign->table.point[0].value[mean].real == 4e8 && campaign->table.point[1].value[mean].real == 4e8);
+    const double u = 0.25;
+    assert_true(quantile_of(&campaign->point[0].strength, 1.0, u) == 3.5e8 && quantile_of(&campaign->point[1].strength, 1.0, u) == 3e8);
+    assert_false(fracas_strength_is_given(&campaign->point[0].strength));
+    fracas_campaign_destroy(campaign);
+    bad("  distribution: empirical\n  file: bad.csv\n", "", 17, 9, "`strength`: bad.csv:3: found `4e8;`");
+    bad("  distribution: empirical\n", "", 16, 17, "strength with distribution empirical needs `file` (");
 }
 
 /* The digest was computed by xxhsum -H2. */
@@ -520,7 +536,7 @@ static int remove_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values),     cmocka_unit_test(test_bad_values), cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_values),     cmocka_unit_test(test_bad_values), cmocka_unit_test(test_errors), cmocka_unit_test(test_empirical),
         cmocka_unit_test(test_identity),   cmocka_unit_test(test_round_trip), cmocka_unit_test(test_forecast),
         cmocka_unit_test(test_noise),      cmocka_unit_test(test_places),     cmocka_unit_test(test_bad_places),
         cmocka_unit_test(test_many_places), cmocka_unit_test(test_positions), cmocka_unit_test(test_positions_of_a_surface),

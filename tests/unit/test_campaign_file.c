@@ -410,6 +410,8 @@ static void test_round_trip(void **state)
          " {distribution: constant, value: 1}]\n"
          "  - cohesive.law: [nitsche, rigid-link]\n  - time: [{}, {stop: time}]\n"
          "  - geometry.ends: [periodic, held]\n"),
+        ("sweep:\n  - strength: [{}, {distribution: weibull, mean: 3 MPa, deviation: 1 MPa, reference_volume: 1 mm3},"
+         " {distribution: normal, kept_mean: 3 MPa, kept_deviation: 2 MPa}]\n"),
         "sweep:\n  - geometry.ends: [periodic, held]\n  - mesh: [{}, {spacing: graded, ratio: 3}]\n",
         "sweep:\n  - zip:\n      material.young: [0.1 GPa, 0.3 GPa]\n      time.stop: [settled, time]\n",
     };

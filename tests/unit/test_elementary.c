@@ -101,6 +101,38 @@ static void exp_is_within_one_ulp(void **state)
     assert_below("exp near 0", small, 0.66);
 }
 
+/* The bounds of elementary.h; near 0 and around the three seams of expm1. */
+static void expm1_and_log1p_are_exact_near_zero(void **state)
+{
+    (void)state;
+    double below = 0.0, above = 0.0, small = 0.0, seams = 0.0, log_all = 0.0, log_small = 0.0;
+    for (uint64_t i = 0; i < POINTS; i++) {
+        double x = between(-40.0, 0.0, i, 0);
+        raise_to(&below, ulps(fracas_expm1(x), expm1l(x)));
+        x = between(0.0, 710.0, i, 0);
+        raise_to(&above, ulps(fracas_expm1(x), expm1l(x)));
+        x = between(0.3, 0.75, i, 0);
+        raise_to(&seams, ulps(fracas_expm1(x), expm1l(x)));
+        raise_to(&below, ulps(fracas_expm1(-x), expm1l(-x)));
+        x = ldexp(between(-0.34, 0.34, i, 0), -(int)(i % 1000));
+        raise_to(&small, ulps(fracas_expm1(x), expm1l(x)));
+        raise_to(&log_small, ulps(fracas_log1p(x), log1pl(x)));
+        x = any_positive(i);
+        raise_to(&log_all, ulps(fracas_log1p(x), log1pl(x)));
+        raise_to(&log_all, ulps(fracas_log1p(-between(0.0, 1.0, i, 0)), log1pl(-between(0.0, 1.0, i, 0))));
+    }
+    assert_below("expm1 below 0", below, 3.0);
+    assert_below("expm1 above 0", above, 3.0);
+    assert_below("expm1 in [0.3, 0.75]", seams, 3.0);
+    assert_below("expm1 near 0", small, 1.0);
+    assert_below("log1p", log_all, 2.0);
+    assert_below("log1p near 0", log_small, 2.0);
+    assert_true(fracas_expm1(0.0) == 0.0 && fracas_expm1(-INFINITY) == -1.0 && fracas_expm1(INFINITY) == INFINITY);
+    assert_true(isnan(fracas_expm1(NAN)));
+    assert_true(fracas_log1p(0.0) == 0.0 && fracas_log1p(-1.0) == -INFINITY && fracas_log1p(INFINITY) == INFINITY);
+    assert_true(isnan(fracas_log1p(-1.5)) && isnan(fracas_log1p(NAN)));
+}
+
 static void pow_is_within_two_ulp(void **state)
 {
     (void)state;
@@ -231,7 +263,7 @@ static void powers_of_two_are_exact(void **state)
 static void bits_are_golden(void **state)
 {
     (void)state;
-    static double value[6][65536];
+    static double value[8][65536];
     for (uint64_t i = 0; i < 65536; i++) {
         value[0][i] = fracas_log(any_positive(i));
         value[1][i] = fracas_exp(between(-746.0, 710.0, i, 0));
@@ -239,13 +271,15 @@ static void bits_are_golden(void **state)
         value[3][i] = fracas_gamma(between(1.0, 171.0, i, 0));
         value[4][i] = fracas_sinpi(between(-100.0, 100.0, i, 0));
         value[5][i] = fracas_cospi(between(-100.0, 100.0, i, 0));
+        value[6][i] = fracas_expm1(between(-2.0, 2.0, i, 0));
+        value[7][i] = fracas_log1p(between(-1.0, 1.0, i, 0));
     }
-    static const uint64_t golden[6] = {
+    static const uint64_t golden[8] = {
         0xbfdf2083b4417ad9, 0x8336a488abcb45d6, 0xc2b74ed1d3919bda, 0xcafa3d684bb9a879,
-        0xf59206dd7560170a, 0x89522cf0e139ff2b,
+        0xf59206dd7560170a, 0x89522cf0e139ff2b, 0x8faa0994163ef5ce, 0xa15edca7c2293ada,
     };
-    uint64_t got[6];
-    for (int function = 0; function < 6; function++) {
+    uint64_t got[8];
+    for (int function = 0; function < 8; function++) {
         got[function] = fracas_checksum_of(value[function], sizeof value[function]);
         print_message("0x%016" PRIx64 "\n", got[function]);
     }
@@ -261,6 +295,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(log_is_within_one_ulp),
         cmocka_unit_test(exp_is_within_one_ulp),
+        cmocka_unit_test(expm1_and_log1p_are_exact_near_zero),
         cmocka_unit_test(pow_is_within_two_ulp),
         cmocka_unit_test(gamma_is_within_x_ulp),
         cmocka_unit_test(sinpi_and_cospi_are_within_one_ulp),

@@ -1,0 +1,32 @@
+/* A law by its own parameters, or by mean and standard deviation. */
+#ifndef FRACAS_SAMPLER_CHOICE_H
+#define FRACAS_SAMPLER_CHOICE_H
+
+#include "base/err.h"
+
+#include "sampler/strength.h"
+
+#include <stdbool.h>
+
+/* Parameters `mean` and `deviation`, given instead of `others`. */
+#define FRACAS_STRENGTH_MOMENTS(others)                                                                                        \
+    {.name = "mean", .type = FRACAS_REAL, .unit = "Pa", .doc = "mean strength, given with deviation instead of " others,       \
+     .fallback = FRACAS_REQUIRED, .maximum = INFINITY, .minimum_open = true, .offset = offsetof(fracas_strength, mean),        \
+     .optional = true},                                                                                                        \
+    {.name = "deviation", .type = FRACAS_REAL, .unit = "Pa",                                                                   \
+     .doc = "standard deviation of the strength, given with mean instead of " others, .fallback = FRACAS_REQUIRED,             \
+     .maximum = INFINITY, .minimum_open = true, .offset = offsetof(fracas_strength, deviation), .optional = true}
+
+/* A key of `strength` that is positive where it is given. */
+typedef struct {
+    const char *key;
+    double value; /* 0 or NaN where it is not given */
+} fracas_choice;
+
+/* *by_moments = whether the second pair is given and not the first. FRACAS_USAGE unless exactly one pair is given whole. */
+FRACAS_MUST_USE fracas_err fracas_choice_of(const char *law, const fracas_choice own[2], const fracas_choice moments[2], bool *by_moments);
+
+/* FRACAS_USAGE unless least <= ratio <= most, the ratio of `what` (as "deviation/mean"). */
+FRACAS_MUST_USE fracas_err fracas_choice_check(const char *law, const char *what, double ratio, double least, double most);
+
+#endif
