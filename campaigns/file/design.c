@@ -56,7 +56,7 @@ static fracas_err read_law_number(const fracas_file *file, const fracas_leaf *le
                                   fracas_uncertain *uncertain)
 {
     fracas_param own = *param;
-    if (!*own.unit) own.unit = leaf->param->unit;
+    if (strcmp(own.unit, FRACAS_OWN_UNIT) == 0) own.unit = leaf->param->unit;
     const fracas_leaf number = {.section = leaf->section, .path = leaf->path, .key = own.name, .param = &own};
     fracas_setting setting;
     TRY(fracas_setting_read(file, &number, node, &setting));

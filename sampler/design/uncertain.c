@@ -108,38 +108,36 @@ static double normal_quantile(const fracas_uncertain *uncertain, fracas_probabil
 
 /* ---- the tables ---- */
 
-#define OWN_UNIT ""
-
 #define NUMBER(key, unit, doc, fallback, minimum, maximum, open) \
     {#key, FRACAS_REAL, unit, doc, fallback, minimum, maximum, open, offsetof(fracas_uncertain, key)}
-#define BOUND(key, doc)                                                                                                     \
-    {#key, FRACAS_REAL, OWN_UNIT, doc, NAN, -INFINITY, INFINITY, false, offsetof(fracas_uncertain, key), .optional = true}
+#define BOUND(key, doc) \
+    {#key, FRACAS_REAL, FRACAS_OWN_UNIT, doc, NAN, -INFINITY, INFINITY, false, offsetof(fracas_uncertain, key), .optional = true}
 
 static const fracas_param between[] = {
-    NUMBER(minimum, OWN_UNIT, "smallest value", FRACAS_REQUIRED, -INFINITY, INFINITY, false),
-    NUMBER(maximum, OWN_UNIT, "largest value", FRACAS_REQUIRED, -INFINITY, INFINITY, false),
+    NUMBER(minimum, FRACAS_OWN_UNIT, "smallest value", FRACAS_REQUIRED, -INFINITY, INFINITY, false),
+    NUMBER(maximum, FRACAS_OWN_UNIT, "largest value", FRACAS_REQUIRED, -INFINITY, INFINITY, false),
 };
 static const fracas_param log_between[] = {
-    NUMBER(minimum, OWN_UNIT, "smallest value", FRACAS_REQUIRED, 0, INFINITY, true),
-    NUMBER(maximum, OWN_UNIT, "largest value", FRACAS_REQUIRED, 0, INFINITY, true),
+    NUMBER(minimum, FRACAS_OWN_UNIT, "smallest value", FRACAS_REQUIRED, 0, INFINITY, true),
+    NUMBER(maximum, FRACAS_OWN_UNIT, "largest value", FRACAS_REQUIRED, 0, INFINITY, true),
 };
 static const fracas_param normal_params[] = {
-    NUMBER(mean, OWN_UNIT, "mean, before it is cut", FRACAS_REQUIRED, -INFINITY, INFINITY, false),
-    NUMBER(deviation, OWN_UNIT, "standard deviation, before it is cut", FRACAS_REQUIRED, 0, INFINITY, true),
+    NUMBER(mean, FRACAS_OWN_UNIT, "mean, before it is cut", FRACAS_REQUIRED, -INFINITY, INFINITY, false),
+    NUMBER(deviation, FRACAS_OWN_UNIT, "standard deviation, before it is cut", FRACAS_REQUIRED, 0, INFINITY, true),
     BOUND(minimum, "values below are cut off"),
     BOUND(maximum, "values above are cut off"),
 };
 static const fracas_param lognormal_params[] = {
-    NUMBER(median, OWN_UNIT, "median", FRACAS_REQUIRED, 0, INFINITY, true),
+    NUMBER(median, FRACAS_OWN_UNIT, "median", FRACAS_REQUIRED, 0, INFINITY, true),
     NUMBER(sigma, "1", "standard deviation of the logarithm", FRACAS_REQUIRED, 0, 10, true),
 };
 static const fracas_param weibull_params[] = {
-    NUMBER(minimum, OWN_UNIT, "smallest value", 0, -INFINITY, INFINITY, false),
-    NUMBER(scale, OWN_UNIT, "scale above the minimum", FRACAS_REQUIRED, 0, INFINITY, true),
+    NUMBER(minimum, FRACAS_OWN_UNIT, "smallest value", 0, -INFINITY, INFINITY, false),
+    NUMBER(scale, FRACAS_OWN_UNIT, "scale above the minimum", FRACAS_REQUIRED, 0, INFINITY, true),
     NUMBER(shape, "1", "Weibull modulus", FRACAS_REQUIRED, 0.1, 1000, false),
 };
 static const fracas_param gamma_params[] = {
-    NUMBER(scale, OWN_UNIT, "scale: the mean is shape scale", FRACAS_REQUIRED, 0, INFINITY, true),
+    NUMBER(scale, FRACAS_OWN_UNIT, "scale: the mean is shape scale", FRACAS_REQUIRED, 0, INFINITY, true),
     NUMBER(shape, "1", "shape: the coefficient of variation is 1/sqrt(shape)", FRACAS_REQUIRED, 0.1, 1e6, false),
 };
 

@@ -6,8 +6,9 @@
 #include "base/param.h"
 #include "sampler/probability.h"
 
-/* A law uses the members that its table names, in the unit of the parameter where the table has the unit "" and pure numbers
- * elsewhere; `minimum` and `maximum` are NaN where a normal law is not cut. */
+#define FRACAS_OWN_UNIT "its own" /* in the tables of laws: the unit of the parameter */
+
+/* A law uses the members that its table names; `minimum` and `maximum` are NaN where a normal law is not cut. */
 typedef struct {
     const fracas_kind *law;
     double minimum, maximum;

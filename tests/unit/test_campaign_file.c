@@ -369,8 +369,8 @@ static void test_tables_agree(void **state)
 static void test_page_examples(void **state)
 {
     (void)state;
-    char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md"), *block[3], *end = page;
-    for (int b = 0; b < 3; b++) {
+    char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md"), *block[4], *end = page;
+    for (int b = 0; b < 4; b++) {
         block[b] = strstr(end, "```yaml\n") + strlen("```yaml\n");
         end = strstr(block[b], "```");
         *end++ = '\0';
@@ -380,6 +380,9 @@ static void test_page_examples(void **state)
     fracas_campaign_destroy(shown);
     shown = read_replaced("", block[2]);
     assert_int_equal(shown->npoints, 2 * 4 * 2 * 2 * 2);
+    fracas_campaign_destroy(shown);
+    shown = read_replaced("", block[3]);
+    assert_int_equal(shown->npoints, 64);
     fracas_campaign_destroy(shown);
     fracas_campaign_destroy(plain);
     free(page);
