@@ -41,7 +41,7 @@ typedef struct fracas_campaign {
     fracas_point *point;        /* plan order = file order of the sweep, last axis fastest */
     fracas_point_table table;   /* the same points as columns */
     fracas_attached *attached;  /* all of them; two may have the same content */
-    fracas_hash hash;           /* over seed, output, and every point's hash and replicas in order */
+    fracas_hash hash;           /* over seed, random numbers, output, and every point's hash and replicas in order */
     struct fracas_campaign_memory *memory; /* owns what the above points to */
 } fracas_campaign;
 

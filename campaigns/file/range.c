@@ -19,25 +19,6 @@ static fracas_err read_end(const fracas_file *file, const fracas_leaf *leaf, con
     return FRACAS_OK;
 }
 
-static fracas_err check_keys(const fracas_file *file, const fracas_node *node)
-{
-    static const char *const keys[] = {"from", "to", "points", "spacing"};
-    for (const fracas_node *entry = node->first; entry; entry = entry->next) {
-        fracas_words words;
-        fracas_words_init(&words, entry->key->text);
-        bool known = false;
-        for (size_t k = 0; k < FRACAS_COUNT(keys); k++) {
-            fracas_words_add(&words, keys[k]);
-            known = known || strcmp(keys[k], entry->key->text) == 0;
-        }
-        char hint[600];
-        if (!known)
-            return fracas_say(file->name, entry->key, "unknown key `%s` in a range%s", entry->key->text,
-                              fracas_words_hint(&words, "keys of a range", hint));
-    }
-    return FRACAS_OK;
-}
-
 static fracas_err read_spacing(const fracas_file *file, const fracas_node *node, fracas_range *range)
 {
     const fracas_node *spacing = fracas_node_find(node, "spacing");
@@ -56,12 +37,13 @@ static fracas_err read_spacing(const fracas_file *file, const fracas_node *node,
 fracas_err fracas_range_read(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node,
                              fracas_range *range)
 {
+    static const char *const keys[] = {"from", "to", "points", "spacing", NULL};
     *range = (fracas_range){0};
     if (fracas_leaf_is_text(leaf) || leaf->param->type == FRACAS_BOOLEAN)
         return fracas_say(file->name, node, "`%s` is not a number, so it has no range; expected a list, [...]",
                           leaf->path);
     range->whole = leaf->param->type == FRACAS_INTEGER;
-    TRY(check_keys(file, node));
+    TRY(fracas_say_unknown(file->name, node, keys, "a range"));
     TRY(read_end(file, leaf, node, "from", &range->from));
     TRY(read_end(file, leaf, node, "to", &range->to));
     if (range->from == range->to)

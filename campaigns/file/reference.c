@@ -2,6 +2,8 @@
 #include "campaigns/campaign.h"
 
 #include "campaigns/file/catalog.h"
+#include "sampler/design/design.h"
+#include "sampler/design/uncertain.h"
 
 #include "base/units.h"
 
@@ -116,6 +118,22 @@ static void write_section(const fracas_catalog *catalog, const fracas_section *s
     }
 }
 
+/* What an axis of the sweep that is a design can be. */
+static void write_designs(FILE *out)
+{
+    const fracas_section *laws = &fracas_uncertain_section;
+    fprintf(out, "\n## Designs of the sweep\n\nAxes whose values are drawn: [campaign-file.md](campaign-file.md#designs). A number whose unit is called its own has that of its parameter.\n\n| `type:` | meaning |\n"
+                 "|---|---|\n");
+    for (size_t t = 0; t < FRACAS_COUNT(fracas_design_types); t++)
+        fprintf(out, "| `%s` | %s |\n", fracas_design_types[t]->name, fracas_design_types[t]->doc);
+    fprintf(out, "\n| `%s:` | meaning |\n|---|---|\n", laws->selector);
+    for (size_t k = 0; k < laws->nkinds; k++) fprintf(out, "| `%s` | %s |\n", laws->kinds[k]->name, laws->kinds[k]->doc);
+    for (size_t k = 0; k < laws->nkinds; k++) {
+        fprintf(out, "\nWith `%s: %s`:\n", laws->selector, laws->kinds[k]->name);
+        write_params(laws->kinds[k]->params, laws->kinds[k]->nparams, out);
+    }
+}
+
 void fracas_campaign_reference(FILE *out)
 {
     fprintf(out,
@@ -127,5 +145,6 @@ void fracas_campaign_reference(FILE *out)
     const fracas_catalog *catalog;
     if (memory && fracas_catalog_make(memory, &catalog) == FRACAS_OK)
         for (size_t s = 0; s < catalog->nsections; s++) write_section(catalog, catalog->section[s].table, out);
+    write_designs(out);
     fracas_memory_destroy(memory);
 }

@@ -81,3 +81,22 @@ size_t fracas_word_distance(const char *a, const char *b)
     }
     return row[na % 3][nb];
 }
+
+fracas_err fracas_say_unknown(const char *name, const fracas_node *map, const char *const *keys, const char *what)
+{
+    for (const fracas_node *entry = map->first; entry; entry = entry->next) {
+        fracas_words words;
+        fracas_words_init(&words, entry->key->text);
+        bool known = false;
+        for (const char *const *key = keys; *key; key++) {
+            fracas_words_add(&words, *key);
+            known = known || strcmp(*key, entry->key->text) == 0;
+        }
+        char hint[600], label[80];
+        snprintf(label, sizeof label, "keys of %s", what);
+        if (!known)
+            return fracas_say(name, entry->key, "unknown key `%s` in %s%s", entry->key->text, what,
+                              fracas_words_hint(&words, label, hint));
+    }
+    return FRACAS_OK;
+}

@@ -29,6 +29,9 @@ void fracas_words_add(fracas_words *words, const char *word);
 /* "; did you mean `nearest`? LABEL: a, b, c", without the question if nothing is near. */
 const char *fracas_words_hint(const fracas_words *words, const char *label, char text[600]);
 
+/* FRACAS_USAGE at the first entry of `map` that is none of `keys`, up to a NULL; `what` is how messages call the map, "a range". */
+FRACAS_MUST_USE fracas_err fracas_say_unknown(const char *name, const fracas_node *map, const char *const *keys, const char *what);
+
 /* Number of inserted, deleted, replaced letters and swapped neighbours that turn one word into the other. */
 size_t fracas_word_distance(const char *a, const char *b);
 

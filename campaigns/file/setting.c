@@ -219,8 +219,13 @@ fracas_err fracas_setting_check(const fracas_file *file, const fracas_setting *s
     if ((param->minimum_open ? value > param->minimum : value >= param->minimum) && value <= param->maximum)
         return FRACAS_OK;
     char range[160], number[FRACAS_NUMBER_TEXT];
+    const bool pure = strcmp(param->unit, "1") == 0;
     write_range(param, range, sizeof range);
     fracas_number_write(value, number);
+    if (setting->drawn)
+        return fracas_say(file->name, setting->node, "`%s`: point %zu of the design draws %s%s%s, which is out of range; allowed is %s; "
+                          "choose a distribution that stays within", setting->leaf->path, setting->drawn, number,
+                          pure ? "" : " ", pure ? "" : param->unit, range);
     const char *written = setting->node->type == FRACAS_SCALAR ? setting->node->text : number;
     return fracas_say(file->name, setting->node, "`%s`: %s is out of range; allowed is %s", setting->leaf->key, written,
                       range);

@@ -22,6 +22,7 @@ typedef struct fracas_setting {
     const fracas_kind *kind;   /* of a leaf that names a kind */
     double value;              /* of any other, SI; of a choice, its index */
     const fracas_attachment *attachment; /* of a file */
+    size_t drawn;              /* by a design: number of its point, from 1; 0: it is written */
     struct fracas_setting *next;
 } fracas_setting;
 

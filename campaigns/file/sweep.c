@@ -1,69 +1,13 @@
 #include "campaigns/file/sweep.h"
 
+#include "campaigns/file/design.h"
 #include "campaigns/file/range.h"
 #include "campaigns/file/say.h"
+#include "campaigns/file/target.h"
 
-#include <stdio.h>
 #include <string.h>
 
-/* ---- what a path names ---- */
-
-typedef struct {
-    const fracas_file_section *section; /* a whole section ... */
-    const fracas_leaf *leaf;            /* ... or one leaf */
-} target;
-
-/* The section whose name stands before the dot of a path; NULL if there is none. */
-static const fracas_file_section *section_before_dot(const fracas_catalog *catalog, const char *path)
-{
-    const char *dot = strchr(path, '.');
-    for (size_t s = 0; dot && s < catalog->nsections; s++) {
-        const char *name = catalog->section[s].table->name;
-        if (strlen(name) == (size_t)(dot - path) && strncmp(name, path, strlen(name)) == 0) return &catalog->section[s];
-    }
-    return NULL;
-}
-
-/* `also`: two words that could stand here beside a path. */
-static fracas_err unknown_path(const fracas_file *file, const fracas_node *key, const char *const also[2])
-{
-    const fracas_catalog *catalog = file->catalog;
-    const fracas_file_section *inside = section_before_dot(catalog, key->text);
-    fracas_words words;
-    fracas_words_init(&words, key->text);
-    for (size_t i = 0; i < catalog->nleaves; i++)
-        if (catalog->leaf[i].section->table->hashed && (!inside || catalog->leaf[i].section == inside))
-            fracas_words_add(&words, catalog->leaf[i].path);
-    if (!inside) { /* every path was compared; the list is of sections */
-        words.used = 0;
-        for (int i = 0; i < 2; i++) fracas_words_add(&words, also[i]);
-        for (size_t s = 0; s < catalog->nsections; s++)
-            if (catalog->section[s].table->hashed) fracas_words_add(&words, catalog->section[s].table->name);
-    }
-    char hint[600], label[80];
-    snprintf(label, sizeof label, inside ? "paths in %s" : "known are section.key, and",
-             inside ? inside->table->name : "");
-    return fracas_say(file->name, key, "unknown path `%s` in the sweep%s", key->text,
-                      fracas_words_hint(&words, label, hint));
-}
-
-static fracas_err find_target(const fracas_file *file, const fracas_node *key, const char *const also[2], target *found)
-{
-    *found = (target){.leaf = fracas_catalog_leaf(file->catalog, key->text)};
-    if (!found->leaf) found->section = fracas_catalog_section(file->catalog, key->text);
-    if (strcmp(key->text, "replicas") == 0)
-        return fracas_say(file->name, key,
-                          "`replicas` is not a parameter to sweep; a case of `cases` may have its own");
-    if (strcmp(key->text, "name") == 0 || strcmp(key->text, "seed") == 0)
-        return fracas_say(file->name, key, "`%s` cannot be swept; a campaign has one, at the top of the file",
-                          key->text);
-    if (!found->leaf && !found->section) return unknown_path(file, key, also);
-    const fracas_section *table = (found->leaf ? found->leaf->section : found->section)->table;
-    if (table->hashed) return FRACAS_OK;
-    return fracas_say(file->name, key, "`%s` cannot be swept; it is one for the whole campaign", key->text);
-}
-
-static fracas_err add_target(const fracas_file *file, const target *set, const fracas_node *value,
+static fracas_err add_target(const fracas_file *file, const fracas_target *set, const fracas_node *value,
                              fracas_settings *settings)
 {
     if (set->section) return fracas_settings_add_section(file, set->section, value, settings);
@@ -86,7 +30,7 @@ static fracas_err make_choices(const fracas_file *file, const fracas_node *node,
 }
 
 /* Adds the values of `path: values` to the choices, which are made for the first path of an axis. */
-static fracas_err add_range(const fracas_file *file, const target *set, const fracas_node *values, fracas_axis *axis)
+static fracas_err add_range(const fracas_file *file, const fracas_target *set, const fracas_node *values, fracas_axis *axis)
 {
     if (!set->leaf)
         return fracas_say(file->name, values, "`%s` is a section; expected a list of sections, [{...}, {...}]",
@@ -108,7 +52,7 @@ static fracas_err add_range(const fracas_file *file, const target *set, const fr
     return FRACAS_OK;
 }
 
-static fracas_err add_list(const fracas_file *file, const target *set, const fracas_node *values, fracas_axis *axis)
+static fracas_err add_list(const fracas_file *file, const fracas_target *set, const fracas_node *values, fracas_axis *axis)
 {
     if (axis->nchoices == 0) TRY(make_choices(file, values, values->count, axis));
     if (axis->nchoices != values->count)
@@ -126,10 +70,10 @@ static fracas_err add_list(const fracas_file *file, const target *set, const fra
 
 static fracas_err add_path(const fracas_file *file, const fracas_node *values, fracas_axis *axis)
 {
-    target set;
+    fracas_target set;
     char found[256];
-    static const char *const axes[2] = {"zip", "cases"};
-    TRY(find_target(file, values->key, axes, &set));
+    static const char *const axes[] = {"zip", "cases", "design", NULL};
+    TRY(fracas_target_find(file, values->key, axes, &set));
     if (values->type == FRACAS_LIST) return add_list(file, &set, values, axis);
     if (values->type == FRACAS_MAP) return add_range(file, &set, values, axis);
     return fracas_say(file->name, values,
@@ -148,22 +92,38 @@ static fracas_err read_zip(const fracas_file *file, const fracas_node *zip, frac
     return FRACAS_OK;
 }
 
+static fracas_err read_design(const fracas_file *file, const fracas_node *node, fracas_axis *axis)
+{
+    fracas_drawn drawn;
+    TRY(fracas_drawn_read(file, node, &drawn));
+    TRY(make_choices(file, node, drawn.points, axis));
+    for (size_t i = 0; i < drawn.points; i++) {
+        axis->choice[i].node = node;
+        for (size_t j = 0; j < drawn.parameters; j++) {
+            const double value = drawn.value[i * drawn.parameters + j];
+            const fracas_setting setting = {.leaf = drawn.leaf[j], .node = drawn.node[j], .value = value, .drawn = i + 1};
+            TRY(fracas_settings_add(file, &setting, &axis->choice[i].settings));
+        }
+    }
+    return FRACAS_OK;
+}
+
 static fracas_err read_case(const fracas_file *file, const fracas_node *node, fracas_choice *choice)
 {
-    static const char *const own[2] = {"name", "replicas"};
+    static const char *const own[] = {"name", "replicas", NULL};
     char found[256];
     *choice = (fracas_choice){.node = node};
     if (node->type != FRACAS_MAP || node->count == 0)
         return fracas_say(file->name, node, "a case: found %s; expected `name:`, `replicas:` or sections",
                           node->type == FRACAS_MAP ? "nothing" : fracas_say_found(node, found));
     for (const fracas_node *entry = node->first; entry; entry = entry->next) {
-        target set;
+        fracas_target set;
         if (strcmp(entry->key->text, "name") == 0) {
             TRY(fracas_setting_name(file, entry, &choice->name));
         } else if (strcmp(entry->key->text, "replicas") == 0) {
             TRY(fracas_setting_integer(file, "replicas", entry, 1, 1000000000, &choice->replicas));
         } else {
-            TRY(find_target(file, entry->key, own, &set));
+            TRY(fracas_target_find(file, entry->key, own, &set));
             TRY(add_target(file, &set, entry, &choice->settings));
         }
     }
@@ -187,7 +147,7 @@ static fracas_err read_axis(const fracas_file *file, const fracas_node *node, fr
     char found[256];
     if (node->type != FRACAS_MAP || node->count == 0)
         return fracas_say(file->name, node,
-                          "an axis of the sweep: found %s; expected `path: [values]`, `zip:` or `cases:`",
+                          "an axis of the sweep: found %s; expected `path: [values]`, `zip:`, `cases:` or `design:`",
                           node->type == FRACAS_MAP ? "nothing" : fracas_say_found(node, found));
     if (node->count > 1)
         return fracas_say(file->name, node->first->next->key, "a second path, `%s`, in one axis; put `- ` before it to "
@@ -195,6 +155,7 @@ static fracas_err read_axis(const fracas_file *file, const fracas_node *node, fr
                           node->first->next->key->text);
     if (strcmp(node->first->key->text, "zip") == 0) return read_zip(file, node->first, axis);
     if (strcmp(node->first->key->text, "cases") == 0) return read_cases(file, node->first, axis);
+    if (strcmp(node->first->key->text, "design") == 0) return read_design(file, node->first, axis);
     return add_path(file, node->first, axis);
 }
 

@@ -17,7 +17,12 @@ int main(void)
 #include "tests/support/failing_malloc.h"
 
 static const char sweep[] = "sweep:\n  - cases: [{name: a}, {name: b, strength.minimum: 1 MPa}]\n"
-                            "  - loading.rate: {from: 1, to: 2, points: 3}\n";
+                            "  - loading.rate: {from: 1, to: 2, points: 3}\n"
+                            "  - design: {type: latin-hypercube, points: 2, parameters: {material.young: {distribution: uniform, minimum: 2e11, "
+                            "maximum: 3e11}}}\n"
+                            "  - design: {type: sobol, points: 2, parameters: {material.density: {distribution: uniform, minimum: 2e3, maximum: 3e3},"
+                            " cohesive.fracture_energy: {distribution: uniform, minimum: 90, maximum: 100}}, correlation: [{between: "
+                            "[material.density, cohesive.fracture_energy], coefficient: 0.5}]}\n";
 
 /* Calls `work` with the first, second, ... allocation failing, until it succeeds without or `most` have failed. */
 static void fail_each(fracas_err (*work)(void *context), void *context, long most)

@@ -292,6 +292,80 @@ static void test_sweeps(void **state)
 }
 
 /* Files that are wrong as a whole. */
+/* A design at line 29 whose `type: random, points: 4` is followed by this; its law by what is put there. */
+#define DESIGN(rest) "sweep:\n  - design: {type: random, points: 4, " rest "}\n"
+#define YOUNG(rest) DESIGN("parameters: {material.young: {" rest "}}")
+#define TIED(rest)                                                                                                       \
+    "sweep:\n  - design:\n      type: sobol\n      points: 4\n      parameters:\n"                                           \
+    "        material.young: {distribution: uniform, minimum: 1 GPa, maximum: 2 GPa}\n"                                  \
+    "        material.density: {distribution: uniform, minimum: 1, maximum: 2}\n"                                        \
+    "        loading.rate: {distribution: uniform, minimum: 1, maximum: 2}\n      correlation:" rest "\n"
+
+static void test_designs(void **state)
+{
+    static const wrong table[] = {
+        {"", "sweep:\n  - design: 4\n", 29, 13, {"`design`: found `4`", "`type:`, `points:` and `parameters:`"}},
+        {"", "sweep:\n  - desing: {type: random}\n", 29, 5, {"unknown path `desing`", "did you mean `design`?"}},
+        {"", "sweep:\n  - 4\n", 29, 5, {"an axis of the sweep", "`cases:` or `design:`"}},
+        {"", DESIGN("point: 3"), 29, 39, {"unknown key `point` in a design", "did you mean `points`?", "correlation"}},
+        {"", "sweep:\n  - design: {points: 4}\n", 29, 13, {"no `type` is given", "type can be: latin-hypercube, sobol, random"}},
+        {"", "sweep:\n  - design: {type: latin-hypercub}\n", 29, 20, {"unknown type `latin-hypercub`", "did you mean `latin-hypercube`?"}},
+        {"", "sweep:\n  - design: {type: [random]}\n", 29, 20, {"unknown type a list"}},
+        {"", "sweep:\n  - design: {type: random}\n", 29, 13, {"a design without `points`", "`points: 64`"}},
+        {"", "sweep:\n  - design: {type: random, points: 10001}\n", 29, 36, {"10001 is out of range", "1 to 10000"}},
+        {"", "sweep:\n  - design: {type: random, points: 0}\n", 29, 36, {"0 is out of range"}},
+        {"", "sweep:\n  - design: {type: random, points: 4}\n", 29, 13, {"a design without `parameters`"}},
+        {"", DESIGN("parameters: 3"), 29, 51, {"`parameters`: found `3`"}},
+        {"", DESIGN("parameters: {}"), 29, 51, {"`parameters`: found nothing"}},
+        {"", DESIGN("parameters: {young: {}}"), 29, 52, {"unknown path `young`", "known are section.key, and: model"}},
+        {"", DESIGN("parameters: {replicas: {}}"), 29, 52, {"`replicas` is not a parameter to sweep"}},
+        {"", DESIGN("parameters: {output.history: {}}"), 29, 52, {"`output.history` cannot be swept"}},
+        {"", DESIGN("parameters: {material: {}}"), 29, 52, {"`material` is a section, which cannot be drawn", "`- material: [...]`"}},
+        {"", DESIGN("parameters: {cohesive.law: {}}"), 29, 52, {"`cohesive.law` is a kind, which cannot be drawn"}},
+        {"", DESIGN("parameters: {geometry.ends: {}}"), 29, 52, {"`geometry.ends` is no number, which cannot be drawn"}},
+        {"", DESIGN("parameters: {strength.file: {}}"), 29, 52, {"`strength.file` is no number"}},
+        {"", DESIGN("parameters: {material.young: 3 GPa}"), 29, 68, {"`material.young`: found `3 GPa`; expected a distribution"}},
+        {"", YOUNG("mean: 3 GPa"), 29, 68, {"no `distribution` is given", "distribution can be: uniform, log-uniform, normal"}},
+        {"", YOUNG("distribution: norml"), 29, 83, {"unknown distribution `norml`", "did you mean `normal`?"}},
+        {"", YOUNG("distribution: normal, sigma: 3"), 29, 91, {"unknown key `sigma` in the distribution normal", "keys of the distribution normal: distribution, mean, deviation"}},
+        {"", YOUNG("distribution: normal, mean: 3 GPa"), 29, 68, {"`material.young` with distribution normal needs `deviation`"}},
+        {"", YOUNG("distribution: normal, mean: 3 mm, deviation: 1 GPa"), 29, 97, {"`mean`: `3 mm` is a length; expected a stress"}},
+        {"", YOUNG("distribution: normal, mean: 3 GPa, deviation: 0 GPa"), 29, 115, {"`deviation`: 0 GPa is out of range; allowed is more than 0 Pa"}},
+        {"", YOUNG("distribution: weibull, scale: 3 GPa, shape: 3 GPa"), 29, 113, {"`shape`: `3 GPa`", "pure number"}},
+        {"", YOUNG("distribution: uniform, minimum: [3], maximum: 4"), 29, 101, {"`minimum`: found a list"}},
+        {"", YOUNG("distribution: uniform, minimum: 4, maximum: 3"), 29, 68, {"`material.young`: its minimum is 4 and its maximum 3", "swap them"}},
+        {"", YOUNG("distribution: normal, mean: 3 GPa, deviation: 1 GPa, maximum: -5 GPa"), 29, 68, {"its bounds leave 6.22e-16 of the normal"}},
+        {"", YOUNG("distribution: lognormal, median: 1.7e308, sigma: 10"), 29, 68, {"`material.young`: point ", "of the design is beyond all numbers; narrow its distribution"}},
+        {"", YOUNG("distribution: uniform, minimum: -3 GPa, maximum: -2 GPa"), 29, 68,
+         {"`material.young`: point 1 of the design draws -2", " Pa, which is out of range; allowed is more than 0 Pa; choose a distribution"}},
+        {"", DESIGN("parameters: {strength.shape: {distribution: uniform, minimum: 1, maximum: 2}}"), 29, 52,
+         {"`shape` belongs to distribution"}},
+        {"", DESIGN("parameters: {mesh.elements: {distribution: uniform, minimum: 7.6, maximum: 8.4}}"), 29, 13,
+         {"points 1 and 2 of the sweep have the same values", "whole numbers", "fewer points"}},
+        {"", YOUNG("distribution: uniform, minimum: 1, maximum: 2") "  - material.young: [1 GPa]\n", 30, 22,
+         {"`material.young` is swept by two axes, here and at line 29"}},
+        {"", TIED(" 3"), 36, 20, {"`correlation`: found `3`"}},
+        {"", TIED(" []"), 36, 20, {"`correlation`: found nothing"}},
+        {"", TIED("\n        - {between: [material.young, material.density]}"), 37, 11, {"a correlation is {between: ["}},
+        {"", TIED("\n        - {between: [material.young], coefficient: 1}"), 37, 11, {"a correlation is {between: ["}},
+        {"", TIED("\n        - {between: [material.young, material.density], coefficient: 0.1, of: 3}"), 37, 75, {"unknown key `of` in a correlation"}},
+        {"", TIED("\n        - {between: [material.young, material.densty], coefficient: 1}"), 37, 38,
+         {"`material.densty` is no parameter of this design", "did you mean `material.density`?"}},
+        {"", TIED("\n        - {between: [material.young, material.young], coefficient: 1}"), 37, 21, {"`material.young` twice"}},
+        {"", TIED("\n        - {between: [material.young, material.density], coefficient: 1.1}"), 37, 70, {"1.1 is out of range; allowed is at least -1, at most 1"}},
+        {"", TIED("\n        - {between: [material.young, material.density], coefficient: 0.1}"
+                  "\n        - {between: [material.density, material.young], coefficient: 0.1}"), 38, 21, {"`material.density` and `material.young` is given twice"}},
+        {"", TIED("\n        - {between: [material.young, material.density], coefficient: 0.9}"
+                  "\n        - {between: [material.young, loading.rate], coefficient: 0.8}"
+                  "\n        - {between: [loading.rate, material.density], coefficient: -0.9}"), 37, 9,
+         {"contradict each other", "`loading.rate`", "leave it -13.", "`material.density` first (-0.9)"}},
+        {"", "sweep:\n  - design: {type: sobol, points: 4, parameters: {a: 1, b: 1, c: 1, d: 1, e: 1, f: 1, g: 1, h: 1, i: 1, j: 1, k: 1, l: 1, m: 1, "
+             "n: 1, o: 1, p: 1, q: 1, r: 1, s: 1, t: 1, u: 1, v: 1, w: 1, x: 1, y1: 1, z: 1, aa: 1, ab: 1, ac: 1, ad: 1, ae: 1, af: 1, ag: 1, "
+             "ah: 1, ai: 1, aj: 1, ak: 1, al: 1, am: 1, an: 1, ao: 1}}\n", 29, 38, {"41 parameters; sobol has at most 40"}},
+    };
+    CHECK_ALL(table);
+}
+
 static void test_whole_files(void **state)
 {
     (void)state;
@@ -353,7 +427,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_yaml),   cmocka_unit_test(test_top),    cmocka_unit_test(test_keys),
         cmocka_unit_test(test_choices), cmocka_unit_test(test_combinations), cmocka_unit_test(test_other_models), cmocka_unit_test(test_any_number),
-        cmocka_unit_test(test_values), cmocka_unit_test(test_sweeps), cmocka_unit_test(test_whole_files),
+        cmocka_unit_test(test_values), cmocka_unit_test(test_sweeps), cmocka_unit_test(test_designs), cmocka_unit_test(test_whole_files),
     };
     return cmocka_run_group_tests(tests, load, unload);
 }

@@ -369,8 +369,8 @@ static void test_tables_agree(void **state)
 static void test_page_examples(void **state)
 {
     (void)state;
-    char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md"), *block[3], *end = page;
-    for (int b = 0; b < 3; b++) {
+    char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md"), *block[4], *end = page;
+    for (int b = 0; b < 4; b++) {
         block[b] = strstr(end, "```yaml\n") + strlen("```yaml\n");
         end = strstr(block[b], "```");
         *end++ = '\0';
@@ -380,6 +380,9 @@ static void test_page_examples(void **state)
     fracas_campaign_destroy(shown);
     shown = read_replaced("", block[2]);
     assert_int_equal(shown->npoints, 2 * 4 * 2 * 2 * 2);
+    fracas_campaign_destroy(shown);
+    shown = read_replaced("", block[3]);
+    assert_int_equal(shown->npoints, 64);
     fracas_campaign_destroy(shown);
     fracas_campaign_destroy(plain);
     free(page);
@@ -414,6 +417,10 @@ static void test_round_trip(void **state)
          " {distribution: normal, kept_mean: 3 MPa, kept_deviation: 2 MPa}]\n"),
         "sweep:\n  - geometry.ends: [periodic, held]\n  - mesh: [{}, {spacing: graded, ratio: 3}]\n",
         "sweep:\n  - zip:\n      material.young: [0.1 GPa, 0.3 GPa]\n      time.stop: [settled, time]\n",
+        "random_numbers: common\nsweep:\n  - loading.rate: [1e3, 2e3]\n",
+        ("sweep:\n  - design: {type: latin-hypercube, points: 20, parameters: {mesh.elements: {distribution: lognormal, median: 1e4,"
+         " sigma: 1}, material.young: {distribution: normal, mean: 270 GPa, deviation: 10 GPa}}}\n  - strength.maximum: [301 MPa, 302 MPa]\n"
+         "  - design: {type: sobol, points: 3, parameters: {loading.rate: {distribution: log-uniform, minimum: 1e3, maximum: 1e5}}}\n"),
     };
     for (size_t i = 0; i < FRACAS_COUNT(sweeps); i++) {
         fracas_campaign *campaign = read_replaced("", sweeps[i]);
@@ -490,6 +497,8 @@ static void test_extends(void **state)
         {"rate: [1e3, 1e4]", "rate: [1e2, 1e3, 2e3, 1e4]", {NULL}},
         {"rate: [1e3, 1e4]", "rate: [1e4, 1e3]", {NULL}},
         {"replicas: 3", "replicas: 2", {"replicas is 3 in the study", "but 2", "only grow"}},
+        {"seed: 7", "seed: 7\nrandom_numbers: independent", {NULL}},
+        {"seed: 7", "seed: 7\nrandom_numbers: common", {"random_numbers is independent in the study", "but common", "it must stay"}},
         {"seed: 7", "seed: 8", {"seed is 7 in the study", "but 8"}},
         {"history: 10", "history: 20", {"output.history is 10 in the study", "but 20"}},
         {"history: 10", "history: 10\n  interfaces: true", {"output.interfaces is false", "but true"}},

@@ -1,0 +1,29 @@
+/* Parameters that are not known exactly: the laws of their values. */
+#ifndef FRACAS_SAMPLER_UNCERTAIN_H
+#define FRACAS_SAMPLER_UNCERTAIN_H
+
+#include "base/err.h"
+#include "base/param.h"
+#include "sampler/probability.h"
+
+#define FRACAS_OWN_UNIT "its own" /* in the tables of laws: the unit of the parameter */
+
+/* A law uses the members that its table names; `minimum` and `maximum` are NaN where a normal law is not cut. */
+typedef struct {
+    const fracas_kind *law;
+    double minimum, maximum;
+    double mean, deviation;
+    double median, sigma;
+    double scale, shape;
+} fracas_uncertain;
+
+/* Its kinds are the laws; it is no section of a file. */
+extern const fracas_section fracas_uncertain_section;
+
+/* FRACAS_USAGE when values that are each in range do not go together. */
+FRACAS_MUST_USE fracas_err fracas_uncertain_check(const fracas_uncertain *uncertain);
+
+/* F^-1, same bits on every CPU. */
+double fracas_uncertain_quantile(const fracas_uncertain *uncertain, fracas_probability p);
+
+#endif
