@@ -26,12 +26,18 @@ typedef struct {
     double density;   /* 1/m3, flaws: their mean number per volume */
     double exponent;  /* 1, flaws: of the power law of their strengths */
     const fracas_attachment *file; /* file, positions: a strength for each interface */
+    const fracas_kind *per;            /* interface, gauss-point; NULL: interface */
+    const fracas_attachment *factor;   /* profile of a factor of the strengths; NULL: 1 everywhere */
+    const fracas_kind *factor_along;   /* x, y, z, radius: the profile's coordinate; given along with it */
 } fracas_strength;
+
+extern const fracas_kind fracas_along_x, fracas_along_y, fracas_along_z, fracas_along_radius;
 
 /* The section `strength`; its offset is 0: the owner says where the struct is. */
 extern const fracas_section fracas_strength_section;
 
-/* FRACAS_USAGE when values that are each in range do not go together (uniform: minimum < maximum). */
+/* FRACAS_USAGE when values that are each in range do not go together (uniform: minimum < maximum), or a file does not say what it
+ * should. */
 FRACAS_MUST_USE fracas_err fracas_strength_check(const fracas_strength *strength);
 
 /* What an interface stands for. */
@@ -56,6 +62,9 @@ size_t fracas_strength_count(const fracas_strength *strength);
 
 /* True if there is such a number: they are the same for every replica. */
 bool fracas_strength_is_given(const fracas_strength *strength);
+
+/* True if each Gauss point of an interface has a strength of its own. */
+bool fracas_strength_is_per_point(const fracas_strength *strength);
 
 /* True if they are found by position (distribution `positions`): there may be more than interfaces. */
 bool fracas_strength_is_placed(const fracas_strength *strength);
