@@ -18,7 +18,7 @@ typedef struct {
 #define FLUX &fracas_onset_flux
 #define CD &fracas_integrator_central_difference
 #define HC &fracas_integrator_hulbert_chung
-/* The last two of each four have a strength for each Gauss point. */
+/* The third of each four has a strength for each Gauss point. */
 static const variant variants[] = {
     {SPHERE, 1, 1.5e4, 1.2e-6, 0, 1, 1, 0, MEAN, CD},        {OCTANT, 6, 1.2e4, 3e-7, 0, 1, 1, 0, FLUX, HC},
     {PLATE, 3, 1e5, 3e-7, 0.3, 0.8, 1, 0, MEAN, HC},     {ANNULUS, 2, 1e4, 4e-7, 0, 1.5, 0, 0, MEAN, CD},
@@ -39,7 +39,7 @@ static fracas_spec spec_of(const variant *v)
     spec.cohesive.critical_opening = v->opening;
     spec.cohesive.onset = v->onset;
     spec.time.integrator = v->integrator;
-    spec.strength_per_point = (v - variants) % 4 >= 2;
+    spec.strength_per_point = (v - variants) % 4 == 2;
     return spec;
 }
 
