@@ -152,7 +152,7 @@ static void keys_go_together(void **state)
     bad(BAR(CONSTANT ", factor: wrong.csv, factor_along: x"), "wrong.csv:2: the coordinate -1 m comes after 0 m");
     bad(BAR("distribution: file, file: s.csv, per: gauss-point"), "strength.per is gauss-point, but the distribution `file` gives one");
     bad(BAR("distribution: positions, file: s.csv, per: gauss-point"), "but the distribution `positions` gives one");
-    bad(BAR(CONSTANT ", per: point"), "`per`");
+    bad(BAR(CONSTANT ", per: point"), "unknown per `point`; per can be: interface, gauss-point");
     fracas_campaign *campaign = good(BAR(CONSTANT)), *same = good(BAR(CONSTANT ", per: gauss-point")),
                     *graded = good(BAR(CONSTANT ", factor: f.csv, factor_along: radius"));
     assert_false(fracas_hash_equal(&campaign->point[0].hash, &same->point[0].hash));
