@@ -101,6 +101,7 @@ static void edge_nodes(const fracas_surface *surface, size_t interface, const do
     node[2] = surface->order == 2 ? surface->node[element[3 + edge]] : node[0];
 }
 
+/* x = sum_a N_a(s_g) x_a  (grading.4) */
 static void surface_positions(const fracas_surface *surface, size_t strengths, double (*position)[3])
 {
     static const double edge_point[2][FRACAS_EDGE_MOST] = {FRACAS_EDGE_POINTS_1, FRACAS_EDGE_POINTS_2};

@@ -44,6 +44,7 @@ fracas_err fracas_point_model_create(const fracas_campaign *campaign, size_t poi
     return fracas_point_model_like(campaign, point, &campaign->point[point].spec, model);
 }
 
+/* (grading.5) */
 fracas_extent fracas_model_extent(const fracas_model *model, size_t interface)
 {
     const double share = (double)fracas_model_strengths_per_interface(model);

@@ -69,6 +69,6 @@ fracas_err fracas_field_sample(const fracas_field *field, const fracas_stream *s
             const double u = fracas_stream_uniform(stream, fracas_stream_site(i, g));
             sigma_c[k * stride] = fracas_strength_quantile(field->strength, field->extent[i], fracas_probability_of(u));
         }
-    for (size_t k = 0; field->factor && k < fracas_field_size(field); k++) sigma_c[k * stride] *= field->factor[k]; /* (sampling.62) */
+    for (size_t k = 0; field->factor && k < fracas_field_size(field); k++) sigma_c[k * stride] *= field->factor[k]; /* (grading.3) */
     return FRACAS_OK;
 }

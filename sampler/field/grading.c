@@ -95,14 +95,14 @@ fracas_err fracas_grading_check(const fracas_strength *strength)
     return err;
 }
 
-/* (sampling.60) */
+/* (grading.1) */
 static double coordinate_of(const fracas_kind *along, const double position[3])
 {
     if (along == &fracas_along_radius) return sqrt(position[0] * position[0] + position[1] * position[1]);
     return position[along == &fracas_along_x ? 0 : along == &fracas_along_y ? 1 : 2];
 }
 
-/* (sampling.61) */
+/* (grading.2) */
 static double factor_at(const profile *of, double s)
 {
     const place *p = of->place;
