@@ -41,7 +41,7 @@ static double strength_at(const fracas_point *point, fracas_extent extent, doubl
     return fracas_strength_quantile(&point->strength, extent, fracas_probability_of(u));
 }
 
-/* As the law has it where the material is strongest. */
+/* `most`: the largest factor; of the law's strongest of all, were it where the material is strongest. */
 static fracas_err check_strongest(const fracas_model *model, const fracas_point *point, fracas_extent extent, double most)
 {
     if (fracas_model_interfaces(model) == 0) return FRACAS_OK; /* a single triangle */
@@ -49,8 +49,8 @@ static fracas_err check_strongest(const fracas_model *model, const fracas_point 
     const double drawn = strengths * (double)point->replicas;
     const double u = fmin(1.0 - 0.01 / drawn, 1.0 - 0x1p-53);
     fracas_err err = fracas_model_check_strength(model, most * strength_at(point, extent, u));
-    return err ? fracas_fail_within(err, "the strongest of %.3g %s (all replicas together)", drawn,
-                                    fracas_model_strengths_per_interface(model) > 1 ? "Gauss points" : "interfaces") : FRACAS_OK;
+    const char *what = fracas_model_strengths_per_interface(model) > 1 ? "Gauss points" : "interfaces";
+    return err ? fracas_fail_within(err, "the strongest of %.3g %s (all replicas together)", drawn, what) : FRACAS_OK;
 }
 
 static fracas_err check_count(const fracas_model *model, const fracas_strength *strength)

@@ -63,8 +63,8 @@ static fracas_err field_over(const fracas_model *model, const fracas_strength *s
     if (n > 0 && (!extent || !position)) return fracas_no_memory("the interfaces of a mesh");
     for (size_t i = 0; i < n; i++) extent[i] = fracas_model_extent(model, i);
     fracas_model_interface_positions(model, position);
-    const fracas_sites sites = {.n = n, .points = fracas_model_strengths_per_interface(model), .extent = extent, .position = (const double(*)[3])position,
-                                .period = fracas_model_period(model)};
+    const fracas_sites sites = {.n = n, .points = fracas_model_strengths_per_interface(model), .extent = extent,
+                                .position = (const double(*)[3])position, .period = fracas_model_period(model)};
     return fracas_field_create(strength, &sites, field);
 }
 

@@ -23,6 +23,7 @@ typedef struct {
     double mean, least, most; /* 1, 1, 1 where the material is not graded */
 } fracas_factor_range;
 
+/* Errors as fracas_grading_create. */
 FRACAS_MUST_USE fracas_err fracas_model_factors(const fracas_model *model, const fracas_strength *strength, fracas_factor_range *range);
 
 /* The stream of a point: (campaign's seed, purpose; point hash, replica), 0 for the hash with common random numbers. */

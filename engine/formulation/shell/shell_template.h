@@ -191,7 +191,8 @@ LANES_FUNCTION void shell_run(const fracas_shell_constants *s, fracas_step *step
         .shell = s, .tables = t, .step = step, .first = first, .elements = state, .joints = state + fracas_shell_joints_at(s) * LANES,
         .slots = state + fracas_shell_slots_at(s) * LANES, .element_size = fracas_shell_element_fields(s) * LANES,
         .joint_size = fracas_shell_joint_fields(s) * LANES, .strengths = state + fracas_shell_strengths_at(s) * LANES,
-        .strengths_size = (size_t)s->strengths * LANES, .strength_step = s->strengths > 1 ? LANES : 0, .drift = lanes_load(step->drift + first), .kick = lanes_load(step->kick + first),
+        .strengths_size = (size_t)s->strengths * LANES, .strength_step = s->strengths > 1 ? LANES : 0,
+        .drift = lanes_load(step->drift + first), .kick = lanes_load(step->kick + first),
         .begins = !(step->drift[first] > 0), .strain_energy = zero, .flux = zero, .stored = zero, .kinetic = zero, .dissipated = zero,
         .power = zero};
     shell_context *c = &context;

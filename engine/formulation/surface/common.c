@@ -99,7 +99,7 @@ int64_t fracas_surface_fragment_count(const fracas_model *model, fracas_step *st
     return step->broken[lane] == 0 ? 1 : (int64_t)partition(model, step, lane, damage);
 }
 
-/* Of an interface, the least that there is of it. */
+/* The least of an interface's strengths. */
 static double weakest_of(const double *strength, size_t stride, size_t strengths)
 {
     double least = strength[0];
@@ -117,8 +117,9 @@ static fracas_err harvest_interfaces(const fracas_model *model, const fracas_ste
     record->ninterface = model->interfaces;
     for (size_t i = 0; i < model->interfaces; i++) {
         const size_t at = i * (size_t)step->width + (size_t)lane;
-        record->interface[i] = (fracas_interface_row){.strength = weakest_of(strength + i * model->strengths * stride, stride, model->strengths),
-                                                      .damage = damage(model, step, i, lane), .onset_time = step->onset_time[at], .break_time = step->break_time[at]};
+        const double weakest = weakest_of(strength + i * model->strengths * stride, stride, model->strengths);
+        record->interface[i] = (fracas_interface_row){.strength = weakest, .damage = damage(model, step, i, lane),
+                                                      .onset_time = step->onset_time[at], .break_time = step->break_time[at]};
     }
     return FRACAS_OK;
 }

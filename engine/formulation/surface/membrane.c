@@ -32,8 +32,8 @@ fracas_membrane_constants fracas_membrane_constants_of(const fracas_model *model
         .normal = beta_c < 1 ? 1 / (beta_c * beta_c) : 1, .energy = spec->cohesive.fracture_energy, .opening = spec->cohesive.critical_opening, .beta_c = beta_c,
         .mu_c = spec->cohesive.friction, .onset_mean = spec->cohesive.onset != &fracas_onset_flux,
         .standard = spec->cohesive.law != &fracas_law_camacho_ortiz, .friction = spec->cohesive.friction > 0,
-        .point_fields = point_fields_of(model), .strengths = (int)model->strengths, .speed = centrifugal ? spec->loading.speed : 0, .ramp = spec->loading.ramp,
-        .motion = fracas_surface_motion_of(&spec->time)};
+        .point_fields = point_fields_of(model), .strengths = (int)model->strengths, .speed = centrifugal ? spec->loading.speed : 0,
+        .ramp = spec->loading.ramp, .motion = fracas_surface_motion_of(&spec->time)};
     c.tangential = beta_c * beta_c * c.normal;
     c.fields = c.motion.alpha ? SURFACE_FIELDS_ALPHA : SURFACE_FIELDS;
     return c;
