@@ -43,7 +43,8 @@ static void factors_are_linear_between_lines(void **state)
     for (size_t t = 0; t < 3; t++)
         for (size_t i = 0; i < sizeof table / sizeof *table; i++)
             assert_true(factor_of(texts[t], &fracas_along_x, (double[3]){table[i].at, 7, 9}) == table[i].factor);
-    static const double at[3] = {3, 4, 0.5}; /* 5 from the z axis */
+    static const double at[3] = {3, 4, 0.5}; /* 5 from the z axis, wherever along it */
+    assert_true(factor_of("0,0.5\n10,10.5\n", &fracas_along_radius, (double[3]){3, 4, 12}) == 5.5);
     static const char steps[] = "-1,1\n0,1\n0,2\n1,2\n1,3\n3.5,3\n3.5,4\n4.5,4\n4.5,5\n";
     assert_true(factor_of(steps, &fracas_along_x, at) == 3 && factor_of(steps, &fracas_along_y, at) == 4);
     assert_true(factor_of(steps, &fracas_along_z, at) == 2 && factor_of(steps, &fracas_along_radius, at) == 5);
@@ -63,6 +64,7 @@ static void what_is_wrong_is_said(void **state)
                  {"0,-1\n", "f.csv:1: a factor of -1; it must be greater than 0"},
                  {"0,1\n2,1\n1,1\n", "f.csv:3: the coordinate 1 m comes after 2 m; sort the lines"},
                  {"0,1\n2,1\n2,3\n2,4\n", "f.csv:4: the coordinate 2 m is given a third time"},
+                 {"1,1\n1,2\n1,3\n", "f.csv:3: the coordinate 1 m is given a third time"},
                  {"x,f\n", "f.csv has no factor; expected lines of a coordinate [m] and a factor"}};
     for (size_t t = 0; t < sizeof table / sizeof *table; t++) {
         const fracas_attachment file = {.path = "f.csv", .text = table[t].text, .size = strlen(table[t].text)};
