@@ -36,7 +36,7 @@ static void factors_are_linear_between_lines(void **state)
 {
     (void)state;
     static const char *const texts[] = {"0,1\n1,2\n1,4\n3,8\n", "x, factor\r\n# remark\n\n 0 1 first\r\n1\t2\n1 , 4\n3,8",
-                                        "\xef\xbb\xbf" "0,1\n0.5,1.5\n1,2\n1,4\n2,6\n3,8\n"};
+                                        "\357\273\2770,1\n0.5,1.5\n1,2\n1,4\n2,6\n3,8\n"};
     static const struct {
         double at, factor;
     } table[] = {{-5, 1}, {0, 1}, {0.25, 1.25}, {0.5, 1.5}, {0.75, 1.75}, {1 - 0x1p-20, 2 - 0x1p-20}, {1, 4}, {1.25, 4.5}, {2, 6}, {2.75, 7.5}, {3, 8}, {1e9, 8}};
