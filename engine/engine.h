@@ -18,7 +18,10 @@ typedef struct fracas_batch fracas_batch;
 FRACAS_MUST_USE fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **model);
 void fracas_model_destroy(fracas_model *model); /* NULL is allowed */
 
-size_t fracas_model_interfaces(const fracas_model *model);  /* strengths a realization needs */
+size_t fracas_model_interfaces(const fracas_model *model);
+/* 1, or the number of Gauss points of an interface where each has its own (spec.strength_per_point; of surfaces). A realization needs
+ * fracas_model_interfaces times as many; strength k = interface*this + g. */
+size_t fracas_model_strengths_per_interface(const fracas_model *model);
 size_t fracas_model_elements(const fracas_model *model);
 double fracas_model_element_size(const fracas_model *model);        /* m: mean length of elements, of surfaces of their edges */
 double fracas_model_critical_time_step(const fracas_model *model);  /* s */
@@ -32,8 +35,9 @@ const struct fracas_surface *fracas_model_surface(const fracas_model *model);
  * triangles of a surface. */
 double fracas_model_interface_volume(const fracas_model *model, size_t interface);
 
-/* position[i], i < fracas_model_interfaces: where interface i is at the start [m]. Of a surface, the middle between the two ends of
- * its edge; of a bar, x along it from its left end; of a ring, on its circle in the plane, at the angle 2 pi (i + 1)/n. */
+/* position[k]: where strength k is at the start [m]. That of an interface: of a surface, the middle between the two ends of its edge;
+ * of a bar, x along it from its left end; of a ring, on its circle in the plane, at the angle 2 pi (i + 1)/n. That of a Gauss
+ * point: there, on the edge that may be curved. */
 void fracas_model_interface_positions(const fracas_model *model, double (*position)[3]);
 
 /* Area of interface `interface` itself [m2]: the cross-section of a chain, length times thickness of a surface. */
@@ -67,8 +71,8 @@ FRACAS_MUST_USE fracas_err fracas_batch_create(const fracas_model *model, size_t
                                                const fracas_batch_options *options, fracas_batch **batch);
 void fracas_batch_destroy(fracas_batch *batch); /* NULL is allowed */
 
-/* Strengths sigma_c [Pa] of realization `lane` (lane < count), to be filled before the run: that of interface i is
- * strength[i*stride]. */
+/* Strengths sigma_c [Pa] of realization `lane` (lane < count), to be filled before the run: strength k
+ * (fracas_model_strengths_per_interface) is strength[k*stride]. */
 double *fracas_batch_strength(fracas_batch *batch, size_t lane, size_t *stride);
 
 /* Advances every lane to its own stop; record[l], l < count, must be initialised (fracas_record_init) and

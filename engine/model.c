@@ -1,6 +1,7 @@
 #include "engine/formulation/formulation.h"
 
 #include "engine/cohesive/law.h"
+#include "engine/element/triangle.h"
 #include "engine/mesh/body.h"
 #include "engine/mesh/surface/surface.h"
 
@@ -36,6 +37,7 @@ fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
     if (!model) return fracas_no_memory("a model");
     model->spec = *spec;
     model->formulation = (const fracas_formulation *)(const void *)spec->formulation; /* .kind is its first member */
+    model->strengths = 1;
     fracas_err code = model->formulation->model_init(model);
     model->spec.mesh.noise = NULL; /* the caller's, and done with, as is a file */
     model->spec.geometry.file = NULL;
@@ -59,6 +61,7 @@ void fracas_model_destroy(fracas_model *model)
 }
 
 size_t fracas_model_interfaces(const fracas_model *model) { return model->interfaces; }
+size_t fracas_model_strengths_per_interface(const fracas_model *model) { return model->strengths; }
 size_t fracas_model_elements(const fracas_model *model) { return model->elements; }
 double fracas_model_element_size(const fracas_model *model) { return model->element_size; }
 double fracas_model_critical_time_step(const fracas_model *model) { return model->critical_step; }
@@ -87,19 +90,36 @@ double fracas_model_period(const fracas_model *model)
     return geometry->ends == &fracas_ends_periodic ? geometry->length : 0;
 }
 
-static void surface_positions(const fracas_surface *surface, double (*position)[3])
+/* Of an edge: its ends and, of quadratic triangles, its middle (else its first end, which then has no share). */
+static void edge_nodes(const fracas_surface *surface, size_t interface, const double *node[3])
 {
-    for (size_t i = 0; i < surface->ninterfaces; i++) {
-        const fracas_surface_interface *interface = &surface->interface[i];
-        const uint32_t *vertex = &surface->element[interface->element[0] * surface->corners];
-        const double *a = surface->node[vertex[interface->edge[0]]], *b = surface->node[vertex[(interface->edge[0] + 1) % 3]];
-        for (int k = 0; k < 3; k++) position[i][k] = 0.5 * (a[k] + b[k]);
+    const fracas_surface_interface *of = &surface->interface[interface];
+    const uint32_t *element = &surface->element[of->element[0] * surface->corners];
+    const int edge = of->edge[0];
+    node[0] = surface->node[element[edge]];
+    node[1] = surface->node[element[(edge + 1) % 3]];
+    node[2] = surface->order == 2 ? surface->node[element[3 + edge]] : node[0];
+}
+
+/* x = sum_a N_a(s_g) x_a  (grading.4) */
+static void surface_positions(const fracas_surface *surface, size_t strengths, double (*position)[3])
+{
+    static const double edge_point[2][FRACAS_EDGE_MOST] = {FRACAS_EDGE_POINTS_1, FRACAS_EDGE_POINTS_2};
+    for (size_t i = 0, k = 0; i < surface->ninterfaces; i++) {
+        const double *node[3];
+        edge_nodes(surface, i, node);
+        for (size_t g = 0; g < strengths; g++, k++) {
+            double shape[3] = {0.5, 0.5, 0}, spread[3];
+            if (strengths > 1) fracas_edge_shape(surface->order, edge_point[surface->order - 1][g], shape, spread);
+            if (surface->order == 1) shape[2] = 0;
+            for (int j = 0; j < 3; j++) position[k][j] = shape[0] * node[0][j] + shape[1] * node[1][j] + shape[2] * node[2][j];
+        }
     }
 }
 
 void fracas_model_interface_positions(const fracas_model *model, double (*position)[3])
 {
-    if (model->surface) surface_positions(model->surface, position);
+    if (model->surface) surface_positions(model->surface, model->strengths, position);
     else model->formulation->interface_positions(model, position);
 }
 

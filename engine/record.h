@@ -34,7 +34,7 @@ typedef struct {
 } fracas_history_row;
 
 typedef struct {
-    double strength;   /* Pa */
+    double strength;   /* Pa; where each Gauss point has its own, the least */
     double damage;     /* delta_max/delta_c, 0 to 1 */
     double onset_time; /* s, NaN if it never cracked */
     double break_time; /* s, NaN if it never broke */

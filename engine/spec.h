@@ -4,6 +4,7 @@
 
 #include "base/param.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -87,6 +88,7 @@ typedef struct {
 
 typedef struct {
     const fracas_kind *formulation; /* `model` of the campaign file */
+    bool strength_per_point; /* surfaces: each Gauss point of an interface has a strength; not a parameter of the engine's */
     fracas_geometry geometry;
     fracas_mesh mesh;
     fracas_material material;

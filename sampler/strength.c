@@ -2,6 +2,7 @@
 #include "sampler/distribution/distribution.h"
 
 #include "sampler/distribution/size.h"
+#include "sampler/field/grading.h"
 
 static const fracas_kind *const distributions[] = {
     &fracas_weibull.kind,
@@ -15,7 +16,25 @@ static const fracas_kind *const distributions[] = {
     &fracas_file_distribution.kind,
     &fracas_positions.kind,
 };
-static const fracas_param reference[] = {
+static const fracas_kind per_interface = {.name = "interface", .doc = "one strength for all of an interface"};
+static const fracas_kind per_point = {.name = "gauss-point",
+                                      .doc = "one for each Gauss point of an interface of a surface; bars and rings have one point an interface"};
+static const fracas_kind *const places[] = {&per_interface, &per_point};
+
+const fracas_kind fracas_along_x = {.name = "x", .doc = "along x"}, fracas_along_y = {.name = "y", .doc = "along y"},
+                  fracas_along_z = {.name = "z", .doc = "along z"},
+                  fracas_along_radius = {.name = "radius", .doc = "the distance from the z axis, sqrt(x^2 + y^2)"};
+static const fracas_kind *const directions[] = {&fracas_along_x, &fracas_along_y, &fracas_along_z, &fracas_along_radius};
+
+static const fracas_param params[] = {
+    {.name = "per", .type = FRACAS_CHOICE, .unit = "1", .doc = "what has a strength of its own; none is interface", .choices = places,
+     .nchoices = FRACAS_COUNT(places), .offset = offsetof(fracas_strength, per), .optional = true},
+    {.name = "factor", .type = FRACAS_ATTACHMENT, .unit = "1",
+     .doc = "text whose lines begin with a coordinate [m] and a factor by which strengths there are multiplied, linear between two lines; "
+            "coordinates increase, one that is given twice is a jump",
+     .offset = offsetof(fracas_strength, factor), .optional = true},
+    {.name = "factor_along", .type = FRACAS_CHOICE, .unit = "1", .doc = "which coordinate those of the file `factor` are",
+     .choices = directions, .nchoices = FRACAS_COUNT(directions), .offset = offsetof(fracas_strength, factor_along), .optional = true},
     {"reference_volume", FRACAS_REAL, "m3", "volume of a specimen that has the strengths that are given: an interface has those of the "
      "weakest of as many specimens as fill its volume", FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, reference_volume),
      .optional = true},
@@ -31,7 +50,7 @@ static fracas_err check_section(const void *section)
 const fracas_section fracas_strength_section = {
     .name = "strength", .doc = "How strong interfaces are", .selector = "distribution", .kinds = distributions,
     .nkinds = FRACAS_COUNT(distributions), .kind_offset = offsetof(fracas_strength, distribution), .hashed = true,
-    .params = reference, .nparams = FRACAS_COUNT(reference), .check = check_section,
+    .params = params, .nparams = FRACAS_COUNT(params), .check = check_section,
 };
 
 const fracas_distribution *fracas_distribution_of(const fracas_strength *strength)
@@ -75,6 +94,10 @@ void fracas_strength_clear(fracas_strength *ready)
 fracas_err fracas_strength_check(const fracas_strength *strength)
 {
     fracas_strength ready;
+    if (fracas_strength_is_given(strength) && fracas_strength_is_per_point(strength))
+        return fracas_fail(FRACAS_USAGE, "strength.per is gauss-point, but the distribution `%s` gives one strength to each interface: "
+                           "leave out `per`, or let strengths be drawn", strength->distribution->name);
+    TRY(fracas_grading_check(strength));
     TRY(fracas_strength_init(strength, &ready));
     fracas_strength_clear(&ready);
     return FRACAS_OK;
@@ -136,6 +159,11 @@ size_t fracas_strength_count(const fracas_strength *strength)
 bool fracas_strength_is_given(const fracas_strength *strength)
 {
     return fracas_distribution_of(strength)->fill != NULL;
+}
+
+bool fracas_strength_is_per_point(const fracas_strength *strength)
+{
+    return strength->per == &per_point;
 }
 
 bool fracas_strength_is_placed(const fracas_strength *strength)

@@ -31,15 +31,20 @@ typedef struct {
     const fracas_kind *interpolation; /* empirical: between its strengths */
     double reference_volume; /* m3, or */
     double reference_area;   /* m2: of interfaces that have the strengths that are given */
+    const fracas_kind *per;            /* interface, gauss-point; NULL: interface */
+    const fracas_attachment *factor;   /* profile of a factor of the strengths; NULL: 1 everywhere */
+    const fracas_kind *factor_along;   /* x, y, z, radius: the profile's coordinate; given along with it */
     bool ready;                 /* made by fracas_strength_init */
     struct fracas_table *table; /* empirical, ready: owned */
 } fracas_strength;
 
+extern const fracas_kind fracas_along_x, fracas_along_y, fracas_along_z, fracas_along_radius;
+
 /* The section `strength`; its offset is 0: the owner says where the struct is. */
 extern const fracas_section fracas_strength_section;
 
-/* FRACAS_USAGE when values that are each in range do not go together (uniform: minimum < maximum), or if the parameters are not
- * exactly one of the sets that the distribution can be given by. */
+/* FRACAS_USAGE when values that are each in range do not go together (uniform: minimum < maximum), if the parameters are not exactly one
+ * of the sets that the distribution can be given by, or if a file does not say what it should. */
 FRACAS_MUST_USE fracas_err fracas_strength_check(const fracas_strength *strength);
 
 /* *ready = the same strengths, whatever they were given by, by the distribution's own parameters (from mean and deviation, say; a
@@ -72,6 +77,9 @@ size_t fracas_strength_count(const fracas_strength *strength);
 
 /* True if there is such a number: they are the same for every replica. */
 bool fracas_strength_is_given(const fracas_strength *strength);
+
+/* True if each Gauss point of an interface has a strength of its own. */
+bool fracas_strength_is_per_point(const fracas_strength *strength);
 
 /* True if they are found by position (distribution `positions`): there may be more than interfaces. */
 bool fracas_strength_is_placed(const fracas_strength *strength);

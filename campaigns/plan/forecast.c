@@ -15,7 +15,7 @@
 
 enum { MAX_LANES = 8 }; /* of a batch */
 
-/* Extents of a mesh's interfaces. */
+/* Extents of a mesh's strengths. */
 typedef struct {
     fracas_extent mean, least; /* where strengths depend on it, they are largest at the least */
 } extents;
@@ -25,7 +25,7 @@ static extents extents_of(const fracas_model *model)
     const size_t count = fracas_model_interfaces(model);
     extents of = {.least = {INFINITY, INFINITY}};
     for (size_t i = 0; i < count; i++) {
-        const fracas_extent one = {fracas_model_interface_volume(model, i), fracas_model_interface_area(model, i)};
+        const fracas_extent one = fracas_model_extent(model, i);
         of.mean.volume += one.volume;
         of.mean.area += one.area;
         of.least = (fracas_extent){fmin(of.least.volume, one.volume), fmin(of.least.area, one.area)};
@@ -41,13 +41,16 @@ static double strength_at(const fracas_point *point, fracas_extent extent, doubl
     return fracas_strength_quantile(&point->strength, extent, fracas_probability_of(u));
 }
 
-static fracas_err check_strongest(const fracas_model *model, const fracas_point *point, fracas_extent extent)
+/* `most`: the largest factor; of the law's strongest of all, were it where the material is strongest. */
+static fracas_err check_strongest(const fracas_model *model, const fracas_point *point, fracas_extent extent, double most)
 {
     if (fracas_model_interfaces(model) == 0) return FRACAS_OK; /* a single triangle */
-    const double drawn = (double)fracas_model_interfaces(model) * (double)point->replicas;
+    const double strengths = (double)(fracas_model_interfaces(model) * fracas_model_strengths_per_interface(model));
+    const double drawn = strengths * (double)point->replicas;
     const double u = fmin(1.0 - 0.01 / drawn, 1.0 - 0x1p-53);
-    fracas_err err = fracas_model_check_strength(model, strength_at(point, extent, u));
-    return err ? fracas_fail_within(err, "the strongest of %.3g interfaces (all replicas together)", drawn) : FRACAS_OK;
+    fracas_err err = fracas_model_check_strength(model, most * strength_at(point, extent, u));
+    const char *what = fracas_model_strengths_per_interface(model) > 1 ? "Gauss points" : "interfaces";
+    return err ? fracas_fail_within(err, "the strongest of %.3g %s (all replicas together)", drawn, what) : FRACAS_OK;
 }
 
 static fracas_err check_count(const fracas_model *model, const fracas_strength *strength)
@@ -86,11 +89,11 @@ static fracas_err check_places(const fracas_model *model, const fracas_strength 
     return err;
 }
 
-static fracas_err check_strengths(const fracas_model *model, const fracas_point *point, fracas_extent extent)
+static fracas_err check_strengths(const fracas_model *model, const fracas_point *point, fracas_extent extent, double most)
 {
     if (fracas_strength_is_placed(&point->strength)) return check_places(model, &point->strength);
     TRY(check_count(model, &point->strength));
-    return check_strongest(model, point, extent);
+    return check_strongest(model, point, extent, most);
 }
 
 /* A stress that an uncracked ring with this load stays below until t [Pa]. Radially it is u'' + w^2 u = a, w = c/R, sigma = E u/R:
@@ -200,15 +203,17 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     };
     const fracas_spec *spec = &point->spec;
     const extents extent = extents_of(model);
-    const double mean = fracas_strength_mean(&point->strength, extent.mean);
+    fracas_factor_range factor;
+    TRY(fracas_model_factors(model, &point->strength, &factor));
+    const double mean = factor.mean * fracas_strength_mean(&point->strength, extent.mean);
     const double softening = spec->material.young * fracas_spec_fracture_energy(spec, mean) / (mean * mean);
     forecast->coarseness = fracas_model_element_size(model) / softening;
-    forecast->uniform = strength_at(point, extent.mean, 0.25) == strength_at(point, extent.mean, 0.75);
+    forecast->uniform = factor.least == factor.most && strength_at(point, extent.mean, 0.25) == strength_at(point, extent.mean, 0.75);
     forecast->lines = forecast->uniform && spec->mesh.spacing == &fracas_spacing_triangles && spec->mesh.amplitude == 0;
     forecast->mean = mean;
     forecast->bound = stress_bound(spec);
     forecast->spread = fracas_model_surface(model) && spec->cohesive.law != &fracas_law_nitsche
-                           ? strength_at(point, extent.mean, 0.99) - strength_at(point, extent.mean, 0.01)
+                           ? factor.most * strength_at(point, extent.mean, 0.99) - factor.least * strength_at(point, extent.mean, 0.01)
                            : NAN;
     forecast->step_stress = spec->material.young * fabs(fracas_spec_strain_rate(spec)) * forecast->time_step;
     if (is_ring(spec)) {
@@ -218,7 +223,7 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
         forecast->lonely = spec->cohesive.zone > 0.5 * fracas_spec_length(spec);
     }
     forecast->repeated = fracas_strength_is_given(&point->strength) && point->replicas > 1;
-    return check_strengths(model, point, extent.least);
+    return check_strengths(model, point, extent.least, factor.most);
 }
 
 /* The forecast, and the model that it was made from, or NULL after an error. */
@@ -269,16 +274,16 @@ typedef struct {
     double element_steps, seconds;
 } effort;
 
-/* A batch of `lanes` realizations in which every interface has this strength. */
+/* A batch of `lanes` realizations in which all strengths are this one. */
 static fracas_err make_batch(const fracas_model *model, double strength, size_t lanes, fracas_record *record,
                              fracas_batch **batch)
 {
     const fracas_batch_options options = {.isa = FRACAS_ISA_BEST};
     TRY(fracas_batch_create(model, lanes, &options, batch));
     for (size_t l = 0; l < lanes; l++) {
-        size_t stride, interfaces = fracas_model_interfaces(model);
+        size_t stride, strengths = fracas_model_interfaces(model) * fracas_model_strengths_per_interface(model);
         double *sigma_c = fracas_batch_strength(*batch, l, &stride);
-        for (size_t i = 0; i < interfaces; i++) sigma_c[i * stride] = strength;
+        for (size_t k = 0; k < strengths; k++) sigma_c[k * stride] = strength;
         fracas_record_init(&record[l]);
     }
     return FRACAS_OK;

@@ -1,7 +1,9 @@
 #include "campaigns/plan/point_model.h"
 
 #include "engine/mesh/make.h"
+#include "sampler/field/grading.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 fracas_stream fracas_point_stream(const fracas_campaign *campaign, size_t point, uint64_t purpose, uint64_t replica)
@@ -31,6 +33,7 @@ fracas_err fracas_point_model_like(const fracas_campaign *campaign, size_t point
     }
     drawn.mesh.noise = noise;
     drawn.mesh.nnoise = count;
+    drawn.strength_per_point = fracas_strength_is_per_point(&campaign->point[point].strength);
     fracas_err err = fracas_model_create(&drawn, model); /* which keeps no noise */
     free(noise);
     return err;
@@ -41,26 +44,58 @@ fracas_err fracas_point_model_create(const fracas_campaign *campaign, size_t poi
     return fracas_point_model_like(campaign, point, &campaign->point[point].spec, model);
 }
 
+/* (grading.5) */
+fracas_extent fracas_model_extent(const fracas_model *model, size_t interface)
+{
+    const double share = (double)fracas_model_strengths_per_interface(model);
+    return (fracas_extent){fracas_model_interface_volume(model, interface) / share, fracas_model_interface_area(model, interface) / share};
+}
+
+static size_t strengths_of(const fracas_model *model)
+{
+    return fracas_model_interfaces(model) * fracas_model_strengths_per_interface(model);
+}
+
 static fracas_err field_over(const fracas_model *model, const fracas_strength *strength, fracas_extent *extent, double (*position)[3],
                              fracas_field **field)
 {
     const size_t n = fracas_model_interfaces(model);
     if (n > 0 && (!extent || !position)) return fracas_no_memory("the interfaces of a mesh");
-    for (size_t i = 0; i < n; i++)
-        extent[i] = (fracas_extent){fracas_model_interface_volume(model, i), fracas_model_interface_area(model, i)};
+    for (size_t i = 0; i < n; i++) extent[i] = fracas_model_extent(model, i);
     fracas_model_interface_positions(model, position);
-    const fracas_sites sites = {.n = n, .points = 1, .extent = extent, .position = (const double(*)[3])position,
-                                .period = fracas_model_period(model)};
+    const fracas_sites sites = {.n = n, .points = fracas_model_strengths_per_interface(model), .extent = extent,
+                                .position = (const double(*)[3])position, .period = fracas_model_period(model)};
     return fracas_field_create(strength, &sites, field);
 }
 
 fracas_err fracas_model_field(const fracas_model *model, const fracas_strength *strength, fracas_field **field)
 {
-    const size_t n = fracas_model_interfaces(model);
-    fracas_extent *extent = malloc(n * sizeof *extent);
-    double(*position)[3] = malloc(n * sizeof *position);
+    fracas_extent *extent = malloc(fracas_model_interfaces(model) * sizeof *extent);
+    double(*position)[3] = malloc(strengths_of(model) * sizeof *position);
     fracas_err err = field_over(model, strength, extent, position, field);
     free(extent);
     free(position);
     return err;
+}
+
+fracas_err fracas_model_factors(const fracas_model *model, const fracas_strength *strength, fracas_factor_range *range)
+{
+    const size_t n = strengths_of(model);
+    *range = (fracas_factor_range){1, 1, 1};
+    if (!strength->factor || n == 0) return FRACAS_OK;
+    double(*position)[3] = malloc(n * sizeof *position), *factor;
+    if (!position) return fracas_no_memory("the interfaces of a mesh");
+    fracas_model_interface_positions(model, position);
+    fracas_err err = fracas_grading_create(strength, n, (const double(*)[3])position, &factor);
+    free(position);
+    TRY(err);
+    *range = (fracas_factor_range){.least = INFINITY};
+    for (size_t k = 0; k < n; k++) {
+        range->mean += factor[k];
+        range->least = fmin(range->least, factor[k]);
+        range->most = fmax(range->most, factor[k]);
+    }
+    range->mean /= (double)n;
+    free(factor);
+    return FRACAS_OK;
 }

@@ -15,6 +15,17 @@ FRACAS_MUST_USE fracas_err fracas_point_model_like(const fracas_campaign *campai
 /* The field of `strength` (of the point; it must outlive the field) on the interfaces of its model. Errors as fracas_field_create. */
 FRACAS_MUST_USE fracas_err fracas_model_field(const fracas_model *model, const fracas_strength *strength, fracas_field **field);
 
+/* What a strength of interface `interface` stands for: the interface's volume and area, in equal parts where it has several. */
+fracas_extent fracas_model_extent(const fracas_model *model, size_t interface);
+
+/* Factors of the strengths of a model's field. */
+typedef struct {
+    double mean, least, most; /* 1, 1, 1 where the material is not graded */
+} fracas_factor_range;
+
+/* Errors as fracas_grading_create. */
+FRACAS_MUST_USE fracas_err fracas_model_factors(const fracas_model *model, const fracas_strength *strength, fracas_factor_range *range);
+
 /* The stream of a point: (campaign's seed, purpose; point hash, replica), 0 for the hash with common random numbers. */
 fracas_stream fracas_point_stream(const fracas_campaign *campaign, size_t point, uint64_t purpose, uint64_t replica);
 

@@ -16,8 +16,9 @@ static fracas_err fill(const fracas_field *field, fracas_sample *sample)
     sample->position = malloc((sample->n + 1) * sizeof *sample->position);
     if (!sample->strength || !sample->position) return fracas_no_memory("the strengths of a realization");
     for (size_t i = 0; i < interfaces; i++) {
-        sample->extent.volume += fracas_model_interface_volume(sample->model, i) / (double)interfaces;
-        sample->extent.area += fracas_model_interface_area(sample->model, i) / (double)interfaces;
+        const fracas_extent one = fracas_model_extent(sample->model, i);
+        sample->extent.volume += one.volume / (double)interfaces;
+        sample->extent.area += one.area / (double)interfaces;
     }
     fracas_model_interface_positions(sample->model, sample->position);
     const fracas_stream stream =

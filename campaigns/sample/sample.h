@@ -15,7 +15,7 @@ typedef struct {
     size_t n, points;       /* strengths; of each interface */
     double *strength;       /* [n] Pa: k = interface*points + Gauss point */
     double (*position)[3];  /* [n] m, at the start */
-    fracas_extent extent;   /* of an interface, on average */
+    fracas_extent extent;   /* what a strength stands for, on average */
 } fracas_sample;
 
 /* The strengths of replica `replica` >= 0 at a point: the values that a run gives its kernel, to the last bit. Replicas that the

@@ -16,6 +16,7 @@ struct fracas_model {
     const fracas_formulation *formulation;
     fracas_spec spec;
     size_t elements, interfaces;
+    size_t strengths;     /* of an interface: 1 unless model_init says more */
     double mass;          /* kg */
     double element_size, longest; /* m: mean and largest length h of an element */
     double *table;        /* of the formulation's own: what its mesh is at; freed with the model */
@@ -64,7 +65,7 @@ struct fracas_formulation {
     void (*plan_destroy)(void *plan);
     /* Doubles that a lane's state takes. */
     size_t (*state_size)(const fracas_model *model);
-    /* Where the strength of interface 0 of a lane is in the state, and the distance to that of the next interface. */
+    /* Where the first strength of a lane is in the state, and the distance to the next. */
     double *(*strength)(const fracas_model *model, const fracas_step *step, int lane, size_t *stride);
     /* Prepares the state of one lane for the first step, its strengths being there. */
     void (*lane_init)(const fracas_model *model, const fracas_step *step, int lane);

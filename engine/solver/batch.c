@@ -97,15 +97,15 @@ fracas_err fracas_batch_begin(fracas_batch *batch)
 {
     const fracas_model *model = batch->model;
     fracas_step *step = &batch->step;
-    const size_t width = (size_t)step->width;
+    const size_t width = (size_t)step->width, strengths = model->interfaces * model->strengths;
     for (size_t l = 0; l < width; l++) {
         size_t stride;
         double *strength = fracas_batch_strength(batch, l, &stride);
         const double *first = fracas_batch_strength(batch, 0, &stride);
-        for (size_t i = 0; i < model->interfaces; i++) {
-            if (l >= batch->count) strength[i * stride] = first[i * stride];
-            fracas_err code = fracas_model_check_strength(model, strength[i * stride]);
-            if (code) return fracas_fail_within(code, "realization %zu of the batch, interface %zu", l, i);
+        for (size_t k = 0; k < strengths; k++) {
+            if (l >= batch->count) strength[k * stride] = first[k * stride];
+            fracas_err code = fracas_model_check_strength(model, strength[k * stride]);
+            if (code) return fracas_fail_within(code, "realization %zu of the batch, interface %zu", l, k / model->strengths);
         }
         model->formulation->lane_init(model, step, (int)l);
         step->first_onset[l] = NAN;

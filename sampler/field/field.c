@@ -1,6 +1,7 @@
 #include "sampler/field/field.h"
 
 #include "sampler/distribution/distribution.h"
+#include "sampler/field/grading.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +12,7 @@ struct fracas_field {
     size_t n, points;
     fracas_extent *extent; /* [n] */
     double *given;         /* [n*points], where strengths are given; else NULL */
+    double *factor;        /* [n*points], where the material is graded; else NULL */
 };
 
 /* A copy of `count` elements; NULL without memory. */
@@ -37,6 +39,7 @@ fracas_err fracas_field_create(const fracas_strength *strength, const fracas_sit
     fracas_err err = made->extent ? FRACAS_OK : fracas_no_memory("a strength field");
     if (!err && fracas_strength_is_given(strength)) err = read_given(made, sites);
     else if (!err && !(err = fracas_strength_init(strength, &made->drawn))) made->strength = &made->drawn;
+    if (!err) err = fracas_grading_create(strength, sites->n * sites->points, sites->position, &made->factor);
     if (err) fracas_field_destroy(made);
     else *field = made;
     return err;
@@ -48,6 +51,7 @@ void fracas_field_destroy(fracas_field *field)
     if (field->strength == &field->drawn) fracas_strength_clear(&field->drawn);
     free(field->extent);
     free(field->given);
+    free(field->factor);
     free(field);
 }
 
@@ -68,5 +72,6 @@ fracas_err fracas_field_sample(const fracas_field *field, const fracas_stream *s
             const double u = fracas_stream_uniform(stream, fracas_stream_site(i, g));
             sigma_c[k * stride] = fracas_strength_quantile(field->strength, field->extent[i], fracas_probability_of(u));
         }
+    for (size_t k = 0; field->factor && k < fracas_field_size(field); k++) sigma_c[k * stride] *= field->factor[k]; /* (grading.3) */
     return FRACAS_OK;
 }

@@ -9,7 +9,7 @@
 typedef struct {
     size_t n;                    /* interfaces */
     size_t points;               /* strengths of each: 1, or one for each of its Gauss points */
-    const fracas_extent *extent; /* [n] */
+    const fracas_extent *extent; /* [n]: what each strength of interface i stands for */
     const double (*position)[3]; /* [n*points] m, at the start */
     double period;               /* m: of a body whose ends, along x, are joined; 0: of none */
 } fracas_sites;
@@ -25,8 +25,9 @@ void fracas_field_destroy(fracas_field *field); /* NULL is allowed */
 size_t fracas_field_size(const fracas_field *field);
 
 /* sigma_c[k*stride] = strength k [Pa] of the realization that the stream names; `stride` lets a lane of a batch be filled in
- * place. Each value depends on the field and the name of the stream alone. Of strengths that are given they are those of the file,
- * whatever the stream; NaN beyond its end. FRACAS_ENVIRONMENT without memory. */
+ * place. Where the material is graded (sampler/field/grading.h), after the factor. Each value depends on the field and the name of
+ * the stream alone. Of strengths that are given they are those of the file, whatever the stream; NaN beyond its end.
+ * FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_field_sample(const fracas_field *field, const fracas_stream *stream, size_t stride,
                                                double *sigma_c);
 

@@ -22,7 +22,8 @@ typedef struct {
 #define HC &fracas_integrator_hulbert_chung
 #define L &fracas_mass_lumped
 #define C &fracas_mass_consistent
-/* Every order with every law with and without friction; onsets, schemes and masses in all pairs. */
+/* Every order with every law with and without friction; onsets, schemes and masses in all pairs. Every second pair has a strength for
+ * each Gauss point. */
 static const variant variants[] = {
     {1, N, 0, MEAN, CD, L}, {2, N, 0, FLUX, HC, C}, {1, S, 0, FLUX, CD, C}, {2, S, 0, MEAN, HC, L},
     {1, P, 0, MEAN, HC, C}, {2, P, 0, FLUX, CD, L}, {1, N, 0.3, FLUX, HC, L}, {2, N, 0.3, MEAN, CD, C},
@@ -47,6 +48,7 @@ static fracas_spec spec_of(const variant *v, int64_t divisions, double rate, dou
     if (v->friction > 0) spec.cohesive.coupling = 0.8;
     spec.time.integrator = v->integrator;
     spec.time.mass = v->mass;
+    spec.strength_per_point = (v - variants) / 2 % 2;
     return spec;
 }
 
@@ -319,13 +321,13 @@ static fracas_model *moved_model(const fracas_model *model, bool mirrored)
     return moved;
 }
 
-/* image[i]: interface of the moved model that i has become. */
+/* image[k]: strength of the moved model that k has become. */
 static size_t *images_of(const fracas_model *model, const fracas_model *moved, bool mirrored)
 {
-    const size_t n = model->interfaces;
+    const size_t n = strengths_of(model);
     double (*from)[3] = malloc(n * sizeof *from), (*to)[3] = malloc(n * sizeof *to);
     size_t *image = malloc(n * sizeof *image);
-    assert_true(from && to && image && moved->interfaces == n);
+    assert_true(from && to && image && strengths_of(moved) == n);
     fracas_model_interface_positions(model, from);
     fracas_model_interface_positions(moved, to);
     for (size_t i = 0; i < n; i++) {
@@ -357,7 +359,7 @@ static void check_moved(const variant *v, bool mirrored)
     fracas_batch *a = lane_of(model, 0.3, 2, 0), *b = lane_of(moved, 0.3, 2, 0);
     const double *from = fracas_batch_strength(a, 0, &stride);
     double *to = fracas_batch_strength(b, 0, &stride);
-    for (size_t i = 0; i < model->interfaces; i++) to[image[i] * stride] = from[i * stride];
+    for (size_t k = 0; k < strengths_of(model); k++) to[image[k] * stride] = from[k * stride];
     assert_ok(fracas_batch_begin(a));
     assert_ok(fracas_batch_begin(b));
     fracas_record record[2];
@@ -376,7 +378,8 @@ static void check_moved(const variant *v, bool mirrored)
     }
     double times = 0;
     for (size_t i = 0; i < model->interfaces; i++) {
-        const fracas_interface_row *p = &record[0].interface[i], *q = &record[1].interface[image[i]];
+        const fracas_interface_row *p = &record[0].interface[i], *q = &record[1].interface[image[i * model->strengths] / model->strengths];
+        assert_true(p->strength == q->strength);
         assert_int_equal(isnan(p->onset_time), isnan(q->onset_time));
         assert_int_equal(isnan(p->break_time), isnan(q->break_time));
         if (!isnan(p->onset_time)) times = fmax(times, fabs(p->onset_time - q->onset_time) / record[0].end_time);

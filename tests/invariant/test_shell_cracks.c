@@ -18,6 +18,7 @@ typedef struct {
 #define FLUX &fracas_onset_flux
 #define CD &fracas_integrator_central_difference
 #define HC &fracas_integrator_hulbert_chung
+/* The third of each four has a strength for each Gauss point. */
 static const variant variants[] = {
     {SPHERE, 1, 1.5e4, 1.2e-6, 0, 1, 1, 0, MEAN, CD},        {OCTANT, 6, 1.2e4, 3e-7, 0, 1, 1, 0, FLUX, HC},
     {PLATE, 3, 1e5, 3e-7, 0.3, 0.8, 1, 0, MEAN, HC},     {ANNULUS, 2, 1e4, 4e-7, 0, 1.5, 0, 0, MEAN, CD},
@@ -38,6 +39,7 @@ static fracas_spec spec_of(const variant *v)
     spec.cohesive.critical_opening = v->opening;
     spec.cohesive.onset = v->onset;
     spec.time.integrator = v->integrator;
+    spec.strength_per_point = (v - variants) % 4 == 2;
     return spec;
 }
 
@@ -51,7 +53,7 @@ static void run(const fracas_model *model, uint64_t first, size_t count, int wid
     fracas_batch *batch = batch_with(model, count, (fracas_batch_options){.history = 20, .interfaces = true, .width = width, .isa = isa});
     for (size_t l = 0; l < count; l++) {
         bar_draw(batch, l, 0.3, first + l);
-        for (size_t i = 0; (first + l) % 4 == 3 && i < model->interfaces; i++) bar_set_strength(batch, l, i, 6e8);
+        for (size_t k = 0; (first + l) % 4 == 3 && k < strengths_of(model); k++) bar_set_strength(batch, l, k, 6e8);
         fracas_record_init(&record[l]);
     }
     assert_ok(fracas_batch_run(batch, record));

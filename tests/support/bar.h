@@ -30,14 +30,26 @@ static inline fracas_spec bar_reference(int64_t elements, double rate, double en
         .loading = {.type = &fracas_loading_imposed_rate, .rate = rate}, .time = {.stop = &fracas_stop_time, .end = end, .safety = 0.25}};
 }
 
+/* Number of strengths of a realization. */
+static inline size_t strengths_of(const fracas_model *model) { return model->interfaces * model->strengths; }
+
+/* The strength that holds at Gauss point g of an interface. */
+static inline double strength_at(const fracas_batch *batch, size_t lane, size_t interface, size_t g)
+{
+    const size_t strengths = batch->model->strengths;
+    size_t stride;
+    const double *strength = fracas_batch_strength((fracas_batch *)batch, lane, &stride);
+    return strength[(interface * strengths + (strengths > 1 ? g : 0)) * stride];
+}
+
 /* Strengths uniform in 300 MPa (1 +- scatter) for replica `replica`, in lane `lane`. */
 static inline void bar_draw(fracas_batch *batch, size_t lane, double scatter, uint64_t replica)
 {
     const fracas_stream stream = {.seed = 1, .purpose = FRACAS_PURPOSE_STRENGTH, .point = {2, 3}, .replica = replica};
     size_t stride;
     double *strength = fracas_batch_strength(batch, lane, &stride);
-    for (size_t i = 0; i < batch->model->interfaces; i++)
-        strength[i * stride] = BAR_STRENGTH_MEAN * (1 + scatter * (2 * fracas_stream_uniform(&stream, i) - 1));
+    for (size_t k = 0; k < strengths_of(batch->model); k++)
+        strength[k * stride] = BAR_STRENGTH_MEAN * (1 + scatter * (2 * fracas_stream_uniform(&stream, k) - 1));
 }
 
 /* Lengths in geometric progression, the last one `ratio` times the first. */
@@ -58,11 +70,12 @@ static inline void bar_perturb(fracas_spec *spec, double amplitude, uint64_t whi
     spec->mesh.noise = noise;
 }
 
-static inline void bar_set_strength(fracas_batch *batch, size_t lane, size_t interface, double sigma_c)
+/* Strength number k, which is interface k where each has one. */
+static inline void bar_set_strength(fracas_batch *batch, size_t lane, size_t k, double sigma_c)
 {
     size_t stride;
     double *strength = fracas_batch_strength(batch, lane, &stride);
-    strength[interface * stride] = sigma_c;
+    strength[k * stride] = sigma_c;
 }
 
 #define assert_ok(call)                                              \

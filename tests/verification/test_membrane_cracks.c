@@ -45,7 +45,7 @@ static double growth_of(const fracas_model *model, size_t i)
     return judged_of(traction, &model->spec.cohesive);
 }
 
-/* A different interface is the weakest in each lane. What it is judged by grows as t, so that the crossing between two steps is exact.
+/* A different interface, or Gauss point, is the weakest in each lane. What it is judged by grows as t, so that the crossing between two steps is exact.
  * Round-off: stresses are differences of displacements, which are up to 10 times as large as those over an element, and sums of some
  * 100 steps: 1e-14 of the strength; in the flux a jump of 1.1e-16 u is multiplied by K, which is beta body/element = 40 times
  * stress/u: 1e-14; 1e-12 of the time. */
@@ -61,7 +61,8 @@ static void check_onsets(const fracas_spec *spec)
     fracas_batch *batch = batch_with(model, count, (fracas_batch_options){.interfaces = true, .isa = FRACAS_ISA_BEST});
     for (size_t l = 0; l < count; l++) {
         const double strength = 300e6 * (1 + 0.01 * (double)l);
-        for (size_t i = 0; i < model->interfaces; i++) bar_set_strength(batch, l, i, i == weak[l] ? strength : 4e9);
+        const size_t weakest = weak[l] * model->strengths + l % model->strengths;
+        for (size_t k = 0; k < strengths_of(model); k++) bar_set_strength(batch, l, k, k == weakest ? strength : 4e9);
         expected[l] = strength / growth_of(model, weak[l]);
         end = fmax(end, 1.1 * expected[l]);
     }
@@ -72,14 +73,15 @@ static void check_onsets(const fracas_spec *spec)
     double worst = 0;
     for (size_t l = 0; l < count; l++) {
         assert_int_equal(record[l].cracked, 1);
+        assert_true(record[l].interface[weak[l]].strength == 300e6 * (1 + 0.01 * (double)l));
         assert_true(record[l].onset_time == record[l].interface[weak[l]].onset_time);
         worst = fmax(worst, fabs(record[l].onset_time / expected[l] - 1));
         for (size_t i = 0; i < model->interfaces; i++) assert_true(i == weak[l] || isnan(record[l].interface[i].onset_time));
         fracas_record_clear(&record[l]);
     }
-    print_message("order %d, onset %s, ratio %4.1f, beta_c %.1f, mu_c %.1f, %s: %zu interfaces, onsets within %.1e\n", (int)spec->mesh.order,
+    print_message("order %d, onset %s, ratio %4.1f, beta_c %.1f, mu_c %.1f, %s, %zu strengths: %zu interfaces, onsets within %.1e\n", (int)spec->mesh.order,
                   spec->cohesive.onset->name, spec->loading.ratio, spec->cohesive.coupling, spec->cohesive.friction, spec->time.integrator->name,
-                  count, worst);
+                  model->strengths, count, worst);
     assert_true(worst < 1e-12);
     fracas_batch_destroy(batch);
     fracas_model_destroy(model);
@@ -92,12 +94,13 @@ static void onsets_under_uniform_stress(void **unused)
         double ratio, coupling, friction;
     } cases[] = {{1, 1, 0}, {0.4, 1, 0}, {0.4, 2, 0}, {-0.6, 0.6, 0.3}, {-1.5, 1, 0.2}};
     for (int64_t order = 1; order <= 2; order++)
-        for (int o = 0; o < 2; o++)
+        for (int o = 0; o < 4; o++)
             for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
                 fracas_spec spec = brittle_plate(order, 5, 1e4, 1);
+                spec.strength_per_point = o / 2;
                 hold_edges(&spec, &fracas_edge_held);
                 spec.cohesive.fracture_energy = 2e4; /* for strengths of 4 GPa */
-                spec.cohesive.onset = onsets[o];
+                spec.cohesive.onset = onsets[o % 2];
                 spec.loading.ratio = cases[c].ratio;
                 spec.cohesive.coupling = cases[c].coupling;
                 spec.cohesive.friction = cases[c].friction;
@@ -146,7 +149,7 @@ static rates rates_of(const fracas_model *model, double velocity[2][6])
 /* When a point cracks and breaks, and its peak: everything grows as t, but what the law keeps from the onset is that of the step at
  * which it was seen. */
 typedef struct {
-    double onset, broken, peak;
+    double onset, seen, broken, peak;
 } fate;
 
 static fate fate_of(const fracas_model *model, const rates *r, int g, double strength)
@@ -158,7 +161,7 @@ static fate fate_of(const fracas_model *model, const rates *r, int g, double str
     const bool by_mean = law->onset == &fracas_onset_mean, nitsche = law->law == &fracas_law_nitsche;
     const double judged = judged_of(by_mean ? r->mean[g] : flux, law);
     fate f = {.onset = strength / judged};
-    const double seen = (floor(f.onset / dt) + 1) * dt;
+    const double seen = f.seen = (floor(f.onset / dt) + 1) * dt;
     if (nitsche) f.peak = by_mean ? fmax(strength, (judged_of(flux, law) - judged) * seen + strength) : strength;
     else f.peak = judged * seen;
     const double delta_c = law->critical_opening > 0 ? law->critical_opening : 2 * law->fracture_energy / f.peak;
@@ -168,12 +171,12 @@ static fate fate_of(const fracas_model *model, const rates *r, int g, double str
 }
 
 /* Of the extrinsic laws only what opens from the start: the opening is then linear in time. The peak may not be cut  (cohesive.13). */
-static bool is_of_use(const fracas_model *model, const rates *r, double strength)
+static bool is_of_use(const fracas_model *model, const rates *r, const double strength[2])
 {
     const fracas_cohesive *law = &model->spec.cohesive;
     const double stiffness = tables_of(model)->joint[MEMBRANE_STIFFNESS];
     for (int g = 0; g < 2; g++) {
-        const fate f = fate_of(model, r, g, strength);
+        const fate f = fate_of(model, r, g, strength[g]);
         const bool opens = r->jump[g][0] > 0 && r->mean[g][0] > 0;
         const double most = law->critical_opening > 0 ? stiffness * law->critical_opening / 2 : sqrt(stiffness * law->fracture_energy);
         if (!(f.broken < 400 * model->time_step) || !(f.onset + model->time_step < f.broken) || !(f.peak < most)) return false;
@@ -182,29 +185,45 @@ static bool is_of_use(const fracas_model *model, const rates *r, double strength
     return true;
 }
 
+/* As run_to_end; checks at which step each point cracks. */
+static void run_points(fracas_batch *batch, const fate f[2], fracas_record *record)
+{
+    bool cracked[2] = {false, false};
+    for (size_t running = 1; running > 0;) {
+        assert_ok(fracas_batch_step(batch, record, &running));
+        for (int g = 0; g < 2; g++) {
+            if (cracked[g] || !(*fracas_membrane_point(batch->model, &batch->step, 0, g, SURFACE_PEAK, 0) > 0)) continue;
+            cracked[g] = true;
+            assert_true(fabs(batch->step.time[0] - f[g].seen) < 0.5 * batch->model->time_step);
+        }
+    }
+    assert_true(cracked[0] && cracked[1]);
+}
+
 /* Runs it until it is broken, while it all moves with 100 m/s along x and y: that does not matter, and lets a ledger pass which cannot
  * close with a motion that forces do not change. Every quantity that times are found from is linear in t: round-off as above, and of a break the
  * time of a crossing of something up to 10 times the strength; the
  * motion adds 1.1e-16 of 100 times the displacements; 1e-11. */
-static void check_fate(fracas_model *model, double velocity[2][6], double strength, double *worst)
+static void check_fate(fracas_model *model, double velocity[2][6], const double strength[2], double *worst)
 {
     const rates r = rates_of(model, velocity);
-    const fate f[2] = {fate_of(model, &r, 0, strength), fate_of(model, &r, 1, strength)};
+    const fate f[2] = {fate_of(model, &r, 0, strength[0]), fate_of(model, &r, 1, strength[1])};
     const double onset = fmin(f[0].onset, f[1].onset), broken = fmax(f[0].broken, f[1].broken);
     model->spec.time.end = broken + 1.5 * model->time_step;
     fracas_batch *batch = lane_of(model, 0, 0, 0);
     fracas_record record;
     fracas_record_init(&record);
-    bar_set_strength(batch, 0, 0, strength);
+    for (size_t k = 0; k < model->strengths; k++) bar_set_strength(batch, 0, k, strength[k]);
     assert_ok(fracas_batch_begin(batch));
     for (size_t side = 0; side < 2; side++)
         for (size_t i = 0; i < 6; i++)
             *membrane_state(batch, model->surface->interface[0].element[side], i / 2, SURFACE_V, (int)i % 2) = 100 + velocity[side][i];
-    run_to_end(batch, &record);
+    run_points(batch, f, &record);
     const fracas_cohesive *law = &model->spec.cohesive;
     const double area = sqrt(2) * 1e-3 * model->spec.geometry.thickness;
     const double energy = law->critical_opening > 0 ? law->critical_opening * (f[0].peak + f[1].peak) / 4 : law->fracture_energy;
     assert_true(record.broken == 1 && record.cracked == 1 && record.fragments == 2 && record.fragments_dust == 2);
+    assert_true(record.interface[0].strength == fmin(strength[0], strength[1]));
     assert_true(record.interface[0].damage == 1 && record.onset_time == record.interface[0].onset_time);
     worst[0] = fmax(worst[0], fabs(record.onset_time / onset - 1));
     worst[1] = fmax(worst[1], fabs(record.interface[0].break_time / broken - 1));
@@ -216,14 +235,15 @@ static void check_fate(fracas_model *model, double velocity[2][6], double streng
 static void two_triangles_crack_and_break_in_time(void **unused)
 {
     (void)unused;
-    for (int which = 0; which < 24; which++) {
+    for (int which = 0; which < 48; which++) { /* the second half with a strength for each Gauss point, the weaker first or last */
         fracas_spec spec = brittle_plate(1, 1, 0, 1);
+        spec.strength_per_point = which / 24;
         spec.geometry.width = spec.geometry.height = 1e-3;
         spec.geometry.edge[1] = &fracas_edge_held;
         spec.cohesive.law = laws[which % 3];
         spec.cohesive.onset = onsets[which / 3 % 2];
         spec.cohesive.coupling = which / 6 % 2 ? 0.6 : 1.5;
-        if (which / 12) {
+        if (which / 12 % 2) {
             spec.cohesive.fracture_energy = 0;
             spec.cohesive.critical_opening = 1.2e-6;
         }
@@ -237,15 +257,17 @@ static void two_triangles_crack_and_break_in_time(void **unused)
         for (; used < 20 && tried < 20000; tried++) {
             double velocity[2][6];
             for (size_t i = 0; i < 12; i++) velocity[i / 6][i % 6] = 2 * fracas_stream_uniform(&stream, (uint64_t)(12 * tried) + i) - 1;
-            const double speed = 2 + 4 * fracas_stream_uniform(&stream, 1000000 + (uint64_t)tried), strength = 250e6 + 1e6 * tried / 100;
+            const double speed = 2 + 4 * fracas_stream_uniform(&stream, 1000000 + (uint64_t)tried);
+            const double strong = 250e6 + 1e6 * tried / 100, weak = spec.strength_per_point ? 0.9 * strong : strong;
+            const double strength[2] = {tried % 2 ? weak : strong, tried % 2 ? strong : weak};
             for (size_t i = 0; i < 12; i++) velocity[i / 6][i % 6] *= speed;
             const rates r = rates_of(model, velocity);
             if (!is_of_use(model, &r, strength)) continue;
             check_fate(model, velocity, strength, worst);
             used++;
         }
-        print_message("%-23s onset %s, beta_c %.1f, %s: %d motions of %d, onsets within %.1e, breaks %.1e, dissipated %.1e\n", spec.cohesive.law->name,
-                      spec.cohesive.onset->name, spec.cohesive.coupling, which / 12 ? "delta_c" : "G_c", used, tried, worst[0], worst[1], worst[2]);
+        print_message("%-23s onset %s, beta_c %.1f, %s, %zu strengths: %d motions of %d, onsets within %.1e, breaks %.1e, dissipated %.1e\n", spec.cohesive.law->name,
+                      spec.cohesive.onset->name, spec.cohesive.coupling, which / 12 % 2 ? "delta_c" : "G_c", model->strengths, used, tried, worst[0], worst[1], worst[2]);
         assert_true(used == 20);
         assert_true(worst[0] < 1e-11 && worst[1] < 1e-11 && worst[2] < 1e-11);
         fracas_model_destroy(model);

@@ -119,7 +119,7 @@ typedef struct {
     const fracas_model *model;
     shell_sight *unit; /* [interface][Gauss point][36]: of each displacement of the - element, then of the + element */
     layer *memory;     /* [interface][Gauss point][layer] */
-    double *strength, *force;
+    double *strength, *force; /* [interface][Gauss point], [unknown] */
     double elastic, cohesive, dissipated, created, rubbed, bending;
     long seen[7]; /* layers: intact, loading, unloading, broken, pressed and broken, pressed and cracked, cut */
 } twin;
@@ -128,7 +128,7 @@ static twin twin_of(const fracas_model *model, const fracas_batch *batch)
 {
     const size_t n = model->interfaces * SHELL_EDGE;
     twin t = {.model = model, .unit = calloc(36 * n, sizeof *t.unit), .memory = calloc(SHELL_LAYERS * n, sizeof *t.memory),
-              .strength = calloc(model->interfaces, sizeof(double)), .force = calloc(unknowns_of(model), sizeof(double))};
+              .strength = calloc(n, sizeof(double)), .force = calloc(unknowns_of(model), sizeof(double))};
     assert_true(t.unit && t.memory && t.strength && t.force);
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < 36; j++) {
@@ -136,10 +136,7 @@ static twin twin_of(const fracas_model *model, const fracas_batch *batch)
             u[j / 18][j % 18] = 1;
             t.unit[36 * i + j] = sight_at(model, i / SHELL_EDGE, (int)(i % SHELL_EDGE), (const double *const[2]){u[0], u[1]});
         }
-    for (size_t i = 0; i < model->interfaces; i++) {
-        size_t stride;
-        t.strength[i] = fracas_batch_strength((fracas_batch *)batch, 0, &stride)[i * stride];
-    }
+    for (size_t i = 0; i < n; i++) t.strength[i] = strength_at(batch, 0, i / SHELL_EDGE, i % SHELL_EDGE);
     return t;
 }
 
@@ -187,7 +184,7 @@ static void twin_point(twin *t, size_t i, int g, const double *u)
     const uint32_t *element = t->model->surface->interface[i].element;
     double shearing;
     const double spring = spring_of(t->model, i, &shearing) * fmax(1, 1 / (beta_c * beta_c));
-    const layer_law law = {.k = {spring, beta_c * beta_c * spring}, .sigma_c = t->strength[i], .beta_c = beta_c, .mu_c = cohesive->friction,
+    const layer_law law = {.k = {spring, beta_c * beta_c * spring}, .sigma_c = t->strength[3 * i + (size_t)g], .beta_c = beta_c, .mu_c = cohesive->friction,
                            .energy = cohesive->fracture_energy, .opening = cohesive->critical_opening, .by_mean = cohesive->onset == &fracas_onset_mean};
     shell_sight at = {.lift = 0};
     for (int j = 0; j < 36; j++) {
@@ -336,9 +333,9 @@ static void walk(const fracas_spec *spec, double scale, double distortion, long 
     }
     bending[1] = t.dissipated;
     for (int i = 0; i < 7; i++) seen[i] += t.seen[i];
-    print_message("%-7s onset %s, beta_c %.1f, mu_c %.1f, %s: forces within %.1e, energies %.1e, slopes %.1e; bending %.2f of it; layers "
+    print_message("%-7s onset %s, beta_c %.1f, mu_c %.1f, %s, %zu strengths: forces within %.1e, energies %.1e, slopes %.1e; bending %.2f of it; layers "
                   "%ld %ld %ld %ld %ld %ld %ld\n", spec->geometry.shape->name, spec->cohesive.onset->name, spec->cohesive.coupling,
-                  spec->cohesive.friction, spec->cohesive.critical_opening > 0 ? "delta_c" : "G_c", worst[0], worst[1], worst[2],
+                  spec->cohesive.friction, spec->cohesive.critical_opening > 0 ? "delta_c" : "G_c", model->strengths, worst[0], worst[1], worst[2],
                   bending[0] / bending[1], t.seen[0], t.seen[1], t.seen[2], t.seen[3], t.seen[4], t.seen[5], t.seen[6]);
     free(from);
     free(to);
@@ -356,13 +353,14 @@ static void interfaces_do_what_their_layers_do(void **unused)
     static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};
     static const double coupling[] = {1, 0.6, 1.7};
     long seen[7] = {0};
-    for (int which = 0; which < 12; which++) {
+    for (int which = 0; which < 24; which++) {
         fracas_spec spec = brittle_shell(shapes[which % 3], 1);
         double worst[3] = {0};
+        spec.strength_per_point = which / 12;
         spec.cohesive.onset = onsets[which % 2];
         spec.cohesive.coupling = coupling[(which + which / 3) % 3];
         if (which / 3 % 2) spec.cohesive.friction = 0.4;
-        if (which / 6) {
+        if (which / 6 % 2) {
             spec.cohesive.fracture_energy = 0;
             spec.cohesive.critical_opening = 1.2e-6;
         }
@@ -377,8 +375,9 @@ static void interfaces_do_what_their_layers_do(void **unused)
 /* When an interface cracks and breaks, if every node moves with a velocity of its own: mean tractions and jumps grow as t, but what the
  * law keeps from an onset is that of the step at which it was seen. INFINITY: never. False where a layer breaks in the step of its
  * onset, or slips while it is pressed: then times are not such crossings. */
-static bool fate_of(const fracas_model *model, size_t i, double strength, const double *velocity, double *onset, double *broken)
+static bool fate_of(const fracas_batch *batch, size_t i, const double *velocity, double *onset, double *broken)
 {
+    const fracas_model *model = batch->model;
     const fracas_cohesive *law = &model->spec.cohesive;
     const uint32_t *element = model->surface->interface[i].element;
     const double h = model->spec.geometry.thickness, dt = model->time_step, beta_c = law->coupling;
@@ -390,6 +389,7 @@ static bool fate_of(const fracas_model *model, size_t i, double strength, const 
     for (int g = 0; g < SHELL_EDGE; g++) {
         const shell_sight r = sight_at(model, i, g, (const double *const[2]){velocity + 18 * element[0], velocity + 18 * element[1]});
         const bool by_mean = law->onset == &fracas_onset_mean;
+        const double strength = strength_at(batch, 0, i, (size_t)g);
         double flux[3][2], opens[3], seen[3], first = INFINITY;
         for (int k = 0; k < 3; k++) {
             const double z = 0.5 * h * (k - 1);
@@ -453,9 +453,7 @@ static void check_times(const fracas_spec *spec, double distortion, double worst
         fracas_batch *batch = lane_of(model, 0.3, trial);
         double end = 0, onset, broken;
         for (size_t i = 0; i < model->interfaces; i++) {
-            size_t stride;
-            const double strength = fracas_batch_strength(batch, 0, &stride)[i * stride];
-            if (fate_of(model, i, strength, velocity, &onset, &broken) && isfinite(broken)) end = fmax(end, broken);
+            if (fate_of(batch, i, velocity, &onset, &broken) && isfinite(broken)) end = fmax(end, broken);
             if (isfinite(onset)) end = fmax(end, onset);
         }
         model->spec.time.end = fmin(end + 1.5 * dt, 2000 * dt);
@@ -468,7 +466,8 @@ static void check_times(const fracas_spec *spec, double distortion, double worst
         double first = INFINITY;
         for (size_t i = 0; i < model->interfaces; i++) {
             const fracas_interface_row *row = &record.interface[i];
-            const bool breaks = fate_of(model, i, row->strength, velocity, &onset, &broken);
+            const bool breaks = fate_of(batch, i, velocity, &onset, &broken);
+            assert_true(row->strength == fmin(strength_at(batch, 0, i, 0), fmin(strength_at(batch, 0, i, 1), strength_at(batch, 0, i, 2))));
             first = fmin(first, isnan(row->onset_time) ? INFINITY : row->onset_time);
             assert_true(fabs(row->damage - damage_of(batch, i)) < 1e-15 && (row->damage == 1) == !isnan(row->break_time));
             if (onset > record.end_time) assert_true(isnan(row->onset_time));
@@ -490,21 +489,23 @@ static void onsets_and_breaks_come_when_they_must(void **unused)
     (void)unused;
     static const fracas_kind *const shapes[] = {&fracas_shape_plate, &fracas_shape_annulus, &fracas_shape_sphere};
     static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};
-    for (int which = 0; which < 12; which++) {
+    for (int which = 0; which < 24; which++) {
         fracas_spec spec = brittle_shell(shapes[which % 3], 1);
         double worst[2] = {0};
         long counts[2] = {0};
+        spec.strength_per_point = which / 12;
         spec.cohesive.onset = onsets[which % 2];
         spec.cohesive.coupling = which / 3 % 2 ? 0.6 : 1.5;
-        spec.cohesive.friction = which / 6 ? 0.3 : 0;
+        spec.cohesive.friction = which / 6 % 2 ? 0.3 : 0;
         spec.time.integrator = which / 3 % 2 ? &fracas_integrator_hulbert_chung : &fracas_integrator_central_difference;
-        if (which / 6) {
+        if (which / 6 % 2) {
             spec.cohesive.fracture_energy = 0;
             spec.cohesive.critical_opening = 1.2e-6;
         }
         check_times(&spec, which % 3 == 0 ? 0 : 0.1, worst, counts);
-        print_message("%-7s onset %s, beta_c %.1f, mu_c %.1f: %ld onsets within %.1e, %ld breaks within %.1e\n", spec.geometry.shape->name,
-                      spec.cohesive.onset->name, spec.cohesive.coupling, spec.cohesive.friction, counts[0], worst[0], counts[1], worst[1]);
+        print_message("%-7s onset %s, beta_c %.1f, mu_c %.1f, %s: %ld onsets within %.1e, %ld breaks within %.1e\n", spec.geometry.shape->name,
+                      spec.cohesive.onset->name, spec.cohesive.coupling, spec.cohesive.friction,
+                      spec.strength_per_point ? "3 strengths" : "1 strength", counts[0], worst[0], counts[1], worst[1]);
         assert_true(counts[0] > 100 && counts[1] > 20);
         assert_true(worst[0] < 1e-9 && worst[1] < 1e-10);
     }

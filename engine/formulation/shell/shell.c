@@ -26,6 +26,7 @@ fracas_shell_constants fracas_shell_constants_of(const fracas_model *model)
         .motion = fracas_surface_motion_of(&spec->time)};
     c.tangential = beta_c * beta_c * c.normal;
     c.fields = c.motion.alpha ? SURFACE_FIELDS_ALPHA : SURFACE_FIELDS;
+    c.strengths = (int)model->strengths;
     c.point_fields = c.friction ? SURFACE_POINT_FIELDS_FRICTION : SURFACE_POINT_FIELDS;
     return c;
 }
@@ -71,6 +72,7 @@ static fracas_err shell_model_init(fracas_model *model)
     TRY(fracas_surface_check_beta(model));
     model->elements = model->surface->nelements;
     model->interfaces = model->surface->ninterfaces;
+    if (model->spec.strength_per_point) model->strengths = SHELL_EDGE;
     TRY(fracas_shell_tables_create(model, &tables));
     model->plan = tables;
     TRY(check_thickness(model));
@@ -104,7 +106,7 @@ static double *element_value(const fracas_shell_constants *c, const fracas_step 
 static double *point_value(const fracas_shell_constants *c, const fracas_step *step, size_t interface, int g, int k, int field, int lane)
 {
     const size_t at = fracas_shell_joints_at(c) + interface * fracas_shell_joint_fields(c);
-    return value_at(c, step, at + SHELL_LAW + (size_t)((g * SHELL_LAYERS + k) * c->point_fields + field), lane);
+    return value_at(c, step, at + (size_t)((g * SHELL_LAYERS + k) * c->point_fields + field), lane);
 }
 
 double *fracas_shell_value(const fracas_model *model, const fracas_step *step, size_t element, int field, int i, int lane)
@@ -122,8 +124,8 @@ double *fracas_shell_point(const fracas_model *model, const fracas_step *step, s
 static double *shell_strength(const fracas_model *model, const fracas_step *step, int lane, size_t *stride)
 {
     const fracas_shell_constants c = fracas_shell_constants_of(model);
-    *stride = fracas_shell_joint_fields(&c) * (size_t)step->lanes;
-    return value_at(&c, step, fracas_shell_joints_at(&c) + SHELL_STRENGTH, lane);
+    *stride = (size_t)step->lanes;
+    return value_at(&c, step, fracas_shell_strengths_at(&c), lane);
 }
 
 static void shell_lane_init(const fracas_model *model, const fracas_step *step, int lane)
@@ -140,7 +142,7 @@ static void shell_lane_init(const fracas_model *model, const fracas_step *step, 
         }
     }
     for (size_t i = 0; i < model->interfaces; i++)
-        for (size_t f = SHELL_LAW; f < joint; f++) *value_at(&c, step, joints + i * joint + f, lane) = 0;
+        for (size_t f = 0; f < joint; f++) *value_at(&c, step, joints + i * joint + f, lane) = 0;
 }
 
 static void shell_advance(const fracas_model *model, fracas_step *step)

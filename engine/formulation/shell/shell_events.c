@@ -6,7 +6,7 @@
 /* One lane's view of the state after its drift. */
 typedef struct {
     const fracas_shell_constants *shell;
-    const double *elements, *joints; /* of the lane's group, from its own place in it */
+    const double *elements, *joints, *strengths; /* of the lane's group, from its own place in it */
     size_t lanes;
     double back; /* s: displacements are looked at so much earlier */
 } view;
@@ -15,7 +15,8 @@ static view view_of(const fracas_shell_constants *shell, const fracas_step *step
 {
     const size_t lanes = (size_t)step->lanes, group = (size_t)lane / lanes;
     const double *state = step->state + group * lanes * fracas_shell_state_fields(shell) + (size_t)lane % lanes;
-    return (view){.shell = shell, .elements = state, .joints = state + fracas_shell_joints_at(shell) * lanes, .lanes = lanes, .back = back};
+    return (view){.shell = shell, .elements = state, .joints = state + fracas_shell_joints_at(shell) * lanes,
+                  .strengths = state + fracas_shell_strengths_at(shell) * lanes, .lanes = lanes, .back = back};
 }
 
 static void displacements(const view *v, size_t element, double u[SHELL_UNKNOWNS])
@@ -138,14 +139,15 @@ void fracas_shell_book(const fracas_shell_constants *shell, fracas_step *step, i
     const double *joint = now.joints + interface * fracas_shell_joint_fields(shell) * now.lanes;
     double first = INFINITY, last = -INFINITY;
     for (int g = 0; g < SHELL_EDGE; g++) {
+        const double sigma_c = now.strengths[fracas_shell_strength_of(shell, interface, g) * now.lanes];
         const sight then = look(&before, interface, g), here = look(&now, interface, g);
         for (int k = 0; k < SHELL_LAYERS; k++) {
-            const int field = SHELL_LAW + (g * SHELL_LAYERS + k) * shell->point_fields + SURFACE_PEAK;
+            const int field = (g * SHELL_LAYERS + k) * shell->point_fields + SURFACE_PEAK;
             const double delta_c = shell->opening > 0 ? shell->opening : 2 * shell->energy / joint[(size_t)field * now.lanes];
             double onset[2], opening[2];
             compared(shell, interface, &then, k, &onset[0], &opening[0]);
             compared(shell, interface, &here, k, &onset[1], &opening[1]);
-            if (event->cracks[g][k]) first = fmin(first, crossing(step, lane, onset[0], onset[1], joint[0]));
+            if (event->cracks[g][k]) first = fmin(first, crossing(step, lane, onset[0], onset[1], sigma_c));
             if (event->breaks[g][k]) last = fmax(last, crossing(step, lane, opening[0], opening[1], delta_c));
         }
     }

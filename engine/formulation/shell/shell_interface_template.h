@@ -334,22 +334,23 @@ __attribute__((noinline, cold, unused)) static void shell_book(const shell_conte
 }
 
 /* The way of an interface at which some lane is cracked, or is about to  (shell.14). `at` holds what every lane does that is not. */
-LANES_FUNCTION void shell_crack(shell_context *c, size_t i, double *joint, shell_point at[SHELL_EDGE])
+LANES_FUNCTION void shell_crack(shell_context *c, size_t i, double *joint, const double *strength, shell_point at[SHELL_EDGE])
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), two = lanes_set(2.0);
     const fracas_shell_constants *s = c->shell;
     const double *table = c->tables->joint + i * (size_t)SHELL_JOINT_TABLE;
     const vd stiffness = lanes_set(table[SHELL_STIFFNESS]);
-    const plane_interface interface = {
+    plane_interface interface = {
         .k_n = lanes_set(s->normal) * stiffness, .k_t = lanes_set(s->tangential) * stiffness,
         .softness_n = lanes_set(table[SHELL_COMPLIANCE] / s->normal), .softness_t = lanes_set(table[SHELL_COMPLIANCE] / s->tangential),
-        .sigma_c = lanes_load(joint), .beta_c = lanes_set(s->beta_c), .per_beta_c = lanes_set(1.0 / s->beta_c), .mu_c = lanes_set(s->mu_c),
+        .beta_c = lanes_set(s->beta_c), .per_beta_c = lanes_set(1.0 / s->beta_c), .mu_c = lanes_set(s->mu_c),
         .energy = lanes_set(s->energy), .opening = lanes_set(s->opening), .onset_mean = s->onset_mean};
     vmask whole = lanes_le(zero, zero), broken = whole, opens = lanes_lt(one, zero), parts = opens;
     vd created = zero, rubbed = zero, bending = zero;
     shell_booked booked;
     UNROLL for (int g = 0; g < SHELL_EDGE; g++) {
-        double *fields = surface_at(joint, SHELL_LAW + g * SHELL_LAYERS * s->point_fields);
+        double *fields = surface_at(joint, g * SHELL_LAYERS * s->point_fields);
+        interface.sigma_c = lanes_load(strength + (size_t)g * c->strength_step);
         const vd length = lanes_set(table[SHELL_POINTS + g * SHELL_POINT_TABLE + SHELL_LENGTH]);
         shell_point *p = &at[g];
         const shell_layers all = shell_layers_point(c, &interface, p, fields, g, &booked);
@@ -393,6 +394,7 @@ LANES_FUNCTION void shell_join(shell_context *c, int law, size_t i)
     const fracas_shell_constants *s = c->shell;
     const shell_sides sides = shell_sides_of(c, i);
     double *joint = c->joints + i * c->joint_size;
+    const double *strength = c->strengths + i * c->strengths_size;
     shell_point at[SHELL_EDGE];
     shell_flux(c, i, &sides, at);
     if (law == SHELL_OPERATOR) {
@@ -408,23 +410,24 @@ LANES_FUNCTION void shell_join(shell_context *c, int law, size_t i)
         shell_give(c, i, &sides, at);
         return;
     }
-    /* No lane is past its onset where none has a peak and no traction is near the strength: an onset needs |T| >= min(1, beta_c) sigma_c
+    /* No lane is past its onset where none has a peak and no traction is near the least strength: an onset needs |T| >= min(1, beta_c) sigma_c
      * in some layer, and both faces, where |T| is largest, are looked at; the margin covers its round-off, so that lanes do not depend
      * on each other. */
     const vd per_h = lanes_set(1.0 / s->thickness), per_h2 = lanes_set(6.0 / (s->thickness * s->thickness));
-    vd largest = lanes_set(0.0), touched = lanes_set(0.0);
+    vd largest = lanes_set(0.0), touched = lanes_set(0.0), weakest = lanes_load(strength);
     UNROLL for (int g = 0; g < SHELL_EDGE; g++) {
         const vd *n = s->onset_mean ? at[g].mean_n : at[g].n, *m = s->onset_mean ? at[g].mean_m : at[g].m;
         const vd stretch[2] = {n[0] * per_h, n[1] * per_h}, bend[2] = {m[0] * per_h2, m[1] * per_h2};
         const vd cross = plane_abs(stretch[0] * bend[0] + stretch[1] * bend[1]);
         const vd square = stretch[0] * stretch[0] + stretch[1] * stretch[1] + (bend[0] * bend[0] + bend[1] * bend[1]);
+        weakest = plane_min(weakest, lanes_load(strength + (size_t)g * c->strength_step));
         largest = plane_max(largest, square + (cross + cross));
         UNROLL for (int k = 0; k < SHELL_LAYERS; k++)
-            touched += lanes_load(surface_at(joint, SHELL_LAW + (g * SHELL_LAYERS + k) * s->point_fields + SURFACE_PEAK));
+            touched += lanes_load(surface_at(joint, (g * SHELL_LAYERS + k) * s->point_fields + SURFACE_PEAK));
     }
-    const vd floor = lanes_set(0.999 * (s->beta_c < 1.0 ? s->beta_c : 1.0)) * lanes_load(joint);
+    const vd floor = lanes_set(0.999 * (s->beta_c < 1.0 ? s->beta_c : 1.0)) * weakest;
     if (lanes_any(lanes_or(lanes_lt(lanes_set(0.0), touched), lanes_lt(floor * floor, largest)))) {
-        shell_crack(c, i, joint, at);
+        shell_crack(c, i, joint, strength, at);
     } else {
         const double *table = c->tables->joint + i * (size_t)SHELL_JOINT_TABLE;
         UNROLL for (int g = 0; g < SHELL_EDGE; g++) {

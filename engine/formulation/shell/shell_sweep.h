@@ -3,7 +3,8 @@
  *
  * State of a group of lanes, one part after another:
  *   [element][field][lane]    SURFACE_U ..., each SHELL_UNKNOWNS wide (node 0 x, y, z, node 1 x, ...)
- *   [interface][field][lane]  SHELL_STRENGTH, then the law's fields of each layer of each Gauss point
+ *   [interface][field][lane]  the law's fields of each layer of each Gauss point
+ *   [strength][lane]          sigma_c [Pa], one of each interface, or of each of its Gauss points
  *   [slot][field][lane]       what an element collects from its interfaces while it is under way: slot = element & window */
 #ifndef FRACAS_ENGINE_FORMULATION_SHELL_SHELL_SWEEP_H
 #define FRACAS_ENGINE_FORMULATION_SHELL_SHELL_SWEEP_H
@@ -11,9 +12,6 @@
 #include "engine/element/triangle.h"
 #include "engine/formulation/shell/shell_tables.h"
 #include "engine/formulation/surface/sweep.h"
-
-/* Of an interface. */
-enum { SHELL_STRENGTH, SHELL_LAW };
 
 /* Of a slot, at each bulk point: the resultants n_xx, n_yy, n_xy [N/m], m_xx, m_yy, m_xy [N], and the strains that symmetrisation
  * works with on each, times weight; then the forces on nodes. */
@@ -39,6 +37,7 @@ typedef struct {
     double beta_c, mu_c;       /* 1 */
     int onset_mean, friction;
     int fields, point_fields;  /* of an element, in units of SHELL_UNKNOWNS; of a layer of a Gauss point */
+    int strengths;             /* of an interface: 1, or one for each Gauss point */
     fracas_surface_motion motion;
     int contact;               /* SHELL_OPERATOR: all interfaces broken and in contact; else whole */
 } fracas_shell_constants;
@@ -47,12 +46,21 @@ typedef struct {
 static inline size_t fracas_shell_element_fields(const fracas_shell_constants *c) { return (size_t)c->fields * SHELL_UNKNOWNS; }
 static inline size_t fracas_shell_joint_fields(const fracas_shell_constants *c)
 {
-    return SHELL_LAW + SHELL_EDGE * SHELL_LAYERS * (size_t)c->point_fields;
+    return SHELL_EDGE * SHELL_LAYERS * (size_t)c->point_fields;
 }
 static inline size_t fracas_shell_joints_at(const fracas_shell_constants *c) { return c->tables->nelements * fracas_shell_element_fields(c); }
-static inline size_t fracas_shell_slots_at(const fracas_shell_constants *c)
+static inline size_t fracas_shell_strengths_at(const fracas_shell_constants *c)
 {
     return fracas_shell_joints_at(c) + c->tables->ninterfaces * fracas_shell_joint_fields(c);
+}
+static inline size_t fracas_shell_slots_at(const fracas_shell_constants *c)
+{
+    return fracas_shell_strengths_at(c) + c->tables->ninterfaces * (size_t)c->strengths;
+}
+/* Number of the strength that holds at Gauss point g of an interface. */
+static inline size_t fracas_shell_strength_of(const fracas_shell_constants *c, size_t interface, int g)
+{
+    return interface * (size_t)c->strengths + (c->strengths > 1 ? (size_t)g : 0);
 }
 static inline size_t fracas_shell_state_fields(const fracas_shell_constants *c)
 {

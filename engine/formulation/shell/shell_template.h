@@ -23,7 +23,9 @@ typedef struct {
     fracas_step *step;
     int first;                         /* lane of the step that is lane 0 here */
     double *elements, *joints, *slots; /* of these lanes */
+    const double *strengths;
     size_t element_size, joint_size;   /* doubles */
+    size_t strengths_size, strength_step; /* doubles: of an interface; from one Gauss point to the next, 0 where they share one */
     vd drift, kick;                    /* s */
     int begins;                        /* the first step of all */
     /* sums over the body, for the ledger: twice the energies, dissipated [J]; power [W] */
@@ -188,7 +190,9 @@ LANES_FUNCTION void shell_run(const fracas_shell_constants *s, fracas_step *step
     shell_context context = {
         .shell = s, .tables = t, .step = step, .first = first, .elements = state, .joints = state + fracas_shell_joints_at(s) * LANES,
         .slots = state + fracas_shell_slots_at(s) * LANES, .element_size = fracas_shell_element_fields(s) * LANES,
-        .joint_size = fracas_shell_joint_fields(s) * LANES, .drift = lanes_load(step->drift + first), .kick = lanes_load(step->kick + first),
+        .joint_size = fracas_shell_joint_fields(s) * LANES, .strengths = state + fracas_shell_strengths_at(s) * LANES,
+        .strengths_size = (size_t)s->strengths * LANES, .strength_step = s->strengths > 1 ? LANES : 0,
+        .drift = lanes_load(step->drift + first), .kick = lanes_load(step->kick + first),
         .begins = !(step->drift[first] > 0), .strain_energy = zero, .flux = zero, .stored = zero, .kinetic = zero, .dissipated = zero,
         .power = zero};
     shell_context *c = &context;

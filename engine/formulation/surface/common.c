@@ -99,6 +99,14 @@ int64_t fracas_surface_fragment_count(const fracas_model *model, fracas_step *st
     return step->broken[lane] == 0 ? 1 : (int64_t)partition(model, step, lane, damage);
 }
 
+/* The least of an interface's strengths. */
+static double weakest_of(const double *strength, size_t stride, size_t strengths)
+{
+    double least = strength[0];
+    for (size_t g = 1; g < strengths; g++) least = fmin(least, strength[g * stride]);
+    return least;
+}
+
 static fracas_err harvest_interfaces(const fracas_model *model, const fracas_step *step, int lane, fracas_surface_damage *damage,
                                      fracas_record *record)
 {
@@ -109,7 +117,8 @@ static fracas_err harvest_interfaces(const fracas_model *model, const fracas_ste
     record->ninterface = model->interfaces;
     for (size_t i = 0; i < model->interfaces; i++) {
         const size_t at = i * (size_t)step->width + (size_t)lane;
-        record->interface[i] = (fracas_interface_row){.strength = strength[i * stride], .damage = damage(model, step, i, lane),
+        const double weakest = weakest_of(strength + i * model->strengths * stride, stride, model->strengths);
+        record->interface[i] = (fracas_interface_row){.strength = weakest, .damage = damage(model, step, i, lane),
                                                       .onset_time = step->onset_time[at], .break_time = step->break_time[at]};
     }
     return FRACAS_OK;

@@ -32,8 +32,8 @@ fracas_membrane_constants fracas_membrane_constants_of(const fracas_model *model
         .normal = beta_c < 1 ? 1 / (beta_c * beta_c) : 1, .energy = spec->cohesive.fracture_energy, .opening = spec->cohesive.critical_opening, .beta_c = beta_c,
         .mu_c = spec->cohesive.friction, .onset_mean = spec->cohesive.onset != &fracas_onset_flux,
         .standard = spec->cohesive.law != &fracas_law_camacho_ortiz, .friction = spec->cohesive.friction > 0,
-        .point_fields = point_fields_of(model), .speed = centrifugal ? spec->loading.speed : 0, .ramp = spec->loading.ramp,
-        .motion = fracas_surface_motion_of(&spec->time)};
+        .point_fields = point_fields_of(model), .strengths = (int)model->strengths, .speed = centrifugal ? spec->loading.speed : 0,
+        .ramp = spec->loading.ramp, .motion = fracas_surface_motion_of(&spec->time)};
     c.tangential = beta_c * beta_c * c.normal;
     c.fields = c.motion.alpha ? SURFACE_FIELDS_ALPHA : SURFACE_FIELDS;
     return c;
@@ -71,6 +71,7 @@ static fracas_err membrane_model_init(fracas_model *model)
     TRY(fracas_surface_check_beta(model));
     model->elements = model->surface->nelements;
     model->interfaces = model->surface->ninterfaces;
+    if (model->spec.strength_per_point) model->strengths = (size_t)MEMBRANE_EDGE(model->surface->order);
     TRY(fracas_membrane_tables_create(model, &tables));
     model->plan = tables;
     TRY(fracas_surface_check_motion(model, tables->held != NULL));
@@ -104,14 +105,14 @@ double *fracas_membrane_point(const fracas_model *model, const fracas_step *step
 {
     const fracas_membrane_constants c = fracas_membrane_constants_of(model);
     const size_t at = fracas_membrane_joints_at(&c) + interface * fracas_membrane_joint_fields(&c);
-    return value_at(&c, step, at + MEMBRANE_LAW + (size_t)(g * c.point_fields + field), lane);
+    return value_at(&c, step, at + (size_t)(g * c.point_fields + field), lane);
 }
 
 static double *membrane_strength(const fracas_model *model, const fracas_step *step, int lane, size_t *stride)
 {
     const fracas_membrane_constants c = fracas_membrane_constants_of(model);
-    *stride = fracas_membrane_joint_fields(&c) * (size_t)step->lanes;
-    return value_at(&c, step, fracas_membrane_joints_at(&c) + MEMBRANE_STRENGTH, lane);
+    *stride = (size_t)step->lanes;
+    return value_at(&c, step, fracas_membrane_strengths_at(&c), lane);
 }
 
 /* Velocity that node k of element e starts with  (membrane.17) */
@@ -136,7 +137,7 @@ static void membrane_lane_init(const fracas_model *model, const fracas_step *ste
                 *value_at(&c, step, e * fields + (size_t)SURFACE_V * 2 * nodes + 2 * k + (size_t)i, lane) = start_velocity(model, e, k, i);
     }
     for (size_t i = 0; i < model->interfaces; i++)
-        for (size_t f = MEMBRANE_LAW; f < joint; f++) *value_at(&c, step, joints + i * joint + f, lane) = 0;
+        for (size_t f = 0; f < joint; f++) *value_at(&c, step, joints + i * joint + f, lane) = 0;
 }
 
 static void membrane_advance(const fracas_model *model, fracas_step *step)
@@ -155,7 +156,7 @@ static void membrane_advance(const fracas_model *model, fracas_step *step)
 static double point_value(const fracas_membrane_constants *c, const fracas_step *step, size_t interface, int g, int field, int lane)
 {
     const size_t at = fracas_membrane_joints_at(c) + interface * fracas_membrane_joint_fields(c);
-    return *value_at(c, step, at + MEMBRANE_LAW + (size_t)(g * c->point_fields + field), lane);
+    return *value_at(c, step, at + (size_t)(g * c->point_fields + field), lane);
 }
 
 /* D of an interface: the mean over its points by their weights, 1 only where all are broken  (membrane.18) */

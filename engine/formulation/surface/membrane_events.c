@@ -6,7 +6,7 @@
 /* One lane's view of the state after its drift. */
 typedef struct {
     const fracas_membrane_constants *membrane;
-    const double *elements, *joints, *slots; /* of the lane's group, from its own place in it */
+    const double *elements, *joints, *strengths; /* of the lane's group, from its own place in it */
     size_t lanes;
     double back; /* s: displacements are looked at so much earlier */
 } view;
@@ -16,7 +16,7 @@ static view view_of(const fracas_membrane_constants *membrane, const fracas_step
     const size_t lanes = (size_t)step->lanes, group = (size_t)lane / lanes;
     const double *state = step->state + group * lanes * fracas_membrane_state_fields(membrane) + (size_t)lane % lanes;
     return (view){.membrane = membrane, .elements = state, .joints = state + fracas_membrane_joints_at(membrane) * lanes,
-                  .slots = state + fracas_membrane_slots_at(membrane) * lanes, .lanes = lanes, .back = back};
+                  .strengths = state + fracas_membrane_strengths_at(membrane) * lanes, .lanes = lanes, .back = back};
 }
 
 static double displacement(const view *v, size_t element, int i)
@@ -80,7 +80,7 @@ static void look(const view *v, size_t interface, int g, double mean[2], double 
 static const double *point_at(const view *v, size_t interface, int g)
 {
     const fracas_membrane_constants *m = v->membrane;
-    return v->joints + (interface * fracas_membrane_joint_fields(m) + MEMBRANE_LAW + (size_t)(g * m->point_fields)) * v->lanes;
+    return v->joints + (interface * fracas_membrane_joint_fields(m) + (size_t)(g * m->point_fields)) * v->lanes;
 }
 
 static double effective(double t_n, double t_t, double beta_c)
@@ -123,10 +123,10 @@ void fracas_membrane_book(const fracas_membrane_constants *membrane, membrane_la
 {
     const view before = view_of(membrane, step, lane, step->drift[lane]), now = view_of(membrane, step, lane, 0);
     const size_t at = interface * (size_t)step->width + (size_t)lane;
-    const double sigma_c = now.joints[interface * fracas_membrane_joint_fields(membrane) * now.lanes];
     double first = INFINITY, last = -INFINITY;
     for (int g = 0; g < MEMBRANE_EDGE(membrane->tables->order); g++) {
         const double peak = point_at(&now, interface, g)[SURFACE_PEAK * now.lanes];
+        const double sigma_c = now.strengths[fracas_membrane_strength_of(membrane, interface, g) * now.lanes];
         const double delta_c = membrane->opening > 0 ? membrane->opening : 2 * membrane->energy / peak;
         double onset[2], opening[2];
         compared(&before, law, interface, g, &onset[0], &opening[0]);

@@ -3,7 +3,8 @@
  *
  * State of a group of lanes, one part after another:
  *   [element][field][lane]    SURFACE_U ..., each 2 MEMBRANE_NODES wide (node 0 x, y, node 1 x, ...)
- *   [interface][field][lane]  MEMBRANE_STRENGTH, then the law's fields of each Gauss point
+ *   [interface][field][lane]  the law's fields of each Gauss point
+ *   [strength][lane]          sigma_c [Pa], one of each interface, or of each of its Gauss points
  *   [slot][field][lane]       what an element collects from its interfaces while it is under way: slot = element & window */
 #ifndef FRACAS_ENGINE_FORMULATION_SURFACE_MEMBRANE_SWEEP_H
 #define FRACAS_ENGINE_FORMULATION_SURFACE_MEMBRANE_SWEEP_H
@@ -12,8 +13,6 @@
 #include "engine/formulation/surface/sweep.h"
 #include "engine/formulation/surface/membrane_tables.h"
 
-/* Of an interface. */
-enum { MEMBRANE_STRENGTH, MEMBRANE_LAW };
 /* Of a Gauss point, beside those of every law: of the extrinsic laws; of those with friction. */
 enum {
     MEMBRANE_JUMP_N = SURFACE_POINT_FIELDS, MEMBRANE_JUMP_T, MEMBRANE_START_N, MEMBRANE_START_T, MEMBRANE_POINT_FIELDS_EXTRINSIC,
@@ -37,6 +36,7 @@ typedef struct {
     double beta_c, mu_c;          /* 1 */
     int onset_mean, standard, friction;
     int fields, point_fields;     /* of an element, in units of 2 MEMBRANE_NODES; of a Gauss point */
+    int strengths;                /* of an interface: 1, or one for each Gauss point */
     double speed, ramp;           /* rad/s, s: w = speed min(1, t/ramp) */
     fracas_surface_motion motion;
     int contact;                  /* MEMBRANE_OPERATOR: all interfaces broken and in contact; else whole */
@@ -49,15 +49,24 @@ static inline size_t fracas_membrane_element_fields(const fracas_membrane_consta
 }
 static inline size_t fracas_membrane_joint_fields(const fracas_membrane_constants *c)
 {
-    return MEMBRANE_LAW + (size_t)MEMBRANE_EDGE(c->tables->order) * (size_t)c->point_fields;
+    return (size_t)MEMBRANE_EDGE(c->tables->order) * (size_t)c->point_fields;
 }
 static inline size_t fracas_membrane_joints_at(const fracas_membrane_constants *c)
 {
     return c->tables->nelements * fracas_membrane_element_fields(c);
 }
-static inline size_t fracas_membrane_slots_at(const fracas_membrane_constants *c)
+static inline size_t fracas_membrane_strengths_at(const fracas_membrane_constants *c)
 {
     return fracas_membrane_joints_at(c) + c->tables->ninterfaces * fracas_membrane_joint_fields(c);
+}
+static inline size_t fracas_membrane_slots_at(const fracas_membrane_constants *c)
+{
+    return fracas_membrane_strengths_at(c) + c->tables->ninterfaces * (size_t)c->strengths;
+}
+/* Number of the strength that holds at Gauss point g of an interface. */
+static inline size_t fracas_membrane_strength_of(const fracas_membrane_constants *c, size_t interface, int g)
+{
+    return interface * (size_t)c->strengths + (c->strengths > 1 ? (size_t)g : 0);
 }
 static inline size_t fracas_membrane_state_fields(const fracas_membrane_constants *c)
 {

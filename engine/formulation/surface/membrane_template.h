@@ -33,7 +33,9 @@ typedef struct {
     fracas_step *step;
     int first;                          /* lane of the step that is lane 0 here */
     double *elements, *joints, *slots;  /* of these lanes */
+    const double *strengths;
     size_t element_size, joint_size;    /* doubles */
+    size_t strengths_size, strength_step; /* doubles: of an interface; from one Gauss point to the next, 0 where they share one */
     vd drift, kick;                     /* s */
     vd spin;                            /* w(t_n)^2 [1/s2] */
     int begins;                         /* the first step of all */
@@ -231,22 +233,23 @@ __attribute__((noinline, cold, unused)) static void membrane_book(const membrane
 }
 
 /* The way of an interface at which some lane is cracked, or is about to. `at` holds what every lane does that is not. */
-LANES_FUNCTION void membrane_crack(membrane_context *c, int order, int law, size_t i, double *joint, membrane_point at[3])
+LANES_FUNCTION void membrane_crack(membrane_context *c, int order, int law, size_t i, double *joint, const double *strength, membrane_point at[3])
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), two = lanes_set(2.0);
     const fracas_membrane_constants *m = c->membrane;
     const int points = MEMBRANE_EDGE(order);
     const double *table = c->tables->joint + i * (size_t)(MEMBRANE_POINTS + points * MEMBRANE_POINT_TABLE);
     const vd stiffness = lanes_set(table[MEMBRANE_STIFFNESS]);
-    const plane_interface interface = {.k_n = lanes_set(m->normal) * stiffness, .k_t = lanes_set(m->tangential) * stiffness,
+    plane_interface interface = {.k_n = lanes_set(m->normal) * stiffness, .k_t = lanes_set(m->tangential) * stiffness,
                                 .softness_n = lanes_set(table[MEMBRANE_COMPLIANCE] / m->normal),
-                                .softness_t = lanes_set(table[MEMBRANE_COMPLIANCE] / m->tangential), .sigma_c = lanes_load(joint),
+                                .softness_t = lanes_set(table[MEMBRANE_COMPLIANCE] / m->tangential),
                                 .beta_c = lanes_set(m->beta_c), .per_beta_c = lanes_set(1.0 / m->beta_c), .mu_c = lanes_set(m->mu_c),
                                 .energy = lanes_set(m->energy), .opening = lanes_set(m->opening), .onset_mean = m->onset_mean};
     vmask cracks[3], breaks[3], whole = lanes_le(zero, zero), broken = whole, opens = lanes_lt(zero, zero), parts = opens;
     vd created = zero, rubbed = zero;
     UNROLL for (int g = 0; g < points; g++) {
-        double *point = surface_at(joint, MEMBRANE_LAW + g * m->point_fields);
+        double *point = surface_at(joint, g * m->point_fields);
+        interface.sigma_c = lanes_load(strength + (size_t)g * c->strength_step);
         const double *place = table + MEMBRANE_POINTS + g * MEMBRANE_POINT_TABLE;
         const vd nx = lanes_set(place[MEMBRANE_NX]), ny = lanes_set(place[MEMBRANE_NY]), area = lanes_set(place[MEMBRANE_AREA]);
         const vd *q = at[g].jump, *mean = at[g].mean;
@@ -286,6 +289,7 @@ LANES_FUNCTION void membrane_join(membrane_context *c, int order, int law, size_
     const int points = MEMBRANE_EDGE(order);
     const membrane_sides sides = membrane_sides_of(c, order, i);
     double *joint = c->joints + i * c->joint_size;
+    const double *strength = c->strengths + i * c->strengths_size;
     membrane_point at[3];
     membrane_flux(c, order, i, &sides, at);
     if (law == MEMBRANE_OPERATOR) {
@@ -298,17 +302,18 @@ LANES_FUNCTION void membrane_join(membrane_context *c, int order, int law, size_
         membrane_give(c, order, i, &sides, at);
         return;
     }
-    /* No lane is past its onset where none has a peak and no traction is near the strength: an onset needs
+    /* No lane is past its onset where none has a peak and no traction is near the least strength: an onset needs
      * |T| >= min(1, beta_c) sigma_c, and the margin covers its round-off, so that lanes do not depend on each other. */
-    vd largest = lanes_set(0.0), touched = lanes_set(0.0);
+    vd largest = lanes_set(0.0), touched = lanes_set(0.0), weakest = lanes_load(strength);
     UNROLL for (int g = 0; g < points; g++) {
         const vd *judged = m->onset_mean ? at[g].mean : at[g].traction;
         largest = plane_max(largest, judged[0] * judged[0] + judged[1] * judged[1]);
-        touched += lanes_load(surface_at(joint, MEMBRANE_LAW + g * m->point_fields + SURFACE_PEAK));
+        touched += lanes_load(surface_at(joint, g * m->point_fields + SURFACE_PEAK));
+        weakest = plane_min(weakest, lanes_load(strength + (size_t)g * c->strength_step));
     }
-    const vd floor = lanes_set(0.999 * (m->beta_c < 1.0 ? m->beta_c : 1.0)) * lanes_load(joint);
+    const vd floor = lanes_set(0.999 * (m->beta_c < 1.0 ? m->beta_c : 1.0)) * weakest;
     if (lanes_any(lanes_or(lanes_lt(lanes_set(0.0), touched), lanes_lt(floor * floor, largest)))) {
-        membrane_crack(c, order, law, i, joint, at);
+        membrane_crack(c, order, law, i, joint, strength, at);
     } else {
         const double *table = c->tables->joint + i * (size_t)(MEMBRANE_POINTS + points * MEMBRANE_POINT_TABLE);
         UNROLL for (int g = 0; g < points; g++) {
@@ -451,7 +456,9 @@ LANES_FUNCTION void membrane_run(const fracas_membrane_constants *m, fracas_step
     membrane_context context = {
         .membrane = m, .tables = t, .step = step, .first = first, .elements = state,
         .joints = state + fracas_membrane_joints_at(m) * LANES, .slots = state + fracas_membrane_slots_at(m) * LANES,
+        .strengths = state + fracas_membrane_strengths_at(m) * LANES,
         .element_size = fracas_membrane_element_fields(m) * LANES, .joint_size = fracas_membrane_joint_fields(m) * LANES,
+        .strengths_size = (size_t)m->strengths * LANES, .strength_step = m->strengths > 1 ? LANES : 0,
         .drift = lanes_load(step->drift + first), .kick = lanes_load(step->kick + first), .begins = !(step->drift[first] > 0),
         .strain_energy = zero, .flux = zero, .stored = zero, .dissipated = zero, .kinetic = zero, .power = zero, .moment = zero};
     membrane_context *c = &context;
