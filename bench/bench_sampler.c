@@ -71,6 +71,9 @@ int main(int argc, char **argv)
         else if (o == 's') seconds = atof(optarg);
         else return 2;
     }
+    fracas_isa isa = 0;
+    while (isa < FRACAS_NISAS && strcmp(isa_name, fracas_isa_name[isa]) != 0) isa++;
+    if (isa == FRACAS_ISA_BEST && strcmp(isa_name, "best") != 0) return 2;
     if (stride < 1 || stride > MOST_STRIDE) return 2;
     const fracas_strength strength = strength_of(name);
     static fracas_extent extent[INTERFACES];
@@ -79,6 +82,7 @@ int main(int argc, char **argv)
     const fracas_sites sites = {.n = INTERFACES, .points = 1, .extent = extent, .position = (const double(*)[3])position};
     fracas_field *field;
     demand(fracas_field_create(&strength, &sites, &field));
+    demand(fracas_field_use(field, isa));
     double by_clock[5], by_cpu[5];
     for (int i = 0; i < 5; i++) measure(field, stride, seconds / 5, &by_clock[i], &by_cpu[i]);
     qsort(by_clock, 5, sizeof *by_clock, by_value);

@@ -28,4 +28,5 @@ const fracas_distribution fracas_lognormal = {
     .kind = {.name = "lognormal", .doc = "logarithm normally distributed: median exp(sigma z)", .params = params,
              .nparams = FRACAS_COUNT(params)},
     .quantile = lognormal_quantile, .mean = lognormal_mean,
+    .block = FRACAS_BLOCKS(fracas_lognormal),
 };

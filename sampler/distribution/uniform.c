@@ -33,4 +33,5 @@ const fracas_distribution fracas_uniform = {
     .kind = {.name = "uniform", .doc = "every strength between two bounds equally likely", .params = params,
              .nparams = FRACAS_COUNT(params)},
     .quantile = uniform_quantile, .mean = uniform_mean, .check = uniform_check,
+    .block = FRACAS_BLOCKS(fracas_uniform),
 };

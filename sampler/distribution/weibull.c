@@ -31,4 +31,5 @@ const fracas_distribution fracas_weibull = {
     .kind = {.name = "weibull", .doc = "weakest of many flaws: minimum + scale (-ln(1 - u))^(1/shape)",
              .params = params, .nparams = FRACAS_COUNT(params)},
     .quantile = weibull_quantile, .mean = weibull_mean,
+    .block = FRACAS_BLOCKS(fracas_weibull),
 };
