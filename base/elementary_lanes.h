@@ -33,8 +33,7 @@ __attribute__((unused, noinline, cold)) static vd lanes_each(double (*function)(
     return lanes_load(lane);
 }
 
-/* (sampling.50) Usual: a normal positive number. `place` is k + 1023, the exponent of 2^k as a double holds it, above 52 bits; k as a
- * double is found by putting k + 1023 in the lowest bits of 2^52. */
+/* (lanes.1) Usual: a normal positive number. */
 LANES_FUNCTION vd lanes_log(vd x)
 {
     const uint64_t one = 0x3ff0000000000000, two_52 = 0x4330000000000000;
@@ -48,7 +47,7 @@ LANES_FUNCTION vd lanes_log(vd x)
     return k * ln2_hi - ((half_square - (s * (half_square + z * lanes_poly8(log_terms, z)) + k * ln2_lo)) - f);
 }
 
-/* (sampling.51) Usual: |x| <= 708, where 2^k y is a normal number: k is added to the exponent of y. */
+/* (lanes.2) Usual: |x| <= 708, where 2^k y is a normal number: k is added to the exponent of y. */
 LANES_FUNCTION vd lanes_exp(vd x)
 {
     if (!lanes_all(lanes_and(lanes_le(lanes_set(-708.0), x), lanes_le(x, lanes_set(708.0))))) return lanes_each(fracas_exp, x);

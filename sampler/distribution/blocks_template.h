@@ -18,12 +18,18 @@ void BLOCK(fracas_uniform)(const fracas_strength *strength, size_t n, const doub
     for (size_t i = 0; i < n; i += LANES) lanes_store(sigma_c + i, minimum + range * lanes_load(u + i));
 }
 
-/* (sampling.52) */
+/* (lanes.3) 1 - u is exact for a number of a stream. */
+LANES_FUNCTION vd exponential_quantile(vd u)
+{
+    return -lanes_log(1.0 - u);
+}
+
+/* (sampling.5) */
 void BLOCK(fracas_weibull)(const fracas_strength *strength, size_t n, const double *u, double *sigma_c)
 {
     const double minimum = strength->minimum, scale = strength->scale, shape = strength->shape;
     for (size_t i = 0; i < n; i += LANES) {
-        vd t = -lanes_log(1.0 - lanes_load(u + i));
+        vd t = exponential_quantile(lanes_load(u + i));
         lanes_store(sigma_c + i, minimum + scale * lanes_exp(lanes_log(t) / shape));
     }
 }
@@ -43,7 +49,7 @@ static double normal_quantile_of(double u)
     return fracas_normal_quantile(fracas_probability_of(u));
 }
 
-/* (sampling.53) The tails are worked out only where one of the lanes is in them, far tails (r > 5) one lane after the other. */
+/* (lanes.4) The tails are worked out only where one of the lanes is in them, far tails (r > 5) one lane after the other. */
 LANES_FUNCTION vd normal_quantile(vd u)
 {
     const vd half = lanes_set(0.5), middle = lanes_set(0.425);
@@ -58,7 +64,7 @@ LANES_FUNCTION vd normal_quantile(vd u)
     return lanes_select(central, z, lanes_select(lower, -tail, tail));
 }
 
-/* (sampling.53) */
+/* (sampling.7) */
 void BLOCK(fracas_lognormal)(const fracas_strength *strength, size_t n, const double *u, double *sigma_c)
 {
     const double median = strength->median, sigma = strength->sigma;
