@@ -35,8 +35,8 @@ static void demand(fracas_err code)
 
 static fracas_strength strength_of(const char *name)
 {
-    fracas_strength strength = {.value = 300e6, .minimum = 264e6, .maximum = 364e6, .scale = 50e6, .shape = 2, .median = 300e6, .sigma = 0.1,
-                                .mean = 300e6, .deviation = 30e6, .density = 1e9, .exponent = 3};
+    fracas_strength strength = {.value = 300e6, .minimum = 264e6, .maximum = 364e6, .scale = 50e6, .shape = 2, .median = 300e6,
+                                .sigma = 0.1, .mean = 300e6, .deviation = 30e6, .density = 1e9, .exponent = 3};
     for (size_t i = 0; i < fracas_strength_section.nkinds; i++)
         if (strcmp(fracas_strength_section.kinds[i]->name, name) == 0) strength.distribution = fracas_strength_section.kinds[i];
     if (strength.distribution && !fracas_strength_is_given(&strength)) return strength;
@@ -51,7 +51,8 @@ static void measure(const fracas_field *field, size_t stride, double seconds, do
     const double start = seconds_of(CLOCK_MONOTONIC), cpu = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
     double spent;
     do {
-        for (int i = 0; i < 16; i++, stream.replica++) demand(fracas_field_sample(field, &stream, stride, sigma_c + stream.replica % stride));
+        for (int i = 0; i < 16; i++, stream.replica++)
+            demand(fracas_field_sample(field, &stream, stride, sigma_c + stream.replica % stride));
     } while ((spent = seconds_of(CLOCK_MONOTONIC) - start) < seconds);
     *by_clock = (double)(stream.replica * INTERFACES) / spent;
     *by_cpu = (double)(stream.replica * INTERFACES) / (seconds_of(CLOCK_PROCESS_CPUTIME_ID) - cpu);

@@ -90,8 +90,8 @@ static void neighbouring_streams_are_independent(void **state)
     enum { NEXT = 10 };
     fracas_stream next[NEXT];
     for (size_t k = 0; k < NEXT; k++) next[k] = here;
-    static const char *const what[NEXT] = {"next replica", "replica 2^32", "next seed", "other half of seeds", "next purpose", "next point, first word",
-                                           "next point, second word", "other half of points, first word",
+    static const char *const what[NEXT] = {"next replica", "replica 2^32", "next seed", "other half of seeds", "next purpose",
+                                           "next point, first word", "next point, second word", "other half of points, first word",
                                            "other half of points, second word", "words of the point swapped"};
     next[0].replica++;
     next[1].replica += (uint64_t)1 << 32;

@@ -74,8 +74,9 @@ static void blocks_have_the_scalar_bits_at_the_ends(void **state)
 {
     (void)state;
     enum { PLACES = 15, N = 64 * PLACES };
-    const double places[PLACES] = {0.0, 0x1p-52, 0x1p-51, 0x1p-30, 1.388794386496402e-11 /* e^-25: r = 5 */, 1.0 - 1.388794386496402e-11, 1e-9,
-                                   0.075, 0.925, 0.5 - 0x1p-52, 0.5, 1.0 - 0x1p-1 / 0x1p51, 1.0, 0.6321205588285577 /* t = 1 */, 0.29};
+    const double r_5 = 1.388794386496402e-11 /* e^-25 */, t_1 = 0.6321205588285577 /* 1 - 1/e */;
+    const double places[PLACES] = {0.0, 0x1p-52, 0x1p-51, 0x1p-30, r_5, 1.0 - r_5, 1e-9, 0.075, 0.925, 0.5 - 0x1p-52, 0.5, 1.0 - 0x1p-52, 1.0,
+                                   t_1, 0.29};
     static double u[N] __attribute__((aligned(64)));
     const fracas_strength laws[] = {weibull(0.0, 0.1), weibull(264e6, 2.0), weibull(1.0, 1000.0), lognormal(0.1), lognormal(10.0), uniform};
     for (int nudge = -2; nudge <= 2; nudge++) {

@@ -55,8 +55,8 @@ static void assert_same_bits(const char *what, double (*scalar)(double), over_la
 /* A value and its neighbours, each in every lane among usual ones. */
 static void fill_special(double usual)
 {
-    const double special[] = {0.0, -0.0, INFINITY, -INFINITY, NAN, -NAN, 0x1p-1074, DBL_MIN, DBL_MAX, -DBL_MAX, 1.0, -1.0, 0x1p-537, sqrt(0.5),
-                              sqrt(2.0), 708.0, -708.0, 709.0, -708.4, 709.782712893384, 710.0, -745.133219101941, -746.0,
+    const double special[] = {0.0, -0.0, INFINITY, -INFINITY, NAN, -NAN, 0x1p-1074, DBL_MIN, DBL_MAX, -DBL_MAX, 1.0, -1.0, 0x1p-537,
+                              sqrt(0.5), sqrt(2.0), 708.0, -708.0, 709.0, -708.4, 709.782712893384, 710.0, -745.133219101941, -746.0,
                               1e300, 0.34657359027997264};
     enum { SPECIAL = sizeof special / sizeof *special };
     for (size_t i = 0; i < N; i++) x[i] = usual;
@@ -81,6 +81,8 @@ static void log_has_the_same_bits(void **state)
     assert_same_bits("log", fracas_log, logs);
     for (size_t i = 0; i < N; i++) x[i] = 1.0 + ldexp(between(-0.5, 0.5, i), -(int)(i % 53));
     assert_same_bits("log", fracas_log, logs);
+    for (size_t i = 0; i < N; i++) x[i] = double_of(0x0016a09e667f3bcc + i % 4 + (i / 4 % 2046 << 52)); /* near 2^k sqrt(1/2): k turns */
+    assert_same_bits("log", fracas_log, logs);
     for (size_t i = 0; i < N; i++) x[i] = double_of(word(i)); /* any bits */
     assert_same_bits("log", fracas_log, logs);
     fill_special(2.0);
@@ -96,7 +98,9 @@ static void exp_has_the_same_bits(void **state)
     assert_same_bits("exp", fracas_exp, exps);
     for (size_t i = 0; i < N; i++) x[i] = ldexp(between(-0.5, 0.5, i), -(int)(i % 60));
     assert_same_bits("exp", fracas_exp, exps);
-    for (size_t i = 0; i < N; i++) x[i] = ((double)(i % 2000) - 1000.5) * 0x1.62e42fefa39efp-1 + ldexp(between(-0.5, 0.5, i), -(int)(i % 50)); /* k turns */
+    const double ln_2 = 0x1.62e42fefa39efp-1;
+    for (size_t i = 0; i < N; i++) /* near (j + 1/2) ln 2: k turns */
+        x[i] = ((double)(i % 2000) - 1000.5) * ln_2 + ldexp(between(-0.5, 0.5, i), -(int)(i % 50));
     assert_same_bits("exp", fracas_exp, exps);
     for (size_t i = 0; i < N; i++) x[i] = double_of(word(i));
     assert_same_bits("exp", fracas_exp, exps);
