@@ -19,6 +19,5 @@ double fracas_stream_uniform(const fracas_stream *stream, uint64_t site)
 
 void fracas_stream_fill(const fracas_stream *stream, uint64_t first, size_t n, double *u)
 {
-    const fracas_stream name = *stream; /* which u cannot overwrite */
-    for (size_t j = 0; j < n; j++) u[j] = uniform(&name, first + j);
+    for (size_t j = 0; j < n; j++) u[j] = uniform(stream, first + j);
 }

@@ -110,6 +110,16 @@ static void neighbouring_streams_are_independent(void **state)
     }
     fracas_stream_fill(&here, fracas_stream_site(0, 1), N, v);
     assert_independent("next Gauss point");
+    fracas_stream_fill(&next[2], 0, N, u);
+    fracas_stream_fill(&next[4], 0, N, v);
+    assert_independent("next seed and next purpose");
+    fracas_stream_fill(&here, 0, N, u);
+    fracas_stream turned = here;
+    for (size_t i = 0; i < N; i++) {
+        turned.replica = i;
+        v[i] = fracas_stream_uniform(&turned, i > 0 ? 0 : N); /* site 0 of replica 0 is u[0] itself */
+    }
+    assert_independent("site and replica exchanged");
     for (size_t i = 0; i < N; i++) { /* each site in one pair */
         u[i] = fracas_stream_uniform(&here, 2 * i);
         v[i] = fracas_stream_uniform(&here, 2 * i + 1);
