@@ -58,7 +58,7 @@ double fracas_log(double x)
     double s = f / (2.0 + f);
     double z = s * s;
     double half_square = 0.5 * f * f;
-    return k * ln2_hi - ((half_square - (s * (half_square + z * poly8(log_terms, z)) + k * ln2_lo)) - f);
+    return k * ln2_hi - ((half_square - (s * (half_square + z * poly8(log_rest, z)) + k * ln2_lo)) - f);
 }
 
 /* (sampling.12) e^(hi + lo) for |lo| << |hi|. hi = k ln 2 + r (Cody and Waite), e^r = 1 + r + r^2 P(r), times 2^k in
@@ -80,7 +80,7 @@ static inline double exp_sum(double hi, double lo)
     double r8 = (r2 * r2) * (r2 * r2);
     double sum = 1.0 + r;
     double sum_lo = ((1.0 - sum) + r) + r_lo;
-    double y = sum + (sum_lo + r2 * (poly8(exp_terms, r) + r8 * poly4(exp_terms + 8, r)));
+    double y = sum + (sum_lo + r2 * (poly8(exp_rest, r) + r8 * poly4(exp_rest + 8, r)));
     int64_t half = k >> 1;
     return y * double_of((uint64_t)(1023 + half) << 52) * double_of((uint64_t)(1023 + k - half) << 52);
 }

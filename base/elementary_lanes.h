@@ -44,7 +44,7 @@ LANES_FUNCTION vd lanes_log(vd x)
     vd s = f / (2.0 + f);
     vd z = s * s;
     vd half_square = 0.5 * f * f;
-    return k * ln2_hi - ((half_square - (s * (half_square + z * lanes_poly8(log_terms, z)) + k * ln2_lo)) - f);
+    return k * ln2_hi - ((half_square - (s * (half_square + z * lanes_poly8(log_rest, z)) + k * ln2_lo)) - f);
 }
 
 /* (lanes.2) Usual: |x| <= 708, where 2^k y is a normal number: k is added to the exponent of y. */
@@ -61,6 +61,6 @@ LANES_FUNCTION vd lanes_exp(vd x)
     vd r8 = (r2 * r2) * (r2 * r2);
     vd sum = 1.0 + r;
     vd sum_lo = ((1.0 - sum) + r) + r_lo;
-    vd y = sum + (sum_lo + r2 * (lanes_poly8(exp_terms, r) + r8 * lanes_poly4(exp_terms + 8, r)));
+    vd y = sum + (sum_lo + r2 * (lanes_poly8(exp_rest, r) + r8 * lanes_poly4(exp_rest + 8, r)));
     return lanes_double(lanes_bits(y) + (lanes_bits(shifted) << 52));
 }

@@ -81,11 +81,9 @@ static void sample_blocks(const fracas_field *field, fracas_block_quantile *quan
 fracas_err fracas_field_sample(const fracas_field *field, const fracas_stream *stream, size_t stride, double *sigma_c)
 {
     fracas_block_quantile *block = fracas_distribution_of(field->strength)->block[field->isa];
-    if (block && !fracas_strength_has_size_effect(field->strength)) {
-        sample_blocks(field, block, stream, stride, sigma_c);
-        return FRACAS_OK;
-    }
-    for (size_t i = 0, k = 0; i < field->n; i++)
+    if (fracas_strength_has_size_effect(field->strength)) block = NULL; /* blocks know no extents */
+    if (block) sample_blocks(field, block, stream, stride, sigma_c);
+    for (size_t i = 0, k = 0; i < field->n && !block; i++)
         for (size_t g = 0; g < field->points; g++, k++) {
             if (field->given) {
                 sigma_c[k * stride] = field->given[k];
