@@ -1,15 +1,14 @@
 /* Own elementary functions: + - * / and integer operations in a fixed order, branch-light, no tables, so that
- * each can later be written over lanes as it stands. Coefficients: interpolation in Chebyshev points, computed
- * with 90 digits; the error of each polynomial stands beside it, relative to the function it serves. */
+ * each can be written over lanes as it stands (log and exp are, in base/elementary_lanes.h). Coefficients: interpolation in
+ * Chebyshev points, computed with 90 digits; the error of each polynomial stands beside it, relative to the function it serves. */
 #include "base/elementary.h"
+
+#include "base/elementary_terms.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
-
-/* ln 2 in two parts; the high one has 42 bits, so that its product with an exponent is exact. */
-static const double ln2_hi = 0x1.62e42fefa3800p-1, ln2_lo = 0x1.ef35793c76730p-45;
 
 static inline uint64_t bits_of(double x)
 {
@@ -41,7 +40,6 @@ static inline double poly8(const double *c, double x)
 /* x = 2^k m with sqrt(1/2) <= m < sqrt(2), for finite x > 0. */
 static inline double split_exponent(double x, double *k)
 {
-    const uint64_t sqrt_half = 0x3fe6a09e667f3bcd;
     double shift = x < DBL_MIN ? 54.0 : 0.0;
     uint64_t bits = bits_of(x < DBL_MIN ? x * 0x1p54 : x);
     int64_t exponent = (int64_t)(bits - sqrt_half) >> 52;
@@ -54,31 +52,19 @@ static inline double split_exponent(double x, double *k)
  * rest is rounded before the last sum. */
 double fracas_log(double x)
 {
-    static const double r[8] = {/* (2 artanh(s)/s - 2)/s^2 in s^2 <= 0.0295: 2^-60 */
-        0x1.5555555555555p-1, 0x1.9999999999a38p-2, 0x1.2492492476c87p-2, 0x1.c71c720160b47p-3,
-        0x1.745cf901605f7p-3, 0x1.3b1c360763b8ap-3, 0x1.0fbe83c2cbcf3p-3, 0x1.0c04595972ab8p-3,
-    };
     if (!(x > 0.0 && x < INFINITY)) return x == 0.0 ? -INFINITY : x < 0.0 ? NAN : x;
     double k;
     double f = split_exponent(x, &k) - 1.0;
     double s = f / (2.0 + f);
     double z = s * s;
     double half_square = 0.5 * f * f;
-    return k * ln2_hi - ((half_square - (s * (half_square + z * poly8(r, z)) + k * ln2_lo)) - f);
+    return k * ln2_hi - ((half_square - (s * (half_square + z * poly8(log_rest, z)) + k * ln2_lo)) - f);
 }
-
-/* (e^r - 1 - r)/r^2 in |r| <= 0.3467: 2^-60 */
-static const double exp_rest[12] = {
-    0x1.0000000000000p-1, 0x1.5555555555555p-3, 0x1.5555555555557p-5, 0x1.1111111111111p-7,
-    0x1.6c16c16c15a5fp-10, 0x1.a01a01a0196a7p-13, 0x1.a01a01a9ed901p-16, 0x1.71de3a5aa9dc9p-19,
-    0x1.27e4d40eb84dfp-22, 0x1.ae642c777eecbp-26, 0x1.1f7f3b37e9a58p-29, 0x1.61bfbf339abc9p-33,
-};
 
 /* (sampling.12) e^(hi + lo) for |lo| << |hi|. hi = k ln 2 + r (Cody and Waite), e^r = 1 + r + r^2 P(r), times 2^k in
  * two steps because k is outside the range of exponents when the result is subnormal or near the largest double. */
 static inline double exp_sum(double hi, double lo)
 {
-    const double log2_e = 0x1.71547652b82fep+0, to_integer = 0x1.8p52;
     if (hi > 710.0 || hi < -746.0) { /* infinity and 0 all the same, and k fits */
         hi = hi > 0.0 ? 710.0 : -746.0;
         lo = 0.0;

@@ -5,11 +5,13 @@
  *   vmask       LANES truth values
  *   lanes_load / lanes_store / lanes_set     memory, and one value for all
  *   lanes_lt / lanes_le                      a < b, a <= b (false for NaN)
- *   lanes_and / lanes_or / lanes_any         of masks
+ *   lanes_and / lanes_or / lanes_any / lanes_all  of masks
  *   lanes_select(m, a, b)                    m ? a : b
  *   lanes_get(m, l)                          truth value of lane l
  *   lanes_sqrt(a)                            the correctly rounded square root
- * and + - * / of C. Every operation is the IEEE one in every width and instruction set (contraction is off for
+ *   vu          LANES words of 64 bits (a plain uint64_t for LANES 1)
+ *   lanes_bits(a) / lanes_double(b)          the words that represent the doubles, and back
+ * and + - * / of C, for words also & | ^ << >>. Every operation is the IEEE one in every width and instruction set (contraction is off for
  * the whole build), so a lane's bits depend on its own values alone. Intrinsics are used only where GNU C has no
  * operator: masks and selection. The names are undefined again by base/lanes_end.h. */
 #include <stdint.h>
@@ -24,6 +26,7 @@
 
 #define vd LANES_NAME(fracas_vd)
 #define vmask LANES_NAME(fracas_vmask)
+#define vu LANES_NAME(fracas_vu)
 #define lanes_load LANES_NAME(fracas_lanes_load)
 #define lanes_store LANES_NAME(fracas_lanes_store)
 #define lanes_set LANES_NAME(fracas_lanes_set)
@@ -32,15 +35,19 @@
 #define lanes_and LANES_NAME(fracas_lanes_and)
 #define lanes_or LANES_NAME(fracas_lanes_or)
 #define lanes_any LANES_NAME(fracas_lanes_any)
+#define lanes_all LANES_NAME(fracas_lanes_all)
 #define lanes_select LANES_NAME(fracas_lanes_select)
 #define lanes_get LANES_NAME(fracas_lanes_get)
 #define lanes_sqrt LANES_NAME(fracas_lanes_sqrt)
+#define lanes_bits LANES_NAME(fracas_lanes_bits)
+#define lanes_double LANES_NAME(fracas_lanes_double)
 #define LANES_FUNCTION __attribute__((unused, always_inline)) static inline
 
 #if LANES == 1
 
 typedef double vd;
 typedef int vmask;
+typedef uint64_t vu;
 LANES_FUNCTION vd lanes_load(const double *from) { return *from; }
 LANES_FUNCTION void lanes_store(double *to, vd x) { *to = x; }
 LANES_FUNCTION vd lanes_set(double x) { return x; }
@@ -49,6 +56,7 @@ LANES_FUNCTION vmask lanes_le(vd a, vd b) { return a <= b; }
 LANES_FUNCTION vmask lanes_and(vmask a, vmask b) { return a & b; }
 LANES_FUNCTION vmask lanes_or(vmask a, vmask b) { return a | b; }
 LANES_FUNCTION int lanes_any(vmask m) { return m; }
+LANES_FUNCTION int lanes_all(vmask m) { return m; }
 LANES_FUNCTION vd lanes_select(vmask m, vd a, vd b) { return m ? a : b; }
 LANES_FUNCTION int lanes_get(vmask m, int lane) { (void)lane; return m; }
 LANES_FUNCTION vd lanes_sqrt(vd a) { return __builtin_sqrt(a); }
@@ -56,6 +64,7 @@ LANES_FUNCTION vd lanes_sqrt(vd a) { return __builtin_sqrt(a); }
 #else
 
 typedef double vd __attribute__((vector_size(8 * LANES)));
+typedef uint64_t vu __attribute__((vector_size(8 * LANES)));
 LANES_FUNCTION vd lanes_load(const double *from)
 {
     vd x;
@@ -83,6 +92,7 @@ LANES_FUNCTION vmask lanes_le(vd a, vd b) { return _mm512_cmp_pd_mask((__m512d)a
 LANES_FUNCTION vmask lanes_and(vmask a, vmask b) { return (vmask)(a & b); }
 LANES_FUNCTION vmask lanes_or(vmask a, vmask b) { return (vmask)(a | b); }
 LANES_FUNCTION int lanes_any(vmask m) { return m != 0; }
+LANES_FUNCTION int lanes_all(vmask m) { return m == 0xff; }
 LANES_FUNCTION vd lanes_select(vmask m, vd a, vd b) { return (vd)_mm512_mask_blend_pd(m, (__m512d)b, (__m512d)a); }
 LANES_FUNCTION int lanes_get(vmask m, int lane) { return m >> lane & 1; }
 LANES_FUNCTION vd lanes_sqrt(vd a) { return (vd)_mm512_sqrt_pd((__m512d)a); }
@@ -95,6 +105,7 @@ LANES_FUNCTION vmask lanes_le(vd a, vd b) { return _mm256_cmp_pd((__m256d)a, (__
 LANES_FUNCTION vmask lanes_and(vmask a, vmask b) { return _mm256_and_pd(a, b); }
 LANES_FUNCTION vmask lanes_or(vmask a, vmask b) { return _mm256_or_pd(a, b); }
 LANES_FUNCTION int lanes_any(vmask m) { return _mm256_movemask_pd(m) != 0; }
+LANES_FUNCTION int lanes_all(vmask m) { return _mm256_movemask_pd(m) == 0xf; }
 LANES_FUNCTION vd lanes_select(vmask m, vd a, vd b) { return (vd)_mm256_blendv_pd((__m256d)b, (__m256d)a, m); }
 LANES_FUNCTION int lanes_get(vmask m, int lane) { return _mm256_movemask_pd(m) >> lane & 1; }
 LANES_FUNCTION vd lanes_sqrt(vd a) { return (vd)_mm256_sqrt_pd((__m256d)a); }
@@ -103,3 +114,16 @@ LANES_FUNCTION vd lanes_sqrt(vd a) { return (vd)_mm256_sqrt_pd((__m256d)a); }
 #error "4 lanes need AVX2, 8 lanes need AVX-512: narrower lanes in turn are faster than registers the CPU lacks"
 #endif
 #endif
+
+LANES_FUNCTION vu lanes_bits(vd a)
+{
+    vu b;
+    memcpy(&b, &a, sizeof b);
+    return b;
+}
+LANES_FUNCTION vd lanes_double(vu b)
+{
+    vd a;
+    memcpy(&a, &b, sizeof a);
+    return a;
+}

@@ -3,6 +3,7 @@
 #define FRACAS_ENGINE_ENGINE_H
 
 #include "base/err.h"
+#include "base/isa.h"
 #include "engine/record.h"
 #include "engine/spec.h"
 
@@ -49,14 +50,6 @@ double fracas_model_period(const fracas_model *model);
 /* Checks one strength [Pa] against the mesh: FRACAS_USAGE, saying what would do, where the law could not
  * dissipate G_c (K <= sigma_c/delta_c). */
 FRACAS_MUST_USE fracas_err fracas_model_check_strength(const fracas_model *model, double strength);
-
-/* Instruction sets a batch can run with; all give the same bits. */
-typedef enum { FRACAS_ISA_BASELINE, FRACAS_ISA_AVX2, FRACAS_ISA_AVX512, FRACAS_ISA_BEST } fracas_isa;
-#define FRACAS_NISAS FRACAS_ISA_BEST
-extern const char *const fracas_isa_name[FRACAS_NISAS]; /* "baseline", "avx2", "avx512" */
-
-/* *isa = wanted, or the best that this CPU has for FRACAS_ISA_BEST; FRACAS_USAGE if it lacks the one wanted. */
-FRACAS_MUST_USE fracas_err fracas_isa_choose(fracas_isa wanted, fracas_isa *isa);
 
 typedef struct {
     int64_t history;  /* equal intervals of time.end at which a history row is kept; 0: only the events */

@@ -2,6 +2,7 @@
 #ifndef FRACAS_SAMPLER_STREAM_H
 #define FRACAS_SAMPLER_STREAM_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 /* The name of a stream of random numbers: a value depends on this and its place, on nothing else. */
@@ -26,5 +27,8 @@ static inline uint64_t fracas_stream_site(uint64_t interface, uint64_t point)
  * as ((x >> 12) + 1/2) 2^-52.
  * u and 1 - u are both exact, from 2^-53 to 1 - 2^-53 (with 53 bits of x, u could round to 1). */
 double fracas_stream_uniform(const fracas_stream *stream, uint64_t site);
+
+/* u[j] = that of site first + j, 0 <= j < n. */
+void fracas_stream_fill(const fracas_stream *stream, uint64_t first, size_t n, double *u);
 
 #endif

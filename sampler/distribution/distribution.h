@@ -3,6 +3,8 @@
 #define FRACAS_SAMPLER_DISTRIBUTION_H
 
 #include "base/err.h"
+#include "base/isa.h"
+#include "sampler/distribution/blocks.h"
 #include "sampler/strength.h"
 
 typedef struct {
@@ -26,6 +28,7 @@ typedef struct {
     /* Both NULL where strengths are drawn: how many there are, and sigma_c[i*stride] = that of interface i. */
     size_t (*count)(const fracas_strength *strength);
     fracas_err (*fill)(const fracas_strength *strength, size_t n, const double (*position)[3], size_t stride, double *sigma_c);
+    fracas_block_quantile *block[FRACAS_NISAS]; /* the quantile of whole blocks, by instruction set; all NULL: of one number at a time */
     bool placed; /* they are found by position, not by number */
 } fracas_distribution;
 

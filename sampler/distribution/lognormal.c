@@ -52,4 +52,5 @@ const fracas_distribution fracas_lognormal = {
              .nparams = FRACAS_COUNT(params)},
     .quantile = lognormal_quantile, .moments = lognormal_moments, .init = lognormal_init,
     .takes_reference = true, .far = lognormal_far, .far_from = 700.0,
+    .block = FRACAS_BLOCKS(fracas_lognormal),
 };

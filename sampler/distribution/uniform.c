@@ -55,4 +55,5 @@ const fracas_distribution fracas_uniform = {
     .kind = {.name = "uniform", .doc = "every strength between two bounds equally likely", .params = params,
              .nparams = FRACAS_COUNT(params)},
     .quantile = uniform_quantile, .moments = uniform_moments, .init = uniform_init, .takes_reference = true, .weakest = uniform_weakest,
+    .block = FRACAS_BLOCKS(fracas_uniform),
 };

@@ -72,4 +72,5 @@ const fracas_distribution fracas_weibull = {
              .params = params, .nparams = FRACAS_COUNT(params)},
     .quantile = weibull_quantile, .moments = weibull_moments, .init = weibull_init,
     .takes_reference = true, .far = weibull_far, .far_from = 0.0, .weakest = weibull_weakest,
+    .block = FRACAS_BLOCKS(fracas_weibull),
 };

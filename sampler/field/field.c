@@ -13,6 +13,7 @@ struct fracas_field {
     fracas_extent *extent; /* [n] */
     double *given;         /* [n*points], where strengths are given; else NULL */
     double *factor;        /* [n*points], where the material is graded; else NULL */
+    fracas_isa isa;
 };
 
 /* A copy of `count` elements; NULL without memory. */
@@ -37,6 +38,7 @@ fracas_err fracas_field_create(const fracas_strength *strength, const fracas_sit
     *made = (fracas_field){.strength = strength, .n = sites->n, .points = sites->points};
     made->extent = copy_of(sites->extent, sites->n, sizeof *made->extent);
     fracas_err err = made->extent ? FRACAS_OK : fracas_no_memory("a strength field");
+    if (!err) err = fracas_isa_choose(FRACAS_ISA_BEST, &made->isa);
     if (!err && fracas_strength_is_given(strength)) err = read_given(made, sites);
     else if (!err && !(err = fracas_strength_init(strength, &made->drawn))) made->strength = &made->drawn;
     if (!err) err = fracas_grading_create(strength, sites->n * sites->points, sites->position, &made->factor);
@@ -60,10 +62,35 @@ size_t fracas_field_size(const fracas_field *field)
     return field->n * field->points;
 }
 
+fracas_err fracas_field_use(fracas_field *field, fracas_isa isa)
+{
+    return fracas_isa_choose(isa, &field->isa);
+}
+
+/* (sampling.3) over lanes: the sites of a Gauss point are successive. Lanes beyond the last interface draw numbers of no use. */
+static void sample_blocks(const fracas_field *field, fracas_block_quantile *quantile, const fracas_stream *stream, size_t stride,
+                          double *sigma_c)
+{
+    enum { BLOCK = 32 * FRACAS_BLOCK_LANES };
+    double u[BLOCK] __attribute__((aligned(64))), x[BLOCK] __attribute__((aligned(64)));
+    const size_t next = field->points * stride;
+    for (size_t g = 0; g < field->points; g++)
+        for (size_t i = 0; i < field->n; i += BLOCK) {
+            const size_t left = field->n - i, count = left < BLOCK ? left : BLOCK;
+            const size_t whole = (count + FRACAS_BLOCK_LANES - 1) / FRACAS_BLOCK_LANES * FRACAS_BLOCK_LANES;
+            fracas_stream_fill(stream, fracas_stream_site(i, g), whole, u);
+            quantile(field->strength, whole, u, x);
+            for (size_t j = 0; j < count; j++) sigma_c[g * stride + (i + j) * next] = x[j];
+        }
+}
+
 /* (sampling.3) */
 fracas_err fracas_field_sample(const fracas_field *field, const fracas_stream *stream, size_t stride, double *sigma_c)
 {
-    for (size_t i = 0, k = 0; i < field->n; i++)
+    fracas_block_quantile *block = fracas_distribution_of(field->strength)->block[field->isa];
+    if (fracas_strength_has_size_effect(field->strength)) block = NULL; /* blocks know no extents */
+    if (block) sample_blocks(field, block, stream, stride, sigma_c);
+    for (size_t i = 0, k = 0; i < field->n && !block; i++)
         for (size_t g = 0; g < field->points; g++, k++) {
             if (field->given) {
                 sigma_c[k * stride] = field->given[k];

@@ -2,6 +2,7 @@
 #ifndef FRACAS_SAMPLER_FIELD_FIELD_H
 #define FRACAS_SAMPLER_FIELD_FIELD_H
 
+#include "base/isa.h"
 #include "sampler/strength.h"
 #include "sampler/stream.h"
 
@@ -20,6 +21,9 @@ typedef struct fracas_field fracas_field;
  * FRACAS_USAGE where they do not go together (a file with other places than these), FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_field_create(const fracas_strength *strength, const fracas_sites *sites, fracas_field **field);
 void fracas_field_destroy(fracas_field *field); /* NULL is allowed */
+
+/* Draws with this instruction set instead of the best of this CPU; all give the same bits. FRACAS_USAGE if the CPU lacks it. */
+FRACAS_MUST_USE fracas_err fracas_field_use(fracas_field *field, fracas_isa isa);
 
 /* Number of strengths of a realization, n*points. */
 size_t fracas_field_size(const fracas_field *field);

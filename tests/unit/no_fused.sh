@@ -13,10 +13,12 @@ for library in base engine sampler; do
     fi
 done
 # Each kernel's objects were looked at, with the registers that they are for.
-for kernel in bar_sweep ring_sweep membrane shell; do
+for kernel in bar_sweep ring_sweep membrane shell blocks; do
+    library=engine
+    [ $kernel != blocks ] || library=sampler
     for registers in avx2:ymm avx512:zmm; do
         object=${kernel}_${registers%:*}.c.o
-        ar p "$1/libfracas_engine.a" "$object" >"$1/object.o" 2>/dev/null || { echo "the engine has no $object"; exit 1; }
+        ar p "$1/libfracas_$library.a" "$object" >"$1/object.o" 2>/dev/null || { echo "the $library has no $object"; exit 1; }
         objdump -d --no-show-raw-insn "$1/object.o" | grep -q "vmulpd.*${registers#*:}" || { echo "$object has no vector instruction"; exit 1; }
     done
 done

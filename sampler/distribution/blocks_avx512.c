@@ -1,0 +1,3 @@
+#define ISA avx512
+#define LANES 8
+#include "sampler/distribution/blocks_template.h"

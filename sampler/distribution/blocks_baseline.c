@@ -1,0 +1,3 @@
+#define ISA baseline
+#define LANES 1
+#include "sampler/distribution/blocks_template.h"

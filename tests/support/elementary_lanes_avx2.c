@@ -1,0 +1,3 @@
+#define ISA avx2
+#define LANES 4
+#include "tests/support/elementary_lanes_template.h"

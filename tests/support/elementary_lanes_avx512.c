@@ -1,0 +1,3 @@
+#define ISA avx512
+#define LANES 8
+#include "tests/support/elementary_lanes_template.h"

@@ -1,0 +1,3 @@
+#define ISA baseline
+#define LANES 1
+#include "tests/support/elementary_lanes_template.h"

@@ -1,0 +1,119 @@
+/* base/elementary_lanes.h: the bits of the scalar functions, for every argument, on every instruction set of this CPU. */
+#include "base/elementary.h"
+#include "base/isa.h"
+#include "tests/support/elementary_lanes.h"
+
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { N = 1 << 20 };
+static double x[N] __attribute__((aligned(64))), y[N] __attribute__((aligned(64)));
+
+static uint64_t word(uint64_t i)
+{
+    return (i + 1) * 0x9e3779b97f4a7c15;
+}
+
+static double between(double a, double b, uint64_t i)
+{
+    return a + (b - a) * ((double)(word(i) >> 11) * 0x1p-53);
+}
+
+static double double_of(uint64_t bits)
+{
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* Bits, not values: 0 and -0, and every NaN, differ. */
+static void assert_same_bits(const char *what, double (*scalar)(double), over_lanes *const lanes[FRACAS_NISAS])
+{
+    for (fracas_isa isa = FRACAS_ISA_BASELINE; isa < FRACAS_NISAS; isa++) {
+        fracas_isa had;
+        if (fracas_isa_choose(isa, &had)) {
+            print_message("[  skipped ] this CPU has no %s\n", fracas_isa_name[isa]);
+            continue;
+        }
+        lanes[isa](N, x, y);
+        for (size_t i = 0; i < N; i++) {
+            const double expected = scalar(x[i]);
+            if (memcmp(&expected, &y[i], sizeof expected) != 0)
+                fail_msg("%s(%a), %s: %a, the scalar function has %a", what, x[i], fracas_isa_name[isa], y[i], expected);
+        }
+    }
+}
+
+/* A value and its neighbours, each in every lane among usual ones. */
+static void fill_special(double usual)
+{
+    const double special[] = {0.0, -0.0, INFINITY, -INFINITY, NAN, -NAN, 0x1p-1074, DBL_MIN, DBL_MAX, -DBL_MAX, 1.0, -1.0, 0x1p-537,
+                              sqrt(0.5), sqrt(2.0), 708.0, -708.0, 709.0, -708.4, 709.782712893384, 710.0, -745.133219101941, -746.0,
+                              1e300, 0.34657359027997264};
+    enum { SPECIAL = sizeof special / sizeof *special };
+    for (size_t i = 0; i < N; i++) x[i] = usual;
+    for (size_t s = 0; s < SPECIAL; s++)
+        for (size_t lane = 0; lane < 8; lane++) {
+            double *at = &x[(8 * s + lane) * 24 + lane];
+            at[0] = special[s];
+            at[8] = nextafter(special[s], INFINITY);
+            at[16] = nextafter(special[s], -INFINITY);
+        }
+}
+
+static over_lanes *const logs[FRACAS_NISAS] = {log_baseline, log_avx2, log_avx512};
+static over_lanes *const exps[FRACAS_NISAS] = {exp_baseline, exp_avx2, exp_avx512};
+
+static void log_has_the_same_bits(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < N; i++) x[i] = double_of(1 + word(i) % 0x7fefffffffffffff); /* all exponents, subnormal ones among them */
+    assert_same_bits("log", fracas_log, logs);
+    for (size_t i = 0; i < N; i++) x[i] = double_of(0x0010000000000000 + word(i) % 0x7fdfffffffffffff); /* normal ones */
+    assert_same_bits("log", fracas_log, logs);
+    for (size_t i = 0; i < N; i++) x[i] = 1.0 + ldexp(between(-0.5, 0.5, i), -(int)(i % 53));
+    assert_same_bits("log", fracas_log, logs);
+    for (size_t i = 0; i < N; i++) /* near 2^k sqrt(1/2), on both sides: k turns */
+        x[i] = double_of(0x0016a09e667f3bcd + (i % 2045 << 52) + (uint64_t)((int64_t)word(i) >> (16 + i % 48)));
+    assert_same_bits("log", fracas_log, logs);
+    for (size_t i = 0; i < N; i++) x[i] = double_of(word(i)); /* any bits */
+    assert_same_bits("log", fracas_log, logs);
+    fill_special(2.0);
+    assert_same_bits("log", fracas_log, logs);
+}
+
+static void exp_has_the_same_bits(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < N; i++) x[i] = between(-750.0, 712.0, i);
+    assert_same_bits("exp", fracas_exp, exps);
+    for (size_t i = 0; i < N; i++) x[i] = between(-708.0, 708.0, i); /* usual ones */
+    assert_same_bits("exp", fracas_exp, exps);
+    for (size_t i = 0; i < N; i++) x[i] = ldexp(between(-0.5, 0.5, i), -(int)(i % 60));
+    assert_same_bits("exp", fracas_exp, exps);
+    const double ln_2 = 0x1.62e42fefa39efp-1;
+    for (size_t i = 0; i < N; i++) /* near (j + 1/2) ln 2: k turns */
+        x[i] = ((double)(i % 2000) - 1000.5) * ln_2 + ldexp(between(-0.5, 0.5, i), -(int)(i % 50));
+    assert_same_bits("exp", fracas_exp, exps);
+    for (size_t i = 0; i < N; i++) x[i] = double_of(word(i));
+    assert_same_bits("exp", fracas_exp, exps);
+    fill_special(2.0);
+    assert_same_bits("exp", fracas_exp, exps);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(log_has_the_same_bits),
+        cmocka_unit_test(exp_has_the_same_bits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
