@@ -68,6 +68,19 @@ static void test_points(void **state)
     }
 }
 
+static void test_shipped(void **state)
+{
+    (void)state;
+    fracas_campaign *campaign;
+    assert_int_equal(fracas_campaign_read(FRACAS_SOURCE_DIR "/campaigns/examples/bar-uncertain.yaml", &campaign), FRACAS_OK);
+    assert_int_equal(campaign->npoints, 64);
+    assert_true(campaign->common_random_numbers);
+    size_t varied = 0;
+    for (size_t c = 0; c < campaign->table.ncolumns; c++) varied += fracas_point_table_varies(&campaign->table, c);
+    assert_int_equal(varied, 5);
+    fracas_campaign_destroy(campaign);
+}
+
 /* Two designs and a list: the last axis runs fastest, and each design is as it is alone. */
 static void test_product(void **state)
 {
@@ -207,7 +220,7 @@ static void test_random_numbers_errors(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_points), cmocka_unit_test(test_product), cmocka_unit_test(test_drawn_with_kind),
+        cmocka_unit_test(test_points), cmocka_unit_test(test_shipped), cmocka_unit_test(test_product), cmocka_unit_test(test_drawn_with_kind),
         cmocka_unit_test(test_extension), cmocka_unit_test(test_hashes), cmocka_unit_test(test_common_random_numbers),
         cmocka_unit_test(test_common_hash), cmocka_unit_test(test_random_numbers_errors),
     };
