@@ -220,7 +220,8 @@ static void test_random_numbers_errors(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_points), cmocka_unit_test(test_shipped), cmocka_unit_test(test_product), cmocka_unit_test(test_drawn_with_kind),
+        cmocka_unit_test(test_points), cmocka_unit_test(test_shipped), cmocka_unit_test(test_product),
+        cmocka_unit_test(test_drawn_with_kind),
         cmocka_unit_test(test_extension), cmocka_unit_test(test_hashes), cmocka_unit_test(test_common_random_numbers),
         cmocka_unit_test(test_common_hash), cmocka_unit_test(test_random_numbers_errors),
     };
