@@ -46,9 +46,8 @@ static fracas_err check_number(const fracas_file *file, const fracas_node *key, 
 {
     const fracas_leaf *leaf = target->leaf;
     if (leaf && !fracas_leaf_is_text(leaf) && leaf->param->type != FRACAS_BOOLEAN) return FRACAS_OK;
-    return fracas_say(file->name, key, "`%s` is %s, which cannot be drawn; give it an axis of its own beside the design, as `- %s: [...]`", key->text,
-                      !leaf ? "a section" : !leaf->param ? "a kind" : leaf->param->type == FRACAS_BOOLEAN ? "true or false" : "no number",
-                      key->text);
+    return fracas_say(file->name, key, "`%s` is %s, which cannot be drawn; give it an axis of its own beside the design, as `- %s: [...]`",
+                      key->text, !leaf ? "a section" : leaf->param ? "no number" : "a kind", key->text);
 }
 
 /* One number of a law, "mean: 370 GPa", in the unit of the parameter where it has none of its own. */
@@ -79,8 +78,8 @@ static fracas_err read_law(const fracas_file *file, const fracas_leaf *leaf, con
     const fracas_section *laws = &fracas_uncertain_section;
     char found[256];
     if (node->type != FRACAS_MAP)
-        return fracas_say(file->name, node, "`%s`: found %s; expected a distribution, as {distribution: uniform, minimum: ..., maximum: ...}",
-                          leaf->path, fracas_say_found(node, found));
+        return fracas_say(file->name, node, "`%s`: found %s; expected a distribution, as {distribution: uniform, minimum: ..., "
+                          "maximum: ...}", leaf->path, fracas_say_found(node, found));
     TRY(read_kind(file, node, laws->selector, laws->kinds, laws->nkinds, &uncertain->law));
     TRY(check_law_keys(file, node, uncertain->law));
     for (size_t i = 0; i < uncertain->law->nparams; i++) {
@@ -163,8 +162,8 @@ static fracas_err read_pair(const fracas_file *file, const fracas_node *node, re
     double *pair[2] = {&read->correlation[j * read->design.parameters + k], &read->correlation[k * read->design.parameters + j]};
     if (j == k) return fracas_say(file->name, between, "`%s` twice; a correlation is between two parameters", read->leaf[j]->path);
     if (!isnan(*pair[0]))
-        return fracas_say(file->name, between, "the correlation between `%s` and `%s` is given twice; keep one of the two", read->leaf[j]->path,
-                          read->leaf[k]->path);
+        return fracas_say(file->name, between, "the correlation between `%s` and `%s` is given twice; keep one of the two",
+                          read->leaf[j]->path, read->leaf[k]->path);
     *pair[0] = *pair[1] = setting.value;
     return FRACAS_OK;
 }
@@ -179,9 +178,9 @@ static fracas_err check_correlation(const fracas_file *file, const fracas_node *
     if (fracas_correlation_factor(d, read->correlation, factor, &j, &rest)) return FRACAS_OK;
     for (size_t k = 1; k < j; k++)
         if (fabs(read->correlation[j * d + k]) > fabs(read->correlation[j * d + most])) most = k;
-    return fracas_say(file->name, list, "these coefficients contradict each other: those of `%s` with the parameters before it leave it %.3g of its "
-                      "variance, which must be more than 0; bring them nearer to 0, that with `%s` first (%.15g)", read->leaf[j]->path,
-                      rest, read->leaf[most]->path, read->correlation[j * d + most]);
+    return fracas_say(file->name, list, "these coefficients contradict each other: those of `%s` with the parameters before it leave it "
+                      "%.3g of its variance, which must be more than 0; bring them nearer to 0, that with `%s` first (%.15g)",
+                      read->leaf[j]->path, rest, read->leaf[most]->path, read->correlation[j * d + most]);
 }
 
 static fracas_err read_correlation(const fracas_file *file, const fracas_node *list, reading *read)
@@ -190,8 +189,8 @@ static fracas_err read_correlation(const fracas_file *file, const fracas_node *l
     char found[256];
     if (!list) return FRACAS_OK;
     if (list->type != FRACAS_LIST || list->count == 0)
-        return fracas_say(file->name, list, "`correlation`: found %s; expected a list, as `- {between: [PARAMETER, PARAMETER], coefficient: 0.5}`",
-                          list->type == FRACAS_LIST ? "nothing" : fracas_say_found(list, found));
+        return fracas_say(file->name, list, "`correlation`: found %s; expected a list, as `- {between: [PARAMETER, PARAMETER], "
+                          "coefficient: 0.5}`", list->type == FRACAS_LIST ? "nothing" : fracas_say_found(list, found));
     read->correlation = fracas_memory_take(file->memory, d * d, sizeof *read->correlation);
     if (!read->correlation) return fracas_no_memory("a design");
     for (size_t i = 0; i < d * d; i++) read->correlation[i] = i % (d + 1) == 0 ? 1.0 : NAN;

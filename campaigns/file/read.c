@@ -205,8 +205,8 @@ static fracas_err say_repeated(const reading *read, size_t earlier, size_t later
         there = before->node;
     }
     if (here == there)
-        return fracas_say(read->file.name, here, "points %zu and %zu of the sweep have the same values, as a design of whole numbers has few "
-                          "to choose from; give it fewer points, or a parameter that is not a whole number", earlier + 1, later + 1);
+        return fracas_say(read->file.name, here, "points %zu and %zu of the sweep have the same values, as a design of whole numbers has "
+                          "few to choose from; give it fewer points, or a parameter that is not a whole number", earlier + 1, later + 1);
     return fracas_say(read->file.name, here,
                       "points %zu and %zu of the sweep have the same values (compare line %d, column "
                       "%d); remove one, and raise `replicas` for more realizations",

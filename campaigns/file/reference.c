@@ -122,8 +122,8 @@ static void write_section(const fracas_catalog *catalog, const fracas_section *s
 static void write_designs(FILE *out)
 {
     const fracas_section *laws = &fracas_uncertain_section;
-    fprintf(out, "\n## Designs of the sweep\n\nAxes whose values are drawn: [campaign-file.md](campaign-file.md#designs). A number whose unit is called its own has that of its parameter.\n\n| `type:` | meaning |\n"
-                 "|---|---|\n");
+    fprintf(out, "\n## Designs of the sweep\n\nAxes whose values are drawn: [campaign-file.md](campaign-file.md#designs). A number whose "
+                 "unit is called its own has that of its parameter.\n\n| `type:` | meaning |\n|---|---|\n");
     for (size_t t = 0; t < FRACAS_COUNT(fracas_design_types); t++)
         fprintf(out, "| `%s` | %s |\n", fracas_design_types[t]->name, fracas_design_types[t]->doc);
     fprintf(out, "\n| `%s:` | meaning |\n|---|---|\n", laws->selector);

@@ -40,6 +40,9 @@ expect 0 "$fracas" run one/campaign.yaml --study resolved --jobs 2
 same one resolved
 cmp one/campaign.yaml resolved/campaign.yaml || fail "the resolved file of a resolved file is another"
 
+/usr/bin/python3 "$source/docs/examples/influence_from_study.py" one/study.h5 > influence
+[ "$(cut -f1 influence | tr '\n' ' ')" = 'parameter loading.rate material.young ' ] || fail "influence: $(cat influence)"
+
 # More points: of a Sobol sequence, the same study as computed at once; a Latin hypercube is another one.
 bars few.yaml independent sobol 4 2
 bars more.yaml independent sobol 7 2

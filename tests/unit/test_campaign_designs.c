@@ -44,7 +44,8 @@ static void test_points(void **state)
     (void)state;
     static const char *const types[] = {"latin-hypercube\n      points: 9", "sobol\n      points: 9", "random\n      points: 9"};
     const double tied[16] = {1, 0.5, 0, 0, 0.5, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    const uint64_t name[4] = {name_of("material.young"), name_of("cohesive.fracture_energy"), name_of("loading.rate"), name_of("mesh.elements")};
+    const uint64_t name[4] = {name_of("material.young"), name_of("cohesive.fracture_energy"), name_of("loading.rate"),
+                              name_of("mesh.elements")};
     const fracas_uncertain young = {.law = law("normal"), .mean = 370e9, .deviation = 10e9, .minimum = 365e9, .maximum = NAN};
     const fracas_uncertain energy = {.law = law("weibull"), .minimum = 0, .scale = 50, .shape = 10};
     const fracas_uncertain rate = {.law = law("log-uniform"), .minimum = 1e3, .maximum = 1e5};
@@ -65,6 +66,19 @@ static void test_points(void **state)
         }
         fracas_campaign_destroy(campaign);
     }
+}
+
+static void test_shipped(void **state)
+{
+    (void)state;
+    fracas_campaign *campaign;
+    assert_int_equal(fracas_campaign_read(FRACAS_SOURCE_DIR "/campaigns/examples/bar-uncertain.yaml", &campaign), FRACAS_OK);
+    assert_int_equal(campaign->npoints, 64);
+    assert_true(campaign->common_random_numbers);
+    size_t varied = 0;
+    for (size_t c = 0; c < campaign->table.ncolumns; c++) varied += fracas_point_table_varies(&campaign->table, c);
+    assert_int_equal(varied, 5);
+    fracas_campaign_destroy(campaign);
 }
 
 /* Two designs and a list: the last axis runs fastest, and each design is as it is alone. */
@@ -131,8 +145,8 @@ static void test_hashes(void **state)
     int used = snprintf(sweep, sizeof sweep, "sweep:\n  - cases:\n");
     for (size_t p = 0; p < 4; p++) {
         const fracas_spec *spec = &drawn->point[p].spec;
-        used += snprintf(sweep + used, sizeof sweep - (size_t)used, "    - {material.young: %.15g, mesh.elements: %d}\n", spec->material.young,
-                         (int)spec->mesh.elements);
+        used += snprintf(sweep + used, sizeof sweep - (size_t)used, "    - {material.young: %.15g, mesh.elements: %d}\n",
+                         spec->material.young, (int)spec->mesh.elements);
     }
     fracas_campaign *written = read_replaced("", sweep);
     assert_true(fracas_hash_equal(&drawn->hash, &written->hash));
@@ -149,8 +163,7 @@ static bool same_stream(const fracas_campaign *campaign, size_t p, size_t q, uin
     return fracas_stream_uniform(&a, 5) == fracas_stream_uniform(&b, 5);
 }
 
-/* `common` changes the campaign's hash and no point's, and the numbers; `independent` is the default. The strings of the hash were
- * put through xxhsum -H2, as docs/formats/campaign-file.md says. */
+/* `common` changes the campaign's hash and no point's, and the numbers; `independent` is the default. */
 static void test_common_random_numbers(void **state)
 {
     (void)state;
@@ -176,6 +189,7 @@ static void test_common_random_numbers(void **state)
     fracas_campaign_destroy(common);
 }
 
+/* By xxhsum -H2 of what docs/formats/campaign-file.md says, not by this program. */
 static void test_common_hash(void **state)
 {
     (void)state;
@@ -206,7 +220,8 @@ static void test_random_numbers_errors(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_points), cmocka_unit_test(test_product), cmocka_unit_test(test_drawn_with_kind),
+        cmocka_unit_test(test_points), cmocka_unit_test(test_shipped), cmocka_unit_test(test_product),
+        cmocka_unit_test(test_drawn_with_kind),
         cmocka_unit_test(test_extension), cmocka_unit_test(test_hashes), cmocka_unit_test(test_common_random_numbers),
         cmocka_unit_test(test_common_hash), cmocka_unit_test(test_random_numbers_errors),
     };

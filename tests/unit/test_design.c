@@ -102,7 +102,8 @@ static void test_sobol_is_gsl_shifted(void **state)
 static void test_golden_bits(void **state)
 {
     (void)state;
-    static const uint64_t golden[TYPES][2] = {{0xc82047bbd9dbd2f1, 0xd804efcea83840c3}, {0x3c63ccbee4cfc541, 0xdef7fd98d374afe5}, {0x475c24d0617679c7, 0x457fc82db5f4f573}};
+    static const uint64_t golden[TYPES][2] = {
+        {0xc82047bbd9dbd2f1, 0xd804efcea83840c3}, {0x3c63ccbee4cfc541, 0xdef7fd98d374afe5}, {0x475c24d0617679c7, 0x457fc82db5f4f573}};
     for (int type = 0; type < TYPES; type++)
         for (int tied = 0; tied < 2; tied++) {
             fracas_probability *p = fill(type, 300, 3, tied ? three_tied : NULL);
