@@ -6,6 +6,8 @@
 #include "engine/integrator/integrator.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 /* A body that breaks: E 320 GPa, nu 0.3, rho 3300, G_c 200 J/m2; a plate of 6 mm x 5 mm, an annulus of 2 to 4 mm, a sphere of 1.5 mm. */
 static fracas_spec body_of(const fracas_formulation *formulation, const fracas_kind *shape, int64_t order, int64_t divisions)
@@ -64,6 +66,25 @@ static void equal_strengths_are_as_one(void **unused)
         }
 }
 
+static void every_one_is_checked(void **unused)
+{
+    (void)unused;
+    fracas_spec spec = body_of(&fracas_formulation_membrane, &fracas_shape_plate, 1, 2);
+    spec.strength_per_point = true;
+    fracas_model *model = distorted_model(spec, 0, 0);
+    fracas_batch *batch;
+    assert_ok(fracas_batch_create(model, 1, &(fracas_batch_options){.isa = FRACAS_ISA_BEST}, &batch));
+    for (size_t k = 0; k < strengths_of(model); k++) bar_set_strength(batch, 0, k, 300e6);
+    assert_ok(fracas_batch_begin(batch));
+    bar_set_strength(batch, 0, strengths_of(model) - 1, 0);
+    assert_int_equal(fracas_batch_begin(batch), FRACAS_USAGE);
+    char words[60];
+    snprintf(words, sizeof words, "interface %zu: strength of 0 Pa", model->interfaces - 1);
+    assert_non_null(strstr(fracas_message(), words));
+    fracas_batch_destroy(batch);
+    fracas_model_destroy(model);
+}
+
 static void chains_have_one(void **unused)
 {
     (void)unused;
@@ -117,7 +138,7 @@ static void positions_are_those_of_gauss(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(equal_strengths_are_as_one), cmocka_unit_test(chains_have_one),
-                                       cmocka_unit_test(positions_are_those_of_gauss)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(equal_strengths_are_as_one), cmocka_unit_test(every_one_is_checked),
+                                       cmocka_unit_test(chains_have_one), cmocka_unit_test(positions_are_those_of_gauss)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
