@@ -44,7 +44,7 @@ static double strength_at(const fracas_point *point, fracas_extent extent, doubl
 static fracas_err check_strongest(const fracas_model *model, const fracas_point *point, fracas_extent extent)
 {
     if (fracas_model_interfaces(model) == 0) return FRACAS_OK; /* a single triangle */
-    const double drawn = (double)fracas_model_interfaces(model) * (double)point->replicas;
+    const double drawn = (double)fracas_model_interfaces(model) * (double)fracas_point_most(point);
     const double u = fmin(1.0 - 0.01 / drawn, 1.0 - 0x1p-53);
     fracas_err err = fracas_model_check_strength(model, strength_at(point, extent, u));
     return err ? fracas_fail_within(err, "the strongest of %.3g interfaces (all replicas together)", drawn) : FRACAS_OK;
@@ -424,9 +424,9 @@ fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs, fracas
     for (size_t p = 0; p < campaign->npoints; p++) {
         const fracas_point *point = &campaign->point[p];
         TRY(forecast_timed(campaign, p, forecast));
-        const double work = (double)forecast[p].elements * (double)forecast[p].steps * (double)point->replicas;
+        const double work = (double)forecast[p].elements * (double)forecast[p].steps * (double)fracas_point_most(point);
         forecast[p].time = work / (forecast[p].speed * jobs);
-        forecast[p].bytes = realization_bytes(&campaign->output, &forecast[p]) * (double)point->replicas;
+        forecast[p].bytes = realization_bytes(&campaign->output, &forecast[p]) * (double)fracas_point_most(point);
     }
     return FRACAS_OK;
 }
