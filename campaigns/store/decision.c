@@ -22,6 +22,12 @@ bool fracas_decision_same(const fracas_decision *a, const fracas_decision *b)
            a->relative_half_width == b->relative_half_width && a->confidence == b->confidence;
 }
 
+bool fracas_decision_valid(const fracas_decision *d)
+{
+    return d->round >= 0 && d->replicas > 0 && d->used >= 0 && d->used <= d->replicas && d->stop >= 0 && d->stop <= 2 &&
+           d->quantity >= 0 && d->quantity <= 2;
+}
+
 static double real_at(sqlite3_stmt *s, int column) /* NULL is NaN */
 {
     return sqlite3_column_type(s, column) == SQLITE_NULL ? NAN : sqlite3_column_double(s, column);
@@ -78,6 +84,8 @@ fracas_err fracas_index_decisions(fracas_index *index, const fracas_hash *point,
             .mean = real_at(s, 3), .half_width = real_at(s, 4), .stop = sqlite3_column_int64(s, 5),
             .quantity = sqlite3_column_int64(s, 6), .minimum = sqlite3_column_int64(s, 7), .maximum = sqlite3_column_int64(s, 8),
             .relative_half_width = real_at(s, 9), .confidence = real_at(s, 10)};
+        if (!fracas_decision_valid(&(*decision)[*count]))
+            err = fracas_fail(FRACAS_DAMAGED, "%s: a row of its table `decision` is damaged", index->path);
     }
     fracas_index_reset(index, FRACAS_SQL_DECISION_OF_POINT);
     if (err) free(*decision), *decision = NULL;

@@ -290,8 +290,9 @@ fracas_err fracas_reader_decisions(fracas_reader *reader, fracas_decision **deci
     if (!*decision) return fracas_no_memory("the decisions of a study");
     fracas_err err = *count ? load_rows(reader, FRACAS_SET_DECISION, 0, *count, *decision) : FRACAS_OK;
     for (size_t d = 0; !err && d < *count; d++)
-        if ((*decision)[d].point < 0 || (uint64_t)(*decision)[d].point >= reader->points.table.npoints)
-            err = damaged(reader, "/decision/point", "a decision is of no point of the file");
+        if (!fracas_decision_valid(&(*decision)[d]) || (*decision)[d].point < 0 ||
+            (uint64_t)(*decision)[d].point >= reader->points.table.npoints)
+            err = damaged(reader, "/decision", "a decision is of no point of the file, or out of range");
     if (err) free(*decision), *decision = NULL;
     return err;
 }

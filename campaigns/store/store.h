@@ -48,6 +48,9 @@ typedef struct {
     double relative_half_width, confidence;
 } fracas_decision;
 
+/* Every number that names something is one of those that do. */
+bool fracas_decision_valid(const fracas_decision *decision);
+
 /* Equal to the bit, NaNs alike. */
 bool fracas_decision_same(const fracas_decision *a, const fracas_decision *b);
 
