@@ -39,6 +39,7 @@ static fracas_sequential_decision estimate(const fracas_sequential_rule *rule, c
     return made;
 }
 
+/* (sequential.6) */
 static bool is_narrow(const fracas_sequential_rule *rule, const fracas_sequential_decision *made)
 {
     return made->half_width <= rule->relative_half_width * fabs(made->mean); /* false with NaN */

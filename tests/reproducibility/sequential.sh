@@ -98,6 +98,21 @@ for quantity in mean-size dissipated; do
     same "$quantity" "$quantity-1"
 done
 
+# A quantity is that of the report.
+for quantity in mean-count:count:one mean-size:size:mean-size dissipated:dissipated:dissipated; do
+    "$fracas" report "${quantity##*:}" --json > report.json
+    /usr/bin/python3 - "$quantity" <<'END'
+import json, sys
+quantity, key, _ = sys.argv[1].split(":")
+for point in json.load(open("report.json"))["points"]:
+    decision, mean = point["decision"], point["statistics"][key + ".mean"]
+    half_width = point["statistics"][key + ".half_width"]
+    assert decision["quantity"] == quantity and decision["used"] == point["statistics"][key + ".n"] > 0
+    # The same sums in another way: some tens of roundings; of Student's t 1e-12.
+    assert abs(decision["mean"] / mean - 1) < 1e-13 and abs(decision["half_width"] / half_width - 1) < 1e-10, (decision, mean)
+END
+done
+
 # A realization that crashes for good counts for the round, not for the mean.
 export FRACAS_TEST_CRASH=0:9
 expect 1 "$fracas" run one.yaml --study crashed --jobs 2
