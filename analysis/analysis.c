@@ -78,12 +78,11 @@ static fracas_err read_decisions(fracas_analysis *analysis)
 {
     fracas_decision *all;
     size_t count;
-    analysis->decision = calloc(analysis->table->npoints + 1, sizeof *analysis->decision);
-    if (!analysis->decision) return fracas_no_memory("the decisions of the study");
     TRY(fracas_reader_decisions(analysis->reader, &all, &count));
-    for (size_t d = 0; d < count; d++) analysis->decision[all[d].point] = all[d];
+    if (count > 0) analysis->decision = calloc(analysis->table->npoints, sizeof *analysis->decision);
+    for (size_t d = 0; analysis->decision && d < count; d++) analysis->decision[all[d].point] = all[d];
     free(all);
-    return FRACAS_OK;
+    return count > 0 && !analysis->decision ? fracas_no_memory("the decisions of the study") : FRACAS_OK;
 }
 
 static fracas_err analyse(const char *study, fracas_analysis *analysis)
@@ -132,6 +131,11 @@ void fracas_analysis_label(const fracas_analysis *analysis, size_t point, char *
     fracas_columns_label(analysis->table, &analysis->shown, point, text, size);
 }
 
+const fracas_decision *fracas_analysis_decision(const fracas_analysis *analysis, size_t point)
+{
+    return analysis->decision && analysis->decision[point].replicas > 0 ? &analysis->decision[point] : NULL;
+}
+
 const char *fracas_analysis_quantity(const fracas_decision *decision)
 {
     static const char *const name[] = {"mean-count", "mean-size", "dissipated"};
@@ -140,8 +144,8 @@ const char *fracas_analysis_quantity(const fracas_decision *decision)
 
 bool fracas_analysis_decided(const fracas_analysis *analysis, size_t point, char *text, size_t size)
 {
-    const fracas_decision *last = &analysis->decision[point];
-    if (last->replicas == 0) return false;
+    const fracas_decision *last = fracas_analysis_decision(analysis, point);
+    if (!last) return false;
     char label[256], found[32];
     fracas_analysis_label(analysis, point, label, sizeof label);
     fracas_format_digits(100 * last->half_width / fabs(last->mean), 2, found, sizeof found);

@@ -36,7 +36,7 @@ static void write_statistics(fracas_json *json, const fracas_point_statistics *s
 
 static void write_decision(fracas_json *json, const fracas_decision *last)
 {
-    if (last->replicas == 0) return;
+    if (!last) return;
     fracas_json_object(json, "decision");
     fracas_json_text(json, "quantity", fracas_analysis_quantity(last));
     fracas_json_integer(json, "rounds", last->round + 1);
@@ -58,7 +58,7 @@ static void write_point(fracas_json *json, const fracas_analysis *analysis, size
     fracas_json_text(json, "label", label);
     fracas_json_text(json, "hash", hash);
     fracas_json_integer(json, "replicas", analysis->table->point[p].replicas);
-    write_decision(json, &analysis->decision[p]);
+    write_decision(json, fracas_analysis_decision(analysis, p));
     write_parameters(json, analysis->table, p);
     write_statistics(json, &analysis->point[p]);
     fracas_json_close_object(json);

@@ -77,7 +77,7 @@ static void warn_of_point(const fracas_point_statistics *statistics, size_t p, w
 
 static void warn_of_decision(const fracas_decision *last, size_t p, warning_list *list)
 {
-    if (last->replicas == 0 || last->stop != 2) return;
+    if (!last || last->stop != 2) return;
     char found[32];
     fracas_format_digits(100 * last->half_width / fabs(last->mean), 2, found, sizeof found);
     warn(list, p, "at the maximum of %lld replicas %s is known to %s %%, not to the %.3g %% asked for: raise replicas.maximum",
@@ -93,7 +93,7 @@ fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warn
         warn(&list, SIZE_MAX, "the study is not complete: realizations are missing or FAILED");
     for (size_t p = 0; p < npoints; p++) {
         warn_of_point(&analysis->point[p], p, &list);
-        warn_of_decision(&analysis->decision[p], p, &list);
+        warn_of_decision(fracas_analysis_decision(analysis, p), p, &list);
         const double zones = fracas_columns_real(analysis->table, p, "cohesive.zone") / analysis->point[p].size.mean;
         if (zones > zone_limit)
             warn(&list, p, "cohesive.zone is %.2g of a mean fragment (more than 0.25): it influences the size: shorten it", zones);
