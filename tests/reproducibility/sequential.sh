@@ -32,9 +32,9 @@ compare one.yaml --jobs 1 --lanes 1
 
 # Killed: everything at random times, until it is complete.
 kill=0
-while [ $kill -lt 6 ]; do
+while [ $kill -lt 4 ]; do
     start one.yaml --study killed --jobs 2 --lanes 1 --segment-size 1e-6
-    wait_segments killed $((kill * 12 + 1))
+    wait_segments killed $((kill * 20 + 1))
     sleep "0.0$(random 10 49)"
     kill_session
     [ -e killed/study.h5 ] && break

@@ -210,6 +210,60 @@ static void a_stronger_rule_decides_again(void **state)
     fracas_campaign_destroy(now);
 }
 
+static void mean_size_by_hand(void **state)
+{
+    (void)state;
+    fracas_fragment fragment[4] = {{.size = 1}, {.size = 2}, {.size = 3}, {.size = 6}};
+    const fracas_record record = {.fragment = fragment, .nfragment = 4}, none = {.fragment = NULL};
+    assert_true(fracas_record_mean_size(&record) == 3);
+    assert_true(isnan(fracas_record_mean_size(&none)));
+}
+
+/* A larger maximum alone goes on where the smaller one ended. */
+static void a_larger_maximum_goes_on(void **state)
+{
+    (void)state;
+    fracas_rounds again;
+    commit(0, 0, 7, 0.5, FRACAS_FRAGMENTED);
+    OK(fracas_rounds_advance(&rounds, index_, 0));
+    commit(0, 8, 15, 0.5, FRACAS_FRAGMENTED);
+    OK(fracas_rounds_advance(&rounds, index_, 0));
+    commit(0, 16, 23, 0.5, FRACAS_FRAGMENTED);
+    OK(fracas_rounds_advance(&rounds, index_, 0));
+    assert_int_equal(rounds.open, 1); /* 0.216 is more than 0.1, but 24 is the maximum */
+    fracas_campaign *now = make("{minimum: 8, maximum: 25, until: {quantity: dissipated, relative-half-width: 0.1}}");
+    OK(fracas_index_plan(index_, &now->table));
+    OK(fracas_rounds_init(&again, now, index_));
+    assert_int_equal(again.open, 2);
+    assert_int_equal(again.point[0].replicas, 25);
+    assert_int_equal(rows_of(0), 25);
+    fracas_rounds_clear(&again);
+    fracas_campaign_destroy(now);
+}
+
+/* Each quantity is its own column: fragments 5, size 0.01, dissipated 1 in the mean. */
+static void a_rule_looks_at_its_quantity(void **state)
+{
+    (void)state;
+    static const char *const quantity[] = {"mean-count", "mean-size", "dissipated"};
+    static const double mean[] = {5, 0.01, 1};
+    commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
+    for (int q = 0; q < 3; q++) {
+        char text[200];
+        fracas_decision *decision;
+        fracas_rounds again;
+        snprintf(text, sizeof text, "{minimum: 8, maximum: 24, until: {quantity: %s, relative-half-width: 0.2}}", quantity[q]);
+        fracas_campaign *now = make(text);
+        OK(fracas_rounds_init(&again, now, index_));
+        look(0, &decision, 1);
+        assert_int_equal(decision[0].quantity, q);
+        assert_true(fabs(decision[0].mean / mean[q] - 1) < 1e-15);
+        free(decision);
+        fracas_rounds_clear(&again);
+        fracas_campaign_destroy(now);
+    }
+}
+
 /* An index of before sizes were kept gets the column, but no values in it: they are in the segments. */
 static void an_older_index_is_brought_up(void **state)
 {
@@ -246,6 +300,9 @@ int main(void)
         ROUND(rounds_that_are_there_already_are_decided_at_once),
         ROUND(a_decision_that_does_not_follow_is_damage),
         ROUND(a_stronger_rule_decides_again),
+        cmocka_unit_test(mean_size_by_hand),
+        ROUND(a_larger_maximum_goes_on),
+        ROUND(a_rule_looks_at_its_quantity),
         ROUND(an_older_index_is_brought_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
