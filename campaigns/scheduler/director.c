@@ -93,9 +93,10 @@ static fracas_err announce(fracas_director *director, const char *report)
 {
     fracas_scheduler_counts count = fracas_scheduler_count(director->scheduler);
     char text[256];
-    snprintf(text, sizeof text, "%lld of %lld realizations of %zu point%s to do, %zu worker%s",
+    snprintf(text, sizeof text, "%lld of %lld realizations of %zu point%s to do%s, %zu worker%s",
              (long long)(count.total - count.done - count.failed), (long long)count.total,
-             director->setup.campaign->npoints, director->setup.campaign->npoints == 1 ? "" : "s", director->setup.workers,
+             director->setup.campaign->npoints, director->setup.campaign->npoints == 1 ? "" : "s",
+             director->rounds.open ? ", and more as rules ask for them" : "", director->setup.workers,
              director->setup.workers == 1 ? "" : "s");
     if (report && *report) {
         fracas_voice_say(director->setup.voice, "%s", report);

@@ -12,7 +12,13 @@ until_narrow() { echo "{minimum: $1, maximum: $2, until: {quantity: $3, relative
 decisions() { /usr/bin/python3 "$source/docs/examples/decisions_from_study.py" "$1/study.h5"; }
 
 rule one.yaml "$(until_narrow 8 48 mean-count 0.015 0.95)"
+expect 0 "$fracas" plan one.yaml
+said '3 points, 24 to 144 realizations'
+said ' 8-48 '
 expect 0 "$fracas" run one.yaml --study one --jobs 1
+said '24 of 24 realizations of 3 points to do, and more as rules ask for them'
+said 'warning: .* at the maximum of 48 replicas mean-count is known to 1.6 %, not to the 1.5 % asked for'
+grep -q 'id="decisions"' one/report/index.html || fail "the report does not say how replicas were decided"
 said 'decided: .*1.5 % asked for'
 expect 0 decisions one
 said 'goes on' # or nothing is tested
