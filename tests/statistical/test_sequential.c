@@ -102,6 +102,25 @@ static void intervals_hold_the_mean_as_often_as_stated(void **state)
     gsl_rng_free(stream);
 }
 
+/* What a number fixed beforehand gives: the confidence for normal values (0.95 within five of its scatter), less for skewed ones. */
+static void a_fixed_number_is_the_measure(void **state)
+{
+    (void)state;
+    static const int64_t fixed[MINIMA] = {17, 33, 60}; /* as many as the campaigns above come to */
+    gsl_rng *stream = gsl_rng_alloc(gsl_rng_mt19937);
+    gsl_rng_set(stream, 11);
+    for (size_t l = 0; l < LAWS; l++)
+        for (size_t m = 0; m < MINIMA; m++) {
+            const fracas_sequential_rule rule = {.minimum = fixed[m], .maximum = fixed[m], .relative_half_width = 1e-9, .confidence = 0.95};
+            double used;
+            const double held = coverage(l, &rule, 1, stream, &used);
+            print_message("%-22s %2d replicas: %.3f\n", law[l].name, (int)fixed[m], held);
+            assert_true(used == (double)fixed[m]);
+            if (l == 0) assert_true(fabs(held - 0.95) < 5 * sqrt(0.95 * 0.05 / REPETITIONS));
+        }
+    gsl_rng_free(stream);
+}
+
 /* The other rule that docs/decisions/rounds-of-replicas.md weighs: it costs half as many replicas again. */
 static void two_narrow_rounds_in_a_row_cost_much(void **state)
 {
@@ -122,6 +141,7 @@ static void two_narrow_rounds_in_a_row_cost_much(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(intervals_hold_the_mean_as_often_as_stated),
+                                       cmocka_unit_test(a_fixed_number_is_the_measure),
                                        cmocka_unit_test(two_narrow_rounds_in_a_row_cost_much)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
