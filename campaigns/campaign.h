@@ -62,8 +62,9 @@ void fracas_campaign_destroy(fracas_campaign *campaign); /* NULL is allowed */
  * the same points, hashes and replicas, where the files that the campaign names are beside it, as attachments/DIGEST. */
 FRACAS_MUST_USE fracas_err fracas_campaign_write(const fracas_campaign *campaign, FILE *out);
 
-/* FRACAS_OK when `now` has every point of `before` with at least its replicas, and the same seed and output
- * (an extension, or the same): a rule for replicas may only ask for more, so that every round that went on still does; else FRACAS_DAMAGED naming the first difference by path and both values. */
+/* FRACAS_OK when `now` has every point of `before` with at least its replicas, and the same seed and output (an extension, or the
+ * same): a rule for replicas may only ask for more, so that every round that went on still does. Else FRACAS_DAMAGED naming the
+ * first difference by path and both values. */
 FRACAS_MUST_USE fracas_err fracas_campaign_extends(const fracas_campaign *now, const fracas_campaign *before);
 
 /* The reference page of the campaign file (docs/formats/campaign-file-keys.md), from the parameter tables. */

@@ -83,8 +83,8 @@ static fracas_err record(fracas_rounds *rounds, fracas_index *index, size_t p, c
 
 static fracas_err disagrees(size_t p, const fracas_decision *recorded)
 {
-    return fracas_fail(FRACAS_DAMAGED, "the index records for round %" PRId64 " of point %zu a decision (mean %.17g, half width %.17g) that "
-                       "its realizations do not give; remove index.sqlite: `fracas run` makes it anew from the segments",
+    return fracas_fail(FRACAS_DAMAGED, "the index records for round %" PRId64 " of point %zu a decision (mean %.17g, half width %.17g) "
+                       "that its realizations do not give; remove index.sqlite: `fracas run` makes it anew from the segments",
                        recorded->round, p, recorded->mean, recorded->half_width);
 }
 

@@ -365,7 +365,8 @@ static fracas_err open_database(fracas_index *index, const char *study, bool cre
     TRY(is_old(index, &index->old));
     if (create && index->old) TRY(bring_up(index));
     for (int s = 0; s < FRACAS_NSQL; s++)
-        if (sqlite3_prepare_v3(index->db, index->old ? old_text(s) : sql_text[s], -1, SQLITE_PREPARE_PERSISTENT, &index->statement[s], NULL))
+        if (sqlite3_prepare_v3(index->db, index->old ? old_text(s) : sql_text[s], -1, SQLITE_PREPARE_PERSISTENT,
+                               &index->statement[s], NULL))
             return fracas_index_error(index, "prepare a statement");
     return FRACAS_OK;
 }

@@ -222,8 +222,8 @@ bool fracas_study_held(const char *study);
 
 /* Sweeps a study after an interruption. Plans the table (fracas_index_plan), creates STUDY/segments if it is not
  * there, and then: temporary files are removed; a segment that the index does not know is checked and adopted (its rows
- * committed) if all its realizations are planned or, where a rule decides their number, may be, else removed, but left where it is if it is of another seed, history,
- * interfaces or program version than `header`; a row whose segment is missing or has the wrong size goes back
+ * committed) if all its realizations are planned or, where a rule decides their number, may be, else removed, but left where it is
+ * if it is of another seed, history, interfaces or program version than `header`; a row whose segment is missing or has the wrong size goes back
  * to planned. Says what it did in *report, one line each, "" if nothing (freed by caller). */
 FRACAS_MUST_USE fracas_err fracas_study_recover(const char *study, fracas_index *index,
                                                 const fracas_file_header *header, const fracas_point_table *table,

@@ -51,7 +51,27 @@ expect 0 "$fracas" run one.yaml --study killed --jobs 2
 same one killed
 expect 0 "$fracas" verify killed
 
-# Drained in the middle, and the index lost: segments of later rounds are kept.
+# One of three servers killed: the others take up its rounds.
+tries=0
+while :; do
+    start one.yaml --study lost --jobs 3 --lanes 1 --segment-size 1e-6
+    wait_segments lost 10
+    set -- $(cat /proc/[0-9]*/stat 2>/dev/null | awk -v session="$session" '
+        {name[$1] = $2; parent[$1] = $4; of[$1] = $6}
+        END {for (p in name) if (of[p] == session && name[p] == "(fracas)" && name[parent[parent[p]]] == "(mpirun)") print p}')
+    [ $# -ne 3 ] || break
+    kill_session # this script had to wait until the run was over, or caught it half: once more
+    rm -rf lost
+    tries=$((tries + 1))
+    [ $tries -lt 20 ] || fail "there should be three servers, not: $*"
+done
+kill -9 "$1"
+wait "$session" || fail "status $? of a run that lost a server"
+grep -q 'the others go on' background || echo "the server was at its end already"
+session=
+same one lost
+
+# Killed in the middle, and the index lost: segments of later rounds are kept.
 start one.yaml --study drained --jobs 2 --lanes 1 --segment-size 1e-6
 wait_segments drained 40
 kill_session
