@@ -1,7 +1,11 @@
 #include "analysis/study.h"
 
+#include "analysis/format.h"
+
 #include <errno.h>
 #include <libgen.h>
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -69,6 +73,18 @@ static fracas_err read_histories(fracas_analysis *analysis)
     return err;
 }
 
+/* Keeps the last decision of each point: the file has them by point and round. */
+static fracas_err read_decisions(fracas_analysis *analysis)
+{
+    fracas_decision *all;
+    size_t count;
+    TRY(fracas_reader_decisions(analysis->reader, &all, &count));
+    if (count > 0) analysis->decision = calloc(analysis->table->npoints, sizeof *analysis->decision);
+    for (size_t d = 0; analysis->decision && d < count; d++) analysis->decision[all[d].point] = all[d];
+    free(all);
+    return count > 0 && !analysis->decision ? fracas_no_memory("the decisions of the study") : FRACAS_OK;
+}
+
 static fracas_err analyse(const char *study, fracas_analysis *analysis)
 {
     TRY(name_of(study, &analysis->name));
@@ -80,6 +96,7 @@ static fracas_err analyse(const char *study, fracas_analysis *analysis)
     if (!analysis->point) return fracas_no_memory("the points of the study");
     for (size_t p = 0; p < npoints; p++) fracas_point_statistics_init(analysis->table, p, &analysis->point[p]);
     TRY(fracas_columns_create(analysis->table, &analysis->shown));
+    TRY(read_decisions(analysis));
     TRY(read_realizations(analysis));
     for (size_t p = 0; p < npoints; p++) fracas_point_statistics_finish(&analysis->point[p]);
     return read_histories(analysis);
@@ -102,6 +119,7 @@ void fracas_analysis_destroy(fracas_analysis *analysis)
     if (analysis->point)
         for (size_t p = 0; p < analysis->table->npoints; p++) fracas_point_statistics_clear(&analysis->point[p]);
     free(analysis->point);
+    free(analysis->decision);
     fracas_columns_clear(&analysis->shown);
     fracas_reader_close(analysis->reader);
     free(analysis->name);
@@ -111,6 +129,30 @@ void fracas_analysis_destroy(fracas_analysis *analysis)
 void fracas_analysis_label(const fracas_analysis *analysis, size_t point, char *text, size_t size)
 {
     fracas_columns_label(analysis->table, &analysis->shown, point, text, size);
+}
+
+const fracas_decision *fracas_analysis_decision(const fracas_analysis *analysis, size_t point)
+{
+    return analysis->decision && analysis->decision[point].replicas > 0 ? &analysis->decision[point] : NULL;
+}
+
+const char *fracas_analysis_quantity(const fracas_decision *decision)
+{
+    static const char *const name[] = {"mean-count", "mean-size", "dissipated"};
+    return name[decision->quantity]; /* the reader lets no other through */
+}
+
+bool fracas_analysis_decided(const fracas_analysis *analysis, size_t point, char *text, size_t size)
+{
+    const fracas_decision *last = fracas_analysis_decision(analysis, point);
+    if (!last) return false;
+    char label[256], found[32];
+    fracas_analysis_label(analysis, point, label, sizeof label);
+    fracas_format_digits(100 * last->half_width / fabs(last->mean), 2, found, sizeof found);
+    snprintf(text, size, "%s%s%lld replicas in %lld round%s: half width of the %.4g %% interval of %s %s %%, %.3g %% asked for%s", label,
+             *label ? ": " : "", (long long)last->replicas, (long long)last->round + 1, last->round ? "s" : "", 100 * last->confidence,
+             fracas_analysis_quantity(last), found, 100 * last->relative_half_width, last->stop == 2 ? " (maximum)" : "");
+    return true;
 }
 
 bool fracas_analysis_any_surface(const fracas_analysis *analysis)

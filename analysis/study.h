@@ -13,11 +13,19 @@ struct fracas_analysis {
     const fracas_point_table *table;
     fracas_columns shown;           /* columns that tell the points apart */
     fracas_point_statistics *point; /* table->npoints of them */
+    fracas_decision *decision;      /* of each point, the last one on its replicas, replicas 0 where they were given; NULL: at all points */
     fracas_reader *reader;          /* open as long as the analysis: it owns the table */
 };
 
 /* Opens STUDY/study.h5; FRACAS_DAMAGED if it is not there (the message says that `fracas run` makes it). */
 FRACAS_MUST_USE fracas_err fracas_analysis_open(const char *study, fracas_reader **reader);
+
+/* The last decision on the replicas of a point, NULL if they were given; and what it looks at, "mean-count". */
+const fracas_decision *fracas_analysis_decision(const fracas_analysis *analysis, size_t point);
+const char *fracas_analysis_quantity(const fracas_decision *decision);
+
+/* "24 replicas in 3 rounds, ...": how the replicas of a point were decided; false, and no text, if they were given. */
+bool fracas_analysis_decided(const fracas_analysis *analysis, size_t point, char *text, size_t size);
 
 /* Something a reader must know before trusting a number. */
 typedef struct {

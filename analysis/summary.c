@@ -34,6 +34,21 @@ static void write_statistics(fracas_json *json, const fracas_point_statistics *s
     fracas_json_close_object(json);
 }
 
+static void write_decision(fracas_json *json, const fracas_decision *last)
+{
+    if (!last) return;
+    fracas_json_object(json, "decision");
+    fracas_json_text(json, "quantity", fracas_analysis_quantity(last));
+    fracas_json_integer(json, "rounds", last->round + 1);
+    fracas_json_integer(json, "used", last->used);
+    fracas_json_real(json, "mean", last->mean);
+    fracas_json_real(json, "half_width", last->half_width);
+    fracas_json_real(json, "relative_half_width", last->relative_half_width);
+    fracas_json_real(json, "confidence", last->confidence);
+    fracas_json_boolean(json, "at_maximum", last->stop == 2);
+    fracas_json_close_object(json);
+}
+
 static void write_point(fracas_json *json, const fracas_analysis *analysis, size_t p)
 {
     char label[256], hash[FRACAS_HASH_HEX];
@@ -43,6 +58,7 @@ static void write_point(fracas_json *json, const fracas_analysis *analysis, size
     fracas_json_text(json, "label", label);
     fracas_json_text(json, "hash", hash);
     fracas_json_integer(json, "replicas", analysis->table->point[p].replicas);
+    write_decision(json, fracas_analysis_decision(analysis, p));
     write_parameters(json, analysis->table, p);
     write_statistics(json, &analysis->point[p]);
     fracas_json_close_object(json);

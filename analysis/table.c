@@ -227,6 +227,14 @@ static void print_cells(const fracas_result_table *table, FILE *out)
     }
 }
 
+/* How the replicas were decided, where they were not given. */
+static void print_decisions(const fracas_analysis *analysis, FILE *out)
+{
+    char text[512];
+    for (size_t p = 0; p < analysis->table->npoints; p++)
+        if (fracas_analysis_decided(analysis, p, text, sizeof text)) fprintf(out, "decided: %s\n", text);
+}
+
 static void print_warnings(const fracas_analysis *analysis, FILE *out)
 {
     fracas_warning *warning;
@@ -255,5 +263,6 @@ void fracas_analysis_print_table(const fracas_analysis *analysis, FILE *out)
     putc('\n', out);
     const char *const *legend = fracas_result_table_legend(analysis);
     for (size_t i = 0; legend[i]; i++) fprintf(out, "%s\n", legend[i]);
+    print_decisions(analysis, out);
     print_warnings(analysis, out);
 }

@@ -14,7 +14,7 @@ static const double elements_limit = 10;   /* elements of a mean fragment */
 static const double dust_limit = 0.05;     /* share of all fragments */
 static const double zone_limit = 0.25;     /* fracture-limiting zone of a mean fragment (docs/results/ring.md) */
 
-enum { WARNINGS_PER_POINT = 12 }; /* at most what warn_of_point can say */
+enum { WARNINGS_PER_POINT = 13 }; /* at most what warn_of_point can say */
 
 typedef struct {
     size_t count;
@@ -75,6 +75,15 @@ static void warn_of_point(const fracas_point_statistics *statistics, size_t p, w
              "refine the mesh", 100 * statistics->dust_share);
 }
 
+static void warn_of_decision(const fracas_decision *last, size_t p, warning_list *list)
+{
+    if (!last || last->stop != 2) return;
+    char found[32];
+    fracas_format_digits(100 * last->half_width / fabs(last->mean), 2, found, sizeof found);
+    warn(list, p, "at the maximum of %lld replicas %s is known to %s %%, not to the %.3g %% asked for: raise replicas.maximum",
+         (long long)last->maximum, fracas_analysis_quantity(last), found, 100 * last->relative_half_width);
+}
+
 fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warning **warning, size_t *count)
 {
     size_t npoints = analysis->table->npoints;
@@ -84,6 +93,7 @@ fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warn
         warn(&list, SIZE_MAX, "the study is not complete: realizations are missing or FAILED");
     for (size_t p = 0; p < npoints; p++) {
         warn_of_point(&analysis->point[p], p, &list);
+        warn_of_decision(fracas_analysis_decision(analysis, p), p, &list);
         const double zones = fracas_columns_real(analysis->table, p, "cohesive.zone") / analysis->point[p].size.mean;
         if (zones > zone_limit)
             warn(&list, p, "cohesive.zone is %.2g of a mean fragment (more than 0.25): it influences the size: shorten it", zones);

@@ -2,6 +2,7 @@
 
 #include "base/units.h"
 #include "campaigns/file/memory.h"
+#include "campaigns/file/replicas.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -126,10 +127,7 @@ static fracas_err check_points(const fracas_campaign *now, const fracas_campaign
         const fracas_point *was = &before->point[b];
         const point_link wanted = {was}, *found = bsearch(&wanted, sorted, now->npoints, sizeof *sorted, by_hash);
         if (!found) return say_point_missing(now, before, b);
-        if (found->point->replicas < was->replicas)
-            return fracas_fail(FRACAS_DAMAGED, "replicas is %" PRId64 " in the study (its point %zu), but %" PRId64
-                                               " in this campaign file; it can only grow", was->replicas, b,
-                               found->point->replicas);
+        TRY(fracas_replicas_extend(found->point, was, b));
     }
     return FRACAS_OK;
 }

@@ -7,6 +7,7 @@
 #include "campaigns/points.h"
 #include "engine/spec.h"
 #include "sampler/sampler.h"
+#include "sampler/sequential/sequential.h"
 
 #include <stdio.h>
 
@@ -21,7 +22,8 @@ typedef struct {
     fracas_spec spec;
     fracas_strength strength;
     fracas_hash hash;  /* docs/formats/campaign-file.md: over resolved scalars and enums by sorted path */
-    int64_t replicas;
+    int64_t replicas;  /* with a rule: those of its first round */
+    fracas_sequential_rule rule; /* how many replicas it gets; maximum 0: there is none, it gets `replicas` */
 } fracas_point;
 
 /* A file that the campaign file names, as it was read. */
@@ -45,6 +47,12 @@ typedef struct fracas_campaign {
     struct fracas_campaign_memory *memory; /* owns what the above points to */
 } fracas_campaign;
 
+/* The most replicas that a point can get. */
+static inline int64_t fracas_point_most(const fracas_point *point)
+{
+    return point->rule.maximum > 0 ? point->rule.maximum : point->replicas;
+}
+
 /* Reads a campaign file. FRACAS_USAGE with "file:line:column: what was found; what is allowed; nearest key"
  * for anything wrong in it, FRACAS_ENVIRONMENT if it cannot be opened or read. */
 FRACAS_MUST_USE fracas_err fracas_campaign_read(const char *path, fracas_campaign **campaign);
@@ -54,8 +62,9 @@ void fracas_campaign_destroy(fracas_campaign *campaign); /* NULL is allowed */
  * the same points, hashes and replicas, where the files that the campaign names are beside it, as attachments/DIGEST. */
 FRACAS_MUST_USE fracas_err fracas_campaign_write(const fracas_campaign *campaign, FILE *out);
 
-/* FRACAS_OK when `now` has every point of `before` with at least its replicas, and the same seed and output
- * (an extension, or the same); else FRACAS_DAMAGED naming the first difference by path and both values. */
+/* FRACAS_OK when `now` has every point of `before` with at least its replicas, and the same seed and output (an extension, or the
+ * same): a rule for replicas may only ask for more, so that every round that went on still does. Else FRACAS_DAMAGED naming the
+ * first difference by path and both values. */
 FRACAS_MUST_USE fracas_err fracas_campaign_extends(const fracas_campaign *now, const fracas_campaign *before);
 
 /* The reference page of the campaign file (docs/formats/campaign-file-keys.md), from the parameter tables. */

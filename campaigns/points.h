@@ -27,6 +27,7 @@ typedef struct {
     fracas_hash hash;
     int64_t replicas;
     const fracas_value *value; /* one per column */
+    int64_t most;              /* replicas that it may get where a rule decides; 0: it has `replicas` */
 } fracas_point_row;
 
 /* Columns are sorted by path (byte order); they are the union over all points, so `strength.shape` is there,

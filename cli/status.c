@@ -8,6 +8,7 @@
 #include "campaigns/store/store.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,6 +48,30 @@ static void write_failure(void *json, const fracas_index_row *row, const char *r
     fracas_json_close_object(json);
 }
 
+/* What was decided on the replicas of a point, round by round. */
+static fracas_err write_decisions(fracas_json *json, const fracas_status *status, size_t p)
+{
+    fracas_decision *decision;
+    size_t count;
+    if (status->campaign->point[p].rule.maximum == 0) return FRACAS_OK;
+    TRY(fracas_index_decisions(status->index, &status->campaign->point[p].hash, &decision, &count));
+    fracas_json_array(json, "decisions");
+    for (size_t d = 0; d < count; d++) {
+        fracas_json_object(json, NULL);
+        fracas_json_integer(json, "round", decision[d].round);
+        fracas_json_integer(json, "replicas", decision[d].replicas);
+        fracas_json_integer(json, "used", decision[d].used);
+        fracas_json_text(json, "quantity", fracas_quantity_name[decision[d].quantity]);
+        fracas_json_real(json, "mean", decision[d].mean);
+        fracas_json_real(json, "half_width", decision[d].half_width);
+        fracas_json_text(json, "stop", fracas_sequential_stop_name[decision[d].stop]);
+        fracas_json_close_object(json);
+    }
+    fracas_json_close_array(json);
+    free(decision);
+    return FRACAS_OK;
+}
+
 static fracas_err write_json(const fracas_status *status)
 {
     fracas_json json;
@@ -60,6 +85,7 @@ static fracas_err write_json(const fracas_status *status)
     fracas_json_integer(&json, "segments", status->all.segments);
     fracas_json_integer(&json, "bytes", status->all.bytes);
     fracas_json_array(&json, "points");
+    fracas_err code = FRACAS_OK;
     for (size_t i = 0; i < status->campaign->npoints; i++) {
         char hash[FRACAS_HASH_HEX];
         fracas_hash_hex(&status->campaign->point[i].hash, hash);
@@ -67,11 +93,12 @@ static fracas_err write_json(const fracas_status *status)
         fracas_json_integer(&json, "point", (int64_t)i);
         fracas_json_text(&json, "hash", hash);
         write_counts(&json, &status->point[i]);
+        if (!code) code = write_decisions(&json, status, i);
         fracas_json_close_object(&json);
     }
     fracas_json_close_array(&json);
     fracas_json_array(&json, "failures");
-    fracas_err code = fracas_index_failures(status->index, &status->campaign->table, write_failure, &json);
+    if (!code) code = fracas_index_failures(status->index, &status->campaign->table, write_failure, &json);
     fracas_json_close_array(&json);
     fracas_json_close_object(&json);
     fracas_json_end(&json);
@@ -93,6 +120,27 @@ static void print_points(const fracas_status *status)
         }
         putchar('\n');
     }
+}
+
+static fracas_err print_decisions(const fracas_status *status)
+{
+    bool first = true;
+    for (size_t p = 0; p < status->campaign->npoints; p++) {
+        const fracas_sequential_rule *rule = &status->campaign->point[p].rule;
+        fracas_decision *decision;
+        size_t count;
+        if (rule->maximum == 0) continue;
+        TRY(fracas_index_decisions(status->index, &status->campaign->point[p].hash, &decision, &count));
+        if (first && count) fputs("\ndecisions on replicas\npoint  round  replicas  of what        mean  +-  half width\n", stdout);
+        for (size_t d = 0; d < count; d++)
+            printf("%5zu%7" PRId64 "%10" PRId64 "  %-10s  %.5g +- %.2g (%.2g %%; %.3g %% asked for): %s\n", p, decision[d].round,
+                   decision[d].replicas, fracas_quantity_name[decision[d].quantity], decision[d].mean, decision[d].half_width,
+                   100 * decision[d].half_width / fabs(decision[d].mean), 100 * decision[d].relative_half_width,
+                   fracas_sequential_stop_name[decision[d].stop]);
+        first = first && !count;
+        free(decision);
+    }
+    return FRACAS_OK;
 }
 
 static void print_failure(void *any, const fracas_index_row *row, const char *reason)
@@ -118,6 +166,7 @@ static fracas_err print_text(const fracas_status *status)
         if (all->outcome[o]) printf(" %" PRId64 " %s", all->outcome[o], fracas_outcome_name(o));
     printf("\nsegments      %" PRId64 ", %.1f MB\n", all->segments, (double)all->bytes / 1e6);
     print_points(status);
+    TRY(print_decisions(status));
     bool first = true;
     return fracas_index_failures(status->index, &status->campaign->table, print_failure, &first);
 }

@@ -4,6 +4,7 @@
 #include "base/param.h"
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/meshes.h"
+#include "campaigns/scheduler/rounds.h"
 #include "campaigns/store/store.h"
 
 #include <limits.h>
@@ -16,6 +17,16 @@ static void print_problem(void *json, const char *problem)
 {
     if (json) fracas_json_text(json, NULL, problem);
     else puts(problem);
+}
+
+/* Decisions on replicas against the realizations that they are made of. */
+static fracas_err check_decisions(const char *study, const fracas_campaign *campaign)
+{
+    fracas_index *index;
+    TRY(fracas_index_open(study, false, &index));
+    fracas_err err = fracas_rounds_check(campaign, index);
+    fracas_index_close(index);
+    return err;
 }
 
 /* The campaign file of the study against study.h5, where there is one. */
@@ -35,7 +46,7 @@ static void verify_campaign(const char *study, void *json, int64_t *problems)
         if (!fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash)) {
             print_problem(json, "campaign.yaml is not the campaign of study.h5: run the campaign file it was made from");
             ++*problems;
-        } else if (fracas_reader_check_meshes(reader, &meshes)) {
+        } else if (fracas_reader_check_meshes(reader, &meshes) || check_decisions(study, campaign)) {
             print_problem(json, fracas_message());
             ++*problems;
         }
@@ -78,8 +89,8 @@ static fracas_err verify(const fracas_arguments *arguments)
 
 const fracas_command fracas_command_verify = {
     .name = "verify", .operand = "STUDY", .doc = "Checks every byte of STUDY",
-    .more = "\nSizes and checksums of all segments, the index against them row by row, study.h5 record by record, and campaign.yaml with\n"
-            "the files it names.\n"
+    .more = "\nSizes and checksums of all segments, the index against them row by row, study.h5 record by record, campaign.yaml with the\n"
+            "files it names, and every decision on replicas.\n"
             "Each problem is one line: what, where, and what to do. Status 5 if there is any.\n",
     .options = options, .noptions = FRACAS_COUNT(options), .run = verify,
 };

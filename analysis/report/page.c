@@ -277,6 +277,22 @@ static fracas_err put_warnings(const report_page *page)
     return FRACAS_OK;
 }
 
+/* How the replicas were decided, where they were not given. */
+static void put_decisions(const report_page *page)
+{
+    char text[512];
+    bool any = false;
+    for (size_t p = 0; p < page->analysis->table->npoints; p++) {
+        if (!fracas_analysis_decided(page->analysis, p, text, sizeof text)) continue;
+        if (!any) fputs("<p>Replicas were added until the mean was known well enough:</p>\n<ul id=\"decisions\">\n", page->out);
+        any = true;
+        fputs("<li>", page->out);
+        fracas_markup_text(text, page->out);
+        fputs("</li>\n", page->out);
+    }
+    if (any) fputs("</ul>\n", page->out);
+}
+
 static fracas_err put_table(const report_page *page)
 {
     fracas_result_table table;
@@ -285,6 +301,7 @@ static fracas_err put_table(const report_page *page)
     put_rows(&table, page->out);
     fracas_result_table_clear(&table);
     put_legend(fracas_result_table_legend(page->analysis), page->out);
+    put_decisions(page);
     fputs("<p class=\"quiet\">As files: <a href=\"points.csv\">points.csv</a> (every parameter and statistic), "
           "<a href=\"fragments.csv\">fragments.csv</a> (every fragment); both in SI units.</p>\n", page->out);
     return FRACAS_OK;

@@ -1,6 +1,6 @@
 #include "campaigns/file/identity.h"
 
-#include "base/units.h"
+#include "campaigns/file/replicas.h"
 #include "engine/mesh/make.h"
 
 #include <inttypes.h>
@@ -38,8 +38,9 @@ static void write_campaign(const fracas_catalog *catalog, const fracas_campaign 
         char hex[FRACAS_HASH_HEX];
         fracas_hash_hex(&campaign->point[p].hash, hex);
         const char *name = named == SIZE_MAX ? "" : campaign->table.point[p].value[named].text;
-        fprintf(out, "point=%s replicas=%" PRId64 "%s%s\n", hex, campaign->point[p].replicas, *name ? " case=" : "",
-                name);
+        fprintf(out, "point=%s replicas=", hex);
+        fracas_replicas_write(&campaign->point[p], out);
+        fprintf(out, "%s%s\n", *name ? " case=" : "", name);
     }
 }
 
@@ -207,7 +208,7 @@ fracas_err fracas_campaign_tabulate(const fracas_catalog *catalog, const char *c
         double mean = NAN;
         TRY(mean_strength(campaign, p, &mesh, &mean));
         for (size_t c = 0; c < ncolumns; c++) value[p * ncolumns + c] = value_of(&from[c], point, name[p], mean);
-        row[p] = (fracas_point_row){point->hash, point->replicas, value + p * ncolumns};
+        row[p] = (fracas_point_row){point->hash, point->replicas, value + p * ncolumns, point->rule.maximum};
     }
     campaign->table = (fracas_point_table){ncolumns, column, campaign->npoints, row};
     return FRACAS_OK;

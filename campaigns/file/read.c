@@ -17,7 +17,7 @@ typedef struct {
     fracas_file file;
     fracas_settings base;
     fracas_sweep sweep;
-    int64_t replicas; /* 0: not given */
+    fracas_replicas replicas; /* count 0: not given */
 } reading;
 
 /* ---- the top of the file ---- */
@@ -98,7 +98,7 @@ static fracas_err read_heading(reading *read, fracas_campaign *campaign)
     node = fracas_node_find(file->root, "random_numbers");
     if (node) TRY(read_random_numbers(file, node, &campaign->common_random_numbers));
     node = fracas_node_find(file->root, "replicas");
-    if (node) TRY(fracas_setting_integer(file, "replicas", node, 1, 1000000000, &read->replicas));
+    if (node) TRY(fracas_replicas_read(file, node, &read->replicas));
     return FRACAS_OK;
 }
 
@@ -130,16 +130,18 @@ static void lay_over(const fracas_file *file, const fracas_settings *settings, c
 /* Replicas of a point: of its case, else of the campaign. */
 static fracas_err count_replicas(const reading *read, size_t index, fracas_point *point)
 {
-    point->replicas = read->replicas;
+    fracas_replicas replicas = read->replicas;
     bool owned = false;
     for (size_t a = 0; a < read->sweep.naxes; a++) {
         const fracas_choice *choice = fracas_sweep_choice(&read->sweep, index, a);
-        if (choice->replicas > 0 && owned)
+        if (choice->replicas.count > 0 && owned)
             return fracas_say(read->file.name, choice->node,
                               "cases of two axes give `replicas`; keep them in one axis");
-        if (choice->replicas > 0) point->replicas = choice->replicas;
-        owned = owned || choice->replicas > 0;
+        if (choice->replicas.count > 0) replicas = choice->replicas;
+        owned = owned || choice->replicas.count > 0;
     }
+    point->replicas = replicas.count;
+    point->rule = replicas.rule;
     if (point->replicas > 0) return FRACAS_OK;
     return fracas_say(read->file.name, read->file.root,
                       "the file has no `replicas`; say how many realizations each point gets, "

@@ -121,7 +121,7 @@ static fracas_err read_case(const fracas_file *file, const fracas_node *node, fr
         if (strcmp(entry->key->text, "name") == 0) {
             TRY(fracas_setting_name(file, entry, &choice->name));
         } else if (strcmp(entry->key->text, "replicas") == 0) {
-            TRY(fracas_setting_integer(file, "replicas", entry, 1, 1000000000, &choice->replicas));
+            TRY(fracas_replicas_read(file, entry, &choice->replicas));
         } else {
             TRY(fracas_target_find(file, entry->key, own, &set));
             TRY(add_target(file, &set, entry, &choice->settings));

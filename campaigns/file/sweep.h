@@ -2,6 +2,7 @@
 #ifndef FRACAS_CAMPAIGNS_FILE_SWEEP_H
 #define FRACAS_CAMPAIGNS_FILE_SWEEP_H
 
+#include "campaigns/file/replicas.h"
 #include "campaigns/file/setting.h"
 
 /* The resolved file of so many points stays within what a file may be (campaigns/file/node.h). */
@@ -12,7 +13,7 @@ typedef struct {
     const fracas_node *node;
     fracas_settings settings;
     const char *name;  /* NULL: none */
-    int64_t replicas;  /* 0: those of the campaign */
+    fracas_replicas replicas; /* count 0: those of the campaign */
 } fracas_choice;
 
 typedef struct {

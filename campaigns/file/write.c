@@ -2,6 +2,7 @@
 #include "campaigns/campaign.h"
 
 #include "campaigns/file/catalog.h"
+#include "campaigns/file/replicas.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -141,7 +142,8 @@ static void write_cases(const fracas_catalog *catalog, const bool *base, const f
                 write_case_section(catalog, base, &catalog->section[s], campaign, p, &first, out);
         if (own_replicas) {
             begin_entry(&first, "replicas", out);
-            fprintf(out, "%" PRId64 "\n", campaign->point[p].replicas);
+            fracas_replicas_write(&campaign->point[p], out);
+            putc('\n', out);
         }
     }
 }
@@ -152,14 +154,18 @@ static void write_file(const fracas_catalog *catalog, const bool *base, const fr
 {
     bool own_replicas = false;
     for (size_t p = 1; p < campaign->npoints; p++)
-        own_replicas = own_replicas || campaign->point[p].replicas != campaign->point[0].replicas;
+        own_replicas = own_replicas || !fracas_replicas_same(&campaign->point[p], &campaign->point[0]);
     fprintf(out, "# A campaign as resolved by fracas: SI units, every default spelled out.\n");
     fprintf(out, "name: %s\nseed: %" PRIu64 "\n", campaign->name, campaign->seed);
     if (campaign->common_random_numbers) fprintf(out, "random_numbers: common\n");
     for (size_t s = 0; s < catalog->nsections; s++)
         if (catalog->section[s].table->hashed) write_section(catalog, base, &catalog->section[s], campaign, out);
     write_cases(catalog, base, campaign, own_replicas, out);
-    if (!own_replicas) fprintf(out, "replicas: %" PRId64 "\n", campaign->point[0].replicas);
+    if (!own_replicas) {
+        fprintf(out, "replicas: ");
+        fracas_replicas_write(&campaign->point[0], out);
+        putc('\n', out);
+    }
     for (size_t s = 0; s < catalog->nsections; s++)
         if (!catalog->section[s].table->hashed) write_section(catalog, base, &catalog->section[s], campaign, out);
 }

@@ -46,7 +46,7 @@ static fracas_err check_strongest(const fracas_model *model, const fracas_point 
 {
     if (fracas_model_interfaces(model) == 0) return FRACAS_OK; /* a single triangle */
     const double strengths = (double)(fracas_model_interfaces(model) * fracas_model_strengths_per_interface(model));
-    const double drawn = strengths * (double)point->replicas;
+    const double drawn = strengths * (double)fracas_point_most(point);
     const double u = fmin(1.0 - 0.01 / drawn, 1.0 - 0x1p-53);
     fracas_err err = fracas_model_check_strength(model, most * strength_at(point, extent, u));
     const char *what = fracas_model_strengths_per_interface(model) > 1 ? "Gauss points" : "interfaces";
@@ -429,9 +429,9 @@ fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs, fracas
     for (size_t p = 0; p < campaign->npoints; p++) {
         const fracas_point *point = &campaign->point[p];
         TRY(forecast_timed(campaign, p, forecast));
-        const double work = (double)forecast[p].elements * (double)forecast[p].steps * (double)point->replicas;
+        const double work = (double)forecast[p].elements * (double)forecast[p].steps * (double)fracas_point_most(point);
         forecast[p].time = work / (forecast[p].speed * jobs);
-        forecast[p].bytes = realization_bytes(&campaign->output, &forecast[p]) * (double)point->replicas;
+        forecast[p].bytes = realization_bytes(&campaign->output, &forecast[p]) * (double)fracas_point_most(point);
     }
     return FRACAS_OK;
 }

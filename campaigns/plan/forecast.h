@@ -8,7 +8,7 @@ typedef struct {
     int64_t elements, interfaces, steps;
     double time_step; /* s */
     double speed;     /* element-steps per second of one core; 0 until it is timed */
-    double time;      /* s, of all replicas on all jobs */
+    double time;      /* s, of all replicas (where a rule decides, of the most) on all jobs */
     double bytes;     /* in study.h5 */
     double coarseness; /* element size over E G_c/sigma_c^2, the length over which a crack softens */
     bool uniform;      /* half of the interfaces and more have the same strength */

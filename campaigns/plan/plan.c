@@ -22,8 +22,8 @@ typedef struct {
     int jobs;
     fracas_forecast *forecast;       /* of each point */
     size_t nvaried, *varied;         /* columns that tell points apart */
-    int64_t realizations;
-    double time, bytes;              /* totals */
+    int64_t realizations, most;      /* totals: as asked for, or at first and at most where rules decide */
+    double least_time, time, least_bytes, bytes; /* of these */
     double slowest;                  /* element-steps per second */
 } campaign_plan;
 
@@ -31,6 +31,12 @@ static void plan_clear(campaign_plan *plan)
 {
     free(plan->forecast);
     free(plan->varied);
+}
+
+/* Replicas that a point gets in any case, as a share of the most. */
+static double least_share(const fracas_point *point)
+{
+    return (double)point->replicas / (double)fracas_point_most(point);
 }
 
 /* The caller clears the plan, also after an error. */
@@ -45,8 +51,12 @@ static fracas_err plan_init(const fracas_campaign *campaign, int jobs, campaign_
     for (size_t c = 0; c < table->ncolumns; c++)
         if (fracas_point_table_varies(table, c)) made->varied[made->nvaried++] = c;
     for (size_t p = 0; p < table->npoints; p++) {
+        const double least = least_share(&campaign->point[p]);
         made->realizations += table->point[p].replicas;
+        made->most += fracas_point_most(&campaign->point[p]);
+        made->least_time += least * made->forecast[p].time;
         made->time += made->forecast[p].time;
+        made->least_bytes += least * made->forecast[p].bytes;
         made->bytes += made->forecast[p].bytes;
         made->slowest = fmin(made->slowest, made->forecast[p].speed);
     }
@@ -94,20 +104,39 @@ static void sheet_print(const text_sheet *sheet, FILE *out)
                     c + 1 < sheet->columns ? "  " : "\n");
 }
 
-static void put_duration(text_sheet *sheet, size_t row, size_t column, double time)
+enum { SHORT = 28 }; /* bytes of a number in a cell, of which it holds two */
+
+static void write_duration(double time, char text[SHORT])
 {
-    if (time < 120.0) sheet_put(sheet, row, column, time < 1.0 ? "%.2g s" : "%.1f s", time);
-    else if (time < 7200.0) sheet_put(sheet, row, column, "%.0f min", time / 60.0);
-    else if (time < 172800.0) sheet_put(sheet, row, column, "%.1f h", time / 3600.0);
-    else sheet_put(sheet, row, column, "%.1f days", time / 86400.0);
+    if (time < 120.0) snprintf(text, SHORT, time < 1.0 ? "%.2g s" : "%.1f s", time);
+    else if (time < 7200.0) snprintf(text, SHORT, "%.0f min", time / 60.0);
+    else if (time < 172800.0) snprintf(text, SHORT, "%.1f h", time / 3600.0);
+    else snprintf(text, SHORT, "%.1f days", time / 86400.0);
 }
 
-static void put_size(text_sheet *sheet, size_t row, size_t column, double bytes)
+static void write_size(double bytes, char text[SHORT])
 {
     static const char *const unit[] = {"kB", "MB", "GB", "TB"};
     size_t u = 0;
     for (bytes /= 1e3; bytes >= 1e3 && u < 3; u++) bytes /= 1e3;
-    sheet_put(sheet, row, column, "%.1f %s", bytes, unit[u]);
+    snprintf(text, SHORT, "%.1f %s", bytes, unit[u]);
+}
+
+/* "16-256": what it comes to at least and at most, or what it is. */
+static void put_count(text_sheet *sheet, size_t row, size_t column, int64_t least, int64_t most)
+{
+    if (least == most) sheet_put(sheet, row, column, "%" PRId64, most);
+    else sheet_put(sheet, row, column, "%" PRId64 "-%" PRId64, least, most);
+}
+
+static void put_range(text_sheet *sheet, size_t row, size_t column, double least, double most,
+                      void (*write)(double value, char text[SHORT]))
+{
+    char from[SHORT], to[SHORT];
+    write(least, from);
+    write(most, to);
+    if (least == most) sheet_put(sheet, row, column, "%s", to);
+    else sheet_put(sheet, row, column, "%s - %s", from, to);
 }
 
 /* ---- what a reader should know before running it ---- */
@@ -262,12 +291,13 @@ static void put_point(const campaign_plan *plan, size_t p, text_sheet *sheet)
         const bool text = plan->table->column[plan->varied[v]].text;
         sheet_put(sheet, row, 1 + v, "%s", text ? value->text : isnan(value->real) ? "-" : number);
     }
-    sheet_put(sheet, row, own, "%" PRId64, point->replicas);
+    const double least = least_share(&plan->campaign->point[p]);
+    put_count(sheet, row, own, point->replicas, fracas_point_most(&plan->campaign->point[p]));
     sheet_put(sheet, row, own + 1, "%" PRId64, forecast->elements);
     sheet_put(sheet, row, own + 2, "%.4g", forecast->time_step);
     sheet_put(sheet, row, own + 3, "%" PRId64, forecast->steps);
-    put_duration(sheet, row, own + 4, forecast->time);
-    put_size(sheet, row, own + 5, forecast->bytes);
+    put_range(sheet, row, own + 4, least * forecast->time, forecast->time, write_duration);
+    put_range(sheet, row, own + 5, least * forecast->bytes, forecast->bytes, write_size);
 }
 
 static fracas_err print_text(const campaign_plan *plan, FILE *out)
@@ -279,16 +309,19 @@ static fracas_err print_text(const campaign_plan *plan, FILE *out)
         put_heads(plan, &sheet);
         for (size_t p = 0; p < points; p++) put_point(plan, p, &sheet);
         sheet_put(&sheet, last, 0, "total");
-        sheet_put(&sheet, last, own, "%" PRId64, plan->realizations);
-        put_duration(&sheet, last, own + 4, plan->time);
-        put_size(&sheet, last, own + 5, plan->bytes);
-        fprintf(out, "Campaign %s: %zu point%s, %" PRId64 " realization%s\n\n", plan->campaign->name, points,
-                points == 1 ? "" : "s", plan->realizations, plan->realizations == 1 ? "" : "s");
+        put_count(&sheet, last, own, plan->realizations, plan->most);
+        put_range(&sheet, last, own + 4, plan->least_time, plan->time, write_duration);
+        put_range(&sheet, last, own + 5, plan->least_bytes, plan->bytes, write_size);
+        fprintf(out, "Campaign %s: %zu point%s, %" PRId64, plan->campaign->name, points, points == 1 ? "" : "s", plan->realizations);
+        if (plan->most > plan->realizations) fprintf(out, " to %" PRId64, plan->most);
+        fprintf(out, " realization%s\n\n", plan->most == 1 ? "" : "s");
         sheet_print(&sheet, out);
         fprintf(out,
             "\nTimes are for %d process%s at %.2g element-steps per second each, timed just now, and for running to "
             "time.end;\na stop rule may end realizations earlier. Sizes count one fragment for every %d elements.\n",
             plan->jobs, plan->jobs == 1 ? "" : "es", plan->slowest, FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
+        if (plan->most > plan->realizations)
+            fprintf(out, "Replicas are added until replicas.until holds: from the least to the most, with their times and sizes.\n");
         char text[256];
         for (size_t p = 0; p < points; p++)
             for (int w = 0; w < WARNINGS; w++)
@@ -317,6 +350,7 @@ static void print_json_point(const campaign_plan *plan, size_t p, fracas_json *j
     }
     fracas_json_close_object(json);
     fracas_json_integer(json, "replicas", point->replicas);
+    fracas_json_integer(json, "replicas_maximum", fracas_point_most(&plan->campaign->point[p]));
     fracas_json_integer(json, "elements", forecast->elements);
     fracas_json_real(json, "time_step", forecast->time_step);
     fracas_json_integer(json, "steps", forecast->steps);
@@ -335,6 +369,7 @@ static void print_json(const campaign_plan *plan, FILE *out)
     fracas_json_integer(&json, "jobs", plan->jobs);
     fracas_json_integer(&json, "points", (int64_t)plan->table->npoints);
     fracas_json_integer(&json, "realizations", plan->realizations);
+    fracas_json_integer(&json, "realizations_maximum", plan->most);
     fracas_json_real(&json, "seconds", plan->time);
     fracas_json_real(&json, "bytes", plan->bytes);
     fracas_json_array(&json, "point");

@@ -12,6 +12,7 @@ FRACAS_MUST_USE fracas_err fracas_plan_cost(const fracas_campaign *campaign, siz
 
 /* Prints, for each point, its varied parameters, replicas, elements, time step, steps, predicted time and size, and
  * the totals; as JSON with `json`. `jobs`: processes that will compute, 0 for one a core.
+ *   replicas: where a rule decides them, the least and the most, and so time and size (as JSON those of the most);
  *   time = elements * steps * replicas / (speed * jobs), at most, as a stop rule may end a realization before time.end;
  *   speed: element-steps per second of one free core, timed here on a short batch of the point's size;
  *   size: bytes of the rows of study.h5, with one fragment for every FRACAS_PLAN_ELEMENTS_PER_FRAGMENT elements.

@@ -3,6 +3,7 @@
 #include "campaigns/scheduler/costs.h"
 #include "campaigns/scheduler/meshes.h"
 #include "campaigns/scheduler/prepare.h"
+#include "campaigns/scheduler/rounds.h"
 #include "campaigns/scheduler/scheduler.h"
 #include "campaigns/scheduler/segment.h"
 
@@ -17,8 +18,11 @@ struct fracas_director {
     fracas_director_setup setup;
     int lock;
     fracas_index *index;
+    double *cost; /* of a realization of each point */
+    fracas_rounds rounds;
     fracas_scheduler *scheduler;
     worker_phase *phase; /* of each worker */
+    bool *flushing;      /* each worker was asked to write its segment */
     size_t nended;
     bool stopping; /* STOP was sent to all that work */
     bool drained;  /* because of a signal */
@@ -66,14 +70,15 @@ static void stop(fracas_director *director)
 
 /* ---- start ---- */
 
-static fracas_err make_scheduler(fracas_director *director, const double *cost)
+static fracas_err make_scheduler(fracas_director *director)
 {
     const fracas_campaign *campaign = director->setup.campaign;
     int width = director->setup.options->width;
     fracas_index_row *row;
     size_t count;
-    TRY(fracas_index_rows(director->index, &campaign->table, &row, &count));
-    fracas_scheduler_options options = {.cost = cost,
+    TRY(fracas_rounds_init(&director->rounds, campaign, director->index));
+    TRY(fracas_index_rows(director->index, &director->rounds.table, &row, &count));
+    fracas_scheduler_options options = {.cost = director->cost,
                                         .workers = director->setup.workers,
                                         .width = width ? (size_t)width : FRACAS_LEASE_MAX,
                                         .shuffle = director->setup.options->shuffle,
@@ -88,9 +93,10 @@ static fracas_err announce(fracas_director *director, const char *report)
 {
     fracas_scheduler_counts count = fracas_scheduler_count(director->scheduler);
     char text[256];
-    snprintf(text, sizeof text, "%lld of %lld realizations of %zu point%s to do, %zu worker%s",
+    snprintf(text, sizeof text, "%lld of %lld realizations of %zu point%s to do%s, %zu worker%s",
              (long long)(count.total - count.done - count.failed), (long long)count.total,
-             director->setup.campaign->npoints, director->setup.campaign->npoints == 1 ? "" : "s", director->setup.workers,
+             director->setup.campaign->npoints, director->setup.campaign->npoints == 1 ? "" : "s",
+             director->rounds.open ? ", and more as rules ask for them" : "", director->setup.workers,
              director->setup.workers == 1 ? "" : "s");
     if (report && *report) {
         fracas_voice_say(director->setup.voice, "%s", report);
@@ -101,13 +107,13 @@ static fracas_err announce(fracas_director *director, const char *report)
     return fracas_index_event(director->index, count.done ? "resumed" : "started", text);
 }
 
-static fracas_err open_study(fracas_director *director, const double *cost, bool *settled, int64_t *failed)
+static fracas_err open_study(fracas_director *director, bool *settled, int64_t *failed)
 {
     const fracas_director_setup *setup = &director->setup;
     char *report = NULL;
     TRY(fracas_study_prepare(setup->study, setup->campaign, &director->lock, &director->index, &report));
     fracas_err err = fracas_study_settled(setup->study, director->index, setup->campaign, settled, failed);
-    if (!err && !*settled) err = make_scheduler(director, cost);
+    if (!err && !*settled) err = make_scheduler(director);
     if (!err && !*settled) err = announce(director, report);
     free(report);
     return err;
@@ -115,13 +121,18 @@ static fracas_err open_study(fracas_director *director, const double *cost, bool
 
 static fracas_err set_up(fracas_director *director, bool *settled, int64_t *failed)
 {
-    double *cost; /* first of all: a campaign that cannot be computed leaves nothing behind */
     director->phase = calloc(director->setup.workers, sizeof *director->phase);
-    if (!director->phase) return fracas_no_memory("the workers");
-    TRY(fracas_costs_create(director->setup.campaign, director->setup.options, &cost));
-    fracas_err err = open_study(director, cost, settled, failed);
-    free(cost);
-    return err;
+    director->flushing = calloc(director->setup.workers, sizeof *director->flushing);
+    if (!director->phase || !director->flushing) return fracas_no_memory("the workers");
+    /* First of all: a campaign that cannot be computed leaves nothing behind. */
+    TRY(fracas_costs_create(director->setup.campaign, director->setup.options, &director->cost));
+    return open_study(director, settled, failed);
+}
+
+/* Nothing is left to compute, nor will be. */
+static bool is_computed(const fracas_director *director)
+{
+    return fracas_scheduler_computed_all(director->scheduler) && director->rounds.open == 0;
 }
 
 fracas_err fracas_settled_verdict(const char *study, int64_t failed)
@@ -147,7 +158,7 @@ fracas_err fracas_director_create(const fracas_director_setup *setup, fracas_dir
         return err;
     }
     *director = d;
-    if (fracas_scheduler_computed_all(d->scheduler)) stop(d); /* only study.h5 is missing */
+    if (is_computed(d)) stop(d); /* only study.h5 is missing */
     return FRACAS_OK;
 }
 
@@ -155,9 +166,12 @@ void fracas_director_destroy(fracas_director *director)
 {
     if (!director) return;
     fracas_scheduler_destroy(director->scheduler);
+    fracas_rounds_clear(&director->rounds);
     fracas_index_close(director->index);
     if (director->lock >= 0) close(director->lock);
+    free(director->cost);
     free(director->phase);
+    free(director->flushing);
     free(director);
 }
 
@@ -189,6 +203,50 @@ static fracas_err offer(fracas_director *director, size_t worker)
 static fracas_err offer_all(fracas_director *director)
 {
     for (size_t worker = 0; worker < director->setup.workers; worker++) TRY(offer(director, worker));
+    return FRACAS_OK;
+}
+
+/* ---- rounds ---- */
+
+/* Decides what is complete of a point by now and gives out what it asks for. */
+static fracas_err advance(fracas_director *director, size_t p)
+{
+    fracas_rounds *rounds = &director->rounds;
+    if (rounds->stopped[p]) return FRACAS_OK;
+    const int64_t before = rounds->point[p].replicas;
+    TRY(fracas_rounds_advance(rounds, director->index, p));
+    const size_t more = (size_t)(rounds->point[p].replicas - before);
+    if (!more) return FRACAS_OK;
+    fracas_index_row *row = malloc(more * sizeof *row);
+    if (!row) return fracas_no_memory("the plan");
+    fracas_err err = fracas_index_rows_from(director->index, &rounds->point[p], p, before, row);
+    if (!err) err = fracas_scheduler_add(director->scheduler, row, more);
+    free(row);
+    return err ? err : offer_all(director);
+}
+
+/* The points of a segment that was committed. */
+static fracas_err advance_points(fracas_director *director, const fracas_segment_row *row, size_t count)
+{
+    const fracas_campaign *campaign = director->setup.campaign;
+    for (size_t r = 0; r < count; r++) {
+        if (r > 0 && fracas_hash_equal(&row[r].point, &row[r - 1].point)) continue;
+        for (size_t p = 0; director->rounds.open > 0 && p < campaign->npoints; p++)
+            if (fracas_hash_equal(&campaign->point[p].hash, &row[r].point)) TRY(advance(director, p));
+    }
+    return FRACAS_OK;
+}
+
+/* While rounds wait to be decided, a worker that has nothing to do does not keep its records to itself. */
+static fracas_err flush_resting(fracas_director *director)
+{
+    for (size_t worker = 0; director->rounds.open > 0 && !director->stopping && worker < director->setup.workers; worker++) {
+        if (director->flushing[worker] || director->phase[worker] != WORKING ||
+            !fracas_scheduler_rests(director->scheduler, worker))
+            continue;
+        director->flushing[worker] = true;
+        TRY(send(director, worker, FRACAS_PACKET_FLUSH, NULL, 0));
+    }
     return FRACAS_OK;
 }
 
@@ -242,6 +300,7 @@ static fracas_err hear_failed(fracas_director *director, size_t worker, const fr
         TRY(fracas_index_fail(director->index, point, lease.replica[0], failure.reason, final));
         TRY(fracas_index_event(director->index, "failed", text));
         if (final) fracas_voice_say(director->setup.voice, "%s", text);
+        if (final) TRY(advance(director, (size_t)lease.point));
     }
     return offer_all(director);
 }
@@ -259,7 +318,8 @@ static fracas_err hear_segment(fracas_director *director, size_t worker, const f
     TRY(fracas_index_commit(director->index, note.name, &note.seal, row, (size_t)note.rows,
                             (const char *)(row + note.rows)));
     fracas_scheduler_durable(director->scheduler, worker);
-    return FRACAS_OK;
+    director->flushing[worker] = false;
+    return advance_points(director, row, (size_t)note.rows);
 }
 
 static void end_worker(fracas_director *director, size_t worker)
@@ -305,7 +365,8 @@ static fracas_err act(fracas_director *director, size_t worker, const fracas_pac
 void fracas_director_hear(fracas_director *director, size_t worker, const fracas_packet *message)
 {
     check(director, act(director, worker, message));
-    if (fracas_scheduler_computed_all(director->scheduler)) stop(director);
+    check(director, flush_resting(director));
+    if (is_computed(director)) stop(director);
     fracas_scheduler_counts count = fracas_scheduler_count(director->scheduler);
     fracas_voice_progress(director->setup.voice, &count);
 }
@@ -329,7 +390,8 @@ static fracas_err merge(fracas_director *director, const fracas_scheduler_counts
     const fracas_campaign *campaign = director->setup.campaign;
     fracas_file_header header = fracas_segment_header(campaign);
     fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
-    TRY(fracas_study_merge(director->setup.study, director->index, &header, &campaign->table, &meshes));
+    TRY(fracas_rounds_check(campaign, director->index));
+    TRY(fracas_study_merge(director->setup.study, director->index, &header, &director->rounds.table, &meshes));
     TRY(fracas_index_event(director->index, "finished", "study.h5 is written"));
     return fracas_settled_verdict(director->setup.study, count->failed);
 }
@@ -338,7 +400,7 @@ fracas_err fracas_director_finish(fracas_director *director)
 {
     fracas_scheduler_counts count = fracas_scheduler_count(director->scheduler);
     long long kept = (long long)(count.done + count.failed), total = (long long)count.total;
-    if (!director->trouble.code && kept == total) return merge(director, &count);
+    if (!director->trouble.code && kept == total && director->rounds.open == 0) return merge(director, &count);
     fracas_err err;
     if (director->trouble.code)
         err = fracas_fail((fracas_err)director->trouble.code, "%s (%lld of %lld realizations are done and kept; the "

@@ -2,6 +2,7 @@
  * forwards between its compute server and rank 0.
  *
  *   rank 0 -> server   LEASE                         a lease to compute
+ *                      FLUSH                         write the segment now
  *                      STOP                          drop what waits, finish what runs, write the segment, end
  *   rank 0 -> rank     QUIT                          the run is over
  *   server -> rank 0   READY                         up, with the hash of the campaign that it read
@@ -34,7 +35,8 @@ typedef enum {
     FRACAS_PACKET_LOST,      /* fracas_trouble */
     FRACAS_PACKET_DRAIN,     /* empty */
     FRACAS_PACKET_RECORD,    /* a packed record */
-    FRACAS_PACKET_FAULT      /* fracas_trouble */
+    FRACAS_PACKET_FAULT,     /* fracas_trouble */
+    FRACAS_PACKET_FLUSH      /* empty */
 } fracas_packet_kind;
 
 /* One block of memory: its first fracas_packet_bytes are what travels. Freed with free(). */

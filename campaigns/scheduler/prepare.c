@@ -63,13 +63,12 @@ fracas_err fracas_study_settled(const char *study, fracas_index *index, const fr
     fracas_reader *reader;
     if (access(path, R_OK) || fracas_reader_open(path, &reader)) return FRACAS_OK; /* it is merged again */
     bool same = fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash);
+    const size_t realizations = fracas_reader_realizations(reader); /* of this campaign: as many as were asked for */
     fracas_reader_close(reader);
     if (!same) return FRACAS_OK;
     fracas_index_counts counts;
     TRY(fracas_index_count(index, &counts));
-    int64_t realizations = 0;
-    for (size_t p = 0; p < campaign->npoints; p++) realizations += campaign->point[p].replicas;
-    *settled = counts.planned == 0 && counts.leased == 0 && counts.realizations == realizations;
+    *settled = counts.planned == 0 && counts.leased == 0 && counts.realizations == (int64_t)realizations;
     *failed = counts.failed;
     return FRACAS_OK;
 }

@@ -23,8 +23,10 @@ typedef struct {
 } worker_state;
 
 struct fracas_scheduler {
+    fracas_scheduler_options options;
+    uint64_t state; /* of the shuffle */
     entry *entry;
-    size_t nentry;
+    size_t nentry, room;
     list waiting;
     size_t nwaiting, nheld; /* leases */
     worker_state *worker;
@@ -92,15 +94,15 @@ static int longest_first(const void *a, const void *b)
     return x->lease.id < y->lease.id ? -1 : 1; /* plan order: qsort need not be stable */
 }
 
-/* Cuts planned rows into leases of one point each. */
-static void make_leases(fracas_scheduler *scheduler, const fracas_index_row **row, size_t count,
-                        const fracas_scheduler_options *options)
+/* Cuts planned rows into leases of one point each, which wait last. */
+static void make_leases(fracas_scheduler *scheduler, const fracas_index_row **row, size_t count)
 {
-    uint64_t state = options->seed;
+    const fracas_scheduler_options *options = &scheduler->options;
+    const size_t first = scheduler->nentry;
     for (size_t from = 0, to; from < count; from = to) {
         for (to = from; to < count && row[to]->point == row[from]->point; to++)
             ;
-        if (options->shuffle) shuffle_rows(row + from, to - from, &state);
+        if (options->shuffle) shuffle_rows(row + from, to - from, &scheduler->state);
         entry *open = NULL;
         for (size_t i = from; i < to; i++) {
             bool alone = row[i]->attempts > 0;
@@ -115,11 +117,12 @@ static void make_leases(fracas_scheduler *scheduler, const fracas_index_row **ro
         }
     }
     if (options->shuffle)
-        for (size_t i = 0; i < scheduler->nentry; i++)
-            scheduler->entry[i].cost = (double)(next_random(&state) >> 11);
-    if (scheduler->nentry) qsort(scheduler->entry, scheduler->nentry, sizeof *scheduler->entry, longest_first);
-    for (size_t i = 0; i < scheduler->nentry; i++) {
+        for (size_t i = first; i < scheduler->nentry; i++)
+            scheduler->entry[i].cost = (double)(next_random(&scheduler->state) >> 11);
+    if (scheduler->nentry > first) qsort(scheduler->entry + first, scheduler->nentry - first, sizeof *scheduler->entry, longest_first);
+    for (size_t i = first; i < scheduler->nentry; i++) {
         scheduler->entry[i].lease.id = i;
+        scheduler->cost += scheduler->entry[i].cost;
         wait_last(scheduler, i);
     }
 }
@@ -137,7 +140,7 @@ static size_t select_planned(fracas_scheduler *scheduler, const fracas_index_row
         else
             planned[nplanned++] = &row[i];
     }
-    scheduler->count.total = (int64_t)count;
+    scheduler->count.total += (int64_t)count;
     return nplanned;
 }
 
@@ -145,27 +148,36 @@ fracas_err fracas_scheduler_create(const fracas_index_row *row, size_t count, co
                                    fracas_scheduler **scheduler)
 {
     fracas_scheduler *s = calloc(1, sizeof *s);
+    if (s) s->worker = malloc(options->workers * sizeof *s->worker);
+    if (!s || !s->worker) {
+        fracas_scheduler_destroy(s);
+        return fracas_no_memory("the plan");
+    }
+    s->options = *options;
+    s->state = options->seed;
+    s->nworker = options->workers;
+    s->waiting = (list){NONE, NONE};
+    for (size_t w = 0; w < s->nworker; w++) s->worker[w] = (worker_state){.memory = {NONE, NONE}};
+    fracas_err err = fracas_scheduler_add(s, row, count);
+    if (err) fracas_scheduler_destroy(s);
+    else *scheduler = s;
+    return err;
+}
+
+fracas_err fracas_scheduler_add(fracas_scheduler *scheduler, const fracas_index_row *row, size_t count)
+{
     const fracas_index_row **planned = malloc((count + 1) * sizeof *planned);
-    if (s && planned) {
-        size_t nplanned = select_planned(s, row, count, planned);
-        /* In the worst case every lease is split into its realizations: room for all, so that no failure
-         * needs memory when it is scarce. */
-        s->entry = malloc((2 * nplanned + 1) * sizeof *s->entry);
-        s->worker = malloc(options->workers * sizeof *s->worker);
-        s->nworker = options->workers;
-        s->waiting = (list){NONE, NONE};
-        if (s->entry && s->worker) {
-            for (size_t w = 0; w < s->nworker; w++) s->worker[w] = (worker_state){.memory = {NONE, NONE}};
-            make_leases(s, planned, nplanned, options);
-            for (size_t i = 0; i < s->nentry; i++) s->cost += s->entry[i].cost;
-            free(planned);
-            *scheduler = s;
-            return FRACAS_OK;
-        }
+    /* In the worst case every lease is split into its realizations: room for all, so that no failure
+     * needs memory when it is scarce. */
+    const size_t room = scheduler->room + 2 * count;
+    entry *bigger = planned ? realloc(scheduler->entry, (room + 1) * sizeof *bigger) : NULL;
+    if (bigger) {
+        scheduler->entry = bigger;
+        scheduler->room = room;
+        make_leases(scheduler, planned, select_planned(scheduler, row, count, planned));
     }
     free(planned);
-    fracas_scheduler_destroy(s);
-    return fracas_no_memory("the plan");
+    return bigger ? FRACAS_OK : fracas_no_memory("the plan");
 }
 
 void fracas_scheduler_destroy(fracas_scheduler *scheduler)
@@ -261,6 +273,11 @@ void fracas_scheduler_lost(fracas_scheduler *scheduler, size_t worker)
         scheduler->computed -= scheduler->entry[id].cost;
         wait_first(scheduler, id);
     }
+}
+
+bool fracas_scheduler_rests(const fracas_scheduler *scheduler, size_t worker)
+{
+    return scheduler->worker[worker].nheld == 0 && scheduler->worker[worker].memory.first != NONE;
 }
 
 bool fracas_scheduler_computed_all(const fracas_scheduler *scheduler)

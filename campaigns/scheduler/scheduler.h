@@ -28,7 +28,7 @@ typedef struct {
 } fracas_lease;
 
 typedef struct {
-    const double *cost; /* predicted, one per point, any unit: longest leases go first */
+    const double *cost; /* predicted, one per point, any unit: longest leases go first; must outlive the scheduler */
     size_t workers;
     size_t width;       /* most realizations of a lease, 1 to FRACAS_LEASE_MAX */
     bool shuffle;       /* random replicas in a batch and random leases first, instead of the longest */
@@ -50,6 +50,8 @@ typedef struct fracas_scheduler fracas_scheduler;
 FRACAS_MUST_USE fracas_err fracas_scheduler_create(const fracas_index_row *row, size_t count,
                                                    const fracas_scheduler_options *options,
                                                    fracas_scheduler **scheduler);
+/* The same for more rows, in plan order, of a plan that grows; their leases wait last. */
+FRACAS_MUST_USE fracas_err fracas_scheduler_add(fracas_scheduler *scheduler, const fracas_index_row *row, size_t count);
 void fracas_scheduler_destroy(fracas_scheduler *scheduler); /* NULL is allowed */
 
 /* Gives `worker` the next lease; false when none waits or the worker has enough: one that runs and one ahead, or
@@ -69,6 +71,9 @@ void fracas_scheduler_durable(fracas_scheduler *scheduler, size_t worker);
 
 /* The worker is gone: what it held and had in memory waits again, first in line. */
 void fracas_scheduler_lost(fracas_scheduler *scheduler, size_t worker);
+
+/* True when the worker holds no lease, but has computed some that are not durable yet. */
+bool fracas_scheduler_rests(const fracas_scheduler *scheduler, size_t worker);
 
 /* True when no lease waits or is held: everything is in memory, durable or failed. */
 bool fracas_scheduler_computed_all(const fracas_scheduler *scheduler);

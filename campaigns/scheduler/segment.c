@@ -111,7 +111,8 @@ static fracas_err append(const fracas_segment *segment, size_t i, const fracas_c
                                 .fragments_dust = record.fragments_dust,
                                 .steps = record.steps,
                                 .dissipated = record.dissipated,
-                                .residual = record.residual};
+                                .residual = record.residual,
+                                .size = fracas_record_mean_size(&record)};
     fracas_record_clear(&record);
     return err;
 }

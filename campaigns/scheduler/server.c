@@ -95,6 +95,8 @@ static fracas_err hear_rank(server *s)
         s->alone = true;
     } else if (message->kind == FRACAS_PACKET_STOP) {
         s->stopping = true;
+    } else if (message->kind == FRACAS_PACKET_FLUSH) {
+        if (s->segment.count) err = write_segment(s);
     } else if (message->kind == FRACAS_PACKET_LEASE && s->nwaiting < FRACAS_LEASES_HELD) {
         err = fracas_packet_expect(message, sizeof(fracas_lease));
         if (!err) memcpy(&s->waiting[s->nwaiting++], message->body, sizeof(fracas_lease));

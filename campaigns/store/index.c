@@ -24,9 +24,15 @@ static const char tables[] =
     " status TEXT NOT NULL CHECK (status IN ('planned', 'leased', 'done', 'failed', 'quarantined')),"
     " attempts INTEGER NOT NULL DEFAULT 0, reason TEXT, outcome INTEGER, segment INTEGER REFERENCES segment(id),"
     " row INTEGER, fragments INTEGER, fragments_dust INTEGER, steps INTEGER, dissipated REAL, residual REAL,"
+    " size REAL,"
     " PRIMARY KEY (point, replica)) STRICT, WITHOUT ROWID;"
     "CREATE TABLE IF NOT EXISTS event(id INTEGER PRIMARY KEY, time TEXT NOT NULL, kind TEXT NOT NULL,"
-    " text TEXT NOT NULL) STRICT;";
+    " text TEXT NOT NULL) STRICT;"
+    "CREATE TABLE IF NOT EXISTS decision(point INTEGER NOT NULL REFERENCES point(id), round INTEGER NOT NULL,"
+    " replicas INTEGER NOT NULL, failed INTEGER NOT NULL, mean REAL, half_width REAL, relative REAL,"
+    " stop INTEGER NOT NULL, reason TEXT NOT NULL, quantity INTEGER NOT NULL, minimum INTEGER NOT NULL,"
+    " maximum INTEGER NOT NULL, relative_half_width REAL NOT NULL, confidence REAL NOT NULL,"
+    " PRIMARY KEY (point, round)) STRICT, WITHOUT ROWID;";
 
 static const char remedy[] = "remove it: `fracas run` makes it anew from the segments";
 
@@ -46,11 +52,11 @@ static const char *const sql_text[FRACAS_NSQL] = {
                            " SELECT ?1, replica, 'planned' FROM n",
     [FRACAS_SQL_ROW_FIND] = "SELECT status, segment, row FROM realization WHERE point = ?1 AND replica = ?2",
     [FRACAS_SQL_ROW_OF_POINT] = "SELECT replica, status, attempts FROM realization"
-                                " WHERE point = ?1 AND replica < ?2 ORDER BY replica",
+                                " WHERE point = ?1 AND replica >= ?3 AND replica < ?2 ORDER BY replica",
     [FRACAS_SQL_ROW_FAILED] = "SELECT replica, status, attempts, coalesce(reason, '') FROM realization"
                               " WHERE point = ?1 AND status IN ('failed', 'quarantined') ORDER BY replica",
     [FRACAS_SQL_ROW_BY_SEGMENT] = "SELECT r.segment, r.row, p.hash, r.replica, r.outcome, r.fragments,"
-                                  " r.fragments_dust, r.steps, r.dissipated, r.residual, r.status"
+                                  " r.fragments_dust, r.steps, r.dissipated, r.residual, r.status, r.size"
                                   " FROM realization r JOIN point p ON p.id = r.point"
                                   " WHERE r.segment IS NOT NULL OR r.status = 'done' ORDER BY r.segment, r.row",
     [FRACAS_SQL_ROW_UNLEASE] = "UPDATE realization SET status = 'planned' WHERE status = 'leased'",
@@ -59,11 +65,11 @@ static const char *const sql_text[FRACAS_NSQL] = {
     [FRACAS_SQL_ROW_FAIL] = "UPDATE realization SET attempts = attempts + 1, reason = ?3, status = ?4, outcome = ?5"
                             " WHERE point = ?1 AND replica = ?2 AND status <> 'done'",
     [FRACAS_SQL_ROW_DONE] = "UPDATE realization SET status = ?3, outcome = ?4, segment = ?5, row = ?6, fragments = ?7,"
-                            " fragments_dust = ?8, steps = ?9, dissipated = ?10, residual = ?11"
+                            " fragments_dust = ?8, steps = ?9, dissipated = ?10, residual = ?11, size = ?12"
                             " WHERE point = ?1 AND replica = ?2 AND status <> 'done'",
     [FRACAS_SQL_ROW_FORGET] = "UPDATE realization SET status = 'planned', outcome = NULL, segment = NULL, row = NULL,"
                               " fragments = NULL, fragments_dust = NULL, steps = NULL, dissipated = NULL,"
-                              " residual = NULL WHERE segment IN (SELECT id FROM segment WHERE bytes < 0)",
+                              " residual = NULL, size = NULL WHERE segment IN (SELECT id FROM segment WHERE bytes < 0)",
     [FRACAS_SQL_TALLY] = "SELECT status, outcome FROM realization",
     [FRACAS_SQL_TALLY_POINT] = "SELECT status, outcome FROM realization WHERE point = ?1",
     [FRACAS_SQL_SEGMENT_ADD] = "INSERT INTO segment(name, bytes, checksum, rows, provenance)"
@@ -77,7 +83,32 @@ static const char *const sql_text[FRACAS_NSQL] = {
                                        " WHERE id IN (SELECT segment FROM realization WHERE point = ?1)",
     [FRACAS_SQL_EVENT_ADD] = "INSERT INTO event(time, kind, text)"
                              " VALUES (strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), ?1, ?2)",
+    [FRACAS_SQL_ROW_SUMMARY] = "SELECT status, outcome, fragments, size, dissipated FROM realization"
+                               " WHERE point = ?1 AND replica < ?2 ORDER BY replica",
+    [FRACAS_SQL_ROW_TRIM] = "DELETE FROM realization WHERE point = ?1 AND replica >= ?2",
+    [FRACAS_SQL_DECISION_ADD] = "INSERT INTO decision VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14)",
+    [FRACAS_SQL_DECISION_DROP] = "DELETE FROM decision WHERE point = ?1 AND round >= ?2",
+    [FRACAS_SQL_DECISION_OF_POINT] = "SELECT round, replicas, failed, mean, half_width, stop, quantity, minimum, maximum,"
+                                     " relative_half_width, confidence FROM decision WHERE point = ?1 ORDER BY round",
 };
+
+/* The same for an index of before decisions were kept, which is only looked at: a run adds what it lacks. */
+static const char *old_text(int sql)
+{
+    switch (sql) {
+    case FRACAS_SQL_ROW_BY_SEGMENT:
+        return "SELECT r.segment, r.row, p.hash, r.replica, r.outcome, r.fragments, r.fragments_dust, r.steps, r.dissipated,"
+               " r.residual, r.status, NULL FROM realization r JOIN point p ON p.id = r.point"
+               " WHERE r.segment IS NOT NULL OR r.status = 'done' ORDER BY r.segment, r.row";
+    case FRACAS_SQL_ROW_DONE:
+    case FRACAS_SQL_ROW_FORGET:
+    case FRACAS_SQL_ROW_SUMMARY:
+    case FRACAS_SQL_DECISION_ADD:
+    case FRACAS_SQL_DECISION_DROP:
+    case FRACAS_SQL_DECISION_OF_POINT: return "SELECT 0 LIMIT 0";
+    default: return sql_text[sql];
+    }
+}
 
 /* ---- errors and statements ---- */
 
@@ -282,6 +313,27 @@ static fracas_err connect_to(fracas_index *index, const char *study, bool create
                                                                               : fracas_index_error(index, "open");
 }
 
+/* Is `realization` of before decisions were kept? */
+static fracas_err is_old(fracas_index *index, bool *old)
+{
+    static const char query[] = "SELECT count(*), count(CASE name WHEN 'size' THEN 1 END) FROM pragma_table_info('realization')";
+    sqlite3_stmt *statement;
+    if (sqlite3_prepare_v2(index->db, query, -1, &statement, NULL) != SQLITE_OK) return fracas_index_error(index, "open");
+    bool row = sqlite3_step(statement) == SQLITE_ROW;
+    *old = sqlite3_column_int(statement, 0) > 0 && sqlite3_column_int(statement, 1) == 0;
+    fracas_err err = row ? FRACAS_OK : fracas_index_error(index, "open");
+    sqlite3_finalize(statement);
+    return err;
+}
+
+static fracas_err bring_up(fracas_index *index)
+{
+    if (sqlite3_exec(index->db, "ALTER TABLE realization ADD COLUMN size REAL", NULL, NULL, NULL) != SQLITE_OK)
+        return fracas_index_error(index, "add a column");
+    index->old = false;
+    return FRACAS_OK;
+}
+
 /* Counts the tables, and those that are called `meta`. */
 static fracas_err count_tables(fracas_index *index, int *all, int *meta)
 {
@@ -310,8 +362,11 @@ static fracas_err open_database(fracas_index *index, const char *study, bool cre
     if (all && !meta) return fracas_fail(FRACAS_DAMAGED, "%s is no index of fracas; %s", index->path, remedy);
     if (create) TRY(create_tables(index));
     TRY(check_version(index));
+    TRY(is_old(index, &index->old));
+    if (create && index->old) TRY(bring_up(index));
     for (int s = 0; s < FRACAS_NSQL; s++)
-        if (sqlite3_prepare_v3(index->db, sql_text[s], -1, SQLITE_PREPARE_PERSISTENT, &index->statement[s], NULL))
+        if (sqlite3_prepare_v3(index->db, index->old ? old_text(s) : sql_text[s], -1, SQLITE_PREPARE_PERSISTENT,
+                               &index->statement[s], NULL))
             return fracas_index_error(index, "prepare a statement");
     return FRACAS_OK;
 }

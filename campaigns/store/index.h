@@ -36,6 +36,11 @@ typedef enum {
     FRACAS_SQL_SEGMENT_TOTAL,
     FRACAS_SQL_SEGMENT_TOTAL_POINT,
     FRACAS_SQL_EVENT_ADD,
+    FRACAS_SQL_ROW_SUMMARY,
+    FRACAS_SQL_ROW_TRIM,
+    FRACAS_SQL_DECISION_ADD,
+    FRACAS_SQL_DECISION_DROP,
+    FRACAS_SQL_DECISION_OF_POINT,
     FRACAS_NSQL
 } fracas_sql;
 
@@ -44,6 +49,7 @@ struct fracas_index {
     char *path;
     bool local; /* WAL: a filesystem of this machine */
     bool reading; /* the study cannot be written */
+    bool old;     /* of before decisions were kept, and only looked at */
     sqlite3_stmt *statement[FRACAS_NSQL];
 };
 
@@ -74,6 +80,9 @@ FRACAS_MUST_USE fracas_err fracas_index_study_seal(fracas_index *index, bool *se
 
 /* Id of a point, 0 if it is not there. */
 FRACAS_MUST_USE fracas_err fracas_index_find_point(fracas_index *index, const fracas_hash *point, int64_t *id);
+
+/* Plans the replicas of a point that are not there yet, within a transaction. */
+FRACAS_MUST_USE fracas_err fracas_index_plan_point(fracas_index *index, const fracas_point_row *point);
 
 /* Where a realization's bytes are. */
 typedef struct {

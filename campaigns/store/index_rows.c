@@ -60,7 +60,7 @@ static fracas_err one_row(fracas_index *index, fracas_sql sql, int64_t *first, i
 
 /* ---- planning ---- */
 
-static fracas_err plan_point(fracas_index *index, const fracas_point_row *point)
+fracas_err fracas_index_plan_point(fracas_index *index, const fracas_point_row *point)
 {
     char hex[FRACAS_HASH_HEX];
     int64_t id, there;
@@ -82,22 +82,23 @@ fracas_err fracas_index_plan(fracas_index *index, const fracas_point_table *tabl
 {
     TRY(fracas_index_do(index, FRACAS_SQL_BEGIN));
     fracas_err err = fracas_index_do(index, FRACAS_SQL_ROW_UNLEASE);
-    for (size_t p = 0; !err && p < table->npoints; p++) err = plan_point(index, &table->point[p]);
+    for (size_t p = 0; !err && p < table->npoints; p++) err = fracas_index_plan_point(index, &table->point[p]);
     return fracas_index_end(index, err);
 }
 
-static fracas_err rows_of_point(fracas_index *index, const fracas_point_row *point, size_t p, fracas_index_row *row)
+fracas_err fracas_index_rows_from(fracas_index *index, const fracas_point_row *point, size_t p, int64_t first, fracas_index_row *row)
 {
-    int64_t id, found = 0;
+    int64_t id, found = first;
     bool more = true;
     TRY(need_point(index, &point->hash, &id));
     TRY(fracas_index_bind(index, FRACAS_SQL_ROW_OF_POINT, 1, id));
     TRY(fracas_index_bind(index, FRACAS_SQL_ROW_OF_POINT, 2, point->replicas));
+    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_OF_POINT, 3, first));
     sqlite3_stmt *s = at(index, FRACAS_SQL_ROW_OF_POINT);
     for (;; found++) {
         TRY(fracas_index_step(index, FRACAS_SQL_ROW_OF_POINT, &more));
-        if (!more || sqlite3_column_int64(s, 0) != found) break; /* else 0, 1, 2 ... below point->replicas */
-        row[found] = (fracas_index_row){p, found, fracas_index_status(sqlite3_column_text(s, 1)),
+        if (!more || sqlite3_column_int64(s, 0) != found) break; /* else first, first + 1 ... below point->replicas */
+        row[found - first] = (fracas_index_row){p, found, fracas_index_status(sqlite3_column_text(s, 1)),
                                         sqlite3_column_int64(s, 2)};
     }
     fracas_index_reset(index, FRACAS_SQL_ROW_OF_POINT);
@@ -115,7 +116,7 @@ fracas_err fracas_index_rows(fracas_index *index, const fracas_point_table *tabl
     fracas_err err = FRACAS_OK;
     size_t first = 0;
     for (size_t p = 0; !err && p < table->npoints; p++) {
-        err = rows_of_point(index, &table->point[p], p, *row + first);
+        err = fracas_index_rows_from(index, &table->point[p], p, 0, *row + first);
         first += (size_t)table->point[p].replicas;
     }
     if (err) free(*row), *row = NULL;
@@ -264,6 +265,7 @@ static fracas_err set_done(fracas_index *index, int64_t point, int64_t segment, 
     TRY(fracas_index_bind(index, FRACAS_SQL_ROW_DONE, 9, row->steps));
     TRY(fracas_index_bind_real(index, FRACAS_SQL_ROW_DONE, 10, row->dissipated));
     TRY(fracas_index_bind_real(index, FRACAS_SQL_ROW_DONE, 11, row->residual));
+    TRY(fracas_index_bind_real(index, FRACAS_SQL_ROW_DONE, 12, row->size));
     TRY(fracas_index_do(index, FRACAS_SQL_ROW_DONE));
     return changed_or_done(index, &row->point, row->replica);
 }

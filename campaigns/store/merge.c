@@ -24,6 +24,22 @@ static fracas_err append(void *context, fracas_step *step)
     return fracas_writer_append(m->writer, step->point, step->replica, &step->record);
 }
 
+/* After all records, point by point, of the points whose replicas a rule decides. */
+static fracas_err append_decisions(const merging *m, fracas_index *index)
+{
+    fracas_err err = FRACAS_OK;
+    for (size_t p = 0; !err && p < m->table->npoints; p++) {
+        fracas_decision *decision;
+        size_t count;
+        if (!m->table->point[p].most) continue;
+        TRY(fracas_index_decisions(index, &m->table->point[p].hash, &decision, &count));
+        for (size_t d = 0; d < count; d++) decision[d].point = (int64_t)p;
+        err = fracas_writer_decisions(m->writer, decision, count);
+        free(decision);
+    }
+    return err;
+}
+
 /* After all records, point by point: the order depends on nothing else. */
 static fracas_err append_meshes(const merging *m, const fracas_mesh_source *meshes)
 {
@@ -50,6 +66,7 @@ fracas_err fracas_study_merge(const char *study, fracas_index *index, const frac
     fracas_err err = fracas_segments_create(study, index, &identity, &segments);
     if (!err) err = fracas_writer_create(path, header, table, &m.writer);
     if (!err) err = fracas_segments_walk(segments, table, false, append, &m);
+    if (!err) err = append_decisions(&m, index);
     if (!err && meshes && header->interfaces) err = append_meshes(&m, meshes);
     if (!err) err = fracas_index_seal_study(index, NULL); /* a death from here on leaves no seal: merged again */
     if (err) fracas_writer_abandon(m.writer);

@@ -17,7 +17,7 @@ struct fracas_reader {
     char *path;
     fracas_file_header header;
     fracas_stored_table points;
-    bool meshes; /* has a group /mesh */
+    bool decisions, meshes; /* has a group /decision, /mesh */
     set_reader set[FRACAS_NSETS];
 };
 
@@ -138,6 +138,8 @@ static fracas_err open_sets(fracas_reader *reader)
     if (reader->header.interfaces != there)
         return damaged(reader, "interfaces", "the group /interface is there when it must not be, or missing");
     if (there) TRY(open_ragged(reader, realizations, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE));
+    TRY(is_there(reader, "/decision", &reader->decisions));
+    if (reader->decisions) TRY(open_set(reader, FRACAS_SET_DECISION));
     return open_meshes(reader);
 }
 
@@ -276,6 +278,22 @@ fracas_err fracas_reader_record(fracas_reader *reader, size_t row, unsigned part
     *record = stored.record;
     fracas_err err = load_parts(reader, row, parts, record);
     if (err) fracas_record_clear(record);
+    return err;
+}
+
+/* ---- decisions ---- */
+
+fracas_err fracas_reader_decisions(fracas_reader *reader, fracas_decision **decision, size_t *count)
+{
+    *count = reader->decisions ? reader->set[FRACAS_SET_DECISION].rows : 0;
+    *decision = calloc(*count + 1, sizeof **decision);
+    if (!*decision) return fracas_no_memory("the decisions of a study");
+    fracas_err err = *count ? load_rows(reader, FRACAS_SET_DECISION, 0, *count, *decision) : FRACAS_OK;
+    for (size_t d = 0; !err && d < *count; d++)
+        if (!fracas_decision_valid(&(*decision)[d]) || (*decision)[d].point < 0 ||
+            (uint64_t)(*decision)[d].point >= reader->points.table.npoints)
+            err = damaged(reader, "/decision", "a decision is of no point of the file, or out of range");
+    if (err) free(*decision), *decision = NULL;
     return err;
 }
 

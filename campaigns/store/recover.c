@@ -88,15 +88,28 @@ static fracas_err forget_lost(const char *study, fracas_index *index, FILE *repo
 
 /* ---- segments that the folder has, but the index does not know ---- */
 
+/* A realization that the index does not know, but a rule may have asked for before the index was lost, is planned now. */
+static fracas_err place_or_plan(fracas_index *index, const fracas_point_table *table, const fracas_hash *point, int64_t replica)
+{
+    fracas_place place;
+    fracas_err err = fracas_index_place(index, point, replica, &place);
+    for (size_t p = 0; err == FRACAS_DAMAGED && p < table->npoints; p++) {
+        fracas_point_row row = table->point[p];
+        if (row.most <= replica || !fracas_hash_equal(&row.hash, point)) continue;
+        row.replicas = replica + 1;
+        err = fracas_index_plan_point(index, &row);
+    }
+    return err;
+}
+
 /* Reads every record, so that every checksum of the file is looked at. */
-static fracas_err read_rows(fracas_reader *reader, fracas_index *index, fracas_segment_row *row)
+static fracas_err read_rows(fracas_reader *reader, const fracas_point_table *table, fracas_index *index, fracas_segment_row *row)
 {
     fracas_record record;
     fracas_err err = FRACAS_OK;
     fracas_record_init(&record);
     for (size_t r = 0; !err && r < fracas_reader_realizations(reader); r++) {
         size_t point;
-        fracas_place place;
         err = fracas_reader_record(reader, r, FRACAS_READ_ALL, &point, &row[r].replica, &record);
         if (err) break;
         row[r].point = fracas_reader_points(reader)->point[point].hash;
@@ -107,7 +120,8 @@ static fracas_err read_rows(fracas_reader *reader, fracas_index *index, fracas_s
         row[r].steps = record.steps;
         row[r].dissipated = record.dissipated;
         row[r].residual = record.residual;
-        err = fracas_index_place(index, &row[r].point, row[r].replica, &place); /* FRACAS_DAMAGED: of no point here */
+        row[r].size = fracas_record_mean_size(&record);
+        err = place_or_plan(index, table, &row[r].point, row[r].replica); /* FRACAS_DAMAGED: of no point here */
     }
     fracas_record_clear(&record);
     return err;
@@ -115,11 +129,11 @@ static fracas_err read_rows(fracas_reader *reader, fracas_index *index, fracas_s
 
 /* Commits the rows of an open segment. */
 static fracas_err adopt(const char *path, const char *name, fracas_reader *reader, const fracas_file_seal *seal,
-                        fracas_index *index)
+                        const fracas_point_table *table, fracas_index *index)
 {
     size_t count = fracas_reader_realizations(reader);
     fracas_segment_row *row = calloc(count + 1, sizeof *row);
-    fracas_err err = row ? read_rows(reader, index, row) : fracas_no_memory("the rows of a segment");
+    fracas_err err = row ? read_rows(reader, table, index, row) : fracas_no_memory("the rows of a segment");
     if (!err) err = fracas_disk_sync_folder(path); /* whoever renamed it may have died before this */
     if (!err) err = fracas_index_commit(index, name, seal, row, count, "{\"adopted\": true}");
     free(row);
@@ -127,7 +141,7 @@ static fracas_err adopt(const char *path, const char *name, fracas_reader *reade
 }
 
 /* Adopts a segment, or leaves it: what another program or campaign computed is not ours to remove. */
-static fracas_err adopt_or_leave(const char *path, const char *name, fracas_index *index,
+static fracas_err adopt_or_leave(const char *path, const char *name, const fracas_point_table *table, fracas_index *index,
                                  const fracas_identity *identity, FILE *report)
 {
     fracas_reader *reader;
@@ -146,16 +160,16 @@ static fracas_err adopt_or_leave(const char *path, const char *name, fracas_inde
     fracas_err err = FRACAS_OK;
     if (fracas_identity_differs(&found, identity, text))
         fprintf(report, "left %s, which is not of this study: %s; move it away\n", path, text);
-    else if (!(err = adopt(path, name, reader, &seal, index)))
+    else if (!(err = adopt(path, name, reader, &seal, table, index)))
         fprintf(report, "adopted %s with %zu realizations\n", path, fracas_reader_realizations(reader));
     fracas_reader_close(reader);
     return err;
 }
 
-static fracas_err adopt_or_remove(const char *path, const char *name, fracas_index *index,
+static fracas_err adopt_or_remove(const char *path, const char *name, const fracas_point_table *table, fracas_index *index,
                                   const fracas_identity *identity, FILE *report)
 {
-    fracas_err err = adopt_or_leave(path, name, index, identity, report);
+    fracas_err err = adopt_or_leave(path, name, table, index, identity, report);
     if (err != FRACAS_DAMAGED) return err;
     TRY(remove_file(path));
     fprintf(report, "removed %s: %s\n", path, fracas_message());
@@ -174,7 +188,7 @@ static bool is_known(const fracas_known_segment *segment, size_t count, char *na
     return count > 0 && bsearch(&wanted, segment, count, sizeof *segment, compare_names);
 }
 
-static fracas_err adopt_orphans(const char *folder, fracas_index *index, const fracas_identity *identity,
+static fracas_err adopt_orphans(const char *folder, const fracas_point_table *table, fracas_index *index, const fracas_identity *identity,
                                 FILE *report)
 {
     struct dirent **entry;
@@ -190,7 +204,7 @@ static fracas_err adopt_orphans(const char *folder, fracas_index *index, const f
         if (name[0] == '.' || !dot || strcmp(dot, ".h5") != 0 || is_known(segment, nsegments, name)) continue;
         err = fracas_disk_join(folder, name, &path);
         if (err) break;
-        err = adopt_or_remove(path, name, index, identity, report);
+        err = adopt_or_remove(path, name, table, index, identity, report);
         free(path);
     }
     free_list(entry, count);
@@ -198,7 +212,8 @@ static fracas_err adopt_orphans(const char *folder, fracas_index *index, const f
     return err;
 }
 
-static fracas_err recover(const char *study, fracas_index *index, const fracas_identity *identity, FILE *report)
+static fracas_err recover(const char *study, const fracas_point_table *table, fracas_index *index,
+                          const fracas_identity *identity, FILE *report)
 {
     char *folder;
     TRY(fracas_disk_join(study, "segments", &folder));
@@ -207,7 +222,7 @@ static fracas_err recover(const char *study, fracas_index *index, const fracas_i
     if (!err) err = remove_temporaries(study, report); /* of a merge */
     if (!err) err = remove_temporaries(folder, report);
     if (!err) err = forget_lost(study, index, report);
-    if (!err) err = adopt_orphans(folder, index, identity, report);
+    if (!err) err = adopt_orphans(folder, table, index, identity, report);
     free(folder);
     return err;
 }
@@ -223,7 +238,7 @@ fracas_err fracas_study_recover(const char *study, fracas_index *index, const fr
     TRY(fracas_index_plan(index, table));
     FILE *text = open_memstream(report, &size);
     if (!text) return fracas_no_memory("a report");
-    fracas_err err = recover(study, index, &identity, text);
+    fracas_err err = recover(study, table, index, &identity, text);
     if (fclose(text) != 0 && !err) err = fracas_no_memory("a report");
     if (err) free(*report), *report = NULL;
     return err;

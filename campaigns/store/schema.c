@@ -1,7 +1,7 @@
 #include "campaigns/store/schema.h"
 
 #include "base/param.h"
-#include "campaigns/store/mesh.h"
+#include "campaigns/store/store.h"
 
 #include <stdbool.h>
 #include <string.h>
@@ -111,6 +111,28 @@ static const fracas_store_column interface[] = {
      offsetof(fracas_interface_row, break_time)},
 };
 
+static const fracas_store_column decision[] = {
+    {"/decision/point", FRACAS_INT32, 1, "1", "row of the point in /point", offsetof(fracas_decision, point)},
+    {"/decision/round", FRACAS_INT32, 1, "1", "round of the point, from 0", offsetof(fracas_decision, round)},
+    {"/decision/replicas", FRACAS_INT64, 1, "1", "replicas that the point had, 0 to this - 1, when it was decided",
+     offsetof(fracas_decision, replicas)},
+    {"/decision/used", FRACAS_INT64, 1, "1", "of those, realizations in the mean: FRAGMENTED, INTACT and TIME_LIMIT",
+     offsetof(fracas_decision, used)},
+    {"/decision/mean", FRACAS_FLOAT64, 1, "1", "mean of the quantity over them: 1, m or J by the quantity",
+     offsetof(fracas_decision, mean)},
+    {"/decision/half_width", FRACAS_FLOAT64, 1, "1", "half width of the t interval of the mean, in the same unit",
+     offsetof(fracas_decision, half_width)},
+    {"/decision/stop", FRACAS_INT8, 1, "1", "0 goes on to the next round, 1 precise enough, 2 at the maximum",
+     offsetof(fracas_decision, stop)},
+    {"/decision/quantity", FRACAS_INT8, 1, "1", "the rule: 0 mean-count, 1 mean-size, 2 dissipated",
+     offsetof(fracas_decision, quantity)},
+    {"/decision/minimum", FRACAS_INT64, 1, "1", "the rule: replicas of the first round", offsetof(fracas_decision, minimum)},
+    {"/decision/maximum", FRACAS_INT64, 1, "1", "the rule: most replicas", offsetof(fracas_decision, maximum)},
+    {"/decision/relative_half_width", FRACAS_FLOAT64, 1, "1", "the rule: half width asked for, as part of the mean",
+     offsetof(fracas_decision, relative_half_width)},
+    {"/decision/confidence", FRACAS_FLOAT64, 1, "1", "the rule: confidence of the interval", offsetof(fracas_decision, confidence)},
+};
+
 #define MESH_OFFSET(name, things)                                                                               \
     static const fracas_store_column name[] = {                                                                 \
         {"/mesh/" things "_offset", FRACAS_INT64, 1, "1",                                                       \
@@ -163,6 +185,7 @@ const fracas_store_set fracas_store_sets[FRACAS_NSETS] = {
     [FRACAS_SET_HISTORY] = SET(history, 512, fracas_history_row),
     [FRACAS_SET_INTERFACE_OFFSET] = SET(interface_offset, 256, int64_t),
     [FRACAS_SET_INTERFACE] = SET(interface, 2048, fracas_interface_row),
+    [FRACAS_SET_DECISION] = SET(decision, 64, fracas_decision),
     [FRACAS_SET_MESH_NODE_OFFSET] = SET(mesh_node_offset, 64, int64_t),
     [FRACAS_SET_MESH_NODE] = SET(mesh_node, 1024, fracas_stored_node),
     [FRACAS_SET_MESH_ELEMENT_OFFSET] = SET(mesh_element_offset, 64, int64_t),

@@ -31,6 +31,7 @@ typedef enum {
     FRACAS_SET_HISTORY,
     FRACAS_SET_INTERFACE_OFFSET, /* this and the next only in files with interfaces */
     FRACAS_SET_INTERFACE,
+    FRACAS_SET_DECISION, /* only in a study.h5 with points whose replicas a rule decided */
     FRACAS_SET_MESH_NODE_OFFSET, /* from here on only in a study.h5 that keeps meshes of surfaces */
     FRACAS_SET_MESH_NODE,
     FRACAS_SET_MESH_ELEMENT_OFFSET,
@@ -54,7 +55,7 @@ typedef struct {
 extern const fracas_store_set fracas_store_sets[FRACAS_NSETS];
 
 /* A row of FRACAS_SET_REALIZATION in memory; rows of the others are fracas_fragment, fracas_history_row,
- * fracas_interface_row, those of campaigns/store/mesh.h, and an int64_t for the offsets. */
+ * fracas_interface_row, fracas_decision, those of campaigns/store/mesh.h, and an int64_t for the offsets. */
 typedef struct {
     int64_t point, replica;
     fracas_record record; /* its scalars */

@@ -36,6 +36,24 @@ typedef struct {
     uint64_t checksum; /* fracas_checksum_of its contents */
 } fracas_file_seal;
 
+/* One round of a point whose replicas a rule decides (docs/theory/sequential.md): what was decided, from what, by which rule. */
+typedef struct {
+    int64_t point;    /* in the table of the file */
+    int64_t round;    /* from 0 */
+    int64_t replicas; /* that it had: 0 to replicas - 1 */
+    int64_t used;     /* realizations in the mean */
+    double mean, half_width;
+    int64_t stop;     /* 0 goes on, 1 precise, 2 at the maximum */
+    int64_t quantity, minimum, maximum; /* the rule */
+    double relative_half_width, confidence;
+} fracas_decision;
+
+/* Every number that names something is one of those that do. */
+bool fracas_decision_valid(const fracas_decision *decision);
+
+/* Equal to the bit, NaNs alike. */
+bool fracas_decision_same(const fracas_decision *a, const fracas_decision *b);
+
 typedef struct fracas_writer fracas_writer;
 typedef struct fracas_reader fracas_reader;
 
@@ -45,6 +63,8 @@ FRACAS_MUST_USE fracas_err fracas_writer_create(const char *path, const fracas_f
 /* Appends one realization; records are buffered by column, so memory stays bounded. */
 FRACAS_MUST_USE fracas_err fracas_writer_append(fracas_writer *writer, size_t point, int64_t replica,
                                                 const fracas_record *record);
+/* The next decisions, in the order of points and rounds. The file has a group /decision if there are any. */
+FRACAS_MUST_USE fracas_err fracas_writer_decisions(fracas_writer *writer, const fracas_decision *decision, size_t count);
 /* The mesh of the next point, points in their order, in a file with interfaces: once for each, or for none of them.
  * The file has a group /mesh if any of them has elements. */
 FRACAS_MUST_USE fracas_err fracas_writer_mesh(fracas_writer *writer, const fracas_stored_mesh *mesh);
@@ -70,6 +90,9 @@ enum { FRACAS_READ_FRAGMENTS = 1, FRACAS_READ_HISTORY = 2, FRACAS_READ_INTERFACE
  * for, or not in the file, has 0 rows and NULL. Reads ahead in blocks: rows are cheapest in order. */
 FRACAS_MUST_USE fracas_err fracas_reader_record(fracas_reader *reader, size_t row, unsigned parts,
                                                 size_t *point, int64_t *replica, fracas_record *record);
+
+/* Every decision of the file in its order, none if it has no group /decision; *decision freed by the caller with free(). */
+FRACAS_MUST_USE fracas_err fracas_reader_decisions(fracas_reader *reader, fracas_decision **decision, size_t *count);
 
 /* *interfaces: of the mesh of a point, 0 if the file has none of it: a bar, a ring, or no interfaces kept. */
 FRACAS_MUST_USE fracas_err fracas_reader_mesh_interfaces(fracas_reader *reader, size_t point, size_t *interfaces);
@@ -104,8 +127,11 @@ typedef struct {
     int64_t replica;
     int64_t row; /* in the segment */
     int64_t outcome, fragments, fragments_dust, steps;
-    double dissipated, residual;
+    double dissipated, residual, size; /* fracas_record_mean_size */
 } fracas_segment_row;
+
+/* Mean size of the fragments [m], summed in their order; NaN without fragments. */
+double fracas_record_mean_size(const fracas_record *record);
 
 /* Opens (with `create`: creates) STUDY/index.sqlite. Journal: WAL with synchronous FULL on local filesystems,
  * TRUNCATE with FULL and exclusive locking on network ones; the mode is read back. Without `create` a study that
@@ -147,6 +173,33 @@ FRACAS_MUST_USE fracas_err fracas_index_fail(fracas_index *index, const fracas_h
 /* Appends to the table `event` (time of day, kind, text). */
 FRACAS_MUST_USE fracas_err fracas_index_event(fracas_index *index, const char *kind, const char *text);
 
+/* ---- decisions in the index ---- */
+
+/* What the index keeps of a realization's results. */
+typedef struct {
+    fracas_row_status status;
+    int64_t outcome, fragments; /* 0 before it is done */
+    double size, dissipated;    /* NaN before, and where the record has none */
+} fracas_index_summary;
+
+/* Of the replicas 0 to count - 1 of a point. FRACAS_DAMAGED if one was never planned. */
+FRACAS_MUST_USE fracas_err fracas_index_summaries(fracas_index *index, const fracas_hash *point, size_t count,
+                                                  fracas_index_summary *summary);
+
+/* Every replica of the point that `row` names, from `first` to row->replicas - 1, as fracas_index_rows has them; `p`: number of
+ * the point in the table. */
+FRACAS_MUST_USE fracas_err fracas_index_rows_from(fracas_index *index, const fracas_point_row *point, size_t p, int64_t first,
+                                                  fracas_index_row *row);
+
+/* The recorded decisions of a point by round, `point` left 0; *decision freed by the caller with free(). */
+FRACAS_MUST_USE fracas_err fracas_index_decisions(fracas_index *index, const fracas_hash *point, fracas_decision **decision,
+                                                  size_t *count);
+
+/* One transaction: records the decision, in place of this and any later round of the point, with the reason in words; plans
+ * point->replicas of it; and where it stops, forgets what was planned beyond. */
+FRACAS_MUST_USE fracas_err fracas_index_decide(fracas_index *index, const fracas_point_row *point, const fracas_decision *decision,
+                                               const char *reason);
+
 typedef struct {
     int64_t points, realizations, done, failed, planned, leased; /* realizations by status */
     int64_t outcome[FRACAS_NOUTCOMES];
@@ -169,15 +222,16 @@ bool fracas_study_held(const char *study);
 
 /* Sweeps a study after an interruption. Plans the table (fracas_index_plan), creates STUDY/segments if it is not
  * there, and then: temporary files are removed; a segment that the index does not know is checked and adopted (its rows
- * committed) if all its realizations are planned, else removed, but left where it is if it is of another seed, history,
- * interfaces or program version than `header`; a row whose segment is missing or has the wrong size goes back
+ * committed) if all its realizations are planned or, where a rule decides their number, may be, else removed, but left where it is
+ * if it is of another seed, history, interfaces or program version than `header`; a row whose segment is missing or has the wrong size goes back
  * to planned. Says what it did in *report, one line each, "" if nothing (freed by caller). */
 FRACAS_MUST_USE fracas_err fracas_study_recover(const char *study, fracas_index *index,
                                                 const fracas_file_header *header, const fracas_point_table *table,
                                                 char **report);
 
 /* Writes STUDY/study.h5 from the segments in plan order; realizations that failed get a row of NaN, and
- * header->complete in the file is 0 if any did. FRACAS_INTERRUPTED if realizations are still to be computed.
+ * header->complete in the file is 0 if any did; the recorded decisions of points with table->point[p].most > 0 follow.
+ * FRACAS_INTERRUPTED if realizations are still to be computed.
  * FRACAS_DAMAGED names a segment whose bytes are not the index's, or that is of another seed, history, interfaces or
  * program version, and says what to do. `meshes` (NULL: there are none) are kept where interfaces are. The index keeps
  * the seal of the file: without one, study.h5 is not settled. */
@@ -189,7 +243,7 @@ FRACAS_MUST_USE fracas_err fracas_study_sealed(const char *study, fracas_index *
 
 /* What `fracas verify` found: size and checksum of every segment and of study.h5, all of the program version, seed,
  * history and interfaces that the index says, index against segments row by row, integrity_check of SQLite, study.h5
- * equal, record by record, to the segments, and its meshes with as many interfaces. *problems counts them; `say` is
+ * equal, record by record, to the segments and the recorded decisions, and its meshes with as many interfaces. *problems counts them; `say` is
  * called once with each (what, where, remedy). */
 FRACAS_MUST_USE fracas_err fracas_study_verify(const char *study, void (*say)(void *context, const char *problem),
                                                void *context, int64_t *problems);

@@ -102,6 +102,7 @@ static fracas_err check_row(verification *v, sqlite3_stmt *row)
                 sqlite3_column_int64(row, 6) == record->fragments_dust &&
                 sqlite3_column_int64(row, 7) == record->steps && same_real(row, 8, record->dissipated) &&
                 same_real(row, 9, record->residual) &&
+                (sqlite3_column_type(row, 11) == SQLITE_NULL || same_real(row, 11, fracas_record_mean_size(record))) &&
                 place.status == (record->outcome == FRACAS_FAILED ? FRACAS_FAILED_ROW : FRACAS_DONE);
     if (same) return FRACAS_OK;
     return found(v, "%s: replica %" PRId64 " of point %s: its row differs from its record; remove the index and run "
@@ -193,6 +194,39 @@ static fracas_err check_merged_rows(verification *v)
     return problem(v, fracas_segments_walk(v->segments, table, true, check_merged_row, v));
 }
 
+/* Of one point: what study.h5 has from *next on against what the index recorded. */
+static fracas_err check_decisions_of(verification *v, size_t p, const fracas_decision *merged, size_t nmerged, size_t *next)
+{
+    fracas_decision *recorded;
+    size_t count, same = 0, first = *next;
+    const fracas_point_row *point = &fracas_reader_points(v->merged)->point[p];
+    while (*next < nmerged && merged[*next].point == (int64_t)p) ++*next;
+    if (*next == first) return FRACAS_OK;
+    TRY(fracas_index_decisions(v->index, &point->hash, &recorded, &count));
+    for (size_t d = 0; d < count && d < *next - first; d++) {
+        recorded[d].point = (int64_t)p;
+        same += fracas_decision_same(&recorded[d], &merged[first + d]);
+    }
+    free(recorded);
+    const fracas_decision *last = &merged[*next - 1];
+    if (same == count && count == *next - first && last->stop && last->replicas == point->replicas) return FRACAS_OK;
+    return found(v, "%s/study.h5: the decisions on the replicas of point %zu are not those that the index recorded; remove it and run "
+                 "again", v->study, p);
+}
+
+static fracas_err check_decisions(verification *v)
+{
+    fracas_decision *merged;
+    size_t count, next = 0;
+    fracas_err err = fracas_reader_decisions(v->merged, &merged, &count);
+    if (err) return problem(v, err);
+    for (size_t p = 0; !err && p < fracas_reader_points(v->merged)->npoints; p++)
+        err = problem(v, check_decisions_of(v, p, merged, count, &next));
+    if (!err && next != count) err = found(v, "%s/study.h5: its decisions are not in plan order; remove it and run again", v->study);
+    free(merged);
+    return err;
+}
+
 /* When everything is computed, study.h5 must be there with all of it. */
 static fracas_err check_merged_whole(verification *v)
 {
@@ -265,6 +299,7 @@ static fracas_err verify(verification *v)
     TRY(check_segments(v));
     TRY(check_rows(v));
     if (v->merged) TRY(check_merged_rows(v));
+    if (v->merged) TRY(check_decisions(v));
     if (v->merged) TRY(check_meshes(v));
     return v->there && !v->merged ? FRACAS_OK : check_merged_whole(v); /* said already */
 }

@@ -18,6 +18,7 @@ struct fracas_writer {
     char *path, *temporary;
     size_t npoints;
     bool interfaces; /* has an /interface group */
+    bool decisions;  /* has a /decision group */
     bool meshes;     /* has a /mesh group */
     size_t npassed;  /* points whose mesh was given, or that have none */
     set_writer set[FRACAS_NSETS];
@@ -27,6 +28,7 @@ struct fracas_writer {
 static bool has_set(const fracas_writer *writer, int set)
 {
     if (set >= FRACAS_SET_MESH_NODE_OFFSET) return writer->meshes;
+    if (set == FRACAS_SET_DECISION) return writer->decisions;
     return writer->interfaces || (set != FRACAS_SET_INTERFACE_OFFSET && set != FRACAS_SET_INTERFACE);
 }
 
@@ -175,6 +177,19 @@ fracas_err fracas_writer_append(fracas_writer *writer, size_t point, int64_t rep
     TRY(put_ragged(writer, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY, record->history, record->nhistory));
     return put_ragged(writer, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE, record->interface,
                       record->ninterface);
+}
+
+/* ---- decisions ---- */
+
+fracas_err fracas_writer_decisions(fracas_writer *writer, const fracas_decision *decision, size_t count)
+{
+    if (!count) return FRACAS_OK;
+    if (!writer->decisions) { /* a study without them has the bytes that it always had */
+        TRY(fracas_h5_create_group(&writer->h5, "/decision"));
+        TRY(create_set(writer, FRACAS_SET_DECISION));
+        writer->decisions = true;
+    }
+    return put_rows(writer, FRACAS_SET_DECISION, decision, count);
 }
 
 /* ---- meshes ---- */

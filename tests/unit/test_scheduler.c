@@ -62,6 +62,56 @@ static void test_longest_first(void **state)
     fracas_scheduler_destroy(scheduler);
 }
 
+/* A plan that grows: later rows wait last, longest first among themselves, and count. */
+static void test_rows_are_added(void **state)
+{
+    (void)state;
+    fracas_index_row row[ROWS], more[6];
+    plan(row);
+    fracas_scheduler *scheduler = create(row, REPLICAS, 1, 8, false); /* leases of 8 and 3 of point 0 */
+    for (size_t i = 0; i < 6; i++)
+        more[i] = (fracas_index_row){.point = i < 3 ? 2 : 1, .replica = (int64_t)(20 + i % 3)};
+    more[1].status = FRACAS_DONE; /* computed before its round came */
+    more[2].status = FRACAS_FAILED_ROW;
+    fracas_lease lease;
+    assert_true(fracas_scheduler_next(scheduler, 0, &lease));
+    assert_int_equal(fracas_scheduler_add(scheduler, more, 6), FRACAS_OK);
+    assert_int_equal(fracas_scheduler_count(scheduler).total, REPLICAS + 6);
+    assert_counts(scheduler, 1, 0, 1);
+    assert_false(fracas_scheduler_rests(scheduler, 0));
+    assert_int_equal(fracas_scheduler_computed(scheduler, 0, lease.id), FRACAS_OK);
+    assert_true(fracas_scheduler_rests(scheduler, 0));
+    static const size_t point[] = {0, 1, 2}, count[] = {3, 3, 1};
+    for (size_t i = 0; i < 3; i++) {
+        assert_false(fracas_scheduler_computed_all(scheduler));
+        assert_true(fracas_scheduler_next(scheduler, 0, &lease));
+        assert_int_equal(lease.point, point[i]);
+        assert_int_equal(lease.count, count[i]);
+        assert_int_equal(lease.id, i + 1);
+        if (i == 1) { /* what is added can fail, too, and is tried one by one */
+            bool final;
+            assert_int_equal(fracas_scheduler_failed(scheduler, 0, lease.id, &lease, &final), FRACAS_OK);
+            for (int r = 0; r < 3; r++) {
+                assert_true(fracas_scheduler_next(scheduler, 0, &lease));
+                assert_int_equal(lease.point, 1);
+                assert_int_equal(lease.replica[0], 20 + r);
+                assert_int_equal(fracas_scheduler_computed(scheduler, 0, lease.id), FRACAS_OK);
+            }
+        } else {
+            assert_int_equal(fracas_scheduler_computed(scheduler, 0, lease.id), FRACAS_OK);
+        }
+    }
+    assert_true(fracas_scheduler_computed_all(scheduler));
+    fracas_scheduler_durable(scheduler, 0);
+    assert_false(fracas_scheduler_rests(scheduler, 0));
+    assert_counts(scheduler, REPLICAS + 5, 0, 1);
+    assert_int_equal(fracas_scheduler_add(scheduler, row + REPLICAS, REPLICAS), FRACAS_OK); /* again when all was done */
+    assert_false(fracas_scheduler_computed_all(scheduler));
+    assert_true(fracas_scheduler_next(scheduler, 0, &lease));
+    assert_int_equal(lease.point, 1);
+    fracas_scheduler_destroy(scheduler);
+}
+
 static void test_one_lease_ahead_until_the_last_ones(void **state)
 {
     (void)state;
@@ -247,6 +297,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_longest_first),
+        cmocka_unit_test(test_rows_are_added),
         cmocka_unit_test(test_one_lease_ahead_until_the_last_ones),
         cmocka_unit_test(test_rows_that_need_nothing),
         cmocka_unit_test(test_a_failed_batch_is_tried_one_by_one),

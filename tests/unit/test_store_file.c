@@ -6,6 +6,7 @@
 #include "campaigns/store/schema.h"
 
 #include <malloc.h>
+#include <math.h>
 
 enum { REPLICAS = 300, MOST = 40 }; /* 900 realizations and some 15000 rows a set: many chunks, none full at the end */
 
@@ -36,6 +37,51 @@ static void write_meshes(fracas_writer *writer, const grid_shape *shape)
     }
 }
 
+enum { DECISIONS = 3 };
+static const fracas_decision decisions[DECISIONS] = {
+    {.point = 0, .round = 0, .replicas = 8, .used = 7, .mean = 0.1, .half_width = NAN, .stop = 0, .quantity = 2, .minimum = 8,
+     .maximum = 1000000000, .relative_half_width = 0.02, .confidence = 0.95},
+    {.point = 0, .round = 1, .replicas = 16, .used = 16, .mean = -1e300, .half_width = 5e-324, .stop = 1, .quantity = 1, .minimum = 8,
+     .maximum = 16, .relative_half_width = 1, .confidence = 0.5},
+    {.point = 2, .round = 0, .replicas = 9, .used = 0, .mean = NAN, .half_width = NAN, .stop = 2, .quantity = 0, .minimum = 9,
+     .maximum = 9, .relative_half_width = 1e-9, .confidence = 0.999},
+};
+
+/* What is written is read, in one piece or two; a file without any has no group, and one out of range is damage. */
+static void decisions_come_back(void **state)
+{
+    (void)state;
+    const char *path = sample_path(folder, "a.h5");
+    fracas_point_row row[SAMPLE_POINTS];
+    fracas_point_table table = sample_table(row, 0);
+    fracas_file_header header = sample_header();
+    for (size_t wanted = 0; wanted <= DECISIONS + 1; wanted++) { /* the last round: the wrong one */
+        fracas_decision wrong = decisions[0], *found;
+        fracas_writer *writer;
+        fracas_reader *reader;
+        fracas_file_seal seal;
+        size_t count;
+        wrong.stop = 3;
+        OK(fracas_writer_create(path, &header, &table, &writer));
+        OK(fracas_writer_decisions(writer, decisions, wanted > 1 ? 1 : 0));
+        OK(fracas_writer_decisions(writer, decisions + (wanted > 1), wanted > DECISIONS ? 0 : wanted - (wanted > 1)));
+        if (wanted > DECISIONS) OK(fracas_writer_decisions(writer, &wrong, 1));
+        OK(fracas_writer_finish(writer, true, &seal));
+        OK(fracas_reader_open(path, &reader));
+        if (wanted > DECISIONS) {
+            sample_fails(fracas_reader_decisions(reader, &found, &count), FRACAS_DAMAGED, "/decision");
+        } else {
+            OK(fracas_reader_decisions(reader, &found, &count));
+            assert_int_equal(count, wanted);
+            for (size_t d = 0; d < count; d++) assert_true(fracas_decision_same(&found[d], &decisions[d]));
+            free(found);
+        }
+        fracas_reader_close(reader);
+    }
+    for (size_t a = 0; a < DECISIONS; a++)
+        for (size_t b = 0; b < DECISIONS; b++) assert_int_equal(fracas_decision_same(&decisions[a], &decisions[b]), a == b);
+}
+
 static void write_file_of(const char *path, int64_t replicas, size_t most, bool interfaces, const grid_shape *shape,
                           fracas_file_seal *seal)
 {
@@ -52,6 +98,7 @@ static void write_file_of(const char *path, int64_t replicas, size_t most, bool 
             OK(fracas_writer_append(writer, p, r, &record));
             fracas_record_clear(&record);
         }
+    if (shape) OK(fracas_writer_decisions(writer, decisions, DECISIONS));
     write_meshes(writer, shape);
     OK(fracas_writer_finish(writer, true, seal));
 }
@@ -414,6 +461,7 @@ int main(int argc, char **argv)
         TEST(nothing_is_left_open),
         TEST(nothing_unfinished_has_the_final_name),
         TEST(contradicting_records_are_refused),
+        TEST(decisions_come_back),
         TEST(other_files_are_refused),
         TEST(page_shows_the_schema),
         TEST(records_survive_packing),

@@ -1,0 +1,176 @@
+#include "campaigns/file/replicas.h"
+
+#include "campaigns/file/say.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+enum { MOST = 1000000000 };
+
+static const char form[] = "{minimum: 16, maximum: 256, until: {quantity: mean-count, relative-half-width: 0.02, confidence: 0.95}}";
+
+/* ---- reading ---- */
+
+/* Refuses a key of the section `node`, called `name`, that is none of `keys`. */
+static fracas_err check_keys(const fracas_file *file, const fracas_node *node, const char *name, const char *const *keys,
+                             size_t count)
+{
+    char hint[600];
+    for (const fracas_node *entry = node->first; entry; entry = entry->next) {
+        fracas_words words;
+        bool known = false;
+        fracas_words_init(&words, entry->key->text);
+        for (size_t k = 0; k < count; k++) {
+            fracas_words_add(&words, keys[k]);
+            known = known || strcmp(keys[k], entry->key->text) == 0;
+        }
+        if (!known)
+            return fracas_say(file->name, entry->key, "unknown key `%s` in `%s`%s", entry->key->text, name,
+                              fracas_words_hint(&words, "it has", hint));
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err need(const fracas_file *file, const fracas_node *node, const char *name, const char *key,
+                       const fracas_node **found)
+{
+    *found = fracas_node_find(node, key);
+    if (*found) return FRACAS_OK;
+    return fracas_say(file->name, node, "`%s` has no `%s`; expected %s", name, key, form);
+}
+
+static fracas_err read_quantity(const fracas_file *file, const fracas_node *node, fracas_quantity *quantity)
+{
+    char found[256];
+    for (int q = 0; q < FRACAS_NQUANTITIES; q++)
+        if (node->type == FRACAS_SCALAR && strcmp(node->text, fracas_quantity_name[q]) == 0) {
+            *quantity = (fracas_quantity)q;
+            return FRACAS_OK;
+        }
+    return fracas_say(file->name, node, "`quantity`: found %s; expected mean-count (of fragments), mean-size (of fragments) or "
+                      "dissipated (energy)", fracas_say_found(node, found));
+}
+
+/* A pure number from `minimum` (itself out if `open`) to `maximum`. */
+static fracas_err read_share(const fracas_file *file, const fracas_node *node, double minimum, bool open, double maximum,
+                             double *value)
+{
+    char found[256];
+    const char *key = node->key->text;
+    if (node->type != FRACAS_SCALAR)
+        return fracas_say(file->name, node, "`%s`: found %s; expected a number, as 0.02 or 2 %%", key, fracas_say_found(node, found));
+    fracas_err err = fracas_units_read(file->units, node->text, "1", value);
+    if (err) return err == FRACAS_USAGE ? fracas_say_within(file->name, node, key) : err;
+    if ((open ? *value > minimum : *value >= minimum) && *value <= maximum) return FRACAS_OK;
+    return fracas_say(file->name, node, "`%s`: %s is out of range; allowed is %s %g to %g", key, node->text,
+                      open ? "more than" : "from", minimum, maximum);
+}
+
+static fracas_err read_until(const fracas_file *file, const fracas_node *node, fracas_sequential_rule *rule)
+{
+    static const char *const keys[] = {"quantity", "relative-half-width", "confidence"};
+    const fracas_node *found;
+    char text[256];
+    if (node->type != FRACAS_MAP)
+        return fracas_say(file->name, node, "`until`: found %s; expected %s", fracas_say_found(node, text), form);
+    TRY(check_keys(file, node, "until", keys, FRACAS_COUNT(keys)));
+    TRY(need(file, node, "until", "quantity", &found));
+    TRY(read_quantity(file, found, &rule->quantity));
+    TRY(need(file, node, "until", "relative-half-width", &found));
+    TRY(read_share(file, found, 0, true, 1, &rule->relative_half_width));
+    rule->confidence = 0.95;
+    found = fracas_node_find(node, "confidence");
+    return found ? read_share(file, found, 0.5, false, 0.999, &rule->confidence) : FRACAS_OK;
+}
+
+static fracas_err read_rule(const fracas_file *file, const fracas_node *node, fracas_sequential_rule *rule)
+{
+    static const char *const keys[] = {"minimum", "maximum", "until"};
+    const fracas_node *found;
+    TRY(check_keys(file, node, "replicas", keys, FRACAS_COUNT(keys)));
+    TRY(need(file, node, "replicas", "minimum", &found));
+    TRY(fracas_setting_integer(file, "minimum", found, FRACAS_ROUND_FIRST, MOST, &rule->minimum));
+    TRY(need(file, node, "replicas", "maximum", &found));
+    TRY(fracas_setting_integer(file, "maximum", found, FRACAS_ROUND_FIRST, MOST, &rule->maximum));
+    if (rule->maximum < rule->minimum)
+        return fracas_say(file->name, found, "`maximum`: %" PRId64 " is less than `minimum`, %" PRId64 "; raise it", rule->maximum,
+                          rule->minimum);
+    TRY(need(file, node, "replicas", "until", &found));
+    return read_until(file, found, rule);
+}
+
+fracas_err fracas_replicas_read(const fracas_file *file, const fracas_node *node, fracas_replicas *replicas)
+{
+    char found[256];
+    *replicas = (fracas_replicas){0};
+    if (node->type == FRACAS_LIST)
+        return fracas_say(file->name, node, "`replicas`: found %s; expected a whole number or %s", fracas_say_found(node, found), form);
+    if (node->type == FRACAS_SCALAR) return fracas_setting_integer(file, "replicas", node, 1, MOST, &replicas->count);
+    TRY(read_rule(file, node, &replicas->rule));
+    replicas->count = replicas->rule.minimum;
+    return FRACAS_OK;
+}
+
+/* ---- writing and comparing ---- */
+
+void fracas_replicas_write(const fracas_point *point, FILE *out)
+{
+    const fracas_sequential_rule *rule = &point->rule;
+    char width[FRACAS_NUMBER_TEXT], confidence[FRACAS_NUMBER_TEXT];
+    if (rule->maximum == 0) {
+        fprintf(out, "%" PRId64, point->replicas);
+        return;
+    }
+    fracas_number_write(rule->relative_half_width, width);
+    fracas_number_write(rule->confidence, confidence);
+    fprintf(out, "{minimum: %" PRId64 ", maximum: %" PRId64 ", until: {quantity: %s, relative-half-width: %s, confidence: %s}}",
+            rule->minimum, rule->maximum, fracas_quantity_name[rule->quantity], width, confidence);
+}
+
+bool fracas_replicas_same(const fracas_point *a, const fracas_point *b)
+{
+    return a->replicas == b->replicas && a->rule.maximum == b->rule.maximum && a->rule.quantity == b->rule.quantity &&
+           a->rule.relative_half_width == b->rule.relative_half_width && a->rule.confidence == b->rule.confidence;
+}
+
+/* ---- extending ---- */
+
+static fracas_err whole_differs(const char *what, int64_t was, int64_t is, size_t b, const char *remedy)
+{
+    return fracas_fail(FRACAS_DAMAGED, "%s is %" PRId64 " in the study (its point %zu), but %" PRId64 " in this campaign file; %s", what,
+                       was, b, is, remedy);
+}
+
+static fracas_err share_differs(const char *what, double was, double is, size_t b, const char *remedy)
+{
+    return fracas_fail(FRACAS_DAMAGED, "%s is %.15g in the study (its point %zu), but %.15g in this campaign file; %s", what, was, b, is,
+                       remedy);
+}
+
+/* Between two rules. */
+static fracas_err extend_rule(const fracas_sequential_rule *now, const fracas_sequential_rule *was, size_t b)
+{
+    if (now->quantity != was->quantity)
+        return fracas_fail(FRACAS_DAMAGED, "replicas.until.quantity is %s in the study (its point %zu), but %s in this campaign file; it "
+                           "must stay", fracas_quantity_name[was->quantity], b, fracas_quantity_name[now->quantity]);
+    if (now->minimum != was->minimum) return whole_differs("replicas.minimum", was->minimum, now->minimum, b, "it must stay");
+    if (now->maximum < was->maximum) return whole_differs("replicas.maximum", was->maximum, now->maximum, b, "it can only grow");
+    if (now->relative_half_width > was->relative_half_width)
+        return share_differs("replicas.until.relative-half-width", was->relative_half_width, now->relative_half_width, b,
+                             "it can only shrink");
+    if (now->confidence < was->confidence)
+        return share_differs("replicas.until.confidence", was->confidence, now->confidence, b, "it can only grow");
+    return FRACAS_OK;
+}
+
+fracas_err fracas_replicas_extend(const fracas_point *now, const fracas_point *before, size_t b)
+{
+    const bool decides = now->rule.maximum > 0, decided = before->rule.maximum > 0;
+    if (decides && decided) return extend_rule(&now->rule, &before->rule, b);
+    if (decided && now->replicas < before->rule.maximum)
+        return whole_differs("replicas.maximum", before->rule.maximum, now->replicas, b, "it can only grow");
+    if (now->replicas >= before->replicas) return FRACAS_OK;
+    if (decides)
+        return whole_differs("replicas", before->replicas, now->replicas, b, "replicas.minimum can only be as many or more");
+    return whole_differs("replicas", before->replicas, now->replicas, b, "it can only grow");
+}

@@ -1,0 +1,151 @@
+# Replicas decided while the campaign runs: study.h5 is the same, byte for byte, whatever computes it, however often it is killed,
+# and when a weaker rule came first; every decision is what a script of its own makes of study.h5.
+. tests/support/campaigns.sh
+
+# rule FILE RULE...: the small campaign with three points and other replicas, quick enough to be run many times.
+rule()
+{
+    campaign "$1" 8 '3e4 1/s, 6e4 1/s, 1e5 1/s'
+    sed -i -e "s/^replicas: .*/replicas: $2/" -e 's/elements: 500/elements: 200/' "$1"
+}
+until_narrow() { echo "{minimum: $1, maximum: $2, until: {quantity: $3, relative-half-width: $4, confidence: $5}}"; }
+decisions() { /usr/bin/python3 "$source/docs/examples/decisions_from_study.py" "$1/study.h5"; }
+
+rule one.yaml "$(until_narrow 8 48 mean-count 0.015 0.95)"
+expect 0 "$fracas" plan one.yaml
+said '3 points, 24 to 144 realizations'
+said ' 8-48 '
+expect 0 "$fracas" run one.yaml --study one --jobs 1
+said '24 of 24 realizations of 3 points to do, and more as rules ask for them'
+said 'warning: .* at the maximum of 48 replicas mean-count is known to 1.6 %, not to the 1.5 % asked for'
+grep -q 'id="decisions"' one/report/index.html || fail "the report does not say how replicas were decided"
+said 'decided: .*1.5 % asked for'
+expect 0 decisions one
+said 'goes on' # or nothing is tested
+said 'precise'
+said 'maximum'
+expect 0 "$fracas" run one.yaml --study one
+said 'nothing to compute'
+expect 0 "$fracas" verify one
+expect 0 "$fracas" status one
+said 'decisions on replicas'
+
+compare one.yaml --jobs 2
+compare one.yaml --jobs 3 --segment-age 0.05
+compare one.yaml --jobs 2 --shuffle --lanes 1 --segment-size 1e-6
+compare one.yaml --jobs 3 --shuffle --lanes 8
+compare one.yaml --jobs 1 --lanes 1
+
+# Killed: everything at random times, until it is complete.
+kill=0
+while [ $kill -lt 4 ]; do
+    start one.yaml --study killed --jobs 2 --lanes 1 --segment-size 1e-6
+    wait_segments killed $((kill * 20 + 1))
+    sleep "0.0$(random 10 49)"
+    kill_session
+    [ -e killed/study.h5 ] && break
+    kill=$((kill + 1))
+done
+[ $kill -ge 2 ] || fail "killed only $kill times"
+expect 0 "$fracas" run one.yaml --study killed --jobs 2
+same one killed
+expect 0 "$fracas" verify killed
+
+# One of three servers killed: the others take up its rounds.
+tries=0
+while :; do
+    start one.yaml --study lost --jobs 3 --lanes 1 --segment-size 1e-6
+    wait_segments lost 10
+    set -- $(cat /proc/[0-9]*/stat 2>/dev/null | awk -v session="$session" '
+        {name[$1] = $2; parent[$1] = $4; of[$1] = $6}
+        END {for (p in name) if (of[p] == session && name[p] == "(fracas)" && name[parent[parent[p]]] == "(mpirun)") print p}')
+    [ $# -ne 3 ] || break
+    kill_session # this script had to wait until the run was over, or caught it half: once more
+    rm -rf lost
+    tries=$((tries + 1))
+    [ $tries -lt 20 ] || fail "there should be three servers, not: $*"
+done
+kill -9 "$1"
+wait "$session" || fail "status $? of a run that lost a server"
+grep -q 'the others go on' background || echo "the server was at its end already"
+session=
+same one lost
+
+# Killed in the middle, and the index lost: segments of later rounds are kept.
+start one.yaml --study drained --jobs 2 --lanes 1 --segment-size 1e-6
+wait_segments drained 40
+kill_session
+rm drained/index.sqlite*
+expect 0 "$fracas" run one.yaml --study drained --jobs 2
+same one drained
+expect 0 "$fracas" verify drained
+rm one/index.sqlite* one/study.h5
+expect 0 "$fracas" run one.yaml --study one
+said '0 of .* realizations of 3 points to do'
+same one drained
+
+# A segment of a first round is lost after the last: its realizations come back, and the decisions stand.
+rm "$(ls killed/segments/*.h5 | head -n 1)" killed/study.h5
+expect 0 "$fracas" run one.yaml --study killed --jobs 2
+same one killed
+
+# A record of a decision that the realizations do not give is found, at the start and by verify.
+cp -r killed wrong
+sqlite3 wrong/index.sqlite "UPDATE decision SET mean = mean + 1e-9 WHERE round = 1"
+expect 5 "$fracas" verify wrong
+said 'decisions on the replicas of point'
+rm wrong/study.h5
+expect 5 "$fracas" run one.yaml --study wrong
+said 'round 1 of point .* that its realizations do not give'
+
+# A weaker rule first, then the stronger one; a fixed number first; from the rule to a fixed number.
+rule weak.yaml "$(until_narrow 8 30 mean-count 0.03 0.9)"
+expect 0 "$fracas" run weak.yaml --study weak
+expect 0 "$fracas" run one.yaml --study weak
+same one weak
+expect 5 "$fracas" run weak.yaml --study weak
+said 'replicas.maximum is 48 in the study .* it can only grow'
+rule fixed.yaml 7
+expect 0 "$fracas" run fixed.yaml --study fixed
+expect 0 "$fracas" run one.yaml --study fixed
+same one fixed
+rule most.yaml 48
+expect 0 "$fracas" run most.yaml --study most
+expect 0 "$fracas" run most.yaml --study fixed
+same most fixed
+expect 0 "$fracas" verify fixed
+
+# The other quantities.
+for quantity in mean-size dissipated; do
+    rule other.yaml "$(until_narrow 16 48 $quantity 0.02 0.95)"
+    expect 0 "$fracas" run other.yaml --study "$quantity" --jobs 2
+    expect 0 decisions "$quantity"
+    expect 0 "$fracas" run other.yaml --study "$quantity-1" --jobs 1 --lanes 1 --shuffle
+    same "$quantity" "$quantity-1"
+done
+
+# A quantity is that of the report.
+for quantity in mean-count:count:one mean-size:size:mean-size dissipated:dissipated:dissipated; do
+    "$fracas" report "${quantity##*:}" --json > report.json
+    /usr/bin/python3 - "$quantity" <<'END'
+import json, sys
+quantity, key, _ = sys.argv[1].split(":")
+for point in json.load(open("report.json"))["points"]:
+    decision, mean = point["decision"], point["statistics"][key + ".mean"]
+    half_width = point["statistics"][key + ".half_width"]
+    assert decision["quantity"] == quantity and decision["used"] == point["statistics"][key + ".n"] > 0
+    # The same sums in another way: some tens of roundings; of Student's t 1e-12.
+    assert abs(decision["mean"] / mean - 1) < 1e-13 and abs(decision["half_width"] / half_width - 1) < 1e-10, (decision, mean)
+END
+done
+
+# A realization that crashes for good counts for the round, not for the mean.
+export FRACAS_TEST_CRASH=0:9
+expect 1 "$fracas" run one.yaml --study crashed --jobs 2
+expect 0 decisions crashed
+expect 1 "$fracas" run one.yaml --study crashed-1 --jobs 1 --lanes 1
+same crashed crashed-1
+unset FRACAS_TEST_CRASH
+[ "$(sqlite3 crashed/index.sqlite 'SELECT sum(failed) > 0, max(failed) FROM decision')" = '1|1' ] || fail "the failed one is not counted"
+expect 0 "$fracas" verify crashed
+echo "$others other ways, $kill kills, extensions, a crash: the same bytes and decisions"

@@ -1,0 +1,309 @@
+/* Rounds of a study: what the index makes of them, whatever order its realizations come in; what is recorded, merged and found wrong. */
+#include "tests/support/campaign_text.h"
+#include "tests/support/study_fixture.h"
+
+#include "campaigns/scheduler/rounds.h"
+#include "campaigns/scheduler/segment.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const char rule[] = "sweep:\n  - loading.rate: [1e3, 1e4]\n";
+static fracas_campaign *campaign;
+static fracas_rounds rounds;
+
+static fracas_campaign *make(const char *replicas)
+{
+    char line[300];
+    snprintf(line, sizeof line, "replicas: %s", replicas);
+    char *fixed = replace(plain_campaign, "replicas: 3", line), *text = replace(fixed, "", rule);
+    fracas_campaign *made = read_text(text);
+    free(text);
+    free(fixed);
+    return made;
+}
+
+static int begin(void **state)
+{
+    (void)state;
+    study = sample_folder();
+    assert_int_equal(mkdir(sample_path(study, "segments"), 0777), 0);
+    campaign = make("{minimum: 8, maximum: 24, until: {quantity: dissipated, relative-half-width: 0.1}}");
+    OK(fracas_index_open(study, true, &index_));
+    OK(fracas_index_plan(index_, &campaign->table));
+    OK(fracas_rounds_init(&rounds, campaign, index_));
+    return 0;
+}
+
+static int end(void **state)
+{
+    fracas_rounds_clear(&rounds);
+    fracas_campaign_destroy(campaign);
+    return tear_down(state);
+}
+
+/* Commits replicas first to last of point p; what is dissipated alternates between 1 - spread and 1 + spread. */
+static void commit(size_t p, int64_t first, int64_t last, double spread, int64_t outcome)
+{
+    static int number;
+    fracas_segment_row row[32];
+    char name[32];
+    const fracas_file_seal seal = {100, (uint64_t)++number};
+    for (int64_t r = first; r <= last; r++)
+        row[r - first] = (fracas_segment_row){.point = campaign->point[p].hash, .replica = r, .row = r - first, .outcome = outcome,
+                                              .fragments = 5, .dissipated = 1 + (r % 2 ? spread : -spread), .size = 0.01};
+    snprintf(name, sizeof name, "x%d.h5", number);
+    OK(fracas_index_commit(index_, name, &seal, row, (size_t)(last - first + 1), "{}"));
+}
+
+static void look(size_t p, fracas_decision **decision, size_t wanted)
+{
+    size_t count;
+    OK(fracas_index_decisions(index_, &campaign->point[p].hash, decision, &count));
+    assert_int_equal(count, wanted);
+}
+
+static int64_t rows_of(size_t p)
+{
+    fracas_index_counts counts;
+    OK(fracas_index_count_point(index_, &campaign->point[p].hash, &counts));
+    return counts.realizations;
+}
+
+/* Half width with n values of 1 -+ spread: t spread sqrt(n/(n - 1))/sqrt(n). At 8 of 0.05 0.0447, of 0.5 0.447; at 24 0.216. */
+static void rounds_go_on_until_they_are_narrow(void **state)
+{
+    (void)state;
+    fracas_decision *decision;
+    assert_int_equal(rounds.open, 2);
+    commit(0, 0, 6, 0.05, FRACAS_FRAGMENTED);
+    OK(fracas_rounds_advance(&rounds, index_, 0));
+    assert_int_equal(rounds.open, 2); /* one is missing */
+    look(0, &decision, 0);
+    free(decision);
+    commit(0, 7, 7, 0.05, FRACAS_TIME_LIMIT);
+    OK(fracas_rounds_advance(&rounds, index_, 0));
+    assert_int_equal(rounds.open, 1);
+    assert_int_equal(rounds.point[0].replicas, 8);
+    look(0, &decision, 1);
+    assert_int_equal(decision[0].stop, FRACAS_PRECISE);
+    assert_int_equal(decision[0].used, 8);
+    assert_true(fabs(decision[0].mean - 1) < 1e-15);
+    assert_true(fabs(decision[0].half_width - 2.3646242515927849 * 0.05 / sqrt(7)) < 1e-13);
+    free(decision);
+    commit(1, 0, 7, 0.5, FRACAS_INTACT);
+    OK(fracas_rounds_advance(&rounds, index_, 1));
+    assert_int_equal(rounds.point[1].replicas, 16);
+    assert_int_equal(rounds.round[1], 1);
+    assert_int_equal(rows_of(1), 16);
+    commit(1, 8, 15, 0.5, FRACAS_FRAGMENTED);
+    OK(fracas_rounds_advance(&rounds, index_, 1));
+    commit(1, 16, 23, 0.5, FRACAS_FRAGMENTED);
+    OK(fracas_rounds_advance(&rounds, index_, 1));
+    assert_int_equal(rounds.open, 0);
+    look(1, &decision, 3);
+    assert_int_equal(decision[0].stop, FRACAS_GO_ON);
+    assert_int_equal(decision[1].replicas, 16);
+    assert_int_equal(decision[2].stop, FRACAS_AT_MAXIMUM);
+    free(decision);
+    OK(fracas_rounds_check(campaign, index_));
+    fracas_rounds again; /* the same from the index alone */
+    OK(fracas_rounds_init(&again, campaign, index_));
+    assert_int_equal(again.open, 0);
+    assert_int_equal(again.point[0].replicas, 8);
+    assert_int_equal(again.point[1].replicas, 24);
+    fracas_rounds_clear(&again);
+}
+
+/* Three that ended badly and one without a record are in the round, but not in the mean. */
+static void what_failed_does_not_count(void **state)
+{
+    (void)state;
+    fracas_decision *decision;
+    commit(0, 0, 3, 0.05, FRACAS_FRAGMENTED);
+    commit(0, 4, 4, 7, FRACAS_NONFINITE);
+    commit(0, 5, 5, 7, FRACAS_ENERGY_DRIFT);
+    commit(0, 6, 6, 7, FRACAS_FAILED);
+    OK(fracas_rounds_advance(&rounds, index_, 0));
+    look(0, &decision, 0);
+    free(decision);
+    OK(fracas_index_fail(index_, &campaign->point[0].hash, 7, "signal 11", true));
+    OK(fracas_rounds_advance(&rounds, index_, 0));
+    look(0, &decision, 1);
+    assert_int_equal(decision[0].used, 4);
+    assert_true(fabs(decision[0].mean - 1) < 1e-15);
+    free(decision);
+}
+
+/* Later rounds may be there first, as after the loss of the index: they wait until it is their turn, and what is too much goes. */
+static void rounds_that_are_there_already_are_decided_at_once(void **state)
+{
+    (void)state;
+    fracas_decision *decision;
+    fracas_point_row all = campaign->table.point[1];
+    all.replicas = 24;
+    OK(fracas_index_plan_point(index_, &all));
+    commit(1, 8, 23, 0.2, FRACAS_FRAGMENTED);
+    OK(fracas_rounds_advance(&rounds, index_, 1));
+    assert_int_equal(rounds.point[1].replicas, 8);
+    commit(1, 0, 7, 0.2, FRACAS_FRAGMENTED); /* 0.18 at 8, 0.11 at 16, 0.086 at 24 */
+    OK(fracas_rounds_advance(&rounds, index_, 1));
+    look(1, &decision, 3);
+    assert_int_equal(decision[2].stop, FRACAS_PRECISE);
+    free(decision);
+    all = campaign->table.point[0];
+    all.replicas = 24;
+    OK(fracas_index_plan_point(index_, &all));
+    assert_int_equal(rows_of(0), 24);
+    commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
+    OK(fracas_rounds_advance(&rounds, index_, 0));
+    assert_int_equal(rows_of(0), 8); /* it has stopped: the others are not asked for */
+}
+
+static void tampered(const char *sql)
+{
+    if (sqlite3_exec(index_->db, sql, NULL, NULL, NULL) != SQLITE_OK) fail_msg("%s", sqlite3_errmsg(index_->db));
+}
+
+static void a_decision_that_does_not_follow_is_damage(void **state)
+{
+    (void)state;
+    fracas_rounds again;
+    fracas_decision *decision;
+    commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
+    commit(1, 0, 7, 0.05, FRACAS_FRAGMENTED);
+    OK(fracas_rounds_advance(&rounds, index_, 0));
+    sample_fails(fracas_rounds_check(campaign, index_), FRACAS_DAMAGED, "lacks a decision on the replicas of point 1");
+    OK(fracas_rounds_advance(&rounds, index_, 1));
+    OK(fracas_rounds_check(campaign, index_));
+    tampered("UPDATE decision SET half_width = half_width * (1 + 1e-15) WHERE point = 2");
+    sample_fails(fracas_rounds_check(campaign, index_), FRACAS_DAMAGED, "round 0 of point 1");
+    sample_fails(fracas_rounds_init(&again, campaign, index_), FRACAS_DAMAGED, "round 0 of point 1");
+    fracas_rounds_clear(&again);
+    tampered("UPDATE realization SET status = 'planned' WHERE point = 2 AND replica = 3"); /* its segment was lost */
+    OK(fracas_rounds_init(&again, campaign, index_)); /* nothing to compare with yet */
+    assert_int_equal(again.open, 0);
+    fracas_rounds_clear(&again);
+    sample_fails(fracas_rounds_check(campaign, index_), FRACAS_DAMAGED, "point 1");
+    tampered("UPDATE decision SET stop = 7 WHERE point = 2");
+    size_t count;
+    sample_fails(fracas_index_decisions(index_, &campaign->point[1].hash, &decision, &count), FRACAS_DAMAGED, "`decision`");
+}
+
+/* Another rule takes up the realizations, not the decisions. */
+static void a_stronger_rule_decides_again(void **state)
+{
+    (void)state;
+    fracas_decision *decision;
+    fracas_rounds again;
+    commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
+    OK(fracas_rounds_advance(&rounds, index_, 0));
+    fracas_campaign *now = make("{minimum: 8, maximum: 100, until: {quantity: dissipated, relative-half-width: 0.01}}");
+    OK(fracas_index_plan(index_, &now->table));
+    OK(fracas_rounds_init(&again, now, index_));
+    assert_int_equal(again.point[0].replicas, 16);
+    look(0, &decision, 1);
+    assert_int_equal(decision[0].stop, FRACAS_GO_ON);
+    assert_int_equal(decision[0].maximum, 100);
+    free(decision);
+    fracas_rounds_clear(&again);
+    fracas_campaign_destroy(now);
+}
+
+static void mean_size_by_hand(void **state)
+{
+    (void)state;
+    fracas_fragment fragment[4] = {{.size = 1}, {.size = 2}, {.size = 3}, {.size = 6}};
+    const fracas_record record = {.fragment = fragment, .nfragment = 4}, none = {.fragment = NULL};
+    assert_true(fracas_record_mean_size(&record) == 3);
+    assert_true(isnan(fracas_record_mean_size(&none)));
+}
+
+/* A larger maximum alone goes on where the smaller one ended. */
+static void a_larger_maximum_goes_on(void **state)
+{
+    (void)state;
+    fracas_rounds again;
+    commit(0, 0, 7, 0.5, FRACAS_FRAGMENTED);
+    OK(fracas_rounds_advance(&rounds, index_, 0));
+    commit(0, 8, 15, 0.5, FRACAS_FRAGMENTED);
+    OK(fracas_rounds_advance(&rounds, index_, 0));
+    commit(0, 16, 23, 0.5, FRACAS_FRAGMENTED);
+    OK(fracas_rounds_advance(&rounds, index_, 0));
+    assert_int_equal(rounds.open, 1); /* 0.216 is more than 0.1, but 24 is the maximum */
+    fracas_campaign *now = make("{minimum: 8, maximum: 25, until: {quantity: dissipated, relative-half-width: 0.1}}");
+    OK(fracas_index_plan(index_, &now->table));
+    OK(fracas_rounds_init(&again, now, index_));
+    assert_int_equal(again.open, 2);
+    assert_int_equal(again.point[0].replicas, 25);
+    assert_int_equal(rows_of(0), 25);
+    fracas_rounds_clear(&again);
+    fracas_campaign_destroy(now);
+}
+
+/* Each quantity is its own column: fragments 5, size 0.01, dissipated 1 in the mean. */
+static void a_rule_looks_at_its_quantity(void **state)
+{
+    (void)state;
+    static const char *const quantity[] = {"mean-count", "mean-size", "dissipated"};
+    static const double mean[] = {5, 0.01, 1};
+    commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
+    for (int q = 0; q < 3; q++) {
+        char text[200];
+        fracas_decision *decision;
+        fracas_rounds again;
+        snprintf(text, sizeof text, "{minimum: 8, maximum: 24, until: {quantity: %s, relative-half-width: 0.2}}", quantity[q]);
+        fracas_campaign *now = make(text);
+        OK(fracas_rounds_init(&again, now, index_));
+        look(0, &decision, 1);
+        assert_int_equal(decision[0].quantity, q);
+        assert_true(fabs(decision[0].mean / mean[q] - 1) < 1e-15);
+        free(decision);
+        fracas_rounds_clear(&again);
+        fracas_campaign_destroy(now);
+    }
+}
+
+/* An index of before sizes were kept gets the column, but no values in it: they are in the segments. */
+static void an_older_index_is_brought_up(void **state)
+{
+    (void)state;
+    fracas_decision *decision;
+    size_t count;
+    commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
+    tampered("DROP TABLE decision");
+    tampered("ALTER TABLE realization DROP COLUMN size");
+    fracas_index_close(index_);
+    OK(fracas_index_open(study, false, &index_)); /* to look at, as it is */
+    OK(fracas_index_decisions(index_, &campaign->point[0].hash, &decision, &count));
+    assert_int_equal(count, 0);
+    free(decision);
+    assert_int_equal(count_all().done, 8);
+    fracas_index_close(index_);
+    OK(fracas_index_open(study, true, &index_));
+    OK(fracas_rounds_advance(&rounds, index_, 0)); /* what is dissipated was kept */
+    assert_int_equal(rounds.open, 1);
+    fracas_campaign *now = make("{minimum: 8, maximum: 24, until: {quantity: mean-size, relative-half-width: 0.1}}");
+    fracas_rounds again;
+    sample_fails(fracas_rounds_init(&again, now, index_), FRACAS_DAMAGED, "remove index.sqlite");
+    fracas_rounds_clear(&again);
+    fracas_campaign_destroy(now);
+}
+
+#define ROUND(name) cmocka_unit_test_setup_teardown(name, begin, end)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        ROUND(rounds_go_on_until_they_are_narrow),
+        ROUND(what_failed_does_not_count),
+        ROUND(rounds_that_are_there_already_are_decided_at_once),
+        ROUND(a_decision_that_does_not_follow_is_damage),
+        ROUND(a_stronger_rule_decides_again),
+        cmocka_unit_test(mean_size_by_hand),
+        ROUND(a_larger_maximum_goes_on),
+        ROUND(a_rule_looks_at_its_quantity),
+        ROUND(an_older_index_is_brought_up),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
