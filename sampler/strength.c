@@ -1,5 +1,6 @@
 /* The registry of distributions, and what is done with any of them. */
 #include "sampler/distribution/distribution.h"
+#include "sampler/field/covariance.h"
 
 static const fracas_kind *const distributions[] = {
     &fracas_weibull.kind,
@@ -12,6 +13,18 @@ static const fracas_kind *const distributions[] = {
     &fracas_file_distribution.kind,
     &fracas_positions.kind,
 };
+static const fracas_kind *const covariances[] = {&fracas_covariance_exponential, &fracas_covariance_matern, &fracas_covariance_gaussian};
+static const fracas_param params[] = {
+    {.name = "covariance", .type = FRACAS_CHOICE, .unit = "1",
+     .doc = "how strengths at a distance d are alike, through a Gaussian field of this covariance; without it they are independent",
+     .offset = offsetof(fracas_strength, covariance), .choices = covariances, .nchoices = FRACAS_COUNT(covariances), .optional = true},
+    {.name = "correlation_length", .type = FRACAS_REAL, .unit = "m", .doc = "length l of the covariance", .maximum = INFINITY,
+     .minimum_open = true, .offset = offsetof(fracas_strength, correlation_length), .optional = true},
+    {.name = "smoothness", .type = FRACAS_REAL, .unit = "1",
+     .doc = "nu of a matern covariance, 1.5 where it is not given: the field can be differentiated k times "
+            "for every k < nu", .minimum = 0.1, .maximum = 10, .offset = offsetof(fracas_strength, smoothness), .optional = true},
+};
+
 static fracas_err check_section(const void *section)
 {
     return fracas_strength_check(section);
@@ -20,7 +33,7 @@ static fracas_err check_section(const void *section)
 const fracas_section fracas_strength_section = {
     .name = "strength", .doc = "How strong interfaces are", .selector = "distribution", .kinds = distributions,
     .nkinds = FRACAS_COUNT(distributions), .kind_offset = offsetof(fracas_strength, distribution), .hashed = true,
-    .check = check_section,
+    .params = params, .nparams = FRACAS_COUNT(params), .check = check_section,
 };
 
 const fracas_distribution *fracas_distribution_of(const fracas_strength *strength)
@@ -31,6 +44,7 @@ const fracas_distribution *fracas_distribution_of(const fracas_strength *strengt
 fracas_err fracas_strength_check(const fracas_strength *strength)
 {
     const fracas_distribution *distribution = fracas_distribution_of(strength);
+    TRY(fracas_covariance_check(strength));
     return distribution->check ? distribution->check(strength) : FRACAS_OK;
 }
 

@@ -26,6 +26,9 @@ typedef struct {
     double density;   /* 1/m3, flaws: their mean number per volume */
     double exponent;  /* 1, flaws: of the power law of their strengths */
     const fracas_attachment *file; /* file, positions: a strength for each interface */
+    const fracas_kind *covariance; /* of a correlated field; NULL: strengths are independent */
+    double correlation_length;     /* m */
+    double smoothness;             /* 1, matern: nu */
 } fracas_strength;
 
 /* The section `strength`; its offset is 0: the owner says where the struct is. */

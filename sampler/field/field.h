@@ -24,6 +24,11 @@ void fracas_field_destroy(fracas_field *field); /* NULL is allowed */
 /* Number of strengths of a realization, n*points. */
 size_t fracas_field_size(const fracas_field *field);
 
+/* How far the field's correlation is from the covariance it was asked for: the largest difference that was found, of all pairs of
+ * sites that are equally spaced or no more than FRACAS_DENSE_SITES, else of those of 64 sites with all. Its marginals are exact.
+ * 0 where strengths are independent or given. */
+double fracas_field_error(const fracas_field *field);
+
 /* sigma_c[k*stride] = strength k [Pa] of the realization that the stream names; `stride` lets a lane of a batch be filled in
  * place. Each value depends on the field and the name of the stream alone. Of strengths that are given they are those of the file,
  * whatever the stream; NaN beyond its end. FRACAS_ENVIRONMENT without memory. */
