@@ -25,7 +25,7 @@ void fracas_field_destroy(fracas_field *field); /* NULL is allowed */
 size_t fracas_field_size(const fracas_field *field);
 
 /* How far the field's correlation is from the covariance it was asked for: the largest difference that was found, of all pairs of
- * sites that are equally spaced or no more than FRACAS_DENSE_SITES, else of those of 64 sites with all. Its marginals are exact.
+ * sites that are equally spaced or no more than FRACAS_DENSE_SITES, else of those of 128 sites with all. Its marginals are exact.
  * 0 where strengths are independent or given. */
 double fracas_field_error(const fracas_field *field);
 

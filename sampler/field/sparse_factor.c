@@ -13,7 +13,7 @@
 #include <string.h>
 
 #define SMALLEST 1e-8 /* variance that must be left of a near site given those that are nearer: others add rounding alone */
-enum { PROBES = 64, M = FRACAS_NEAR_SITES };
+enum { STARTS = 32, STEPS = 4, M = FRACAS_NEAR_SITES };
 
 struct fracas_sparse_factor {
     fracas_unscaled_factor field;
@@ -93,25 +93,33 @@ static void factorise_fine(fracas_sparse_factor *factor, const fracas_covariance
     }
 }
 
-/* The largest error of the pairs of a site with all. */
+/* The largest error of the pairs of a site with all, and the other site of that pair. */
 static fracas_err probe(fracas_sparse_factor *factor, const fracas_covariance *covariance, const double (*position)[3], size_t site,
-                        double *correlation)
+                        double *correlation, size_t *worst)
 {
+    double largest = 0.0;
+    *worst = site;
     TRY(fracas_sparse_factor_correlation(factor, site, correlation));
     for (size_t i = 0; i < factor->field.n; i++) {
-        const double target = fracas_covariance_at(covariance, fracas_distance(position[site], position[i]));
-        factor->error = fmax(factor->error, fabs(correlation[i] - target));
+        const double wrong = fabs(correlation[i] - fracas_covariance_at(covariance, fracas_distance(position[site], position[i])));
+        if (wrong <= largest) continue;
+        largest = wrong;
+        *worst = i;
     }
+    factor->error = fmax(factor->error, largest);
     return FRACAS_OK;
 }
 
+/* Of few sites all are looked at. Of many, some from the coarsest to the finest; from each it goes on to where it is worst. */
 static fracas_err measure_error(fracas_sparse_factor *factor, const fracas_covariance *covariance, const double (*position)[3])
 {
-    const size_t n = factor->field.n, probes = n <= FRACAS_DENSE_SITES ? n : PROBES;
+    const size_t n = factor->field.n;
     double *correlation = malloc((n + 1) * sizeof *correlation);
     fracas_err err = correlation ? FRACAS_OK : fracas_no_memory("a correlated field");
-    for (size_t k = 0; k < probes && !err; k++)
-        err = probe(factor, covariance, position, factor->order[(k + 1) * n / probes - 1], correlation);
+    for (size_t k = 0, starts = n <= FRACAS_DENSE_SITES ? n : STARTS; k < starts && !err; k++) {
+        size_t site = factor->order[(k + 1) * n / starts - 1];
+        for (size_t step = 0; step < (starts < n ? STEPS : 1) && !err; step++) err = probe(factor, covariance, position, site, correlation, &site);
+    }
     free(correlation);
     return err;
 }

@@ -6,7 +6,7 @@
 
 enum {
     FRACAS_DENSE_SITES = 1000, /* the coarsest sites, whose covariance is factorised as a whole */
-    FRACAS_NEAR_SITES = 30,    /* coarser sites that each of the others is drawn from */
+    FRACAS_NEAR_SITES = 50,    /* coarser sites that each of the others is drawn from */
 };
 
 typedef struct fracas_sparse_factor fracas_sparse_factor;
@@ -17,7 +17,7 @@ FRACAS_MUST_USE fracas_err fracas_sparse_factor_create(const fracas_covariance *
 void fracas_sparse_factor_destroy(fracas_sparse_factor *factor); /* NULL is allowed */
 
 /* The largest difference between the field's correlation and the covariance: of all pairs of up to FRACAS_DENSE_SITES sites; of more,
- * of the pairs of 64 sites with all. */
+ * of the pairs of 128 sites with all. */
 double fracas_sparse_factor_error(const fracas_sparse_factor *factor);
 
 /* z = A w, of n normals w; the diagonal of A A^T is 1. FRACAS_ENVIRONMENT without memory. */
