@@ -29,16 +29,15 @@ struct fracas_covariance {
 fracas_err fracas_covariance_check(const fracas_strength *strength)
 {
     if (!strength->covariance && strength->correlation_length > 0)
-        return fracas_fail(FRACAS_USAGE, "strength has a `correlation_length` and no `covariance`: say which, exponential, matern or gaussian");
-    if (!strength->covariance && !(strength->smoothness > 0)) return FRACAS_OK;
+        return fracas_fail(FRACAS_USAGE, "`correlation_length` without a `covariance`: say which, exponential, matern or gaussian");
     if (strength->covariance != &fracas_covariance_matern && strength->smoothness > 0)
-        return fracas_fail(FRACAS_USAGE, "strength has a `smoothness`, which is that of a matern covariance alone: leave it out, or say "
-                                         "`covariance: matern`");
+        return fracas_fail(FRACAS_USAGE, "`smoothness` is that of a matern covariance alone: leave it out, or say `covariance: matern`");
+    if (!strength->covariance) return FRACAS_OK;
     if (!(strength->correlation_length > 0))
-        return fracas_fail(FRACAS_USAGE, "strength has a `covariance` and no `correlation_length`: give it, a length");
+        return fracas_fail(FRACAS_USAGE, "`covariance` without a `correlation_length`: give it, a length");
     if (fracas_strength_is_given(strength))
-        return fracas_fail(FRACAS_USAGE, "strength has a `covariance`, and its values are those of a file (distribution `%s`), which are not "
-                                         "drawn: leave out one of them", strength->distribution->name);
+        return fracas_fail(FRACAS_USAGE, "`covariance` is of strengths that are drawn, and those of distribution `%s` are given: leave it out",
+                           strength->distribution->name);
     return FRACAS_OK;
 }
 

@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SMALLEST 1e-8 /* variance that must be left of a near site given those that are nearer: others add rounding alone */
+#define SMALLEST 1e-7 /* variance that must be left of a near site given those that are nearer: others add rounding alone */
 enum { STARTS = 32, STEPS = 4, M = FRACAS_NEAR_SITES };
 
 struct fracas_sparse_factor {
