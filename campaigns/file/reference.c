@@ -28,9 +28,9 @@ static void write_param(const fracas_param *param, FILE *out)
     static const char *const types[] = {"number", "whole number", "true or false", "name", "path of a file"};
     char fallback[FRACAS_NUMBER_TEXT];
     fracas_number_write(param->fallback, fallback);
-    const char *given = isnan(param->fallback) ? "**required**" : fallback;
+    const char *given = param->optional ? "none" : isnan(param->fallback) ? "**required**" : fallback;
     if (param->type == FRACAS_BOOLEAN) given = param->fallback != 0.0 ? "true" : "false";
-    if (param->type == FRACAS_CHOICE && !isnan(param->fallback)) given = param->choices[(size_t)param->fallback]->name;
+    if (param->type == FRACAS_CHOICE && !param->optional) given = param->choices[(size_t)param->fallback]->name;
     if (param->type == FRACAS_ATTACHMENT && !isnan(param->fallback)) given = "none";
     fprintf(out, "| `%s` | %s | %s | %s | ", param->name, types[param->type],
             strcmp(param->unit, "1") ? param->unit : "", given);

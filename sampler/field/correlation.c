@@ -60,7 +60,7 @@ static bool is_circle(size_t n, const double (*x)[3], double *radius)
     return true;
 }
 
-static fracas_err factorise(fracas_correlation *correlation, const fracas_covariance *covariance, const double (*x)[3])
+static fracas_err choose_factor(fracas_correlation *correlation, const fracas_covariance *covariance, const double (*x)[3])
 {
     const size_t n = correlation->n;
     double size;
@@ -75,7 +75,7 @@ static fracas_err factorise(fracas_correlation *correlation, const fracas_covari
 }
 
 /* (fields.5) x [m] along a circle of this circumference. */
-static fracas_err factorise_closed(fracas_correlation *correlation, const fracas_covariance *covariance, const double (*position)[3],
+static fracas_err closed_factor(fracas_correlation *correlation, const fracas_covariance *covariance, const double (*position)[3],
                                    double period)
 {
     double(*x)[3] = malloc((correlation->n + 1) * sizeof *x);
@@ -86,7 +86,7 @@ static fracas_err factorise_closed(fracas_correlation *correlation, const fracas
         x[i][1] = radius * fracas_sinpi(turn);
         x[i][2] = 0.0;
     }
-    fracas_err err = factorise(correlation, covariance, (const double(*)[3])x);
+    fracas_err err = choose_factor(correlation, covariance, (const double(*)[3])x);
     free(x);
     return err;
 }
@@ -100,7 +100,7 @@ fracas_err fracas_correlation_create(const fracas_strength *strength, size_t n, 
     made->n = n;
     fracas_err err = fracas_covariance_create(strength, &covariance);
     if (!err) {
-        err = period > 0.0 ? factorise_closed(made, covariance, position, period) : factorise(made, covariance, position);
+        err = period > 0.0 ? closed_factor(made, covariance, position, period) : choose_factor(made, covariance, position);
         fracas_covariance_destroy(covariance);
     }
     if (err) fracas_correlation_destroy(made);

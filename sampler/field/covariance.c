@@ -8,9 +8,8 @@
 
 #define USUAL_SMOOTHNESS 1.5
 
-const fracas_kind fracas_covariance_exponential = {.name = "exponential", .doc = "exp(-d/l): continuous and rough, as a Matern "
-                                                   "covariance of smoothness 1/2"};
-const fracas_kind fracas_covariance_matern = {.name = "matern", .doc = "as smooth as one likes"};
+const fracas_kind fracas_covariance_exponential = {.name = "exponential", .doc = "exp(-d/l): rough, as matern of smoothness 1/2"};
+const fracas_kind fracas_covariance_matern = {.name = "matern", .doc = "of any smoothness nu"};
 const fracas_kind fracas_covariance_gaussian = {.name = "gaussian", .doc = "exp(-d^2/(2 l^2)): smoother than anything real"};
 
 /* Pieces of a table in x = sqrt(2 nu) d/l: four in each octave from 2^LOWEST to 2^HIGHEST. */
