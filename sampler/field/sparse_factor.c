@@ -203,7 +203,7 @@ fracas_err fracas_sparse_factor_apply(const fracas_sparse_factor *factor, const 
     return normal && value ? FRACAS_OK : fracas_no_memory("a correlated field");
 }
 
-/* (fields.15) row = A^T e of a site: from the finest place to the coarsest. */
+/* (fields.15) A^T e of a site, by place: from the finest place to the coarsest. x, row: room for n. */
 static void find_row(const fracas_sparse_factor *factor, size_t site, double *x, double *row)
 {
     const fracas_unscaled_factor *field = &factor->field;
@@ -214,19 +214,24 @@ static void find_row(const fracas_sparse_factor *factor, size_t site, double *x,
     }
     for (size_t k = field->n; k-- > field->coarse;) {
         const size_t fine = k - field->coarse;
-        row[factor->order[k]] = field->rest[fine] * x[k];
+        row[k] = field->rest[fine] * x[k];
         for (size_t a = 0; a < M; a++) x[field->near[fine * M + a]] += field->weight[fine * M + a] * x[k];
     }
     for (size_t k = 0; k < field->coarse; k++)
-        for (size_t q = 0; q <= k && q < dense->rank; q++) row[factor->order[q]] += dense->row[k * dense->rank + q] * x[k];
+        for (size_t q = 0; q <= k && q < dense->rank; q++) row[q] += dense->row[k * dense->rank + q] * x[k];
 }
 
 fracas_err fracas_sparse_factor_correlation(const fracas_sparse_factor *factor, size_t site, double *correlation)
 {
-    double *row = malloc((factor->field.n + 1) * sizeof *row);
-    if (!row) return fracas_no_memory("a correlated field");
-    find_row(factor, site, correlation, row);
-    fracas_err err = fracas_sparse_factor_apply(factor, row, correlation);
+    const size_t n = factor->field.n;
+    double *row = malloc((n + 1) * sizeof *row), *w = malloc((n + 1) * sizeof *w);
+    fracas_err err = row && w ? FRACAS_OK : fracas_no_memory("a correlated field");
+    if (!err) {
+        find_row(factor, site, w, row);
+        for (size_t k = 0; k < n; k++) w[factor->order[k]] = row[k];
+        err = fracas_sparse_factor_apply(factor, w, correlation);
+    }
     free(row);
+    free(w);
     return err;
 }
