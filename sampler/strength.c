@@ -2,6 +2,7 @@
 #include "sampler/distribution/distribution.h"
 
 #include "sampler/distribution/size.h"
+#include "sampler/field/covariance.h"
 #include "sampler/field/grading.h"
 
 static const fracas_kind *const distributions[] = {
@@ -16,6 +17,7 @@ static const fracas_kind *const distributions[] = {
     &fracas_file_distribution.kind,
     &fracas_positions.kind,
 };
+static const fracas_kind *const covariances[] = {&fracas_covariance_exponential, &fracas_covariance_matern, &fracas_covariance_gaussian};
 static const fracas_kind per_interface = {.name = "interface", .doc = "one strength for all of an interface"};
 static const fracas_kind per_point = {.name = "gauss-point",
                                       .doc = "one for each Gauss point of an interface of a surface; bars and rings have one point an interface"};
@@ -40,6 +42,14 @@ static const fracas_param params[] = {
      .optional = true},
     {"reference_area", FRACAS_REAL, "m2", "area of a specimen, in place of its volume: an interface counts by its own area",
      FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, reference_area), .optional = true},
+    {.name = "covariance", .type = FRACAS_CHOICE, .unit = "1",
+     .doc = "how strengths at a distance d are alike, through a Gaussian field of this covariance; without it they are independent",
+     .offset = offsetof(fracas_strength, covariance), .choices = covariances, .nchoices = FRACAS_COUNT(covariances), .optional = true},
+    {.name = "correlation_length", .type = FRACAS_REAL, .unit = "m", .doc = "length l of the covariance", .maximum = INFINITY,
+     .minimum_open = true, .offset = offsetof(fracas_strength, correlation_length), .optional = true},
+    {.name = "smoothness", .type = FRACAS_REAL, .unit = "1",
+     .doc = "nu of a matern covariance, 1.5 where it is not given: the field can be differentiated k times "
+            "for every k < nu", .minimum = 0.1, .maximum = 10, .offset = offsetof(fracas_strength, smoothness), .optional = true},
 };
 
 static fracas_err check_section(const void *section)
@@ -97,6 +107,7 @@ fracas_err fracas_strength_check(const fracas_strength *strength)
     if (fracas_strength_is_given(strength) && fracas_strength_is_per_point(strength))
         return fracas_fail(FRACAS_USAGE, "strength.per is gauss-point, but the distribution `%s` gives one strength to each interface: "
                            "leave out `per`, or let strengths be drawn", strength->distribution->name);
+    TRY(fracas_covariance_check(strength));
     TRY(fracas_grading_check(strength));
     TRY(fracas_strength_init(strength, &ready));
     fracas_strength_clear(&ready);

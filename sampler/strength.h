@@ -31,6 +31,9 @@ typedef struct {
     const fracas_kind *interpolation; /* empirical: between its strengths */
     double reference_volume; /* m3, or */
     double reference_area;   /* m2: of interfaces that have the strengths that are given */
+    const fracas_kind *covariance; /* of a correlated field; NULL: strengths are independent */
+    double correlation_length;     /* m */
+    double smoothness;             /* 1, matern: nu */
     const fracas_kind *per;            /* interface, gauss-point; NULL: interface */
     const fracas_attachment *factor;   /* profile of a factor of the strengths; NULL: 1 everywhere */
     const fracas_kind *factor_along;   /* x, y, z, radius: the profile's coordinate; given along with it */

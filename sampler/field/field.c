@@ -1,7 +1,9 @@
 #include "sampler/field/field.h"
 
 #include "sampler/distribution/distribution.h"
+#include "sampler/field/correlation.h"
 #include "sampler/field/grading.h"
+#include "sampler/special/normal.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +14,7 @@ struct fracas_field {
     size_t n, points;
     fracas_extent *extent; /* [n] */
     double *given;         /* [n*points], where strengths are given; else NULL */
+    fracas_correlation *correlation; /* NULL where strengths are independent */
     double *factor;        /* [n*points], where the material is graded; else NULL */
     fracas_isa isa;
 };
@@ -41,6 +44,8 @@ fracas_err fracas_field_create(const fracas_strength *strength, const fracas_sit
     if (!err) err = fracas_isa_choose(FRACAS_ISA_BEST, &made->isa);
     if (!err && fracas_strength_is_given(strength)) err = read_given(made, sites);
     else if (!err && !(err = fracas_strength_init(strength, &made->drawn))) made->strength = &made->drawn;
+    if (!err && strength->covariance)
+        err = fracas_correlation_create(strength, made->n * made->points, sites->position, sites->period, &made->correlation);
     if (!err) err = fracas_grading_create(strength, sites->n * sites->points, sites->position, &made->factor);
     if (err) fracas_field_destroy(made);
     else *field = made;
@@ -53,6 +58,7 @@ void fracas_field_destroy(fracas_field *field)
     if (field->strength == &field->drawn) fracas_strength_clear(&field->drawn);
     free(field->extent);
     free(field->given);
+    fracas_correlation_destroy(field->correlation);
     free(field->factor);
     free(field);
 }
@@ -62,10 +68,17 @@ size_t fracas_field_size(const fracas_field *field)
     return field->n * field->points;
 }
 
+double fracas_field_error(const fracas_field *field)
+{
+    return field->correlation ? fracas_correlation_error(field->correlation) : 0.0;
+}
+
 fracas_err fracas_field_use(fracas_field *field, fracas_isa isa)
 {
     return fracas_isa_choose(isa, &field->isa);
 }
+
+/* ---- a realization ---- */
 
 /* (sampling.3) over lanes: the sites of a Gauss point are successive. Lanes beyond the last interface draw numbers of no use. */
 static void sample_blocks(const fracas_field *field, fracas_block_quantile *quantile, const fracas_stream *stream, size_t stride,
@@ -85,20 +98,53 @@ static void sample_blocks(const fracas_field *field, fracas_block_quantile *quan
 }
 
 /* (sampling.3) */
+static void sample_each(const fracas_field *field, const fracas_stream *stream, size_t stride, double *sigma_c)
+{
+    for (size_t i = 0, k = 0; i < field->n; i++)
+        for (size_t g = 0; g < field->points; g++, k++) {
+            const double u = fracas_stream_uniform(stream, fracas_stream_site(i, g));
+            sigma_c[k * stride] = fracas_strength_quantile(field->strength, field->extent[i], fracas_probability_of(u));
+        }
+}
+
+/* (fields.17) z[k] of the normal field */
+static fracas_err draw_normal_field(const fracas_field *field, const fracas_stream *stream, double *z)
+{
+    const size_t count = fracas_correlation_normals(field->correlation);
+    double *w = malloc((count + 1) * sizeof *w);
+    if (!w) return fracas_no_memory("a correlated field");
+    for (size_t k = 0; k < count; k++) {
+        const double u = fracas_stream_uniform(stream, fracas_stream_site(k / field->points, k % field->points));
+        w[k] = fracas_normal_quantile(fracas_probability_of(u));
+    }
+    fracas_err err = fracas_correlation_apply(field->correlation, w, z);
+    free(w);
+    return err;
+}
+
+/* (fields.18) */
+static fracas_err sample_correlated(const fracas_field *field, const fracas_stream *stream, size_t stride, double *sigma_c)
+{
+    const size_t count = fracas_field_size(field);
+    double *z = malloc((count + 1) * sizeof *z);
+    if (!z) return fracas_no_memory("a correlated field");
+    fracas_err err = draw_normal_field(field, stream, z);
+    for (size_t k = 0; k < count && !err; k++) {
+        const fracas_probability p = {.below = fracas_normal_upper(-z[k]), .above = fracas_normal_upper(z[k])};
+        sigma_c[k * stride] = fracas_strength_quantile(field->strength, field->extent[k / field->points], p);
+    }
+    free(z);
+    return err;
+}
+
 fracas_err fracas_field_sample(const fracas_field *field, const fracas_stream *stream, size_t stride, double *sigma_c)
 {
     fracas_block_quantile *block = fracas_distribution_of(field->strength)->block[field->isa];
     if (fracas_strength_has_size_effect(field->strength)) block = NULL; /* blocks know no extents */
-    if (block) sample_blocks(field, block, stream, stride, sigma_c);
-    for (size_t i = 0, k = 0; i < field->n && !block; i++)
-        for (size_t g = 0; g < field->points; g++, k++) {
-            if (field->given) {
-                sigma_c[k * stride] = field->given[k];
-                continue;
-            }
-            const double u = fracas_stream_uniform(stream, fracas_stream_site(i, g));
-            sigma_c[k * stride] = fracas_strength_quantile(field->strength, field->extent[i], fracas_probability_of(u));
-        }
+    if (field->correlation) TRY(sample_correlated(field, stream, stride, sigma_c));
+    else if (block) sample_blocks(field, block, stream, stride, sigma_c);
+    else if (!field->given) sample_each(field, stream, stride, sigma_c);
+    for (size_t k = 0; field->given && k < fracas_field_size(field); k++) sigma_c[k * stride] = field->given[k];
     for (size_t k = 0; field->factor && k < fracas_field_size(field); k++) sigma_c[k * stride] *= field->factor[k]; /* (grading.3) */
     return FRACAS_OK;
 }

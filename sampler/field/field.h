@@ -28,6 +28,11 @@ FRACAS_MUST_USE fracas_err fracas_field_use(fracas_field *field, fracas_isa isa)
 /* Number of strengths of a realization, n*points. */
 size_t fracas_field_size(const fracas_field *field);
 
+/* How far the field's correlation is from the covariance it was asked for: the largest difference that was found, of all pairs of
+ * sites that are equally spaced or no more than FRACAS_DENSE_SITES, else of those of 128 sites with all. Its marginals are exact.
+ * 0 where strengths are independent or given. */
+double fracas_field_error(const fracas_field *field);
+
 /* sigma_c[k*stride] = strength k [Pa] of the realization that the stream names; `stride` lets a lane of a batch be filled in
  * place. Where the material is graded (sampler/field/grading.h), after the factor. Each value depends on the field and the name of
  * the stream alone. Of strengths that are given they are those of the file, whatever the stream; NaN beyond its end.
