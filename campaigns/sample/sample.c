@@ -21,6 +21,7 @@ static fracas_err fill(const fracas_field *field, fracas_sample *sample)
         sample->extent.area += one.area / (double)interfaces;
     }
     fracas_model_interface_positions(sample->model, sample->position);
+    sample->error = fracas_field_error(field);
     const fracas_stream stream =
         fracas_point_stream(sample->campaign, sample->point, FRACAS_PURPOSE_STRENGTH, (uint64_t)sample->replica);
     return fracas_field_sample(field, &stream, 1, sample->strength);

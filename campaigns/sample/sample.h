@@ -15,6 +15,7 @@ typedef struct {
     size_t n, points;       /* strengths; of each interface */
     double *strength;       /* [n] Pa: k = interface*points + Gauss point */
     double (*position)[3];  /* [n] m, at the start */
+    double error;           /* fracas_field_error */
     fracas_extent extent;   /* what a strength stands for, on average */
 } fracas_sample;
 

@@ -66,6 +66,10 @@ static void print_text(const fracas_sample *sample, const summary *of, double la
     fprintf(out, "Strengths of %s, point %zu, replica %" PRId64 "\n", sample->campaign->name, sample->point, sample->replica);
     fprintf(out, "  %-20s %s, mean %.6g MPa\n", "distribution", strength->distribution->name, 1e-6 * law);
     fprintf(out, "  %-20s %zu%s\n", "strengths", sample->n, sample->points > 1 ? ", one a Gauss point" : ", one an interface");
+    if (strength->covariance)
+        fprintf(out, "  %-20s %s, length %.6g m; right to %.1e\n", "covariance", strength->covariance->name, strength->correlation_length,
+                sample->error);
+    if (strength->factor) fprintf(out, "  %-20s along %s, %s\n", "factor", strength->factor_along->name, strength->factor->path);
     fprintf(out, "  %-20s %.6g MPa\n  %-20s %.6g MPa\n", "mean", 1e-6 * of->mean, "standard deviation", 1e-6 * of->deviation);
     print_extreme(sample, "weakest", of->weakest, out);
     for (int q = 0; q < SHARES; q++) {
@@ -102,6 +106,8 @@ static void print_json(const fracas_sample *sample, const summary *of, double la
     fracas_json_integer(&json, "replica", sample->replica);
     fracas_json_text(&json, "distribution", point->strength.distribution->name);
     fracas_json_real(&json, "distribution_mean", law);
+    fracas_json_text(&json, "covariance", point->strength.covariance ? point->strength.covariance->name : NULL);
+    fracas_json_real(&json, "covariance_error", sample->error);
     fracas_json_integer(&json, "strengths", (int64_t)sample->n);
     fracas_json_integer(&json, "gauss_points", (int64_t)sample->points);
     fracas_json_real(&json, "mean", of->mean);

@@ -182,7 +182,8 @@ static void a_bar_opens_where_its_factor_is_least(void **state)
     fracas_field *field;
     fracas_batch *batch;
     size_t stride;
-    if (fracas_point_model_create(campaign, 0, &model) || fracas_model_field(model, &campaign->point[0].strength, &field)) fail_msg("%s", fracas_message());
+    assert_int_equal(fracas_point_model_create(campaign, 0, &model), 0);
+    assert_int_equal(fracas_model_field(model, &campaign->point[0].strength, &field), 0);
     assert_int_equal(fracas_batch_create(model, 1, &(fracas_batch_options){.interfaces = true, .isa = FRACAS_ISA_BEST}, &batch), 0);
     double *sigma_c = fracas_batch_strength(batch, 0, &stride);
     assert_int_equal(fracas_field_sample(field, &(fracas_stream){0}, stride, sigma_c), 0);
