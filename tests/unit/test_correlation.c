@@ -136,9 +136,9 @@ static void few_sites_have_the_covariance(void **state)
 }
 
 /* Circles and lines of the right size are drawn as such, others are not. */
-static size_t normals_of(size_t n)
+static size_t normals_of(size_t n, const fracas_kind *kind, double length)
 {
-    const fracas_strength strength = correlated(&fracas_covariance_exponential, 0.1, NAN);
+    const fracas_strength strength = correlated(kind, length, NAN);
     fracas_correlation *correlation;
     assert_int_equal(fracas_correlation_create(&strength, n, SITES, 0, &correlation), FRACAS_OK);
     const size_t count = fracas_correlation_normals(correlation);
@@ -150,11 +150,13 @@ static void lines_are_told_from_others(void **state)
 {
     (void)state;
     sites_on_line(100, 1.0, sites);
-    assert_int_equal(normals_of(100), 256);
+    assert_int_equal(normals_of(100, &fracas_covariance_exponential, 0.3), 256);
+    assert_true(normals_of(100, &fracas_covariance_matern, 0.3) >= 512); /* larger circles are tried */
+    assert_int_equal(normals_of(100, &fracas_covariance_gaussian, 400), 100); /* none does, and so few need none */
     sites[50][0] += 1e-7 / 100; /* of the spacing */
-    assert_int_equal(normals_of(100), 100);
+    assert_int_equal(normals_of(100, &fracas_covariance_exponential, 0.3), 100);
     for (size_t i = 0; i < 100; i++) sites[i][0] = sites[i][1] = sites[i][2] = 1;
-    assert_int_equal(normals_of(100), 100);
+    assert_int_equal(normals_of(100, &fracas_covariance_exponential, 0.3), 100);
 }
 
 /* Sites that move off a circle, or are visited in another order, are not one: the correlations stay right. */
@@ -162,13 +164,18 @@ static void broken_circles_are_scattered(void **state)
 {
     (void)state;
     const fracas_strength strength = correlated(&fracas_covariance_exponential, 0.3, NAN);
-    for (int way = 0; way < 5; way++) {
+    for (int way = 0; way < 6; way++) {
         sites_on_circle(30, 0.7, sites);
         if (way == 0) sites[17][2] += 1e-3;
         for (size_t i = 0; i < 30 && way == 1; i++) sites[i][1] *= 1.01;
         for (size_t i = 0; i < 30 && way == 2; i++) sites[i][0] = sites[i * 7 % 30][0];
         if (way == 3) for (int a = 0; a < 3; a++) sites[5][a] = sites[6][a]; /* two at one place */
         for (size_t i = 0; i < 30 && way == 4; i++) sites[i][0] = sites[i][1] = sites[i][2] = 0.1; /* all are */
+        for (int a = 0; a < 3 && way == 5; a++) { /* two change places */
+            const double x = sites[11][a];
+            sites[11][a] = sites[20][a];
+            sites[20][a] = x;
+        }
         assert_true(error_of(&strength, 30, 0, "broken circle") < ROUNDED);
     }
 }
@@ -185,6 +192,7 @@ static void no_circle_is_long_enough(void **state)
     fracas_circulant *circulant;
     assert_int_equal(fracas_circulant_line(covariance, N, 1.0, &circulant), FRACAS_OK);
     const size_t size = fracas_circulant_normals(circulant);
+    assert_int_equal(size, 1 << 17); /* no larger one is tried */
     double *w = malloc(size * sizeof *w), z[N], rho[N] = {0}, worst = 0;
     for (size_t m = 0; m <= WAVES; m++) {
         for (size_t k = 0; k < size; k++) w[k] = cos(2 * M_PI * (double)(m * k % size) / (double)size);
