@@ -16,7 +16,7 @@ int main(void)
 #include <limits.h>
 
 enum { MOST = FRACAS_DENSE_SITES + 20 };
-static double position[MOST][3], sigma_c[MOST];
+static double position[MOST][3], sigma_c[MOST], usual[MOST];
 static fracas_extent extent[MOST];
 
 typedef struct {
@@ -35,11 +35,27 @@ static fracas_err make_and_draw(const void *context)
     return err;
 }
 
+/* The same, and the strengths are the usual ones wherever there are any. */
+static fracas_err make_and_compare(const void *context)
+{
+    TRY(make_and_draw(context));
+    assert_memory_equal(sigma_c, usual, ((const body *)context)->n * sizeof *usual);
+    return FRACAS_OK;
+}
+
+static void fail_each(fracas_strength strength, size_t n, long each)
+{
+    const body b = {strength, n};
+    assert_int_equal(make_and_draw(&b), FRACAS_OK);
+    memcpy(usual, sigma_c, sizeof usual);
+    fail_each_of(make_and_compare, &b, each);
+}
+
 static void test_circle(void **state)
 {
     (void)state;
     sites_on_circle(20, 1.0, position);
-    fail_each_of(make_and_draw, &(body){correlated(&fracas_covariance_matern, 0.3, 0.8), 20}, LONG_MAX); /* with a table of the covariance */
+    fail_each(correlated(&fracas_covariance_matern, 0.3, 0.8), 20, LONG_MAX); /* with a table of the covariance */
 }
 
 /* Larger circles are tried, and for the second covariance none will do. */
@@ -47,8 +63,8 @@ static void test_line(void **state)
 {
     (void)state;
     sites_on_line(20, 1.0, position);
-    fail_each_of(make_and_draw, &(body){correlated(&fracas_covariance_matern, 2.0, NAN), 20}, LONG_MAX);
-    fail_each_of(make_and_draw, &(body){correlated(&fracas_covariance_gaussian, 100.0, NAN), 20}, LONG_MAX);
+    fail_each(correlated(&fracas_covariance_matern, 2.0, NAN), 20, LONG_MAX);
+    fail_each(correlated(&fracas_covariance_gaussian, 100.0, NAN), 20, LONG_MAX);
 }
 
 /* Up to FRACAS_DENSE_SITES are factorised as a whole. Of more, all that makes the factor is tried, and some of what measures its error. */
@@ -56,8 +72,8 @@ static void test_scattered(void **state)
 {
     (void)state;
     sites_scattered(MOST, position);
-    fail_each_of(make_and_draw, &(body){correlated(&fracas_covariance_exponential, 0.3, NAN), 20}, LONG_MAX);
-    fail_each_of(make_and_draw, &(body){correlated(&fracas_covariance_exponential, 0.3, NAN), MOST}, 40);
+    fail_each(correlated(&fracas_covariance_exponential, 0.3, NAN), 20, LONG_MAX);
+    fail_each(correlated(&fracas_covariance_exponential, 0.3, NAN), MOST, 40);
 }
 
 /* Measured strengths, graded along x, correlated. */
@@ -69,13 +85,13 @@ static void test_tables(void **state)
     for (size_t k = 0; k < fracas_strength_section.nkinds; k++) {
         const fracas_kind *kind = fracas_strength_section.kinds[k];
         if (strcmp(kind->name, "empirical") != 0) continue;
-        body b = {correlated(&fracas_covariance_exponential, 0.3, NAN), 10};
-        b.strength.distribution = kind;
-        b.strength.file = &measured;
-        b.strength.factor = &factor;
-        b.strength.factor_along = &fracas_along_x;
-        sites_scattered(b.n, position);
-        fail_each_of(make_and_draw, &b, LONG_MAX);
+        fracas_strength strength = correlated(&fracas_covariance_exponential, 0.3, NAN);
+        strength.distribution = kind;
+        strength.file = &measured;
+        strength.factor = &factor;
+        strength.factor_along = &fracas_along_x;
+        sites_scattered(10, position);
+        fail_each(strength, 10, LONG_MAX);
         return;
     }
     fail_msg("there is no distribution `empirical`");
