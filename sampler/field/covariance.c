@@ -1,6 +1,7 @@
 #include "sampler/field/covariance.h"
 
 #include "base/elementary.h"
+#include "sampler/distribution/distribution.h"
 #include "sampler/special/bessel.h"
 
 #include <math.h>
@@ -37,6 +38,9 @@ fracas_err fracas_covariance_check(const fracas_strength *strength)
     if (fracas_strength_is_given(strength))
         return fracas_fail(FRACAS_USAGE, "`covariance` is of strengths that are drawn, and those of distribution `%s` are given: leave it out",
                            strength->distribution->name);
+    if (strength->distribution == &fracas_constant.kind)
+        return fracas_fail(FRACAS_USAGE, "`covariance` changes nothing where all strengths are the same, as those of distribution `constant`: "
+                           "leave it out, or choose another distribution");
     return FRACAS_OK;
 }
 

@@ -8,7 +8,7 @@ extern const fracas_kind fracas_covariance_exponential;
 extern const fracas_kind fracas_covariance_matern;
 extern const fracas_kind fracas_covariance_gaussian;
 
-/* FRACAS_USAGE when the keys of a correlation do not go together, or are given for strengths of a file. */
+/* FRACAS_USAGE when the keys of a correlation do not go together, or are given for strengths that are not drawn: of a file, or constant. */
 FRACAS_MUST_USE fracas_err fracas_covariance_check(const fracas_strength *strength);
 
 typedef struct fracas_covariance fracas_covariance;

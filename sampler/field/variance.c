@@ -11,11 +11,16 @@
 #define NOTHING 1e-15
 enum { ROWS = 8, M = FRACAS_NEAR_SITES };
 typedef double rows __attribute__((vector_size(ROWS * sizeof(double))));
+typedef double pair __attribute__((vector_size(2 * sizeof(double))));
+typedef union {
+    rows all;
+    pair pair[ROWS / 2];
+} split_rows;
 
 typedef struct {
     const fracas_unscaled_factor *field;
     double *product;    /* [coarse*coarse] L L^T */
-    rows *reach;        /* [n] what a place adds to each of the values, by its own */
+    split_rows *reach;        /* [n] what a place adds to each of the values, by its own */
     uint64_t *reached;  /* [n/64 + 1] bits: the places */
     uint32_t *support;  /* [coarse] those of them that are coarse */
 } sweep;
@@ -40,8 +45,23 @@ static bool last_reached(sweep *s, size_t *word, size_t *k)
 static bool is_nothing(const sweep *s, size_t k)
 {
     double largest = 0.0;
-    for (int r = 0; r < ROWS; r++) largest = fmax(largest, fabs(s->reach[k][r]));
+    for (int r = 0; r < ROWS; r++) largest = fmax(largest, fabs(s->reach[k].all[r]));
     return largest < NOTHING;
+}
+
+/* sum product[k] reach[k] of k = support[0 ... count-1]. Pairs stay in registers; of whole rows compilers keep the sum in memory. */
+static rows coarse_sum(const sweep *s, size_t count, const double *product)
+{
+    pair a = {0}, b = {0}, c = {0}, d = {0};
+    for (size_t q = 0; q < count; q++) {
+        const size_t k = s->support[q];
+        const pair *x = s->reach[k].pair;
+        a += product[k] * x[0];
+        b += product[k] * x[1];
+        c += product[k] * x[2];
+        d += product[k] * x[3];
+    }
+    return (split_rows){.pair = {a, b, c, d}}.all;
 }
 
 /* x^T L L^T x of the places in the support, which are cleared. */
@@ -49,13 +69,11 @@ static rows coarse_variances(sweep *s, size_t count)
 {
     rows sum = {0};
     for (size_t p = 0; p < count; p++) {
-        const rows x = s->reach[s->support[p]];
+        const rows x = s->reach[s->support[p]].all;
         const double *product = &s->product[s->support[p] * s->field->coarse];
-        rows before = {0};
-        for (size_t q = 0; q < p; q++) before += product[s->support[q]] * s->reach[s->support[q]];
-        sum += x * (product[s->support[p]] * x + 2.0 * before);
+        sum += x * (product[s->support[p]] * x + 2.0 * coarse_sum(s, p, product));
     }
-    for (size_t p = 0; p < count; p++) s->reach[s->support[p]] = (rows){0};
+    for (size_t p = 0; p < count; p++) s->reach[s->support[p]].all = (rows){0};
     return sum;
 }
 
@@ -66,25 +84,25 @@ static rows variances(sweep *s, const uint32_t *place, size_t count)
     size_t word = field->n / 64, nsupport = 0, k;
     rows sum = {0};
     for (size_t r = 0; r < count; r++) {
-        s->reach[place[r]][r] = 1.0;
+        s->reach[place[r]].all[r] = 1.0;
         mark(s, place[r]);
     }
     while (last_reached(s, &word, &k)) {
         if (is_nothing(s, k)) {
-            s->reach[k] = (rows){0};
+            s->reach[k].all = (rows){0};
             continue;
         }
         if (k < field->coarse) {
             s->support[nsupport++] = (uint32_t)k;
             continue;
         }
-        const rows x = s->reach[k], own = field->rest[k - field->coarse] * x;
+        const rows x = s->reach[k].all, own = field->rest[k - field->coarse] * x;
         const double *weight = &field->weight[(k - field->coarse) * M];
         const uint32_t *near = &field->near[(k - field->coarse) * M];
         sum += own * own;
-        s->reach[k] = (rows){0};
+        s->reach[k].all = (rows){0};
         for (size_t a = 0; a < M; a++) {
-            s->reach[near[a]] += weight[a] * x;
+            s->reach[near[a]].all += weight[a] * x;
             mark(s, near[a]);
         }
     }
@@ -147,7 +165,7 @@ fracas_err fracas_unscaled_variances(const fracas_unscaled_factor *field, const 
     spot *spots = malloc((n + 1) * sizeof *spots);
     const bool ready = s.product && s.reach && s.reached && s.support && spots;
     if (ready) {
-        for (size_t k = 0; k < n; k++) s.reach[k] = (rows){0};
+        for (size_t k = 0; k < n; k++) s.reach[k].all = (rows){0};
         find_spots(field, order, position, spots);
         sweep_all(&s, spots, variance);
     }

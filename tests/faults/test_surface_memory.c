@@ -9,28 +9,9 @@ int main(void)
 }
 #else
 
-#include "tests/support/failing_malloc.h"
+#include "tests/support/fail_each.h"
 
-/* Calls `work` with the first, second, ... allocation failing, until it succeeds without; nothing stays behind. */
-static void fail_each(fracas_err (*work)(const void *context), const void *context)
-{
-    for (long k = 1;; k++) {
-        const long before = held;
-        has_failed = false;
-        countdown = k;
-        const fracas_err err = work(context);
-        countdown = 0;
-        assert_int_equal(held, before);
-        if (!has_failed) {
-            assert_int_equal(err, FRACAS_OK);
-            assert_true(k > 10); /* it did allocate */
-            return;
-        }
-        /* glibc's qsort does without memory of its own when there is none. */
-        if (err != FRACAS_ENVIRONMENT && err != FRACAS_OK) fail_msg("allocation %ld: %d %s", k, err, fracas_message());
-        if (err && !strstr(fracas_message(), "no memory for")) fail_msg("allocation %ld: %s", k, fracas_message());
-    }
-}
+#include <limits.h>
 
 static const double (*shift)[2];
 static size_t nshifts;
@@ -60,7 +41,7 @@ static void test_made(void **state)
     static const double numbers[10][2] = {{0.5, -0.5}};
     shift = numbers;
     nshifts = 10;
-    fail_each(make_octant, NULL);
+    fail_each_of(make_octant, NULL, LONG_MAX);
 }
 
 static void test_read(void **state)
@@ -72,7 +53,7 @@ static void test_read(void **state)
         assert_int_equal(fracas_surface_rectangle(1.0, 1.0, &fineness, &s), FRACAS_OK);
         for (int which = 0; which < 4; which++) {
             gmsh_file f = gmsh_write(s, which % 2, which / 2, false);
-            fail_each(read_mesh, &f);
+            fail_each_of(read_mesh, &f, LONG_MAX);
             free(f.bytes);
         }
         fracas_surface_destroy(s);

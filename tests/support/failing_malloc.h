@@ -10,6 +10,7 @@
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t count, size_t size);
 void *__libc_realloc(void *old, size_t size);
+void *__libc_memalign(size_t alignment, size_t size);
 void __libc_free(void *old);
 
 /* Volatile: the compiler believes that malloc changes nothing of ours. */
@@ -44,6 +45,13 @@ void *realloc(void *old, size_t size)
     if (fails()) return NULL;
     held += !old;
     return __libc_realloc(old, size);
+}
+
+void *aligned_alloc(size_t alignment, size_t size)
+{
+    if (fails()) return NULL;
+    held++;
+    return __libc_memalign(alignment, size);
 }
 
 void free(void *old)

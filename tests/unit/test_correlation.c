@@ -1,6 +1,7 @@
 /* Covariances against GSL, and the covariances of normal fields, found from the factors and not by sampling, against them. */
 #include "sampler/field/circulant.h"
 #include "sampler/field/correlation.h"
+#include "sampler/field/dense_factor.h"
 #include "sampler/field/distance.h"
 #include "sampler/field/order.h"
 #include "sampler/field/sparse_factor.h"
@@ -13,6 +14,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -73,6 +75,28 @@ static void covariances_are_those_of_gsl(void **state)
     assert_true(worst < 1e-13);
 }
 
+/* Strengths that are given, or all the same, are not drawn from any field. */
+static void only_strengths_that_are_drawn_are_correlated(void **state)
+{
+    (void)state;
+    static const struct { const char *distribution, *message; } table[] = {
+        {"file", "`covariance` is of strengths that are drawn, and those of distribution `file` are given: leave it out"},
+        {"positions", "`covariance` is of strengths that are drawn, and those of distribution `positions` are given: leave it out"},
+        {"constant", "`covariance` changes nothing where all strengths are the same"},
+    };
+    const fracas_attachment file = {.path = "s.csv", .text = "0 0 3\n", .size = 6};
+    for (size_t t = 0; t < FRACAS_COUNT(table); t++)
+        for (size_t k = 0; k < fracas_strength_section.nkinds; k++) {
+            fracas_strength strength = {.distribution = fracas_strength_section.kinds[k], .file = &file, .value = 3e8};
+            if (strcmp(strength.distribution->name, table[t].distribution) != 0) continue;
+            assert_int_equal(fracas_strength_check(&strength), FRACAS_OK);
+            strength.covariance = &fracas_covariance_exponential;
+            strength.correlation_length = 1e-3;
+            assert_int_equal(fracas_strength_check(&strength), FRACAS_USAGE);
+            if (!strstr(fracas_message(), table[t].message)) fail_msg("%s: %s", table[t].distribution, fracas_message());
+        }
+}
+
 /* ---- few sites: the whole factor ---- */
 
 /* A, a row for each site, by its columns. */
@@ -102,6 +126,7 @@ static double error_of(const fracas_strength *strength, size_t n, double period,
         for (size_t j = 0; j <= i; j++) {
             double product = 0;
             for (size_t k = 0; k < count; k++) product += a[i * count + k] * a[j * count + k];
+            assert_true(isfinite(product)); /* fmax leaves out NaN */
             double d = fracas_distance(sites[i], sites[j]);
             if (period > 0) d = period / M_PI * fabs(sin(M_PI * d / period));
             worst = fmax(worst, fabs(product - exact(strength, d)));
@@ -180,6 +205,31 @@ static void broken_circles_are_scattered(void **state)
     }
 }
 
+/* A covariance that is singular takes as many normals as it has rank: all sites are at a few places, or a field is so smooth that few of
+ * its eigenvalues are no rounding. */
+static void singular_covariances_are_factorised(void **state)
+{
+    (void)state;
+    enum { N = 120, PLACES = 7 };
+    for (int way = 0; way < 2; way++) {
+        const fracas_strength strength = correlated(way ? &fracas_covariance_gaussian : &fracas_covariance_exponential, way ? 3 : 0.3, NAN);
+        fracas_covariance *covariance = covariance_of(&strength);
+        fracas_dense_factor factor;
+        uint32_t order[N];
+        sites_scattered(N, sites);
+        for (size_t i = 0; i < N; i++) {
+            order[i] = (uint32_t)i;
+            for (int a = 0; a < 3 && way == 0; a++) sites[i][a] = sites[i % PLACES][a];
+        }
+        assert_int_equal(fracas_dense_factor_init(covariance, SITES, N, order, &factor), FRACAS_OK);
+        print_message("%d sites, rank %zu\n", N, factor.rank);
+        assert_true(way ? factor.rank > PLACES && factor.rank < N / 2 : factor.rank == PLACES);
+        fracas_dense_factor_clear(&factor);
+        fracas_covariance_destroy(covariance);
+        assert_true(error_of(&strength, N, 0, "singular") < ROUNDED);
+    }
+}
+
 /* A smooth covariance of a long length on many sites has no circle: the error is stated. A cosine is an eigenvector of the circle, so
  * what the factor makes of it at site 0 is the root of the eigenvalue. Those of more than 60 waves together are what
  * lacks in the variance, 1, and change no correlation by more. */
@@ -226,7 +276,10 @@ static double error_of_pairs(const fracas_strength *strength, const fracas_spars
     *of_variance = 0;
     for (size_t i = 0; i < n; i += step) {
         assert_int_equal(fracas_sparse_factor_correlation(factor, i, rho), FRACAS_OK);
-        for (size_t j = 0; j < n; j++) worst = fmax(worst, fabs(rho[j] - exact(strength, fracas_distance(sites[i], sites[j]))));
+        for (size_t j = 0; j < n; j++) {
+            assert_true(isfinite(rho[j])); /* fmax leaves out NaN */
+            worst = fmax(worst, fabs(rho[j] - exact(strength, fracas_distance(sites[i], sites[j]))));
+        }
         *of_variance = fmax(*of_variance, fabs(rho[i] - 1));
     }
     free(rho);
@@ -300,6 +353,23 @@ static void markov_fields_are_exact(void **state)
     }
 }
 
+/* As many sites at one place as a site is drawn from and more: all but one of them are left out. */
+static void sites_may_be_at_one_place(void **state)
+{
+    (void)state;
+    enum { N = 2 * FRACAS_DENSE_SITES + 500, COPIES = 4 * FRACAS_NEAR_SITES };
+    const fracas_strength strength = correlated(&fracas_covariance_matern, 0.1, NAN);
+    double of_variance;
+    sites_scattered(N, sites);
+    for (size_t i = 0; i < N; i++) /* a cluster of COPIES, and the rest by twos */
+        for (int a = 0; a < 3; a++) sites[i][a] = sites[i < COPIES ? 0 : i / 2 * 2][a];
+    fracas_sparse_factor *factor = sparse_of(&strength, N);
+    const double stated = fracas_sparse_factor_error(factor), worst = error_of_pairs(&strength, factor, N, 10, &of_variance);
+    print_message("sites at one place: %.1e, stated %.1e\n", worst, stated);
+    assert_true(worst <= 5e-3 && worst <= 1.5 * stated + ROUNDED && of_variance < ROUNDED);
+    fracas_sparse_factor_destroy(factor);
+}
+
 /* ---- the order ---- */
 
 static void orders_go_from_coarse_to_fine(void **state)
@@ -337,13 +407,16 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(covariances_are_those_of_gsl),
+        cmocka_unit_test(only_strengths_that_are_drawn_are_correlated),
         cmocka_unit_test(few_sites_have_the_covariance),
         cmocka_unit_test(lines_are_told_from_others),
         cmocka_unit_test(broken_circles_are_scattered),
+        cmocka_unit_test(singular_covariances_are_factorised),
         cmocka_unit_test(no_circle_is_long_enough),
         cmocka_unit_test(errors_are_stated),
         cmocka_unit_test(correlations_are_those_of_the_factor),
         cmocka_unit_test(markov_fields_are_exact),
+        cmocka_unit_test(sites_may_be_at_one_place),
         cmocka_unit_test(orders_go_from_coarse_to_fine),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
