@@ -249,8 +249,32 @@ static bool warn_turned(const fracas_point *point, const fracas_forecast *foreca
     return forecast->turned > TURNED;
 }
 
+static bool warn_short(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
+{
+    const double length = point->strength.correlation_length;
+    snprintf(text, size, "strength.correlation_length is %.3g m, less than a third of an element of %.3g m: strengths are as good as "
+             "independent: is that in m? A bare number is SI", length, forecast->element);
+    return point->strength.covariance && length < forecast->element / 3;
+}
+
+static bool warn_long(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
+{
+    const double length = point->strength.correlation_length;
+    snprintf(text, size, "strength.correlation_length is %.3g m, more than the %.3g m of the body: strengths of a replica are much alike, "
+             "and differ from replica to replica: is that in m? A bare number is SI", length, forecast->extent);
+    return point->strength.covariance && length > forecast->extent;
+}
+
+static bool warn_flat(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
+{
+    snprintf(text, size, "strength.factor is the same at all interfaces: the body does not reach where %s changes along %s: are its "
+             "coordinates in m?", forecast->flat ? point->strength.factor->path : "", forecast->flat ? point->strength.factor_along->name : "");
+    return forecast->flat;
+}
+
 static warning *const warnings[] = {warn_coarse, warn_uniform, warn_lines, warn_weak_load, warn_repeated,
-                                    warn_folds,  warn_lonely,  warn_step,  warn_turned, warn_passed};
+                                    warn_folds,  warn_lonely,  warn_step,  warn_turned,    warn_passed,
+                                    warn_short,  warn_long,    warn_flat};
 enum { WARNINGS = FRACAS_COUNT(warnings) };
 
 /* Warning `which` of point p, with its number; false if it does not apply. */
@@ -278,6 +302,8 @@ static void put_heads(const campaign_plan *plan, text_sheet *sheet)
         for (size_t r = 0; r < 2; r++) sheet_put(sheet, r, 1 + plan->nvaried + c, "%s", own_heads[c][r]);
 }
 
+enum { LONG = 9 }; /* characters of a number that is written as it is */
+
 static void put_point(const campaign_plan *plan, size_t p, text_sheet *sheet)
 {
     const fracas_point_row *point = &plan->table->point[p];
@@ -288,6 +314,7 @@ static void put_point(const campaign_plan *plan, size_t p, text_sheet *sheet)
         const fracas_value *value = &point->value[plan->varied[v]];
         char number[FRACAS_NUMBER_TEXT];
         fracas_number_write(value->real, number);
+        if (strlen(number) > LONG) snprintf(number, sizeof number, "%.6g", value->real); /* drawn; --json has all digits */
         const bool text = plan->table->column[plan->varied[v]].text;
         sheet_put(sheet, row, 1 + v, "%s", text ? value->text : isnan(value->real) ? "-" : number);
     }
@@ -322,7 +349,7 @@ static fracas_err print_text(const campaign_plan *plan, FILE *out)
             plan->jobs, plan->jobs == 1 ? "" : "es", plan->slowest, FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
         if (plan->most > plan->realizations)
             fprintf(out, "Replicas are added until replicas.until holds: from the least to the most, with their times and sizes.\n");
-        char text[256];
+        char text[400];
         for (size_t p = 0; p < points; p++)
             for (int w = 0; w < WARNINGS; w++)
                 if (warning_of(plan, p, w, text, sizeof text)) fprintf(out, "warning: %s\n", text);
@@ -376,7 +403,7 @@ static void print_json(const campaign_plan *plan, FILE *out)
     for (size_t p = 0; p < plan->table->npoints; p++) print_json_point(plan, p, &json);
     fracas_json_close_array(&json);
     fracas_json_array(&json, "warnings");
-    char text[256];
+    char text[400];
     for (size_t p = 0; p < plan->table->npoints; p++)
         for (int w = 0; w < WARNINGS; w++)
             if (warning_of(plan, p, w, text, sizeof text)) fracas_json_text(&json, NULL, text);
