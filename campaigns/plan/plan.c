@@ -170,7 +170,7 @@ static bool warn_coarse(const fracas_point *point, const fracas_forecast *foreca
 {
     char remedy[80];
     finer(&point->spec, forecast, remedy, sizeof remedy);
-    snprintf(text, size, "elements are %.2g E G_c/sigma_c^2 long, above %.1g a crack's softening is not resolved: %s",
+    snprintf(text, size, "elements are %.3g E G_c/sigma_c^2 long, above %.1g a crack's softening is not resolved: %s",
              forecast->coarseness, COARSE, remedy);
     return forecast->coarseness > COARSE;
 }
@@ -327,6 +327,25 @@ static void put_point(const campaign_plan *plan, size_t p, text_sheet *sheet)
     put_range(sheet, row, own + 5, least * forecast->bytes, forecast->bytes, write_size);
 }
 
+/* The first few of each kind, and of the others how many there are: a design would have the same for most of its points. */
+static void print_warnings(const campaign_plan *plan, FILE *out)
+{
+    enum { SHOWN = 4 };
+    size_t said[WARNINGS] = {0}, last[WARNINGS] = {0};
+    char text[400];
+    for (size_t p = 0; p < plan->table->npoints; p++)
+        for (int w = 0; w < WARNINGS; w++) {
+            if (!warning_of(plan, p, w, text, sizeof text)) continue;
+            if (++said[w] <= SHOWN) fprintf(out, "warning: %s\n", text);
+            last[w] = p;
+        }
+    for (int w = 0; w < WARNINGS; w++) {
+        if (said[w] <= SHOWN) continue;
+        warning_of(plan, last[w], w, text, sizeof text);
+        fprintf(out, "warning: the same at %zu more, which --json lists, the last being %s\n", said[w] - SHOWN, text);
+    }
+}
+
 static fracas_err print_text(const campaign_plan *plan, FILE *out)
 {
     const size_t points = plan->table->npoints, own = 1 + plan->nvaried, last = points + 2;
@@ -349,10 +368,7 @@ static fracas_err print_text(const campaign_plan *plan, FILE *out)
             plan->jobs, plan->jobs == 1 ? "" : "es", plan->slowest, FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
         if (plan->most > plan->realizations)
             fprintf(out, "Replicas are added until replicas.until holds: from the least to the most, with their times and sizes.\n");
-        char text[400];
-        for (size_t p = 0; p < points; p++)
-            for (int w = 0; w < WARNINGS; w++)
-                if (warning_of(plan, p, w, text, sizeof text)) fprintf(out, "warning: %s\n", text);
+        print_warnings(plan, out);
     }
     sheet_clear(&sheet);
     return err;
