@@ -158,6 +158,13 @@ static fracas_err draw_against_rate(const rate_plot *plot, fracas_chart *chart)
     return FRACAS_OK;
 }
 
+static bool any_curve(const fracas_chart *chart)
+{
+    for (size_t i = 0; chart->npanels > 0 && i < chart->panel[0].nseries; i++)
+        if (chart->panel[0].series[i].kind == FRACAS_CURVE) return true;
+    return false;
+}
+
 static void caption_of_rate(const fracas_analysis *analysis, bool normalised, bool one_law, fracas_chart *chart)
 {
     if (fracas_analysis_all_surfaces(analysis)) {
@@ -168,13 +175,14 @@ static void caption_of_rate(const fracas_analysis *analysis, bool normalised, bo
     }
     snprintf(chart->caption, sizeof chart->caption,
              "%sMean over replicas of body length / fragments%s; bars: 95 %% interval of the mean (Student\u2019s t over "
-             "replicas). Lines: %s",
+             "replicas).%s",
              normalised ? "Sizes over s\u2080 = E G_c/\u03c3_c\u00b2, rates over "
                           "\u03b5\u0307\u2080 = c \u03c3_c\u00b3/(E\u00b2 G_c), \u03c3_c the mean strength. " : "",
              !normalised && fracas_analysis_any_surface(analysis) ? ", of surfaces of the mean square root of their areas" : "",
-             normalised || one_law ? "size laws of Zhou, Molinari and Ramesh (ZMR, ZMR-2), Grady, and Glenn "
-                                     "and Chudnovsky (GC)."
-                                   : "ZMR law with the material of the marks of the same colour, where these have one.");
+             !one_law && !any_curve(chart) ? " No size law serves all marks of one colour: their materials differ."
+             : normalised || one_law       ? " Lines: size laws of Zhou, Molinari and Ramesh (ZMR, ZMR-2), Grady, and Glenn "
+                                             "and Chudnovsky (GC)."
+                                           : " Lines: ZMR law with the material of the marks of the same colour, where these have one.");
 }
 
 fracas_err fracas_figure_rate(const fracas_analysis *analysis, bool normalised, fracas_chart *chart)
