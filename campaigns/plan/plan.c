@@ -327,6 +327,13 @@ static void put_point(const campaign_plan *plan, size_t p, text_sheet *sheet)
     put_range(sheet, row, own + 5, least * forecast->bytes, forecast->bytes, write_size);
 }
 
+static bool any_surface_field(const campaign_plan *plan)
+{
+    for (size_t p = 0; p < plan->table->npoints; p++)
+        if (plan->campaign->point[p].strength.covariance && fracas_spec_is_surface(&plan->campaign->point[p].spec)) return true;
+    return false;
+}
+
 /* The first few of each kind, and of the others how many there are: a design would have the same for most of its points. */
 static void print_warnings(const campaign_plan *plan, FILE *out)
 {
@@ -368,6 +375,8 @@ static fracas_err print_text(const campaign_plan *plan, FILE *out)
             plan->jobs, plan->jobs == 1 ? "" : "es", plan->slowest, FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
         if (plan->most > plan->realizations)
             fprintf(out, "Replicas are added until replicas.until holds: from the least to the most, with their times and sizes.\n");
+        if (any_surface_field(plan))
+            fprintf(out, "Correlated fields of surfaces are made once a point, which is not in these times: some seconds for 10 000 interfaces.\n");
         print_warnings(plan, out);
     }
     sheet_clear(&sheet);
