@@ -376,7 +376,7 @@ static fracas_err print_text(const campaign_plan *plan, FILE *out)
         if (plan->most > plan->realizations)
             fprintf(out, "Replicas are added until replicas.until holds: from the least to the most, with their times and sizes.\n");
         if (any_surface_field(plan))
-            fprintf(out, "Correlated fields of surfaces are made once a point, which is not in these times: some seconds for 10 000 interfaces.\n");
+            fprintf(out, "Correlated fields of surfaces are made once a point by each process, which is not in these times: some seconds for 10 000 interfaces.\n");
         print_warnings(plan, out);
     }
     sheet_clear(&sheet);
