@@ -268,7 +268,8 @@ static bool warn_long(const fracas_point *point, const fracas_forecast *forecast
 static bool warn_flat(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
 {
     snprintf(text, size, "strength.factor is the same at all interfaces: the body does not reach where %s changes along %s: are its "
-             "coordinates in m?", forecast->flat ? point->strength.factor->path : "", forecast->flat ? point->strength.factor_along->name : "");
+             "coordinates in m?", forecast->flat ? point->strength.factor->path : "",
+             forecast->flat ? point->strength.factor_along->name : "");
     return forecast->flat;
 }
 
@@ -376,7 +377,8 @@ static fracas_err print_text(const campaign_plan *plan, FILE *out)
         if (plan->most > plan->realizations)
             fprintf(out, "Replicas are added until replicas.until holds: from the least to the most, with their times and sizes.\n");
         if (any_surface_field(plan))
-            fprintf(out, "Correlated fields of surfaces are made once a point by each process, which is not in these times: some seconds for 10 000 interfaces.\n");
+            fprintf(out, "Correlated fields of surfaces are made once a point by each process, which is not in these times: some seconds "
+                         "for 10 000 interfaces.\n");
         print_warnings(plan, out);
     }
     sheet_clear(&sheet);
