@@ -190,3 +190,25 @@ void fracas_columns_label(const fracas_point_table *table, const fracas_columns 
                                  prefix.symbol, unit ? column->unit : "");
     }
 }
+
+/* True if two points have values that differ; one that lacks the value, as of another law, is no difference. */
+static bool differs(const fracas_point_table *table, size_t column)
+{
+    size_t first = 0;
+    while (first < table->npoints && is_absent(table, column, first)) first++;
+    for (size_t p = first + 1; p < table->npoints; p++)
+        if (!is_absent(table, column, p) && !same_value(table, column, p, first)) return true;
+    return false;
+}
+
+void fracas_columns_beside(const fracas_point_table *table, const fracas_columns *columns, char *text, size_t size)
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (size_t c = 0; c < table->ncolumns && used < size; c++) {
+        const char *path = table->column[c].path;
+        bool known = !strncmp(path, "mesh.", 5) || !strncmp(path, "time.", 5) || rank_of(path) < 0;
+        for (size_t i = 0; i < columns->count; i++) known = known || columns->column[i] == c;
+        if (!known && differs(table, c)) used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", path);
+    }
+}

@@ -46,6 +46,9 @@ void fracas_columns_label(const fracas_point_table *table, const fracas_columns 
 void fracas_columns_value(const fracas_point_table *table, size_t column, size_t point, double factor, char *text,
                           size_t size);
 
+/* "cohesive.fracture_energy, material.young": what else the points differ in, beside these columns, mesh and time; "" for nothing. */
+void fracas_columns_beside(const fracas_point_table *table, const fracas_columns *columns, char *text, size_t size);
+
 /* True if both points have equal values in all of these columns. */
 bool fracas_columns_same(const fracas_point_table *table, const fracas_columns *columns, size_t a, size_t b);
 

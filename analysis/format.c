@@ -68,6 +68,14 @@ void fracas_format_digits(double value, int digits, char *text, size_t size)
     }
 }
 
+void fracas_format_beside(double value, double limit, char *text, size_t size)
+{
+    for (int digits = 2; digits <= 5; digits++) {
+        fracas_format_digits(value, digits, text, size);
+        if (!isfinite(value) || (strtod(text, NULL) > limit) == (value > limit)) return;
+    }
+}
+
 void fracas_format_estimate(const fracas_estimate *estimate, double factor, const char *plus_minus, char *text,
                             size_t size)
 {

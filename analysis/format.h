@@ -11,6 +11,9 @@ void fracas_format_short(double value, char *text, size_t size);
 /* "0.890", "2.0e-3": so many significant digits, zeros kept; "-" for what is not finite. */
 void fracas_format_digits(double value, int digits, char *text, size_t size);
 
+/* Two significant digits, or as many more (up to five) as show on which side of the limit the value is. */
+void fracas_format_beside(double value, double limit, char *text, size_t size);
+
 /* "442.3 +- 5.6": the half width to two digits and the mean to the same place, both times `factor`. Without a
  * half width (one replica, or equal values) the mean to four digits, and "+- -" or "+- 0". "-" without a mean. */
 void fracas_format_estimate(const fracas_estimate *estimate, double factor, const char *plus_minus, char *text,

@@ -33,6 +33,14 @@ const char *const *fracas_result_table_legend(const fracas_analysis *analysis)
     return fracas_analysis_any_surface(analysis) ? legend_with_surfaces : legend_of_chains;
 }
 
+bool fracas_result_table_beside(const fracas_analysis *analysis, char *text, size_t size)
+{
+    char paths[640];
+    fracas_columns_beside(analysis->table, &analysis->shown, paths, sizeof paths);
+    snprintf(text, size, "The points of this table also differ in %s: their values are in points.csv.", paths);
+    return *paths != '\0';
+}
+
 typedef struct {
     const fracas_analysis *analysis;
     const fracas_result_table *table;
@@ -263,6 +271,8 @@ void fracas_analysis_print_table(const fracas_analysis *analysis, FILE *out)
     putc('\n', out);
     const char *const *legend = fracas_result_table_legend(analysis);
     for (size_t i = 0; legend[i]; i++) fprintf(out, "%s\n", legend[i]);
+    char beside[768];
+    if (fracas_result_table_beside(analysis, beside, sizeof beside)) fprintf(out, "%s\n", beside);
     print_decisions(analysis, out);
     print_warnings(analysis, out);
 }

@@ -26,4 +26,7 @@ static inline char *fracas_result_table_cell(const fracas_result_table *table, s
 /* What the columns of the study's table mean, a line each; ends with NULL. */
 const char *const *fracas_result_table_legend(const fracas_analysis *analysis);
 
+/* "Points differ in material.young, too: points.csv has ...": what the table does not show; false if that is nothing. */
+bool fracas_result_table_beside(const fracas_analysis *analysis, char *text, size_t size);
+
 #endif

@@ -59,11 +59,26 @@ static void write_text(const fracas_column *column, const fracas_value *value, c
     else snprintf(text, 64, "%s%s%s", number, pure ? "" : " ", pure ? "" : column->unit);
 }
 
+/* True if `now` has no point that is not in `before`. */
+static bool is_part(const fracas_campaign *now, const fracas_campaign *before)
+{
+    for (size_t n = 0; n < now->npoints; n++) {
+        size_t b = 0;
+        while (b < before->npoints && memcmp(now->point[n].hash.byte, before->point[b].hash.byte, sizeof(fracas_hash)) != 0) b++;
+        if (b == before->npoints) return false;
+    }
+    return true;
+}
+
 /* The point of `before` is not in `now`: names its first difference from the point of `now` that is most like it. */
 static fracas_err say_point_missing(const fracas_campaign *now, const fracas_campaign *before, size_t b)
 {
     const fracas_column *column = NULL;
     size_t like = 0, least = SIZE_MAX;
+    if (is_part(now, before))
+        return fracas_fail(FRACAS_DAMAGED, "the study has %zu points, and this campaign file only %zu of them, the first that is missing "
+                           "being its point %zu; a study keeps its points: give them all, or use another --study",
+                           before->npoints, now->npoints, b);
     for (size_t n = 0; n < now->npoints; n++) {
         const fracas_column *first = NULL;
         size_t count = count_differences(&now->table, n, &before->table, b, &first);

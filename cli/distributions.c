@@ -6,11 +6,13 @@
 #include <stdio.h>
 #include <string.h>
 
-static void print_param(const fracas_param *param)
+/* `pair`: which of the two pairs of keys that say the same the key belongs to, 0 if there are none. */
+static void print_param(const fracas_param *param, size_t pair)
 {
     char name[80], fallback[FRACAS_NUMBER_TEXT] = "";
     const char *unit = strcmp(param->unit, "1") ? param->unit : "", *given = fallback;
-    if (param->optional) given = "optional";
+    if (pair > 0) given = pair == 1 ? "pair 1" : "pair 2";
+    else if (param->optional) given = "optional";
     else if (isnan(param->fallback)) given = "required";
     else if (param->type == FRACAS_CHOICE) given = param->choices[(size_t)param->fallback]->name;
     else fracas_number_write(param->fallback, fallback);
@@ -20,6 +22,18 @@ static void print_param(const fracas_param *param)
         printf("    %-26s %-9s   %s: %s\n", "", "", param->choices[c]->name, param->choices[c]->doc);
 }
 
+/* Keys of a distribution without a default are four, two of its own and then two in their place, or none. */
+static void print_kind(const fracas_kind *kind)
+{
+    size_t optional = 0, before = 0;
+    for (size_t p = 0; p < kind->nparams; p++) optional += kind->params[p].optional;
+    for (size_t p = 0; p < kind->nparams; p++) {
+        const bool of_pair = optional == 4 && kind->params[p].optional;
+        print_param(&kind->params[p], of_pair ? 1 + before / 2 : 0);
+        before += of_pair;
+    }
+}
+
 static fracas_err distributions(const fracas_arguments *arguments)
 {
     (void)arguments;
@@ -27,12 +41,13 @@ static fracas_err distributions(const fracas_arguments *arguments)
     for (size_t k = 0; k < section->nkinds; k++) {
         const fracas_kind *kind = section->kinds[k];
         printf("%s%s: %s\n", kind->name, k == 0 ? " (default)" : "", kind->doc);
-        for (size_t p = 0; p < kind->nparams; p++) print_param(&kind->params[p]);
+        print_kind(kind);
         printf("\n");
     }
     if (section->nparams == 0) return FRACAS_OK;
     printf("With any of them:\n");
-    for (size_t p = 0; p < section->nparams; p++) print_param(&section->params[p]);
+    for (size_t p = 0; p < section->nparams; p++) print_param(&section->params[p], 0);
+    printf("\npair 1, pair 2: one of the two pairs, whole, and nothing of the other.\n");
     return FRACAS_OK;
 }
 

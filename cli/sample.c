@@ -12,7 +12,7 @@ enum { POINT, REPLICA, CSV, VTK, JSON };
 static const fracas_option options[] = {
     [POINT] = {"point", "P", "which point (0): the first column of `fracas plan FILE`"},
     [REPLICA] = {"replica", "R", "which of its replicas (0)"},
-    [CSV] = {"csv", "PATH", "write strengths and positions to PATH, a line each; - for standard output"},
+    [CSV] = {"csv", "PATH", "write strengths and positions to PATH, a line each; - for standard output, without the summary"},
     [VTK] = {"vtk", "PATH", "write them to PATH for ParaView"},
     [JSON] = {"json", NULL, "print the summary as JSON"},
 };
@@ -45,9 +45,20 @@ static fracas_err show(const fracas_arguments *arguments, const fracas_sample *s
     return FRACAS_OK;
 }
 
+/* Standard output takes the summary or the CSV. */
+static fracas_err check_outputs(const fracas_arguments *arguments)
+{
+    const char *csv = arguments->value[CSV], *vtk = arguments->value[VTK];
+    if (vtk && strcmp(vtk, "-") == 0) return fracas_fail(FRACAS_USAGE, "sample: --vtk is `-`; it must be a file");
+    if (csv && strcmp(csv, "-") == 0 && arguments->value[JSON])
+        return fracas_fail(FRACAS_USAGE, "sample: --csv - and --json both print; name a file for --csv, or leave out one of them");
+    return FRACAS_OK;
+}
+
 static fracas_err sample(const fracas_arguments *arguments)
 {
     int point = 0, replica = 0;
+    TRY(check_outputs(arguments));
     TRY(fracas_arguments_integer(arguments, POINT, 0, INT_MAX, &point));
     TRY(fracas_arguments_integer(arguments, REPLICA, 0, INT_MAX, &replica));
     fracas_campaign *campaign;

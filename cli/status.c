@@ -1,5 +1,6 @@
 #include "cli/cli.h"
 
+#include "analysis/format.h"
 #include "analysis/statistics.h"
 #include "base/json.h"
 #include "base/param.h"
@@ -132,11 +133,14 @@ static fracas_err print_decisions(const fracas_status *status)
         if (rule->maximum == 0) continue;
         TRY(fracas_index_decisions(status->index, &status->campaign->point[p].hash, &decision, &count));
         if (first && count) fputs("\ndecisions on replicas\npoint  round  replicas  of what        mean  +-  half width\n", stdout);
-        for (size_t d = 0; d < count; d++)
-            printf("%5zu%7" PRId64 "%10" PRId64 "  %-10s  %.5g +- %.2g (%.2g %%; %.3g %% asked for): %s\n", p, decision[d].round,
-                   decision[d].replicas, fracas_quantity_name[decision[d].quantity], decision[d].mean, decision[d].half_width,
-                   100 * decision[d].half_width / fabs(decision[d].mean), 100 * decision[d].relative_half_width,
-                   fracas_sequential_stop_name[decision[d].stop]);
+        for (size_t d = 0; d < count; d++) {
+            char found[32];
+            const double asked = 100 * decision[d].relative_half_width;
+            fracas_format_beside(100 * decision[d].half_width / fabs(decision[d].mean), asked, found, sizeof found);
+            printf("%5zu%7" PRId64 "%10" PRId64 "  %-10s  %.5g +- %.2g (%s %%; %.3g %% asked for): %s\n", p, decision[d].round,
+                   decision[d].replicas, fracas_quantity_name[decision[d].quantity], decision[d].mean, decision[d].half_width, found,
+                   asked, fracas_sequential_stop_name[decision[d].stop]);
+        }
         first = first && !count;
         free(decision);
     }

@@ -9,6 +9,8 @@ enum { LAW_VALUES = 80, TALL = 300, LOW = 200, STRIP = 80 };
 
 /* ---- mean size against rate ---- */
 
+static const size_t ALL_SERIES = SIZE_MAX;
+
 /* What is drawn against the rate, and in which units. */
 typedef struct {
     const fracas_analysis *analysis;
@@ -96,12 +98,14 @@ static bool rate_range(const rate_plot *plot, double rate[2])
     return rate[1] > 0;
 }
 
-static bool same_scales(const rate_plot *plot)
+/* True if one curve of a law serves all points of the series that begins with `series`; of all of them, if it is ALL_SERIES. */
+static bool same_scales(const rate_plot *plot, size_t series)
 {
     const fracas_scales *first = NULL;
     for (size_t p = 0; p < plot->analysis->table->npoints; p++) {
         const fracas_point_statistics *statistics = &plot->analysis->point[p];
         if (!has_scales(statistics)) continue;
+        if (series != ALL_SERIES && !fracas_columns_same(plot->analysis->table, plot->others, p, series)) continue;
         if (first && (first->size != statistics->scales.size || first->rate != statistics->scales.rate)) return false;
         first = &statistics->scales;
     }
@@ -116,18 +120,19 @@ static bool laws_are_drawn(const rate_plot *plot, size_t first)
     return false;
 }
 
-/* All laws where one curve each serves all points; else ZMR in the colour of each series. None of surfaces. */
+/* All laws where one curve each serves all points; else ZMR in the colour of each series that it serves. None of surfaces. */
 static fracas_err add_laws(const rate_plot *plot, const double rate[2], size_t first, unsigned looks, unsigned look,
                            fracas_panel *panel)
 {
     const fracas_scales *scales = &plot->analysis->point[first].scales;
     if (!isfinite(scales->rate) || plot->analysis->point[first].surface) return FRACAS_OK;
-    if (plot->normalised || same_scales(plot)) {
+    if (plot->normalised || same_scales(plot, ALL_SERIES)) {
         if (laws_are_drawn(plot, first)) return FRACAS_OK;
         for (unsigned law = 0; law < FRACAS_NLAWS; law++)
             TRY(add_law(plot, (fracas_size_law_id)law, scales, rate, looks + law, panel));
         return FRACAS_OK;
     }
+    if (!same_scales(plot, first)) return FRACAS_OK;
     TRY(add_law(plot, FRACAS_LAW_ZMR, scales, rate, look, panel));
     panel->series[panel->nseries - 1].name[0] = '\0'; /* named by its marks */
     return FRACAS_OK;
@@ -153,6 +158,13 @@ static fracas_err draw_against_rate(const rate_plot *plot, fracas_chart *chart)
     return FRACAS_OK;
 }
 
+static bool any_curve(const fracas_chart *chart)
+{
+    for (size_t i = 0; chart->npanels > 0 && i < chart->panel[0].nseries; i++)
+        if (chart->panel[0].series[i].kind == FRACAS_CURVE) return true;
+    return false;
+}
+
 static void caption_of_rate(const fracas_analysis *analysis, bool normalised, bool one_law, fracas_chart *chart)
 {
     if (fracas_analysis_all_surfaces(analysis)) {
@@ -163,13 +175,14 @@ static void caption_of_rate(const fracas_analysis *analysis, bool normalised, bo
     }
     snprintf(chart->caption, sizeof chart->caption,
              "%sMean over replicas of body length / fragments%s; bars: 95 %% interval of the mean (Student\u2019s t over "
-             "replicas). Lines: %s",
+             "replicas).%s",
              normalised ? "Sizes over s\u2080 = E G_c/\u03c3_c\u00b2, rates over "
                           "\u03b5\u0307\u2080 = c \u03c3_c\u00b3/(E\u00b2 G_c), \u03c3_c the mean strength. " : "",
              !normalised && fracas_analysis_any_surface(analysis) ? ", of surfaces of the mean square root of their areas" : "",
-             normalised || one_law ? "size laws of Zhou, Molinari and Ramesh (ZMR, ZMR-2), Grady, and Glenn "
-                                     "and Chudnovsky (GC)."
-                                   : "ZMR law with the material of the marks of the same colour.");
+             !one_law && !any_curve(chart) ? " No size law serves all marks of one colour: their materials differ."
+             : normalised || one_law       ? " Lines: size laws of Zhou, Molinari and Ramesh (ZMR, ZMR-2), Grady, and Glenn "
+                                             "and Chudnovsky (GC)."
+                                           : " Lines: ZMR law with the material of the marks of the same colour, where these have one.");
 }
 
 fracas_err fracas_figure_rate(const fracas_analysis *analysis, bool normalised, fracas_chart *chart)
@@ -185,7 +198,7 @@ fracas_err fracas_figure_rate(const fracas_analysis *analysis, bool normalised, 
     TRY(fracas_columns_without_rate(analysis->table, &analysis->shown, &others));
     rate_plot plot = {.analysis = analysis, .others = &others, .normalised = normalised, .size_factor = prefix.factor};
     fracas_err err = draw_against_rate(&plot, chart);
-    bool one_law = same_scales(&plot);
+    bool one_law = same_scales(&plot, ALL_SERIES);
     fracas_columns_clear(&others);
     TRY(err);
     snprintf(chart->file, sizeof chart->file, "size-against-rate%s", normalised ? "-normalised" : "");

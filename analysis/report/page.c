@@ -293,6 +293,16 @@ static void put_decisions(const report_page *page)
     if (any) fputs("</ul>\n", page->out);
 }
 
+/* What the table does not show. */
+static void put_beside(const report_page *page)
+{
+    char text[768];
+    if (!fracas_result_table_beside(page->analysis, text, sizeof text)) return;
+    fputs("<p id=\"beside\">", page->out);
+    fracas_markup_text(text, page->out);
+    fputs("</p>\n", page->out);
+}
+
 static fracas_err put_table(const report_page *page)
 {
     fracas_result_table table;
@@ -301,6 +311,7 @@ static fracas_err put_table(const report_page *page)
     put_rows(&table, page->out);
     fracas_result_table_clear(&table);
     put_legend(fracas_result_table_legend(page->analysis), page->out);
+    put_beside(page);
     put_decisions(page);
     fputs("<p class=\"quiet\">As files: <a href=\"points.csv\">points.csv</a> (every parameter and statistic), "
           "<a href=\"fragments.csv\">fragments.csv</a> (every fragment); both in SI units.</p>\n", page->out);

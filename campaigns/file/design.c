@@ -164,6 +164,9 @@ static fracas_err read_pair(const fracas_file *file, const fracas_node *node, re
     if (!isnan(*pair[0]))
         return fracas_say(file->name, between, "the correlation between `%s` and `%s` is given twice; keep one of the two",
                           read->leaf[j]->path, read->leaf[k]->path);
+    if (fabs(setting.value) == 1)
+        return fracas_say(file->name, value, "`coefficient`: %.15g is out of range; allowed is more than -1 and less than 1: of two "
+                          "parameters that go together exactly, one is not uncertain", setting.value);
     *pair[0] = *pair[1] = setting.value;
     return FRACAS_OK;
 }

@@ -193,6 +193,26 @@ static double turned_angle(const fracas_spec *spec)
     return fabs(way) / spec->geometry.radius;
 }
 
+/* Diagonal of the box around all interfaces [m]. */
+static fracas_err extent_of_body(const fracas_model *model, double *diagonal)
+{
+    const size_t n = fracas_model_interfaces(model);
+    double(*position)[3] = malloc((n + 1) * sizeof *position), square = 0;
+    if (!position) return fracas_no_memory("the places of interfaces");
+    fracas_model_interface_positions(model, position);
+    for (int axis = 0; axis < 3; axis++) {
+        double least = INFINITY, most = -INFINITY;
+        for (size_t i = 0; i < n; i++) {
+            least = fmin(least, position[i][axis]);
+            most = fmax(most, position[i][axis]);
+        }
+        if (n > 0) square += (most - least) * (most - least);
+    }
+    free(position);
+    *diagonal = sqrt(square);
+    return FRACAS_OK;
+}
+
 static fracas_err describe(const fracas_point *point, const fracas_model *model, fracas_forecast *forecast)
 {
     *forecast = (fracas_forecast){
@@ -207,7 +227,10 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     TRY(fracas_model_factors(model, &point->strength, &factor));
     const double mean = factor.mean * fracas_strength_mean(&point->strength, extent.mean);
     const double softening = spec->material.young * fracas_spec_fracture_energy(spec, mean) / (mean * mean);
-    forecast->coarseness = fracas_model_element_size(model) / softening;
+    forecast->element = fracas_model_element_size(model);
+    forecast->coarseness = forecast->element / softening;
+    if (point->strength.covariance) TRY(extent_of_body(model, &forecast->extent));
+    forecast->flat = point->strength.factor && factor.least == factor.most;
     forecast->uniform = factor.least == factor.most && strength_at(point, extent.mean, 0.25) == strength_at(point, extent.mean, 0.75);
     forecast->lines = forecast->uniform && spec->mesh.spacing == &fracas_spacing_triangles && spec->mesh.amplitude == 0;
     forecast->mean = mean;

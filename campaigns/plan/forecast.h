@@ -21,6 +21,9 @@ typedef struct {
     bool lonely;       /* the fracture-limiting zone of one interface reaches around the ring */
     bool repeated;     /* strengths are given, so that replicas are equal, and there are several */
     double mean;       /* strength of an interface [Pa] */
+    double element;    /* mean element size [m] */
+    double extent;     /* of the body, where strengths are correlated: diagonal of the box around its interfaces [m] */
+    bool flat;         /* a factor of the strengths is given, and is the same at all interfaces */
     double bound;      /* stress that the uncracked body stays below until time.end [Pa]; INFINITY where none is known */
 } fracas_forecast;
 

@@ -170,7 +170,7 @@ static bool warn_coarse(const fracas_point *point, const fracas_forecast *foreca
 {
     char remedy[80];
     finer(&point->spec, forecast, remedy, sizeof remedy);
-    snprintf(text, size, "elements are %.2g E G_c/sigma_c^2 long, above %.1g a crack's softening is not resolved: %s",
+    snprintf(text, size, "elements are %.3g E G_c/sigma_c^2 long, above %.1g a crack's softening is not resolved: %s",
              forecast->coarseness, COARSE, remedy);
     return forecast->coarseness > COARSE;
 }
@@ -249,8 +249,33 @@ static bool warn_turned(const fracas_point *point, const fracas_forecast *foreca
     return forecast->turned > TURNED;
 }
 
+static bool warn_short(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
+{
+    const double length = point->strength.correlation_length;
+    snprintf(text, size, "strength.correlation_length is %.3g m, less than a third of an element of %.3g m: strengths are as good as "
+             "independent: is that in m? A bare number is SI", length, forecast->element);
+    return point->strength.covariance && length < forecast->element / 3;
+}
+
+static bool warn_long(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
+{
+    const double length = point->strength.correlation_length;
+    snprintf(text, size, "strength.correlation_length is %.3g m, more than the %.3g m of the body: strengths of a replica are much alike, "
+             "and differ from replica to replica: is that in m? A bare number is SI", length, forecast->extent);
+    return point->strength.covariance && length > forecast->extent;
+}
+
+static bool warn_flat(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
+{
+    snprintf(text, size, "strength.factor is the same at all interfaces: the body does not reach where %s changes along %s: are its "
+             "coordinates in m?", forecast->flat ? point->strength.factor->path : "",
+             forecast->flat ? point->strength.factor_along->name : "");
+    return forecast->flat;
+}
+
 static warning *const warnings[] = {warn_coarse, warn_uniform, warn_lines, warn_weak_load, warn_repeated,
-                                    warn_folds,  warn_lonely,  warn_step,  warn_turned, warn_passed};
+                                    warn_folds,  warn_lonely,  warn_step,  warn_turned,    warn_passed,
+                                    warn_short,  warn_long,    warn_flat};
 enum { WARNINGS = FRACAS_COUNT(warnings) };
 
 /* Warning `which` of point p, with its number; false if it does not apply. */
@@ -278,6 +303,8 @@ static void put_heads(const campaign_plan *plan, text_sheet *sheet)
         for (size_t r = 0; r < 2; r++) sheet_put(sheet, r, 1 + plan->nvaried + c, "%s", own_heads[c][r]);
 }
 
+enum { LONG = 9 }; /* characters of a number that is written as it is */
+
 static void put_point(const campaign_plan *plan, size_t p, text_sheet *sheet)
 {
     const fracas_point_row *point = &plan->table->point[p];
@@ -288,6 +315,7 @@ static void put_point(const campaign_plan *plan, size_t p, text_sheet *sheet)
         const fracas_value *value = &point->value[plan->varied[v]];
         char number[FRACAS_NUMBER_TEXT];
         fracas_number_write(value->real, number);
+        if (strlen(number) > LONG) snprintf(number, sizeof number, "%.6g", value->real); /* drawn; --json has all digits */
         const bool text = plan->table->column[plan->varied[v]].text;
         sheet_put(sheet, row, 1 + v, "%s", text ? value->text : isnan(value->real) ? "-" : number);
     }
@@ -298,6 +326,32 @@ static void put_point(const campaign_plan *plan, size_t p, text_sheet *sheet)
     sheet_put(sheet, row, own + 3, "%" PRId64, forecast->steps);
     put_range(sheet, row, own + 4, least * forecast->time, forecast->time, write_duration);
     put_range(sheet, row, own + 5, least * forecast->bytes, forecast->bytes, write_size);
+}
+
+static bool any_surface_field(const campaign_plan *plan)
+{
+    for (size_t p = 0; p < plan->table->npoints; p++)
+        if (plan->campaign->point[p].strength.covariance && fracas_spec_is_surface(&plan->campaign->point[p].spec)) return true;
+    return false;
+}
+
+/* The first few of each kind, and of the others how many there are: a design would have the same for most of its points. */
+static void print_warnings(const campaign_plan *plan, FILE *out)
+{
+    enum { SHOWN = 4 };
+    size_t said[WARNINGS] = {0}, last[WARNINGS] = {0};
+    char text[400];
+    for (size_t p = 0; p < plan->table->npoints; p++)
+        for (int w = 0; w < WARNINGS; w++) {
+            if (!warning_of(plan, p, w, text, sizeof text)) continue;
+            if (++said[w] <= SHOWN) fprintf(out, "warning: %s\n", text);
+            last[w] = p;
+        }
+    for (int w = 0; w < WARNINGS; w++) {
+        if (said[w] <= SHOWN) continue;
+        warning_of(plan, last[w], w, text, sizeof text);
+        fprintf(out, "warning: the same at %zu more, which --json lists, the last being %s\n", said[w] - SHOWN, text);
+    }
 }
 
 static fracas_err print_text(const campaign_plan *plan, FILE *out)
@@ -322,10 +376,10 @@ static fracas_err print_text(const campaign_plan *plan, FILE *out)
             plan->jobs, plan->jobs == 1 ? "" : "es", plan->slowest, FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
         if (plan->most > plan->realizations)
             fprintf(out, "Replicas are added until replicas.until holds: from the least to the most, with their times and sizes.\n");
-        char text[256];
-        for (size_t p = 0; p < points; p++)
-            for (int w = 0; w < WARNINGS; w++)
-                if (warning_of(plan, p, w, text, sizeof text)) fprintf(out, "warning: %s\n", text);
+        if (any_surface_field(plan))
+            fprintf(out, "Correlated fields of surfaces are made once a point by each process, which is not in these times: some seconds "
+                         "for 10 000 interfaces.\n");
+        print_warnings(plan, out);
     }
     sheet_clear(&sheet);
     return err;
@@ -376,7 +430,7 @@ static void print_json(const campaign_plan *plan, FILE *out)
     for (size_t p = 0; p < plan->table->npoints; p++) print_json_point(plan, p, &json);
     fracas_json_close_array(&json);
     fracas_json_array(&json, "warnings");
-    char text[256];
+    char text[400];
     for (size_t p = 0; p < plan->table->npoints; p++)
         for (int w = 0; w < WARNINGS; w++)
             if (warning_of(plan, p, w, text, sizeof text)) fracas_json_text(&json, NULL, text);

@@ -51,7 +51,7 @@ FRACAS_MUST_USE static fracas_err next_row(fracas_lines *lines, row *next, bool 
     if (lines->start == lines->stop) return FRACAS_OK;
     fracas_lines_field(lines, field);
     if (fracas_number_read(field, &next->below) || !(next->below >= 0.0 && next->below <= 1.0))
-        return refuse(lines, field, "a probability from 0 to 1, of strengths up to the one before it");
+        return refuse(lines, field, "a probability from 0 to 1, of strengths up to the one before it, or a strength in Pa alone, without a unit");
     if (lines->start == lines->stop) return FRACAS_OK;
     fracas_lines_field(lines, field);
     return refuse(lines, field, "the end of the line: a strength, or a strength and a probability");

@@ -79,6 +79,10 @@ expect 2 "$fracas" sample bar.yaml --point 1
 said 'there is no point 1 in campaign small; it has 1, from 0 on'
 expect 2 "$fracas" sample bar.yaml --replica -1
 said 'replica is `-1`'
+expect 2 "$fracas" sample bar.yaml --csv - --json
+said 'csv - and --json both print'
+expect 2 "$fracas" sample bar.yaml --vtk -
+said 'vtk is `-`'
 expect 6 "$fracas" sample bar.yaml --csv nowhere/bar.csv
 said 'cannot write nowhere/bar.csv: No such file'
 expect 0 "$fracas" distributions

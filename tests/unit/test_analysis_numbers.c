@@ -87,6 +87,14 @@ static void numbers_as_text(void **state)
     assert_string_equal(text, "2.0e-3");
     fracas_format_digits(2058.7, 4, text, sizeof text);
     assert_string_equal(text, "2059");
+    fracas_format_beside(0.893, 1, text, sizeof text);
+    assert_string_equal(text, "0.89");
+    fracas_format_beside(1.002, 1, text, sizeof text);
+    assert_string_equal(text, "1.002");
+    fracas_format_beside(1, 1, text, sizeof text);
+    assert_string_equal(text, "1.0");
+    fracas_format_beside(NAN, 1, text, sizeof text);
+    assert_string_equal(text, "-");
 }
 
 static void prefixes(void **state)
@@ -127,6 +135,9 @@ static void columns_that_tell_points_apart(void **state)
     char label[128];
     fracas_columns_label(&table, &columns, 3, label, sizeof label);
     assert_string_equal(label, "rate 1e4 1/s, density 7800 kg/m3");
+    char beside[64];
+    fracas_columns_beside(&table, &columns, beside, sizeof beside);
+    assert_string_equal(beside, "material.young"); /* not the mesh */
     fracas_columns_label(&table, &columns, 3, label, 12); /* cut, not overrun */
     assert_string_equal(label, "rate 1e4 1/");
     assert_int_equal(fracas_columns_without_rate(&table, &columns, &others), FRACAS_OK);

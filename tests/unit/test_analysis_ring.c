@@ -5,6 +5,7 @@
 #include "analysis/report/figures.h"
 #include "analysis/report/picture.h"
 #include "analysis/ring.h"
+#include "base/param.h"
 #include "base/version.h"
 
 #include <math.h>
@@ -358,6 +359,43 @@ static void figure_of_rings(void **state)
     fracas_columns_clear(&analysis.shown);
 }
 
+/* A law is drawn for a series of one material, and for none that mixes them, as a design does. */
+static void laws_of_mixed_series(void **state)
+{
+    (void)state;
+    static made_table made;
+    static fracas_point_statistics point[NPOINTS];
+    static const struct {
+        double even, odd; /* by how much s0 grows from point to point, in each of the two series */
+        size_t curves;
+        const char *caption;
+    } table[] = {
+        {0, 0, FRACAS_NLAWS, " Lines: size laws of"},
+        {0, 1e-5, 1, " Lines: ZMR law with the material"},
+        {1e-5, 1e-5, 0, " No size law serves all marks"},
+    };
+    make_table(&made);
+    fracas_analysis analysis = {.table = &made.table, .point = point};
+    assert_int_equal(fracas_columns_create(&made.table, &analysis.shown), FRACAS_OK);
+    for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
+        for (size_t p = 0; p < NPOINTS; p++) {
+            fracas_point_statistics_init(&made.table, p, &point[p]);
+            point[p].size = (fracas_estimate){.n = 4, .mean = 1e-3, .deviation = 1e-4, .half_width = 1e-4};
+            point[p].scales.rate = 1e5;
+            point[p].scales.size = 1e-4 + (p % 2 ? table[i].odd : table[i].even) * (double)p;
+        }
+        fracas_chart chart;
+        fracas_chart_init(&chart);
+        assert_int_equal(fracas_figure_rate(&analysis, false, &chart), FRACAS_OK);
+        size_t curves = 0;
+        for (size_t s = 0; s < chart.panel[0].nseries; s++) curves += chart.panel[0].series[s].kind == FRACAS_CURVE;
+        assert_int_equal(curves, table[i].curves);
+        assert_non_null(strstr(chart.caption, table[i].caption));
+        fracas_chart_clear(&chart);
+    }
+    fracas_columns_clear(&analysis.shown);
+}
+
 static void assert_pictures(size_t npoints, size_t without, const size_t *expected, size_t count)
 {
     fracas_point_statistics point[12];
@@ -408,7 +446,7 @@ int main(void)
         cmocka_unit_test(scales_of_critical_opening),
         cmocka_unit_test(arcs), cmocka_unit_test(motion_of_fragments), cmocka_unit_test(pattern_of_uniform_expansion),
         cmocka_unit_test(report_of_rings), cmocka_unit_test(strain_rate_of_a_point), cmocka_unit_test(columns_of_rings),
-        cmocka_unit_test(figure_of_rings), cmocka_unit_test(points_with_pictures),
+        cmocka_unit_test(figure_of_rings), cmocka_unit_test(laws_of_mixed_series), cmocka_unit_test(points_with_pictures),
     };
     return cmocka_run_group_tests(tests, report_make_root, report_remove_root);
 }

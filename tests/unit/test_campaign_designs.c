@@ -123,6 +123,7 @@ static void test_extension(void **state)
         {"latin-hypercube\n      points: 8", "latin-hypercube\n      points: 8", {NULL}},
         {"latin-hypercube\n      points: 8", "latin-hypercube\n      points: 16",
          {"material.young is 3", "Pa in the study (its point 0), but 3", "can be extended by points and replicas"}},
+        {"sobol\n      points: 8", "sobol\n      points: 4", {"has 8 points, and this campaign file only 4", "point 4; a study keeps"}},
         {"sobol\n      points: 8", "random\n      points: 8", {"material.young is 3", "in the study (its point 0)"}},
     };
     for (size_t i = 0; i < FRACAS_COUNT(table); i++) {

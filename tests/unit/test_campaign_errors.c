@@ -360,6 +360,8 @@ static void test_designs(void **state)
          {"`material.densty` is no parameter of this design", "did you mean `material.density`?"}},
         {"", TIED("\n        - {between: [material.young, material.young], coefficient: 1}"), 37, 21, {"`material.young` twice"}},
         {"", TIED("\n        - {between: [material.young, material.density], coefficient: 1.1}"), 37, 70, {"1.1 is out of range; allowed is at least -1, at most 1"}},
+        {"", TIED("\n        - {between: [material.young, material.density], coefficient: -1}"), 37, 70,
+         {"-1 is out of range; allowed is more than -1 and less than 1"}},
         {"", TIED("\n        - {between: [material.young, material.density], coefficient: 0.1}"
                   "\n        - {between: [material.density, material.young], coefficient: 0.1}"), 38, 21, {"`material.density` and `material.young` is given twice"}},
         {"", TIED("\n        - {between: [material.young, material.density], coefficient: 0.9}"

@@ -387,6 +387,31 @@ static char *print_plan(const fracas_campaign *campaign, bool json)
     return text;
 }
 
+/* A correlation length that was meant in mm, or is far below an element. */
+static void test_plan_of_fields(void **state)
+{
+    (void)state;
+    static const char strength[] = "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}";
+    static const struct {
+        const char *length, *words; /* no words: no warning */
+    } table[] = {
+        {"2", "strength.correlation_length is 2 m, more than the 0.0"},
+        {"1e-6", "strength.correlation_length is 1e-06 m, less than a third of an element of 0.001"},
+        {"2e-3", NULL},
+    };
+    for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
+        char section[200];
+        snprintf(section, sizeof section, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2, covariance: matern, correlation_length: %s}",
+                 table[i].length);
+        fracas_campaign *campaign = read_membrane(strength, section);
+        char *text = print_plan(campaign, false);
+        if (table[i].words) assert_non_null(strstr(text, table[i].words));
+        else assert_null(strstr(text, "correlation_length"));
+        free(text);
+        fracas_campaign_destroy(campaign);
+    }
+}
+
 /* A regular plate of strength 300 MPa cracks along lines; with E rate t/(1 - nu) = 493 MPa it does crack. E G_c/sigma_c^2 is
  * 206 um, the mean edge of squares of 1.25 mm cut in two (24 + 28 sides and 32 diagonals of 84) 1.25 mm (52 + 32 sqrt 2)/84 =
  * 1.447 mm: 7.04 of it, 14.1 times too much. */
@@ -573,7 +598,7 @@ int main(void)
         cmocka_unit_test(test_page_example),
         cmocka_unit_test(test_no_mesh),   cmocka_unit_test(test_mean_strength), cmocka_unit_test(test_swept_model),
         cmocka_unit_test(test_inherited), cmocka_unit_test(test_refused),   cmocka_unit_test(test_perturbed),
-        cmocka_unit_test(test_plan),      cmocka_unit_test(test_bytes),     cmocka_unit_test(test_bound),
+        cmocka_unit_test(test_plan), cmocka_unit_test(test_plan_of_fields),      cmocka_unit_test(test_bytes),     cmocka_unit_test(test_bound),
         cmocka_unit_test(test_steps_that_pass_strengths),
         cmocka_unit_test(test_bounds_of_others),
     };
