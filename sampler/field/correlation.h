@@ -1,6 +1,6 @@
 /* Gaussian fields of mean 0 and variance 1 with the covariance that a strength names. */
-#ifndef FRACAS_SAMPLER_CORRELATION_H
-#define FRACAS_SAMPLER_CORRELATION_H
+#ifndef FRACAS_SAMPLER_FIELD_CORRELATION_H
+#define FRACAS_SAMPLER_FIELD_CORRELATION_H
 
 #include "sampler/strength.h"
 
