@@ -2,11 +2,13 @@
  *
  *   bench_field           fields on chains, a plate (edges of a grid of triangles) and an octant of a sphere (evenly spread sites)
  *   bench_field N         the surfaces with about N sites
+ *   bench_field N L       with this l/h alone, and a gaussian covariance as well
  */
 #include "sampler/sampler.h"
 #include "sampler/field/covariance.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -71,14 +73,16 @@ static void measure(const char *body, size_t n, const double (*x)[3], double per
 
 int main(int argc, char **argv)
 {
-    static const double lengths[] = {2, 5, 20};
-    const fracas_kind *const kinds[] = {&fracas_covariance_exponential, &fracas_covariance_matern};
+    double lengths[] = {2, 5, 20};
+    const fracas_kind *const kinds[] = {&fracas_covariance_exponential, &fracas_covariance_matern, &fracas_covariance_gaussian};
+    const bool one = argc > 2;
+    if (one) lengths[0] = strtod(argv[2], NULL);
     const size_t n = argc > 1 ? strtoul(argv[1], NULL, 10) : 10000;
     double(*x)[3] = malloc((n > 100000 ? n : 100000) * sizeof *x);
     if (!x) return 1;
     printf("body      sites  covariance   l/h       make  realization  error\n");
-    for (int k = 0; k < 2; k++)
-        for (int l = 0; l < 3; l++) {
+    for (int k = 0; k < (one ? 3 : 2); k++)
+        for (int l = 0; l < (one ? 1 : 3); l++) {
             const size_t plate = make_plate(n, x);
             measure("plate", plate, (const double(*)[3])x, 0.0, kinds[k], lengths[l]);
             const size_t octant = make_octant(n, x);

@@ -1,6 +1,6 @@
 /* Correlated parameters: a Gaussian copula. */
-#ifndef FRACAS_SAMPLER_CORRELATION_H
-#define FRACAS_SAMPLER_CORRELATION_H
+#ifndef FRACAS_SAMPLER_DESIGN_CORRELATION_H
+#define FRACAS_SAMPLER_DESIGN_CORRELATION_H
 
 #include "sampler/probability.h"
 

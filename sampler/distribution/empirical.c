@@ -163,11 +163,17 @@ static double empirical_quantile(const fracas_strength *strength, fracas_extent 
     return x[after] - range * ((p.above - (1.0 - f[after])) / width);
 }
 
+/* (1 - x)^power, 0 <= x <= 1 and power > 0: a body of many specimens raises what 1 - x loses to a high power. */
+static double survival(double x, double power)
+{
+    return x < 1.0 ? fracas_exp(power * fracas_log1p(-x)) : 0.0;
+}
+
 /* (laws.18) integral_0^1 (1 - delta y)^power dy and the same of y (1 - delta y)^power, 0 <= delta <= 1. */
 static void decay(double delta, double power, double *plain, double *first)
 {
     if (delta * fmax(power, 1.0) >= 0.5) {
-        const double end = delta < 1.0 ? fracas_pow(1.0 - delta, power + 1.0) : 0.0;
+        const double end = survival(delta, power + 1.0);
         *plain = (1.0 - end) / ((power + 1.0) * delta);
         *first = ((1.0 - end * (1.0 - delta)) / ((power + 2.0) * delta) - end) / ((power + 1.0) * delta);
         return;
@@ -195,7 +201,7 @@ static fracas_moments linear_moments(const struct fracas_table *table, double si
             if (!(survive > 0.0)) break;
             double plain, first;
             decay((table->below[k] - table->below[k - 1]) / survive, size, &plain, &first);
-            const double weight = range * fracas_pow(survive, size);
+            const double weight = range * survival(table->below[k - 1], size);
             if (pass == 0) rise += weight * plain;
             else variance += 2.0 * weight * ((x[k - 1] - mean) * plain + range * first);
         }
@@ -211,7 +217,7 @@ static fracas_moments steps_moments(const struct fracas_table *table, double siz
     for (int pass = 0; pass < 2; pass++) {
         double before = 1.0;
         for (size_t k = 0; k < table->n; k++) {
-            const double after = table->below[k] < 1.0 ? fracas_pow(1.0 - table->below[k], size) : 0.0, x = table->strength[k];
+            const double after = survival(table->below[k], size), x = table->strength[k];
             if (pass == 0) mean += (before - after) * x;
             else variance += (before - after) * (x - mean) * (x - mean);
             before = after;

@@ -36,10 +36,13 @@ fracas_moments fracas_size_moments(const fracas_strength *strength, double size)
         const double x = -4.0 + 0.0625 * i, back = fracas_exp(-x), t = fracas_exp(x - back);
         weight[i] = t * (1.0 + back) * fracas_exp(-t);
         at[i] = strength_at(strength, t / size);
+        if (!(weight[i] > 0.0)) continue; /* beyond t = 745; the strength may be infinite */
         sum += weight[i];
         mean += weight[i] * at[i];
     }
     mean /= sum;
-    for (int i = 0; i < NODES; i++) variance += weight[i] * (at[i] - mean) * (at[i] - mean);
+    if (!isfinite(mean)) return (fracas_moments){INFINITY, INFINITY};
+    for (int i = 0; i < NODES; i++)
+        if (weight[i] > 0.0) variance += weight[i] * (at[i] - mean) * (at[i] - mean);
     return (fracas_moments){mean, sqrt(variance / sum)};
 }

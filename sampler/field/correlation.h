@@ -1,6 +1,6 @@
 /* Gaussian fields of mean 0 and variance 1 with the covariance that a strength names. */
-#ifndef FRACAS_SAMPLER_CORRELATION_H
-#define FRACAS_SAMPLER_CORRELATION_H
+#ifndef FRACAS_SAMPLER_FIELD_CORRELATION_H
+#define FRACAS_SAMPLER_FIELD_CORRELATION_H
 
 #include "sampler/strength.h"
 
@@ -15,7 +15,7 @@ void fracas_correlation_destroy(fracas_correlation *correlation); /* NULL is all
 /* Number of independent normals that a realization takes, at least n: number k of them is that of site k. */
 size_t fracas_correlation_normals(const fracas_correlation *correlation);
 
-/* z[n] = A w, w[fracas_correlation_normals]: A A^T has the diagonal 1, to 1e-12. FRACAS_ENVIRONMENT without memory. */
+/* z[n] = A w, w[fracas_correlation_normals]: A A^T has the diagonal 1, to 1e-12 + 2e-15 n. FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_correlation_apply(const fracas_correlation *correlation, const double *w, double *z);
 
 /* As fracas_field_error. */

@@ -17,7 +17,7 @@ typedef struct fracas_covariance fracas_covariance;
 FRACAS_MUST_USE fracas_err fracas_covariance_create(const fracas_strength *strength, fracas_covariance **covariance);
 void fracas_covariance_destroy(fracas_covariance *covariance); /* NULL is allowed */
 
-/* rho(d), d >= 0 [m]: 1 at 0, and falling; to 1e-14, same bits on every CPU. */
+/* rho(d), d >= 0 [m]: 1 at 0, and falling; to 3e-14, same bits on every CPU. */
 double fracas_covariance_at(const fracas_covariance *covariance, double distance);
 
 #endif

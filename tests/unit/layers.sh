@@ -61,6 +61,9 @@ plant engine/planted.c '#include <sampler/sampler.h>'
 plant engine/planted.c '#include "mpi.h"'
 plant engine/planted.c '#include SAMPLER_HEADER'
 
+# Two headers with the guard of one.
+plant sampler/zplanted.h '#ifndef FRACAS_SAMPLER_STRENGTH_H'
+
 # A tree without sources is no success.
 mkdir "$tree/empty"
 if tools/check-layers "$tree/empty"; then exit 1; fi
