@@ -3,9 +3,7 @@
 #include "base/json.h"
 #include "base/units.h"
 #include "campaigns/plan/forecast.h"
-#include "engine/loading/loading.h"
-#include "engine/mesh/body.h"
-#include "engine/mesh/make.h"
+#include "campaigns/plan/warnings.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -139,150 +137,13 @@ static void put_range(text_sheet *sheet, size_t row, size_t column, double least
     else sheet_put(sheet, row, column, "%s - %s", from, to);
 }
 
-/* ---- what a reader should know before running it ---- */
-
-/* The softening zone of a crack, some E G_c/sigma_c^2 long, should hold elements. */
-#define COARSE 0.5
-/* A ring turned further than this no longer opens along the directions of its start [rad]: 1 - cos of it is 5e-5. */
-#define TURNED 0.01
-
-/* What would crack more of a body whose stress stays below its strength. */
-static const char *harder(const fracas_spec *spec, const fracas_forecast *forecast)
-{
-    if (spec->loading.type != &fracas_loading_initial_velocity) return "load it harder, or longer";
-    return spec->time.end < forecast->turn ? "raise its velocity or time.end" : "a free ring swings back: raise its velocity";
-}
-
-/* What would resolve a crack's softening. */
-static void finer(const fracas_spec *spec, const fracas_forecast *forecast, char *text, size_t size)
-{
-    const double times = forecast->coarseness / COARSE;
-    if (!fracas_spec_is_surface(spec)) snprintf(text, size, "raise mesh.elements to %.0f", ceil((double)forecast->elements * times));
-    else if (spec->mesh.spacing == &fracas_spacing_given) snprintf(text, size, "give a mesh with edges %.2g times shorter", times);
-    else if (spec->mesh.size > 0) snprintf(text, size, "lower mesh.size to %.2g m", spec->mesh.size / times);
-    else snprintf(text, size, "raise mesh.divisions to %.0f", ceil((double)spec->mesh.divisions * times));
-}
-
-/* Each writes what to know of a point; false if it does not apply. */
-typedef bool warning(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size);
-
-static bool warn_coarse(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
-{
-    char remedy[80];
-    finer(&point->spec, forecast, remedy, sizeof remedy);
-    snprintf(text, size, "elements are %.3g E G_c/sigma_c^2 long, above %.1g a crack's softening is not resolved: %s",
-             forecast->coarseness, COARSE, remedy);
-    return forecast->coarseness > COARSE;
-}
-
-static bool warn_uniform(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
-{
-    const char *distribution = point->strength.distribution->name;
-    const bool all = strcmp(distribution, "constant") == 0;
-    snprintf(text, size, "%s interfaces %sare equally strong and qualify at once; where the body breaks is then up to mesh and "
-             "rounding: give the strength a scatter%s", all ? "all" : "half of the", all ? "" : "or more ",
-             strcmp(distribution, "flaws") ? "" : ", here by a higher flaw_density");
-    return forecast->uniform;
-}
-
-static bool warn_lines(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
-{
-    (void)point;
-    snprintf(text, size, "interfaces are equally strong and the mesh is regular, so that cracks follow its lines: give mesh.amplitude, "
-             "for instance 0.2");
-    return forecast->lines;
-}
-
-static bool warn_weak_load(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
-{
-    snprintf(text, size, "until time.end the stress stays below %.3g MPa, the mean strength is %.3g MPa: the weakest interfaces will "
-             "crack, or none: %s", 1e-6 * forecast->bound, 1e-6 * forecast->mean, harder(&point->spec, forecast));
-    return forecast->bound < forecast->mean;
-}
-
-static bool warn_repeated(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
-{
-    snprintf(text, size, "its strengths are those of a file, so all its %" PRId64 " replicas are equal: give it replicas: 1",
-             point->replicas);
-    return forecast->repeated;
-}
-
-static bool warn_folds(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
-{
-    (void)point;
-    snprintf(text, size, "the whole ring comes under compression, where it folds, as it has no bending stiffness: what breaks then "
-             "means nothing: load it outward, and end a free ring that stays whole by %.3g s", 2 * forecast->turn);
-    return forecast->folds;
-}
-
-static bool warn_lonely(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
-{
-    (void)point;
-    snprintf(text, size, "cohesive.zone is longer than half of the ring: once an interface opens, none else can: shorten it to less "
-             "than a quarter of a fragment");
-    return forecast->lonely;
-}
-
-/* Laws that leave the flux soften from what the step has reached: docs/decisions/onset-of-surfaces.md. */
-static bool warn_passed(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
-{
-    (void)point;
-    snprintf(text, size, "one time step adds %.3g Pa of stress, and nearly all strengths lie within %.3g Pa: interfaces that a step passes "
-             "together are equally strong; lower time.safety %.2g times", forecast->step_stress, forecast->spread,
-             4 * forecast->step_stress / forecast->spread);
-    return forecast->spread > 0 && forecast->step_stress > 0.25 * forecast->spread;
-}
-
-static bool warn_step(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
-{
-    (void)point;
-    snprintf(text, size, "one time step adds %.3g Pa of stress, more than the mean strength of %.3g Pa: is that in Pa? A bare number "
-             "is SI", forecast->step_stress, forecast->mean);
-    return forecast->step_stress > forecast->mean;
-}
-
-static bool warn_turned(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
-{
-    (void)point;
-    snprintf(text, size, "the ring turns by %.2g rad until time.end, and geometry.direction is initial: interfaces that open along "
-             "directions it no longer has are off from %.2g rad on: leave direction out, for current", forecast->turned, TURNED);
-    return forecast->turned > TURNED;
-}
-
-static bool warn_short(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
-{
-    const double length = point->strength.correlation_length;
-    snprintf(text, size, "strength.correlation_length is %.3g m, less than a third of an element of %.3g m: strengths are as good as "
-             "independent: is that in m? A bare number is SI", length, forecast->element);
-    return point->strength.covariance && length < forecast->element / 3;
-}
-
-static bool warn_long(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
-{
-    const double length = point->strength.correlation_length;
-    snprintf(text, size, "strength.correlation_length is %.3g m, more than the %.3g m of the body: strengths of a replica are much alike, "
-             "and differ from replica to replica: is that in m? A bare number is SI", length, forecast->extent);
-    return point->strength.covariance && length > forecast->extent;
-}
-
-static bool warn_flat(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
-{
-    snprintf(text, size, "strength.factor is the same at all interfaces: the body does not reach where %s changes along %s: are its "
-             "coordinates in m?", forecast->flat ? point->strength.factor->path : "",
-             forecast->flat ? point->strength.factor_along->name : "");
-    return forecast->flat;
-}
-
-static warning *const warnings[] = {warn_coarse, warn_uniform, warn_lines, warn_weak_load, warn_repeated,
-                                    warn_folds,  warn_lonely,  warn_step,  warn_turned,    warn_passed,
-                                    warn_short,  warn_long,    warn_flat};
-enum { WARNINGS = FRACAS_COUNT(warnings) };
+/* ---- warnings ---- */
 
 /* Warning `which` of point p, with its number; false if it does not apply. */
 static bool warning_of(const campaign_plan *plan, size_t p, int which, char *text, size_t size)
 {
     int begin = snprintf(text, size, "point %zu: ", p);
-    return warnings[which](&plan->campaign->point[p], &plan->forecast[p], text + begin, size - (size_t)begin);
+    return fracas_plan_warnings[which](&plan->campaign->point[p], &plan->forecast[p], text + begin, size - (size_t)begin);
 }
 
 /* ---- the plan as text ---- */
@@ -339,15 +200,15 @@ static bool any_surface_field(const campaign_plan *plan)
 static void print_warnings(const campaign_plan *plan, FILE *out)
 {
     enum { SHOWN = 4 };
-    size_t said[WARNINGS] = {0}, last[WARNINGS] = {0};
+    size_t said[FRACAS_PLAN_WARNINGS] = {0}, last[FRACAS_PLAN_WARNINGS] = {0};
     char text[400];
     for (size_t p = 0; p < plan->table->npoints; p++)
-        for (int w = 0; w < WARNINGS; w++) {
+        for (int w = 0; w < FRACAS_PLAN_WARNINGS; w++) {
             if (!warning_of(plan, p, w, text, sizeof text)) continue;
             if (++said[w] <= SHOWN) fprintf(out, "warning: %s\n", text);
             last[w] = p;
         }
-    for (int w = 0; w < WARNINGS; w++) {
+    for (int w = 0; w < FRACAS_PLAN_WARNINGS; w++) {
         if (said[w] <= SHOWN) continue;
         warning_of(plan, last[w], w, text, sizeof text);
         fprintf(out, "warning: the same at %zu more, which --json lists, the last being %s\n", said[w] - SHOWN, text);
@@ -432,7 +293,7 @@ static void print_json(const campaign_plan *plan, FILE *out)
     fracas_json_array(&json, "warnings");
     char text[400];
     for (size_t p = 0; p < plan->table->npoints; p++)
-        for (int w = 0; w < WARNINGS; w++)
+        for (int w = 0; w < FRACAS_PLAN_WARNINGS; w++)
             if (warning_of(plan, p, w, text, sizeof text)) fracas_json_text(&json, NULL, text);
     fracas_json_close_array(&json);
     fracas_json_close_object(&json);

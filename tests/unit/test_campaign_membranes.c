@@ -407,9 +407,16 @@ static void test_plan_of_fields(void **state)
         char *text = print_plan(campaign, false);
         if (table[i].words) assert_non_null(strstr(text, table[i].words));
         else assert_null(strstr(text, "correlation_length"));
+        assert_null(strstr(text, "size effect"));
         free(text);
         fracas_campaign_destroy(campaign);
     }
+    fracas_campaign *campaign = read_membrane(strength, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2, covariance: matern, "
+                                              "correlation_length: 2e-3, reference_volume: 1e-3 mm3}");
+    char *text = print_plan(campaign, false);
+    assert_non_null(strstr(text, "strengths are correlated, and their size effect is that of independent flaws"));
+    free(text);
+    fracas_campaign_destroy(campaign);
 }
 
 /* A regular plate of strength 300 MPa cracks along lines; with E rate t/(1 - nu) = 493 MPa it does crack. E G_c/sigma_c^2 is
