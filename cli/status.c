@@ -135,7 +135,7 @@ static fracas_err print_decisions(const fracas_status *status)
         for (size_t d = 0; d < count; d++)
             printf("%5zu%7" PRId64 "%10" PRId64 "  %-10s  %.5g +- %.2g (%.2g %%; %.3g %% asked for): %s\n", p, decision[d].round,
                    decision[d].replicas, fracas_quantity_name[decision[d].quantity], decision[d].mean, decision[d].half_width,
-                   100 * decision[d].half_width / fabs(decision[d].mean), 100 * decision[d].relative_half_width,
+                   100 * fracas_decision_relative(&decision[d]), 100 * decision[d].relative_half_width,
                    fracas_sequential_stop_name[decision[d].stop]);
         first = first && !count;
         free(decision);

@@ -73,7 +73,7 @@ static fracas_err record(fracas_rounds *rounds, fracas_index *index, size_t p, c
     const fracas_sequential_rule *rule = &rounds->campaign->point[p].rule;
     char reason[160], text[240];
     snprintf(reason, sizeof reason, "%s of %" PRId64 " realizations %.6g +- %.3g, %.3g %% of it; %.3g %% asked for%s",
-             fracas_quantity_name[rule->quantity], made->used, made->mean, made->half_width, 100 * made->half_width / fabs(made->mean),
+             fracas_quantity_name[rule->quantity], made->used, made->mean, made->half_width, 100 * fracas_decision_relative(made),
              100 * rule->relative_half_width, made->stop == FRACAS_AT_MAXIMUM ? ", but this is the maximum" : "");
     snprintf(text, sizeof text, "point %zu, round %" PRId64 ", %" PRId64 " replicas: %s: %s", p, made->round, made->replicas,
              fracas_sequential_stop_name[made->stop], reason);

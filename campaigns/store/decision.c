@@ -12,6 +12,11 @@ double fracas_record_mean_size(const fracas_record *record)
     return record->nfragment ? sum / (double)record->nfragment : NAN;
 }
 
+double fracas_decision_relative(const fracas_decision *decision)
+{
+    return decision->half_width == 0 ? 0 : decision->half_width / fabs(decision->mean);
+}
+
 static bool same_real(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
 
 bool fracas_decision_same(const fracas_decision *a, const fracas_decision *b)
@@ -96,7 +101,7 @@ static fracas_err add_decision(fracas_index *index, int64_t id, const fracas_dec
 {
     const fracas_sql add = FRACAS_SQL_DECISION_ADD;
     const int64_t whole[] = {id, d->round, d->replicas, d->replicas - d->used};
-    const double real[] = {d->mean, d->half_width, d->half_width / fabs(d->mean)};
+    const double real[] = {d->mean, d->half_width, fracas_decision_relative(d)};
     for (int i = 0; i < 4; i++) TRY(fracas_index_bind(index, add, 1 + i, whole[i]));
     for (int i = 0; i < 3; i++) TRY(fracas_index_bind_real(index, add, 5 + i, real[i]));
     TRY(fracas_index_bind(index, add, 8, d->stop));

@@ -51,6 +51,9 @@ typedef struct {
 /* Every number that names something is one of those that do. */
 bool fracas_decision_valid(const fracas_decision *decision);
 
+/* Half width as part of the absolute value of the mean; 0 where all values are alike, though they be 0. NaN of fewer than two values. */
+double fracas_decision_relative(const fracas_decision *decision);
+
 /* Equal to the bit, NaNs alike. */
 bool fracas_decision_same(const fracas_decision *a, const fracas_decision *b);
 

@@ -290,6 +290,29 @@ static void an_older_index_is_brought_up(void **state)
     fracas_campaign_destroy(now);
 }
 
+/* All values 0, as of what is dissipated where nothing breaks: known exactly; of no value nothing is known. */
+static void a_mean_of_nothing_is_known(void **state)
+{
+    (void)state;
+    fracas_decision *decision;
+    commit(0, 0, 7, 0.05, FRACAS_INTACT);
+    tampered("UPDATE realization SET dissipated = 0 WHERE point = 1");
+    commit(1, 0, 7, 0.05, FRACAS_ENERGY_DRIFT);
+    for (size_t p = 0; p < 2; p++) OK(fracas_rounds_advance(&rounds, index_, p));
+    look(0, &decision, 1);
+    assert_int_equal(decision[0].stop, FRACAS_PRECISE);
+    assert_true(fracas_decision_relative(&decision[0]) == 0);
+    free(decision);
+    look(1, &decision, 1);
+    assert_int_equal(decision[0].stop, FRACAS_GO_ON);
+    assert_true(isnan(fracas_decision_relative(&decision[0])));
+    free(decision);
+    const fracas_decision negative = {.mean = -4, .half_width = 1};
+    assert_true(fracas_decision_relative(&negative) == 0.25);
+    tampered("CREATE TABLE said(n INTEGER CHECK (n = 1))");
+    tampered("INSERT INTO said SELECT count(*) FROM decision WHERE relative = 0 AND reason LIKE '% 0 +- 0, 0 % of it%'");
+}
+
 #define ROUND(name) cmocka_unit_test_setup_teardown(name, begin, end)
 
 int main(void)
@@ -304,6 +327,7 @@ int main(void)
         ROUND(a_larger_maximum_goes_on),
         ROUND(a_rule_looks_at_its_quantity),
         ROUND(an_older_index_is_brought_up),
+        ROUND(a_mean_of_nothing_is_known),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
