@@ -114,7 +114,7 @@ static fracas_err add_decision(fracas_index *index, int64_t id, const fracas_dec
     return fracas_index_do(index, add);
 }
 
-static fracas_err decide(fracas_index *index, const fracas_point_row *point, const fracas_decision *decision, const char *reason)
+fracas_err fracas_index_decide(fracas_index *index, const fracas_point_row *point, const fracas_decision *decision, const char *reason)
 {
     int64_t id;
     TRY(need_point(index, &point->hash, &id));
@@ -126,10 +126,4 @@ static fracas_err decide(fracas_index *index, const fracas_point_row *point, con
     TRY(fracas_index_bind(index, FRACAS_SQL_ROW_TRIM, 1, id));
     TRY(fracas_index_bind(index, FRACAS_SQL_ROW_TRIM, 2, point->replicas));
     return fracas_index_do(index, FRACAS_SQL_ROW_TRIM);
-}
-
-fracas_err fracas_index_decide(fracas_index *index, const fracas_point_row *point, const fracas_decision *decision, const char *reason)
-{
-    TRY(fracas_index_do(index, FRACAS_SQL_BEGIN));
-    return fracas_index_end(index, decide(index, point, decision, reason));
 }
