@@ -233,12 +233,21 @@ static fracas_err add_all(fracas_director *director)
     return offer_all(director);
 }
 
-/* While rounds wait to be decided, a worker that has nothing to do does not keep its records to itself. */
-static fracas_err flush_resting(fracas_director *director)
+static bool anyone_idles(const fracas_director *director)
 {
-    for (size_t worker = 0; director->rounds.open > 0 && !director->stopping && worker < director->setup.workers; worker++) {
+    for (size_t worker = 0; worker < director->setup.workers; worker++)
+        if (director->phase[worker] == WORKING && fracas_scheduler_idles(director->scheduler, worker)) return true;
+    return false;
+}
+
+/* While rounds wait to be decided and a worker has nothing to do, none keeps its records to itself: not even one that computes, for what
+ * it computes may be of a slower point. */
+static fracas_err flush_all(fracas_director *director)
+{
+    if (director->rounds.open == 0 || director->stopping || !anyone_idles(director)) return FRACAS_OK;
+    for (size_t worker = 0; worker < director->setup.workers; worker++) {
         if (director->flushing[worker] || director->phase[worker] != WORKING ||
-            !fracas_scheduler_rests(director->scheduler, worker))
+            !fracas_scheduler_keeps(director->scheduler, worker))
             continue;
         director->flushing[worker] = true;
         TRY(send(director, worker, FRACAS_PACKET_FLUSH, NULL, 0));
@@ -364,7 +373,7 @@ static fracas_err act(fracas_director *director, size_t worker, const fracas_pac
 void fracas_director_hear(fracas_director *director, size_t worker, const fracas_packet *message)
 {
     check(director, act(director, worker, message));
-    check(director, flush_resting(director));
+    check(director, flush_all(director));
     if (is_computed(director)) stop(director);
     fracas_scheduler_counts count = fracas_scheduler_count(director->scheduler);
     fracas_voice_progress(director->setup.voice, &count);
