@@ -4,7 +4,6 @@
 
 #include <errno.h>
 #include <libgen.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -148,7 +147,7 @@ bool fracas_analysis_decided(const fracas_analysis *analysis, size_t point, char
     if (!last) return false;
     char label[256], found[32];
     fracas_analysis_label(analysis, point, label, sizeof label);
-    fracas_format_beside(100 * last->half_width / fabs(last->mean), 100 * last->relative_half_width, found, sizeof found);
+    fracas_format_beside(100 * fracas_decision_relative(last), 100 * last->relative_half_width, found, sizeof found);
     snprintf(text, size, "%s%s%lld replicas in %lld round%s: half width of the %.4g %% interval of %s %s %%, %.3g %% asked for%s", label,
              *label ? ": " : "", (long long)last->replicas, (long long)last->round + 1, last->round ? "s" : "", 100 * last->confidence,
              fracas_analysis_quantity(last), found, 100 * last->relative_half_width, last->stop == 2 ? " (maximum)" : "");

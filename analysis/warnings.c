@@ -79,7 +79,7 @@ static void warn_of_decision(const fracas_decision *last, size_t p, warning_list
 {
     if (!last || last->stop != 2) return;
     char found[32];
-    fracas_format_beside(100 * last->half_width / fabs(last->mean), 100 * last->relative_half_width, found, sizeof found);
+    fracas_format_beside(100 * fracas_decision_relative(last), 100 * last->relative_half_width, found, sizeof found);
     warn(list, p, "at the maximum of %lld replicas %s is known to %s %%, not to the %.3g %% asked for: raise replicas.maximum",
          (long long)last->maximum, fracas_analysis_quantity(last), found, 100 * last->relative_half_width);
 }

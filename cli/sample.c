@@ -7,6 +7,8 @@
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 enum { POINT, REPLICA, CSV, VTK, JSON };
 static const fracas_option options[] = {
@@ -17,20 +19,29 @@ static const fracas_option options[] = {
     [JSON] = {"json", NULL, "print the summary as JSON"},
 };
 
-/* Writes the file whole, or removes what there is of it; `write` reports nothing, the stream does. */
-static fracas_err write_file(const fracas_sample *sample, void (*write)(const fracas_sample *sample, FILE *out), const char *path)
+static bool write_to(const char *path, const fracas_sample *sample, void (*write)(const fracas_sample *sample, FILE *out))
 {
     errno = 0;
     FILE *out = fopen(path, "w");
-    bool good = out != NULL;
-    if (out) {
-        write(sample, out);
-        good = !ferror(out);
-        good = fclose(out) == 0 && good;
-    }
-    if (good) return FRACAS_OK;
+    if (!out) return false;
+    write(sample, out);
+    const bool bad = ferror(out);
+    return fclose(out) == 0 && !bad;
+}
+
+/* Writes the file whole, or leaves what was there: under another name, renamed at the end. A device, a pipe or a link is written as it
+ * is. `write` reports nothing, the stream does. */
+static fracas_err write_file(const fracas_sample *sample, void (*write)(const fracas_sample *sample, FILE *out), const char *path)
+{
+    struct stat found;
+    char temporary[PATH_MAX];
+    const bool plain = lstat(path, &found) != 0 || S_ISREG(found.st_mode);
+    if (snprintf(temporary, sizeof temporary, plain ? "%s.tmp-%ld" : "%s", path, (long)getpid()) >= (int)sizeof temporary)
+        return fracas_fail(FRACAS_USAGE, "the path of a file is too long: %s", path);
+    const bool written = write_to(temporary, sample, write);
+    if (written && (!plain || rename(temporary, path) == 0)) return FRACAS_OK;
     const fracas_err err = fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: %s", path, strerror(errno));
-    if (out) remove(path);
+    if (plain) unlink(temporary);
     return err;
 }
 

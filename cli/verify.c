@@ -44,7 +44,7 @@ static void verify_campaign(const char *study, void *json, int64_t *problems)
     const fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
     if (access(file, F_OK) == 0 && !*problems && !fracas_reader_open(file, &reader)) {
         if (!fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash)) {
-            print_problem(json, "campaign.yaml is not the campaign of study.h5: run the campaign file it was made from");
+            print_problem(json, "campaign.yaml is not the campaign of study.h5, which is older: run the file it was made from");
             ++*problems;
         } else if (fracas_reader_check_meshes(reader, &meshes) || check_decisions(study, campaign)) {
             print_problem(json, fracas_message());

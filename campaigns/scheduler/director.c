@@ -23,6 +23,7 @@ struct fracas_director {
     fracas_scheduler *scheduler;
     worker_phase *phase; /* of each worker */
     bool *flushing;      /* each worker was asked to write its segment */
+    int64_t *given;      /* replicas of each point that the scheduler knows */
     size_t nended;
     bool stopping; /* STOP was sent to all that work */
     bool drained;  /* because of a signal */
@@ -85,6 +86,7 @@ static fracas_err make_scheduler(fracas_director *director)
                                         .seed = campaign->seed};
     fracas_err err = fracas_scheduler_create(row, count, &options, &director->scheduler);
     free(row);
+    for (size_t p = 0; p < campaign->npoints; p++) director->given[p] = director->rounds.point[p].replicas;
     return err;
 }
 
@@ -123,7 +125,8 @@ static fracas_err set_up(fracas_director *director, bool *settled, int64_t *fail
 {
     director->phase = calloc(director->setup.workers, sizeof *director->phase);
     director->flushing = calloc(director->setup.workers, sizeof *director->flushing);
-    if (!director->phase || !director->flushing) return fracas_no_memory("the workers");
+    director->given = calloc(director->setup.campaign->npoints, sizeof *director->given);
+    if (!director->phase || !director->flushing || !director->given) return fracas_no_memory("the workers");
     /* First of all: a campaign that cannot be computed leaves nothing behind. */
     TRY(fracas_costs_create(director->setup.campaign, director->setup.options, &director->cost));
     return open_study(director, settled, failed);
@@ -172,6 +175,7 @@ void fracas_director_destroy(fracas_director *director)
     free(director->cost);
     free(director->phase);
     free(director->flushing);
+    free(director->given);
     free(director);
 }
 
@@ -208,41 +212,42 @@ static fracas_err offer_all(fracas_director *director)
 
 /* ---- rounds ---- */
 
-/* Decides what is complete of a point by now and gives out what it asks for. */
-static fracas_err advance(fracas_director *director, size_t p)
+/* Gives out what the rounds have come to ask for since `given` replicas of point p. */
+static fracas_err add_more(fracas_director *director, size_t p)
 {
-    fracas_rounds *rounds = &director->rounds;
-    if (rounds->stopped[p]) return FRACAS_OK;
-    const int64_t before = rounds->point[p].replicas;
-    TRY(fracas_rounds_advance(rounds, director->index, p));
-    const size_t more = (size_t)(rounds->point[p].replicas - before);
+    const fracas_point_row *point = &director->rounds.point[p];
+    const size_t more = (size_t)(point->replicas - director->given[p]);
     if (!more) return FRACAS_OK;
     fracas_index_row *row = malloc(more * sizeof *row);
     if (!row) return fracas_no_memory("the plan");
-    fracas_err err = fracas_index_rows_from(director->index, &rounds->point[p], p, before, row);
+    fracas_err err = fracas_index_rows_from(director->index, point, p, director->given[p], row);
     if (!err) err = fracas_scheduler_add(director->scheduler, row, more);
+    if (!err) director->given[p] = point->replicas;
     free(row);
-    return err ? err : offer_all(director);
+    return err;
 }
 
-/* The points of a segment that was committed. */
-static fracas_err advance_points(fracas_director *director, const fracas_segment_row *row, size_t count)
+static fracas_err add_all(fracas_director *director)
 {
-    const fracas_campaign *campaign = director->setup.campaign;
-    for (size_t r = 0; r < count; r++) {
-        if (r > 0 && fracas_hash_equal(&row[r].point, &row[r - 1].point)) continue;
-        for (size_t p = 0; director->rounds.open > 0 && p < campaign->npoints; p++)
-            if (fracas_hash_equal(&campaign->point[p].hash, &row[r].point)) TRY(advance(director, p));
-    }
-    return FRACAS_OK;
+    for (size_t p = 0; p < director->setup.campaign->npoints; p++) TRY(add_more(director, p));
+    return offer_all(director);
 }
 
-/* While rounds wait to be decided, a worker that has nothing to do does not keep its records to itself. */
-static fracas_err flush_resting(fracas_director *director)
+static bool anyone_idles(const fracas_director *director)
 {
-    for (size_t worker = 0; director->rounds.open > 0 && !director->stopping && worker < director->setup.workers; worker++) {
+    for (size_t worker = 0; worker < director->setup.workers; worker++)
+        if (director->phase[worker] == WORKING && fracas_scheduler_idles(director->scheduler, worker)) return true;
+    return false;
+}
+
+/* While rounds wait to be decided and a worker has nothing to do, none keeps its records to itself: not even one that computes, for what
+ * it computes may be of a slower point. */
+static fracas_err flush_all(fracas_director *director)
+{
+    if (director->rounds.open == 0 || director->stopping || !anyone_idles(director)) return FRACAS_OK;
+    for (size_t worker = 0; worker < director->setup.workers; worker++) {
         if (director->flushing[worker] || director->phase[worker] != WORKING ||
-            !fracas_scheduler_rests(director->scheduler, worker))
+            !fracas_scheduler_keeps(director->scheduler, worker))
             continue;
         director->flushing[worker] = true;
         TRY(send(director, worker, FRACAS_PACKET_FLUSH, NULL, 0));
@@ -300,9 +305,10 @@ static fracas_err hear_failed(fracas_director *director, size_t worker, const fr
         TRY(fracas_index_fail(director->index, point, lease.replica[0], failure.reason, final));
         TRY(fracas_index_event(director->index, "failed", text));
         if (final) fracas_voice_say(director->setup.voice, "%s", text);
-        if (final) TRY(advance(director, (size_t)lease.point));
+        if (final && !director->rounds.stopped[lease.point])
+            TRY(fracas_rounds_advance(&director->rounds, director->index, (size_t)lease.point));
     }
-    return offer_all(director);
+    return add_all(director);
 }
 
 /* Commits a segment: from here on its realizations are done. */
@@ -319,7 +325,9 @@ static fracas_err hear_segment(fracas_director *director, size_t worker, const f
                             (const char *)(row + note.rows)));
     fracas_scheduler_durable(director->scheduler, worker);
     director->flushing[worker] = false;
-    return advance_points(director, row, (size_t)note.rows);
+    if (director->rounds.open == 0) return FRACAS_OK;
+    TRY(fracas_rounds_hear(&director->rounds, director->index, row, (size_t)note.rows));
+    return add_all(director);
 }
 
 static void end_worker(fracas_director *director, size_t worker)
@@ -365,7 +373,7 @@ static fracas_err act(fracas_director *director, size_t worker, const fracas_pac
 void fracas_director_hear(fracas_director *director, size_t worker, const fracas_packet *message)
 {
     check(director, act(director, worker, message));
-    check(director, flush_resting(director));
+    check(director, flush_all(director));
     if (is_computed(director)) stop(director);
     fracas_scheduler_counts count = fracas_scheduler_count(director->scheduler);
     fracas_voice_progress(director->setup.voice, &count);

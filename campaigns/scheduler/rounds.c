@@ -73,7 +73,7 @@ static fracas_err record(fracas_rounds *rounds, fracas_index *index, size_t p, c
     const fracas_sequential_rule *rule = &rounds->campaign->point[p].rule;
     char reason[160], text[240];
     snprintf(reason, sizeof reason, "%s of %" PRId64 " realizations %.6g +- %.3g, %.3g %% of it; %.3g %% asked for%s",
-             fracas_quantity_name[rule->quantity], made->used, made->mean, made->half_width, 100 * made->half_width / fabs(made->mean),
+             fracas_quantity_name[rule->quantity], made->used, made->mean, made->half_width, 100 * fracas_decision_relative(made),
              100 * rule->relative_half_width, made->stop == FRACAS_AT_MAXIMUM ? ", but this is the maximum" : "");
     snprintf(text, sizeof text, "point %zu, round %" PRId64 ", %" PRId64 " replicas: %s: %s", p, made->round, made->replicas,
              fracas_sequential_stop_name[made->stop], reason);
@@ -115,7 +115,21 @@ static fracas_err go_on(fracas_rounds *rounds, fracas_index *index, size_t p, co
 
 fracas_err fracas_rounds_advance(fracas_rounds *rounds, fracas_index *index, size_t p)
 {
-    return go_on(rounds, index, p, NULL, 0);
+    TRY(fracas_index_begin(index));
+    return fracas_index_end(index, go_on(rounds, index, p, NULL, 0));
+}
+
+fracas_err fracas_rounds_hear(fracas_rounds *rounds, fracas_index *index, const fracas_segment_row *row, size_t count)
+{
+    const fracas_campaign *campaign = rounds->campaign;
+    TRY(fracas_index_begin(index));
+    fracas_err err = FRACAS_OK;
+    for (size_t r = 0; !err && r < count; r++) {
+        if (r > 0 && fracas_hash_equal(&row[r].point, &row[r - 1].point)) continue;
+        for (size_t p = 0; !err && rounds->open > 0 && p < campaign->npoints; p++)
+            if (fracas_hash_equal(&campaign->point[p].hash, &row[r].point)) err = go_on(rounds, index, p, NULL, 0);
+    }
+    return fracas_index_end(index, err);
 }
 
 /* ---- the start and the end ---- */
@@ -143,9 +157,11 @@ fracas_err fracas_rounds_init(fracas_rounds *rounds, const fracas_campaign *camp
         rounds->stopped[p] = campaign->point[p].rule.maximum == 0;
         rounds->open += !rounds->stopped[p];
     }
-    for (size_t p = 0; p < campaign->npoints; p++)
-        if (!rounds->stopped[p]) TRY(begin(rounds, index, p));
-    return FRACAS_OK;
+    TRY(fracas_index_begin(index));
+    fracas_err err = FRACAS_OK;
+    for (size_t p = 0; !err && p < campaign->npoints; p++)
+        if (!rounds->stopped[p]) err = begin(rounds, index, p);
+    return fracas_index_end(index, err);
 }
 
 void fracas_rounds_clear(fracas_rounds *rounds)

@@ -25,6 +25,8 @@ void fracas_rounds_clear(fracas_rounds *rounds);
 
 /* Decides the rounds of one point that are complete by now, and plans what follows: rounds->point[p].replicas grows. */
 FRACAS_MUST_USE fracas_err fracas_rounds_advance(fracas_rounds *rounds, fracas_index *index, size_t p);
+/* The same for the points of a segment that was committed, all at once: a design may have thousands of them. */
+FRACAS_MUST_USE fracas_err fracas_rounds_hear(fracas_rounds *rounds, fracas_index *index, const fracas_segment_row *row, size_t count);
 
 /* When every point has stopped: FRACAS_DAMAGED, naming point and round, unless every recorded decision is what its realizations
  * give, and they are all. */

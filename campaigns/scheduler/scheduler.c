@@ -275,9 +275,14 @@ void fracas_scheduler_lost(fracas_scheduler *scheduler, size_t worker)
     }
 }
 
-bool fracas_scheduler_rests(const fracas_scheduler *scheduler, size_t worker)
+bool fracas_scheduler_idles(const fracas_scheduler *scheduler, size_t worker)
 {
-    return scheduler->worker[worker].nheld == 0 && scheduler->worker[worker].memory.first != NONE;
+    return scheduler->worker[worker].nheld == 0;
+}
+
+bool fracas_scheduler_keeps(const fracas_scheduler *scheduler, size_t worker)
+{
+    return scheduler->worker[worker].memory.first != NONE;
 }
 
 bool fracas_scheduler_computed_all(const fracas_scheduler *scheduler)

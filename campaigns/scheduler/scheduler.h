@@ -72,8 +72,10 @@ void fracas_scheduler_durable(fracas_scheduler *scheduler, size_t worker);
 /* The worker is gone: what it held and had in memory waits again, first in line. */
 void fracas_scheduler_lost(fracas_scheduler *scheduler, size_t worker);
 
-/* True when the worker holds no lease, but has computed some that are not durable yet. */
-bool fracas_scheduler_rests(const fracas_scheduler *scheduler, size_t worker);
+/* True when the worker holds no lease. */
+bool fracas_scheduler_idles(const fracas_scheduler *scheduler, size_t worker);
+/* True when it has computed leases that are not durable yet. */
+bool fracas_scheduler_keeps(const fracas_scheduler *scheduler, size_t worker);
 
 /* True when no lease waits or is held: everything is in memory, durable or failed. */
 bool fracas_scheduler_computed_all(const fracas_scheduler *scheduler);

@@ -12,6 +12,11 @@ double fracas_record_mean_size(const fracas_record *record)
     return record->nfragment ? sum / (double)record->nfragment : NAN;
 }
 
+double fracas_decision_relative(const fracas_decision *decision)
+{
+    return decision->half_width == 0 ? 0 : decision->half_width / fabs(decision->mean);
+}
+
 static bool same_real(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
 
 bool fracas_decision_same(const fracas_decision *a, const fracas_decision *b)
@@ -96,7 +101,7 @@ static fracas_err add_decision(fracas_index *index, int64_t id, const fracas_dec
 {
     const fracas_sql add = FRACAS_SQL_DECISION_ADD;
     const int64_t whole[] = {id, d->round, d->replicas, d->replicas - d->used};
-    const double real[] = {d->mean, d->half_width, d->half_width / fabs(d->mean)};
+    const double real[] = {d->mean, d->half_width, fracas_decision_relative(d)};
     for (int i = 0; i < 4; i++) TRY(fracas_index_bind(index, add, 1 + i, whole[i]));
     for (int i = 0; i < 3; i++) TRY(fracas_index_bind_real(index, add, 5 + i, real[i]));
     TRY(fracas_index_bind(index, add, 8, d->stop));
@@ -109,7 +114,7 @@ static fracas_err add_decision(fracas_index *index, int64_t id, const fracas_dec
     return fracas_index_do(index, add);
 }
 
-static fracas_err decide(fracas_index *index, const fracas_point_row *point, const fracas_decision *decision, const char *reason)
+fracas_err fracas_index_decide(fracas_index *index, const fracas_point_row *point, const fracas_decision *decision, const char *reason)
 {
     int64_t id;
     TRY(need_point(index, &point->hash, &id));
@@ -121,10 +126,4 @@ static fracas_err decide(fracas_index *index, const fracas_point_row *point, con
     TRY(fracas_index_bind(index, FRACAS_SQL_ROW_TRIM, 1, id));
     TRY(fracas_index_bind(index, FRACAS_SQL_ROW_TRIM, 2, point->replicas));
     return fracas_index_do(index, FRACAS_SQL_ROW_TRIM);
-}
-
-fracas_err fracas_index_decide(fracas_index *index, const fracas_point_row *point, const fracas_decision *decision, const char *reason)
-{
-    TRY(fracas_index_do(index, FRACAS_SQL_BEGIN));
-    return fracas_index_end(index, decide(index, point, decision, reason));
 }

@@ -187,6 +187,8 @@ fracas_err fracas_index_bind_text(fracas_index *index, fracas_sql sql, int n, co
     return bound(index, sqlite3_bind_text(index->statement[sql], n, text, -1, SQLITE_TRANSIENT));
 }
 
+fracas_err fracas_index_begin(fracas_index *index) { return fracas_index_do(index, FRACAS_SQL_BEGIN); }
+
 fracas_err fracas_index_end(fracas_index *index, fracas_err err)
 {
     if (!err) err = fracas_index_do(index, FRACAS_SQL_COMMIT);

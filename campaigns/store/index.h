@@ -67,8 +67,6 @@ FRACAS_MUST_USE fracas_err fracas_index_do(fracas_index *index, fracas_sql sql);
 FRACAS_MUST_USE fracas_err fracas_index_bind(fracas_index *index, fracas_sql sql, int n, int64_t value);
 FRACAS_MUST_USE fracas_err fracas_index_bind_real(fracas_index *index, fracas_sql sql, int n, double value);
 FRACAS_MUST_USE fracas_err fracas_index_bind_text(fracas_index *index, fracas_sql sql, int n, const char *text);
-/* Ends a transaction: commits if `err` is FRACAS_OK, else rolls back and returns `err`. */
-FRACAS_MUST_USE fracas_err fracas_index_end(fracas_index *index, fracas_err err);
 
 /* The value under `key` in meta, cut to `size`; "" if there is none. */
 FRACAS_MUST_USE fracas_err fracas_index_read_meta(fracas_index *index, const char *key, char *value, size_t size);

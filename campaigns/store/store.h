@@ -51,6 +51,9 @@ typedef struct {
 /* Every number that names something is one of those that do. */
 bool fracas_decision_valid(const fracas_decision *decision);
 
+/* Half width as part of the absolute value of the mean; 0 where all values are alike, though they be 0. NaN of fewer than two values. */
+double fracas_decision_relative(const fracas_decision *decision);
+
 /* Equal to the bit, NaNs alike. */
 bool fracas_decision_same(const fracas_decision *a, const fracas_decision *b);
 
@@ -195,7 +198,12 @@ FRACAS_MUST_USE fracas_err fracas_index_rows_from(fracas_index *index, const fra
 FRACAS_MUST_USE fracas_err fracas_index_decisions(fracas_index *index, const fracas_hash *point, fracas_decision **decision,
                                                   size_t *count);
 
-/* One transaction: records the decision, in place of this and any later round of the point, with the reason in words; plans
+/* Begins and ends what is done whole or not at all, and waits for the disk once: commits if `err` is FRACAS_OK, else takes all back and
+ * returns `err`. */
+FRACAS_MUST_USE fracas_err fracas_index_begin(fracas_index *index);
+FRACAS_MUST_USE fracas_err fracas_index_end(fracas_index *index, fracas_err err);
+
+/* Between these two: records the decision, in place of this and any later round of the point, with the reason in words; plans
  * point->replicas of it; and where it stops, forgets what was planned beyond. */
 FRACAS_MUST_USE fracas_err fracas_index_decide(fracas_index *index, const fracas_point_row *point, const fracas_decision *decision,
                                                const char *reason);

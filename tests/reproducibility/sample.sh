@@ -85,5 +85,22 @@ expect 2 "$fracas" sample bar.yaml --vtk -
 said 'vtk is `-`'
 expect 6 "$fracas" sample bar.yaml --csv nowhere/bar.csv
 said 'cannot write nowhere/bar.csv: No such file'
+
+# A file that cannot be written leaves what was there, and nothing else; a device or a pipe is no file to be replaced or removed.
+cp bar.csv kept.csv
+if (ulimit -f 1; trap '' XFSZ; "$fracas" sample bar.yaml --replica 2 --csv kept.csv) > said 2>&1; then fail "a file of 1 KiB was enough"; fi
+said 'cannot write kept.csv: File too large'
+cmp bar.csv kept.csv || fail "what could not be replaced was lost"
+[ "$(ls | grep -c 'kept.csv')" -eq 1 ] || fail "half a file was left: $(ls)"
+mkfifo pipe
+cat pipe > piped.csv &
+expect 0 "$fracas" sample bar.yaml --replica 1 --csv pipe
+wait
+cmp piped.csv bar.csv || fail "a pipe does not get what a file gets"
+[ -p pipe ] || fail "the pipe was replaced"
+ln -s /dev/full full # the link can be lost without harm
+expect 6 "$fracas" sample bar.yaml --vtk full
+said 'cannot write full: No space left on device'
+[ -h full ] || fail "a link to a device was removed"
 expect 0 "$fracas" distributions
 for name in constant uniform normal lognormal gamma weibull flaws; do said "^$name"; done

@@ -101,6 +101,18 @@ said 'round 1 of point .* that its realizations do not give'
 # A weaker rule first, then the stronger one; a fixed number first; from the rule to a fixed number.
 rule weak.yaml "$(until_narrow 8 30 mean-count 0.03 0.9)"
 expect 0 "$fracas" run weak.yaml --study weak
+
+# Killed while it is extended: what is merged is sound, it is older than the campaign.
+cp -r weak longer
+rule longer.yaml "$(until_narrow 8 1000 mean-count 0.003 0.95)"
+start longer.yaml --study longer --jobs 1 --lanes 1 --segment-size 1e-6
+wait_segments longer $(($(segments weak) + 20))
+kill_session
+[ "$(sqlite3 longer/index.sqlite 'SELECT count(*) FROM decision WHERE maximum = 1000')" -gt 0 ] || fail "killed too early"
+cmp weak/study.h5 longer/study.h5 || fail "killed too late"
+expect 5 "$fracas" verify longer
+said 'campaign.yaml is not the campaign of study.h5'
+said 'longer has 1 problem'
 expect 0 "$fracas" run one.yaml --study weak
 same one weak
 expect 5 "$fracas" run weak.yaml --study weak

@@ -290,6 +290,58 @@ static void an_older_index_is_brought_up(void **state)
     fracas_campaign_destroy(now);
 }
 
+/* All values 0, as of what is dissipated where nothing breaks: known exactly; of no value nothing is known. */
+static void a_mean_of_nothing_is_known(void **state)
+{
+    (void)state;
+    fracas_decision *decision;
+    commit(0, 0, 7, 0.05, FRACAS_INTACT);
+    tampered("UPDATE realization SET dissipated = 0 WHERE point = 1");
+    commit(1, 0, 7, 0.05, FRACAS_ENERGY_DRIFT);
+    for (size_t p = 0; p < 2; p++) OK(fracas_rounds_advance(&rounds, index_, p));
+    look(0, &decision, 1);
+    assert_int_equal(decision[0].stop, FRACAS_PRECISE);
+    assert_true(fracas_decision_relative(&decision[0]) == 0);
+    free(decision);
+    look(1, &decision, 1);
+    assert_int_equal(decision[0].stop, FRACAS_GO_ON);
+    assert_true(isnan(fracas_decision_relative(&decision[0])));
+    free(decision);
+    const fracas_decision negative = {.mean = -4, .half_width = 1};
+    assert_true(fracas_decision_relative(&negative) == 0.25);
+    tampered("CREATE TABLE said(n INTEGER CHECK (n = 1))");
+    tampered("INSERT INTO said SELECT count(*) FROM decision WHERE relative = 0 AND reason LIKE '% 0 +- 0, 0 % of it%'");
+}
+
+/* All points of a segment in one transaction: a decision that cannot be kept takes the others with it. */
+static void points_of_a_segment_are_decided_together(void **state)
+{
+    (void)state;
+    fracas_decision *decision;
+    const fracas_segment_row heard[] = {{.point = campaign->point[0].hash}, {.point = campaign->point[0].hash, .replica = 1},
+                                        {.point = campaign->point[1].hash}};
+    commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
+    commit(1, 0, 7, 0.5, FRACAS_FRAGMENTED);
+    tampered("CREATE TRIGGER refuse BEFORE INSERT ON decision WHEN NEW.point = 2 BEGIN SELECT raise(ABORT, 'no'); END");
+    assert_int_not_equal(fracas_rounds_hear(&rounds, index_, heard, 3), FRACAS_OK);
+    assert_true(sqlite3_get_autocommit(index_->db));
+    look(0, &decision, 0);
+    free(decision);
+    tampered("DROP TRIGGER refuse");
+    fracas_rounds again; /* as the next run finds it */
+    OK(fracas_rounds_init(&again, campaign, index_));
+    look(0, &decision, 1);
+    free(decision);
+    assert_int_equal(again.point[1].replicas, 16);
+    commit(1, 8, 15, 0.5, FRACAS_FRAGMENTED);
+    OK(fracas_rounds_hear(&again, index_, heard, 3)); /* the first point has stopped */
+    look(1, &decision, 2);
+    free(decision);
+    assert_int_equal(again.point[0].replicas, 8);
+    assert_int_equal(again.point[1].replicas, 24);
+    fracas_rounds_clear(&again);
+}
+
 #define ROUND(name) cmocka_unit_test_setup_teardown(name, begin, end)
 
 int main(void)
@@ -304,6 +356,8 @@ int main(void)
         ROUND(a_larger_maximum_goes_on),
         ROUND(a_rule_looks_at_its_quantity),
         ROUND(an_older_index_is_brought_up),
+        ROUND(a_mean_of_nothing_is_known),
+        ROUND(points_of_a_segment_are_decided_together),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -78,9 +78,10 @@ static void test_rows_are_added(void **state)
     assert_int_equal(fracas_scheduler_add(scheduler, more, 6), FRACAS_OK);
     assert_int_equal(fracas_scheduler_count(scheduler).total, REPLICAS + 6);
     assert_counts(scheduler, 1, 0, 1);
-    assert_false(fracas_scheduler_rests(scheduler, 0));
+    assert_false(fracas_scheduler_keeps(scheduler, 0));
     assert_int_equal(fracas_scheduler_computed(scheduler, 0, lease.id), FRACAS_OK);
-    assert_true(fracas_scheduler_rests(scheduler, 0));
+    assert_true(fracas_scheduler_idles(scheduler, 0));
+    assert_true(fracas_scheduler_keeps(scheduler, 0));
     static const size_t point[] = {0, 1, 2}, count[] = {3, 3, 1};
     for (size_t i = 0; i < 3; i++) {
         assert_false(fracas_scheduler_computed_all(scheduler));
@@ -103,7 +104,7 @@ static void test_rows_are_added(void **state)
     }
     assert_true(fracas_scheduler_computed_all(scheduler));
     fracas_scheduler_durable(scheduler, 0);
-    assert_false(fracas_scheduler_rests(scheduler, 0));
+    assert_false(fracas_scheduler_keeps(scheduler, 0));
     assert_counts(scheduler, REPLICAS + 5, 0, 1);
     assert_int_equal(fracas_scheduler_add(scheduler, row + REPLICAS, REPLICAS), FRACAS_OK); /* again when all was done */
     assert_false(fracas_scheduler_computed_all(scheduler));
