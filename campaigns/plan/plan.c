@@ -4,7 +4,7 @@
 #include "base/units.h"
 #include "campaigns/plan/forecast.h"
 #include "campaigns/plan/warnings.h"
-#include "engine/mesh/body.h"
+#include "engine/mesh/make.h"
 
 #include <errno.h>
 #include <inttypes.h>
