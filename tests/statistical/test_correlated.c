@@ -1,6 +1,8 @@
 /* Correlated strengths: covariances and laws over realizations, and that a strength depends on its name alone. Seeds are fixed; every
  * bound is one that a right sampler exceeds with probability ALPHA or less.
- * ctest-labels: slow-sanitize */
+ *
+ * ctest-labels: slow-sanitize
+ */
 #include "sampler/field/sparse_factor.h"
 #include "sampler/sampler.h"
 #include "tests/support/sites.h"
