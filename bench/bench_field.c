@@ -4,6 +4,8 @@
  *   bench_field N         the surfaces with about N sites
  *   bench_field N L       with this l/h alone, and a gaussian covariance as well
  */
+#include "bench/bench.h"
+
 #include "sampler/sampler.h"
 #include "sampler/field/covariance.h"
 
@@ -12,14 +14,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-
-static double seconds(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 /* Sites of an element size of 1; their number. */
 static size_t make_plate(size_t n, double (*x)[3])
@@ -57,14 +51,14 @@ static void measure(const char *body, size_t n, const double (*x)[3], double per
     fracas_extent *extent = calloc(n, sizeof *extent);
     double *sigma_c = malloc(n * sizeof *sigma_c);
     fracas_field *field;
-    const double start = seconds();
+    const double start = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
     const fracas_sites sites = {.n = n, .points = 1, .extent = extent, .position = x, .period = period};
     if (!extent || !sigma_c || fracas_field_create(&strength, &sites, &field)) exit(1);
-    const double made = seconds();
+    const double made = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
     for (uint64_t r = 0; r < REALIZATIONS; r++)
         if (fracas_field_sample(field, &(fracas_stream){.seed = 1, .replica = r}, 1, sigma_c)) exit(1);
     printf("%-7s %7zu  %-11s %4g  %7.2f s  %7.2f ms  %.1e\n", body, n, covariance->name, length, made - start,
-           (seconds() - made) / REALIZATIONS * 1e3, fracas_field_error(field));
+           (seconds_of(CLOCK_PROCESS_CPUTIME_ID) - made) / REALIZATIONS * 1e3, fracas_field_error(field));
     fflush(stdout);
     fracas_field_destroy(field);
     free(sigma_c);

@@ -3,40 +3,22 @@
  *   bench_sampler [--distribution NAME] [--stride N] [--isa baseline|avx2|avx512|best] [--seconds S]
  *
  * The median of five measurements, by the clock and by the time of the CPU (the two agree on a quiet machine). */
+#include "bench/bench.h"
+
 #include "sampler/sampler.h"
 
 #include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { INTERFACES = 2500, MOST_STRIDE = 8 };
-
-static double seconds_of(clockid_t clock)
-{
-    struct timespec t;
-    clock_gettime(clock, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static void demand(fracas_err code)
-{
-    if (!code) return;
-    fprintf(stderr, "bench_sampler: %s\n", fracas_message());
-    exit(code);
-}
 
 static fracas_strength strength_of(const char *name)
 {
     fracas_strength strength = {.value = 300e6, .minimum = 264e6, .maximum = 364e6, .scale = 50e6, .shape = 2, .median = 300e6,
-                                .sigma = 0.1, .mean = 300e6, .deviation = 30e6, .density = 1e9, .exponent = 3};
+                                .sigma = 0.1, .density = 1e9, .exponent = 3};
+    if (strcmp(name, "normal") == 0) strength.mean = 10 * (strength.deviation = 30e6); /* of other laws they replace their own parameters */
     for (size_t i = 0; i < fracas_strength_section.nkinds; i++)
         if (strcmp(fracas_strength_section.kinds[i]->name, name) == 0) strength.distribution = fracas_strength_section.kinds[i];
     if (strength.distribution && !fracas_strength_is_given(&strength)) return strength;

@@ -6,6 +6,8 @@
  * have); then steps are timed in five blocks and the median is printed. Linear and quadratic are plates of such triangles, shell is
  * an octant of a sphere, with perturbed meshes; there a random half of the interfaces of each lane is too strong to crack, and timing
  * starts when 95 % of the others have. */
+#include "bench/bench.h"
+
 #include "engine/cohesive/law.h"
 #include "engine/integrator/integrator.h"
 #include "engine/loading/loading.h"
@@ -18,27 +20,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static void demand(fracas_err code)
-{
-    if (!code) return;
-    fprintf(stderr, "bench_sweep: %s\n", fracas_message());
-    exit(code);
-}
 
 static bool is_surface(const char *model)
 {
@@ -163,12 +144,12 @@ int main(int argc, char **argv)
     double rate[5];
     int64_t steps = 16;
     for (int block = 0; block < 5; block++) {
-        double start = now(), spent;
+        double start = seconds_of(CLOCK_MONOTONIC), spent;
         int64_t done = 0;
         do {
             for (int64_t s = 0; s < steps; s++) demand(fracas_batch_step(batch, record, &running));
             done += steps;
-        } while ((spent = now() - start) < seconds / 5);
+        } while ((spent = seconds_of(CLOCK_MONOTONIC) - start) < seconds / 5);
         rate[block] = (double)(done * elements * lanes) / spent;
     }
     qsort(rate, 5, sizeof *rate, by_value);

@@ -1,0 +1,22 @@
+# Benchmarks, whose figures the results pages give, still run: each of them, for as short as it can, gives numbers greater than 0.
+set -eu
+build=$1
+
+# gives NUMBERS COMMAND...: ends well, and prints a line with so many positive numbers after its first word.
+gives()
+{
+    numbers=$1
+    shift
+    said=$("$@") || { echo "failed: $*"; exit 1; }
+    echo "$said" | awk -v want="$numbers" '{n = 0; for (i = 2; i <= NF; i++) if ($i + 0 > 0) n++; if (n >= want) good = 1} END {exit !good}' ||
+        { echo "no $numbers numbers from $*: $said"; exit 1; }
+}
+
+for distribution in constant uniform normal lognormal gamma weibull flaws; do
+    gives 3 "$build/bench_sampler" --distribution $distribution --seconds 0.001
+done
+for model in bar ring stershic linear quadratic shell; do
+    gives 3 "$build/bench_sweep" --model $model --elements 200 --seconds 0.001
+done
+gives 4 "$build/bench_field" 60 2
+[ "$("$build/bench_stream" neighbours | head -c 4096 | wc -c)" = 4096 ] || { echo "bench_stream gives no bits"; exit 1; }
