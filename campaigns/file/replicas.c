@@ -11,26 +11,6 @@ static const char form[] = "{minimum: 16, maximum: 256, until: {quantity: mean-c
 
 /* ---- reading ---- */
 
-/* Refuses a key of the section `node`, called `name`, that is none of `keys`. */
-static fracas_err check_keys(const fracas_file *file, const fracas_node *node, const char *name, const char *const *keys,
-                             size_t count)
-{
-    char hint[600];
-    for (const fracas_node *entry = node->first; entry; entry = entry->next) {
-        fracas_words words;
-        bool known = false;
-        fracas_words_init(&words, entry->key->text);
-        for (size_t k = 0; k < count; k++) {
-            fracas_words_add(&words, keys[k]);
-            known = known || strcmp(keys[k], entry->key->text) == 0;
-        }
-        if (!known)
-            return fracas_say(file->name, entry->key, "unknown key `%s` in `%s`%s", entry->key->text, name,
-                              fracas_words_hint(&words, "it has", hint));
-    }
-    return FRACAS_OK;
-}
-
 static fracas_err need(const fracas_file *file, const fracas_node *node, const char *name, const char *key,
                        const fracas_node **found)
 {
@@ -68,12 +48,12 @@ static fracas_err read_share(const fracas_file *file, const fracas_node *node, d
 
 static fracas_err read_until(const fracas_file *file, const fracas_node *node, fracas_sequential_rule *rule)
 {
-    static const char *const keys[] = {"quantity", "relative-half-width", "confidence"};
+    static const char *const keys[] = {"quantity", "relative-half-width", "confidence", NULL};
     const fracas_node *found;
     char text[256];
     if (node->type != FRACAS_MAP)
         return fracas_say(file->name, node, "`until`: found %s; expected %s", fracas_say_found(node, text), form);
-    TRY(check_keys(file, node, "until", keys, FRACAS_COUNT(keys)));
+    TRY(fracas_say_unknown(file->name, node, keys, "`until`"));
     TRY(need(file, node, "until", "quantity", &found));
     TRY(read_quantity(file, found, &rule->quantity));
     TRY(need(file, node, "until", "relative-half-width", &found));
@@ -85,9 +65,9 @@ static fracas_err read_until(const fracas_file *file, const fracas_node *node, f
 
 static fracas_err read_rule(const fracas_file *file, const fracas_node *node, fracas_sequential_rule *rule)
 {
-    static const char *const keys[] = {"minimum", "maximum", "until"};
+    static const char *const keys[] = {"minimum", "maximum", "until", NULL};
     const fracas_node *found;
-    TRY(check_keys(file, node, "replicas", keys, FRACAS_COUNT(keys)));
+    TRY(fracas_say_unknown(file->name, node, keys, "`replicas`"));
     TRY(need(file, node, "replicas", "minimum", &found));
     TRY(fracas_setting_integer(file, "minimum", found, FRACAS_ROUND_FIRST, MOST, &rule->minimum));
     TRY(need(file, node, "replicas", "maximum", &found));
