@@ -1,6 +1,9 @@
 /* Damaged campaign files: thousands of deterministic mutations of examples (a sweep of bars; a ring with choices, names of kinds that
  * go with each other and files) are either read or refused with a message
  * that has a place; never a crash or a hang. What is read must survive writing and reading back. */
+#define FOLDER "fracas-fuzz"
+#include "tests/support/folder.h"
+
 #include "campaigns/file/read.h"
 #include "tests/support/campaign_text.h"
 
@@ -72,8 +75,6 @@ static size_t mutate(unsigned char *text, size_t size, uint64_t *x)
     memcpy(copy, text + other, length);
     return replace_bytes(text, size, at, 0, copy, length);
 }
-
-static char folder[] = "/tmp/fracas-fuzz-XXXXXX";
 
 static void check_round_trip(const fracas_units *units, const fracas_campaign *campaign, const char *path)
 {
@@ -183,26 +184,17 @@ static void test_strengths(void **state)
     test_mutations_of((const unsigned char *)strengths, sizeof strengths - 1, true);
 }
 
-static int make_folder(void **state)
+static int make_files(void **state)
 {
-    (void)state;
-    if (!mkdtemp(folder) || mkdir(in_folder(FRACAS_ATTACHMENTS), 0777)) return -1;
+    if (make_folder(state) || mkdir(in_folder(FRACAS_ATTACHMENTS), 0777)) return -1;
     write_bytes(in_folder(STRENGTHS), strengths, sizeof strengths - 1);
     write_bytes(in_folder(STRENGTHS "2"), "3e8\n", 4);
     return 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char command[80];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    return system(command);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bars), cmocka_unit_test(test_rings), cmocka_unit_test(test_strengths)};
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_files, remove_folder);
 }

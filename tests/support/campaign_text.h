@@ -3,6 +3,7 @@
 #define FRACAS_TESTS_UNIT_CAMPAIGN_TEXT_H
 
 #include "campaigns/campaign.h"
+#include "campaigns/plan/plan.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -53,6 +54,30 @@ static inline char *replace(const char *text, const char *find, const char *put)
     if (!made) abort();
     snprintf(made, size, "%.*s%s%s", (int)before, text, put, at + strlen(find));
     return made;
+}
+
+/* The campaign as resolved. Freed by the caller. */
+static inline char *write_text(const fracas_campaign *campaign)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    assert_int_equal(fracas_campaign_write(campaign, out), FRACAS_OK);
+    assert_int_equal(fclose(out), 0);
+    return text;
+}
+
+/* What `fracas plan` prints for so many processes. Freed by the caller. (Inlined, gcc takes what it returns for the address of a local.) */
+__attribute__((noinline, unused)) static char *plan_text(const fracas_campaign *campaign, int jobs, bool json)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    if (fracas_plan_print(campaign, jobs, out, json)) fail_msg("%s", fracas_message());
+    assert_int_equal(fclose(out), 0);
+    return text;
 }
 
 /* Writes `size` bytes to `path`. */

@@ -1,5 +1,8 @@
 /* Files that a campaign names: strengths given line by line, what is said of wrong ones, and what stands for a file in a
  * point. And what is drawn once a point: the moves of a mesh's nodes. */
+#define FOLDER "fracas-test"
+#include "tests/support/folder.h"
+
 #include "tests/support/strengths.h"
 #include "campaigns/file/read.h"
 #include "campaigns/plan/forecast.h"
@@ -203,8 +206,6 @@ static void test_many_places(void **state)
 }
 
 /* ---- campaigns with files, in a folder of their own ---- */
-
-static char folder[] = "/tmp/fracas-test-XXXXXX";
 
 static const char *in_folder(const char *name)
 {
@@ -517,20 +518,6 @@ static void test_noise(void **state)
     assert_int_equal(forecast[1].elements, 200000);
     assert_null(campaign->point[0].spec.mesh.noise);
     fracas_campaign_destroy(campaign);
-}
-
-static int make_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char command[100];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    return system(command);
 }
 
 int main(void)

@@ -390,17 +390,6 @@ static void test_page_examples(void **state)
 
 /* ---- the resolved file ---- */
 
-static char *write_text(const fracas_campaign *campaign)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
-    assert_int_equal(fracas_campaign_write(campaign, out), FRACAS_OK);
-    assert_int_equal(fclose(out), 0);
-    return text;
-}
-
 static void test_round_trip(void **state)
 {
     (void)state;

@@ -210,17 +210,6 @@ static void test_mean_strength(void **state)
 
 /* ---- keys of some models only ---- */
 
-static char *write_text(const fracas_campaign *campaign)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
-    assert_int_equal(fracas_campaign_write(campaign, out), FRACAS_OK);
-    assert_int_equal(fclose(out), 0);
-    return text;
-}
-
 static void check_round_trip(const fracas_campaign *campaign)
 {
     char *text = write_text(campaign);
@@ -376,17 +365,6 @@ static void test_perturbed(void **state)
 
 /* ---- plans ---- */
 
-static char *print_plan(const fracas_campaign *campaign, bool json)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
-    if (fracas_plan_print(campaign, 1, out, json)) fail_msg("%s", fracas_message());
-    assert_int_equal(fclose(out), 0);
-    return text;
-}
-
 /* A correlation length that was meant in mm, or is far below an element. */
 static void test_plan_of_fields(void **state)
 {
@@ -404,7 +382,7 @@ static void test_plan_of_fields(void **state)
         snprintf(section, sizeof section, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2, covariance: matern, correlation_length: %s}",
                  table[i].length);
         fracas_campaign *campaign = read_membrane(strength, section);
-        char *text = print_plan(campaign, false);
+        char *text = plan_text(campaign, 1, false);
         if (table[i].words) assert_non_null(strstr(text, table[i].words));
         else assert_null(strstr(text, "correlation_length"));
         assert_null(strstr(text, "size effect"));
@@ -413,7 +391,7 @@ static void test_plan_of_fields(void **state)
     }
     fracas_campaign *campaign = read_membrane(strength, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2, covariance: matern, "
                                               "correlation_length: 2e-3, reference_volume: 1e-3 mm3}");
-    char *text = print_plan(campaign, false);
+    char *text = plan_text(campaign, 1, false);
     assert_non_null(strstr(text, "strengths are correlated, and their size effect is that of independent flaws"));
     free(text);
     fracas_campaign_destroy(campaign);
@@ -435,25 +413,25 @@ static void test_plan(void **state)
     assert_true(fabs(forecast.coarseness / (1.25e-3 * (52 + 32 * sqrt(2)) / 84 / (370e9 * 150 / 9e16)) - 1) < 1e-12);
     assert_true(fabs(forecast.bound / (370e9 * 1e4 * 1e-7 / 0.75) - 1) < 1e-12);
     assert_true(fabs(forecast.step_stress / (370e9 * 1e4 * forecast.time_step) - 1) < 1e-12);
-    char *text = print_plan(campaign, false);
+    char *text = plan_text(campaign, 1, false);
     assert_non_null(strstr(text, lines));
     assert_non_null(strstr(text, "a crack's softening is not resolved: raise mesh.divisions to 19"));
     assert_null(strstr(text, "until time.end the stress stays"));
     free(text);
-    text = print_plan(campaign, true);
+    text = plan_text(campaign, 1, true);
     assert_non_null(strstr(text, "\"elements\": 64"));
     free(text);
     fracas_campaign_destroy(campaign);
     char *constant = replace(membrane_campaign, strength, "strength: {distribution: constant, value: 300 MPa}");
     char *moved = replace(constant, "  divisions: 4\n", "  size: 1 mm\n  amplitude: 0.2\n");
     campaign = read_text(moved);
-    text = print_plan(campaign, false);
+    text = plan_text(campaign, 1, false);
     assert_null(strstr(text, "follow its lines"));
     assert_non_null(strstr(text, "lower mesh.size to "));
     free(text);
     fracas_campaign_destroy(campaign);
     campaign = read_membrane("rate: 1e4 1/s", "rate: 1e3 1/s"); /* 49 MPa */
-    text = print_plan(campaign, false);
+    text = plan_text(campaign, 1, false);
     assert_null(strstr(text, "follow its lines")); /* of scattered strength */
     assert_non_null(strstr(text, "until time.end the stress stays below 49.3 MPa"));
     free(text);
@@ -559,7 +537,7 @@ static void test_steps_that_pass_strengths(void **state)
         char *lawful = replace(membrane_campaign, "cohesive:\n", law);
         char *strong = replace(lawful, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}", strength);
         campaign = read_text(strong);
-        char *text = print_plan(campaign, false);
+        char *text = plan_text(campaign, 1, false);
         assert_true((strstr(text, "interfaces that a step passes together") != NULL) == table[i].warned);
         free(text);
         free(strong);

@@ -11,18 +11,6 @@
 
 static const char sweep[] = "sweep:\n  - loading.rate: [1e3, 1e4]\n  - strength.maximum: [300 MPa, 301 MPa]\n";
 
-static char *print_plan(const fracas_campaign *campaign, bool json)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
-    fracas_err err = fracas_plan_print(campaign, 2, out, json);
-    if (err) fail_msg("%s", fracas_message());
-    assert_int_equal(fclose(out), 0);
-    return text;
-}
-
 static void expect(const char *text, const char *part)
 {
     if (!strstr(text, part)) fail_msg("no \"%s\" in:\n%s", part, text);
@@ -47,7 +35,7 @@ static void test_text(void **state)
 {
     (void)state;
     fracas_campaign *campaign = read_replaced("", sweep);
-    char *text = print_plan(campaign, false);
+    char *text = plan_text(campaign, 2, false);
     expect(text, "Campaign test: 4 points, 12 realizations\n");
     expect(text, "for 2 processes");
     const char *head = strstr(text, "point  loading.rate  strength.maximum  replicas  elements  time step");
@@ -66,7 +54,7 @@ static void test_json(void **state)
 {
     (void)state;
     fracas_campaign *campaign = read_replaced("", sweep);
-    char *text = print_plan(campaign, true);
+    char *text = plan_text(campaign, 2, true);
     expect(text, "\"points\": 4,");
     expect(text, "\"realizations\": 12");
     expect(text, "\"loading.rate\": 10000");
@@ -89,7 +77,7 @@ static void test_warnings(void **state)
                                                   " {distribution: uniform, minimum: 299 MPa, maximum: 301 MPa}]\n");
     double length = campaign->point[0].spec.geometry.length, softening = 275e9 * 100 / (300e6 * 300e6);
     bool coarse = length / 100 / softening > 0.5;
-    char *text = print_plan(campaign, false), *json = print_plan(campaign, true);
+    char *text = plan_text(campaign, 2, false), *json = plan_text(campaign, 2, true);
     for (int p = 0; p < 4; p++) {
         char uniform[64], long_elements[64];
         snprintf(uniform, sizeof uniform, "point %d: all interfaces are equally strong", p);
@@ -188,7 +176,7 @@ static void test_warnings_of_rings(void **state)
     };
     for (size_t i = 0; i < sizeof rings / sizeof *rings; i++) {
         fracas_campaign *campaign = read_ring(rings[i].loading, rings[i].more);
-        char *text = print_plan(campaign, false);
+        char *text = plan_text(campaign, 2, false);
         for (unsigned w = 0; w < sizeof says / sizeof *says; w++)
             if ((strstr(text, says[w]) != NULL) != (rings[i].expected >> w & 1)) fail_msg("ring %zu, \"%s\":\n%s", i, says[w], text);
         free(text);
@@ -266,7 +254,7 @@ static void test_refined(void **state)
     (void)state;
     fracas_campaign *campaign = refined_ring("1e-4");
     const clock_t before = clock(); /* of the processor */
-    char *text = print_plan(campaign, false);
+    char *text = plan_text(campaign, 2, false);
     assert_true((double)(clock() - before) < 5.0 * CLOCKS_PER_SEC);
     fracas_model *model;
     assert_int_equal(fracas_model_create(&campaign->point[0].spec, &model), FRACAS_OK);

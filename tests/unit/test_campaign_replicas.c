@@ -7,17 +7,6 @@
 
 #define RULE "{minimum: 16, maximum: 256, until: {quantity: mean-count, relative-half-width: 0.02, confidence: 0.95}}"
 
-static char *write_text(const fracas_campaign *campaign)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
-    assert_int_equal(fracas_campaign_write(campaign, out), FRACAS_OK);
-    assert_int_equal(fclose(out), 0);
-    return text;
-}
-
 static fracas_campaign *with_replicas(const char *replicas)
 {
     char line[300];

@@ -1,4 +1,7 @@
 /* Where strengths are: one for each Gauss point, and a factor that depends on the position; from the file to the field. */
+#define FOLDER "fracas-test"
+#include "tests/support/folder.h"
+
 #include "campaigns/plan/forecast.h"
 #include "campaigns/plan/point_model.h"
 #include "campaigns/sample/sample.h"
@@ -104,8 +107,6 @@ static void a_field_is_the_law_times_the_factor(void **state)
 }
 
 /* ---- campaigns, in a folder of their own ---- */
-
-static char folder[] = "/tmp/fracas-test-XXXXXX";
 
 static void put(const char *name, const char *text)
 {
@@ -296,20 +297,6 @@ static void a_forecast_counts_gauss_points(void **state)
         if (!strstr(fracas_message(), words[t])) fail_msg("no \"%s\" in: %s", words[t], fracas_message());
         fracas_campaign_destroy(campaign);
     }
-}
-
-static int make_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char command[100];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    return system(command);
 }
 
 int main(void)
