@@ -1,6 +1,7 @@
 /* The registry of distributions, and what is done with any of them. */
 #include "sampler/distribution/distribution.h"
 
+#include "sampler/distribution/given.h"
 #include "sampler/distribution/size.h"
 #include "sampler/field/covariance.h"
 #include "sampler/field/grading.h"
@@ -163,8 +164,7 @@ bool fracas_strength_has_size_effect(const fracas_strength *strength)
 
 size_t fracas_strength_count(const fracas_strength *strength)
 {
-    const fracas_distribution *distribution = fracas_distribution_of(strength);
-    return distribution->count ? distribution->count(strength) : 0;
+    return fracas_strength_is_given(strength) ? fracas_given_count(strength) : 0;
 }
 
 bool fracas_strength_is_given(const fracas_strength *strength)

@@ -5,6 +5,7 @@
 #include "base/err.h"
 #include "base/isa.h"
 #include "sampler/distribution/blocks.h"
+#include "sampler/distribution/lines.h"
 #include "sampler/strength.h"
 
 typedef struct {
@@ -25,8 +26,8 @@ typedef struct {
     double (*far)(const fracas_strength *strength, double t); /* [Pa] F^-1 where p.above is e^-t; NULL: the largest there is */
     double far_from; /* the t that it holds from, 700 at most: beyond 745 e^-t is no double */
     fracas_moments (*weakest)(const fracas_strength *strength, double size); /* of the weakest of `size`; NULL: by quadrature */
-    /* Both NULL where strengths are drawn: how many there are, and sigma_c[i*stride] = that of interface i. */
-    size_t (*count)(const fracas_strength *strength);
+    /* Both NULL where strengths are drawn: the next strength of the file, and sigma_c[i*stride] = that of interface i. */
+    fracas_lines_reader *read;
     fracas_err (*fill)(const fracas_strength *strength, size_t n, const double (*position)[3], size_t stride, double *sigma_c);
     fracas_block_quantile *block[FRACAS_NISAS]; /* the quantile of whole blocks, by instruction set; all NULL: of one number at a time */
     bool placed; /* they are found by position, not by number */

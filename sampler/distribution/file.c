@@ -2,7 +2,7 @@
 #include "sampler/distribution/distribution.h"
 
 #include "base/units.h"
-#include "sampler/distribution/lines.h"
+#include "sampler/distribution/given.h"
 
 #include <inttypes.h>
 
@@ -17,38 +17,6 @@ FRACAS_MUST_USE static fracas_err next_strength(fracas_lines *lines, double *val
     return fracas_fail(FRACAS_USAGE, "%s:%" PRId64 ": found %s%s%s; expected a strength in Pa, a number greater than 0 at the end of "
                                      "the line, after a comma or a blank if it is not alone, without a unit", lines->file->path,
                        lines->line, *field ? "`" : "no text there", field, *field ? "`" : "");
-}
-
-FRACAS_MUST_USE static fracas_err file_init(fracas_strength *strength)
-{
-    fracas_lines_summary of;
-    return fracas_lines_summarize(strength->file, next_strength, &of);
-}
-
-/* The file was checked when the campaign was read. */
-static fracas_lines_summary summary_of(const fracas_strength *strength)
-{
-    fracas_lines_summary of;
-    return fracas_lines_summarize(strength->file, next_strength, &of) ? (fracas_lines_summary){.sum = NAN} : of;
-}
-
-static double file_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
-{
-    (void)extent;
-    const fracas_lines_summary of = summary_of(strength);
-    return p.below < 0.5 ? of.smallest : of.largest;
-}
-
-static fracas_moments file_moments(const fracas_strength *strength, fracas_extent extent)
-{
-    (void)extent;
-    const fracas_lines_summary of = summary_of(strength);
-    return (fracas_moments){of.sum / (double)of.count, sqrt(of.squares / (double)of.count)};
-}
-
-static size_t file_count(const fracas_strength *strength)
-{
-    return summary_of(strength).count;
 }
 
 FRACAS_MUST_USE static fracas_err file_fill(const fracas_strength *strength, size_t n, const double (*position)[3], size_t stride,
@@ -71,5 +39,5 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_file_distribution = {
     .kind = {.name = "file", .doc = "strengths of all interfaces from a file, the same for every replica", .params = params,
              .nparams = FRACAS_COUNT(params)},
-    .quantile = file_quantile, .moments = file_moments, .init = file_init, .count = file_count, .fill = file_fill,
+    .quantile = fracas_given_quantile, .moments = fracas_given_moments, .init = fracas_given_init, .read = next_strength, .fill = file_fill,
 };

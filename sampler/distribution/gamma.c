@@ -1,7 +1,7 @@
 /* Gamma distribution. */
 #include "sampler/distribution/distribution.h"
 
-#include "sampler/distribution/choice.h"
+#include "sampler/distribution/pairs.h"
 #include "sampler/special/incomplete_gamma.h"
 
 /* (sampling.20) */
@@ -28,11 +28,11 @@ FRACAS_MUST_USE static fracas_err gamma_init(fracas_strength *strength)
 {
     bool by_moments;
     const char *name = strength->distribution->name;
-    TRY(fracas_choice_of(name, (fracas_choice[]){{"shape", strength->shape}, {"scale", strength->scale}},
-                         (fracas_choice[]){{"mean", strength->mean}, {"deviation", strength->deviation}}, &by_moments));
+    TRY(fracas_pairs_choose(name, (fracas_pair_key[]){{"shape", strength->shape}, {"scale", strength->scale}},
+                         (fracas_pair_key[]){{"mean", strength->mean}, {"deviation", strength->deviation}}, &by_moments));
     if (!by_moments) return FRACAS_OK;
     const double ratio = strength->deviation / strength->mean;
-    TRY(fracas_choice_check(name, "deviation/mean", ratio, 1e-3, sqrt(10.0)));
+    TRY(fracas_pairs_check(name, "deviation/mean", ratio, 1e-3, sqrt(10.0)));
     strength->shape = 1.0 / (ratio * ratio);
     strength->scale = strength->deviation * ratio;
     return FRACAS_OK;

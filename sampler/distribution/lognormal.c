@@ -2,7 +2,7 @@
 #include "sampler/distribution/distribution.h"
 
 #include "base/elementary.h"
-#include "sampler/distribution/choice.h"
+#include "sampler/distribution/pairs.h"
 #include "sampler/special/normal.h"
 
 /* (sampling.7) */
@@ -30,11 +30,11 @@ FRACAS_MUST_USE static fracas_err lognormal_init(fracas_strength *strength)
 {
     bool by_moments;
     const char *name = strength->distribution->name;
-    TRY(fracas_choice_of(name, (fracas_choice[]){{"median", strength->median}, {"sigma", strength->sigma}},
-                         (fracas_choice[]){{"mean", strength->mean}, {"deviation", strength->deviation}}, &by_moments));
+    TRY(fracas_pairs_choose(name, (fracas_pair_key[]){{"median", strength->median}, {"sigma", strength->sigma}},
+                         (fracas_pair_key[]){{"mean", strength->mean}, {"deviation", strength->deviation}}, &by_moments));
     if (!by_moments) return FRACAS_OK;
     const double ratio = strength->deviation / strength->mean;
-    TRY(fracas_choice_check(name, "deviation/mean", ratio, 1e-9, 1e9));
+    TRY(fracas_pairs_check(name, "deviation/mean", ratio, 1e-9, 1e9));
     strength->sigma = sqrt(fracas_log1p(ratio * ratio));
     strength->median = strength->mean / sqrt(1.0 + ratio * ratio);
     return FRACAS_OK;

@@ -1,6 +1,6 @@
 /* A law by its own parameters, or by mean and standard deviation. */
-#ifndef FRACAS_SAMPLER_CHOICE_H
-#define FRACAS_SAMPLER_CHOICE_H
+#ifndef FRACAS_SAMPLER_PAIRS_H
+#define FRACAS_SAMPLER_PAIRS_H
 
 #include "base/err.h"
 
@@ -21,12 +21,12 @@
 typedef struct {
     const char *key;
     double value; /* 0 or NaN where it is not given */
-} fracas_choice;
+} fracas_pair_key;
 
 /* *by_moments = whether the second pair is given and not the first. FRACAS_USAGE unless exactly one pair is given whole. */
-FRACAS_MUST_USE fracas_err fracas_choice_of(const char *law, const fracas_choice own[2], const fracas_choice moments[2], bool *by_moments);
+FRACAS_MUST_USE fracas_err fracas_pairs_choose(const char *law, const fracas_pair_key own[2], const fracas_pair_key moments[2], bool *by_moments);
 
 /* FRACAS_USAGE unless least <= ratio <= most, the ratio of `what` (as "deviation/mean"). */
-FRACAS_MUST_USE fracas_err fracas_choice_check(const char *law, const char *what, double ratio, double least, double most);
+FRACAS_MUST_USE fracas_err fracas_pairs_check(const char *law, const char *what, double ratio, double least, double most);
 
 #endif

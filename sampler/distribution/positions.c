@@ -4,7 +4,7 @@
  * a few lines. Nothing depends on the order of the lines. */
 #include "base/units.h"
 #include "sampler/distribution/distribution.h"
-#include "sampler/distribution/lines.h"
+#include "sampler/distribution/given.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -56,38 +56,6 @@ FRACAS_MUST_USE static fracas_err next_strength(fracas_lines *lines, double *val
     TRY(next_place(lines, &p, found));
     if (*found) *value = p.strength;
     return FRACAS_OK;
-}
-
-FRACAS_MUST_USE static fracas_err positions_init(fracas_strength *strength)
-{
-    fracas_lines_summary of;
-    return fracas_lines_summarize(strength->file, next_strength, &of);
-}
-
-/* The file was checked when the campaign was read. */
-static fracas_lines_summary summary_of(const fracas_strength *strength)
-{
-    fracas_lines_summary of;
-    return fracas_lines_summarize(strength->file, next_strength, &of) ? (fracas_lines_summary){.sum = NAN} : of;
-}
-
-static double positions_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
-{
-    (void)extent;
-    const fracas_lines_summary of = summary_of(strength);
-    return p.below < 0.5 ? of.smallest : of.largest;
-}
-
-static fracas_moments positions_moments(const fracas_strength *strength, fracas_extent extent)
-{
-    (void)extent;
-    const fracas_lines_summary of = summary_of(strength);
-    return (fracas_moments){of.sum / (double)of.count, sqrt(of.squares / (double)of.count)};
-}
-
-static size_t positions_count(const fracas_strength *strength)
-{
-    return summary_of(strength).count;
 }
 
 /* ---- the match ---- */
@@ -254,6 +222,6 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_positions = {
     .kind = {.name = "positions", .doc = "strengths of all interfaces from a file, found by where they are, the same for every replica",
              .params = params, .nparams = FRACAS_COUNT(params)},
-    .quantile = positions_quantile, .moments = positions_moments, .init = positions_init, .count = positions_count, .fill = positions_fill,
+    .quantile = fracas_given_quantile, .moments = fracas_given_moments, .init = fracas_given_init, .read = next_strength, .fill = positions_fill,
     .placed = true,
 };

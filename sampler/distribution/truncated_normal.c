@@ -2,7 +2,7 @@
 #include "sampler/distribution/distribution.h"
 
 #include "base/elementary.h"
-#include "sampler/distribution/choice.h"
+#include "sampler/distribution/pairs.h"
 #include "sampler/special/normal.h"
 
 /* The density of a standard normal variable. */
@@ -82,11 +82,11 @@ FRACAS_MUST_USE static fracas_err normal_init(fracas_strength *strength)
 {
     bool by_moments;
     const char *name = strength->distribution->name;
-    TRY(fracas_choice_of(name, (fracas_choice[]){{"mean", strength->mean}, {"deviation", strength->deviation}},
-                         (fracas_choice[]){{"kept_mean", strength->kept_mean}, {"kept_deviation", strength->kept_deviation}}, &by_moments));
+    TRY(fracas_pairs_choose(name, (fracas_pair_key[]){{"mean", strength->mean}, {"deviation", strength->deviation}},
+                         (fracas_pair_key[]){{"kept_mean", strength->kept_mean}, {"kept_deviation", strength->kept_deviation}}, &by_moments));
     if (!by_moments) return FRACAS_OK;
     const double ratio = strength->kept_deviation / strength->kept_mean;
-    TRY(fracas_choice_check(name, "kept_deviation/kept_mean", ratio, 1e-9, 0.7555));
+    TRY(fracas_pairs_check(name, "kept_deviation/kept_mean", ratio, 1e-9, 0.7555));
     double least = 0.0, most = 1.0 / ratio, k;
     while ((k = 0.5 * (least + most)) > least && k < most) {
         if (kept_deviation(k) > ratio * (k + normal_density(k) / fracas_normal_upper(-k))) least = k;

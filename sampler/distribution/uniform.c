@@ -1,7 +1,7 @@
 /* Uniform distribution between two strengths. */
 #include "sampler/distribution/distribution.h"
 
-#include "sampler/distribution/choice.h"
+#include "sampler/distribution/pairs.h"
 
 /* (sampling.4) */
 static double uniform_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
@@ -30,10 +30,10 @@ FRACAS_MUST_USE static fracas_err uniform_init(fracas_strength *strength)
 {
     bool by_moments;
     const char *name = strength->distribution->name;
-    TRY(fracas_choice_of(name, (fracas_choice[]){{"minimum", strength->minimum}, {"maximum", strength->maximum}},
-                         (fracas_choice[]){{"mean", strength->mean}, {"deviation", strength->deviation}}, &by_moments));
+    TRY(fracas_pairs_choose(name, (fracas_pair_key[]){{"minimum", strength->minimum}, {"maximum", strength->maximum}},
+                         (fracas_pair_key[]){{"mean", strength->mean}, {"deviation", strength->deviation}}, &by_moments));
     if (by_moments) {
-        TRY(fracas_choice_check(name, "deviation/mean", strength->deviation / strength->mean, 1e-9, 0.5773));
+        TRY(fracas_pairs_check(name, "deviation/mean", strength->deviation / strength->mean, 1e-9, 0.5773));
         strength->minimum = strength->mean - sqrt(3.0) * strength->deviation;
         strength->maximum = strength->mean + sqrt(3.0) * strength->deviation;
     }

@@ -2,7 +2,7 @@
 #include "sampler/distribution/distribution.h"
 
 #include "base/elementary.h"
-#include "sampler/distribution/choice.h"
+#include "sampler/distribution/pairs.h"
 #include "sampler/special/exponential.h"
 #include "sampler/special/weibull_shape.h"
 
@@ -42,15 +42,15 @@ FRACAS_MUST_USE static fracas_err weibull_init(fracas_strength *strength)
 {
     bool by_moments;
     const char *name = strength->distribution->name;
-    TRY(fracas_choice_of(name, (fracas_choice[]){{"scale", strength->scale}, {"shape", strength->shape}},
-                         (fracas_choice[]){{"mean", strength->mean}, {"deviation", strength->deviation}}, &by_moments));
+    TRY(fracas_pairs_choose(name, (fracas_pair_key[]){{"scale", strength->scale}, {"shape", strength->shape}},
+                         (fracas_pair_key[]){{"mean", strength->mean}, {"deviation", strength->deviation}}, &by_moments));
     if (!by_moments) return FRACAS_OK;
     const double above = strength->mean - strength->minimum;
     if (!(above > 0.0))
         return fracas_fail(FRACAS_USAGE, "strength.mean is %.15g Pa and strength.minimum %.15g Pa; the mean is above the minimum: raise "
                                          "it, or lower the minimum", strength->mean, strength->minimum);
     const double least = 1.0 / largest_shape, most = 1.0 / smallest_shape, ratio = strength->deviation / above;
-    TRY(fracas_choice_check(name, "deviation/(mean - minimum)", ratio, sqrt(fracas_weibull_variation(least)),
+    TRY(fracas_pairs_check(name, "deviation/(mean - minimum)", ratio, sqrt(fracas_weibull_variation(least)),
                             sqrt(fracas_weibull_variation(most))));
     const double x = fracas_weibull_shape_inverse(ratio * ratio, least, most);
     strength->shape = 1.0 / x;
