@@ -33,9 +33,10 @@ static double next_random(uint64_t *state)
     return (double)(*state >> 11) * 0x1p-53;
 }
 
-/* Random numbers for a perturbed mesh; never freed. */
+/* Random numbers for a perturbed mesh, in place of those it had; the caller frees mesh.noise. */
 static void perturb(fracas_spec *spec)
 {
+    free((void *)spec->mesh.noise);
     demand(fracas_mesh_noise_count(spec, &spec->mesh.nnoise));
     double *noise = malloc(spec->mesh.nnoise * sizeof *noise);
     uint64_t state = 7;
@@ -157,5 +158,6 @@ int main(int argc, char **argv)
            lanes, fracas_isa_name[batch->step.isa], 100.0 * (double)batch->step.cracked[0] / interfaces, rate[2], rate[0], rate[4]);
     fracas_batch_destroy(batch);
     fracas_model_destroy(model);
+    free((void *)spec.mesh.noise);
     return 0;
 }
