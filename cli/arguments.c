@@ -134,3 +134,46 @@ fracas_err fracas_arguments_word(const fracas_arguments *arguments, size_t i,
     return fracas_fail(FRACAS_USAGE, "%s: --%s is `%s`%s", arguments->command->name,
                        arguments->command->options[i].name, text, fracas_words_hint(&known, "it can be", hint));
 }
+
+/* [days-]hours:minutes:seconds, or hours:minutes:seconds without the days. */
+static bool read_clock(const char *text, double *seconds)
+{
+    unsigned days = 0, hours, minutes, rest;
+    int end = 0;
+    const bool with_days = sscanf(text, "%u-%u:%2u:%2u%n", &days, &hours, &minutes, &rest, &end) == 4;
+    if (!with_days) days = 0;
+    if (!with_days && sscanf(text, "%u:%2u:%2u%n", &hours, &minutes, &rest, &end) != 3) return false;
+    if (text[end] || minutes > 59 || rest > 59 || text[strspn(text, "0123456789:-")]) return false;
+    *seconds = 86400.0 * days + 3600.0 * hours + 60.0 * minutes + rest;
+    return true;
+}
+
+/* Numbers, each with its unit; one alone is s. */
+static bool read_duration(const char *text, double *seconds)
+{
+    static const char unit[] = "smhd";
+    static const double length[] = {1, 60, 3600, 86400};
+    *seconds = 0;
+    if (!*text || text[strspn(text, "0123456789.smhd")]) return false;
+    while (*text) {
+        char *end;
+        const double number = strtod(text, &end);
+        const char *found = *end ? strchr(unit, *end) : NULL;
+        if (end == text || (*end && !found) || (!*end && *seconds > 0)) return false;
+        *seconds += number * (found ? length[found - unit] : 1);
+        text = end + (found ? 1 : 0);
+    }
+    return isfinite(*seconds);
+}
+
+fracas_err fracas_arguments_time(const fracas_arguments *arguments, size_t i, double *seconds)
+{
+    const char *text = arguments->value[i];
+    double value;
+    if (!text) return FRACAS_OK;
+    if ((!read_clock(text, &value) && !read_duration(text, &value)) || value <= 0)
+        return fracas_fail(FRACAS_USAGE, "%s: --%s is `%s`; it must be a time above 0, such as 90s, 55m, 1h30m or 2:00:00",
+                           arguments->command->name, arguments->command->options[i].name, text);
+    *seconds = value;
+    return FRACAS_OK;
+}

@@ -14,7 +14,7 @@ typedef struct {
     char letter;          /* 'o' for -o, which is the same; 0: there is none */
 } fracas_option;
 
-enum { FRACAS_MOST_OPTIONS = 12 }; /* of one subcommand */
+enum { FRACAS_MOST_OPTIONS = 24 }; /* of one subcommand */
 
 typedef struct fracas_arguments fracas_arguments;
 
@@ -54,6 +54,9 @@ FRACAS_MUST_USE fracas_err fracas_arguments_integer(const fracas_arguments *argu
 FRACAS_MUST_USE fracas_err fracas_arguments_real(const fracas_arguments *arguments, size_t i, double scale, double *value);
 /* The same for one of `count` words: *value becomes its place. */
 FRACAS_MUST_USE fracas_err fracas_arguments_word(const fracas_arguments *arguments, size_t i, const char *const *words, size_t count, int *value);
+
+/* The same for a duration in s: a sum of numbers with s, m, h or d (`55m`, `1h30m`), or [days-]hours:minutes:seconds as Slurm writes it. */
+FRACAS_MUST_USE fracas_err fracas_arguments_time(const fracas_arguments *arguments, size_t i, double *seconds);
 
 /* FRACAS_DAMAGED, saying what makes one, where `study` is no folder of a study. */
 FRACAS_MUST_USE fracas_err fracas_cli_check_study(const char *study);

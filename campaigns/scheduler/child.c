@@ -15,28 +15,34 @@
 
 /* ---- in the child ---- */
 
+/* Realizations of a lease that are computed side by side. */
+typedef struct {
+    const int64_t *replica;
+    size_t count;
+} lanes;
+
 /* Documented at fracas_child_start. */
-static void crash_if_asked(const fracas_lease *lease)
+static void crash_if_asked(const fracas_lease *lease, const lanes *batch)
 {
     const char *victim = getenv("FRACAS_TEST_CRASH");
     unsigned long long point;
     long long replica;
     if (!victim || sscanf(victim, "%llu:%lld", &point, &replica) != 2 || lease->point != point) return;
-    for (size_t i = 0; i < lease->count; i++) {
-        if (lease->replica[i] != replica) continue;
+    for (size_t i = 0; i < batch->count; i++) {
+        if (batch->replica[i] != replica) continue;
         signal(SIGSEGV, SIG_DFL); /* a sanitizer would report it and exit instead */
         raise(SIGSEGV);
     }
 }
 
-static fracas_err fill_strengths(const fracas_campaign *campaign, const fracas_field *field, const fracas_lease *lease,
+static fracas_err fill_strengths(const fracas_campaign *campaign, const fracas_field *field, size_t point, const lanes *realizations,
                                  fracas_batch *batch)
 {
-    for (size_t lane = 0; lane < lease->count; lane++) {
+    for (size_t lane = 0; lane < realizations->count; lane++) {
         size_t stride;
         double *strength = fracas_batch_strength(batch, lane, &stride);
         const fracas_stream stream =
-            fracas_point_stream(campaign, (size_t)lease->point, FRACAS_PURPOSE_STRENGTH, (uint64_t)lease->replica[lane]);
+            fracas_point_stream(campaign, point, FRACAS_PURPOSE_STRENGTH, (uint64_t)realizations->replica[lane]);
         TRY(fracas_field_sample(field, &stream, stride, strength));
     }
     return FRACAS_OK;
@@ -53,26 +59,43 @@ static fracas_err send_record(int fd, const fracas_record *record)
     return err;
 }
 
-static fracas_err compute(const fracas_campaign *campaign, const fracas_run_options *options,
-                          const fracas_model *model, const fracas_field *field, const fracas_lease *lease, int fd)
+static fracas_err compute_batch(const fracas_campaign *campaign, const fracas_run_options *options, const fracas_model *model,
+                                const fracas_field *field, const fracas_lease *lease, const lanes *realizations, int fd)
 {
     fracas_batch_options batch_options = {.history = campaign->output.history,
                                           .interfaces = campaign->output.interfaces,
                                           .width = options->width,
                                           .isa = options->isa};
     fracas_batch *batch;
-    TRY(fracas_batch_create(model, lease->count, &batch_options, &batch));
-    fracas_err err = fill_strengths(campaign, field, lease, batch);
-    crash_if_asked(lease);
-    fracas_record record[FRACAS_LEASE_MAX];
-    for (size_t lane = 0; lane < lease->count; lane++) fracas_record_init(&record[lane]);
+    TRY(fracas_batch_create(model, realizations->count, &batch_options, &batch));
+    fracas_err err = fill_strengths(campaign, field, (size_t)lease->point, realizations, batch);
+    crash_if_asked(lease, realizations);
+    fracas_record record[FRACAS_BATCH_MAX];
+    for (size_t lane = 0; lane < realizations->count; lane++) fracas_record_init(&record[lane]);
     if (!err) err = fracas_batch_run(batch, record);
-    for (size_t lane = 0; lane < lease->count; lane++) {
+    for (size_t lane = 0; lane < realizations->count; lane++) {
         if (!err) err = send_record(fd, &record[lane]);
         fracas_record_clear(&record[lane]);
     }
     fracas_batch_destroy(batch);
     return err;
+}
+
+static size_t width_of(const fracas_run_options *options)
+{
+    return options->width ? (size_t)options->width : FRACAS_BATCH_MAX;
+}
+
+/* Batch after batch; the records of each are sent when it is done. */
+static fracas_err compute(const fracas_campaign *campaign, const fracas_run_options *options, const fracas_model *model,
+                          const fracas_field *field, const fracas_lease *lease, int fd)
+{
+    const size_t width = width_of(options), count = (size_t)lease->count;
+    for (size_t from = 0; from < count; from += width) {
+        const lanes realizations = {lease->replica + from, count - from < width ? count - from : width};
+        TRY(compute_batch(campaign, options, model, field, lease, &realizations, fd));
+    }
+    return FRACAS_OK;
 }
 
 /* ---- in the server ---- */
@@ -103,7 +126,8 @@ fracas_err fracas_child_start(fracas_child *child, const fracas_campaign *campai
         _exit(0);
     }
     close(fd[1]);
-    *child = (fracas_child){.pid = pid, .fd = fd[0], .lease = *lease, .began = fracas_now()};
+    *child = (fracas_child){.pid = pid, .fd = fd[0], .width = width_of(options), .began = fracas_now()};
+    memcpy(&child->lease, lease, fracas_lease_bytes(lease));
     return FRACAS_OK;
 }
 
@@ -125,57 +149,62 @@ fracas_err fracas_child_receive(fracas_child *child, bool *ended)
     return FRACAS_OK;
 }
 
-/* Cuts the bytes of a child that ended by itself into messages; a fault or a wrong number of records is a failure. */
-static fracas_err unpack(const fracas_child *child, bool *good, fracas_packet *record[FRACAS_LEASE_MAX],
-                         fracas_lease_failure *failure)
+/* Cuts what the child has sent into messages, as far as they are whole; a fault is a failure. */
+static fracas_err unpack(const fracas_child *child, fracas_packet **record, size_t *count, fracas_lease_failure *failure)
 {
-    size_t at = 0, n = 0;
+    size_t at = 0;
     fracas_packet head;
-    *good = true;
-    while (*good && child->size - at >= sizeof head) {
+    while (child->size - at >= sizeof head) {
         memcpy(&head, child->bytes + at, sizeof head);
         const unsigned char *body = child->bytes + at + sizeof head;
         at += fracas_packet_bytes(&head);
         if (at > child->size) break;
         if (head.kind == FRACAS_PACKET_FAULT && head.size == sizeof(fracas_trouble)) {
-            *good = false;
             memcpy(failure->reason, body + offsetof(fracas_trouble, text), sizeof failure->reason);
-        } else if (head.kind == FRACAS_PACKET_RECORD && n < child->lease.count) {
-            TRY(fracas_packet_create(FRACAS_PACKET_RECORD, body, head.size, &record[n++]));
+        } else if (head.kind == FRACAS_PACKET_RECORD && *count < child->lease.count) {
+            TRY(fracas_packet_create(FRACAS_PACKET_RECORD, body, head.size, &record[*count]));
+            ++*count;
         } else {
             break;
         }
     }
-    if (!*good || (n == child->lease.count && at == child->size)) return FRACAS_OK;
-    *good = false;
-    snprintf(failure->reason, sizeof failure->reason, "its process sent %zu of %llu records", n,
-             (unsigned long long)child->lease.count);
     return FRACAS_OK;
 }
 
-fracas_err fracas_child_collect(fracas_child *child, bool *good, fracas_packet *record[FRACAS_LEASE_MAX],
-                                fracas_lease_failure *failure)
+/* Waits for the process; says how it ended unless it ended well. */
+static fracas_err reap(fracas_child *child, char *reason, size_t size)
 {
-    memset(failure, 0, sizeof *failure);
-    failure->lease = child->lease.id;
-    for (size_t i = 0; i < FRACAS_LEASE_MAX; i++) record[i] = NULL;
     int status = 0;
     while (waitpid(child->pid, &status, 0) < 0)
         if (errno != EINTR) return fracas_fail(FRACAS_BUG, "cannot wait for a lease: %s", strerror(errno));
     child->pid = 0;
-    *good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-    fracas_err err = FRACAS_OK;
-    if (*good)
-        err = unpack(child, good, record, failure);
-    else if (WIFSIGNALED(status))
-        snprintf(failure->reason, sizeof failure->reason, "its process died of signal %d (%s)", WTERMSIG(status),
-                 strsignal(WTERMSIG(status)));
-    else
-        snprintf(failure->reason, sizeof failure->reason, "its process ended with status %d", WEXITSTATUS(status));
-    for (size_t i = 0; i < FRACAS_LEASE_MAX && (err || !*good); i++) {
-        free(record[i]);
-        record[i] = NULL;
+    if (WIFSIGNALED(status))
+        snprintf(reason, size, "its process died of signal %d (%s)", WTERMSIG(status), strsignal(WTERMSIG(status)));
+    else if (WEXITSTATUS(status))
+        snprintf(reason, size, "its process ended with status %d", WEXITSTATUS(status));
+    return FRACAS_OK;
+}
+
+fracas_err fracas_child_collect(fracas_child *child, bool *good, fracas_packet ***record, size_t *count, fracas_lease_failure *failure)
+{
+    const size_t wanted = (size_t)child->lease.count, width = child->width;
+    memset(failure, 0, sizeof *failure);
+    failure->lease = child->lease.id;
+    *count = 0;
+    *record = calloc(wanted, sizeof **record);
+    fracas_err err = *record ? reap(child, failure->reason, sizeof failure->reason) : fracas_no_memory("the records of a lease");
+    if (!err) err = unpack(child, *record, count, failure);
+    *good = !err && *count == wanted && !failure->reason[0];
+    if (!err && !*good) {
+        if (*count == wanted) free((*record)[--*count]); /* it ended badly after its last record: of that one we are not sure */
+        const size_t end = (*count / width + 1) * width; /* of the batch */
+        failure->kept = *count;
+        failure->count = (end < wanted ? end : wanted) - *count;
+        if (!failure->reason[0])
+            snprintf(failure->reason, sizeof failure->reason, "its process sent %zu of %zu records", *count, wanted);
     }
+    for (size_t i = 0; err && *record && i < *count; i++) free((*record)[i]);
+    if (err) free(*record), *record = NULL, *count = 0;
     fracas_child_clear(child);
     return err;
 }

@@ -14,6 +14,7 @@ typedef struct {
     pid_t pid; /* 0: none runs */
     int fd;    /* its records come here */
     fracas_lease lease;
+    size_t width;         /* realizations that it computes side by side */
     double began;         /* fracas_now */
     unsigned char *bytes; /* received so far */
     size_t size, capacity;
@@ -31,10 +32,10 @@ FRACAS_MUST_USE fracas_err fracas_child_start(fracas_child *child, const fracas_
 /* Takes what the child has sent, blocking until there is something; *ended when nothing more will come. */
 FRACAS_MUST_USE fracas_err fracas_child_receive(fracas_child *child, bool *ended);
 
-/* After the end: waits for the process. record[i] is the message for lease.replica[i] (freed by the caller), or
- * *good is false and failure->reason says which signal or error ended the lease. */
-FRACAS_MUST_USE fracas_err fracas_child_collect(fracas_child *child, bool *good,
-                                                fracas_packet *record[FRACAS_LEASE_MAX],
+/* After the end: waits for the process. record[i], of *count, is the message for lease.replica[i]; the caller frees each, and
+ * record with free(). *good is true when there is one for every realization; else failure says where the lease ended and by which
+ * signal or error. */
+FRACAS_MUST_USE fracas_err fracas_child_collect(fracas_child *child, bool *good, fracas_packet ***record, size_t *count,
                                                 fracas_lease_failure *failure);
 
 /* Kills the child if one runs and frees its buffer. */

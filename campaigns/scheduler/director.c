@@ -1,5 +1,6 @@
 #include "campaigns/scheduler/director.h"
 
+#include "campaigns/scheduler/clock.h"
 #include "campaigns/scheduler/costs.h"
 #include "campaigns/scheduler/meshes.h"
 #include "campaigns/scheduler/prepare.h"
@@ -26,6 +27,7 @@ struct fracas_director {
     int64_t *given;      /* replicas of each point that the scheduler knows */
     size_t nended;
     bool stopping; /* STOP was sent to all that work */
+    bool needless; /* everything is computed: what still runs is a duplicate */
     bool drained;  /* because of a signal */
     fracas_trouble trouble; /* the first; code FRACAS_OK: none */
 };
@@ -58,7 +60,8 @@ static fracas_err send(fracas_director *director, size_t worker, fracas_packet_k
 
 static void stop_worker(fracas_director *director, size_t worker)
 {
-    check(director, send(director, worker, FRACAS_PACKET_STOP, NULL, 0));
+    const int32_t kill = director->needless;
+    check(director, send(director, worker, FRACAS_PACKET_STOP, &kill, sizeof kill));
 }
 
 static void stop(fracas_director *director)
@@ -80,8 +83,11 @@ static fracas_err make_scheduler(fracas_director *director)
     TRY(fracas_rounds_init(&director->rounds, campaign, director->index));
     TRY(fracas_index_rows(director->index, &director->rounds.table, &row, &count));
     fracas_scheduler_options options = {.cost = director->cost,
+                                        .npoints = campaign->npoints,
                                         .workers = director->setup.workers,
-                                        .width = width ? (size_t)width : FRACAS_LEASE_MAX,
+                                        .width = width ? (size_t)width : FRACAS_BATCH_MAX,
+                                        .seconds = director->setup.options->lease_seconds,
+                                        .limit = director->setup.options->lease_limit,
                                         .shuffle = director->setup.options->shuffle,
                                         .seed = campaign->seed};
     fracas_err err = fracas_scheduler_create(row, count, &options, &director->scheduler);
@@ -138,6 +144,13 @@ static bool is_computed(const fracas_director *director)
     return fracas_scheduler_computed_all(director->scheduler) && director->rounds.open == 0;
 }
 
+static void stop_if_computed(fracas_director *director)
+{
+    if (!is_computed(director)) return;
+    director->needless = true;
+    stop(director);
+}
+
 fracas_err fracas_settled_verdict(const char *study, int64_t failed)
 {
     if (!failed) return FRACAS_OK;
@@ -161,7 +174,7 @@ fracas_err fracas_director_create(const fracas_director_setup *setup, fracas_dir
         return err;
     }
     *director = d;
-    if (is_computed(d)) stop(d); /* only study.h5 is missing */
+    stop_if_computed(d); /* only study.h5 is missing */
     return FRACAS_OK;
 }
 
@@ -196,10 +209,12 @@ static fracas_err mark_leased(fracas_director *director, const fracas_lease *lea
 static fracas_err offer(fracas_director *director, size_t worker)
 {
     fracas_lease lease;
-    while (!director->stopping && director->phase[worker] == WORKING &&
-           fracas_scheduler_next(director->scheduler, worker, &lease)) {
+    while (!director->stopping && director->phase[worker] == WORKING) {
+        bool given;
+        TRY(fracas_scheduler_next(director->scheduler, worker, fracas_now(), &lease, &given));
+        if (!given) break;
         TRY(mark_leased(director, &lease));
-        TRY(send(director, worker, FRACAS_PACKET_LEASE, &lease, sizeof lease));
+        TRY(send(director, worker, FRACAS_PACKET_LEASE, &lease, fracas_lease_bytes(&lease)));
     }
     return FRACAS_OK;
 }
@@ -276,10 +291,10 @@ static fracas_err hear_ready(fracas_director *director, size_t worker, const fra
 
 static fracas_err hear_computed(fracas_director *director, size_t worker, const fracas_packet *message)
 {
-    uint64_t id;
-    TRY(fracas_packet_expect(message, sizeof id));
-    memcpy(&id, message->body, sizeof id);
-    TRY(fracas_scheduler_computed(director->scheduler, worker, id));
+    fracas_lease_report report;
+    TRY(fracas_packet_expect(message, sizeof report));
+    memcpy(&report, message->body, sizeof report);
+    TRY(fracas_scheduler_computed(director->scheduler, worker, report.lease, fracas_now(), report.seconds));
     return offer(director, worker);
 }
 
@@ -290,13 +305,13 @@ static fracas_err hear_failed(fracas_director *director, size_t worker, const fr
     memcpy(&failure, message->body, sizeof failure);
     fracas_lease lease;
     bool final;
-    TRY(fracas_scheduler_failed(director->scheduler, worker, failure.lease, &lease, &final));
+    TRY(fracas_scheduler_failed(director->scheduler, worker, failure.lease, (size_t)failure.kept, (size_t)failure.count, &lease, &final));
     char hex[FRACAS_HASH_HEX], text[1400];
     const fracas_hash *point = &director->setup.campaign->point[lease.point].hash;
     fracas_hash_hex(point, hex);
     if (lease.count > 1) {
-        snprintf(text, sizeof text, "%llu realizations of point %llu (%s), replica %lld the first, are tried one by "
-                 "one: %s", (unsigned long long)lease.count, (unsigned long long)lease.point, hex,
+        snprintf(text, sizeof text, "%llu realizations of point %llu (%s), replica %lld the first, are tried in two "
+                 "halves: %s", (unsigned long long)lease.count, (unsigned long long)lease.point, hex,
                  (long long)lease.replica[0], failure.reason);
         TRY(fracas_index_event(director->index, "lease failed", text));
     } else {
@@ -374,7 +389,7 @@ void fracas_director_hear(fracas_director *director, size_t worker, const fracas
 {
     check(director, act(director, worker, message));
     check(director, flush_all(director));
-    if (is_computed(director)) stop(director);
+    stop_if_computed(director);
     fracas_scheduler_counts count = fracas_scheduler_count(director->scheduler);
     fracas_voice_progress(director->setup.voice, &count);
 }

@@ -3,7 +3,7 @@
  *
  *   rank 0 -> server   LEASE                         a lease to compute
  *                      FLUSH                         write the segment now
- *                      STOP                          drop what waits, finish what runs, write the segment, end
+ *                      STOP                          drop what waits, finish (or kill) what runs, write the segment, end
  *   rank 0 -> rank     QUIT                          the run is over
  *   server -> rank 0   READY                         up, with the hash of the campaign that it read
  *                      COMPUTED, FAILED, SEGMENT     what became of leases
@@ -23,11 +23,11 @@
 #include <stdint.h>
 
 typedef enum {
-    FRACAS_PACKET_LEASE = 1, /* fracas_lease */
-    FRACAS_PACKET_STOP,      /* empty */
+    FRACAS_PACKET_LEASE = 1, /* fracas_lease, its first fracas_lease_bytes */
+    FRACAS_PACKET_STOP,      /* int32_t: not 0: what runs is not needed, kill it */
     FRACAS_PACKET_QUIT,      /* empty */
     FRACAS_PACKET_READY,     /* fracas_hash */
-    FRACAS_PACKET_COMPUTED,  /* uint64_t, the lease */
+    FRACAS_PACKET_COMPUTED,  /* fracas_lease_report */
     FRACAS_PACKET_FAILED,    /* fracas_lease_failure */
     FRACAS_PACKET_SEGMENT,   /* fracas_segment_note, its rows, its provenance with the final '\0' */
     FRACAS_PACKET_TROUBLE,   /* fracas_trouble */
@@ -53,6 +53,13 @@ typedef struct {
 
 typedef struct {
     uint64_t lease;
+    double seconds; /* that it took */
+} fracas_lease_report;
+
+typedef struct {
+    uint64_t lease;
+    uint64_t kept;  /* realizations that were computed before, whose records the server has */
+    uint64_t count; /* of those after them that were computed together when it happened, 1 to FRACAS_BATCH_MAX */
     char reason[1024];
 } fracas_lease_failure;
 

@@ -11,9 +11,11 @@
 
 #include <stdlib.h>
 
+const char *const fracas_isolation_name[2] = {"lease", "none"};
+
 void fracas_run_options_init(fracas_run_options *options)
 {
-    *options = (fracas_run_options){.isa = FRACAS_ISA_BEST, .segment_age = 5, .segment_bytes = 64.0 * 1024 * 1024};
+    *options = (fracas_run_options){.isa = FRACAS_ISA_BEST, .segment_age = 5, .segment_bytes = 64.0 * 1024 * 1024, .lease_seconds = 1};
 }
 
 /* Rank that a launcher gave to this process; -1 if none did. */

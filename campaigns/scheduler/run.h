@@ -7,6 +7,13 @@
 
 #include <stdbool.h>
 
+/* What a crash of a realization can take with it. */
+typedef enum {
+    FRACAS_ISOLATION_LEASE, /* its lease: a process for each */
+    FRACAS_ISOLATION_NONE   /* its compute server, which is started anew: leases are computed in it */
+} fracas_isolation;
+extern const char *const fracas_isolation_name[2]; /* "lease", "none" */
+
 typedef struct {
     const char *file;    /* campaign file */
     const char *study;   /* study folder; NULL: studies/<name> */
@@ -16,9 +23,19 @@ typedef struct {
     double segment_age;  /* s: a segment is written when it is this old ... */
     double segment_bytes; /* ... or this big */
     bool shuffle;        /* lease in a shuffled order: a test of the schedule's independence */
+    fracas_isolation isolation;
+    double lease_seconds; /* s that a lease should take */
+    double lease_limit;  /* s after which one is killed; 0: 600 s and 50 times what is predicted */
+    double memory_limit; /* bytes that the process of a lease may allocate; 0: no limit but the machine's */
+    double walltime;     /* s after which the run must have drained; 0: none */
+    int64_t replicas;    /* of every point, instead of the campaign file's; 0: as the file says */
+    int part, parts;     /* compute every parts-th realization, from the part-th on (1 to parts); parts 0 or 1: all */
+    bool force;          /* take over the lock of another host */
+    bool ignore_space;   /* start although the disk is too small for what is predicted */
+    const char *stand_in; /* NULL, or what leases do instead of computing (fracas bench scheduler) */
 } fracas_run_options;
 
-/* Defaults: jobs 0, width 0, best instruction set, segment_age 5 s, segment_bytes 64 MiB. */
+/* Defaults: jobs 0, width 0, best instruction set, segment_age 5 s, segment_bytes 64 MiB, lease_seconds 1, all else 0. */
 void fracas_run_options_init(fracas_run_options *options);
 
 /* Runs (or resumes, or extends) the campaign until study.h5 is there. Called by the parent it starts

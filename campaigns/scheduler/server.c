@@ -24,7 +24,7 @@ typedef struct {
     const fracas_run_options *options;
     const char *study;
     fracas_lease waiting[FRACAS_LEASES_HELD];
-    size_t nwaiting;
+    size_t first, nwaiting; /* a ring */
     fracas_child child;
     fracas_models models;
     fracas_segment segment;
@@ -49,17 +49,17 @@ static fracas_err write_segment(server *s)
 /* Starts the next lease. A model that cannot be built fails the lease, not the server. */
 static fracas_err start_next(server *s)
 {
-    fracas_lease lease = s->waiting[0];
+    const fracas_lease *lease = &s->waiting[s->first];
+    s->first = (s->first + 1) % FRACAS_LEASES_HELD;
     s->nwaiting--;
-    memmove(s->waiting, s->waiting + 1, s->nwaiting * sizeof *s->waiting);
     const fracas_model *model;
     const fracas_field *field;
-    if (fracas_models_get(&s->models, s->campaign, (size_t)lease.point, &model, &field)) {
-        fracas_lease_failure failure = {.lease = lease.id};
+    if (fracas_models_get(&s->models, s->campaign, (size_t)lease->point, &model, &field)) {
+        fracas_lease_failure failure = {.lease = lease->id, .count = lease->count < FRACAS_BATCH_MAX ? lease->count : FRACAS_BATCH_MAX};
         strncpy(failure.reason, fracas_message(), sizeof failure.reason - 1);
         return say_failed(s, &failure);
     }
-    return fracas_child_start(&s->child, s->campaign, s->options, model, field, &lease, s->rank);
+    return fracas_child_start(&s->child, s->campaign, s->options, model, field, lease, s->rank);
 }
 
 /* The child sent something, or ended: then its records go to the segment and rank 0 hears of the lease. */
@@ -68,22 +68,25 @@ static fracas_err hear_child(server *s)
     bool ended, good;
     TRY(fracas_child_receive(&s->child, &ended));
     if (!ended) return FRACAS_OK;
-    fracas_lease lease = s->child.lease;
-    double seconds = fracas_now() - s->child.began;
-    fracas_packet *record[FRACAS_LEASE_MAX];
+    const fracas_lease lease = s->child.lease;
+    const double seconds = fracas_now() - s->child.began;
+    fracas_packet **record;
+    size_t count;
     fracas_lease_failure failure;
-    TRY(fracas_child_collect(&s->child, &good, record, &failure));
-    if (!good) return say_failed(s, &failure);
+    TRY(fracas_child_collect(&s->child, &good, &record, &count, &failure));
     fracas_err err = FRACAS_OK;
-    for (size_t i = 0; i < lease.count; i++) {
+    for (size_t i = 0; i < count; i++) {
         if (err)
             free(record[i]);
         else
             err = fracas_segment_add(&s->segment, (size_t)lease.point, lease.replica[i], record[i]);
     }
+    free(record);
     s->segment.compute += seconds;
     if (err) return err;
-    return fracas_packet_send(s->rank, FRACAS_PACKET_COMPUTED, &lease.id, sizeof lease.id);
+    if (!good) return say_failed(s, &failure);
+    const fracas_lease_report report = {lease.id, seconds};
+    return fracas_packet_send(s->rank, FRACAS_PACKET_COMPUTED, &report, sizeof report);
 }
 
 static fracas_err hear_rank(server *s)
@@ -94,12 +97,20 @@ static fracas_err hear_rank(server *s)
     if (!message) {
         s->alone = true;
     } else if (message->kind == FRACAS_PACKET_STOP) {
+        int32_t kill = 0;
+        err = fracas_packet_expect(message, sizeof kill);
+        if (!err) memcpy(&kill, message->body, sizeof kill);
+        if (kill) fracas_child_clear(&s->child);
         s->stopping = true;
     } else if (message->kind == FRACAS_PACKET_FLUSH) {
         if (s->segment.count) err = write_segment(s);
     } else if (message->kind == FRACAS_PACKET_LEASE && s->nwaiting < FRACAS_LEASES_HELD) {
-        err = fracas_packet_expect(message, sizeof(fracas_lease));
-        if (!err) memcpy(&s->waiting[s->nwaiting++], message->body, sizeof(fracas_lease));
+        fracas_lease *lease = &s->waiting[(s->first + s->nwaiting) % FRACAS_LEASES_HELD];
+        err = message->size <= sizeof *lease ? fracas_packet_expect(message, offsetof(fracas_lease, replica) + sizeof *lease->replica)
+                                             : fracas_fail(FRACAS_BUG, "a lease of %u bytes", message->size);
+        if (!err) memcpy(lease, message->body, message->size);
+        if (!err && fracas_lease_bytes(lease) != message->size) err = fracas_fail(FRACAS_BUG, "a lease of %u bytes", message->size);
+        if (!err) s->nwaiting++;
     } else {
         err = fracas_fail(FRACAS_BUG, "a compute server got a message of kind %u", message->kind);
     }

@@ -7,7 +7,7 @@ expect 0 "$fracas" run small.yaml --study one --jobs 1
 [ "$(segments one)" -ge 1 ] || fail "no segments"
 
 compare small.yaml --jobs 2 --segment-age 0.1
-compare small.yaml --jobs 4 --lanes 1 --shuffle --segment-size 1e-6 # a segment for each lease
+compare small.yaml --jobs 4 --lanes 1 --lease-time 0 --shuffle --segment-size 1e-6 # a segment for each lease
 [ "$(segments "other$others")" -eq 36 ] || fail "$(segments "other$others") segments instead of 36"
 compare small.yaml --jobs 2 --lanes 4 --shuffle
 compare small.yaml --jobs 2 --lanes 8 --isa baseline

@@ -1,0 +1,93 @@
+#include "cli/run_options.h"
+
+#include "base/param.h"
+#include "campaigns/campaign.h"
+#include "campaigns/scheduler/prepare.h"
+
+#include <limits.h>
+#include <stdio.h>
+
+enum { STUDY, JOBS, REPLICAS, PART, WALLTIME, ISOLATION, LEASE_TIME, LEASE_LIMIT, MEMORY_LIMIT, LANES, ISA, SEGMENT_AGE, SEGMENT_SIZE,
+       SHUFFLE, FORCE, IGNORE_SPACE };
+const fracas_option fracas_cli_run_options[FRACAS_NRUN_OPTIONS] = {
+    [STUDY] = {"study", "DIR", "folder of the study (studies/NAME, NAME from the campaign file)"},
+    [JOBS] = {"jobs", "N", "processes that compute (one a core)"},
+    [REPLICAS] = {"replicas", "N", "replicas of every point (as the campaign file says)"},
+    [PART] = {"part", "K/N", "compute the K-th of N parts only, for `fracas merge-studies`"},
+    [WALLTIME] = {"walltime", "TIME", "have stopped, resumable, after TIME: 55m, 1h30m, 2:00:00"},
+    [ISOLATION] = {"isolation", "lease|none", "a process for each lease, or none (lease)"},
+    [LEASE_TIME] = {"lease-time", "S", "lease so much that it takes S seconds; 0: one batch (1)"},
+    [LEASE_LIMIT] = {"lease-limit", "TIME", "kill a lease after TIME (10m and 50 times its prediction)"},
+    [MEMORY_LIMIT] = {"memory-limit", "MB", "memory that a lease may allocate (the machine's)"},
+    [LANES] = {"lanes", "1|4|8", "realizations side by side in a batch (as many as fit)"},
+    [ISA] = {"isa", "baseline|avx2|avx512", "instruction set (the best there is)"},
+    [SEGMENT_AGE] = {"segment-age", "S", "write a segment when it is S seconds old (5)"},
+    [SEGMENT_SIZE] = {"segment-size", "MB", "or has MB megabytes (64; 1 MB is 1048576 bytes)"},
+    [SHUFFLE] = {"shuffle", NULL, "compute in a shuffled order (the results are the same)"},
+    [FORCE] = {"force", NULL, "take the study over from a run on another host that is dead"},
+    [IGNORE_SPACE] = {"ignore-space", NULL, "start though the disk has less space than is predicted"},
+};
+
+static fracas_err read_part(const fracas_arguments *arguments, fracas_run_options *run)
+{
+    const char *text = arguments->value[PART];
+    int end = 0;
+    if (!text) return FRACAS_OK;
+    if (sscanf(text, "%d/%d%n", &run->part, &run->parts, &end) == 2 && !text[end] && run->part >= 1 && run->part <= run->parts)
+        return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "%s: --part is `%s`; it must be K/N with K from 1 to N, such as 1/2", arguments->command->name, text);
+}
+
+fracas_err fracas_cli_read_run_options(const fracas_arguments *arguments, fracas_run_options *run, const char **study)
+{
+    static const char *const lanes[] = {"1", "4", "8"};
+    static const int widths[] = {1, 4, 8};
+    int width = -1, isa = FRACAS_ISA_BEST, isolation = FRACAS_ISOLATION_LEASE, replicas = 0;
+
+    fracas_run_options_init(run);
+    *study = arguments->value[STUDY];
+    run->shuffle = arguments->value[SHUFFLE];
+    run->force = arguments->value[FORCE];
+    run->ignore_space = arguments->value[IGNORE_SPACE];
+    TRY(fracas_arguments_integer(arguments, JOBS, 1, INT_MAX, &run->jobs));
+    TRY(fracas_arguments_integer(arguments, REPLICAS, 1, INT_MAX, &replicas));
+    run->replicas = replicas;
+    TRY(read_part(arguments, run));
+    TRY(fracas_arguments_time(arguments, WALLTIME, &run->walltime));
+    TRY(fracas_arguments_word(arguments, ISOLATION, fracas_isolation_name, 2, &isolation));
+    run->isolation = (fracas_isolation)isolation;
+    TRY(fracas_arguments_real(arguments, LEASE_TIME, 1.0, &run->lease_seconds));
+    TRY(fracas_arguments_time(arguments, LEASE_LIMIT, &run->lease_limit));
+    TRY(fracas_arguments_real(arguments, MEMORY_LIMIT, 1048576.0, &run->memory_limit));
+    TRY(fracas_arguments_word(arguments, LANES, lanes, FRACAS_COUNT(lanes), &width));
+    if (width >= 0) run->width = widths[width];
+    TRY(fracas_arguments_word(arguments, ISA, fracas_isa_name, FRACAS_NISAS, &isa));
+    run->isa = (fracas_isa)isa;
+    TRY(fracas_arguments_real(arguments, SEGMENT_AGE, 1.0, &run->segment_age));
+    return fracas_arguments_real(arguments, SEGMENT_SIZE, 1048576.0, &run->segment_bytes);
+}
+
+/* Where the run left its study. */
+static fracas_err find_study(const fracas_run_options *run, char *study, size_t size)
+{
+    fracas_campaign *campaign;
+    TRY(fracas_campaign_read(run->file, &campaign));
+    fracas_err code = fracas_study_folder(run, campaign, study, size);
+    fracas_campaign_destroy(campaign);
+    return code;
+}
+
+fracas_err fracas_cli_run(const fracas_run_options *run, int argc, char **argv)
+{
+    bool ran;
+    fracas_err end = fracas_run(run, argc, argv, &ran);
+    if (!fracas_run_speaks()) return FRACAS_OK;
+    if (end != FRACAS_OK && end != FRACAS_SOME_FAILED) return end;
+
+    char study[PATH_MAX], message[1024]; /* how the run ended, said after the report */
+    snprintf(message, sizeof message, "%s", fracas_message());
+    TRY(find_study(run, study, sizeof study));
+    if (!ran) fprintf(stderr, "fracas: %s is complete, nothing to compute\n", study);
+    TRY(fracas_cli_report(study, false));
+    return end ? fracas_fail(end, "%s", message) : FRACAS_OK;
+}

@@ -1,0 +1,20 @@
+/* The options of all commands that compute: run, extend, retry. */
+#ifndef FRACAS_CLI_RUN_OPTIONS_H
+#define FRACAS_CLI_RUN_OPTIONS_H
+
+#include "cli/cli.h"
+
+#include "campaigns/scheduler/run.h"
+
+/* In the place of `fracas_command.options`. */
+enum { FRACAS_NRUN_OPTIONS = 16 };
+extern const fracas_option fracas_cli_run_options[FRACAS_NRUN_OPTIONS];
+
+/* *run from the command line; run->file and run->study are left to the caller: *study is what --study says, NULL if it was not given. */
+FRACAS_MUST_USE fracas_err fracas_cli_read_run_options(const fracas_arguments *arguments, fracas_run_options *run, const char **study);
+
+/* Runs with these options and ends as `fracas run` does: table and report on standard output, the verdict as the error. `argc`,
+ * `argv`: the command line of the ranks, `fracas run FILE ...`, which must give the same options. */
+FRACAS_MUST_USE fracas_err fracas_cli_run(const fracas_run_options *run, int argc, char **argv);
+
+#endif
