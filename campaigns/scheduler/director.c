@@ -305,7 +305,8 @@ static fracas_err hear_failed(fracas_director *director, size_t worker, const fr
     memcpy(&failure, message->body, sizeof failure);
     fracas_lease lease;
     bool final;
-    TRY(fracas_scheduler_failed(director->scheduler, worker, failure.lease, (size_t)failure.kept, (size_t)failure.count, &lease, &final));
+    TRY(fracas_scheduler_failed(director->scheduler, worker, failure.lease, fracas_now(), (size_t)failure.kept, (size_t)failure.count,
+                                &lease, &final));
     char hex[FRACAS_HASH_HEX], text[1400];
     const fracas_hash *point = &director->setup.campaign->point[lease.point].hash;
     fracas_hash_hex(point, hex);
