@@ -13,6 +13,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -90,6 +91,7 @@ static void set_up_process(keeper *k)
         dup2(null, STDOUT_FILENO); /* rank 0's, on which the parent reads lines */
         if (null > STDERR_FILENO) close(null);
     }
+    prctl(PR_SET_CHILD_SUBREAPER, 1);
     sigset_t child;
     sigemptyset(&child);
     sigaddset(&child, SIGCHLD);
@@ -125,12 +127,25 @@ static fracas_err start_server(keeper *k, int *connection, pid_t *pid)
     return err;
 }
 
+/* True, and its status, when the server has ended. Children that it or the one before left behind are buried as well. */
+static bool bury(pid_t server, int *status)
+{
+    bool ended = false;
+    int one;
+    for (pid_t pid; (pid = waitpid(-1, &one, WNOHANG)) > 0;) {
+        if (pid != server) continue;
+        ended = true;
+        *status = one;
+    }
+    return ended;
+}
+
 /* Until the server's end. Once the rank has let go of it, it has PATIENCE. */
 static int wait_for_server(const keeper *k, pid_t pid)
 {
     double until = INFINITY;
-    int status;
-    while (waitpid(pid, &status, WNOHANG) != pid) {
+    int status = 0;
+    while (!bury(pid, &status)) {
         const bool let_go = !isinf(until);
         const double left = let_go ? fmax(until - fracas_now(), 1e-3) : 0;
         const struct timespec timeout = {.tv_sec = (time_t)left, .tv_nsec = (long)(fmod(left, 1) * 1e9)};
