@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-typedef enum { STARTING, WORKING, ENDED } worker_phase;
+typedef enum { STARTING, WORKING, STOPPING, ENDED } worker_phase;
 
 struct fracas_director {
     fracas_director_setup setup;
@@ -61,6 +61,7 @@ static fracas_err send(fracas_director *director, size_t worker, fracas_packet_k
 static void stop_worker(fracas_director *director, size_t worker)
 {
     const int32_t kill = director->needless;
+    director->phase[worker] = STOPPING;
     check(director, send(director, worker, FRACAS_PACKET_STOP, &kill, sizeof kill));
 }
 
@@ -371,6 +372,26 @@ static fracas_err hear_end(fracas_director *director, size_t worker, const fraca
     return offer_all(director);
 }
 
+/* The worker's server died, and READY of a new one will come. What the dead one held or had in memory is to be done, even where
+ * nothing was left and all were told to stop: then this worker goes on. */
+static fracas_err hear_replaced(fracas_director *director, size_t worker, const fracas_packet *message)
+{
+    fracas_trouble trouble;
+    TRY(fracas_packet_expect(message, sizeof trouble));
+    memcpy(&trouble, message->body, sizeof trouble);
+    fracas_scheduler_lost(director->scheduler, worker);
+    director->phase[worker] = STARTING;
+    director->flushing[worker] = false;
+    if (director->needless && !is_computed(director)) {
+        director->needless = false;
+        director->stopping = director->drained || director->trouble.code;
+    }
+    fracas_voice_say(director->setup.voice, "%s", trouble.text);
+    TRY(fracas_index_event(director->index, "server replaced", trouble.text));
+    TRY(send(director, worker, FRACAS_PACKET_FRESH, NULL, 0));
+    return offer_all(director);
+}
+
 static fracas_err act(fracas_director *director, size_t worker, const fracas_packet *message)
 {
     switch ((fracas_packet_kind)message->kind) {
@@ -378,6 +399,7 @@ static fracas_err act(fracas_director *director, size_t worker, const fracas_pac
     case FRACAS_PACKET_COMPUTED: return hear_computed(director, worker, message);
     case FRACAS_PACKET_FAILED: return hear_failed(director, worker, message);
     case FRACAS_PACKET_SEGMENT: return hear_segment(director, worker, message);
+    case FRACAS_PACKET_REPLACED: return hear_replaced(director, worker, message);
     case FRACAS_PACKET_TROUBLE:
     case FRACAS_PACKET_LOST:
     case FRACAS_PACKET_ENDED: return hear_end(director, worker, message);
