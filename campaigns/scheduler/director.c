@@ -417,6 +417,11 @@ void fracas_director_hear(fracas_director *director, size_t worker, const fracas
     fracas_voice_progress(director->setup.voice, &count);
 }
 
+void fracas_director_note(fracas_director *director, const char *kind, const char *text)
+{
+    check(director, fracas_index_event(director->index, kind, text));
+}
+
 void fracas_director_drain(fracas_director *director)
 {
     if (director->drained) return;

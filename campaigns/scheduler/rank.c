@@ -22,7 +22,7 @@ enum {
     DEATHS_MAX = 5 /* of servers, one after another, that have done nothing in between */
 };
 
-/* Set by SIGUSR1 (the parent, by way of mpirun), SIGTERM and SIGINT (mpirun, srun, a scheduler). */
+/* Set by SIGUSR1 (the parent, by way of mpirun), SIGUSR2, SIGTERM and SIGINT (mpirun, srun, a batch system). */
 static volatile sig_atomic_t drain_asked;
 
 static void ask_drain(int signal_number)
@@ -244,6 +244,8 @@ static fracas_err lead(rank_state *rank, fracas_voice *voice, bool *ran)
     TRY(fracas_director_create(&setup, &director, &verdict));
     *ran = director != NULL;
     if (!director) return verdict;
+    const char *restarted = getenv(FRACAS_RESTARTED);
+    if (voice->parent && restarted) fracas_director_note(director, "restarted", restarted);
     verdict = direct(rank, director);
     if (!verdict) verdict = fracas_director_finish(director);
     fracas_director_destroy(director);
@@ -275,6 +277,7 @@ static void catch_signals(void)
     struct sigaction drain = {.sa_handler = ask_drain, .sa_flags = SA_RESTART};
     sigemptyset(&drain.sa_mask);
     sigaction(SIGUSR1, &drain, NULL);
+    sigaction(SIGUSR2, &drain, NULL);
     sigaction(SIGTERM, &drain, NULL);
     sigaction(SIGINT, &drain, NULL);
     signal(SIGPIPE, SIG_IGN); /* a write that cannot be is an error like others */
