@@ -120,7 +120,7 @@ static fracas_err open_study(fracas_director *director, bool *settled, int64_t *
 {
     const fracas_director_setup *setup = &director->setup;
     char *report = NULL;
-    TRY(fracas_study_prepare(setup->study, setup->campaign, &director->lock, &director->index, &report));
+    TRY(fracas_study_prepare(setup->study, setup->campaign, setup->options->force, &director->lock, &director->index, &report));
     fracas_err err = fracas_study_settled(setup->study, director->index, setup->campaign, settled, failed);
     if (!err && !*settled) err = make_scheduler(director);
     if (!err && !*settled) err = announce(director, report);
@@ -185,7 +185,7 @@ void fracas_director_destroy(fracas_director *director)
     fracas_scheduler_destroy(director->scheduler);
     fracas_rounds_clear(&director->rounds);
     fracas_index_close(director->index);
-    if (director->lock >= 0) close(director->lock);
+    fracas_study_unlock(director->lock);
     free(director->cost);
     free(director->phase);
     free(director->flushing);

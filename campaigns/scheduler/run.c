@@ -49,7 +49,7 @@ static fracas_err examine(const fracas_run_options *options, bool *settled, frac
     char study[4096];
     int64_t failed = 0;
     fracas_err err = fracas_study_folder(options, campaign, study, sizeof study);
-    if (!err) err = fracas_study_examine(study, campaign, settled, &failed);
+    if (!err) err = fracas_study_examine(study, campaign, options->force, settled, &failed);
     *verdict = err ? err : fracas_settled_verdict(study, failed);
     double *cost;
     if (!err && !*settled) err = fracas_costs_create(campaign, options, &cost);
