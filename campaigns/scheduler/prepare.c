@@ -192,11 +192,10 @@ static fracas_err copy_attachments(const char *study, const fracas_campaign *cam
     return FRACAS_OK;
 }
 
-/* The part of preparation under the lock. */
-static fracas_err open_and_plan(const char *study, const fracas_campaign *campaign, fracas_index **index,
-                                char **report)
+fracas_err fracas_study_plan(const char *study, const fracas_campaign *campaign, fracas_index **index, char **report)
 {
     *report = NULL;
+    *index = NULL;
     TRY(fracas_study_fits(study, campaign));
     TRY(fracas_index_open(study, true, index));
     fracas_file_header header = fracas_segment_header(campaign);
@@ -229,7 +228,7 @@ fracas_err fracas_study_prepare(const char *study, const fracas_campaign *campai
     TRY(join(study, "segments", segments));
     TRY(make_folder(segments));
     TRY(fracas_study_lock(study, force, lock));
-    fracas_err err = open_and_plan(study, campaign, index, report);
+    fracas_err err = fracas_study_plan(study, campaign, index, report);
     if (!err) err = note_takeover(*index, *lock);
     if (err) {
         fracas_study_unlock(*lock);

@@ -33,4 +33,7 @@ FRACAS_MUST_USE fracas_err fracas_study_examine(const char *study, const fracas_
 FRACAS_MUST_USE fracas_err fracas_study_prepare(const char *study, const fracas_campaign *campaign, bool force, int *lock,
                                                 fracas_index **index, char **report);
 
+/* The part of this that needs the lock, for one who has it; the folders are there. */
+FRACAS_MUST_USE fracas_err fracas_study_plan(const char *study, const fracas_campaign *campaign, fracas_index **index, char **report);
+
 #endif

@@ -210,8 +210,9 @@ static fracas_err place_or_plan(fracas_index *index, const fracas_point_table *t
     return err;
 }
 
-/* Reads every record, so that every checksum of the file is looked at. */
-static fracas_err read_rows(fracas_reader *reader, const fracas_point_table *table, fracas_index *index, fracas_segment_row *row)
+/* Reads every record, so that every checksum of the file is looked at. *asked becomes false if one is of no realization here. */
+static fracas_err read_rows(fracas_reader *reader, const fracas_point_table *table, fracas_index *index, fracas_segment_row *row,
+                            bool *asked)
 {
     fracas_record record;
     fracas_err err = FRACAS_OK;
@@ -229,28 +230,35 @@ static fracas_err read_rows(fracas_reader *reader, const fracas_point_table *tab
         row[r].dissipated = record.dissipated;
         row[r].residual = record.residual;
         row[r].size = fracas_record_mean_size(&record);
-        err = place_or_plan(index, table, &row[r].point, row[r].replica); /* FRACAS_DAMAGED: of no point here */
+        if (*asked) err = place_or_plan(index, table, &row[r].point, row[r].replica);
+        if (err == FRACAS_DAMAGED) *asked = false, err = FRACAS_OK;
     }
     fracas_record_clear(&record);
     return err;
 }
 
-/* Commits the rows of an open segment. */
+/* Commits the rows of an open segment, if this campaign asks for all of them; what goes wrong when it is *sound is not its fault. */
 static fracas_err adopt(const char *path, const char *name, fracas_reader *reader, const fracas_file_seal *seal,
-                        const fracas_point_table *table, fracas_index *index)
+                        const fracas_point_table *table, fracas_index *index, bool *sound, FILE *report)
 {
     size_t count = fracas_reader_realizations(reader);
+    bool asked = true;
     fracas_segment_row *row = calloc(count + 1, sizeof *row);
-    fracas_err err = row ? read_rows(reader, table, index, row) : fracas_no_memory("the rows of a segment");
-    if (!err) err = fracas_disk_sync_folder(path); /* whoever renamed it may have died before this */
-    if (!err) err = fracas_index_commit(index, name, seal, row, count, "{\"adopted\": true}");
+    fracas_err err = row ? read_rows(reader, table, index, row, &asked) : fracas_no_memory("the rows of a segment");
+    *sound = !err;
+    if (!err && !asked)
+        fprintf(report, "left %s, which has realizations that this campaign does not ask for; move it away, or run the campaign that "
+                "does\n", path);
+    if (!err && asked) err = fracas_disk_sync_folder(path); /* whoever renamed it may have died before this */
+    if (!err && asked) err = fracas_index_commit(index, name, seal, row, count, "{\"adopted\": true}");
+    if (!err && asked) fprintf(report, "adopted %s with %zu realizations\n", path, count);
     free(row);
     return err;
 }
 
 /* Adopts a segment, or leaves it: what another program or campaign computed is not ours to remove. */
 static fracas_err adopt_or_leave(const char *path, const char *name, const fracas_point_table *table, fracas_index *index,
-                                 const fracas_identity *identity, FILE *report)
+                                 const fracas_identity *identity, bool *sound, FILE *report)
 {
     fracas_reader *reader;
     fracas_file_seal seal;
@@ -268,8 +276,8 @@ static fracas_err adopt_or_leave(const char *path, const char *name, const fraca
     fracas_err err = FRACAS_OK;
     if (fracas_identity_differs(&found, identity, text))
         fprintf(report, "left %s, which is not of this study: %s; move it away\n", path, text);
-    else if (!(err = adopt(path, name, reader, &seal, table, index)))
-        fprintf(report, "adopted %s with %zu realizations\n", path, fracas_reader_realizations(reader));
+    else
+        err = adopt(path, name, reader, &seal, table, index, sound, report);
     fracas_reader_close(reader);
     return err;
 }
@@ -277,8 +285,9 @@ static fracas_err adopt_or_leave(const char *path, const char *name, const fraca
 static fracas_err adopt_or_set_aside(const char *path, const char *name, const fracas_point_table *table, fracas_index *index,
                                   const fracas_identity *identity, FILE *report)
 {
-    fracas_err err = adopt_or_leave(path, name, table, index, identity, report);
-    if (err != FRACAS_DAMAGED) return err;
+    bool sound = false;
+    fracas_err err = adopt_or_leave(path, name, table, index, identity, &sound, report);
+    if (err != FRACAS_DAMAGED || sound) return err;
     fprintf(report, "%s", fracas_message());
     return set_aside(path, report);
 }

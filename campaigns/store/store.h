@@ -110,6 +110,8 @@ size_t fracas_record_packed_size(const fracas_record *record);
 void fracas_record_pack(const fracas_record *record, void *bytes);
 /* FRACAS_BUG if `size` does not fit what the bytes say. */
 FRACAS_MUST_USE fracas_err fracas_record_unpack(const void *bytes, size_t size, fracas_record *record);
+/* Equal in every bit, all parts. */
+bool fracas_record_same(const fracas_record *a, const fracas_record *b);
 
 /* ---- the index ---- */
 

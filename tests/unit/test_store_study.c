@@ -146,7 +146,7 @@ static void orphans_are_adopted(void **state)
     recover_says("");
 }
 
-static void half_written_and_foreign_files_go(void **state)
+static void half_written_files_go_and_foreign_ones_stay(void **state)
 {
     (void)state;
     sample_realization what[] = {{0, 0}, {0, 1}};
@@ -168,9 +168,14 @@ static void half_written_and_foreign_files_go(void **state)
     fracas_file_header header = sample_header();
     OK(fracas_study_recover(study, index_, &header, &table, &report));
     assert_int_equal(strstr(report, "good.h5") != NULL, 0);
+    assert_non_null(strstr(report, "torn.h5"));
+    /* Sound, but of realizations that nobody asked for here: somebody may have, elsewhere. */
+    assert_non_null(strstr(report, "foreign.h5, which has realizations that this campaign does not ask for"));
+    assert_non_null(strstr(report, "more.h5, which has realizations that this campaign does not ask for"));
     free(report);
-    assert_int_equal(sample_files(sample_path(study, "segments"), ".h5"), 1);
+    assert_int_equal(sample_files(sample_path(study, "segments"), ".h5"), 3);
     assert_int_equal(sample_files(sample_path(study, "segments"), "good.h5"), 1);
+    assert_int_equal(sample_files(sample_path(study, "segments"), "torn.h5"), 0);
     assert_int_equal(sample_files(sample_path(study, "segments"), "notes.txt"), 1);
     assert_int_equal(sample_files(study, "tmp"), 0);
     assert_int_equal(count_all().segments, 1);
@@ -525,7 +530,7 @@ int main(void)
         TEST(merged_is_as_if_written_in_order),
         TEST(merge_refuses_what_is_not_whole),
         TEST(orphans_are_adopted),
-        TEST(half_written_and_foreign_files_go),
+        TEST(half_written_files_go_and_foreign_ones_stay),
         TEST(lost_segments_are_planned_again),
         TEST(verify_names_what_is_wrong),
         TEST(every_byte_of_the_merged_file_is_sealed),
