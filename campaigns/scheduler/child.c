@@ -2,6 +2,7 @@
 
 #include "campaigns/plan/point_model.h"
 #include "campaigns/scheduler/clock.h"
+#include "campaigns/scheduler/stand_in.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -59,8 +60,8 @@ static fracas_err send_record(int fd, const fracas_record *record)
     return err;
 }
 
-static fracas_err compute_batch(const fracas_campaign *campaign, const fracas_run_options *options, const fracas_model *model,
-                                const fracas_field *field, const fracas_lease *lease, const lanes *realizations, int fd)
+static fracas_err solve(const fracas_campaign *campaign, const fracas_run_options *options, const fracas_model *model,
+                        const fracas_field *field, const fracas_lease *lease, const lanes *realizations, fracas_record *record)
 {
     fracas_batch_options batch_options = {.history = campaign->output.history,
                                           .interfaces = campaign->output.interfaces,
@@ -70,14 +71,23 @@ static fracas_err compute_batch(const fracas_campaign *campaign, const fracas_ru
     TRY(fracas_batch_create(model, realizations->count, &batch_options, &batch));
     fracas_err err = fill_strengths(campaign, field, (size_t)lease->point, realizations, batch);
     crash_if_asked(lease, realizations);
+    if (!err) err = fracas_batch_run(batch, record);
+    fracas_batch_destroy(batch);
+    return err;
+}
+
+static fracas_err compute_batch(const fracas_campaign *campaign, const fracas_run_options *options, const fracas_model *model,
+                                const fracas_field *field, const fracas_lease *lease, const lanes *realizations, int fd)
+{
     fracas_record record[FRACAS_BATCH_MAX];
     for (size_t lane = 0; lane < realizations->count; lane++) fracas_record_init(&record[lane]);
-    if (!err) err = fracas_batch_run(batch, record);
+    fracas_err err = options->stand_in
+                         ? fracas_stand_in_compute(options->stand_in, lease->point, realizations->replica, realizations->count, record)
+                         : solve(campaign, options, model, field, lease, realizations, record);
     for (size_t lane = 0; lane < realizations->count; lane++) {
         if (!err) err = send_record(fd, &record[lane]);
         fracas_record_clear(&record[lane]);
     }
-    fracas_batch_destroy(batch);
     return err;
 }
 
