@@ -7,6 +7,7 @@
 #include "campaigns/scheduler/rounds.h"
 #include "campaigns/scheduler/scheduler.h"
 #include "campaigns/scheduler/segment.h"
+#include "campaigns/scheduler/tally.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,6 +31,7 @@ struct fracas_director {
     bool needless; /* everything is computed: what still runs is a duplicate */
     bool drained;  /* because of a signal */
     fracas_trouble trouble; /* the first; code FRACAS_OK: none */
+    fracas_tally tally;
 };
 
 static void stop(fracas_director *director);
@@ -165,9 +167,11 @@ fracas_err fracas_director_create(const fracas_director_setup *setup, fracas_dir
     if (!d) return fracas_no_memory("the run");
     d->setup = *setup;
     d->lock = -1;
+    fracas_tally_begin(&d->tally);
     bool settled = false;
     int64_t failed = 0;
     fracas_err err = set_up(d, &settled, &failed);
+    d->tally.planned = fracas_tally_time(&d->tally);
     if (err || settled) {
         fracas_director_destroy(d);
         *director = NULL;
@@ -211,11 +215,14 @@ static fracas_err offer(fracas_director *director, size_t worker)
 {
     fracas_lease lease;
     while (!director->stopping && director->phase[worker] == WORKING) {
+        const double began = fracas_now();
         bool given;
-        TRY(fracas_scheduler_next(director->scheduler, worker, fracas_now(), &lease, &given));
+        TRY(fracas_scheduler_next(director->scheduler, worker, began, &lease, &given));
         if (!given) break;
         TRY(mark_leased(director, &lease));
         TRY(send(director, worker, FRACAS_PACKET_LEASE, &lease, fracas_lease_bytes(&lease)));
+        director->tally.leases++;
+        director->tally.giving += fracas_now() - began;
     }
     return FRACAS_OK;
 }
@@ -338,8 +345,12 @@ static fracas_err hear_segment(fracas_director *director, size_t worker, const f
     if (note.rows > room / sizeof(fracas_segment_row) || message->body[message->size - 1] != '\0')
         return fracas_fail(FRACAS_BUG, "a message of rank %zu about a segment is damaged", worker);
     const fracas_segment_row *row = (const void *)(message->body + sizeof note);
+    const double began = fracas_now();
     TRY(fracas_index_commit(director->index, note.name, &note.seal, row, (size_t)note.rows,
                             (const char *)(row + note.rows)));
+    director->tally.committing += fracas_now() - began;
+    director->tally.commits++;
+    director->tally.rows += (double)note.rows;
     fracas_scheduler_durable(director->scheduler, worker);
     director->flushing[worker] = false;
     if (director->rounds.open == 0) return FRACAS_OK;
@@ -410,6 +421,7 @@ static fracas_err act(fracas_director *director, size_t worker, const fracas_pac
 
 void fracas_director_hear(fracas_director *director, size_t worker, const fracas_packet *message)
 {
+    director->tally.messages++;
     check(director, act(director, worker, message));
     check(director, flush_all(director));
     stop_if_computed(director);
@@ -441,13 +453,16 @@ static fracas_err merge(fracas_director *director, const fracas_scheduler_counts
     const fracas_campaign *campaign = director->setup.campaign;
     fracas_file_header header = fracas_segment_header(campaign);
     fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
+    const double began = fracas_now();
     TRY(fracas_rounds_check(campaign, director->index));
     TRY(fracas_study_merge(director->setup.study, director->index, &header, &director->rounds.table, &meshes));
+    director->tally.merging = fracas_now() - began;
     TRY(fracas_index_event(director->index, "finished", "study.h5 is written"));
     return fracas_settled_verdict(director->setup.study, count->failed);
 }
 
-fracas_err fracas_director_finish(fracas_director *director)
+/* Merges, or says why not. */
+static fracas_err conclude(fracas_director *director)
 {
     fracas_scheduler_counts count = fracas_scheduler_count(director->scheduler);
     long long kept = (long long)(count.done + count.failed), total = (long long)count.total;
@@ -468,4 +483,20 @@ fracas_err fracas_director_finish(fracas_director *director)
     if (fracas_index_event(director->index, err == FRACAS_INTERRUPTED ? "drained" : "stopped", verdict.text))
         fracas_voice_say(director->setup.voice, "%s", fracas_message());
     return fracas_fail(err, "%s", verdict.text);
+}
+
+fracas_err fracas_director_finish(fracas_director *director)
+{
+    director->tally.workers = (double)director->setup.workers;
+    director->tally.computed = fracas_tally_time(&director->tally);
+    fracas_err err = conclude(director);
+    fracas_tally_end(&director->tally);
+    if (!err || err == FRACAS_INTERRUPTED || err == FRACAS_SOME_FAILED) { /* else it is not sure that anything can be written */
+        fracas_trouble verdict;
+        fracas_trouble_take(err, &verdict);
+        fracas_err noted = fracas_tally_note(&director->tally, director->index);
+        if (noted) fracas_voice_say(director->setup.voice, "%s", fracas_message());
+        if (err) return fracas_fail(err, "%s", verdict.text);
+    }
+    return err;
 }

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/prctl.h>
+#include <time.h>
 #include <unistd.h>
 
 enum {
@@ -159,24 +160,50 @@ static fracas_err tell(fracas_packet_kind kind, const void *body, size_t size)
     return err;
 }
 
-/* One message each way, if there is one. */
-static fracas_err forward(rank_state *rank, bool *quit)
+/* What rank 0 says goes to the server; *come tells whether there was anything. */
+static fracas_err hear_lead(rank_state *rank, bool *come, bool *quit)
 {
     fracas_packet *message;
     int from;
-    TRY(server_receive(rank, &message));
-    bool busy = message != NULL;
-    fracas_err err = message ? mpi_send(0, message) : FRACAS_OK;
-    free(message);
-    TRY(err);
     TRY(mpi_receive(&from, &message));
-    busy |= message != NULL;
+    *come = message != NULL;
     if (message && message->kind == FRACAS_PACKET_QUIT)
         *quit = true;
     else if (message)
         server_send(rank, message);
     free(message);
-    pace(rank, busy);
+    return FRACAS_OK;
+}
+
+/* Sends to rank 0, and hears it meanwhile: it may be sending to this rank, and a long message waits until the other side receives. */
+static fracas_err send_lead(rank_state *rank, const fracas_packet *message, bool *quit)
+{
+    const struct timespec rest = {.tv_nsec = 200000};
+    MPI_Request request;
+    int sent = 0;
+    int code = MPI_Isend(message, (int)fracas_packet_bytes(message), MPI_BYTE, 0, TAG, MPI_COMM_WORLD, &request);
+    while (code == MPI_SUCCESS) {
+        bool come;
+        code = MPI_Test(&request, &sent, MPI_STATUS_IGNORE);
+        if (code != MPI_SUCCESS || sent) break;
+        TRY(hear_lead(rank, &come, quit));
+        if (!come) nanosleep(&rest, NULL);
+    }
+    return code == MPI_SUCCESS ? FRACAS_OK : mpi_failed("send", code);
+}
+
+/* One message each way, if there is one. */
+static fracas_err forward(rank_state *rank, bool *quit)
+{
+    fracas_packet *message;
+    bool come;
+    TRY(server_receive(rank, &message));
+    const bool told = message != NULL;
+    fracas_err err = message ? send_lead(rank, message, quit) : FRACAS_OK;
+    free(message);
+    TRY(err);
+    TRY(hear_lead(rank, &come, quit));
+    pace(rank, told || come);
     return FRACAS_OK;
 }
 

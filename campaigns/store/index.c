@@ -84,6 +84,7 @@ static const char *const sql_text[FRACAS_NSQL] = {
                                        " WHERE id IN (SELECT segment FROM realization WHERE point = ?1)",
     [FRACAS_SQL_EVENT_ADD] = "INSERT INTO event(time, kind, text)"
                              " VALUES (strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), ?1, ?2)",
+    [FRACAS_SQL_EVENT_LAST] = "SELECT text FROM event WHERE kind = ?1 ORDER BY id DESC LIMIT 1",
     [FRACAS_SQL_ROW_SUMMARY] = "SELECT status, outcome, fragments, size, dissipated FROM realization"
                                " WHERE point = ?1 AND replica < ?2 ORDER BY replica",
     [FRACAS_SQL_ROW_TRIM] = "DELETE FROM realization WHERE point = ?1 AND replica >= ?2",

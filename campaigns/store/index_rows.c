@@ -226,6 +226,17 @@ fracas_err fracas_index_event(fracas_index *index, const char *kind, const char 
     return fracas_index_do(index, FRACAS_SQL_EVENT_ADD);
 }
 
+fracas_err fracas_index_last_event(fracas_index *index, const char *kind, char **text)
+{
+    bool found = false;
+    *text = NULL;
+    TRY(fracas_index_bind_text(index, FRACAS_SQL_EVENT_LAST, 1, kind));
+    TRY(fracas_index_step(index, FRACAS_SQL_EVENT_LAST, &found));
+    if (found) *text = strdup((const char *)sqlite3_column_text(at(index, FRACAS_SQL_EVENT_LAST), 0));
+    fracas_index_reset(index, FRACAS_SQL_EVENT_LAST);
+    return found && !*text ? fracas_no_memory("an event") : FRACAS_OK;
+}
+
 /* ---- segments ---- */
 
 static void checksum_text(uint64_t checksum, char text[17])

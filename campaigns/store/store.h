@@ -177,6 +177,8 @@ FRACAS_MUST_USE fracas_err fracas_index_fail(fracas_index *index, const fracas_h
                                              const char *reason, bool final);
 /* Appends to the table `event` (time of day, kind, text). */
 FRACAS_MUST_USE fracas_err fracas_index_event(fracas_index *index, const char *kind, const char *text);
+/* The text of the latest event of a kind, NULL if there is none; freed by the caller with free(). */
+FRACAS_MUST_USE fracas_err fracas_index_last_event(fracas_index *index, const char *kind, char **text);
 
 /* ---- decisions in the index ---- */
 
