@@ -33,6 +33,7 @@ typedef struct {
     slot held[FRACAS_LEASES_HELD]; /* the first one runs */
     size_t nheld;
     note *memory;
+    bool lost; /* and has not asked for a lease since */
 } worker_state;
 
 struct fracas_scheduler {
@@ -234,22 +235,48 @@ void fracas_scheduler_destroy(fracas_scheduler *scheduler)
 
 static size_t smaller(size_t a, size_t b) { return a < b ? a : b; }
 
+/* s until the worker will have computed what it holds; NAN while nothing is measured. */
+static double left(const fracas_scheduler *s, const worker_state *w, double now)
+{
+    double seconds = 0;
+    for (size_t h = 0; h < w->nheld; h++) {
+        const double one = predicted(s, w->held[h].task);
+        seconds += h ? one : fmax(one - (now - w->held[h].began), 0);
+    }
+    return seconds;
+}
+
+/* Workers that will be free within half the time of a batch of the point, by when sharing with them is worth it: one at least. */
+static size_t free_workers(const fracas_scheduler *s, size_t point, double now)
+{
+    const bool measured = fracas_backlog_measured(s->backlog);
+    const double within = fracas_backlog_estimate(s->backlog, point) * (double)s->options.width / 2;
+    size_t count = 0;
+    for (size_t i = 0; i < s->options.workers; i++) {
+        const worker_state *w = &s->worker[i];
+        count += !w->lost && (!measured || left(s, w, now) <= within);
+    }
+    return count ? count : 1;
+}
+
 /* The formula at fracas_scheduler_next. */
-static size_t choose_count(const fracas_scheduler *s, size_t point)
+static size_t choose_count(const fracas_scheduler *s, size_t point, double now)
 {
     const size_t width = s->options.width, there = fracas_backlog_waiting(s->backlog, point), workers = s->options.workers;
     const double one = fracas_backlog_estimate(s->backlog, point), shares = 2 * (double)workers;
     double most = 0;
     if (fracas_backlog_measured(s->backlog))
         most = one > 0 ? fmin(s->options.seconds, fracas_backlog_work(s->backlog) / shares) / one : (double)s->waiting / shares;
-    const size_t batches = (size_t)fmin(most, FRACAS_LEASE_MAX) / width * width, even = (s->waiting + workers - 1) / workers;
-    return smaller(there, batches ? batches : smaller(width, even));
+    const size_t batches = (size_t)fmin(most, FRACAS_LEASE_MAX) / width * width;
+    if (batches) return smaller(there, batches);
+    const size_t shared = s->waiting < workers * width ? free_workers(s, point, now) : 1;
+    return smaller(there, smaller(width, (s->waiting + shared - 1) / shared));
 }
 
 static size_t shuffled_most(const fracas_scheduler *s) { return s->options.seconds > 0 ? 2 * s->options.width : s->options.width; }
 
 /* From the backlog, which is not empty; NULL without memory. */
-static task *cut(fracas_scheduler *s)
+static task *cut(fracas_scheduler *s, double now)
 {
     size_t point, count;
     if (s->options.shuffle) {
@@ -257,7 +284,7 @@ static task *cut(fracas_scheduler *s)
         count = smaller(fracas_backlog_waiting(s->backlog, point), 1 + (size_t)(fracas_backlog_random(&s->state) % shuffled_most(s)));
     } else {
         point = fracas_backlog_longest(s->backlog);
-        count = choose_count(s, point);
+        count = choose_count(s, point, now);
     }
     task *t = new_task(s, point, count); /* before the replicas are taken, so that none is lost without memory */
     if (!t) return NULL;
@@ -309,10 +336,11 @@ fracas_err fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker, dou
     worker_state *w = &scheduler->worker[worker];
     const size_t spare = scheduler->options.workers * scheduler->options.width;
     *given = false;
+    w->lost = false;
     if (w->nheld >= (scheduler->waiting > spare ? FRACAS_LEASES_HELD : 1)) return FRACAS_OK;
     task *t;
     if (scheduler->again) t = take_again(scheduler);
-    else if (scheduler->waiting) t = cut(scheduler);
+    else if (scheduler->waiting) t = cut(scheduler, now);
     else if (!(t = overdue(scheduler, now))) return FRACAS_OK;
     if (!t) return fracas_no_memory("a lease");
     give(scheduler, w, t, now, lease);
@@ -460,6 +488,7 @@ void fracas_scheduler_durable(fracas_scheduler *scheduler, size_t worker)
 void fracas_scheduler_lost(fracas_scheduler *scheduler, size_t worker)
 {
     worker_state *w = &scheduler->worker[worker];
+    w->lost = true;
     while (w->nheld) {
         const bool was_open = is_open(w->held[w->nheld - 1].task);
         task *t = drop_held(w, w->nheld - 1);
@@ -501,17 +530,12 @@ bool fracas_scheduler_computed_all(const fracas_scheduler *scheduler)
 
 double fracas_scheduler_predicted(const fracas_scheduler *scheduler, size_t worker, double now)
 {
-    const worker_state *w = &scheduler->worker[worker];
     if (!fracas_backlog_measured(scheduler->backlog)) return NAN;
-    double seconds = 0;
-    for (size_t h = 0; h < w->nheld; h++) {
-        const double one = predicted(scheduler, w->held[h].task);
-        seconds += h ? one : fmax(one - (now - w->held[h].began), 0);
-    }
+    const double seconds = left(scheduler, &scheduler->worker[worker], now);
     if (scheduler->again) return seconds + predicted(scheduler, scheduler->again);
     const size_t longest = fracas_backlog_longest(scheduler->backlog);
     if (longest == SIZE_MAX) return seconds;
-    const size_t count = scheduler->options.shuffle ? shuffled_most(scheduler) : choose_count(scheduler, longest);
+    const size_t count = scheduler->options.shuffle ? shuffled_most(scheduler) : choose_count(scheduler, longest, now);
     return seconds + fracas_backlog_estimate(scheduler->backlog, longest) * (double)count;
 }
 

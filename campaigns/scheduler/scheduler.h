@@ -71,9 +71,10 @@ void fracas_scheduler_destroy(fracas_scheduler *scheduler); /* NULL is allowed *
  * what was predicted and 10 s, counted from when it began to run, or for one ahead from when it was given.
  *   est_p = seconds per realization of point p: measured, else cost_p times measured seconds / cost of all points
  *   n = min(seconds / est_p, sum_q waiting_q est_q / (2 workers est_p), FRACAS_LEASE_MAX), down to whole batches,
- *       and min(width, waiting / workers) at least; one batch while nothing is measured
- * of the point with the largest est_p. Failed or lost leases go first. Takes log(points) steps, and looking for what is overdue one
- * per worker, but only when something may be. FRACAS_ENVIRONMENT without memory. */
+ *       and a batch at least, or when less than a batch waits for each worker, min(width, waiting / workers that will be free
+ *       within half the time of a batch); one batch while nothing is measured
+ * of the point with the largest est_p. Failed or lost leases go first. Takes log(points) steps, and one per worker for the last ones
+ * and for what may be overdue. FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease, bool *given);
 
 /* At `now` the worker has computed lease `id`, in `seconds`: it is in its memory. FRACAS_BUG unless the worker held it,
