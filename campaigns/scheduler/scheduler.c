@@ -45,7 +45,6 @@ struct fracas_scheduler {
     size_t waiting;          /* realizations, in both */
     size_t uncomputed;       /* tasks held that nobody has in memory or durable */
     worker_state *worker;
-    double patience;         /* nothing that is held is overdue before */
     fracas_scheduler_counts count;
     double cost, computed;   /* predicted, of all realizations and of those computed or failed for good */
 };
@@ -293,29 +292,12 @@ static task *cut(fracas_scheduler *s, double now)
     return t;
 }
 
-/* When a lease that one worker alone has becomes overdue; INFINITY: never. */
+/* When a lease that one worker alone has is overdue; INFINITY: never. */
 static double overdue_at(const fracas_scheduler *s, const slot *held)
 {
     const double expected = predicted(s, held->task);
     if (held->task->held > 1 || !is_open(held->task) || isnan(expected)) return INFINITY;
     return held->began + fmax(OVERDUE_LEAST, OVERDUE * expected);
-}
-
-/* What is overdue longest; NULL if nothing is. */
-static task *overdue(fracas_scheduler *s, double now)
-{
-    if (now <= s->patience) return NULL;
-    task *worst = NULL;
-    double first = INFINITY;
-    for (size_t i = 0; i < s->options.workers; i++)
-        for (size_t h = 0; h < s->worker[i].nheld; h++) {
-            const slot *held = &s->worker[i].held[h];
-            const double at = overdue_at(s, held);
-            if (at < first) first = at, worst = held->task;
-        }
-    if (first < now) return worst;
-    s->patience = fmin(first, now + OVERDUE_LEAST); /* what is given meanwhile is not overdue before; estimates may change */
-    return NULL;
 }
 
 static void give(fracas_scheduler *s, worker_state *w, task *t, double now, fracas_lease *lease)
@@ -338,14 +320,33 @@ fracas_err fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker, dou
     *given = false;
     w->lost = false;
     if (w->nheld >= (scheduler->waiting > spare ? FRACAS_LEASES_HELD : 1)) return FRACAS_OK;
-    task *t;
-    if (scheduler->again) t = take_again(scheduler);
-    else if (scheduler->waiting) t = cut(scheduler, now);
-    else if (!(t = overdue(scheduler, now))) return FRACAS_OK;
+    if (!scheduler->waiting) return FRACAS_OK;
+    task *t = scheduler->again ? take_again(scheduler) : cut(scheduler, now);
     if (!t) return fracas_no_memory("a lease");
     give(scheduler, w, t, now, lease);
     *given = true;
     return FRACAS_OK;
+}
+
+void fracas_scheduler_overdue(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease, size_t *late, bool *given)
+{
+    worker_state *w = &scheduler->worker[worker];
+    *given = false;
+    if (w->nheld || scheduler->waiting) return;
+    task *worst = NULL;
+    double first = now;
+    for (size_t i = 0; i < scheduler->options.workers; i++)
+        for (size_t h = 0; h < scheduler->worker[i].nheld; h++) {
+            const slot *held = &scheduler->worker[i].held[h];
+            const double at = overdue_at(scheduler, held);
+            if (at >= first) continue;
+            first = at;
+            worst = held->task;
+            *late = i;
+        }
+    if (!worst) return;
+    give(scheduler, w, worst, now, lease);
+    *given = true;
 }
 
 /* ---- its life ---- */
