@@ -245,7 +245,8 @@ static double left(const fracas_scheduler *s, const worker_state *w, double now)
     return seconds;
 }
 
-/* Workers that will be free within half the time of a batch of the point, by when sharing with them is worth it: one at least. */
+/* Workers that will be free within half the time of a batch of the point, by when sharing with them is worth it, or are free now while
+ * nothing is measured: one at least. */
 static size_t free_workers(const fracas_scheduler *s, size_t point, double now)
 {
     const bool measured = fracas_backlog_measured(s->backlog);
@@ -253,7 +254,7 @@ static size_t free_workers(const fracas_scheduler *s, size_t point, double now)
     size_t count = 0;
     for (size_t i = 0; i < s->options.workers; i++) {
         const worker_state *w = &s->worker[i];
-        count += !w->lost && (!measured || left(s, w, now) <= within);
+        count += !w->lost && (measured ? left(s, w, now) <= within : w->nheld == 0);
     }
     return count ? count : 1;
 }

@@ -70,7 +70,7 @@ void fracas_scheduler_destroy(fracas_scheduler *scheduler); /* NULL is allowed *
  *   est_p = seconds per realization of point p: measured, else cost_p times measured seconds / cost of all points
  *   n = min(seconds / est_p, sum_q waiting_q est_q / (2 workers est_p), FRACAS_LEASE_MAX), down to whole batches,
  *       and a batch at least, or when less than a batch waits for each worker, min(width, waiting / workers that will be free
- *       within half the time of a batch); one batch while nothing is measured
+ *       within half the time of a batch); while nothing is measured one batch, shared with the workers that hold nothing
  * of the point with the largest est_p. Failed or lost leases go first. Takes log(points) steps, and one per worker for the last ones.
  * FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease, bool *given);

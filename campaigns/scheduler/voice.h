@@ -12,6 +12,8 @@
 
 /* Set in the environment of mpirun by the parent. */
 #define FRACAS_PARENT_MARK "FRACAS_PARENT"
+/* And there: when the run must have ended, s since 1970 (--walltime). */
+#define FRACAS_DEADLINE "FRACAS_DEADLINE"
 
 typedef struct {
     bool parent; /* listens */
