@@ -97,6 +97,11 @@ size_t fracas_compute_width(const fracas_run_options *options)
     return options->width ? (size_t)options->width : FRACAS_BATCH_MAX;
 }
 
+fracas_err fracas_compute_prepare(fracas_computation *computation, fracas_models *models)
+{
+    return fracas_models_get(models, computation->campaign, (size_t)computation->lease->point, &computation->model, &computation->field);
+}
+
 fracas_err fracas_compute_batch(const fracas_computation *computation, size_t from, fracas_packet *record[FRACAS_BATCH_MAX],
                                 size_t *count)
 {

@@ -26,11 +26,16 @@ static fracas_err exhaust_memory(void)
     return count == BLOCKS ? FRACAS_OK : fracas_no_memory("what a test asked for");
 }
 
+static void crash(void)
+{
+    signal(SIGSEGV, SIG_DFL); /* a sanitizer would report it and exit instead */
+    raise(SIGSEGV);
+}
+
 static fracas_err happen(const char *what)
 {
     if (!strcmp(what, "crash")) {
-        signal(SIGSEGV, SIG_DFL); /* a sanitizer would report it and exit instead */
-        raise(SIGSEGV);
+        crash();
     } else if (!strcmp(what, "abort")) {
         fputs("a test asked for this abort\n", stderr);
         abort();
@@ -40,8 +45,10 @@ static fracas_err happen(const char *what)
         for (;;) pause();
     } else if (!strcmp(what, "memory")) {
         return exhaust_memory();
+    } else if (!strcmp(what, "model")) {
+        return FRACAS_OK;
     }
-    return fracas_fail(FRACAS_BUG, "FRACAS_TEST_FAULT asks for `%s`; it must be crash, abort, exit, hang or memory", what);
+    return fracas_fail(FRACAS_BUG, "FRACAS_TEST_FAULT asks for `%s`; it must be crash, abort, exit, hang, memory or model", what);
 }
 
 /* True unless it has happened already, and may happen only once. */
@@ -66,4 +73,11 @@ fracas_err fracas_fault_if_asked(uint64_t point, const int64_t *replica, size_t 
     for (size_t i = 0; i < count; i++)
         if (point == its_point && replica[i] == its_replica && is_due(file)) return happen(what);
     return FRACAS_OK;
+}
+
+void fracas_fault_of_model(uint64_t point)
+{
+    const char *asked = getenv("FRACAS_TEST_FAULT");
+    unsigned long long its_point;
+    if (asked && sscanf(asked, "model:%llu:", &its_point) == 1 && point == its_point) crash();
 }
