@@ -240,10 +240,14 @@ static fracas_err adopt(const char *path, const char *name, fracas_reader *reade
                         const fracas_point_table *table, fracas_index *index)
 {
     size_t count = fracas_reader_realizations(reader);
+    char *provenance;
+    TRY(fracas_reader_provenance(reader, &provenance));
+    const bool tells = provenance && fracas_index_is_json(index, provenance);
     fracas_segment_row *row = calloc(count + 1, sizeof *row);
     fracas_err err = row ? read_rows(reader, table, index, row) : fracas_no_memory("the rows of a segment");
     if (!err) err = fracas_disk_sync_folder(path); /* whoever renamed it may have died before this */
-    if (!err) err = fracas_index_commit(index, name, seal, row, count, "{\"adopted\": true}");
+    if (!err) err = fracas_index_commit(index, name, seal, row, count, tells ? provenance : "{\"adopted\": true}");
+    free(provenance);
     free(row);
     return err;
 }
