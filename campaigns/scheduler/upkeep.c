@@ -5,6 +5,7 @@
 #include "campaigns/scheduler/prepare.h"
 #include "campaigns/scheduler/rounds.h"
 #include "campaigns/scheduler/segment.h"
+#include "campaigns/scheduler/verdict.h"
 
 #include <inttypes.h>
 #include <stdio.h>

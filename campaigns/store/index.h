@@ -79,6 +79,8 @@ FRACAS_MUST_USE fracas_err fracas_index_study_seal(fracas_index *index, bool *se
 
 /* FRACAS_DAMAGED with the first thing that SQLite's quick_check finds. */
 FRACAS_MUST_USE fracas_err fracas_index_quick_check(fracas_index *index);
+/* True for what the table `segment` takes as provenance. */
+bool fracas_index_is_json(fracas_index *index, const char *text);
 FRACAS_MUST_USE fracas_err fracas_index_points(fracas_index *index, int64_t *points);
 
 /* Id of a point, 0 if it is not there. */
