@@ -26,12 +26,13 @@ typedef struct {
     const char *more;    /* paragraph for `fracas help NAME` */
     const fracas_option *options;
     size_t noptions;
+    bool takes_rest;      /* what follows `--` is kept for another program */
     fracas_err (*run)(const fracas_arguments *arguments);
 } fracas_command;
 
 extern const fracas_command fracas_command_run, fracas_command_plan, fracas_command_status, fracas_command_report,
     fracas_command_picture, fracas_command_verify, fracas_command_sample, fracas_command_distributions,
-    fracas_command_reference;
+    fracas_command_reference, fracas_command_submit;
 
 struct fracas_arguments {
     const fracas_command *command;
@@ -40,6 +41,8 @@ struct fracas_arguments {
     bool help;                              /* --help was given: then nothing else is checked */
     int argc;                               /* the program's, options moved to the front */
     char **argv;
+    char **rest;                            /* of argv: nrest words after `--` */
+    int nrest;
 };
 
 /* Reads the program's command line, argv[1] being the command's name. FRACAS_USAGE for an unknown option (naming the

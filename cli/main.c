@@ -11,7 +11,7 @@
 static const fracas_command *const commands[] = {
     &fracas_command_run,    &fracas_command_plan,   &fracas_command_status,
     &fracas_command_report, &fracas_command_picture, &fracas_command_verify, &fracas_command_sample,
-    &fracas_command_distributions, &fracas_command_reference,
+    &fracas_command_distributions, &fracas_command_reference, &fracas_command_submit,
 };
 enum { NCOMMANDS = sizeof commands / sizeof *commands };
 
