@@ -7,13 +7,14 @@
 #include "campaigns/scheduler/rounds.h"
 #include "campaigns/scheduler/scheduler.h"
 #include "campaigns/scheduler/segment.h"
+#include "campaigns/scheduler/tally.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-typedef enum { STARTING, WORKING, ENDED } worker_phase;
+typedef enum { STARTING, WORKING, STOPPING, ENDED } worker_phase;
 
 struct fracas_director {
     fracas_director_setup setup;
@@ -30,6 +31,7 @@ struct fracas_director {
     bool needless; /* everything is computed: what still runs is a duplicate */
     bool drained;  /* because of a signal */
     fracas_trouble trouble; /* the first; code FRACAS_OK: none */
+    fracas_tally tally;
 };
 
 static void stop(fracas_director *director);
@@ -61,6 +63,7 @@ static fracas_err send(fracas_director *director, size_t worker, fracas_packet_k
 static void stop_worker(fracas_director *director, size_t worker)
 {
     const int32_t kill = director->needless;
+    director->phase[worker] = STOPPING;
     check(director, send(director, worker, FRACAS_PACKET_STOP, &kill, sizeof kill));
 }
 
@@ -119,7 +122,7 @@ static fracas_err open_study(fracas_director *director, bool *settled, int64_t *
 {
     const fracas_director_setup *setup = &director->setup;
     char *report = NULL;
-    TRY(fracas_study_prepare(setup->study, setup->campaign, &director->lock, &director->index, &report));
+    TRY(fracas_study_prepare(setup->study, setup->campaign, setup->options->force, &director->lock, &director->index, &report));
     fracas_err err = fracas_study_settled(setup->study, director->index, setup->campaign, settled, failed);
     if (!err && !*settled) err = make_scheduler(director);
     if (!err && !*settled) err = announce(director, report);
@@ -164,9 +167,11 @@ fracas_err fracas_director_create(const fracas_director_setup *setup, fracas_dir
     if (!d) return fracas_no_memory("the run");
     d->setup = *setup;
     d->lock = -1;
+    fracas_tally_begin(&d->tally);
     bool settled = false;
     int64_t failed = 0;
     fracas_err err = set_up(d, &settled, &failed);
+    d->tally.planned = fracas_tally_time(&d->tally);
     if (err || settled) {
         fracas_director_destroy(d);
         *director = NULL;
@@ -184,7 +189,7 @@ void fracas_director_destroy(fracas_director *director)
     fracas_scheduler_destroy(director->scheduler);
     fracas_rounds_clear(&director->rounds);
     fracas_index_close(director->index);
-    if (director->lock >= 0) close(director->lock);
+    fracas_study_unlock(director->lock);
     free(director->cost);
     free(director->phase);
     free(director->flushing);
@@ -210,11 +215,14 @@ static fracas_err offer(fracas_director *director, size_t worker)
 {
     fracas_lease lease;
     while (!director->stopping && director->phase[worker] == WORKING) {
+        const double began = fracas_now();
         bool given;
-        TRY(fracas_scheduler_next(director->scheduler, worker, fracas_now(), &lease, &given));
+        TRY(fracas_scheduler_next(director->scheduler, worker, began, &lease, &given));
         if (!given) break;
         TRY(mark_leased(director, &lease));
         TRY(send(director, worker, FRACAS_PACKET_LEASE, &lease, fracas_lease_bytes(&lease)));
+        director->tally.leases++;
+        director->tally.giving += fracas_now() - began;
     }
     return FRACAS_OK;
 }
@@ -305,7 +313,8 @@ static fracas_err hear_failed(fracas_director *director, size_t worker, const fr
     memcpy(&failure, message->body, sizeof failure);
     fracas_lease lease;
     bool final;
-    TRY(fracas_scheduler_failed(director->scheduler, worker, failure.lease, (size_t)failure.kept, (size_t)failure.count, &lease, &final));
+    TRY(fracas_scheduler_failed(director->scheduler, worker, failure.lease, fracas_now(), (size_t)failure.kept, (size_t)failure.count,
+                                &lease, &final));
     char hex[FRACAS_HASH_HEX], text[1400];
     const fracas_hash *point = &director->setup.campaign->point[lease.point].hash;
     fracas_hash_hex(point, hex);
@@ -336,8 +345,12 @@ static fracas_err hear_segment(fracas_director *director, size_t worker, const f
     if (note.rows > room / sizeof(fracas_segment_row) || message->body[message->size - 1] != '\0')
         return fracas_fail(FRACAS_BUG, "a message of rank %zu about a segment is damaged", worker);
     const fracas_segment_row *row = (const void *)(message->body + sizeof note);
+    const double began = fracas_now();
     TRY(fracas_index_commit(director->index, note.name, &note.seal, row, (size_t)note.rows,
                             (const char *)(row + note.rows)));
+    director->tally.committing += fracas_now() - began;
+    director->tally.commits++;
+    director->tally.rows += (double)note.rows;
     fracas_scheduler_durable(director->scheduler, worker);
     director->flushing[worker] = false;
     if (director->rounds.open == 0) return FRACAS_OK;
@@ -370,6 +383,26 @@ static fracas_err hear_end(fracas_director *director, size_t worker, const fraca
     return offer_all(director);
 }
 
+/* The worker's server died, and READY of a new one will come. What the dead one held or had in memory is to be done, even where
+ * nothing was left and all were told to stop: then this worker goes on. */
+static fracas_err hear_replaced(fracas_director *director, size_t worker, const fracas_packet *message)
+{
+    fracas_trouble trouble;
+    TRY(fracas_packet_expect(message, sizeof trouble));
+    memcpy(&trouble, message->body, sizeof trouble);
+    fracas_scheduler_lost(director->scheduler, worker);
+    director->phase[worker] = STARTING;
+    director->flushing[worker] = false;
+    if (director->needless && !is_computed(director)) {
+        director->needless = false;
+        director->stopping = director->drained || director->trouble.code;
+    }
+    fracas_voice_say(director->setup.voice, "%s", trouble.text);
+    TRY(fracas_index_event(director->index, "server replaced", trouble.text));
+    TRY(send(director, worker, FRACAS_PACKET_FRESH, NULL, 0));
+    return offer_all(director);
+}
+
 static fracas_err act(fracas_director *director, size_t worker, const fracas_packet *message)
 {
     switch ((fracas_packet_kind)message->kind) {
@@ -377,6 +410,7 @@ static fracas_err act(fracas_director *director, size_t worker, const fracas_pac
     case FRACAS_PACKET_COMPUTED: return hear_computed(director, worker, message);
     case FRACAS_PACKET_FAILED: return hear_failed(director, worker, message);
     case FRACAS_PACKET_SEGMENT: return hear_segment(director, worker, message);
+    case FRACAS_PACKET_REPLACED: return hear_replaced(director, worker, message);
     case FRACAS_PACKET_TROUBLE:
     case FRACAS_PACKET_LOST:
     case FRACAS_PACKET_ENDED: return hear_end(director, worker, message);
@@ -387,11 +421,17 @@ static fracas_err act(fracas_director *director, size_t worker, const fracas_pac
 
 void fracas_director_hear(fracas_director *director, size_t worker, const fracas_packet *message)
 {
+    director->tally.messages++;
     check(director, act(director, worker, message));
     check(director, flush_all(director));
     stop_if_computed(director);
     fracas_scheduler_counts count = fracas_scheduler_count(director->scheduler);
     fracas_voice_progress(director->setup.voice, &count);
+}
+
+void fracas_director_note(fracas_director *director, const char *kind, const char *text)
+{
+    check(director, fracas_index_event(director->index, kind, text));
 }
 
 void fracas_director_drain(fracas_director *director)
@@ -413,13 +453,16 @@ static fracas_err merge(fracas_director *director, const fracas_scheduler_counts
     const fracas_campaign *campaign = director->setup.campaign;
     fracas_file_header header = fracas_segment_header(campaign);
     fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
+    const double began = fracas_now();
     TRY(fracas_rounds_check(campaign, director->index));
     TRY(fracas_study_merge(director->setup.study, director->index, &header, &director->rounds.table, &meshes));
+    director->tally.merging = fracas_now() - began;
     TRY(fracas_index_event(director->index, "finished", "study.h5 is written"));
     return fracas_settled_verdict(director->setup.study, count->failed);
 }
 
-fracas_err fracas_director_finish(fracas_director *director)
+/* Merges, or says why not. */
+static fracas_err conclude(fracas_director *director)
 {
     fracas_scheduler_counts count = fracas_scheduler_count(director->scheduler);
     long long kept = (long long)(count.done + count.failed), total = (long long)count.total;
@@ -440,4 +483,20 @@ fracas_err fracas_director_finish(fracas_director *director)
     if (fracas_index_event(director->index, err == FRACAS_INTERRUPTED ? "drained" : "stopped", verdict.text))
         fracas_voice_say(director->setup.voice, "%s", fracas_message());
     return fracas_fail(err, "%s", verdict.text);
+}
+
+fracas_err fracas_director_finish(fracas_director *director)
+{
+    director->tally.workers = (double)director->setup.workers;
+    director->tally.computed = fracas_tally_time(&director->tally);
+    fracas_err err = conclude(director);
+    fracas_tally_end(&director->tally);
+    if (!err || err == FRACAS_INTERRUPTED || err == FRACAS_SOME_FAILED) { /* else it is not sure that anything can be written */
+        fracas_trouble verdict;
+        fracas_trouble_take(err, &verdict);
+        fracas_err noted = fracas_tally_note(&director->tally, director->index);
+        if (noted) fracas_voice_say(director->setup.voice, "%s", fracas_message());
+        if (err) return fracas_fail(err, "%s", verdict.text);
+    }
+    return err;
 }

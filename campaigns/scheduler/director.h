@@ -38,6 +38,9 @@ void fracas_director_hear(fracas_director *director, size_t worker, const fracas
 /* Gives out no more leases and has every worker finish; once is enough. */
 void fracas_director_drain(fracas_director *director);
 
+/* Notes something in the index. */
+void fracas_director_note(fracas_director *director, const char *kind, const char *text);
+
 /* True when every worker has ended. */
 bool fracas_director_over(const fracas_director *director);
 

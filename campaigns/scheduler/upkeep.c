@@ -28,7 +28,7 @@ static void let_go(holding *h)
     fracas_rounds_clear(&h->rounds);
     fracas_index_close(h->index);
     h->index = NULL;
-    if (h->lock >= 0) close(h->lock);
+    if (h->lock >= 0) fracas_study_unlock(h->lock);
     h->lock = -1;
 }
 
@@ -79,7 +79,7 @@ fracas_err fracas_upkeep_reindex(const char *study, const fracas_campaign *campa
 {
     holding h = HOLDING_NONE;
     h.study = study;
-    TRY(fracas_study_lock(study, &h.lock));
+    TRY(fracas_study_lock(study, false, &h.lock));
     fracas_err err = reindex(&h, campaign, said, end);
     let_go(&h);
     return err;
@@ -113,7 +113,7 @@ fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaig
     holding h = HOLDING_NONE;
     h.study = study;
     *written = false;
-    TRY(fracas_study_lock(study, &h.lock));
+    TRY(fracas_study_lock(study, false, &h.lock));
     fracas_err err = merge(&h, campaign, said, end, written);
     let_go(&h);
     return err;
@@ -141,7 +141,7 @@ fracas_err fracas_upkeep_collect(const char *study, const fracas_campaign *campa
     const char **digest;
     TRY(list_attachments(campaign, &digest, &options.nattachments));
     options.attachment = digest;
-    fracas_err err = fracas_study_lock(study, &h.lock);
+    fracas_err err = fracas_study_lock(study, false, &h.lock);
     if (!err) err = dry ? fracas_index_open(study, false, &h.index) : open_index(study, &h.index);
     if (!err) err = fracas_study_collect(study, h.index, &options, freed);
     let_go(&h);
@@ -157,7 +157,7 @@ fracas_err fracas_upkeep_retry(const char *study, const fracas_campaign *campaig
     const fracas_file_header header = fracas_segment_header(campaign);
     if (point >= (int64_t)campaign->npoints)
         return fracas_fail(FRACAS_USAGE, "--point %" PRId64 ": %s has the points 0 to %zu", point, study, campaign->npoints - 1);
-    TRY(fracas_study_lock(study, &h.lock));
+    TRY(fracas_study_lock(study, false, &h.lock));
     fracas_err err = open_index(study, &h.index);
     if (!err) err = fracas_index_claim(h.index, &header); /* what this program cannot compute again stays as it is */
     if (!err) err = fracas_index_retry(h.index, point < 0 ? NULL : &campaign->point[point].hash, rows);
@@ -202,8 +202,8 @@ static fracas_err lock_both(joining *j)
     struct stat a, b;
     if (!stat(j->into.study, &a) && !stat(j->from.study, &b) && a.st_dev == b.st_dev && a.st_ino == b.st_ino)
         return fracas_fail(FRACAS_USAGE, "%s and %s are one study; name two", j->into.study, j->from.study);
-    TRY(fracas_study_lock(j->into.study, &j->into.lock));
-    return fracas_study_lock(j->from.study, &j->from.lock);
+    TRY(fracas_study_lock(j->into.study, false, &j->into.lock));
+    return fracas_study_lock(j->from.study, false, &j->from.lock);
 }
 
 static fracas_err join(joining *j, fracas_joined *joined, int64_t *both, fracas_upkeep *end)

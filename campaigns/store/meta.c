@@ -3,6 +3,7 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <string.h>
 
 static const char seal_key[] = "study_seal";
 
@@ -52,6 +53,22 @@ fracas_err fracas_index_claim(fracas_index *index, const fracas_file_header *hea
     for (int v = 0; !err && v < FRACAS_IDENTITY_VALUES; v++)
         err = write_meta(index, fracas_identity_name[v], wanted.value[v]);
     return fracas_index_end(index, err);
+}
+
+/* ---- damage ---- */
+
+fracas_err fracas_index_quick_check(fracas_index *index)
+{
+    sqlite3_stmt *statement;
+    if (sqlite3_prepare_v2(index->db, "PRAGMA quick_check(1)", -1, &statement, NULL) != SQLITE_OK) return fracas_index_error(index, "check");
+    fracas_err err = FRACAS_OK;
+    const int code = sqlite3_step(statement);
+    const char *text = code == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;
+    if (code != SQLITE_ROW && code != SQLITE_DONE) err = fracas_index_error(index, "check");
+    else if (text && strcmp(text, "ok") != 0)
+        err = fracas_fail(FRACAS_DAMAGED, "%s: damaged: %s; `fracas reindex` makes it anew from the segments", index->path, text);
+    sqlite3_finalize(statement);
+    return err;
 }
 
 /* ---- the seal of study.h5 ---- */
