@@ -327,8 +327,8 @@ static fracas_err is_old(fracas_index *index, bool *old)
     sqlite3_stmt *statement;
     if (sqlite3_prepare_v2(index->db, query, -1, &statement, NULL) != SQLITE_OK) return fracas_index_error(index, "open");
     bool row = sqlite3_step(statement) == SQLITE_ROW;
-    *old = sqlite3_column_int(statement, 0) > 0 && sqlite3_column_int(statement, 1) == 0;
-    fracas_err err = row ? FRACAS_OK : fracas_index_error(index, "open");
+    fracas_err err = row ? FRACAS_OK : fracas_index_error(index, "open"); /* first: a column that is not there is another error */
+    *old = row && sqlite3_column_int(statement, 0) > 0 && sqlite3_column_int(statement, 1) == 0;
     sqlite3_finalize(statement);
     return err;
 }
@@ -350,9 +350,9 @@ static fracas_err count_tables(fracas_index *index, int *all, int *meta)
     if (sqlite3_prepare_v2(index->db, query, -1, &statement, NULL) != SQLITE_OK)
         return fracas_index_error(index, "open");
     bool row = sqlite3_step(statement) == SQLITE_ROW;
-    *all = sqlite3_column_int(statement, 0);
-    *meta = sqlite3_column_int(statement, 1);
-    fracas_err err = row ? FRACAS_OK : fracas_index_error(index, "open");
+    fracas_err err = row ? FRACAS_OK : fracas_index_error(index, "open"); /* first: a column that is not there is another error */
+    *all = row ? sqlite3_column_int(statement, 0) : 0;
+    *meta = row ? sqlite3_column_int(statement, 1) : 0;
     sqlite3_finalize(statement);
     return err;
 }
