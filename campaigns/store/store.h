@@ -229,9 +229,9 @@ typedef struct {
 } fracas_index_counts;
 
 FRACAS_MUST_USE fracas_err fracas_index_count(fracas_index *index, fracas_index_counts *counts);
-/* The same for one point. */
-FRACAS_MUST_USE fracas_err fracas_index_count_point(fracas_index *index, const fracas_hash *point,
-                                                    fracas_index_counts *counts);
+/* The same, and of each point of the table (table->npoints of them; segments and bytes 0), by one look at every realization. */
+FRACAS_MUST_USE fracas_err fracas_index_count_points(fracas_index *index, const fracas_point_table *table, fracas_index_counts *counts,
+                                                     fracas_index_counts *point);
 
 /* ---- the study as a whole ---- */
 
