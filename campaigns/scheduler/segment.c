@@ -132,6 +132,7 @@ static fracas_err write_file(const fracas_segment *segment, const char *path, co
     fracas_file_header header = fracas_segment_header(campaign);
     fracas_writer *writer;
     TRY(fracas_writer_create(path, &header, &campaign->table, &writer));
+    fracas_writer_own_seal(writer);
     for (size_t i = 0; i < segment->count; i++) {
         fracas_err err = append(segment, i, campaign, writer, &row[i]);
         if (err) {
