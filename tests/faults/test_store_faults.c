@@ -242,6 +242,35 @@ static void overwritten_stretches_are_found(void **state)
     free(bytes);
 }
 
+/* A table `segment` that is damaged where SQLite does not see it. */
+static void damaged_rows_of_the_index_are_found(void **state)
+{
+    (void)state;
+    static const char *const damage[] = {"checksum = '00000000000zzzzz'", "checksum = ''", "name = 'a/b'", "rows = -1"};
+    fracas_file_seal seal;
+    fracas_segment_row row[ALL];
+    fracas_index *index;
+    write_segment(&seal, row);
+    OK(fracas_index_open(study, true, &index));
+    OK(fracas_index_plan(index, &table));
+    OK(fracas_index_commit(index, "a.h5", &seal, row, ALL, "{}"));
+    OK(fracas_index_commit(index, "b.h5", &seal, row, 0, "{}"));
+    for (size_t d = 0; d < sizeof damage / sizeof *damage; d++) {
+        char text[200];
+        fracas_known_segment *segment;
+        size_t count;
+        snprintf(text, sizeof text, "UPDATE segment SET %s WHERE id = 2", damage[d]);
+        assert_int_equal(sqlite3_exec(index->db, text, NULL, NULL, NULL), SQLITE_OK);
+        sample_fails(fracas_index_segments(index, &segment, &count), FRACAS_DAMAGED, "segment");
+        assert_null(segment);
+        assert_int_equal(count, 0);
+        snprintf(text, sizeof text, "UPDATE segment SET name = 'b.h5', rows = 0, checksum = '%016llx' WHERE id = 2",
+                 (unsigned long long)seal.checksum);
+        assert_int_equal(sqlite3_exec(index->db, text, NULL, NULL, NULL), SQLITE_OK);
+    }
+    fracas_index_close(index);
+}
+
 /* ---- a full disk ---- */
 
 /* Files of this process cannot grow beyond `bytes`. */
@@ -476,6 +505,7 @@ int main(void)
         TEST(lost_columns_are_found),
         TEST(truncated_files_are_found),
         TEST(overwritten_stretches_are_found),
+        TEST(damaged_rows_of_the_index_are_found),
         TEST(full_disk_is_said_and_leaves_nothing),
         TEST(bytes_are_durable_before_their_name),
         TEST(an_interrupted_merge_leaves_no_seal),
