@@ -2,10 +2,7 @@
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_CHILD_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_CHILD_H
 
-#include "campaigns/campaign.h"
-#include "campaigns/scheduler/packet.h"
-#include "campaigns/scheduler/run.h"
-#include "engine/engine.h"
+#include "campaigns/scheduler/compute.h"
 
 #include <stdbool.h>
 #include <sys/types.h>
@@ -13,32 +10,38 @@
 typedef struct {
     pid_t pid; /* 0: none runs */
     int fd;    /* its records come here */
+    int said;  /* memory file, what it wrote on standard error; -1: none could be had */
     fracas_lease lease;
-    size_t width;         /* realizations that it computes side by side */
-    double began;         /* fracas_now */
-    unsigned char *bytes; /* received so far */
+    size_t width;          /* realizations that it computes side by side */
+    double began;          /* fracas_now */
+    double deadline;       /* fracas_now when it has had lease.limit seconds; INFINITY: no limit */
+    bool late;             /* killed at its deadline */
+    fracas_packet **record; /* lease.count, of which `count` have come whole */
+    size_t count;
+    char fault[1024];      /* what it said was wrong; "" if nothing */
+    unsigned char *bytes;  /* received, not yet whole */
     size_t size, capacity;
 } fracas_child;
 
-/* Forks a child that computes `lease` of `model`, with strengths of `field`. It closes `server_fd`, its server's own connection.
- * FRACAS_ENVIRONMENT if no process or pipe can be had.
- *
- * For tests: FRACAS_TEST_CRASH=POINT:REPLICA in the environment (point counted from 0 in plan order) makes every
- * child that is about to compute this realization die of SIGSEGV. */
-FRACAS_MUST_USE fracas_err fracas_child_start(fracas_child *child, const fracas_campaign *campaign,
-                                              const fracas_run_options *options, const fracas_model *model,
-                                              const fracas_field *field, const fracas_lease *lease, int server_fd);
+/* Forks a child that computes the lease (copied), batch after batch, sends the records of each and ends. It takes the model from
+ * `models`, its server's, or builds it if that has not, and closes `server_fd`, its server's own connection, dies with its server, and is the first that the kernel kills where memory runs out.
+ * FRACAS_ENVIRONMENT if no process, memory or pipe can be had. */
+FRACAS_MUST_USE fracas_err fracas_child_start(fracas_child *child, const fracas_computation *computation, fracas_models *models,
+                                              int server_fd);
 
 /* Takes what the child has sent, blocking until there is something; *ended when nothing more will come. */
 FRACAS_MUST_USE fracas_err fracas_child_receive(fracas_child *child, bool *ended);
 
+/* Kills the child for its time is over: fracas_child_receive will see its end. */
+void fracas_child_expire(fracas_child *child);
+
 /* After the end: waits for the process. record[i], of *count, is the message for lease.replica[i]; the caller frees each, and
  * record with free(). *good is true when there is one for every realization; else failure says where the lease ended and by which
- * signal or error. */
+ * signal or error, and what the child said on standard error. */
 FRACAS_MUST_USE fracas_err fracas_child_collect(fracas_child *child, bool *good, fracas_packet ***record, size_t *count,
                                                 fracas_lease_failure *failure);
 
-/* Kills the child if one runs and frees its buffer. */
+/* Kills the child if one runs and frees what it sent. */
 void fracas_child_clear(fracas_child *child);
 
 #endif

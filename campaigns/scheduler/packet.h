@@ -5,11 +5,13 @@
  *                      FLUSH                         write the segment now
  *                      STOP                          drop what waits, finish (or kill) what runs, write the segment, end
  *   rank 0 -> rank     QUIT                          the run is over
+ *                      FRESH                         the answer to REPLACED: what follows is for the new server
  *   server -> rank 0   READY                         up, with the hash of the campaign that it read
  *                      COMPUTED, FAILED, SEGMENT     what became of leases
  *                      TROUBLE                       this server or rank cannot go on, and why
  *                      ENDED                         the answer to STOP: nothing comes any more
- *   rank -> rank 0     LOST                          its server died
+ *   rank -> rank 0     REPLACED                      its server died, of a new one READY will come
+ *                      LOST                          its server died and there will be no other
  *                      DRAIN                         the rank was signalled
  *   child -> server    RECORD, FAULT                 a packed record for each realization, or why there is none */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_PACKET_H
@@ -36,7 +38,9 @@ typedef enum {
     FRACAS_PACKET_DRAIN,     /* empty */
     FRACAS_PACKET_RECORD,    /* a packed record */
     FRACAS_PACKET_FAULT,     /* fracas_trouble */
-    FRACAS_PACKET_FLUSH      /* empty */
+    FRACAS_PACKET_FLUSH,     /* empty */
+    FRACAS_PACKET_REPLACED,  /* fracas_trouble */
+    FRACAS_PACKET_FRESH      /* empty */
 } fracas_packet_kind;
 
 /* One block of memory: its first fracas_packet_bytes are what travels. Freed with free(). */

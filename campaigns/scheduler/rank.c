@@ -1,12 +1,13 @@
 #include "campaigns/scheduler/rank.h"
 
 #include "campaigns/campaign.h"
+#include "campaigns/scheduler/clock.h"
 #include "campaigns/scheduler/director.h"
+#include "campaigns/scheduler/keeper.h"
 #include "campaigns/scheduler/packet.h"
 #include "campaigns/scheduler/prepare.h"
-#include "campaigns/scheduler/server.h"
+#include "campaigns/scheduler/share.h"
 
-#include <errno.h>
 #include <limits.h>
 #include <mpi.h>
 #include <poll.h>
@@ -15,10 +16,14 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/prctl.h>
-#include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
-enum { TAG = 0, WAIT_MAX = 8 /* ms */ };
+enum {
+    TAG = 0,
+    WAIT_MAX = 8,  /* ms */
+    DEATHS_MAX = 5 /* of servers, one after another, that have done nothing in between */
+};
 
 /* Set by SIGUSR1 (the parent, by way of mpirun), SIGUSR2, SIGTERM and SIGINT (mpirun, srun, a batch system). */
 static volatile sig_atomic_t drain_asked;
@@ -33,11 +38,13 @@ typedef struct {
     const fracas_run_options *options;
     fracas_campaign *campaign;
     char study[4096];
+    double began; /* fracas_now at the start of this process */
     int rank, size;
-    int server; /* connection to the compute server; -1: there is none (any more) */
-    pid_t pid;  /* of the server */
-    bool ended; /* the server has said its last word: ENDED or TROUBLE */
-    int wait;   /* ms to sleep when nothing comes */
+    fracas_keeper keeper; /* of the compute server, and the connection to that */
+    bool ended;  /* the server has said its last word: ENDED or TROUBLE */
+    bool fresh;  /* the server is a new one of which rank 0 has not heard: what comes is still for the one before */
+    int deaths;  /* of servers since one has done something */
+    int wait;    /* ms to sleep when nothing comes */
 } rank_state;
 
 /* ---- messages ---- */
@@ -80,53 +87,62 @@ static fracas_err mpi_receive(int *from, fracas_packet **message)
 
 /* ---- the server ---- */
 
-/* Closes the connection and waits for the server's end, to which that leads. */
-static int end_server(rank_state *rank)
+/* The message for rank 0 when the server is gone without a last word: there is a new one, or there is none any more. */
+static fracas_err tell_death(rank_state *rank, fracas_packet **message)
 {
-    int status = 0;
-    if (rank->server < 0) return 0;
-    close(rank->server);
-    rank->server = -1;
-    while (waitpid(rank->pid, &status, 0) < 0 && errno == EINTR)
-        ;
-    return status;
+    char how[512];
+    fracas_trouble trouble = {.code = FRACAS_ENVIRONMENT};
+    fracas_packet_kind kind = FRACAS_PACKET_LOST;
+    fracas_err gone = fracas_keeper_bury(&rank->keeper, how, sizeof how);
+    if (gone) {
+        snprintf(trouble.text, sizeof trouble.text, "the compute server of rank %d %s", rank->rank, fracas_message());
+    } else if (++rank->deaths >= DEATHS_MAX) {
+        snprintf(trouble.text, sizeof trouble.text, "the compute server of rank %d %s, as did %d before it that computed nothing in "
+                 "between; it is not started again", rank->rank, how, rank->deaths - 1);
+        fracas_keeper_end(&rank->keeper);
+    } else if (fracas_keeper_renew(&rank->keeper)) {
+        snprintf(trouble.text, sizeof trouble.text, "the compute server of rank %d %s, and there is no new one: %.400s", rank->rank, how,
+                 fracas_message());
+    } else {
+        snprintf(trouble.text, sizeof trouble.text, "the compute server of rank %d %s; a new one goes on", rank->rank, how);
+        kind = FRACAS_PACKET_REPLACED;
+    }
+    rank->ended = kind == FRACAS_PACKET_LOST;
+    rank->fresh = kind == FRACAS_PACKET_REPLACED;
+    return fracas_packet_create(kind, &trouble, sizeof trouble, message);
 }
 
-/* The message for rank 0 when the server is gone without a last word. */
-static fracas_err tell_lost(rank_state *rank, fracas_packet **message)
+/* What a message of the server tells its rank. */
+static void note(rank_state *rank, const fracas_packet *message)
 {
-    int status = end_server(rank);
-    fracas_trouble trouble = {.code = FRACAS_ENVIRONMENT};
-    if (WIFSIGNALED(status))
-        snprintf(trouble.text, sizeof trouble.text, "the compute server of rank %d died of signal %d (%s)", rank->rank,
-                 WTERMSIG(status), strsignal(WTERMSIG(status)));
-    else
-        snprintf(trouble.text, sizeof trouble.text, "the compute server of rank %d ended with status %d", rank->rank,
-                 WEXITSTATUS(status));
-    rank->ended = true;
-    return fracas_packet_create(FRACAS_PACKET_LOST, &trouble, sizeof trouble, message);
+    switch (message->kind) {
+    case FRACAS_PACKET_ENDED:
+    case FRACAS_PACKET_TROUBLE: rank->ended = true; break;
+    case FRACAS_PACKET_COMPUTED:
+    case FRACAS_PACKET_FAILED:
+    case FRACAS_PACKET_SEGMENT: rank->deaths = 0; break;
+    default: break;
+    }
 }
 
 /* Sleeps until the server says something, but `wait` ms at most; *message is NULL when it says nothing. */
 static fracas_err server_receive(rank_state *rank, fracas_packet **message)
 {
     *message = NULL;
-    struct pollfd from = {.fd = rank->server, .events = POLLIN};
+    struct pollfd from = {.fd = rank->keeper.server, .events = POLLIN};
     if (poll(&from, 1, rank->wait) <= 0 || !from.revents) return FRACAS_OK;
-    TRY(fracas_packet_read(rank->server, message));
-    if (*message) {
-        rank->ended = (*message)->kind == FRACAS_PACKET_ENDED || (*message)->kind == FRACAS_PACKET_TROUBLE;
-        return FRACAS_OK;
-    }
-    if (!rank->ended) return tell_lost(rank, message);
-    end_server(rank);
+    TRY(fracas_packet_read(rank->keeper.server, message));
+    if (*message) note(rank, *message);
+    else if (!rank->ended) return tell_death(rank, message);
+    else fracas_keeper_end(&rank->keeper);
     return FRACAS_OK;
 }
 
 /* A server that is gone cannot be told anything: server_receive will notice. */
-static void server_send(const rank_state *rank, const fracas_packet *message)
+static void server_send(rank_state *rank, const fracas_packet *message)
 {
-    if (rank->server >= 0 && fracas_packet_write(rank->server, message)) return;
+    if (message->kind == FRACAS_PACKET_FRESH) rank->fresh = false;
+    else if (!rank->fresh && rank->keeper.server >= 0 && fracas_packet_write(rank->keeper.server, message)) return;
 }
 
 /* Sleeps longer the longer nothing happens: MPI is polled, and leases are given one ahead. */
@@ -147,24 +163,50 @@ static fracas_err tell(fracas_packet_kind kind, const void *body, size_t size)
     return err;
 }
 
-/* One message each way, if there is one. */
-static fracas_err forward(rank_state *rank, bool *quit)
+/* What rank 0 says goes to the server; *come tells whether there was anything. */
+static fracas_err hear_lead(rank_state *rank, bool *come, bool *quit)
 {
     fracas_packet *message;
     int from;
-    TRY(server_receive(rank, &message));
-    bool busy = message != NULL;
-    fracas_err err = message ? mpi_send(0, message) : FRACAS_OK;
-    free(message);
-    TRY(err);
     TRY(mpi_receive(&from, &message));
-    busy |= message != NULL;
+    *come = message != NULL;
     if (message && message->kind == FRACAS_PACKET_QUIT)
         *quit = true;
     else if (message)
         server_send(rank, message);
     free(message);
-    pace(rank, busy);
+    return FRACAS_OK;
+}
+
+/* Sends to rank 0, and hears it meanwhile: it may be sending to this rank, and a long message waits until the other side receives. */
+static fracas_err send_lead(rank_state *rank, const fracas_packet *message, bool *quit)
+{
+    const struct timespec rest = {.tv_nsec = 200000};
+    MPI_Request request;
+    int sent = 0;
+    int code = MPI_Isend(message, (int)fracas_packet_bytes(message), MPI_BYTE, 0, TAG, MPI_COMM_WORLD, &request);
+    while (code == MPI_SUCCESS) {
+        bool come;
+        code = MPI_Test(&request, &sent, MPI_STATUS_IGNORE);
+        if (code != MPI_SUCCESS || sent) break;
+        TRY(hear_lead(rank, &come, quit));
+        if (!come) nanosleep(&rest, NULL);
+    }
+    return code == MPI_SUCCESS ? FRACAS_OK : mpi_failed("send", code);
+}
+
+/* One message each way, if there is one. */
+static fracas_err forward(rank_state *rank, bool *quit)
+{
+    fracas_packet *message;
+    bool come;
+    TRY(server_receive(rank, &message));
+    const bool told = message != NULL;
+    fracas_err err = message ? send_lead(rank, message, quit) : FRACAS_OK;
+    free(message);
+    TRY(err);
+    TRY(hear_lead(rank, &come, quit));
+    pace(rank, told || come);
     return FRACAS_OK;
 }
 
@@ -213,9 +255,21 @@ static fracas_err direct(rank_state *rank, fracas_director *director)
             if (message) fracas_director_hear(director, (size_t)from, message);
             free(message);
         } while (message);
+        fracas_director_tick(director);
         pace(rank, busy);
     }
     return FRACAS_OK;
+}
+
+/* When the run must have ended, by fracas_now; 0: any time. A parent counts the walltime from its own start; started by the user's own
+ * launcher this process is where the run begins. */
+static double deadline_of(const rank_state *rank)
+{
+    const char *text = getenv(FRACAS_DEADLINE);
+    struct timespec day;
+    clock_gettime(CLOCK_REALTIME, &day);
+    if (text) return fracas_now() + strtod(text, NULL) - (double)day.tv_sec - 1e-9 * (double)day.tv_nsec;
+    return rank->options->walltime > 0 ? rank->began + rank->options->walltime : 0;
 }
 
 static fracas_err lead(rank_state *rank, fracas_voice *voice, bool *ran)
@@ -226,7 +280,9 @@ static fracas_err lead(rank_state *rank, fracas_voice *voice, bool *ran)
                                    .workers = (size_t)rank->size,
                                    .send = send_worker,
                                    .context = rank,
-                                   .voice = voice};
+                                   .voice = voice,
+                                   .now = fracas_now,
+                                   .deadline = deadline_of(rank)};
     fracas_director *director;
     fracas_err verdict;
     TRY(fracas_director_create(&setup, &director, &verdict));
@@ -272,12 +328,12 @@ static void catch_signals(void)
     signal(SIGXFSZ, SIG_IGN);
 }
 
-/* What must happen before MPI_Init: the server is forked from a process that MPI does not know. */
+/* What must happen before MPI_Init: the keeper is forked from a process that MPI does not know. */
 static fracas_err set_up(rank_state *rank)
 {
-    TRY(fracas_campaign_read(rank->options->file, &rank->campaign));
+    TRY(fracas_run_campaign(rank->options, &rank->campaign));
     TRY(fracas_study_folder(rank->options, rank->campaign, rank->study, sizeof rank->study));
-    return fracas_server_start(rank->campaign, rank->options, rank->study, &rank->server, &rank->pid);
+    return fracas_keeper_start(rank->campaign, rank->options, rank->study, &rank->keeper);
 }
 
 fracas_err fracas_rank_run(const fracas_run_options *options, bool *ran)
@@ -287,7 +343,7 @@ fracas_err fracas_rank_run(const fracas_run_options *options, bool *ran)
      * launchers do with their threads is not known.) */
     if (getenv(FRACAS_PARENT_MARK)) prctl(PR_SET_PDEATHSIG, SIGKILL);
     catch_signals();
-    rank_state rank = {.options = options, .server = -1};
+    rank_state rank = {.options = options, .began = fracas_now(), .keeper = {.control = -1, .server = -1}};
     fracas_err err = set_up(&rank);
     fracas_trouble trouble;
     fracas_trouble_take(err, &trouble);
@@ -303,7 +359,7 @@ fracas_err fracas_rank_run(const fracas_run_options *options, bool *ran)
     } else {
         err = FRACAS_OK;
     }
-    end_server(&rank);
+    fracas_keeper_end(&rank.keeper);
     fracas_campaign_destroy(rank.campaign);
     MPI_Finalize();
     return err;

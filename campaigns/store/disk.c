@@ -5,6 +5,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <inttypes.h>
 #include <linux/magic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -96,6 +97,30 @@ fracas_err fracas_disk_seal_path(const char *path, fracas_file_seal *seal)
     if (fd < 0) return fracas_disk_fail("open", path);
     fracas_err err = fracas_disk_seal(fd, path, seal);
     close(fd);
+    return err;
+}
+
+fracas_err fracas_disk_check_seal(const char *path, const fracas_file_seal *wanted)
+{
+    fracas_file_seal seal;
+    TRY(fracas_disk_seal_path(path, &seal));
+    if (seal.bytes == wanted->bytes && seal.checksum == wanted->checksum) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED, "%s: damaged: it has %" PRIu64 " bytes of checksum %016" PRIx64 ", the index says %" PRIu64
+                       " of %016" PRIx64, path, seal.bytes, seal.checksum, wanted->bytes, wanted->checksum);
+}
+
+fracas_err fracas_disk_set_aside(const char *path, char **aside)
+{
+    const char *dot = strrchr(path, '.'), *slash = strrchr(path, '/');
+    if (!dot || (slash && dot < slash)) dot = path + strlen(path);
+    if (asprintf(aside, "%.*s.damaged", (int)(dot - path), path) < 0) {
+        *aside = NULL;
+        return fracas_no_memory("a file name");
+    }
+    fracas_err err = FRACAS_OK;
+    if (rename(path, *aside) == 0) err = fracas_disk_sync_folder(path);
+    else if (errno != ENOENT) err = fracas_disk_fail("rename", path);
+    if (err) free(*aside), *aside = NULL;
     return err;
 }
 

@@ -20,6 +20,12 @@ FRACAS_MUST_USE fracas_err fracas_disk_seal(int fd, const char *path, fracas_fil
 /* The same of a closed one; FRACAS_DAMAGED if it is not there. */
 FRACAS_MUST_USE fracas_err fracas_disk_seal_path(const char *path, fracas_file_seal *seal);
 
+/* FRACAS_DAMAGED, with sizes and checksums, unless the file is there and is what the seal says. */
+FRACAS_MUST_USE fracas_err fracas_disk_check_seal(const char *path, const fracas_file_seal *wanted);
+/* Renames a damaged FOLDER/NAME.h5 to FOLDER/NAME.damaged, durable on return; *aside is that, freed by the caller. One that is not
+ * there is no error. */
+FRACAS_MUST_USE fracas_err fracas_disk_set_aside(const char *path, char **aside);
+
 /* True if `path` is there and has so many bytes. */
 FRACAS_MUST_USE fracas_err fracas_disk_has_size(const char *path, uint64_t bytes, bool *has);
 

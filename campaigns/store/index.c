@@ -34,7 +34,7 @@ static const char tables[] =
     " maximum INTEGER NOT NULL, relative_half_width REAL NOT NULL, confidence REAL NOT NULL,"
     " PRIMARY KEY (point, round)) STRICT, WITHOUT ROWID;";
 
-static const char remedy[] = "remove it: `fracas run` makes it anew from the segments";
+static const char remedy[] = "`fracas reindex` makes it anew from the segments";
 
 static const char *const sql_text[FRACAS_NSQL] = {
     [FRACAS_SQL_BEGIN] = "BEGIN IMMEDIATE",
@@ -50,7 +50,8 @@ static const char *const sql_text[FRACAS_NSQL] = {
                            " (SELECT 0 UNION ALL SELECT replica + 1 FROM n WHERE replica + 1 < ?2)"
                            " INSERT OR IGNORE INTO realization(point, replica, status)"
                            " SELECT ?1, replica, 'planned' FROM n",
-    [FRACAS_SQL_ROW_FIND] = "SELECT status, segment, row FROM realization WHERE point = ?1 AND replica = ?2",
+    [FRACAS_SQL_ROW_FIND] = "SELECT status, segment, row, outcome, fragments, fragments_dust, steps, dissipated, residual, size"
+                            " FROM realization WHERE point = ?1 AND replica = ?2",
     [FRACAS_SQL_ROW_OF_POINT] = "SELECT replica, status, attempts FROM realization"
                                 " WHERE point = ?1 AND replica >= ?3 AND replica < ?2 ORDER BY replica",
     [FRACAS_SQL_ROW_FAILED] = "SELECT replica, status, attempts, coalesce(reason, '') FROM realization"
@@ -83,6 +84,7 @@ static const char *const sql_text[FRACAS_NSQL] = {
                                        " WHERE id IN (SELECT segment FROM realization WHERE point = ?1)",
     [FRACAS_SQL_EVENT_ADD] = "INSERT INTO event(time, kind, text)"
                              " VALUES (strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), ?1, ?2)",
+    [FRACAS_SQL_EVENT_LAST] = "SELECT text FROM event WHERE kind = ?1 ORDER BY id DESC LIMIT 1",
     [FRACAS_SQL_ROW_SUMMARY] = "SELECT status, outcome, fragments, size, dissipated FROM realization"
                                " WHERE point = ?1 AND replica < ?2 ORDER BY replica",
     [FRACAS_SQL_ROW_TRIM] = "DELETE FROM realization WHERE point = ?1 AND replica >= ?2",
@@ -100,6 +102,9 @@ static const char *old_text(int sql)
         return "SELECT r.segment, r.row, p.hash, r.replica, r.outcome, r.fragments, r.fragments_dust, r.steps, r.dissipated,"
                " r.residual, r.status, NULL FROM realization r JOIN point p ON p.id = r.point"
                " WHERE r.segment IS NOT NULL OR r.status = 'done' ORDER BY r.segment, r.row";
+    case FRACAS_SQL_ROW_FIND:
+        return "SELECT status, segment, row, outcome, fragments, fragments_dust, steps, dissipated, residual, NULL FROM realization"
+               " WHERE point = ?1 AND replica = ?2";
     case FRACAS_SQL_ROW_DONE:
     case FRACAS_SQL_ROW_FORGET:
     case FRACAS_SQL_ROW_SUMMARY:

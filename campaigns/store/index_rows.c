@@ -2,6 +2,7 @@
 #include "campaigns/store/index.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -103,7 +104,8 @@ fracas_err fracas_index_rows_from(fracas_index *index, const fracas_point_row *p
     }
     fracas_index_reset(index, FRACAS_SQL_ROW_OF_POINT);
     if (found == point->replicas) return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED, "%s: replica %" PRId64 " of point %zu was never planned", index->path, found, p);
+    return fracas_fail(FRACAS_DAMAGED, "%s: replica %" PRId64 " of point %zu was never planned; `fracas reindex` makes it anew from the "
+                       "segments", index->path, found, p);
 }
 
 fracas_err fracas_index_rows(fracas_index *index, const fracas_point_table *table, fracas_index_row **row,
@@ -145,6 +147,11 @@ fracas_err fracas_index_failures(fracas_index *index, const fracas_point_table *
     return FRACAS_OK;
 }
 
+static double real_at(sqlite3_stmt *s, int column) /* NULL is NaN */
+{
+    return sqlite3_column_type(s, column) == SQLITE_NULL ? NAN : sqlite3_column_double(s, column);
+}
+
 fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point, int64_t replica, fracas_place *place)
 {
     int64_t id;
@@ -156,12 +163,15 @@ fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point, int
     sqlite3_stmt *s = at(index, FRACAS_SQL_ROW_FIND);
     if (found)
         *place = (fracas_place){fracas_index_status(sqlite3_column_text(s, 0)), sqlite3_column_int64(s, 1),
-                                sqlite3_column_int64(s, 2)};
+                                sqlite3_column_int64(s, 2), sqlite3_column_int64(s, 3), sqlite3_column_int64(s, 4),
+                                sqlite3_column_int64(s, 5), sqlite3_column_int64(s, 6), real_at(s, 7), real_at(s, 8), real_at(s, 9),
+                                sqlite3_column_type(s, 9) != SQLITE_NULL};
     fracas_index_reset(index, FRACAS_SQL_ROW_FIND);
     if (found) return FRACAS_OK;
     char hex[FRACAS_HASH_HEX];
     fracas_hash_hex(point, hex);
-    return fracas_fail(FRACAS_DAMAGED, "%s has no replica %" PRId64 " of point %s", index->path, replica, hex);
+    return fracas_fail(FRACAS_DAMAGED, "%s has no replica %" PRId64 " of point %s; `fracas reindex` makes it anew from the segments",
+                       index->path, replica, hex);
 }
 
 /* The last update changed this realization, or it is done already and stays; FRACAS_DAMAGED if it was never planned. */
@@ -214,6 +224,17 @@ fracas_err fracas_index_event(fracas_index *index, const char *kind, const char 
     TRY(fracas_index_bind_text(index, FRACAS_SQL_EVENT_ADD, 1, kind));
     TRY(fracas_index_bind_text(index, FRACAS_SQL_EVENT_ADD, 2, text));
     return fracas_index_do(index, FRACAS_SQL_EVENT_ADD);
+}
+
+fracas_err fracas_index_last_event(fracas_index *index, const char *kind, char **text)
+{
+    bool found = false;
+    *text = NULL;
+    TRY(fracas_index_bind_text(index, FRACAS_SQL_EVENT_LAST, 1, kind));
+    TRY(fracas_index_step(index, FRACAS_SQL_EVENT_LAST, &found));
+    if (found) *text = strdup((const char *)sqlite3_column_text(at(index, FRACAS_SQL_EVENT_LAST), 0));
+    fracas_index_reset(index, FRACAS_SQL_EVENT_LAST);
+    return found && !*text ? fracas_no_memory("an event") : FRACAS_OK;
 }
 
 /* ---- segments ---- */
@@ -365,6 +386,8 @@ static fracas_err tally(fracas_index *index, fracas_sql sql, fracas_index_counts
     fracas_index_reset(index, sql);
     return FRACAS_OK;
 }
+
+fracas_err fracas_index_points(fracas_index *index, int64_t *points) { return one_row(index, FRACAS_SQL_POINT_COUNT, points, NULL); }
 
 fracas_err fracas_index_count(fracas_index *index, fracas_index_counts *counts)
 {

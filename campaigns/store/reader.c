@@ -174,6 +174,14 @@ const fracas_file_header *fracas_reader_header(const fracas_reader *reader) { re
 const fracas_point_table *fracas_reader_points(const fracas_reader *reader) { return &reader->points.table; }
 size_t fracas_reader_realizations(const fracas_reader *reader) { return reader->set[FRACAS_SET_REALIZATION].rows; }
 
+fracas_err fracas_reader_provenance(const fracas_reader *reader, char **provenance)
+{
+    bool has;
+    *provenance = NULL;
+    TRY(fracas_h5_has_attribute(&reader->h5, "/", FRACAS_PROVENANCE, &has));
+    return has ? fracas_h5_get_text(&reader->h5, "/", FRACAS_PROVENANCE, provenance) : FRACAS_OK;
+}
+
 /* ---- rows ---- */
 
 static fracas_err read_block(fracas_reader *reader, int s, uint64_t row)

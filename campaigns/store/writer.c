@@ -179,6 +179,11 @@ fracas_err fracas_writer_append(fracas_writer *writer, size_t point, int64_t rep
                       record->ninterface);
 }
 
+fracas_err fracas_writer_provenance(fracas_writer *writer, const char *provenance)
+{
+    return fracas_h5_put_text(&writer->h5, "/", FRACAS_PROVENANCE, provenance);
+}
+
 /* ---- decisions ---- */
 
 fracas_err fracas_writer_decisions(fracas_writer *writer, const fracas_decision *decision, size_t count)

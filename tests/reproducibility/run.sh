@@ -21,10 +21,10 @@ compare_compilers small.yaml
 # Started by mpirun itself: rank 0 speaks, and its status is mpirun's.
 expect 0 launch -n 2 "$fracas" run small.yaml --study direct
 same one direct
-export FRACAS_TEST_CRASH=0:1
+export FRACAS_TEST_FAULT=crash:0:1
 expect 1 launch -n 1 "$fracas" run small.yaml --study direct-crash
 said 'FAILED'
-unset FRACAS_TEST_CRASH
+unset FRACAS_TEST_FAULT
 
 # More replicas, then one more point between the others: as if run at once.
 campaign part.yaml 5 '1e5 1/s'

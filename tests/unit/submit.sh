@@ -36,7 +36,8 @@ refused 'time is missing' small.yaml
 refused 'too short' small.yaml --time 30s
 refused 'longer than --signal-lead' small.yaml --time 2m --signal-lead 120
 refused 'lanes is `3`' small.yaml --time 1h --lanes 3
-refused 'unknown option' small.yaml --time 1h --walltime 1h
+refused 'follows from --time' small.yaml --time 1h --walltime 1h
+refused 'unknown option' small.yaml --time 1h --walls 1h
 refused 'quotes' small.yaml --time 1h --account 'a"b'
 refused 'begin with -' small.yaml --time 1h -- mem
 sed 's/elements: 500/elements: -1/' small.yaml > wrong.yaml

@@ -1,0 +1,94 @@
+# kill -9 of a server, of its keeper or of the process of a lease, with a process for each lease and without: nothing is lost, and a
+# server is replaced.
+. tests/support/campaigns.sh
+
+campaign small.yaml 12 '3e4 1/s, 1e5 1/s'
+sed 's/elements: 500/elements: 1200/' small.yaml > long.yaml # some 20 ms a realization
+expect 0 "$fracas" run long.yaml --study undisturbed --jobs 2
+
+# events STUDY KIND
+events()
+{
+    sqlite3 "$1/index.sqlite" "SELECT count(*) FROM event WHERE kind = '$2'"
+}
+
+# Processes of the run that are called so.
+named()
+{
+    for pid in $(processes); do
+        [ "$(cat "/proc/$pid/comm" 2>/dev/null)" != "$1" ] || echo "$pid"
+    done
+}
+
+# killed STUDY ISOLATION NAME: kill -9 of the first process of that name while there is much to do.
+killed()
+{
+    tries=0
+    while :; do
+        start long.yaml --study "$1" --jobs 2 --isolation "$2" --lanes 1 --lease-time 0 --segment-size 0.1 # three records
+        wait_segments "$1" 1
+        servers=$(named fracas-server)
+        victim=$(named "$3" | head -n 1)
+        if [ -n "$victim" ] && kill -9 "$victim" 2>/dev/null && [ "$(segments "$1")" -le 4 ]; then break; fi
+        kill_session # a busy machine kept this script waiting, or it was between two leases: once more
+        rm -rf "$1"
+        tries=$((tries + 1))
+        [ $tries -lt 50 ] || fail "there is no $3 to be killed"
+    done
+    status=0
+    wait "$session" || status=$?
+    session=
+    [ $status -eq 0 ] || { cat background >&2; fail "status $status after kill -9 of $3"; }
+    same undisturbed "$1"
+}
+
+# newcomer STUDY: a server that was not there before the kill has written a segment.
+newcomer()
+{
+    for pid in $(sqlite3 "$1/index.sqlite" "SELECT DISTINCT json_extract(provenance, '\$.pid') FROM segment"); do
+        case " $(echo $servers) " in *" $pid "*) ;; *) return ;; esac
+    done
+    fail "no server but $(echo $servers) has written a segment"
+}
+
+for isolation in lease none; do
+    killed server-$isolation $isolation fracas-server
+    grep -q 'compute server of rank . died of signal 9 (Killed; memory may have run out); a new one goes on' background ||
+        fail "it did not say that a server died"
+    [ "$(events server-$isolation 'server replaced')" -eq 1 ] || fail "not one event of a server replaced"
+    newcomer server-$isolation
+    killed keeper-$isolation $isolation fracas-keeper
+    grep -q 'compute server of rank . went with its keeper, which died of signal 9.*; the others go on' background ||
+        fail "it did not say that a keeper died"
+    [ "$(events keeper-$isolation 'worker lost')" -eq 1 ] || fail "not one event of a worker lost"
+done
+killed lease-lease lease fracas-lease
+
+zombies()
+{
+    cat /proc/[0-9]*/stat 2>/dev/null | sed 's/([^)]*)/x/' | awk -v session="$session" '$6 == session && $3 == "Z" {print $1}'
+}
+
+# Five in a row that have computed nothing: that is enough. Meanwhile nobody is left unburied.
+campaign one.yaml 1 '1e5 1/s'
+export FRACAS_TEST_FAULT=hang:0:0
+start one.yaml --study five --jobs 1 --isolation none
+last=
+for death in 1 2 3 4 5; do
+    tries=0
+    while server=$(named fracas-server) && dead=$(zombies) && { [ -z "$server" ] || [ "$server" = "$last" ] || [ -n "$dead" ]; }; do
+        tries=$((tries + 1))
+        [ $tries -lt 6000 ] || fail "no server number $death, or zombies: $dead"
+        sleep 0.01
+    done
+    kill -9 "$server"
+    last=$server
+done
+status=0
+wait "$session" || status=$?
+session=
+unset FRACAS_TEST_FAULT
+[ $status -eq 6 ] || { cat background >&2; fail "status $status after five deaths"; }
+grep -q 'compute server of rank 0 died of signal 9 .*as did 4 before it that computed nothing in between; it is not started again' background ||
+    { cat background >&2; fail "it did not say why it gave up"; }
+expect 0 "$fracas" run one.yaml --study five

@@ -1,0 +1,148 @@
+/* Rank 0 without MPI: what becomes of the leases of a server that died and was replaced. */
+#include "tests/support/campaign_text.h"
+#include "tests/support/study_fixture.h"
+
+#include "campaigns/scheduler/director.h"
+
+static struct {
+    size_t nleases, stops, fresh;
+    uint64_t lease[8], isolated[8], count[8]; /* in the order given */
+} worker[2];
+
+static fracas_campaign *campaign;
+static fracas_director *director;
+static fracas_voice voice;
+static fracas_run_options options;
+
+static fracas_err note(void *context, size_t to, const fracas_packet *message)
+{
+    (void)context;
+    if (message->kind == FRACAS_PACKET_STOP) worker[to].stops++;
+    if (message->kind == FRACAS_PACKET_FRESH) worker[to].fresh++;
+    if (message->kind != FRACAS_PACKET_LEASE) return FRACAS_OK;
+    fracas_lease lease;
+    memcpy(&lease, message->body, message->size);
+    const size_t i = worker[to].nleases++;
+    worker[to].lease[i] = lease.id;
+    worker[to].isolated[i] = lease.isolated;
+    worker[to].count[i] = lease.count;
+    return FRACAS_OK;
+}
+
+static void hear(size_t from, fracas_packet_kind kind, const void *body, size_t size)
+{
+    fracas_packet *message;
+    OK(fracas_packet_create(kind, body, size, &message));
+    fracas_director_hear(director, from, message);
+    free(message);
+}
+
+static void ready(size_t from)
+{
+    hear(from, FRACAS_PACKET_READY, &campaign->hash, sizeof campaign->hash);
+}
+
+/* The `i`-th lease that it was given. */
+static void computed(size_t from, size_t i)
+{
+    const fracas_lease_report report = {worker[from].lease[i], 1.0};
+    hear(from, FRACAS_PACKET_COMPUTED, &report, sizeof report);
+}
+
+static void replaced(size_t from)
+{
+    const fracas_trouble trouble = {.code = FRACAS_ENVIRONMENT, .text = "a server died"};
+    hear(from, FRACAS_PACKET_REPLACED, &trouble, sizeof trouble);
+}
+
+/* Three realizations, two for the first worker and one for the second. */
+static int begin(void **state)
+{
+    (void)state;
+    memset(worker, 0, sizeof worker);
+    campaign = read_text(plain_campaign);
+    fracas_run_options_init(&options);
+    fracas_voice_init(&voice);
+    study = sample_folder();
+    const fracas_director_setup setup = {.campaign = campaign, .options = &options, .study = study, .workers = 2, .send = note,
+                                         .voice = &voice};
+    fracas_err verdict;
+    OK(fracas_director_create(&setup, &director, &verdict));
+    ready(0);
+    ready(1);
+    assert_int_equal(worker[0].nleases, 1);
+    assert_int_equal(worker[1].nleases, 1);
+    assert_int_equal(worker[0].count[0] + worker[1].count[0], 3);
+    return 0;
+}
+
+static int end(void **state)
+{
+    (void)state;
+    fracas_director_destroy(director);
+    fracas_campaign_destroy(campaign);
+    sample_remove(study);
+    return 0;
+}
+
+static void what_it_held_waits_and_is_isolated(void **state)
+{
+    (void)state;
+    replaced(1);
+    assert_int_equal(worker[1].fresh, 1);
+    assert_int_equal(worker[1].nleases, 1); /* nothing before it is ready */
+    ready(1);
+    assert_int_equal(worker[1].nleases, 2);
+    assert_int_equal(worker[1].lease[1], worker[1].lease[0]);
+    assert_int_equal(worker[1].isolated[0], 0);
+    assert_int_not_equal(worker[1].isolated[1], 0);
+    computed(1, 1);
+    computed(0, 0);
+    assert_int_equal(worker[0].stops + worker[1].stops, 2);
+}
+
+/* All is computed, all are told to stop; then one dies before it has written its segment. It computes that again, in its new server,
+ * and what the other one takes to its end with it. */
+static void one_that_dies_at_the_end_goes_on(void **state)
+{
+    (void)state;
+    computed(0, 0);
+    computed(1, 0);
+    assert_int_equal(worker[0].stops, 1);
+    assert_int_equal(worker[1].stops, 1);
+    replaced(0);
+    assert_int_equal(worker[0].nleases + worker[1].nleases, 2);
+    ready(0);
+    assert_int_equal(worker[0].stops, 1);
+    assert_int_equal(worker[0].nleases, 2);
+    assert_int_equal(worker[0].count[1], worker[0].count[0]);
+    hear(1, FRACAS_PACKET_ENDED, NULL, 0);
+    assert_int_equal(worker[1].nleases, 1); /* that has ended */
+    computed(0, 1);
+    assert_int_equal(worker[0].nleases, 3);
+    computed(0, 2);
+    assert_int_equal(worker[0].stops, 2);
+    hear(0, FRACAS_PACKET_ENDED, NULL, 0);
+    assert_true(fracas_director_over(director));
+}
+
+static void one_that_dies_while_a_run_drains_is_stopped(void **state)
+{
+    (void)state;
+    fracas_director_drain(director);
+    assert_int_equal(worker[0].stops, 1);
+    replaced(0);
+    ready(0);
+    assert_int_equal(worker[0].stops, 2);
+    assert_int_equal(worker[0].nleases, 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(what_it_held_waits_and_is_isolated, begin, end),
+        cmocka_unit_test_setup_teardown(one_that_dies_at_the_end_goes_on, begin, end),
+        cmocka_unit_test_setup_teardown(one_that_dies_while_a_run_drains_is_stopped, begin, end),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
