@@ -14,7 +14,7 @@ typedef struct {
     char letter;          /* 'o' for -o, which is the same; 0: there is none */
 } fracas_option;
 
-enum { FRACAS_MOST_OPTIONS = 24 }; /* of one subcommand */
+enum { FRACAS_MOST_OPTIONS = 32 }; /* of one subcommand */
 
 typedef struct fracas_arguments fracas_arguments;
 

@@ -14,41 +14,27 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Those from STUDY on are handed to `fracas run`, which checks them. */
-enum { NODES, TIME, TASKS, PARTITION, ACCOUNT, LEAD, OUTPUT, SCRIPT, SUBMIT, STUDY, JOBS, REPLICAS, PART, ISOLATION, LEASE_TIME, LEASE_LIMIT,
-       MEMORY_LIMIT, LANES, ISA, SEGMENT_AGE, SEGMENT_SIZE, FORCE, IGNORE_SPACE, NOPTIONS };
-static const fracas_option options[NOPTIONS] = {
-    [NODES] = {"nodes", "N", "nodes of the job (1)"},
-    [TIME] = {"time", "TIME", "the most it may take each time it is started: 2:00:00, 90m; needed"},
-    [TASKS] = {"tasks-per-node", "N", "processes on each node (the whole node: one a core)"},
-    [PARTITION] = {"partition", "NAME", "partition (the cluster's default)"},
-    [ACCOUNT] = {"account", "NAME", "account that is charged (your default)"},
-    [LEAD] = {"signal-lead", "S", "have Slurm signal S seconds before the end (60)"},
-    [OUTPUT] = {"output", "FILE", "what the run says; %j: number of the job (FILE.%j.out)"},
-    [SCRIPT] = {"script", "PATH", "write the script there (FILE.sbatch)"},
-    [SUBMIT] = {"submit", NULL, "hand it to sbatch, and print the number of the job"},
-    [STUDY] = {"study", "DIR", "this and what follows: as for `fracas run`"},
-    [JOBS] = {"jobs", "N", "processes that compute (one a task of the job)"},
-    [REPLICAS] = {"replicas", "N", "replicas of every point"},
-    [PART] = {"part", "K/N", "compute the K-th of N parts only"},
-    [ISOLATION] = {"isolation", "lease|none", "a process for each lease, or none"},
-    [LEASE_TIME] = {"lease-time", "S", "lease so much that it takes S seconds"},
-    [LEASE_LIMIT] = {"lease-limit", "TIME", "kill a lease after TIME"},
-    [MEMORY_LIMIT] = {"memory-limit", "MB", "memory that a lease may allocate"},
-    [LANES] = {"lanes", "1|4|8", "realizations side by side in a batch"},
-    [ISA] = {"isa", "baseline|avx2|avx512", "instruction set"},
-    [SEGMENT_AGE] = {"segment-age", "S", "write a segment when it is S seconds old"},
-    [SEGMENT_SIZE] = {"segment-size", "MB", "or has MB megabytes"},
-    [FORCE] = {"force", NULL, "take the study over from a run on another host that is dead"},
-    [IGNORE_SPACE] = {"ignore-space", NULL, "start though the disk has less space than is predicted"},
+/* Behind those of `fracas run`, which are handed on to it. */
+enum { NODES = FRACAS_NRUN_OPTIONS, TIME, TASKS, PARTITION, ACCOUNT, LEAD, OUTPUT, SCRIPT, SUBMIT, NOPTIONS };
+#define OWN(option) [(option) - FRACAS_NRUN_OPTIONS]
+static const fracas_option options[NOPTIONS - FRACAS_NRUN_OPTIONS] = {
+    OWN(NODES) = {"nodes", "N", "nodes of the job (1)"},
+    OWN(TIME) = {"time", "TIME", "the most it may take each time it is started: 2:00:00, 90m; needed"},
+    OWN(TASKS) = {"tasks-per-node", "N", "processes on each node (the whole node: one a core)"},
+    OWN(PARTITION) = {"partition", "NAME", "partition (the cluster's default)"},
+    OWN(ACCOUNT) = {"account", "NAME", "account that is charged (your default)"},
+    OWN(LEAD) = {"signal-lead", "S", "have Slurm signal S seconds before the end (60)"},
+    OWN(OUTPUT) = {"output", "FILE", "what the run says; %j: number of the job (FILE.%j.out)"},
+    OWN(SCRIPT) = {"script", "PATH", "write the script there (FILE.sbatch)"},
+    OWN(SUBMIT) = {"submit", NULL, "hand it to sbatch, and print the number of the job"},
 };
 
-enum { MOST_WORDS = 4 + 2 * (NOPTIONS - STUDY) };
+enum { MOST_WORDS = 4 + 2 * FRACAS_NRUN_OPTIONS };
 
 typedef struct {
     fracas_job job;
     char folder[PATH_MAX], program[PATH_MAX], study[PATH_MAX], name[PATH_MAX], output[PATH_MAX], script[PATH_MAX];
-    char option[NOPTIONS][40]; /* "--replicas" */
+    char option[FRACAS_NRUN_OPTIONS][40]; /* "--replicas" */
     char *run[MOST_WORDS];     /* "fracas", then the job's */
 } submission;
 
@@ -59,11 +45,12 @@ static fracas_err make_run(const fracas_arguments *arguments, submission *s, fra
     s->run[n++] = (char *)"fracas";
     s->run[n++] = (char *)"run";
     s->run[n++] = (char *)arguments->operand;
-    for (int i = STUDY; i < NOPTIONS; i++) {
+    for (int i = 0; i < FRACAS_NRUN_OPTIONS; i++) {
+        const fracas_option *option = &fracas_cli_run_options[i];
         if (!arguments->value[i]) continue;
-        snprintf(s->option[i], sizeof s->option[i], "--%s", options[i].name);
+        snprintf(s->option[i], sizeof s->option[i], "--%s", option->name);
         s->run[n++] = s->option[i];
-        if (options[i].argument) s->run[n++] = (char *)arguments->value[i];
+        if (option->argument) s->run[n++] = (char *)arguments->value[i];
     }
     s->job.run = s->run + 1;
     s->job.nrun = n - 1;
@@ -73,6 +60,7 @@ static fracas_err make_run(const fracas_arguments *arguments, submission *s, fra
     TRY(fracas_arguments_read(&fracas_command_run, n, line, &of_run));
     TRY(fracas_cli_read_run_options(&of_run, run, &run->study));
     run->file = arguments->operand;
+    if (run->walltime > 0) return fracas_fail(FRACAS_USAGE, "submit: --walltime follows from --time: leave it out");
     return FRACAS_OK;
 }
 
@@ -203,5 +191,5 @@ const fracas_command fracas_command_submit = {
     .name = "submit", .operand = "FILE", .doc = "Writes a Slurm job that runs the campaign of FILE, and submits it",
     .more = "\nThe job drains before its time is over or when it is preempted, and is queued again until the study is complete.\n"
             "What follows `--` is handed to sbatch: fracas submit FILE --time 2:00:00 -- --mem=8G --constraint=skylake\n",
-    .options = options, .noptions = NOPTIONS, .takes_rest = true, .run = submit,
+    .options = fracas_cli_run_options, .noptions = FRACAS_NRUN_OPTIONS, .own = options, .nown = FRACAS_COUNT(options), .takes_rest = true, .run = submit,
 };

@@ -1,11 +1,16 @@
 # ctest-labels: storm
 # ctest-timeout: 1800
 # Every signal that asks for an end, once and twice, from the first instant of a run to its last: status 3, or 0 where it was done
-# anyway; nothing is left running, and the same command goes on to the bytes of an undisturbed run.
+# anyway; nothing is left running, and the same command goes on to the bytes of an undisturbed run. And MPI that hangs at its end.
 . tests/support/campaigns.sh
 
 campaign small.yaml 20 '3e4 1/s, 1e5 1/s'
 expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
+
+# What the whole takes, s: its last tenth is the merge and the end.
+began=$(date +%s.%N)
+expect 0 "$fracas" run small.yaml --study study --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
+whole=$(echo "$began $(date +%s.%N)" | awk '{print $2 - $1}')
 
 # one SIGNALS SECONDS KILL: signals after that time; KILL: a rank is killed just before, so that MPI is being started again.
 interrupted=0 over=0
@@ -48,6 +53,10 @@ for signals in INT TERM HUP USR1 USR2 'INT INT' 'TERM TERM' 'HUP TERM' 'USR1 USR
         one "$signals" $instant ''
         resumed
     done
+    for part in 0.85 0.9 0.95 1; do
+        one "$signals" "$(echo "$whole $part" | awk '{print $1*$2}')" ''
+        resumed
+    done
     for instant in 0.4 0.7; do
         one "$signals" $instant kill
         resumed
@@ -84,3 +93,12 @@ for signal in USR1 USR2; do
     expect 0 "$fracas" run small.yaml --study direct --jobs 2
     same undisturbed direct
 done
+
+# Rank 0 has said its last word, and MPI hangs: the verdict stands.
+mkdir hang
+printf '#!/bin/sh\n"%s" "$@"\nexec sleep 1000\n' "$(command -v mpirun)" > hang/mpirun
+chmod +x hang/mpirun
+began=$(date +%s)
+expect 0 env PATH="$PWD/hang:$PATH" "$fracas" run small.yaml --study hung --jobs 2
+[ $(($(date +%s) - began)) -lt 60 ] || fail "it waited for MPI"
+same undisturbed hung
