@@ -35,6 +35,20 @@ static void crash_if_asked(const fracas_lease *lease, const lanes *batch)
     }
 }
 
+/* Documented at fracas_child_start. One write, so that lines of several processes do not mix. */
+static void log_if_asked(const fracas_lease *lease, const lanes *batch)
+{
+    const char *path = getenv("FRACAS_TEST_LOG");
+    int fd = path ? open(path, O_WRONLY | O_APPEND | O_CLOEXEC) : -1;
+    if (fd < 0) return;
+    char line[64 + 24 * FRACAS_BATCH_MAX];
+    int at = sprintf(line, "%ld %ld %llu", (long)getpid(), (long)getppid(), (unsigned long long)lease->point);
+    for (size_t i = 0; i < batch->count; i++) at += sprintf(line + at, " %lld", (long long)batch->replica[i]);
+    line[at++] = '\n';
+    if (write(fd, line, (size_t)at) != at) abort(); /* a test that counts must not miss one */
+    close(fd);
+}
+
 static fracas_err fill_strengths(const fracas_campaign *campaign, const fracas_field *field, size_t point, const lanes *realizations,
                                  fracas_batch *batch)
 {
@@ -69,6 +83,7 @@ static fracas_err compute_batch(const fracas_campaign *campaign, const fracas_ru
     fracas_batch *batch;
     TRY(fracas_batch_create(model, realizations->count, &batch_options, &batch));
     fracas_err err = fill_strengths(campaign, field, (size_t)lease->point, realizations, batch);
+    log_if_asked(lease, realizations);
     crash_if_asked(lease, realizations);
     fracas_record record[FRACAS_BATCH_MAX];
     for (size_t lane = 0; lane < realizations->count; lane++) fracas_record_init(&record[lane]);

@@ -24,7 +24,8 @@ typedef struct {
  * FRACAS_ENVIRONMENT if no process or pipe can be had.
  *
  * For tests: FRACAS_TEST_CRASH=POINT:REPLICA in the environment (point counted from 0 in plan order) makes every
- * child that is about to compute this realization die of SIGSEGV. */
+ * child that is about to compute this realization die of SIGSEGV. FRACAS_TEST_LOG=FILE, where FILE is there, appends a line for
+ * every batch that is begun: pid, pid of the parent, point, replicas. */
 FRACAS_MUST_USE fracas_err fracas_child_start(fracas_child *child, const fracas_campaign *campaign,
                                               const fracas_run_options *options, const fracas_model *model,
                                               const fracas_field *field, const fracas_lease *lease, int server_fd);

@@ -321,9 +321,9 @@ static fracas_err is_old(fracas_index *index, bool *old)
     static const char query[] = "SELECT count(*), count(CASE name WHEN 'size' THEN 1 END) FROM pragma_table_info('realization')";
     sqlite3_stmt *statement;
     if (sqlite3_prepare_v2(index->db, query, -1, &statement, NULL) != SQLITE_OK) return fracas_index_error(index, "open");
-    bool row = sqlite3_step(statement) == SQLITE_ROW;
-    *old = sqlite3_column_int(statement, 0) > 0 && sqlite3_column_int(statement, 1) == 0;
-    fracas_err err = row ? FRACAS_OK : fracas_index_error(index, "open");
+    /* Columns of no row would be an error of their own, in place of why there is none. */
+    fracas_err err = sqlite3_step(statement) == SQLITE_ROW ? FRACAS_OK : fracas_index_error(index, "open");
+    *old = !err && sqlite3_column_int(statement, 0) > 0 && sqlite3_column_int(statement, 1) == 0;
     sqlite3_finalize(statement);
     return err;
 }
@@ -344,10 +344,9 @@ static fracas_err count_tables(fracas_index *index, int *all, int *meta)
     sqlite3_stmt *statement;
     if (sqlite3_prepare_v2(index->db, query, -1, &statement, NULL) != SQLITE_OK)
         return fracas_index_error(index, "open");
-    bool row = sqlite3_step(statement) == SQLITE_ROW;
-    *all = sqlite3_column_int(statement, 0);
-    *meta = sqlite3_column_int(statement, 1);
-    fracas_err err = row ? FRACAS_OK : fracas_index_error(index, "open");
+    fracas_err err = sqlite3_step(statement) == SQLITE_ROW ? FRACAS_OK : fracas_index_error(index, "open");
+    *all = err ? 0 : sqlite3_column_int(statement, 0); /* columns of no row would be an error of their own */
+    *meta = err ? 0 : sqlite3_column_int(statement, 1);
     sqlite3_finalize(statement);
     return err;
 }

@@ -315,7 +315,7 @@ fracas_err fracas_index_segments(fracas_index *index, fracas_known_segment **seg
     *count = 0;
     fracas_err err = load_segments(index, segment, count);
     fracas_index_reset(index, FRACAS_SQL_SEGMENT_ALL);
-    if (err) fracas_index_segments_free(*segment, *count), *segment = NULL;
+    if (err) fracas_index_segments_free(*segment, *count), *segment = NULL, *count = 0;
     return err;
 }
 
