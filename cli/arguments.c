@@ -13,6 +13,13 @@
 /* What getopt_long returns for options[i] by its name; -h is 'h', and every letter of an option itself. */
 enum { FIRST_OPTION = 256 };
 
+size_t fracas_command_noptions(const fracas_command *command) { return command->noptions + command->nown; }
+
+const fracas_option *fracas_command_option(const fracas_command *command, size_t i)
+{
+    return i < command->noptions ? &command->options[i] : &command->own[i - command->noptions];
+}
+
 static fracas_err unknown_option(const fracas_command *command, const char *given)
 {
     const char *name = given + strspn(given, "-");
@@ -21,8 +28,8 @@ static fracas_err unknown_option(const fracas_command *command, const char *give
     fracas_words words;
     fracas_words_init(&words, found);
     char option[FRACAS_MOST_OPTIONS][32];
-    for (size_t i = 0; i < command->noptions; i++) {
-        snprintf(option[i], sizeof option[i], "--%s", command->options[i].name);
+    for (size_t i = 0; i < fracas_command_noptions(command); i++) {
+        snprintf(option[i], sizeof option[i], "--%s", fracas_command_option(command, i)->name);
         fracas_words_add(&words, option[i]);
     }
     fracas_words_add(&words, "--help");
@@ -34,8 +41,8 @@ static fracas_err unknown_option(const fracas_command *command, const char *give
 static size_t option_of(const fracas_command *command, int found)
 {
     if (found >= FIRST_OPTION) return (size_t)(found - FIRST_OPTION);
-    for (size_t i = 0; i < command->noptions; i++)
-        if (command->options[i].letter && command->options[i].letter == found) return i;
+    for (size_t i = 0; i < fracas_command_noptions(command); i++)
+        if (fracas_command_option(command, i)->letter && fracas_command_option(command, i)->letter == found) return i;
     return FRACAS_MOST_OPTIONS;
 }
 
@@ -43,8 +50,9 @@ static fracas_err read_options(const fracas_command *command, fracas_arguments *
 {
     struct option table[FRACAS_MOST_OPTIONS + 2] = {{"help", no_argument, NULL, 'h'}};
     char letters[2 * FRACAS_MOST_OPTIONS + 3] = ":h";
-    for (size_t i = 0; i < command->noptions; i++) {
-        const fracas_option *option = &command->options[i];
+    const size_t noptions = fracas_command_noptions(command);
+    for (size_t i = 0; i < noptions; i++) {
+        const fracas_option *option = fracas_command_option(command, i);
         char *end = letters + strlen(letters);
         if (option->letter) snprintf(end, 3, "%c%s", option->letter, option->argument ? ":" : "");
         table[i + 1] = (struct option){option->name, option->argument ? required_argument : no_argument, NULL,
@@ -56,13 +64,13 @@ static fracas_err read_options(const fracas_command *command, fracas_arguments *
     int found;
     while ((found = getopt_long(arguments->argc, arguments->argv, letters, table, NULL)) != -1) {
         if (found == 'h') arguments->help = true;
-        else if (option_of(command, found) < command->noptions)
+        else if (option_of(command, found) < noptions)
             arguments->value[option_of(command, found)] = optarg ? optarg : "";
-        else if (option_of(command, optopt) >= command->noptions) {
+        else if (option_of(command, optopt) >= noptions) {
             const char letter[] = {'-', (char)optopt, '\0'};
             return unknown_option(command, optopt ? letter : arguments->argv[optind - 1]);
         } else {
-            const fracas_option *option = &command->options[option_of(command, optopt)];
+            const fracas_option *option = fracas_command_option(command, option_of(command, optopt));
             if (found == ':')
                 return fracas_fail(FRACAS_USAGE, "%s: --%s needs a value: --%s %s", command->name, option->name,
                                    option->name, option->argument);
@@ -72,18 +80,35 @@ static fracas_err read_options(const fracas_command *command, fracas_arguments *
     return FRACAS_OK;
 }
 
+/* `--` and what follows is not for this program. */
+static void cut_rest(fracas_arguments *arguments)
+{
+    for (int i = 2; i < arguments->argc; i++) {
+        if (strcmp(arguments->argv[i], "--")) continue;
+        arguments->rest = arguments->argv + i + 1;
+        arguments->nrest = arguments->argc - i - 1;
+        arguments->argc = i;
+        return;
+    }
+}
+
 fracas_err fracas_arguments_read(const fracas_command *command, int argc, char **argv, fracas_arguments *arguments)
 {
     *arguments = (fracas_arguments){.command = command, .argc = argc, .argv = argv};
+    if (command->takes_rest) cut_rest(arguments);
     TRY(read_options(command, arguments));
     if (arguments->help) return FRACAS_OK;
-    if (command->operand && optind < argc) arguments->operand = argv[optind++];
-    if (optind < argc)
+    if (command->operand && optind < arguments->argc) arguments->operand = argv[optind++];
+    if (command->second && optind < arguments->argc) arguments->second = argv[optind++];
+    if (optind < arguments->argc)
         return fracas_fail(FRACAS_USAGE, "%s: one argument too many: `%s`; see `fracas help %s`", command->name,
                            argv[optind], command->name);
     if (command->operand && !arguments->operand)
-        return fracas_fail(FRACAS_USAGE, "%s: %s is missing: fracas %s %s", command->name, command->operand,
-                           command->name, command->operand);
+        return fracas_fail(FRACAS_USAGE, "%s: %s is missing: fracas %s %s%s%s", command->name, command->operand, command->name,
+                           command->operand, command->second ? " " : "", command->second ? command->second : "");
+    if (command->second && !arguments->second)
+        return fracas_fail(FRACAS_USAGE, "%s: %s is missing: fracas %s %s %s", command->name, command->second, command->name,
+                           command->operand, command->second);
     return FRACAS_OK;
 }
 
@@ -97,7 +122,7 @@ fracas_err fracas_arguments_integer(const fracas_arguments *arguments, size_t i,
     long number = strtol(text, &end, 10);
     if (end == text || *end || errno || number < minimum || number > maximum)
         return fracas_fail(FRACAS_USAGE, "%s: --%s is `%s`; it must be a whole number from %d to %d",
-                           arguments->command->name, arguments->command->options[i].name, text, minimum, maximum);
+                           arguments->command->name, fracas_command_option(arguments->command, i)->name, text, minimum, maximum);
     *value = (int)number;
     return FRACAS_OK;
 }
@@ -111,7 +136,7 @@ fracas_err fracas_arguments_real(const fracas_arguments *arguments, size_t i,
     double number = strtod(text, &end) * scale;
     if (end == text || *end || !isfinite(number) || number < 0)
         return fracas_fail(FRACAS_USAGE, "%s: --%s is `%s`; it must be a number, 0 or more", arguments->command->name,
-                           arguments->command->options[i].name, text);
+                           fracas_command_option(arguments->command, i)->name, text);
     *value = number;
     return FRACAS_OK;
 }
@@ -132,7 +157,7 @@ fracas_err fracas_arguments_word(const fracas_arguments *arguments, size_t i,
     }
     char hint[600];
     return fracas_fail(FRACAS_USAGE, "%s: --%s is `%s`%s", arguments->command->name,
-                       arguments->command->options[i].name, text, fracas_words_hint(&known, "it can be", hint));
+                       fracas_command_option(arguments->command, i)->name, text, fracas_words_hint(&known, "it can be", hint));
 }
 
 /* [days-]hours:minutes:seconds, or hours:minutes:seconds without the days. */
@@ -173,7 +198,7 @@ fracas_err fracas_arguments_time(const fracas_arguments *arguments, size_t i, do
     if (!text) return FRACAS_OK;
     if ((!read_clock(text, &value) && !read_duration(text, &value)) || value <= 0)
         return fracas_fail(FRACAS_USAGE, "%s: --%s is `%s`; it must be a time above 0, such as 90s, 55m, 1h30m or 2:00:00",
-                           arguments->command->name, arguments->command->options[i].name, text);
+                           arguments->command->name, fracas_command_option(arguments->command, i)->name, text);
     *seconds = value;
     return FRACAS_OK;
 }

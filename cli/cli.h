@@ -14,33 +14,44 @@ typedef struct {
     char letter;          /* 'o' for -o, which is the same; 0: there is none */
 } fracas_option;
 
-enum { FRACAS_MOST_OPTIONS = 24 }; /* of one subcommand */
+enum { FRACAS_MOST_OPTIONS = 32 }; /* of one subcommand */
 
 typedef struct fracas_arguments fracas_arguments;
 
 /* A subcommand is one file with one const fracas_command and one line in main.c. */
 typedef struct {
     const char *name;
-    const char *operand; /* the one argument that is no option, as the help calls it; NULL: there is none */
+    const char *operand; /* the argument that is no option, as the help calls it; NULL: there is none */
+    const char *second;  /* another one after it; NULL: there is none */
     const char *doc;     /* one sentence, no full stop */
     const char *more;    /* paragraph for `fracas help NAME` */
     const fracas_option *options;
     size_t noptions;
+    const fracas_option *own; /* more of them, where `options` are shared with others */
+    size_t nown;
+    bool takes_rest;      /* what follows `--` is kept for another program */
     fracas_err (*run)(const fracas_arguments *arguments);
 } fracas_command;
 
 extern const fracas_command fracas_command_run, fracas_command_plan, fracas_command_status, fracas_command_report,
     fracas_command_picture, fracas_command_verify, fracas_command_sample, fracas_command_distributions,
-    fracas_command_reference;
+    fracas_command_reference, fracas_command_reindex, fracas_command_merge, fracas_command_gc, fracas_command_extend,
+    fracas_command_retry, fracas_command_merge_studies, fracas_command_bench, fracas_command_submit;
 
 struct fracas_arguments {
     const fracas_command *command;
-    const char *operand;
-    const char *value[FRACAS_MOST_OPTIONS]; /* of command->options[i]; NULL: not given; "" if it takes none */
+    const char *operand, *second;
+    const char *value[FRACAS_MOST_OPTIONS]; /* of command->options[i], then of command->own; NULL: not given; "" if it takes none */
     bool help;                              /* --help was given: then nothing else is checked */
     int argc;                               /* the program's, options moved to the front */
     char **argv;
+    char **rest;                            /* of argv: nrest words after `--` */
+    int nrest;
 };
+
+/* Option `i` of a command, its own ones behind those that it shares; FRACAS_MOST_OPTIONS is no option. */
+size_t fracas_command_noptions(const fracas_command *command);
+const fracas_option *fracas_command_option(const fracas_command *command, size_t i);
 
 /* Reads the program's command line, argv[1] being the command's name. FRACAS_USAGE for an unknown option (naming the
  * nearest), a missing or extra argument. */

@@ -12,6 +12,8 @@ static const fracas_command *const commands[] = {
     &fracas_command_run,    &fracas_command_plan,   &fracas_command_status,
     &fracas_command_report, &fracas_command_picture, &fracas_command_verify, &fracas_command_sample,
     &fracas_command_distributions, &fracas_command_reference,
+    &fracas_command_extend, &fracas_command_retry, &fracas_command_merge, &fracas_command_merge_studies, &fracas_command_reindex,
+    &fracas_command_gc, &fracas_command_submit, &fracas_command_bench,
 };
 enum { NCOMMANDS = sizeof commands / sizeof *commands };
 
@@ -20,20 +22,22 @@ static void print_usage(FILE *out)
     fputs("fracas " FRACAS_VERSION ": from a campaign file to a report of fragment statistics\n\nusage:\n", out);
     for (size_t i = 0; i < NCOMMANDS; i++) {
         char call[40];
-        snprintf(call, sizeof call, "%s %s", commands[i]->name, commands[i]->operand ? commands[i]->operand : "");
-        fprintf(out, "  fracas %-15s %s\n", call, commands[i]->doc);
+        const char *operand = commands[i]->operand ? commands[i]->operand : "", *second = commands[i]->second ? commands[i]->second : "";
+        snprintf(call, sizeof call, "%s %s %s", commands[i]->name, operand, second);
+        fprintf(out, "  fracas %-17s %s\n", call, commands[i]->doc);
     }
-    fputs("  fracas help COMMAND    what COMMAND does, and its options\n"
-          "  fracas --version       the version\n", out);
+    fputs("  fracas help COMMAND      what COMMAND does, and its options\n"
+          "  fracas --version         the version\n", out);
 }
 
 static void print_help(const fracas_command *command)
 {
-    printf("usage: fracas %s%s%s%s\n\n%s.\n%s", command->name, command->operand ? " " : "",
-           command->operand ? command->operand : "", command->noptions ? " [options]" : "", command->doc, command->more);
-    if (command->noptions) puts("\noptions:");
-    for (size_t i = 0; i < command->noptions; i++) {
-        const fracas_option *option = &command->options[i];
+    const size_t noptions = fracas_command_noptions(command);
+    printf("usage: fracas %s%s%s%s%s%s\n\n%s.\n%s", command->name, command->operand ? " " : "", command->operand ? command->operand : "",
+           command->second ? " " : "", command->second ? command->second : "", noptions ? " [options]" : "", command->doc, command->more);
+    if (noptions) puts("\noptions:");
+    for (size_t i = 0; i < noptions; i++) {
+        const fracas_option *option = fracas_command_option(command, i);
         char call[40];
         snprintf(call, sizeof call, "--%s %s", option->name, option->argument ? option->argument : "");
         printf("  %-28s %s\n", call, option->doc);

@@ -3,11 +3,14 @@
 #include "base/param.h"
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/prepare.h"
+#include "campaigns/scheduler/share.h"
 
 #include <limits.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
-enum { STUDY, JOBS, REPLICAS, PART, WALLTIME, ISOLATION, LEASE_TIME, LEASE_LIMIT, MEMORY_LIMIT, LANES, ISA, SEGMENT_AGE, SEGMENT_SIZE,
+enum { STUDY /* the first: FRACAS_STUDY_RUN_OPTIONS */, JOBS, REPLICAS, PART, WALLTIME, ISOLATION, LEASE_TIME, LEASE_LIMIT, MEMORY_LIMIT, LANES, ISA, SEGMENT_AGE, SEGMENT_SIZE,
        SHUFFLE, FORCE, IGNORE_SPACE };
 const fracas_option fracas_cli_run_options[FRACAS_NRUN_OPTIONS] = {
     [STUDY] = {"study", "DIR", "folder of the study (studies/NAME, NAME from the campaign file)"},
@@ -71,7 +74,7 @@ fracas_err fracas_cli_read_run_options(const fracas_arguments *arguments, fracas
 static fracas_err find_study(const fracas_run_options *run, char *study, size_t size)
 {
     fracas_campaign *campaign;
-    TRY(fracas_campaign_read(run->file, &campaign));
+    TRY(fracas_run_campaign(run, &campaign));
     fracas_err code = fracas_study_folder(run, campaign, study, size);
     fracas_campaign_destroy(campaign);
     return code;
@@ -90,4 +93,42 @@ fracas_err fracas_cli_run(const fracas_run_options *run, int argc, char **argv)
     if (!ran) fprintf(stderr, "fracas: %s is complete, nothing to compute\n", study);
     TRY(fracas_cli_report(study, false));
     return end ? fracas_fail(end, "%s", message) : FRACAS_OK;
+}
+
+/* The options that were given, as --NAME=VALUE behind `before` arguments; freed by the caller, with all from there on. */
+static fracas_err give_on(const fracas_arguments *given, int before, char **argv, int *argc)
+{
+    *argc = before;
+    for (size_t i = 0; i < FRACAS_NRUN_OPTIONS; i++) {
+        const fracas_option *option = &fracas_cli_run_options[i];
+        if (!given->value[i]) continue;
+        if (asprintf(&argv[*argc], "--%s%s%s", option->name, option->argument ? "=" : "", given->value[i]) < 0)
+            return fracas_no_memory("the arguments of the run");
+        ++*argc;
+    }
+    return FRACAS_OK;
+}
+
+fracas_err fracas_cli_run_study(const fracas_arguments *arguments)
+{
+    /* As `run` has them: behind --study, which is not given. */
+    const fracas_command as_run = {.name = arguments->command->name, .options = fracas_cli_run_options, .noptions = FRACAS_NRUN_OPTIONS};
+    fracas_arguments given = {.command = &as_run};
+    memcpy(given.value + 1, arguments->value, FRACAS_NSTUDY_RUN_OPTIONS * sizeof *given.value);
+    fracas_run_options run;
+    char study[PATH_MAX], file[PATH_MAX + 16], program[] = "fracas", command[] = "run", option[] = "--study";
+    enum { BEFORE = 5 };
+    char *argv[BEFORE + FRACAS_NRUN_OPTIONS + 1] = {program, command, file, option, study};
+    int argc;
+    const char *none;
+    TRY(fracas_cli_read_run_options(&given, &run, &none));
+    if (snprintf(study, sizeof study, "%s", arguments->operand) >= (int)sizeof study)
+        return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s", arguments->operand);
+    snprintf(file, sizeof file, "%s/campaign.yaml", study);
+    run.file = file;
+    run.study = study;
+    fracas_err code = give_on(&given, BEFORE, argv, &argc);
+    if (!code) code = fracas_cli_run(&run, argc, argv);
+    for (int i = BEFORE; i < argc; i++) free(argv[i]);
+    return code;
 }

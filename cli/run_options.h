@@ -10,11 +10,19 @@
 enum { FRACAS_NRUN_OPTIONS = 16 };
 extern const fracas_option fracas_cli_run_options[FRACAS_NRUN_OPTIONS];
 
+/* The same but --study, for a command whose operand is the study. */
+#define FRACAS_STUDY_RUN_OPTIONS (fracas_cli_run_options + 1)
+enum { FRACAS_NSTUDY_RUN_OPTIONS = FRACAS_NRUN_OPTIONS - 1 };
+
 /* *run from the command line; run->file and run->study are left to the caller: *study is what --study says, NULL if it was not given. */
 FRACAS_MUST_USE fracas_err fracas_cli_read_run_options(const fracas_arguments *arguments, fracas_run_options *run, const char **study);
 
 /* Runs with these options and ends as `fracas run` does: table and report on standard output, the verdict as the error. `argc`,
  * `argv`: the command line of the ranks, `fracas run FILE ...`, which must give the same options. */
 FRACAS_MUST_USE fracas_err fracas_cli_run(const fracas_run_options *run, int argc, char **argv);
+
+/* Goes on with the study that is the operand of a command with FRACAS_STUDY_RUN_OPTIONS: `fracas run STUDY/campaign.yaml --study STUDY`
+ * with the options that were given. */
+FRACAS_MUST_USE fracas_err fracas_cli_run_study(const fracas_arguments *arguments);
 
 #endif

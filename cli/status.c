@@ -22,10 +22,15 @@ typedef struct {
     const fracas_campaign *campaign;
     fracas_index *index;
     bool complete;               /* study.h5 is of this campaign and nothing is left to compute */
-    bool running;                /* somebody computes it now */
+    fracas_lock_state lock;      /* held: somebody computes it now */
+    char holder[FRACAS_HOLDER_TEXT]; /* of the lock */
     fracas_index_counts all;
     fracas_index_counts *point;  /* campaign->npoints */
 } fracas_status;
+
+static const char *const lock_name[] = {"free", "held", "left", "elsewhere"}; /* by fracas_lock_state */
+static const char *const lock_text[] = {"", "held", "left by a run that died, the next one takes it over",
+                                        "of another host; if that run is gone, `fracas run --force` takes it over"};
 
 static void write_counts(fracas_json *json, const fracas_index_counts *counts)
 {
@@ -81,7 +86,9 @@ static fracas_err write_json(const fracas_status *status)
     fracas_json_text(&json, "study", status->study);
     fracas_json_text(&json, "campaign", status->campaign->name);
     fracas_json_boolean(&json, "complete", status->complete);
-    fracas_json_boolean(&json, "running", status->running);
+    fracas_json_boolean(&json, "running", status->lock == FRACAS_LOCK_HELD);
+    fracas_json_text(&json, "lock", lock_name[status->lock]);
+    fracas_json_text(&json, "holder", status->holder);
     write_counts(&json, &status->all);
     fracas_json_integer(&json, "segments", status->all.segments);
     fracas_json_integer(&json, "bytes", status->all.bytes);
@@ -99,28 +106,33 @@ static fracas_err write_json(const fracas_status *status)
     }
     fracas_json_close_array(&json);
     fracas_json_array(&json, "failures");
-    if (!code) code = fracas_index_failures(status->index, &status->campaign->table, write_failure, &json);
+    if (!code && status->all.failed) code = fracas_index_failures(status->index, &status->campaign->table, write_failure, &json);
     fracas_json_close_array(&json);
     fracas_json_close_object(&json);
     fracas_json_end(&json);
     return code;
 }
 
-static void print_points(const fracas_status *status)
+static fracas_err print_points(const fracas_status *status)
 {
     const fracas_point_table *table = &status->campaign->table;
+    bool *varies = malloc((table->ncolumns + 1) * sizeof *varies);
+    if (!varies) return fracas_no_memory("the points");
+    for (size_t c = 0; c < table->ncolumns; c++) varies[c] = fracas_point_table_varies(table, c);
     fputs("\nrealizations    done  failed  point\n", stdout);
     for (size_t i = 0; i < table->npoints; i++) {
         const fracas_index_counts *counts = &status->point[i];
         printf("%12" PRId64 "%8" PRId64 "%8" PRId64 "  %zu", counts->realizations, counts->done, counts->failed, i);
         for (size_t c = 0; c < table->ncolumns; c++) {
-            if (!fracas_point_table_varies(table, c)) continue;
+            if (!varies[c]) continue;
             const fracas_value *value = &table->point[i].value[c];
             if (*value->text) printf(" %s=%s", table->column[c].path, value->text);
             else if (!isnan(value->real)) printf(" %s=%g", table->column[c].path, value->real);
         }
         putchar('\n');
     }
+    free(varies);
+    return FRACAS_OK;
 }
 
 static fracas_err print_decisions(const fracas_status *status)
@@ -159,29 +171,31 @@ static fracas_err print_text(const fracas_status *status)
 {
     const fracas_index_counts *all = &status->all;
     printf("study         %s of campaign %s\n", status->study, status->campaign->name);
-    printf("state         %s\n", status->running          ? "being computed"
+    printf("state         %s\n", status->lock == FRACAS_LOCK_HELD ? "being computed"
                                   : !status->complete       ? "interrupted: `fracas run` with the campaign file resumes it"
                                   : status->all.failed == 0 ? "complete"
                                                             : "computed, some realizations FAILED (below)");
+    if (status->lock != FRACAS_LOCK_FREE) printf("lock          %s: %s\n", lock_text[status->lock], status->holder);
     printf("realizations  %" PRId64 ": %" PRId64 " done, %" PRId64 " failed, %" PRId64 " leased, %" PRId64 " planned\n",
            all->realizations, all->done, all->failed, all->leased, all->planned);
     fputs("outcomes     ", stdout);
     for (int o = 0; o < FRACAS_NOUTCOMES; o++)
         if (all->outcome[o]) printf(" %" PRId64 " %s", all->outcome[o], fracas_outcome_name(o));
     printf("\nsegments      %" PRId64 ", %.1f MB\n", all->segments, (double)all->bytes / 1e6);
-    print_points(status);
+    TRY(print_points(status));
     TRY(print_decisions(status));
     bool first = true;
+    if (!all->failed) return FRACAS_OK;
     return fracas_index_failures(status->index, &status->campaign->table, print_failure, &first);
 }
 
 static fracas_err count(fracas_status *status)
 {
     const fracas_campaign *campaign = status->campaign;
-    TRY(fracas_index_count(status->index, &status->all));
-    for (size_t i = 0; i < campaign->npoints; i++)
-        TRY(fracas_index_count_point(status->index, &campaign->point[i].hash, &status->point[i]));
-    status->running = fracas_study_held(status->study);
+    TRY(fracas_index_count_points(status->index, &campaign->table, &status->all, status->point));
+    status->lock = fracas_study_lock_state(status->study, status->holder);
+    status->complete = false;
+    if (status->all.planned || status->all.leased) return FRACAS_OK; /* no need to look at any file */
     int64_t failed;
     return fracas_study_settled(status->study, status->index, campaign, &status->complete, &failed);
 }

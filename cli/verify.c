@@ -8,15 +8,34 @@
 #include "campaigns/store/store.h"
 
 #include <limits.h>
+#include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
-enum { JSON };
-static const fracas_option options[] = {[JSON] = {"json", NULL, "print the problems as JSON"}};
+enum { FULL, JSON };
+static const fracas_option options[] = {[FULL] = {"full", NULL, "read every dataset, and compare every row and record"},
+                                        [JSON] = {"json", NULL, "print the problems as JSON"}};
 
-static void print_problem(void *json, const char *problem)
+typedef struct {
+    const char *study;
+    bool full;
+    fracas_json *json; /* NULL: text */
+    FILE *notes;       /* kept until all problems are there, each with its NUL */
+    int64_t problems;
+} verification;
+
+static void print_problem(void *context, const char *problem)
 {
-    if (json) fracas_json_text(json, NULL, problem);
+    const verification *v = context;
+    if (v->json) fracas_json_text(v->json, NULL, problem);
     else puts(problem);
+}
+
+static void keep_note(void *context, const char *text)
+{
+    const verification *v = context;
+    fputs(text, v->notes);
+    fputc('\0', v->notes);
 }
 
 /* Decisions on replicas against the realizations that they are made of. */
@@ -29,68 +48,93 @@ static fracas_err check_decisions(const char *study, const fracas_campaign *camp
     return err;
 }
 
+static void say(verification *v, const char *problem)
+{
+    print_problem(v, problem);
+    v->problems++;
+}
+
 /* The campaign file of the study against study.h5, where there is one. */
-static void verify_campaign(const char *study, void *json, int64_t *problems)
+static void verify_campaign(verification *v)
 {
     fracas_campaign *campaign;
     fracas_reader *reader;
     char file[PATH_MAX];
-    if (fracas_cli_read_campaign(study, &campaign)) {
-        print_problem(json, fracas_message());
-        ++*problems;
+    if (fracas_cli_read_campaign(v->study, &campaign)) {
+        say(v, fracas_message());
         return;
     }
-    snprintf(file, sizeof file, "%s/study.h5", study);
+    snprintf(file, sizeof file, "%s/study.h5", v->study);
     const fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
-    if (access(file, F_OK) == 0 && !*problems && !fracas_reader_open(file, &reader)) {
-        if (!fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash)) {
-            print_problem(json, "campaign.yaml is not the campaign of study.h5, which is older: run the file it was made from");
-            ++*problems;
-        } else if (fracas_reader_check_meshes(reader, &meshes) || check_decisions(study, campaign)) {
-            print_problem(json, fracas_message());
-            ++*problems;
-        }
+    if (access(file, F_OK) == 0 && !v->problems && !fracas_reader_open(file, &reader)) {
+        if (!fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash))
+            say(v, "campaign.yaml is not the campaign of study.h5, which is older: run the file it was made from");
+        else if ((v->full && fracas_reader_check_meshes(reader, &meshes)) || check_decisions(v->study, campaign))
+            say(v, fracas_message());
         fracas_reader_close(reader);
     }
     fracas_campaign_destroy(campaign);
 }
 
-static fracas_err verify_all(const char *study, void *json, int64_t *problems)
+static fracas_err verify_all(verification *v)
 {
-    TRY(fracas_study_verify(study, print_problem, json, problems));
-    verify_campaign(study, json, problems);
+    const fracas_verify_options how = {.full = v->full, .say = print_problem, .note = keep_note, .context = v};
+    TRY(fracas_study_verify(v->study, &how, &v->problems));
+    verify_campaign(v);
     return FRACAS_OK;
+}
+
+static fracas_err print_json(verification *v, char *const *notes, const size_t *size)
+{
+    fracas_json json;
+    v->json = &json;
+    fracas_json_begin(&json, stdout);
+    fracas_json_object(&json, NULL);
+    fracas_json_text(&json, "study", v->study);
+    fracas_json_boolean(&json, "full", v->full);
+    fracas_json_array(&json, "problems");
+    fracas_err code = verify_all(v);
+    fracas_json_close_array(&json);
+    fracas_json_array(&json, "notes");
+    fflush(v->notes);
+    for (const char *note = *notes; note < *notes + *size; note += strlen(note) + 1) fracas_json_text(&json, NULL, note);
+    fracas_json_close_array(&json);
+    fracas_json_boolean(&json, "sound", !code && !v->problems);
+    fracas_json_close_object(&json);
+    fracas_json_end(&json);
+    return code;
+}
+
+static fracas_err print_text(verification *v, char *const *notes, const size_t *size)
+{
+    fracas_err code = verify_all(v);
+    fflush(v->notes);
+    for (const char *note = *notes; note < *notes + *size; note += strlen(note) + 1) printf("note: %s\n", note);
+    if (!code && !v->problems) printf("%s is sound%s\n", v->study, v->full ? "" : " (sizes, checksums, index; --full compares every value)");
+    return code;
 }
 
 static fracas_err verify(const fracas_arguments *arguments)
 {
-    const char *study = arguments->operand;
-    int64_t problems = 0;
-    fracas_err code;
-    TRY(fracas_cli_check_study(study));
-    if (arguments->value[JSON]) {
-        fracas_json json;
-        fracas_json_begin(&json, stdout);
-        fracas_json_object(&json, NULL);
-        fracas_json_text(&json, "study", study);
-        fracas_json_array(&json, "problems");
-        code = verify_all(study, &json, &problems);
-        fracas_json_close_array(&json);
-        fracas_json_boolean(&json, "sound", !code && !problems);
-        fracas_json_close_object(&json);
-        fracas_json_end(&json);
-    } else {
-        code = verify_all(study, NULL, &problems);
-        if (!code && !problems) printf("%s is sound\n", study);
-    }
-    if (code || !problems) return code;
-    return fracas_fail(FRACAS_DAMAGED, "%s has %lld problem%s", study, (long long)problems, problems > 1 ? "s" : "");
+    char *notes = NULL;
+    size_t size = 0;
+    verification v = {.study = arguments->operand, .full = arguments->value[FULL] != NULL};
+    TRY(fracas_cli_check_study(v.study));
+    v.notes = open_memstream(&notes, &size);
+    if (!v.notes) return fracas_no_memory("the notes");
+    fracas_err code = arguments->value[JSON] ? print_json(&v, &notes, &size) : print_text(&v, &notes, &size);
+    fclose(v.notes);
+    free(notes);
+    if (code || !v.problems) return code;
+    return fracas_fail(FRACAS_DAMAGED, "%s has %lld problem%s", v.study, (long long)v.problems, v.problems > 1 ? "s" : "");
 }
 
 const fracas_command fracas_command_verify = {
     .name = "verify", .operand = "STUDY", .doc = "Checks every byte of STUDY",
-    .more = "\nSizes and checksums of all segments, the index against them row by row, study.h5 record by record, campaign.yaml with the\n"
-            "files it names, and every decision on replicas.\n"
-            "Each problem is one line: what, where, and what to do. Status 5 if there is any.\n",
+    .more = "\nSizes and checksums of all segments and of study.h5, the index, campaign.yaml with the files it names, and every decision on\n"
+            "replicas. With --full also every dataset of every segment, the index against them row by row, and study.h5 against them\n"
+            "record by record: what a fault of fracas or a hand in the index could have left.\n"
+            "Each problem is one line: what, where, and what to do. Status 5 if there is any. What an interrupted run left is noted, and is\n"
+            "no problem: the next run puts it right.\n",
     .options = options, .noptions = FRACAS_COUNT(options), .run = verify,
 };

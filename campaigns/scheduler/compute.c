@@ -2,6 +2,7 @@
 
 #include "campaigns/plan/point_model.h"
 #include "campaigns/scheduler/fault.h"
+#include "campaigns/scheduler/stand_in.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -57,7 +58,10 @@ static fracas_err compute(const fracas_computation *computation, const lanes *re
     fracas_record record[FRACAS_BATCH_MAX];
     size_t packed = 0;
     for (size_t lane = 0; lane < realizations->count; lane++) fracas_record_init(&record[lane]);
-    fracas_err err = solve(computation, realizations, record);
+    fracas_err err = computation->options->stand_in
+                         ? fracas_stand_in_compute(computation->options->stand_in, computation->lease->point, realizations->replica,
+                                                   realizations->count, record)
+                         : solve(computation, realizations, record);
     for (size_t lane = 0; lane < realizations->count; lane++) {
         if (!err) err = pack(&record[lane], &message[lane]);
         if (!err) packed++;

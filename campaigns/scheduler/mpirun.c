@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,6 +26,8 @@ static void set_environment(void)
         {"OMPI_MCA_orte_base_help_aggregate", "1"},
         /* hwloc warns of firmware tables that contradict each other; nothing is bound here. */
         {"HWLOC_HIDE_ERRORS", "2"},
+        /* Slurm's srun, with which mpirun reaches the other nodes of a job, gives all of a node, not one core of it. */
+        {"SLURM_WHOLE", "1"},
     };
     for (size_t i = 0; i < FRACAS_COUNT(quiet); i++) setenv(quiet[i].name, quiet[i].value, 1);
     if (geteuid() == 0) { /* mpirun refuses to run as root without both */
@@ -36,7 +39,7 @@ static void set_environment(void)
 /* In the new process: never returns. */
 static _Noreturn void become_mpirun(char **arguments, pid_t parent, const int out[2], const int errors[2])
 {
-    static const int reset[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
+    static const int reset[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGPIPE};
     setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(FRACAS_INTERRUPTED); /* it died before the line above */
@@ -85,4 +88,27 @@ fracas_err fracas_mpirun_start(int jobs, int argc, char **argv, fracas_mpirun *m
     setpgid(pid, pid); /* both sides, whoever comes first; it fails once mpirun runs, which has done it then */
     *mpirun = (fracas_mpirun){pid, out[0], errors[0]};
     return FRACAS_OK;
+}
+
+/* The line of `said` that contains `key`, or with letters in it at all where `key` is NULL. */
+static bool find_line(const char *said, const char *key, char *text, size_t size)
+{
+    for (const char *line = said; *line;) {
+        size_t length = strcspn(line, "\n"), blank = strspn(line, " \t*");
+        if (blank > length) blank = length;
+        snprintf(text, size, "%.*s", (int)(length - blank < size ? length - blank : size - 1), line + blank);
+        if (key ? strstr(text, key) != NULL : strpbrk(text, "abcdefghijklmnopqrstuvwxyz") != NULL) return true;
+        line += length + (line[length] == '\n');
+    }
+    *text = '\0';
+    return false;
+}
+
+void fracas_mpirun_reason(const char *said, char *text, size_t size)
+{
+    static const char *const telling[] = {"mpirun noticed that", "MPI_ABORT was invoked", "lost communication with", "not enough slots",
+                                          "fracas: ", "unable to", "failed", "rror", NULL};
+    for (size_t i = 0; i < FRACAS_COUNT(telling); i++)
+        if (find_line(said, telling[i], text, size)) break;
+    for (size_t end = strlen(text); end > 0 && strchr(" .", text[end - 1]); end--) text[end - 1] = '\0';
 }

@@ -1,54 +1,67 @@
 #include "campaigns/scheduler/parent.h"
 
+#include "campaigns/scheduler/allocation.h"
 #include "campaigns/scheduler/clock.h"
 #include "campaigns/scheduler/mpirun.h"
 #include "campaigns/scheduler/progress.h"
+#include "campaigns/scheduler/reaper.h"
+#include "campaigns/scheduler/signals.h"
 #include "campaigns/scheduler/voice.h"
 
 #include <errno.h>
+#include <math.h>
 #include <poll.h>
-#include <sched.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Times that SIGINT, SIGTERM or SIGHUP came. */
-static volatile sig_atomic_t asked;
+/* Seconds. MPI that does not come up: with an end asked for it is killed, else something is said. mpirun that does not end after rank
+ * 0's last word, or leaves its streams open when it is gone, has hung. */
+enum { PATIENCE_ASKED = 5, PATIENCE = 60, PATIENCE_END = 10 };
 
-static void count_signal(int signal_number)
-{
-    (void)signal_number;
-    asked++;
-}
+enum { NOISE = 16384, MOST_BARREN = 3 };
 
-static const int caught[] = {SIGINT, SIGTERM, SIGHUP};
-enum { NCAUGHT = sizeof caught / sizeof *caught, HANGUP = 2 /* in caught */, NOISE = 16384 };
-
+/* One start of mpirun. */
 typedef struct {
     fracas_mpirun mpirun;
-    fracas_progress progress;
     fracas_verdict verdict;
-    bool speaks;  /* rank 0 has said something: every rank can be signalled */
-    int obeyed;   /* signals acted upon: 1 draining, 2 killed */
-    double asked; /* when the first signal was noticed, s */
-    double began; /* when mpirun was started, s */
-    bool warned;  /* of its silence */
+    bool speaks;   /* rank 0 has said something: every rank can be signalled */
+    bool drained, killed; /* by this process */
+    bool warned;   /* of its silence */
+    bool gained;   /* realizations became durable */
+    double began;
+    double ended;  /* rank 0's last word, or mpirun's end; 0: not yet */
     char line[4096];
     size_t nline;
-    char noise[NOISE]; /* the first of stderr and of lines that are not rank 0's */
+    char noise[NOISE]; /* the last of stderr and of lines that are not rank 0's */
     size_t nnoise;
+} launch;
+
+typedef struct {
+    launch now;
+    fracas_progress progress;
+    double asked;    /* when it was noticed that the run's end is asked for; 0: not yet */
+    double drain_at, kill_at; /* by the walltime; INFINITY: there is none */
+    int64_t durable; /* the most realizations that were done or failed for good; -1: not known yet */
+    int starts, barren; /* those in a row that gained nothing */
 } parent;
 
-static void keep_noise(parent *p, const char *text, size_t size)
+/* The last of it is kept: mpirun says at its end why it ended. */
+static void keep_noise(launch *now, const char *text, size_t size)
 {
-    size_t room = sizeof p->noise - 1 - p->nnoise;
-    if (size > room) size = room;
-    memcpy(p->noise + p->nnoise, text, size);
-    p->nnoise += size;
+    const size_t room = sizeof now->noise - 1;
+    if (size > room) text += size - room, size = room;
+    if (now->nnoise + size > room) {
+        const size_t lost = now->nnoise + size - room;
+        memmove(now->noise, now->noise + lost, now->nnoise - lost);
+        now->nnoise -= lost;
+    }
+    memcpy(now->noise + now->nnoise, text, size);
+    now->nnoise += size;
+    now->noise[now->nnoise] = '\0';
 }
 
 /* Reads what is there; false at the end of the stream. */
@@ -59,155 +72,240 @@ static bool read_some(int fd, char *buffer, size_t size, size_t *got)
     return n > 0 || (n < 0 && errno == EINTR);
 }
 
+static void hear(parent *p, char *line)
+{
+    launch *now = &p->now;
+    if (!fracas_voice_hear(line, &p->progress, &now->verdict)) {
+        keep_noise(now, line, strlen(line));
+        keep_noise(now, "\n", 1);
+        return;
+    }
+    now->speaks = true;
+    if (now->verdict.ended && now->ended == 0) now->ended = fracas_now();
+    const int64_t durable = p->progress.last.done + p->progress.last.failed;
+    if (!p->progress.any || durable <= p->durable) return;
+    now->gained |= p->durable >= 0;
+    p->durable = durable;
+}
+
 static bool read_lines(parent *p)
 {
+    launch *now = &p->now;
     char buffer[4096];
     size_t n;
-    bool more = read_some(p->mpirun.out, buffer, sizeof buffer, &n);
+    bool more = read_some(now->mpirun.out, buffer, sizeof buffer, &n);
     for (size_t i = 0; i < n; i++) {
         if (buffer[i] != '\n') {
-            if (p->nline < sizeof p->line - 1) p->line[p->nline++] = buffer[i];
+            if (now->nline < sizeof now->line - 1) now->line[now->nline++] = buffer[i];
             continue;
         }
-        p->line[p->nline] = '\0';
-        if (fracas_voice_hear(p->line, &p->progress, &p->verdict)) {
-            p->speaks = true;
-        } else {
-            keep_noise(p, p->line, p->nline);
-            keep_noise(p, "\n", 1);
-        }
-        p->nline = 0;
+        now->line[now->nline] = '\0';
+        now->nline = 0;
+        hear(p, now->line);
     }
     return more;
 }
 
-static bool read_errors(parent *p)
+static bool read_errors(launch *now)
 {
     char buffer[4096];
     size_t n;
-    bool more = read_some(p->mpirun.errors, buffer, sizeof buffer, &n);
-    keep_noise(p, buffer, n);
+    bool more = read_some(now->mpirun.errors, buffer, sizeof buffer, &n);
+    keep_noise(now, buffer, n);
     return more;
 }
 
-/* MPI that does not come up within these times [s]: with a signal waiting it is killed, else something is said. */
-enum { PATIENCE_ASKED = 5, PATIENCE = 60 };
+/* A signal came, or the walltime is nearly over. */
+static bool is_asked(parent *p)
+{
+    const double now = fracas_now();
+    if (p->asked == 0 && (fracas_signals_ask() || now >= p->drain_at)) p->asked = now;
+    return p->asked > 0;
+}
+
+/* Ranks, servers and children on this machine die with mpirun, those on others when they lose it. */
+static void kill_run(launch *now)
+{
+    if (now->killed) return;
+    kill(-now->mpirun.pid, SIGKILL);
+    now->killed = true;
+}
+
+/* The run's end is asked for: drained as soon as the ranks can take it, and killed by whoever insists. */
+static void obey(parent *p)
+{
+    launch *now = &p->now;
+    if (!is_asked(p)) return;
+    if (now->speaks && !now->drained) {
+        fracas_progress_say(&p->progress, fracas_signals_ask()
+                                ? "draining: leases that run are finished and kept (again: stop at once)"
+                                : "draining: leases that run are finished and kept, as the walltime is nearly over");
+        kill(now->mpirun.pid, SIGUSR1); /* mpirun hands it on to the ranks */
+        now->drained = true;
+    }
+    const bool nothing_begun = !now->speaks && fracas_now() - p->asked > PATIENCE_ASKED;
+    if (fracas_signals_insist() || fracas_now() >= p->kill_at || nothing_begun) kill_run(now);
+}
 
 static void mind_silence(parent *p)
 {
-    if (p->speaks || p->obeyed == 2) return;
-    if (asked && p->asked == 0) p->asked = fracas_now();
-    if (asked && fracas_now() - p->asked > PATIENCE_ASKED) {
-        kill(-p->mpirun.pid, SIGKILL); /* nothing has begun */
-        p->obeyed = 2;
-    } else if (!p->warned && fracas_now() - p->began > PATIENCE) {
-        fracas_progress_say(&p->progress, "MPI has not started for a minute; check the limits on open files and file sizes "
-                            "(ulimit -n, ulimit -f), or stop with Ctrl-C");
-        p->warned = true;
-    }
+    launch *now = &p->now;
+    if (now->ended > 0 && fracas_now() - now->ended > PATIENCE_END) kill_run(now);
+    if (now->speaks || now->warned || fracas_now() - now->began <= PATIENCE) return;
+    fracas_progress_say(&p->progress, "MPI has not started for a minute; check the limits on open files and file sizes "
+                        "(ulimit -n, ulimit -f), or stop with Ctrl-C");
+    now->warned = true;
 }
 
-/* The first signal drains, as soon as the ranks can take it; the next one kills. */
-static void obey_signals(parent *p)
+/* mpirun has ended, and what it left behind had time to end, too. */
+static bool is_hollow(launch *now)
 {
-    if (asked >= 1 && p->obeyed == 0 && p->speaks) {
-        fracas_progress_say(&p->progress, "draining: leases that run are finished and kept (again: stop at once)");
-        kill(p->mpirun.pid, SIGUSR1); /* mpirun hands it on to the ranks */
-        p->obeyed = 1;
-    }
-    if (asked >= 2 && p->obeyed < 2) {
-        kill(-p->mpirun.pid, SIGKILL); /* ranks, servers and children die with it */
-        p->obeyed = 2;
-    }
+    siginfo_t info = {.si_pid = 0};
+    if (waitid(P_PID, (id_t)now->mpirun.pid, &info, WEXITED | WNOHANG | WNOWAIT) || info.si_pid == 0) return false;
+    if (now->ended == 0) now->ended = fracas_now();
+    return fracas_now() - now->ended > PATIENCE_END;
 }
 
 /* Until both streams of mpirun have ended. */
 static void listen(parent *p)
 {
-    struct pollfd from[2] = {{.fd = p->mpirun.out, .events = POLLIN}, {.fd = p->mpirun.errors, .events = POLLIN}};
-    while (from[0].fd >= 0 || from[1].fd >= 0) {
-        obey_signals(p);
+    launch *now = &p->now;
+    struct pollfd from[2] = {{.fd = now->mpirun.out, .events = POLLIN}, {.fd = now->mpirun.errors, .events = POLLIN}};
+    while ((from[0].fd >= 0 || from[1].fd >= 0) && !is_hollow(now)) {
+        obey(p);
         mind_silence(p);
         /* A signal that comes just before poll waits 0.2 s at most. */
         if (poll(from, 2, 200) <= 0) continue;
         if (from[0].revents && !read_lines(p)) from[0].fd = -1;
-        if (from[1].revents && !read_errors(p)) from[1].fd = -1;
+        if (from[1].revents && !read_errors(now)) from[1].fd = -1;
     }
 }
 
-/* How the run ended when rank 0 did not say so. */
-static fracas_err explain(const parent *p, int status)
+/* Waits until mpirun and whatever it left behind have ended, so that the study is free. Returns mpirun's status. */
+static int wait_for_all(parent *p)
 {
-    if (asked)
-        return fracas_fail(FRACAS_INTERRUPTED, "stopped at once: what was done is kept; the same command goes on from "
-                           "there");
-    if (WIFEXITED(status) && WEXITSTATUS(status) == FRACAS_MPIRUN_MISSING && !p->speaks)
-        return fracas_fail(FRACAS_ENVIRONMENT, "there is no mpirun; install Open MPI (Debian: openmpi-bin)");
-    fprintf(stderr, "%s", p->noise);
-    if (WIFSIGNALED(status))
-        return fracas_fail(FRACAS_ENVIRONMENT, "mpirun died of signal %d (%s); what was done is kept; the same command "
-                           "goes on from there", WTERMSIG(status), strsignal(WTERMSIG(status)));
-    return fracas_fail(FRACAS_ENVIRONMENT, "mpirun ended with status %d before the run was over (above: what it said); "
-                       "what was done is kept; the same command goes on from there", WEXITSTATUS(status));
-}
-
-static fracas_err choose_jobs(int wanted, int *jobs)
-{
-    enum { MOST_A_CORE = 32 };
-    cpu_set_t set;
-    const int cores = sched_getaffinity(0, sizeof set, &set) ? 1 : CPU_COUNT(&set);
-    *jobs = wanted ? wanted : cores;
-    if (*jobs <= MOST_A_CORE * cores) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "--jobs %d: this machine gives the run %d cores; %d processes are the most, one a core "
-                       "is the best", *jobs, cores, MOST_A_CORE * cores);
-}
-
-/* Waits until mpirun and whatever it left behind have ended, so that the study is free when this process ends: ranks,
- * servers and children die with their parents and come to this process, their reaper. Returns mpirun's status. */
-static int wait_for_all(pid_t mpirun)
-{
-    int status = 0, one;
-    for (;;) {
-        pid_t pid = waitpid(-1, &one, 0);
-        if (pid == mpirun) status = one;
-        if (pid < 0 && errno != EINTR) return status;
+    launch *now = &p->now;
+    int status = 0;
+    const double began = fracas_now();
+    while (fracas_reaper_wait(now->mpirun.pid, &status)) {
+        obey(p);
+        if (fracas_now() - began > PATIENCE_END || now->killed) {
+            kill_run(now);
+            fracas_reaper_kill();
+        }
+        poll(NULL, 0, 10);
     }
+    return status;
 }
 
 /* mpirun from start to end. */
-static fracas_err run(parent *p, const fracas_run_options *options, int argc, char **argv, bool *ran)
+static fracas_err start(parent *p, int jobs, int argc, char **argv, int *status)
 {
-    fracas_progress_init(&p->progress, stderr);
-    prctl(PR_SET_CHILD_SUBREAPER, 1);
-    p->began = fracas_now();
-    int jobs;
-    TRY(choose_jobs(options->jobs, &jobs));
-    TRY(fracas_mpirun_start(jobs, argc, argv, &p->mpirun));
+    memset(&p->now, 0, sizeof p->now);
+    p->starts++;
+    p->now.began = fracas_now();
+    TRY(fracas_mpirun_start(jobs, argc, argv, &p->now.mpirun));
     listen(p);
-    close(p->mpirun.out);
-    close(p->mpirun.errors);
-    int status = wait_for_all(p->mpirun.pid);
-    fracas_progress_end(&p->progress);
-    if (!p->verdict.ended) return explain(p, status);
-    *ran = p->verdict.ran;
-    return p->verdict.err ? fracas_fail(p->verdict.err, "%s", p->verdict.text) : FRACAS_OK;
+    close(p->now.mpirun.out);
+    close(p->now.mpirun.errors);
+    *status = wait_for_all(p);
+    return FRACAS_OK;
 }
 
-fracas_err fracas_parent_run(const fracas_run_options *options, int argc, char **argv, bool *ran)
+/* Why a start ended before the run was over. */
+static void explain(const launch *now, int status, char *text, size_t size)
 {
+    if (now->verdict.ended) {
+        snprintf(text, size, "%.600s", now->verdict.text);
+        return;
+    }
+    if (WIFSIGNALED(status)) {
+        snprintf(text, size, "mpirun died of signal %d (%s)", WTERMSIG(status), strsignal(WTERMSIG(status)));
+        return;
+    }
+    char reason[512];
+    fracas_mpirun_reason(now->noise, reason, sizeof reason);
+    if (*reason) snprintf(text, size, "%s", reason);
+    else snprintf(text, size, "mpirun ended with status %d before the run was over", WEXITSTATUS(status));
+}
+
+/* What of the run before may still hold the study on another machine: then it is not over, but begins anew. */
+static bool is_verdict(const parent *p)
+{
+    return p->now.verdict.ended && !(p->now.verdict.err == FRACAS_IN_USE && p->starts > 1);
+}
+
+static fracas_err stopped(const parent *p)
+{
+    if (p->drain_at <= p->asked)
+        return fracas_fail(FRACAS_INTERRUPTED, "the walltime is over: what was done is kept; the same command goes on from there");
+    return fracas_fail(FRACAS_INTERRUPTED, "stopped at once: what was done is kept; the same command goes on from there");
+}
+
+/* After a start that ended too early: FRACAS_OK to start again. */
+static fracas_err go_on(parent *p, int status)
+{
+    launch *now = &p->now;
+    char reason[700], text[900];
+    if (is_asked(p)) return stopped(p);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == FRACAS_MPIRUN_MISSING && !now->speaks)
+        return fracas_fail(FRACAS_ENVIRONMENT, "there is no mpirun; install Open MPI (Debian: openmpi-bin)");
+    explain(now, status, reason, sizeof reason);
+    p->barren = now->gained ? 0 : p->barren + 1;
+    if (p->barren == MOST_BARREN) {
+        fprintf(stderr, "%s", now->noise);
+        return fracas_fail(FRACAS_ENVIRONMENT, "%s; MPI was started %d times, the last %d in vain; what was done is kept; the same command "
+                           "goes on from there", reason, p->starts, MOST_BARREN);
+    }
+    snprintf(text, sizeof text, "%s; MPI is started again", reason);
+    fracas_progress_say(&p->progress, text);
+    setenv(FRACAS_RESTARTED, reason, 1);
+    for (const double until = fracas_now() + p->barren; fracas_now() < until && !is_asked(p);) poll(NULL, 0, 50);
+    return is_asked(p) ? stopped(p) : FRACAS_OK;
+}
+
+/* The walltime, for this process and, as seconds since 1970, for rank 0. */
+static void set_deadline(parent *p, double walltime, double began)
+{
+    p->drain_at = p->kill_at = INFINITY;
+    unsetenv(FRACAS_DEADLINE);
+    unsetenv(FRACAS_RESTARTED);
+    if (walltime <= 0) return;
+    const double end = began + walltime;
+    p->drain_at = end - fmin(5, walltime / 2);
+    p->kill_at = end - fmin(1, walltime / 10);
+    struct timespec t;
+    clock_gettime(CLOCK_REALTIME, &t);
+    char text[64];
+    snprintf(text, sizeof text, "%.3f", (double)t.tv_sec + 1e-9 * (double)t.tv_nsec + (end - fracas_now()));
+    setenv(FRACAS_DEADLINE, text, 1);
+}
+
+static fracas_err run(parent *p, int jobs, int argc, char **argv, bool *ran)
+{
+    if (is_asked(p)) return stopped(p);
+    do {
+        int status;
+        TRY(start(p, jobs, argc, argv, &status));
+        if (!is_verdict(p)) TRY(go_on(p, status));
+    } while (!is_verdict(p));
+    const fracas_verdict *verdict = &p->now.verdict;
+    *ran = verdict->ran || p->starts > 1;
+    return verdict->err ? fracas_fail(verdict->err, "%s", verdict->text) : FRACAS_OK;
+}
+
+fracas_err fracas_parent_run(const fracas_run_options *options, double began, int argc, char **argv, bool *ran)
+{
+    int jobs;
+    TRY(fracas_allocation_jobs(options->jobs, &jobs));
     parent *p = calloc(1, sizeof *p);
     if (!p) return fracas_no_memory("the run");
-    struct sigaction count = {.sa_handler = count_signal}, before[NCAUGHT], pipe_before;
-    struct sigaction ignore = {.sa_handler = SIG_IGN}; /* a run goes on when nobody reads its progress */
-    sigemptyset(&count.sa_mask);
-    sigemptyset(&ignore.sa_mask);
-    for (size_t i = 0; i < NCAUGHT; i++) sigaction(caught[i], &count, &before[i]);
-    if (before[HANGUP].sa_handler == SIG_IGN) /* nohup */
-        sigaction(SIGHUP, &ignore, NULL);
-    sigaction(SIGPIPE, &ignore, &pipe_before);
-    fracas_err err = run(p, options, argc, argv, ran);
-    for (size_t i = 0; i < NCAUGHT; i++) sigaction(caught[i], &before[i], NULL);
-    sigaction(SIGPIPE, &pipe_before, NULL);
+    p->durable = -1;
+    fracas_progress_init(&p->progress, stderr);
+    fracas_reaper_begin();
+    set_deadline(p, options->walltime, began);
+    fracas_err err = run(p, jobs, argc, argv, ran);
+    fracas_progress_end(&p->progress);
     free(p);
     return err;
 }

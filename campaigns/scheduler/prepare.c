@@ -73,18 +73,19 @@ fracas_err fracas_study_settled(const char *study, fracas_index *index, const fr
     return FRACAS_OK;
 }
 
-fracas_err fracas_study_examine(const char *study, const fracas_campaign *campaign, bool *settled, int64_t *failed)
+fracas_err fracas_study_examine(const char *study, const fracas_campaign *campaign, bool force, bool *settled, int64_t *failed)
 {
     *settled = false;
     *failed = 0;
     TRY(fracas_study_fits(study, campaign));
     if (!fracas_index_exists(study)) return FRACAS_OK;
     int lock;
-    TRY(fracas_study_lock(study, &lock));
+    TRY(fracas_study_lock_to_look(study, force, &lock));
     fracas_index *index;
     fracas_err err = fracas_index_open(study, false, &index);
     if (!err) {
         err = fracas_study_settled(study, index, campaign, settled, failed);
+        if (!err && *settled) err = fracas_study_sound(study, index, settled);
         fracas_index_close(index);
     }
     close(lock);
@@ -191,11 +192,10 @@ static fracas_err copy_attachments(const char *study, const fracas_campaign *cam
     return FRACAS_OK;
 }
 
-/* The part of preparation under the lock. */
-static fracas_err open_and_plan(const char *study, const fracas_campaign *campaign, fracas_index **index,
-                                char **report)
+fracas_err fracas_study_plan(const char *study, const fracas_campaign *campaign, fracas_index **index, char **report)
 {
     *report = NULL;
+    *index = NULL;
     TRY(fracas_study_fits(study, campaign));
     TRY(fracas_index_open(study, true, index));
     fracas_file_header header = fracas_segment_header(campaign);
@@ -213,16 +213,25 @@ static fracas_err open_and_plan(const char *study, const fracas_campaign *campai
     return err;
 }
 
-fracas_err fracas_study_prepare(const char *study, const fracas_campaign *campaign, int *lock, fracas_index **index,
+static fracas_err note_takeover(fracas_index *index, int lock)
+{
+    char holder[FRACAS_HOLDER_TEXT], text[FRACAS_HOLDER_TEXT + 64];
+    if (!fracas_study_took_over(lock, holder)) return FRACAS_OK;
+    snprintf(text, sizeof text, "the lock, from a run that has ended without leaving it: %s", holder);
+    return fracas_index_event(index, "took over", text);
+}
+
+fracas_err fracas_study_prepare(const char *study, const fracas_campaign *campaign, bool force, int *lock, fracas_index **index,
                                 char **report)
 {
     char segments[PATH];
     TRY(join(study, "segments", segments));
     TRY(make_folder(segments));
-    TRY(fracas_study_lock(study, lock));
-    fracas_err err = open_and_plan(study, campaign, index, report);
+    TRY(fracas_study_lock(study, force, lock));
+    fracas_err err = fracas_study_plan(study, campaign, index, report);
+    if (!err) err = note_takeover(*index, *lock);
     if (err) {
-        close(*lock);
+        fracas_study_unlock(*lock);
         *lock = -1;
     }
     return err;

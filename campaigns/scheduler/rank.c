@@ -1,10 +1,12 @@
 #include "campaigns/scheduler/rank.h"
 
 #include "campaigns/campaign.h"
+#include "campaigns/scheduler/clock.h"
 #include "campaigns/scheduler/director.h"
 #include "campaigns/scheduler/keeper.h"
 #include "campaigns/scheduler/packet.h"
 #include "campaigns/scheduler/prepare.h"
+#include "campaigns/scheduler/share.h"
 
 #include <limits.h>
 #include <mpi.h>
@@ -14,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/prctl.h>
+#include <time.h>
 #include <unistd.h>
 
 enum {
@@ -22,7 +25,7 @@ enum {
     DEATHS_MAX = 5 /* of servers, one after another, that have done nothing in between */
 };
 
-/* Set by SIGUSR1 (the parent, by way of mpirun), SIGTERM and SIGINT (mpirun, srun, a scheduler). */
+/* Set by SIGUSR1 (the parent, by way of mpirun), SIGUSR2, SIGTERM and SIGINT (mpirun, srun, a batch system). */
 static volatile sig_atomic_t drain_asked;
 
 static void ask_drain(int signal_number)
@@ -35,6 +38,7 @@ typedef struct {
     const fracas_run_options *options;
     fracas_campaign *campaign;
     char study[4096];
+    double began; /* fracas_now at the start of this process */
     int rank, size;
     fracas_keeper keeper; /* of the compute server, and the connection to that */
     bool ended;  /* the server has said its last word: ENDED or TROUBLE */
@@ -159,24 +163,50 @@ static fracas_err tell(fracas_packet_kind kind, const void *body, size_t size)
     return err;
 }
 
-/* One message each way, if there is one. */
-static fracas_err forward(rank_state *rank, bool *quit)
+/* What rank 0 says goes to the server; *come tells whether there was anything. */
+static fracas_err hear_lead(rank_state *rank, bool *come, bool *quit)
 {
     fracas_packet *message;
     int from;
-    TRY(server_receive(rank, &message));
-    bool busy = message != NULL;
-    fracas_err err = message ? mpi_send(0, message) : FRACAS_OK;
-    free(message);
-    TRY(err);
     TRY(mpi_receive(&from, &message));
-    busy |= message != NULL;
+    *come = message != NULL;
     if (message && message->kind == FRACAS_PACKET_QUIT)
         *quit = true;
     else if (message)
         server_send(rank, message);
     free(message);
-    pace(rank, busy);
+    return FRACAS_OK;
+}
+
+/* Sends to rank 0, and hears it meanwhile: it may be sending to this rank, and a long message waits until the other side receives. */
+static fracas_err send_lead(rank_state *rank, const fracas_packet *message, bool *quit)
+{
+    const struct timespec rest = {.tv_nsec = 200000};
+    MPI_Request request;
+    int sent = 0;
+    int code = MPI_Isend(message, (int)fracas_packet_bytes(message), MPI_BYTE, 0, TAG, MPI_COMM_WORLD, &request);
+    while (code == MPI_SUCCESS) {
+        bool come;
+        code = MPI_Test(&request, &sent, MPI_STATUS_IGNORE);
+        if (code != MPI_SUCCESS || sent) break;
+        TRY(hear_lead(rank, &come, quit));
+        if (!come) nanosleep(&rest, NULL);
+    }
+    return code == MPI_SUCCESS ? FRACAS_OK : mpi_failed("send", code);
+}
+
+/* One message each way, if there is one. */
+static fracas_err forward(rank_state *rank, bool *quit)
+{
+    fracas_packet *message;
+    bool come;
+    TRY(server_receive(rank, &message));
+    const bool told = message != NULL;
+    fracas_err err = message ? send_lead(rank, message, quit) : FRACAS_OK;
+    free(message);
+    TRY(err);
+    TRY(hear_lead(rank, &come, quit));
+    pace(rank, told || come);
     return FRACAS_OK;
 }
 
@@ -225,9 +255,21 @@ static fracas_err direct(rank_state *rank, fracas_director *director)
             if (message) fracas_director_hear(director, (size_t)from, message);
             free(message);
         } while (message);
+        fracas_director_tick(director);
         pace(rank, busy);
     }
     return FRACAS_OK;
+}
+
+/* When the run must have ended, by fracas_now; 0: any time. A parent counts the walltime from its own start; started by the user's own
+ * launcher this process is where the run begins. */
+static double deadline_of(const rank_state *rank)
+{
+    const char *text = getenv(FRACAS_DEADLINE);
+    struct timespec day;
+    clock_gettime(CLOCK_REALTIME, &day);
+    if (text) return fracas_now() + strtod(text, NULL) - (double)day.tv_sec - 1e-9 * (double)day.tv_nsec;
+    return rank->options->walltime > 0 ? rank->began + rank->options->walltime : 0;
 }
 
 static fracas_err lead(rank_state *rank, fracas_voice *voice, bool *ran)
@@ -238,12 +280,16 @@ static fracas_err lead(rank_state *rank, fracas_voice *voice, bool *ran)
                                    .workers = (size_t)rank->size,
                                    .send = send_worker,
                                    .context = rank,
-                                   .voice = voice};
+                                   .voice = voice,
+                                   .now = fracas_now,
+                                   .deadline = deadline_of(rank)};
     fracas_director *director;
     fracas_err verdict;
     TRY(fracas_director_create(&setup, &director, &verdict));
     *ran = director != NULL;
     if (!director) return verdict;
+    const char *restarted = getenv(FRACAS_RESTARTED);
+    if (voice->parent && restarted) fracas_director_note(director, "restarted", restarted);
     verdict = direct(rank, director);
     if (!verdict) verdict = fracas_director_finish(director);
     fracas_director_destroy(director);
@@ -275,6 +321,7 @@ static void catch_signals(void)
     struct sigaction drain = {.sa_handler = ask_drain, .sa_flags = SA_RESTART};
     sigemptyset(&drain.sa_mask);
     sigaction(SIGUSR1, &drain, NULL);
+    sigaction(SIGUSR2, &drain, NULL);
     sigaction(SIGTERM, &drain, NULL);
     sigaction(SIGINT, &drain, NULL);
     signal(SIGPIPE, SIG_IGN); /* a write that cannot be is an error like others */
@@ -284,7 +331,7 @@ static void catch_signals(void)
 /* What must happen before MPI_Init: the keeper is forked from a process that MPI does not know. */
 static fracas_err set_up(rank_state *rank)
 {
-    TRY(fracas_campaign_read(rank->options->file, &rank->campaign));
+    TRY(fracas_run_campaign(rank->options, &rank->campaign));
     TRY(fracas_study_folder(rank->options, rank->campaign, rank->study, sizeof rank->study));
     return fracas_keeper_start(rank->campaign, rank->options, rank->study, &rank->keeper);
 }
@@ -296,7 +343,7 @@ fracas_err fracas_rank_run(const fracas_run_options *options, bool *ran)
      * launchers do with their threads is not known.) */
     if (getenv(FRACAS_PARENT_MARK)) prctl(PR_SET_PDEATHSIG, SIGKILL);
     catch_signals();
-    rank_state rank = {.options = options, .keeper = {.control = -1, .server = -1}};
+    rank_state rank = {.options = options, .began = fracas_now(), .keeper = {.control = -1, .server = -1}};
     fracas_err err = set_up(&rank);
     fracas_trouble trouble;
     fracas_trouble_take(err, &trouble);

@@ -66,23 +66,30 @@ FRACAS_MUST_USE fracas_err fracas_scheduler_add(fracas_scheduler *scheduler, con
 void fracas_scheduler_destroy(fracas_scheduler *scheduler); /* NULL is allowed */
 
 /* Gives `worker` the next lease at time `now` [s, of any clock that only grows]; *given is false when none waits or the worker has
- * enough: one that runs and one ahead, or only one that runs when no more than a batch waits for each worker. A worker that
- * has nothing and finds nothing waiting is given a copy of a lease that is overdue: 4 times what was predicted and 10 s at least.
+ * enough: one that runs and one ahead, or only one that runs when no more than a batch waits for each worker.
  *   est_p = seconds per realization of point p: measured, else cost_p times measured seconds / cost of all points
  *   n = min(seconds / est_p, sum_q waiting_q est_q / (2 workers est_p), FRACAS_LEASE_MAX), down to whole batches,
- *       and min(width, waiting / workers) at least; one batch while nothing is measured
- * of the point with the largest est_p. Failed or lost leases go first. FRACAS_ENVIRONMENT without memory. */
+ *       and a batch at least, or when less than a batch waits for each worker, min(width, waiting / workers that will be free
+ *       within half the time of a batch); while nothing is measured one batch, shared with the workers that hold nothing
+ * of the point with the largest est_p. Failed or lost leases go first. Takes log(points) steps, and one per worker for the last ones.
+ * FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease, bool *given);
+
+/* Gives `worker`, when it has nothing and nothing waits, a copy of the lease that is overdue longest: held by one worker alone for
+ * more than 4 times what was predicted and 10 s, counted from when it began to run, or for one ahead from when it was given. *late:
+ * that worker. *given is false when there is none. Takes a step per worker. */
+void fracas_scheduler_overdue(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease, size_t *late, bool *given);
 
 /* At `now` the worker has computed lease `id`, in `seconds`: it is in its memory. FRACAS_BUG unless the worker held it,
  * FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_scheduler_computed(fracas_scheduler *scheduler, size_t worker, uint64_t id, double now, double seconds);
 
-/* Lease `id` of the worker ended early: its first `kept` realizations are computed and in the worker's memory, the next `count`
- * (one batch) are at fault, the others were not begun. *lease is what was at fault; of one realization an attempt is counted, and
- * *final tells whether it was the last one; more are bisected. FRACAS_BUG unless the worker held it, FRACAS_ENVIRONMENT without memory. */
-FRACAS_MUST_USE fracas_err fracas_scheduler_failed(fracas_scheduler *scheduler, size_t worker, uint64_t id, size_t kept, size_t count,
-                                                   fracas_lease *lease, bool *final);
+/* Lease `id` of the worker ended early at `now`: its first `kept` realizations are computed and in the worker's memory, the next
+ * `count` (one batch) are at fault, the others were not begun. *lease is what was at fault; of one realization an attempt is counted,
+ * and *final tells whether it was the last one; more are bisected. lease->count is 0 when another worker has the same lease, or had
+ * it: then nothing is lost, and what it says counts. FRACAS_BUG unless the worker held it, FRACAS_ENVIRONMENT without memory. */
+FRACAS_MUST_USE fracas_err fracas_scheduler_failed(fracas_scheduler *scheduler, size_t worker, uint64_t id, double now, size_t kept,
+                                                   size_t count, fracas_lease *lease, bool *final);
 
 /* All that the worker had in memory is durable. */
 void fracas_scheduler_durable(fracas_scheduler *scheduler, size_t worker);
@@ -98,10 +105,9 @@ bool fracas_scheduler_keeps(const fracas_scheduler *scheduler, size_t worker);
 /* True when no realization waits or is held without having been computed by another: everything is in memory, durable or failed. */
 bool fracas_scheduler_computed_all(const fracas_scheduler *scheduler);
 
-/* s that the leases which workers hold will still take at `now`, at most over workers, as predicted; 0 when nothing is measured. */
-double fracas_scheduler_remaining(const fracas_scheduler *scheduler, double now);
-/* s that a lease given now would take, as predicted: NAN when nothing is measured. */
-double fracas_scheduler_predicted(const fracas_scheduler *scheduler);
+/* s from `now` until the worker will have computed what it holds and the lease that comes next, as predicted: NAN when nothing is
+ * measured, and for what it holds alone when nothing waits. */
+double fracas_scheduler_predicted(const fracas_scheduler *scheduler, size_t worker, double now);
 
 fracas_scheduler_counts fracas_scheduler_count(const fracas_scheduler *scheduler);
 

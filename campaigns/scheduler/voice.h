@@ -12,6 +12,9 @@
 
 /* Set in the environment of mpirun by the parent. */
 #define FRACAS_PARENT_MARK "FRACAS_PARENT"
+/* And there: when the run must have ended, s since 1970 (--walltime); why mpirun was started again. */
+#define FRACAS_DEADLINE "FRACAS_DEADLINE"
+#define FRACAS_RESTARTED "FRACAS_RESTARTED"
 
 typedef struct {
     bool parent; /* listens */

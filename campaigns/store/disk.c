@@ -5,6 +5,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <inttypes.h>
 #include <linux/magic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -68,7 +69,7 @@ fracas_err fracas_disk_sync_folder(const char *path)
     return err;
 }
 
-fracas_err fracas_disk_seal(int fd, const char *path, fracas_file_seal *seal)
+fracas_err fracas_disk_seal_first(int fd, const char *path, uint64_t most, fracas_file_seal *seal)
 {
     enum { BLOCK = 1 << 20 };
     char *block = malloc(BLOCK);
@@ -76,7 +77,8 @@ fracas_err fracas_disk_seal(int fd, const char *path, fracas_file_seal *seal)
     *seal = (fracas_file_seal){0};
     fracas_err err = block ? fracas_checksum_create(&checksum) : fracas_no_memory("a checksum");
     while (!err) {
-        ssize_t got = pread(fd, block, BLOCK, (off_t)seal->bytes);
+        const uint64_t left = most - seal->bytes;
+        ssize_t got = pread(fd, block, left < BLOCK ? left : BLOCK, (off_t)seal->bytes);
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) err = fracas_disk_fail("read", path);
         if (got <= 0) break;
@@ -89,6 +91,11 @@ fracas_err fracas_disk_seal(int fd, const char *path, fracas_file_seal *seal)
     return err;
 }
 
+fracas_err fracas_disk_seal(int fd, const char *path, fracas_file_seal *seal)
+{
+    return fracas_disk_seal_first(fd, path, INT64_MAX, seal);
+}
+
 fracas_err fracas_disk_seal_path(const char *path, fracas_file_seal *seal)
 {
     int fd = open(path, O_RDONLY | O_CLOEXEC);
@@ -96,6 +103,30 @@ fracas_err fracas_disk_seal_path(const char *path, fracas_file_seal *seal)
     if (fd < 0) return fracas_disk_fail("open", path);
     fracas_err err = fracas_disk_seal(fd, path, seal);
     close(fd);
+    return err;
+}
+
+fracas_err fracas_disk_check_seal(const char *path, const fracas_file_seal *wanted)
+{
+    fracas_file_seal seal;
+    TRY(fracas_disk_seal_path(path, &seal));
+    if (seal.bytes == wanted->bytes && seal.checksum == wanted->checksum) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED, "%s: damaged: it has %" PRIu64 " bytes of checksum %016" PRIx64 ", the index says %" PRIu64
+                       " of %016" PRIx64, path, seal.bytes, seal.checksum, wanted->bytes, wanted->checksum);
+}
+
+fracas_err fracas_disk_set_aside(const char *path, char **aside)
+{
+    const char *dot = strrchr(path, '.'), *slash = strrchr(path, '/');
+    if (!dot || (slash && dot < slash)) dot = path + strlen(path);
+    if (asprintf(aside, "%.*s.damaged", (int)(dot - path), path) < 0) {
+        *aside = NULL;
+        return fracas_no_memory("a file name");
+    }
+    fracas_err err = FRACAS_OK;
+    if (rename(path, *aside) == 0) err = fracas_disk_sync_folder(path);
+    else if (errno != ENOENT) err = fracas_disk_fail("rename", path);
+    if (err) free(*aside), *aside = NULL;
     return err;
 }
 

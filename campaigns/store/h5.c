@@ -120,6 +120,13 @@ fracas_err fracas_h5_get_text(const fracas_h5 *h5, const char *object, const cha
     return err;
 }
 
+fracas_err fracas_h5_has_attribute(const fracas_h5 *h5, const char *object, const char *name, bool *has)
+{
+    const htri_t found = H5Aexists_by_name(h5->id, object, name, H5P_DEFAULT);
+    *has = found > 0;
+    return found < 0 ? fracas_h5_fail(h5, name) : FRACAS_OK;
+}
+
 fracas_err fracas_h5_get_integer(const fracas_h5 *h5, const char *object, const char *name, hid_t file_type,
                                  uint64_t *value)
 {

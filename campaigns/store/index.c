@@ -34,7 +34,7 @@ static const char tables[] =
     " maximum INTEGER NOT NULL, relative_half_width REAL NOT NULL, confidence REAL NOT NULL,"
     " PRIMARY KEY (point, round)) STRICT, WITHOUT ROWID;";
 
-static const char remedy[] = "remove it: `fracas run` makes it anew from the segments";
+static const char remedy[] = "`fracas reindex` makes it anew from the segments";
 
 static const char *const sql_text[FRACAS_NSQL] = {
     [FRACAS_SQL_BEGIN] = "BEGIN IMMEDIATE",
@@ -50,7 +50,8 @@ static const char *const sql_text[FRACAS_NSQL] = {
                            " (SELECT 0 UNION ALL SELECT replica + 1 FROM n WHERE replica + 1 < ?2)"
                            " INSERT OR IGNORE INTO realization(point, replica, status)"
                            " SELECT ?1, replica, 'planned' FROM n",
-    [FRACAS_SQL_ROW_FIND] = "SELECT status, segment, row FROM realization WHERE point = ?1 AND replica = ?2",
+    [FRACAS_SQL_ROW_FIND] = "SELECT status, segment, row, outcome, fragments, fragments_dust, steps, dissipated, residual, size"
+                            " FROM realization WHERE point = ?1 AND replica = ?2",
     [FRACAS_SQL_ROW_OF_POINT] = "SELECT replica, status, attempts FROM realization"
                                 " WHERE point = ?1 AND replica >= ?3 AND replica < ?2 ORDER BY replica",
     [FRACAS_SQL_ROW_FAILED] = "SELECT replica, status, attempts, coalesce(reason, '') FROM realization"
@@ -70,8 +71,7 @@ static const char *const sql_text[FRACAS_NSQL] = {
     [FRACAS_SQL_ROW_FORGET] = "UPDATE realization SET status = 'planned', outcome = NULL, segment = NULL, row = NULL,"
                               " fragments = NULL, fragments_dust = NULL, steps = NULL, dissipated = NULL,"
                               " residual = NULL, size = NULL WHERE segment IN (SELECT id FROM segment WHERE bytes < 0)",
-    [FRACAS_SQL_TALLY] = "SELECT status, outcome FROM realization",
-    [FRACAS_SQL_TALLY_POINT] = "SELECT status, outcome FROM realization WHERE point = ?1",
+    [FRACAS_SQL_TALLY] = "SELECT status, outcome, point FROM realization",
     [FRACAS_SQL_SEGMENT_ADD] = "INSERT INTO segment(name, bytes, checksum, rows, provenance)"
                                " VALUES (?1, ?2, ?3, ?4, ?5)",
     [FRACAS_SQL_SEGMENT_FIND] = "SELECT id, bytes, checksum FROM segment WHERE name = ?1",
@@ -79,10 +79,9 @@ static const char *const sql_text[FRACAS_NSQL] = {
     [FRACAS_SQL_SEGMENT_LOSE] = "UPDATE segment SET bytes = -1 WHERE id = ?1",
     [FRACAS_SQL_SEGMENT_FORGET] = "DELETE FROM segment WHERE bytes < 0",
     [FRACAS_SQL_SEGMENT_TOTAL] = "SELECT count(*), coalesce(sum(bytes), 0) FROM segment",
-    [FRACAS_SQL_SEGMENT_TOTAL_POINT] = "SELECT count(*), coalesce(sum(bytes), 0) FROM segment"
-                                       " WHERE id IN (SELECT segment FROM realization WHERE point = ?1)",
     [FRACAS_SQL_EVENT_ADD] = "INSERT INTO event(time, kind, text)"
                              " VALUES (strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), ?1, ?2)",
+    [FRACAS_SQL_EVENT_LAST] = "SELECT text FROM event WHERE kind = ?1 ORDER BY id DESC LIMIT 1",
     [FRACAS_SQL_ROW_SUMMARY] = "SELECT status, outcome, fragments, size, dissipated FROM realization"
                                " WHERE point = ?1 AND replica < ?2 ORDER BY replica",
     [FRACAS_SQL_ROW_TRIM] = "DELETE FROM realization WHERE point = ?1 AND replica >= ?2",
@@ -100,6 +99,9 @@ static const char *old_text(int sql)
         return "SELECT r.segment, r.row, p.hash, r.replica, r.outcome, r.fragments, r.fragments_dust, r.steps, r.dissipated,"
                " r.residual, r.status, NULL FROM realization r JOIN point p ON p.id = r.point"
                " WHERE r.segment IS NOT NULL OR r.status = 'done' ORDER BY r.segment, r.row";
+    case FRACAS_SQL_ROW_FIND:
+        return "SELECT status, segment, row, outcome, fragments, fragments_dust, steps, dissipated, residual, NULL FROM realization"
+               " WHERE point = ?1 AND replica = ?2";
     case FRACAS_SQL_ROW_DONE:
     case FRACAS_SQL_ROW_FORGET:
     case FRACAS_SQL_ROW_SUMMARY:
@@ -322,8 +324,8 @@ static fracas_err is_old(fracas_index *index, bool *old)
     sqlite3_stmt *statement;
     if (sqlite3_prepare_v2(index->db, query, -1, &statement, NULL) != SQLITE_OK) return fracas_index_error(index, "open");
     bool row = sqlite3_step(statement) == SQLITE_ROW;
-    *old = sqlite3_column_int(statement, 0) > 0 && sqlite3_column_int(statement, 1) == 0;
-    fracas_err err = row ? FRACAS_OK : fracas_index_error(index, "open");
+    fracas_err err = row ? FRACAS_OK : fracas_index_error(index, "open"); /* first: a column that is not there is another error */
+    *old = row && sqlite3_column_int(statement, 0) > 0 && sqlite3_column_int(statement, 1) == 0;
     sqlite3_finalize(statement);
     return err;
 }
@@ -345,9 +347,9 @@ static fracas_err count_tables(fracas_index *index, int *all, int *meta)
     if (sqlite3_prepare_v2(index->db, query, -1, &statement, NULL) != SQLITE_OK)
         return fracas_index_error(index, "open");
     bool row = sqlite3_step(statement) == SQLITE_ROW;
-    *all = sqlite3_column_int(statement, 0);
-    *meta = sqlite3_column_int(statement, 1);
-    fracas_err err = row ? FRACAS_OK : fracas_index_error(index, "open");
+    fracas_err err = row ? FRACAS_OK : fracas_index_error(index, "open"); /* first: a column that is not there is another error */
+    *all = row ? sqlite3_column_int(statement, 0) : 0;
+    *meta = row ? sqlite3_column_int(statement, 1) : 0;
     sqlite3_finalize(statement);
     return err;
 }

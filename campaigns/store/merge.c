@@ -3,6 +3,7 @@
 #include "campaigns/store/segments.h"
 
 #include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 typedef struct {
@@ -53,6 +54,26 @@ static fracas_err append_meshes(const merging *m, const fracas_mesh_source *mesh
     return err;
 }
 
+/* After a merge that found damage. If that is in the bytes of segments, they are set aside and FRACAS_INTERRUPTED says so; else it says
+ * what it said. */
+static fracas_err plan_damaged_again(const char *study, fracas_index *index)
+{
+    char *text = NULL, before[1024];
+    size_t size;
+    int64_t rows = 0;
+    snprintf(before, sizeof before, "%s", fracas_message());
+    FILE *report = open_memstream(&text, &size);
+    if (!report) return fracas_no_memory("a report");
+    fracas_err err = fracas_segments_sweep(study, index, true, report, &rows);
+    if (fclose(report) != 0 && !err) err = fracas_no_memory("a report");
+    if (!err && *text) err = fracas_index_event(index, "recovered", text);
+    if (!err)
+        err = rows ? fracas_fail(FRACAS_INTERRUPTED, "damage was found when study.h5 was to be made: %sthe same command computes them", text)
+                   : fracas_fail(FRACAS_DAMAGED, "%s", before);
+    free(text);
+    return err;
+}
+
 fracas_err fracas_study_merge(const char *study, fracas_index *index, const fracas_file_header *header,
                               const fracas_point_table *table, const fracas_mesh_source *meshes)
 {
@@ -74,7 +95,7 @@ fracas_err fracas_study_merge(const char *study, fracas_index *index, const frac
     if (!err) err = fracas_index_seal_study(index, &seal);
     fracas_segments_destroy(segments);
     free(path);
-    return err;
+    return err == FRACAS_DAMAGED ? plan_damaged_again(study, index) : err;
 }
 
 fracas_err fracas_study_sealed(const char *study, fracas_index *index, bool *sealed)

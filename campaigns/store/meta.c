@@ -3,6 +3,7 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <string.h>
 
 static const char seal_key[] = "study_seal";
 
@@ -52,6 +53,35 @@ fracas_err fracas_index_claim(fracas_index *index, const fracas_file_header *hea
     for (int v = 0; !err && v < FRACAS_IDENTITY_VALUES; v++)
         err = write_meta(index, fracas_identity_name[v], wanted.value[v]);
     return fracas_index_end(index, err);
+}
+
+/* ---- what SQLite says ---- */
+
+const char *fracas_sqlite_version(void) { return sqlite3_libversion(); }
+
+bool fracas_index_is_json(fracas_index *index, const char *text)
+{
+    sqlite3_stmt *statement;
+    bool valid = false;
+    if (sqlite3_prepare_v2(index->db, "SELECT json_valid(?1)", -1, &statement, NULL) == SQLITE_OK &&
+        sqlite3_bind_text(statement, 1, text, -1, SQLITE_STATIC) == SQLITE_OK && sqlite3_step(statement) == SQLITE_ROW)
+        valid = sqlite3_column_int(statement, 0) == 1;
+    sqlite3_finalize(statement);
+    return valid;
+}
+
+fracas_err fracas_index_quick_check(fracas_index *index)
+{
+    sqlite3_stmt *statement;
+    if (sqlite3_prepare_v2(index->db, "PRAGMA quick_check(1)", -1, &statement, NULL) != SQLITE_OK) return fracas_index_error(index, "check");
+    fracas_err err = FRACAS_OK;
+    const int code = sqlite3_step(statement);
+    const char *text = code == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;
+    if (code != SQLITE_ROW && code != SQLITE_DONE) err = fracas_index_error(index, "check");
+    else if (text && strcmp(text, "ok") != 0)
+        err = fracas_fail(FRACAS_DAMAGED, "%s: damaged: %s; `fracas reindex` makes it anew from the segments", index->path, text);
+    sqlite3_finalize(statement);
+    return err;
 }
 
 /* ---- the seal of study.h5 ---- */

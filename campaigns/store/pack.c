@@ -66,3 +66,16 @@ fracas_err fracas_record_unpack(const void *bytes, size_t size, fracas_record *r
     fracas_record_clear(record);
     return fracas_no_memory("a record");
 }
+
+static bool same_bytes(const void *a, const void *b, size_t size) { return size == 0 || memcmp(a, b, size) == 0; }
+
+bool fracas_record_same(const fracas_record *a, const fracas_record *b)
+{
+    fracas_record x = *a, y = *b;
+    x.fragment = y.fragment = NULL;
+    x.history = y.history = NULL;
+    x.interface = y.interface = NULL;
+    return same_bytes(&x, &y, sizeof x) && same_bytes(a->fragment, b->fragment, a->nfragment * sizeof *a->fragment) &&
+           same_bytes(a->history, b->history, a->nhistory * sizeof *a->history) &&
+           same_bytes(a->interface, b->interface, a->ninterface * sizeof *a->interface);
+}

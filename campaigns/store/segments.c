@@ -3,8 +3,11 @@
 #include "campaigns/store/disk.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+static const char reindex[] = "`fracas reindex` makes the index anew from the segments";
 
 struct fracas_segments {
     const char *study;
@@ -70,16 +73,6 @@ bool fracas_segments_is_bad(const fracas_segments *segments, int64_t id)
     return s != SIZE_MAX && segments->bad[s];
 }
 
-static fracas_err check_seal(const fracas_known_segment *segment, const char *path)
-{
-    fracas_file_seal seal;
-    TRY(fracas_disk_seal_path(path, &seal));
-    if (seal.bytes == segment->seal.bytes && seal.checksum == segment->seal.checksum) return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED, "%s: damaged: it has %" PRIu64 " bytes of checksum %016" PRIx64
-                       ", the index says %" PRIu64 " of %016" PRIx64, path, seal.bytes, seal.checksum,
-                       segment->seal.bytes, segment->seal.checksum);
-}
-
 static fracas_err check_identity(const fracas_segments *segments, const char *path)
 {
     fracas_identity found;
@@ -93,28 +86,41 @@ static fracas_err open_segment(fracas_segments *segments, size_t s)
 {
     char *path;
     TRY(fracas_disk_segment(segments->study, segments->segment[s].name, &path));
-    fracas_err err = segments->checked[s] ? FRACAS_OK : check_seal(&segments->segment[s], path);
+    fracas_err err = segments->checked[s] ? FRACAS_OK : fracas_disk_check_seal(path, &segments->segment[s].seal);
     if (!err) err = fracas_reader_open(path, &segments->reader);
     if (!err) err = check_identity(segments, path);
     if (err) fracas_reader_close(segments->reader), segments->reader = NULL;
     segments->checked[s] = true;
     segments->bad[s] = err == FRACAS_DAMAGED;
     if (segments->bad[s])
-        err = fracas_fail_within(err, "to compute its realizations again, remove %s and run again", path);
+        err = fracas_fail_within(err, "to compute its realizations again, move %s away and run again", path);
     free(path);
     return err;
 }
 
+fracas_reader *fracas_segments_reader(const fracas_segments *segments) { return segments->reader; }
+
 fracas_err fracas_segments_open(fracas_segments *segments, int64_t id)
 {
     size_t s = find(segments, id);
-    if (s == SIZE_MAX) return fracas_fail(FRACAS_DAMAGED, "the index has no segment %" PRId64, id);
+    if (s == SIZE_MAX) return fracas_fail(FRACAS_DAMAGED, "%s has no segment %" PRId64 "; %s", segments->index->path, id, reindex);
     if (segments->bad[s]) return fracas_fail(FRACAS_DAMAGED, "segment %s is damaged", segments->segment[s].name);
     if (segments->reader && segments->current == s) return FRACAS_OK;
     fracas_reader_close(segments->reader);
     segments->reader = NULL;
     segments->current = s;
     return open_segment(segments, s);
+}
+
+static bool same_real(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
+
+bool fracas_place_fits(const fracas_place *place, const fracas_record *record)
+{
+    return place->outcome == record->outcome && place->fragments == record->fragments && place->steps == record->steps &&
+           place->fragments_dust == record->fragments_dust && same_real(place->dissipated, record->dissipated) &&
+           same_real(place->residual, record->residual) &&
+           (!place->sized || same_real(place->size, fracas_record_mean_size(record))) &&
+           place->status == (record->outcome == FRACAS_FAILED ? FRACAS_FAILED_ROW : FRACAS_DONE);
 }
 
 fracas_err fracas_segments_record(fracas_segments *segments, const fracas_place *place, const fracas_hash *point,
@@ -124,15 +130,20 @@ fracas_err fracas_segments_record(fracas_segments *segments, const fracas_place 
     const char *name = segments->segment[segments->current].name;
     fracas_reader *reader = segments->reader;
     if (place->row < 0 || (uint64_t)place->row >= fracas_reader_realizations(reader))
-        return fracas_fail(FRACAS_DAMAGED, "segment %s has no row %" PRId64 ", which the index names", name,
-                           place->row);
+        return fracas_fail(FRACAS_DAMAGED, "segment %s has no row %" PRId64 ", which the index names; %s", name, place->row, reindex);
     size_t found_point;
     int64_t found_replica;
-    TRY(fracas_reader_record(reader, (size_t)place->row, FRACAS_READ_ALL, &found_point, &found_replica, record));
-    if (fracas_hash_equal(&fracas_reader_points(reader)->point[found_point].hash, point) && found_replica == replica)
-        return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED, "segment %s: row %" PRId64 " is another realization than the index says", name,
-                       place->row);
+    fracas_err err = fracas_reader_record(reader, (size_t)place->row, FRACAS_READ_ALL, &found_point, &found_replica, record);
+    if (err == FRACAS_DAMAGED) err = fracas_fail_within(err, "to compute its realizations again, move it away and run again");
+    TRY(err);
+    if (!fracas_hash_equal(&fracas_reader_points(reader)->point[found_point].hash, point) || found_replica != replica)
+        return fracas_fail(FRACAS_DAMAGED, "segment %s: row %" PRId64 " is another realization than the index says; %s", name,
+                           place->row, reindex);
+    if (fracas_place_fits(place, record)) return FRACAS_OK;
+    char hex[FRACAS_HASH_HEX];
+    fracas_hash_hex(point, hex);
+    return fracas_fail(FRACAS_DAMAGED, "%s: replica %" PRId64 " of point %s: its row differs from its record in segment %s; %s",
+                       segments->index->path, replica, hex, name, reindex);
 }
 
 /* ---- the walk in plan order ---- */
@@ -183,11 +194,22 @@ static int compare_places(const void *a, const void *b)
     return (x->row > y->row) - (x->row < y->row);
 }
 
+/* A row that says failed says so twice. */
+static fracas_err check_failed(const fracas_segments *segments, const fracas_place *place, int64_t replica)
+{
+    const bool failed = place->status == FRACAS_FAILED_ROW || place->status == FRACAS_QUARANTINED;
+    if (!failed || place->outcome == FRACAS_FAILED) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED, "%s: replica %" PRId64 " of a point has failed, but has the outcome %" PRId64 "; %s",
+                       segments->index->path, replica, place->outcome, reindex);
+}
+
 static fracas_err window_read(window *w, fracas_segments *segments, const fracas_point_table *table, bool tolerant)
 {
     size_t n = 0;
-    for (size_t i = 0; i < w->count; i++)
+    for (size_t i = 0; i < w->count; i++) {
+        if (!tolerant) TRY(check_failed(segments, &w->item[i].place, w->item[i].step.replica));
         if (w->item[i].step.status == FRACAS_DONE) w->sorted[n++] = &w->item[i];
+    }
     if (n) qsort(w->sorted, n, sizeof *w->sorted, compare_places);
     for (size_t i = 0; i < n; i++) {
         fracas_step *step = &w->sorted[i]->step;

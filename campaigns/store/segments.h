@@ -4,6 +4,8 @@
 
 #include "campaigns/store/index.h"
 
+#include <stdio.h>
+
 typedef struct fracas_segments fracas_segments;
 
 /* A segment of another identity is FRACAS_DAMAGED. `study` and `index` must outlive it. */
@@ -11,9 +13,16 @@ FRACAS_MUST_USE fracas_err fracas_segments_create(const char *study, fracas_inde
                                                   const fracas_identity *identity, fracas_segments **segments);
 void fracas_segments_destroy(fracas_segments *segments); /* NULL is allowed */
 
+/* Forgets what is lost of the segments that the index knows: those that are missing, and those of another size or (with `seals`, which
+ * reads them all) with another byte than the index says, which are set aside as NAME.damaged. *rows: realizations planned again. Each
+ * is a line in `report`. */
+FRACAS_MUST_USE fracas_err fracas_segments_sweep(const char *study, fracas_index *index, bool seals, FILE *report, int64_t *rows);
+
 /* Opens a segment by its id and closes the one before; its bytes are compared with the index's seal the first time.
  * FRACAS_DAMAGED names it and says what to do, or that it was found so before. */
 FRACAS_MUST_USE fracas_err fracas_segments_open(fracas_segments *segments, int64_t id);
+/* Of the one that is open. */
+fracas_reader *fracas_segments_reader(const fracas_segments *segments);
 /* True after fracas_segments_open has found it damaged. */
 bool fracas_segments_is_bad(const fracas_segments *segments, int64_t id);
 

@@ -66,18 +66,24 @@ FRACAS_MUST_USE fracas_err fracas_writer_create(const char *path, const fracas_f
 /* Appends one realization; records are buffered by column, so memory stays bounded. */
 FRACAS_MUST_USE fracas_err fracas_writer_append(fracas_writer *writer, size_t point, int64_t replica,
                                                 const fracas_record *record);
+/* Keeps where, when and by what the records were computed, one JSON object of less than 4 KB, as an attribute: for segments, so that they
+ * tell it when the index is lost, and never for study.h5. */
+FRACAS_MUST_USE fracas_err fracas_writer_provenance(fracas_writer *writer, const char *provenance);
 /* The next decisions, in the order of points and rounds. The file has a group /decision if there are any. */
 FRACAS_MUST_USE fracas_err fracas_writer_decisions(fracas_writer *writer, const fracas_decision *decision, size_t count);
 /* The mesh of the next point, points in their order, in a file with interfaces: once for each, or for none of them.
  * The file has a group /mesh if any of them has elements. */
 FRACAS_MUST_USE fracas_err fracas_writer_mesh(fracas_writer *writer, const fracas_stored_mesh *mesh);
+/* The file is a segment: it ends with a seal of its own, which fracas_file_version checks. */
+void fracas_writer_own_seal(fracas_writer *writer);
 /* Closes, syncs, renames to the final name, syncs the folder; frees the writer whatever happens. Equal
  * sequences of calls give equal bytes. */
 FRACAS_MUST_USE fracas_err fracas_writer_finish(fracas_writer *writer, bool complete, fracas_file_seal *seal);
 /* Gives up: removes the temporary file, frees the writer. NULL is allowed. */
 void fracas_writer_abandon(fracas_writer *writer);
 
-/* *version: the format version that the file gives itself, of this program or another. FRACAS_DAMAGED if it gives none. */
+/* *version: the format version that the file gives itself, of this program or another. FRACAS_DAMAGED if it gives none, or, before HDF5
+ * has seen a byte, if it is a segment whose own seal is not of its bytes: what no index vouches for is opened after this. */
 FRACAS_MUST_USE fracas_err fracas_file_version(const char *path, uint64_t *version);
 /* FRACAS_DAMAGED if it is not a fracas file of a known format version, naming the file. */
 FRACAS_MUST_USE fracas_err fracas_reader_open(const char *path, fracas_reader **reader);
@@ -94,6 +100,9 @@ enum { FRACAS_READ_FRAGMENTS = 1, FRACAS_READ_HISTORY = 2, FRACAS_READ_INTERFACE
 FRACAS_MUST_USE fracas_err fracas_reader_record(fracas_reader *reader, size_t row, unsigned parts,
                                                 size_t *point, int64_t *replica, fracas_record *record);
 
+/* What fracas_writer_provenance kept, NULL if the file has none (of before it was kept, or study.h5); *provenance freed by the caller. */
+FRACAS_MUST_USE fracas_err fracas_reader_provenance(const fracas_reader *reader, char **provenance);
+
 /* Every decision of the file in its order, none if it has no group /decision; *decision freed by the caller with free(). */
 FRACAS_MUST_USE fracas_err fracas_reader_decisions(fracas_reader *reader, fracas_decision **decision, size_t *count);
 
@@ -103,6 +112,10 @@ FRACAS_MUST_USE fracas_err fracas_reader_mesh_interfaces(fracas_reader *reader, 
  * (fracas_stored_mesh_fault). */
 FRACAS_MUST_USE fracas_err fracas_reader_mesh(fracas_reader *reader, size_t point, fracas_stored_mesh *mesh);
 
+/* Versions of the libraries, for provenance. */
+void fracas_hdf5_version(char text[32]);
+const char *fracas_sqlite_version(void);
+
 /* ---- a record as bytes, for a pipe between processes of one program ---- */
 
 /* Bytes that fracas_record_pack needs. */
@@ -110,6 +123,8 @@ size_t fracas_record_packed_size(const fracas_record *record);
 void fracas_record_pack(const fracas_record *record, void *bytes);
 /* FRACAS_BUG if `size` does not fit what the bytes say. */
 FRACAS_MUST_USE fracas_err fracas_record_unpack(const void *bytes, size_t size, fracas_record *record);
+/* Equal in every bit, all parts. */
+bool fracas_record_same(const fracas_record *a, const fracas_record *b);
 
 /* ---- the index ---- */
 
@@ -175,6 +190,8 @@ FRACAS_MUST_USE fracas_err fracas_index_fail(fracas_index *index, const fracas_h
                                              const char *reason, bool final);
 /* Appends to the table `event` (time of day, kind, text). */
 FRACAS_MUST_USE fracas_err fracas_index_event(fracas_index *index, const char *kind, const char *text);
+/* The text of the latest event of a kind, NULL if there is none; freed by the caller with free(). */
+FRACAS_MUST_USE fracas_err fracas_index_last_event(fracas_index *index, const char *kind, char **text);
 
 /* ---- decisions in the index ---- */
 
@@ -215,33 +232,55 @@ typedef struct {
 } fracas_index_counts;
 
 FRACAS_MUST_USE fracas_err fracas_index_count(fracas_index *index, fracas_index_counts *counts);
-/* The same for one point. */
-FRACAS_MUST_USE fracas_err fracas_index_count_point(fracas_index *index, const fracas_hash *point,
-                                                    fracas_index_counts *counts);
+/* The same, and of each point of the table (table->npoints of them; segments and bytes 0), by one look at every realization. */
+FRACAS_MUST_USE fracas_err fracas_index_count_points(fracas_index *index, const fracas_point_table *table, fracas_index_counts *counts,
+                                                     fracas_index_counts *point);
 
 /* ---- the study as a whole ---- */
 
-/* Takes STUDY/lock (created) for this process until it ends or closes *lock; FRACAS_IN_USE names the holder's
- * host and pid. Released by the system on any death. */
-FRACAS_MUST_USE fracas_err fracas_study_lock(const char *study, int *lock);
+/* Takes STUDY/lock (created) for this process until fracas_study_unlock or its death, and writes into it who has it: host, pid, time,
+ * kernel, Slurm job. FRACAS_IN_USE names the holder's host and pid. What a dead process of this host (or of this Slurm job before
+ * it was requeued) has left is taken over. What one of another host has left is refused, for it may live there and the filesystem keep
+ * its lock to itself, unless `force`; a lock that a living process is known to have is not taken even so.
+ * FRACAS_TEST_HOST in the environment stands in for the name of the host, and is then another kernel too: for tests. */
+FRACAS_MUST_USE fracas_err fracas_study_lock(const char *study, bool force, int *lock);
+/* The same without a word in the file, to look at a study that nobody else changes meanwhile: released by close(). */
+FRACAS_MUST_USE fracas_err fracas_study_lock_to_look(const char *study, bool force, int *lock);
+/* Empties the file and closes it; -1 is allowed. */
+void fracas_study_unlock(int lock);
+
+enum { FRACAS_HOLDER_TEXT = 400 };
+/* True if the lock was left by somebody else, "host H, pid N, since T" in *text. */
+bool fracas_study_took_over(int lock, char text[FRACAS_HOLDER_TEXT]);
+
+typedef enum {
+    FRACAS_LOCK_FREE,
+    FRACAS_LOCK_HELD,     /* by a process that lives */
+    FRACAS_LOCK_LEFT,     /* by one of this host that died */
+    FRACAS_LOCK_ELSEWHERE /* by one of another host, which may live */
+} fracas_lock_state;
+/* Looks at it without taking it; *text as above, "" where it is free. Not for the process that has it: it would lose it. */
+fracas_lock_state fracas_study_lock_state(const char *study, char text[FRACAS_HOLDER_TEXT]);
 
 /* True while another process has the lock: the study is being computed. */
 bool fracas_study_held(const char *study);
 
 /* Sweeps a study after an interruption. Plans the table (fracas_index_plan), creates STUDY/segments if it is not
- * there, and then: temporary files are removed; a segment that the index does not know is checked and adopted (its rows
- * committed) if all its realizations are planned or, where a rule decides their number, may be, else removed, but left where it is
- * if it is of another seed, history, interfaces or program version than `header`; a row whose segment is missing or has the wrong size goes back
- * to planned. Says what it did in *report, one line each, "" if nothing (freed by caller). */
+ * there, and then: the index is looked over (FRACAS_DAMAGED: `fracas reindex`); temporary files are removed; a segment that is not
+ * what the index says (a byte of it, where all take a few seconds to read; else its size) is set aside as NAME.damaged, and its rows, as
+ * those of one that is missing, go back to planned; a study.h5 that is not what its seal says loses that; a segment that the index does
+ * not know is checked and adopted (its rows committed, with the provenance that it has) if all its realizations are planned or, where
+ * a rule decides their number, may be, else set aside, but left where it is if it is of another seed, history, interfaces or program
+ * version than `header`. Says what it did in *report, one line each, "" if nothing (freed by caller). */
 FRACAS_MUST_USE fracas_err fracas_study_recover(const char *study, fracas_index *index,
                                                 const fracas_file_header *header, const fracas_point_table *table,
                                                 char **report);
 
 /* Writes STUDY/study.h5 from the segments in plan order; realizations that failed get a row of NaN, and
  * header->complete in the file is 0 if any did; the recorded decisions of points with table->point[p].most > 0 follow.
- * FRACAS_INTERRUPTED if realizations are still to be computed.
- * FRACAS_DAMAGED names a segment whose bytes are not the index's, or that is of another seed, history, interfaces or
- * program version, and says what to do. `meshes` (NULL: there are none) are kept where interfaces are. The index keeps
+ * FRACAS_INTERRUPTED if realizations are still to be computed: also when a segment has been found damaged, for it is set aside then and
+ * its realizations are planned again. FRACAS_DAMAGED names a segment that is of another seed, history, interfaces or program version,
+ * or a row of the index that is not its record, and says what to do. `meshes` (NULL: there are none) are kept where interfaces are. The index keeps
  * the seal of the file: without one, study.h5 is not settled. */
 FRACAS_MUST_USE fracas_err fracas_study_merge(const char *study, fracas_index *index, const fracas_file_header *header,
                                               const fracas_point_table *table, const fracas_mesh_source *meshes);
@@ -249,12 +288,22 @@ FRACAS_MUST_USE fracas_err fracas_study_merge(const char *study, fracas_index *i
 /* True if study.h5 has the size that its merge left, and every segment the size that the index says. */
 FRACAS_MUST_USE fracas_err fracas_study_sealed(const char *study, fracas_index *index, bool *sealed);
 
-/* What `fracas verify` found: size and checksum of every segment and of study.h5, all of the program version, seed,
- * history and interfaces that the index says, index against segments row by row, integrity_check of SQLite, study.h5
- * equal, record by record, to the segments and the recorded decisions, and its meshes with as many interfaces. *problems counts them; `say` is
- * called once with each (what, where, remedy). */
-FRACAS_MUST_USE fracas_err fracas_study_verify(const char *study, void (*say)(void *context, const char *problem),
-                                               void *context, int64_t *problems);
+/* Of a sealed study: its every byte is what the index says. In one that takes long to read nothing is, and it is called sound. */
+FRACAS_MUST_USE fracas_err fracas_study_sound(const char *study, fracas_index *index, bool *sound);
+
+typedef struct {
+    bool full;                                       /* every dataset and every row, too */
+    void (*say)(void *context, const char *problem); /* called once with each: what, where, remedy */
+    void (*note)(void *context, const char *text);   /* the same for what is no damage; NULL: nobody wants to know */
+    void *context;
+} fracas_verify_options;
+
+/* What `fracas verify` found. Quick: size and checksum of every segment and of study.h5 against the index, all of the program version,
+ * seed, history and interfaces that it says; quick_check of SQLite and what the rows of the index say of each other; the decisions
+ * in study.h5 against the recorded ones. Full, beside that: every dataset of every segment read, index against segments row
+ * by row, integrity_check, study.h5 equal, record by record, to the segments, and its meshes with as many interfaces. Notes: a lock,
+ * temporary files and segments that an interrupted run left, and damaged ones that were set aside. *problems counts the problems. */
+FRACAS_MUST_USE fracas_err fracas_study_verify(const char *study, const fracas_verify_options *options, int64_t *problems);
 
 /* FRACAS_DAMAGED, naming the point and what to do, unless the meshes of the file are those of `meshes`. */
 FRACAS_MUST_USE fracas_err fracas_reader_check_meshes(fracas_reader *reader, const fracas_mesh_source *meshes);

@@ -2,8 +2,12 @@
 #include "campaigns/store/disk.h"
 #include "campaigns/store/segments.h"
 
+#include "base/param.h"
+
+#include <dirent.h>
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,8 +23,7 @@ typedef struct {
     bool there;            /* study.h5 is there */
     fracas_record record;  /* as read last from it or from a segment */
     size_t row;            /* next one of study.h5 */
-    void (*say)(void *context, const char *problem);
-    void *context;
+    const fracas_verify_options *options;
     int64_t problems;
 } verification;
 
@@ -28,7 +31,7 @@ typedef struct {
 static fracas_err problem(verification *v, fracas_err err)
 {
     if (err != FRACAS_DAMAGED) return err;
-    v->say(v->context, fracas_message());
+    v->options->say(v->options->context, fracas_message());
     v->problems++;
     return FRACAS_OK;
 }
@@ -57,15 +60,126 @@ static fracas_err check_database(verification *v, const char *pragma)
     while (!err && (code = sqlite3_step(statement)) == SQLITE_ROW) {
         const char *text = (const char *)sqlite3_column_text(statement, 0);
         if (text && strcmp(text, "ok") != 0)
-            err = found(v, "%s: %s: %s; remove it and run again: it is made anew from the segments", v->index->path,
-                        pragma, text);
+            err = found(v, "%s: %s: %s; `fracas reindex` makes it anew from the segments", v->index->path, pragma, text);
     }
     if (!err && code != SQLITE_DONE) err = problem(v, fracas_index_error(v->index, "check"));
     sqlite3_finalize(statement);
     return err;
 }
 
+/* What no run leaves in the index: each query counts such rows. */
+static const struct {
+    const char *query, *what;
+} never[] = {
+    {"SELECT count(*) FROM realization WHERE status = 'done' AND (segment IS NULL OR row IS NULL OR coalesce(outcome, -1) NOT BETWEEN 0 AND 4)",
+     "realizations that are done without a segment, a row or an outcome"},
+    {"SELECT count(*) FROM realization WHERE status IN ('failed', 'quarantined') AND outcome IS NOT 5",
+     "realizations that failed with another outcome"},
+    {"SELECT count(*) FROM realization WHERE status IN ('planned', 'leased') AND (segment IS NOT NULL OR outcome IS NOT NULL)",
+     "realizations that are planned, but have results"},
+    {"SELECT count(*) FROM (SELECT segment, count(*) AS n, count(DISTINCT row) AS places, min(row) AS first, max(row) AS last FROM realization"
+     " WHERE segment IS NOT NULL GROUP BY segment) g JOIN segment s ON s.id = g.segment"
+     " WHERE g.places < g.n OR g.first < 0 OR g.last >= s.rows",
+     "segments with realizations in the same row, or in rows that they have not"},
+    {"SELECT count(*) FROM (SELECT min(replica) AS first, max(replica) AS last, count(*) AS n FROM realization GROUP BY point)"
+     " WHERE first <> 0 OR last + 1 <> n",
+     "points that lack replicas"},
+};
+
+static fracas_err check_consistency(verification *v)
+{
+    for (size_t q = 0; q < FRACAS_COUNT(never); q++) {
+        sqlite3_stmt *statement;
+        if (sqlite3_prepare_v2(v->index->db, never[q].query, -1, &statement, NULL) != SQLITE_OK)
+            return problem(v, fracas_index_error(v->index, "check"));
+        const int code = sqlite3_step(statement);
+        const int64_t count = code == SQLITE_ROW ? sqlite3_column_int64(statement, 0) : 0;
+        fracas_err err = code == SQLITE_ROW ? FRACAS_OK : problem(v, fracas_index_error(v->index, "check"));
+        if (count)
+            err = found(v, "%s: %" PRId64 " %s; `fracas reindex` makes it anew from the segments", v->index->path, count, never[q].what);
+        sqlite3_finalize(statement);
+        TRY(err);
+    }
+    return FRACAS_OK;
+}
+
+/* ---- what an interrupted run leaves, which is no damage ---- */
+
+static void note(const verification *v, const char *format, ...) FRACAS_PRINTF(2, 3);
+static void note(const verification *v, const char *format, ...)
+{
+    char text[FRACAS_HOLDER_TEXT + 512];
+    va_list arguments;
+    if (!v->options->note) return;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    v->options->note(v->options->context, text);
+}
+
+static void note_lock(const verification *v)
+{
+    char holder[FRACAS_HOLDER_TEXT];
+    switch (fracas_study_lock_state(v->study, holder)) {
+    case FRACAS_LOCK_FREE: break;
+    case FRACAS_LOCK_HELD: note(v, "%s is being computed: %s", v->study, holder); break;
+    case FRACAS_LOCK_LEFT: note(v, "%s/lock: left by a run that died: %s; the next run takes it over", v->study, holder); break;
+    case FRACAS_LOCK_ELSEWHERE:
+        note(v, "%s/lock: left by another host, where the run may live: %s; if it is gone, `fracas run --force` takes it over", v->study,
+             holder);
+        break;
+    }
+}
+
+/* Names of a folder that are no segment of the index, which are sorted by name. */
+static fracas_err note_folder(const verification *v, const char *folder, bool inner, const fracas_known_segment *segment, size_t count)
+{
+    DIR *open = opendir(folder);
+    if (!open) return errno == ENOENT ? FRACAS_OK : fracas_disk_fail("list", folder);
+    for (struct dirent *entry; (entry = readdir(open));) {
+        char *name = entry->d_name, *dot = strrchr(name, '.');
+        if (fracas_disk_is_temporary(name))
+            note(v, "%s/%s: half written; the next run removes it", folder, name);
+        else if (name[0] != '.' && dot && !strcmp(dot, ".damaged"))
+            note(v, "%s/%s: set aside because it was damaged; nothing needs it", folder, name);
+        else if (inner && name[0] != '.' && dot && !strcmp(dot, ".h5") && !fracas_segment_is_known(segment, count, name))
+            note(v, "%s/%s: not in the index; the next run adopts it", folder, name);
+    }
+    closedir(open);
+    return FRACAS_OK;
+}
+
+static fracas_err note_leftovers(verification *v)
+{
+    char *folder;
+    fracas_known_segment *segment;
+    size_t count;
+    note_lock(v);
+    TRY(problem(v, fracas_index_segments(v->index, &segment, &count)));
+    if (count) qsort(segment, count, sizeof *segment, fracas_segment_compare_names);
+    fracas_err err = fracas_disk_join(v->study, "segments", &folder);
+    if (!err) {
+        err = note_folder(v, v->study, false, NULL, 0);
+        if (!err) err = note_folder(v, folder, true, segment, count);
+        free(folder);
+    }
+    fracas_index_segments_free(segment, count);
+    return err;
+}
+
 /* ---- segments against the index ---- */
+
+/* Every record of the segment that is open, also of those realizations that the index has from another. */
+static fracas_err check_datasets(verification *v)
+{
+    fracas_reader *reader = fracas_segments_reader(v->segments);
+    fracas_err err = FRACAS_OK;
+    size_t point;
+    int64_t replica;
+    for (size_t r = 0; !err && r < fracas_reader_realizations(reader); r++)
+        err = fracas_reader_record(reader, r, FRACAS_READ_ALL, &point, &replica, &v->record);
+    return err;
+}
 
 static fracas_err check_segments(verification *v)
 {
@@ -73,16 +187,18 @@ static fracas_err check_segments(verification *v)
     size_t count;
     fracas_err err = fracas_index_segments(v->index, &segment, &count);
     if (err) return problem(v, err);
-    for (size_t s = 0; !err && s < count; s++) err = problem(v, fracas_segments_open(v->segments, segment[s].id));
+    for (size_t s = 0; !err && s < count; s++) {
+        err = fracas_segments_open(v->segments, segment[s].id);
+        if (!err && v->options->full) err = check_datasets(v);
+        err = problem(v, err);
+    }
     fracas_index_segments_free(segment, count);
     return err;
 }
 
-/* Equal, or both nothing: SQLite keeps NaN as NULL. */
-static bool same_real(sqlite3_stmt *row, int column, double value)
+static double real_at(sqlite3_stmt *row, int column) /* NULL is NaN */
 {
-    if (sqlite3_column_type(row, column) == SQLITE_NULL) return value != value;
-    return sqlite3_column_double(row, column) == value;
+    return sqlite3_column_type(row, column) == SQLITE_NULL ? NAN : sqlite3_column_double(row, column);
 }
 
 /* One row of FRACAS_SQL_ROW_BY_SEGMENT against its record. */
@@ -91,22 +207,13 @@ static fracas_err check_row(verification *v, sqlite3_stmt *row)
     fracas_hash point;
     const char *hex = (const char *)sqlite3_column_text(row, 2);
     int64_t replica = sqlite3_column_int64(row, 3);
-    fracas_place place = {fracas_index_status(sqlite3_column_text(row, 10)), sqlite3_column_int64(row, 0),
-                          sqlite3_column_int64(row, 1)};
+    const fracas_place place = {fracas_index_status(sqlite3_column_text(row, 10)), sqlite3_column_int64(row, 0),
+                                sqlite3_column_int64(row, 1), sqlite3_column_int64(row, 4), sqlite3_column_int64(row, 5),
+                                sqlite3_column_int64(row, 6), sqlite3_column_int64(row, 7), real_at(row, 8), real_at(row, 9),
+                                real_at(row, 11), sqlite3_column_type(row, 11) != SQLITE_NULL};
     if (!hex || !fracas_hash_parse(hex, &point)) return found(v, "%s: a point has no valid hash", v->index->path);
     if (fracas_segments_is_bad(v->segments, place.segment)) return FRACAS_OK; /* said already */
-    fracas_err err = fracas_segments_record(v->segments, &place, &point, replica, &v->record);
-    if (err) return problem(v, err);
-    const fracas_record *record = &v->record;
-    bool same = sqlite3_column_int64(row, 4) == record->outcome && sqlite3_column_int64(row, 5) == record->fragments &&
-                sqlite3_column_int64(row, 6) == record->fragments_dust &&
-                sqlite3_column_int64(row, 7) == record->steps && same_real(row, 8, record->dissipated) &&
-                same_real(row, 9, record->residual) &&
-                (sqlite3_column_type(row, 11) == SQLITE_NULL || same_real(row, 11, fracas_record_mean_size(record))) &&
-                place.status == (record->outcome == FRACAS_FAILED ? FRACAS_FAILED_ROW : FRACAS_DONE);
-    if (same) return FRACAS_OK;
-    return found(v, "%s: replica %" PRId64 " of point %s: its row differs from its record; remove the index and run "
-                 "again: it is made anew from the segments", v->index->path, replica, hex);
+    return problem(v, fracas_segments_record(v->segments, &place, &point, replica, &v->record));
 }
 
 static fracas_err check_rows(verification *v)
@@ -256,15 +363,12 @@ static fracas_err check_merged_whole(verification *v)
 static fracas_err check_merged_seal(verification *v, const char *path)
 {
     bool sealed;
-    fracas_file_seal wanted, found;
+    fracas_file_seal wanted;
     TRY(fracas_index_study_seal(v->index, &sealed, &wanted));
-    TRY(fracas_disk_seal_path(path, &found));
     if (!sealed)
         return fracas_fail(FRACAS_DAMAGED, "%s has no seal: its merge was interrupted; run again", path);
-    if (found.bytes == wanted.bytes && found.checksum == wanted.checksum) return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED, "%s: damaged: it has %" PRIu64 " bytes of checksum %016" PRIx64 ", the index "
-                       "says %" PRIu64 " of %016" PRIx64 "; remove it and run again", path, found.bytes,
-                       found.checksum, wanted.bytes, wanted.checksum);
+    fracas_err err = fracas_disk_check_seal(path, &wanted);
+    return err == FRACAS_DAMAGED ? fracas_fail_within(err, "to make it again, remove %s and run again", path) : err;
 }
 
 static fracas_err check_merged_header(verification *v)
@@ -293,12 +397,19 @@ static fracas_err open_merged(verification *v)
     return err;
 }
 
+static fracas_err verify_index(verification *v)
+{
+    TRY(check_database(v, v->options->full ? "PRAGMA integrity_check" : "PRAGMA quick_check"));
+    TRY(check_database(v, "PRAGMA foreign_key_check"));
+    return check_consistency(v);
+}
+
 static fracas_err verify(verification *v)
 {
     fracas_err err = fracas_index_open(v->study, false, &v->index);
     if (err) return problem(v, err);
-    TRY(check_database(v, "PRAGMA integrity_check"));
-    TRY(check_database(v, "PRAGMA foreign_key_check"));
+    TRY(verify_index(v));
+    TRY(note_leftovers(v));
     err = fracas_index_identity(v->index, &v->identity);
     if (err) return problem(v, err);
     TRY(open_merged(v));
@@ -306,17 +417,16 @@ static fracas_err verify(verification *v)
     err = fracas_segments_create(v->study, v->index, &v->identity, &v->segments);
     if (err) return problem(v, err);
     TRY(check_segments(v));
-    TRY(check_rows(v));
-    if (v->merged) TRY(check_merged_rows(v));
+    if (v->options->full) TRY(check_rows(v));
+    if (v->options->full && v->merged) TRY(check_merged_rows(v));
     if (v->merged) TRY(check_decisions(v));
-    if (v->merged) TRY(check_meshes(v));
+    if (v->options->full && v->merged) TRY(check_meshes(v));
     return v->there && !v->merged ? FRACAS_OK : check_merged_whole(v); /* said already */
 }
 
-fracas_err fracas_study_verify(const char *study, void (*say)(void *context, const char *problem), void *context,
-                               int64_t *problems)
+fracas_err fracas_study_verify(const char *study, const fracas_verify_options *options, int64_t *problems)
 {
-    verification v = {.study = study, .say = say, .context = context};
+    verification v = {.study = study, .options = options};
     fracas_record_init(&v.record);
     fracas_err err = verify(&v);
     fracas_record_clear(&v.record);

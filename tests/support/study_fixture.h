@@ -43,7 +43,7 @@ static inline void commit_segment(const char *name, const sample_realization *wh
     fracas_file_seal seal;
     fracas_segment_row row[ALL];
     sample_segment(study, name, &table, what, count, MOST, &seal, row);
-    OK(fracas_index_commit(index_, name, &seal, row, count, "{\"host\": \"a\"}"));
+    OK(fracas_index_commit(index_, name, &seal, row, count, SAMPLE_PROVENANCE));
 }
 
 /* Every realization in an order that `seed` shuffles, in segments of a size that it chooses. */
@@ -67,6 +67,19 @@ static inline void commit_everything(uint64_t seed)
     }
 }
 
+/* Computes what is planned (again). */
+static inline void compute_planned(const char *name)
+{
+    fracas_index_row *row;
+    size_t count, missing = 0;
+    sample_realization what[ALL];
+    OK(fracas_index_rows(index_, &table, &row, &count));
+    for (size_t i = 0; i < count; i++)
+        if (row[i].status == FRACAS_PLANNED) what[missing++] = (sample_realization){row[i].point, row[i].replica};
+    free(row);
+    if (missing) commit_segment(name, what, missing);
+}
+
 static inline fracas_index_counts count_all(void)
 {
     fracas_index_counts counts;
@@ -86,25 +99,30 @@ static inline void keep_problem(void *context, const char *problem)
     snprintf(text + strlen(text), 8192 - strlen(text), "%s\n", problem);
 }
 
-/* The index is closed meanwhile, as for `fracas verify`. *text: the problems, one a line. */
-static inline int64_t verify(char text[8192])
+/* The index is closed meanwhile, as for `fracas verify`. *text: the problems, one a line, and after them the notes if they are wanted. */
+static inline int64_t verify_as(bool full, bool notes, char text[8192])
 {
     int64_t problems;
+    const fracas_verify_options how = {.full = full, .say = keep_problem, .note = notes ? keep_problem : NULL, .context = text};
     text[0] = '\0';
     fracas_index_close(index_);
-    OK(fracas_study_verify(study, keep_problem, text, &problems));
+    OK(fracas_study_verify(study, &how, &problems));
     OK(fracas_index_open(study, false, &index_));
     return problems;
 }
 
-static inline void verify_finds(int64_t wanted, const char *part)
+static inline int64_t verify(char text[8192]) { return verify_as(true, false, text); }
+
+static inline void verify_finds_as(bool full, int64_t wanted, const char *part)
 {
     char text[8192];
-    int64_t problems = verify(text);
+    int64_t problems = verify_as(full, false, text);
     if (problems != wanted || !strstr(text, part)) print_error("%lld problems:\n%s", (long long)problems, text);
     assert_int_equal(problems, wanted);
     assert_non_null(strstr(text, part));
 }
+
+static inline void verify_finds(int64_t wanted, const char *part) { verify_finds_as(true, wanted, part); }
 
 /* Its report must contain `part`. */
 static inline void recover_says(const char *part)

@@ -1,6 +1,7 @@
-/* The lease logic: every realization is leased until it is done or failed, whatever workers do. */
+/* The lease logic: sizes, order, bisecting, copies of overdue leases. What random events do to it: test_scheduler_events.c. */
 #include "campaigns/scheduler/scheduler.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,22 +10,59 @@
 
 #include <cmocka.h>
 
-enum { POINTS = 3, REPLICAS = 11, ROWS = POINTS * REPLICAS };
+#define OK(call) assert_int_equal(call, FRACAS_OK)
+
+enum { POINTS = 3, MANY = 10000 };
 static const double cost[POINTS] = {1, 100, 10};
 
-static void plan(fracas_index_row row[ROWS])
+/* `replicas` of each of `points` points, from point 0. Freed by the caller. */
+static fracas_index_row *rows(size_t points, size_t replicas)
 {
-    for (size_t i = 0; i < ROWS; i++)
-        row[i] = (fracas_index_row){.point = i / REPLICAS, .replica = (int64_t)(i % REPLICAS)};
+    fracas_index_row *row = calloc(points * replicas, sizeof *row);
+    assert_non_null(row);
+    for (size_t i = 0; i < points * replicas; i++) row[i] = (fracas_index_row){.point = i / replicas, .replica = (int64_t)(i % replicas)};
+    return row;
 }
 
-static fracas_scheduler *create(const fracas_index_row *row, size_t count, size_t workers, size_t width, bool shuffle)
+static fracas_scheduler *create_with(const fracas_index_row *row, size_t count, const fracas_scheduler_options *options)
 {
-    fracas_scheduler_options options = {.cost = cost, .workers = workers, .width = width,
-                                        .shuffle = shuffle, .seed = 7};
     fracas_scheduler *scheduler;
-    assert_int_equal(fracas_scheduler_create(row, count, &options, &scheduler), FRACAS_OK);
+    OK(fracas_scheduler_create(row, count, options, &scheduler));
     return scheduler;
+}
+
+static fracas_scheduler_options options_for(size_t workers)
+{
+    return (fracas_scheduler_options){.cost = cost, .npoints = POINTS, .workers = workers, .width = 8, .seconds = 1, .seed = 7};
+}
+
+/* `replicas` of each of `points` points for so many workers, in batches of 8 and leases of 1 s. */
+static fracas_scheduler *create(size_t points, size_t replicas, size_t workers)
+{
+    fracas_index_row *row = rows(points, replicas);
+    const fracas_scheduler_options options = options_for(workers);
+    fracas_scheduler *scheduler = create_with(row, points * replicas, &options);
+    free(row);
+    return scheduler;
+}
+
+static bool next(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease)
+{
+    bool given;
+    OK(fracas_scheduler_next(scheduler, worker, now, lease, &given));
+    return given;
+}
+
+static void computed(fracas_scheduler *scheduler, size_t worker, const fracas_lease *lease, double seconds)
+{
+    OK(fracas_scheduler_computed(scheduler, worker, lease->id, 0, seconds));
+}
+
+static void assert_lease(const fracas_lease *lease, uint64_t point, int64_t first, uint64_t count)
+{
+    assert_int_equal(lease->point, point);
+    assert_int_equal(lease->replica[0], first);
+    assert_int_equal(lease->count, count);
 }
 
 static void assert_counts(const fracas_scheduler *scheduler, int64_t done, int64_t memory, int64_t failed)
@@ -33,278 +71,533 @@ static void assert_counts(const fracas_scheduler *scheduler, int64_t done, int64
     assert_int_equal(count.done, done);
     assert_int_equal(count.memory, memory);
     assert_int_equal(count.failed, failed);
-    /* sums of some tens of costs: a few roundings from the exact share */
+    /* sums of some hundreds of costs: a few roundings from the exact share */
     assert_true(count.work > -1e-12 && count.work < 1 + 1e-12);
     assert_int_equal(count.work > 1 - 1e-12, fracas_scheduler_computed_all(scheduler));
 }
 
-static void test_longest_first(void **state)
-{
-    (void)state;
-    fracas_index_row row[ROWS];
-    plan(row);
-    fracas_scheduler *scheduler = create(row, ROWS, 1, 8, false);
-    /* Leases of 8 and 3 of each point: 800, 300, 80, 30, 8, 3. */
-    static const size_t point[] = {1, 1, 2, 2, 0, 0}, count[] = {8, 3, 8, 3, 8, 3};
-    fracas_lease lease;
-    for (size_t i = 0; i < FRACAS_LEASES_HELD * 3; i++) {
-        assert_true(fracas_scheduler_next(scheduler, 0, &lease));
-        assert_int_equal(lease.point, point[i]);
-        assert_int_equal(lease.count, count[i]);
-        assert_int_equal(lease.replica[0], count[i] == 8 ? 0 : 8);
-        assert_int_equal(fracas_scheduler_computed(scheduler, 0, lease.id), FRACAS_OK);
-    }
-    assert_false(fracas_scheduler_next(scheduler, 0, &lease));
-    assert_true(fracas_scheduler_computed_all(scheduler));
-    assert_counts(scheduler, 0, ROWS, 0);
-    fracas_scheduler_durable(scheduler, 0);
-    assert_counts(scheduler, ROWS, 0, 0);
-    fracas_scheduler_destroy(scheduler);
-}
+/* ---- sizes and order ---- */
 
-/* A plan that grows: later rows wait last, longest first among themselves, and count. */
-static void test_rows_are_added(void **state)
+static void one_batch_while_nothing_is_measured(void **state)
 {
     (void)state;
-    fracas_index_row row[ROWS], more[6];
-    plan(row);
-    fracas_scheduler *scheduler = create(row, REPLICAS, 1, 8, false); /* leases of 8 and 3 of point 0 */
-    for (size_t i = 0; i < 6; i++)
-        more[i] = (fracas_index_row){.point = i < 3 ? 2 : 1, .replica = (int64_t)(20 + i % 3)};
-    more[1].status = FRACAS_DONE; /* computed before its round came */
-    more[2].status = FRACAS_FAILED_ROW;
+    fracas_scheduler *scheduler = create(POINTS, MANY, 3);
     fracas_lease lease;
-    assert_true(fracas_scheduler_next(scheduler, 0, &lease));
-    assert_int_equal(fracas_scheduler_add(scheduler, more, 6), FRACAS_OK);
-    assert_int_equal(fracas_scheduler_count(scheduler).total, REPLICAS + 6);
-    assert_counts(scheduler, 1, 0, 1);
-    assert_false(fracas_scheduler_keeps(scheduler, 0));
-    assert_int_equal(fracas_scheduler_computed(scheduler, 0, lease.id), FRACAS_OK);
-    assert_true(fracas_scheduler_idles(scheduler, 0));
-    assert_true(fracas_scheduler_keeps(scheduler, 0));
-    static const size_t point[] = {0, 1, 2}, count[] = {3, 3, 1};
-    for (size_t i = 0; i < 3; i++) {
-        assert_false(fracas_scheduler_computed_all(scheduler));
-        assert_true(fracas_scheduler_next(scheduler, 0, &lease));
-        assert_int_equal(lease.point, point[i]);
-        assert_int_equal(lease.count, count[i]);
-        assert_int_equal(lease.id, i + 1);
-        if (i == 1) { /* what is added can fail, too, and is tried one by one */
-            bool final;
-            assert_int_equal(fracas_scheduler_failed(scheduler, 0, lease.id, &lease, &final), FRACAS_OK);
-            for (int r = 0; r < 3; r++) {
-                assert_true(fracas_scheduler_next(scheduler, 0, &lease));
-                assert_int_equal(lease.point, 1);
-                assert_int_equal(lease.replica[0], 20 + r);
-                assert_int_equal(fracas_scheduler_computed(scheduler, 0, lease.id), FRACAS_OK);
-            }
-        } else {
-            assert_int_equal(fracas_scheduler_computed(scheduler, 0, lease.id), FRACAS_OK);
-        }
-    }
-    assert_true(fracas_scheduler_computed_all(scheduler));
-    fracas_scheduler_durable(scheduler, 0);
-    assert_false(fracas_scheduler_keeps(scheduler, 0));
-    assert_counts(scheduler, REPLICAS + 5, 0, 1);
-    assert_int_equal(fracas_scheduler_add(scheduler, row + REPLICAS, REPLICAS), FRACAS_OK); /* again when all was done */
-    assert_false(fracas_scheduler_computed_all(scheduler));
-    assert_true(fracas_scheduler_next(scheduler, 0, &lease));
-    assert_int_equal(lease.point, 1);
-    fracas_scheduler_destroy(scheduler);
-}
-
-static void test_one_lease_ahead_until_the_last_ones(void **state)
-{
-    (void)state;
-    fracas_index_row row[ROWS];
-    plan(row);
-    fracas_scheduler *scheduler = create(row, ROWS, 2, 8, false); /* 6 leases */
-    fracas_lease lease;
-    assert_true(fracas_scheduler_next(scheduler, 0, &lease));
-    assert_true(fracas_scheduler_next(scheduler, 0, &lease)); /* one ahead */
-    assert_false(fracas_scheduler_next(scheduler, 0, &lease));
-    assert_true(fracas_scheduler_next(scheduler, 1, &lease));
-    assert_true(fracas_scheduler_next(scheduler, 1, &lease));
-    assert_int_equal(fracas_scheduler_computed(scheduler, 1, lease.id), FRACAS_OK);
-    assert_false(fracas_scheduler_next(scheduler, 1, &lease)); /* 2 wait for 2 workers: one of them is for worker 0 */
-    fracas_scheduler_destroy(scheduler);
-}
-
-static void test_rows_that_need_nothing(void **state)
-{
-    (void)state;
-    fracas_index_row row[ROWS];
-    plan(row);
-    for (size_t i = 0; i < ROWS; i++) row[i].status = FRACAS_DONE;
-    row[3].status = FRACAS_FAILED_ROW;
-    row[4].status = FRACAS_PLANNED;
-    row[5].status = FRACAS_PLANNED;
-    row[5].attempts = 2;
-    row[6].status = FRACAS_PLANNED;
-    fracas_scheduler *scheduler = create(row, ROWS, 1, 8, false);
-    assert_counts(scheduler, ROWS - 4, 0, 1);
-    /* The one that failed before is leased alone: 4; 5; 6. */
-    fracas_lease lease;
-    for (int64_t replica = 4; replica <= 6; replica++) {
-        assert_true(fracas_scheduler_next(scheduler, 0, &lease));
-        assert_int_equal(lease.count, 1);
-        assert_int_equal(lease.replica[0], replica);
-        bool final;
-        if (replica == 5) {
-            assert_int_equal(fracas_scheduler_failed(scheduler, 0, lease.id, &lease, &final), FRACAS_OK);
-            assert_true(final); /* its third attempt */
-        } else {
-            assert_int_equal(fracas_scheduler_computed(scheduler, 0, lease.id), FRACAS_OK);
-        }
-    }
-    assert_true(fracas_scheduler_computed_all(scheduler));
-    assert_counts(scheduler, ROWS - 4, 2, 2);
-    fracas_scheduler_destroy(scheduler);
-}
-
-static void test_a_failed_batch_is_tried_one_by_one(void **state)
-{
-    (void)state;
-    fracas_index_row row[4] = {{.replica = 0}, {.replica = 1}, {.replica = 2}, {.replica = 3}};
-    fracas_scheduler *scheduler = create(row, 4, 1, 4, false);
-    fracas_lease lease;
-    bool final;
-    assert_true(fracas_scheduler_next(scheduler, 0, &lease));
-    assert_int_equal(lease.count, 4);
-    assert_int_equal(fracas_scheduler_failed(scheduler, 0, lease.id, &lease, &final), FRACAS_OK);
-    assert_int_equal(lease.count, 4);
-    assert_false(final);
-    /* Replica 2 fails three times; its second and third attempts come last. */
-    static const int64_t replica[] = {0, 1, 2, 3, 2, 2};
     for (size_t i = 0; i < 6; i++) {
-        assert_false(fracas_scheduler_computed_all(scheduler));
-        assert_true(fracas_scheduler_next(scheduler, 0, &lease));
-        assert_int_equal(lease.count, 1);
-        assert_int_equal(lease.replica[0], replica[i]);
-        if (replica[i] == 2) {
-            assert_int_equal(fracas_scheduler_failed(scheduler, 0, lease.id, &lease, &final), FRACAS_OK);
-            assert_int_equal(final, i == 5);
-        } else {
-            assert_int_equal(fracas_scheduler_computed(scheduler, 0, lease.id), FRACAS_OK);
-        }
+        assert_true(next(scheduler, i / 2, 0, &lease));
+        assert_lease(&lease, 1, 8 * (int64_t)i, 8);
     }
-    assert_true(fracas_scheduler_computed_all(scheduler));
-    assert_counts(scheduler, 0, 3, 1);
     fracas_scheduler_destroy(scheduler);
 }
 
-static void test_a_lost_worker_costs_what_was_not_durable(void **state)
+/* Time per realization: of the point where it was measured, else in proportion to its cost. */
+static void sizes_are_by_measured_cost(void **state)
 {
     (void)state;
-    fracas_index_row row[ROWS];
-    plan(row);
-    fracas_scheduler *scheduler = create(row, ROWS, 2, 8, false);
-    fracas_lease first, second, third, again;
-    assert_true(fracas_scheduler_next(scheduler, 0, &first));
-    assert_int_equal(fracas_scheduler_computed(scheduler, 0, first.id), FRACAS_OK);
-    fracas_scheduler_durable(scheduler, 0);
-    assert_true(fracas_scheduler_next(scheduler, 0, &second));
-    assert_int_equal(fracas_scheduler_computed(scheduler, 0, second.id), FRACAS_OK);
-    assert_true(fracas_scheduler_next(scheduler, 0, &third));
-    assert_counts(scheduler, 8, 3, 0);
-    fracas_scheduler_lost(scheduler, 0);
-    assert_counts(scheduler, 8, 0, 0);
-    assert_true(fracas_scheduler_next(scheduler, 1, &again));
-    assert_true(again.id == second.id || again.id == third.id);
-    assert_int_equal(fracas_scheduler_computed(scheduler, 1, first.id), FRACAS_BUG); /* not its own */
+    fracas_scheduler *scheduler = create(POINTS, MANY, 1);
+    fracas_lease lease;
+    assert_true(next(scheduler, 0, 0, &lease));
+    computed(scheduler, 0, &lease, 0.08); /* 0.01 s each: 100 in 1 s */
+    assert_true(next(scheduler, 0, 0, &lease));
+    assert_lease(&lease, 1, 8, 96);
+    computed(scheduler, 0, &lease, 2); /* 104 in 2.08 s: 50 in 1 s */
+    assert_true(next(scheduler, 0, 0, &lease));
+    assert_lease(&lease, 1, 104, 48);
+    computed(scheduler, 0, &lease, 0); /* 152 in 2.08 s: 73 in 1 s */
+    for (int64_t first = 152; first < MANY; first += (int64_t)lease.count) {
+        assert_true(next(scheduler, 0, 0, &lease));
+        assert_lease(&lease, 1, first, first + 72 <= MANY ? 72 : (uint64_t)(MANY - first));
+        computed(scheduler, 0, &lease, (double)lease.count / 73); /* as it was */
+    }
+    /* Point 2 was never measured: a tenth of the cost, so about 730 in 1 s; then measured a hundred times slower than that. */
+    assert_true(next(scheduler, 0, 0, &lease));
+    assert_int_equal(lease.point, 2);
+    assert_int_equal(lease.count % 8, 0);
+    assert_true(lease.count >= 720 && lease.count <= 730);
+    computed(scheduler, 0, &lease, 100 * (double)lease.count / 730);
+    assert_true(next(scheduler, 0, 0, &lease));
+    assert_int_equal(lease.point, 2);
+    assert_true(lease.count == 8); /* 7.3 in 1 s, but a batch is not divided */
     fracas_scheduler_destroy(scheduler);
 }
 
-/* Random workers (fixed seed): in the end each realization was made durable exactly once or failed three times. */
-static void test_any_course_of_events(void **state)
+/* Towards the end: at most what is left / (2 workers), never less than a batch but for the last ones, which are shared out. */
+static void sizes_shrink_with_what_is_left(void **state)
 {
     (void)state;
-    enum { WORKERS = 3 };
-    for (unsigned seed = 1; seed <= 200; seed++) {
-        fracas_index_row row[ROWS];
-        plan(row);
-        fracas_scheduler *scheduler = create(row, ROWS, WORKERS, seed % 3 ? 8 : 1, seed % 2);
-        unsigned dice = seed;
-        int memory[WORKERS][ROWS] = {0}, done[ROWS] = {0}, attempts[ROWS] = {0};
-        fracas_lease held[WORKERS][FRACAS_LEASES_HELD], lease;
-        size_t nheld[WORKERS] = {0};
-        while (!fracas_scheduler_computed_all(scheduler)) {
-            size_t w = (size_t)rand_r(&dice) % WORKERS;
-            int event = rand_r(&dice) % 40;
-            if (event == 0) {
-                fracas_scheduler_lost(scheduler, w);
-                nheld[w] = 0;
-                memset(memory[w], 0, sizeof memory[w]);
-            } else if (event < 4) {
-                fracas_scheduler_durable(scheduler, w);
-                for (size_t i = 0; i < ROWS; i++) done[i] += memory[w][i];
-                memset(memory[w], 0, sizeof memory[w]);
-            } else if (nheld[w] < FRACAS_LEASES_HELD && fracas_scheduler_next(scheduler, w, &lease)) {
-                held[w][nheld[w]++] = lease;
-            } else if (nheld[w]) {
-                lease = held[w][--nheld[w]];
-                bool fails = rand_r(&dice) % 4 == 0, final;
-                size_t first = lease.point * REPLICAS;
-                if (!fails) {
-                    assert_int_equal(fracas_scheduler_computed(scheduler, w, lease.id), FRACAS_OK);
-                    for (size_t i = 0; i < lease.count; i++) memory[w][first + (size_t)lease.replica[i]]++;
-                } else {
-                    assert_int_equal(fracas_scheduler_failed(scheduler, w, lease.id, &lease, &final), FRACAS_OK);
-                    int *n = &attempts[first + (size_t)lease.replica[0]];
-                    if (lease.count == 1) assert_int_equal(final, ++*n == FRACAS_ATTEMPTS_MAX);
-                }
-            }
+    enum { WORKERS = 5 };
+    fracas_scheduler *scheduler = create(1, 4000, WORKERS);
+    fracas_lease lease;
+    assert_true(next(scheduler, 0, 0, &lease));
+    computed(scheduler, 0, &lease, 8e-6); /* 1e6 in 1 s: time is no bound */
+    size_t leases = 0;
+    for (size_t left = 3992; left > 0; left -= lease.count, leases++) {
+        const size_t worker = leases % WORKERS, share = left / (2 * WORKERS) / 8 * 8, even = (left + WORKERS - 1) / WORKERS;
+        assert_true(next(scheduler, worker, 0, &lease));
+        assert_int_equal(lease.count, share >= 8 ? share : even < 8 ? even : 8);
+        computed(scheduler, worker, &lease, 1e-6 * (double)lease.count);
+    }
+    assert_counts(scheduler, 0, 4000, 0);
+    fracas_scheduler_destroy(scheduler);
+}
+
+/* Which workers share the last ones: those that will be free soon enough to be of use, not those that are lost. */
+static void the_last_ones_are_shared_with_who_is_free_soon(void **state)
+{
+    (void)state;
+    for (int late = 0; late < 2; late++) {
+        fracas_scheduler *scheduler = create(1, 56, 4);
+        fracas_lease lease[4], last;
+        for (size_t worker = 0; worker < 4; worker++) {
+            assert_true(next(scheduler, worker, 0, &lease[worker]));
+            assert_int_equal(lease[worker].count, 8);
         }
-        int64_t failed = 0;
-        for (size_t w = 0; w < WORKERS; w++) {
-            fracas_scheduler_durable(scheduler, w);
-            for (size_t i = 0; i < ROWS; i++) done[i] += memory[w][i];
+        computed(scheduler, 0, &lease[0], 8); /* a batch takes 8 s */
+        fracas_scheduler_lost(scheduler, 3);
+        for (int i = 0; i < 2; i++) { /* what was lost, and a batch of its own */
+            assert_true(next(scheduler, 0, 0, &last));
+            assert_int_equal(last.count, 8);
+            computed(scheduler, 0, &last, 8);
         }
-        for (size_t i = 0; i < ROWS; i++) {
-            assert_int_equal(done[i], attempts[i] < FRACAS_ATTEMPTS_MAX);
-            failed += attempts[i] == FRACAS_ATTEMPTS_MAX;
-        }
-        assert_counts(scheduler, ROWS - failed, 0, failed);
+        /* 16 wait. Workers 1 and 2 will be free in 4 s, or a little later; 3 does not ask any more. */
+        assert_true(next(scheduler, 0, late ? 4 : 3.9, &last));
+        assert_int_equal(last.count, late ? 6 : 8);
         fracas_scheduler_destroy(scheduler);
     }
 }
 
-static void test_shuffle_changes_order_and_batches(void **state)
+static void a_lease_has_a_largest_size(void **state)
 {
     (void)state;
-    fracas_index_row row[ROWS];
-    plan(row);
-    fracas_lease plain, shuffled, again;
-    fracas_scheduler *a = create(row, ROWS, 1, 8, false), *b = create(row, ROWS, 1, 8, true),
-                     *c = create(row, ROWS, 1, 8, true);
-    bool differ = false;
-    for (size_t i = 0; i < 6; i++) {
-        assert_true(fracas_scheduler_next(a, 0, &plain));
-        assert_true(fracas_scheduler_next(b, 0, &shuffled));
-        assert_true(fracas_scheduler_next(c, 0, &again));
-        assert_memory_equal(&shuffled, &again, sizeof again); /* by the seed alone */
-        differ |= memcmp(plain.replica, shuffled.replica, sizeof plain.replica) != 0;
-        assert_int_equal(fracas_scheduler_computed(a, 0, plain.id), FRACAS_OK);
-        assert_int_equal(fracas_scheduler_computed(b, 0, shuffled.id), FRACAS_OK);
-        assert_int_equal(fracas_scheduler_computed(c, 0, again.id), FRACAS_OK);
+    fracas_scheduler *scheduler = create(1, 100000, 1);
+    fracas_lease lease;
+    assert_true(next(scheduler, 0, 0, &lease));
+    computed(scheduler, 0, &lease, 0); /* no time at all */
+    for (int i = 0; i < 5; i++) {
+        assert_true(next(scheduler, 0, 0, &lease));
+        assert_int_equal(lease.count, FRACAS_LEASE_MAX);
+        computed(scheduler, 0, &lease, 0);
     }
-    assert_true(differ);
-    fracas_scheduler_destroy(a);
-    fracas_scheduler_destroy(b);
-    fracas_scheduler_destroy(c);
+    fracas_scheduler_destroy(scheduler);
+}
+
+static void no_lease_time_means_one_batch(void **state)
+{
+    (void)state;
+    fracas_index_row *row = rows(1, 100);
+    fracas_scheduler_options options = options_for(1);
+    options.seconds = 0;
+    options.width = 4;
+    fracas_scheduler *scheduler = create_with(row, 100, &options);
+    fracas_lease lease;
+    for (int i = 0; i < 25; i++) {
+        assert_true(next(scheduler, 0, 0, &lease));
+        assert_lease(&lease, 0, 4 * i, 4);
+        computed(scheduler, 0, &lease, 1e-6);
+    }
+    assert_false(next(scheduler, 0, 0, &lease));
+    fracas_scheduler_destroy(scheduler);
+    free(row);
+}
+
+static void the_longest_go_first(void **state)
+{
+    (void)state;
+    fracas_index_row *row = rows(POINTS, 11);
+    fracas_scheduler_options options = options_for(1);
+    options.seconds = 0;
+    /* By cost, until point 2 turns out to be faster than point 0 is predicted to be, and point 0 faster still. */
+    static const size_t point[2][6] = {{1, 1, 2, 2, 0, 0}, {1, 1, 2, 0, 2, 0}};
+    static const double seconds[2][POINTS] = {{1e-5, 1e-3, 1e-4}, {1e-9, 1e-3, 1e-6}};
+    for (int slow = 0; slow < 2; slow++) {
+        fracas_scheduler *scheduler = create_with(row, POINTS * 11, &options);
+        bool begun[POINTS] = {false};
+        fracas_lease lease;
+        for (size_t i = 0; i < 6; i++) {
+            const size_t p = point[slow][i];
+            assert_true(next(scheduler, 0, 0, &lease));
+            assert_lease(&lease, p, begun[p] ? 8 : 0, begun[p] ? 3 : 8);
+            computed(scheduler, 0, &lease, seconds[slow][p] * (double)lease.count);
+            begun[p] = true;
+        }
+        assert_counts(scheduler, 0, POINTS * 11, 0);
+        fracas_scheduler_durable(scheduler, 0);
+        assert_counts(scheduler, POINTS * 11, 0, 0);
+        fracas_scheduler_destroy(scheduler);
+    }
+    free(row);
+}
+
+static void one_lease_ahead_until_the_last_ones(void **state)
+{
+    (void)state;
+    fracas_scheduler *scheduler = create(POINTS, 11, 2);
+    fracas_lease lease, other;
+    assert_true(next(scheduler, 0, 0, &lease));
+    assert_true(next(scheduler, 0, 0, &lease)); /* one ahead */
+    assert_false(next(scheduler, 0, 0, &lease));
+    assert_true(next(scheduler, 1, 0, &lease)); /* now 14 wait: no more than 2 batches */
+    assert_false(next(scheduler, 1, 0, &other));
+    computed(scheduler, 1, &lease, 1);
+    assert_true(fracas_scheduler_idles(scheduler, 1));
+    assert_true(next(scheduler, 1, 0, &lease));
+    assert_false(fracas_scheduler_idles(scheduler, 1));
+    fracas_scheduler_destroy(scheduler);
+}
+
+static void what_comes_next_is_predicted(void **state)
+{
+    (void)state;
+    fracas_scheduler *scheduler = create(1, 1000, 1);
+    fracas_lease lease, ahead;
+    assert_true(isnan(fracas_scheduler_predicted(scheduler, 0, 5)));
+    assert_true(next(scheduler, 0, 5, &lease));
+    OK(fracas_scheduler_computed(scheduler, 0, lease.id, 13, 8)); /* 1 s each: batches of 8 s from now on */
+    assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 13), 8, 1e-9);
+    assert_true(next(scheduler, 0, 13, &lease));
+    assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 15), 6 + 8, 1e-9);
+    assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 99), 0 + 8, 1e-9); /* late: it may end at any time */
+    assert_true(next(scheduler, 0, 15, &ahead));
+    assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 15), 6 + 8 + 8, 1e-9);
+    OK(fracas_scheduler_computed(scheduler, 0, lease.id, 21, 8));
+    assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 22), 7 + 8, 1e-9); /* the one ahead has run for 1 s */
+    fracas_scheduler_destroy(scheduler);
+}
+
+/* The last ones of a plan: what waits again counts too, and when nothing waits, what is held. */
+static void what_waits_again_is_predicted(void **state)
+{
+    (void)state;
+    fracas_scheduler *scheduler = create(1, 30, 2);
+    fracas_lease first, second;
+    assert_true(next(scheduler, 0, 0, &first));
+    assert_true(next(scheduler, 1, 0, &second));
+    computed(scheduler, 1, &second, 8);
+    assert_true(next(scheduler, 1, 0, &second));
+    assert_int_equal(second.count, 8);
+    assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 3), 5 + 6, 1e-9); /* the rest of 8, and the last 6 */
+    computed(scheduler, 1, &second, 8);
+    fracas_scheduler_lost(scheduler, 0);
+    assert_float_equal(fracas_scheduler_predicted(scheduler, 1, 3), 8, 1e-9);
+    assert_true(next(scheduler, 1, 3, &second));
+    computed(scheduler, 1, &second, 8);
+    assert_true(next(scheduler, 1, 3, &second));
+    assert_int_equal(second.count, 6);
+    assert_float_equal(fracas_scheduler_predicted(scheduler, 1, 3.25), 5.75, 1e-9);
+    fracas_scheduler_destroy(scheduler);
+}
+
+/* s that a lease may take: as the options say, or 600 s and 50 times its prediction. */
+static void a_lease_has_a_time_limit(void **state)
+{
+    (void)state;
+    fracas_index_row *row = rows(POINTS, 100);
+    fracas_scheduler_options options = options_for(1);
+    fracas_scheduler *scheduler = create_with(row, POINTS * 100, &options);
+    fracas_lease lease;
+    assert_true(next(scheduler, 0, 0, &lease));
+    assert_float_equal(lease.limit, 600 + 50 * 8 * 100 / 1e6, 1e-9); /* nothing is measured: 1e6 element-steps/s at least */
+    computed(scheduler, 0, &lease, 40);
+    assert_true(next(scheduler, 0, 0, &lease));
+    assert_float_equal(lease.limit, 600 + 50 * 40, 1e-9);
+    fracas_scheduler_destroy(scheduler);
+    options.limit = 7;
+    scheduler = create_with(row, POINTS * 100, &options);
+    assert_true(next(scheduler, 0, 0, &lease));
+    assert_float_equal(lease.limit, 7, 0);
+    fracas_scheduler_destroy(scheduler);
+    free(row);
+}
+
+static void a_shuffle_changes_order_and_sizes(void **state)
+{
+    (void)state;
+    fracas_index_row *row = rows(POINTS, 11);
+    fracas_scheduler_options options = options_for(1);
+    fracas_scheduler *plain = create_with(row, POINTS * 11, &options);
+    options.shuffle = true;
+    fracas_scheduler *shuffled = create_with(row, POINTS * 11, &options), *again = create_with(row, POINTS * 11, &options);
+    bool point = false, size = false, order = false;
+    size_t left = POINTS * 11;
+    while (left > 0) {
+        fracas_lease a, b, c;
+        assert_true(next(shuffled, 0, 0, &b));
+        assert_true(next(again, 0, 0, &c));
+        assert_int_equal(fracas_lease_bytes(&b), fracas_lease_bytes(&c));
+        assert_memory_equal(&b, &c, fracas_lease_bytes(&b)); /* by the seed alone */
+        computed(shuffled, 0, &b, 1);
+        computed(again, 0, &c, 1);
+        left -= b.count;
+        if (!next(plain, 0, 0, &a)) continue;
+        computed(plain, 0, &a, 1);
+        point |= a.point != b.point;
+        size |= a.count != b.count;
+        for (size_t i = 1; i < b.count; i++) order |= b.replica[i] < b.replica[i - 1];
+    }
+    assert_true(point && size && order);
+    assert_counts(shuffled, 0, POINTS * 11, 0);
+    fracas_scheduler_destroy(plain);
+    fracas_scheduler_destroy(shuffled);
+    fracas_scheduler_destroy(again);
+    free(row);
+}
+
+/* ---- the plan ---- */
+
+/* A plan that grows: what is added waits like all else, longest first, and counts. */
+static void rows_are_added(void **state)
+{
+    (void)state;
+    fracas_index_row more[6];
+    fracas_scheduler *scheduler = create(1, 11, 1);
+    for (size_t i = 0; i < 6; i++) more[i] = (fracas_index_row){.point = i < 3 ? 2 : 1, .replica = (int64_t)(20 + i % 3)};
+    more[1].status = FRACAS_DONE; /* computed before its round came */
+    more[2].status = FRACAS_FAILED_ROW;
+    fracas_lease lease;
+    assert_true(next(scheduler, 0, 0, &lease));
+    OK(fracas_scheduler_add(scheduler, more, 6));
+    assert_int_equal(fracas_scheduler_count(scheduler).total, 11 + 6);
+    assert_counts(scheduler, 1, 0, 1);
+    assert_false(fracas_scheduler_keeps(scheduler, 0));
+    computed(scheduler, 0, &lease, 8 * cost[0]);
+    assert_true(fracas_scheduler_keeps(scheduler, 0));
+    static const size_t point[] = {1, 2, 0}, count[] = {3, 1, 3};
+    static const int64_t first[] = {20, 20, 8};
+    for (size_t i = 0; i < 3; i++) {
+        assert_false(fracas_scheduler_computed_all(scheduler));
+        assert_true(next(scheduler, 0, 0, &lease));
+        assert_lease(&lease, point[i], first[i], count[i]);
+        computed(scheduler, 0, &lease, cost[point[i]] * (double)count[i]);
+    }
+    assert_true(fracas_scheduler_computed_all(scheduler));
+    fracas_scheduler_durable(scheduler, 0);
+    assert_false(fracas_scheduler_keeps(scheduler, 0));
+    assert_counts(scheduler, 11 + 5, 0, 1);
+    for (int64_t i = 0; i < 6; i++) more[i] = (fracas_index_row){.point = 0, .replica = 11 + i};
+    OK(fracas_scheduler_add(scheduler, more, 6)); /* again when all was done */
+    assert_false(fracas_scheduler_computed_all(scheduler));
+    assert_true(next(scheduler, 0, 0, &lease));
+    assert_lease(&lease, 0, 11, 6);
+    fracas_scheduler_destroy(scheduler);
+}
+
+static void rows_may_need_nothing(void **state)
+{
+    (void)state;
+    fracas_index_row *row = rows(POINTS, 11);
+    for (size_t i = 0; i < POINTS * 11; i++) row[i].status = FRACAS_DONE;
+    row[3].status = FRACAS_FAILED_ROW;
+    row[7].status = FRACAS_QUARANTINED;
+    for (size_t i = 4; i <= 6; i++) row[i].status = FRACAS_PLANNED;
+    row[5].attempts = 2;
+    const fracas_scheduler_options options = options_for(1);
+    fracas_scheduler *scheduler = create_with(row, POINTS * 11, &options);
+    assert_counts(scheduler, POINTS * 11 - 5, 0, 2);
+    /* The one that failed before is leased alone, and first. */
+    fracas_lease lease;
+    bool final;
+    assert_true(next(scheduler, 0, 0, &lease));
+    assert_lease(&lease, 0, 5, 1);
+    OK(fracas_scheduler_failed(scheduler, 0, lease.id, 0, 0, 1, &lease, &final));
+    assert_true(final); /* its third attempt */
+    assert_true(next(scheduler, 0, 0, &lease));
+    assert_lease(&lease, 0, 4, 2);
+    assert_int_equal(lease.replica[1], 6);
+    computed(scheduler, 0, &lease, 1);
+    assert_true(fracas_scheduler_computed_all(scheduler));
+    assert_counts(scheduler, POINTS * 11 - 5, 2, 3);
+    fracas_scheduler_destroy(scheduler);
+    free(row);
+}
+
+/* ---- what fails ---- */
+
+/* A lease of `count` of one point for one worker, measured so that it is one lease. */
+static fracas_scheduler *create_large(size_t count, fracas_lease *lease)
+{
+    fracas_scheduler *scheduler = create(2, 2 * count, 1);
+    assert_true(next(scheduler, 0, 0, lease));
+    computed(scheduler, 0, lease, 0.08);
+    for (size_t i = 8; i < 2 * count; i += lease->count) { /* point 1 goes first: all of it */
+        assert_true(next(scheduler, 0, 0, lease));
+        assert_int_equal(lease->point, 1);
+        computed(scheduler, 0, lease, 0.01 * (double)lease->count);
+    }
+    fracas_scheduler_durable(scheduler, 0);
+    assert_true(next(scheduler, 0, 0, lease));
+    assert_lease(lease, 0, 0, count);
+    return scheduler;
+}
+
+/* 8 -> 4 -> 2 -> 1: the one at fault is found in log2 of the batch, has three attempts in all, and everything else is computed. */
+static void a_failed_batch_is_bisected(void **state)
+{
+    (void)state;
+    enum { COUNT = 24, KEPT = 8, BAD = 13 };
+    fracas_lease lease;
+    bool final;
+    fracas_scheduler *scheduler = create_large(COUNT, &lease);
+    OK(fracas_scheduler_failed(scheduler, 0, lease.id, 0, KEPT, 8, &lease, &final));
+    assert_lease(&lease, 0, KEPT, 8); /* what was at fault */
+    assert_false(final);
+    assert_counts(scheduler, 2 * COUNT, KEPT, 0); /* the first batch is kept */
+    /* 8-11 good, 12-15 bad: 12-13 bad: 12 good, 13 bad, 14-15 good, the batch that was not begun, then 13 again twice. */
+    static const int64_t order[] = {8, 12, 12, 12, 13, 14, 16, 13, 13};
+    static const uint64_t size[] = {4, 4, 2, 1, 1, 2, 8, 1, 1};
+    for (size_t i = 0; i < 9; i++) {
+        assert_true(next(scheduler, 0, 0, &lease));
+        assert_lease(&lease, 0, order[i], size[i]);
+        assert_int_equal(lease.isolated, 0);
+        if (order[i] > BAD || order[i] + (int64_t)size[i] <= BAD) {
+            computed(scheduler, 0, &lease, 0.001);
+            continue;
+        }
+        OK(fracas_scheduler_failed(scheduler, 0, lease.id, 0, 0, (size_t)size[i], &lease, &final));
+        assert_lease(&lease, 0, order[i], size[i]);
+        assert_int_equal(final, i == 8);
+    }
+    assert_counts(scheduler, 2 * COUNT, COUNT - 1, 1);
+    while (next(scheduler, 0, 0, &lease)) computed(scheduler, 0, &lease, 0.001);
+    fracas_scheduler_durable(scheduler, 0);
+    assert_counts(scheduler, 4 * COUNT - 1, 0, 1);
+    fracas_scheduler_destroy(scheduler);
+}
+
+/* The last realization of a lease alone at fault: one attempt, as its server computed it alone. */
+static void one_at_fault_has_had_an_attempt(void **state)
+{
+    (void)state;
+    fracas_lease lease;
+    bool final;
+    fracas_scheduler *scheduler = create_large(24, &lease);
+    OK(fracas_scheduler_failed(scheduler, 0, lease.id, 0, 23, 1, &lease, &final));
+    assert_lease(&lease, 0, 23, 1);
+    assert_false(final);
+    assert_counts(scheduler, 48, 23, 0);
+    for (int attempt = 2; attempt <= FRACAS_ATTEMPTS_MAX; attempt++) {
+        assert_true(next(scheduler, 0, 0, &lease));
+        assert_lease(&lease, 0, 23, 1);
+        OK(fracas_scheduler_failed(scheduler, 0, lease.id, 0, 0, 1, &lease, &final));
+        assert_int_equal(final, attempt == FRACAS_ATTEMPTS_MAX);
+    }
+    fracas_scheduler_lost(scheduler, 0); /* what was kept is lost with the worker, what failed stays failed */
+    assert_counts(scheduler, 48, 0, 1);
+    assert_true(next(scheduler, 0, 0, &lease));
+    assert_lease(&lease, 0, 0, 23);
+    fracas_scheduler_destroy(scheduler);
+}
+
+/* Odd numbers: the first half is the larger one. */
+static void a_part_of_a_batch_is_bisected_too(void **state)
+{
+    (void)state;
+    fracas_lease lease;
+    bool final;
+    fracas_scheduler *scheduler = create(1, 5, 1);
+    assert_true(next(scheduler, 0, 0, &lease));
+    OK(fracas_scheduler_failed(scheduler, 0, lease.id, 0, 0, 5, &lease, &final));
+    static const int64_t first[] = {0, 3};
+    static const uint64_t count[] = {3, 2};
+    for (size_t i = 0; i < 2; i++) {
+        assert_true(next(scheduler, 0, 0, &lease));
+        assert_lease(&lease, 0, first[i], count[i]);
+        computed(scheduler, 0, &lease, 1);
+    }
+    assert_counts(scheduler, 0, 5, 0);
+    fracas_scheduler_destroy(scheduler);
+}
+
+static void nonsense_is_refused(void **state)
+{
+    (void)state;
+    fracas_lease lease, other;
+    bool final;
+    fracas_scheduler *scheduler = create(1, 40, 2);
+    assert_true(next(scheduler, 0, 0, &lease));
+    assert_int_equal(fracas_scheduler_computed(scheduler, 1, lease.id, 0, 1), FRACAS_BUG); /* not its own */
+    assert_int_equal(fracas_scheduler_failed(scheduler, 1, lease.id, 0, 0, 8, &other, &final), FRACAS_BUG);
+    assert_int_equal(fracas_scheduler_failed(scheduler, 0, lease.id, 0, 0, 9, &other, &final), FRACAS_BUG);
+    assert_int_equal(fracas_scheduler_failed(scheduler, 0, lease.id, 0, 8, 0, &other, &final), FRACAS_BUG);
+    assert_int_equal(fracas_scheduler_failed(scheduler, 0, lease.id, 0, SIZE_MAX, 8, &other, &final), FRACAS_BUG);
+    computed(scheduler, 0, &lease, 1); /* it is still held */
+    assert_int_equal(fracas_scheduler_computed(scheduler, 0, lease.id, 0, 1), FRACAS_BUG); /* once is enough */
+    assert_counts(scheduler, 0, 8, 0);
+    fracas_scheduler_destroy(scheduler);
+}
+
+static void a_lost_worker_costs_what_was_not_durable(void **state)
+{
+    (void)state;
+    fracas_scheduler *scheduler = create(1, 400, 2);
+    fracas_lease first, second, third, fourth, again;
+    assert_true(next(scheduler, 0, 0, &first));
+    computed(scheduler, 0, &first, 8);
+    fracas_scheduler_durable(scheduler, 0);
+    assert_true(next(scheduler, 0, 0, &second));
+    computed(scheduler, 0, &second, 8);
+    assert_true(next(scheduler, 0, 0, &third));
+    assert_true(next(scheduler, 0, 0, &fourth));
+    assert_counts(scheduler, 8, 8, 0);
+    fracas_scheduler_lost(scheduler, 0);
+    assert_counts(scheduler, 8, 0, 0);
+    assert_true(fracas_scheduler_idles(scheduler, 0) && !fracas_scheduler_keeps(scheduler, 0));
+    /* First in line, though 368 others wait: what was in memory, and in isolation what it held, for that may have killed it. */
+    const fracas_lease *order[] = {&second, &third, &fourth};
+    for (size_t i = 0; i < 3; i++) {
+        assert_true(next(scheduler, 1, 0, &again));
+        assert_lease(&again, 0, order[i]->replica[0], order[i]->count);
+        assert_int_equal(again.isolated != 0, i > 0);
+        computed(scheduler, 1, &again, 8);
+    }
+    assert_true(next(scheduler, 1, 0, &again));
+    assert_lease(&again, 0, 32, 8);
+    assert_int_equal(again.isolated, 0);
+    fracas_scheduler_destroy(scheduler);
+}
+
+/* Of a lease in isolation only what was at fault stays isolated. */
+static void halves_stay_isolated(void **state)
+{
+    (void)state;
+    fracas_lease lease;
+    bool final;
+    fracas_scheduler *scheduler = create_large(24, &lease);
+    fracas_scheduler_lost(scheduler, 0);
+    assert_true(next(scheduler, 0, 0, &lease));
+    assert_int_not_equal(lease.isolated, 0);
+    OK(fracas_scheduler_failed(scheduler, 0, lease.id, 0, 0, 8, &lease, &final));
+    for (size_t i = 0; i < 3; i++) {
+        assert_true(next(scheduler, 0, 0, &lease));
+        assert_int_equal(lease.count, i < 2 ? 4 : 16);
+        assert_int_equal(lease.isolated != 0, i < 2);
+        computed(scheduler, 0, &lease, 0.1);
+    }
+    fracas_scheduler_destroy(scheduler);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_longest_first),
-        cmocka_unit_test(test_rows_are_added),
-        cmocka_unit_test(test_one_lease_ahead_until_the_last_ones),
-        cmocka_unit_test(test_rows_that_need_nothing),
-        cmocka_unit_test(test_a_failed_batch_is_tried_one_by_one),
-        cmocka_unit_test(test_a_lost_worker_costs_what_was_not_durable),
-        cmocka_unit_test(test_any_course_of_events),
-        cmocka_unit_test(test_shuffle_changes_order_and_batches),
+        cmocka_unit_test(one_batch_while_nothing_is_measured),
+        cmocka_unit_test(sizes_are_by_measured_cost),
+        cmocka_unit_test(sizes_shrink_with_what_is_left),
+        cmocka_unit_test(the_last_ones_are_shared_with_who_is_free_soon),
+        cmocka_unit_test(a_lease_has_a_largest_size),
+        cmocka_unit_test(no_lease_time_means_one_batch),
+        cmocka_unit_test(the_longest_go_first),
+        cmocka_unit_test(one_lease_ahead_until_the_last_ones),
+        cmocka_unit_test(what_comes_next_is_predicted),
+        cmocka_unit_test(what_waits_again_is_predicted),
+        cmocka_unit_test(a_lease_has_a_time_limit),
+        cmocka_unit_test(a_shuffle_changes_order_and_sizes),
+        cmocka_unit_test(rows_are_added),
+        cmocka_unit_test(rows_may_need_nothing),
+        cmocka_unit_test(a_failed_batch_is_bisected),
+        cmocka_unit_test(one_at_fault_has_had_an_attempt),
+        cmocka_unit_test(a_part_of_a_batch_is_bisected_too),
+        cmocka_unit_test(nonsense_is_refused),
+        cmocka_unit_test(a_lost_worker_costs_what_was_not_durable),
+        cmocka_unit_test(halves_stay_isolated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

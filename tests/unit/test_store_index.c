@@ -28,11 +28,16 @@ static void plan_is_in_order_and_grows(void **state)
     one.npoints = 1; /* a point that is not in the table any more stays */
     OK(fracas_index_plan(index_, &one));
     assert_int_equal(count_all().realizations, ALL + 2);
-    fracas_index_counts counts;
-    OK(fracas_index_count_point(index_, &point_row[1].hash, &counts));
-    assert_int_equal(counts.realizations, REPLICAS + 2);
-    fracas_hash unknown = fracas_hash_of("unknown", 7);
-    sample_fails(fracas_index_count_point(index_, &unknown, &counts), FRACAS_DAMAGED, "has no point");
+    fracas_index_counts counts, point[2];
+    fracas_point_row some[2] = {point_row[1], point_row[0]}; /* whatever their order and number */
+    one = (fracas_point_table){.npoints = 2, .point = some};
+    OK(fracas_index_count_points(index_, &one, &counts, point));
+    assert_int_equal(counts.realizations, ALL + 2);
+    assert_int_equal(point[0].realizations, REPLICAS + 2);
+    assert_int_equal(point[0].planned, REPLICAS + 2);
+    assert_int_equal(point[1].realizations, REPLICAS);
+    some[1].hash = fracas_hash_of("unknown", 7);
+    sample_fails(fracas_index_count_points(index_, &one, &counts, point), FRACAS_DAMAGED, "has no point");
 }
 
 static void note_failure(void *said, const fracas_index_row *row, const char *reason)
@@ -153,7 +158,7 @@ static void index_modes_and_versions(void **state)
     assert_int_equal(sqlite3_exec(index_->db, "UPDATE meta SET value = '99'", NULL, NULL, NULL), SQLITE_OK);
     sample_fails(fracas_index_open(study, false, &other), FRACAS_DAMAGED, "format version 99");
     sample_spill(sample_path(study, "segments/index.sqlite"), "no database, but long enough to be looked at", 44);
-    sample_fails(fracas_index_open(sample_path(study, "segments"), false, &other), FRACAS_DAMAGED, "remove it");
+    sample_fails(fracas_index_open(sample_path(study, "segments"), false, &other), FRACAS_DAMAGED, "reindex");
 }
 
 /* ---- the file of the index ---- */
@@ -194,10 +199,10 @@ static void an_index_without_tables_is_none(void **state)
     assert_int_equal(sqlite3_exec(db, "CREATE TABLE letters(text)", NULL, NULL, NULL), SQLITE_OK);
     sqlite3_close(db);
     assert_false(fracas_index_exists(study));
-    sample_fails(fracas_index_open(study, true, &other), FRACAS_DAMAGED, "remove it: `fracas run` makes it anew");
+    sample_fails(fracas_index_open(study, true, &other), FRACAS_DAMAGED, "`fracas reindex` makes it anew");
     sample_spill(path, "no database, but long enough to be looked at", 44);
     assert_false(fracas_index_exists(study));
-    sample_fails(fracas_index_open(study, true, &other), FRACAS_DAMAGED, "remove it: `fracas run` makes it anew");
+    sample_fails(fracas_index_open(study, true, &other), FRACAS_DAMAGED, "`fracas reindex` makes it anew");
 }
 
 /* Reads the study as one who may not write it; the exit status says what went wrong. */
@@ -214,7 +219,7 @@ static void look_as_another(void)
     if (fracas_study_sealed(study, index_, &sealed) || !sealed) _exit(5);
     if (fracas_index_event(index_, "kind", "text") != FRACAS_ENVIRONMENT || !strstr(fracas_message(), "copy it")) _exit(6);
     fracas_index_close(index_);
-    if (fracas_study_verify(study, keep_problem, text, &problems) || problems) _exit(7);
+    if (fracas_study_verify(study, &(fracas_verify_options){.full = true, .say = keep_problem, .context = text}, &problems) || problems) _exit(7);
     if (fracas_index_open(study, true, &index_) != FRACAS_ENVIRONMENT || !strstr(fracas_message(), "copy it")) _exit(8);
     _exit(0);
 }

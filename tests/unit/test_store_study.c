@@ -117,14 +117,26 @@ static void merge_refuses_what_is_not_whole(void **state)
     sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED, "seed");
     flip_byte(sample_path(study, "segments/s2.h5"), 30000);
     header = sample_header();
-    sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED, "s2.h5: damaged");
+    sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_INTERRUPTED, "s2.h5: damaged");
     assert_int_equal(sample_files(study, "study.h5"), 0);
-    unlink(sample_path(study, "segments/s2.h5")); /* the remedy of the message */
-    recover_says("s2.h5 is missing");
-    assert_true(count_all().planned > 0);
+    assert_true(count_all().planned > 0); /* already */
+    assert_int_equal(access(sample_path(study, "segments/s2.damaged"), F_OK), 0);
+    compute_planned("again.h5");
+    merge();
+    verify_finds(0, "");
 }
 
 /* ---- recover ---- */
+
+static int64_t number(const char *sql)
+{
+    sqlite3_stmt *statement;
+    assert_int_equal(sqlite3_prepare_v2(index_->db, sql, -1, &statement, NULL), SQLITE_OK);
+    assert_int_equal(sqlite3_step(statement), SQLITE_ROW);
+    int64_t value = sqlite3_column_int64(statement, 0);
+    sqlite3_finalize(statement);
+    return value;
+}
 
 static void orphans_are_adopted(void **state)
 {
@@ -139,12 +151,42 @@ static void orphans_are_adopted(void **state)
     recover_says("adopted");
     fracas_index_counts after = count_all();
     assert_memory_equal(&after, &before, sizeof after);
+    assert_int_equal(number("SELECT count(*) FROM segment WHERE provenance <> '" SAMPLE_PROVENANCE "'"), 0);
     merge();
     assert_true(sample_same_file(sample_path(study, "study.h5"), sample_path(study, "first")));
     recover_says("");
+    fracas_reader *reader;
+    char *provenance;
+    OK(fracas_reader_open(sample_path(study, "study.h5"), &reader));
+    OK(fracas_reader_provenance(reader, &provenance));
+    assert_null(provenance);
+    fracas_reader_close(reader);
 }
 
-static void half_written_and_foreign_files_go(void **state)
+/* A segment of before it told its provenance, and one that tells none that JSON is. */
+static void segments_without_provenance_are_adopted(void **state)
+{
+    (void)state;
+    static const char *const tells[] = {NULL, "{\"host\": "};
+    for (int i = 0; i < 2; i++) {
+        fracas_file_header header = sample_header();
+        fracas_writer *writer;
+        fracas_record record;
+        fracas_file_seal seal;
+        char name[32];
+        snprintf(name, sizeof name, "segments/old%d.h5", i);
+        OK(fracas_writer_create(sample_path(study, name), &header, &table, &writer));
+        if (tells[i]) OK(fracas_writer_provenance(writer, tells[i]));
+        sample_record(0, i, MOST, &record);
+        OK(fracas_writer_append(writer, 0, i, &record));
+        fracas_record_clear(&record);
+        OK(fracas_writer_finish(writer, false, &seal));
+    }
+    recover_says("old1.h5 with 1 realizations");
+    assert_int_equal(number("SELECT count(*) FROM segment WHERE provenance = '{\"adopted\": true}'"), 2);
+}
+
+static void half_written_files_go_and_foreign_ones_stay(void **state)
 {
     (void)state;
     sample_realization what[] = {{0, 0}, {0, 1}};
@@ -166,9 +208,14 @@ static void half_written_and_foreign_files_go(void **state)
     fracas_file_header header = sample_header();
     OK(fracas_study_recover(study, index_, &header, &table, &report));
     assert_int_equal(strstr(report, "good.h5") != NULL, 0);
+    assert_non_null(strstr(report, "torn.h5"));
+    /* Sound, but of realizations that nobody asked for here: somebody may have, elsewhere. */
+    assert_non_null(strstr(report, "foreign.h5, which has realizations that this campaign does not ask for"));
+    assert_non_null(strstr(report, "more.h5, which has realizations that this campaign does not ask for"));
     free(report);
-    assert_int_equal(sample_files(sample_path(study, "segments"), ".h5"), 1);
+    assert_int_equal(sample_files(sample_path(study, "segments"), ".h5"), 3);
     assert_int_equal(sample_files(sample_path(study, "segments"), "good.h5"), 1);
+    assert_int_equal(sample_files(sample_path(study, "segments"), "torn.h5"), 0);
     assert_int_equal(sample_files(sample_path(study, "segments"), "notes.txt"), 1);
     assert_int_equal(sample_files(study, "tmp"), 0);
     assert_int_equal(count_all().segments, 1);
@@ -189,14 +236,7 @@ static void lost_segments_are_planned_again(void **state)
     assert_int_equal(after.segments, before.segments - 2);
     assert_int_equal(after.planned + after.done + after.failed, ALL);
     assert_int_equal(access(sample_path(study, "segments/s1.h5"), F_OK), -1);
-    fracas_index_row *row; /* compute again what is planned */
-    size_t count, missing = 0;
-    sample_realization what[ALL];
-    OK(fracas_index_rows(index_, &table, &row, &count));
-    for (size_t i = 0; i < count; i++)
-        if (row[i].status == FRACAS_PLANNED) what[missing++] = (sample_realization){row[i].point, row[i].replica};
-    free(row);
-    commit_segment("again.h5", what, missing);
+    compute_planned("again.h5");
     after = count_all();
     assert_int_equal(after.done, before.done);
     merge();
@@ -308,7 +348,7 @@ static void verify_bears_a_damaged_index(void **state)
         bytes[at] ^= (unsigned char)(1 + sample_bits(&random) % 255);
         sample_spill(path, bytes, size);
         bytes[at] = kept;
-        OK(fracas_study_verify(study, keep_problem, text, &problems));
+        OK(fracas_study_verify(study, &(fracas_verify_options){.full = true, .say = keep_problem, .context = text}, &problems));
         found += problems > 0;
         unlink(sample_path(study, "index.sqlite-wal"));
         unlink(sample_path(study, "index.sqlite-shm"));
@@ -320,43 +360,203 @@ static void verify_bears_a_damaged_index(void **state)
     verify_finds(0, "");
 }
 
-/* ---- lock ---- */
+/* ---- flipped bytes, and the next run ---- */
 
-static void second_run_is_refused(void **state)
+/* What the next run does with a study: recovers, computes what is planned, merges. *rows: what it computed. */
+static fracas_err run_again(int64_t *rows)
+{
+    fracas_file_header header = sample_header();
+    char *report, name[32];
+    static int number;
+    fracas_index_row *plan;
+    size_t count;
+    *rows = 0;
+    TRY(fracas_study_recover(study, index_, &header, &table, &report));
+    free(report);
+    *rows = count_all().planned;
+    TRY(fracas_index_rows(index_, &table, &plan, &count));
+    free(plan);
+    snprintf(name, sizeof name, "again%d.h5", number++);
+    compute_planned(name);
+    return fracas_study_merge(study, index_, &header, &table, NULL);
+}
+
+/* Every byte of a segment is found by the quick verification before, and costs no more than its realizations. */
+static void a_flipped_byte_of_a_segment_is_computed_again(void **state)
 {
     (void)state;
-    int lock = -1, ready[2], stop[2];
-    char byte, pid[32];
-    assert_int_equal(pipe(ready) + pipe(stop), 0);
-    pid_t child = fork();
-    if (child == 0) {
-        fracas_err err = fracas_study_lock(study, &lock);
-        pid_t grandchild = fork(); /* inherits the file, must not keep the lock */
-        if (grandchild == 0) {
-            close(ready[1]);
-            (void)!read(stop[0], &byte, 1);
-            _exit(0);
-        }
-        (void)!write(ready[1], err ? "n" : "y", 1);
-        pause();
-        _exit(1);
+    commit_everything(11);
+    merge();
+    assert_int_equal(rename(sample_path(study, "study.h5"), sample_path(study, "first")), 0);
+    merge();
+    uint64_t random = 12;
+    for (int i = 0; i < 16; i++) {
+        char *path;
+        int64_t rows;
+        fracas_known_segment *segment;
+        size_t nsegments;
+        OK(fracas_index_segments(index_, &segment, &nsegments));
+        const fracas_known_segment *one = &segment[sample_bits(&random) % nsegments];
+        assert_true(asprintf(&path, "%s/segments/%s", study, one->name) > 0);
+        if (i % 4 == 3) assert_int_equal(truncate(path, (off_t)(sample_bits(&random) % one->seal.bytes)), 0);
+        else flip_byte(path, sample_bits(&random) % one->seal.bytes);
+        verify_finds_as(false, 1, one->name);
+        bool sound;
+        OK(fracas_study_sound(study, index_, &sound));
+        assert_false(sound);
+        const int64_t most = one->rows;
+        OK(run_again(&rows));
+        assert_true(rows > 0 && rows <= most);
+        assert_true(sample_same_file(sample_path(study, "study.h5"), sample_path(study, "first")));
+        OK(fracas_study_sound(study, index_, &sound));
+        assert_true(sound);
+        free(path);
+        fracas_index_segments_free(segment, nsegments);
     }
-    assert_int_equal(read(ready[0], &byte, 1), 1);
-    assert_int_equal(byte, 'y');
-    sample_fails(fracas_study_lock(study, &lock), FRACAS_IN_USE, "another run uses this study");
-    snprintf(pid, sizeof pid, "pid %ld;", (long)child);
-    assert_non_null(strstr(fracas_message(), pid));
-    char host[257] = "";
-    gethostname(host, sizeof host - 1);
-    assert_non_null(strstr(fracas_message(), host));
-    assert_int_equal(lock, -1);
-    kill(child, SIGKILL);
-    waitpid(child, NULL, 0);
-    OK(fracas_study_lock(study, &lock)); /* the grandchild still lives */
-    close(lock);
-    assert_int_equal(write(stop[1], "x", 1), 1);
-    for (int i = 0; i < 2; i++) close(ready[i]), close(stop[i]);
-    sample_fails(fracas_study_lock("/nowhere/at/all", &lock), FRACAS_ENVIRONMENT, "/nowhere/at/all/lock");
+    verify_finds(0, "");
+    assert_int_equal(sample_files(sample_path(study, "segments"), ".damaged"), 16);
+}
+
+static void a_flipped_byte_of_the_merged_file_is_merged_again(void **state)
+{
+    (void)state;
+    commit_everything(0);
+    merge();
+    size_t size;
+    unsigned char *bytes = sample_slurp(sample_path(study, "study.h5"), &size);
+    sample_spill(sample_path(study, "first"), bytes, size);
+    free(bytes);
+    flip_byte(sample_path(study, "study.h5"), size / 3);
+    verify_finds_as(false, 1, "study.h5: damaged");
+    recover_says("study.h5: damaged");
+    assert_false(is_sealed());
+    merge();
+    assert_true(sample_same_file(sample_path(study, "study.h5"), sample_path(study, "first")));
+}
+
+static void execute(const char *sql)
+{
+    if (sqlite3_exec(index_->db, sql, NULL, NULL, NULL) != SQLITE_OK) fail_msg("%s: %s", sql, sqlite3_errmsg(index_->db));
+    assert_true(sqlite3_changes(index_->db) > 0);
+}
+
+/* A flipped bit of a number, which SQLite cannot see: study.h5 is not made of it, and full verification names it. */
+static void a_flipped_number_of_the_index_is_not_merged(void **state)
+{
+    (void)state;
+    static const char *const flip[] = {"outcome = outcome + 1", "fragments = fragments + 1", "fragments_dust = fragments_dust + 1",
+                                       "steps = steps - 1", "dissipated = 1.25", "residual = 2.5", "size = 1e-5", "row = row + 1",
+                                       "segment = segment + 1"};
+    commit_everything(13);
+    merge();
+    fracas_file_header header = sample_header();
+    for (size_t f = 0; f < sizeof flip / sizeof *flip; f++) {
+        char sql[512];
+        execute("CREATE TABLE kept AS SELECT * FROM realization");
+        snprintf(sql, sizeof sql, "UPDATE realization SET %s WHERE (point, replica) IN (SELECT point, replica FROM realization WHERE"
+                 " status = 'done' AND outcome = 0 AND segment = 1 AND dissipated NOT NULL AND size NOT NULL LIMIT 1)", flip[f]);
+        execute(sql);
+        sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED, "fracas reindex");
+        char text[8192];
+        assert_true(verify(text) > 0);
+        assert_non_null(strstr(text, "fracas reindex"));
+        execute("DELETE FROM realization");
+        execute("INSERT INTO realization SELECT * FROM kept");
+        assert_int_equal(sqlite3_exec(index_->db, "DROP TABLE kept", NULL, NULL, NULL), SQLITE_OK);
+    }
+    merge();
+    verify_finds(0, "");
+}
+
+/* What the rows of the index say of each other is looked at by quick verification. */
+static void an_index_that_contradicts_itself_is_found(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *flip, *said;
+    } wrong[] = {
+        {"UPDATE realization SET segment = NULL WHERE rowid_ = 'done'", "done without a segment"},
+        {"UPDATE realization SET outcome = 0 WHERE rowid_ = 'failed'", "failed with another outcome"},
+        {"UPDATE realization SET status = 'planned' WHERE rowid_ = 'done'", "planned, but have results"},
+        {"UPDATE realization SET row = 1 WHERE segment = 1", "in the same row"},
+        {"UPDATE realization SET row = 100000 WHERE rowid_ = 'done'", "rows that they have not"},
+        {"UPDATE realization SET replica = 1000 WHERE rowid_ = 'done'", "lack replicas"},
+    };
+    static const char pick[] = "(point, replica) IN (SELECT point, replica FROM realization WHERE status";
+    commit_everything(14);
+    merge();
+    for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
+        char sql[512];
+        const char *at = strstr(wrong[w].flip, "rowid_");
+        if (at) snprintf(sql, sizeof sql, "%.*s%s%s LIMIT 1)", (int)(at - wrong[w].flip), wrong[w].flip, pick, at + 6);
+        else snprintf(sql, sizeof sql, "%s", wrong[w].flip);
+        execute("CREATE TABLE kept AS SELECT * FROM realization");
+        execute(sql);
+        char text[8192];
+        assert_true(verify_as(false, false, text) > 0);
+        if (!strstr(text, wrong[w].said)) fail_msg("no \"%s\" in:\n%s", wrong[w].said, text);
+        execute("DELETE FROM realization");
+        execute("INSERT INTO realization SELECT * FROM kept");
+        assert_int_equal(sqlite3_exec(index_->db, "DROP TABLE kept", NULL, NULL, NULL), SQLITE_OK);
+    }
+    verify_finds_as(false, 0, "");
+}
+
+/* Sampled flips of the index file: the next run gives the same study.h5, or says that the index is damaged; never another one. */
+static void flipped_bytes_of_the_index_make_no_wrong_study(void **state)
+{
+    (void)state;
+    commit_everything(15);
+    merge();
+    assert_int_equal(rename(sample_path(study, "study.h5"), sample_path(study, "first")), 0);
+    fracas_index_close(index_);
+    char path[512];
+    snprintf(path, sizeof path, "%s/index.sqlite", study);
+    size_t size;
+    uint64_t random = 16;
+    int refused = 0;
+    unsigned char *bytes = sample_slurp(path, &size);
+    for (int i = 0; i < 80; i++) {
+        size_t at = sample_bits(&random) % size;
+        unsigned char kept = bytes[at];
+        int64_t rows;
+        bytes[at] ^= (unsigned char)(1u << sample_bits(&random) % 8);
+        sample_spill(path, bytes, size);
+        bytes[at] = kept;
+        index_ = NULL;
+        fracas_err err = fracas_index_open(study, true, &index_);
+        if (!err) err = run_again(&rows);
+        if (err && err != FRACAS_DAMAGED) print_error("byte %zu: code %d: %s\n", at, err, fracas_message());
+        if (err) assert_int_equal(err, FRACAS_DAMAGED);
+        else assert_true(sample_same_file(sample_path(study, "study.h5"), sample_path(study, "first")));
+        refused += err != FRACAS_OK;
+        fracas_index_close(index_);
+        unlink(sample_path(study, "index.sqlite-wal"));
+        unlink(sample_path(study, "index.sqlite-shm"));
+    }
+    assert_true(refused > 2);
+    sample_spill(path, bytes, size);
+    free(bytes);
+    OK(fracas_index_open(study, false, &index_));
+}
+
+/* What a killed run leaves is noted, and no problem. */
+static void leftovers_are_noted(void **state)
+{
+    (void)state;
+    char text[8192];
+    commit_everything(0);
+    merge();
+    sample_spill(sample_path(study, "segments/.x.h5.tmp-123"), "abc", 3);
+    sample_spill(sample_path(study, ".study.h5.tmp-99"), "abc", 3);
+    sample_spill(sample_path(study, "segments/orphan.h5"), "abc", 3);
+    sample_spill(sample_path(study, "segments/old.damaged"), "abc", 3);
+    sample_spill(sample_path(study, "lock"), "node9 77\n", 9);
+    assert_int_equal(verify_as(false, true, text), 0);
+    static const char *const said[] = {"segments/.x.h5.tmp-123: half written", "/.study.h5.tmp-99: half written", "orphan.h5: not in the index",
+                                       "old.damaged: set aside", "lock: left by another host", "host node9, pid 77"};
+    for (size_t i = 0; i < sizeof said / sizeof *said; i++)
+        if (!strstr(text, said[i])) fail_msg("no \"%s\" in:\n%s", said[i], text);
 }
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
@@ -370,13 +570,19 @@ int main(void)
         TEST(merged_is_as_if_written_in_order),
         TEST(merge_refuses_what_is_not_whole),
         TEST(orphans_are_adopted),
-        TEST(half_written_and_foreign_files_go),
+        TEST(segments_without_provenance_are_adopted),
+        TEST(half_written_files_go_and_foreign_ones_stay),
         TEST(lost_segments_are_planned_again),
         TEST(verify_names_what_is_wrong),
         TEST(every_byte_of_the_merged_file_is_sealed),
         TEST(verify_compares_every_record),
         TEST(verify_bears_a_damaged_index),
-        TEST(second_run_is_refused),
+        TEST(a_flipped_byte_of_a_segment_is_computed_again),
+        TEST(a_flipped_byte_of_the_merged_file_is_merged_again),
+        TEST(a_flipped_number_of_the_index_is_not_merged),
+        TEST(an_index_that_contradicts_itself_is_found),
+        TEST(flipped_bytes_of_the_index_make_no_wrong_study),
+        TEST(leftovers_are_noted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,30 @@
+#include "cli/upkeep.h"
+
+#include "base/param.h"
+#include "campaigns/campaign.h"
+
+enum { JSON };
+static const fracas_option options[] = {[JSON] = {"json", NULL, "print it as JSON"}};
+
+static fracas_err reindex(const fracas_arguments *arguments)
+{
+    fracas_campaign *campaign;
+    fracas_cli_upkeep upkeep;
+    fracas_upkeep end;
+    TRY(fracas_cli_read_campaign(arguments->operand, &campaign));
+    fracas_cli_upkeep_begin(&upkeep, arguments->operand, arguments->value[JSON]);
+    fracas_err code = fracas_upkeep_reindex(arguments->operand, campaign, &upkeep.said, &end);
+    if (!code) fracas_cli_upkeep_counts(&upkeep, &end);
+    if (!code) fracas_cli_upkeep_next(&upkeep, &end);
+    fracas_cli_upkeep_end(&upkeep);
+    fracas_campaign_destroy(campaign);
+    return code;
+}
+
+const fracas_command fracas_command_reindex = {
+    .name = "reindex", .operand = "STUDY", .doc = "Makes the index of STUDY anew from its segments",
+    .more = "\nFor an index.sqlite that is lost or damaged. Every segment is read; one that is damaged is removed, one of another study is\n"
+            "left and named. From an index that can still be read it takes over what no segment has: which realizations FAILED and why,\n"
+            "attempts, provenance, events; one that cannot stays as index.sqlite.before-TIME. The new one takes its place when it is whole.\n",
+    .options = options, .noptions = FRACAS_COUNT(options), .run = reindex,
+};

@@ -1,0 +1,305 @@
+/* STUDY/lock: who is refused, who takes over, and what the file says. */
+#include "tests/support/store_sample.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+static char *study;
+
+static int set_up(void **state)
+{
+    (void)state;
+    study = sample_folder();
+    unsetenv("FRACAS_TEST_HOST");
+    unsetenv("SLURM_JOB_ID");
+    unsetenv("SLURM_RESTART_COUNT");
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    sample_remove(study);
+    return 0;
+}
+
+/* What the file says. */
+static const char *lock_text(void)
+{
+    static char text[1024];
+    FILE *in = fopen(sample_path(study, "lock"), "r");
+    assert_non_null(in);
+    text[fread(text, 1, sizeof text - 1, in)] = '\0';
+    fclose(in);
+    return text;
+}
+
+/* A run that takes the lock as `host` in Slurm job `job` (NULL: none), requeued so many times, and dies with it. Returns its pid. */
+static pid_t die_with_it(const char *host, const char *job, const char *restarts)
+{
+    pid_t child = fork();
+    if (child == 0) {
+        int lock;
+        if (host) setenv("FRACAS_TEST_HOST", host, 1);
+        if (job) setenv("SLURM_JOB_ID", job, 1);
+        if (restarts) setenv("SLURM_RESTART_COUNT", restarts, 1);
+        if (fracas_study_lock(study, true, &lock)) _exit(1);
+        kill(getpid(), SIGKILL);
+    }
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFSIGNALED(status));
+    return child;
+}
+
+static fracas_lock_state state_is(const char *part)
+{
+    char text[FRACAS_HOLDER_TEXT];
+    fracas_lock_state state = fracas_study_lock_state(study, text);
+    if (!strstr(text, part)) fail_msg("no \"%s\" in: %s", part, text);
+    return state;
+}
+
+/* Takes it, which must be in order; *over is what it took over, "" if nothing. */
+static void take(bool force, char over[FRACAS_HOLDER_TEXT])
+{
+    int lock;
+    OK(fracas_study_lock(study, force, &lock));
+    assert_int_equal(fracas_study_took_over(lock, over), *over != '\0');
+    fracas_study_unlock(lock);
+}
+
+/* ---- one host ---- */
+
+static void a_clean_release_empties_the_file(void **state)
+{
+    (void)state;
+    int lock;
+    char over[FRACAS_HOLDER_TEXT], pid[32], host[257] = "";
+    OK(fracas_study_lock(study, false, &lock));
+    gethostname(host, sizeof host - 1);
+    snprintf(pid, sizeof pid, "pid=%ld ", (long)getpid());
+    assert_non_null(strstr(lock_text(), pid));
+    assert_non_null(strstr(lock_text(), host));
+    assert_false(fracas_study_took_over(lock, over));
+    fracas_study_unlock(lock);
+    assert_string_equal(lock_text(), "");
+    assert_int_equal(state_is(""), FRACAS_LOCK_FREE);
+    fracas_study_unlock(-1);
+    OK(fracas_study_lock_to_look(study, false, &lock));
+    assert_string_equal(lock_text(), "");
+    close(lock);
+}
+
+static void second_run_is_refused(void **state)
+{
+    (void)state;
+    int lock = -1, ready[2], stop[2];
+    char byte, pid[32];
+    assert_int_equal(pipe(ready) + pipe(stop), 0);
+    pid_t child = fork();
+    if (child == 0) {
+        fracas_err err = fracas_study_lock(study, false, &lock);
+        pid_t grandchild = fork(); /* inherits the file, must not keep the lock */
+        if (grandchild == 0) {
+            close(ready[1]);
+            (void)!read(stop[0], &byte, 1);
+            _exit(0);
+        }
+        (void)!write(ready[1], err ? "n" : "y", 1);
+        pause();
+        _exit(1);
+    }
+    assert_int_equal(read(ready[0], &byte, 1), 1);
+    assert_int_equal(byte, 'y');
+    for (int force = 0; force < 2; force++) { /* it lives: force does not help */
+        sample_fails(fracas_study_lock(study, force, &lock), FRACAS_IN_USE, "another run uses this study");
+        snprintf(pid, sizeof pid, "pid %ld, since 20", (long)child);
+        assert_non_null(strstr(fracas_message(), pid));
+        char host[257] = "";
+        gethostname(host, sizeof host - 1);
+        assert_non_null(strstr(fracas_message(), host));
+        assert_int_equal(lock, -1);
+        sample_fails(fracas_study_lock_to_look(study, force, &lock), FRACAS_IN_USE, pid);
+    }
+    assert_int_equal(state_is(pid), FRACAS_LOCK_HELD);
+    assert_true(fracas_study_held(study));
+    kill(child, SIGKILL);
+    waitpid(child, NULL, 0);
+    assert_int_equal(state_is(pid), FRACAS_LOCK_LEFT);
+    assert_false(fracas_study_held(study));
+    OK(fracas_study_lock(study, false, &lock)); /* the grandchild still lives */
+    char over[FRACAS_HOLDER_TEXT];
+    assert_true(fracas_study_took_over(lock, over));
+    assert_non_null(strstr(over, pid));
+    fracas_study_unlock(lock);
+    assert_int_equal(write(stop[1], "x", 1), 1);
+    for (int i = 0; i < 2; i++) close(ready[i]), close(stop[i]);
+    sample_fails(fracas_study_lock("/nowhere/at/all", false, &lock), FRACAS_ENVIRONMENT, "/nowhere/at/all/lock");
+}
+
+static void to_look_takes_nothing_over(void **state)
+{
+    (void)state;
+    int lock;
+    die_with_it(NULL, NULL, NULL);
+    OK(fracas_study_lock_to_look(study, false, &lock));
+    close(lock);
+    assert_int_equal(state_is("pid"), FRACAS_LOCK_LEFT);
+}
+
+/* The same kernel under another name, as a container that is started again. */
+static void a_renamed_host_takes_over_its_own(void **state)
+{
+    (void)state;
+    die_with_it(NULL, NULL, NULL);
+    char text[1024], host[257] = "", *renamed, over[FRACAS_HOLDER_TEXT] = "?";
+    gethostname(host, sizeof host - 1);
+    snprintf(text, sizeof text, "%s", lock_text());
+    assert_true(asprintf(&renamed, "host=elsewhere%s", text + 5 + strlen(host)) > 0);
+    sample_spill(sample_path(study, "lock"), renamed, strlen(renamed));
+    assert_int_equal(state_is("host elsewhere"), FRACAS_LOCK_LEFT);
+    take(false, over);
+    free(renamed);
+}
+
+/* The holder lives, but this filesystem has lost its lock. */
+static void a_holder_that_lives_is_not_taken_for_dead(void **state)
+{
+    (void)state;
+    int lock, ready[2];
+    char byte;
+    assert_int_equal(pipe(ready), 0);
+    pid_t child = fork();
+    if (child == 0) {
+        if (fracas_study_lock(study, false, &lock)) _exit(1);
+        close(lock); /* which gives the kernel's lock back, and leaves the text */
+        (void)!write(ready[1], "y", 1);
+        pause();
+        _exit(1);
+    }
+    assert_int_equal(read(ready[0], &byte, 1), 1);
+    assert_int_equal(state_is("pid"), FRACAS_LOCK_HELD);
+    sample_fails(fracas_study_lock(study, false, &lock), FRACAS_IN_USE, "does not keep its lock");
+    sample_fails(fracas_study_lock(study, true, &lock), FRACAS_IN_USE, "does not keep its lock");
+    kill(child, SIGKILL);
+    waitpid(child, NULL, 0);
+    OK(fracas_study_lock(study, false, &lock));
+    fracas_study_unlock(lock);
+    close(ready[0]), close(ready[1]);
+}
+
+/* A dead process stays in /proc until its parent asks. */
+static void a_zombie_is_dead(void **state)
+{
+    (void)state;
+    char over[FRACAS_HOLDER_TEXT] = "?";
+    pid_t child = fork();
+    if (child == 0) {
+        int lock;
+        if (!fracas_study_lock(study, false, &lock)) kill(getpid(), SIGKILL);
+        _exit(1);
+    }
+    siginfo_t info;
+    assert_int_equal(waitid(P_PID, (id_t)child, &info, WEXITED | WNOWAIT), 0);
+    assert_int_equal(state_is("pid"), FRACAS_LOCK_LEFT);
+    take(false, over);
+    waitpid(child, NULL, 0);
+}
+
+/* A pid that another process has by now is no sign of life. */
+static void a_pid_used_again_is_no_holder(void **state)
+{
+    (void)state;
+    die_with_it(NULL, NULL, NULL);
+    char text[1024], over[FRACAS_HOLDER_TEXT] = "?", *pid, *rest, *other;
+    snprintf(text, sizeof text, "%s", lock_text());
+    pid = strstr(text, " pid=");
+    rest = strstr(text, " since=");
+    assert_true(asprintf(&other, "%.*s pid=%ld%s", (int)(pid - text), text, (long)getppid(), rest) > 0);
+    sample_spill(sample_path(study, "lock"), other, strlen(other));
+    take(false, over);
+    free(other);
+}
+
+/* ---- another host ---- */
+
+static void another_hosts_lock_needs_force(void **state)
+{
+    (void)state;
+    int lock;
+    char pid[32], over[FRACAS_HOLDER_TEXT] = "?";
+    pid_t dead = die_with_it("node7", NULL, NULL);
+    snprintf(pid, sizeof pid, "pid %ld", (long)dead);
+    sample_fails(fracas_study_lock(study, false, &lock), FRACAS_IN_USE, "host node7");
+    assert_non_null(strstr(fracas_message(), pid));
+    assert_non_null(strstr(fracas_message(), "since 20"));
+    assert_non_null(strstr(fracas_message(), "--force"));
+    sample_fails(fracas_study_lock_to_look(study, false, &lock), FRACAS_IN_USE, "host node7");
+    assert_int_equal(state_is("host node7"), FRACAS_LOCK_ELSEWHERE);
+    take(true, over);
+    assert_non_null(strstr(over, "node7"));
+    assert_string_equal(lock_text(), "");
+    die_with_it("node7", NULL, NULL); /* its own, when it comes back */
+    setenv("FRACAS_TEST_HOST", "node7", 1);
+    take(false, over);
+}
+
+static void a_requeued_job_takes_over_its_own(void **state)
+{
+    (void)state;
+    int lock;
+    char over[FRACAS_HOLDER_TEXT] = "?";
+    die_with_it("node7", "1234", NULL);
+    setenv("SLURM_JOB_ID", "1234", 1);
+    sample_fails(fracas_study_lock(study, false, &lock), FRACAS_IN_USE, "Slurm job 1234"); /* twice in one allocation */
+    setenv("SLURM_RESTART_COUNT", "1", 1);
+    setenv("SLURM_JOB_ID", "1235", 1);
+    sample_fails(fracas_study_lock(study, false, &lock), FRACAS_IN_USE, "Slurm job 1234");
+    setenv("SLURM_JOB_ID", "1234", 1);
+    take(false, over);
+    die_with_it("node8", "1234", "2"); /* later than this one */
+    sample_fails(fracas_study_lock(study, false, &lock), FRACAS_IN_USE, "host node8");
+}
+
+/* ---- files of before, and torn ones ---- */
+
+static void older_and_torn_files_are_read(void **state)
+{
+    (void)state;
+    int lock;
+    char host[257] = "", text[300], over[FRACAS_HOLDER_TEXT] = "?";
+    gethostname(host, sizeof host - 1);
+    snprintf(text, sizeof text, "%s 123\n", host);
+    sample_spill(sample_path(study, "lock"), text, strlen(text));
+    take(false, over);
+    assert_non_null(strstr(over, "pid 123"));
+    sample_spill(sample_path(study, "lock"), "node9 77\n", 9);
+    sample_fails(fracas_study_lock(study, false, &lock), FRACAS_IN_USE, "host node9, pid 77");
+    sample_spill(sample_path(study, "lock"), "host=node9 pi", 13); /* a power cut; no other host has this filesystem */
+    take(false, over);
+    char zeros[40] = {0};
+    sample_spill(sample_path(study, "lock"), zeros, sizeof zeros);
+    take(false, over);
+    assert_non_null(strstr(over, "host unknown"));
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(a_clean_release_empties_the_file),
+        TEST(second_run_is_refused),
+        TEST(to_look_takes_nothing_over),
+        TEST(a_renamed_host_takes_over_its_own),
+        TEST(a_holder_that_lives_is_not_taken_for_dead),
+        TEST(a_zombie_is_dead),
+        TEST(a_pid_used_again_is_no_holder),
+        TEST(another_hosts_lock_needs_force),
+        TEST(a_requeued_job_takes_over_its_own),
+        TEST(older_and_torn_files_are_read),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
