@@ -104,7 +104,7 @@ fracas_err fracas_child_start(fracas_child *child, const fracas_campaign *campai
                               const fracas_model *model, const fracas_field *field, const fracas_lease *lease, int server_fd)
 {
     int fd[2];
-    if (pipe2(fd, O_CLOEXEC)) return fracas_fail(FRACAS_ENVIRONMENT, "no pipe for a lease: %s", strerror(errno));
+    if (pipe2(fd, O_CLOEXEC)) return fracas_fail_system(errno, "no pipe for a lease");
     pid_t server = getpid(), pid = fork();
     if (pid < 0) {
         fracas_err err = fracas_fail(FRACAS_ENVIRONMENT, "no process for a lease: %s; use fewer --jobs, or raise the "

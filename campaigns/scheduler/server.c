@@ -181,7 +181,7 @@ fracas_err fracas_server_start(const fracas_campaign *campaign, const fracas_run
 {
     int pair[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair))
-        return fracas_fail(FRACAS_ENVIRONMENT, "no connection to a compute server: %s", strerror(errno));
+        return fracas_fail_system(errno, "no connection to a compute server");
     pid_t rank = getpid();
     *pid = fork();
     if (*pid < 0) {
