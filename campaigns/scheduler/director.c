@@ -5,6 +5,7 @@
 #include "campaigns/scheduler/prepare.h"
 #include "campaigns/scheduler/segment.h"
 #include "campaigns/scheduler/share.h"
+#include "campaigns/scheduler/space.h"
 #include "campaigns/scheduler/tally.h"
 #include "campaigns/scheduler/verdict.h"
 
@@ -124,7 +125,13 @@ static fracas_err set_up(fracas_director *director, bool *settled, int64_t *fail
     director->given = calloc(director->setup.campaign->npoints, sizeof *director->given);
     if (!director->phase || !director->flushing || !director->given) return fracas_no_memory("the workers");
     /* First of all: a campaign that cannot be computed leaves nothing behind. */
-    TRY(fracas_costs_create(director->setup.campaign, director->setup.options, &director->cost));
+    double *bytes;
+    TRY(fracas_costs_create(director->setup.campaign, director->setup.options, &director->cost, &bytes));
+    fracas_err err = FRACAS_OK; /* a parent has looked before it started this */
+    if (!director->setup.voice->parent)
+        err = fracas_space_check(director->setup.study, director->setup.campaign, director->setup.options, bytes);
+    free(bytes);
+    TRY(err);
     return open_study(director, settled, failed);
 }
 

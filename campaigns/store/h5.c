@@ -28,8 +28,7 @@ fracas_err fracas_h5_fail(const fracas_h5 *h5, const char *what)
     (void)H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look_at_error, &walk);
     (void)H5Eclear2(H5E_DEFAULT);
     if (h5->error)
-        return fracas_fail(FRACAS_ENVIRONMENT, "cannot %s %s (%s): %s", h5->writing ? "write" : "read", h5->path,
-                           what, strerror(h5->error));
+        return fracas_fail_system(h5->error, "cannot %s %s (%s)", h5->writing ? "write" : "read", h5->path, what);
     if (walk.memory) return fracas_no_memory(h5->path);
     if (h5->writing) return fracas_fail(FRACAS_BUG, "%s: %s: HDF5 refuses: %s", h5->path, what, walk.text);
     return fracas_fail(FRACAS_DAMAGED, "%s: %s: damaged, or no file of fracas: %s", h5->path, what, walk.text);
