@@ -14,7 +14,7 @@ of_session()
             for (p in name) {
                 if (of[p] != session) continue
                 if (wanted == "mpirun" && name[p] == "(mpirun)") print p
-                if (wanted == "rank" && name[p] == "(fracas)" && name[parent[p]] == "(mpirun)") print p
+                if (wanted == "rank" && name[p] ~ /^\(fracas/ && name[parent[p]] == "(mpirun)") print p
             }
         }' | sort -n
 }

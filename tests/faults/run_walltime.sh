@@ -21,7 +21,7 @@ chmod +x silent/mpirun
 within 3 3 env PATH="$PWD/silent:$PATH" "$fracas" run small.yaml --study late --walltime 3s
 said 'walltime is over.*same command goes on'
 
-# More to do than there is time; and a compute server that stands still: it cannot drain, and is killed.
+# More to do than there is time; and compute servers that stand still: the run cannot drain, and is killed.
 campaign long.yaml 4000 '3e4 1/s, 1e5 1/s'
 within 5 3 "$fracas" run long.yaml --study long --jobs 2 --lanes 1 --lease-time 0 --segment-age 0.2 --walltime 5s
 said 'same command goes on'
@@ -32,7 +32,7 @@ began=$(date +%s)
 wait_segments still 2
 servers=$(cat /proc/[0-9]*/stat 2>/dev/null | awk -v session="$session" '
     {name[$1] = $2; parent[$1] = $4; of[$1] = $6}
-    END {for (p in name) if (of[p] == session && name[p] == "(fracas)" && name[parent[parent[p]]] == "(mpirun)") print p}')
+    END {for (p in name) if (of[p] == session && p != session && name[p] ~ /^\(fracas/ && name[parent[p]] != "(mpirun)") print p}')
 [ -n "$servers" ] || fail "there are no servers"
 kill -STOP $servers
 status=0
