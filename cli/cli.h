@@ -27,9 +27,9 @@ typedef struct {
     const char *more;    /* paragraph for `fracas help NAME` */
     const fracas_option *options;
     size_t noptions;
-    bool takes_rest;      /* what follows `--` is kept for another program */
     const fracas_option *own; /* more of them, where `options` are shared with others */
     size_t nown;
+    bool takes_rest;      /* what follows `--` is kept for another program */
     fracas_err (*run)(const fracas_arguments *arguments);
 } fracas_command;
 

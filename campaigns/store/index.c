@@ -71,8 +71,7 @@ static const char *const sql_text[FRACAS_NSQL] = {
     [FRACAS_SQL_ROW_FORGET] = "UPDATE realization SET status = 'planned', outcome = NULL, segment = NULL, row = NULL,"
                               " fragments = NULL, fragments_dust = NULL, steps = NULL, dissipated = NULL,"
                               " residual = NULL, size = NULL WHERE segment IN (SELECT id FROM segment WHERE bytes < 0)",
-    [FRACAS_SQL_TALLY] = "SELECT status, outcome FROM realization",
-    [FRACAS_SQL_TALLY_POINT] = "SELECT status, outcome FROM realization WHERE point = ?1",
+    [FRACAS_SQL_TALLY] = "SELECT status, outcome, point FROM realization",
     [FRACAS_SQL_SEGMENT_ADD] = "INSERT INTO segment(name, bytes, checksum, rows, provenance)"
                                " VALUES (?1, ?2, ?3, ?4, ?5)",
     [FRACAS_SQL_SEGMENT_FIND] = "SELECT id, bytes, checksum FROM segment WHERE name = ?1",
@@ -80,8 +79,6 @@ static const char *const sql_text[FRACAS_NSQL] = {
     [FRACAS_SQL_SEGMENT_LOSE] = "UPDATE segment SET bytes = -1 WHERE id = ?1",
     [FRACAS_SQL_SEGMENT_FORGET] = "DELETE FROM segment WHERE bytes < 0",
     [FRACAS_SQL_SEGMENT_TOTAL] = "SELECT count(*), coalesce(sum(bytes), 0) FROM segment",
-    [FRACAS_SQL_SEGMENT_TOTAL_POINT] = "SELECT count(*), coalesce(sum(bytes), 0) FROM segment"
-                                       " WHERE id IN (SELECT segment FROM realization WHERE point = ?1)",
     [FRACAS_SQL_EVENT_ADD] = "INSERT INTO event(time, kind, text)"
                              " VALUES (strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), ?1, ?2)",
     [FRACAS_SQL_EVENT_LAST] = "SELECT text FROM event WHERE kind = ?1 ORDER BY id DESC LIMIT 1",
@@ -327,8 +324,8 @@ static fracas_err is_old(fracas_index *index, bool *old)
     sqlite3_stmt *statement;
     if (sqlite3_prepare_v2(index->db, query, -1, &statement, NULL) != SQLITE_OK) return fracas_index_error(index, "open");
     bool row = sqlite3_step(statement) == SQLITE_ROW;
-    *old = sqlite3_column_int(statement, 0) > 0 && sqlite3_column_int(statement, 1) == 0;
-    fracas_err err = row ? FRACAS_OK : fracas_index_error(index, "open");
+    fracas_err err = row ? FRACAS_OK : fracas_index_error(index, "open"); /* first: a column that is not there is another error */
+    *old = row && sqlite3_column_int(statement, 0) > 0 && sqlite3_column_int(statement, 1) == 0;
     sqlite3_finalize(statement);
     return err;
 }
@@ -350,9 +347,9 @@ static fracas_err count_tables(fracas_index *index, int *all, int *meta)
     if (sqlite3_prepare_v2(index->db, query, -1, &statement, NULL) != SQLITE_OK)
         return fracas_index_error(index, "open");
     bool row = sqlite3_step(statement) == SQLITE_ROW;
-    *all = sqlite3_column_int(statement, 0);
-    *meta = sqlite3_column_int(statement, 1);
-    fracas_err err = row ? FRACAS_OK : fracas_index_error(index, "open");
+    fracas_err err = row ? FRACAS_OK : fracas_index_error(index, "open"); /* first: a column that is not there is another error */
+    *all = row ? sqlite3_column_int(statement, 0) : 0;
+    *meta = row ? sqlite3_column_int(statement, 1) : 0;
     sqlite3_finalize(statement);
     return err;
 }

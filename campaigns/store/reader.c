@@ -1,3 +1,4 @@
+#include "campaigns/store/disk.h"
 #include "campaigns/store/store.h"
 #include "campaigns/store/table.h"
 
@@ -51,8 +52,9 @@ static fracas_err read_truth(fracas_reader *reader, const char *name, bool *trut
 fracas_err fracas_file_version(const char *path, uint64_t *version)
 {
     fracas_h5 h5 = FRACAS_H5_CLOSED;
-    TRY(fracas_h5_open(&h5, path));
-    fracas_err err = fracas_h5_get_integer(&h5, "/", "format_version", H5T_STD_I32LE, version);
+    TRY(fracas_disk_check_own_seal(path));
+    fracas_err err = fracas_h5_open(&h5, path);
+    if (!err) err = fracas_h5_get_integer(&h5, "/", "format_version", H5T_STD_I32LE, version);
     fracas_h5_close(&h5);
     return err;
 }

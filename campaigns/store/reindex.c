@@ -245,13 +245,14 @@ static fracas_err move_old(const reindexing *r)
 {
     char stamp[32];
     struct tm utc;
-    const time_t now = time(NULL);
-    gmtime_r(&now, &utc);
-    strftime(stamp, sizeof stamp, "%Y%m%dT%H%M%SZ", &utc);
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    gmtime_r(&now.tv_sec, &utc);
+    strftime(stamp, sizeof stamp, "%Y%m%dT%H%M%S", &utc);
     for (int t = 0; t < NTAILS; t++) {
         char *from, *to = NULL;
         if (asprintf(&from, "%s%s", r->old, tail[t]) < 0) return fracas_no_memory("a file name");
-        if (asprintf(&to, "%s.before-%s-%ld%s", r->old, stamp, (long)getpid(), tail[t]) < 0) to = NULL;
+        if (asprintf(&to, "%s.before-%s.%09ld%s", r->old, stamp, now.tv_nsec, tail[t]) < 0) to = NULL;
         fracas_err err = to ? FRACAS_OK : fracas_no_memory("a file name");
         if (!err && rename(from, to) < 0 && errno != ENOENT) err = fracas_disk_fail("move away", from);
         else if (!err && t == 0 && access(to, F_OK) == 0) fracas_say_line(r->said, "the index before is %s", to);

@@ -74,13 +74,16 @@ FRACAS_MUST_USE fracas_err fracas_writer_decisions(fracas_writer *writer, const 
 /* The mesh of the next point, points in their order, in a file with interfaces: once for each, or for none of them.
  * The file has a group /mesh if any of them has elements. */
 FRACAS_MUST_USE fracas_err fracas_writer_mesh(fracas_writer *writer, const fracas_stored_mesh *mesh);
+/* The file is a segment: it ends with a seal of its own, which fracas_file_version checks. */
+void fracas_writer_own_seal(fracas_writer *writer);
 /* Closes, syncs, renames to the final name, syncs the folder; frees the writer whatever happens. Equal
  * sequences of calls give equal bytes. */
 FRACAS_MUST_USE fracas_err fracas_writer_finish(fracas_writer *writer, bool complete, fracas_file_seal *seal);
 /* Gives up: removes the temporary file, frees the writer. NULL is allowed. */
 void fracas_writer_abandon(fracas_writer *writer);
 
-/* *version: the format version that the file gives itself, of this program or another. FRACAS_DAMAGED if it gives none. */
+/* *version: the format version that the file gives itself, of this program or another. FRACAS_DAMAGED if it gives none, or, before HDF5
+ * has seen a byte, if it is a segment whose own seal is not of its bytes: what no index vouches for is opened after this. */
 FRACAS_MUST_USE fracas_err fracas_file_version(const char *path, uint64_t *version);
 /* FRACAS_DAMAGED if it is not a fracas file of a known format version, naming the file. */
 FRACAS_MUST_USE fracas_err fracas_reader_open(const char *path, fracas_reader **reader);
@@ -229,9 +232,9 @@ typedef struct {
 } fracas_index_counts;
 
 FRACAS_MUST_USE fracas_err fracas_index_count(fracas_index *index, fracas_index_counts *counts);
-/* The same for one point. */
-FRACAS_MUST_USE fracas_err fracas_index_count_point(fracas_index *index, const fracas_hash *point,
-                                                    fracas_index_counts *counts);
+/* The same, and of each point of the table (table->npoints of them; segments and bytes 0), by one look at every realization. */
+FRACAS_MUST_USE fracas_err fracas_index_count_points(fracas_index *index, const fracas_point_table *table, fracas_index_counts *counts,
+                                                     fracas_index_counts *point);
 
 /* ---- the study as a whole ---- */
 

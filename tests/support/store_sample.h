@@ -279,6 +279,7 @@ static inline void sample_segment(const char *study, const char *name, const fra
     char path[512];
     snprintf(path, sizeof path, "%s/segments/%s", study, name);
     OK(fracas_writer_create(path, &header, table, &writer));
+    fracas_writer_own_seal(writer);
     OK(fracas_writer_provenance(writer, SAMPLE_PROVENANCE));
     for (size_t i = 0; i < count; i++) {
         fracas_record record;

@@ -1,0 +1,399 @@
+/* The commands for studies, with every call that changes the disk failing, and killed at every one of them: the study is sound after
+ * each, and the same command completes.
+ *
+ * ctest-labels: storm
+ */
+#include "tests/support/study_fixture.h"
+
+#include "base/param.h"
+#include "campaigns/store/upkeep.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/syscall.h>
+
+/* HDF5 1.10 forgets an object header whose checksum is wrong; it is no leak of ours. */
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void) { return "leak:libhdf5"; }
+
+/* ---- calls that fail, or end the process; these stand before those of the C library ---- */
+
+typedef enum { FAIL, DIE, NWAYS } way;
+
+static long calls;        /* so far */
+static long stop_at = -1; /* the one that fails or kills; -1: none */
+static way how;
+static bool links = true; /* false: another filesystem */
+
+static bool stops(void)
+{
+    if (calls++ != stop_at) return false;
+    if (how == DIE) kill(getpid(), SIGKILL);
+    errno = EIO;
+    return true;
+}
+
+int fsync(int fd) { return stops() ? -1 : (int)syscall(SYS_fsync, fd); }
+int fdatasync(int fd) { return stops() ? -1 : (int)syscall(SYS_fdatasync, fd); }
+int rename(const char *from, const char *to) { return stops() ? -1 : (int)syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to); }
+int unlink(const char *path) { return stops() ? -1 : (int)syscall(SYS_unlinkat, AT_FDCWD, path, 0); }
+int rmdir(const char *path) { return stops() ? -1 : (int)syscall(SYS_unlinkat, AT_FDCWD, path, AT_REMOVEDIR); }
+int mkdir(const char *path, mode_t mode) { return stops() ? -1 : (int)syscall(SYS_mkdirat, AT_FDCWD, path, mode); }
+int ftruncate(int fd, off_t size) { return stops() ? -1 : (int)syscall(SYS_ftruncate, fd, size); }
+int ftruncate64(int fd, off64_t size) { return stops() ? -1 : (int)syscall(SYS_ftruncate, fd, size); }
+ssize_t pwrite(int fd, const void *bytes, size_t size, off_t at) { return stops() ? -1 : syscall(SYS_pwrite64, fd, bytes, size, at); }
+ssize_t pwrite64(int fd, const void *bytes, size_t size, off64_t at) { return stops() ? -1 : syscall(SYS_pwrite64, fd, bytes, size, at); }
+ssize_t write(int fd, const void *bytes, size_t size) { return stops() ? -1 : syscall(SYS_write, fd, bytes, size); }
+
+int remove(const char *path)
+{
+    if (stops()) return -1;
+    const int code = (int)syscall(SYS_unlinkat, AT_FDCWD, path, 0);
+    return code < 0 && errno == EISDIR ? (int)syscall(SYS_unlinkat, AT_FDCWD, path, AT_REMOVEDIR) : code;
+}
+
+int link(const char *from, const char *to)
+{
+    if (stops()) return -1;
+    if (links) return (int)syscall(SYS_linkat, AT_FDCWD, from, AT_FDCWD, to, 0);
+    errno = EXDEV;
+    return -1;
+}
+
+/* ---- the commands, on a study `study` and another one within it ---- */
+
+static void ignore_line(void *context, const char *text) { (void)context, (void)text; }
+
+static fracas_err reindex(void)
+{
+    const fracas_file_header header = sample_header();
+    return fracas_study_reindex(study, &header, &table, &(fracas_said){ignore_line, NULL});
+}
+
+/* Those that open the index, as the caller does. */
+static fracas_err with_index(fracas_err (*work)(fracas_index *index))
+{
+    fracas_index *index;
+    TRY(fracas_index_open(study, true, &index));
+    fracas_err err = work(index);
+    fracas_index_close(index);
+    return err;
+}
+
+static void ignore_item(void *context, const fracas_collected *item) { (void)context, (void)item; }
+
+static fracas_err collect_index(fracas_index *index)
+{
+    uint64_t freed;
+    return fracas_study_collect(study, index, &(fracas_collect_options){.found = ignore_item}, &freed);
+}
+
+static fracas_err collect(void) { return with_index(collect_index); }
+
+static fracas_err retry_index(fracas_index *index)
+{
+    int64_t rows;
+    return fracas_index_retry(index, NULL, &rows);
+}
+
+static fracas_err retry(void) { return with_index(retry_index); }
+
+/* As a command does it: after the sweep, and compared. */
+static fracas_err join_index(fracas_index *index)
+{
+    fracas_joined joined;
+    fracas_index *theirs;
+    int64_t both;
+    char *report, *from = sample_path(study, "other");
+    const fracas_file_header header = sample_header();
+    TRY(fracas_study_recover(study, index, &header, &table, &report));
+    free(report);
+    TRY(fracas_index_open(from, false, &theirs));
+    fracas_err err = fracas_study_compare(study, index, from, theirs, &header, &table, &both);
+    if (!err) err = fracas_study_join(study, index, from, theirs, &table, &joined);
+    fracas_index_close(theirs);
+    return err;
+}
+
+static fracas_err join(void) { return with_index(join_index); }
+
+static fracas_err merge_index(fracas_index *index)
+{
+    const fracas_file_header header = sample_header();
+    return fracas_study_merge(study, index, &header, &table, NULL);
+}
+
+static fracas_err merge_all(void) { return with_index(merge_index); }
+
+/* ---- the studies that they are tried on ---- */
+
+static void commit_range(const char *name, size_t point, int64_t first, int64_t end)
+{
+    sample_realization what[REPLICAS];
+    for (int64_t r = first; r < end; r++) what[r - first] = (sample_realization){point, r};
+    commit_segment(name, what, (size_t)(end - first));
+}
+
+static void make_incomplete(void)
+{
+    commit_range("a.h5", 0, 0, 4);
+    commit_range("b.h5", 1, 0, 4);
+    OK(fracas_index_fail(index_, &point_row[0].hash, 30, "signal 9", true));
+    OK(fracas_index_fail(index_, &point_row[2].hash, 30, "signal 9", true));
+}
+
+static void make_damaged(void)
+{
+    make_incomplete();
+    fracas_index_close(index_);
+    index_ = NULL;
+    sample_spill(sample_path(study, "index.sqlite"), "no database, but long enough to be looked at", 44);
+}
+
+static void make_garbage(void)
+{
+    make_incomplete();
+    assert_int_equal(sqlite3_exec(index_->db, "UPDATE realization SET status = 'planned', outcome = NULL, segment = NULL, row = NULL,"
+                                  " fragments = NULL, fragments_dust = NULL, steps = NULL, dissipated = NULL, residual = NULL, size = NULL"
+                                  " WHERE segment = 2", NULL, NULL, NULL), SQLITE_OK);
+    sample_spill(sample_path(study, "segments/.x.h5.tmp-12"), "abc", 3);
+    sample_spill(sample_path(study, "index.sqlite.before-1"), "abc", 3);
+    assert_int_equal(mkdir(sample_path(study, ".reindex"), 0777) | mkdir(sample_path(study, "attachments"), 0777), 0);
+    sample_spill(sample_path(study, ".reindex/index.sqlite"), "abc", 3);
+    sample_spill(sample_path(study, "attachments/00000000000000000000000000000002"), "abc", 3);
+}
+
+static void make_two(void)
+{
+    commit_range("a.h5", 0, 0, 4);
+    fracas_index_close(index_);
+    char *kept = study, *other;
+    assert_true(asprintf(&other, "%s/other", kept) > 0);
+    assert_int_equal(mkdir(other, 0777) | mkdir(sample_path(other, "segments"), 0777), 0);
+    study = other;
+    OK(fracas_index_open(study, true, &index_));
+    OK(fracas_index_plan(index_, &table));
+    commit_range("a.h5", 1, 0, 4);
+    commit_range("b.h5", 0, 2, 8);
+    OK(fracas_index_fail(index_, &point_row[2].hash, 30, "signal 9", true));
+    fracas_index_close(index_);
+    index_ = NULL;
+    study = kept;
+    free(other);
+}
+
+static void make_whole(void) { commit_everything(0); }
+
+/* ---- one command ---- */
+
+typedef struct {
+    const char *name;
+    void (*make)(void);
+    fracas_err (*run)(void);
+    bool copies;       /* links do not work */
+    bool damaged;      /* the study is not sound before, so it may not be after a failure */
+    bool pending;      /* study.h5 may be missing or without its seal after one */
+    long each;         /* of more calls than these only some are tried; 0: all */
+    int64_t done, failed, planned; /* of the study at the end */
+} trial;
+
+static char template_folder[300];
+
+static void shell(const char *format, ...) FRACAS_PRINTF(1, 2);
+static void shell(const char *format, ...)
+{
+    char command[1200];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(command, sizeof command, format, arguments);
+    va_end(arguments);
+    assert_int_equal(system(command), 0);
+}
+
+static void restore(void)
+{
+    stop_at = -1;
+    shell("rm -rf %s && cp -a %s %s", study, template_folder, study);
+}
+
+static bool is_pending(const char *problem)
+{
+    return strstr(problem, "every realization is computed") || strstr(problem, "has no seal");
+}
+
+static void keep_unless_pending(void *context, const char *problem)
+{
+    if (!is_pending(problem)) keep_problem(context, problem);
+}
+
+static void is_sound(const trial *t, long k)
+{
+    char text[8192] = "";
+    int64_t problems;
+    if (t->damaged) return;
+    const fracas_verify_options how_to = {.full = true, .say = t->pending ? keep_unless_pending : keep_problem, .context = text};
+    OK(fracas_study_verify(study, &how_to, &problems));
+    if (*text) fail_msg("%s, %s at call %ld: %s", t->name, how == DIE ? "killed" : "failing", k, text);
+}
+
+static void completes(const trial *t, long k)
+{
+    fracas_err err = t->run();
+    if (err) fail_msg("%s after %s at call %ld: %d %s", t->name, how == DIE ? "a death" : "a failure", k, err, fracas_message());
+    OK(fracas_index_open(study, true, &index_));
+    const fracas_index_counts counts = count_all();
+    char text[8192];
+    if (verify(text)) fail_msg("%s, repeated after call %ld: %s", t->name, k, text);
+    fracas_index_close(index_);
+    index_ = NULL;
+    if (counts.done != t->done || counts.failed != t->failed || counts.planned != t->planned)
+        fail_msg("%s, %s at call %ld: %d done, %d failed, %d planned", t->name, how == DIE ? "killed" : "failing", k, (int)counts.done,
+                 (int)counts.failed, (int)counts.planned);
+    assert_int_equal(sample_files(study, ".reindex"), 0);
+    assert_int_equal(sample_files(sample_path(study, "segments"), "tmp"), 0);
+}
+
+/* Runs it with call k failing, or in a process that dies there. False when it has fewer calls. */
+static bool runs_into(const trial *t, long k)
+{
+    int status;
+    if (how == FAIL) {
+        calls = 0;
+        stop_at = k;
+        fracas_err err = t->run();
+        stop_at = -1;
+        /* What fails may not matter (a log that is not removed), but if it does it is the disk's fault. */
+        if (err && err != FRACAS_ENVIRONMENT) fail_msg("%s, call %ld: %d %s", t->name, k, err, fracas_message());
+        return calls > k;
+    }
+    pid_t child = fork();
+    if (child == 0) {
+        calls = 0;
+        stop_at = k;
+        _exit(t->run() ? 1 : 0);
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    if (WIFEXITED(status)) assert_int_equal(WEXITSTATUS(status), 0);
+    return WIFSIGNALED(status);
+}
+
+static void try_every_call(const trial *t)
+{
+    t->make();
+    fracas_index_close(index_);
+    index_ = NULL;
+    links = !t->copies;
+    snprintf(template_folder, sizeof template_folder, "%s.template", study);
+    shell("cp -a %s %s", study, template_folder);
+    for (how = FAIL; how < NWAYS; how++)
+        for (long k = 0;; k += t->each && k > t->each ? k / 8 : 1) {
+            restore();
+            const bool met = runs_into(t, k);
+            is_sound(t, k);
+            completes(t, k);
+            if (met) continue;
+            assert_true(k > 5); /* there were calls */
+            break;
+        }
+    links = true;
+    shell("rm -rf %s", template_folder);
+}
+
+/* Of the twelve records of replicas 0 to 3, and of those that `done` takes in, some have the outcome FAILED. */
+static void count_outcomes(size_t point, int64_t first, int64_t end, trial *t)
+{
+    for (int64_t r = first; r < end; r++) {
+        fracas_record record;
+        sample_record(point, r, MOST, &record);
+        if (record.outcome == FRACAS_FAILED) t->failed++;
+        else t->done++;
+        fracas_record_clear(&record);
+    }
+    t->planned = ALL - t->done - t->failed;
+}
+
+static void the_index_anew(void **state)
+{
+    (void)state;
+    trial t = {.name = "reindex", .make = make_incomplete, .run = reindex, .failed = 2};
+    count_outcomes(0, 0, 4, &t);
+    count_outcomes(1, 0, 4, &t);
+    try_every_call(&t);
+}
+
+static void the_index_anew_from_a_damaged_one(void **state)
+{
+    (void)state;
+    trial t = {.name = "reindex of a damaged one", .make = make_damaged, .run = reindex, .damaged = true};
+    count_outcomes(0, 0, 4, &t);
+    count_outcomes(1, 0, 4, &t);
+    try_every_call(&t);
+}
+
+static void garbage_goes(void **state)
+{
+    (void)state;
+    trial t = {.name = "gc", .make = make_garbage, .run = collect, .failed = 0};
+    count_outcomes(0, 0, 4, &t);
+    t.failed += 2; /* without a record */
+    t.planned -= 2;
+    try_every_call(&t);
+}
+
+static void failures_again(void **state)
+{
+    (void)state;
+    trial t = {.name = "retry", .make = make_incomplete, .run = retry};
+    count_outcomes(0, 0, 4, &t);
+    count_outcomes(1, 0, 4, &t);
+    t.planned += t.failed;
+    t.failed = 0;
+    try_every_call(&t);
+}
+
+static void one_of_two(bool copies)
+{
+    trial t = {.name = copies ? "merge-studies by copies" : "merge-studies by links", .make = make_two, .run = join, .copies = copies,
+               .failed = 1};
+    count_outcomes(0, 0, 8, &t);
+    count_outcomes(1, 0, 4, &t);
+    try_every_call(&t);
+}
+
+static void one_of_two_by_links(void **state)
+{
+    (void)state;
+    one_of_two(false);
+}
+
+static void one_of_two_by_copies(void **state)
+{
+    (void)state;
+    one_of_two(true);
+}
+
+static void study_h5(void **state)
+{
+    (void)state;
+    trial t = {.name = "merge", .make = make_whole, .run = merge_all, .pending = true, .each = 16};
+    for (size_t p = 0; p < SAMPLE_POINTS; p++) count_outcomes(p, 0, REPLICAS, &t);
+    try_every_call(&t);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+
+int main(void)
+{
+    if (access("/dev/shm", W_OK) == 0) setenv("TMPDIR", "/dev/shm", 0); /* syncing to a disk would take minutes */
+    const struct CMUnitTest tests[] = {
+        TEST(the_index_anew),
+        TEST(the_index_anew_from_a_damaged_one),
+        TEST(garbage_goes),
+        TEST(failures_again),
+        TEST(one_of_two_by_links),
+        TEST(one_of_two_by_copies),
+        TEST(study_h5),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

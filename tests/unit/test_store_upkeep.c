@@ -1,0 +1,613 @@
+/* Looking after a study: the index anew, garbage, failures again, two studies made one, older formats. */
+#include "tests/support/study_fixture.h"
+
+#include "base/param.h"
+#include "campaigns/store/h5.h"
+#include "campaigns/store/upkeep.h"
+
+#include <signal.h>
+
+static char said_text[8192];
+
+static void keep_line(void *context, const char *text) { keep_problem(context, text); }
+
+static const fracas_said said = {keep_line, said_text};
+
+static void says(const char *part)
+{
+    if (!strstr(said_text, part)) fail_msg("no \"%s\" in:\n%s", part, said_text);
+}
+
+static void sql(const char *text)
+{
+    char *message = NULL;
+    if (sqlite3_exec(index_->db, text, NULL, NULL, &message) != SQLITE_OK) fail_msg("%s: %s", text, message);
+}
+
+static int64_t number(const char *query)
+{
+    sqlite3_stmt *statement;
+    assert_int_equal(sqlite3_prepare_v2(index_->db, query, -1, &statement, NULL), SQLITE_OK);
+    assert_int_equal(sqlite3_step(statement), SQLITE_ROW);
+    const int64_t value = sqlite3_column_int64(statement, 0);
+    sqlite3_finalize(statement);
+    return value;
+}
+
+static void open_again(void)
+{
+    fracas_index_close(index_);
+    index_ = NULL;
+    OK(fracas_index_open(study, true, &index_));
+}
+
+/* With the index closed; opened again after. */
+static fracas_err reindex(void)
+{
+    fracas_file_header header = sample_header();
+    fracas_index_close(index_);
+    index_ = NULL;
+    said_text[0] = '\0';
+    fracas_err err = fracas_study_reindex(study, &header, &table, &said);
+    if (!err) OK(fracas_index_open(study, true, &index_));
+    return err;
+}
+
+/* Everything but these, in three segments. */
+static void commit_all_but(const sample_realization *left, size_t nleft)
+{
+    sample_realization what[ALL];
+    size_t n = 0;
+    for (size_t i = 0; i < ALL; i++) {
+        bool skip = false;
+        for (size_t l = 0; l < nleft; l++) skip = skip || (left[l].point == i / REPLICAS && left[l].replica == (int64_t)(i % REPLICAS));
+        if (!skip) what[n++] = (sample_realization){i / REPLICAS, (int64_t)(i % REPLICAS)};
+    }
+    commit_segment("a.h5", what, 30);
+    commit_segment("b.h5", what + 30, 30);
+    commit_segment("c.h5", what + 60, n - 60);
+}
+
+static void note_failure(void *text, const fracas_index_row *row, const char *reason)
+{
+    if (*reason) /* those of the sample that have a record have none */
+        sprintf((char *)text + strlen(text), "%zu:%d %d %s;", row->point, (int)row->replica, (int)row->attempts, reason);
+}
+
+static void failures_are(const char *wanted)
+{
+    char text[4096] = "";
+    OK(fracas_index_failures(index_, &table, note_failure, text));
+    assert_string_equal(text, wanted);
+}
+
+static const sample_realization left_out[] = {{0, 5}, {1, 7}, {2, 39}};
+
+/* Two that failed (one of them for good) and one that nobody has begun. */
+static void fail_some(void)
+{
+    OK(fracas_index_fail(index_, &point_row[0].hash, 5, "signal 11", false));
+    OK(fracas_index_fail(index_, &point_row[0].hash, 5, "signal 9", true));
+    OK(fracas_index_fail(index_, &point_row[1].hash, 7, "signal 6", false));
+    OK(fracas_index_event(index_, "kind", "text"));
+}
+
+/* ---- reindex ---- */
+
+static void the_index_is_made_anew(void **state)
+{
+    (void)state;
+    commit_all_but(left_out, 3);
+    fail_some();
+    const fracas_index_counts before = count_all();
+    sql("UPDATE segment SET provenance = '{\"host\": \"b\"}' WHERE name = 'b.h5'");
+    OK(reindex());
+    says("3 segments read");
+    const fracas_index_counts after = count_all();
+    assert_memory_equal(&after, &before, sizeof after);
+    failures_are("0:5 2 signal 9;");
+    assert_int_equal(number("SELECT count(*) FROM event"), 2);
+    assert_int_equal(number("SELECT count(*) FROM event WHERE kind = 'reindexed'"), 1);
+    assert_int_equal(number("SELECT attempts FROM realization WHERE reason = 'signal 6' AND status = 'planned'"), 1);
+    assert_int_equal(number("SELECT count(*) FROM segment WHERE provenance LIKE '%\"b\"%'"), 1);
+    assert_int_equal(number("SELECT count(*) FROM segment WHERE provenance LIKE '%\"a\"%'"), 2);
+    assert_int_equal(sample_files(study, "before"), 0);
+    assert_int_equal(sample_files(study, "reindex"), 0);
+    verify_finds(0, "");
+}
+
+/* A lost one, and one that is no index: with its log, which must not come back. */
+static void a_lost_or_damaged_index_is_made_anew(void **state)
+{
+    (void)state;
+    commit_all_but(left_out, 3);
+    fail_some();
+    fracas_index_counts before = count_all();
+    OK(reindex());
+    for (int damage = 0; damage < 4; damage++) {
+        fracas_index_close(index_);
+        index_ = NULL;
+        char path[512];
+        snprintf(path, sizeof path, "%s/index.sqlite", study);
+        if (damage == 0) assert_int_equal(unlink(path), 0);
+        if (damage == 1) sample_spill(path, "no database, but long enough to be looked at", 44);
+        if (damage == 2) assert_int_equal(truncate(path, 5000), 0);
+        if (damage == 3)
+            for (size_t at = 4100; at < 4700; at += 3) flip_byte(path, at);
+        if (damage == 1) sample_spill(sample_path(study, "index.sqlite-wal"), "a log of nothing", 16);
+        OK(reindex());
+        const fracas_index_counts after = count_all();
+        assert_int_equal(after.done, before.done);
+        assert_int_equal(after.planned, before.planned + 1);
+        failures_are("");
+        assert_int_equal(sample_files(study, "index.sqlite.before"), damage);
+        if (damage) says("cannot be used");
+        verify_finds(0, "");
+    }
+}
+
+/* The process that wrote it was killed: what it committed is in the log. */
+static void a_log_that_was_left_is_read(void **state)
+{
+    (void)state;
+    fracas_index_close(index_);
+    index_ = NULL;
+    pid_t child = fork();
+    if (child == 0) {
+        OK(fracas_index_open(study, true, &index_));
+        OK(fracas_index_fail(index_, &point_row[0].hash, 5, "signal 9", true));
+        kill(getpid(), SIGKILL);
+    }
+    waitpid(child, NULL, 0);
+    struct stat info;
+    assert_int_equal(stat(sample_path(study, "index.sqlite-wal"), &info), 0);
+    assert_true(info.st_size > 0);
+    OK(reindex());
+    failures_are("0:5 1 signal 9;");
+    assert_int_equal(sample_files(study, "before"), 0);
+    verify_finds(0, "");
+}
+
+/* A done realization wins over the failure that the old index has of it. */
+static void a_segment_wins_over_a_failure(void **state)
+{
+    (void)state;
+    sample_realization what[] = {{0, 5}, {1, 7}};
+    fracas_file_seal seal;
+    fracas_segment_row row[2];
+    fracas_record record;
+    sample_segment(study, "a.h5", &table, what, 2, MOST, &seal, row);
+    sample_record(0, 5, MOST, &record);
+    assert_int_not_equal(record.outcome, FRACAS_FAILED);
+    fracas_record_clear(&record);
+    OK(fracas_index_fail(index_, &point_row[0].hash, 5, "signal 9", true));
+    OK(reindex());
+    failures_are("");
+    assert_int_equal(number("SELECT count(*) FROM realization WHERE status = 'done' AND reason = 'signal 9'"), 1);
+    verify_finds(0, "");
+}
+
+static void segments_of_another_study_are_named(void **state)
+{
+    (void)state;
+    commit_all_but(left_out, 3);
+    fracas_file_header other = sample_header();
+    other.seed++;
+    fracas_index_close(index_);
+    index_ = NULL;
+    said_text[0] = '\0';
+    OK(fracas_study_reindex(study, &other, &table, &said));
+    says("a.h5, which is not of this study: seed");
+    says("not of this study: seed"); /* the index, too */
+    says("0 segments read");
+    assert_int_equal(sample_files(sample_path(study, "segments"), ".h5"), 3);
+    OK(reindex());
+    says("3 segments read");
+    assert_int_equal(count_all().planned, 3);
+}
+
+/* ---- older formats ---- */
+
+/* As a file of format version 1 begins: nothing else of it is looked at. */
+static void make_old(const char *path)
+{
+    const int32_t one = 1;
+    hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT), attribute = H5Aopen(file, "format_version", H5P_DEFAULT);
+    assert_true(attribute >= 0 && H5Awrite(attribute, H5T_NATIVE_INT32, &one) >= 0);
+    H5Aclose(attribute);
+    H5Fclose(file);
+}
+
+static const char refusal[] = "has format version 1; this program reads 2: use the program version that wrote it, or compute the study "
+                              "again in another folder";
+
+static void version_1_is_refused_by_name(void **state)
+{
+    (void)state;
+    commit_all_but(NULL, 0);
+    merge();
+    make_old(sample_path(study, "segments/a.h5"));
+    make_old(sample_path(study, "segments/b.h5"));
+    OK(reindex()); /* some are ours: those go on */
+    says("segments/a.h5, which has format version 1, not 2; move it away");
+    says("1 segments read");
+    assert_int_equal(count_all().planned, 60);
+    make_old(sample_path(study, "segments/c.h5"));
+    sample_fails(reindex(), FRACAS_DAMAGED, refusal);
+    assert_non_null(strstr(fracas_message(), "/segments/"));
+    assert_int_equal(sample_files(sample_path(study, "segments"), ".h5"), 3);
+    assert_int_equal(sample_files(study, "before"), 0);
+    fracas_reader *reader;
+    make_old(sample_path(study, "study.h5"));
+    sample_fails(fracas_reader_open(sample_path(study, "study.h5"), &reader), FRACAS_DAMAGED, refusal);
+    OK(fracas_index_open(study, true, &index_));
+    sql("UPDATE meta SET value = '1' WHERE key = 'format_version'");
+    fracas_index_close(index_);
+    fracas_index *other;
+    char text[8192] = "";
+    int64_t problems;
+    sample_fails(fracas_index_open(study, false, &other), FRACAS_DAMAGED, refusal);
+    sample_fails(fracas_index_open(study, true, &other), FRACAS_DAMAGED, refusal);
+    OK(fracas_study_verify(study, &(fracas_verify_options){.say = keep_problem, .context = text}, &problems));
+    assert_int_equal(problems, 1);
+    assert_non_null(strstr(text, refusal));
+    sample_fails(fracas_study_reindex(study, &(fracas_file_header){.version = "0.1.0"}, &table, &said), FRACAS_DAMAGED, refusal);
+    index_ = NULL;
+}
+
+/* As indexes were before decisions were kept. */
+static void an_index_of_before_decisions_is_brought_up(void **state)
+{
+    (void)state;
+    commit_all_but(left_out, 3);
+    fail_some();
+    const fracas_index_counts before = count_all();
+    static const char strip[] = "ALTER TABLE realization DROP COLUMN size; DROP TABLE decision";
+    sql(strip);
+    verify_finds(0, ""); /* only looked at; the sizes are not there to be compared */
+    open_again();
+    fracas_index_counts after = count_all();
+    assert_memory_equal(&after, &before, sizeof after);
+    assert_int_equal(number("SELECT count(*) FROM realization WHERE size IS NOT NULL"), 0);
+    verify_finds(0, "");
+    sql(strip);
+    OK(reindex());
+    after = count_all();
+    assert_memory_equal(&after, &before, sizeof after);
+    failures_are("0:5 2 signal 9;");
+    assert_true(number("SELECT count(*) FROM realization WHERE size IS NOT NULL") > 0);
+    verify_finds(0, "");
+}
+
+/* ---- retry ---- */
+
+static void decide(int p, int64_t round, int64_t replicas)
+{
+    const fracas_decision decision = {.round = round, .replicas = replicas, .used = replicas, .mean = 1, .half_width = 0.5,
+                                      .minimum = 8, .maximum = 100, .relative_half_width = 0.1, .confidence = 0.95};
+    OK(fracas_index_begin(index_));
+    OK(fracas_index_end(index_, fracas_index_decide(index_, &point_row[p], &decision, "reason")));
+}
+
+static void failures_are_forgotten(void **state)
+{
+    (void)state;
+    int64_t rows;
+    fail_some();
+    OK(fracas_index_fail(index_, &point_row[1].hash, 20, "signal 7", true));
+    for (int64_t round = 0; round < 3; round++) decide(1, round, 10 + 8 * round); /* of 10, 18 and 26 replicas */
+    decide(0, 0, 5);
+    OK(fracas_index_retry(index_, &point_row[2].hash, &rows));
+    assert_int_equal(rows, 0);
+    assert_int_equal(number("SELECT count(*) FROM event WHERE kind = 'retried'"), 0);
+    OK(fracas_index_retry(index_, &point_row[1].hash, &rows));
+    assert_int_equal(rows, 1);
+    failures_are("0:5 2 signal 9;");
+    assert_int_equal(number("SELECT count(*) FROM decision"), 3); /* not the one that had replica 20 */
+    OK(fracas_index_retry(index_, NULL, &rows));
+    assert_int_equal(rows, 1);
+    failures_are("");
+    assert_int_equal(number("SELECT count(*) FROM decision"), 3); /* the one of replicas 0 to 4 had not replica 5 */
+    assert_int_equal(number("SELECT sum(attempts) FROM realization"), 1); /* of one that is not failed */
+    assert_int_equal(number("SELECT count(*) FROM event WHERE kind = 'retried'"), 2);
+    assert_int_equal(count_all().planned, ALL);
+    assert_int_equal(count_all().outcome[FRACAS_FAILED], 0);
+}
+
+/* ---- gc ---- */
+
+static char found_text[8192];
+
+static void keep_found(void *context, const fracas_collected *item)
+{
+    (void)context;
+    char line[1024];
+    snprintf(line, sizeof line, "%s %s %d", item->removed ? "-" : "=", strrchr(item->path, '/') + 1, (int)item->bytes);
+    keep_problem(found_text, line);
+}
+
+static uint64_t collect(bool dry)
+{
+    static const char *const named[] = {"00000000000000000000000000000001"};
+    uint64_t freed;
+    found_text[0] = '\0';
+    OK(fracas_study_collect(study, index_, &(fracas_collect_options){named, 1, dry, keep_found, NULL}, &freed));
+    return freed;
+}
+
+static void found(const char *part)
+{
+    if (!strstr(found_text, part)) fail_msg("no \"%s\" in:\n%s", part, found_text);
+}
+
+static int64_t entries(void)
+{
+    char command[600], text[32] = "";
+    snprintf(command, sizeof command, "find %s | wc -l", study);
+    FILE *in = popen(command, "r");
+    assert_non_null(fgets(text, sizeof text, in));
+    pclose(in);
+    return atoi(text);
+}
+
+/* Replicas of point 0 that are done in every study that has them: a record of outcome FAILED gives way to any other. */
+static void choose_done(sample_realization *what, size_t count)
+{
+    int64_t replica = 6;
+    for (size_t i = 0; i < count; replica++) {
+        fracas_record record;
+        sample_record(0, replica, MOST, &record);
+        if (record.outcome != FRACAS_FAILED) what[i++] = (sample_realization){0, replica};
+        fracas_record_clear(&record);
+    }
+}
+
+static void what_nobody_needs_goes(void **state)
+{
+    (void)state;
+    sample_realization twice[3];
+    choose_done(twice, 3);
+    commit_all_but(left_out, 3);
+    commit_segment("late.h5", twice, 3); /* all done already */
+    fracas_file_seal seal;
+    fracas_segment_row row[3];
+    sample_segment(study, "orphan.h5", &table, twice, 3, MOST, &seal, row);
+    assert_int_equal(mkdir(sample_path(study, "attachments"), 0777) | mkdir(sample_path(study, ".reindex"), 0777), 0);
+    static const char *const spilt[] = {"segments/.x.h5.tmp-12", "segments/old.damaged", ".study.h5.tmp-9", "campaign.yaml.tmp", "index.sqlite.before-20260101T000000Z-7",
+                                        "index.sqlite.before-20260101T000000Z-7-wal", ".reindex/index.sqlite", ".reindex/index.sqlite-wal",
+                                        "attachments/00000000000000000000000000000002", "attachments/00000000000000000000000000000002.tmp",
+                                        "attachments/00000000000000000000000000000001", "attachments/readme", "notes.txt", "campaign.yaml",
+                                        "segments/mine.txt", "lock", "study.h5"};
+    for (size_t i = 0; i < FRACAS_COUNT(spilt); i++) sample_spill(sample_path(study, spilt[i]), "1234567", 7);
+    const fracas_index_counts before = count_all();
+    const int64_t all = entries();
+    const uint64_t promised = collect(true);
+    assert_int_equal(entries(), all);
+    assert_int_equal(count_all().segments, before.segments);
+    found("- late.h5");
+    const uint64_t freed = collect(false);
+    assert_true(freed >= 9 * 7 && promised >= 9 * 7);
+    found("- late.h5");
+    found("- .x.h5.tmp-12 7");
+    found("- old.damaged 7");
+    found("- 00000000000000000000000000000002 7");
+    found("- 00000000000000000000000000000002.tmp 7");
+    found("- .reindex 0");
+    found("= orphan.h5");
+    found("= notes.txt 7");
+    found("= mine.txt 7");
+    found("= readme 7");
+    assert_null(strstr(found_text, " a.h5"));
+    assert_int_equal(all - entries(), 12);
+    fracas_index_counts after = count_all();
+    assert_int_equal(after.segments, before.segments - 1);
+    after.segments = before.segments, after.bytes = before.bytes;
+    assert_memory_equal(&after, &before, sizeof after);
+    found_text[0] = '\0';
+    assert_int_equal(collect(false), 0);
+    assert_null(strstr(found_text, "- "));
+    unlink(sample_path(study, "study.h5"));
+    verify_finds(0, "");
+}
+
+/* Killed after the index has forgotten a segment and before its file went: it is an orphan like others, and goes the next time. */
+static void a_forgotten_segment_is_known_again(void **state)
+{
+    (void)state;
+    sample_realization twice[1];
+    choose_done(twice, 1);
+    commit_all_but(left_out, 3);
+    commit_segment("late.h5", twice, 1);
+    sql("DELETE FROM segment WHERE name = 'late.h5'");
+    verify_finds(0, "");
+    collect(false);
+    found("= late.h5");
+    recover_says("adopted");
+    collect(false);
+    found("- late.h5");
+    assert_int_equal(count_all().segments, 3);
+}
+
+/* Pages that nobody uses any more. */
+static void the_index_gives_pages_back(void **state)
+{
+    (void)state;
+    struct stat large, small;
+    sql("WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 20000)"
+        " INSERT INTO event(time, kind, text) SELECT 'now', 'kind', 'a text of some length, again and again' FROM n; DELETE FROM event");
+    open_again();
+    assert_int_equal(stat(sample_path(study, "index.sqlite"), &large), 0);
+    const uint64_t promised = collect(true), freed = collect(false);
+    found("- index.sqlite");
+    open_again();
+    assert_int_equal(stat(sample_path(study, "index.sqlite"), &small), 0);
+    assert_true(small.st_size < large.st_size / 4);
+    assert_true(freed >= (uint64_t)(large.st_size - small.st_size) && promised > freed / 2);
+}
+
+/* ---- two studies ---- */
+
+static char *other_study;
+static fracas_index *other_index;
+
+/* A second study, with `commit` done to it instead of the first. */
+static void in_other(void (*commit)(void))
+{
+    char *kept = study;
+    fracas_index *kept_index = index_;
+    set_up(NULL);
+    commit();
+    other_study = study;
+    other_index = index_;
+    study = kept;
+    index_ = kept_index;
+}
+
+static void leave_other(void)
+{
+    fracas_index_close(other_index);
+    sample_remove(other_study);
+}
+
+static void commit_part(int part, const char *name)
+{
+    sample_realization what[ALL];
+    size_t n = 0;
+    for (size_t i = 0; i < ALL; i++)
+        if ((int)(i % 2) == part) what[n++] = (sample_realization){i / REPLICAS, (int64_t)(i % REPLICAS)};
+    commit_segment(name, what, n / 2);
+    char second[32];
+    snprintf(second, sizeof second, "x%s", name);
+    commit_segment(second, what + n / 2, n - n / 2);
+}
+
+static void commit_odd(void) { commit_part(1, "b.h5"); }
+
+static fracas_err compare(int64_t *both)
+{
+    fracas_file_header header = sample_header();
+    return fracas_study_compare(study, index_, other_study, other_index, &header, &table, both);
+}
+
+static void two_halves_are_one_study(void **state)
+{
+    (void)state;
+    fracas_joined joined;
+    int64_t both;
+    commit_everything(0); /* what it must come to */
+    merge();
+    assert_int_equal(rename(sample_path(study, "study.h5"), sample_path(study, "whole")), 0);
+    fracas_index_close(index_);
+    unlink(sample_path(study, "index.sqlite"));
+    unlink(sample_path(study, "segments/s0.h5"));
+    OK(fracas_index_open(study, true, &index_));
+    OK(fracas_index_plan(index_, &table));
+    commit_part(0, "b.h5"); /* of the same name as the other's */
+    in_other(commit_odd);
+    OK(compare(&both));
+    assert_int_equal(both, 0);
+    OK(fracas_study_join(study, index_, other_study, other_index, &table, &joined));
+    assert_int_equal(joined.realizations, ALL / 2);
+    assert_int_equal(joined.segments, 2);
+    assert_int_equal(count_all().planned, 0);
+    assert_int_equal(sample_files(sample_path(study, "segments"), ".h5"), 4);
+    OK(fracas_study_join(study, index_, other_study, other_index, &table, &joined)); /* again: nothing is new */
+    assert_int_equal(joined.realizations + joined.segments + joined.failed, 0);
+    OK(compare(&both));
+    assert_true(both > ALL / 3); /* but those of outcome FAILED */
+    merge();
+    assert_true(sample_same_file(sample_path(study, "study.h5"), sample_path(study, "whole")));
+    verify_finds(0, "");
+    assert_int_equal(number("SELECT count(*) FROM event WHERE kind = 'joined'"), 1);
+    leave_other();
+}
+
+/* The same realizations, but one that is not the same. */
+static void commit_different(void)
+{
+    fracas_file_header header = sample_header();
+    fracas_writer *writer;
+    fracas_file_seal seal;
+    fracas_segment_row row[10];
+    OK(fracas_writer_create(sample_path(study, "segments/d.h5"), &header, &table, &writer));
+    for (int64_t r = 0; r < 10; r++) {
+        fracas_record record;
+        sample_record(1, r, MOST, &record);
+        if (r == 3) record.momentum[1] = 0.125;
+        row[r] = (fracas_segment_row){point_row[1].hash, r, r, record.outcome, record.fragments, record.fragments_dust, record.steps,
+                                      record.dissipated, record.residual, fracas_record_mean_size(&record)};
+        OK(fracas_writer_append(writer, 1, r, &record));
+        fracas_record_clear(&record);
+    }
+    OK(fracas_writer_finish(writer, false, &seal));
+    OK(fracas_index_commit(index_, "d.h5", &seal, row, 10, "{}"));
+}
+
+static void a_difference_is_named(void **state)
+{
+    (void)state;
+    int64_t both;
+    commit_all_but(left_out, 3);
+    in_other(commit_different);
+    sample_fails(compare(&both), FRACAS_DAMAGED, "replica 3 of point 1 (");
+    assert_non_null(strstr(fracas_message(), other_study));
+    flip_byte(sample_path(other_study, "segments/d.h5"), 30000);
+    sample_fails(compare(&both), FRACAS_DAMAGED, "d.h5: damaged");
+    leave_other();
+}
+
+static void commit_and_fail(void)
+{
+    sample_realization what[] = {{0, 5}, {0, 6}};
+    commit_segment("e.h5", what, 2);
+    OK(fracas_index_fail(index_, &point_row[1].hash, 7, "theirs", true));
+    OK(fracas_index_fail(index_, &point_row[2].hash, 39, "theirs", true));
+    OK(fracas_index_fail(index_, &point_row[0].hash, 1, "theirs", true));
+}
+
+static void done_wins_over_failed(void **state)
+{
+    (void)state;
+    fracas_joined joined;
+    commit_all_but(left_out, 3);
+    OK(fracas_index_fail(index_, &point_row[0].hash, 5, "ours", true));
+    OK(fracas_index_fail(index_, &point_row[1].hash, 7, "ours", true));
+    decide(0, 0, 5);
+    decide(0, 1, 6);
+    OK(fracas_index_seal_study(index_, &(fracas_file_seal){1, 2}));
+    in_other(commit_and_fail);
+    OK(fracas_study_join(study, index_, other_study, other_index, &table, &joined));
+    assert_int_equal(joined.realizations, 1);
+    assert_int_equal(joined.failed, 1);
+    failures_are("1:7 1 ours;2:39 1 theirs;");
+    assert_int_equal(number("SELECT count(*) FROM decision"), 1); /* not the one with replica 5 */
+    fracas_file_seal seal;
+    bool sealed;
+    OK(fracas_index_study_seal(index_, &sealed, &seal)); /* study.h5 has it as failed */
+    assert_false(sealed);
+    assert_int_equal(count_all().planned, 0);
+    leave_other();
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(the_index_is_made_anew),
+        TEST(a_lost_or_damaged_index_is_made_anew),
+        TEST(a_log_that_was_left_is_read),
+        TEST(a_segment_wins_over_a_failure),
+        TEST(segments_of_another_study_are_named),
+        TEST(version_1_is_refused_by_name),
+        TEST(an_index_of_before_decisions_is_brought_up),
+        TEST(failures_are_forgotten),
+        TEST(what_nobody_needs_goes),
+        TEST(a_forgotten_segment_is_known_again),
+        TEST(the_index_gives_pages_back),
+        TEST(two_halves_are_one_study),
+        TEST(a_difference_is_named),
+        TEST(done_wins_over_failed),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
