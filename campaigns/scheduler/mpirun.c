@@ -26,8 +26,6 @@ static void set_environment(void)
         {"OMPI_MCA_orte_base_help_aggregate", "1"},
         /* hwloc warns of firmware tables that contradict each other; nothing is bound here. */
         {"HWLOC_HIDE_ERRORS", "2"},
-        /* Slurm's srun, with which mpirun reaches the other nodes of a job, gives all of a node, not one core of it. */
-        {"SLURM_WHOLE", "1"},
     };
     for (size_t i = 0; i < FRACAS_COUNT(quiet); i++) setenv(quiet[i].name, quiet[i].value, 1);
     if (geteuid() == 0) { /* mpirun refuses to run as root without both */
