@@ -10,6 +10,7 @@
  *     HOW     an error of errno (EIO, ENOSPC, ...) or of the library; kill: the process dies before the call; torn: it dies after
  *             half of what it was to write; late: the call succeeds, and says that it has not
  *   FAILING_STATE  file of a failing_state: what was counted; with ENOSPC, all calls that need space fail from then on, everywhere
+ *   FAILING_ALONE  set where the parent starts no mpirun: only then its system calls can be watched
  *   FAILING_UNDER  part of the path of every file of the study, and of no other */
 #ifndef FRACAS_TESTS_SUPPORT_FAILING_CALLS_H
 #define FRACAS_TESTS_SUPPORT_FAILING_CALLS_H
@@ -17,7 +18,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-typedef enum { FAILING_DISK, FAILING_READ, FAILING_SQLITE, FAILING_HDF5, FAILING_MPI, FAILING_MEMORY, FAILING_PROCESS, FAILING_NCLASSES } failing_class;
+typedef enum { FAILING_DISK, FAILING_READ, FAILING_SQLITE, FAILING_HDF5, FAILING_MPI, FAILING_MEMORY, FAILING_PROCESS,
+               FAILING_NCLASSES } failing_class;
 
 enum { FAILING_RANKS = 4, FAILING_DEPTHS = 4, FAILING_WHERES = 1 + FAILING_RANKS * FAILING_DEPTHS /* the parent first */ };
 

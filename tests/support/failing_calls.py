@@ -112,8 +112,9 @@ class Storm:
             environment["OMPI_MCA_orte_tmpdir_base"] = mpi = self.mpi_folder(study)
             os.makedirs(mpi, exist_ok=True)
         if fault:
-            environment.update(FAILING_CALLS=fault, FAILING_STATE=state.path, FAILING_UNDER=os.path.basename(study), LD_PRELOAD=self.library)
-            if fault.split()[1] == "parent":
+            environment.update(FAILING_CALLS=fault, FAILING_STATE=state.path, FAILING_UNDER=os.path.basename(study),
+                               LD_PRELOAD=self.library)
+            if os.path.exists(f"{study}/study.h5"):
                 environment["FAILING_ALONE"] = "1"
         arguments = [self.fracas, "run", self.campaign, "--study", study, *options] if command == "run" else [self.fracas, command, study]
         if command == "run" and not alone:
@@ -134,9 +135,9 @@ class Storm:
 
     def setting(self, kind, where):
         """Where the study is from, whether without mpirun, and with which options the campaign is run."""
-        if where == "parent":
+        if where == "parent" and kind != "process":
             return True, {"alone": False}  # of a settled study, so that it starts no mpirun
-        if kind in ("mpi", "memory") or where[0] != "0":  # under a parent, which tells of a rank that a library crashes without memory
+        if kind in ("mpi", "memory") or where == "parent" or where[0] != "0":  # under a parent, which tells of a rank that a library crashes without memory
             return False, {"alone": False, "options": SMALL}
         return False, {"alone": True, "options": WHOLE if kind == "hdf5" else SMALL}
 
@@ -178,7 +179,7 @@ class Storm:
         call = re.split(r"[ _]", state.failed)[0]
         if not said:
             return f"status {status} without a message"
-        names = [os.path.basename(study), call, "memory", "MPI", "mpirun", "process", "HDF5"]
+        names = [os.path.basename(study), call, "memory", "MPI", "mpirun", "process", "HDF5", os.strerror(11), os.strerror(24)]
         if not any(name in line for name in names for line in said):
             return f"status {status}, and the message does not name what failed"
         return ""

@@ -21,6 +21,7 @@ import collections
 import glob
 import os
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -47,6 +48,7 @@ output: {{history: 100, interfaces: false}}
 """
 KINDS = ["parent", "mpirun", "rank 0", "other rank", "keeper", "server", "child"]
 ENDS_THE_RUN = {"parent", "mpirun", "rank 0", "other rank"}
+RATE = 25  # realizations a second that this machine shall compute: then 200 kills, each with a new start, come to 2000 of them
 MERGES = 0.07  # of the kills are left for when only study.h5 is to be written
 
 
@@ -128,8 +130,9 @@ class Storm:
         print(f"seed {self.seed} (FRACAS_STORM_SEED)", flush=True)
         open(self.log, "w").close()
         self.campaign = f"{folder}/storm.yaml"
-        with open(self.campaign, "w") as file:
-            file.write(CAMPAIGN.format(replicas=replicas // 2, elements=os.environ.get("FRACAS_STORM_ELEMENTS", "1800")))
+        elements = int(os.environ.get("FRACAS_STORM_ELEMENTS", 0)) or self.measure()
+        print(f"{elements} elements (FRACAS_STORM_ELEMENTS)", flush=True)
+        self.write_campaign(self.campaign, replicas, elements)
         self.environment = {**os.environ, "FRACAS_TEST_LOG": self.log}
         self.run = None
         self.done = {}     # as seen last
@@ -137,6 +140,21 @@ class Storm:
         self.table = collections.Counter()
         self.statuses = collections.Counter()
         self.merges = self.runs = 0
+
+    def write_campaign(self, path, replicas, elements):
+        with open(path, "w") as file:
+            file.write(CAMPAIGN.format(replicas=replicas // 2, elements=elements))
+
+    def measure(self):
+        """Elements that make for RATE: work goes with their square."""
+        path, elements = f"{self.folder}/measure.yaml", 1000
+        self.write_campaign(path, 64, elements)
+        command = [self.fracas, "run", path, "--study", f"{self.folder}/measure", "--jobs", "2"]
+        said = subprocess.run(command, capture_output=True, text=True)
+        rate = re.search(r"64 of 64 realizations done, 0 failed, ([0-9.]+)/s", said.stderr)
+        if not rate:
+            end(f"nothing was computed: {said.stderr}")
+        return max(200, min(4000, int(elements * (float(rate[1]) / RATE) ** 0.5)))
 
     # ---- a run ----
 
@@ -323,7 +341,7 @@ class Storm:
                 kinds = [kind for before, after, kind, below, done in self.victims
                          if first < after and second >= before and key not in done and (kind in ENDS_THE_RUN or who & below)]
                 if not kinds:
-                    end(f"replica {realization[1]} of point {realization[0]} was begun again though no kill met it; at {first} and {second} of the log")
+                    end(f"replica {realization[1]} of point {realization[0]} was begun again though no kill met it: {first}, {second} in the log")
                 again[kinds[0]] += 1
         flight = 0
         for before, after, kind, below, done in self.victims:
@@ -348,7 +366,8 @@ def main():
     kills, replicas = (list(map(int, numbers)) + [200, 2000][len(numbers):])[:2]
     storm = Storm(fracas, folder, kills, replicas)
     began = time.monotonic()
-    said = subprocess.run([fracas, "run", storm.campaign, "--study", f"{folder}/undisturbed", "--jobs", "2"], capture_output=True, text=True)
+    command = [fracas, "run", storm.campaign, "--study", f"{folder}/undisturbed", "--jobs", "2"]
+    said = subprocess.run(command, capture_output=True, text=True)
     if said.returncode:
         end(f"the undisturbed run: status {said.returncode}\n{said.stderr}")
     print(f"undisturbed: {time.monotonic() - began:.0f} s", flush=True)
