@@ -58,6 +58,10 @@ static inline int64_t fracas_point_most(const fracas_point *point)
 FRACAS_MUST_USE fracas_err fracas_campaign_read(const char *path, fracas_campaign **campaign);
 void fracas_campaign_destroy(fracas_campaign *campaign); /* NULL is allowed */
 
+/* Gives every point `replicas` (1 to 1e9), as if the file said so: the campaign's hash is then of that number. FRACAS_USAGE, and
+ * nothing is changed, where a rule decides the replicas of a point. */
+FRACAS_MUST_USE fracas_err fracas_campaign_replicas(fracas_campaign *campaign, int64_t replicas);
+
 /* Writes the campaign as resolved: SI, every default spelled out, itself a campaign file that reads back to
  * the same points, hashes and replicas, where the files that the campaign names are beside it, as attachments/DIGEST. */
 FRACAS_MUST_USE fracas_err fracas_campaign_write(const fracas_campaign *campaign, FILE *out);

@@ -80,14 +80,27 @@ static fracas_err read_options(const fracas_command *command, fracas_arguments *
     return FRACAS_OK;
 }
 
+/* `--` and what follows is not for this program. */
+static void cut_rest(fracas_arguments *arguments)
+{
+    for (int i = 2; i < arguments->argc; i++) {
+        if (strcmp(arguments->argv[i], "--")) continue;
+        arguments->rest = arguments->argv + i + 1;
+        arguments->nrest = arguments->argc - i - 1;
+        arguments->argc = i;
+        return;
+    }
+}
+
 fracas_err fracas_arguments_read(const fracas_command *command, int argc, char **argv, fracas_arguments *arguments)
 {
     *arguments = (fracas_arguments){.command = command, .argc = argc, .argv = argv};
+    if (command->takes_rest) cut_rest(arguments);
     TRY(read_options(command, arguments));
     if (arguments->help) return FRACAS_OK;
-    if (command->operand && optind < argc) arguments->operand = argv[optind++];
-    if (command->second && optind < argc) arguments->second = argv[optind++];
-    if (optind < argc)
+    if (command->operand && optind < arguments->argc) arguments->operand = argv[optind++];
+    if (command->second && optind < arguments->argc) arguments->second = argv[optind++];
+    if (optind < arguments->argc)
         return fracas_fail(FRACAS_USAGE, "%s: one argument too many: `%s`; see `fracas help %s`", command->name,
                            argv[optind], command->name);
     if (command->operand && !arguments->operand)

@@ -14,7 +14,7 @@ typedef struct {
     char letter;          /* 'o' for -o, which is the same; 0: there is none */
 } fracas_option;
 
-enum { FRACAS_MOST_OPTIONS = 24 }; /* of one subcommand */
+enum { FRACAS_MOST_OPTIONS = 32 }; /* of one subcommand */
 
 typedef struct fracas_arguments fracas_arguments;
 
@@ -29,13 +29,14 @@ typedef struct {
     size_t noptions;
     const fracas_option *own; /* more of them, where `options` are shared with others */
     size_t nown;
+    bool takes_rest;      /* what follows `--` is kept for another program */
     fracas_err (*run)(const fracas_arguments *arguments);
 } fracas_command;
 
 extern const fracas_command fracas_command_run, fracas_command_plan, fracas_command_status, fracas_command_report,
     fracas_command_picture, fracas_command_verify, fracas_command_sample, fracas_command_distributions,
     fracas_command_reference, fracas_command_reindex, fracas_command_merge, fracas_command_gc, fracas_command_extend,
-    fracas_command_retry, fracas_command_merge_studies, fracas_command_bench;
+    fracas_command_retry, fracas_command_merge_studies, fracas_command_bench, fracas_command_submit;
 
 struct fracas_arguments {
     const fracas_command *command;
@@ -44,6 +45,8 @@ struct fracas_arguments {
     bool help;                              /* --help was given: then nothing else is checked */
     int argc;                               /* the program's, options moved to the front */
     char **argv;
+    char **rest;                            /* of argv: nrest words after `--` */
+    int nrest;
 };
 
 /* Option `i` of a command, its own ones behind those that it shares; FRACAS_MOST_OPTIONS is no option. */

@@ -3,6 +3,7 @@
 #include "base/param.h"
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/prepare.h"
+#include "campaigns/scheduler/share.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -73,7 +74,7 @@ fracas_err fracas_cli_read_run_options(const fracas_arguments *arguments, fracas
 static fracas_err find_study(const fracas_run_options *run, char *study, size_t size)
 {
     fracas_campaign *campaign;
-    TRY(fracas_campaign_read(run->file, &campaign));
+    TRY(fracas_run_campaign(run, &campaign));
     fracas_err code = fracas_study_folder(run, campaign, study, size);
     fracas_campaign_destroy(campaign);
     return code;

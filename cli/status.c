@@ -106,28 +106,33 @@ static fracas_err write_json(const fracas_status *status)
     }
     fracas_json_close_array(&json);
     fracas_json_array(&json, "failures");
-    if (!code) code = fracas_index_failures(status->index, &status->campaign->table, write_failure, &json);
+    if (!code && status->all.failed) code = fracas_index_failures(status->index, &status->campaign->table, write_failure, &json);
     fracas_json_close_array(&json);
     fracas_json_close_object(&json);
     fracas_json_end(&json);
     return code;
 }
 
-static void print_points(const fracas_status *status)
+static fracas_err print_points(const fracas_status *status)
 {
     const fracas_point_table *table = &status->campaign->table;
+    bool *varies = malloc((table->ncolumns + 1) * sizeof *varies);
+    if (!varies) return fracas_no_memory("the points");
+    for (size_t c = 0; c < table->ncolumns; c++) varies[c] = fracas_point_table_varies(table, c);
     fputs("\nrealizations    done  failed  point\n", stdout);
     for (size_t i = 0; i < table->npoints; i++) {
         const fracas_index_counts *counts = &status->point[i];
         printf("%12" PRId64 "%8" PRId64 "%8" PRId64 "  %zu", counts->realizations, counts->done, counts->failed, i);
         for (size_t c = 0; c < table->ncolumns; c++) {
-            if (!fracas_point_table_varies(table, c)) continue;
+            if (!varies[c]) continue;
             const fracas_value *value = &table->point[i].value[c];
             if (*value->text) printf(" %s=%s", table->column[c].path, value->text);
             else if (!isnan(value->real)) printf(" %s=%g", table->column[c].path, value->real);
         }
         putchar('\n');
     }
+    free(varies);
+    return FRACAS_OK;
 }
 
 static fracas_err print_decisions(const fracas_status *status)
@@ -177,19 +182,20 @@ static fracas_err print_text(const fracas_status *status)
     for (int o = 0; o < FRACAS_NOUTCOMES; o++)
         if (all->outcome[o]) printf(" %" PRId64 " %s", all->outcome[o], fracas_outcome_name(o));
     printf("\nsegments      %" PRId64 ", %.1f MB\n", all->segments, (double)all->bytes / 1e6);
-    print_points(status);
+    TRY(print_points(status));
     TRY(print_decisions(status));
     bool first = true;
+    if (!all->failed) return FRACAS_OK;
     return fracas_index_failures(status->index, &status->campaign->table, print_failure, &first);
 }
 
 static fracas_err count(fracas_status *status)
 {
     const fracas_campaign *campaign = status->campaign;
-    TRY(fracas_index_count(status->index, &status->all));
-    for (size_t i = 0; i < campaign->npoints; i++)
-        TRY(fracas_index_count_point(status->index, &campaign->point[i].hash, &status->point[i]));
+    TRY(fracas_index_count_points(status->index, &campaign->table, &status->all, status->point));
     status->lock = fracas_study_lock_state(status->study, status->holder);
+    status->complete = false;
+    if (status->all.planned || status->all.leased) return FRACAS_OK; /* no need to look at any file */
     int64_t failed;
     return fracas_study_settled(status->study, status->index, campaign, &status->complete, &failed);
 }

@@ -1,5 +1,6 @@
 #include "campaigns/file/replicas.h"
 
+#include "campaigns/file/identity.h"
 #include "campaigns/file/say.h"
 
 #include <inttypes.h>
@@ -111,6 +112,24 @@ bool fracas_replicas_same(const fracas_point *a, const fracas_point *b)
 {
     return a->replicas == b->replicas && a->rule.maximum == b->rule.maximum && a->rule.quantity == b->rule.quantity &&
            a->rule.relative_half_width == b->rule.relative_half_width && a->rule.confidence == b->rule.confidence;
+}
+
+/* ---- given beside the file ---- */
+
+fracas_err fracas_campaign_replicas(fracas_campaign *campaign, int64_t replicas)
+{
+    const fracas_catalog *catalog;
+    fracas_point_row *row = (fracas_point_row *)campaign->table.point; /* of the campaign's own memory */
+    if (replicas < 1 || replicas > MOST)
+        return fracas_fail(FRACAS_USAGE, "--replicas is %" PRId64 "; allowed is 1 to %d", replicas, MOST);
+    for (size_t p = 0; p < campaign->npoints; p++)
+        if (campaign->point[p].rule.maximum > 0)
+            return fracas_fail(FRACAS_USAGE, "--replicas %" PRId64 ": a rule decides the replicas of point %zu (`replicas: {minimum: %" PRId64
+                               ", maximum: %" PRId64 ", until: ...}`); change the rule in the file, or leave --replicas out", replicas, p,
+                               campaign->point[p].rule.minimum, campaign->point[p].rule.maximum);
+    TRY(fracas_catalog_make(campaign->memory, &catalog));
+    for (size_t p = 0; p < campaign->npoints; p++) campaign->point[p].replicas = row[p].replicas = replicas;
+    return fracas_campaign_identify(catalog, campaign);
 }
 
 /* ---- extending ---- */

@@ -29,22 +29,24 @@ static fracas_err send_all(int fd, fracas_packet **record, size_t count)
 }
 
 /* Batch after batch; the records of each are sent when it is done. */
-static fracas_err compute(const fracas_computation *computation, int fd)
+static fracas_err compute(const fracas_computation *computation, fracas_models *models, int fd)
 {
-    for (size_t from = 0, count; from < computation->lease->count; from += count) {
+    fracas_computation own = *computation;
+    TRY(fracas_compute_prepare(&own, models));
+    for (size_t from = 0, count; from < own.lease->count; from += count) {
         fracas_packet *record[FRACAS_BATCH_MAX];
-        TRY(fracas_compute_batch(computation, from, record, &count));
+        TRY(fracas_compute_batch(&own, from, record, &count));
         TRY(send_all(fd, record, count));
     }
     return FRACAS_OK;
 }
 
 /* The life of the child. */
-static _Noreturn void run_child(const fracas_computation *computation, pid_t server, int fd, int said)
+static _Noreturn void run_child(const fracas_computation *computation, fracas_models *models, pid_t server, int fd, int said)
 {
     fracas_process_begin("fracas-lease", server, FRACAS_OOM_CHILD);
     if (said >= 0) dup2(said, STDERR_FILENO);
-    fracas_err err = compute(computation, fd);
+    fracas_err err = compute(computation, models, fd);
     fracas_trouble fault;
     if (err) fracas_trouble_take(err, &fault);
     if (err && fracas_packet_send(fd, FRACAS_PACKET_FAULT, &fault, sizeof fault)) _exit(FRACAS_ENVIRONMENT); /* nobody is there to hear more */
@@ -63,7 +65,7 @@ static int create_said(void)
     return -1;
 }
 
-fracas_err fracas_child_start(fracas_child *child, const fracas_computation *computation, int server_fd)
+fracas_err fracas_child_start(fracas_child *child, const fracas_computation *computation, fracas_models *models, int server_fd)
 {
     const fracas_lease *lease = computation->lease;
     fracas_packet **record = calloc(lease->count, sizeof(fracas_packet *));
@@ -78,7 +80,7 @@ fracas_err fracas_child_start(fracas_child *child, const fracas_computation *com
     if (pid == 0) {
         close(fd[0]);
         close(server_fd);
-        run_child(computation, server, fd[1], said);
+        run_child(computation, models, server, fd[1], said);
     }
     fracas_err err = FRACAS_OK;
     if (pid < 0)

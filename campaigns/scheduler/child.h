@@ -23,10 +23,11 @@ typedef struct {
     size_t size, capacity;
 } fracas_child;
 
-/* Forks a child that computes the lease (copied), batch after batch, sends the records of each and ends. It closes `server_fd`, its
- * server's own connection, dies with its server, and is the first that the kernel kills where memory runs out.
+/* Forks a child that computes the lease (copied), batch after batch, sends the records of each and ends. It takes the model from
+ * `models`, its server's, or builds it if that has not, and closes `server_fd`, its server's own connection, dies with its server, and is the first that the kernel kills where memory runs out.
  * FRACAS_ENVIRONMENT if no process, memory or pipe can be had. */
-FRACAS_MUST_USE fracas_err fracas_child_start(fracas_child *child, const fracas_computation *computation, int server_fd);
+FRACAS_MUST_USE fracas_err fracas_child_start(fracas_child *child, const fracas_computation *computation, fracas_models *models,
+                                              int server_fd);
 
 /* Takes what the child has sent, blocking until there is something; *ended when nothing more will come. */
 FRACAS_MUST_USE fracas_err fracas_child_receive(fracas_child *child, bool *ended);

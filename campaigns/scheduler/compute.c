@@ -34,6 +34,7 @@ static fracas_err solve(const fracas_computation *computation, const lanes *real
                                                 .width = computation->options->width,
                                                 .isa = computation->options->isa};
     fracas_batch *batch;
+    fracas_log_if_asked(computation->lease->point, realizations->replica, realizations->count);
     TRY(fracas_fault_if_asked(computation->lease->point, realizations->replica, realizations->count));
     TRY(fracas_batch_create(computation->model, realizations->count, &batch_options, &batch));
     fracas_err err = fill_strengths(computation, realizations, batch);
@@ -95,6 +96,11 @@ static void limit_memory(double bytes, struct rlimit *before)
 size_t fracas_compute_width(const fracas_run_options *options)
 {
     return options->width ? (size_t)options->width : FRACAS_BATCH_MAX;
+}
+
+fracas_err fracas_compute_prepare(fracas_computation *computation, fracas_models *models)
+{
+    return fracas_models_get(models, computation->campaign, (size_t)computation->lease->point, &computation->model, &computation->field);
 }
 
 fracas_err fracas_compute_batch(const fracas_computation *computation, size_t from, fracas_packet *record[FRACAS_BATCH_MAX],

@@ -1,38 +1,21 @@
-#include "campaigns/scheduler/director.h"
+#include "campaigns/scheduler/director_state.h"
 
-#include "campaigns/scheduler/clock.h"
 #include "campaigns/scheduler/costs.h"
 #include "campaigns/scheduler/meshes.h"
 #include "campaigns/scheduler/prepare.h"
-#include "campaigns/scheduler/rounds.h"
-#include "campaigns/scheduler/scheduler.h"
 #include "campaigns/scheduler/segment.h"
+#include "campaigns/scheduler/share.h"
 #include "campaigns/scheduler/tally.h"
+#include "campaigns/scheduler/verdict.h"
 
+#include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-typedef enum { STARTING, WORKING, STOPPING, ENDED } worker_phase;
-
-struct fracas_director {
-    fracas_director_setup setup;
-    int lock;
-    fracas_index *index;
-    double *cost; /* of a realization of each point */
-    fracas_rounds rounds;
-    fracas_scheduler *scheduler;
-    worker_phase *phase; /* of each worker */
-    bool *flushing;      /* each worker was asked to write its segment */
-    int64_t *given;      /* replicas of each point that the scheduler knows */
-    size_t nended;
-    bool stopping; /* STOP was sent to all that work */
-    bool needless; /* everything is computed: what still runs is a duplicate */
-    bool drained;  /* because of a signal */
-    fracas_trouble trouble; /* the first; code FRACAS_OK: none */
-    fracas_tally tally;
-};
+static const double MERGE_RATE = 50e6; /* bytes/s that a merge reads and writes at least */
 
 static void stop(fracas_director *director);
 
@@ -43,7 +26,7 @@ static void fail(fracas_director *director, const fracas_trouble *trouble)
     stop(director);
 }
 
-static void check(fracas_director *director, fracas_err err)
+void fracas_director_check(fracas_director *director, fracas_err err)
 {
     if (!err) return;
     fracas_trouble trouble;
@@ -51,7 +34,7 @@ static void check(fracas_director *director, fracas_err err)
     fail(director, &trouble);
 }
 
-static fracas_err send(fracas_director *director, size_t worker, fracas_packet_kind kind, const void *body, size_t size)
+fracas_err fracas_director_tell(fracas_director *director, size_t worker, fracas_packet_kind kind, const void *body, size_t size)
 {
     fracas_packet *message;
     TRY(fracas_packet_create(kind, body, size, &message));
@@ -60,19 +43,20 @@ static fracas_err send(fracas_director *director, size_t worker, fracas_packet_k
     return err;
 }
 
-static void stop_worker(fracas_director *director, size_t worker)
+void fracas_director_stop_worker(fracas_director *director, size_t worker)
 {
-    const int32_t kill = director->needless;
+    const int32_t kill = director->needless || director->overtime;
     director->phase[worker] = STOPPING;
-    check(director, send(director, worker, FRACAS_PACKET_STOP, &kill, sizeof kill));
+    fracas_director_check(director, fracas_director_tell(director, worker, FRACAS_PACKET_STOP, &kill, sizeof kill));
 }
 
 static void stop(fracas_director *director)
 {
     if (director->stopping) return;
     director->stopping = true;
+    director->told = director->setup.now();
     for (size_t worker = 0; worker < director->setup.workers; worker++)
-        if (director->phase[worker] == WORKING) stop_worker(director, worker);
+        if (director->phase[worker] == WORKING) fracas_director_stop_worker(director, worker);
 }
 
 /* ---- start ---- */
@@ -93,6 +77,7 @@ static fracas_err make_scheduler(fracas_director *director)
                                         .limit = director->setup.options->lease_limit,
                                         .shuffle = director->setup.options->shuffle,
                                         .seed = campaign->seed};
+    count = fracas_run_part(director->setup.options, row, count);
     fracas_err err = fracas_scheduler_create(row, count, &options, &director->scheduler);
     free(row);
     for (size_t p = 0; p < campaign->npoints; p++) director->given[p] = director->rounds.point[p].replicas;
@@ -103,8 +88,10 @@ static fracas_err make_scheduler(fracas_director *director)
 static fracas_err announce(fracas_director *director, const char *report)
 {
     fracas_scheduler_counts count = fracas_scheduler_count(director->scheduler);
-    char text[256];
-    snprintf(text, sizeof text, "%lld of %lld realizations of %zu point%s to do%s, %zu worker%s",
+    const fracas_run_options *options = director->setup.options;
+    char text[256], part[64] = "";
+    if (options->parts > 1) snprintf(part, sizeof part, "part %d of %d, ", options->part, options->parts);
+    snprintf(text, sizeof text, "%s%lld of %lld realizations of %zu point%s to do%s, %zu worker%s", part,
              (long long)(count.total - count.done - count.failed), (long long)count.total,
              director->setup.campaign->npoints, director->setup.campaign->npoints == 1 ? "" : "s",
              director->rounds.open ? ", and more as rules ask for them" : "", director->setup.workers,
@@ -142,23 +129,16 @@ static fracas_err set_up(fracas_director *director, bool *settled, int64_t *fail
 }
 
 /* Nothing is left to compute, nor will be. */
-static bool is_computed(const fracas_director *director)
+bool fracas_director_computed(const fracas_director *director)
 {
     return fracas_scheduler_computed_all(director->scheduler) && director->rounds.open == 0;
 }
 
 static void stop_if_computed(fracas_director *director)
 {
-    if (!is_computed(director)) return;
+    if (!fracas_director_computed(director)) return;
     director->needless = true;
     stop(director);
-}
-
-fracas_err fracas_settled_verdict(const char *study, int64_t failed)
-{
-    if (!failed) return FRACAS_OK;
-    return fracas_fail(FRACAS_SOME_FAILED, "%lld realization(s) of %s FAILED (which and why: fracas status %s)",
-                       (long long)failed, study, study);
 }
 
 fracas_err fracas_director_create(const fracas_director_setup *setup, fracas_director **director, fracas_err *verdict)
@@ -173,12 +153,13 @@ fracas_err fracas_director_create(const fracas_director_setup *setup, fracas_dir
     fracas_err err = set_up(d, &settled, &failed);
     d->tally.planned = fracas_tally_time(&d->tally);
     if (err || settled) {
+        *verdict = err || !failed ? err : fracas_failed_verdict(setup->study, d->index, &setup->campaign->table);
         fracas_director_destroy(d);
         *director = NULL;
-        *verdict = err ? err : fracas_settled_verdict(setup->study, failed);
         return err;
     }
     *director = d;
+    d->resumed_whole = fracas_director_computed(d);
     stop_if_computed(d); /* only study.h5 is missing */
     return FRACAS_OK;
 }
@@ -215,14 +196,15 @@ static fracas_err offer(fracas_director *director, size_t worker)
 {
     fracas_lease lease;
     while (!director->stopping && director->phase[worker] == WORKING) {
-        const double began = fracas_now();
+        const double time = director->setup.now();
         bool given;
-        TRY(fracas_scheduler_next(director->scheduler, worker, began, &lease, &given));
+        if (fracas_director_too_late(director, worker, time)) break;
+        TRY(fracas_scheduler_next(director->scheduler, worker, time, &lease, &given));
         if (!given) break;
         TRY(mark_leased(director, &lease));
-        TRY(send(director, worker, FRACAS_PACKET_LEASE, &lease, fracas_lease_bytes(&lease)));
+        TRY(fracas_director_tell(director, worker, FRACAS_PACKET_LEASE, &lease, fracas_lease_bytes(&lease)));
         director->tally.leases++;
-        director->tally.giving += fracas_now() - began;
+        director->tally.giving += director->setup.now() - time;
     }
     return FRACAS_OK;
 }
@@ -273,7 +255,7 @@ static fracas_err flush_all(fracas_director *director)
             !fracas_scheduler_keeps(director->scheduler, worker))
             continue;
         director->flushing[worker] = true;
-        TRY(send(director, worker, FRACAS_PACKET_FLUSH, NULL, 0));
+        TRY(fracas_director_tell(director, worker, FRACAS_PACKET_FLUSH, NULL, 0));
     }
     return FRACAS_OK;
 }
@@ -284,7 +266,7 @@ static fracas_err hear_ready(fracas_director *director, size_t worker, const fra
 {
     director->phase[worker] = WORKING;
     if (director->stopping) {
-        stop_worker(director, worker);
+        fracas_director_stop_worker(director, worker);
         return FRACAS_OK;
     }
     fracas_hash campaign;
@@ -302,7 +284,7 @@ static fracas_err hear_computed(fracas_director *director, size_t worker, const 
     fracas_lease_report report;
     TRY(fracas_packet_expect(message, sizeof report));
     memcpy(&report, message->body, sizeof report);
-    TRY(fracas_scheduler_computed(director->scheduler, worker, report.lease, fracas_now(), report.seconds));
+    TRY(fracas_scheduler_computed(director->scheduler, worker, report.lease, director->setup.now(), report.seconds));
     return offer(director, worker);
 }
 
@@ -313,12 +295,16 @@ static fracas_err hear_failed(fracas_director *director, size_t worker, const fr
     memcpy(&failure, message->body, sizeof failure);
     fracas_lease lease;
     bool final;
-    TRY(fracas_scheduler_failed(director->scheduler, worker, failure.lease, fracas_now(), (size_t)failure.kept, (size_t)failure.count,
-                                &lease, &final));
+    TRY(fracas_scheduler_failed(director->scheduler, worker, failure.lease, director->setup.now(), (size_t)failure.kept,
+                                (size_t)failure.count, &lease, &final));
     char hex[FRACAS_HASH_HEX], text[1400];
     const fracas_hash *point = &director->setup.campaign->point[lease.point].hash;
     fracas_hash_hex(point, hex);
-    if (lease.count > 1) {
+    if (lease.count == 0) {
+        snprintf(text, sizeof text, "a lease of point %llu (%s) that another worker has too: %s", (unsigned long long)lease.point, hex,
+                 failure.reason);
+        TRY(fracas_index_event(director->index, "copy failed", text));
+    } else if (lease.count > 1) {
         snprintf(text, sizeof text, "%llu realizations of point %llu (%s), replica %lld the first, are tried in two "
                  "halves: %s", (unsigned long long)lease.count, (unsigned long long)lease.point, hex,
                  (long long)lease.replica[0], failure.reason);
@@ -345,10 +331,10 @@ static fracas_err hear_segment(fracas_director *director, size_t worker, const f
     if (note.rows > room / sizeof(fracas_segment_row) || message->body[message->size - 1] != '\0')
         return fracas_fail(FRACAS_BUG, "a message of rank %zu about a segment is damaged", worker);
     const fracas_segment_row *row = (const void *)(message->body + sizeof note);
-    const double began = fracas_now();
+    const double began = director->setup.now();
     TRY(fracas_index_commit(director->index, note.name, &note.seal, row, (size_t)note.rows,
                             (const char *)(row + note.rows)));
-    director->tally.committing += fracas_now() - began;
+    director->tally.committing += director->setup.now() - began;
     director->tally.commits++;
     director->tally.rows += (double)note.rows;
     fracas_scheduler_durable(director->scheduler, worker);
@@ -358,7 +344,7 @@ static fracas_err hear_segment(fracas_director *director, size_t worker, const f
     return add_all(director);
 }
 
-static void end_worker(fracas_director *director, size_t worker)
+void fracas_director_end_worker(fracas_director *director, size_t worker)
 {
     if (director->phase[worker] == ENDED) return;
     director->phase[worker] = ENDED;
@@ -368,7 +354,7 @@ static void end_worker(fracas_director *director, size_t worker)
 
 static fracas_err hear_end(fracas_director *director, size_t worker, const fracas_packet *message)
 {
-    end_worker(director, worker);
+    fracas_director_end_worker(director, worker);
     if (message->kind == FRACAS_PACKET_ENDED) return FRACAS_OK;
     fracas_trouble trouble;
     TRY(fracas_packet_expect(message, sizeof trouble));
@@ -393,13 +379,13 @@ static fracas_err hear_replaced(fracas_director *director, size_t worker, const 
     fracas_scheduler_lost(director->scheduler, worker);
     director->phase[worker] = STARTING;
     director->flushing[worker] = false;
-    if (director->needless && !is_computed(director)) {
+    if (director->needless && !fracas_director_computed(director)) {
         director->needless = false;
         director->stopping = director->drained || director->trouble.code;
     }
     fracas_voice_say(director->setup.voice, "%s", trouble.text);
     TRY(fracas_index_event(director->index, "server replaced", trouble.text));
-    TRY(send(director, worker, FRACAS_PACKET_FRESH, NULL, 0));
+    TRY(fracas_director_tell(director, worker, FRACAS_PACKET_FRESH, NULL, 0));
     return offer_all(director);
 }
 
@@ -421,9 +407,10 @@ static fracas_err act(fracas_director *director, size_t worker, const fracas_pac
 
 void fracas_director_hear(fracas_director *director, size_t worker, const fracas_packet *message)
 {
+    if (director->phase[worker] == ENDED && message->kind != FRACAS_PACKET_DRAIN) return; /* it was given up */
     director->tally.messages++;
-    check(director, act(director, worker, message));
-    check(director, flush_all(director));
+    fracas_director_check(director, act(director, worker, message));
+    fracas_director_check(director, flush_all(director));
     stop_if_computed(director);
     fracas_scheduler_counts count = fracas_scheduler_count(director->scheduler);
     fracas_voice_progress(director->setup.voice, &count);
@@ -431,7 +418,7 @@ void fracas_director_hear(fracas_director *director, size_t worker, const fracas
 
 void fracas_director_note(fracas_director *director, const char *kind, const char *text)
 {
-    check(director, fracas_index_event(director->index, kind, text));
+    fracas_director_check(director, fracas_index_event(director->index, kind, text));
 }
 
 void fracas_director_drain(fracas_director *director)
@@ -448,35 +435,73 @@ bool fracas_director_over(const fracas_director *director)
 
 /* ---- end ---- */
 
+/* FRACAS_INTERRUPTED if the merge may not end before the deadline; a run that has nothing else to do tries it all the same, or it would
+ * never be done. */
+static fracas_err check_merge_time(fracas_director *director)
+{
+    fracas_index_counts counts;
+    if (director->setup.deadline == 0 || director->resumed_whole) return FRACAS_OK;
+    TRY(fracas_index_count(director->index, &counts));
+    const double seconds = (double)counts.bytes / MERGE_RATE;
+    if (director->setup.now() + seconds <= director->setup.deadline) return FRACAS_OK;
+    return fracas_fail(FRACAS_INTERRUPTED, "the walltime is nearly over: all %" PRId64 " realizations are done and kept, only study.h5 is "
+                       "missing, which may take %.0f s to write; the same command writes it", counts.realizations, ceil(seconds));
+}
+
+/* FRACAS_INTERRUPTED if the study has realizations of other parts that are still to be computed. */
+static fracas_err check_parts(fracas_director *director, const fracas_scheduler_counts *count)
+{
+    const fracas_run_options *options = director->setup.options;
+    fracas_index_counts counts;
+    if (options->parts < 2) return FRACAS_OK;
+    TRY(fracas_index_count(director->index, &counts));
+    if (counts.planned + counts.leased == 0) return FRACAS_OK;
+    return fracas_fail(FRACAS_INTERRUPTED, "part %d of %d is complete, %" PRId64 " realizations, %" PRId64 " of them FAILED; when the other "
+                       "parts are, `fracas merge-studies` makes one study of them all", options->part, options->parts, count->total,
+                       count->failed);
+}
+
 static fracas_err merge(fracas_director *director, const fracas_scheduler_counts *count)
 {
     const fracas_campaign *campaign = director->setup.campaign;
     fracas_file_header header = fracas_segment_header(campaign);
     fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
-    const double began = fracas_now();
+    char text[128] = "study.h5 is written";
+    const double began = director->setup.now();
     TRY(fracas_rounds_check(campaign, director->index));
     TRY(fracas_study_merge(director->setup.study, director->index, &header, &director->rounds.table, &meshes));
-    director->tally.merging = fracas_now() - began;
-    TRY(fracas_index_event(director->index, "finished", "study.h5 is written"));
-    return fracas_settled_verdict(director->setup.study, count->failed);
+    director->tally.merging = director->setup.now() - began;
+    if (count->duplicates) {
+        snprintf(text, sizeof text, "study.h5 is written; %" PRId64 " realization%s computed twice, as the first took too long",
+                 count->duplicates, count->duplicates > 1 ? "s were" : " was");
+        fracas_voice_say(director->setup.voice, "%s", text);
+    }
+    TRY(fracas_index_event(director->index, "finished", text));
+    return fracas_failed_verdict(director->setup.study, director->index, &director->rounds.table);
+}
+
+/* Why study.h5 is not written. */
+static fracas_err say_unfinished(const fracas_director *director, const fracas_scheduler_counts *count)
+{
+    const long long kept = (long long)(count->done + count->failed), total = (long long)count->total;
+    if (director->trouble.code)
+        return fracas_fail((fracas_err)director->trouble.code, "%s (%lld of %lld realizations are done and kept; the "
+                           "same command goes on from there)", director->trouble.text, kept, total);
+    if (director->drained)
+        return fracas_fail(FRACAS_INTERRUPTED, "%s: %lld of %lld realizations are done and kept; the same command goes on from there",
+                           director->late ? "the walltime is nearly over" : "interrupted", kept, total);
+    return fracas_fail(FRACAS_ENVIRONMENT, "a compute server died at the end: %lld of %lld realizations are done "
+                       "and kept; the same command goes on from there", kept, total);
 }
 
 /* Merges, or says why not. */
 static fracas_err conclude(fracas_director *director)
 {
-    fracas_scheduler_counts count = fracas_scheduler_count(director->scheduler);
-    long long kept = (long long)(count.done + count.failed), total = (long long)count.total;
-    if (!director->trouble.code && kept == total && director->rounds.open == 0) return merge(director, &count);
-    fracas_err err;
-    if (director->trouble.code)
-        err = fracas_fail((fracas_err)director->trouble.code, "%s (%lld of %lld realizations are done and kept; the "
-                          "same command goes on from there)", director->trouble.text, kept, total);
-    else if (director->drained)
-        err = fracas_fail(FRACAS_INTERRUPTED, "interrupted: %lld of %lld realizations are done and kept; the same "
-                          "command goes on from there", kept, total);
-    else
-        err = fracas_fail(FRACAS_ENVIRONMENT, "a compute server died at the end: %lld of %lld realizations are done "
-                          "and kept; the same command goes on from there", kept, total);
+    const fracas_scheduler_counts count = fracas_scheduler_count(director->scheduler);
+    const bool computed = !director->trouble.code && count.done + count.failed == count.total && director->rounds.open == 0;
+    fracas_err err = computed ? check_parts(director, &count) : say_unfinished(director, &count);
+    if (!err) err = check_merge_time(director);
+    if (!err) return merge(director, &count);
     /* The verdict stands, whether or not it can be noted. */
     fracas_trouble verdict;
     fracas_trouble_take(err, &verdict);

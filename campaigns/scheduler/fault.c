@@ -1,5 +1,7 @@
 #include "campaigns/scheduler/fault.h"
 
+#include "campaigns/scheduler/scheduler.h"
+
 #include <fcntl.h>
 #include <signal.h>
 #include <stdbool.h>
@@ -26,11 +28,16 @@ static fracas_err exhaust_memory(void)
     return count == BLOCKS ? FRACAS_OK : fracas_no_memory("what a test asked for");
 }
 
+static void crash(void)
+{
+    signal(SIGSEGV, SIG_DFL); /* a sanitizer would report it and exit instead */
+    raise(SIGSEGV);
+}
+
 static fracas_err happen(const char *what)
 {
     if (!strcmp(what, "crash")) {
-        signal(SIGSEGV, SIG_DFL); /* a sanitizer would report it and exit instead */
-        raise(SIGSEGV);
+        crash();
     } else if (!strcmp(what, "abort")) {
         fputs("a test asked for this abort\n", stderr);
         abort();
@@ -40,8 +47,10 @@ static fracas_err happen(const char *what)
         for (;;) pause();
     } else if (!strcmp(what, "memory")) {
         return exhaust_memory();
+    } else if (!strcmp(what, "model")) {
+        return FRACAS_OK;
     }
-    return fracas_fail(FRACAS_BUG, "FRACAS_TEST_FAULT asks for `%s`; it must be crash, abort, exit, hang or memory", what);
+    return fracas_fail(FRACAS_BUG, "FRACAS_TEST_FAULT asks for `%s`; it must be crash, abort, exit, hang, memory or model", what);
 }
 
 /* True unless it has happened already, and may happen only once. */
@@ -66,4 +75,25 @@ fracas_err fracas_fault_if_asked(uint64_t point, const int64_t *replica, size_t 
     for (size_t i = 0; i < count; i++)
         if (point == its_point && replica[i] == its_replica && is_due(file)) return happen(what);
     return FRACAS_OK;
+}
+
+void fracas_fault_of_model(uint64_t point)
+{
+    const char *asked = getenv("FRACAS_TEST_FAULT");
+    unsigned long long its_point;
+    if (asked && sscanf(asked, "model:%llu:", &its_point) == 1 && point == its_point) crash();
+}
+
+/* One write, so that lines of several processes do not mix. */
+void fracas_log_if_asked(uint64_t point, const int64_t *replica, size_t count)
+{
+    const char *path = getenv("FRACAS_TEST_LOG");
+    int fd = path ? open(path, O_WRONLY | O_APPEND | O_CLOEXEC) : -1;
+    if (fd < 0) return;
+    char line[64 + 24 * FRACAS_BATCH_MAX];
+    int at = sprintf(line, "%ld %ld %llu", (long)getpid(), (long)getppid(), (unsigned long long)point);
+    for (size_t i = 0; i < count && i < FRACAS_BATCH_MAX; i++) at += sprintf(line + at, " %lld", (long long)replica[i]);
+    line[at++] = '\n';
+    if (write(fd, line, (size_t)at) != at) abort(); /* a test that counts must not miss one */
+    close(fd);
 }

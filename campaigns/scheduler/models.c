@@ -1,6 +1,7 @@
 #include "campaigns/scheduler/models.h"
 
 #include "campaigns/plan/point_model.h"
+#include "campaigns/scheduler/fault.h"
 
 static void clear(fracas_models *models, size_t slot)
 {
@@ -24,6 +25,7 @@ static size_t find(const fracas_models *models, size_t point)
 static fracas_err fill(fracas_models *models, size_t slot, const fracas_campaign *campaign, size_t point)
 {
     clear(models, slot);
+    fracas_fault_of_model(point);
     models->slot[slot].point = point;
     TRY(fracas_point_model_create(campaign, point, &models->slot[slot].model));
     return fracas_model_field(models->slot[slot].model, &campaign->point[point].strength, &models->slot[slot].field);

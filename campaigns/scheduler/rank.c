@@ -1,10 +1,12 @@
 #include "campaigns/scheduler/rank.h"
 
 #include "campaigns/campaign.h"
+#include "campaigns/scheduler/clock.h"
 #include "campaigns/scheduler/director.h"
 #include "campaigns/scheduler/keeper.h"
 #include "campaigns/scheduler/packet.h"
 #include "campaigns/scheduler/prepare.h"
+#include "campaigns/scheduler/share.h"
 
 #include <limits.h>
 #include <mpi.h>
@@ -36,6 +38,7 @@ typedef struct {
     const fracas_run_options *options;
     fracas_campaign *campaign;
     char study[4096];
+    double began; /* fracas_now at the start of this process */
     int rank, size;
     fracas_keeper keeper; /* of the compute server, and the connection to that */
     bool ended;  /* the server has said its last word: ENDED or TROUBLE */
@@ -252,9 +255,21 @@ static fracas_err direct(rank_state *rank, fracas_director *director)
             if (message) fracas_director_hear(director, (size_t)from, message);
             free(message);
         } while (message);
+        fracas_director_tick(director);
         pace(rank, busy);
     }
     return FRACAS_OK;
+}
+
+/* When the run must have ended, by fracas_now; 0: any time. A parent counts the walltime from its own start; started by the user's own
+ * launcher this process is where the run begins. */
+static double deadline_of(const rank_state *rank)
+{
+    const char *text = getenv(FRACAS_DEADLINE);
+    struct timespec day;
+    clock_gettime(CLOCK_REALTIME, &day);
+    if (text) return fracas_now() + strtod(text, NULL) - (double)day.tv_sec - 1e-9 * (double)day.tv_nsec;
+    return rank->options->walltime > 0 ? rank->began + rank->options->walltime : 0;
 }
 
 static fracas_err lead(rank_state *rank, fracas_voice *voice, bool *ran)
@@ -265,7 +280,9 @@ static fracas_err lead(rank_state *rank, fracas_voice *voice, bool *ran)
                                    .workers = (size_t)rank->size,
                                    .send = send_worker,
                                    .context = rank,
-                                   .voice = voice};
+                                   .voice = voice,
+                                   .now = fracas_now,
+                                   .deadline = deadline_of(rank)};
     fracas_director *director;
     fracas_err verdict;
     TRY(fracas_director_create(&setup, &director, &verdict));
@@ -314,7 +331,7 @@ static void catch_signals(void)
 /* What must happen before MPI_Init: the keeper is forked from a process that MPI does not know. */
 static fracas_err set_up(rank_state *rank)
 {
-    TRY(fracas_campaign_read(rank->options->file, &rank->campaign));
+    TRY(fracas_run_campaign(rank->options, &rank->campaign));
     TRY(fracas_study_folder(rank->options, rank->campaign, rank->study, sizeof rank->study));
     return fracas_keeper_start(rank->campaign, rank->options, rank->study, &rank->keeper);
 }
@@ -326,7 +343,7 @@ fracas_err fracas_rank_run(const fracas_run_options *options, bool *ran)
      * launchers do with their threads is not known.) */
     if (getenv(FRACAS_PARENT_MARK)) prctl(PR_SET_PDEATHSIG, SIGKILL);
     catch_signals();
-    rank_state rank = {.options = options, .keeper = {.control = -1, .server = -1}};
+    rank_state rank = {.options = options, .began = fracas_now(), .keeper = {.control = -1, .server = -1}};
     fracas_err err = set_up(&rank);
     fracas_trouble trouble;
     fracas_trouble_take(err, &trouble);

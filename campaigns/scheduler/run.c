@@ -5,11 +5,12 @@
 #include "campaigns/scheduler/allocation.h"
 #include "campaigns/scheduler/clock.h"
 #include "campaigns/scheduler/costs.h"
-#include "campaigns/scheduler/director.h"
 #include "campaigns/scheduler/parent.h"
 #include "campaigns/scheduler/prepare.h"
 #include "campaigns/scheduler/rank.h"
+#include "campaigns/scheduler/share.h"
 #include "campaigns/scheduler/signals.h"
+#include "campaigns/scheduler/verdict.h"
 #include "campaigns/scheduler/voice.h"
 
 #include <stdlib.h>
@@ -45,12 +46,12 @@ bool fracas_run_speaks(void)
 static fracas_err examine(const fracas_run_options *options, bool *settled, fracas_err *verdict)
 {
     fracas_campaign *campaign;
-    TRY(fracas_campaign_read(options->file, &campaign));
+    TRY(fracas_run_campaign(options, &campaign));
     char study[4096];
     int64_t failed = 0;
     fracas_err err = fracas_study_folder(options, campaign, study, sizeof study);
     if (!err) err = fracas_study_examine(study, campaign, options->force, settled, &failed);
-    *verdict = err ? err : fracas_settled_verdict(study, failed);
+    *verdict = err || !failed ? err : fracas_failed_verdict(study, NULL, &campaign->table);
     double *cost;
     if (!err && !*settled) err = fracas_costs_create(campaign, options, &cost);
     if (!err && !*settled) free(cost);

@@ -33,6 +33,7 @@ typedef struct {
     slot held[FRACAS_LEASES_HELD]; /* the first one runs */
     size_t nheld;
     note *memory;
+    bool lost; /* and has not asked for a lease since */
 } worker_state;
 
 struct fracas_scheduler {
@@ -44,7 +45,6 @@ struct fracas_scheduler {
     size_t waiting;          /* realizations, in both */
     size_t uncomputed;       /* tasks held that nobody has in memory or durable */
     worker_state *worker;
-    double patience;         /* nothing that is held is overdue before */
     fracas_scheduler_counts count;
     double cost, computed;   /* predicted, of all realizations and of those computed or failed for good */
 };
@@ -234,22 +234,49 @@ void fracas_scheduler_destroy(fracas_scheduler *scheduler)
 
 static size_t smaller(size_t a, size_t b) { return a < b ? a : b; }
 
+/* s until the worker will have computed what it holds; NAN while nothing is measured. */
+static double left(const fracas_scheduler *s, const worker_state *w, double now)
+{
+    double seconds = 0;
+    for (size_t h = 0; h < w->nheld; h++) {
+        const double one = predicted(s, w->held[h].task);
+        seconds += h ? one : fmax(one - (now - w->held[h].began), 0);
+    }
+    return seconds;
+}
+
+/* Workers that will be free within half the time of a batch of the point, by when sharing with them is worth it, or are free now while
+ * nothing is measured: one at least. */
+static size_t free_workers(const fracas_scheduler *s, size_t point, double now)
+{
+    const bool measured = fracas_backlog_measured(s->backlog);
+    const double within = fracas_backlog_estimate(s->backlog, point) * (double)s->options.width / 2;
+    size_t count = 0;
+    for (size_t i = 0; i < s->options.workers; i++) {
+        const worker_state *w = &s->worker[i];
+        count += !w->lost && (measured ? left(s, w, now) <= within : w->nheld == 0);
+    }
+    return count ? count : 1;
+}
+
 /* The formula at fracas_scheduler_next. */
-static size_t choose_count(const fracas_scheduler *s, size_t point)
+static size_t choose_count(const fracas_scheduler *s, size_t point, double now)
 {
     const size_t width = s->options.width, there = fracas_backlog_waiting(s->backlog, point), workers = s->options.workers;
     const double one = fracas_backlog_estimate(s->backlog, point), shares = 2 * (double)workers;
     double most = 0;
     if (fracas_backlog_measured(s->backlog))
         most = one > 0 ? fmin(s->options.seconds, fracas_backlog_work(s->backlog) / shares) / one : (double)s->waiting / shares;
-    const size_t batches = (size_t)fmin(most, FRACAS_LEASE_MAX) / width * width, even = (s->waiting + workers - 1) / workers;
-    return smaller(there, batches ? batches : smaller(width, even));
+    const size_t batches = (size_t)fmin(most, FRACAS_LEASE_MAX) / width * width;
+    if (batches) return smaller(there, batches);
+    const size_t shared = s->waiting < workers * width ? free_workers(s, point, now) : 1;
+    return smaller(there, smaller(width, (s->waiting + shared - 1) / shared));
 }
 
 static size_t shuffled_most(const fracas_scheduler *s) { return s->options.seconds > 0 ? 2 * s->options.width : s->options.width; }
 
 /* From the backlog, which is not empty; NULL without memory. */
-static task *cut(fracas_scheduler *s)
+static task *cut(fracas_scheduler *s, double now)
 {
     size_t point, count;
     if (s->options.shuffle) {
@@ -257,7 +284,7 @@ static task *cut(fracas_scheduler *s)
         count = smaller(fracas_backlog_waiting(s->backlog, point), 1 + (size_t)(fracas_backlog_random(&s->state) % shuffled_most(s)));
     } else {
         point = fracas_backlog_longest(s->backlog);
-        count = choose_count(s, point);
+        count = choose_count(s, point, now);
     }
     task *t = new_task(s, point, count); /* before the replicas are taken, so that none is lost without memory */
     if (!t) return NULL;
@@ -266,29 +293,12 @@ static task *cut(fracas_scheduler *s)
     return t;
 }
 
-/* When a lease that one worker alone has becomes overdue; INFINITY: never. */
+/* When a lease that one worker alone has is overdue; INFINITY: never. */
 static double overdue_at(const fracas_scheduler *s, const slot *held)
 {
     const double expected = predicted(s, held->task);
     if (held->task->held > 1 || !is_open(held->task) || isnan(expected)) return INFINITY;
     return held->began + fmax(OVERDUE_LEAST, OVERDUE * expected);
-}
-
-/* What is overdue longest; NULL if nothing is. */
-static task *overdue(fracas_scheduler *s, double now)
-{
-    if (now <= s->patience) return NULL;
-    task *worst = NULL;
-    double first = INFINITY;
-    for (size_t i = 0; i < s->options.workers; i++)
-        for (size_t h = 0; h < s->worker[i].nheld; h++) {
-            const slot *held = &s->worker[i].held[h];
-            const double at = overdue_at(s, held);
-            if (at < first) first = at, worst = held->task;
-        }
-    if (first < now) return worst;
-    s->patience = fmin(first, now + OVERDUE_LEAST); /* what is given meanwhile is not overdue before; estimates may change */
-    return NULL;
 }
 
 static void give(fracas_scheduler *s, worker_state *w, task *t, double now, fracas_lease *lease)
@@ -309,15 +319,35 @@ fracas_err fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker, dou
     worker_state *w = &scheduler->worker[worker];
     const size_t spare = scheduler->options.workers * scheduler->options.width;
     *given = false;
+    w->lost = false;
     if (w->nheld >= (scheduler->waiting > spare ? FRACAS_LEASES_HELD : 1)) return FRACAS_OK;
-    task *t;
-    if (scheduler->again) t = take_again(scheduler);
-    else if (scheduler->waiting) t = cut(scheduler);
-    else if (!(t = overdue(scheduler, now))) return FRACAS_OK;
+    if (!scheduler->waiting) return FRACAS_OK;
+    task *t = scheduler->again ? take_again(scheduler) : cut(scheduler, now);
     if (!t) return fracas_no_memory("a lease");
     give(scheduler, w, t, now, lease);
     *given = true;
     return FRACAS_OK;
+}
+
+void fracas_scheduler_overdue(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease, size_t *late, bool *given)
+{
+    worker_state *w = &scheduler->worker[worker];
+    *given = false;
+    if (w->nheld || scheduler->waiting) return;
+    task *worst = NULL;
+    double first = now;
+    for (size_t i = 0; i < scheduler->options.workers; i++)
+        for (size_t h = 0; h < scheduler->worker[i].nheld; h++) {
+            const slot *held = &scheduler->worker[i].held[h];
+            const double at = overdue_at(scheduler, held);
+            if (at >= first) continue;
+            first = at;
+            worst = held->task;
+            *late = i;
+        }
+    if (!worst) return;
+    give(scheduler, w, worst, now, lease);
+    *given = true;
 }
 
 /* ---- its life ---- */
@@ -460,6 +490,7 @@ void fracas_scheduler_durable(fracas_scheduler *scheduler, size_t worker)
 void fracas_scheduler_lost(fracas_scheduler *scheduler, size_t worker)
 {
     worker_state *w = &scheduler->worker[worker];
+    w->lost = true;
     while (w->nheld) {
         const bool was_open = is_open(w->held[w->nheld - 1].task);
         task *t = drop_held(w, w->nheld - 1);
@@ -501,17 +532,12 @@ bool fracas_scheduler_computed_all(const fracas_scheduler *scheduler)
 
 double fracas_scheduler_predicted(const fracas_scheduler *scheduler, size_t worker, double now)
 {
-    const worker_state *w = &scheduler->worker[worker];
     if (!fracas_backlog_measured(scheduler->backlog)) return NAN;
-    double seconds = 0;
-    for (size_t h = 0; h < w->nheld; h++) {
-        const double one = predicted(scheduler, w->held[h].task);
-        seconds += h ? one : fmax(one - (now - w->held[h].began), 0);
-    }
+    const double seconds = left(scheduler, &scheduler->worker[worker], now);
     if (scheduler->again) return seconds + predicted(scheduler, scheduler->again);
     const size_t longest = fracas_backlog_longest(scheduler->backlog);
     if (longest == SIZE_MAX) return seconds;
-    const size_t count = scheduler->options.shuffle ? shuffled_most(scheduler) : choose_count(scheduler, longest);
+    const size_t count = scheduler->options.shuffle ? shuffled_most(scheduler) : choose_count(scheduler, longest, now);
     return seconds + fracas_backlog_estimate(scheduler->backlog, longest) * (double)count;
 }
 

@@ -66,15 +66,19 @@ FRACAS_MUST_USE fracas_err fracas_scheduler_add(fracas_scheduler *scheduler, con
 void fracas_scheduler_destroy(fracas_scheduler *scheduler); /* NULL is allowed */
 
 /* Gives `worker` the next lease at time `now` [s, of any clock that only grows]; *given is false when none waits or the worker has
- * enough: one that runs and one ahead, or only one that runs when no more than a batch waits for each worker. A worker that
- * has nothing and finds nothing waiting is given a copy of a lease that is overdue: held by one worker alone for longer than 4 times
- * what was predicted and 10 s, counted from when it began to run, or for one ahead from when it was given.
+ * enough: one that runs and one ahead, or only one that runs when no more than a batch waits for each worker.
  *   est_p = seconds per realization of point p: measured, else cost_p times measured seconds / cost of all points
  *   n = min(seconds / est_p, sum_q waiting_q est_q / (2 workers est_p), FRACAS_LEASE_MAX), down to whole batches,
- *       and min(width, waiting / workers) at least; one batch while nothing is measured
- * of the point with the largest est_p. Failed or lost leases go first. Takes log(points) steps, and looking for what is overdue one
- * per worker, but only when something may be. FRACAS_ENVIRONMENT without memory. */
+ *       and a batch at least, or when less than a batch waits for each worker, min(width, waiting / workers that will be free
+ *       within half the time of a batch); while nothing is measured one batch, shared with the workers that hold nothing
+ * of the point with the largest est_p. Failed or lost leases go first. Takes log(points) steps, and one per worker for the last ones.
+ * FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease, bool *given);
+
+/* Gives `worker`, when it has nothing and nothing waits, a copy of the lease that is overdue longest: held by one worker alone for
+ * more than 4 times what was predicted and 10 s, counted from when it began to run, or for one ahead from when it was given. *late:
+ * that worker. *given is false when there is none. Takes a step per worker. */
+void fracas_scheduler_overdue(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease, size_t *late, bool *given);
 
 /* At `now` the worker has computed lease `id`, in `seconds`: it is in its memory. FRACAS_BUG unless the worker held it,
  * FRACAS_ENVIRONMENT without memory. */

@@ -1,8 +1,8 @@
 #include "campaigns/scheduler/segment.h"
 
-#include "base/json.h"
 #include "base/version.h"
 #include "campaigns/scheduler/clock.h"
+#include "campaigns/scheduler/provenance.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -49,51 +49,6 @@ static void make_name(const fracas_segment *segment, const char *host, char *nam
              (unsigned long long)segment->number);
 }
 
-static void read_cpu(char *model, size_t size)
-{
-    snprintf(model, size, "unknown");
-    FILE *file = fopen("/proc/cpuinfo", "r");
-    if (!file) return;
-    char line[256];
-    while (fgets(line, sizeof line, file)) {
-        const char *value = strchr(line, ':');
-        if (strncmp(line, "model name", 10) || !value) continue;
-        line[strcspn(line, "\n")] = '\0';
-        snprintf(model, size, "%s", value + 1 + strspn(value + 1, " "));
-        break;
-    }
-    fclose(file);
-}
-
-static fracas_err make_provenance(const fracas_segment *segment, const fracas_run_options *options, const char *host,
-                                  char **text)
-{
-    fracas_isa isa; /* what a batch of this server runs with */
-    size_t size;
-    TRY(fracas_isa_choose(options->isa, &isa));
-    FILE *out = open_memstream(text, &size);
-    if (!out) return fracas_no_memory("the provenance of a segment");
-    char cpu[256];
-    read_cpu(cpu, sizeof cpu);
-    fracas_json json;
-    fracas_json_begin(&json, out);
-    fracas_json_object(&json, NULL);
-    fracas_json_text(&json, "host", host);
-    fracas_json_integer(&json, "pid", getpid());
-    fracas_json_text(&json, "version", FRACAS_VERSION);
-    fracas_json_text(&json, "cpu", cpu);
-    fracas_json_text(&json, "isa", fracas_isa_name[isa]);
-    fracas_json_integer(&json, "lanes_asked", options->width); /* 0: by the number of realizations */
-    fracas_json_text(&json, "compiler", __VERSION__);
-    fracas_json_real(&json, "began", (double)segment->clock.tv_sec + 1e-9 * (double)segment->clock.tv_nsec);
-    fracas_json_real(&json, "wall_seconds", fracas_now() - segment->began);
-    fracas_json_real(&json, "compute_seconds", segment->compute);
-    fracas_json_close_object(&json);
-    fracas_json_end(&json);
-    if (fclose(out)) return fracas_no_memory("the provenance of a segment");
-    return FRACAS_OK;
-}
-
 /* Appends entry `i` to the file and fills its row for the index. */
 static fracas_err append(const fracas_segment *segment, size_t i, const fracas_campaign *campaign,
                          fracas_writer *writer, fracas_segment_row *row)
@@ -126,20 +81,18 @@ fracas_file_header fracas_segment_header(const fracas_campaign *campaign)
                                 .version = FRACAS_VERSION};
 }
 
-static fracas_err write_file(const fracas_segment *segment, const char *path, const fracas_campaign *campaign,
+static fracas_err write_file(const fracas_segment *segment, const char *path, const fracas_campaign *campaign, const char *provenance,
                              fracas_segment_row *row, fracas_file_seal *seal)
 {
     fracas_file_header header = fracas_segment_header(campaign);
     fracas_writer *writer;
     TRY(fracas_writer_create(path, &header, &campaign->table, &writer));
-    for (size_t i = 0; i < segment->count; i++) {
-        fracas_err err = append(segment, i, campaign, writer, &row[i]);
-        if (err) {
-            fracas_writer_abandon(writer);
-            return err;
-        }
-    }
-    return fracas_writer_finish(writer, false, seal);
+    fracas_writer_own_seal(writer); /* no index knows it yet */
+    fracas_err err = fracas_writer_provenance(writer, provenance);
+    for (size_t i = 0; !err && i < segment->count; i++) err = append(segment, i, campaign, writer, &row[i]);
+    if (!err) return fracas_writer_finish(writer, false, seal);
+    fracas_writer_abandon(writer);
+    return err;
 }
 
 fracas_err fracas_segment_write(fracas_segment *segment, const char *study, const fracas_campaign *campaign,
@@ -151,14 +104,15 @@ fracas_err fracas_segment_write(fracas_segment *segment, const char *study, cons
     make_name(segment, host, head.name, sizeof head.name);
     if ((size_t)snprintf(path, sizeof path, "%s/segments/%s", study, head.name) >= sizeof path)
         return fracas_fail(FRACAS_ENVIRONMENT, "the path of the study is too long: %s", study);
-    TRY(make_provenance(segment, options, host, &provenance));
+    const fracas_provenance origin = {host, segment->clock, fracas_now() - segment->began, segment->compute};
+    TRY(fracas_provenance_make(&origin, options, &provenance));
     size_t rows = segment->count * sizeof(fracas_segment_row), text = strlen(provenance) + 1;
     unsigned char *body = malloc(sizeof head + rows + text);
     fracas_err err = FRACAS_OK;
     if (!body)
         err = fracas_no_memory("the rows of a segment");
     else
-        err = write_file(segment, path, campaign, (fracas_segment_row *)(body + sizeof head), &head.seal);
+        err = write_file(segment, path, campaign, provenance, (fracas_segment_row *)(body + sizeof head), &head.seal);
     if (!err) {
         memcpy(body, &head, sizeof head);
         memcpy(body + sizeof head + rows, provenance, text);

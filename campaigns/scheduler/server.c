@@ -82,6 +82,14 @@ static fracas_err add_records(server *s, uint64_t point, const int64_t *replica,
 
 /* ---- leases ---- */
 
+/* Ends this process by SIGALRM in so many seconds; 0: not any more. */
+static void set_alarm(double seconds)
+{
+    const double whole = floor(fmin(seconds, 1e9));
+    const struct itimerval timer = {.it_value = {.tv_sec = (time_t)whole, .tv_usec = (suseconds_t)(fmin(seconds - whole, 0.999999) * 1e6)}};
+    setitimer(ITIMER_REAL, &timer, NULL);
+}
+
 /* Starts the next lease. A model that cannot be built fails the lease, not the server. */
 static fracas_err start_next(server *s)
 {
@@ -89,13 +97,17 @@ static fracas_err start_next(server *s)
     s->first = (s->first + 1) % FRACAS_LEASES_HELD;
     s->nwaiting--;
     fracas_computation computation = {.campaign = s->campaign, .options = s->options, .lease = lease};
-    if (fracas_models_get(&s->models, s->campaign, (size_t)lease->point, &computation.model, &computation.field)) {
+    if (lease->isolated) return fracas_child_start(&s->child, &computation, &s->models, s->rank);
+    set_alarm(fmax(lease->limit, 0));
+    fracas_err err = fracas_compute_prepare(&computation, &s->models);
+    set_alarm(0);
+    if (err) {
         const size_t width = fracas_compute_width(s->options);
         fracas_lease_failure failure = {.lease = lease->id, .count = lease->count < width ? lease->count : width};
         strncpy(failure.reason, fracas_message(), sizeof failure.reason - 1);
         return say_failed(s, &failure);
     }
-    if (s->options->isolation == FRACAS_ISOLATION_LEASE || lease->isolated) return fracas_child_start(&s->child, &computation, s->rank);
+    if (s->options->isolation == FRACAS_ISOLATION_LEASE) return fracas_child_start(&s->child, &computation, &s->models, s->rank);
     s->own = (own_lease){.runs = true, .computation = computation};
     memcpy(&s->own.lease, lease, fracas_lease_bytes(lease));
     s->own.computation.lease = &s->own.lease;
@@ -119,14 +131,6 @@ static fracas_err hear_child(server *s)
     s->segment.compute += seconds;
     if (err) return err;
     return good ? say_computed(s, lease.id, seconds) : say_failed(s, &failure);
-}
-
-/* Ends this process by SIGALRM in so many seconds; 0: not any more. */
-static void set_alarm(double seconds)
-{
-    const double whole = floor(fmin(seconds, 1e9));
-    const struct itimerval timer = {.it_value = {.tv_sec = (time_t)whole, .tv_usec = (suseconds_t)(fmin(seconds - whole, 0.999999) * 1e6)}};
-    setitimer(ITIMER_REAL, &timer, NULL);
 }
 
 /* Computes one batch of the server's own lease. Between two batches its limit may be over as well: then the next one is at fault. */

@@ -5,6 +5,7 @@
 #include "campaigns/scheduler/prepare.h"
 #include "campaigns/scheduler/rounds.h"
 #include "campaigns/scheduler/segment.h"
+#include "campaigns/scheduler/verdict.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -100,11 +101,11 @@ static fracas_err merge(holding *h, const fracas_campaign *campaign, const fraca
                            "%s/campaign.yaml --study %s` computes them", end->missing, end->realizations, h->study, h->study, h->study);
     TRY(fracas_rounds_check(campaign, h->index));
     TRY(fracas_study_settled(h->study, h->index, campaign, &settled, &failed));
-    if (settled) return fracas_settled_verdict(h->study, failed);
+    if (settled) return fracas_failed_verdict(h->study, h->index, &campaign->table);
     TRY(fracas_study_merge(h->study, h->index, &header, &h->rounds.table, &meshes));
     *written = true;
     TRY(fracas_index_event(h->index, "merged", "study.h5 is written"));
-    return fracas_settled_verdict(h->study, end->failed);
+    return fracas_failed_verdict(h->study, h->index, &campaign->table);
 }
 
 fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaign, const fracas_said *said, fracas_upkeep *end,

@@ -69,7 +69,7 @@ fracas_err fracas_disk_sync_folder(const char *path)
     return err;
 }
 
-fracas_err fracas_disk_seal(int fd, const char *path, fracas_file_seal *seal)
+fracas_err fracas_disk_seal_first(int fd, const char *path, uint64_t most, fracas_file_seal *seal)
 {
     enum { BLOCK = 1 << 20 };
     char *block = malloc(BLOCK);
@@ -77,7 +77,8 @@ fracas_err fracas_disk_seal(int fd, const char *path, fracas_file_seal *seal)
     *seal = (fracas_file_seal){0};
     fracas_err err = block ? fracas_checksum_create(&checksum) : fracas_no_memory("a checksum");
     while (!err) {
-        ssize_t got = pread(fd, block, BLOCK, (off_t)seal->bytes);
+        const uint64_t left = most - seal->bytes;
+        ssize_t got = pread(fd, block, left < BLOCK ? left : BLOCK, (off_t)seal->bytes);
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) err = fracas_disk_fail("read", path);
         if (got <= 0) break;
@@ -88,6 +89,11 @@ fracas_err fracas_disk_seal(int fd, const char *path, fracas_file_seal *seal)
     fracas_checksum_destroy(checksum);
     free(block);
     return err;
+}
+
+fracas_err fracas_disk_seal(int fd, const char *path, fracas_file_seal *seal)
+{
+    return fracas_disk_seal_first(fd, path, INT64_MAX, seal);
 }
 
 fracas_err fracas_disk_seal_path(const char *path, fracas_file_seal *seal)

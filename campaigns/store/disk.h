@@ -17,6 +17,8 @@ bool fracas_disk_is_temporary(const char *name);
 FRACAS_MUST_USE fracas_err fracas_disk_sync_folder(const char *path);
 /* Size and checksum of an open file, read in blocks; `path` is for the message. */
 FRACAS_MUST_USE fracas_err fracas_disk_seal(int fd, const char *path, fracas_file_seal *seal);
+/* The same of its first `most` bytes alone. */
+FRACAS_MUST_USE fracas_err fracas_disk_seal_first(int fd, const char *path, uint64_t most, fracas_file_seal *seal);
 /* The same of a closed one; FRACAS_DAMAGED if it is not there. */
 FRACAS_MUST_USE fracas_err fracas_disk_seal_path(const char *path, fracas_file_seal *seal);
 
@@ -34,5 +36,15 @@ FRACAS_MUST_USE fracas_err fracas_disk_is_local(const char *path, bool *local);
 
 /* FRACAS_ENVIRONMENT: "cannot VERB PATH: reason" from errno. */
 FRACAS_MUST_USE fracas_err fracas_disk_fail(const char *verb, const char *path);
+
+/* Segments end with a seal of their own, so that one that no index knows can be checked before HDF5 opens it, which a damaged file
+ * could crash: FRACAS_OWN_SEAL bytes behind the last of HDF5, which does not look there. They are a mark, then the number of bytes
+ * before them and the checksum of those (docs/formats/study.md). */
+enum { FRACAS_OWN_SEAL = 32 };
+/* Appends it to what the descriptor holds. */
+FRACAS_MUST_USE fracas_err fracas_disk_append_seal(int fd, const char *path);
+/* FRACAS_DAMAGED, naming the file, if the seal at its end is not of the bytes before it, or if there is none and its size is not what
+ * HDF5 noted in its first bytes: cut short, or not of HDF5. A whole file without a seal passes: an older program wrote it. */
+FRACAS_MUST_USE fracas_err fracas_disk_check_own_seal(const char *path);
 
 #endif

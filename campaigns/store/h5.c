@@ -35,6 +35,15 @@ fracas_err fracas_h5_fail(const fracas_h5 *h5, const char *what)
     return fracas_fail(FRACAS_DAMAGED, "%s: %s: damaged, or no file of fracas: %s", h5->path, what, walk.text);
 }
 
+/* Closes, and after a failure leaves HDF5's errors as they are for fracas_h5_fail: any call of HDF5 forgets those before it. */
+static void let_go(bool good, herr_t (*close)(hid_t id), hid_t id)
+{
+    if (id < 0) return;
+    hid_t errors = good ? H5I_INVALID_HID : H5Eget_current_stack();
+    (void)close(id);
+    if (errors >= 0) (void)H5Eset_current_stack(errors);
+}
+
 /* ---- attributes ---- */
 
 enum { MOST_TEXT = 4096 }; /* bytes of a text that a reader accepts */
@@ -46,7 +55,7 @@ static hid_t text_type(size_t size)
     if (type >= 0 && H5Tset_size(type, size) >= 0 && H5Tset_strpad(type, H5T_STR_NULLPAD) >= 0 &&
         H5Tset_cset(type, H5T_CSET_UTF8) >= 0)
         return type;
-    if (type >= 0) H5Tclose(type);
+    let_go(false, H5Tclose, type);
     return H5I_INVALID_HID;
 }
 
@@ -88,7 +97,7 @@ static fracas_err open_attribute(const fracas_h5 *h5, const char *object, const 
     hid_t space = *attribute >= 0 ? H5Aget_space(*attribute) : H5I_INVALID_HID;
     bool scalar = space >= 0 && H5Sget_simple_extent_type(space) == H5S_SCALAR;
     if (scalar) *type = H5Aget_type(*attribute);
-    if (space >= 0) H5Sclose(space);
+    let_go(*type >= 0, H5Sclose, space);
     return *type >= 0 ? FRACAS_OK : fracas_h5_fail(h5, name);
 }
 
@@ -118,6 +127,13 @@ fracas_err fracas_h5_get_text(const fracas_h5 *h5, const char *object, const cha
     close_attribute(attribute, type);
     if (err) free(*text), *text = NULL;
     return err;
+}
+
+fracas_err fracas_h5_has_attribute(const fracas_h5 *h5, const char *object, const char *name, bool *has)
+{
+    const htri_t found = H5Aexists_by_name(h5->id, object, name, H5P_DEFAULT);
+    *has = found > 0;
+    return found < 0 ? fracas_h5_fail(h5, name) : FRACAS_OK;
 }
 
 fracas_err fracas_h5_get_integer(const fracas_h5 *h5, const char *object, const char *name, hid_t file_type,
@@ -173,16 +189,17 @@ static int column_rank(const fracas_store_column *column)
     return column->type != FRACAS_TEXT && column->width > 1 ? 2 : 1;
 }
 
-/* Shuffle is there for whoever repacks the file with compression; Fletcher32 finds flipped bytes. */
+/* Shuffle is there for whoever repacks the file with compression; Fletcher32 finds flipped bytes. Neither is optional: HDF5 leaves out an
+ * optional filter that finds no memory, and the file would have other bytes. */
 static hid_t creation_list(const fracas_store_column *column, size_t chunk)
 {
     hsize_t shape[2] = {chunk, column->width};
     hid_t list = H5Pcreate(H5P_DATASET_CREATE);
-    if (list >= 0 && H5Pset_chunk(list, column_rank(column), shape) >= 0 && H5Pset_shuffle(list) >= 0 &&
-        H5Pset_fletcher32(list) >= 0 && H5Pset_obj_track_times(list, false) >= 0 &&
-        H5Pset_fill_time(list, H5D_FILL_TIME_ALLOC) >= 0)
+    if (list >= 0 && H5Pset_chunk(list, column_rank(column), shape) >= 0 &&
+        H5Pset_filter(list, H5Z_FILTER_SHUFFLE, H5Z_FLAG_MANDATORY, 0, NULL) >= 0 && H5Pset_fletcher32(list) >= 0 &&
+        H5Pset_obj_track_times(list, false) >= 0 && H5Pset_fill_time(list, H5D_FILL_TIME_ALLOC) >= 0)
         return list;
-    if (list >= 0) H5Pclose(list);
+    let_go(false, H5Pclose, list);
     return H5I_INVALID_HID;
 }
 
@@ -191,7 +208,7 @@ static hid_t dataset_access_list(void)
 {
     hid_t list = H5Pcreate(H5P_DATASET_ACCESS);
     if (list >= 0 && H5Pset_chunk_cache(list, 1, 0, 1.0) < 0) {
-        H5Pclose(list);
+        let_go(false, H5Pclose, list);
         list = H5I_INVALID_HID;
     }
     return list;
@@ -220,8 +237,8 @@ static bool right_type(hid_t dataset, const fracas_store_column *column)
 {
     hid_t found = H5Dget_type(dataset), wanted = column_type(column, true);
     bool right = found >= 0 && wanted >= 0 && H5Tequal(found, wanted) > 0;
-    if (found >= 0) H5Tclose(found);
-    if (wanted >= 0) H5Tclose(wanted);
+    let_go(right, H5Tclose, found);
+    let_go(right, H5Tclose, wanted);
     return right;
 }
 
@@ -232,7 +249,7 @@ static bool right_shape(hid_t dataset, const fracas_store_column *column, uint64
     int rank = column_rank(column);
     bool right = space >= 0 && H5Sget_simple_extent_ndims(space) == rank &&
                  H5Sget_simple_extent_dims(space, shape, NULL) == rank && (rank == 1 || shape[1] == column->width);
-    if (space >= 0) H5Sclose(space);
+    let_go(right, H5Sclose, space);
     *rows = shape[0];
     return right;
 }
@@ -250,7 +267,7 @@ static bool right_storage(hid_t dataset, const fracas_store_column *column, size
         size_t none = 0;
         right = H5Pget_filter2(list, f, &flags, &none, NULL, 0, NULL, NULL) == filters[f];
     }
-    if (list >= 0) H5Pclose(list);
+    let_go(right, H5Pclose, list);
     return right;
 }
 
@@ -259,7 +276,7 @@ fracas_err fracas_h5_open_column(const fracas_h5 *h5, const fracas_store_column 
 {
     hid_t access = dataset_access_list();
     *dataset = access >= 0 ? H5Dopen2(h5->id, column->path, access) : H5I_INVALID_HID;
-    if (access >= 0) H5Pclose(access);
+    let_go(*dataset >= 0, H5Pclose, access);
     if (*dataset < 0) return fracas_h5_fail(h5, column->path);
     /* Nothing is compressed, so rows that are there take their bytes: this bounds every allocation to come. */
     bool right = right_type(*dataset, column) && right_shape(*dataset, column, rows) &&
@@ -286,9 +303,9 @@ static bool transfer(const fracas_store_column *column, hid_t dataset, uint64_t 
               H5Sselect_hyperslab(space, H5S_SELECT_SET, from, NULL, size, NULL) >= 0;
     if (ok && way == WRITE_ROWS) ok = H5Dwrite(dataset, type, memory, space, H5P_DEFAULT, stored) >= 0;
     if (ok && way == READ_ROWS) ok = H5Dread(dataset, type, memory, space, H5P_DEFAULT, stored) >= 0;
-    if (space >= 0) H5Sclose(space);
-    if (memory >= 0) H5Sclose(memory);
-    if (type >= 0) H5Tclose(type);
+    let_go(ok, H5Sclose, space);
+    let_go(ok, H5Sclose, memory);
+    let_go(ok, H5Tclose, type);
     return ok;
 }
 

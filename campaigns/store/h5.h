@@ -39,6 +39,8 @@ void fracas_h5_close(fracas_h5 *h5);
  * system failed, else FRACAS_DAMAGED for a file being read, FRACAS_BUG for one being written. */
 FRACAS_MUST_USE fracas_err fracas_h5_fail(const fracas_h5 *h5, const char *what);
 
+#define FRACAS_PROVENANCE "provenance" /* attribute of the root group of a segment */
+
 /* Scalar attributes. `object` is a path in the file. */
 FRACAS_MUST_USE fracas_err fracas_h5_put_text(const fracas_h5 *h5, const char *object, const char *name,
                                               const char *text);
@@ -46,6 +48,8 @@ FRACAS_MUST_USE fracas_err fracas_h5_put_integer(const fracas_h5 *h5, const char
                                                  hid_t file_type, uint64_t value);
 /* *text freed by the caller. FRACAS_DAMAGED if it is missing, no text or longer than 4096 bytes. */
 FRACAS_MUST_USE fracas_err fracas_h5_get_text(const fracas_h5 *h5, const char *object, const char *name, char **text);
+/* True if there is one of that name. */
+FRACAS_MUST_USE fracas_err fracas_h5_has_attribute(const fracas_h5 *h5, const char *object, const char *name, bool *has);
 FRACAS_MUST_USE fracas_err fracas_h5_get_integer(const fracas_h5 *h5, const char *object, const char *name,
                                                  hid_t file_type, uint64_t *value);
 

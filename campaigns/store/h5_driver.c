@@ -1,9 +1,11 @@
 /* HDF5's file driver over our own descriptor, and the opening and closing of files. */
 #include "campaigns/store/disk.h"
 #include "campaigns/store/h5.h"
+#include "campaigns/store/store.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -158,6 +160,13 @@ static fracas_err start(fracas_h5 *h5, const char *path, bool writing)
     if (h5->driver < 0)
         return fracas_fail(FRACAS_ENVIRONMENT, "the HDF5 library does not start");
     return FRACAS_OK;
+}
+
+void fracas_hdf5_version(char text[32])
+{
+    unsigned major = 0, minor = 0, release = 0;
+    if (H5get_libversion(&major, &minor, &release) < 0) major = 0;
+    snprintf(text, 32, "%u.%u.%u", major, minor, release);
 }
 
 fracas_err fracas_h5_create(fracas_h5 *h5, const char *name, const char *path)

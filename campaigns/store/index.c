@@ -71,8 +71,7 @@ static const char *const sql_text[FRACAS_NSQL] = {
     [FRACAS_SQL_ROW_FORGET] = "UPDATE realization SET status = 'planned', outcome = NULL, segment = NULL, row = NULL,"
                               " fragments = NULL, fragments_dust = NULL, steps = NULL, dissipated = NULL,"
                               " residual = NULL, size = NULL WHERE segment IN (SELECT id FROM segment WHERE bytes < 0)",
-    [FRACAS_SQL_TALLY] = "SELECT status, outcome FROM realization",
-    [FRACAS_SQL_TALLY_POINT] = "SELECT status, outcome FROM realization WHERE point = ?1",
+    [FRACAS_SQL_TALLY] = "SELECT status, outcome, point FROM realization",
     [FRACAS_SQL_SEGMENT_ADD] = "INSERT INTO segment(name, bytes, checksum, rows, provenance)"
                                " VALUES (?1, ?2, ?3, ?4, ?5)",
     [FRACAS_SQL_SEGMENT_FIND] = "SELECT id, bytes, checksum FROM segment WHERE name = ?1",
@@ -80,8 +79,6 @@ static const char *const sql_text[FRACAS_NSQL] = {
     [FRACAS_SQL_SEGMENT_LOSE] = "UPDATE segment SET bytes = -1 WHERE id = ?1",
     [FRACAS_SQL_SEGMENT_FORGET] = "DELETE FROM segment WHERE bytes < 0",
     [FRACAS_SQL_SEGMENT_TOTAL] = "SELECT count(*), coalesce(sum(bytes), 0) FROM segment",
-    [FRACAS_SQL_SEGMENT_TOTAL_POINT] = "SELECT count(*), coalesce(sum(bytes), 0) FROM segment"
-                                       " WHERE id IN (SELECT segment FROM realization WHERE point = ?1)",
     [FRACAS_SQL_EVENT_ADD] = "INSERT INTO event(time, kind, text)"
                              " VALUES (strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), ?1, ?2)",
     [FRACAS_SQL_EVENT_LAST] = "SELECT text FROM event WHERE kind = ?1 ORDER BY id DESC LIMIT 1",

@@ -27,14 +27,12 @@ typedef enum {
     FRACAS_SQL_ROW_DONE,
     FRACAS_SQL_ROW_FORGET,
     FRACAS_SQL_TALLY,
-    FRACAS_SQL_TALLY_POINT,
     FRACAS_SQL_SEGMENT_ADD,
     FRACAS_SQL_SEGMENT_FIND,
     FRACAS_SQL_SEGMENT_ALL,
     FRACAS_SQL_SEGMENT_LOSE,
     FRACAS_SQL_SEGMENT_FORGET,
     FRACAS_SQL_SEGMENT_TOTAL,
-    FRACAS_SQL_SEGMENT_TOTAL_POINT,
     FRACAS_SQL_EVENT_ADD,
     FRACAS_SQL_EVENT_LAST,
     FRACAS_SQL_ROW_SUMMARY,
@@ -79,6 +77,8 @@ FRACAS_MUST_USE fracas_err fracas_index_study_seal(fracas_index *index, bool *se
 
 /* FRACAS_DAMAGED with the first thing that SQLite's quick_check finds. */
 FRACAS_MUST_USE fracas_err fracas_index_quick_check(fracas_index *index);
+/* True for what the table `segment` takes as provenance. */
+bool fracas_index_is_json(fracas_index *index, const char *text);
 FRACAS_MUST_USE fracas_err fracas_index_points(fracas_index *index, int64_t *points);
 
 /* Id of a point, 0 if it is not there. */

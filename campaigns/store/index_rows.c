@@ -336,7 +336,7 @@ fracas_err fracas_index_segments(fracas_index *index, fracas_known_segment **seg
     *count = 0;
     fracas_err err = load_segments(index, segment, count);
     fracas_index_reset(index, FRACAS_SQL_SEGMENT_ALL);
-    if (err) fracas_index_segments_free(*segment, *count), *segment = NULL;
+    if (err) fracas_index_segments_free(*segment, *count), *segment = NULL, *count = 0;
     return err;
 }
 
@@ -365,23 +365,32 @@ fracas_err fracas_index_forget(fracas_index *index, const int64_t *segment, size
 
 /* ---- counting ---- */
 
-static fracas_err tally(fracas_index *index, fracas_sql sql, fracas_index_counts *counts)
+static void add_to(fracas_index_counts *counts, fracas_row_status status, int64_t outcome)
 {
+    counts->realizations++;
+    switch (status) {
+    case FRACAS_PLANNED: counts->planned++; break;
+    case FRACAS_LEASED: counts->leased++; break;
+    case FRACAS_DONE: counts->done++; break;
+    case FRACAS_FAILED_ROW:
+    case FRACAS_QUARANTINED: counts->failed++; break;
+    }
+    if (outcome >= 0 && outcome < FRACAS_NOUTCOMES) counts->outcome[outcome]++;
+}
+
+/* Counts every row into *counts, and those of point id `i` into each[i - 1], for i to `most`. */
+static fracas_err tally(fracas_index *index, fracas_sql sql, fracas_index_counts *counts, fracas_index_counts **each, int64_t most)
+{
+    sqlite3_stmt *s = at(index, sql);
     for (;;) {
         bool more = false;
         TRY(fracas_index_step(index, sql, &more));
         if (!more) break;
-        counts->realizations++;
-        switch (fracas_index_status(sqlite3_column_text(at(index, sql), 0))) {
-        case FRACAS_PLANNED: counts->planned++; break;
-        case FRACAS_LEASED: counts->leased++; break;
-        case FRACAS_DONE: counts->done++; break;
-        case FRACAS_FAILED_ROW:
-        case FRACAS_QUARANTINED: counts->failed++; break;
-        }
-        if (sqlite3_column_type(at(index, sql), 1) == SQLITE_NULL) continue;
-        int64_t outcome = sqlite3_column_int64(at(index, sql), 1);
-        if (outcome >= 0 && outcome < FRACAS_NOUTCOMES) counts->outcome[outcome]++;
+        const fracas_row_status status = fracas_index_status(sqlite3_column_text(s, 0));
+        const int64_t outcome = sqlite3_column_type(s, 1) == SQLITE_NULL ? -1 : sqlite3_column_int64(s, 1);
+        add_to(counts, status, outcome);
+        const int64_t id = each ? sqlite3_column_int64(s, 2) : 0;
+        if (id > 0 && id <= most && each[id - 1]) add_to(each[id - 1], status, outcome);
     }
     fracas_index_reset(index, sql);
     return FRACAS_OK;
@@ -389,21 +398,31 @@ static fracas_err tally(fracas_index *index, fracas_sql sql, fracas_index_counts
 
 fracas_err fracas_index_points(fracas_index *index, int64_t *points) { return one_row(index, FRACAS_SQL_POINT_COUNT, points, NULL); }
 
-fracas_err fracas_index_count(fracas_index *index, fracas_index_counts *counts)
+static fracas_err count_all(fracas_index *index, fracas_index_counts *counts, fracas_index_counts **each, int64_t most)
 {
     *counts = (fracas_index_counts){0};
     TRY(one_row(index, FRACAS_SQL_POINT_COUNT, &counts->points, NULL));
     TRY(one_row(index, FRACAS_SQL_SEGMENT_TOTAL, &counts->segments, &counts->bytes));
-    return tally(index, FRACAS_SQL_TALLY, counts);
+    return tally(index, FRACAS_SQL_TALLY, counts, each, most);
 }
 
-fracas_err fracas_index_count_point(fracas_index *index, const fracas_hash *point, fracas_index_counts *counts)
+fracas_err fracas_index_count(fracas_index *index, fracas_index_counts *counts) { return count_all(index, counts, NULL, 0); }
+
+fracas_err fracas_index_count_points(fracas_index *index, const fracas_point_table *table, fracas_index_counts *counts,
+                                     fracas_index_counts *point)
 {
-    int64_t id;
-    *counts = (fracas_index_counts){.points = 1};
-    TRY(need_point(index, point, &id));
-    TRY(fracas_index_bind(index, FRACAS_SQL_SEGMENT_TOTAL_POINT, 1, id));
-    TRY(one_row(index, FRACAS_SQL_SEGMENT_TOTAL_POINT, &counts->segments, &counts->bytes));
-    TRY(fracas_index_bind(index, FRACAS_SQL_TALLY_POINT, 1, id));
-    return tally(index, FRACAS_SQL_TALLY_POINT, counts);
+    int64_t *id = malloc((table->npoints + 1) * sizeof *id), most = 0;
+    fracas_err err = id ? FRACAS_OK : fracas_no_memory("the counts of the points");
+    for (size_t p = 0; !err && p < table->npoints; p++) {
+        point[p] = (fracas_index_counts){.points = 1};
+        err = need_point(index, &table->point[p].hash, &id[p]);
+        if (!err && id[p] > most) most = id[p];
+    }
+    fracas_index_counts **each = err ? NULL : calloc((size_t)most + 1, sizeof *each);
+    if (!err && !each) err = fracas_no_memory("the counts of the points");
+    for (size_t p = 0; !err && p < table->npoints; p++) each[id[p] - 1] = &point[p];
+    if (!err) err = count_all(index, counts, each, most);
+    free(each);
+    free(id);
+    return err;
 }

@@ -39,17 +39,16 @@ static void read_line(const char *path, char *text, size_t size)
     fclose(in);
 }
 
-/* Start of a process in ticks since the boot, 0 if there is none; one that is dead and waits for its parent to notice is none. */
+/* Start of a process in ticks since the boot, 0 if there is none, or only its entry until its parent asks how it ended. */
 static unsigned long long start_of(long pid)
 {
-    char path[64], text[TEXT];
+    char path[64], text[TEXT], state = 'X';
     unsigned long long start = 0;
-    char now = 'X';
     snprintf(path, sizeof path, "/proc/%ld/stat", pid);
     read_line(path, text, sizeof text);
     const char *at = strrchr(text, ')'); /* a name may hold anything */
-    if (at && sscanf(at + 1, " %c%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%llu", &now, &start) != 2) start = 0;
-    return now == 'Z' || now == 'X' ? 0 : start;
+    if (at && sscanf(at + 1, " %c%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%llu", &state, &start) != 2) start = 0;
+    return state == 'Z' || state == 'X' ? 0 : start;
 }
 
 static void put_word(char *to, size_t size, const char *word) /* no spaces within */

@@ -55,7 +55,20 @@ fracas_err fracas_index_claim(fracas_index *index, const fracas_file_header *hea
     return fracas_index_end(index, err);
 }
 
-/* ---- damage ---- */
+/* ---- what SQLite says ---- */
+
+const char *fracas_sqlite_version(void) { return sqlite3_libversion(); }
+
+bool fracas_index_is_json(fracas_index *index, const char *text)
+{
+    sqlite3_stmt *statement;
+    bool valid = false;
+    if (sqlite3_prepare_v2(index->db, "SELECT json_valid(?1)", -1, &statement, NULL) == SQLITE_OK &&
+        sqlite3_bind_text(statement, 1, text, -1, SQLITE_STATIC) == SQLITE_OK && sqlite3_step(statement) == SQLITE_ROW)
+        valid = sqlite3_column_int(statement, 0) == 1;
+    sqlite3_finalize(statement);
+    return valid;
+}
 
 fracas_err fracas_index_quick_check(fracas_index *index)
 {

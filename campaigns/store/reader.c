@@ -1,3 +1,4 @@
+#include "campaigns/store/disk.h"
 #include "campaigns/store/store.h"
 #include "campaigns/store/table.h"
 
@@ -51,8 +52,9 @@ static fracas_err read_truth(fracas_reader *reader, const char *name, bool *trut
 fracas_err fracas_file_version(const char *path, uint64_t *version)
 {
     fracas_h5 h5 = FRACAS_H5_CLOSED;
-    TRY(fracas_h5_open(&h5, path));
-    fracas_err err = fracas_h5_get_integer(&h5, "/", "format_version", H5T_STD_I32LE, version);
+    TRY(fracas_disk_check_own_seal(path));
+    fracas_err err = fracas_h5_open(&h5, path);
+    if (!err) err = fracas_h5_get_integer(&h5, "/", "format_version", H5T_STD_I32LE, version);
     fracas_h5_close(&h5);
     return err;
 }
@@ -173,6 +175,14 @@ void fracas_reader_close(fracas_reader *reader)
 const fracas_file_header *fracas_reader_header(const fracas_reader *reader) { return &reader->header; }
 const fracas_point_table *fracas_reader_points(const fracas_reader *reader) { return &reader->points.table; }
 size_t fracas_reader_realizations(const fracas_reader *reader) { return reader->set[FRACAS_SET_REALIZATION].rows; }
+
+fracas_err fracas_reader_provenance(const fracas_reader *reader, char **provenance)
+{
+    bool has;
+    *provenance = NULL;
+    TRY(fracas_h5_has_attribute(&reader->h5, "/", FRACAS_PROVENANCE, &has));
+    return has ? fracas_h5_get_text(&reader->h5, "/", FRACAS_PROVENANCE, provenance) : FRACAS_OK;
+}
 
 /* ---- rows ---- */
 

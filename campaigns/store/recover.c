@@ -243,6 +243,9 @@ static fracas_err adopt(const char *path, const char *name, fracas_reader *reade
 {
     size_t count = fracas_reader_realizations(reader);
     bool asked = true;
+    char *provenance;
+    TRY(fracas_reader_provenance(reader, &provenance));
+    const bool tells = provenance && fracas_index_is_json(index, provenance);
     fracas_segment_row *row = calloc(count + 1, sizeof *row);
     fracas_err err = row ? read_rows(reader, table, index, row, &asked) : fracas_no_memory("the rows of a segment");
     *sound = !err;
@@ -250,7 +253,9 @@ static fracas_err adopt(const char *path, const char *name, fracas_reader *reade
         fprintf(report, "left %s, which has realizations that this campaign does not ask for; move it away, or run the campaign that "
                 "does\n", path);
     if (!err && asked) err = fracas_disk_sync_folder(path); /* whoever renamed it may have died before this */
-    if (!err && asked) err = fracas_index_commit(index, name, seal, row, count, "{\"adopted\": true}");
+    if (!err && asked)
+        err = fracas_index_commit(index, name, seal, row, count, tells ? provenance : "{\"adopted\": true}");
+    free(provenance);
     if (!err && asked) fprintf(report, "adopted %s with %zu realizations\n", path, count);
     free(row);
     return err;

@@ -66,18 +66,24 @@ FRACAS_MUST_USE fracas_err fracas_writer_create(const char *path, const fracas_f
 /* Appends one realization; records are buffered by column, so memory stays bounded. */
 FRACAS_MUST_USE fracas_err fracas_writer_append(fracas_writer *writer, size_t point, int64_t replica,
                                                 const fracas_record *record);
+/* Keeps where, when and by what the records were computed, one JSON object of less than 4 KB, as an attribute: for segments, so that they
+ * tell it when the index is lost, and never for study.h5. */
+FRACAS_MUST_USE fracas_err fracas_writer_provenance(fracas_writer *writer, const char *provenance);
 /* The next decisions, in the order of points and rounds. The file has a group /decision if there are any. */
 FRACAS_MUST_USE fracas_err fracas_writer_decisions(fracas_writer *writer, const fracas_decision *decision, size_t count);
 /* The mesh of the next point, points in their order, in a file with interfaces: once for each, or for none of them.
  * The file has a group /mesh if any of them has elements. */
 FRACAS_MUST_USE fracas_err fracas_writer_mesh(fracas_writer *writer, const fracas_stored_mesh *mesh);
+/* The file is a segment: it ends with a seal of its own, which fracas_file_version checks. */
+void fracas_writer_own_seal(fracas_writer *writer);
 /* Closes, syncs, renames to the final name, syncs the folder; frees the writer whatever happens. Equal
  * sequences of calls give equal bytes. */
 FRACAS_MUST_USE fracas_err fracas_writer_finish(fracas_writer *writer, bool complete, fracas_file_seal *seal);
 /* Gives up: removes the temporary file, frees the writer. NULL is allowed. */
 void fracas_writer_abandon(fracas_writer *writer);
 
-/* *version: the format version that the file gives itself, of this program or another. FRACAS_DAMAGED if it gives none. */
+/* *version: the format version that the file gives itself, of this program or another. FRACAS_DAMAGED if it gives none, or, before HDF5
+ * has seen a byte, if it is a segment whose own seal is not of its bytes: what no index vouches for is opened after this. */
 FRACAS_MUST_USE fracas_err fracas_file_version(const char *path, uint64_t *version);
 /* FRACAS_DAMAGED if it is not a fracas file of a known format version, naming the file. */
 FRACAS_MUST_USE fracas_err fracas_reader_open(const char *path, fracas_reader **reader);
@@ -94,6 +100,9 @@ enum { FRACAS_READ_FRAGMENTS = 1, FRACAS_READ_HISTORY = 2, FRACAS_READ_INTERFACE
 FRACAS_MUST_USE fracas_err fracas_reader_record(fracas_reader *reader, size_t row, unsigned parts,
                                                 size_t *point, int64_t *replica, fracas_record *record);
 
+/* What fracas_writer_provenance kept, NULL if the file has none (of before it was kept, or study.h5); *provenance freed by the caller. */
+FRACAS_MUST_USE fracas_err fracas_reader_provenance(const fracas_reader *reader, char **provenance);
+
 /* Every decision of the file in its order, none if it has no group /decision; *decision freed by the caller with free(). */
 FRACAS_MUST_USE fracas_err fracas_reader_decisions(fracas_reader *reader, fracas_decision **decision, size_t *count);
 
@@ -102,6 +111,10 @@ FRACAS_MUST_USE fracas_err fracas_reader_mesh_interfaces(fracas_reader *reader, 
 /* The mesh of a point, all zero if the file has none of it. Cleared by the caller. FRACAS_DAMAGED if it is none
  * (fracas_stored_mesh_fault). */
 FRACAS_MUST_USE fracas_err fracas_reader_mesh(fracas_reader *reader, size_t point, fracas_stored_mesh *mesh);
+
+/* Versions of the libraries, for provenance. */
+void fracas_hdf5_version(char text[32]);
+const char *fracas_sqlite_version(void);
 
 /* ---- a record as bytes, for a pipe between processes of one program ---- */
 
@@ -219,9 +232,9 @@ typedef struct {
 } fracas_index_counts;
 
 FRACAS_MUST_USE fracas_err fracas_index_count(fracas_index *index, fracas_index_counts *counts);
-/* The same for one point. */
-FRACAS_MUST_USE fracas_err fracas_index_count_point(fracas_index *index, const fracas_hash *point,
-                                                    fracas_index_counts *counts);
+/* The same, and of each point of the table (table->npoints of them; segments and bytes 0), by one look at every realization. */
+FRACAS_MUST_USE fracas_err fracas_index_count_points(fracas_index *index, const fracas_point_table *table, fracas_index_counts *counts,
+                                                     fracas_index_counts *point);
 
 /* ---- the study as a whole ---- */
 

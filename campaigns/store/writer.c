@@ -20,6 +20,7 @@ struct fracas_writer {
     bool interfaces; /* has an /interface group */
     bool decisions;  /* has a /decision group */
     bool meshes;     /* has a /mesh group */
+    bool own_seal;   /* ends with a seal of its own */
     size_t npassed;  /* points whose mesh was given, or that have none */
     set_writer set[FRACAS_NSETS];
     int64_t end[FRACAS_NSETS]; /* rows of a ragged set so far: the last offset */
@@ -179,6 +180,11 @@ fracas_err fracas_writer_append(fracas_writer *writer, size_t point, int64_t rep
                       record->ninterface);
 }
 
+fracas_err fracas_writer_provenance(fracas_writer *writer, const char *provenance)
+{
+    return fracas_h5_put_text(&writer->h5, "/", FRACAS_PROVENANCE, provenance);
+}
+
 /* ---- decisions ---- */
 
 fracas_err fracas_writer_decisions(fracas_writer *writer, const fracas_decision *decision, size_t count)
@@ -235,11 +241,14 @@ static fracas_err finish(fracas_writer *writer, bool complete, fracas_file_seal 
         if (has_set(writer, s)) TRY(flush(writer, s));
     TRY(fracas_h5_put_integer(&writer->h5, "/", "complete", H5T_STD_I8LE, complete));
     TRY(fracas_h5_flush_close(&writer->h5));
+    if (writer->own_seal) TRY(fracas_disk_append_seal(writer->h5.fd, writer->path));
     TRY(fracas_disk_seal(writer->h5.fd, writer->path, seal));
     if (fsync(writer->h5.fd) < 0) return fracas_disk_fail("sync", writer->path);
     if (rename(writer->temporary, writer->path) < 0) return fracas_disk_fail("rename to", writer->path);
     return fracas_disk_sync_folder(writer->path);
 }
+
+void fracas_writer_own_seal(fracas_writer *writer) { writer->own_seal = true; }
 
 fracas_err fracas_writer_finish(fracas_writer *writer, bool complete, fracas_file_seal *seal)
 {

@@ -25,7 +25,7 @@ expect 0 "$fracas" run first.yaml --study study
 digest=$(ls study/attachments)
 cmp given/one.csv "study/attachments/$digest" || fail "the copy is not the file"
 grep -q "file: attachments/$digest\$" study/campaign.yaml || fail "campaign.yaml does not name the copy"
-expect 0 "$fracas" verify study
+expect 0 "$fracas" verify --full study
 
 # Every interface has the strength of its line.
 h5dump -d /interface/strength -y -w 1 -m %.9e study/study.h5 | sed -n 's/^ *\([0-9][0-9.e+]*\),*$/\1/p' > used
@@ -55,7 +55,7 @@ cmp -s study/extended.yaml study/campaign.yaml && fail "nothing was changed"
 expect 5 "$fracas" run study/extended.yaml --study study
 { sed '/^  rate:/d' study/campaign.yaml; echo 'sweep:'; echo '  - loading.rate: [1e5, 2e5]'; } > study/extended.yaml
 expect 0 "$fracas" run study/extended.yaml --study study
-expect 0 "$fracas" verify study
+expect 0 "$fracas" verify --full study
 attached both.yaml moved/uno.csv 1 '1e5 1/s, 2e5 1/s'
 mkdir -p fresh/attachments # another file is in the place of the copy
 tr 0 1 < moved/uno.csv > "fresh/attachments/$digest"
@@ -90,7 +90,7 @@ rm "study/attachments/$digest"
 expect 5 "$fracas" verify study
 said "cannot open study/attachments/$digest"
 cp copy "study/attachments/$digest"
-expect 0 "$fracas" verify study
+expect 0 "$fracas" verify --full study
 
 # Too few strengths: told by plan and by run, before anything is written. Several replicas: told to be equal.
 sed '$d' copy > moved/uno.csv

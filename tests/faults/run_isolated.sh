@@ -58,3 +58,11 @@ done
 unset FRACAS_TEST_FAULT
 [ "$(events once-none 'server replaced')" -eq 1 ] || fail "a crash without isolation did not kill the server"
 [ "$(events once-lease 'lease failed')" -ge 1 ] || fail "a crash of a lease was not noted"
+
+# A model that cannot be built without a crash: its point is FAILED, the other one is not.
+export FRACAS_TEST_FAULT=model:1:0
+expect 1 "$fracas" run small.yaml --study model --jobs 2
+unset FRACAS_TEST_FAULT
+expect 0 "$fracas" status model
+said '^realizations *24: 12 done, 12 failed, 0 leased, 0 planned$'
+said '^  point 1 replica 11, 3 attempts: its process died of signal 11'

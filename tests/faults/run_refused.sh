@@ -82,7 +82,7 @@ wait $! || status=$?
 [ $status -eq 3 ] || { cat said >&2; fail "status $status of a run that was stopped before MPI came up"; }
 
 # The study's own campaign file: of another campaign, damaged.
-expect 0 "$fracas" verify done
+expect 0 "$fracas" verify --full done
 sed 's/fracture_energy: 100/fracture_energy: 101/' done/campaign.yaml > other.yaml
 cp done/campaign.yaml kept.yaml
 cp other.yaml done/campaign.yaml
@@ -93,7 +93,7 @@ expect 5 "$fracas" verify done
 said "study's campaign file is damaged"
 expect 5 "$fracas" status done
 cp kept.yaml done/campaign.yaml
-expect 0 "$fracas" verify done
+expect 0 "$fracas" verify --full done
 
 # A complete study that lost a segment, and one whose index was cut off at its birth, are made whole by the same command.
 cp done/study.h5 kept.h5
@@ -101,7 +101,7 @@ rm "$(ls done/segments/*.h5 | head -n 1)"
 expect 5 "$fracas" verify done
 expect 0 "$fracas" run small.yaml --study done
 cmp kept.h5 done/study.h5 || fail "computed again, it differs"
-expect 0 "$fracas" verify done
+expect 0 "$fracas" verify --full done
 mkdir -p begun/segments
 cp done/campaign.yaml begun
 : > begun/index.sqlite

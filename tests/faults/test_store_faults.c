@@ -1,6 +1,7 @@
 /* Damage and death: flipped bytes, truncated files, a full disk, kill -9. */
 #include "tests/support/store_sample.h"
 
+#include "campaigns/store/disk.h"
 #include "campaigns/store/h5.h"
 #include "campaigns/store/index.h"
 
@@ -94,6 +95,17 @@ static bool same_header(const fracas_file_header *found)
            !strcmp(found->version, wanted.version) && found->complete == wanted.complete;
 }
 
+/* By its own seal, as a segment is looked at that no index knows. */
+static reading read_seal(const char *path)
+{
+    uint64_t version;
+    fracas_err err = fracas_file_version(path, &version);
+    if (!err) return version == FRACAS_FORMAT_VERSION ? SAME : WRONG;
+    assert_int_equal(err, FRACAS_DAMAGED);
+    assert_non_null(strstr(fracas_message(), path));
+    return REPORTED;
+}
+
 /* Reads everything: the same as was written, an error that names the file, or something else. */
 static reading read_all(const char *path)
 {
@@ -135,6 +147,7 @@ static void flipped_bytes_are_found(void **state)
     size_t size;
     unsigned char *bytes = sample_slurp(path, &size);
     assert_int_equal(read_all(path), SAME);
+    assert_int_equal(read_seal(path), SAME);
     uint64_t random = 2;
     int fd = open(path, O_WRONLY), reported = 0;
     enum { FLIPS = 600 };
@@ -146,6 +159,7 @@ static void flipped_bytes_are_found(void **state)
         if (result == WRONG) print_error("byte %zu of %zu: %02x as %02x\n", at, size, bytes[at], damaged);
         assert_int_not_equal(result, WRONG);
         reported += result == REPORTED;
+        assert_int_equal(read_seal(path), REPORTED);
         assert_int_equal(pwrite(fd, &bytes[at], 1, (off_t)at), 1);
     }
     /* What is not reported is space that HDF5 keeps free; most of a file is not that. */
@@ -167,9 +181,18 @@ static void truncated_files_are_found(void **state)
     uint64_t random = 3;
     for (int i = 0; i < 100; i++) {
         sample_spill(path, bytes, i < 10 ? (size_t)i : i < 20 ? size - (size_t)(i - 9) : sample_bits(&random) % size);
-        assert_int_equal(read_all(path), REPORTED);
+        assert_int_equal(read_all(path), i >= 10 && i < 20 ? SAME : REPORTED); /* in the seal, which HDF5 does not see */
+        assert_int_equal(read_seal(path), REPORTED);
     }
+    /* Cut off as a whole the seal is missed no more than in a segment of before there were any. */
+    sample_spill(path, bytes, size - FRACAS_OWN_SEAL);
+    assert_int_equal(read_seal(path), SAME);
     assert_int_equal(H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL), 0);
+    for (int fd = 3; fd < 40; fd++) { /* nothing of them stays open */
+        char link[64], target[512] = "";
+        snprintf(link, sizeof link, "/proc/self/fd/%d", fd);
+        assert_true(readlink(link, target, sizeof target - 1) < 0 || strcmp(target, path) != 0);
+    }
     free(bytes);
 }
 
@@ -217,6 +240,35 @@ static void overwritten_stretches_are_found(void **state)
     assert_int_equal(H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL), 0);
     free(damaged);
     free(bytes);
+}
+
+/* A table `segment` that is damaged where SQLite does not see it. */
+static void damaged_rows_of_the_index_are_found(void **state)
+{
+    (void)state;
+    static const char *const damage[] = {"checksum = '00000000000zzzzz'", "checksum = ''", "name = 'a/b'", "rows = -1"};
+    fracas_file_seal seal;
+    fracas_segment_row row[ALL];
+    fracas_index *index;
+    write_segment(&seal, row);
+    OK(fracas_index_open(study, true, &index));
+    OK(fracas_index_plan(index, &table));
+    OK(fracas_index_commit(index, "a.h5", &seal, row, ALL, "{}"));
+    OK(fracas_index_commit(index, "b.h5", &seal, row, 0, "{}"));
+    for (size_t d = 0; d < sizeof damage / sizeof *damage; d++) {
+        char text[200];
+        fracas_known_segment *segment;
+        size_t count;
+        snprintf(text, sizeof text, "UPDATE segment SET %s WHERE id = 2", damage[d]);
+        assert_int_equal(sqlite3_exec(index->db, text, NULL, NULL, NULL), SQLITE_OK);
+        sample_fails(fracas_index_segments(index, &segment, &count), FRACAS_DAMAGED, "segment");
+        assert_null(segment);
+        assert_int_equal(count, 0);
+        snprintf(text, sizeof text, "UPDATE segment SET name = 'b.h5', rows = 0, checksum = '%016llx' WHERE id = 2",
+                 (unsigned long long)seal.checksum);
+        assert_int_equal(sqlite3_exec(index->db, text, NULL, NULL, NULL), SQLITE_OK);
+    }
+    fracas_index_close(index);
 }
 
 /* ---- a full disk ---- */
@@ -453,6 +505,7 @@ int main(void)
         TEST(lost_columns_are_found),
         TEST(truncated_files_are_found),
         TEST(overwritten_stretches_are_found),
+        TEST(damaged_rows_of_the_index_are_found),
         TEST(full_disk_is_said_and_leaves_nothing),
         TEST(bytes_are_durable_before_their_name),
         TEST(an_interrupted_merge_leaves_no_seal),

@@ -5,8 +5,10 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 /* libFuzzer's door: called with one input after another; an abort is a finding. */
@@ -19,6 +21,22 @@ static inline void fuzz_demand(int holds, const char *file, int line, const char
     if (holds) return;
     fprintf(stderr, "%s:%d: %s\n", file, line, text);
     abort();
+}
+
+static inline void fuzz_too_long(int signal_number)
+{
+    static const char text[] = "this input takes too long\n";
+    (void)signal_number;
+    if (write(2, text, sizeof text - 1) < 0) _exit(1);
+    abort();
+}
+
+/* Five seconds of processor time for each input from here on: other processes do not count, as they do in libFuzzer's own limit. */
+static inline void fuzz_limit(void)
+{
+    static const struct itimerval most = {.it_value = {.tv_sec = 5}};
+    signal(SIGPROF, fuzz_too_long);
+    FUZZ_DEMAND(setitimer(ITIMER_PROF, &most, NULL) == 0, "a limit of time");
 }
 
 static char fuzz_made[64];

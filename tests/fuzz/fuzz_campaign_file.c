@@ -92,6 +92,7 @@ static void lay_out(const char *text, size_t size)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     start();
+    fuzz_limit();
     lay_out((const char *)data, size);
     fracas_campaign *campaign = NULL;
     fracas_err err = fracas_campaign_read_with(units, campaign_path, &campaign);

@@ -330,6 +330,7 @@ static void read_all(bool again)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     start();
+    fuzz_limit();
     script s = {data, size};
     const uint64_t how = take(&s, 1);
     const image *of = &base[how % NBASES];

@@ -35,7 +35,7 @@ for isa in baseline $(instruction_sets); do
     compare all.yaml --jobs 2 --isa "$isa" --lanes 4
     compare all.yaml --jobs 2 --isa "$isa" --lanes 8
 done
-expect 0 "$fracas" verify one
+expect 0 "$fracas" verify --full one
 
 for point in 0 1 2; do
     expect 0 "$fracas" sample one/campaign.yaml --point $point --replica 1 --csv $point.csv

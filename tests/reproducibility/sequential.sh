@@ -27,7 +27,7 @@ said 'precise'
 said 'maximum'
 expect 0 "$fracas" run one.yaml --study one
 said 'nothing to compute'
-expect 0 "$fracas" verify one
+expect 0 "$fracas" verify --full one
 expect 0 "$fracas" status one
 said 'decisions on replicas'
 
@@ -50,7 +50,7 @@ done
 [ $kill -ge 2 ] || fail "killed only $kill times"
 expect 0 "$fracas" run one.yaml --study killed --jobs 2
 same one killed
-expect 0 "$fracas" verify killed
+expect 0 "$fracas" verify --full killed
 
 # One of three servers killed: the others take up its rounds.
 tries=0
@@ -79,7 +79,7 @@ kill_session
 rm drained/index.sqlite*
 expect 0 "$fracas" run one.yaml --study drained --jobs 2
 same one drained
-expect 0 "$fracas" verify drained
+expect 0 "$fracas" verify --full drained
 rm one/index.sqlite* one/study.h5
 expect 0 "$fracas" run one.yaml --study one
 said '0 of .* realizations of 3 points to do'
@@ -126,7 +126,7 @@ rule most.yaml 48
 expect 0 "$fracas" run most.yaml --study most
 expect 0 "$fracas" run most.yaml --study fixed
 same most fixed
-expect 0 "$fracas" verify fixed
+expect 0 "$fracas" verify --full fixed
 
 # The other quantities.
 for quantity in mean-size dissipated; do
@@ -160,5 +160,5 @@ expect 1 "$fracas" run one.yaml --study crashed-1 --jobs 1 --lanes 1
 same crashed crashed-1
 unset FRACAS_TEST_FAULT
 [ "$(sqlite3 crashed/index.sqlite 'SELECT sum(failed) > 0, max(failed) FROM decision')" = '1|1' ] || fail "the failed one is not counted"
-expect 0 "$fracas" verify crashed
+expect 0 "$fracas" verify --full crashed
 echo "$others other ways, $kill kills, extensions, a crash: the same bytes and decisions"

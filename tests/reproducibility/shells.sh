@@ -61,5 +61,5 @@ for kill in 1 2; do
 done
 expect 0 "$fracas" run all.yaml --study killed --jobs 1
 same one killed
-expect 0 "$fracas" verify one
+expect 0 "$fracas" verify --full one
 echo "$others other ways, an extension and two kills: the same bytes"

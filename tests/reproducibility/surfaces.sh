@@ -38,7 +38,7 @@ compare all.yaml --jobs 2 --lanes 1 --segment-size 1e-6 # a segment for each rea
 for isa in baseline $(instruction_sets); do
     compare all.yaml --jobs 2 --isa "$isa" --lanes 8
 done
-expect 0 "$fracas" verify one
+expect 0 "$fracas" verify --full one
 
 # The spin of a plate's fragments is upright, and half of L . spin, by another reader, is what the report says.
 expect 0 "$fracas" report one --json

@@ -267,6 +267,8 @@ typedef struct {
     int64_t replica;
 } sample_realization;
 
+#define SAMPLE_PROVENANCE "{\"host\": \"a\"}"
+
 /* Writes these realizations to a segment of STUDY (which must have a folder `segments`); row: one a realization. */
 static inline void sample_segment(const char *study, const char *name, const fracas_point_table *table,
                                   const sample_realization *what, size_t count, size_t most,
@@ -277,6 +279,8 @@ static inline void sample_segment(const char *study, const char *name, const fra
     char path[512];
     snprintf(path, sizeof path, "%s/segments/%s", study, name);
     OK(fracas_writer_create(path, &header, table, &writer));
+    fracas_writer_own_seal(writer);
+    OK(fracas_writer_provenance(writer, SAMPLE_PROVENANCE));
     for (size_t i = 0; i < count; i++) {
         fracas_record record;
         sample_record(what[i].point, what[i].replica, most, &record);

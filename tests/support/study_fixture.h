@@ -43,7 +43,7 @@ static inline void commit_segment(const char *name, const sample_realization *wh
     fracas_file_seal seal;
     fracas_segment_row row[ALL];
     sample_segment(study, name, &table, what, count, MOST, &seal, row);
-    OK(fracas_index_commit(index_, name, &seal, row, count, "{\"host\": \"a\"}"));
+    OK(fracas_index_commit(index_, name, &seal, row, count, SAMPLE_PROVENANCE));
 }
 
 /* Every realization in an order that `seed` shuffles, in segments of a size that it chooses. */

@@ -1,26 +1,82 @@
-/* Rank 0 without MPI: what it sends to workers while rounds wait to be decided. */
+/* Rank 0 without MPI and with a clock of the test's: what it tells workers to do, and how a run ends. */
 #include "tests/support/campaign_text.h"
 #include "tests/support/study_fixture.h"
 
 #include "campaigns/scheduler/director.h"
+#include "campaigns/scheduler/verdict.h"
+
+enum { WORKERS = 2 };
+
+static double time_; /* s */
+static double now(void) { return time_; }
 
 static struct {
-    size_t nleases, flushes;
-    uint64_t lease[16]; /* held, in the order given */
-} worker[2];
+    size_t nleases, flushes, stops;
+    int32_t kill; /* of the last STOP */
+    struct {
+        uint64_t id, point, count;
+        int64_t replica[64];
+    } lease[32]; /* in the order given */
+} worker[WORKERS];
 
 static fracas_err note(void *context, size_t to, const fracas_packet *message)
 {
     (void)context;
     if (message->kind == FRACAS_PACKET_FLUSH) worker[to].flushes++;
+    if (message->kind == FRACAS_PACKET_STOP) {
+        worker[to].stops++;
+        memcpy(&worker[to].kill, message->body, sizeof worker[to].kill);
+    }
     if (message->kind != FRACAS_PACKET_LEASE) return FRACAS_OK;
     fracas_lease lease;
     memcpy(&lease, message->body, message->size);
-    worker[to].lease[worker[to].nleases++] = lease.id;
+    const size_t i = worker[to].nleases++;
+    assert_true(i < 32 && lease.count <= 64);
+    worker[to].lease[i].id = lease.id;
+    worker[to].lease[i].point = lease.point;
+    worker[to].lease[i].count = lease.count;
+    memcpy(worker[to].lease[i].replica, lease.replica, lease.count * sizeof *lease.replica);
     return FRACAS_OK;
 }
 
-static void hear(fracas_director *director, size_t from, fracas_packet_kind kind, const void *body, size_t size)
+/* ---- a run ---- */
+
+static fracas_campaign *campaign;
+static fracas_run_options options;
+static fracas_voice voice;
+static fracas_director *director;
+
+/* Of the plain campaign, in place of its three replicas and sweep: for `WORKERS` workers in a study of its own. */
+static void prepare(const char *replicas, const char *sweep)
+{
+    char *counted = replace(plain_campaign, "replicas: 3", replicas), *text = replace(counted, "", sweep);
+    campaign = read_text(text);
+    free(text);
+    free(counted);
+    fracas_run_options_init(&options);
+    options.width = 8;
+    fracas_voice_init(&voice);
+    study = sample_folder();
+    memset(worker, 0, sizeof worker);
+    time_ = 1000;
+}
+
+static void begin(double deadline)
+{
+    const fracas_director_setup setup = {.campaign = campaign, .options = &options, .study = study, .workers = WORKERS, .send = note,
+                                         .voice = &voice, .now = now, .deadline = deadline};
+    fracas_err verdict;
+    OK(fracas_director_create(&setup, &director, &verdict));
+}
+
+static void end(void)
+{
+    fracas_director_destroy(director);
+    fracas_campaign_destroy(campaign);
+    sample_remove(study);
+}
+
+static void hear(size_t from, fracas_packet_kind kind, const void *body, size_t size)
 {
     fracas_packet *message;
     OK(fracas_packet_create(kind, body, size, &message));
@@ -28,61 +84,360 @@ static void hear(fracas_director *director, size_t from, fracas_packet_kind kind
     free(message);
 }
 
-/* The worker has computed the lease that it was given as number `i`, so slowly that leases are one batch at most. */
-static void computed(fracas_director *director, size_t from, size_t i)
+static void ready(void)
 {
-    const fracas_lease_report report = {.lease = worker[from].lease[i], .seconds = 1e3};
-    hear(director, from, FRACAS_PACKET_COMPUTED, &report, sizeof report);
+    for (size_t w = 0; w < WORKERS; w++) hear(w, FRACAS_PACKET_READY, &campaign->hash, sizeof campaign->hash);
 }
 
-static fracas_campaign *two_points(void)
+/* The worker has computed the lease that it was given as number `i`. */
+static void computed(size_t from, size_t i, double seconds)
 {
-    char *rule = replace(plain_campaign, "replicas: 3", "replicas: {minimum: 16, maximum: 64, until: {quantity: dissipated, "
-                                                        "relative-half-width: 0.1}}");
-    char *text = replace(rule, "", "sweep:\n  - loading.rate: [1e3, 1e4]\n");
-    fracas_campaign *campaign = read_text(text);
-    free(text);
-    free(rule);
-    return campaign;
+    const fracas_lease_report report = {.lease = worker[from].lease[i].id, .seconds = seconds};
+    hear(from, FRACAS_PACKET_COMPUTED, &report, sizeof report);
 }
 
-/* Two points of 16 realizations each. When the second worker has nothing left to do, both are asked for what they have in memory, though
- * the first still computes: the round of the other point may be complete with it. */
+/* The leases `first` to `last` of a worker are in a segment of so many bytes. */
+static void segment(size_t from, size_t first, size_t last, uint64_t bytes)
+{
+    static int number;
+    struct {
+        fracas_segment_note note;
+        fracas_segment_row row[1024];
+    } body;
+    memset(&body, 0, sizeof body);
+    size_t rows = 0;
+    for (size_t i = first; i <= last; i++)
+        for (size_t k = 0; k < worker[from].lease[i].count; k++, rows++)
+            body.row[rows] = (fracas_segment_row){.point = campaign->point[worker[from].lease[i].point].hash,
+                                                  .replica = worker[from].lease[i].replica[k], .row = (int64_t)rows};
+    snprintf(body.note.name, sizeof body.note.name, "s%d.h5", number++);
+    body.note.seal.bytes = bytes;
+    body.note.rows = rows;
+    const size_t size = sizeof body.note + rows * sizeof *body.row;
+    memcpy((char *)&body + size, "{}", 3);
+    hear(from, FRACAS_PACKET_SEGMENT, &body, size + 3);
+}
+
+static void pass(double seconds)
+{
+    time_ += seconds;
+    fracas_director_tick(director);
+}
+
+/* How the run ends. */
+static void assert_verdict(fracas_err code, const char *part)
+{
+    assert_true(fracas_director_over(director));
+    const fracas_err err = fracas_director_finish(director);
+    if (err != code || !strstr(fracas_message(), part))
+        fail_msg("%d, not %d: %s", err, code, fracas_message());
+}
+
+static void say_ended(size_t from) { hear(from, FRACAS_PACKET_ENDED, NULL, 0); }
+
+/* ---- rounds ---- */
+
+/* Two points of 16 realizations each. When the second worker has nothing left to do, both are asked for what they have in memory,
+ * though the first still computes: the round of the other point may be complete with it. */
 static void nobody_waits_for_records_of_one_that_computes(void **state)
 {
     (void)state;
-    fracas_campaign *campaign = two_points();
-    fracas_run_options options;
-    fracas_run_options_init(&options);
-    fracas_voice voice;
-    fracas_voice_init(&voice);
-    study = sample_folder();
-    const fracas_director_setup setup = {.campaign = campaign, .options = &options, .study = study, .workers = 2, .send = note,
-                                         .voice = &voice};
-    fracas_director *director;
-    fracas_err verdict;
-    OK(fracas_director_create(&setup, &director, &verdict));
-    for (size_t w = 0; w < 2; w++) hear(director, w, FRACAS_PACKET_READY, &campaign->hash, sizeof campaign->hash);
+    prepare("replicas: {minimum: 16, maximum: 64, until: {quantity: dissipated, relative-half-width: 0.1}}",
+            "sweep:\n  - loading.rate: [1e3, 1e4]\n");
+    begin(0);
+    ready();
     assert_int_equal(worker[0].nleases, 2); /* the first took one ahead */
     assert_int_equal(worker[1].nleases, 1);
-    computed(director, 0, 0);
-    for (size_t i = 0; i < worker[1].nleases; i++) { /* the last ones are shared out: 8, 4, 2, 1, 1 */
-        assert_int_equal(worker[0].flushes + worker[1].flushes, 0); /* everyone has something to do */
-        computed(director, 1, i);
-    }
-    assert_int_equal(worker[1].nleases, 5);
+    computed(0, 0, 8); /* so long that leases are one batch */
+    assert_int_equal(worker[0].flushes + worker[1].flushes, 0); /* everyone has something to do */
+    computed(1, 0, 8);
+    assert_int_equal(worker[1].nleases, 2);
+    assert_int_equal(worker[0].flushes + worker[1].flushes, 0);
+    computed(1, 1, 8);
     assert_int_equal(worker[0].nleases, 2); /* which is not computed yet */
     assert_int_equal(worker[0].flushes, 1);
     assert_int_equal(worker[1].flushes, 1);
-    computed(director, 0, 1);
+    computed(0, 1, 8);
     assert_int_equal(worker[0].flushes, 1); /* once until its segment comes */
-    fracas_director_destroy(director);
-    fracas_campaign_destroy(campaign);
-    sample_remove(study);
+    end();
+}
+
+/* ---- time ---- */
+
+/* 16 realizations, 8 for each worker; the second worker is done with its own. */
+static void half_done(double deadline)
+{
+    prepare("replicas: 16", "");
+    begin(deadline);
+    ready();
+    assert_int_equal(worker[0].nleases, 1);
+    assert_int_equal(worker[1].nleases, 1);
+    computed(1, 0, 1);
+    segment(1, 0, 0, 1000);
+}
+
+/* Nobody sends anything any more: only the clock goes on. */
+static void an_overdue_lease_is_offered_when_time_passes(void **state)
+{
+    (void)state;
+    half_done(0);
+    pass(9);
+    assert_int_equal(worker[1].nleases, 1);
+    pass(2);
+    assert_int_equal(worker[1].nleases, 2);
+    assert_int_equal(worker[1].lease[1].id, worker[0].lease[0].id);
+    pass(100);
+    assert_int_equal(worker[1].nleases, 2); /* it is at work */
+    end();
+}
+
+static void a_look_at_the_time_is_rare(void **state)
+{
+    (void)state;
+    half_done(0);
+    pass(0);
+    time_ += 11;
+    fracas_director_tick(director);
+    assert_int_equal(worker[1].nleases, 2);
+    end();
+    half_done(0);
+    pass(9.9);
+    pass(0.2); /* overdue, but looked at 0.2 s ago */
+    assert_int_equal(worker[1].nleases, 1);
+    pass(0.1);
+    assert_int_equal(worker[1].nleases, 2);
+    end();
+}
+
+/* Everything is there, but worker 0 hangs in a lease that was computed by the other. */
+static void a_worker_that_is_not_needed_is_given_up(void **state)
+{
+    (void)state;
+    half_done(0);
+    pass(11);
+    computed(1, 1, 1);
+    assert_int_equal(worker[0].stops, 1);
+    assert_int_equal(worker[0].kill, 1); /* what it does is not needed */
+    pass(11);
+    assert_false(fracas_director_over(director)); /* worker 1 has all in memory still */
+    segment(1, 1, 1, 1000);
+    say_ended(1);
+    assert_false(fracas_director_over(director));
+    pass(0.3);
+    assert_true(fracas_director_over(director));
+    say_ended(0); /* too late to be of any effect */
+    hear(0, FRACAS_PACKET_TROUBLE, &(fracas_trouble){.code = FRACAS_BUG}, sizeof(fracas_trouble));
+    assert_verdict(FRACAS_DAMAGED, "s"); /* the run ends well, but for the segments that this test did not write */
+    end();
+}
+
+static void it_has_10_s_to_stop(void **state)
+{
+    (void)state;
+    half_done(0);
+    pass(11);
+    computed(1, 1, 1);
+    segment(1, 1, 1, 1000);
+    say_ended(1);
+    pass(9.9);
+    assert_false(fracas_director_over(director));
+    pass(0.3);
+    assert_true(fracas_director_over(director));
+    end();
+}
+
+/* A worker that never came up. */
+static void a_worker_that_does_not_start_is_given_up(void **state)
+{
+    (void)state;
+    prepare("replicas: 8", "");
+    begin(0);
+    hear(1, FRACAS_PACKET_READY, &campaign->hash, sizeof campaign->hash);
+    for (size_t i = 0; i < worker[1].nleases; i++) computed(1, i, 1);
+    segment(1, 0, worker[1].nleases - 1, 1000);
+    say_ended(1);
+    pass(10.5);
+    assert_true(fracas_director_over(director));
+    end();
+}
+
+/* ---- the deadline ---- */
+
+/* Leases of 1 s until the next one would not end 2 s before the deadline; then nobody computes, and the run drains in order. */
+static void no_lease_is_given_that_does_not_end_in_time(void **state)
+{
+    (void)state;
+    prepare("replicas: 160", "");
+    begin(1000 + 6.5);
+    ready();
+    for (size_t i = 0; worker[0].stops == 0; i++) {
+        assert_true(i < 10);
+        time_ += 1;
+        for (size_t w = 0; w < WORKERS; w++)
+            if (i < worker[w].nleases) computed(w, i, 1);
+        pass(0);
+    }
+    assert_true(time_ == 1004); /* a fifth lease would end at 1005, later than 1004.5 */
+    assert_int_equal(worker[0].nleases, 4);
+    assert_int_equal(worker[1].nleases, 4);
+    assert_int_equal(worker[0].kill, 0);
+    for (size_t w = 0; w < WORKERS; w++) {
+        segment(w, 0, 3, 1000);
+        say_ended(w);
+    }
+    assert_verdict(FRACAS_INTERRUPTED, "the walltime is nearly over: 64 of 160 realizations are done");
+    end();
+}
+
+/* What runs 2 s before the deadline is killed; who does not answer until the deadline is left behind. */
+static void what_runs_at_the_deadline_is_killed(void **state)
+{
+    (void)state;
+    half_done(1000 + 60);
+    options.lease_seconds = 1;
+    pass(9);
+    assert_int_equal(worker[0].stops, 0);
+    pass(48.9);
+    assert_int_equal(worker[0].stops, 0);
+    pass(0.3); /* 1.8 s are left */
+    assert_int_equal(worker[0].stops, 1);
+    assert_int_equal(worker[0].kill, 1);
+    say_ended(1);
+    pass(1.5);
+    assert_false(fracas_director_over(director));
+    pass(0.4);
+    assert_verdict(FRACAS_INTERRUPTED, "the walltime is nearly over: 8 of 16 realizations are done");
+    end();
+}
+
+static void what_drains_at_the_deadline_is_killed(void **state)
+{
+    (void)state;
+    half_done(1000 + 60);
+    fracas_director_drain(director);
+    assert_int_equal(worker[0].stops, 1);
+    assert_int_equal(worker[0].kill, 0);
+    pass(30);
+    assert_int_equal(worker[0].stops, 1);
+    pass(29);
+    assert_int_equal(worker[0].stops, 2);
+    assert_int_equal(worker[0].kill, 1);
+    pass(0.5);
+    assert_int_equal(worker[0].stops, 2); /* once is enough */
+    say_ended(0);
+    say_ended(1);
+    assert_verdict(FRACAS_INTERRUPTED, "interrupted: 8 of 16 realizations are done"); /* which came first */
+    end();
+}
+
+/* Segments of 1 GB in all: 20 s to merge. */
+static void everything(double deadline)
+{
+    half_done(deadline);
+    computed(0, 0, 1);
+    segment(0, 0, 0, 1000000000);
+    for (size_t w = 0; w < WORKERS; w++) say_ended(w);
+}
+
+static void a_merge_that_would_not_end_is_not_begun(void **state)
+{
+    (void)state;
+    everything(1000 + 19);
+    assert_verdict(FRACAS_INTERRUPTED, "all 16 realizations are done and kept, only study.h5 is missing");
+    end();
+    everything(1000 + 21);
+    assert_verdict(FRACAS_DAMAGED, "s"); /* begun: it finds none of the segments */
+    end();
+}
+
+/* ---- parts ---- */
+
+static void a_part_is_every_so_many_th(void **state)
+{
+    (void)state;
+    prepare("replicas: 3", "sweep:\n  - loading.rate: [1e3, 1e4, 2e4]\n");
+    options.part = 2;
+    options.parts = 4; /* of 9: the second and the sixth */
+    begin(0);
+    ready();
+    assert_int_equal(worker[0].nleases + worker[1].nleases, 2);
+    bool found[3][3] = {{false}};
+    for (size_t w = 0; w < WORKERS; w++) {
+        assert_int_equal(worker[w].lease[0].count, 1);
+        found[worker[w].lease[0].point][worker[w].lease[0].replica[0]] = true;
+        computed(w, 0, 1);
+        segment(w, 0, 0, 1000);
+        say_ended(w);
+    }
+    assert_true(found[0][1] && found[1][2]);
+    assert_verdict(FRACAS_INTERRUPTED, "part 2 of 4 is complete, 2 realizations, 0 of them FAILED; when the other parts are, "
+                   "`fracas merge-studies`");
+    end();
+}
+
+/* A part that has everything is the study. */
+static void the_only_part_is_merged(void **state)
+{
+    (void)state;
+    prepare("replicas: 1", "");
+    options.part = 1;
+    options.parts = 2;
+    begin(0);
+    ready();
+    computed(0, 0, 1);
+    segment(0, 0, 0, 1000);
+    for (size_t w = 0; w < WORKERS; w++) say_ended(w);
+    assert_verdict(FRACAS_DAMAGED, "s");
+    end();
+}
+
+/* ---- failures ---- */
+
+/* The worker cannot compute the realization that it was given as number `i`. */
+static void failed(size_t from, size_t i)
+{
+    const fracas_lease_failure failure = {.lease = worker[from].lease[i].id, .count = 1, .reason = "it is cursed"};
+    hear(from, FRACAS_PACKET_FAILED, &failure, sizeof failure);
+}
+
+/* The verdict names the points, the first few of them. */
+static void points_with_failures_are_named(void **state)
+{
+    (void)state;
+    prepare("replicas: 1", "sweep:\n  - loading.rate: [1e3, 1e4, 2e4, 3e4, 4e4, 5e4, 6e4]\n");
+    options.width = 1;
+    begin(0);
+    hear(1, FRACAS_PACKET_READY, &campaign->hash, sizeof campaign->hash);
+    OK(fracas_failed_verdict(study, NULL, &campaign->table));
+    for (size_t i = 0; i < worker[1].nleases; i++) failed(1, i); /* each three times */
+    assert_int_equal(worker[1].nleases, 21);
+    assert_int_equal(worker[1].stops, 1);
+    fracas_index *index;
+    OK(fracas_index_open(study, false, &index));
+    assert_int_equal(fracas_failed_verdict(study, index, &campaign->table), FRACAS_SOME_FAILED);
+    assert_non_null(strstr(fracas_message(), "7 realizations of"));
+    assert_non_null(strstr(fracas_message(), "FAILED: 1 of point 0, 1 of point 1, 1 of point 2, 1 of point 3, 1 of point 4, "
+                           "and of 2 points more (which and why: fracas status"));
+    fracas_index_close(index);
+    end();
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(nobody_waits_for_records_of_one_that_computes)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nobody_waits_for_records_of_one_that_computes),
+        cmocka_unit_test(an_overdue_lease_is_offered_when_time_passes),
+        cmocka_unit_test(a_look_at_the_time_is_rare),
+        cmocka_unit_test(a_worker_that_is_not_needed_is_given_up),
+        cmocka_unit_test(it_has_10_s_to_stop),
+        cmocka_unit_test(a_worker_that_does_not_start_is_given_up),
+        cmocka_unit_test(no_lease_is_given_that_does_not_end_in_time),
+        cmocka_unit_test(what_runs_at_the_deadline_is_killed),
+        cmocka_unit_test(what_drains_at_the_deadline_is_killed),
+        cmocka_unit_test(a_merge_that_would_not_end_is_not_begun),
+        cmocka_unit_test(a_part_is_every_so_many_th),
+        cmocka_unit_test(the_only_part_is_merged),
+        cmocka_unit_test(points_with_failures_are_named),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

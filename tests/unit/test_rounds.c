@@ -65,9 +65,10 @@ static void look(size_t p, fracas_decision **decision, size_t wanted)
 
 static int64_t rows_of(size_t p)
 {
-    fracas_index_counts counts;
-    OK(fracas_index_count_point(index_, &campaign->point[p].hash, &counts));
-    return counts.realizations;
+    fracas_index_counts counts, point;
+    const fracas_point_table one = {.npoints = 1, .point = &campaign->table.point[p]};
+    OK(fracas_index_count_points(index_, &one, &counts, &point));
+    return point.realizations;
 }
 
 /* Half width with n values of 1 -+ spread: t spread sqrt(n/(n - 1))/sqrt(n). At 8 of 0.05 0.0447, of 0.5 0.447; at 24 0.216. */

@@ -141,6 +141,31 @@ static void sizes_shrink_with_what_is_left(void **state)
     fracas_scheduler_destroy(scheduler);
 }
 
+/* Which workers share the last ones: those that will be free soon enough to be of use, not those that are lost. */
+static void the_last_ones_are_shared_with_who_is_free_soon(void **state)
+{
+    (void)state;
+    for (int late = 0; late < 2; late++) {
+        fracas_scheduler *scheduler = create(1, 56, 4);
+        fracas_lease lease[4], last;
+        for (size_t worker = 0; worker < 4; worker++) {
+            assert_true(next(scheduler, worker, 0, &lease[worker]));
+            assert_int_equal(lease[worker].count, 8);
+        }
+        computed(scheduler, 0, &lease[0], 8); /* a batch takes 8 s */
+        fracas_scheduler_lost(scheduler, 3);
+        for (int i = 0; i < 2; i++) { /* what was lost, and a batch of its own */
+            assert_true(next(scheduler, 0, 0, &last));
+            assert_int_equal(last.count, 8);
+            computed(scheduler, 0, &last, 8);
+        }
+        /* 16 wait. Workers 1 and 2 will be free in 4 s, or a little later; 3 does not ask any more. */
+        assert_true(next(scheduler, 0, late ? 4 : 3.9, &last));
+        assert_int_equal(last.count, late ? 6 : 8);
+        fracas_scheduler_destroy(scheduler);
+    }
+}
+
 static void a_lease_has_a_largest_size(void **state)
 {
     (void)state;
@@ -243,24 +268,22 @@ static void what_comes_next_is_predicted(void **state)
 static void what_waits_again_is_predicted(void **state)
 {
     (void)state;
-    fracas_scheduler *scheduler = create(1, 20, 2);
+    fracas_scheduler *scheduler = create(1, 30, 2);
     fracas_lease first, second;
     assert_true(next(scheduler, 0, 0, &first));
     assert_true(next(scheduler, 1, 0, &second));
-    assert_int_equal(second.count, 6); /* 12 are left for 2 workers */
-    computed(scheduler, 1, &second, 6);
+    computed(scheduler, 1, &second, 8);
     assert_true(next(scheduler, 1, 0, &second));
-    assert_int_equal(second.count, 3);
-    assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 3), 5 + 2, 1e-9); /* the rest of 8, and 2 of the last 3 */
-    computed(scheduler, 1, &second, 3);
+    assert_int_equal(second.count, 8);
+    assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 3), 5 + 6, 1e-9); /* the rest of 8, and the last 6 */
+    computed(scheduler, 1, &second, 8);
     fracas_scheduler_lost(scheduler, 0);
     assert_float_equal(fracas_scheduler_predicted(scheduler, 1, 3), 8, 1e-9);
-    for (int i = 0; i < 2; i++) { /* 8, and 2 of the last 3 */
-        assert_true(next(scheduler, 1, 3, &second));
-        computed(scheduler, 1, &second, (double)second.count);
-    }
     assert_true(next(scheduler, 1, 3, &second));
-    assert_float_equal(fracas_scheduler_predicted(scheduler, 1, 3.25), 0.75, 1e-9);
+    computed(scheduler, 1, &second, 8);
+    assert_true(next(scheduler, 1, 3, &second));
+    assert_int_equal(second.count, 6);
+    assert_float_equal(fracas_scheduler_predicted(scheduler, 1, 3.25), 5.75, 1e-9);
     fracas_scheduler_destroy(scheduler);
 }
 
@@ -558,6 +581,7 @@ int main(void)
         cmocka_unit_test(one_batch_while_nothing_is_measured),
         cmocka_unit_test(sizes_are_by_measured_cost),
         cmocka_unit_test(sizes_shrink_with_what_is_left),
+        cmocka_unit_test(the_last_ones_are_shared_with_who_is_free_soon),
         cmocka_unit_test(a_lease_has_a_largest_size),
         cmocka_unit_test(no_lease_time_means_one_batch),
         cmocka_unit_test(the_longest_go_first),

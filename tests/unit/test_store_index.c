@@ -28,11 +28,16 @@ static void plan_is_in_order_and_grows(void **state)
     one.npoints = 1; /* a point that is not in the table any more stays */
     OK(fracas_index_plan(index_, &one));
     assert_int_equal(count_all().realizations, ALL + 2);
-    fracas_index_counts counts;
-    OK(fracas_index_count_point(index_, &point_row[1].hash, &counts));
-    assert_int_equal(counts.realizations, REPLICAS + 2);
-    fracas_hash unknown = fracas_hash_of("unknown", 7);
-    sample_fails(fracas_index_count_point(index_, &unknown, &counts), FRACAS_DAMAGED, "has no point");
+    fracas_index_counts counts, point[2];
+    fracas_point_row some[2] = {point_row[1], point_row[0]}; /* whatever their order and number */
+    one = (fracas_point_table){.npoints = 2, .point = some};
+    OK(fracas_index_count_points(index_, &one, &counts, point));
+    assert_int_equal(counts.realizations, ALL + 2);
+    assert_int_equal(point[0].realizations, REPLICAS + 2);
+    assert_int_equal(point[0].planned, REPLICAS + 2);
+    assert_int_equal(point[1].realizations, REPLICAS);
+    some[1].hash = fracas_hash_of("unknown", 7);
+    sample_fails(fracas_index_count_points(index_, &one, &counts, point), FRACAS_DAMAGED, "has no point");
 }
 
 static void note_failure(void *said, const fracas_index_row *row, const char *reason)

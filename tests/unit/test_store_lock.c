@@ -190,6 +190,24 @@ static void a_holder_that_lives_is_not_taken_for_dead(void **state)
     close(ready[0]), close(ready[1]);
 }
 
+/* A dead process stays in /proc until its parent asks. */
+static void a_zombie_is_dead(void **state)
+{
+    (void)state;
+    char over[FRACAS_HOLDER_TEXT] = "?";
+    pid_t child = fork();
+    if (child == 0) {
+        int lock;
+        if (!fracas_study_lock(study, false, &lock)) kill(getpid(), SIGKILL);
+        _exit(1);
+    }
+    siginfo_t info;
+    assert_int_equal(waitid(P_PID, (id_t)child, &info, WEXITED | WNOWAIT), 0);
+    assert_int_equal(state_is("pid"), FRACAS_LOCK_LEFT);
+    take(false, over);
+    waitpid(child, NULL, 0);
+}
+
 /* A pid that another process has by now is no sign of life. */
 static void a_pid_used_again_is_no_holder(void **state)
 {
@@ -277,6 +295,7 @@ int main(void)
         TEST(to_look_takes_nothing_over),
         TEST(a_renamed_host_takes_over_its_own),
         TEST(a_holder_that_lives_is_not_taken_for_dead),
+        TEST(a_zombie_is_dead),
         TEST(a_pid_used_again_is_no_holder),
         TEST(another_hosts_lock_needs_force),
         TEST(a_requeued_job_takes_over_its_own),

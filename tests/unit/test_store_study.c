@@ -128,6 +128,16 @@ static void merge_refuses_what_is_not_whole(void **state)
 
 /* ---- recover ---- */
 
+static int64_t number(const char *sql)
+{
+    sqlite3_stmt *statement;
+    assert_int_equal(sqlite3_prepare_v2(index_->db, sql, -1, &statement, NULL), SQLITE_OK);
+    assert_int_equal(sqlite3_step(statement), SQLITE_ROW);
+    int64_t value = sqlite3_column_int64(statement, 0);
+    sqlite3_finalize(statement);
+    return value;
+}
+
 static void orphans_are_adopted(void **state)
 {
     (void)state;
@@ -141,9 +151,39 @@ static void orphans_are_adopted(void **state)
     recover_says("adopted");
     fracas_index_counts after = count_all();
     assert_memory_equal(&after, &before, sizeof after);
+    assert_int_equal(number("SELECT count(*) FROM segment WHERE provenance <> '" SAMPLE_PROVENANCE "'"), 0);
     merge();
     assert_true(sample_same_file(sample_path(study, "study.h5"), sample_path(study, "first")));
     recover_says("");
+    fracas_reader *reader;
+    char *provenance;
+    OK(fracas_reader_open(sample_path(study, "study.h5"), &reader));
+    OK(fracas_reader_provenance(reader, &provenance));
+    assert_null(provenance);
+    fracas_reader_close(reader);
+}
+
+/* A segment of before it told its provenance, and one that tells none that JSON is. */
+static void segments_without_provenance_are_adopted(void **state)
+{
+    (void)state;
+    static const char *const tells[] = {NULL, "{\"host\": "};
+    for (int i = 0; i < 2; i++) {
+        fracas_file_header header = sample_header();
+        fracas_writer *writer;
+        fracas_record record;
+        fracas_file_seal seal;
+        char name[32];
+        snprintf(name, sizeof name, "segments/old%d.h5", i);
+        OK(fracas_writer_create(sample_path(study, name), &header, &table, &writer));
+        if (tells[i]) OK(fracas_writer_provenance(writer, tells[i]));
+        sample_record(0, i, MOST, &record);
+        OK(fracas_writer_append(writer, 0, i, &record));
+        fracas_record_clear(&record);
+        OK(fracas_writer_finish(writer, false, &seal));
+    }
+    recover_says("old1.h5 with 1 realizations");
+    assert_int_equal(number("SELECT count(*) FROM segment WHERE provenance = '{\"adopted\": true}'"), 2);
 }
 
 static void half_written_files_go_and_foreign_ones_stay(void **state)
@@ -530,6 +570,7 @@ int main(void)
         TEST(merged_is_as_if_written_in_order),
         TEST(merge_refuses_what_is_not_whole),
         TEST(orphans_are_adopted),
+        TEST(segments_without_provenance_are_adopted),
         TEST(half_written_files_go_and_foreign_ones_stay),
         TEST(lost_segments_are_planned_again),
         TEST(verify_names_what_is_wrong),

@@ -1,0 +1,195 @@
+#include "cli/job.h"
+#include "cli/run_options.h"
+
+#include "base/param.h"
+#include "campaigns/campaign.h"
+#include "campaigns/scheduler/costs.h"
+#include "campaigns/scheduler/prepare.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+/* Behind those of `fracas run`, which are handed on to it. */
+enum { NODES = FRACAS_NRUN_OPTIONS, TIME, TASKS, PARTITION, ACCOUNT, LEAD, OUTPUT, SCRIPT, SUBMIT, NOPTIONS };
+#define OWN(option) [(option) - FRACAS_NRUN_OPTIONS]
+static const fracas_option options[NOPTIONS - FRACAS_NRUN_OPTIONS] = {
+    OWN(NODES) = {"nodes", "N", "nodes of the job (1)"},
+    OWN(TIME) = {"time", "TIME", "the most it may take each time it is started: 2:00:00, 90m; needed"},
+    OWN(TASKS) = {"tasks-per-node", "N", "processes on each node (the whole node: one a core)"},
+    OWN(PARTITION) = {"partition", "NAME", "partition (the cluster's default)"},
+    OWN(ACCOUNT) = {"account", "NAME", "account that is charged (your default)"},
+    OWN(LEAD) = {"signal-lead", "S", "have Slurm signal S seconds before the end (60)"},
+    OWN(OUTPUT) = {"output", "FILE", "what the run says; %j: number of the job (FILE.%j.out)"},
+    OWN(SCRIPT) = {"script", "PATH", "write the script there (FILE.sbatch)"},
+    OWN(SUBMIT) = {"submit", NULL, "hand it to sbatch, and print the number of the job"},
+};
+
+enum { MOST_WORDS = 4 + 2 * FRACAS_NRUN_OPTIONS };
+
+typedef struct {
+    fracas_job job;
+    char folder[PATH_MAX], program[PATH_MAX], study[PATH_MAX], name[PATH_MAX], output[PATH_MAX], script[PATH_MAX];
+    char option[FRACAS_NRUN_OPTIONS][40]; /* "--replicas" */
+    char *run[MOST_WORDS];     /* "fracas", then the job's */
+} submission;
+
+/* The command line of the run, checked as `fracas run` does. */
+static fracas_err make_run(const fracas_arguments *arguments, submission *s, fracas_run_options *run)
+{
+    int n = 0;
+    s->run[n++] = (char *)"fracas";
+    s->run[n++] = (char *)"run";
+    s->run[n++] = (char *)arguments->operand;
+    for (int i = 0; i < FRACAS_NRUN_OPTIONS; i++) {
+        const fracas_option *option = &fracas_cli_run_options[i];
+        if (!arguments->value[i]) continue;
+        snprintf(s->option[i], sizeof s->option[i], "--%s", option->name);
+        s->run[n++] = s->option[i];
+        if (option->argument) s->run[n++] = (char *)arguments->value[i];
+    }
+    s->job.run = s->run + 1;
+    s->job.nrun = n - 1;
+    char *line[MOST_WORDS]; /* reading it changes its order */
+    memcpy(line, s->run, sizeof line);
+    fracas_arguments of_run;
+    TRY(fracas_arguments_read(&fracas_command_run, n, line, &of_run));
+    TRY(fracas_cli_read_run_options(&of_run, run, &run->study));
+    run->file = arguments->operand;
+    if (run->walltime > 0) return fracas_fail(FRACAS_USAGE, "submit: --walltime follows from --time: leave it out");
+    return FRACAS_OK;
+}
+
+/* All that can be known now of whether the run will start. */
+static fracas_err check_campaign(const fracas_run_options *run, submission *s)
+{
+    fracas_campaign *campaign;
+    double *cost = NULL;
+    TRY(fracas_campaign_read(run->file, &campaign));
+    fracas_err err = fracas_study_folder(run, campaign, s->study, sizeof s->study);
+    if (!err) err = fracas_study_fits(s->study, campaign);
+    if (!err) err = fracas_costs_create(campaign, run, &cost);
+    snprintf(s->name, sizeof s->name, "%s", campaign->name);
+    free(cost);
+    fracas_campaign_destroy(campaign);
+    return err;
+}
+
+static fracas_err read_job(const fracas_arguments *arguments, submission *s)
+{
+    fracas_job *job = &s->job;
+    job->nodes = 1;
+    job->lead = 60;
+    TRY(fracas_arguments_integer(arguments, NODES, 1, 1000000, &job->nodes));
+    TRY(fracas_arguments_integer(arguments, TASKS, 1, 1000000, &job->tasks));
+    TRY(fracas_arguments_integer(arguments, LEAD, 1, 65535, &job->lead));
+    TRY(fracas_arguments_time(arguments, TIME, &job->time));
+    if (job->time == 0)
+        return fracas_fail(FRACAS_USAGE, "submit: --time is missing: how long the job may take, such as --time 2:00:00");
+    if (job->time < 60 || job->time <= job->lead)
+        return fracas_fail(FRACAS_USAGE, "submit: --time %s is too short: it must be a minute or more, and longer than --signal-lead (%d s)",
+                           arguments->value[TIME], job->lead);
+    snprintf(s->output, sizeof s->output, "%s.%%j.out", arguments->operand);
+    snprintf(s->script, sizeof s->script, "%s.sbatch", arguments->operand);
+    if (arguments->value[SCRIPT]) snprintf(s->script, sizeof s->script, "%s", arguments->value[SCRIPT]);
+    job->output = arguments->value[OUTPUT] ? arguments->value[OUTPUT] : s->output;
+    job->partition = arguments->value[PARTITION];
+    job->account = arguments->value[ACCOUNT];
+    job->more = arguments->rest;
+    job->nmore = arguments->nrest;
+    job->name = s->name;
+    job->folder = s->folder;
+    job->program = s->program;
+    job->study = s->study;
+    job->script = s->script;
+    return fracas_job_check(job);
+}
+
+static fracas_err find_places(submission *s)
+{
+    if (!getcwd(s->folder, sizeof s->folder))
+        return fracas_fail(FRACAS_ENVIRONMENT, "the current folder has no name: %s", strerror(errno));
+    ssize_t n = readlink("/proc/self/exe", s->program, sizeof s->program - 1);
+    if (n < 0) return fracas_fail(FRACAS_ENVIRONMENT, "cannot find this program: /proc/self/exe: %s", strerror(errno));
+    s->program[n] = '\0';
+    return FRACAS_OK;
+}
+
+/* A file that something else wrote is not overwritten. */
+static fracas_err check_place(const char *path)
+{
+    FILE *file = fopen(path, "r");
+    if (!file && errno == ENOENT) return FRACAS_OK;
+    if (!file) return fracas_fail(FRACAS_ENVIRONMENT, "cannot open %s: %s", path, strerror(errno));
+    char first[sizeof FRACAS_JOB_FIRST] = "";
+    const size_t n = fread(first, 1, sizeof first - 1, file);
+    fclose(file);
+    if (n == 0 || !strcmp(first, FRACAS_JOB_FIRST)) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "submit: %s is there already and is no script of `fracas submit`: move it away, or give --script PATH",
+                       path);
+}
+
+static fracas_err write_script(const submission *s)
+{
+    TRY(check_place(s->script));
+    FILE *out = fopen(s->script, "w");
+    if (!out) return fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: %s", s->script, strerror(errno));
+    fracas_job_write(&s->job, out);
+    const int bad = ferror(out);
+    if (fclose(out) || bad) return fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: is the disk full?", s->script);
+    return FRACAS_OK;
+}
+
+/* What sbatch says on stdout, the number of the job, is this program's output. */
+static fracas_err hand_in(const submission *s)
+{
+    enum { MISSING = 127 };
+    int status = 0;
+    fflush(stdout);
+    const pid_t pid = fork();
+    if (pid < 0) return fracas_fail(FRACAS_ENVIRONMENT, "cannot start sbatch: %s", strerror(errno));
+    if (pid == 0) {
+        execlp("sbatch", "sbatch", "--parsable", s->script, (char *)NULL);
+        _exit(MISSING);
+    }
+    while (waitpid(pid, &status, 0) < 0 && errno == EINTR)
+        ;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return FRACAS_OK;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == MISSING)
+        return fracas_fail(FRACAS_ENVIRONMENT, "there is no sbatch here; the script is written: on the cluster's login node, sbatch %s",
+                           s->script);
+    return fracas_fail(FRACAS_ENVIRONMENT, "sbatch refused %s (above: why)", s->script);
+}
+
+static fracas_err prepare(const fracas_arguments *arguments, submission *s)
+{
+    fracas_run_options run;
+    TRY(find_places(s));
+    TRY(read_job(arguments, s));
+    TRY(make_run(arguments, s, &run));
+    TRY(check_campaign(&run, s));
+    TRY(write_script(s));
+    if (arguments->value[SUBMIT]) return hand_in(s);
+    printf("%s is written; submit it by: sbatch %s\n", s->script, s->script);
+    return FRACAS_OK;
+}
+
+static fracas_err submit(const fracas_arguments *arguments)
+{
+    submission *s = calloc(1, sizeof *s);
+    if (!s) return fracas_no_memory("the batch script");
+    fracas_err err = prepare(arguments, s);
+    free(s);
+    return err;
+}
+
+const fracas_command fracas_command_submit = {
+    .name = "submit", .operand = "FILE", .doc = "Writes a Slurm job that runs the campaign of FILE, and submits it",
+    .more = "\nThe job drains before its time is over or when it is preempted, and is queued again until the study is complete.\n"
+            "What follows `--` is handed to sbatch: fracas submit FILE --time 2:00:00 -- --mem=8G --constraint=skylake\n",
+    .options = fracas_cli_run_options, .noptions = FRACAS_NRUN_OPTIONS, .own = options, .nown = FRACAS_COUNT(options), .takes_rest = true, .run = submit,
+};

@@ -1,0 +1,92 @@
+# A rank that dies takes mpirun down; the parent says why, starts it again, and the run goes on to the bytes of an undisturbed one. MPI
+# that never makes anything durable is given up.
+. tests/support/campaigns.sh
+
+campaign small.yaml 20 '3e4 1/s, 1e5 1/s'
+expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
+
+# of_session rank|mpirun: these processes of the run in the background.
+of_session()
+{
+    cat /proc/[0-9]*/stat 2>/dev/null | awk -v session="$session" -v wanted="$1" '
+        {name[$1] = $2; parent[$1] = $4; of[$1] = $6}
+        END {
+            for (p in name) {
+                if (of[p] != session) continue
+                if (wanted == "mpirun" && name[p] == "(mpirun)") print p
+                if (wanted == "rank" && name[p] == "(fracas)" && name[parent[p]] == "(mpirun)") print p
+            }
+        }' | sort -n
+}
+
+# ended STUDY: waits for the run in the background. False, with everything removed, where it was over before the kill.
+tries=0
+ended()
+{
+    status=0
+    wait "$session" || status=$?
+    session=
+    [ $status -eq 0 ] || { cat background >&2; fail "status $status"; }
+    ! grep -q 'MPI is started again' background || return 0
+    tries=$((tries + 1))
+    [ $tries -lt 20 ] || fail "$1 was over before the kill, $tries times"
+    rm -rf "$1"
+    return 1
+}
+
+for victim in 'rank 1' 'mpirun 1'; do
+    while :; do
+        start small.yaml --study restarted --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
+        wait_segments restarted 3
+        kill -9 "$(of_session "${victim% *}" | sed -n "${victim#* }p")" 2>/dev/null || true
+        ! ended restarted || break
+    done
+    case $victim in
+    rank*) why='mpirun noticed that process rank .* exited on signal 9 (Killed)' ;;
+    *) why='mpirun died of signal 9 (Killed)' ;;
+    esac
+    grep -q "^$why; MPI is started again" background || { cat background >&2; fail "it did not say why"; }
+    same undisturbed restarted
+    expect 0 "$fracas" verify restarted
+    sqlite3 restarted/index.sqlite "SELECT text FROM event WHERE kind = 'restarted'" > said
+    said "$why" # in the index, too
+    rm -r restarted
+done
+
+# Nothing gets done: three starts, then status 6 with the last reason. With something done in between, it is not given up.
+mkdir bin
+real=$(command -v mpirun)
+cat > bin/mpirun <<END
+#!/bin/sh
+echo start >> "$work/starts"
+[ "\$(wc -l < "$work/starts")" -gt "\${BROKEN:-99}" ] && exec "$real" "\$@"
+echo '--------------------------------------------------------------------------' >&2
+echo 'There are not enough slots available in the system.' >&2
+exit 1
+END
+chmod +x bin/mpirun
+expect 6 env PATH="$PWD/bin:$PATH" "$fracas" run small.yaml --study broken --jobs 2
+said '^There are not enough slots available in the system; MPI is started again'
+said '^fracas: There are not enough slots .*; MPI was started 3 times, the last 3 in vain; .*same command goes on'
+[ "$(wc -l < starts)" -eq 3 ] || fail "$(wc -l < starts) starts"
+rm starts
+expect 0 env BROKEN=2 PATH="$PWD/bin:$PATH" "$fracas" run small.yaml --study broken --jobs 2
+same undisturbed broken
+
+# Stopped while it waits to start again: at once, resumable.
+rm -r broken starts
+PATH="$PWD/bin:$PATH" setsid "$fracas" run small.yaml --study broken --jobs 2 > background 2>&1 &
+session=$!
+tries=0
+until grep -q 'started again' background; do
+    tries=$((tries + 1))
+    [ $tries -lt 1000 ] || fail "it was not started again"
+    sleep 0.01
+done
+kill -USR1 "$session"
+status=0
+wait "$session" || status=$?
+session=
+[ $status -eq 3 ] || { cat background >&2; fail "status $status"; }
+expect 0 "$fracas" run small.yaml --study broken --jobs 2
+same undisturbed broken

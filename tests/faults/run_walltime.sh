@@ -1,0 +1,18 @@
+# ctest-serial
+# A run with a walltime has stopped before it is over, with everything kept, and goes on from there.
+. tests/support/campaigns.sh
+
+campaign long.yaml 200 '3e4 1/s, 1e5 1/s'
+sed -i 's/elements: 500/elements: 2000/' long.yaml # 10 s of one core
+began=$(date +%s)
+expect 3 "$fracas" run long.yaml --study timed --jobs 2 --walltime 5s
+[ $(($(date +%s) - began)) -le 5 ] || fail "a walltime of 5 s was not kept"
+said 'the walltime is nearly over: [0-9]* of 400 realizations are done and kept; the same command goes on from there'
+kept=$(sed -n 's/.*nearly over: \([0-9]*\) of.*/\1/p' said)
+expect 0 "$fracas" status timed
+said "400: $kept done, 0 failed"
+expect 0 "$fracas" run long.yaml --study timed --jobs 2 --walltime 10m
+said "$((400 - kept)) of 400 realizations"
+expect 0 "$fracas" run long.yaml --study straight --jobs 2
+same straight timed
+echo "$kept of 400 realizations in 5 s: the same bytes"

@@ -1,0 +1,95 @@
+/* What the parent takes from its surroundings: the size of a Slurm job, and why mpirun says that it ended. */
+#include "campaigns/scheduler/allocation.h"
+#include "campaigns/scheduler/mpirun.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static void lists_of_slurm(void **state)
+{
+    (void)state;
+    assert_int_equal(fracas_allocation_sum("4"), 4);
+    assert_int_equal(fracas_allocation_sum("16(x2)"), 32);
+    assert_int_equal(fracas_allocation_sum("72(x2),36,8(x10)"), 260);
+    static const char *const wrong[] = {"", "x", "4,", "4(2)", "4(x", "4(x2", "-1", "4 5", "99999999999", "2000000000(x4)"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) assert_int_equal(fracas_allocation_sum(wrong[i]), 0);
+}
+
+static void jobs_of_an_allocation(void **state)
+{
+    (void)state;
+    int jobs;
+    unsetenv("SLURM_NTASKS");
+    setenv("SLURM_JOB_ID", "7", 1);
+    setenv("SLURM_JOB_CPUS_PER_NODE", "128(x3)", 1);
+    assert_int_equal(fracas_allocation_jobs(0, &jobs), FRACAS_OK);
+    assert_int_equal(jobs, 384); /* whole nodes: a process a core */
+    setenv("SLURM_NTASKS", "96", 1);
+    assert_int_equal(fracas_allocation_jobs(0, &jobs), FRACAS_OK);
+    assert_int_equal(jobs, 96);
+    assert_int_equal(fracas_allocation_jobs(100000, &jobs), FRACAS_OK); /* the bound is that of one machine */
+    assert_int_equal(jobs, 100000);
+    unsetenv("SLURM_JOB_ID"); /* left over from a job: no allocation */
+    assert_int_equal(fracas_allocation_jobs(0, &jobs), FRACAS_OK);
+    assert_true(jobs >= 1 && jobs != 96);
+    assert_int_equal(fracas_allocation_jobs(1000000, &jobs), FRACAS_USAGE);
+    unsetenv("SLURM_NTASKS");
+    unsetenv("SLURM_JOB_CPUS_PER_NODE");
+}
+
+static void a_task_of_srun_without_mpi(void **state)
+{
+    (void)state;
+    setenv("SLURM_STEP_ID", "0", 1);
+    setenv("SLURM_STEP_NUM_TASKS", "1", 1);
+    assert_int_equal(fracas_allocation_check(), FRACAS_OK);
+    setenv("SLURM_STEP_NUM_TASKS", "4", 1);
+    assert_int_equal(fracas_allocation_check(), FRACAS_USAGE);
+    assert_non_null(strstr(fracas_message(), "--mpi=pmix"));
+    unsetenv("SLURM_STEP_ID"); /* the batch script itself */
+    assert_int_equal(fracas_allocation_check(), FRACAS_OK);
+    unsetenv("SLURM_STEP_NUM_TASKS");
+}
+
+/* As Open MPI 4.1.4 said them. */
+static void the_line_that_tells(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *said, *reason;
+    } known[] = {
+        {"[vm:1] *** Process received signal ***\n[vm:1] Signal: Segmentation fault (11)\n"
+         "--------------------------------------------------------------------------\n"
+         "Primary job  terminated normally, but 1 process returned\na non-zero exit code. Per user-direction, the job has been aborted.\n"
+         "--------------------------------------------------------------------------\n"
+         "mpirun noticed that process rank 1 with PID 15149 on node node1 exited on signal 11 (Segmentation fault).\n",
+         "mpirun noticed that process rank 1 with PID 15149 on node node1 exited on signal 11 (Segmentation fault)"},
+        {"--------------------------------------------------------------------------\nORTE has lost communication with a remote daemon.\n\n"
+         "  HNP daemon   : [[1,0],0] on node vm\n",
+         "ORTE has lost communication with a remote daemon"},
+        {"-----\nThere are not enough slots available in the system to satisfy the 9\nslots that were requested by the application:\n",
+         "There are not enough slots available in the system to satisfy the 9"},
+        {"-----\n  [a line]\nanother\n", "[a line]"},
+        {"", ""},
+        {"---\n\n---", ""},
+    };
+    char text[512];
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        fracas_mpirun_reason(known[i].said, text, sizeof text);
+        assert_string_equal(text, known[i].reason);
+    }
+    char small[12];
+    fracas_mpirun_reason("a long line of many words\n", small, sizeof small);
+    assert_string_equal(small, "a long line");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lists_of_slurm), cmocka_unit_test(jobs_of_an_allocation),
+                                       cmocka_unit_test(a_task_of_srun_without_mpi), cmocka_unit_test(the_line_that_tells)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
