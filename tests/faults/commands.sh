@@ -1,5 +1,6 @@
 # The commands for studies: reindex, merge, gc, extend, retry, merge-studies. Whatever they do, the study ends as the bytes of an
 # undisturbed run.
+# ctest-timeout: 1800
 . tests/support/campaigns.sh
 
 campaign small.yaml 6 '3e4 1/s, 1e5 1/s'
