@@ -10,10 +10,10 @@
 #include <string.h>
 #include <unistd.h>
 
-/* In blocks, each of which points to the one before. */
+/* In large blocks, each of which points to the one before: a sanitizer needs some memory to tell that there is none. */
 static fracas_err exhaust_memory(void)
 {
-    enum { BLOCK = 16 << 20, BLOCKS = 64 };
+    enum { BLOCK = 64 << 20, BLOCKS = 16 };
     void **last = NULL;
     int count = 0;
     for (void **block; count < BLOCKS && (block = malloc(BLOCK)); count++) {

@@ -12,14 +12,6 @@ events()
     sqlite3 "$1/index.sqlite" "SELECT count(*) FROM event WHERE kind = '$2'"
 }
 
-# Processes of the run that are called so.
-named()
-{
-    for pid in $(processes); do
-        [ "$(cat "/proc/$pid/comm" 2>/dev/null)" != "$1" ] || echo "$pid"
-    done
-}
-
 # killed STUDY ISOLATION NAME: kill -9 of the first process of that name while there is much to do.
 killed()
 {

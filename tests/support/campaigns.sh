@@ -77,12 +77,20 @@ wait_segments()
     done
 }
 
-# Every process of the session: parent, mpirun, ranks, servers, children. Words of stat: 3 state, 6 session, 20 threads
+# Every process of the session: parent, mpirun, ranks, keepers, servers, children. Words of stat: 3 state, 6 session, 20 threads
 # (one that is a zombie while its other threads still die holds its files, and so the lock).
 processes()
 {
     cat /proc/[0-9]*/stat 2>/dev/null | sed 's/([^)]*)/x/' |
         awk -v session="$session" '$6 == session && ($3 != "Z" || $20 > 1) {print $1}'
+}
+
+# named NAME: those of them that are called so: fracas-keeper, fracas-server, fracas-lease.
+named()
+{
+    for pid in $(processes); do
+        [ "$(cat "/proc/$pid/comm" 2>/dev/null)" != "$1" ] || echo "$pid"
+    done
 }
 
 kill_session()

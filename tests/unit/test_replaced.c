@@ -2,6 +2,7 @@
 #include "tests/support/campaign_text.h"
 #include "tests/support/study_fixture.h"
 
+#include "campaigns/scheduler/clock.h"
 #include "campaigns/scheduler/director.h"
 
 static struct {
@@ -65,7 +66,7 @@ static int begin(void **state)
     fracas_voice_init(&voice);
     study = sample_folder();
     const fracas_director_setup setup = {.campaign = campaign, .options = &options, .study = study, .workers = 2, .send = note,
-                                         .voice = &voice};
+                                         .voice = &voice, .now = fracas_now};
     fracas_err verdict;
     OK(fracas_director_create(&setup, &director, &verdict));
     ready(0);
