@@ -2,6 +2,7 @@
  * each, and the same command completes.
  *
  * ctest-labels: storm
+ * ctest-timeout: 1800
  */
 #include "tests/support/study_fixture.h"
 
