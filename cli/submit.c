@@ -5,6 +5,7 @@
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/costs.h"
 #include "campaigns/scheduler/prepare.h"
+#include "campaigns/scheduler/share.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -69,7 +70,7 @@ static fracas_err check_campaign(const fracas_run_options *run, submission *s)
 {
     fracas_campaign *campaign;
     double *cost = NULL;
-    TRY(fracas_campaign_read(run->file, &campaign));
+    TRY(fracas_run_campaign(run, &campaign));
     fracas_err err = fracas_study_folder(run, campaign, s->study, sizeof s->study);
     if (!err) err = fracas_study_fits(s->study, campaign);
     if (!err) err = fracas_costs_create(campaign, run, &cost, NULL);

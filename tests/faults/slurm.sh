@@ -18,7 +18,7 @@ daemons=
 # Whatever was started with this cluster's configuration: daemons, steps, jobs.
 of_cluster()
 {
-    grep -lsazF "SLURM_CONF=$SLURM_CONF" /proc/[0-9]*/environ 2>/dev/null | sed 's|/proc/\([0-9]*\)/.*|\1|' | grep -vx $$ || true
+    env -u SLURM_CONF grep -lsazF "SLURM_CONF=$SLURM_CONF" /proc/[0-9]*/environ 2>/dev/null | env -u SLURM_CONF sed 's|/proc/\([0-9]*\)/.*|\1|' || true
 }
 
 end_cluster()

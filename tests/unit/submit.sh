@@ -45,6 +45,8 @@ refused 'elements' wrong.yaml --time 1h
 expect 2 "$fracas" submit small.yaml --time 1h --script small.yaml
 said 'is no script of `fracas submit`'
 expect 0 "$fracas" run small.yaml --study done
+expect 5 "$fracas" submit small.yaml --time 1h --study done --replicas 3
+said 'replicas'
 campaign other.yaml 4 '2e5 1/s'
 expect 5 "$fracas" submit other.yaml --time 1h --study done
 said 'loading.rate'
