@@ -19,4 +19,5 @@ for model in bar ring stershic linear quadratic shell; do
     gives 3 "$build/bench_sweep" --model $model --elements 200 --seconds 0.001
 done
 gives 4 "$build/bench_field" 60 2
+gives 8 "$build/bench_cluster" workers=2 work=10 task=0.1
 [ "$("$build/bench_stream" neighbours | head -c 4096 | wc -c)" = 4096 ] || { echo "bench_stream gives no bits"; exit 1; }

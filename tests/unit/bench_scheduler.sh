@@ -1,0 +1,39 @@
+# fracas bench scheduler: what it says of itself, what it leaves, and messages that cross.
+. "$(dirname "$0")/../support/campaigns.sh"
+
+# number KEY: of the figures.
+number()
+{
+    awk -F'[:,]' -v key="\"$1\"" '{gsub(/ /, "", $1)} $1 == key {print $2 + 0; exit}' figures
+}
+
+# holds EXPRESSION: of awk.
+holds()
+{
+    awk "BEGIN {exit !($1)}" || { cat figures; fail "$1"; }
+}
+
+mkdir temporary
+export TMPDIR="$work/temporary"
+"$fracas" bench scheduler --tasks 64 --task-time 0.02 --jobs 2 --lease-time 0 --json > figures 2> said || { cat said; fail "it does not run"; }
+[ -z "$(ls temporary | grep fracas-bench)" ] || fail "it leaves its study behind"
+holds "$(number tasks) == 64 && $(number workers) == 2"
+# Eight batches of 8, on 2 workers: 0.64 s at least, which is all of the time that tasks take.
+holds "$(number leases) >= 8 && $(number working) >= 0.64 && $(number wall) > $(number working)"
+holds "$(number efficiency) > 0 && $(number efficiency) <= 1 && $(number working_efficiency) <= 1"
+holds "$(number commits) >= 2 && $(number memory) > 1e6 && $(number memory) < 500e6"
+
+# Which ones take long depends on their names: the same work, and a study that goes on.
+for tasks in 200 400; do
+    "$fracas" bench scheduler --tasks $tasks --points 2 --long-share 0.05 --long-time 0.05 --jobs 2 --study kept --json > figures 2> said || { cat said; fail "it does not go on"; }
+    holds "$(number tasks) == 200"
+done
+expect 0 "$fracas" status kept
+said "400 done"
+expect 2 "$fracas" bench network
+said "cannot be measured"
+expect 2 "$fracas" bench scheduler --tasks 3 --points 2
+expect 2 "$fracas" bench scheduler --long-share 2
+
+# Long leases to a rank that is sending a long segment: neither side may wait for the other.
+expect 0 timeout -k 5 150 "$fracas" bench scheduler --tasks 80000 --segment-age 0.001 --jobs 3
