@@ -347,10 +347,11 @@ fracas_err fracas_rank_run(const fracas_run_options *options, bool *ran)
     fracas_err err = set_up(&rank);
     fracas_trouble trouble;
     fracas_trouble_take(err, &trouble);
-    if (MPI_Init(NULL, NULL) != MPI_SUCCESS) return fracas_fail(FRACAS_ENVIRONMENT, "MPI_Init failed");
-    MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank.rank);
-    MPI_Comm_size(MPI_COMM_WORLD, &rank.size);
+    if (MPI_Init(NULL, NULL) || MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN) ||
+        MPI_Comm_rank(MPI_COMM_WORLD, &rank.rank) || MPI_Comm_size(MPI_COMM_WORLD, &rank.size)) {
+        fputs("fracas: MPI does not start\n", stderr);
+        _exit(FRACAS_ENVIRONMENT); /* a rank that ended with 0 under a parent would leave the others waiting for it */
+    }
     if (err) err = fracas_fail(err, "%s", trouble.text);
     if (rank.rank == 0) {
         err = lead_to_end(&rank, err, ran);

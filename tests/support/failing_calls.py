@@ -173,13 +173,16 @@ class Storm:
             return "" if self.same(study) else "status 0, but study.h5 is not that of an undisturbed run"
         if killed and status in (-9, 137):
             return ""
+        if kind == "read" and status == 5 and "malformed" in text:
+            return ""  # SQLite's reading of an error in the first page of the index
         if status not in (3, 6):
             return f"status {status}"
         said = [line for line in text.splitlines() if line.startswith("fracas: ")]
         call = re.split(r"[ _]", state.failed)[0]
         if not said:
             return f"status {status} without a message"
-        names = [os.path.basename(study), call, "memory", "MPI", "mpirun", "process", "HDF5", os.strerror(11), os.strerror(24)]
+        names = [os.path.basename(study), call, "memory", "MPI", "mpirun", "process", "server", "HDF5",
+                 os.strerror(11), os.strerror(24)]
         if not any(name in line for name in names for line in said):
             return f"status {status}, and the message does not name what failed"
         return ""
@@ -245,7 +248,7 @@ class Storm:
               f"; {time.monotonic() - began:.0f} s\n    " + ", ".join(f"{c} {n}" for c, n in calls.most_common(12)), flush=True)
         if count == 0:
             end(f"{what}: no such call was made")
-        if calls["not reached"] > len(results) / 10:
+        if calls["not reached"] > len(results) / 2:  # which rank computes is a race
             end(f"{what}: {calls['not reached']} of {len(results)} calls were not reached")
 
 

@@ -309,7 +309,7 @@ class Storm:
                 if len(self.victims) >= self.kills:
                     return
                 os.remove(f"{self.study}/study.h5")
-            if self.runs % 10 == 0:
+            if self.runs % 40 == 0:
                 self.verify()
                 print(f"{len(self.victims)} kills, {self.runs} runs, {len(self.done)} of {self.replicas} done", flush=True)
             self.log_at_start = os.path.getsize(self.log)
