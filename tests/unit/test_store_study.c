@@ -506,6 +506,7 @@ static void a_run_does_not_begin_with_a_damaged_index(void **state)
     commit_everything(0);
     sqlite3_exec(index_->db, "PRAGMA ignore_check_constraints = ON", NULL, NULL, NULL);
     execute("UPDATE realization SET status = 'fone' WHERE point = 1 AND replica = 3");
+    sqlite3_exec(index_->db, "PRAGMA ignore_check_constraints = OFF", NULL, NULL, NULL);
     sample_fails(fracas_study_recover(study, index_, &header, &table, &report), FRACAS_DAMAGED, "fracas reindex");
     execute("UPDATE realization SET status = 'done' WHERE point = 1 AND replica = 3");
     execute("UPDATE point SET hash = '00000000000000000000000000000000' WHERE id = 1"); /* it is planned anew beside it */
