@@ -83,9 +83,9 @@ fracas_err fracas_space_check(const char *study, const fracas_campaign *campaign
 /* Open MPI 4.1.4 hung with 4 files less than 28 + 4 jobs, and where a file could not have 4.2 MB, its shared memory. */
 fracas_err fracas_limits_check(const fracas_run_options *options)
 {
-    enum { FILES = 40, FILES_A_JOB = 5, FILE_SIZE = 8 << 20 };
-    const long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    const rlim_t files = FILES + FILES_A_JOB * (rlim_t)(options->jobs ? options->jobs : cores > 0 ? cores : 1);
+    enum { FILES = 40, FILES_A_JOB = 5, FILE_SIZE = 8 << 20, MOST_JOBS = 1024 }; /* of one machine; too many are refused as such */
+    const long cores = sysconf(_SC_NPROCESSORS_ONLN), jobs = options->jobs ? options->jobs : cores;
+    const rlim_t files = FILES + FILES_A_JOB * (rlim_t)(jobs < 1 ? 1 : jobs > MOST_JOBS ? MOST_JOBS : jobs);
     struct rlimit limit;
     if (!getrlimit(RLIMIT_NOFILE, &limit) && limit.rlim_cur < files) {
         const struct rlimit raised = {limit.rlim_max < 2 * files ? limit.rlim_max : 2 * files, limit.rlim_max};
