@@ -61,7 +61,7 @@ fracas_err fracas_space_check(const char *study, const fracas_campaign *campaign
     look_at_study(study, &done, &measured);
     const double part = options->parts > 1 ? 1.0 / options->parts : 1.0;
     const double left = fmax(0, planned * part - done), each = fmax(measured, planned > 0 ? all / planned : 0);
-    const double in_segments = left > 0 ? left * (each + ROW) + EMPTY * fmax(1, options->jobs) : 0;
+    const double in_segments = left > 0 ? left * (each + ROW) + EMPTY * fmin(left, fmax(1, options->jobs)) : 0;
     const double in_merged = options->parts > 1 ? 0 : all + EMPTY, room = (double)disk.f_bavail * (double)disk.f_frsize;
     if (in_segments + in_merged > room)
         return fracas_fail(FRACAS_ENVIRONMENT, "%s will need about %s (segments of %.0f realizations %s, study.h5 %s), but its disk has %s "
@@ -73,19 +73,19 @@ fracas_err fracas_space_check(const char *study, const fracas_campaign *campaign
         return fracas_fail(FRACAS_ENVIRONMENT, "%s/study.h5 will have about %s, but a file may have %s; raise the limit (`ulimit -f`), or start "
                            "all the same with --ignore-space", study, size_text(in_merged, merged),
                            size_text((double)limit.rlim_cur, have));
-    if (disk.f_files > 0 && left > 0 && (double)disk.f_favail < FILES + (double)options->jobs)
+    if (disk.f_files > 0 && left > 0 && (double)disk.f_favail < FILES + fmin(left, options->jobs))
         return fracas_fail(FRACAS_ENVIRONMENT, "the disk of %s has room for %llu more files (`df -i`), a study needs %d and more; remove some, "
                            "choose another --study, or start all the same with --ignore-space", study, (unsigned long long)disk.f_favail,
-                           FILES + options->jobs);
+                           FILES + (int)fmin(left, options->jobs));
     return FRACAS_OK;
 }
 
 /* Open MPI 4.1.4 hung with 4 files less than 28 + 4 jobs, and where a file could not have 4.2 MB, its shared memory. */
 fracas_err fracas_limits_check(const fracas_run_options *options)
 {
-    enum { FILES = 40, FILES_A_JOB = 5, FILE_SIZE = 8 << 20 };
-    const long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    const rlim_t files = FILES + FILES_A_JOB * (rlim_t)(options->jobs ? options->jobs : cores > 0 ? cores : 1);
+    enum { FILES = 40, FILES_A_JOB = 5, FILE_SIZE = 8 << 20, MOST_JOBS = 1024 }; /* of one machine; too many are refused as such */
+    const long cores = sysconf(_SC_NPROCESSORS_ONLN), jobs = options->jobs ? options->jobs : cores;
+    const rlim_t files = FILES + FILES_A_JOB * (rlim_t)(jobs < 1 ? 1 : jobs > MOST_JOBS ? MOST_JOBS : jobs);
     struct rlimit limit;
     if (!getrlimit(RLIMIT_NOFILE, &limit) && limit.rlim_cur < files) {
         const struct rlimit raised = {limit.rlim_max < 2 * files ? limit.rlim_max : 2 * files, limit.rlim_max};

@@ -114,11 +114,19 @@ static const char *old_text(int sql)
 
 /* ---- errors and statements ---- */
 
+/* What the system said to SQLite. Of a COMMIT that fails SQLite does not tell; errno is as it was left then. */
+static int system_reason(const fracas_index *index, int last)
+{
+    const int told = index->db ? sqlite3_system_errno(index->db) : 0;
+    const bool is_of_disk = last == ENOSPC || last == EDQUOT || last == EFBIG || last == EIO || last == EROFS;
+    return told ? told : is_of_disk ? last : 0;
+}
+
 fracas_err fracas_index_error(const fracas_index *index, const char *doing)
 {
+    const int system = system_reason(index, errno);
     int code = index->db ? sqlite3_errcode(index->db) : SQLITE_NOMEM;
     const char *text = index->db ? sqlite3_errmsg(index->db) : "no memory";
-    const int system = index->db ? sqlite3_system_errno(index->db) : 0;
     switch (code) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
@@ -134,7 +142,7 @@ fracas_err fracas_index_error(const fracas_index *index, const char *doing)
     case SQLITE_RANGE:
     case SQLITE_MISMATCH:
         return fracas_fail(FRACAS_BUG, "%s: cannot %s: %s", index->path, doing, text);
-    case SQLITE_FULL: return fracas_fail_system(ENOSPC, "%s: cannot %s", index->path, doing);
+    case SQLITE_FULL: return fracas_fail_system(system ? system : ENOSPC, "%s: cannot %s", index->path, doing);
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
     case SQLITE_PERM:
@@ -149,6 +157,7 @@ fracas_err fracas_index_error(const fracas_index *index, const char *doing)
 
 fracas_err fracas_index_step(fracas_index *index, fracas_sql sql, bool *row)
 {
+    errno = 0;
     int code = sqlite3_step(index->statement[sql]);
     *row = code == SQLITE_ROW;
     if (code == SQLITE_ROW || code == SQLITE_DONE) return FRACAS_OK;

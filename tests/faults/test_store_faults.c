@@ -20,14 +20,15 @@ const char *__lsan_default_suppressions(void) { return "leak:libhdf5"; }
 
 /* The calls that make a segment durable, seen and failed at will: these stand before those of the C library. */
 static char calls[64];  /* f: fsync of a file, d: of a folder, r: rename */
-static int fail_at = -1; /* number of the call that fails with EIO */
+static int fail_at = -1; /* number of the call that fails ... */
+static int fail_with = EIO; /* ... with this */
 
 static bool call_fails(char name)
 {
     size_t number = strlen(calls);
     if (number + 1 < sizeof calls) calls[number] = name;
     if (fail_at < 0 || (size_t)fail_at != number) return false;
-    errno = EIO;
+    errno = fail_with;
     return true;
 }
 
@@ -348,6 +349,84 @@ static void bytes_are_durable_before_their_name(void **state)
     fail_at = -1;
 }
 
+/* What the system refuses, and what the person should do. */
+static void limits_are_said_with_their_remedy(void **state)
+{
+    (void)state;
+    static const struct {
+        int reason;
+        const char *remedy;
+    } limit[] = {{ENOSPC, "free some space"}, {EDQUOT, "quota"}, {EIO, "dmesg"}, {EROFS, "mount it to be written"}, {EFBIG, "ulimit -f"}};
+    char *folder = sample_path(study, "segments"), *path = sample_path(study, "segments/a.h5");
+    for (size_t l = 0; l < sizeof limit / sizeof *limit; l++) {
+        for (fail_at = 0; fail_at < 2; fail_at++) {
+            fail_with = limit[l].reason;
+            memset(calls, 0, sizeof calls);
+            sample_fails(write_some(path, 10), FRACAS_ENVIRONMENT, strerror(limit[l].reason));
+            assert_non_null(strstr(fracas_message(), limit[l].remedy));
+            assert_int_equal(sample_files(folder, "a.h5"), 0);
+        }
+    }
+    fail_at = -1;
+    fail_with = EIO;
+}
+
+static void too_many_open_files_are_said(void **state)
+{
+    (void)state;
+    fracas_index *index;
+    struct rlimit before, none;
+    int next = dup(STDERR_FILENO), lock; /* files with smaller numbers than this are open */
+    assert_int_equal(getrlimit(RLIMIT_NOFILE, &before), 0);
+    close(next);
+    none = (struct rlimit){(rlim_t)next, before.rlim_max};
+    OK(fracas_index_open(study, true, &index));
+    fracas_index_close(index);
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &none), 0);
+    sample_fails(write_some(sample_path(study, "segments/a.h5"), 10), FRACAS_ENVIRONMENT, "ulimit -n");
+    sample_fails(fracas_study_lock(study, false, &lock), FRACAS_ENVIRONMENT, "ulimit -n");
+    sample_fails(fracas_index_open(study, false, &index), FRACAS_ENVIRONMENT, "ulimit -n");
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &before), 0);
+    OK(write_some(sample_path(study, "segments/a.h5"), 10));
+    OK(fracas_index_open(study, false, &index));
+    fracas_index_close(index);
+}
+
+/* Damage is found while the disk fails: nothing is lost by that, the next sweep goes on. */
+static void setting_aside_can_fail_anywhere(void **state)
+{
+    (void)state;
+    fracas_index *index;
+    fracas_file_seal seal;
+    fracas_segment_row row[ALL];
+    fracas_file_header header = sample_header();
+    char *report = NULL, *path = sample_path(study, "segments/a.h5"), *aside = sample_path(study, "segments/a.damaged");
+    write_segment(&seal, row);
+    OK(fracas_index_open(study, true, &index));
+    OK(fracas_index_plan(index, &table));
+    OK(fracas_index_commit(index, "a.h5", &seal, row, ALL, "{}"));
+    int fd = open(path, O_WRONLY);
+    assert_int_equal(pwrite(fd, "x", 1, (off_t)seal.bytes / 2), 1);
+    close(fd);
+    for (const char *call = "rd"; *call; call++) {
+        fail_at = (int)(call - "rd");
+        memset(calls, 0, sizeof calls);
+        sample_fails(fracas_study_recover(study, index, &header, &table, &report), FRACAS_ENVIRONMENT, strerror(EIO));
+        assert_int_equal(calls[fail_at], *call);
+        assert_int_equal(access(path, F_OK), *call == 'r' ? 0 : -1);
+        assert_int_equal(access(aside, F_OK), *call == 'r' ? -1 : 0);
+    }
+    fail_at = -1;
+    OK(fracas_study_recover(study, index, &header, &table, &report));
+    assert_non_null(strstr(report, "a.h5 is missing"));
+    free(report);
+    fracas_index_counts counts;
+    OK(fracas_index_count(index, &counts));
+    assert_int_equal(counts.planned, ALL);
+    assert_int_equal(access(aside, F_OK), 0);
+    fracas_index_close(index);
+}
+
 /* A merge that ends between the new study.h5 and its seal leaves none, so that it is merged again. */
 static void an_interrupted_merge_leaves_no_seal(void **state)
 {
@@ -392,6 +471,7 @@ static void full_disk_leaves_the_index_as_it_was(void **state)
     OK(fracas_index_count(index, &before));
     limit_files(8192); /* less than the write-ahead log has already */
     sample_fails(fracas_index_commit(index, "a.h5", &seal, row, ALL, "{}"), FRACAS_ENVIRONMENT, "index.sqlite");
+    assert_non_null(strstr(fracas_message(), "ulimit -f"));
     limit_files(RLIM_INFINITY);
     OK(fracas_index_count(index, &after));
     assert_memory_equal(&after, &before, sizeof after);
@@ -509,6 +589,9 @@ int main(void)
         TEST(full_disk_is_said_and_leaves_nothing),
         TEST(bytes_are_durable_before_their_name),
         TEST(an_interrupted_merge_leaves_no_seal),
+        TEST(limits_are_said_with_their_remedy),
+        TEST(too_many_open_files_are_said),
+        TEST(setting_aside_can_fail_anywhere),
         TEST(full_disk_leaves_the_index_as_it_was),
         TEST(commits_survive_the_death_of_the_process),
         TEST(segments_are_whole_or_not_there),

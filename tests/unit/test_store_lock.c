@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 
 static char *study;
@@ -40,6 +41,7 @@ static pid_t die_with_it(const char *host, const char *job, const char *restarts
 {
     pid_t child = fork();
     if (child == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL); /* a test that fails leaves nobody behind */
         int lock;
         if (host) setenv("FRACAS_TEST_HOST", host, 1);
         if (job) setenv("SLURM_JOB_ID", job, 1);
@@ -100,6 +102,7 @@ static void second_run_is_refused(void **state)
     assert_int_equal(pipe(ready) + pipe(stop), 0);
     pid_t child = fork();
     if (child == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL); /* a test that fails leaves nobody behind */
         fracas_err err = fracas_study_lock(study, false, &lock);
         pid_t grandchild = fork(); /* inherits the file, must not keep the lock */
         if (grandchild == 0) {
@@ -173,6 +176,7 @@ static void a_holder_that_lives_is_not_taken_for_dead(void **state)
     assert_int_equal(pipe(ready), 0);
     pid_t child = fork();
     if (child == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL); /* a test that fails leaves nobody behind */
         if (fracas_study_lock(study, false, &lock)) _exit(1);
         close(lock); /* which gives the kernel's lock back, and leaves the text */
         (void)!write(ready[1], "y", 1);
@@ -197,6 +201,7 @@ static void a_zombie_is_dead(void **state)
     char over[FRACAS_HOLDER_TEXT] = "?";
     pid_t child = fork();
     if (child == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL); /* a test that fails leaves nobody behind */
         int lock;
         if (!fracas_study_lock(study, false, &lock)) kill(getpid(), SIGKILL);
         _exit(1);

@@ -446,7 +446,7 @@ static void a_flipped_number_of_the_index_is_not_merged(void **state)
     (void)state;
     static const char *const flip[] = {"outcome = outcome + 1", "fragments = fragments + 1", "fragments_dust = fragments_dust + 1",
                                        "steps = steps - 1", "dissipated = 1.25", "residual = 2.5", "size = 1e-5", "row = row + 1",
-                                       "segment = segment + 1"};
+                                       "segment = segment + 1", "status = 'failed'", "status = 'quarantined'"};
     commit_everything(13);
     merge();
     fracas_file_header header = sample_header();
@@ -500,6 +500,22 @@ static void an_index_that_contradicts_itself_is_found(void **state)
         assert_int_equal(sqlite3_exec(index_->db, "DROP TABLE kept", NULL, NULL, NULL), SQLITE_OK);
     }
     verify_finds_as(false, 0, "");
+}
+
+/* ... and before anything is computed by it, too. */
+static void a_run_does_not_begin_with_a_damaged_index(void **state)
+{
+    (void)state;
+    fracas_file_header header = sample_header();
+    char *report;
+    commit_everything(0);
+    sqlite3_exec(index_->db, "PRAGMA ignore_check_constraints = ON", NULL, NULL, NULL);
+    execute("UPDATE realization SET status = 'fone' WHERE point = 1 AND replica = 3");
+    sqlite3_exec(index_->db, "PRAGMA ignore_check_constraints = OFF", NULL, NULL, NULL);
+    sample_fails(fracas_study_recover(study, index_, &header, &table, &report), FRACAS_DAMAGED, "fracas reindex");
+    execute("UPDATE realization SET status = 'done' WHERE point = 1 AND replica = 3");
+    execute("UPDATE point SET hash = '00000000000000000000000000000000' WHERE id = 1"); /* it is planned anew beside it */
+    sample_fails(fracas_study_recover(study, index_, &header, &table, &report), FRACAS_DAMAGED, "it has 4 points, the campaign 3");
 }
 
 /* Sampled flips of the index file: the next run gives the same study.h5, or says that the index is damaged; never another one. */
@@ -581,6 +597,7 @@ int main(void)
         TEST(a_flipped_byte_of_the_merged_file_is_merged_again),
         TEST(a_flipped_number_of_the_index_is_not_merged),
         TEST(an_index_that_contradicts_itself_is_found),
+        TEST(a_run_does_not_begin_with_a_damaged_index),
         TEST(flipped_bytes_of_the_index_make_no_wrong_study),
         TEST(leftovers_are_noted),
     };
