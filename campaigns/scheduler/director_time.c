@@ -34,7 +34,7 @@ static fracas_err offer_overdue(fracas_director *director, double time)
         if (!given) break;
         char text[200];
         snprintf(text, sizeof text, "%" PRIu64 " realizations of point %" PRIu64 ", replica %" PRId64 " the first, take rank %zu far longer "
-                 "than predicted: rank %zu computes them as well", lease.count, lease.point, lease.replica[0], late, worker);
+                 "than predicted to compute or write: rank %zu computes them as well", lease.count, lease.point, lease.replica[0], late, worker);
         TRY(fracas_index_event(director->index, "overdue", text));
         TRY(fracas_director_tell(director, worker, FRACAS_PACKET_LEASE, &lease, fracas_lease_bytes(&lease)));
     }
@@ -69,8 +69,8 @@ static void mind_deadline(fracas_director *director, double time)
 /* Workers that do not answer any more, when everything is durable or there is no time left. */
 static fracas_err give_up(fracas_director *director, double time)
 {
-    const bool durable = fracas_director_computed(director) && fracas_scheduler_count(director->scheduler).memory == 0;
-    const bool needless = durable && time > director->told + PATIENCE, out_of_time = director->overtime && time >= director->setup.deadline;
+    const bool needless = fracas_director_durable(director) && time > director->told + PATIENCE;
+    const bool out_of_time = director->overtime && time >= director->setup.deadline;
     if (!needless && !out_of_time) return FRACAS_OK;
     for (size_t worker = 0; worker < director->setup.workers; worker++) {
         if (director->phase[worker] == ENDED) continue;
