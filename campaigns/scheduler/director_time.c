@@ -26,12 +26,14 @@ bool fracas_director_too_late(const fracas_director *director, size_t worker, do
 static fracas_err offer_overdue(fracas_director *director, double time)
 {
     fracas_lease lease;
-    bool given = true;
-    for (size_t worker = 0; given && worker < director->setup.workers; worker++) {
+    int refused = 0; /* once it may have been the worker's own that is overdue; twice there is nothing */
+    for (size_t worker = 0; refused < 2 && worker < director->setup.workers; worker++) {
         size_t late;
+        bool given;
         if (director->phase[worker] != WORKING || !fracas_scheduler_idles(director->scheduler, worker)) continue;
         fracas_scheduler_overdue(director->scheduler, worker, time, &lease, &late, &given);
-        if (!given) break;
+        refused += !given;
+        if (!given) continue;
         char text[200];
         snprintf(text, sizeof text, "%" PRIu64 " realizations of point %" PRIu64 ", replica %" PRId64 " the first, take rank %zu far longer "
                  "than predicted to compute or write: rank %zu computes them as well", lease.count, lease.point, lease.replica[0], late, worker);

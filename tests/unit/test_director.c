@@ -8,7 +8,8 @@
 enum { WORKERS = 2 };
 
 static double time_; /* s */
-static double now(void) { return time_; }
+static double step;  /* s that pass whenever somebody asks */
+static double now(void) { return time_ += step; }
 
 static struct {
     size_t nleases, flushes, stops;
@@ -305,6 +306,24 @@ static void no_lease_is_given_that_does_not_end_in_time(void **state)
     end();
 }
 
+/* A segment took 0.5 s to be committed, so two workers need 1 s more than the 2 s before the deadline. */
+static void commits_take_time_as_well(void **state)
+{
+    (void)state;
+    prepare("replicas: 160", "");
+    begin(1000 + 6.5);
+    step = 0.5; /* by which the clock goes on whenever it is looked at */
+    ready();
+    computed(0, 0, 0.01);
+    segment(0, 0, 0, 1000);
+    step = 0;
+    time_ = 1000 + 6.5 - 2 - 0.9;
+    fracas_director_tick(director);
+    assert_int_equal(worker[0].stops + worker[1].stops, 2);
+    assert_int_equal(worker[1].kill, 1);
+    end();
+}
+
 /* What runs 2 s before the deadline is killed; who does not answer until the deadline is left behind. */
 static void what_runs_at_the_deadline_is_killed(void **state)
 {
@@ -449,6 +468,7 @@ int main(void)
         cmocka_unit_test(what_stays_in_memory_is_computed_again),
         cmocka_unit_test(a_worker_that_does_not_start_is_given_up),
         cmocka_unit_test(no_lease_is_given_that_does_not_end_in_time),
+        cmocka_unit_test(commits_take_time_as_well),
         cmocka_unit_test(what_runs_at_the_deadline_is_killed),
         cmocka_unit_test(what_drains_at_the_deadline_is_killed),
         cmocka_unit_test(a_merge_that_would_not_end_is_not_begun),
