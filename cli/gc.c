@@ -70,7 +70,7 @@ static fracas_err gc(const fracas_arguments *arguments)
 
 const fracas_command fracas_command_gc = {
     .name = "gc", .operand = "STUDY", .doc = "Removes from STUDY what nobody needs",
-    .more = "\nHalf-written files, segments whose realizations another segment has, what interrupted commands left behind, attachments that\n"
-            "campaign.yaml does not name; and gives free pages of the index back. What it does not know it lists and leaves.\n",
+    .more = "\nHalf-written files, segments whose realizations another segment has, damaged ones that were set aside, what interrupted\n"
+            "commands left behind, attachments that campaign.yaml does not name; and gives free pages of the index back. What it does not know it lists and leaves.\n",
     .options = options, .noptions = FRACAS_COUNT(options), .run = gc,
 };

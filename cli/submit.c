@@ -72,7 +72,7 @@ static fracas_err check_campaign(const fracas_run_options *run, submission *s)
     TRY(fracas_campaign_read(run->file, &campaign));
     fracas_err err = fracas_study_folder(run, campaign, s->study, sizeof s->study);
     if (!err) err = fracas_study_fits(s->study, campaign);
-    if (!err) err = fracas_costs_create(campaign, run, &cost);
+    if (!err) err = fracas_costs_create(campaign, run, &cost, NULL);
     snprintf(s->name, sizeof s->name, "%s", campaign->name);
     free(cost);
     fracas_campaign_destroy(campaign);

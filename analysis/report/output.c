@@ -17,7 +17,7 @@ fracas_err fracas_output_open(const char *folder, const char *name, fracas_outpu
     } else {
         output->file = fopen(output->temporary, "w");
         if (!output->file)
-            err = fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: %s", output->temporary, strerror(errno));
+            err = fracas_fail_system(errno, "cannot write %s", output->temporary);
     }
     if (!err) return FRACAS_OK;
     free(output->path);
@@ -31,11 +31,9 @@ fracas_err fracas_output_close(fracas_output_file *output, fracas_err err)
     bool bad = ferror(output->file);
     if (fclose(output->file)) bad = true; /* what was buffered fails here */
     if (!err && bad)
-        err = fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: %s; free some disk space", output->path,
-                          strerror(errno));
+        err = fracas_fail_system(errno, "cannot write %s", output->path);
     if (!err && rename(output->temporary, output->path))
-        err = fracas_fail(FRACAS_ENVIRONMENT, "cannot rename %s to %s: %s", output->temporary, output->path,
-                          strerror(errno));
+        err = fracas_fail_system(errno, "cannot rename %s to %s", output->temporary, output->path);
     if (err) unlink(output->temporary);
     free(output->path);
     free(output->temporary);

@@ -14,7 +14,10 @@ struct fracas_campaign_memory {
     block *first; /* the one in use */
 };
 
-#define BLOCK_SIZE ((size_t)1 << 16)
+/* Bytes. Builds with a sanitizer set it to 1: a block for each piece, so that they see where one ends. */
+#ifndef FRACAS_CAMPAIGN_BLOCK
+#define FRACAS_CAMPAIGN_BLOCK 65536
+#endif
 
 fracas_campaign_memory *fracas_memory_create(void)
 {
@@ -39,7 +42,7 @@ void *fracas_memory_take(fracas_campaign_memory *memory, size_t count, size_t si
     size_t need = (count * size + grain - 1) / grain * grain;
     block *in_use = memory->first;
     if (!in_use || in_use->size - in_use->used < need) {
-        size_t room = need > BLOCK_SIZE ? need : BLOCK_SIZE;
+        size_t room = need > FRACAS_CAMPAIGN_BLOCK ? need : FRACAS_CAMPAIGN_BLOCK;
         block *added = calloc(1, sizeof *added + room);
         if (!added) return NULL;
         *added = (block){.next = in_use, .size = room};

@@ -182,8 +182,7 @@ static fracas_err write_with(fracas_campaign_memory *memory, const fracas_campai
     }
     write_file(catalog, base, campaign, out);
     if (fflush(out) == 0 && !ferror(out)) return FRACAS_OK;
-    return fracas_fail(FRACAS_ENVIRONMENT, "cannot write the resolved campaign %s: %s", campaign->name,
-                       strerror(errno));
+    return fracas_fail_system(errno, "cannot write the resolved campaign %s", campaign->name);
 }
 
 fracas_err fracas_campaign_write(const fracas_campaign *campaign, FILE *out)

@@ -269,11 +269,24 @@ fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point, f
     return err;
 }
 
-fracas_err fracas_plan_cost(const fracas_campaign *campaign, size_t point, double *cost)
+/* ---- size ---- */
+
+/* Bytes of one realization in study.h5, its values counted in the widths of a record. */
+static double realization_bytes(const fracas_output *output, const fracas_forecast *forecast)
+{
+    const double fragments = fmax(1.0, (double)forecast->elements / FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
+    const double scalars = offsetof(fracas_record, nfragment);
+    const double history = ((double)output->history + 4.0) * sizeof(fracas_history_row); /* start and three events */
+    const double interfaces = output->interfaces ? (double)forecast->interfaces * sizeof(fracas_interface_row) : 0.0;
+    return scalars + fragments * sizeof(fracas_fragment) + history + interfaces;
+}
+
+fracas_err fracas_plan_cost(const fracas_campaign *campaign, size_t point, double *cost, double *bytes)
 {
     fracas_forecast forecast;
     TRY(fracas_forecast_make(campaign, point, &forecast));
     *cost = (double)forecast.elements * (double)forecast.steps;
+    if (bytes) *bytes = realization_bytes(&campaign->output, &forecast);
     return FRACAS_OK;
 }
 
@@ -420,17 +433,7 @@ static double speed_of_like(const fracas_campaign *campaign, const fracas_foreca
     return 0.0;
 }
 
-/* ---- size ---- */
-
-/* Bytes of one realization in study.h5, its values counted in the widths of a record. */
-static double realization_bytes(const fracas_output *output, const fracas_forecast *forecast)
-{
-    const double fragments = fmax(1.0, (double)forecast->elements / FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
-    const double scalars = offsetof(fracas_record, nfragment);
-    const double history = ((double)output->history + 4.0) * sizeof(fracas_history_row); /* start and three events */
-    const double interfaces = output->interfaces ? (double)forecast->interfaces * sizeof(fracas_interface_row) : 0.0;
-    return scalars + fragments * sizeof(fracas_fragment) + history + interfaces;
-}
+/* ---- all of it ---- */
 
 /* Forecast p, with its speed; those before it are there. */
 static fracas_err forecast_timed(const fracas_campaign *campaign, size_t p, fracas_forecast *forecast)

@@ -6,9 +6,10 @@
 
 #include <stdio.h>
 
-/* Relative cost of one realization of a point: elements times steps to time.end. FRACAS_USAGE, naming the point, if its
+/* Relative cost of one realization of a point: elements times steps to time.end; *bytes (NULL: not wanted): size of its rows as
+ * below. FRACAS_USAGE, naming the point, if its
  * parameters do not go together; FRACAS_ENVIRONMENT without memory. Builds the model (about 1 us an element). */
-FRACAS_MUST_USE fracas_err fracas_plan_cost(const fracas_campaign *campaign, size_t point, double *cost);
+FRACAS_MUST_USE fracas_err fracas_plan_cost(const fracas_campaign *campaign, size_t point, double *cost, double *bytes);
 
 /* Prints, for each point, its varied parameters, replicas, elements, time step, steps, predicted time and size, and
  * the totals; as JSON with `json`. `jobs`: processes that will compute, 0 for one a core.

@@ -19,12 +19,13 @@ typedef struct {
 /* Of a range of points: a binary tree of them, the leaves one point each. */
 typedef struct {
     double work[NKINDS];   /* of what waits: cost, s */
-    uint32_t best[NKINDS]; /* the point with most for one realization; NONE: none waits */
+    uint32_t best[NKINDS]; /* the point that goes first; NONE: none waits */
     uint32_t points;       /* of which something waits */
 } range;
 
 struct fracas_backlog {
     const double *cost;
+    const bool *first;
     size_t npoints, nleaves; /* a power of 2 */
     point_state *point;
     range *range;             /* 1: the root; the halves of i are 2 i and 2 i + 1 */
@@ -73,10 +74,13 @@ static range range_of(const fracas_backlog *b, size_t point)
     return made;
 }
 
+static bool goes_first(const fracas_backlog *b, uint32_t point) { return b->first && b->first[point]; }
+
 /* The first of equal ones, so that the order does not depend on the machine. */
 static uint32_t better(const fracas_backlog *b, uint32_t left, uint32_t right)
 {
     if (left == NONE || right == NONE) return left == NONE ? right : left;
+    if (goes_first(b, left) != goes_first(b, right)) return goes_first(b, right) ? right : left;
     return own_estimate(b, right) > own_estimate(b, left) ? right : left;
 }
 
@@ -100,11 +104,11 @@ static void update(fracas_backlog *b, size_t point)
 
 /* ---- create ---- */
 
-fracas_err fracas_backlog_create(const double *cost, size_t npoints, fracas_backlog **backlog)
+fracas_err fracas_backlog_create(const double *cost, const bool *first, size_t npoints, fracas_backlog **backlog)
 {
     fracas_backlog *b = calloc(1, sizeof *b);
     if (!b) return fracas_no_memory("the plan");
-    *b = (fracas_backlog){.cost = cost, .npoints = npoints, .nleaves = 1};
+    *b = (fracas_backlog){.cost = cost, .first = first, .npoints = npoints, .nleaves = 1};
     while (b->nleaves < npoints) b->nleaves *= 2;
     b->point = calloc(npoints + 1, sizeof *b->point);
     b->range = malloc(2 * b->nleaves * sizeof *b->range);
@@ -198,6 +202,8 @@ size_t fracas_backlog_longest(const fracas_backlog *backlog)
         const uint32_t only = best[UNMEASURED] == NONE ? best[MEASURED] : best[UNMEASURED];
         return only == NONE ? SIZE_MAX : only;
     }
+    if (goes_first(backlog, best[UNMEASURED]) != goes_first(backlog, best[MEASURED]))
+        return goes_first(backlog, best[MEASURED]) ? best[MEASURED] : best[UNMEASURED];
     const double a = fracas_backlog_estimate(backlog, best[UNMEASURED]), b = fracas_backlog_estimate(backlog, best[MEASURED]);
     if (a == b) return best[UNMEASURED] < best[MEASURED] ? best[UNMEASURED] : best[MEASURED];
     return a > b ? best[UNMEASURED] : best[MEASURED];

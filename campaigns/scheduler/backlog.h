@@ -13,8 +13,9 @@
 
 typedef struct fracas_backlog fracas_backlog;
 
-/* `cost`: predicted for a realization of each point, must outlive the backlog. FRACAS_ENVIRONMENT without memory. */
-FRACAS_MUST_USE fracas_err fracas_backlog_create(const double *cost, size_t npoints, fracas_backlog **backlog);
+/* `cost`: predicted for a realization of each point; `first`: which points go before all others, NULL: none. Both must outlive the
+ * backlog. FRACAS_ENVIRONMENT without memory. */
+FRACAS_MUST_USE fracas_err fracas_backlog_create(const double *cost, const bool *first, size_t npoints, fracas_backlog **backlog);
 void fracas_backlog_destroy(fracas_backlog *backlog); /* NULL is allowed */
 
 /* `count` replicas of a point wait behind those that are there. FRACAS_ENVIRONMENT without memory. */
@@ -31,7 +32,8 @@ double fracas_backlog_estimate(const fracas_backlog *backlog, size_t point); /* 
 
 size_t fracas_backlog_waiting(const fracas_backlog *backlog, size_t point);
 double fracas_backlog_work(const fracas_backlog *backlog); /* sum of est_p over all that waits */
-/* The point with the largest est_p of which something waits, the first of equal ones; SIZE_MAX if nothing waits. */
+/* Of the points of which something waits, those that go first if there are any, the one with the largest est_p, the first of equal
+ * ones; SIZE_MAX if nothing waits. */
 size_t fracas_backlog_longest(const fracas_backlog *backlog);
 /* Any point of which something waits, each as likely; SIZE_MAX if nothing waits. */
 size_t fracas_backlog_any(const fracas_backlog *backlog, uint64_t *state);

@@ -73,7 +73,7 @@ fracas_err fracas_child_start(fracas_child *child, const fracas_computation *com
     if (!record) return fracas_no_memory("the records of a lease");
     if (pipe2(fd, O_CLOEXEC)) {
         free(record);
-        return fracas_fail(FRACAS_ENVIRONMENT, "no pipe for a lease: %s", strerror(errno));
+        return fracas_fail_system(errno, "no pipe for a lease");
     }
     const int said = create_said();
     const pid_t server = getpid(), pid = fork();

@@ -34,6 +34,7 @@ static fracas_err solve(const fracas_computation *computation, const lanes *real
                                                 .width = computation->options->width,
                                                 .isa = computation->options->isa};
     fracas_batch *batch;
+    fracas_log_if_asked(computation->lease->point, realizations->replica, realizations->count);
     TRY(fracas_fault_if_asked(computation->lease->point, realizations->replica, realizations->count));
     TRY(fracas_batch_create(computation->model, realizations->count, &batch_options, &batch));
     fracas_err err = fill_strengths(computation, realizations, batch);

@@ -18,15 +18,15 @@ static fracas_err try_batch(const fracas_campaign *campaign, const fracas_run_op
     return err;
 }
 
-fracas_err fracas_costs_create(const fracas_campaign *campaign, const fracas_run_options *options, double **cost)
+fracas_err fracas_costs_create(const fracas_campaign *campaign, const fracas_run_options *options, double **cost, double **bytes)
 {
-    double *c = malloc((campaign->npoints + 1) * sizeof *c);
-    if (!c) return fracas_no_memory("the plan");
-    fracas_err err = campaign->npoints ? try_batch(campaign, options) : FRACAS_OK;
-    for (size_t i = 0; !err && i < campaign->npoints; i++) err = fracas_plan_cost(campaign, i, &c[i]);
-    if (err)
-        free(c);
-    else
-        *cost = c;
+    double *c = malloc((campaign->npoints + 1) * sizeof *c), *b = malloc((campaign->npoints + 1) * sizeof *b);
+    fracas_err err = c && b ? FRACAS_OK : fracas_no_memory("the plan");
+    if (!err && campaign->npoints) err = try_batch(campaign, options);
+    for (size_t i = 0; !err && i < campaign->npoints; i++) err = fracas_plan_cost(campaign, i, &c[i], &b[i]);
+    if (err || !bytes) free(b);
+    else *bytes = b;
+    if (err) free(c);
+    else *cost = c;
     return err;
 }

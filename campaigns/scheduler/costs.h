@@ -5,10 +5,10 @@
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/run.h"
 
-/* Predicted cost of one realization of each point (fracas_plan_cost), freed by the caller. FRACAS_USAGE for parameters
+/* Predicted cost and bytes (NULL: not wanted) of one realization of each point (fracas_plan_cost), freed by the caller. FRACAS_USAGE for parameters
  * that do not go together, or lanes or an instruction set that no batch can have here: nothing needs to be started to
  * find that out. */
 FRACAS_MUST_USE fracas_err fracas_costs_create(const fracas_campaign *campaign, const fracas_run_options *options,
-                                               double **cost);
+                                               double **cost, double **bytes);
 
 #endif

@@ -5,6 +5,7 @@
 #include "campaigns/scheduler/prepare.h"
 #include "campaigns/scheduler/segment.h"
 #include "campaigns/scheduler/share.h"
+#include "campaigns/scheduler/space.h"
 #include "campaigns/scheduler/tally.h"
 #include "campaigns/scheduler/verdict.h"
 
@@ -70,6 +71,7 @@ static fracas_err make_scheduler(fracas_director *director)
     TRY(fracas_rounds_init(&director->rounds, campaign, director->index));
     TRY(fracas_index_rows(director->index, &director->rounds.table, &row, &count));
     fracas_scheduler_options options = {.cost = director->cost,
+                                        .first = director->ruled,
                                         .npoints = campaign->npoints,
                                         .workers = director->setup.workers,
                                         .width = width ? (size_t)width : FRACAS_BATCH_MAX,
@@ -122,9 +124,18 @@ static fracas_err set_up(fracas_director *director, bool *settled, int64_t *fail
     director->phase = calloc(director->setup.workers, sizeof *director->phase);
     director->flushing = calloc(director->setup.workers, sizeof *director->flushing);
     director->given = calloc(director->setup.campaign->npoints, sizeof *director->given);
-    if (!director->phase || !director->flushing || !director->given) return fracas_no_memory("the workers");
+    director->ruled = calloc(director->setup.campaign->npoints, sizeof *director->ruled);
+    if (!director->phase || !director->flushing || !director->given || !director->ruled) return fracas_no_memory("the workers");
+    for (size_t p = 0; p < director->setup.campaign->npoints; p++)
+        director->ruled[p] = director->setup.campaign->point[p].rule.maximum > 0;
     /* First of all: a campaign that cannot be computed leaves nothing behind. */
-    TRY(fracas_costs_create(director->setup.campaign, director->setup.options, &director->cost));
+    double *bytes;
+    TRY(fracas_costs_create(director->setup.campaign, director->setup.options, &director->cost, &bytes));
+    fracas_err err = FRACAS_OK; /* a parent has looked before it started this */
+    if (!director->setup.voice->parent)
+        err = fracas_space_check(director->setup.study, director->setup.campaign, director->setup.options, bytes);
+    free(bytes);
+    TRY(err);
     return open_study(director, settled, failed);
 }
 
@@ -172,6 +183,7 @@ void fracas_director_destroy(fracas_director *director)
     fracas_index_close(director->index);
     fracas_study_unlock(director->lock);
     free(director->cost);
+    free(director->ruled);
     free(director->phase);
     free(director->flushing);
     free(director->given);

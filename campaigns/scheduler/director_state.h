@@ -14,6 +14,7 @@ struct fracas_director {
     int lock;
     fracas_index *index;
     double *cost; /* of a realization of each point */
+    bool *ruled;  /* a rule decides the replicas of each point: of these the next round is asked for soonest */
     fracas_rounds rounds;
     fracas_scheduler *scheduler;
     worker_phase *phase; /* of each worker */

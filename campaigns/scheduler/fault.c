@@ -1,5 +1,7 @@
 #include "campaigns/scheduler/fault.h"
 
+#include "campaigns/scheduler/scheduler.h"
+
 #include <fcntl.h>
 #include <signal.h>
 #include <stdbool.h>
@@ -80,4 +82,18 @@ void fracas_fault_of_model(uint64_t point)
     const char *asked = getenv("FRACAS_TEST_FAULT");
     unsigned long long its_point;
     if (asked && sscanf(asked, "model:%llu:", &its_point) == 1 && point == its_point) crash();
+}
+
+/* One write, so that lines of several processes do not mix. */
+void fracas_log_if_asked(uint64_t point, const int64_t *replica, size_t count)
+{
+    const char *path = getenv("FRACAS_TEST_LOG");
+    int fd = path ? open(path, O_WRONLY | O_APPEND | O_CLOEXEC) : -1;
+    if (fd < 0) return;
+    char line[64 + 24 * FRACAS_BATCH_MAX];
+    int at = sprintf(line, "%ld %ld %llu", (long)getpid(), (long)getppid(), (unsigned long long)point);
+    for (size_t i = 0; i < count && i < FRACAS_BATCH_MAX; i++) at += sprintf(line + at, " %lld", (long long)replica[i]);
+    line[at++] = '\n';
+    if (write(fd, line, (size_t)at) != at) abort(); /* a test that counts must not miss one */
+    close(fd);
 }

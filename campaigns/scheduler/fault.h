@@ -1,4 +1,4 @@
-/* Faults that tests ask for, to see what isolation makes of them. */
+/* What tests ask for: faults, to see what isolation makes of them, and a log of what is computed. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_FAULT_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_FAULT_H
 
@@ -21,5 +21,8 @@ FRACAS_MUST_USE fracas_err fracas_fault_if_asked(uint64_t point, const int64_t *
 
 /* With FRACAS_TEST_FAULT=model:POINT:0 the process that is about to build the model of this point dies of SIGSEGV. */
 void fracas_fault_of_model(uint64_t point);
+
+/* With FRACAS_TEST_LOG=FILE, where FILE is there, appends a line for a batch that is begun: pid, pid of the parent, point, replicas. */
+void fracas_log_if_asked(uint64_t point, const int64_t *replica, size_t count);
 
 #endif

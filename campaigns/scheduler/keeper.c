@@ -104,7 +104,7 @@ static fracas_err start_server(keeper *k, int *connection, pid_t *pid)
 {
     int pair[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair))
-        return fracas_fail(FRACAS_ENVIRONMENT, "no connection to a compute server: %s", strerror(errno));
+        return fracas_fail_system(errno, "no connection to a compute server");
     const pid_t self = getpid();
     *pid = fork();
     if (*pid == 0) {
@@ -220,7 +220,7 @@ fracas_err fracas_keeper_start(const fracas_campaign *campaign, const fracas_run
     int pair[2];
     *keeper_made = (fracas_keeper){.control = -1, .server = -1};
     if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, pair))
-        return fracas_fail(FRACAS_ENVIRONMENT, "no connection to the keeper of a compute server: %s", strerror(errno));
+        return fracas_fail_system(errno, "no connection to the keeper of a compute server");
     const pid_t rank = getpid(), pid = fork();
     if (pid == 0) {
         close(pair[0]);

@@ -26,8 +26,6 @@ static void set_environment(void)
         {"OMPI_MCA_orte_base_help_aggregate", "1"},
         /* hwloc warns of firmware tables that contradict each other; nothing is bound here. */
         {"HWLOC_HIDE_ERRORS", "2"},
-        /* Slurm's srun, with which mpirun reaches the other nodes of a job, gives all of a node, not one core of it. */
-        {"SLURM_WHOLE", "1"},
     };
     for (size_t i = 0; i < FRACAS_COUNT(quiet); i++) setenv(quiet[i].name, quiet[i].value, 1);
     if (geteuid() == 0) { /* mpirun refuses to run as root without both */
@@ -74,9 +72,10 @@ fracas_err fracas_mpirun_start(int jobs, int argc, char **argv, fracas_mpirun *m
     int out[2] = {-1, -1}, errors[2] = {-1, -1};
     pid_t parent = getpid(), pid = -1;
     if (!pipe2(out, O_CLOEXEC) && !pipe2(errors, O_CLOEXEC)) pid = fork();
+    const int reason = errno;
     if (pid == 0) become_mpirun(arguments, parent, out, errors);
     fracas_err err = FRACAS_OK;
-    if (pid < 0) err = fracas_fail(FRACAS_ENVIRONMENT, "cannot start mpirun: %s", strerror(errno));
+    if (pid < 0) err = fracas_fail_system(reason, "cannot start mpirun");
     free(arguments);
     if (out[1] >= 0) close(out[1]);
     if (errors[1] >= 0) close(errors[1]);

@@ -102,8 +102,7 @@ static fracas_err make_folder(const char *path)
         if (here != '/' && here != '\0') continue;
         *at = '\0';
         if (mkdir(part, 0777) && errno != EEXIST)
-            return fracas_fail(FRACAS_ENVIRONMENT, "cannot create the folder %s: %s; choose another --study", part,
-                               strerror(errno));
+            return fracas_fail_system(errno, "cannot create the folder %s (or choose another --study)", part);
         if (here == '\0') return FRACAS_OK;
         *at = here;
     }
@@ -114,7 +113,7 @@ static fracas_err sync_folder(const char *path)
     int fd = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     bool good = fd >= 0 && !fsync(fd);
     fracas_err err = good ? FRACAS_OK
-                          : fracas_fail(FRACAS_ENVIRONMENT, "cannot sync the folder %s: %s", path, strerror(errno));
+                          : fracas_fail_system(errno, "cannot sync the folder %s", path);
     if (fd >= 0) close(fd);
     return err;
 }
@@ -143,7 +142,7 @@ static fracas_err write_whole(const char *folder, const char *name, fracas_err (
     }
     if (good) return sync_folder(folder);
     unlink(temporary);
-    return err ? err : fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: %s", path, strerror(reason));
+    return err ? err : fracas_fail_system(reason, "cannot write %s", path);
 }
 
 static fracas_err campaign_to(const void *campaign, FILE *out)
@@ -156,7 +155,7 @@ static fracas_err attachment_to(const void *what, FILE *out)
     const fracas_attachment *attachment = what;
     errno = 0;
     if (fwrite(attachment->text, 1, attachment->size, out) == attachment->size) return FRACAS_OK;
-    return fracas_fail(FRACAS_ENVIRONMENT, "cannot copy %s into the study: %s", attachment->path, strerror(errno));
+    return fracas_fail_system(errno, "cannot copy %s into the study", attachment->path);
 }
 
 /* True if the study has this very content already. */

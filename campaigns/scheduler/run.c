@@ -10,6 +10,7 @@
 #include "campaigns/scheduler/rank.h"
 #include "campaigns/scheduler/share.h"
 #include "campaigns/scheduler/signals.h"
+#include "campaigns/scheduler/space.h"
 #include "campaigns/scheduler/verdict.h"
 #include "campaigns/scheduler/voice.h"
 
@@ -42,6 +43,16 @@ bool fracas_run_speaks(void)
     return rank < 0 || (rank == 0 && !getenv(FRACAS_PARENT_MARK));
 }
 
+static fracas_err examine_needs(const char *study, const fracas_campaign *campaign, const fracas_run_options *options)
+{
+    double *cost, *bytes;
+    TRY(fracas_costs_create(campaign, options, &cost, &bytes));
+    fracas_err err = fracas_space_check(study, campaign, options, bytes);
+    free(cost);
+    free(bytes);
+    return err;
+}
+
 /* What is wrong with the campaign or the study is found here, before anything is written or started. */
 static fracas_err examine(const fracas_run_options *options, bool *settled, fracas_err *verdict)
 {
@@ -52,9 +63,8 @@ static fracas_err examine(const fracas_run_options *options, bool *settled, frac
     fracas_err err = fracas_study_folder(options, campaign, study, sizeof study);
     if (!err) err = fracas_study_examine(study, campaign, options->force, settled, &failed);
     *verdict = err || !failed ? err : fracas_failed_verdict(study, NULL, &campaign->table);
-    double *cost;
-    if (!err && !*settled) err = fracas_costs_create(campaign, options, &cost);
-    if (!err && !*settled) free(cost);
+    if (!err && !*settled) err = fracas_limits_check(options);
+    if (!err && !*settled) err = examine_needs(study, campaign, options);
     fracas_campaign_destroy(campaign);
     return err;
 }

@@ -188,7 +188,8 @@ fracas_err fracas_scheduler_create(const fracas_index_row *row, size_t count, co
     s->options = *options;
     s->state = options->seed;
     s->worker = calloc(options->workers, sizeof *s->worker);
-    fracas_err err = s->worker ? fracas_backlog_create(options->cost, options->npoints, &s->backlog) : fracas_no_memory("the workers");
+    fracas_err err = s->worker ? fracas_backlog_create(options->cost, options->first, options->npoints, &s->backlog)
+                                : fracas_no_memory("the workers");
     if (!err) err = fracas_scheduler_add(s, row, count);
     if (err) fracas_scheduler_destroy(s);
     else *scheduler = s;

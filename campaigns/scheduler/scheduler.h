@@ -36,6 +36,7 @@ size_t fracas_lease_bytes(const fracas_lease *lease);
 
 typedef struct {
     const double *cost; /* predicted for a realization of each point, element-steps: must outlive the scheduler */
+    const bool *first;  /* points that go before all others, because more work depends on them; NULL: none; must outlive it, too */
     size_t npoints;
     size_t workers;
     size_t width;       /* realizations of a batch, 1 to FRACAS_BATCH_MAX */
@@ -71,7 +72,7 @@ void fracas_scheduler_destroy(fracas_scheduler *scheduler); /* NULL is allowed *
  *   n = min(seconds / est_p, sum_q waiting_q est_q / (2 workers est_p), FRACAS_LEASE_MAX), down to whole batches,
  *       and a batch at least, or when less than a batch waits for each worker, min(width, waiting / workers that will be free
  *       within half the time of a batch); while nothing is measured one batch, shared with the workers that hold nothing
- * of the point with the largest est_p. Failed or lost leases go first. Takes log(points) steps, and one per worker for the last ones.
+ * of the point with the largest est_p among those that go first, else among all. Failed or lost leases go first. Takes log(points) steps, and one per worker for the last ones.
  * FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease, bool *given);
 

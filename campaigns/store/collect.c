@@ -107,11 +107,6 @@ static fate judge_attachment(const collection *c, const char *name, const char *
 
 /* ---- segments ---- */
 
-static int compare_names(const void *a, const void *b)
-{
-    return strcmp(((const fracas_known_segment *)a)->name, ((const fracas_known_segment *)b)->name);
-}
-
 static int compare_ids(const void *a, const void *b)
 {
     const int64_t x = *(const int64_t *)a, y = *(const int64_t *)b;
@@ -122,7 +117,8 @@ static fate judge_segment(const collection *c, const char *name, const char **wh
 {
     union { const char *given; char *name; } key = {.given = name};
     const fracas_known_segment wanted = {.name = key.name};
-    const fracas_known_segment *known = c->nsegments ? bsearch(&wanted, c->segment, c->nsegments, sizeof wanted, compare_names) : NULL;
+    const fracas_known_segment *known =
+        c->nsegments ? bsearch(&wanted, c->segment, c->nsegments, sizeof wanted, fracas_segment_compare_names) : NULL;
     if (fracas_disk_is_temporary(name)) {
         *why = "half written";
         return REMOVE;
@@ -130,6 +126,10 @@ static fate judge_segment(const collection *c, const char *name, const char **wh
     if (known) {
         *why = "another segment has each of its realizations";
         return c->nneedless && bsearch(&known->id, c->needless, c->nneedless, sizeof known->id, compare_ids) ? REMOVE : KEEP;
+    }
+    if (name[0] != '.' && ends_with(name, ".damaged")) {
+        *why = "a damaged segment that was set aside";
+        return REMOVE;
     }
     if (ends_with(name, ".h5")) *why = "not in the index; `fracas run` and `fracas merge` adopt it, if it is of this study";
     return LEAVE;
@@ -166,7 +166,7 @@ static fracas_err collect_segments(collection *c)
 {
     char *folder;
     TRY(fracas_index_segments(c->index, &c->segment, &c->nsegments));
-    if (c->nsegments) qsort(c->segment, c->nsegments, sizeof *c->segment, compare_names);
+    if (c->nsegments) qsort(c->segment, c->nsegments, sizeof *c->segment, fracas_segment_compare_names);
     TRY(list_needless(c));
     TRY(forget_needless(c));
     TRY(fracas_disk_join(c->study, "segments", &folder));

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+static const char remedy[] = "remove it and run again: it is made anew from the segments";
+
 double fracas_record_mean_size(const fracas_record *record)
 {
     double sum = 0;
@@ -41,7 +43,7 @@ static double real_at(sqlite3_stmt *s, int column) /* NULL is NaN */
 static fracas_err need_point(fracas_index *index, const fracas_hash *point, int64_t *id)
 {
     TRY(fracas_index_find_point(index, point, id));
-    return *id ? FRACAS_OK : fracas_fail(FRACAS_DAMAGED, "%s lacks a point of the campaign", index->path);
+    return *id ? FRACAS_OK : fracas_fail(FRACAS_DAMAGED, "%s lacks a point of the campaign; %s", index->path, remedy);
 }
 
 fracas_err fracas_index_summaries(fracas_index *index, const fracas_hash *point, size_t count, fracas_index_summary *summary)
@@ -61,7 +63,7 @@ fracas_err fracas_index_summaries(fracas_index *index, const fracas_hash *point,
     }
     fracas_index_reset(index, FRACAS_SQL_ROW_SUMMARY);
     if (found == count) return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED, "%s: %zu of the first %zu replicas of a point are there", index->path, found, count);
+    return fracas_fail(FRACAS_DAMAGED, "%s: %zu of the first %zu replicas of a point are there; %s", index->path, found, count, remedy);
 }
 
 fracas_err fracas_index_decisions(fracas_index *index, const fracas_hash *point, fracas_decision **decision, size_t *count)
@@ -90,7 +92,7 @@ fracas_err fracas_index_decisions(fracas_index *index, const fracas_hash *point,
             .quantity = sqlite3_column_int64(s, 6), .minimum = sqlite3_column_int64(s, 7), .maximum = sqlite3_column_int64(s, 8),
             .relative_half_width = real_at(s, 9), .confidence = real_at(s, 10)};
         if (!fracas_decision_valid(&(*decision)[*count]))
-            err = fracas_fail(FRACAS_DAMAGED, "%s: a row of its table `decision` is damaged", index->path);
+            err = fracas_fail(FRACAS_DAMAGED, "%s: a row of its table `decision` is damaged; %s", index->path, remedy);
     }
     fracas_index_reset(index, FRACAS_SQL_DECISION_OF_POINT);
     if (err) free(*decision), *decision = NULL;

@@ -16,15 +16,7 @@
 
 static const char temporary_mark[] = ".tmp-";
 
-fracas_err fracas_disk_fail(const char *verb, const char *path)
-{
-    int reason = errno;
-    const char *remedy = "";
-    if (reason == ENOSPC || reason == EDQUOT) remedy = "; free some space and run again";
-    if (reason == EACCES || reason == EPERM || reason == EROFS)
-        remedy = "; make it accessible to you, or copy the study to where you may write";
-    return fracas_fail(FRACAS_ENVIRONMENT, "cannot %s %s: %s%s", verb, path, strerror(reason), remedy);
-}
+fracas_err fracas_disk_fail(const char *verb, const char *path) { return fracas_fail_system(errno, "cannot %s %s", verb, path); }
 
 fracas_err fracas_disk_join(const char *folder, const char *name, char **path)
 {

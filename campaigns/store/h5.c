@@ -18,7 +18,9 @@ static herr_t look_at_error(unsigned n, const H5E_error2_t *error, void *context
 {
     error_walk *walk = context;
     if (n == 0 && error->desc) snprintf(walk->text, sizeof walk->text, "%s", error->desc);
-    if (error->maj_num == H5E_RESOURCE) walk->memory = true;
+    if (error->maj_num == H5E_RESOURCE || error->min_num == H5E_NOSPACE || error->min_num == H5E_CANTALLOC) walk->memory = true;
+    /* What its own default properties lack, memory for them lacked; no file has a say in them. */
+    if (n == 0 && error->maj_num == H5E_PLIST && error->min_num == H5E_NOTFOUND) walk->memory = true;
     return 0;
 }
 
@@ -28,11 +30,18 @@ fracas_err fracas_h5_fail(const fracas_h5 *h5, const char *what)
     (void)H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look_at_error, &walk);
     (void)H5Eclear2(H5E_DEFAULT);
     if (h5->error)
-        return fracas_fail(FRACAS_ENVIRONMENT, "cannot %s %s (%s): %s", h5->writing ? "write" : "read", h5->path,
-                           what, strerror(h5->error));
+        return fracas_fail_system(h5->error, "cannot %s %s (%s)", h5->writing ? "write" : "read", h5->path, what);
     if (walk.memory) return fracas_no_memory(h5->path);
     if (h5->writing) return fracas_fail(FRACAS_BUG, "%s: %s: HDF5 refuses: %s", h5->path, what, walk.text);
     return fracas_fail(FRACAS_DAMAGED, "%s: %s: damaged, or no file of fracas: %s", h5->path, what, walk.text);
+}
+
+void fracas_h5_let_go(bool good, herr_t (*close)(hid_t id), hid_t id)
+{
+    if (id < 0) return;
+    hid_t errors = good ? H5I_INVALID_HID : H5Eget_current_stack();
+    (void)close(id);
+    if (errors >= 0) (void)H5Eset_current_stack(errors);
 }
 
 /* ---- attributes ---- */
@@ -46,7 +55,7 @@ static hid_t text_type(size_t size)
     if (type >= 0 && H5Tset_size(type, size) >= 0 && H5Tset_strpad(type, H5T_STR_NULLPAD) >= 0 &&
         H5Tset_cset(type, H5T_CSET_UTF8) >= 0)
         return type;
-    if (type >= 0) H5Tclose(type);
+    fracas_h5_let_go(false, H5Tclose, type);
     return H5I_INVALID_HID;
 }
 
@@ -88,7 +97,7 @@ static fracas_err open_attribute(const fracas_h5 *h5, const char *object, const 
     hid_t space = *attribute >= 0 ? H5Aget_space(*attribute) : H5I_INVALID_HID;
     bool scalar = space >= 0 && H5Sget_simple_extent_type(space) == H5S_SCALAR;
     if (scalar) *type = H5Aget_type(*attribute);
-    if (space >= 0) H5Sclose(space);
+    fracas_h5_let_go(*type >= 0, H5Sclose, space);
     return *type >= 0 ? FRACAS_OK : fracas_h5_fail(h5, name);
 }
 
@@ -180,16 +189,17 @@ static int column_rank(const fracas_store_column *column)
     return column->type != FRACAS_TEXT && column->width > 1 ? 2 : 1;
 }
 
-/* Shuffle is there for whoever repacks the file with compression; Fletcher32 finds flipped bytes. */
+/* Shuffle is there for whoever repacks the file with compression; Fletcher32 finds flipped bytes. Neither is optional: HDF5 leaves out an
+ * optional filter that finds no memory, and the file would have other bytes. */
 static hid_t creation_list(const fracas_store_column *column, size_t chunk)
 {
     hsize_t shape[2] = {chunk, column->width};
     hid_t list = H5Pcreate(H5P_DATASET_CREATE);
-    if (list >= 0 && H5Pset_chunk(list, column_rank(column), shape) >= 0 && H5Pset_shuffle(list) >= 0 &&
-        H5Pset_fletcher32(list) >= 0 && H5Pset_obj_track_times(list, false) >= 0 &&
-        H5Pset_fill_time(list, H5D_FILL_TIME_ALLOC) >= 0)
+    if (list >= 0 && H5Pset_chunk(list, column_rank(column), shape) >= 0 &&
+        H5Pset_filter(list, H5Z_FILTER_SHUFFLE, H5Z_FLAG_MANDATORY, 0, NULL) >= 0 && H5Pset_fletcher32(list) >= 0 &&
+        H5Pset_obj_track_times(list, false) >= 0 && H5Pset_fill_time(list, H5D_FILL_TIME_ALLOC) >= 0)
         return list;
-    if (list >= 0) H5Pclose(list);
+    fracas_h5_let_go(false, H5Pclose, list);
     return H5I_INVALID_HID;
 }
 
@@ -198,7 +208,7 @@ static hid_t dataset_access_list(void)
 {
     hid_t list = H5Pcreate(H5P_DATASET_ACCESS);
     if (list >= 0 && H5Pset_chunk_cache(list, 1, 0, 1.0) < 0) {
-        H5Pclose(list);
+        fracas_h5_let_go(false, H5Pclose, list);
         list = H5I_INVALID_HID;
     }
     return list;
@@ -208,8 +218,10 @@ fracas_err fracas_h5_create_column(const fracas_h5 *h5, const fracas_store_colum
                                    hid_t *dataset)
 {
     hsize_t none[2] = {0, column->width}, most[2] = {H5S_UNLIMITED, column->width};
-    hid_t type = column_type(column, true), space = H5Screate_simple(column_rank(column), none, most);
-    hid_t creation = creation_list(column, chunk), access = dataset_access_list();
+    hid_t type = column_type(column, true); /* no call after one that failed: it would forget why */
+    hid_t space = type < 0 ? H5I_INVALID_HID : H5Screate_simple(column_rank(column), none, most);
+    hid_t creation = space < 0 ? H5I_INVALID_HID : creation_list(column, chunk);
+    hid_t access = creation < 0 ? H5I_INVALID_HID : dataset_access_list();
     *dataset = H5I_INVALID_HID;
     if (type >= 0 && space >= 0 && creation >= 0 && access >= 0)
         *dataset = H5Dcreate2(h5->id, column->path, type, space, H5P_DEFAULT, creation, access);
@@ -225,10 +237,10 @@ fracas_err fracas_h5_create_column(const fracas_h5 *h5, const fracas_store_colum
 
 static bool right_type(hid_t dataset, const fracas_store_column *column)
 {
-    hid_t found = H5Dget_type(dataset), wanted = column_type(column, true);
+    hid_t found = H5Dget_type(dataset), wanted = found < 0 ? H5I_INVALID_HID : column_type(column, true);
     bool right = found >= 0 && wanted >= 0 && H5Tequal(found, wanted) > 0;
-    if (found >= 0) H5Tclose(found);
-    if (wanted >= 0) H5Tclose(wanted);
+    fracas_h5_let_go(right, H5Tclose, found);
+    fracas_h5_let_go(right, H5Tclose, wanted);
     return right;
 }
 
@@ -239,7 +251,7 @@ static bool right_shape(hid_t dataset, const fracas_store_column *column, uint64
     int rank = column_rank(column);
     bool right = space >= 0 && H5Sget_simple_extent_ndims(space) == rank &&
                  H5Sget_simple_extent_dims(space, shape, NULL) == rank && (rank == 1 || shape[1] == column->width);
-    if (space >= 0) H5Sclose(space);
+    fracas_h5_let_go(right, H5Sclose, space);
     *rows = shape[0];
     return right;
 }
@@ -257,7 +269,7 @@ static bool right_storage(hid_t dataset, const fracas_store_column *column, size
         size_t none = 0;
         right = H5Pget_filter2(list, f, &flags, &none, NULL, 0, NULL, NULL) == filters[f];
     }
-    if (list >= 0) H5Pclose(list);
+    fracas_h5_let_go(right, H5Pclose, list);
     return right;
 }
 
@@ -266,7 +278,7 @@ fracas_err fracas_h5_open_column(const fracas_h5 *h5, const fracas_store_column 
 {
     hid_t access = dataset_access_list();
     *dataset = access >= 0 ? H5Dopen2(h5->id, column->path, access) : H5I_INVALID_HID;
-    if (access >= 0) H5Pclose(access);
+    fracas_h5_let_go(*dataset >= 0, H5Pclose, access);
     if (*dataset < 0) return fracas_h5_fail(h5, column->path);
     /* Nothing is compressed, so rows that are there take their bytes: this bounds every allocation to come. */
     bool right = right_type(*dataset, column) && right_shape(*dataset, column, rows) &&
@@ -287,15 +299,16 @@ static bool transfer(const fracas_store_column *column, hid_t dataset, uint64_t 
 {
     int rank = column_rank(column);
     hsize_t from[2] = {start, 0}, size[2] = {count, column->width};
-    hid_t type = column_type(column, false), memory = H5Screate_simple(rank, size, NULL);
-    hid_t space = H5Dget_space(dataset);
+    hid_t type = column_type(column, false);
+    hid_t memory = type < 0 ? H5I_INVALID_HID : H5Screate_simple(rank, size, NULL); /* no call after one that failed: it would forget why */
+    hid_t space = memory < 0 ? H5I_INVALID_HID : H5Dget_space(dataset);
     bool ok = type >= 0 && memory >= 0 && space >= 0 &&
               H5Sselect_hyperslab(space, H5S_SELECT_SET, from, NULL, size, NULL) >= 0;
     if (ok && way == WRITE_ROWS) ok = H5Dwrite(dataset, type, memory, space, H5P_DEFAULT, stored) >= 0;
     if (ok && way == READ_ROWS) ok = H5Dread(dataset, type, memory, space, H5P_DEFAULT, stored) >= 0;
-    if (space >= 0) H5Sclose(space);
-    if (memory >= 0) H5Sclose(memory);
-    if (type >= 0) H5Tclose(type);
+    fracas_h5_let_go(ok, H5Sclose, space);
+    fracas_h5_let_go(ok, H5Sclose, memory);
+    fracas_h5_let_go(ok, H5Tclose, type);
     return ok;
 }
 

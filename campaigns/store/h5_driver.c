@@ -145,7 +145,7 @@ static hid_t access_list(fracas_h5 *h5)
         H5Pset_libver_bounds(list, H5F_LIBVER_V110, H5F_LIBVER_V110) >= 0 &&
         H5Pset_fclose_degree(list, H5F_CLOSE_STRONG) >= 0)
         return list;
-    if (list >= 0) H5Pclose(list);
+    fracas_h5_let_go(false, H5Pclose, list);
     return H5I_INVALID_HID;
 }
 
@@ -174,7 +174,7 @@ fracas_err fracas_h5_create(fracas_h5 *h5, const char *name, const char *path)
     TRY(start(h5, path, true));
     h5->fd = open(name, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (h5->fd < 0) return fracas_disk_fail("create", path);
-    hid_t list = access_list(h5), creation = H5Pcreate(H5P_FILE_CREATE);
+    hid_t list = access_list(h5), creation = list < 0 ? H5I_INVALID_HID : H5Pcreate(H5P_FILE_CREATE);
     if (list >= 0 && creation >= 0 && H5Pset_obj_track_times(creation, false) >= 0)
         h5->id = H5Fcreate(name, H5F_ACC_TRUNC, creation, list);
     fracas_err err = h5->id < 0 ? fracas_h5_fail(h5, "start of the file") : FRACAS_OK;

@@ -118,6 +118,7 @@ fracas_err fracas_index_error(const fracas_index *index, const char *doing)
 {
     int code = index->db ? sqlite3_errcode(index->db) : SQLITE_NOMEM;
     const char *text = index->db ? sqlite3_errmsg(index->db) : "no memory";
+    const int system = index->db ? sqlite3_system_errno(index->db) : 0;
     switch (code) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
@@ -133,16 +134,16 @@ fracas_err fracas_index_error(const fracas_index *index, const char *doing)
     case SQLITE_RANGE:
     case SQLITE_MISMATCH:
         return fracas_fail(FRACAS_BUG, "%s: cannot %s: %s", index->path, doing, text);
+    case SQLITE_FULL: return fracas_fail_system(ENOSPC, "%s: cannot %s", index->path, doing);
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
     case SQLITE_PERM:
+        if (system && *fracas_remedy(system)) return fracas_fail_system(system, "%s: cannot %s", index->path, doing);
         return fracas_fail(FRACAS_ENVIRONMENT, "%s: cannot %s: %s; make the study writable, or copy it to where "
                            "you may write", index->path, doing, text);
-    default: {
-        int system = sqlite3_system_errno(index->db);
-        return fracas_fail(FRACAS_ENVIRONMENT, "%s: cannot %s: %s%s%s", index->path, doing, text, system ? ": " : "",
-                           system ? strerror(system) : "");
-    }
+    default:
+        if (system) return fracas_fail_system(system, "%s: cannot %s: %s", index->path, doing, text);
+        return fracas_fail(FRACAS_ENVIRONMENT, "%s: cannot %s: %s", index->path, doing, text);
     }
 }
 

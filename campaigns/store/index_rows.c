@@ -45,7 +45,7 @@ static fracas_err need_point(fracas_index *index, const fracas_hash *point, int6
     if (*id) return FRACAS_OK;
     char hex[FRACAS_HASH_HEX];
     fracas_hash_hex(point, hex);
-    return fracas_fail(FRACAS_DAMAGED, "%s has no point %s", index->path, hex);
+    return fracas_fail(FRACAS_DAMAGED, "%s has no point %s; remove it and run again: it is made anew from the segments", index->path, hex);
 }
 
 /* Steps a statement of one row of numbers. */
@@ -324,7 +324,8 @@ static fracas_err load_segments(fracas_index *index, fracas_known_segment **segm
         fracas_file_seal seal = {(uint64_t)sqlite3_column_int64(s, 2), hex ? strtoull(hex, &end, 16) : 0};
         int64_t rows = sqlite3_column_int64(s, 4);
         if (!name || strchr(name, '/') || !hex || strlen(hex) != 16 || *end || rows < 0)
-            return fracas_fail(FRACAS_DAMAGED, "%s: a row of its table `segment` is damaged", index->path);
+            return fracas_fail(FRACAS_DAMAGED, "%s: a row of its table `segment` is damaged; remove it and run again: it is made anew "
+                               "from the segments", index->path);
         (*segment)[*count] = (fracas_known_segment){sqlite3_column_int64(s, 0), strdup(name), seal, rows};
         if (!(*segment)[(*count)++].name) return fracas_no_memory("the list of segments");
     }

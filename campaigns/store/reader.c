@@ -281,7 +281,8 @@ fracas_err fracas_reader_record(fracas_reader *reader, size_t row, unsigned part
     TRY(load_rows(reader, FRACAS_SET_REALIZATION, row, 1, &stored));
     if (stored.point < 0 || (uint64_t)stored.point >= reader->points.table.npoints || stored.replica < 0)
         return damaged(reader, "/realization/point", "a realization is of no point of the file");
-    if (stored.record.outcome < 0 || stored.record.outcome >= FRACAS_NOUTCOMES || stored.record.fragments < 0)
+    if (stored.record.outcome < 0 || stored.record.outcome >= FRACAS_NOUTCOMES || stored.record.fragments < 0 ||
+        stored.record.fragments_dust < 0 || stored.record.fragments_dust > stored.record.fragments)
         return damaged(reader, "/realization/outcome", "an outcome or a count is out of range");
     *point = (size_t)stored.point;
     *replica = stored.replica;

@@ -8,7 +8,7 @@ mkdir small
 cat > in-small-disk.sh <<'EOF2'
 mount -t tmpfs -o size=1m tmpfs small || exit 77
 status=0
-"$1" run small.yaml --study small/study --jobs 2 --lanes 8 || status=$?
+"$1" run small.yaml --study small/study --jobs 2 --lanes 8 --ignore-space || status=$?
 [ $status -eq 6 ] || exit 1
 echo "refused"
 mount -o remount,size=64m small && "$1" run small.yaml --study small/study --jobs 2 && cp small/study/study.h5 resumed.h5

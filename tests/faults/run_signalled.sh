@@ -22,7 +22,7 @@ one()
     if [ -n "$3" ]; then
         kill -9 $(cat /proc/[0-9]*/stat 2>/dev/null | awk -v session="$session" '
             {name[$1] = $2; parent[$1] = $4; of[$1] = $6}
-            END {for (p in name) if (of[p] == session && name[p] == "(fracas)" && name[parent[p]] == "(mpirun)") {print p; exit}}') \
+            END {for (p in name) if (of[p] == session && name[p] ~ /^\(fracas/ && name[parent[p]] == "(mpirun)") {print p; exit}}') \
             2>/dev/null || true
         sleep "0.$(random 0 6)$(random 0 9)"
     fi

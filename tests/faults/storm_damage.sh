@@ -6,7 +6,7 @@
 . tests/support/campaigns.sh
 
 campaign small.yaml 100 '3e4 1/s, 1e5 1/s'
-sed -i 's/elements: 500/elements: 60/; s/end: 300 ns/end: 100 ns/' small.yaml
+sed -i 's/elements: 500/elements: 100/' small.yaml
 sed "s|^replicas: .*|replicas: {minimum: 8, maximum: 60, until: {quantity: mean-count, relative-half-width: 3 %, confidence: 0.95}}|" small.yaml > rule.yaml
 expect 0 "$fracas" run small.yaml --study finished --jobs 1 --segment-size 1e-6 --lease-time 0.02
 expect 0 "$fracas" run rule.yaml --study ruled --jobs 1 --segment-size 1e-6 --lease-time 0.02

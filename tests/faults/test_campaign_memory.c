@@ -137,7 +137,7 @@ static void test_use(void **state)
 static fracas_err count_cost(void *context)
 {
     double cost;
-    return fracas_plan_cost(context, 0, &cost);
+    return fracas_plan_cost(context, 0, &cost, NULL);
 }
 
 /* Strengths of flaws need the mesh when the file is read; a perturbed one is made twice, then planned, and timed. */

@@ -1,5 +1,8 @@
 /* The commands for studies, with every call that changes the disk failing, and killed at every one of them: the study is sound after
- * each, and the same command completes. */
+ * each, and the same command completes.
+ *
+ * ctest-labels: storm
+ */
 #include "tests/support/study_fixture.h"
 
 #include "base/param.h"
@@ -151,8 +154,9 @@ static void make_damaged(void)
 static void make_garbage(void)
 {
     make_incomplete();
-    assert_int_equal(sqlite3_exec(index_->db, "UPDATE realization SET segment = 1, row = replica, status = 'planned' WHERE segment = 2;"
-                                  "UPDATE realization SET segment = NULL, row = NULL WHERE status = 'planned'", NULL, NULL, NULL), SQLITE_OK);
+    assert_int_equal(sqlite3_exec(index_->db, "UPDATE realization SET status = 'planned', outcome = NULL, segment = NULL, row = NULL,"
+                                  " fragments = NULL, fragments_dust = NULL, steps = NULL, dissipated = NULL, residual = NULL, size = NULL"
+                                  " WHERE segment = 2", NULL, NULL, NULL), SQLITE_OK);
     sample_spill(sample_path(study, "segments/.x.h5.tmp-12"), "abc", 3);
     sample_spill(sample_path(study, "index.sqlite.before-1"), "abc", 3);
     assert_int_equal(mkdir(sample_path(study, ".reindex"), 0777) | mkdir(sample_path(study, "attachments"), 0777), 0);
@@ -228,7 +232,8 @@ static void is_sound(const trial *t, long k)
     char text[8192] = "";
     int64_t problems;
     if (t->damaged) return;
-    OK(fracas_study_verify(study, t->pending ? keep_unless_pending : keep_problem, text, &problems));
+    const fracas_verify_options how_to = {.full = true, .say = t->pending ? keep_unless_pending : keep_problem, .context = text};
+    OK(fracas_study_verify(study, &how_to, &problems));
     if (*text) fail_msg("%s, %s at call %ld: %s", t->name, how == DIE ? "killed" : "failing", k, text);
 }
 

@@ -162,7 +162,7 @@ static void set_rows(hid_t file, script *s)
     hid_t set = H5Dopen2(file, name, H5P_DEFAULT), space = H5Dget_space(set);
     if (H5Sget_simple_extent_ndims(space) <= 2) (void)H5Sget_simple_extent_dims(space, shape, NULL);
     const uint64_t rows = take(s, 2);
-    shape[0] = rows & 0x8000 ? UINT64_C(1) << (rows & 63) : rows & 0xfff; /* a chunk that was never written takes no room */
+    shape[0] = rows & 0x8000 ? UINT64_C(256) << (rows & 15) : rows & 0xfff; /* a chunk that was never written takes no room */
     (void)H5Dset_extent(set, shape);
     H5Sclose(space);
     H5Dclose(set);

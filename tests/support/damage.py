@@ -87,7 +87,7 @@ def obey(study, said):
         if status:
             raise Wrong(f"reindex: {status}: {more}\nafter: {said}")
         return "reindexed"
-    remove = re.search(r"(?:remove|move) (%s\S*?)(?: away)?(?: and|:|;|\s)" % re.escape(study), said)
+    remove = re.search(r"(?:remove|move) (%s/\S*?)(?: away)?(?: and|:|;|\s)" % re.escape(study), said)
     if remove:
         os.unlink(remove.group(1))
         return "removed a file"

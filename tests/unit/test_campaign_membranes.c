@@ -177,7 +177,7 @@ static void test_no_mesh(void **state)
     char *text = file_campaign(path, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n");
     fracas_campaign *campaign = read_text(text);
     double cost;
-    assert_int_equal(fracas_plan_cost(campaign, 0, &cost), FRACAS_USAGE);
+    assert_int_equal(fracas_plan_cost(campaign, 0, &cost, NULL), FRACAS_USAGE);
     if (!strstr(fracas_message(), "point 0: mesh file /tmp/")) fail_msg("%s", fracas_message());
     fracas_campaign_destroy(campaign);
     free(text);

@@ -23,7 +23,7 @@ static void test_cost(void **state)
     fracas_model *model;
     double cost = 0;
     assert_int_equal(fracas_model_create(&campaign->point[0].spec, &model), FRACAS_OK);
-    assert_int_equal(fracas_plan_cost(campaign, 0, &cost), FRACAS_OK);
+    assert_int_equal(fracas_plan_cost(campaign, 0, &cost, NULL), FRACAS_OK);
     assert_true(cost == 100.0 * (double)fracas_model_steps(model)); /* whole numbers: exact */
     assert_true(fracas_model_steps(model) > 1);
     fracas_model_destroy(model);
@@ -196,7 +196,7 @@ static void test_heavy_tail(void **state)
     assert_int_equal(fracas_model_check_strength(model, mean), FRACAS_OK);
     fracas_model_destroy(model);
     double cost;
-    assert_int_equal(fracas_plan_cost(campaign, 0, &cost), FRACAS_USAGE);
+    assert_int_equal(fracas_plan_cost(campaign, 0, &cost, NULL), FRACAS_USAGE);
     expect(fracas_message(), "point 0: the strongest of ");
     expect(fracas_message(), "raise mesh.elements above");
     fracas_campaign_destroy(campaign);
@@ -217,7 +217,7 @@ static void test_flaws_of_small_elements(void **state)
     assert_int_equal(fracas_model_check_strength(model, first), FRACAS_OK);
     fracas_model_destroy(model);
     double cost;
-    assert_int_equal(fracas_plan_cost(campaign, 0, &cost), FRACAS_USAGE);
+    assert_int_equal(fracas_plan_cost(campaign, 0, &cost, NULL), FRACAS_USAGE);
     expect(fracas_message(), "point 0: the strongest of ");
     fracas_campaign_destroy(campaign);
 }

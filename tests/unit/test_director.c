@@ -162,6 +162,19 @@ static void nobody_waits_for_records_of_one_that_computes(void **state)
     end();
 }
 
+/* A point whose replicas a rule decides goes before a longer one with a number of them. */
+static void what_rounds_wait_for_goes_first(void **state)
+{
+    (void)state;
+    prepare("replicas: 40", "sweep:\n  - cases:\n      - {name: long, time: {end: 900 ns}}\n      - {name: ruled, replicas: {minimum: 16, "
+            "maximum: 64, until: {quantity: dissipated, relative-half-width: 0.1}}}\n");
+    begin(0);
+    ready();
+    for (size_t w = 0; w < WORKERS; w++) assert_int_equal(worker[w].lease[0].point, w == 0 ? 1 : 0);
+    assert_int_equal(worker[0].lease[1].point, 1);
+    end();
+}
+
 /* ---- time ---- */
 
 /* 16 realizations, 8 for each worker; the second worker is done with its own. */
@@ -426,6 +439,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nobody_waits_for_records_of_one_that_computes),
+        cmocka_unit_test(what_rounds_wait_for_goes_first),
         cmocka_unit_test(an_overdue_lease_is_offered_when_time_passes),
         cmocka_unit_test(a_look_at_the_time_is_rare),
         cmocka_unit_test(a_worker_that_is_not_needed_is_given_up),

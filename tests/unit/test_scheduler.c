@@ -228,6 +228,27 @@ static void the_longest_go_first(void **state)
     free(row);
 }
 
+/* Points on which more depends go before longer ones, measured or not, the longest of them first. */
+static void some_points_go_first(void **state)
+{
+    (void)state;
+    static const bool first[POINTS] = {true, false, true};
+    static const size_t point[] = {2, 2, 0, 0, 1, 1};
+    fracas_index_row *row = rows(POINTS, 11);
+    fracas_scheduler_options options = options_for(1);
+    options.seconds = 0;
+    options.first = first;
+    fracas_scheduler *scheduler = create_with(row, POINTS * 11, &options);
+    for (size_t i = 0; i < 6; i++) {
+        fracas_lease lease;
+        assert_true(next(scheduler, 0, 0, &lease));
+        assert_lease(&lease, point[i], i % 2 ? 8 : 0, i % 2 ? 3 : 8);
+        computed(scheduler, 0, &lease, cost[point[i]]);
+    }
+    fracas_scheduler_destroy(scheduler);
+    free(row);
+}
+
 static void one_lease_ahead_until_the_last_ones(void **state)
 {
     (void)state;
@@ -585,6 +606,7 @@ int main(void)
         cmocka_unit_test(a_lease_has_a_largest_size),
         cmocka_unit_test(no_lease_time_means_one_batch),
         cmocka_unit_test(the_longest_go_first),
+        cmocka_unit_test(some_points_go_first),
         cmocka_unit_test(one_lease_ahead_until_the_last_ones),
         cmocka_unit_test(what_comes_next_is_predicted),
         cmocka_unit_test(what_waits_again_is_predicted),

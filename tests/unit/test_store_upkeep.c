@@ -248,7 +248,7 @@ static void version_1_is_refused_by_name(void **state)
     int64_t problems;
     sample_fails(fracas_index_open(study, false, &other), FRACAS_DAMAGED, refusal);
     sample_fails(fracas_index_open(study, true, &other), FRACAS_DAMAGED, refusal);
-    OK(fracas_study_verify(study, keep_problem, text, &problems));
+    OK(fracas_study_verify(study, &(fracas_verify_options){.say = keep_problem, .context = text}, &problems));
     assert_int_equal(problems, 1);
     assert_non_null(strstr(text, refusal));
     sample_fails(fracas_study_reindex(study, &(fracas_file_header){.version = "0.1.0"}, &table, &said), FRACAS_DAMAGED, refusal);
@@ -373,7 +373,7 @@ static void what_nobody_needs_goes(void **state)
     fracas_segment_row row[3];
     sample_segment(study, "orphan.h5", &table, twice, 3, MOST, &seal, row);
     assert_int_equal(mkdir(sample_path(study, "attachments"), 0777) | mkdir(sample_path(study, ".reindex"), 0777), 0);
-    static const char *const spilt[] = {"segments/.x.h5.tmp-12", ".study.h5.tmp-9", "campaign.yaml.tmp", "index.sqlite.before-20260101T000000Z-7",
+    static const char *const spilt[] = {"segments/.x.h5.tmp-12", "segments/old.damaged", ".study.h5.tmp-9", "campaign.yaml.tmp", "index.sqlite.before-20260101T000000Z-7",
                                         "index.sqlite.before-20260101T000000Z-7-wal", ".reindex/index.sqlite", ".reindex/index.sqlite-wal",
                                         "attachments/00000000000000000000000000000002", "attachments/00000000000000000000000000000002.tmp",
                                         "attachments/00000000000000000000000000000001", "attachments/readme", "notes.txt", "campaign.yaml",
@@ -389,6 +389,7 @@ static void what_nobody_needs_goes(void **state)
     assert_true(freed >= 9 * 7 && promised >= 9 * 7);
     found("- late.h5");
     found("- .x.h5.tmp-12 7");
+    found("- old.damaged 7");
     found("- 00000000000000000000000000000002 7");
     found("- 00000000000000000000000000000002.tmp 7");
     found("- .reindex 0");
@@ -397,7 +398,7 @@ static void what_nobody_needs_goes(void **state)
     found("= mine.txt 7");
     found("= readme 7");
     assert_null(strstr(found_text, " a.h5"));
-    assert_int_equal(all - entries(), 11);
+    assert_int_equal(all - entries(), 12);
     fracas_index_counts after = count_all();
     assert_int_equal(after.segments, before.segments - 1);
     after.segments = before.segments, after.bytes = before.bytes;

@@ -1,0 +1,6 @@
+# A few calls that fail or kill, one or two of each kind; failing_all.sh has all of them, failing_sampled.sh what only samples can have.
+# ctest-labels: slow-sanitize
+. tests/support/campaigns.sh
+. "$source/tests/support/failing.sh"
+
+failing disk:0.0:EIO:12 disk:0.1:kill:8 disk:0.1:ENOSPC:4 sqlite:0.0:EIO:6 hdf5:0.1:EIO:6 memory:0.1:ENOMEM:4

@@ -1,0 +1,47 @@
+# ctest-serial
+# A walltime holds, whatever hangs: status 3 before it is over, resumable.
+. tests/support/campaigns.sh
+
+# within SECONDS STATUS COMMAND...
+within()
+{
+    limit=$1
+    shift
+    began=$(date +%s)
+    expect "$@"
+    [ $(($(date +%s) - began)) -le "$limit" ] || fail "$(($(date +%s) - began)) s instead of $limit: $*"
+}
+
+campaign small.yaml 20 '3e4 1/s, 1e5 1/s'
+expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
+mkdir silent
+printf '#!/bin/sh\nexec sleep 1000\n' > silent/mpirun
+chmod +x silent/mpirun
+
+# MPI that never comes up.
+within 3 3 env PATH="$PWD/silent:$PATH" "$fracas" run small.yaml --study late --walltime 3s
+said 'walltime is over.*same command goes on'
+
+# More to do than there is time; and a compute server that stands still: it cannot drain, and is killed.
+campaign long.yaml 4000 '3e4 1/s, 1e5 1/s'
+within 5 3 "$fracas" run long.yaml --study long --jobs 2 --lanes 1 --lease-time 0 --segment-age 0.2 --walltime 5s
+said 'same command goes on'
+[ "$(segments long)" -gt 0 ] || fail "nothing was kept"
+setsid "$fracas" run small.yaml --study still --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6 --walltime 8s > background 2>&1 &
+session=$!
+began=$(date +%s)
+wait_segments still 2
+servers=$(cat /proc/[0-9]*/stat 2>/dev/null | awk -v session="$session" '
+    {name[$1] = $2; parent[$1] = $4; of[$1] = $6}
+    END {for (p in name) if (of[p] == session && name[p] == "(fracas)" && name[parent[parent[p]]] == "(mpirun)") print p}')
+[ -n "$servers" ] || fail "there are no servers"
+kill -STOP $servers
+status=0
+wait "$session" || status=$?
+took=$(($(date +%s) - began))
+[ $status -eq 3 ] || { cat background >&2; fail "status $status of a run that stood still"; }
+[ $took -le 8 ] || fail "$took s with a walltime of 8 s"
+[ -z "$(processes)" ] || fail "processes outlive the run: $(processes)"
+session=
+expect 0 "$fracas" run small.yaml --study still
+same undisturbed still
