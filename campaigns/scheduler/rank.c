@@ -22,7 +22,7 @@
 enum {
     TAG = 0,
     WAIT_MAX = 8,  /* ms */
-    DEATHS_MAX = 5 /* of servers, one after another, that have done nothing in between */
+    DEATHS_MAX = 5 /* of servers, one after another, that have settled nothing in between */
 };
 
 /* Set by SIGUSR1 (the parent, by way of mpirun), SIGUSR2, SIGTERM and SIGINT (mpirun, srun, a batch system). */
@@ -43,7 +43,7 @@ typedef struct {
     fracas_keeper keeper; /* of the compute server, and the connection to that */
     bool ended;  /* the server has said its last word: ENDED or TROUBLE */
     bool fresh;  /* the server is a new one of which rank 0 has not heard: what comes is still for the one before */
-    int deaths;  /* of servers since one has done something */
+    int deaths;  /* of servers since one has written a segment or told of a failure */
     int wait;    /* ms to sleep when nothing comes */
 } rank_state;
 
@@ -97,7 +97,7 @@ static fracas_err tell_death(rank_state *rank, fracas_packet **message)
     if (gone) {
         snprintf(trouble.text, sizeof trouble.text, "the compute server of rank %d %s", rank->rank, fracas_message());
     } else if (++rank->deaths >= DEATHS_MAX) {
-        snprintf(trouble.text, sizeof trouble.text, "the compute server of rank %d %s, as did %d before it that computed nothing in "
+        snprintf(trouble.text, sizeof trouble.text, "the compute server of rank %d %s, and %d died before it with no segment in "
                  "between; it is not started again", rank->rank, how, rank->deaths - 1);
         fracas_keeper_end(&rank->keeper);
     } else if (fracas_keeper_renew(&rank->keeper)) {
@@ -118,9 +118,8 @@ static void note(rank_state *rank, const fracas_packet *message)
     switch (message->kind) {
     case FRACAS_PACKET_ENDED:
     case FRACAS_PACKET_TROUBLE: rank->ended = true; break;
-    case FRACAS_PACKET_COMPUTED:
     case FRACAS_PACKET_FAILED:
-    case FRACAS_PACKET_SEGMENT: rank->deaths = 0; break;
+    case FRACAS_PACKET_SEGMENT: rank->deaths = 0; break; /* something is settled: what is only computed dies with the server */
     default: break;
     }
 }

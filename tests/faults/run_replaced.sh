@@ -61,7 +61,7 @@ zombies()
     cat /proc/[0-9]*/stat 2>/dev/null | sed 's/([^)]*)/x/' | awk -v session="$session" '$6 == session && $3 == "Z" {print $1}'
 }
 
-# Five in a row that have computed nothing: that is enough. Meanwhile nobody is left unburied.
+# Five in a row that have written nothing: that is enough. Meanwhile nobody is left unburied.
 campaign one.yaml 1 '1e5 1/s'
 export FRACAS_TEST_FAULT=hang:0:0
 start one.yaml --study five --jobs 1 --isolation none
@@ -81,6 +81,6 @@ wait "$session" || status=$?
 session=
 unset FRACAS_TEST_FAULT
 [ $status -eq 6 ] || { cat background >&2; fail "status $status after five deaths"; }
-grep -q 'compute server of rank 0 died of signal 9 .*as did 4 before it that computed nothing in between; it is not started again' background ||
+grep -q 'compute server of rank 0 died of signal 9 .*and 4 died before it with no segment in between; it is not started again' background ||
     { cat background >&2; fail "it did not say why it gave up"; }
 expect 0 "$fracas" run one.yaml --study five

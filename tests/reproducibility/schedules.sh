@@ -16,7 +16,7 @@ for lanes in 1 4 8; do
 done
 
 # Isolation none finds which one it was: a process that computes died, and what it held is computed in processes of its own.
-export FRACAS_TEST_CRASH=1:4
+export FRACAS_TEST_FAULT=crash:1:4
 expect 1 "$fracas" run small.yaml --study crashed --jobs 1
 rows() { sqlite3 "$1/index.sqlite" "SELECT replica, status, attempts, reason FROM realization WHERE status = 'failed'"; }
 rows crashed > failed
