@@ -167,6 +167,7 @@ class Storm:
                    "--lease-time", self.random.choice(["0", "0.2"]), "--segment-age", self.random.choice(["0.05", "0.2"])]
         if self.random.random() < 0.3:
             options.append("--shuffle")
+        self.stale = set(glob.glob(f"{self.study}/.study.h5.tmp-*"))  # of a run that was killed: still there until this one sweeps
         self.said = open(f"{self.folder}/said", "w+")
         self.run = subprocess.Popen([self.fracas, "run", self.campaign, "--study", self.study, *options], env=self.environment,
                                     stdin=subprocess.DEVNULL, stdout=self.said, stderr=subprocess.STDOUT, start_new_session=True)
@@ -176,8 +177,11 @@ class Storm:
         self.said.flush()
         return read(self.said.name)
 
+    def merging(self):
+        return bool(set(glob.glob(f"{self.study}/.study.h5.tmp-*")) - self.stale)
+
     def phase(self, kinds):
-        if glob.glob(f"{self.study}/.study.h5.tmp-*"):
+        if self.merging():
             return "merging"
         if "rank 0" not in kinds:
             return "starting"
@@ -273,7 +277,7 @@ class Storm:
         if missing == 0:  # only study.h5 is to be written: half of the kills when its temporary is there
             due = time.monotonic() + self.random.uniform(0.05, 1.2)
             while time.monotonic() < due and self.run.poll() is None:
-                if self.random.random() < 0.7 and glob.glob(f"{self.study}/.study.h5.tmp-*"):
+                if self.merging() and self.random.random() < 0.7:
                     time.sleep(self.random.uniform(0, 0.05))
                     break
                 time.sleep(0.001)
