@@ -76,6 +76,7 @@ static fracas_err make_scheduler(fracas_director *director)
                                         .workers = director->setup.workers,
                                         .width = width ? (size_t)width : FRACAS_BATCH_MAX,
                                         .seconds = director->setup.options->lease_seconds,
+                                        .memory = director->setup.options->segment_age,
                                         .limit = director->setup.options->lease_limit,
                                         .shuffle = director->setup.options->shuffle,
                                         .seed = campaign->seed};
@@ -145,9 +146,15 @@ bool fracas_director_computed(const fracas_director *director)
     return fracas_scheduler_computed_all(director->scheduler) && director->rounds.open == 0;
 }
 
-static void stop_if_computed(fracas_director *director)
+bool fracas_director_durable(const fracas_director *director)
 {
-    if (!fracas_director_computed(director)) return;
+    return fracas_director_computed(director) && fracas_scheduler_count(director->scheduler).memory == 0;
+}
+
+/* Not before everything is durable: should a worker not get so far, the others are there to compute it again. */
+static void stop_if_durable(fracas_director *director)
+{
+    if (!fracas_director_durable(director)) return;
     director->needless = true;
     stop(director);
 }
@@ -171,7 +178,7 @@ fracas_err fracas_director_create(const fracas_director_setup *setup, fracas_dir
     }
     *director = d;
     d->resumed_whole = fracas_director_computed(d);
-    stop_if_computed(d); /* only study.h5 is missing */
+    stop_if_durable(d); /* only study.h5 is missing */
     return FRACAS_OK;
 }
 
@@ -258,10 +265,11 @@ static bool anyone_idles(const fracas_director *director)
 }
 
 /* While rounds wait to be decided and a worker has nothing to do, none keeps its records to itself: not even one that computes, for what
- * it computes may be of a slower point. */
+ * it computes may be of a slower point. Nor does any when everything is computed. */
 static fracas_err flush_all(fracas_director *director)
 {
-    if (director->rounds.open == 0 || director->stopping || !anyone_idles(director)) return FRACAS_OK;
+    const bool rounds_wait = director->rounds.open > 0 && anyone_idles(director);
+    if (director->stopping || !(rounds_wait || fracas_director_computed(director))) return FRACAS_OK;
     for (size_t worker = 0; worker < director->setup.workers; worker++) {
         if (director->flushing[worker] || director->phase[worker] != WORKING ||
             !fracas_scheduler_keeps(director->scheduler, worker))
@@ -423,7 +431,7 @@ void fracas_director_hear(fracas_director *director, size_t worker, const fracas
     director->tally.messages++;
     fracas_director_check(director, act(director, worker, message));
     fracas_director_check(director, flush_all(director));
-    stop_if_computed(director);
+    stop_if_durable(director);
     fracas_scheduler_counts count = fracas_scheduler_count(director->scheduler);
     fracas_voice_progress(director->setup.voice, &count);
 }

@@ -22,7 +22,7 @@ struct fracas_director {
     int64_t *given;      /* replicas of each point that the scheduler knows */
     size_t nended;
     bool stopping; /* STOP was sent to all that work */
-    bool needless; /* everything is computed: what still runs is a duplicate */
+    bool needless; /* everything is durable: what still runs is a duplicate */
     bool drained;  /* because of a signal or the deadline */
     bool late;     /* because of the deadline */
     bool overtime; /* it is so near that what runs is killed */
@@ -46,6 +46,8 @@ void fracas_director_stop_worker(fracas_director *director, size_t worker);
 void fracas_director_end_worker(fracas_director *director, size_t worker);
 /* Nothing is left to compute, nor will be. */
 bool fracas_director_computed(const fracas_director *director);
+/* And everything is on disk. */
+bool fracas_director_durable(const fracas_director *director);
 
 /* ---- director_time.c ---- */
 

@@ -26,15 +26,17 @@ bool fracas_director_too_late(const fracas_director *director, size_t worker, do
 static fracas_err offer_overdue(fracas_director *director, double time)
 {
     fracas_lease lease;
-    bool given = true;
-    for (size_t worker = 0; given && worker < director->setup.workers; worker++) {
+    int refused = 0; /* once it may have been the worker's own that is overdue; twice there is nothing */
+    for (size_t worker = 0; refused < 2 && worker < director->setup.workers; worker++) {
         size_t late;
+        bool given;
         if (director->phase[worker] != WORKING || !fracas_scheduler_idles(director->scheduler, worker)) continue;
         fracas_scheduler_overdue(director->scheduler, worker, time, &lease, &late, &given);
-        if (!given) break;
+        refused += !given;
+        if (!given) continue;
         char text[200];
         snprintf(text, sizeof text, "%" PRIu64 " realizations of point %" PRIu64 ", replica %" PRId64 " the first, take rank %zu far longer "
-                 "than predicted: rank %zu computes them as well", lease.count, lease.point, lease.replica[0], late, worker);
+                 "than predicted to compute or write: rank %zu computes them as well", lease.count, lease.point, lease.replica[0], late, worker);
         TRY(fracas_index_event(director->index, "overdue", text));
         TRY(fracas_director_tell(director, worker, FRACAS_PACKET_LEASE, &lease, fracas_lease_bytes(&lease)));
     }
@@ -69,8 +71,8 @@ static void mind_deadline(fracas_director *director, double time)
 /* Workers that do not answer any more, when everything is durable or there is no time left. */
 static fracas_err give_up(fracas_director *director, double time)
 {
-    const bool durable = fracas_director_computed(director) && fracas_scheduler_count(director->scheduler).memory == 0;
-    const bool needless = durable && time > director->told + PATIENCE, out_of_time = director->overtime && time >= director->setup.deadline;
+    const bool needless = fracas_director_durable(director) && time > director->told + PATIENCE;
+    const bool out_of_time = director->overtime && time >= director->setup.deadline;
     if (!needless && !out_of_time) return FRACAS_OK;
     for (size_t worker = 0; worker < director->setup.workers; worker++) {
         if (director->phase[worker] == ENDED) continue;

@@ -26,6 +26,7 @@ typedef struct {
 /* A task in the memory of a worker. */
 typedef struct note {
     task *task;
+    double since;
     struct note *next;
 } note;
 
@@ -294,17 +295,33 @@ static task *cut(fracas_scheduler *s, double now)
     return t;
 }
 
-/* When a lease that one worker alone has is overdue; INFINITY: never. */
-static double overdue_at(const fracas_scheduler *s, const slot *held)
+/* When a lease is overdue that one worker alone has had since `since`, and may keep in memory for `kept` seconds; INFINITY: never. */
+static double overdue_at(const fracas_scheduler *s, const task *t, double since, double kept)
 {
-    const double expected = predicted(s, held->task);
-    if (held->task->held > 1 || !is_open(held->task) || isnan(expected)) return INFINITY;
-    return held->began + fmax(OVERDUE_LEAST, OVERDUE * expected);
+    const double expected = predicted(s, t);
+    if (t->held + t->kept > 1 || t->done || isnan(expected)) return INFINITY;
+    return since + kept + fmax(OVERDUE_LEAST, OVERDUE * expected);
+}
+
+/* The one of a worker that is overdue first, *at; NULL if none ever is. */
+static task *first_overdue(const fracas_scheduler *s, const worker_state *w, double *at)
+{
+    task *first = NULL;
+    *at = INFINITY;
+    for (size_t h = 0; h < w->nheld; h++) {
+        const double then = overdue_at(s, w->held[h].task, w->held[h].began, 0);
+        if (then < *at) *at = then, first = w->held[h].task;
+    }
+    for (const note *n = w->memory; n; n = n->next) {
+        const double then = overdue_at(s, n->task, n->since, s->options.memory);
+        if (then < *at) *at = then, first = n->task;
+    }
+    return first;
 }
 
 static void give(fracas_scheduler *s, worker_state *w, task *t, double now, fracas_lease *lease)
 {
-    s->uncomputed += !t->held;
+    s->uncomputed += !t->held && !t->kept;
     t->held++;
     w->held[w->nheld++] = (slot){t, now};
     lease->id = t->id;
@@ -337,15 +354,14 @@ void fracas_scheduler_overdue(fracas_scheduler *scheduler, size_t worker, double
     if (w->nheld || scheduler->waiting) return;
     task *worst = NULL;
     double first = now;
-    for (size_t i = 0; i < scheduler->options.workers; i++)
-        for (size_t h = 0; h < scheduler->worker[i].nheld; h++) {
-            const slot *held = &scheduler->worker[i].held[h];
-            const double at = overdue_at(scheduler, held);
-            if (at >= first) continue;
-            first = at;
-            worst = held->task;
-            *late = i;
-        }
+    for (size_t i = 0; i < scheduler->options.workers; i++) {
+        double at;
+        task *t = i == worker ? NULL : first_overdue(scheduler, &scheduler->worker[i], &at);
+        if (!t || at >= first) continue;
+        first = at;
+        worst = t;
+        *late = i;
+    }
     if (!worst) return;
     give(scheduler, w, worst, now, lease);
     *given = true;
@@ -373,7 +389,7 @@ static task *let_go(fracas_scheduler *s, size_t worker, size_t place, double now
 }
 
 /* Into the worker's memory: takes over the note. */
-static void keep(fracas_scheduler *s, size_t worker, task *t, note *n)
+static void keep(fracas_scheduler *s, size_t worker, task *t, double now, note *n)
 {
     if (!t->kept && !t->done) {
         s->uncomputed -= t->held > 0;
@@ -381,7 +397,7 @@ static void keep(fracas_scheduler *s, size_t worker, task *t, note *n)
         s->computed += cost_of(s, t);
     }
     t->kept++;
-    *n = (note){t, s->worker[worker].memory};
+    *n = (note){t, now, s->worker[worker].memory};
     s->worker[worker].memory = n;
 }
 
@@ -393,7 +409,7 @@ fracas_err fracas_scheduler_computed(fracas_scheduler *scheduler, size_t worker,
     if (!n) return fracas_no_memory("a lease");
     task *t = let_go(scheduler, worker, place, now);
     fracas_backlog_measure(scheduler->backlog, t->point, t->count, seconds);
-    keep(scheduler, worker, t, n);
+    keep(scheduler, worker, t, now, n);
     return FRACAS_OK;
 }
 
@@ -436,9 +452,9 @@ static void try_again(fracas_scheduler *s, task *t, bool *final)
 }
 
 /* What is at fault is one realization alone, or is tried in two halves. */
-static void bisect(fracas_scheduler *s, size_t worker, size_t count, const pieces *made, bool *final)
+static void bisect(fracas_scheduler *s, size_t worker, double now, size_t count, const pieces *made, bool *final)
 {
-    if (made->part[KEPT]) keep(s, worker, made->part[KEPT], made->kept);
+    if (made->part[KEPT]) keep(s, worker, made->part[KEPT], now, made->kept);
     if (made->part[REST]) wait_first(s, made->part[REST]);
     if (made->part[OTHER_HALF]) wait_first(s, made->part[OTHER_HALF]);
     if (count > 1) wait_first(s, made->part[HALF]);
@@ -467,7 +483,7 @@ fracas_err fracas_scheduler_failed(fracas_scheduler *scheduler, size_t worker, u
         try_again(scheduler, t, final);
     } else {
         free(t);
-        bisect(scheduler, worker, count, &made, final);
+        bisect(scheduler, worker, now, count, &made, final);
     }
     return FRACAS_OK;
 }

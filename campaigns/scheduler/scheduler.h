@@ -4,7 +4,7 @@
  * leases of this run took so far, a whole number of batches, and towards the end never more than a share of what is left. It is
  * held by a worker, is in the worker's memory once it is computed, and is durable when its segment is committed. A lease that
  * fails costs nothing but the batch that failed: that is bisected until the faulty realization is alone. A lease that takes much
- * longer than predicted is given to a second worker as well; whichever is durable first counts, the other is a duplicate. */
+ * longer than predicted, or to become durable, is given to a second worker as well; whichever is durable first counts, the other is a duplicate. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_SCHEDULER_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_SCHEDULER_H
 
@@ -41,6 +41,7 @@ typedef struct {
     size_t workers;
     size_t width;       /* realizations of a batch, 1 to FRACAS_BATCH_MAX */
     double seconds;     /* that a lease should take; 0: one batch each */
+    double memory;      /* s that results may stay in a worker's memory */
     double limit;       /* s that a lease may take; 0: 600 s and 50 times what is predicted */
     bool shuffle;       /* random points, replicas and sizes, instead of the longest first */
     uint64_t seed;      /* of the shuffle */
@@ -77,8 +78,9 @@ void fracas_scheduler_destroy(fracas_scheduler *scheduler); /* NULL is allowed *
 FRACAS_MUST_USE fracas_err fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease, bool *given);
 
 /* Gives `worker`, when it has nothing and nothing waits, a copy of the lease that is overdue longest: held by one worker alone for
- * more than 4 times what was predicted and 10 s, counted from when it began to run, or for one ahead from when it was given. *late:
- * that worker. *given is false when there is none. Takes a step per worker. */
+ * more than 4 times what was predicted and 10 s, counted from when it began to run, or for one ahead from when it was given; or for as
+ * long in its memory and options->memory more. *late: that worker. *given is false when there is none. Takes a step for every lease
+ * that workers have. */
 void fracas_scheduler_overdue(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease, size_t *late, bool *given);
 
 /* At `now` the worker has computed lease `id`, in `seconds`: it is in its memory. FRACAS_BUG unless the worker held it,

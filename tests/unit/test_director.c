@@ -8,7 +8,8 @@
 enum { WORKERS = 2 };
 
 static double time_; /* s */
-static double now(void) { return time_; }
+static double step;  /* s that pass whenever somebody asks */
+static double now(void) { return time_ += step; }
 
 static struct {
     size_t nleases, flushes, stops;
@@ -229,12 +230,13 @@ static void a_worker_that_is_not_needed_is_given_up(void **state)
     half_done(0);
     pass(11);
     computed(1, 1, 1);
+    assert_int_equal(worker[1].flushes, 1); /* nobody stops before everything is durable: should this one die now ... */
+    assert_int_equal(worker[0].stops + worker[1].stops, 0);
+    segment(1, 1, 1, 1000);
     assert_int_equal(worker[0].stops, 1);
     assert_int_equal(worker[0].kill, 1); /* what it does is not needed */
-    pass(11);
-    assert_false(fracas_director_over(director)); /* worker 1 has all in memory still */
-    segment(1, 1, 1, 1000);
     say_ended(1);
+    pass(9.9);
     assert_false(fracas_director_over(director));
     pass(0.3);
     assert_true(fracas_director_over(director));
@@ -244,18 +246,20 @@ static void a_worker_that_is_not_needed_is_given_up(void **state)
     end();
 }
 
-static void it_has_10_s_to_stop(void **state)
+/* Worker 0 has computed everything that is missing, and hangs before it is on disk: the other one computes it. */
+static void what_stays_in_memory_is_computed_again(void **state)
 {
     (void)state;
     half_done(0);
-    pass(11);
+    computed(0, 0, 1);
+    assert_int_equal(worker[0].flushes, 1);
+    pass(14.9);
+    assert_int_equal(worker[1].nleases, 1);
+    pass(0.3); /* segment_age and 10 s */
+    assert_int_equal(worker[1].nleases, 2);
     computed(1, 1, 1);
     segment(1, 1, 1, 1000);
-    say_ended(1);
-    pass(9.9);
-    assert_false(fracas_director_over(director));
-    pass(0.3);
-    assert_true(fracas_director_over(director));
+    assert_int_equal(worker[0].stops, 1);
     end();
 }
 
@@ -299,6 +303,24 @@ static void no_lease_is_given_that_does_not_end_in_time(void **state)
         say_ended(w);
     }
     assert_verdict(FRACAS_INTERRUPTED, "the walltime is nearly over: 64 of 160 realizations are done");
+    end();
+}
+
+/* A segment took 0.5 s to be committed, so two workers need 1 s more than the 2 s before the deadline. */
+static void commits_take_time_as_well(void **state)
+{
+    (void)state;
+    prepare("replicas: 160", "");
+    begin(1000 + 6.5);
+    step = 0.5; /* by which the clock goes on whenever it is looked at */
+    ready();
+    computed(0, 0, 0.01);
+    segment(0, 0, 0, 1000);
+    step = 0;
+    time_ = 1000 + 6.5 - 2 - 0.9;
+    fracas_director_tick(director);
+    assert_int_equal(worker[0].stops + worker[1].stops, 2);
+    assert_int_equal(worker[1].kill, 1);
     end();
 }
 
@@ -443,9 +465,10 @@ int main(void)
         cmocka_unit_test(an_overdue_lease_is_offered_when_time_passes),
         cmocka_unit_test(a_look_at_the_time_is_rare),
         cmocka_unit_test(a_worker_that_is_not_needed_is_given_up),
-        cmocka_unit_test(it_has_10_s_to_stop),
+        cmocka_unit_test(what_stays_in_memory_is_computed_again),
         cmocka_unit_test(a_worker_that_does_not_start_is_given_up),
         cmocka_unit_test(no_lease_is_given_that_does_not_end_in_time),
+        cmocka_unit_test(commits_take_time_as_well),
         cmocka_unit_test(what_runs_at_the_deadline_is_killed),
         cmocka_unit_test(what_drains_at_the_deadline_is_killed),
         cmocka_unit_test(a_merge_that_would_not_end_is_not_begun),

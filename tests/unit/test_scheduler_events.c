@@ -20,13 +20,20 @@ static bool next(fracas_scheduler *scheduler, size_t worker, double now, fracas_
     return given;
 }
 
-/* A lease, or a copy of one that is overdue. */
-static bool any(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease)
+/* A lease, or (*copy) one that is overdue. */
+static bool any_or_copy(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease, bool *copy)
 {
     size_t late;
     bool given = next(scheduler, worker, now, lease);
+    *copy = !given;
     if (!given) fracas_scheduler_overdue(scheduler, worker, now, lease, &late, &given);
     return given;
+}
+
+static bool any(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease)
+{
+    bool copy;
+    return any_or_copy(scheduler, worker, now, lease, &copy);
 }
 
 /* Only a copy, of what `late` holds. */
@@ -49,7 +56,7 @@ static fracas_scheduler *create_late(fracas_lease *first, fracas_lease *second)
 {
     fracas_index_row row[24];
     for (size_t i = 0; i < 24; i++) row[i] = (fracas_index_row){.replica = (int64_t)i};
-    const fracas_scheduler_options options = {.cost = flat, .npoints = 1, .workers = 3, .width = 8, .seconds = 1};
+    const fracas_scheduler_options options = {.cost = flat, .npoints = 1, .workers = 3, .width = 8, .seconds = 1, .memory = 5};
     fracas_scheduler *scheduler;
     fracas_lease other;
     OK(fracas_scheduler_create(row, 24, &options, &scheduler));
@@ -129,6 +136,31 @@ static void short_leases_are_overdue_after_10_s(void **state)
     assert_false(any(scheduler, 1, 15, &other)); /* 10 s after it began */
     copy_of(scheduler, 1, 21, 0, &other);
     assert_int_equal(other.id, ahead.id);
+    fracas_scheduler_destroy(scheduler);
+}
+
+/* What a worker has computed and does not make durable is computed by another as well: 5 s after a lease would be overdue. */
+static void a_lease_that_stays_in_memory_is_overdue(void **state)
+{
+    (void)state;
+    fracas_lease first, second, copy;
+    fracas_scheduler *scheduler = create_late(&first, &second);
+    OK(fracas_scheduler_computed(scheduler, 1, second.id, 8, 8));
+    fracas_scheduler_durable(scheduler, 1);
+    OK(fracas_scheduler_computed(scheduler, 0, first.id, 10, 8));
+    assert_true(fracas_scheduler_computed_all(scheduler));
+    assert_false(any(scheduler, 2, 10 + 32 + 5, &copy));
+    assert_false(any(scheduler, 0, 10 + 32 + 6, &copy)); /* its own */
+    copy_of(scheduler, 2, 10 + 32 + 6, 0, &copy);
+    assert_int_equal(copy.id, first.id);
+    assert_true(fracas_scheduler_computed_all(scheduler)); /* still */
+    assert_false(any(scheduler, 1, 999, &copy));
+    OK(fracas_scheduler_computed(scheduler, 2, first.id, 60, 8));
+    assert_false(any(scheduler, 1, 9999, &copy));
+    fracas_scheduler_durable(scheduler, 2);
+    assert_counts(scheduler, 24, 0, 0);
+    fracas_scheduler_durable(scheduler, 0);
+    assert_counts(scheduler, 24, 0, 8);
     fracas_scheduler_destroy(scheduler);
 }
 
@@ -245,15 +277,16 @@ static bool is_copy(const world *w, uint64_t id)
 static void ask(world *w, size_t worker)
 {
     fracas_lease lease;
-    if (!any(w->scheduler, worker, w->now, &lease)) return;
+    bool copy;
+    if (!any_or_copy(w->scheduler, worker, w->now, &lease, &copy)) return;
     assert_true(w->nheld[worker] < FRACAS_LEASES_HELD);
     assert_true(lease.count >= 1);
-    const bool copy = is_copy(w, lease.id);
+    assert_true(copy || !is_copy(w, lease.id));
     if (copy) assert_int_equal(w->nheld[worker], 0);
     for (size_t i = 0; i < lease.count; i++) { /* nothing is given out that somebody has */
         const size_t r = row_of(&lease, i);
-        assert_true(r < w->added && !w->done[r] && !w->failed[r] && !w->memory[r]);
-        assert_int_equal(w->held[r]++, copy ? 1 : 0);
+        assert_true(r < w->added && !w->done[r] && !w->failed[r]);
+        assert_int_equal(w->memory[r] + w->held[r]++, copy ? 1 : 0);
     }
     w->lease[worker][w->nheld[worker]++] = lease;
 }
@@ -370,7 +403,7 @@ static void any_course_of_events(void **state)
         assert_non_null(w);
         w->dice = seed;
         w->width = seed % 3 ? 8 : 3;
-        const fracas_scheduler_options options = {.cost = cost, .npoints = POINTS, .workers = WORKERS, .width = w->width,
+        const fracas_scheduler_options options = {.cost = cost, .npoints = POINTS, .workers = WORKERS, .width = w->width, .memory = 2,
                                                   .seconds = seed % 5 ? 0.5 : 0, .shuffle = seed % 2, .seed = seed};
         OK(fracas_scheduler_create(NULL, 0, &options, &w->scheduler));
         for (int step = 0; step < 100 || w->added < ROWS || !fracas_scheduler_computed_all(w->scheduler); step++) {
@@ -448,6 +481,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_overdue_lease_goes_to_an_idle_worker),
         cmocka_unit_test(short_leases_are_overdue_after_10_s),
+        cmocka_unit_test(a_lease_that_stays_in_memory_is_overdue),
         cmocka_unit_test(a_loss_at_any_stage_loses_nothing),
         cmocka_unit_test(a_copy_that_fails_is_forgotten),
         cmocka_unit_test(any_course_of_events),
