@@ -134,6 +134,14 @@ static void assert_verdict(fracas_err code, const char *part)
         fail_msg("%d, not %d: %s", err, code, fracas_message());
 }
 
+/* study.h5 is begun, and lacks the segments that this test did not write. */
+static void assert_merged(void)
+{
+    assert_true(fracas_director_over(director));
+    assert_int_not_equal(fracas_director_finish(director), FRACAS_OK);
+    if (!strstr(fracas_message(), ".h5 is missing")) fail_msg("%s", fracas_message());
+}
+
 static void say_ended(size_t from) { hear(from, FRACAS_PACKET_ENDED, NULL, 0); }
 
 /* ---- rounds ---- */
@@ -242,7 +250,7 @@ static void a_worker_that_is_not_needed_is_given_up(void **state)
     assert_true(fracas_director_over(director));
     say_ended(0); /* too late to be of any effect */
     hear(0, FRACAS_PACKET_TROUBLE, &(fracas_trouble){.code = FRACAS_BUG}, sizeof(fracas_trouble));
-    assert_verdict(FRACAS_DAMAGED, "s"); /* the run ends well, but for the segments that this test did not write */
+    assert_merged();
     end();
 }
 
@@ -381,7 +389,7 @@ static void a_merge_that_would_not_end_is_not_begun(void **state)
     assert_verdict(FRACAS_INTERRUPTED, "all 16 realizations are done and kept, only study.h5 is missing");
     end();
     everything(1000 + 21);
-    assert_verdict(FRACAS_DAMAGED, "s"); /* begun: it finds none of the segments */
+    assert_merged();
     end();
 }
 
@@ -422,7 +430,7 @@ static void the_only_part_is_merged(void **state)
     computed(0, 0, 1);
     segment(0, 0, 0, 1000);
     for (size_t w = 0; w < WORKERS; w++) say_ended(w);
-    assert_verdict(FRACAS_DAMAGED, "s");
+    assert_merged();
     end();
 }
 
