@@ -481,6 +481,16 @@ static fracas_err check_parts(fracas_director *director, const fracas_scheduler_
                        count->failed);
 }
 
+/* What servers that died, and were replaced, had half written. */
+static fracas_err sweep(fracas_director *director)
+{
+    char *report;
+    TRY(fracas_study_sweep(director->setup.study, &report));
+    fracas_err err = *report ? fracas_index_event(director->index, "swept", report) : FRACAS_OK;
+    free(report);
+    return err;
+}
+
 static fracas_err merge(fracas_director *director, const fracas_scheduler_counts *count)
 {
     const fracas_campaign *campaign = director->setup.campaign;
@@ -488,6 +498,7 @@ static fracas_err merge(fracas_director *director, const fracas_scheduler_counts
     fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
     char text[128] = "study.h5 is written";
     const double began = director->setup.now();
+    TRY(sweep(director));
     TRY(fracas_rounds_check(campaign, director->index));
     TRY(fracas_study_merge(director->setup.study, director->index, &header, &director->rounds.table, &meshes));
     director->tally.merging = director->setup.now() - began;

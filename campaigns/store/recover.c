@@ -53,6 +53,29 @@ static fracas_err remove_temporaries(const char *folder, FILE *report)
     return err;
 }
 
+/* Of merges, and of segments. */
+static fracas_err sweep(const char *study, FILE *report)
+{
+    char *folder;
+    TRY(remove_temporaries(study, report));
+    TRY(fracas_disk_join(study, "segments", &folder));
+    fracas_err err = remove_temporaries(folder, report);
+    free(folder);
+    return err;
+}
+
+fracas_err fracas_study_sweep(const char *study, char **report)
+{
+    size_t size;
+    *report = NULL;
+    FILE *text = open_memstream(report, &size);
+    if (!text) return fracas_no_memory("a report");
+    fracas_err err = sweep(study, text);
+    if (fclose(text) != 0 && !err) err = fracas_no_memory("a report");
+    if (err) free(*report), *report = NULL;
+    return err;
+}
+
 /* ---- segments that the index knows, but the folder has not ---- */
 
 fracas_err fracas_segment_is_there(const char *study, const fracas_known_segment *segment, bool *there)
@@ -355,8 +378,7 @@ static fracas_err recover(const char *study, const fracas_point_table *table, fr
     TRY(fracas_disk_join(study, "segments", &folder));
     fracas_err err = FRACAS_OK;
     if (mkdir(folder, 0777) < 0 && errno != EEXIST) err = fracas_disk_fail("create", folder);
-    if (!err) err = remove_temporaries(study, report); /* of a merge */
-    if (!err) err = remove_temporaries(folder, report);
+    if (!err) err = sweep(study, report);
     if (!err) err = forget_lost(study, index, report);
     if (!err) err = adopt_orphans(folder, table, index, identity, report);
     free(folder);

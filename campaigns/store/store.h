@@ -265,6 +265,10 @@ fracas_lock_state fracas_study_lock_state(const char *study, char text[FRACAS_HO
 /* True while another process has the lock: the study is being computed. */
 bool fracas_study_held(const char *study);
 
+/* Removes the temporary files of a study: nobody may be writing one. Says what in *report, one line each, "" if nothing (freed by
+ * caller). */
+FRACAS_MUST_USE fracas_err fracas_study_sweep(const char *study, char **report);
+
 /* Sweeps a study after an interruption. Plans the table (fracas_index_plan), creates STUDY/segments if it is not
  * there, and then: the index is looked over (FRACAS_DAMAGED: `fracas reindex`); temporary files are removed; a segment that is not
  * what the index says (a byte of it, where all take a few seconds to read; else its size) is set aside as NAME.damaged, and its rows, as

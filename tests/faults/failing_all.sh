@@ -6,5 +6,5 @@
 . tests/support/campaigns.sh
 . "$source/tests/support/failing.sh"
 
-failing disk:0.0:EIO disk:0.1:EIO disk:parent:EIO disk:0.0:kill disk:0.1:kill disk:parent:kill disk:0.0:torn disk:0.1:torn \
-    disk:0.0:ENOSPC disk:0.1:ENOSPC disk:parent:ENOSPC sqlite:0.0:EIO sqlite:0.0:late sqlite:parent:EIO hdf5:0.1:EIO hdf5:0.0:EIO
+failing disk:0.0:EIO disk:0.2:EIO disk:parent:EIO disk:0.0:kill disk:0.2:kill disk:parent:kill disk:0.0:torn disk:0.2:torn \
+    disk:0.0:ENOSPC disk:0.2:ENOSPC disk:parent:ENOSPC sqlite:0.0:EIO sqlite:0.0:late sqlite:parent:EIO hdf5:0.2:EIO hdf5:0.0:EIO

@@ -5,5 +5,5 @@
 . tests/support/campaigns.sh
 . "$source/tests/support/failing.sh"
 
-failing memory:0.0:ENOMEM:40 memory:0.1:ENOMEM:40 memory:0.2:ENOMEM:10 memory:parent:ENOMEM:20 memory:1.0:ENOMEM:10 memory:1.1:ENOMEM:10 \
-    process:0.0:EAGAIN process:0.1:EAGAIN:10 mpi:0.0:EIO:30 mpi:1.0:EIO:30 read:0.0:EIO:60 read:0.1:EIO:10 read:parent:EIO:30
+failing memory:0.0:ENOMEM:40 memory:0.2:ENOMEM:40 memory:0.3:ENOMEM:10 memory:parent:ENOMEM:20 memory:1.0:ENOMEM:10 memory:1.2:ENOMEM:10 \
+    process:0.0:EAGAIN process:0.1:EAGAIN process:0.2:EAGAIN:10 mpi:0.0:EIO:30 mpi:1.0:EIO:30 read:0.0:EIO:60 read:0.2:EIO:10 read:parent:EIO:30

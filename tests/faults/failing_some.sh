@@ -3,4 +3,4 @@
 . tests/support/campaigns.sh
 . "$source/tests/support/failing.sh"
 
-failing disk:0.0:EIO:12 disk:0.1:kill:8 disk:0.1:ENOSPC:4 sqlite:0.0:EIO:6 hdf5:0.1:EIO:6 memory:0.1:ENOMEM:4
+failing disk:0.0:EIO:12 disk:0.2:kill:8 disk:0.2:ENOSPC:4 sqlite:0.0:EIO:6 hdf5:0.2:EIO:6 memory:0.2:ENOMEM:4

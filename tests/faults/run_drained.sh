@@ -25,7 +25,7 @@ campaign small.yaml 20 '3e4 1/s, 1e5 1/s'
 expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
 for signal in INT TERM; do
     while :; do
-        start small.yaml --study drained --jobs 2 --lanes 1 --segment-size 1e-6
+        start small.yaml --study drained --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
         wait_segments drained $(($(segments drained) + 2))
         second=0
         "$fracas" run small.yaml --study drained > said 2>&1 || second=$?
@@ -44,7 +44,7 @@ expect 0 "$fracas" run small.yaml --study drained
 same undisturbed drained
 
 while :; do
-    start small.yaml --study stopped --jobs 2 --lanes 1 --segment-size 1e-6
+    start small.yaml --study stopped --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
     wait_segments stopped 2
     kill -INT "$session" 2>/dev/null || true
     kill -TERM "$session" 2>/dev/null || true
@@ -55,7 +55,7 @@ same undisturbed stopped
 
 # Drained by the user's own mpirun.
 while :; do
-    launch -n 2 "$fracas" run small.yaml --study direct --lanes 1 --segment-size 1e-6 > background 2>&1 &
+    launch -n 2 "$fracas" run small.yaml --study direct --lanes 1 --lease-time 0 --segment-size 1e-6 > background 2>&1 &
     session=$!
     wait_segments direct 2
     kill -USR1 "$session" 2>/dev/null || true

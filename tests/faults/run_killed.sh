@@ -7,7 +7,7 @@ expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
 left=0
 kill=1 tries=0
 while [ $kill -le 3 ]; do # of 60 segments, one for each realization
-    start small.yaml --study killed --jobs 2 --lanes 1 --segment-size 1e-6
+    start small.yaml --study killed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
     wait_segments killed $((left + $(random 1 6)))
     sleep "0.0$(random 10 49)"
     running=$(processes | wc -l)
@@ -25,12 +25,12 @@ while [ $kill -le 3 ]; do # of 60 segments, one for each realization
     [ "$running" -ge 6 ] || fail "parent, mpirun, 2 ranks and 2 servers should have run, not $running processes"
     kill=$((kill + 1))
 done
-expect 0 "$fracas" run small.yaml --study killed --jobs 1 --segment-size 1e-6
+expect 0 "$fracas" run small.yaml --study killed --jobs 1 --lease-time 0 --segment-size 1e-6
 [ "$(segments killed)" -gt "$left" ] || fail "the resumed run had nothing to do"
 same undisturbed killed
 
 # The parent alone: the others must not outlive it.
-start small.yaml --study orphaned --jobs 2 --lanes 1 --segment-size 1e-6
+start small.yaml --study orphaned --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments orphaned 2
 kill -9 "$session" 2>/dev/null || true # it may have ended by itself on a busy machine
 tries=0

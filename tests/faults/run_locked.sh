@@ -9,7 +9,7 @@ expect 0 "$fracas" status undisturbed
 
 # Another host, which is killed: refused with its name until --force; nothing is changed before.
 export FRACAS_TEST_HOST=node7
-start small.yaml --study study --jobs 2 --lanes 1 --segment-size 1e-6
+start small.yaml --study study --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments study 3
 unset FRACAS_TEST_HOST
 expect 4 "$fracas" run small.yaml --study study
@@ -34,7 +34,7 @@ sqlite3 study/index.sqlite 'SELECT kind, text FROM event' > said
 said 'took over|the lock.*host node7'
 
 # This host: taken over without a word.
-start small.yaml --study own --jobs 2 --lanes 1 --segment-size 1e-6
+start small.yaml --study own --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments own 3
 kill_session
 expect 0 "$fracas" status own
@@ -47,7 +47,7 @@ said '^took over$'
 
 # A job of Slurm that was requeued to another node.
 export FRACAS_TEST_HOST=node8 SLURM_JOB_ID=77
-start small.yaml --study job --jobs 2 --lanes 1 --segment-size 1e-6
+start small.yaml --study job --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments job 3
 kill_session
 export FRACAS_TEST_HOST=node9

@@ -31,7 +31,7 @@ END
 
 fields all.yaml 3
 expect 0 "$fracas" run all.yaml --study one --jobs 1
-compare all.yaml --jobs 2 --shuffle --lanes 1 --segment-size 1e-6
+compare all.yaml --jobs 2 --shuffle --lanes 1 --lease-time 0 --segment-size 1e-6
 for isa in baseline $(instruction_sets); do
     compare all.yaml --jobs 2 --isa "$isa" --lanes 8
 done

@@ -43,12 +43,12 @@ for isa in baseline $(instruction_sets); do
     compare all.yaml --jobs 2 --isa "$isa" --lanes 8 --shuffle
     compare all.yaml --jobs 2 --isa "$isa" --lanes 4
 done
-compare all.yaml --jobs 2 --lanes 1 --segment-size 1e-6 # a segment for each realization
+compare all.yaml --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6 # a segment for each realization
 
 compare_compilers all.yaml
 
 # Killed in the middle, each realization a segment, and resumed.
-start all.yaml --study killed --jobs 2 --lanes 1 --segment-size 1e-6
+start all.yaml --study killed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments killed "$(random 1 20)"
 kill_session
 expect 0 "$fracas" run all.yaml --study killed

@@ -33,14 +33,14 @@ said 'decisions on replicas'
 
 compare one.yaml --jobs 2
 compare one.yaml --jobs 3 --segment-age 0.05
-compare one.yaml --jobs 2 --shuffle --lanes 1 --segment-size 1e-6
+compare one.yaml --jobs 2 --shuffle --lanes 1 --lease-time 0 --segment-size 1e-6
 compare one.yaml --jobs 3 --shuffle --lanes 8
 compare one.yaml --jobs 1 --lanes 1
 
 # Killed: everything at random times, until it is complete.
 kill=0
 while [ $kill -lt 4 ]; do
-    start one.yaml --study killed --jobs 2 --lanes 1 --segment-size 1e-6
+    start one.yaml --study killed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
     wait_segments killed $((kill * 20 + 1))
     sleep "0.0$(random 10 49)"
     kill_session
@@ -55,7 +55,7 @@ expect 0 "$fracas" verify --full killed
 # One of three servers killed: its rounds are taken up.
 tries=0
 while :; do
-    start one.yaml --study lost --jobs 3 --lanes 1 --segment-size 1e-6
+    start one.yaml --study lost --jobs 3 --lanes 1 --lease-time 0 --segment-size 1e-6
     wait_segments lost 10
     set -- $(named fracas-server)
     [ $# -ne 3 ] || break
@@ -71,7 +71,7 @@ session=
 same one lost
 
 # Killed in the middle, and the index lost: segments of later rounds are kept.
-start one.yaml --study drained --jobs 2 --lanes 1 --segment-size 1e-6
+start one.yaml --study drained --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments drained 40
 kill_session
 rm drained/index.sqlite*
@@ -104,7 +104,7 @@ expect 0 "$fracas" run weak.yaml --study weak
 # Killed while it is extended: what is merged is sound, it is older than the campaign.
 cp -r weak longer
 rule longer.yaml "$(until_narrow 8 1000 mean-count 0.003 0.95)"
-start longer.yaml --study longer --jobs 1 --lanes 1 --segment-size 1e-6
+start longer.yaml --study longer --jobs 1 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments longer $(($(segments weak) + 20))
 kill_session
 [ "$(sqlite3 longer/index.sqlite 'SELECT count(*) FROM decision WHERE maximum = 1000')" -gt 0 ] || fail "killed too early"

@@ -39,7 +39,7 @@ assert len(octant) == 15 and (r["fragments"][:] > 1).all()
 assert (r["dissipated_bending"][:][octant] > 0).all() and (r["dissipated_bending"][:] < r["dissipated"][:]).all()
 END
 compare all.yaml --jobs 2 --shuffle
-compare all.yaml --jobs 2 --lanes 1 --segment-size 1e-6 # a segment for each realization
+compare all.yaml --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6 # a segment for each realization
 for isa in baseline $(instruction_sets); do
     compare all.yaml --jobs 2 --isa "$isa" --lanes 8
 done
@@ -54,7 +54,7 @@ same one extended
 
 # Killed with some segments written, twice, and resumed.
 for kill in 1 2; do
-    start all.yaml --study killed --jobs 2 --lanes 1 --segment-size 1e-6 --shuffle
+    start all.yaml --study killed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6 --shuffle
     wait_segments killed $((4 * kill))
     kill_session
     [ ! -e killed/study.h5 ] || fail "it was over before it was killed"

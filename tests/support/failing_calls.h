@@ -6,7 +6,7 @@
  *             sqlite, hdf5, mpi: calls of these libraries by fracas
  *             memory    allocations of fracas and of the libraries that it stores with
  *             process   fork, pipe2, socketpair
- *     WHERE   parent; or RANK.DEPTH: 0.0 is rank 0, 0.1 what it forked, 0.2 what that forked, ...
+ *     WHERE   parent; or RANK.DEPTH: 0.0 is rank 0, 0.1 its keeper, 0.2 the server, 0.3 the process of a lease
  *     HOW     an error of errno (EIO, ENOSPC, ...) or of the library; kill: the process dies before the call; torn: it dies after
  *             half of what it was to write; late: the call succeeds, and says that it has not
  *   FAILING_STATE  file of a failing_state: what was counted; with ENOSPC, all calls that need space fail from then on, everywhere
