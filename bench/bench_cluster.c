@@ -1,4 +1,4 @@
-/* What a run would be on a cluster: the real scheduler (campaigns/scheduler/scheduler.h) gives leases to workers that are simulated, by a
+/* What a run would be on a cluster: the real scheduler (campaigns/scheduler/lease/scheduler.h) gives leases to workers that are simulated, by a
  * rank 0 that does one thing at a time, through ranks that poll, with segments that a filesystem takes so many of a second.
  *
  *   bench_cluster [name=value ...]          the names and what they mean: bench_cluster help
@@ -6,8 +6,8 @@
  * Prints one line for each number of workers. docs/results/scheduling.md has the figures, and where the costs come from. */
 #include "bench/bench.h"
 
-#include "campaigns/scheduler/scheduler.h"
-#include "campaigns/scheduler/stand_in.h"
+#include "campaigns/scheduler/lease/scheduler.h"
+#include "campaigns/scheduler/worker/stand_in.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -4,7 +4,7 @@
 #include "base/param.h"
 #include "campaigns/scheduler/clock.h"
 #include "campaigns/scheduler/run.h"
-#include "campaigns/scheduler/stand_in.h"
+#include "campaigns/scheduler/worker/stand_in.h"
 #include "campaigns/scheduler/tally.h"
 
 #include <errno.h>

@@ -3,7 +3,7 @@
 #include "base/json.h"
 #include "base/param.h"
 #include "campaigns/campaign.h"
-#include "campaigns/scheduler/upkeep.h"
+#include "campaigns/scheduler/study/upkeep.h"
 
 #include <inttypes.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 
 #include "base/param.h"
 #include "campaigns/campaign.h"
-#include "campaigns/scheduler/upkeep.h"
+#include "campaigns/scheduler/study/upkeep.h"
 
 #include <inttypes.h>
 #include <limits.h>

@@ -2,8 +2,8 @@
 
 #include "base/param.h"
 #include "campaigns/campaign.h"
-#include "campaigns/scheduler/prepare.h"
-#include "campaigns/scheduler/share.h"
+#include "campaigns/scheduler/study/prepare.h"
+#include "campaigns/scheduler/study/share.h"
 
 #include <limits.h>
 #include <stdio.h>

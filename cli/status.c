@@ -5,7 +5,7 @@
 #include "base/json.h"
 #include "base/param.h"
 #include "campaigns/campaign.h"
-#include "campaigns/scheduler/prepare.h"
+#include "campaigns/scheduler/study/prepare.h"
 #include "campaigns/store/store.h"
 
 #include <inttypes.h>

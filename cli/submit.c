@@ -3,9 +3,9 @@
 
 #include "base/param.h"
 #include "campaigns/campaign.h"
-#include "campaigns/scheduler/costs.h"
-#include "campaigns/scheduler/prepare.h"
-#include "campaigns/scheduler/share.h"
+#include "campaigns/scheduler/study/costs.h"
+#include "campaigns/scheduler/study/prepare.h"
+#include "campaigns/scheduler/study/share.h"
 
 #include <errno.h>
 #include <limits.h>

@@ -5,7 +5,7 @@
 #include "cli/cli.h"
 
 #include "base/json.h"
-#include "campaigns/scheduler/upkeep.h"
+#include "campaigns/scheduler/study/upkeep.h"
 
 typedef struct {
     const char *study;

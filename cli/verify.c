@@ -3,8 +3,8 @@
 #include "base/json.h"
 #include "base/param.h"
 #include "campaigns/campaign.h"
-#include "campaigns/scheduler/meshes.h"
-#include "campaigns/scheduler/rounds.h"
+#include "campaigns/scheduler/study/meshes.h"
+#include "campaigns/scheduler/study/rounds.h"
 #include "campaigns/store/store.h"
 
 #include <limits.h>

@@ -1,13 +1,13 @@
 #include "campaigns/scheduler/director_state.h"
 
-#include "campaigns/scheduler/costs.h"
-#include "campaigns/scheduler/meshes.h"
-#include "campaigns/scheduler/prepare.h"
-#include "campaigns/scheduler/segment.h"
-#include "campaigns/scheduler/share.h"
-#include "campaigns/scheduler/space.h"
+#include "campaigns/scheduler/study/costs.h"
+#include "campaigns/scheduler/study/meshes.h"
+#include "campaigns/scheduler/study/prepare.h"
+#include "campaigns/scheduler/study/share.h"
+#include "campaigns/scheduler/study/space.h"
+#include "campaigns/scheduler/study/verdict.h"
 #include "campaigns/scheduler/tally.h"
-#include "campaigns/scheduler/verdict.h"
+#include "campaigns/scheduler/worker/segment.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -4,9 +4,9 @@
 #define FRACAS_CAMPAIGNS_SCHEDULER_DIRECTOR_H
 
 #include "campaigns/campaign.h"
+#include "campaigns/scheduler/launch/voice.h"
 #include "campaigns/scheduler/packet.h"
 #include "campaigns/scheduler/run.h"
-#include "campaigns/scheduler/voice.h"
 
 #include <stdbool.h>
 

@@ -3,8 +3,8 @@
 #define FRACAS_CAMPAIGNS_SCHEDULER_DIRECTOR_STATE_H
 
 #include "campaigns/scheduler/director.h"
-#include "campaigns/scheduler/rounds.h"
-#include "campaigns/scheduler/scheduler.h"
+#include "campaigns/scheduler/lease/scheduler.h"
+#include "campaigns/scheduler/study/rounds.h"
 #include "campaigns/scheduler/tally.h"
 
 typedef enum { STARTING, WORKING, STOPPING, ENDED } worker_phase;

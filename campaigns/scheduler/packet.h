@@ -18,7 +18,7 @@
 #define FRACAS_CAMPAIGNS_SCHEDULER_PACKET_H
 
 #include "base/err.h"
-#include "campaigns/scheduler/scheduler.h"
+#include "campaigns/scheduler/lease/scheduler.h"
 #include "campaigns/store/store.h"
 
 #include <stddef.h>

@@ -3,10 +3,10 @@
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/clock.h"
 #include "campaigns/scheduler/director.h"
-#include "campaigns/scheduler/keeper.h"
 #include "campaigns/scheduler/packet.h"
-#include "campaigns/scheduler/prepare.h"
-#include "campaigns/scheduler/share.h"
+#include "campaigns/scheduler/study/prepare.h"
+#include "campaigns/scheduler/study/share.h"
+#include "campaigns/scheduler/worker/keeper.h"
 
 #include <limits.h>
 #include <mpi.h>

@@ -2,17 +2,17 @@
 
 #include "base/param.h"
 #include "campaigns/campaign.h"
-#include "campaigns/scheduler/allocation.h"
 #include "campaigns/scheduler/clock.h"
-#include "campaigns/scheduler/costs.h"
-#include "campaigns/scheduler/parent.h"
-#include "campaigns/scheduler/prepare.h"
+#include "campaigns/scheduler/launch/allocation.h"
+#include "campaigns/scheduler/launch/parent.h"
+#include "campaigns/scheduler/launch/signals.h"
+#include "campaigns/scheduler/launch/voice.h"
 #include "campaigns/scheduler/rank.h"
-#include "campaigns/scheduler/share.h"
-#include "campaigns/scheduler/signals.h"
-#include "campaigns/scheduler/space.h"
-#include "campaigns/scheduler/verdict.h"
-#include "campaigns/scheduler/voice.h"
+#include "campaigns/scheduler/study/costs.h"
+#include "campaigns/scheduler/study/prepare.h"
+#include "campaigns/scheduler/study/share.h"
+#include "campaigns/scheduler/study/space.h"
+#include "campaigns/scheduler/study/verdict.h"
 
 #include <stdlib.h>
 

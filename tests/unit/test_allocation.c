@@ -1,6 +1,6 @@
 /* What the parent takes from its surroundings: the size of a Slurm job, and why mpirun says that it ended. */
-#include "campaigns/scheduler/allocation.h"
-#include "campaigns/scheduler/mpirun.h"
+#include "campaigns/scheduler/launch/allocation.h"
+#include "campaigns/scheduler/launch/mpirun.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

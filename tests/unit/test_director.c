@@ -3,7 +3,7 @@
 #include "tests/support/study_fixture.h"
 
 #include "campaigns/scheduler/director.h"
-#include "campaigns/scheduler/verdict.h"
+#include "campaigns/scheduler/study/verdict.h"
 
 enum { WORKERS = 2 };
 

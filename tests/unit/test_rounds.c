@@ -2,8 +2,8 @@
 #include "tests/support/campaign_text.h"
 #include "tests/support/study_fixture.h"
 
-#include "campaigns/scheduler/rounds.h"
-#include "campaigns/scheduler/segment.h"
+#include "campaigns/scheduler/study/rounds.h"
+#include "campaigns/scheduler/worker/segment.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* The lease logic: sizes, order, bisecting, copies of overdue leases. What random events do to it: test_scheduler_events.c. */
-#include "campaigns/scheduler/scheduler.h"
+#include "campaigns/scheduler/lease/scheduler.h"
 
 #include <math.h>
 #include <setjmp.h>

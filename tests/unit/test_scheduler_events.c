@@ -1,5 +1,5 @@
 /* The lease logic under everything that can happen to it: copies of overdue leases, losses, and random courses of events. */
-#include "campaigns/scheduler/scheduler.h"
+#include "campaigns/scheduler/lease/scheduler.h"
 
 #include <malloc.h>
 #include <setjmp.h>

@@ -1,0 +1,54 @@
+#include "campaigns/scheduler/launch/allocation.h"
+
+#include <ctype.h>
+#include <limits.h>
+#include <sched.h>
+#include <stdlib.h>
+
+long fracas_allocation_sum(const char *list)
+{
+    long sum = 0;
+    while (*list) {
+        char *end;
+        if (!isdigit((unsigned char)*list)) return 0;
+        long number = strtol(list, &end, 10), times = 1;
+        if (end[0] == '(' && end[1] == 'x' && isdigit((unsigned char)end[2])) {
+            times = strtol(end + 2, &end, 10);
+            if (*end++ != ')') return 0;
+        }
+        if (number > INT_MAX || times > INT_MAX) return 0;
+        sum += number * times;
+        if (*end == ',' && end[1]) end++;
+        else if (*end) return 0;
+        list = end;
+    }
+    return sum <= INT_MAX ? sum : 0;
+}
+
+/* Tasks of the Slurm job that this process runs in; 0: in none. */
+static int slurm_tasks(void)
+{
+    const char *tasks = getenv("SLURM_NTASKS"), *cores = getenv("SLURM_JOB_CPUS_PER_NODE");
+    if (!getenv("SLURM_JOB_ID")) return 0;
+    if (tasks && fracas_allocation_sum(tasks) > 0) return (int)fracas_allocation_sum(tasks);
+    return cores ? (int)fracas_allocation_sum(cores) : 0;
+}
+
+fracas_err fracas_allocation_jobs(int wanted, int *jobs)
+{
+    enum { MOST_A_CORE = 32 };
+    cpu_set_t set;
+    const int cores = sched_getaffinity(0, sizeof set, &set) ? 1 : CPU_COUNT(&set), tasks = slurm_tasks();
+    *jobs = wanted ? wanted : tasks ? tasks : cores;
+    if (tasks || *jobs <= MOST_A_CORE * cores) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "--jobs %d: this machine gives the run %d cores; %d processes are the most, one a core "
+                       "is the best", *jobs, cores, MOST_A_CORE * cores);
+}
+
+fracas_err fracas_allocation_check(void)
+{
+    const char *tasks = getenv("SLURM_STEP_NUM_TASKS");
+    if (!getenv("SLURM_STEP_ID") || !tasks || atoi(tasks) < 2) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "srun started %s processes without MPI, and each would run the whole campaign: run `fracas run` in "
+                       "the job without srun, or as `srun --mpi=pmix fracas run`", tasks);
+}

@@ -1,0 +1,225 @@
+#include "campaigns/scheduler/worker/child.h"
+
+#include "campaigns/scheduler/clock.h"
+#include "campaigns/scheduler/worker/process.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { SAID_MAX = 4096 /* bytes kept of what a child says */ };
+
+/* ---- in the child ---- */
+
+static fracas_err send_all(int fd, fracas_packet **record, size_t count)
+{
+    fracas_err err = FRACAS_OK;
+    for (size_t i = 0; i < count; i++) {
+        if (!err) err = fracas_packet_write(fd, record[i]);
+        free(record[i]);
+    }
+    return err;
+}
+
+/* Batch after batch; the records of each are sent when it is done. */
+static fracas_err compute(const fracas_computation *computation, fracas_models *models, int fd)
+{
+    fracas_computation own = *computation;
+    TRY(fracas_compute_prepare(&own, models));
+    for (size_t from = 0, count; from < own.lease->count; from += count) {
+        fracas_packet *record[FRACAS_BATCH_MAX];
+        TRY(fracas_compute_batch(&own, from, record, &count));
+        TRY(send_all(fd, record, count));
+    }
+    return FRACAS_OK;
+}
+
+/* The life of the child. */
+static _Noreturn void run_child(const fracas_computation *computation, fracas_models *models, pid_t server, int fd, int said)
+{
+    fracas_process_begin("fracas-lease", server, FRACAS_OOM_CHILD);
+    if (said >= 0) dup2(said, STDERR_FILENO);
+    fracas_err err = compute(computation, models, fd);
+    fracas_trouble fault;
+    if (err) fracas_trouble_take(err, &fault);
+    if (err && fracas_packet_send(fd, FRACAS_PACKET_FAULT, &fault, sizeof fault)) _exit(FRACAS_ENVIRONMENT); /* nobody is there to hear more */
+    _exit(0);
+}
+
+/* ---- in the server ---- */
+
+/* A file in memory that cannot grow: whoever writes without end fills no more than that. */
+static int create_said(void)
+{
+    const int fd = memfd_create("fracas-said", MFD_CLOEXEC | MFD_ALLOW_SEALING);
+    if (fd < 0) return -1;
+    if (!ftruncate(fd, SAID_MAX) && !fcntl(fd, F_ADD_SEALS, F_SEAL_GROW | F_SEAL_SHRINK)) return fd;
+    close(fd);
+    return -1;
+}
+
+fracas_err fracas_child_start(fracas_child *child, const fracas_computation *computation, fracas_models *models, int server_fd)
+{
+    const fracas_lease *lease = computation->lease;
+    fracas_packet **record = calloc(lease->count, sizeof(fracas_packet *));
+    int fd[2];
+    if (!record) return fracas_no_memory("the records of a lease");
+    if (pipe2(fd, O_CLOEXEC)) {
+        free(record);
+        return fracas_fail_system(errno, "no pipe for a lease");
+    }
+    const int said = create_said();
+    const pid_t server = getpid(), pid = fork();
+    if (pid == 0) {
+        close(fd[0]);
+        close(server_fd);
+        run_child(computation, models, server, fd[1], said);
+    }
+    fracas_err err = FRACAS_OK;
+    if (pid < 0)
+        err = fracas_fail(FRACAS_ENVIRONMENT, "no process for a lease: %s; use fewer --jobs, or raise the limits on processes and memory",
+                          strerror(errno));
+    close(fd[1]);
+    const double now = fracas_now();
+    *child = (fracas_child){.pid = pid > 0 ? pid : 0, .fd = fd[0], .said = said, .width = fracas_compute_width(computation->options),
+                            .began = now, .deadline = lease->limit > 0 ? now + lease->limit : INFINITY, .record = record};
+    if (err) fracas_child_clear(child);
+    else memcpy(&child->lease, lease, fracas_lease_bytes(lease));
+    return err;
+}
+
+/* Takes the whole messages off the front of what was received; what is none of a child's ends it. */
+static fracas_err cut(fracas_child *child)
+{
+    size_t at = 0;
+    fracas_packet head;
+    while (child->size - at >= sizeof head) {
+        memcpy(&head, child->bytes + at, sizeof head);
+        const unsigned char *body = child->bytes + at + sizeof head;
+        if (child->size - at < fracas_packet_bytes(&head)) break;
+        if (head.kind == FRACAS_PACKET_FAULT && head.size == sizeof(fracas_trouble)) {
+            memcpy(child->fault, body + offsetof(fracas_trouble, text), sizeof child->fault);
+        } else if (head.kind == FRACAS_PACKET_RECORD && child->count < child->lease.count) {
+            TRY(fracas_packet_create(FRACAS_PACKET_RECORD, body, head.size, &child->record[child->count]));
+            child->count++;
+        } else {
+            kill(child->pid, SIGKILL);
+            snprintf(child->fault, sizeof child->fault, "its process sent a message of kind %u", head.kind);
+        }
+        at += fracas_packet_bytes(&head);
+    }
+    child->size -= at;
+    memmove(child->bytes, child->bytes + at, child->size);
+    return FRACAS_OK;
+}
+
+fracas_err fracas_child_receive(fracas_child *child, bool *ended)
+{
+    *ended = false;
+    if (child->capacity - child->size < 65536) { /* as much as a pipe holds */
+        size_t capacity = 2 * child->capacity + 65536;
+        unsigned char *bytes = realloc(child->bytes, capacity);
+        if (!bytes) return fracas_no_memory("the records of a lease");
+        child->bytes = bytes;
+        child->capacity = capacity;
+    }
+    ssize_t n = read(child->fd, child->bytes + child->size, child->capacity - child->size);
+    if (n < 0 && errno != EINTR)
+        return fracas_fail(FRACAS_ENVIRONMENT, "cannot read from the process of a lease: %s", strerror(errno));
+    *ended = n == 0;
+    if (n > 0) child->size += (size_t)n;
+    return cut(child);
+}
+
+void fracas_child_expire(fracas_child *child)
+{
+    child->late = true;
+    child->deadline = INFINITY;
+    kill(child->pid, SIGKILL);
+}
+
+/* Waits for the process; says how it ended unless it ended well. */
+static fracas_err reap(fracas_child *child, char *reason, size_t size)
+{
+    int status = 0;
+    while (waitpid(child->pid, &status, 0) < 0)
+        if (errno != EINTR) return fracas_fail(FRACAS_BUG, "cannot wait for a lease: %s", strerror(errno));
+    child->pid = 0;
+    if (WIFEXITED(status) && !WEXITSTATUS(status)) return FRACAS_OK;
+    if (child->late && WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) {
+        snprintf(reason, size, "its process was killed after the %g s that a lease may take (--lease-limit)", child->lease.limit);
+    } else {
+        const int used = snprintf(reason, size, "its process ");
+        fracas_process_end_text(status, reason + used, size - (size_t)used);
+    }
+    return FRACAS_OK;
+}
+
+/* Appends what the child said on standard error, on one line. */
+static void quote(const fracas_child *child, char *reason, size_t size)
+{
+    char text[SAID_MAX + 1];
+    const ssize_t n = child->said < 0 ? 0 : pread(child->said, text, SAID_MAX, 0);
+    text[n > 0 ? n : 0] = '\0';
+    for (char *c = text; *c; c++)
+        if (*c < ' ' || *c > '~') *c = ' ';
+    for (size_t end = strlen(text); end && text[end - 1] == ' ';) text[--end] = '\0';
+    if (!*text) return;
+    const size_t used = strlen(reason);
+    snprintf(reason + used, size - used, "; it said: %s", text);
+}
+
+/* What is known of a lease that ended early, `reason` the first of it. */
+static void explain(fracas_child *child, fracas_lease_failure *failure)
+{
+    const size_t wanted = (size_t)child->lease.count;
+    if (child->count == wanted) free(child->record[--child->count]); /* it ended badly after its last record: of that one we are not sure */
+    const size_t end = (child->count / child->width + 1) * child->width; /* of the batch */
+    failure->kept = child->count;
+    failure->count = (end < wanted ? end : wanted) - child->count;
+    if (child->fault[0]) memcpy(failure->reason, child->fault, sizeof failure->reason);
+    if (!failure->reason[0])
+        snprintf(failure->reason, sizeof failure->reason, "its process ended after %zu of %zu records", child->count, wanted);
+    quote(child, failure->reason, sizeof failure->reason);
+}
+
+fracas_err fracas_child_collect(fracas_child *child, bool *good, fracas_packet ***record, size_t *count, fracas_lease_failure *failure)
+{
+    memset(failure, 0, sizeof *failure);
+    failure->lease = child->lease.id;
+    *good = false;
+    *record = NULL;
+    *count = 0;
+    fracas_err err = reap(child, failure->reason, sizeof failure->reason);
+    if (!err) {
+        *good = child->count == child->lease.count && !failure->reason[0] && !child->fault[0];
+        if (!*good) explain(child, failure);
+        *record = child->record;
+        *count = child->count;
+        child->record = NULL;
+    }
+    fracas_child_clear(child);
+    return err;
+}
+
+void fracas_child_clear(fracas_child *child)
+{
+    if (child->pid) {
+        kill(child->pid, SIGKILL);
+        while (waitpid(child->pid, NULL, 0) < 0 && errno == EINTR)
+            ;
+    }
+    if (child->fd > 0) close(child->fd);
+    if (child->said > 0) close(child->said);
+    for (size_t i = 0; child->record && i < child->count; i++) free(child->record[i]);
+    free(child->record);
+    free(child->bytes);
+    *child = (fracas_child){0};
+}

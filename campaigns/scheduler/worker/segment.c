@@ -1,0 +1,136 @@
+#include "campaigns/scheduler/worker/segment.h"
+
+#include "base/version.h"
+#include "campaigns/scheduler/clock.h"
+#include "campaigns/scheduler/worker/provenance.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+fracas_err fracas_segment_add(fracas_segment *segment, size_t point, int64_t replica, fracas_packet *record)
+{
+    if (segment->count == segment->capacity) {
+        size_t capacity = 2 * segment->capacity + 64;
+        fracas_segment_entry *entry = realloc(segment->entry, capacity * sizeof *entry);
+        if (!entry) {
+            free(record);
+            return fracas_no_memory("a segment");
+        }
+        segment->entry = entry;
+        segment->capacity = capacity;
+    }
+    if (segment->count == 0) {
+        segment->began = fracas_now();
+        clock_gettime(CLOCK_REALTIME, &segment->clock);
+    }
+    segment->entry[segment->count++] = (fracas_segment_entry){point, replica, record};
+    segment->bytes += record->size;
+    return FRACAS_OK;
+}
+
+double fracas_segment_wait(const fracas_segment *segment, const fracas_run_options *options)
+{
+    if (segment->count == 0) return INFINITY;
+    if (segment->bytes >= options->segment_bytes) return 0;
+    return segment->began + options->segment_age - fracas_now();
+}
+
+/* "20260131T120000.123456789-HOST-PID-NUMBER.h5" */
+static void make_name(const fracas_segment *segment, const char *host, char *name, size_t size)
+{
+    struct tm utc;
+    gmtime_r(&segment->clock.tv_sec, &utc);
+    char day[32];
+    strftime(day, sizeof day, "%Y%m%dT%H%M%S", &utc);
+    snprintf(name, size, "%s.%09ld-%s-%ld-%llu.h5", day, segment->clock.tv_nsec, host, (long)getpid(),
+             (unsigned long long)segment->number);
+}
+
+/* Appends entry `i` to the file and fills its row for the index. */
+static fracas_err append(const fracas_segment *segment, size_t i, const fracas_campaign *campaign,
+                         fracas_writer *writer, fracas_segment_row *row)
+{
+    const fracas_segment_entry *entry = &segment->entry[i];
+    fracas_record record;
+    fracas_record_init(&record);
+    fracas_err err = fracas_record_unpack(entry->record->body, entry->record->size, &record);
+    if (!err) err = fracas_writer_append(writer, entry->point, entry->replica, &record);
+    *row = (fracas_segment_row){.point = campaign->point[entry->point].hash,
+                                .replica = entry->replica,
+                                .row = (int64_t)i,
+                                .outcome = record.outcome,
+                                .fragments = record.fragments,
+                                .fragments_dust = record.fragments_dust,
+                                .steps = record.steps,
+                                .dissipated = record.dissipated,
+                                .residual = record.residual,
+                                .size = fracas_record_mean_size(&record)};
+    fracas_record_clear(&record);
+    return err;
+}
+
+fracas_file_header fracas_segment_header(const fracas_campaign *campaign)
+{
+    return (fracas_file_header){.campaign = campaign->hash,
+                                .seed = campaign->seed,
+                                .history = campaign->output.history,
+                                .interfaces = campaign->output.interfaces,
+                                .version = FRACAS_VERSION};
+}
+
+static fracas_err write_file(const fracas_segment *segment, const char *path, const fracas_campaign *campaign, const char *provenance,
+                             fracas_segment_row *row, fracas_file_seal *seal)
+{
+    fracas_file_header header = fracas_segment_header(campaign);
+    fracas_writer *writer;
+    TRY(fracas_writer_create(path, &header, &campaign->table, &writer));
+    fracas_writer_own_seal(writer); /* no index knows it yet */
+    fracas_err err = fracas_writer_provenance(writer, provenance);
+    for (size_t i = 0; !err && i < segment->count; i++) err = append(segment, i, campaign, writer, &row[i]);
+    if (!err) return fracas_writer_finish(writer, false, seal);
+    fracas_writer_abandon(writer);
+    return err;
+}
+
+fracas_err fracas_segment_write(fracas_segment *segment, const char *study, const fracas_campaign *campaign,
+                                const fracas_run_options *options, fracas_packet **note)
+{
+    char host[65] = "unknown", path[4096], *provenance = NULL;
+    gethostname(host, sizeof host - 1);
+    fracas_segment_note head = {.rows = segment->count};
+    make_name(segment, host, head.name, sizeof head.name);
+    if ((size_t)snprintf(path, sizeof path, "%s/segments/%s", study, head.name) >= sizeof path)
+        return fracas_fail(FRACAS_ENVIRONMENT, "the path of the study is too long: %s", study);
+    const fracas_provenance origin = {host, segment->clock, fracas_now() - segment->began, segment->compute};
+    TRY(fracas_provenance_make(&origin, options, &provenance));
+    size_t rows = segment->count * sizeof(fracas_segment_row), text = strlen(provenance) + 1;
+    unsigned char *body = malloc(sizeof head + rows + text);
+    fracas_err err = FRACAS_OK;
+    if (!body)
+        err = fracas_no_memory("the rows of a segment");
+    else
+        err = write_file(segment, path, campaign, provenance, (fracas_segment_row *)(body + sizeof head), &head.seal);
+    if (!err) {
+        memcpy(body, &head, sizeof head);
+        memcpy(body + sizeof head + rows, provenance, text);
+        err = fracas_packet_create(FRACAS_PACKET_SEGMENT, body, sizeof head + rows + text, note);
+    }
+    if (!err) {
+        uint64_t number = segment->number + 1;
+        fracas_segment_clear(segment);
+        segment->number = number;
+    }
+    free(body);
+    free(provenance);
+    return err;
+}
+
+void fracas_segment_clear(fracas_segment *segment)
+{
+    for (size_t i = 0; i < segment->count; i++) free(segment->entry[i].record);
+    free(segment->entry);
+    *segment = (fracas_segment){0};
+}

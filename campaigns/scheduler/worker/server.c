@@ -1,0 +1,266 @@
+#include "campaigns/scheduler/worker/server.h"
+
+#include "campaigns/scheduler/clock.h"
+#include "campaigns/scheduler/packet.h"
+#include "campaigns/scheduler/worker/child.h"
+#include "campaigns/scheduler/worker/compute.h"
+#include "campaigns/scheduler/worker/models.h"
+#include "campaigns/scheduler/worker/segment.h"
+
+#include <errno.h>
+#include <math.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+/* A lease that the server computes itself. */
+typedef struct {
+    bool runs;
+    fracas_computation computation;
+    fracas_lease lease;
+    size_t done;    /* realizations */
+    double seconds; /* that they took */
+} own_lease;
+
+typedef struct {
+    int rank; /* connection to the rank */
+    const fracas_campaign *campaign;
+    const fracas_run_options *options;
+    const char *study;
+    fracas_lease waiting[FRACAS_LEASES_HELD];
+    size_t first, nwaiting; /* a ring */
+    fracas_child child;     /* this one or the next runs, or none */
+    own_lease own;
+    fracas_models models;
+    fracas_segment segment;
+    bool stopping; /* STOP came */
+    bool alone;    /* the rank is gone */
+} server;
+
+static bool works(const server *s)
+{
+    return s->child.pid || s->own.runs;
+}
+
+/* ---- what the rank is told ---- */
+
+static fracas_err say_failed(server *s, const fracas_lease_failure *failure)
+{
+    return fracas_packet_send(s->rank, FRACAS_PACKET_FAILED, failure, sizeof *failure);
+}
+
+static fracas_err say_computed(server *s, uint64_t lease, double seconds)
+{
+    const fracas_lease_report report = {lease, seconds};
+    return fracas_packet_send(s->rank, FRACAS_PACKET_COMPUTED, &report, sizeof report);
+}
+
+static fracas_err write_segment(server *s)
+{
+    fracas_packet *note;
+    const double began = fracas_now();
+    TRY(fracas_segment_write(&s->segment, s->study, s->campaign, s->options, &note));
+    fracas_err err = fracas_packet_write(s->rank, note);
+    free(note);
+    s->child.deadline += fracas_now() - began; /* meanwhile nobody read what it sent */
+    return err;
+}
+
+/* The records of replica[0], replica[1] ... into the segment, which owns them from here on. */
+static fracas_err add_records(server *s, uint64_t point, const int64_t *replica, fracas_packet **record, size_t count)
+{
+    fracas_err err = FRACAS_OK;
+    for (size_t i = 0; i < count; i++) {
+        if (err) free(record[i]);
+        else err = fracas_segment_add(&s->segment, (size_t)point, replica[i], record[i]);
+    }
+    return err;
+}
+
+/* ---- leases ---- */
+
+/* Ends this process by SIGALRM in so many seconds; 0: not any more. */
+static void set_alarm(double seconds)
+{
+    const double whole = floor(fmin(seconds, 1e9));
+    const struct itimerval timer = {.it_value = {.tv_sec = (time_t)whole, .tv_usec = (suseconds_t)(fmin(seconds - whole, 0.999999) * 1e6)}};
+    setitimer(ITIMER_REAL, &timer, NULL);
+}
+
+/* Starts the next lease. A model that cannot be built fails the lease, not the server. */
+static fracas_err start_next(server *s)
+{
+    const fracas_lease *lease = &s->waiting[s->first];
+    s->first = (s->first + 1) % FRACAS_LEASES_HELD;
+    s->nwaiting--;
+    fracas_computation computation = {.campaign = s->campaign, .options = s->options, .lease = lease};
+    if (lease->isolated) return fracas_child_start(&s->child, &computation, &s->models, s->rank);
+    set_alarm(fmax(lease->limit, 0));
+    fracas_err err = fracas_compute_prepare(&computation, &s->models);
+    set_alarm(0);
+    if (err) {
+        const size_t width = fracas_compute_width(s->options);
+        fracas_lease_failure failure = {.lease = lease->id, .count = lease->count < width ? lease->count : width};
+        strncpy(failure.reason, fracas_message(), sizeof failure.reason - 1);
+        return say_failed(s, &failure);
+    }
+    if (s->options->isolation == FRACAS_ISOLATION_LEASE) return fracas_child_start(&s->child, &computation, &s->models, s->rank);
+    s->own = (own_lease){.runs = true, .computation = computation};
+    memcpy(&s->own.lease, lease, fracas_lease_bytes(lease));
+    s->own.computation.lease = &s->own.lease;
+    return FRACAS_OK;
+}
+
+/* The child sent something, or ended: then its records go to the segment and rank 0 hears of the lease. */
+static fracas_err hear_child(server *s)
+{
+    bool ended, good;
+    TRY(fracas_child_receive(&s->child, &ended));
+    if (!ended) return FRACAS_OK;
+    const fracas_lease lease = s->child.lease;
+    const double seconds = fracas_now() - s->child.began;
+    fracas_packet **record;
+    size_t count;
+    fracas_lease_failure failure;
+    TRY(fracas_child_collect(&s->child, &good, &record, &count, &failure));
+    fracas_err err = add_records(s, lease.point, lease.replica, record, count);
+    free(record);
+    s->segment.compute += seconds;
+    if (err) return err;
+    return good ? say_computed(s, lease.id, seconds) : say_failed(s, &failure);
+}
+
+/* Computes one batch of the server's own lease. Between two batches its limit may be over as well: then the next one is at fault. */
+static fracas_err advance(server *s)
+{
+    own_lease *own = &s->own;
+    const bool limited = own->lease.limit > 0;
+    const double left = own->lease.limit - own->seconds, began = fracas_now();
+    fracas_packet *record[FRACAS_BATCH_MAX];
+    size_t count = (size_t)own->lease.count - own->done, width = fracas_compute_width(s->options);
+    fracas_err err;
+    if (limited && left <= 0) {
+        if (count > width) count = width;
+        err = fracas_fail(FRACAS_ENVIRONMENT, "it took the %g s that a lease may take (--lease-limit)", own->lease.limit);
+    } else {
+        set_alarm(limited ? fmax(left, 1e-3) : 0);
+        err = fracas_compute_batch(&own->computation, own->done, record, &count);
+        set_alarm(0);
+    }
+    const double seconds = fracas_now() - began;
+    own->seconds += seconds;
+    s->segment.compute += seconds;
+    if (err) {
+        fracas_lease_failure failure = {.lease = own->lease.id, .kept = own->done, .count = count};
+        strncpy(failure.reason, fracas_message(), sizeof failure.reason - 1);
+        own->runs = false;
+        return say_failed(s, &failure);
+    }
+    TRY(add_records(s, own->lease.point, own->lease.replica + own->done, record, count));
+    own->done += count;
+    own->runs = own->done < own->lease.count;
+    return own->runs ? FRACAS_OK : say_computed(s, own->lease.id, own->seconds);
+}
+
+/* ---- what the rank says ---- */
+
+static fracas_err hear_stop(server *s, const fracas_packet *message)
+{
+    int32_t kill = 0;
+    TRY(fracas_packet_expect(message, sizeof kill));
+    memcpy(&kill, message->body, sizeof kill);
+    if (kill) {
+        fracas_child_clear(&s->child);
+        s->own.runs = false;
+    }
+    s->stopping = true;
+    return FRACAS_OK;
+}
+
+static fracas_err hear_lease(server *s, const fracas_packet *message)
+{
+    fracas_lease *lease = &s->waiting[(s->first + s->nwaiting) % FRACAS_LEASES_HELD];
+    if (message->size > sizeof *lease) return fracas_fail(FRACAS_BUG, "a lease of %u bytes", message->size);
+    TRY(fracas_packet_expect(message, offsetof(fracas_lease, replica) + sizeof *lease->replica));
+    memcpy(lease, message->body, message->size);
+    if (fracas_lease_bytes(lease) != message->size) return fracas_fail(FRACAS_BUG, "a lease of %u bytes", message->size);
+    s->nwaiting++;
+    return FRACAS_OK;
+}
+
+static fracas_err hear_rank(server *s)
+{
+    fracas_packet *message;
+    TRY(fracas_packet_read(s->rank, &message));
+    fracas_err err = FRACAS_OK;
+    if (!message)
+        s->alone = true;
+    else if (message->kind == FRACAS_PACKET_STOP)
+        err = hear_stop(s, message);
+    else if (message->kind == FRACAS_PACKET_FLUSH)
+        err = s->segment.count ? write_segment(s) : FRACAS_OK;
+    else if (message->kind == FRACAS_PACKET_LEASE && s->nwaiting < FRACAS_LEASES_HELD)
+        err = hear_lease(s, message);
+    else
+        err = fracas_fail(FRACAS_BUG, "a compute server got a message of kind %u", message->kind);
+    free(message);
+    return err;
+}
+
+/* ---- its life ---- */
+
+/* Sleeps until something comes, the segment is old enough or the child's time is over; not at all while there is a lease to compute
+ * here. */
+static fracas_err wait_and_hear(server *s)
+{
+    struct pollfd from[2] = {{.fd = s->rank, .events = POLLIN}, {.fd = s->child.fd, .events = POLLIN}};
+    double wait = fracas_segment_wait(&s->segment, s->options);
+    if (s->child.pid) wait = fmin(wait, s->child.deadline - fracas_now());
+    if (s->own.runs) wait = 0;
+    int timeout = isinf(wait) ? -1 : (int)fmin(ceil(fmax(wait, 0) * 1e3), 1e6);
+    int ready = poll(from, s->child.pid ? 2 : 1, timeout);
+    if (ready < 0 && errno != EINTR)
+        return fracas_fail(FRACAS_ENVIRONMENT, "a compute server cannot wait: %s", strerror(errno));
+    if (ready < 0) return FRACAS_OK;
+    if (s->child.pid && ready > 0 && from[1].revents) TRY(hear_child(s));
+    else if (s->child.pid && fracas_now() >= s->child.deadline) fracas_child_expire(&s->child);
+    if (ready > 0 && from[0].revents) TRY(hear_rank(s));
+    return FRACAS_OK;
+}
+
+/* Until STOP is obeyed or the rank is gone. */
+static fracas_err serve(server *s)
+{
+    TRY(fracas_packet_send(s->rank, FRACAS_PACKET_READY, &s->campaign->hash, sizeof s->campaign->hash));
+    while (!s->alone) {
+        if (!works(s) && s->stopping) {
+            if (s->segment.count) TRY(write_segment(s));
+            return fracas_packet_send(s->rank, FRACAS_PACKET_ENDED, NULL, 0);
+        }
+        while (!works(s) && s->nwaiting && !s->stopping) TRY(start_next(s));
+        if (s->own.runs) TRY(advance(s));
+        if (fracas_segment_wait(&s->segment, s->options) <= 0) TRY(write_segment(s));
+        TRY(wait_and_hear(s));
+    }
+    return FRACAS_OK;
+}
+
+_Noreturn void fracas_server_run(const fracas_campaign *campaign, const fracas_run_options *options, const char *study, int rank)
+{
+    signal(SIGALRM, SIG_DFL); /* set_alarm */
+    server s = {.rank = rank, .campaign = campaign, .options = options, .study = study};
+    fracas_err err = serve(&s);
+    if (err) {
+        fracas_trouble trouble;
+        fracas_trouble_take(err, &trouble);
+        fracas_child_clear(&s.child);
+        err = fracas_packet_send(s.rank, FRACAS_PACKET_TROUBLE, &trouble, sizeof trouble);
+    }
+    fracas_child_clear(&s.child);
+    fracas_segment_clear(&s.segment);
+    fracas_models_clear(&s.models);
+    _exit(err ? FRACAS_ENVIRONMENT : 0); /* not exit: what the rank registered is not for this process */
+}
