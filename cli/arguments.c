@@ -46,6 +46,21 @@ static size_t option_of(const fracas_command *command, int found)
     return FRACAS_MOST_OPTIONS;
 }
 
+/* The word that getopt_long has just read as an option: before its value, where that is a word of its own. */
+static const char *given_option(char *const *argv)
+{
+    const char *last = argv[optind - 1];
+    return optarg && optarg == last ? argv[optind - 2] : last;
+}
+
+/* getopt_long takes any beginning of a name: --forc for --force, and what was meant for another program. */
+static bool is_abbreviated(const fracas_command *command, int found, char *const *argv)
+{
+    if (option_of(command, found) >= fracas_command_noptions(command)) return false;
+    const char *name = fracas_command_option(command, option_of(command, found))->name, *given = given_option(argv);
+    return !strncmp(given, "--", 2) && (strlen(name) != strcspn(given + 2, "=") || strncmp(given + 2, name, strlen(name)) != 0);
+}
+
 static fracas_err read_options(const fracas_command *command, fracas_arguments *arguments)
 {
     struct option table[FRACAS_MOST_OPTIONS + 2] = {{"help", no_argument, NULL, 'h'}};
@@ -63,6 +78,7 @@ static fracas_err read_options(const fracas_command *command, fracas_arguments *
     opterr = 0;
     int found;
     while ((found = getopt_long(arguments->argc, arguments->argv, letters, table, NULL)) != -1) {
+        if (is_abbreviated(command, found, arguments->argv)) return unknown_option(command, given_option(arguments->argv));
         if (found == 'h') arguments->help = true;
         else if (option_of(command, found) < noptions)
             arguments->value[option_of(command, found)] = optarg ? optarg : "";
@@ -173,7 +189,7 @@ static bool read_clock(const char *text, double *seconds)
     return true;
 }
 
-/* Numbers, each with its unit; one alone is s. */
+/* Numbers, each with its unit: what one without means, Slurm and a person do not agree on. */
 static bool read_duration(const char *text, double *seconds)
 {
     static const char unit[] = "smhd";
@@ -184,9 +200,9 @@ static bool read_duration(const char *text, double *seconds)
         char *end;
         const double number = strtod(text, &end);
         const char *found = *end ? strchr(unit, *end) : NULL;
-        if (end == text || (*end && !found) || (!*end && *seconds > 0)) return false;
-        *seconds += number * (found ? length[found - unit] : 1);
-        text = end + (found ? 1 : 0);
+        if (end == text || !found) return false;
+        *seconds += number * length[found - unit];
+        text = end + 1;
     }
     return isfinite(*seconds);
 }
@@ -197,7 +213,7 @@ fracas_err fracas_arguments_time(const fracas_arguments *arguments, size_t i, do
     double value;
     if (!text) return FRACAS_OK;
     if ((!read_clock(text, &value) && !read_duration(text, &value)) || value <= 0)
-        return fracas_fail(FRACAS_USAGE, "%s: --%s is `%s`; it must be a time above 0, such as 90s, 55m, 1h30m or 2:00:00",
+        return fracas_fail(FRACAS_USAGE, "%s: --%s is `%s`; it must be a time above 0 with its unit, such as 90s, 55m, 1h30m, 2:00:00 or 1-00:00:00",
                            arguments->command->name, fracas_command_option(arguments->command, i)->name, text);
     *seconds = value;
     return FRACAS_OK;

@@ -5,8 +5,10 @@
 #include "campaigns/file/say.h"
 #include "campaigns/scheduler/run.h"
 
+#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 static const fracas_command *const commands[] = {
     &fracas_command_run,    &fracas_command_plan,   &fracas_command_status,
@@ -105,8 +107,19 @@ int __lsan_is_turned_off(void)
 }
 #endif
 
+/* A standard stream that the caller closed must not become a file of the study, nor a pipe. */
+static void open_standard_streams(void)
+{
+    for (int fd; (fd = open("/dev/null", O_RDWR)) >= 0;) {
+        if (fd <= STDERR_FILENO) continue;
+        close(fd);
+        break;
+    }
+}
+
 int main(int argc, char **argv)
 {
+    open_standard_streams();
     fracas_err code = dispatch(argc, argv);
     if ((fflush(stdout) || ferror(stdout)) && !code)
         code = fracas_fail(FRACAS_ENVIRONMENT, "the output could not be written; is the disk full?");

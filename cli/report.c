@@ -27,7 +27,7 @@ fracas_err fracas_cli_read_campaign(const char *study, fracas_campaign **campaig
     snprintf(file, sizeof file, "%s/campaign.yaml", study);
     fracas_err code = fracas_campaign_read(file, campaign);
     if (code != FRACAS_USAGE) return code;
-    return fracas_fail_within(FRACAS_DAMAGED, "the study's campaign file is damaged; run the campaign file it was made from, or "
+    return fracas_fail_within(FRACAS_DAMAGED, "the study's campaign file is damaged; remove it and run the campaign file it was made from, or "
                               "restore it");
 }
 

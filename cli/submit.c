@@ -172,6 +172,8 @@ static fracas_err prepare(const fracas_arguments *arguments, submission *s)
     TRY(find_places(s));
     TRY(read_job(arguments, s));
     TRY(make_run(arguments, s, &run));
+    if (run.parts > 1 && !arguments->value[SCRIPT]) /* each part has a job of its own */
+        snprintf(s->script, sizeof s->script, "%s.part%d.sbatch", arguments->operand, run.part);
     TRY(check_campaign(&run, s));
     TRY(write_script(s));
     if (arguments->value[SUBMIT]) return hand_in(s);

@@ -54,6 +54,17 @@ static void say(verification *v, const char *problem)
     v->problems++;
 }
 
+/* Something is to be computed yet. */
+static bool is_growing(const char *study)
+{
+    fracas_index *index;
+    fracas_index_counts counts = {0};
+    if (fracas_index_open(study, false, &index)) return false;
+    const bool known = !fracas_index_count(index, &counts);
+    fracas_index_close(index);
+    return known && counts.planned + counts.leased > 0;
+}
+
 /* The campaign file of the study against study.h5, where there is one. */
 static void verify_campaign(verification *v)
 {
@@ -67,8 +78,12 @@ static void verify_campaign(verification *v)
     snprintf(file, sizeof file, "%s/study.h5", v->study);
     const fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
     if (access(file, F_OK) == 0 && !v->problems && !fracas_reader_open(file, &reader)) {
-        if (!fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash))
+        const bool same = fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash);
+        if (!same && !is_growing(v->study))
             say(v, "campaign.yaml is not the campaign of study.h5, which is older: run the file it was made from");
+        else if (!same)
+            fprintf(v->notes, "study.h5 is older than campaign.yaml, which asks for more: `fracas run %s/campaign.yaml --study %s` goes on%c", v->study,
+                    v->study, '\0');
         else if ((v->full && fracas_reader_check_meshes(reader, &meshes)) || check_decisions(v->study, campaign))
             say(v, fracas_message());
         fracas_reader_close(reader);

@@ -372,6 +372,15 @@ void fracas_director_end_worker(fracas_director *director, size_t worker)
     fracas_scheduler_lost(director->scheduler, worker); /* nothing, if it ended in order */
 }
 
+/* All that it had told of is in segments that were heard of before. */
+static fracas_err hear_flushed(fracas_director *director, size_t worker)
+{
+    if (director->trouble.code) return FRACAS_OK; /* a commit may have failed */
+    fracas_scheduler_durable(director->scheduler, worker);
+    director->flushing[worker] = false;
+    return FRACAS_OK;
+}
+
 static fracas_err hear_end(fracas_director *director, size_t worker, const fracas_packet *message)
 {
     fracas_director_end_worker(director, worker);
@@ -385,7 +394,7 @@ static fracas_err hear_end(fracas_director *director, size_t worker, const fraca
     }
     fracas_voice_say(director->setup.voice, "%s; the others go on", trouble.text);
     TRY(fracas_index_event(director->index, "worker lost", trouble.text));
-    if (fracas_director_over(director)) fail(director, &trouble);
+    if (fracas_director_over(director) && !director->stopping) fail(director, &trouble);
     return offer_all(director);
 }
 
@@ -416,6 +425,7 @@ static fracas_err act(fracas_director *director, size_t worker, const fracas_pac
     case FRACAS_PACKET_COMPUTED: return hear_computed(director, worker, message);
     case FRACAS_PACKET_FAILED: return hear_failed(director, worker, message);
     case FRACAS_PACKET_SEGMENT: return hear_segment(director, worker, message);
+    case FRACAS_PACKET_FLUSHED: return hear_flushed(director, worker);
     case FRACAS_PACKET_REPLACED: return hear_replaced(director, worker, message);
     case FRACAS_PACKET_TROUBLE:
     case FRACAS_PACKET_LOST:

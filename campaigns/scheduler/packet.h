@@ -8,6 +8,7 @@
  *                      FRESH                         the answer to REPLACED: what follows is for the new server
  *   server -> rank 0   READY                         up, with the hash of the campaign that it read
  *                      COMPUTED, FAILED, SEGMENT     what became of leases
+ *                      FLUSHED                       the answer to FLUSH where everything is in segments already
  *                      TROUBLE                       this server or rank cannot go on, and why
  *                      ENDED                         the answer to STOP: nothing comes any more
  *   rank -> rank 0     REPLACED                      its server died, of a new one READY will come
@@ -40,7 +41,8 @@ typedef enum {
     FRACAS_PACKET_FAULT,     /* fracas_trouble */
     FRACAS_PACKET_FLUSH,     /* empty */
     FRACAS_PACKET_REPLACED,  /* fracas_trouble */
-    FRACAS_PACKET_FRESH      /* empty */
+    FRACAS_PACKET_FRESH,      /* empty */
+    FRACAS_PACKET_FLUSHED   /* empty */
 } fracas_packet_kind;
 
 /* One block of memory: its first fracas_packet_bytes are what travels. Freed with free(). */

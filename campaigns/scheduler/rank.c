@@ -224,7 +224,7 @@ static fracas_err follow(rank_state *rank, fracas_err set_up)
         }
         TRY(forward(rank, &quit));
     }
-    return FRACAS_OK;
+    return tell(FRACAS_PACKET_QUIT, NULL, 0);
 }
 
 /* ---- rank 0 ---- */
@@ -295,6 +295,23 @@ static fracas_err lead(rank_state *rank, fracas_voice *voice, bool *ran)
     return verdict;
 }
 
+/* Takes what the others still send, up to their answers to QUIT, or one that sends a long message would never end; not for long, for one
+ * may hang. */
+static void hear_last_words(const rank_state *rank)
+{
+    enum { PATIENCE = 5 /* s */ };
+    const struct timespec rest = {.tv_nsec = 1000000};
+    const double began = fracas_now();
+    for (int left = rank->size - 1; left > 0 && fracas_now() - began < PATIENCE;) {
+        fracas_packet *message;
+        int from;
+        if (mpi_receive(&from, &message)) return;
+        if (!message) nanosleep(&rest, NULL);
+        else if (message->kind == FRACAS_PACKET_QUIT) left--;
+        free(message);
+    }
+}
+
 /* Rank 0 from MPI_Init on: the run, its last word, and the release of the others. */
 static fracas_err lead_to_end(rank_state *rank, fracas_err set_up, bool *ran)
 {
@@ -308,6 +325,7 @@ static fracas_err lead_to_end(rank_state *rank, fracas_err set_up, bool *ran)
     const fracas_packet quit = {.kind = FRACAS_PACKET_QUIT};
     for (int other = 1; other < rank->size; other++)
         if (mpi_send(other, &quit)) MPI_Abort(MPI_COMM_WORLD, FRACAS_ENVIRONMENT); /* no rank may be left waiting */
+    hear_last_words(rank);
     if (!voice.parent) return verdict ? fracas_fail(verdict, "%s", kept.text) : FRACAS_OK;
     *ran = false;
     return FRACAS_OK;

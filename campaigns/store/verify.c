@@ -349,7 +349,7 @@ static fracas_err check_merged_seal(verification *v, const char *path)
     fracas_file_seal wanted;
     TRY(fracas_index_study_seal(v->index, &sealed, &wanted));
     if (!sealed)
-        return fracas_fail(FRACAS_DAMAGED, "%s has no seal: its merge was interrupted; run again", path);
+        return fracas_fail(FRACAS_DAMAGED, "%s has no seal: its merge was interrupted, or the index is newer; `fracas merge` writes it again", path);
     fracas_err err = fracas_disk_check_seal(path, &wanted);
     return err == FRACAS_DAMAGED ? fracas_fail_within(err, "to make it again, remove %s and run again", path) : err;
 }

@@ -29,7 +29,7 @@ for isolation in lease none; do
     fault exit $isolation 'its process ended after 0 of 1 records'
     fault memory $isolation '--memory-limit lets a lease allocate 256 MB: no memory for what a test asked for' --memory-limit 256
     fault hang $isolation 'its process was killed after the 1 s that a lease may take (--lease-limit)' \
-        --lease-limit 1 --lanes 1 --lease-time 0
+        --lease-limit 1s --lanes 1 --lease-time 0
 done
 
 /usr/bin/python3 - <<'END'

@@ -7,8 +7,8 @@ sed -i 's/elements: 500/elements: 2000/' long.yaml # 10 s of one core
 began=$(date +%s)
 expect 3 "$fracas" run long.yaml --study timed --jobs 2 --walltime 5s
 [ $(($(date +%s) - began)) -le 5 ] || fail "a walltime of 5 s was not kept"
-said 'the walltime is nearly over: [0-9]* of 400 realizations are done and kept; the same command goes on from there'
-kept=$(sed -n 's/.*nearly over: \([0-9]*\) of.*/\1/p' said)
+said '[a-z ]*: [0-9]* of 400 realizations are done and kept; the same command goes on from there'
+kept=$(sed -n 's/.*\(nearly over\|interrupted\): \([0-9]*\) of.*/\2/p' said)
 expect 0 "$fracas" status timed
 said "400: $kept done, 0 failed"
 expect 0 "$fracas" run long.yaml --study timed --jobs 2 --walltime 10m

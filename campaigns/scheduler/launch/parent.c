@@ -30,6 +30,7 @@ typedef struct {
     fracas_verdict verdict;
     bool speaks;   /* rank 0 has said something: every rank can be signalled */
     bool drained, killed; /* by this process */
+    bool gone;     /* mpirun's end was taken: its number may be another's */
     bool warned;   /* of its silence */
     bool gained;   /* realizations became durable */
     double began;
@@ -42,6 +43,7 @@ typedef struct {
 
 typedef struct {
     launch now;
+    fracas_reaper reaper;
     fracas_progress progress;
     double asked;    /* when it was noticed that the run's end is asked for; 0: not yet */
     double drain_at, kill_at; /* by the walltime; INFINITY: there is none */
@@ -127,7 +129,7 @@ static bool is_asked(parent *p)
 static void kill_run(launch *now)
 {
     if (now->killed) return;
-    kill(-now->mpirun.pid, SIGKILL);
+    if (!now->gone) kill(-now->mpirun.pid, SIGKILL);
     now->killed = true;
 }
 
@@ -136,7 +138,7 @@ static void obey(parent *p)
 {
     launch *now = &p->now;
     if (!is_asked(p)) return;
-    if (now->speaks && !now->drained) {
+    if (now->speaks && !now->drained && !now->gone) {
         fracas_progress_say(&p->progress, fracas_signals_ask()
                                 ? "draining: leases that run are finished and kept (again: stop at once)"
                                 : "draining: leases that run are finished and kept, as the walltime is nearly over");
@@ -185,17 +187,18 @@ static void listen(parent *p)
 static int wait_for_all(parent *p)
 {
     launch *now = &p->now;
-    int status = 0;
+    int status = -1; /* none of a process */
     const double began = fracas_now();
-    while (fracas_reaper_wait(now->mpirun.pid, &status)) {
+    while (fracas_reaper_wait(&p->reaper, now->mpirun.pid, &status)) {
+        now->gone |= status != -1;
         obey(p);
         if (fracas_now() - began > PATIENCE_END || now->killed) {
             kill_run(now);
-            fracas_reaper_kill();
+            fracas_reaper_kill(&p->reaper);
         }
         poll(NULL, 0, 10);
     }
-    return status;
+    return status == -1 ? 0 : status;
 }
 
 /* mpirun from start to end. */
@@ -302,7 +305,7 @@ fracas_err fracas_parent_run(const fracas_run_options *options, double began, in
     if (!p) return fracas_no_memory("the run");
     p->durable = -1;
     fracas_progress_init(&p->progress, stderr);
-    fracas_reaper_begin();
+    fracas_reaper_begin(&p->reaper);
     set_deadline(p, options->walltime, began);
     fracas_err err = run(p, jobs, argc, argv, ran);
     fracas_progress_end(&p->progress);

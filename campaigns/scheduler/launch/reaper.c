@@ -10,20 +10,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-void fracas_reaper_begin(void)
-{
-    prctl(PR_SET_CHILD_SUBREAPER, 1);
-}
-
-bool fracas_reaper_wait(pid_t pid, int *status)
-{
-    int one;
-    pid_t ended;
-    while ((ended = waitpid(-1, &one, WNOHANG)) > 0 || (ended < 0 && errno == EINTR))
-        if (ended == pid) *status = one;
-    return ended == 0;
-}
-
 /* The parent of a process; 0 if it is gone. /proc/PID/stat: "PID (NAME) STATE PARENT ...", NAME may have parentheses. */
 static pid_t parent_of(pid_t pid)
 {
@@ -39,13 +25,54 @@ static pid_t parent_of(pid_t pid)
     return rest && sscanf(rest, ") %*c %ld", &parent) == 1 ? (pid_t)parent : 0;
 }
 
-void fracas_reaper_kill(void)
+static size_t place_of(const fracas_reaper *reaper, pid_t pid)
 {
+    size_t i = 0;
+    while (i < reaper->nforeign && reaper->foreign[i] != pid) i++;
+    return i;
+}
+
+/* Counts the children that are not foreign, and with `kill_them` kills them. */
+static size_t scan(const fracas_reaper *reaper, bool kill_them)
+{
+    size_t count = 0;
     DIR *all = opendir("/proc");
-    if (!all) return;
+    if (!all) return 0;
     for (const struct dirent *entry; (entry = readdir(all));) {
         const pid_t pid = (pid_t)strtol(entry->d_name, NULL, 10);
-        if (pid > 0 && parent_of(pid) == getpid()) kill(pid, SIGKILL);
+        if (pid <= 0 || parent_of(pid) != getpid() || place_of(reaper, pid) < reaper->nforeign) continue;
+        count++;
+        if (kill_them) kill(pid, SIGKILL);
     }
     closedir(all);
+    return count;
+}
+
+void fracas_reaper_begin(fracas_reaper *reaper)
+{
+    *reaper = (fracas_reaper){0};
+    DIR *all = opendir("/proc");
+    for (const struct dirent *entry; all && (entry = readdir(all)) && reaper->nforeign < FRACAS_FOREIGN_MAX;) {
+        const pid_t pid = (pid_t)strtol(entry->d_name, NULL, 10);
+        if (pid > 0 && parent_of(pid) == getpid()) reaper->foreign[reaper->nforeign++] = pid;
+    }
+    if (all) closedir(all);
+    prctl(PR_SET_CHILD_SUBREAPER, 1);
+}
+
+bool fracas_reaper_wait(fracas_reaper *reaper, pid_t pid, int *status)
+{
+    int one;
+    pid_t ended;
+    while ((ended = waitpid(-1, &one, WNOHANG)) > 0 || (ended < 0 && errno == EINTR)) {
+        if (ended == pid) *status = one;
+        const size_t i = place_of(reaper, ended);
+        if (i < reaper->nforeign) reaper->foreign[i] = reaper->foreign[--reaper->nforeign];
+    }
+    return ended == 0 && (reaper->nforeign == 0 || scan(reaper, false) > 0);
+}
+
+void fracas_reaper_kill(const fracas_reaper *reaper)
+{
+    scan(reaper, true);
 }

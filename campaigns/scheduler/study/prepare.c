@@ -41,7 +41,7 @@ fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign)
     fracas_campaign *before;
     fracas_err err = fracas_campaign_read(path, &before);
     if (err == FRACAS_USAGE)
-        return fracas_fail_within(FRACAS_DAMAGED, "the study's own campaign file is damaged (restore it, or run in "
+        return fracas_fail_within(FRACAS_DAMAGED, "the study's own campaign file is damaged (remove it and run again: it is written anew; or run in "
                                   "another --study)");
     TRY(err);
     err = fracas_campaign_extends(campaign, before);
@@ -77,6 +77,8 @@ fracas_err fracas_study_examine(const char *study, const fracas_campaign *campai
 {
     *settled = false;
     *failed = 0;
+    char file[PATH];
+    TRY(join(study, "campaign.yaml", file));
     TRY(fracas_study_fits(study, campaign));
     if (!fracas_index_exists(study)) return FRACAS_OK;
     int lock;
@@ -86,6 +88,7 @@ fracas_err fracas_study_examine(const char *study, const fracas_campaign *campai
     if (!err) {
         err = fracas_study_settled(study, index, campaign, settled, failed);
         if (!err && *settled) err = fracas_study_sound(study, index, settled);
+        if (!err && access(file, F_OK)) *settled = false; /* it is to be written again */
         fracas_index_close(index);
     }
     close(lock);

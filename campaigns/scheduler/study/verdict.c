@@ -44,6 +44,6 @@ fracas_err fracas_failed_verdict(const char *study, fracas_index *index, const f
     for (size_t i = 0; i < found.points && i < NAMED; i++)
         n += (size_t)snprintf(points + n, sizeof points - n, "%s%lld of point %zu", i ? ", " : "", found.count[i], found.point[i]);
     if (found.points > NAMED) snprintf(points + n, sizeof points - n, ", and of %zu points more", found.points - NAMED);
-    return fracas_fail(FRACAS_SOME_FAILED, "%lld realization%s of %s FAILED: %s (which and why: fracas status %s)", found.realizations,
-                       found.realizations > 1 ? "s" : "", study, points, study);
+    return fracas_fail(FRACAS_SOME_FAILED, "%lld realization%s of %s FAILED: %s (which and why: fracas status %s; to try them again: fracas retry %s --failed)", found.realizations,
+                       found.realizations > 1 ? "s" : "", study, points, study, study);
 }

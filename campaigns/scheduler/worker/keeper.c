@@ -172,7 +172,7 @@ static _Noreturn void keep(keeper *k)
             tell(k->control, &trouble, -1);
             _exit(FRACAS_ENVIRONMENT);
         }
-        tell(k->control, &trouble, connection); /* if the rank is gone, so is this process: now, or when it waits */
+        if (!tell(k->control, &trouble, connection)) _exit(FRACAS_ENVIRONMENT); /* the rank is gone, or waits for ever */
         close(connection);
         const int status = wait_for_server(k, pid);
         trouble.code = FRACAS_ENVIRONMENT;
@@ -209,8 +209,9 @@ static fracas_err take_server(fracas_keeper *one)
 {
     fracas_trouble trouble;
     if (!hear(one->control, &trouble, &one->server)) return keeper_gone(one);
-    if (!trouble.code) return FRACAS_OK;
+    if (!trouble.code && one->server >= 0) return FRACAS_OK;
     fracas_keeper_end(one);
+    if (!trouble.code) return fracas_fail_system(EMFILE, "no connection to a compute server"); /* the kernel drops what finds no place */
     return fracas_fail((fracas_err)trouble.code, "%s", trouble.text);
 }
 

@@ -201,7 +201,7 @@ static fracas_err hear_rank(server *s)
     else if (message->kind == FRACAS_PACKET_STOP)
         err = hear_stop(s, message);
     else if (message->kind == FRACAS_PACKET_FLUSH)
-        err = s->segment.count ? write_segment(s) : FRACAS_OK;
+        err = s->segment.count ? write_segment(s) : fracas_packet_send(s->rank, FRACAS_PACKET_FLUSHED, NULL, 0);
     else if (message->kind == FRACAS_PACKET_LEASE && s->nwaiting < FRACAS_LEASES_HELD)
         err = hear_lease(s, message);
     else
