@@ -100,6 +100,7 @@ typedef struct {
 typedef struct {
     const costs *c;
     fracas_scheduler *scheduler;
+    double *cost; /* of a realization of each point: the scheduler's */
     worker *worker;
     size_t workers;
     event *heap;
@@ -292,7 +293,8 @@ static void make(world *w, const costs *c, size_t workers, double mean)
     const size_t points = (size_t)c->points, each = (size_t)fmax(1, c->work * (double)workers / mean / c->points);
     double *cost = malloc(points * sizeof *cost);
     fracas_index_row *row = malloc(points * each * sizeof *row);
-    *w = (world){.c = c, .workers = workers, .worker = calloc(workers, sizeof *w->worker), .total = points * each, .dice = 1};
+    *w = (world){.c = c, .workers = workers, .worker = calloc(workers, sizeof *w->worker), .total = points * each, .dice = 1,
+                 .cost = cost};
     if (!cost || !row || !w->worker) demand(fracas_no_memory("the campaign"));
     for (size_t p = 0; p < points; p++) cost[p] = 1;
     for (size_t i = 0; i < w->total; i++) row[i] = (fracas_index_row){i / each, (int64_t)(i % each), FRACAS_PLANNED, 0};
@@ -335,6 +337,7 @@ static void simulate(const costs *c, size_t workers, double mean, bool head)
            work / ((double)workers * wall), w.busy / working, (double)w.messages / working, (double)w.leases / working,
            (double)w.commits / working, w.delay / (double)w.messages, 1e6 * w.policy / (double)w.leases);
     fracas_scheduler_destroy(w.scheduler);
+    free(w.cost);
     free(w.worker);
     free(w.heap);
     free(w.queue);
