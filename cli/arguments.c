@@ -33,8 +33,8 @@ static fracas_err unknown_option(const fracas_command *command, const char *give
         fracas_words_add(&words, option[i]);
     }
     fracas_words_add(&words, "--help");
-    return fracas_fail(FRACAS_USAGE, "%s: unknown option `%s`%s", command->name, given,
-                       fracas_words_hint(&words, "it knows", hint));
+    return fracas_fail(FRACAS_USAGE, "%s: unknown option `%s`%s%s", command->name, given, fracas_words_hint(&words, "it knows", hint),
+                       command->takes_rest ? "; options of another program follow `--`" : "");
 }
 
 /* The option that getopt_long names so, FRACAS_MOST_OPTIONS for none. */
