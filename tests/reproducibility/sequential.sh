@@ -109,9 +109,8 @@ wait_segments longer $(($(segments weak) + 20))
 kill_session
 [ "$(sqlite3 longer/index.sqlite 'SELECT count(*) FROM decision WHERE maximum = 1000')" -gt 0 ] || fail "killed too early"
 cmp weak/study.h5 longer/study.h5 || fail "killed too late"
-expect 5 "$fracas" verify longer
-said 'campaign.yaml is not the campaign of study.h5'
-said 'longer has 1 problem'
+expect 0 "$fracas" verify longer
+said "note: study.h5 is older than campaign.yaml, which asks for more"
 expect 0 "$fracas" run one.yaml --study weak
 same one weak
 expect 5 "$fracas" run weak.yaml --study weak
