@@ -144,4 +144,11 @@ static inline void flip_byte(const char *path, size_t at)
     free(bytes);
 }
 
+static inline bool is_sealed(void)
+{
+    bool sealed;
+    OK(fracas_study_sealed(study, index_, &sealed));
+    return sealed;
+}
+
 #endif

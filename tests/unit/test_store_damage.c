@@ -1,0 +1,211 @@
+/* Flipped bytes of a study, and what the next run makes of them. */
+#include "tests/support/study_fixture.h"
+
+/* What the next run does with a study: recovers, computes what is planned, merges. *rows: what it computed. */
+static fracas_err run_again(int64_t *rows)
+{
+    fracas_file_header header = sample_header();
+    char *report, name[32];
+    static int number;
+    fracas_index_row *plan;
+    size_t count;
+    *rows = 0;
+    TRY(fracas_study_recover(study, index_, &header, &table, &report));
+    free(report);
+    *rows = count_all().planned;
+    TRY(fracas_index_rows(index_, &table, &plan, &count));
+    free(plan);
+    snprintf(name, sizeof name, "again%d.h5", number++);
+    compute_planned(name);
+    return fracas_study_merge(study, index_, &header, &table, NULL);
+}
+
+/* Every byte of a segment is found by the quick verification before, and costs no more than its realizations. */
+static void a_flipped_byte_of_a_segment_is_computed_again(void **state)
+{
+    (void)state;
+    commit_everything(11);
+    merge();
+    assert_int_equal(rename(sample_path(study, "study.h5"), sample_path(study, "first")), 0);
+    merge();
+    uint64_t random = 12;
+    for (int i = 0; i < 16; i++) {
+        char *path;
+        int64_t rows;
+        fracas_known_segment *segment;
+        size_t nsegments;
+        OK(fracas_index_segments(index_, &segment, &nsegments));
+        const fracas_known_segment *one = &segment[sample_bits(&random) % nsegments];
+        assert_true(asprintf(&path, "%s/segments/%s", study, one->name) > 0);
+        if (i % 4 == 3) assert_int_equal(truncate(path, (off_t)(sample_bits(&random) % one->seal.bytes)), 0);
+        else flip_byte(path, sample_bits(&random) % one->seal.bytes);
+        verify_finds_as(false, 1, one->name);
+        bool sound;
+        OK(fracas_study_sound(study, index_, &sound));
+        assert_false(sound);
+        const int64_t most = one->rows;
+        OK(run_again(&rows));
+        assert_true(rows > 0 && rows <= most);
+        assert_true(sample_same_file(sample_path(study, "study.h5"), sample_path(study, "first")));
+        OK(fracas_study_sound(study, index_, &sound));
+        assert_true(sound);
+        free(path);
+        fracas_index_segments_free(segment, nsegments);
+    }
+    verify_finds(0, "");
+    assert_int_equal(sample_files(sample_path(study, "segments"), ".damaged"), 16);
+}
+
+static void a_flipped_byte_of_the_merged_file_is_merged_again(void **state)
+{
+    (void)state;
+    commit_everything(0);
+    merge();
+    size_t size;
+    unsigned char *bytes = sample_slurp(sample_path(study, "study.h5"), &size);
+    sample_spill(sample_path(study, "first"), bytes, size);
+    free(bytes);
+    flip_byte(sample_path(study, "study.h5"), size / 3);
+    verify_finds_as(false, 1, "study.h5: damaged");
+    recover_says("study.h5: damaged");
+    assert_false(is_sealed());
+    merge();
+    assert_true(sample_same_file(sample_path(study, "study.h5"), sample_path(study, "first")));
+}
+
+static void execute(const char *sql)
+{
+    if (sqlite3_exec(index_->db, sql, NULL, NULL, NULL) != SQLITE_OK) fail_msg("%s: %s", sql, sqlite3_errmsg(index_->db));
+    assert_true(sqlite3_changes(index_->db) > 0);
+}
+
+/* A flipped bit of a number, which SQLite cannot see: study.h5 is not made of it, and full verification names it. */
+static void a_flipped_number_of_the_index_is_not_merged(void **state)
+{
+    (void)state;
+    static const char *const flip[] = {"outcome = outcome + 1", "fragments = fragments + 1", "fragments_dust = fragments_dust + 1",
+                                       "steps = steps - 1", "dissipated = 1.25", "residual = 2.5", "size = 1e-5", "row = row + 1",
+                                       "segment = segment + 1", "status = 'failed'", "status = 'quarantined'"};
+    commit_everything(13);
+    merge();
+    fracas_file_header header = sample_header();
+    for (size_t f = 0; f < sizeof flip / sizeof *flip; f++) {
+        char sql[512];
+        execute("CREATE TABLE kept AS SELECT * FROM realization");
+        snprintf(sql, sizeof sql, "UPDATE realization SET %s WHERE (point, replica) IN (SELECT point, replica FROM realization WHERE"
+                 " status = 'done' AND outcome = 0 AND segment = 1 AND dissipated NOT NULL AND size NOT NULL LIMIT 1)", flip[f]);
+        execute(sql);
+        sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED, "fracas reindex");
+        char text[8192];
+        assert_true(verify(text) > 0);
+        assert_non_null(strstr(text, "fracas reindex"));
+        execute("DELETE FROM realization");
+        execute("INSERT INTO realization SELECT * FROM kept");
+        assert_int_equal(sqlite3_exec(index_->db, "DROP TABLE kept", NULL, NULL, NULL), SQLITE_OK);
+    }
+    merge();
+    verify_finds(0, "");
+}
+
+/* What the rows of the index say of each other is looked at by quick verification. */
+static void an_index_that_contradicts_itself_is_found(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *flip, *said;
+    } wrong[] = {
+        {"UPDATE realization SET segment = NULL WHERE rowid_ = 'done'", "done without a segment"},
+        {"UPDATE realization SET outcome = 0 WHERE rowid_ = 'failed'", "failed with another outcome"},
+        {"UPDATE realization SET status = 'planned' WHERE rowid_ = 'done'", "planned, but have results"},
+        {"UPDATE realization SET row = 1 WHERE segment = 1", "in the same row"},
+        {"UPDATE realization SET row = 100000 WHERE rowid_ = 'done'", "rows that they have not"},
+        {"UPDATE realization SET replica = 1000 WHERE rowid_ = 'done'", "lack replicas"},
+    };
+    static const char pick[] = "(point, replica) IN (SELECT point, replica FROM realization WHERE status";
+    commit_everything(14);
+    merge();
+    for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
+        char sql[512];
+        const char *at = strstr(wrong[w].flip, "rowid_");
+        if (at) snprintf(sql, sizeof sql, "%.*s%s%s LIMIT 1)", (int)(at - wrong[w].flip), wrong[w].flip, pick, at + 6);
+        else snprintf(sql, sizeof sql, "%s", wrong[w].flip);
+        execute("CREATE TABLE kept AS SELECT * FROM realization");
+        execute(sql);
+        char text[8192];
+        assert_true(verify_as(false, false, text) > 0);
+        if (!strstr(text, wrong[w].said)) fail_msg("no \"%s\" in:\n%s", wrong[w].said, text);
+        execute("DELETE FROM realization");
+        execute("INSERT INTO realization SELECT * FROM kept");
+        assert_int_equal(sqlite3_exec(index_->db, "DROP TABLE kept", NULL, NULL, NULL), SQLITE_OK);
+    }
+    verify_finds_as(false, 0, "");
+}
+
+/* ... and before anything is computed by it, too. */
+static void a_run_does_not_begin_with_a_damaged_index(void **state)
+{
+    (void)state;
+    fracas_file_header header = sample_header();
+    char *report;
+    commit_everything(0);
+    sqlite3_exec(index_->db, "PRAGMA ignore_check_constraints = ON", NULL, NULL, NULL);
+    execute("UPDATE realization SET status = 'fone' WHERE point = 1 AND replica = 3");
+    sqlite3_exec(index_->db, "PRAGMA ignore_check_constraints = OFF", NULL, NULL, NULL);
+    sample_fails(fracas_study_recover(study, index_, &header, &table, &report), FRACAS_DAMAGED, "fracas reindex");
+    execute("UPDATE realization SET status = 'done' WHERE point = 1 AND replica = 3");
+    execute("UPDATE point SET hash = '00000000000000000000000000000000' WHERE id = 1"); /* it is planned anew beside it */
+    sample_fails(fracas_study_recover(study, index_, &header, &table, &report), FRACAS_DAMAGED, "it has 4 points, the campaign 3");
+}
+
+/* Sampled flips of the index file: the next run gives the same study.h5, or says that the index is damaged; never another one. */
+static void flipped_bytes_of_the_index_make_no_wrong_study(void **state)
+{
+    (void)state;
+    commit_everything(15);
+    merge();
+    assert_int_equal(rename(sample_path(study, "study.h5"), sample_path(study, "first")), 0);
+    fracas_index_close(index_);
+    char path[512];
+    snprintf(path, sizeof path, "%s/index.sqlite", study);
+    size_t size;
+    uint64_t random = 16;
+    int refused = 0;
+    unsigned char *bytes = sample_slurp(path, &size);
+    for (int i = 0; i < 80; i++) {
+        size_t at = sample_bits(&random) % size;
+        unsigned char kept = bytes[at];
+        int64_t rows;
+        bytes[at] ^= (unsigned char)(1u << sample_bits(&random) % 8);
+        sample_spill(path, bytes, size);
+        bytes[at] = kept;
+        index_ = NULL;
+        fracas_err err = fracas_index_open(study, true, &index_);
+        if (!err) err = run_again(&rows);
+        if (err && err != FRACAS_DAMAGED) print_error("byte %zu: code %d: %s\n", at, err, fracas_message());
+        if (err) assert_int_equal(err, FRACAS_DAMAGED);
+        else assert_true(sample_same_file(sample_path(study, "study.h5"), sample_path(study, "first")));
+        refused += err != FRACAS_OK;
+        fracas_index_close(index_);
+        unlink(sample_path(study, "index.sqlite-wal"));
+        unlink(sample_path(study, "index.sqlite-shm"));
+    }
+    assert_true(refused > 2);
+    sample_spill(path, bytes, size);
+    free(bytes);
+    OK(fracas_index_open(study, false, &index_));
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(a_flipped_byte_of_a_segment_is_computed_again),
+        TEST(a_flipped_byte_of_the_merged_file_is_merged_again),
+        TEST(a_flipped_number_of_the_index_is_not_merged),
+        TEST(an_index_that_contradicts_itself_is_found),
+        TEST(a_run_does_not_begin_with_a_damaged_index),
+        TEST(flipped_bytes_of_the_index_make_no_wrong_study),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
