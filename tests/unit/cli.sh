@@ -42,6 +42,9 @@ says 2 err 'one argument too many: `b.yaml`' run a.yaml b.yaml
 says 2 err 'one argument too many: `x`' reference x
 says 2 err 'unknown option `--jbos`; did you mean `--jobs`?' run a.yaml --jbos 2
 says 2 err 'unknown option `--studdy=x`; did you mean `--study`?' run a.yaml --studdy=x
+says 2 err 'unknown option `--forc`; did you mean `--force`?' run a.yaml --forc # no abbreviations: they may be another program's
+says 2 err 'unknown option `--memory`' run a.yaml --memory 3
+says 2 err '--walltime is `90`; it must be a time above 0 with its unit' run a.yaml --walltime 90
 says 2 err 'unknown option `-j`' run a.yaml -j 2
 says 2 err 'unknown option `-j`' run a.yaml -j2
 says 2 err '--jobs needs a value' run a.yaml --jobs

@@ -38,6 +38,7 @@ refused 'longer than --signal-lead' small.yaml --time 2m --signal-lead 120
 refused 'lanes is `3`' small.yaml --time 1h --lanes 3
 refused 'follows from --time' small.yaml --time 1h --walltime 1h
 refused 'unknown option' small.yaml --time 1h --walls 1h
+refused 'options of another program follow `--`' small.yaml --time 1h --mem=16384
 refused 'quotes' small.yaml --time 1h --account 'a"b'
 refused 'begin with -' small.yaml --time 1h -- mem
 sed 's/elements: 500/elements: -1/' small.yaml > wrong.yaml

@@ -129,12 +129,40 @@ static void one_that_dies_while_a_run_drains_is_stopped(void **state)
     assert_int_equal(worker[0].nleases, 1);
 }
 
+/* A drained run whose last worker is lost has drained: the same command goes on, and nobody needs to be told of trouble. */
+static void one_that_is_lost_while_a_run_drains_is_no_trouble(void **state)
+{
+    (void)state;
+    const fracas_trouble trouble = {.code = FRACAS_ENVIRONMENT, .text = "a keeper died"};
+    fracas_director_drain(director);
+    hear(0, FRACAS_PACKET_ENDED, NULL, 0);
+    hear(1, FRACAS_PACKET_LOST, &trouble, sizeof trouble);
+    assert_true(fracas_director_over(director));
+    assert_int_equal(fracas_director_finish(director), FRACAS_INTERRUPTED);
+}
+
+/* A server asked for its segment has none where all that it told of was in one before: nobody waits for another, and all are told to stop. */
+static void a_server_without_a_segment_answers_too(void **state)
+{
+    (void)state;
+    computed(0, 0);
+    computed(1, 0);
+    assert_int_equal(worker[0].stops + worker[1].stops, 0);
+    hear(0, FRACAS_PACKET_FLUSHED, NULL, 0);
+    assert_int_equal(worker[0].stops + worker[1].stops, 0);
+    hear(1, FRACAS_PACKET_FLUSHED, NULL, 0);
+    assert_int_equal(worker[0].stops, 1);
+    assert_int_equal(worker[1].stops, 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(what_it_held_waits_and_is_isolated, begin, end),
         cmocka_unit_test_setup_teardown(one_that_dies_at_the_end_costs_what_it_had, begin, end),
         cmocka_unit_test_setup_teardown(one_that_dies_while_a_run_drains_is_stopped, begin, end),
+        cmocka_unit_test_setup_teardown(one_that_is_lost_while_a_run_drains_is_no_trouble, begin, end),
+        cmocka_unit_test_setup_teardown(a_server_without_a_segment_answers_too, begin, end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

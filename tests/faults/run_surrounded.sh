@@ -1,0 +1,41 @@
+# What the caller brings along: children of the shell that became fracas, closed streams, a study whose own campaign file is gone.
+. tests/support/campaigns.sh
+
+campaign small.yaml 8 '1e5 1/s'
+expect 0 "$fracas" run small.yaml --study undisturbed --jobs 1
+
+# A child that the shell started before: it is neither waited for nor killed.
+sh -c 'sleep 1000 & echo $! > child; exec "$@"' sh "$fracas" run small.yaml --study with-child --jobs 1 > said 2>&1 &
+run=$!
+tries=0
+while kill -0 $run 2>/dev/null; do
+    tries=$((tries + 1))
+    [ $tries -lt 800 ] || { kill $(cat child); fail "the run waits for a process that is not its own"; } # 10 s of patience would be the sign
+    sleep 0.01
+done
+wait $run || fail "status $? beside a child of the shell"
+kill "$(cat child)" || fail "it killed a process that is not its own"
+same undisturbed with-child
+
+expect 0 sh -c 'exec "$@" <&- >&-' sh "$fracas" run small.yaml --study closed --jobs 1
+expect 0 sh -c 'exec "$@" <&- >&- 2>&-' sh "$fracas" run small.yaml --study all-closed --jobs 1
+same undisturbed closed
+same undisturbed all-closed
+grep -q fracas: all-closed/lock && fail "a message went into the lock"
+
+# The study's own campaign file: lost, or damaged and removed as the message says.
+cp closed/campaign.yaml kept.yaml
+rm closed/campaign.yaml
+expect 0 "$fracas" run small.yaml --study closed
+cmp kept.yaml closed/campaign.yaml || fail "campaign.yaml is not written again"
+echo 'x: [' >> closed/campaign.yaml
+expect 5 "$fracas" run small.yaml --study closed
+said 'remove it and run again'
+rm closed/campaign.yaml
+expect 0 "$fracas" run small.yaml --study closed
+expect 0 "$fracas" verify --full closed
+same undisturbed closed
+
+# Each part of a campaign has a job of its own.
+for part in 1 2; do expect 0 "$fracas" submit small.yaml --part $part/2 --study part$part --time 1h; done
+grep -q -- '1/2' small.yaml.part1.sbatch && grep -q -- '2/2' small.yaml.part2.sbatch || fail "the job of one part is that of the other"
