@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 enum { TASKS, POINTS, TASK_TIME, LONG_SHARE, LONG_TIME, JOBS, LEASE_TIME, SEGMENT_AGE, ISOLATION, STUDY, JSON };
 static const fracas_option options[] = {
@@ -84,6 +85,11 @@ static fracas_err make_folder(const char *given, char folder[PATH_MAX - 16])
     if (given) {
         if (snprintf(folder, PATH_MAX - 16, "%s", given) >= PATH_MAX - 16)
             return fracas_fail(FRACAS_USAGE, "bench: the path of --study is too long");
+        char campaign[PATH_MAX], file[PATH_MAX];
+        snprintf(campaign, sizeof campaign, "%s/campaign.yaml", folder);
+        snprintf(file, sizeof file, "%s/bench.yaml", folder);
+        if (!access(campaign, F_OK) && access(file, F_OK))
+            return fracas_fail(FRACAS_USAGE, "bench: %s is the study of a campaign; choose another --study", folder);
         if (!mkdir(folder, 0777) || errno == EEXIST) return FRACAS_OK;
         return fracas_fail(FRACAS_ENVIRONMENT, "cannot create %s: %s; choose another --study", folder, strerror(errno));
     }

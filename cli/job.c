@@ -1,7 +1,11 @@
 #include "cli/job.h"
 
+#include "base/hash.h"
+#include "base/param.h"
+
+#include <inttypes.h>
 #include <math.h>
-#include <stdbool.h>
+#include <stdlib.h>
 #include <string.h>
 
 static fracas_err check(const char *what, const char *value, bool quotes)
@@ -136,10 +140,34 @@ static const char *const body[] = {
     "exit 3\n",
 };
 
-void fracas_job_write(const fracas_job *job, FILE *out)
+static const char seal[] = "# Checksum of the lines above, by which `fracas submit` knows its own script: ";
+
+fracas_err fracas_job_write(const fracas_job *job, FILE *out)
 {
-    fputs(FRACAS_JOB_FIRST, out);
-    write_options(job, out);
-    write_settings(job, out);
-    for (size_t i = 0; i < sizeof body / sizeof *body; i++) fputs(body[i], out);
+    char *text = NULL;
+    size_t size = 0;
+    FILE *memory = open_memstream(&text, &size);
+    if (!memory) return fracas_no_memory("the batch script");
+    fputs("#!/bin/bash\n# Written by `fracas submit`.\n", memory);
+    write_options(job, memory);
+    write_settings(job, memory);
+    for (size_t i = 0; i < FRACAS_COUNT(body); i++) fputs(body[i], memory);
+    const bool whole = !fclose(memory);
+    if (whole) fprintf(out, "%s%s%016" PRIx64 "\n", text, seal, fracas_checksum_of(text, size));
+    free(text);
+    return whole ? FRACAS_OK : fracas_no_memory("the batch script");
+}
+
+fracas_err fracas_job_is_own(FILE *in, bool *own)
+{
+    enum { MOST = 1 << 20 };
+    char *text = malloc(MOST + 1);
+    if (!text) return fracas_no_memory("the batch script");
+    text[fread(text, 1, MOST, in)] = '\0';
+    const char *last = strstr(text, seal);
+    uint64_t checksum = 0;
+    *own = !*text || (last && sscanf(last + sizeof seal - 1, "%16" SCNx64, &checksum) == 1 &&
+                      checksum == fracas_checksum_of(text, (size_t)(last - text)));
+    free(text);
+    return FRACAS_OK;
 }

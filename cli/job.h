@@ -4,6 +4,7 @@
 
 #include "base/err.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 
 typedef struct {
@@ -24,13 +25,14 @@ typedef struct {
     int nrun;
 } fracas_job;
 
-/* Line with which the script begins, and by which it is known again. */
-#define FRACAS_JOB_FIRST "#!/bin/bash\n# Written by `fracas submit`.\n"
-
 /* FRACAS_USAGE where a value cannot stand in a line of the script. */
 FRACAS_MUST_USE fracas_err fracas_job_check(const fracas_job *job);
 
-/* Writes the script: it resumes the run whenever Slurm starts it, and has itself queued again where the run was interrupted. */
-void fracas_job_write(const fracas_job *job, FILE *out);
+/* Writes the script: it resumes the run whenever Slurm starts it, and has itself queued again where the run was interrupted. Its last
+ * line is a checksum of those before. FRACAS_ENVIRONMENT without memory. */
+FRACAS_MUST_USE fracas_err fracas_job_write(const fracas_job *job, FILE *out);
+
+/* *own: the file is empty, or a script as fracas_job_write leaves it, in which nothing was changed. */
+FRACAS_MUST_USE fracas_err fracas_job_is_own(FILE *in, bool *own);
 
 #endif

@@ -46,6 +46,7 @@ const fracas_command fracas_command_merge_studies = {
     .name = "merge-studies", .operand = "A", .second = "B", .doc = "Adds to study A what study B has of the same campaign",
     .more = "\nFor a campaign that was computed in two places, as by `fracas run FILE --part 1/2` and `--part 2/2`. The campaign of one may\n"
             "be an extension of the other's; program version, seed and output options must be the same. What both have is compared\n"
-            "bit for bit before anything is copied: status 5 names the first difference. B stays as it is.\n",
+            "bit for bit before anything is copied: status 5 names the first difference. B stays as it is, but for damaged\n"
+            "segments, which are set aside.\n",
     .options = options, .noptions = FRACAS_COUNT(options), .run = merge_studies,
 };

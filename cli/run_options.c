@@ -4,6 +4,7 @@
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/study/prepare.h"
 #include "campaigns/scheduler/study/share.h"
+#include "campaigns/store/store.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -109,6 +110,17 @@ static fracas_err give_on(const fracas_arguments *given, int before, char **argv
     return FRACAS_OK;
 }
 
+/* "K/N" of a study that computes a part of its campaign, else "". An index that cannot be read the run will speak of. */
+static void read_own_part(const char *study, char *text, size_t size)
+{
+    fracas_index *index;
+    int part, parts;
+    *text = '\0';
+    if (fracas_index_open(study, false, &index)) return;
+    if (!fracas_index_part(index, &part, &parts) && parts > 1) snprintf(text, size, "%d/%d", part, parts);
+    fracas_index_close(index);
+}
+
 fracas_err fracas_cli_run_study(const fracas_arguments *arguments)
 {
     /* As `run` has them: behind --study, which is not given. */
@@ -116,11 +128,13 @@ fracas_err fracas_cli_run_study(const fracas_arguments *arguments)
     fracas_arguments given = {.command = &as_run};
     memcpy(given.value + 1, arguments->value, FRACAS_NSTUDY_RUN_OPTIONS * sizeof *given.value);
     fracas_run_options run;
-    char study[PATH_MAX], file[PATH_MAX + 16], program[] = "fracas", command[] = "run", option[] = "--study";
+    char study[PATH_MAX], file[PATH_MAX + 16], part[32], program[] = "fracas", command[] = "run", option[] = "--study";
     enum { BEFORE = 5 };
     char *argv[BEFORE + FRACAS_NRUN_OPTIONS + 1] = {program, command, file, option, study};
     int argc;
     const char *none;
+    read_own_part(arguments->operand, part, sizeof part);
+    if (!given.value[PART] && *part) given.value[PART] = part;
     TRY(fracas_cli_read_run_options(&given, &run, &none));
     if (snprintf(study, sizeof study, "%s", arguments->operand) >= (int)sizeof study)
         return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s", arguments->operand);

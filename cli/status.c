@@ -6,6 +6,7 @@
 #include "base/param.h"
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/study/prepare.h"
+#include "campaigns/scheduler/study/share.h"
 #include "campaigns/store/store.h"
 
 #include <inttypes.h>
@@ -24,6 +25,8 @@ typedef struct {
     bool complete;               /* study.h5 is of this campaign and nothing is left to compute */
     fracas_lock_state lock;      /* held: somebody computes it now */
     char holder[FRACAS_HOLDER_TEXT]; /* of the lock */
+    int part, parts;             /* that it computes */
+    int64_t share, left;         /* realizations of that part, and those of them to be computed yet */
     fracas_index_counts all;
     fracas_index_counts *point;  /* campaign->npoints */
 } fracas_status;
@@ -89,6 +92,10 @@ static fracas_err write_json(const fracas_status *status)
     fracas_json_boolean(&json, "running", status->lock == FRACAS_LOCK_HELD);
     fracas_json_text(&json, "lock", lock_name[status->lock]);
     fracas_json_text(&json, "holder", status->holder);
+    fracas_json_integer(&json, "part", status->part);
+    fracas_json_integer(&json, "parts", status->parts);
+    fracas_json_integer(&json, "part_realizations", status->share);
+    fracas_json_integer(&json, "part_planned", status->left);
     write_counts(&json, &status->all);
     fracas_json_integer(&json, "segments", status->all.segments);
     fracas_json_integer(&json, "bytes", status->all.bytes);
@@ -167,14 +174,22 @@ static void print_failure(void *any, const fracas_index_row *row, const char *re
     printf("  point %zu replica %" PRId64 ", %" PRId64 " attempts: %s\n", row->point, row->replica, row->attempts, reason);
 }
 
+static const char *state_of(const fracas_status *status)
+{
+    if (status->lock == FRACAS_LOCK_HELD) return "being computed";
+    if (status->complete) return status->all.failed == 0 ? "complete" : "computed, some realizations FAILED (below)";
+    if (status->parts > 1 && status->left == 0) return "its part is complete: `fracas merge-studies` makes one study of all parts";
+    return "interrupted: `fracas run` with the campaign file resumes it";
+}
+
 static fracas_err print_text(const fracas_status *status)
 {
     const fracas_index_counts *all = &status->all;
     printf("study         %s of campaign %s\n", status->study, status->campaign->name);
-    printf("state         %s\n", status->lock == FRACAS_LOCK_HELD ? "being computed"
-                                  : !status->complete       ? "interrupted: `fracas run` with the campaign file resumes it"
-                                  : status->all.failed == 0 ? "complete"
-                                                            : "computed, some realizations FAILED (below)");
+    printf("state         %s\n", state_of(status));
+    if (status->parts > 1)
+        printf("part          %d of %d: %" PRId64 " realizations, %" PRId64 " to be computed\n", status->part, status->parts,
+               status->share, status->left);
     if (status->lock != FRACAS_LOCK_FREE) printf("lock          %s: %s\n", lock_text[status->lock], status->holder);
     printf("realizations  %" PRId64 ": %" PRId64 " done, %" PRId64 " failed, %" PRId64 " leased, %" PRId64 " planned\n",
            all->realizations, all->done, all->failed, all->leased, all->planned);
@@ -189,11 +204,41 @@ static fracas_err print_text(const fracas_status *status)
     return fracas_index_failures(status->index, &status->campaign->table, print_failure, &first);
 }
 
+/* Of the part that the study computes. */
+static fracas_err count_part(fracas_status *status)
+{
+    fracas_index_row *row;
+    size_t count;
+    TRY(fracas_index_part(status->index, &status->part, &status->parts));
+    status->share = status->all.realizations;
+    status->left = status->all.planned + status->all.leased;
+    if (status->parts < 2) return FRACAS_OK;
+    TRY(fracas_index_rows(status->index, &status->campaign->table, &row, &count));
+    count = fracas_run_part(status->part, status->parts, row, count);
+    status->share = (int64_t)count;
+    status->left = 0;
+    for (size_t i = 0; i < count; i++) status->left += row[i].status == FRACAS_PLANNED || row[i].status == FRACAS_LEASED;
+    free(row);
+    return FRACAS_OK;
+}
+
+/* Where nobody computes nothing is leased: what a run that ended had given out is to be computed. */
+static void unlease(fracas_index_counts *counts)
+{
+    counts->planned += counts->leased;
+    counts->leased = 0;
+}
+
 static fracas_err count(fracas_status *status)
 {
     const fracas_campaign *campaign = status->campaign;
     TRY(fracas_index_count_points(status->index, &campaign->table, &status->all, status->point));
+    TRY(count_part(status));
     status->lock = fracas_study_lock_state(status->study, status->holder);
+    if (status->lock == FRACAS_LOCK_FREE || status->lock == FRACAS_LOCK_LEFT) {
+        unlease(&status->all);
+        for (size_t p = 0; p < campaign->npoints; p++) unlease(&status->point[p]);
+    }
     status->complete = false;
     if (status->all.planned || status->all.leased) return FRACAS_OK; /* no need to look at any file */
     int64_t failed;

@@ -120,18 +120,18 @@ static fracas_err find_places(submission *s)
     return FRACAS_OK;
 }
 
-/* A file that something else wrote is not overwritten. */
+/* A file that something else wrote, or a hand has changed, is not overwritten. */
 static fracas_err check_place(const char *path)
 {
+    bool own;
     FILE *file = fopen(path, "r");
     if (!file && errno == ENOENT) return FRACAS_OK;
     if (!file) return fracas_fail(FRACAS_ENVIRONMENT, "cannot open %s: %s", path, strerror(errno));
-    char first[sizeof FRACAS_JOB_FIRST] = "";
-    const size_t n = fread(first, 1, sizeof first - 1, file);
+    fracas_err err = fracas_job_is_own(file, &own);
     fclose(file);
-    if (n == 0 || !strcmp(first, FRACAS_JOB_FIRST)) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "submit: %s is there already and is no script of `fracas submit`: move it away, or give --script PATH",
-                       path);
+    if (err || own) return err;
+    return fracas_fail(FRACAS_USAGE, "submit: %s is there already and is not as `fracas submit` writes it: move it away, or give "
+                       "--script PATH", path);
 }
 
 static fracas_err write_script(const submission *s)
@@ -139,10 +139,10 @@ static fracas_err write_script(const submission *s)
     TRY(check_place(s->script));
     FILE *out = fopen(s->script, "w");
     if (!out) return fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: %s", s->script, strerror(errno));
-    fracas_job_write(&s->job, out);
+    fracas_err err = fracas_job_write(&s->job, out);
     const int bad = ferror(out);
     if (fclose(out) || bad) return fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: is the disk full?", s->script);
-    return FRACAS_OK;
+    return err;
 }
 
 /* What sbatch says on stdout, the number of the job, is this program's output. */

@@ -56,6 +56,8 @@ static fracas_err load_open(const char *name, FILE *in, unsigned char **bytes, s
 static fracas_err load(const char *name, unsigned char **bytes, size_t *size)
 {
     FILE *in = fopen(name, "rb");
+    if (!in && errno == ENOENT)
+        return fracas_fail(FRACAS_USAGE, "there is no campaign file %s", name);
     if (!in) return fracas_fail(FRACAS_ENVIRONMENT, "cannot open the campaign file %s: %s", name, strerror(errno));
     fracas_err err = load_open(name, in, bytes, size);
     fclose(in);

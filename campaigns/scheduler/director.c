@@ -80,7 +80,7 @@ static fracas_err make_scheduler(fracas_director *director)
                                         .limit = director->setup.options->lease_limit,
                                         .shuffle = director->setup.options->shuffle,
                                         .seed = campaign->seed};
-    count = fracas_run_part(director->setup.options, row, count);
+    count = fracas_run_part(director->setup.options->part, director->setup.options->parts, row, count);
     fracas_err err = fracas_scheduler_create(row, count, &options, &director->scheduler);
     free(row);
     for (size_t p = 0; p < campaign->npoints; p++) director->given[p] = director->rounds.point[p].replicas;
@@ -114,6 +114,7 @@ static fracas_err open_study(fracas_director *director, bool *settled, int64_t *
     char *report = NULL;
     TRY(fracas_study_prepare(setup->study, setup->campaign, setup->options->force, &director->lock, &director->index, &report));
     fracas_err err = fracas_study_settled(setup->study, director->index, setup->campaign, settled, failed);
+    if (!err) err = fracas_index_set_part(director->index, setup->options->part, setup->options->parts);
     if (!err && !*settled) err = make_scheduler(director);
     if (!err && !*settled) err = announce(director, report);
     free(report);

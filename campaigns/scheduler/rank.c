@@ -34,6 +34,13 @@ static void ask_drain(int signal_number)
     drain_asked = 1;
 }
 
+/* A message under way to another rank. */
+typedef struct posted {
+    MPI_Request request;
+    fracas_packet *message;
+    struct posted *next;
+} posted;
+
 typedef struct {
     const fracas_run_options *options;
     fracas_campaign *campaign;
@@ -45,6 +52,7 @@ typedef struct {
     bool fresh;  /* the server is a new one of which rank 0 has not heard: what comes is still for the one before */
     int deaths;  /* of servers since one has written a segment or told of a failure */
     int wait;    /* ms to sleep when nothing comes */
+    posted *outbox; /* of rank 0 */
 } rank_state;
 
 /* ---- messages ---- */
@@ -229,10 +237,51 @@ static fracas_err follow(rank_state *rank, fracas_err set_up)
 
 /* ---- rank 0 ---- */
 
+/* Forgets the messages that have been taken. */
+static fracas_err clear_outbox(rank_state *rank)
+{
+    for (posted **at = &rank->outbox; *at;) {
+        posted *p = *at;
+        int taken;
+        int code = MPI_Test(&p->request, &taken, MPI_STATUS_IGNORE);
+        if (code != MPI_SUCCESS) return mpi_failed("send", code);
+        if (!taken) {
+            at = &p->next;
+            continue;
+        }
+        *at = p->next;
+        free(p->message);
+        free(p);
+    }
+    return FRACAS_OK;
+}
+
+/* Sends without waiting until the rank takes it: one that stands still must not hold up the others. */
+static fracas_err post(rank_state *rank, int to, const fracas_packet *message)
+{
+    posted *p = malloc(sizeof *p);
+    if (!p) return fracas_no_memory("a message");
+    p->message = malloc(fracas_packet_bytes(message));
+    if (!p->message) {
+        free(p);
+        return fracas_no_memory("a message");
+    }
+    memcpy(p->message, message, fracas_packet_bytes(message));
+    int code = MPI_Isend(p->message, (int)fracas_packet_bytes(message), MPI_BYTE, to, TAG, MPI_COMM_WORLD, &p->request);
+    if (code != MPI_SUCCESS) {
+        free(p->message);
+        free(p);
+        return mpi_failed("send", code);
+    }
+    p->next = rank->outbox;
+    rank->outbox = p;
+    return FRACAS_OK;
+}
+
 static fracas_err send_worker(void *context, size_t worker, const fracas_packet *message)
 {
     rank_state *rank = context;
-    if (worker > 0) return mpi_send((int)worker, message);
+    if (worker > 0) return post(rank, (int)worker, message);
     server_send(rank, message);
     return FRACAS_OK;
 }
@@ -254,6 +303,7 @@ static fracas_err direct(rank_state *rank, fracas_director *director)
             if (message) fracas_director_hear(director, (size_t)from, message);
             free(message);
         } while (message);
+        TRY(clear_outbox(rank));
         fracas_director_tick(director);
         pace(rank, busy);
     }
@@ -297,7 +347,7 @@ static fracas_err lead(rank_state *rank, fracas_voice *voice, bool *ran)
 
 /* Takes what the others still send, up to their answers to QUIT, or one that sends a long message would never end; not for long, for one
  * may hang. */
-static void hear_last_words(const rank_state *rank)
+static void hear_last_words(rank_state *rank)
 {
     enum { PATIENCE = 5 /* s */ };
     const struct timespec rest = {.tv_nsec = 1000000};
@@ -305,7 +355,7 @@ static void hear_last_words(const rank_state *rank)
     for (int left = rank->size - 1; left > 0 && fracas_now() - began < PATIENCE;) {
         fracas_packet *message;
         int from;
-        if (mpi_receive(&from, &message)) return;
+        if (clear_outbox(rank) || mpi_receive(&from, &message)) return;
         if (!message) nanosleep(&rest, NULL);
         else if (message->kind == FRACAS_PACKET_QUIT) left--;
         free(message);

@@ -319,7 +319,7 @@ static bool can_write(const char *path) { return faccessat(AT_FDCWD, path, W_OK,
 static fracas_err connect_to(fracas_index *index, const char *study, bool create)
 {
     if (!create && access(index->path, F_OK) < 0 && errno == ENOENT)
-        return fracas_fail(FRACAS_DAMAGED, "%s is not there: no study of fracas; `fracas run` makes one", index->path);
+        return fracas_fail(FRACAS_DAMAGED, "%s is not there; `fracas reindex` makes it from the segments of a study, `fracas run` a new study", index->path);
     index->reading = !create && !(can_write(index->path) && can_write(study));
     if (index->reading) return connect_to_read(index);
     int flags = SQLITE_OPEN_READWRITE | (create ? SQLITE_OPEN_CREATE : 0);

@@ -170,13 +170,38 @@ static fracas_err judge(const char *path, const holder *before, bool force)
                        "from here: look on that host, and if it is gone run again with --force", path, text);
 }
 
+/* Who has it has not signed it: it only looks, or is about to sign. That is over soon. */
+static bool is_passing(int fd)
+{
+    struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    holder h;
+    if (fcntl(fd, F_GETLK, &lock) < 0) return false;
+    return lock.l_type == F_UNLCK || !read_holder(fd, &h) || (lock.l_pid > 0 && h.pid != lock.l_pid);
+}
+
+/* False, and errno, if another process has the lock and keeps it. */
+static bool try_lock(int fd)
+{
+    enum { PATIENCE = 250 /* times */ };
+    const struct timespec rest = {.tv_nsec = 20000000};
+    struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    for (int t = 0; fcntl(fd, F_SETLK, &lock) < 0; t++) {
+        const int reason = errno;
+        const bool wait = (reason == EACCES || reason == EAGAIN) && t < PATIENCE && is_passing(fd);
+        errno = reason;
+        if (!wait) return false;
+        nanosleep(&rest, NULL);
+    }
+    return true;
+}
+
 /* A lock of fcntl's older kind: it belongs to the process and not to the open file, so forked children neither
  * have it nor keep it alive. */
 static fracas_err take(int fd, const char *path, bool force, bool signing)
 {
-    struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET}; /* for F_GETLK */
     holder before;
-    if (fcntl(fd, F_SETLK, &lock) == 0) {
+    if (try_lock(fd)) {
         bool left = read_holder(fd, &before);
         if (left) TRY(judge(path, &before, force));
         return signing ? sign(fd, path, left ? &before : NULL) : FRACAS_OK;

@@ -55,6 +55,27 @@ fracas_err fracas_index_claim(fracas_index *index, const fracas_file_header *hea
     return fracas_index_end(index, err);
 }
 
+/* ---- which part of the campaign it computes ---- */
+
+static const char part_key[] = "part";
+
+fracas_err fracas_index_set_part(fracas_index *index, int part, int parts)
+{
+    char text[32] = "", before[32];
+    if (parts > 1) snprintf(text, sizeof text, "%d/%d", part, parts);
+    TRY(fracas_index_read_meta(index, part_key, before, sizeof before));
+    return strcmp(text, before) ? write_meta(index, part_key, text) : FRACAS_OK;
+}
+
+fracas_err fracas_index_part(fracas_index *index, int *part, int *parts)
+{
+    char text[32];
+    TRY(fracas_index_read_meta(index, part_key, text, sizeof text));
+    const bool is_part = sscanf(text, "%d/%d", part, parts) == 2 && *part >= 1 && *part <= *parts;
+    if (!is_part) *part = *parts = 1;
+    return FRACAS_OK;
+}
+
 /* ---- what SQLite says ---- */
 
 const char *fracas_sqlite_version(void) { return sqlite3_libversion(); }

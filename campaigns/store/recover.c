@@ -363,12 +363,16 @@ static fracas_err check_index(fracas_index *index, const fracas_point_table *tab
 {
     enum { MOST = 32 << 20 }; /* bytes: about a second */
     struct stat info;
-    int64_t points;
+    int64_t points, id, known = 0;
     if (stat(index->path, &info) == 0 && info.st_size <= MOST) TRY(fracas_index_quick_check(index));
     TRY(fracas_index_points(index, &points));
-    if (points <= (int64_t)table->npoints) return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED, "%s: it has %" PRId64 " points, the campaign %zu; `fracas reindex` makes it anew from the segments",
-                       index->path, points, table->npoints);
+    for (size_t p = 0; p < table->npoints; p++) {
+        TRY(fracas_index_find_point(index, &table->point[p].hash, &id));
+        known += id != 0;
+    }
+    if (points <= known) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED, "%s: %" PRId64 " of its %" PRId64 " points are not in the campaign; if campaign.yaml of the study was "
+                       "edited put it back, else `fracas reindex` makes the index anew from the segments", index->path, points - known, points);
 }
 
 static fracas_err recover(const char *study, const fracas_point_table *table, fracas_index *index,
@@ -392,9 +396,8 @@ fracas_err fracas_study_recover(const char *study, fracas_index *index, const fr
     fracas_identity identity;
     fracas_identity_of(header, &identity);
     *report = NULL;
-    /* First of all: a segment of a realization that the index does not know would be removed. */
-    TRY(fracas_index_plan(index, table));
-    TRY(check_index(index, table));
+    TRY(check_index(index, table)); /* before anything is added to it */
+    TRY(fracas_index_plan(index, table)); /* before the sweep: a segment of a realization that the index does not know is left alone */
     FILE *text = open_memstream(report, &size);
     if (!text) return fracas_no_memory("a report");
     fracas_err err = recover(study, table, index, &identity, text);

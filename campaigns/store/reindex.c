@@ -161,6 +161,7 @@ static fracas_err plan_as_before(reindexing *r)
 /* A failure holds unless a segment has the realization. */
 static const char carried[] =
     "INSERT INTO main.event(time, kind, text) SELECT time, kind, text FROM old.event ORDER BY id;"
+    "INSERT INTO main.meta SELECT key, value FROM old.meta WHERE key = 'part';"
     "UPDATE main.segment SET provenance = o.provenance FROM old.segment o"
     " WHERE o.name = main.segment.name AND o.bytes = main.segment.bytes AND o.checksum = main.segment.checksum;"
     "UPDATE main.realization SET attempts = o.attempts, reason = o.reason,"

@@ -164,6 +164,11 @@ bool fracas_index_exists(const char *study);
  * FRACAS_DAMAGED naming the first that is not what the study was begun with, for study.h5 is of one of each. */
 FRACAS_MUST_USE fracas_err fracas_index_claim(fracas_index *index, const fracas_file_header *header);
 
+/* Keeps, durable on return, that part K of N of the campaign is computed in this study (`fracas run --part`); 1 of 1 is all of it, as is
+ * what nobody has said anything of. */
+FRACAS_MUST_USE fracas_err fracas_index_set_part(fracas_index *index, int part, int parts);
+FRACAS_MUST_USE fracas_err fracas_index_part(fracas_index *index, int *part, int *parts);
+
 /* Adds the points and realizations of the table that are not there yet (status planned); turns leased rows back
  * to planned (their holder is gone: the caller has the lock). */
 FRACAS_MUST_USE fracas_err fracas_index_plan(fracas_index *index, const fracas_point_table *table);

@@ -238,8 +238,8 @@ static fracas_err check_mesh_fits(verification *v, size_t row, size_t point)
     size_t interfaces;
     TRY(fracas_reader_mesh_interfaces(v->merged, point, &interfaces));
     if (!interfaces || !v->record.ninterface || interfaces == v->record.ninterface) return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED, "%s/study.h5: row %zu has %zu interfaces, the mesh of its point %zu; remove it and run "
-                       "again", v->study, row, v->record.ninterface, interfaces);
+    return fracas_fail(FRACAS_DAMAGED, "%s/study.h5: row %zu has %zu interfaces, the mesh of its point %zu; remove it, and `fracas merge` "
+                       "writes it again", v->study, row, v->record.ninterface, interfaces);
 }
 
 static fracas_err check_meshes(verification *v)
@@ -262,15 +262,15 @@ static fracas_err check_merged_row(void *context, fracas_step *step)
     fracas_err err = fracas_reader_record(v->merged, row, FRACAS_READ_ALL, &point, &replica, &v->record);
     if (err) return problem(v, err);
     if (point != step->point || replica != step->replica)
-        return found(v, "%s/study.h5: row %zu is not in plan order; remove it and run again", v->study, row);
+        return found(v, "%s/study.h5: row %zu is not in plan order; remove it, and `fracas merge` writes it again", v->study, row);
     TRY(problem(v, check_mesh_fits(v, row, point)));
     if (step->damaged) return FRACAS_OK; /* said already */
     const bool computed = step->status != FRACAS_PLANNED && step->status != FRACAS_LEASED;
     if (!computed && v->record.outcome == FRACAS_FAILED) return FRACAS_OK; /* to be retried: study.h5 is older */
     if (!computed)
-        return found(v, "%s/study.h5: row %zu is in no segment any more; run again", v->study, row);
+        return found(v, "%s/study.h5: row %zu is in no segment any more; `fracas run` computes it again", v->study, row);
     if (fracas_record_same(&v->record, &step->record)) return FRACAS_OK;
-    return found(v, "%s/study.h5: row %zu differs from its segment; remove it and run again", v->study, row);
+    return found(v, "%s/study.h5: row %zu differs from its segment; remove it, and `fracas merge` writes it again", v->study, row);
 }
 
 static fracas_err check_merged_rows(verification *v)
@@ -279,8 +279,8 @@ static fracas_err check_merged_rows(verification *v)
     uint64_t planned = 0;
     for (size_t p = 0; p < table->npoints; p++) planned += (uint64_t)table->point[p].replicas;
     if (planned != fracas_reader_realizations(v->merged))
-        return found(v, "%s/study.h5 has %zu realizations, but %" PRIu64 " in its /point/replicas; remove it and run "
-                     "again", v->study, fracas_reader_realizations(v->merged), planned);
+        return found(v, "%s/study.h5 has %zu realizations, but %" PRIu64 " in its /point/replicas; remove it, and `fracas merge` "
+                       "writes it again", v->study, fracas_reader_realizations(v->merged), planned);
     return problem(v, fracas_segments_walk(v->segments, table, true, check_merged_row, v));
 }
 
@@ -309,8 +309,8 @@ static fracas_err check_decisions_of(verification *v, size_t p, const fracas_dec
     if (extended) return FRACAS_OK;
     const fracas_decision *last = &merged[*next - 1];
     if (same == count && count == *next - first && last->stop && last->replicas == point->replicas) return FRACAS_OK;
-    return found(v, "%s/study.h5: the decisions on the replicas of point %zu are not those that the index recorded; remove it and run "
-                 "again", v->study, p);
+    return found(v, "%s/study.h5: the decisions on the replicas of point %zu are not those that the index recorded; remove it, and `fracas merge` "
+                       "writes it again", v->study, p);
 }
 
 static fracas_err check_decisions(verification *v)
@@ -321,7 +321,7 @@ static fracas_err check_decisions(verification *v)
     if (err) return problem(v, err);
     for (size_t p = 0; !err && p < fracas_reader_points(v->merged)->npoints; p++)
         err = problem(v, check_decisions_of(v, p, merged, count, &next));
-    if (!err && next != count) err = found(v, "%s/study.h5: its decisions are not in plan order; remove it and run again", v->study);
+    if (!err && next != count) err = found(v, "%s/study.h5: its decisions are not in plan order; remove it, and `fracas merge` writes it again", v->study);
     free(merged);
     return err;
 }
@@ -334,10 +334,10 @@ static fracas_err check_merged_whole(verification *v)
     if (err) return problem(v, err);
     if (counts.planned || counts.leased || !counts.realizations) return FRACAS_OK;
     if (!v->merged || (int64_t)fracas_reader_realizations(v->merged) != counts.realizations)
-        return found(v, "%s: every realization is computed, but study.h5 is not there or older; run again", v->study);
+        return found(v, "%s: every realization is computed, but study.h5 is not there or older; `fracas merge` writes it", v->study);
     bool complete = fracas_reader_header(v->merged)->complete;
     if (complete == (counts.failed == 0)) return FRACAS_OK;
-    return found(v, "%s/study.h5: its attribute `complete` is wrong; remove it and run again", v->study);
+    return found(v, "%s/study.h5: its attribute `complete` is wrong; remove it, and `fracas merge` writes it again", v->study);
 }
 
 /* ---- all of it ---- */
@@ -351,7 +351,7 @@ static fracas_err check_merged_seal(verification *v, const char *path)
     if (!sealed)
         return fracas_fail(FRACAS_DAMAGED, "%s has no seal: its merge was interrupted, or the index is newer; `fracas merge` writes it again", path);
     fracas_err err = fracas_disk_check_seal(path, &wanted);
-    return err == FRACAS_DAMAGED ? fracas_fail_within(err, "to make it again, remove %s and run again", path) : err;
+    return err == FRACAS_DAMAGED ? fracas_fail_within(err, "to make it again, remove %s, and `fracas merge` it", path) : err;
 }
 
 static fracas_err check_merged_header(verification *v)
@@ -360,7 +360,7 @@ static fracas_err check_merged_header(verification *v)
     char text[FRACAS_DIFFERENCE_TEXT];
     fracas_identity_of(fracas_reader_header(v->merged), &found);
     if (!fracas_identity_differs(&found, &v->identity, text)) return FRACAS_OK;
-    return problem(v, fracas_fail(FRACAS_DAMAGED, "%s/study.h5: not of this study: %s; remove it and run again",
+    return problem(v, fracas_fail(FRACAS_DAMAGED, "%s/study.h5: not of this study: %s; remove it, and `fracas merge` writes it again",
                                   v->study, text));
 }
 

@@ -12,9 +12,11 @@ expect 0 "$fracas" run more.yaml --study longer --jobs 2
 # Every command refuses a study in use, as host and pid say, and what is none.
 cp -r undisturbed used
 /usr/bin/python3 -c '
-import fcntl, time
+import fcntl, os, socket, time
 lock = open("used/lock", "r+")
 fcntl.lockf(lock, fcntl.LOCK_EX)
+lock.write(f"{socket.gethostname()} {os.getpid()}\n")
+lock.flush()
 open("locked", "w").close()
 time.sleep(600)' &
 holder=$!

@@ -66,3 +66,9 @@ unset FRACAS_TEST_FAULT
 expect 0 "$fracas" status model
 said '^realizations *24: 12 done, 12 failed, 0 leased, 0 planned$'
 said '^  point 1 replica 11, 3 attempts: its process died of signal 11'
+
+# Without a process for each lease nothing is written while a batch is computed: one that takes longer than a segment may get old is
+# written when it ends, and not after the next one.
+sed 's/elements: 500/elements: 1200/' small.yaml > long.yaml # some 20 ms a realization
+expect 0 "$fracas" run long.yaml --study aged --jobs 1 --isolation none --lanes 1 --segment-age 0.001
+[ "$(sqlite3 aged/index.sqlite "SELECT max(rows) FROM segment")" -eq 1 ] || fail "a batch waited in memory while the next was computed"

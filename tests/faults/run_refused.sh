@@ -19,7 +19,18 @@ said 'replicas'
 sed 's/elements: 500/elements: -1/' small.yaml > wrong.yaml
 expect 2 "$fracas" run wrong.yaml --study wrong
 [ ! -e wrong ] || fail "a wrong campaign left something behind"
-expect 6 "$fracas" run absent.yaml --study wrong
+expect 2 "$fracas" run absent.yaml --study wrong
+said 'there is no campaign file absent.yaml'
+
+# The study's own campaign file, edited: refused before the index knows of it, so that what is put back goes on.
+cp -r done edited
+sed -i 's/rate: 100000 /rate: 123456 /' edited/campaign.yaml
+! cmp -s done/campaign.yaml edited/campaign.yaml || fail "this test edits nothing"
+expect 5 "$fracas" run edited/campaign.yaml --study edited
+said '1 of its 1 points are not in the campaign; if campaign.yaml of the study was edited put it back'
+cp done/campaign.yaml edited/campaign.yaml
+expect 0 "$fracas" run small.yaml --study edited
+said 'nothing to compute'
 
 : > file
 expect 6 "$fracas" run small.yaml --study file/study

@@ -14,6 +14,27 @@ done
 said 'part 2 of 2, 0 of 12' # the second time
 expect 0 "$fracas" status parts
 said '24: 12 done, 0 failed, 0 leased, 12 planned'
+said 'its part is complete: `fracas merge-studies`'
+said 'part  *2 of 2: 12 realizations, 0 to be computed'
+expect 0 "$fracas" reindex parts
+expect 0 "$fracas" status parts --json
+said '"parts": 2'
+
+# What goes on with a study stays with its part.
+cp -r parts grown
+expect 3 "$fracas" extend grown --replicas 14
+said 'part 2 of 2 is complete, 14 realizations'
+expect 3 env FRACAS_TEST_FAULT=crash:1:5 "$fracas" run whole.yaml --study tried --jobs 2 --part 2/2
+expect 0 "$fracas" status tried
+said '1 failed'
+expect 3 "$fracas" retry tried --failed
+said 'part 2 of 2 is complete, 12 realizations, 0 of them FAILED'
+expect 3 "$fracas" run whole.yaml --study first --jobs 2 --part 1/2
+expect 0 "$fracas" merge-studies tried first
+expect 0 "$fracas" status tried --json
+said '"parts": 1'
+expect 0 "$fracas" merge tried
+same whole tried
 expect 0 "$fracas" run whole.yaml --study parts --jobs 1 --part 1/2
 same whole parts
 expect 0 "$fracas" run whole.yaml --study parts --part 1/2

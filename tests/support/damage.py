@@ -99,7 +99,7 @@ def obey(study, said):
     if re.search(r"study\.h5[^\n]*remove it", said):
         os.unlink(f"{study}/study.h5")
         return "removed study.h5"
-    if re.search(r"run again|same command", said):
+    if re.search(r"run again|same command|fracas merge|fracas run", said):
         return "ran again"
     raise Wrong(f"this does not say what to do: {said}")
 

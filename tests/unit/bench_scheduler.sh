@@ -30,6 +30,11 @@ for tasks in 200 400; do
 done
 expect 0 "$fracas" status kept
 said "400 done"
+campaign small.yaml 2 '1e5 1/s'
+expect 0 "$fracas" run small.yaml --study theirs
+expect 2 "$fracas" bench scheduler --tasks 8 --study theirs
+said 'theirs is the study of a campaign'
+[ ! -e theirs/bench.yaml ] || fail "bench wrote into a campaign's study"
 expect 2 "$fracas" bench network
 said "cannot be measured"
 expect 2 "$fracas" bench scheduler --tasks 3 --points 2

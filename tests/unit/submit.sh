@@ -44,7 +44,15 @@ refused 'begin with -' small.yaml --time 1h -- mem
 sed 's/elements: 500/elements: -1/' small.yaml > wrong.yaml
 refused 'elements' wrong.yaml --time 1h
 expect 2 "$fracas" submit small.yaml --time 1h --script small.yaml
-said 'is no script of `fracas submit`'
+said 'is not as `fracas submit` writes it'
+expect 0 "$fracas" submit small.yaml --time 1h
+expect 0 "$fracas" submit small.yaml --time 2h
+grep -q 'time=2:00:00' small.yaml.sbatch || fail "the script is not written again"
+sed -i 's/^heard=0/module load gcc; heard=0/' small.yaml.sbatch
+expect 2 "$fracas" submit small.yaml --time 1h
+said 'small.yaml.sbatch is there already and is not as'
+grep -q 'module load gcc' small.yaml.sbatch || fail "what a hand has changed is gone"
+rm small.yaml.sbatch
 expect 0 "$fracas" run small.yaml --study done
 expect 5 "$fracas" submit small.yaml --time 1h --study done --replicas 3
 said 'replicas'

@@ -82,8 +82,7 @@ static void parts_share_the_plan(void **state)
         for (int part = 1; part <= (parts ? parts : 1); part++) {
             fracas_index_row row[ROWS];
             for (size_t i = 0; i < ROWS; i++) row[i] = (fracas_index_row){.replica = (int64_t)i};
-            const fracas_run_options options = {.part = parts ? part : 0, .parts = parts};
-            const size_t count = fracas_run_part(&options, row, ROWS);
+            const size_t count = fracas_run_part(parts ? part : 0, parts, row, ROWS);
             for (size_t i = 0; i < count; i++) found[row[i].replica]++;
             if (count && parts) assert_int_equal(row[0].replica, part - 1);
             if (count > most) most = count;

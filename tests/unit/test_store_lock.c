@@ -25,6 +25,30 @@ static int tear_down(void **state)
     return 0;
 }
 
+/* One who only looks does not sign: a run waits until that is over, and does not end with "in use". */
+static void one_who_looks_is_waited_for(void **state)
+{
+    (void)state;
+    int ready[2], lock;
+    assert_int_equal(pipe(ready), 0);
+    pid_t child = fork();
+    if (child == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+        if (fracas_study_lock_to_look(study, false, &lock)) _exit(1);
+        if (write(ready[1], "", 1) != 1) _exit(1);
+        usleep(300000);
+        _exit(0);
+    }
+    char byte;
+    assert_int_equal(read(ready[0], &byte, 1), 1);
+    OK(fracas_study_lock(study, false, &lock));
+    int status;
+    assert_int_equal(waitpid(child, &status, WNOHANG), child); /* it has gone before */
+    fracas_study_unlock(lock);
+    close(ready[0]);
+    close(ready[1]);
+}
+
 /* What the file says. */
 static const char *lock_text(void)
 {
@@ -297,6 +321,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(a_clean_release_empties_the_file),
         TEST(second_run_is_refused),
+        TEST(one_who_looks_is_waited_for),
         TEST(to_look_takes_nothing_over),
         TEST(a_renamed_host_takes_over_its_own),
         TEST(a_holder_that_lives_is_not_taken_for_dead),

@@ -35,7 +35,7 @@ static fracas_err read_values(fracas_index *index, const fracas_point *point, in
                           row[r].outcome <= FRACAS_TIME_LIMIT;
         if (kept)
             err = fracas_fail(FRACAS_DAMAGED, "the index of the study is of before mean sizes were kept, which this campaign decides "
-                              "by; remove index.sqlite: `fracas run` makes it anew from the segments");
+                              "by; `fracas reindex` makes it anew from the segments");
     }
     free(row);
     return err;
@@ -84,7 +84,7 @@ static fracas_err record(fracas_rounds *rounds, fracas_index *index, size_t p, c
 static fracas_err disagrees(size_t p, const fracas_decision *recorded)
 {
     return fracas_fail(FRACAS_DAMAGED, "the index records for round %" PRId64 " of point %zu a decision (mean %.17g, half width %.17g) "
-                       "that its realizations do not give; remove index.sqlite: `fracas run` makes it anew from the segments",
+                       "that its realizations do not give; `fracas reindex` makes it anew from the segments",
                        recorded->round, p, recorded->mean, recorded->half_width);
 }
 

@@ -26,10 +26,10 @@ fracas_err fracas_run_campaign(const fracas_run_options *options, fracas_campaig
     return err;
 }
 
-size_t fracas_run_part(const fracas_run_options *options, fracas_index_row *row, size_t count)
+size_t fracas_run_part(int part, int parts, fracas_index_row *row, size_t count)
 {
-    if (options->parts < 2) return count;
+    if (parts < 2) return count;
     size_t mine = 0;
-    for (size_t i = (size_t)options->part - 1; i < count; i += (size_t)options->parts) row[mine++] = row[i];
+    for (size_t i = (size_t)part - 1; i < count; i += (size_t)parts) row[mine++] = row[i];
     return mine;
 }

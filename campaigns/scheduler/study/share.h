@@ -10,7 +10,8 @@
  * replicas of a point, which neither options->replicas nor options->parts go with. */
 FRACAS_MUST_USE fracas_err fracas_run_campaign(const fracas_run_options *options, fracas_campaign **campaign);
 
-/* Of rows in plan order, moves those of the part to the front: every parts-th one, from the part-th on. Returns how many. */
-size_t fracas_run_part(const fracas_run_options *options, fracas_index_row *row, size_t count);
+/* Of rows in plan order, moves those of part K (from 1) of N to the front: every N-th one, from the K-th on; of fewer than 2 parts all.
+ * Returns how many. */
+size_t fracas_run_part(int part, int parts, fracas_index_row *row, size_t count);
 
 #endif

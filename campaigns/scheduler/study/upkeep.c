@@ -221,6 +221,7 @@ static fracas_err join(joining *j, fracas_joined *joined, int64_t *both, fracas_
     }
     TRY(fracas_index_plan(j->into.index, &j->from.rounds.table)); /* what a rule planned there is in no campaign file */
     TRY(fracas_study_join(j->into.study, j->into.index, j->from.study, j->from.index, &j->from.rounds.table, joined));
+    TRY(fracas_index_set_part(j->into.index, 1, 1)); /* what is missing now, this study computes */
     fracas_rounds_clear(&j->into.rounds);
     TRY(fracas_rounds_init(&j->into.rounds, j->longer, j->into.index)); /* more may be decided now */
     return count(j->into.index, end);

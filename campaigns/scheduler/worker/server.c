@@ -159,7 +159,9 @@ static fracas_err advance(server *s)
         own->runs = false;
         return say_failed(s, &failure);
     }
+    const bool empty = s->segment.count == 0;
     TRY(add_records(s, own->lease.point, own->lease.replica + own->done, record, count));
+    if (empty) s->segment.began = began; /* nothing is written while a batch is computed: what took long is written at once */
     own->done += count;
     own->runs = own->done < own->lease.count;
     return own->runs ? FRACAS_OK : say_computed(s, own->lease.id, own->seconds);
@@ -212,14 +214,19 @@ static fracas_err hear_rank(server *s)
 
 /* ---- its life ---- */
 
-/* Sleeps until something comes, the segment is old enough or the child's time is over; not at all while there is a lease to compute
- * here. */
+/* There is something to do without hearing anything: a batch, the next lease, or the end. */
+static bool has_more(const server *s)
+{
+    return s->own.runs || (!works(s) && (s->nwaiting || s->stopping));
+}
+
+/* Sleeps until something comes, the segment is old enough or the child's time is over; not at all while there is more to do. */
 static fracas_err wait_and_hear(server *s)
 {
     struct pollfd from[2] = {{.fd = s->rank, .events = POLLIN}, {.fd = s->child.fd, .events = POLLIN}};
     double wait = fracas_segment_wait(&s->segment, s->options);
     if (s->child.pid) wait = fmin(wait, s->child.deadline - fracas_now());
-    if (s->own.runs) wait = 0;
+    if (has_more(s)) wait = 0;
     int timeout = isinf(wait) ? -1 : (int)fmin(ceil(fmax(wait, 0) * 1e3), 1e6);
     int ready = poll(from, s->child.pid ? 2 : 1, timeout);
     if (ready < 0 && errno != EINTR)
