@@ -1,7 +1,7 @@
 #include "cli/cli.h"
 
-#include "analysis/format.h"
-#include "analysis/statistics.h"
+#include "analysis/tables/format.h"
+#include "analysis/study/statistics.h"
 #include "base/json.h"
 #include "base/param.h"
 #include "campaigns/campaign.h"

@@ -1,6 +1,6 @@
 #include "analysis/report/chart.h"
 
-#include "analysis/format.h"
+#include "analysis/tables/format.h"
 #include "analysis/report/scale.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 #include "analysis/report/figures.h"
 
-#include "analysis/format.h"
+#include "analysis/tables/format.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
 #define FRACAS_ANALYSIS_REPORT_FIGURES_H
 
 #include "analysis/report/chart.h"
-#include "analysis/study.h"
+#include "analysis/study/study.h"
 
 /* Mean fragment size against strain rate with the size laws: in metres, or s/s0 against edot/edot0. A series for
  * each combination of the other parameters that differ between points. */

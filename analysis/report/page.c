@@ -1,12 +1,12 @@
 /* fracas_report_write: the page and the files beside it. */
-#include "analysis/report/csv.h"
+#include "analysis/export/csv.h"
 #include "analysis/report/figures.h"
-#include "analysis/report/output.h"
-#include "analysis/report/picture.h"
-#include "analysis/report/surfaces.h"
-#include "analysis/side_tables.h"
-#include "analysis/study.h"
-#include "analysis/table.h"
+#include "analysis/export/output.h"
+#include "analysis/report/picture/picture.h"
+#include "analysis/report/picture/surfaces.h"
+#include "analysis/tables/side_tables.h"
+#include "analysis/study/study.h"
+#include "analysis/tables/table.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -5,8 +5,8 @@
 #include "tests/support/store_sample.h"
 #include "tests/support/stored_mesh.h"
 
-#include "analysis/report/facets.h"
-#include "analysis/report/surface_picture.h"
+#include "analysis/report/picture/facets.h"
+#include "analysis/report/picture/surface_picture.h"
 #include "engine/mesh/surface/surface.h"
 
 #include <math.h>

@@ -1,10 +1,10 @@
 /* Estimates, numbers as text, the columns that tell points apart, warnings, and what a figure shows. */
-#include "analysis/columns.h"
-#include "analysis/estimate.h"
-#include "analysis/format.h"
+#include "analysis/study/columns.h"
+#include "analysis/estimate/estimate.h"
+#include "analysis/tables/format.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/scale.h"
-#include "analysis/study.h"
+#include "analysis/study/study.h"
 #include "base/param.h"
 
 #include <math.h>
@@ -255,7 +255,7 @@ static void statistics_of_records(void **state)
         record.nfragment = count[i];
         assert_int_equal(fracas_point_statistics_add(&statistics, 10 + i, (int64_t)i, &record), FRACAS_OK);
     }
-    fracas_point_statistics_finish(&statistics);
+    assert_int_equal(fracas_point_statistics_finish(&statistics), FRACAS_OK);
     assert_int_equal(statistics.realizations, 4);
     assert_int_equal(statistics.usable, 3);
     assert_int_equal(statistics.outcome[FRACAS_NONFINITE], 1);

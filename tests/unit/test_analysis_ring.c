@@ -3,8 +3,8 @@
 #include "tests/support/report.h"
 
 #include "analysis/report/figures.h"
-#include "analysis/report/picture.h"
-#include "analysis/ring.h"
+#include "analysis/report/picture/picture.h"
+#include "analysis/study/ring.h"
 #include "base/param.h"
 #include "base/version.h"
 

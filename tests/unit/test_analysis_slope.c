@@ -1,6 +1,6 @@
 /* The slope of a line and its interval: exact lines, GSL, the interval's coverage, and which points of a study count. */
-#include "analysis/slope.h"
-#include "analysis/study.h"
+#include "analysis/laws/slope.h"
+#include "analysis/study/study.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_fit.h>

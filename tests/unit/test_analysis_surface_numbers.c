@@ -2,8 +2,8 @@
 #include "tests/support/store_sample.h"
 #include "tests/support/stored_mesh.h"
 #include "analysis/report/figures.h"
-#include "analysis/slope.h"
-#include "analysis/table.h"
+#include "analysis/laws/slope.h"
+#include "analysis/tables/table.h"
 
 enum { NPOINTS = 4 };
 
@@ -47,7 +47,7 @@ static void make_analysis(size_t bars, size_t bent, fracas_point_statistics poin
                                                 .angular_momentum = {1, 2, -1}, .spin = {2, 1, -2}};
             OK(fracas_point_statistics_add(&point[p], 2 * p + r, (int64_t)r, &record));
         }
-        fracas_point_statistics_finish(&point[p]);
+        OK(fracas_point_statistics_finish(&point[p]));
     }
     OK(fracas_columns_create(&points, &analysis->shown));
 }
@@ -155,7 +155,7 @@ static void fragments_of_surfaces_fly_and_turn(void **state)
     fracas_point_statistics one;
     fracas_point_statistics_init(analysis.table, 1, &one);
     OK(fracas_point_statistics_add(&one, 0, 0, &record));
-    fracas_point_statistics_finish(&one);
+    OK(fracas_point_statistics_finish(&one));
     assert_true(one.usable == 1 && one.translation.n == 0 && one.rotation.n == 0);
     fracas_point_statistics_clear(&one);
     for (size_t p = 0; p < NPOINTS; p++) fracas_point_statistics_clear(&point[p]);

@@ -2,8 +2,8 @@
  * broken along the borders of Voronoi cells. */
 #include "tests/support/body.h"
 
-#include "analysis/report/frame.h"
-#include "analysis/report/tint.h"
+#include "analysis/report/picture/frame.h"
+#include "analysis/report/picture/tint.h"
 
 static char *draw(const body *b, const fracas_view *view, double explode, double thickness, fracas_surface_show show)
 {

@@ -3,7 +3,7 @@
 #include "tests/support/study_fixture.h"
 
 #include "analysis/analysis.h"
-#include "analysis/report/surface_picture.h"
+#include "analysis/report/picture/surface_picture.h"
 
 enum { SURFACE = 1, EACH = 5 }; /* the one of the three points that is a surface; replicas of each */
 

@@ -1,6 +1,6 @@
 /* Size laws against the table of docs/theory/size-laws.md, digit by digit as printed, and against their limits.
  * (Glenn-Chudnovsky at 1e3 /s is 1.99948.) */
-#include "analysis/size_laws.h"
+#include "analysis/laws/size_laws.h"
 
 #include <math.h>
 #include <setjmp.h>

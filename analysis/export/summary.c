@@ -1,0 +1,131 @@
+/* The JSON summary. Its keys are those of fracas_statistics and of /point: they do not change. */
+#include "analysis/laws/slope.h"
+#include "analysis/study/study.h"
+
+#include "base/json.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static void write_parameters(fracas_json *json, const fracas_point_table *table, size_t p)
+{
+    fracas_json_object(json, "parameters");
+    for (size_t c = 0; c < table->ncolumns; c++) {
+        const fracas_value *value = &table->point[p].value[c];
+        if (table->column[c].text) fracas_json_text(json, table->column[c].path, *value->text ? value->text : NULL);
+        else fracas_json_real(json, table->column[c].path, value->real);
+    }
+    fracas_json_close_object(json);
+}
+
+static void write_statistics(fracas_json *json, const fracas_point_statistics *statistics)
+{
+    fracas_json_object(json, "statistics");
+    for (size_t i = 0; i < fracas_nstatistics; i++) {
+        const void *value = (const char *)statistics + fracas_statistics[i].offset;
+        if (fracas_statistics[i].integer) fracas_json_integer(json, fracas_statistics[i].key, *(const int64_t *)value);
+        else fracas_json_real(json, fracas_statistics[i].key, *(const double *)value);
+    }
+    fracas_json_close_object(json);
+    fracas_json_object(json, "outcomes");
+    for (int o = 0; o < FRACAS_NOUTCOMES; o++)
+        fracas_json_integer(json, fracas_outcome_name(o), statistics->outcome[o]);
+    fracas_json_close_object(json);
+}
+
+static void write_decision(fracas_json *json, const fracas_decision *last)
+{
+    if (!last) return;
+    fracas_json_object(json, "decision");
+    fracas_json_text(json, "quantity", fracas_analysis_quantity(last));
+    fracas_json_integer(json, "rounds", last->round + 1);
+    fracas_json_integer(json, "used", last->used);
+    fracas_json_real(json, "mean", last->mean);
+    fracas_json_real(json, "half_width", last->half_width);
+    fracas_json_real(json, "relative_half_width", last->relative_half_width);
+    fracas_json_real(json, "confidence", last->confidence);
+    fracas_json_boolean(json, "at_maximum", last->stop == 2);
+    fracas_json_close_object(json);
+}
+
+static void write_point(fracas_json *json, const fracas_analysis *analysis, size_t p)
+{
+    char label[256], hash[FRACAS_HASH_HEX];
+    fracas_analysis_label(analysis, p, label, sizeof label);
+    fracas_hash_hex(&analysis->table->point[p].hash, hash);
+    fracas_json_object(json, NULL);
+    fracas_json_text(json, "label", label);
+    fracas_json_text(json, "hash", hash);
+    fracas_json_integer(json, "replicas", analysis->table->point[p].replicas);
+    write_decision(json, fracas_analysis_decision(analysis, p));
+    write_parameters(json, analysis->table, p);
+    write_statistics(json, &analysis->point[p]);
+    fracas_json_close_object(json);
+}
+
+static void write_warnings(fracas_json *json, const fracas_analysis *analysis)
+{
+    fracas_warning *warning = NULL;
+    size_t count = 0;
+    fracas_json_array(json, "warnings");
+    if (fracas_analysis_warnings(analysis, &warning, &count)) fracas_json_text(json, NULL, fracas_message());
+    for (size_t i = 0; i < count; i++) {
+        fracas_json_object(json, NULL);
+        if (warning[i].point == SIZE_MAX) fracas_json_text(json, "point", NULL);
+        else fracas_json_integer(json, "point", (int64_t)warning[i].point);
+        fracas_json_text(json, "text", warning[i].text);
+        fracas_json_close_object(json);
+    }
+    fracas_json_close_array(json);
+    free(warning);
+}
+
+static void write_slopes(fracas_json *json, const fracas_analysis *analysis)
+{
+    fracas_size_slope *list = NULL;
+    size_t count = 0;
+    fracas_json_array(json, "slopes");
+    if (fracas_size_slopes(analysis, &list, &count)) fracas_json_text(json, NULL, fracas_message());
+    for (size_t i = 0; i < count; i++) {
+        const fracas_slope *slope = &list[i].slope;
+        fracas_json_object(json, NULL);
+        fracas_json_text(json, "series", list[i].name);
+        fracas_json_integer(json, "points", slope->n);
+        fracas_json_real(json, "slope", slope->slope);
+        fracas_json_real(json, "standard_error", slope->standard_error);
+        fracas_json_real(json, "half_width", slope->half_width);
+        fracas_json_real(json, "chi2", slope->chi2);
+        fracas_json_real(json, "mott", FRACAS_SLOPE_MOTT);
+        fracas_json_real(json, "grady", FRACAS_SLOPE_GRADY);
+        fracas_json_close_object(json);
+    }
+    fracas_json_close_array(json);
+    free(list);
+}
+
+void fracas_analysis_write_json(const fracas_analysis *analysis, FILE *out)
+{
+    char hash[FRACAS_HASH_HEX], seed[24];
+    fracas_hash_hex(&analysis->header.campaign, hash);
+    snprintf(seed, sizeof seed, "%" PRIu64, analysis->header.seed);
+    fracas_json json;
+    fracas_json_begin(&json, out);
+    fracas_json_object(&json, NULL);
+    fracas_json_text(&json, "name", analysis->name);
+    fracas_json_text(&json, "campaign", hash);
+    fracas_json_text(&json, "seed", seed); /* text: a 64-bit number is more than every JSON reader keeps */
+    fracas_json_text(&json, "version", analysis->header.version);
+    fracas_json_boolean(&json, "complete", analysis->header.complete);
+    fracas_json_array(&json, "varying");
+    for (size_t i = 0; i < analysis->shown.count; i++)
+        fracas_json_text(&json, NULL, analysis->table->column[analysis->shown.column[i]].path);
+    fracas_json_close_array(&json);
+    fracas_json_array(&json, "points");
+    for (size_t p = 0; p < analysis->table->npoints; p++) write_point(&json, analysis, p);
+    fracas_json_close_array(&json);
+    write_slopes(&json, analysis);
+    write_warnings(&json, analysis);
+    fracas_json_close_object(&json);
+    fracas_json_end(&json);
+}

@@ -1,0 +1,243 @@
+#include "analysis/study/statistics.h"
+
+#include "analysis/study/columns.h"
+
+#include <gsl/gsl_sort.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define STATISTIC(key, unit, doc, member) {key, unit, doc, offsetof(fracas_point_statistics, member), false}
+#define COUNTED(key, doc, member) {key, "1", doc, offsetof(fracas_point_statistics, member), true}
+#define ESTIMATE(key, unit, what, member)                                                              \
+    COUNTED(key ".n", "replicas in the mean " what, member.n),                                         \
+    STATISTIC(key ".mean", unit, "mean over replicas of the " what, member.mean),                      \
+    STATISTIC(key ".deviation", unit, "standard deviation over replicas of the " what, member.deviation), \
+    STATISTIC(key ".half_width", unit, "half width of the 95 % interval of the mean " what, member.half_width)
+
+const fracas_statistic fracas_statistics[] = {
+    COUNTED("realizations", "realizations in the study", realizations),
+    COUNTED("usable", "realizations that ended FRAGMENTED, INTACT or TIME_LIMIT", usable),
+    COUNTED("unusable", "realizations that ended NONFINITE, ENERGY_DRIFT or FAILED", unusable),
+    ESTIMATE("count", "1", "number of fragments", count),
+    ESTIMATE("count_large", "1", "number of fragments without dust", count_large),
+    ESTIMATE("size", "m", "mean fragment size (length / fragments; of a surface the mean of sqrt(area))", size),
+    ESTIMATE("dissipated", "J", "dissipated energy", dissipated),
+    ESTIMATE("dissipated_bending", "J", "part of bending in the dissipated energy", bending),
+    ESTIMATE("onset_time", "s", "time of first onset", onset_time),
+    ESTIMATE("radial_velocity", "m/s", "mean velocity outward of a ring's fragments", radial_velocity),
+    ESTIMATE("radial_scatter", "m/s", "standard deviation over a ring's fragments of that velocity", radial_scatter),
+    ESTIMATE("circumferential_velocity", "m/s", "rms velocity along the ring of its fragments", circumferential_velocity),
+    ESTIMATE("angular_velocity", "rad/s", "|angular velocity| of a ring's fragments", angular_velocity),
+    ESTIMATE("translation", "J", "kinetic energy of the centres of mass of a surface's fragments", translation),
+    ESTIMATE("rotation", "J", "kinetic energy of the spins of a surface's fragments", rotation),
+    STATISTIC("residual", "1", "largest |residual| of the energy balance / dissipated, over replicas", residual),
+    STATISTIC("created", "1", "largest created / dissipated, over replicas", created),
+    STATISTIC("drift", "1", "largest |residual| / largest energy at the end, over replicas", drift),
+    COUNTED("drifted", "usable realizations of which that is above 0.01", drifted),
+    STATISTIC("elements", "1", "elements of a mean fragment", elements),
+    STATISTIC("dust_share", "1", "dust fragments / all fragments", dust_share),
+    STATISTIC("scale.time", "s", "t0 = E Gc/(sigma_c^2 c)", scales.time),
+    STATISTIC("scale.size", "m", "s0 = E Gc/sigma_c^2", scales.size),
+    STATISTIC("scale.rate", "1/s", "edot0 = c sigma_c^3/(E^2 Gc)", scales.rate),
+    STATISTIC("law.zmr", "m", "mean size by Zhou, Molinari and Ramesh (APL 2006)", law[FRACAS_LAW_ZMR]),
+    STATISTIC("law.grady", "m", "mean size by Grady", law[FRACAS_LAW_GRADY]),
+    STATISTIC("law.glenn_chudnovsky", "m", "mean size by Glenn and Chudnovsky", law[FRACAS_LAW_GLENN_CHUDNOVSKY]),
+    STATISTIC("law.zmr2", "m", "mean size by Zhou, Molinari and Ramesh, second form", law[FRACAS_LAW_ZMR2]),
+};
+const size_t fracas_nstatistics = sizeof fracas_statistics / sizeof *fracas_statistics;
+
+bool fracas_outcome_usable(int64_t outcome)
+{
+    return outcome == FRACAS_FRAGMENTED || outcome == FRACAS_INTACT || outcome == FRACAS_TIME_LIMIT;
+}
+
+const char *fracas_outcome_name(int64_t outcome)
+{
+    static const char *const name[FRACAS_NOUTCOMES] = {
+        [FRACAS_FRAGMENTED] = "FRAGMENTED", [FRACAS_INTACT] = "INTACT", [FRACAS_TIME_LIMIT] = "TIME_LIMIT",
+        [FRACAS_NONFINITE] = "NONFINITE", [FRACAS_ENERGY_DRIFT] = "ENERGY_DRIFT", [FRACAS_FAILED] = "FAILED",
+    };
+    return outcome >= 0 && outcome < FRACAS_NOUTCOMES ? name[outcome] : "?";
+}
+
+static double ring_radius(const fracas_point_table *table, size_t point)
+{
+    size_t model = fracas_point_table_find(table, "model");
+    bool ring = model != SIZE_MAX && !strcmp(table->point[point].value[model].text, "ring");
+    return ring ? fracas_columns_real(table, point, "geometry.radius") : NAN;
+}
+
+/* Surfaces alone have a thickness. */
+static bool is_surface(const fracas_point_table *table, size_t point)
+{
+    return isfinite(fracas_columns_real(table, point, "geometry.thickness"));
+}
+
+/* G_c [J/m2], of the mean strength where the critical opening is given: fracture_energy is 0 then. */
+static double fracture_energy(const fracas_point_table *table, size_t point)
+{
+    const double opening = fracas_columns_real(table, point, "cohesive.critical_opening");
+    if (opening > 0) return 0.5 * opening * fracas_columns_real(table, point, "derived.strength_mean");
+    return fracas_columns_real(table, point, "cohesive.fracture_energy");
+}
+
+/* Of a body whose elements are all equal: what every size is a multiple of [m]; else 0. */
+static double lattice_of(const fracas_point_table *table, size_t point, double length)
+{
+    const size_t spacing = fracas_point_table_find(table, "mesh.spacing");
+    const double elements = fracas_columns_real(table, point, "mesh.elements");
+    const bool equal = spacing == SIZE_MAX || !strcmp(table->point[point].value[spacing].text, "uniform");
+    return equal && !is_surface(table, point) && length > 0 && elements > 0 ? length / elements : 0;
+}
+
+void fracas_point_statistics_init(const fracas_point_table *table, size_t point, fracas_point_statistics *statistics)
+{
+    *statistics = (fracas_point_statistics){
+        .rate = fracas_columns_rate(table, point),
+        .length = fracas_columns_real(table, point, "geometry.length"),
+        .radius = ring_radius(table, point),
+        .surface = is_surface(table, point),
+        .scales = fracas_scales_of(fracas_columns_real(table, point, "material.young"),
+                                   fracas_columns_real(table, point, "material.density"),
+                                   fracas_columns_real(table, point, "derived.strength_mean"),
+                                   fracture_energy(table, point)),
+        .residual = NAN, .created = NAN, .drift = NAN, .elements = NAN, .dust_share = NAN,
+        .typical_replica = -1, .broken_replica = -1,
+    };
+    if (statistics->radius > 0) statistics->length = 2 * M_PI * statistics->radius;
+    fracas_ensemble_init(&statistics->ensemble, lattice_of(table, point, statistics->length));
+    for (int law = 0; law < FRACAS_NLAWS; law++) /* at rate 0, a ring that spins or is accelerated, they say nothing */
+        statistics->law[law] = statistics->rate > 0 && !statistics->surface
+            ? fracas_size_law_at((fracas_size_law_id)law, &statistics->scales, statistics->rate) : NAN;
+}
+
+/* Of the fragments of one realization. */
+static double mean_size(const fracas_point_statistics *statistics, const fracas_record *record)
+{
+    if (!statistics->surface) return statistics->length / (double)record->fragments;
+    double sum = 0;
+    for (size_t i = 0; i < record->nfragment; i++) sum += record->fragment[i].size;
+    return sum / (double)record->nfragment;
+}
+
+/* Kinetic energy of the centres of mass [J]  (estimators.12) */
+static double translation_of(const fracas_record *record)
+{
+    double sum = 0;
+    for (const fracas_fragment *f = record->fragment; f < record->fragment + record->nfragment; f++)
+        for (int i = 0; i < 3; i++) sum += 0.5 * f->mass * f->velocity[i] * f->velocity[i];
+    return sum;
+}
+
+/* That of the spins [J]  (estimators.13) */
+static double rotation_of(const fracas_record *record)
+{
+    double sum = 0;
+    for (const fracas_fragment *f = record->fragment; f < record->fragment + record->nfragment; f++)
+        for (int i = 0; i < 3; i++) sum += 0.5 * f->angular_momentum[i] * f->spin[i];
+    return sum;
+}
+
+/* As the energy guard has it, but over the energies at the end. */
+static void add_balance(fracas_point_statistics *statistics, const fracas_record *record)
+{
+    double stored = record->elastic + record->cohesive + record->dissipated;
+    double drift = record->residual / fmax(record->kinetic, fmax(stored, fabs(record->work)));
+    if (drift > FRACAS_DRIFT_LIMIT) statistics->drifted++;
+    if (isfinite(drift)) statistics->drift = fmax(statistics->drift, drift); /* the number where the other is NaN */
+    if (!(record->dissipated > 0)) return;
+    statistics->residual = fmax(statistics->residual, record->residual / record->dissipated);
+    statistics->created = fmax(statistics->created, record->created / record->dissipated);
+}
+
+fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size_t row, int64_t replica,
+                                       const fracas_record *record)
+{
+    if (record->outcome < 0 || record->outcome >= FRACAS_NOUTCOMES)
+        return fracas_fail(FRACAS_DAMAGED, "realization %zu of the study has outcome %lld, which is none of 0 to %d; "
+                           "`fracas verify` checks the study", row, (long long)record->outcome, FRACAS_NOUTCOMES - 1);
+    statistics->realizations++;
+    statistics->outcome[record->outcome]++;
+    if (!fracas_outcome_usable(record->outcome)) {
+        statistics->unusable++;
+        return FRACAS_OK;
+    }
+    statistics->usable++;
+    const fracas_ring_motion still = {NAN, NAN, NAN, NAN};
+    bool ring = statistics->radius > 0, flies = statistics->surface && record->nfragment > 1;
+    const fracas_replica_values value = {
+        .count = (double)record->fragments,
+        .count_large = (double)(record->fragments - record->fragments_dust),
+        .size = mean_size(statistics, record),
+        .dissipated = record->dissipated, .bending = record->dissipated_bending,
+        .translation = flies ? translation_of(record) : NAN, .rotation = flies ? rotation_of(record) : NAN,
+        .onset_time = record->onset_time,
+        .motion = ring ? fracas_ring_motion_of(record, statistics->radius) : still,
+    };
+    TRY(fracas_ensemble_add(&statistics->ensemble, row, replica, &value, record));
+    add_balance(statistics, record);
+    if (record->outcome == FRACAS_FRAGMENTED && statistics->broken_replica < 0) {
+        statistics->broken_replica = replica;
+        statistics->broken_row = row;
+    }
+    return FRACAS_OK;
+}
+
+/* All fragments of the point, whichever realization they are of. */
+static fracas_err pool(fracas_point_statistics *statistics)
+{
+    const fracas_ensemble *ensemble = &statistics->ensemble;
+    double elements = 0, dust = 0;
+    statistics->nfragments = ensemble->nfragments;
+    if (!ensemble->nfragments) return FRACAS_OK;
+    statistics->fragment_size = malloc(ensemble->nfragments * sizeof *statistics->fragment_size);
+    if (!statistics->fragment_size) return fracas_no_memory("the fragments of a point");
+    memcpy(statistics->fragment_size, ensemble->size, ensemble->nfragments * sizeof *ensemble->size);
+    gsl_sort(statistics->fragment_size, 1, ensemble->nfragments);
+    for (size_t i = 0; i < ensemble->nfragments; i++) {
+        elements += ensemble->elements[i];
+        dust += ensemble->dust[i];
+    }
+    statistics->elements = elements / (double)ensemble->nfragments;
+    statistics->dust_share = dust / (double)ensemble->nfragments;
+    return FRACAS_OK;
+}
+
+fracas_err fracas_point_statistics_finish(fracas_point_statistics *statistics)
+{
+    const fracas_ensemble *ensemble = &statistics->ensemble;
+    const fracas_replica_values nothing = {0};
+    const fracas_replica_values *first = ensemble->nrealizations ? ensemble->value : &nothing;
+    const size_t n = ensemble->nrealizations, stride = FRACAS_REPLICA_STRIDE;
+    statistics->count = fracas_estimate_of(&first->count, stride, n);
+    statistics->count_large = fracas_estimate_of(&first->count_large, stride, n);
+    statistics->size = fracas_estimate_of(&first->size, stride, n);
+    statistics->dissipated = fracas_estimate_of(&first->dissipated, stride, n);
+    statistics->bending = fracas_estimate_of(&first->bending, stride, n);
+    statistics->translation = fracas_estimate_of(&first->translation, stride, n);
+    statistics->rotation = fracas_estimate_of(&first->rotation, stride, n);
+    statistics->onset_time = fracas_estimate_of(&first->onset_time, stride, n);
+    statistics->radial_velocity = fracas_estimate_of(&first->motion.radial, stride, n);
+    statistics->radial_scatter = fracas_estimate_of(&first->motion.scatter, stride, n);
+    statistics->circumferential_velocity = fracas_estimate_of(&first->motion.circumferential, stride, n);
+    statistics->angular_velocity = fracas_estimate_of(&first->motion.spin, stride, n);
+    double nearest = INFINITY;
+    for (size_t i = 0; i < n; i++) {
+        double distance = fabs(ensemble->value[i].dissipated - statistics->dissipated.mean);
+        if (!(distance < nearest)) continue;
+        nearest = distance;
+        statistics->typical_replica = ensemble->replica[i];
+        statistics->typical_row = ensemble->row[i];
+    }
+    return pool(statistics);
+}
+
+void fracas_point_statistics_clear(fracas_point_statistics *statistics)
+{
+    fracas_ensemble_clear(&statistics->ensemble);
+    free(statistics->fragment_size);
+    free(statistics->history);
+    *statistics = (fracas_point_statistics){.typical_replica = -1, .broken_replica = -1};
+}

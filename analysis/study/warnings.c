@@ -1,0 +1,104 @@
+#include "analysis/study/study.h"
+
+#include "analysis/tables/format.h"
+
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Beyond these a number is shown with a warning. */
+static const double residual_limit = 1e-3; /* of the dissipated energy */
+static const double created_limit = 1e-2;  /* of the dissipated energy */
+static const double elements_limit = 10;   /* elements of a mean fragment */
+static const double dust_limit = 0.05;     /* share of all fragments */
+static const double zone_limit = 0.25;     /* fracture-limiting zone of a mean fragment (docs/results/ring.md) */
+
+enum { WARNINGS_PER_POINT = 13 }; /* at most what warn_of_point can say */
+
+typedef struct {
+    size_t count;
+    fracas_warning *warning;
+} warning_list;
+
+FRACAS_PRINTF(3, 4) static void warn(warning_list *list, size_t point, const char *format, ...)
+{
+    fracas_warning *warning = &list->warning[list->count++];
+    warning->point = point;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(warning->text, sizeof warning->text, format, arguments);
+    va_end(arguments);
+}
+
+static void warn_of_outcomes(const fracas_point_statistics *statistics, size_t p, warning_list *list)
+{
+    long long all = (long long)statistics->realizations;
+    for (int o = FRACAS_NONFINITE; o <= FRACAS_FAILED; o++)
+        if (statistics->outcome[o] > 0)
+            warn(list, p, "%lld of %lld realizations ended %s and are left out: the means may be biased",
+                 (long long)statistics->outcome[o], all, fracas_outcome_name(o));
+    if (statistics->outcome[FRACAS_INTACT] > 0)
+        warn(list, p, "%lld of %lld realizations ended INTACT, nothing broken: if that is unexpected, load "
+             "harder or raise time.end",
+             (long long)statistics->outcome[FRACAS_INTACT], all);
+    if (statistics->outcome[FRACAS_TIME_LIMIT] > 0)
+        warn(list, p, "%lld of %lld realizations were stopped by time.end with cracks still running (TIME_LIMIT): "
+             "raise time.end", (long long)statistics->outcome[FRACAS_TIME_LIMIT], all);
+}
+
+static void warn_of_point(const fracas_point_statistics *statistics, size_t p, warning_list *list)
+{
+    if (statistics->usable == 0)
+        warn(list, p, "no usable realization");
+    warn_of_outcomes(statistics, p, list);
+    char value[32];
+    if (statistics->residual > residual_limit) {
+        fracas_format_digits(statistics->residual, 2, value, sizeof value);
+        warn(list, p, "ledger residual up to %s of the dissipated energy (more than 1e-3): lower time.safety", value);
+    }
+    if (statistics->drifted > 0) {
+        fracas_format_digits(100 * statistics->drift, 2, value, sizeof value);
+        warn(list, p, "energy drift above 1 %%: %lld of %lld usable realizations, their |residual| up to %s %% of their "
+             "largest energy: lower time.safety (above 5 %% during its run a realization ends ENERGY_DRIFT)",
+             (long long)statistics->drifted, (long long)statistics->usable, value);
+    }
+    if (statistics->created > created_limit) {
+        fracas_format_digits(statistics->created, 2, value, sizeof value);
+        warn(list, p, "energy created at breaks up to %s of the dissipated energy (more than 1e-2): refine the mesh or "
+             "raise cohesive.beta", value);
+    }
+    if (statistics->elements < elements_limit)
+        warn(list, p, "a mean fragment has %.1f elements (fewer than 10): refine the mesh", statistics->elements);
+    if (statistics->dust_share > dust_limit)
+        warn(list, p, "%.1f %% of the fragments are dust, of so few elements that the mesh decides (more than 5 %%): "
+             "refine the mesh", 100 * statistics->dust_share);
+}
+
+static void warn_of_decision(const fracas_decision *last, size_t p, warning_list *list)
+{
+    if (!last || last->stop != 2) return;
+    char found[32];
+    fracas_format_beside(100 * fracas_decision_relative(last), 100 * last->relative_half_width, found, sizeof found);
+    warn(list, p, "at the maximum of %lld replicas %s is known to %s %%, not to the %.3g %% asked for: raise replicas.maximum",
+         (long long)last->maximum, fracas_analysis_quantity(last), found, 100 * last->relative_half_width);
+}
+
+fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warning **warning, size_t *count)
+{
+    size_t npoints = analysis->table->npoints;
+    warning_list list = {.warning = malloc((WARNINGS_PER_POINT * npoints + 1) * sizeof *list.warning)};
+    if (!list.warning) return fracas_no_memory("warnings");
+    if (!analysis->header.complete)
+        warn(&list, SIZE_MAX, "the study is not complete: realizations are missing or FAILED");
+    for (size_t p = 0; p < npoints; p++) {
+        warn_of_point(&analysis->point[p], p, &list);
+        warn_of_decision(fracas_analysis_decision(analysis, p), p, &list);
+        const double zones = fracas_columns_real(analysis->table, p, "cohesive.zone") / analysis->point[p].size.mean;
+        if (zones > zone_limit)
+            warn(&list, p, "cohesive.zone is %.2g of a mean fragment (more than 0.25): it influences the size: shorten it", zones);
+    }
+    *warning = list.warning;
+    *count = list.count;
+    return FRACAS_OK;
+}

@@ -1,0 +1,33 @@
+/* Numbers as people read them. */
+#ifndef FRACAS_ANALYSIS_TABLES_FORMAT_H
+#define FRACAS_ANALYSIS_TABLES_FORMAT_H
+
+#include "analysis/estimate/estimate.h"
+
+#include <stddef.h>
+
+/* "1e4", "2500", "0.33": the shorter of plain and exponent notation, to six digits; "-" for what is not finite. */
+void fracas_format_short(double value, char *text, size_t size);
+/* "0.890", "2.0e-3": so many significant digits, zeros kept; "-" for what is not finite. */
+void fracas_format_digits(double value, int digits, char *text, size_t size);
+
+/* Two significant digits, or as many more (up to five) as show on which side of the limit the value is. */
+void fracas_format_beside(double value, double limit, char *text, size_t size);
+
+/* "442.3 +- 5.6": the half width to two digits and the mean to the same place, both times `factor`. Without a
+ * half width (one replica, or equal values) the mean to four digits, and "+- -" or "+- 0". "-" without a mean. */
+void fracas_format_estimate(const fracas_estimate *estimate, double factor, const char *plus_minus, char *text,
+                            size_t size);
+
+/* A power of 1000 for a unit: shown value = factor * SI value. */
+typedef struct {
+    double factor;
+    const char *symbol; /* "u" in ASCII */
+    const char *sign;   /* "\u00b5" in UTF-8 */
+} fracas_prefix;
+
+/* The prefix (nano to giga) in which the geometric mean of the least and the greatest positive value is between
+ * 1 and 1000. */
+fracas_prefix fracas_prefix_for(const double *value, size_t count);
+
+#endif

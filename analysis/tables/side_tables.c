@@ -1,0 +1,99 @@
+#include "analysis/tables/side_tables.h"
+
+#include "analysis/tables/format.h"
+#include "analysis/laws/slope.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+const char *const fracas_slope_table_legend[] = {
+    "slope: of log(mean size) against log(strain rate), weighted least squares, each point by the standard error of its "
+    "mean over replicas; after it the half width of its 95 % interval (Student's t with points - 2 degrees of freedom).",
+    "chi2/dof: scatter of the points about the line over what their errors explain; where it is above 1 the interval is "
+    "wider by its square root. Mott, Grady: exponents of the theories.",
+    NULL,
+};
+const char *const fracas_motion_table_legend[] = {
+    "Velocities of the fragments' centres of mass at the end, each fragment weighed by its mass; means over replicas with "
+    "their 95 % intervals, n: replicas with two fragments or more. outward: mean velocity along the direction from the "
+    "centre of the ring. scatter: its standard deviation over fragments.",
+    "along: root mean square of the velocity along the ring. spin: mean |angular velocity| about the centre of mass, with "
+    "the moment of inertia of an arc.",
+    NULL,
+};
+
+static fracas_err make_table(size_t rows, size_t columns, const char *const *name, fracas_result_table *table)
+{
+    table->rows = FRACAS_RESULT_TABLE_HEAD + rows;
+    table->columns = columns;
+    table->cell = calloc(table->rows * table->columns, sizeof *table->cell);
+    if (!table->cell) return fracas_no_memory("a table");
+    for (size_t c = 0; c < columns; c++)
+        snprintf(fracas_result_table_cell(table, 0, c), FRACAS_CELL, "%s", name[c]);
+    return FRACAS_OK;
+}
+
+fracas_err fracas_slope_table_create(const fracas_analysis *analysis, bool unicode, fracas_result_table *table)
+{
+    enum { SLOPE, MOTT, GRADY, POINTS, CHI2, SERIES, NCOLUMNS };
+    static const char *const name[NCOLUMNS] = {"slope", "Mott", "Grady", "points", "chi2/dof", "series"};
+    fracas_size_slope *list;
+    size_t count;
+    TRY(fracas_size_slopes(analysis, &list, &count));
+    fracas_err err = make_table(count, NCOLUMNS, name, table);
+    for (size_t i = 0; i < count && !err; i++) {
+        const fracas_slope *slope = &list[i].slope;
+        char *cell[NCOLUMNS];
+        for (size_t c = 0; c < NCOLUMNS; c++) cell[c] = fracas_result_table_cell(table, FRACAS_RESULT_TABLE_HEAD + i, c);
+        const fracas_estimate estimate = {.n = slope->n, .mean = slope->slope, .half_width = slope->half_width};
+        fracas_format_estimate(&estimate, 1, unicode ? "\u00b1" : "+-", cell[SLOPE], FRACAS_CELL);
+        fracas_format_short(FRACAS_SLOPE_MOTT, cell[MOTT], FRACAS_CELL);
+        fracas_format_digits(FRACAS_SLOPE_GRADY, 3, cell[GRADY], FRACAS_CELL);
+        snprintf(cell[POINTS], FRACAS_CELL, "%lld", (long long)slope->n);
+        fracas_format_digits(slope->chi2 / (double)(slope->n - 2), 2, cell[CHI2], FRACAS_CELL);
+        snprintf(cell[SERIES], FRACAS_CELL, "%s", list[i].name);
+    }
+    free(list);
+    return err;
+}
+
+/* One prefix for the spins of all points. */
+static fracas_prefix spin_prefix(const fracas_analysis *analysis)
+{
+    double extreme[2] = {INFINITY, 0};
+    for (size_t p = 0; p < analysis->table->npoints; p++) {
+        double mean = analysis->point[p].angular_velocity.mean;
+        if (!(mean > 0)) continue;
+        extreme[0] = fmin(extreme[0], mean);
+        extreme[1] = fmax(extreme[1], mean);
+    }
+    return fracas_prefix_for(extreme, 2);
+}
+
+fracas_err fracas_motion_table_create(const fracas_analysis *analysis, bool unicode, fracas_result_table *table)
+{
+    enum { USED, OUTWARD, SCATTER, ALONG, SPIN, POINT, NCOLUMNS };
+    static const char *const name[NCOLUMNS] = {"n", "outward", "scatter", "along", "spin", "point"};
+    size_t rings = 0, row = FRACAS_RESULT_TABLE_HEAD;
+    for (size_t p = 0; p < analysis->table->npoints; p++) rings += analysis->point[p].radius > 0;
+    TRY(make_table(rings, NCOLUMNS, name, table));
+    fracas_prefix spin = spin_prefix(analysis);
+    for (size_t c = OUTWARD; c <= ALONG; c++) snprintf(fracas_result_table_cell(table, 1, c), FRACAS_CELL, "[m/s]");
+    snprintf(fracas_result_table_cell(table, 1, SPIN), FRACAS_CELL, "[%srad/s]", unicode ? spin.sign : spin.symbol);
+    const char *sign = unicode ? "\u00b1" : "+-";
+    for (size_t p = 0; p < analysis->table->npoints; p++) {
+        const fracas_point_statistics *statistics = &analysis->point[p];
+        if (!(statistics->radius > 0)) continue;
+        char *cell[NCOLUMNS];
+        for (size_t c = 0; c < NCOLUMNS; c++) cell[c] = fracas_result_table_cell(table, row, c);
+        snprintf(cell[USED], FRACAS_CELL, "%lld", (long long)statistics->radial_velocity.n);
+        fracas_format_estimate(&statistics->radial_velocity, 1, sign, cell[OUTWARD], FRACAS_CELL);
+        fracas_format_estimate(&statistics->radial_scatter, 1, sign, cell[SCATTER], FRACAS_CELL);
+        fracas_format_estimate(&statistics->circumferential_velocity, 1, sign, cell[ALONG], FRACAS_CELL);
+        fracas_format_estimate(&statistics->angular_velocity, spin.factor, sign, cell[SPIN], FRACAS_CELL);
+        fracas_analysis_label(analysis, p, cell[POINT], FRACAS_CELL);
+        row++;
+    }
+    return FRACAS_OK;
+}

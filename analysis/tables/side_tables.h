@@ -1,0 +1,19 @@
+/* Tables beside the headline one: slopes of mean size, motion of a ring's fragments. */
+#ifndef FRACAS_ANALYSIS_TABLES_SIDE_TABLES_H
+#define FRACAS_ANALYSIS_TABLES_SIDE_TABLES_H
+
+#include "analysis/tables/table.h"
+
+/* A row for all points and for each series that has a slope, with the exponents of Mott and Grady; no row, only the
+ * head, for a study without enough points. */
+FRACAS_MUST_USE fracas_err fracas_slope_table_create(const fracas_analysis *analysis, bool unicode,
+                                                     fracas_result_table *table);
+
+/* A row a point that is a ring: mean velocity outward, its scatter, rms velocity along the ring, mean |angular velocity|. */
+FRACAS_MUST_USE fracas_err fracas_motion_table_create(const fracas_analysis *analysis, bool unicode,
+                                                      fracas_result_table *table);
+
+/* What the columns mean, a line each; ends with NULL. */
+extern const char *const fracas_slope_table_legend[], *const fracas_motion_table_legend[];
+
+#endif
