@@ -1,0 +1,135 @@
+#include "analysis/estimate/bootstrap.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_rng.h>
+#include <gsl/gsl_sort.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { RESAMPLES = 2000, GROUPS = 200 };
+
+typedef struct {
+    size_t n, nvalues;
+    fracas_resampled *statistic;
+    void *context;
+    uint32_t *weight;  /* n */
+    double *found;     /* nvalues x most: of each resample, value by value */
+    double *left_out;  /* nvalues x groups: without each group of realizations */
+    size_t most, groups;
+} resampling;
+
+static void draw(resampling *r, gsl_rng *random)
+{
+    memset(r->weight, 0, r->n * sizeof *r->weight);
+    for (size_t i = 0; i < r->n; i++) r->weight[gsl_rng_uniform_int(random, r->n)]++;
+}
+
+static void put(const resampling *r, const double *value, double *table, size_t columns, size_t column)
+{
+    for (size_t v = 0; v < r->nvalues; v++) table[v * columns + column] = value[v];
+}
+
+/* Without the realizations g, g + groups, g + 2 groups, ... */
+static void leave_out(resampling *r, double *value)
+{
+    for (size_t g = 0; g < r->groups; g++) {
+        for (size_t i = 0; i < r->n; i++) r->weight[i] = i % r->groups != g;
+        r->statistic(r->context, r->weight, value);
+        put(r, value, r->left_out, r->groups, g);
+    }
+}
+
+/* a = sum d^3/(6 (sum d^2)^(3/2)), d = mean - value without group g; 0 where a group has none. */
+static double acceleration(const double *value, size_t count)
+{
+    double mean = 0, squares = 0, cubes = 0;
+    for (size_t g = 0; g < count; g++) mean += value[g] / (double)count;
+    for (size_t g = 0; g < count; g++) {
+        const double d = mean - value[g];
+        squares += d * d;
+        cubes += d * d * d;
+    }
+    const double a = cubes / (6 * pow(squares, 1.5));
+    return isfinite(a) ? a : 0;
+}
+
+/* Quantile p of ascending values, as the definition of a bootstrap interval has it: value number p (B + 1). */
+static double quantile(const double *ascending, size_t count, double p)
+{
+    const double at = p * (double)(count + 1) - 1;
+    if (at <= 0) return ascending[0];
+    if (at >= (double)(count - 1)) return ascending[count - 1];
+    const size_t below = (size_t)at;
+    return ascending[below] + (at - (double)below) * (ascending[below + 1] - ascending[below]);
+}
+
+static void summarise(double *found, size_t most, const double *left_out, size_t groups, double confidence, fracas_interval *interval)
+{
+    size_t count = 0;
+    double below = 0, sum = 0, squares = 0;
+    for (size_t b = 0; b < most; b++)
+        if (isfinite(found[b])) found[count++] = found[b];
+    interval->resamples = (int64_t)count;
+    if (count < 2 || !isfinite(interval->value)) return;
+    for (size_t b = 0; b < count; b++) {
+        sum += found[b] - interval->value;
+        below += found[b] < interval->value ? 1 : found[b] == interval->value ? 0.5 : 0; /* of lattice values half of the ties */
+    }
+    interval->bias = sum / (double)count;
+    for (size_t b = 0; b < count; b++) {
+        const double d = found[b] - interval->value - interval->bias;
+        squares += d * d;
+    }
+    interval->standard_error = sqrt(squares / (double)(count - 1));
+    gsl_sort(found, 1, count);
+    const double share = fmin(fmax(below, 0.5), (double)count - 0.5) / (double)count;
+    const double z0 = gsl_cdf_ugaussian_Pinv(share), a = acceleration(left_out, groups);
+    for (int side = 0; side < 2; side++) {
+        const double z = z0 + gsl_cdf_ugaussian_Pinv(side ? 0.5 + 0.5 * confidence : 0.5 - 0.5 * confidence);
+        const double p = gsl_cdf_ugaussian_P(z0 + z / (1 - a * z));
+        *(side ? &interval->high : &interval->low) = quantile(found, count, p);
+    }
+}
+
+static fracas_err resample(resampling *r, const fracas_bootstrap_options *options, fracas_interval *interval, double *value)
+{
+    const double confidence = options->confidence > 0 ? options->confidence : 0.95;
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    if (!random) return fracas_no_memory("a bootstrap");
+    gsl_rng_set(random, (unsigned long)(options->seed ^ options->seed >> 32)); /* it takes 32 bits */
+    for (size_t i = 0; i < r->n; i++) r->weight[i] = 1;
+    r->statistic(r->context, r->weight, value);
+    for (size_t v = 0; v < r->nvalues; v++) interval[v].value = value[v];
+    if (r->n >= FRACAS_BOOTSTRAP_LEAST) {
+        for (size_t b = 0; b < r->most; b++) {
+            draw(r, random);
+            r->statistic(r->context, r->weight, value);
+            put(r, value, r->found, r->most, b);
+        }
+        leave_out(r, value);
+        for (size_t v = 0; v < r->nvalues; v++)
+            summarise(r->found + v * r->most, r->most, r->left_out + v * r->groups, r->groups, confidence, &interval[v]);
+    }
+    gsl_rng_free(random);
+    return FRACAS_OK;
+}
+
+fracas_err fracas_bootstrap(size_t n, size_t nvalues, fracas_resampled *statistic, void *context, const fracas_bootstrap_options *options,
+                            fracas_interval *interval)
+{
+    resampling r = {.n = n, .nvalues = nvalues, .statistic = statistic, .context = context,
+                    .most = options->resamples > 0 ? (size_t)options->resamples : RESAMPLES, .groups = n < GROUPS ? n : GROUPS};
+    for (size_t v = 0; v < nvalues; v++) interval[v] = (fracas_interval){NAN, NAN, NAN, NAN, NAN, 0};
+    r.weight = malloc((n + 1) * sizeof *r.weight);
+    r.found = malloc((nvalues * r.most + 1) * sizeof *r.found);
+    r.left_out = malloc((nvalues * r.groups + 1) * sizeof *r.left_out);
+    double *value = malloc((nvalues + 1) * sizeof *value);
+    const bool room = r.weight && r.found && r.left_out && value;
+    fracas_err err = !room ? fracas_no_memory("a bootstrap") : n ? resample(&r, options, interval, value) : FRACAS_OK;
+    free(r.weight);
+    free(r.found);
+    free(r.left_out);
+    free(value);
+    return err;
+}
