@@ -87,7 +87,7 @@ static void summarise(double *found, size_t most, const double *left_out, size_t
     const double z0 = gsl_cdf_ugaussian_Pinv(share), a = acceleration(left_out, groups);
     for (int side = 0; side < 2; side++) {
         const double z = z0 + gsl_cdf_ugaussian_Pinv(side ? 0.5 + 0.5 * confidence : 0.5 - 0.5 * confidence);
-        const double p = gsl_cdf_ugaussian_P(z0 + z / (1 - a * z));
+        const double p = gsl_cdf_ugaussian_P(a * z < 1 ? z0 + z / (1 - a * z) : copysign(INFINITY, z));
         *(side ? &interval->high : &interval->low) = quantile(found, count, p);
     }
 }

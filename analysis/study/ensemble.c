@@ -1,5 +1,6 @@
 #include "analysis/study/ensemble.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,7 +19,7 @@ void fracas_ensemble_clear(fracas_ensemble *ensemble)
     free(ensemble->mass);
     free(ensemble->elements);
     free(ensemble->dust);
-    fracas_ensemble_init(ensemble, ensemble->lattice);
+    *ensemble = (fracas_ensemble){.lattice = ensemble->lattice, .surface = ensemble->surface};
 }
 
 static fracas_err grow(void *array, size_t count, size_t size)
@@ -72,4 +73,17 @@ fracas_err fracas_ensemble_add(fracas_ensemble *ensemble, size_t row, int64_t re
     }
     ensemble->first[i + 1] = ensemble->nfragments;
     return FRACAS_OK;
+}
+
+double fracas_ensemble_cut(const fracas_ensemble *ensemble) /* (estimators.14) */
+{
+    if (!ensemble->nfragments) return 0;
+    if (ensemble->lattice > 0) return 1.5 * ensemble->lattice;
+    double covered = 0, elements = 0;
+    for (size_t i = 0; i < ensemble->nfragments; i++) {
+        covered += ensemble->surface ? ensemble->size[i] * ensemble->size[i] : ensemble->size[i];
+        elements += ensemble->elements[i];
+    }
+    const double element = covered / elements;
+    return ensemble->surface ? sqrt(2.5 * element) : 1.5 * element;
 }

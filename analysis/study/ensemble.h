@@ -35,6 +35,7 @@ typedef struct {
     int32_t *elements;            /* of each */
     uint8_t *dust;                /* of each: 1, or 0 */
     double lattice;               /* m: every size is a whole multiple of it (a bar or ring of equal elements); 0: they are not */
+    bool surface;                 /* a size is the square root of an area; false after init */
     size_t room, fragment_room;
 } fracas_ensemble;
 
@@ -45,5 +46,12 @@ void fracas_ensemble_clear(fracas_ensemble *ensemble);
 /* Takes in a usable realization with the fragments of `record`. */
 FRACAS_MUST_USE fracas_err fracas_ensemble_add(fracas_ensemble *ensemble, size_t row, int64_t replica, const fracas_replica_values *value,
                                              const fracas_record *record);
+
+/* The cut-off c [m] of what the mesh resolves: fragments of size > c are resolved, the others are left out of every estimate and fit
+ * "without dust", which is then of sizes truncated from the left at c. With D the dimension and h^D the mean length or area of an element,
+ * h^D = sum s_i^D/sum elements_i over all fragments: c = 1.5 h of lengths, sqrt(2.5) h of surfaces (estimators.14). It lies between one
+ * element and two, or two and three: where all elements are equal it parts dust from the rest, and no fragment is of size c. On a lattice h
+ * is the lattice itself. 0 of an ensemble without fragments. */
+double fracas_ensemble_cut(const fracas_ensemble *ensemble);
 
 #endif

@@ -108,6 +108,7 @@ void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
     };
     if (statistics->radius > 0) statistics->length = 2 * M_PI * statistics->radius;
     fracas_ensemble_init(&statistics->ensemble, lattice_of(table, point, statistics->length));
+    statistics->ensemble.surface = statistics->surface;
     for (int law = 0; law < FRACAS_NLAWS; law++) /* at rate 0, a ring that spins or is accelerated, they say nothing */
         statistics->law[law] = statistics->rate > 0 && !statistics->surface
             ? fracas_size_law_at((fracas_size_law_id)law, &statistics->scales, statistics->rate) : NAN;

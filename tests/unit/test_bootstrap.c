@@ -1,0 +1,139 @@
+/* Intervals by resampling realizations, and the cut-off of what a mesh resolves. */
+#include "analysis/estimate/bootstrap.h"
+#include "analysis/study/ensemble.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+typedef struct {
+    size_t n;
+    const double *x;
+    size_t calls;
+    bool whole; /* weights have always summed to n, until realizations were left out */
+} sample;
+
+/* Mean and variance (divisor n) of the weighted values. */
+static void moments(void *context, const uint32_t *weight, double *value)
+{
+    sample *s = context;
+    double n = 0, sum = 0, squares = 0;
+    for (size_t i = 0; i < s->n; i++) n += weight[i], sum += weight[i] * s->x[i];
+    for (size_t i = 0; i < s->n; i++) squares += weight[i] * (s->x[i] - sum / n) * (s->x[i] - sum / n);
+    s->calls++;
+    s->whole = s->whole && (n == (double)s->n || s->calls > 20001); /* leaving out */
+    value[0] = sum / n;
+    value[1] = squares / n;
+}
+
+/* Efron and Tibshirani 1993, tables 14.1 and 14.2: the variance of the 26 spatial test scores A is 171.5; its 90 % BCa interval from 2000 resamples is
+ * 115.8 to 259.6 (the percentile interval is 100.8 to 233.9, the ABC method's, without random numbers, 116.7 to 260.9). Each end is the order statistic of
+ * some 3 % (of the resamples, low) and 3 % (high) of them, known to sqrt(0.03/20000) = 1.2e-3 of probability, over a density of about 0.02 a standard error
+ * there: 1.2e-3/(0.07/41) = 0.7, and theirs, of a tenth of our resamples, to 2.2: four of these together are 9, well below the 15 and 26 to the percentile interval. */
+static void interval_of_a_published_example(void **state)
+{
+    (void)state;
+    static const double score[26] = {48, 36, 20, 29, 42, 42, 20, 42, 22, 41, 45, 14, 6, 0, 33, 28, 34, 4, 32, 24, 47, 41, 24, 26, 30, 41};
+    sample s = {.n = 26, .x = score, .whole = true};
+    fracas_interval interval[2];
+    const fracas_bootstrap_options options = {.resamples = 20000, .confidence = 0.9, .seed = 1};
+    assert_int_equal(fracas_bootstrap(26, 2, moments, &s, &options, interval), FRACAS_OK);
+    assert_true(fabs(interval[1].value - 171.5) < 0.05);
+    assert_true(fabs(interval[1].low - 115.8) < 9 && fabs(interval[1].high - 259.6) < 9);
+    assert_true(fabs(interval[1].low - 116.7) < 3 && fabs(interval[1].high - 260.9) < 3);
+    assert_true(s.whole && s.calls == 1 + 20000 + 26);
+    assert_int_equal(interval[1].resamples, 20000);
+    /* Of a resample the variance is (1 - 1/n) of it in the mean, and the mean's standard error sqrt(variance/n): each known to 1/sqrt(2 x 20000). */
+    assert_true(fabs(interval[1].bias + 171.5 / 26) < 4.9 * interval[1].standard_error / sqrt(20000));
+    assert_true(fabs(interval[0].standard_error / sqrt(interval[1].value / 26) - 1) < 4.9 / sqrt(40000));
+}
+
+/* Equal seeds, equal intervals; another seed, others; a longer confidence, longer. */
+static void options_are_heard(void **state)
+{
+    (void)state;
+    const double x[] = {1, 2, 4, 3, 7, 2, 9, 3, 4, 5};
+    fracas_interval a[2], b[2];
+    sample s = {.n = 10, .x = x};
+    assert_int_equal(fracas_bootstrap(10, 2, moments, &s, &(fracas_bootstrap_options){.seed = 5}, a), FRACAS_OK);
+    assert_int_equal(a[0].resamples, 2000);
+    assert_int_equal(fracas_bootstrap(10, 2, moments, &s, &(fracas_bootstrap_options){.seed = 5}, b), FRACAS_OK);
+    assert_memory_equal(a, b, sizeof a);
+    assert_int_equal(fracas_bootstrap(10, 2, moments, &s, &(fracas_bootstrap_options){.seed = 6}, b), FRACAS_OK);
+    assert_true(a[0].standard_error != b[0].standard_error && a[0].value == b[0].value);
+    assert_int_equal(fracas_bootstrap(10, 2, moments, &s, &(fracas_bootstrap_options){.seed = 5, .confidence = 0.99}, b), FRACAS_OK);
+    assert_true(b[0].low < a[0].low && b[0].high > a[0].high && a[0].low < 4 && a[0].high > 4);
+}
+
+/* The value of the second realization, once, or nothing where it was not drawn. */
+static void second(void *context, const uint32_t *weight, double *value)
+{
+    (void)context;
+    value[0] = weight[1] ? 3 : NAN;
+    value[1] = 8;
+}
+
+/* Too few realizations have values and no interval; resamples without a value are not counted, (1 - 1/8)^8 = 0.344 of them, known to 0.0047 of 10000: 4.9
+ * of these. Where nothing differs, the interval is a point. None: nothing. */
+static void intervals_of_few_and_of_none(void **state)
+{
+    (void)state;
+    fracas_interval interval[2];
+    const fracas_bootstrap_options options = {.resamples = 10000};
+    assert_int_equal(fracas_bootstrap(3, 2, second, NULL, &options, interval), FRACAS_OK);
+    assert_true(interval[0].value == 3 && interval[1].value == 8 && isnan(interval[0].low) && isnan(interval[1].high));
+    assert_int_equal(fracas_bootstrap(8, 2, second, NULL, &options, interval), FRACAS_OK);
+    assert_true(fabs((double)interval[0].resamples / 1e4 - (1 - 0.3436)) < 4.9 * 0.0047);
+    assert_true(interval[0].low == 3 && interval[0].high == 3 && interval[1].low == 8 && interval[1].high == 8 && interval[1].bias == 0);
+    assert_int_equal(fracas_bootstrap(0, 2, second, NULL, &options, interval), FRACAS_OK);
+    assert_true(isnan(interval[0].value) && isnan(interval[0].low) && interval[0].resamples == 0);
+}
+
+static void ensemble_of(fracas_ensemble *ensemble, const fracas_fragment *fragment, size_t count)
+{
+    const fracas_replica_values value = {0};
+    fracas_record record;
+    fracas_record_init(&record);
+    record.fragment = (fracas_fragment *)fragment;
+    record.nfragment = count;
+    assert_int_equal(fracas_ensemble_add(ensemble, 0, 0, &value, &record), FRACAS_OK);
+}
+
+/* A lattice has its own step; without one it is the mean element: 10 um/4 and 40 um2/8, of which 1.5, and sqrt(2.5) of its root. */
+static void cut_off_of_each_mesh(void **state)
+{
+    (void)state;
+    static const fracas_fragment piece[] = {{.size = 3e-6, .elements = 1}, {.size = 7e-6, .elements = 3}};
+    static const fracas_fragment shard[] = {{.size = 2e-6, .elements = 1}, {.size = 6e-6, .elements = 7}};
+    fracas_ensemble ensemble;
+    fracas_ensemble_init(&ensemble, 0);
+    assert_true(fracas_ensemble_cut(&ensemble) == 0);
+    ensemble_of(&ensemble, piece, 2);
+    ensemble_of(&ensemble, piece, 2);
+    assert_true(fabs(fracas_ensemble_cut(&ensemble) / 3.75e-6 - 1) < 1e-14);
+    fracas_ensemble_clear(&ensemble);
+    ensemble.surface = true;
+    ensemble_of(&ensemble, shard, 2);
+    assert_true(fabs(fracas_ensemble_cut(&ensemble) / sqrt(2.5 * 40e-12 / 8) - 1) < 1e-14);
+    fracas_ensemble_clear(&ensemble);
+    assert_true(ensemble.surface);
+    fracas_ensemble_init(&ensemble, 2e-6);
+    assert_false(ensemble.surface);
+    ensemble_of(&ensemble, piece, 2);
+    assert_true(fracas_ensemble_cut(&ensemble) == 1.5 * 2e-6);
+    fracas_ensemble_clear(&ensemble);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(interval_of_a_published_example), cmocka_unit_test(options_are_heard),
+        cmocka_unit_test(intervals_of_few_and_of_none), cmocka_unit_test(cut_off_of_each_mesh),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
