@@ -49,7 +49,7 @@ static fracas_err read_realizations(fracas_analysis *analysis)
     return err;
 }
 
-/* The energies over time of each point's typical replica. */
+/* The energies over time of each point's realizations together, and of its typical replica. */
 static fracas_err read_histories(fracas_analysis *analysis)
 {
     fracas_record record;
@@ -58,6 +58,8 @@ static fracas_err read_histories(fracas_analysis *analysis)
     for (size_t p = 0; p < analysis->table->npoints && !err; p++) {
         fracas_point_statistics *statistics = &analysis->point[p];
         if (statistics->typical_replica < 0) continue;
+        TRY(fracas_bands_read(analysis->reader, &statistics->ensemble, fracas_columns_real(analysis->table, p, "time.end"),
+                              &statistics->bands));
         size_t point;
         int64_t replica;
         err = fracas_reader_record(analysis->reader, statistics->typical_row, FRACAS_READ_HISTORY, &point, &replica,

@@ -19,6 +19,7 @@ typedef struct {
     double bending;    /* J, the part of bending */
     double translation, rotation; /* J, kinetic energy of the fragments as rigid bodies; NaN unless of a surface in fragments */
     double onset_time; /* s, NaN if nothing cracked */
+    double largest_size, largest_share; /* of the fragment of most mass: m, and its mass/the mass of all */
     fracas_ring_motion motion; /* NaN unless of a ring in fragments */
 } fracas_replica_values;
 

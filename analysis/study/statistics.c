@@ -16,6 +16,26 @@
     STATISTIC(key ".deviation", unit, "standard deviation over replicas of the " what, member.deviation), \
     STATISTIC(key ".half_width", unit, "half width of the 95 % interval of the mean " what, member.half_width)
 
+#define INTERVAL(key, unit, what, member)                                          \
+    STATISTIC(key ".value", unit, what, member.value),                             \
+    STATISTIC(key ".low", unit, "lower end of the 95 % interval of: " what, member.low), \
+    STATISTIC(key ".high", unit, "upper end of the 95 % interval of: " what, member.high)
+#define SIZES(key, of, member)                                                                        \
+    INTERVAL(key ".mean", "m", "mean size of " of, member.mean),                                      \
+    INTERVAL(key ".mass_mean", "m", "mean size, weighed by mass, of " of, member.mass_mean),          \
+    INTERVAL(key ".variation", "1", "standard deviation / mean of the size of " of, member.variation), \
+    INTERVAL(key ".quantile_05", "m", "size below which are 5 % of " of, member.quantile[0]),         \
+    INTERVAL(key ".quantile_25", "m", "size below which are 25 % of " of, member.quantile[1]),        \
+    INTERVAL(key ".quantile_50", "m", "median size of " of, member.quantile[2]),                      \
+    INTERVAL(key ".quantile_75", "m", "size below which are 75 % of " of, member.quantile[3]),        \
+    INTERVAL(key ".quantile_95", "m", "size below which are 95 % of " of, member.quantile[4]),        \
+    INTERVAL(key ".mass_quantile_05", "m", "size below which is 5 % of the mass of " of, member.mass_quantile[0]),  \
+    INTERVAL(key ".mass_quantile_25", "m", "size below which is 25 % of the mass of " of, member.mass_quantile[1]), \
+    INTERVAL(key ".mass_quantile_50", "m", "size below which is half of the mass of " of, member.mass_quantile[2]), \
+    INTERVAL(key ".mass_quantile_75", "m", "size below which is 75 % of the mass of " of, member.mass_quantile[3]), \
+    INTERVAL(key ".mass_quantile_95", "m", "size below which is 95 % of the mass of " of, member.mass_quantile[4])
+#define CONVERGED(key, h) COUNTED("converged." key, "1 if " key " is converged with replicas, else 0", convergence.converged[h])
+
 const fracas_statistic fracas_statistics[] = {
     COUNTED("realizations", "realizations in the study", realizations),
     COUNTED("usable", "realizations that ended FRAGMENTED, INTACT or TIME_LIMIT", usable),
@@ -38,6 +58,35 @@ const fracas_statistic fracas_statistics[] = {
     COUNTED("drifted", "usable realizations of which that is above 0.01", drifted),
     STATISTIC("elements", "1", "elements of a mean fragment", elements),
     STATISTIC("dust_share", "1", "dust fragments / all fragments", dust_share),
+    ESTIMATE("largest_size", "m", "size of the fragment of most mass", largest_size),
+    ESTIMATE("largest_share", "1", "mass of that / mass of all fragments", largest_share),
+    STATISTIC("cut", "m", "fragments of a larger size are resolved by the mesh", pooled.cut),
+    COUNTED("fragment.n", "fragments of all usable realizations", pooled.number),
+    SIZES("fragment", "all fragments", pooled.all),
+    COUNTED("resolved.n", "fragments above the cut", pooled.resolved),
+    SIZES("resolved", "the fragments above the cut", pooled.above),
+    INTERVAL("unresolved.share", "1", "share of the fragments that are not above the cut", pooled.unresolved),
+    INTERVAL("unresolved.mass_share", "1", "share of the mass in fragments that are not above the cut", pooled.unresolved_mass),
+    INTERVAL("variance.within", "m2", "variance of the fragment sizes within a realization", pooled.variance.within),
+    INTERVAL("variance.between", "m2", "variance of realizations' mean fragment sizes beyond that", pooled.variance.between),
+    INTERVAL("variance.intraclass", "1", "between / (within + between)", pooled.variance.intraclass),
+    INTERVAL("variance.design_effect", "1", "1 + (variance.group - 1) intraclass", pooled.variance.design_effect),
+    STATISTIC("variance.group", "1", "fragments of a realization, as the analysis of variance weighs them", pooled.variance.group),
+    STATISTIC("variance.effective", "1", "fragments / design effect", pooled.variance.effective),
+    STATISTIC("normalised.rate", "1", "strain rate / edot0", normalised.rate),
+    STATISTIC("normalised.size.mean", "1", "size.mean / s0", normalised.size),
+    STATISTIC("normalised.size.half_width", "1", "size.half_width / s0", normalised.size_half_width),
+    INTERVAL("normalised.mean", "1", "mean size of all fragments / s0", normalised.mean),
+    INTERVAL("normalised.mass_mean", "1", "mean size, weighed by mass, of all fragments / s0", normalised.mass_mean),
+    INTERVAL("normalised.median", "1", "median size of all fragments / s0", normalised.median),
+    COUNTED("unconverged", "headline numbers that are not converged with replicas", convergence.unconverged),
+    CONVERGED("count", FRACAS_HEADLINE_COUNT),
+    CONVERGED("size", FRACAS_HEADLINE_SIZE),
+    CONVERGED("dissipated", FRACAS_HEADLINE_DISSIPATED),
+    CONVERGED("largest_share", FRACAS_HEADLINE_LARGEST_SHARE),
+    CONVERGED("fragment.mean", FRACAS_HEADLINE_MEAN),
+    CONVERGED("fragment.mass_mean", FRACAS_HEADLINE_MASS_MEAN),
+    CONVERGED("fragment.variation", FRACAS_HEADLINE_VARIATION),
     STATISTIC("scale.time", "s", "t0 = E Gc/(sigma_c^2 c)", scales.time),
     STATISTIC("scale.size", "m", "s0 = E Gc/sigma_c^2", scales.size),
     STATISTIC("scale.rate", "1/s", "edot0 = c sigma_c^3/(E^2 Gc)", scales.rate),
@@ -106,6 +155,7 @@ void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
         .residual = NAN, .created = NAN, .drift = NAN, .elements = NAN, .dust_share = NAN,
         .typical_replica = -1, .broken_replica = -1,
     };
+    memcpy(&statistics->seed, table->point[point].hash.byte, sizeof statistics->seed);
     if (statistics->radius > 0) statistics->length = 2 * M_PI * statistics->radius;
     fracas_ensemble_init(&statistics->ensemble, lattice_of(table, point, statistics->length));
     statistics->ensemble.surface = statistics->surface;
@@ -141,6 +191,18 @@ static double rotation_of(const fracas_record *record)
     return sum;
 }
 
+/* The fragment of most mass, the first of several; NULL without any. */
+static const fracas_fragment *largest_of(const fracas_record *record, double *mass)
+{
+    const fracas_fragment *largest = record->fragment;
+    *mass = 0;
+    for (const fracas_fragment *f = record->fragment; f < record->fragment + record->nfragment; f++) {
+        if (f->mass > largest->mass) largest = f;
+        *mass += f->mass;
+    }
+    return record->nfragment ? largest : NULL;
+}
+
 /* As the energy guard has it, but over the energies at the end. */
 static void add_balance(fracas_point_statistics *statistics, const fracas_record *record)
 {
@@ -168,6 +230,8 @@ fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size
     statistics->usable++;
     const fracas_ring_motion still = {NAN, NAN, NAN, NAN};
     bool ring = statistics->radius > 0, flies = statistics->surface && record->nfragment > 1;
+    double mass;
+    const fracas_fragment *largest = largest_of(record, &mass);
     const fracas_replica_values value = {
         .count = (double)record->fragments,
         .count_large = (double)(record->fragments - record->fragments_dust),
@@ -175,6 +239,7 @@ fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size
         .dissipated = record->dissipated, .bending = record->dissipated_bending,
         .translation = flies ? translation_of(record) : NAN, .rotation = flies ? rotation_of(record) : NAN,
         .onset_time = record->onset_time,
+        .largest_size = largest ? largest->size : NAN, .largest_share = largest ? largest->mass / mass : NAN,
         .motion = ring ? fracas_ring_motion_of(record, statistics->radius) : still,
     };
     TRY(fracas_ensemble_add(&statistics->ensemble, row, replica, &value, record));
@@ -206,6 +271,28 @@ static fracas_err pool(fracas_point_statistics *statistics)
     return FRACAS_OK;
 }
 
+static fracas_interval over(const fracas_interval *interval, double scale)
+{
+    fracas_interval scaled = *interval;
+    scaled.value /= scale;
+    scaled.low /= scale;
+    scaled.high /= scale;
+    scaled.standard_error /= scale;
+    scaled.bias /= scale;
+    return scaled;
+}
+
+static void normalise(fracas_point_statistics *statistics)
+{
+    const double s0 = statistics->scales.size;
+    const fracas_sizes *all = &statistics->pooled.all;
+    statistics->normalised = (fracas_normalised){
+        .rate = statistics->rate / statistics->scales.rate,
+        .size = statistics->size.mean / s0, .size_half_width = statistics->size.half_width / s0,
+        .mean = over(&all->mean, s0), .mass_mean = over(&all->mass_mean, s0), .median = over(&all->quantile[2], s0),
+    };
+}
+
 fracas_err fracas_point_statistics_finish(fracas_point_statistics *statistics)
 {
     const fracas_ensemble *ensemble = &statistics->ensemble;
@@ -220,6 +307,8 @@ fracas_err fracas_point_statistics_finish(fracas_point_statistics *statistics)
     statistics->translation = fracas_estimate_of(&first->translation, stride, n);
     statistics->rotation = fracas_estimate_of(&first->rotation, stride, n);
     statistics->onset_time = fracas_estimate_of(&first->onset_time, stride, n);
+    statistics->largest_size = fracas_estimate_of(&first->largest_size, stride, n);
+    statistics->largest_share = fracas_estimate_of(&first->largest_share, stride, n);
     statistics->radial_velocity = fracas_estimate_of(&first->motion.radial, stride, n);
     statistics->radial_scatter = fracas_estimate_of(&first->motion.scatter, stride, n);
     statistics->circumferential_velocity = fracas_estimate_of(&first->motion.circumferential, stride, n);
@@ -232,12 +321,18 @@ fracas_err fracas_point_statistics_finish(fracas_point_statistics *statistics)
         statistics->typical_replica = ensemble->replica[i];
         statistics->typical_row = ensemble->row[i];
     }
-    return pool(statistics);
+    TRY(pool(statistics));
+    TRY(fracas_pooled_of(ensemble, statistics->seed, &statistics->pooled));
+    TRY(fracas_convergence_of(ensemble, statistics->seed, &statistics->convergence));
+    normalise(statistics);
+    return FRACAS_OK;
 }
 
 void fracas_point_statistics_clear(fracas_point_statistics *statistics)
 {
     fracas_ensemble_clear(&statistics->ensemble);
+    fracas_convergence_clear(&statistics->convergence);
+    fracas_bands_clear(&statistics->bands);
     free(statistics->fragment_size);
     free(statistics->history);
     *statistics = (fracas_point_statistics){.typical_replica = -1, .broken_replica = -1};

@@ -2,7 +2,10 @@
 #ifndef FRACAS_ANALYSIS_STUDY_STATISTICS_H
 #define FRACAS_ANALYSIS_STUDY_STATISTICS_H
 
+#include "analysis/estimate/convergence.h"
 #include "analysis/estimate/estimate.h"
+#include "analysis/estimate/pooled.h"
+#include "analysis/study/bands.h"
 #include "analysis/study/ensemble.h"
 #include "analysis/laws/size_laws.h"
 #include "base/err.h"
@@ -10,6 +13,13 @@
 #include "campaigns/store/store.h"
 
 #include <stdbool.h>
+
+/* Sizes over s0, rates over edot0: the scales are of the mean strength and taken as known. */
+typedef struct {
+    double rate;
+    double size, size_half_width;           /* mean over replicas; Student's interval */
+    fracas_interval mean, mass_mean, median; /* of all fragments together */
+} fracas_normalised;
 
 typedef struct {
     /* Of the point itself. */
@@ -25,6 +35,7 @@ typedef struct {
     int64_t outcome[FRACAS_NOUTCOMES];
     fracas_estimate count, count_large, size, dissipated, bending, onset_time;
     fracas_estimate translation, rotation; /* of a surface's fragments */
+    fracas_estimate largest_size, largest_share; /* of the fragment of most mass: m, and its share of the mass */
     fracas_estimate radial_velocity, radial_scatter, circumferential_velocity, angular_velocity; /* of a ring's fragments */
     double residual; /* largest over replicas of (largest |residual| over the run)/dissipated */
     double created;  /* largest over replicas of created/dissipated */
@@ -38,6 +49,11 @@ typedef struct {
     double *fragment_size; /* m, ascending; made by finish */
     double elements;       /* elements of a mean fragment */
     double dust_share;     /* dust fragments/all fragments */
+    uint64_t seed;         /* of what is drawn to estimate: of the point's hash */
+    fracas_pooled pooled;
+    fracas_convergence convergence; /* of the headline numbers */
+    fracas_normalised normalised;
+    fracas_bands bands;    /* of the energies; made by fracas_bands_read */
 
     /* The replica whose dissipated energy is the nearest to the mean, the first of several. */
     int64_t typical_replica; /* -1 without a usable realization */

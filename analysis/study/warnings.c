@@ -2,6 +2,7 @@
 
 #include "analysis/tables/format.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -14,7 +15,7 @@ static const double elements_limit = 10;   /* elements of a mean fragment */
 static const double dust_limit = 0.05;     /* share of all fragments */
 static const double zone_limit = 0.25;     /* fracture-limiting zone of a mean fragment (docs/results/ring.md) */
 
-enum { WARNINGS_PER_POINT = 13 }; /* at most what warn_of_point can say */
+enum { WARNINGS_PER_POINT = 14 }; /* at most what warn_of_point can say */
 
 typedef struct {
     size_t count;
@@ -75,6 +76,31 @@ static void warn_of_point(const fracas_point_statistics *statistics, size_t p, w
              "refine the mesh", 100 * statistics->dust_share);
 }
 
+/* The headline numbers that are known to more than FRACAS_CONVERGED_WIDTH, or that the first half of the replicas has otherwise. */
+static void warn_of_convergence(const fracas_point_statistics *statistics, size_t p, warning_list *list)
+{
+    const fracas_convergence *of = &statistics->convergence;
+    if (of->unconverged == 0) return;
+    const fracas_running *all = &of->row[of->count - 1];
+    if (all->replicas < FRACAS_BOOTSTRAP_LEAST) {
+        warn(list, p, "%lld usable replica%s cannot say how well the mean sizes are known: %d or more do", (long long)all->replicas,
+             all->replicas == 1 ? "" : "s", FRACAS_BOOTSTRAP_LEAST);
+        return;
+    }
+    char text[192] = "";
+    size_t used = 0;
+    for (int h = 0; h < FRACAS_NHEADLINES && used < sizeof text; h++) {
+        const fracas_settling *number = &all->number[h];
+        if (of->converged[h] || !isfinite(number->value)) continue;
+        char width[32];
+        const double relative = 0.5 * (number->high - number->low) / fabs(number->value);
+        fracas_format_digits(100 * relative, 2, width, sizeof width);
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s to %s %%%s", used ? ", " : "", fracas_headline_key[h], width,
+                                 relative <= FRACAS_CONVERGED_WIDTH ? " (drifts)" : "");
+    }
+    warn(list, p, "unconverged with %lld replicas, known %s: raise replicas", (long long)all->replicas, text);
+}
+
 static void warn_of_decision(const fracas_decision *last, size_t p, warning_list *list)
 {
     if (!last || last->stop != 2) return;
@@ -93,6 +119,7 @@ fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warn
         warn(&list, SIZE_MAX, "the study is not complete: realizations are missing or FAILED");
     for (size_t p = 0; p < npoints; p++) {
         warn_of_point(&analysis->point[p], p, &list);
+        warn_of_convergence(&analysis->point[p], p, &list);
         warn_of_decision(fracas_analysis_decision(analysis, p), p, &list);
         const double zones = fracas_columns_real(analysis->table, p, "cohesive.zone") / analysis->point[p].size.mean;
         if (zones > zone_limit)

@@ -1,0 +1,73 @@
+#include "analysis/estimate/convergence.h"
+
+#include "analysis/estimate/estimate.h"
+#include "analysis/estimate/pooled.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+const char *const fracas_headline_key[FRACAS_NHEADLINES] = {
+    "count", "size", "dissipated", "largest_share", "fragment.mean", "fragment.mass_mean", "fragment.variation",
+};
+
+static void settle(const double *value, size_t n, fracas_settling *number)
+{
+    const fracas_estimate of = fracas_estimate_of(value, FRACAS_REPLICA_STRIDE, n);
+    *number = (fracas_settling){of.mean, of.mean - of.half_width, of.mean + of.half_width};
+}
+
+/* From the first n realizations, n > 0. */
+static fracas_err run(const fracas_ensemble *ensemble, size_t n, uint64_t seed, fracas_settling number[FRACAS_NHEADLINES])
+{
+    fracas_interval pooled[FRACAS_NPOOLED];
+    settle(&ensemble->value->count, n, &number[FRACAS_HEADLINE_COUNT]);
+    settle(&ensemble->value->size, n, &number[FRACAS_HEADLINE_SIZE]);
+    settle(&ensemble->value->dissipated, n, &number[FRACAS_HEADLINE_DISSIPATED]);
+    settle(&ensemble->value->largest_share, n, &number[FRACAS_HEADLINE_LARGEST_SHARE]);
+    TRY(fracas_pooled_first(ensemble, n, seed, pooled));
+    for (int v = 0; v < FRACAS_NPOOLED; v++)
+        number[FRACAS_HEADLINE_MEAN + v] = (fracas_settling){pooled[v].value, pooled[v].low, pooled[v].high};
+    return FRACAS_OK;
+}
+
+/* (estimators.21) */
+static bool settled(const fracas_settling *number, double half)
+{
+    const double width = 0.5 * (number->high - number->low);
+    return width <= FRACAS_CONVERGED_WIDTH * fabs(number->value) && fabs(half - number->value) <= FRACAS_CONVERGED_DRIFT * width;
+}
+
+fracas_err fracas_convergence_of(const fracas_ensemble *ensemble, uint64_t seed, fracas_convergence *convergence)
+{
+    const size_t n = ensemble->nrealizations;
+    *convergence = (fracas_convergence){0};
+    for (int h = 0; h < FRACAS_NHEADLINES; h++) convergence->half[h] = NAN;
+    if (n == 0) return FRACAS_OK;
+    size_t rows = 1;
+    for (size_t first = FRACAS_BOOTSTRAP_LEAST; first < n; first *= 2) rows++;
+    convergence->row = malloc(rows * sizeof *convergence->row);
+    if (!convergence->row) return fracas_no_memory("the convergence of a point");
+    for (size_t first = FRACAS_BOOTSTRAP_LEAST; convergence->count < rows; first *= 2) {
+        fracas_running *row = &convergence->row[convergence->count++];
+        row->replicas = (int64_t)(convergence->count == rows ? n : first);
+        TRY(run(ensemble, (size_t)row->replicas, seed, row->number));
+    }
+    if (n >= 2) {
+        fracas_settling half[FRACAS_NHEADLINES];
+        TRY(run(ensemble, n / 2, seed, half));
+        for (int h = 0; h < FRACAS_NHEADLINES; h++) convergence->half[h] = half[h].value;
+    }
+    for (int h = 0; h < FRACAS_NHEADLINES; h++) {
+        const fracas_settling *number = &convergence->row[rows - 1].number[h];
+        const bool has = isfinite(number->value);
+        convergence->converged[h] = has && settled(number, convergence->half[h]);
+        convergence->unconverged += has && !convergence->converged[h];
+    }
+    return FRACAS_OK;
+}
+
+void fracas_convergence_clear(fracas_convergence *convergence)
+{
+    free(convergence->row);
+    *convergence = (fracas_convergence){0};
+}

@@ -1,0 +1,54 @@
+/* How the headline numbers of a point settle as its replicas grow, in their order. */
+#ifndef FRACAS_ANALYSIS_ESTIMATE_CONVERGENCE_H
+#define FRACAS_ANALYSIS_ESTIMATE_CONVERGENCE_H
+
+#include "analysis/study/ensemble.h"
+#include "base/err.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Means over replicas with Student's interval, then ratios of sums over realizations with that of fracas_bootstrap. */
+typedef enum {
+    FRACAS_HEADLINE_COUNT,
+    FRACAS_HEADLINE_SIZE,
+    FRACAS_HEADLINE_DISSIPATED,
+    FRACAS_HEADLINE_LARGEST_SHARE,
+    FRACAS_HEADLINE_MEAN,
+    FRACAS_HEADLINE_MASS_MEAN,
+    FRACAS_HEADLINE_VARIATION,
+} fracas_headline;
+
+#define FRACAS_NHEADLINES 7
+
+extern const char *const fracas_headline_key[FRACAS_NHEADLINES]; /* as in fracas_statistics, without ".mean" or ".value" */
+
+typedef struct {
+    double value, low, high; /* NaN where there is none */
+} fracas_settling;
+
+typedef struct {
+    int64_t replicas; /* the first so many usable ones */
+    fracas_settling number[FRACAS_NHEADLINES];
+} fracas_running;
+
+typedef struct {
+    size_t count;
+    fracas_running *row;                  /* after 4, 8, 16, ... realizations, and after all */
+    double half[FRACAS_NHEADLINES];       /* of the first half of the realizations alone; NaN of fewer than two */
+    int64_t converged[FRACAS_NHEADLINES]; /* 1, or 0 */
+    int64_t unconverged;                  /* numbers that are not, of those that the point has */
+} fracas_convergence;
+
+/* (estimators.21): a number is converged if its half width w = (high - low)/2 is at most FRACAS_CONVERGED_WIDTH |value| and the value of the first half
+ * of the realizations lies within FRACAS_CONVERGED_DRIFT w of it: independent replicas pass that but once in 1600 times. */
+#define FRACAS_CONVERGED_WIDTH 0.05
+#define FRACAS_CONVERGED_DRIFT 1.75
+
+/* Of the realizations in the order of the study, which is that of replicas. Cleared by the caller, also after an error.
+ * FRACAS_ENVIRONMENT without memory. */
+FRACAS_MUST_USE fracas_err fracas_convergence_of(const fracas_ensemble *ensemble, uint64_t seed, fracas_convergence *convergence);
+void fracas_convergence_clear(fracas_convergence *convergence);
+
+#endif

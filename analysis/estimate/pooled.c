@@ -1,0 +1,152 @@
+#include "analysis/estimate/pooled.h"
+
+#include "analysis/estimate/quantiles.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Of one realization, or of a resample; sizes less `shift`, so that equal ones have a deviation of exactly 0. */
+typedef struct {
+    double number, size, squares, mass, moment; /* of all fragments: 1, s, s^2, m, m s */
+    double resolved, resolved_size, resolved_squares, resolved_mass, resolved_moment; /* of those above the cut */
+    double between; /* (sum s)^2/number */
+    double group;   /* number^2 */
+} sums;
+
+enum { NSUMS = sizeof(sums) / sizeof(double) };
+
+typedef struct {
+    size_t n;
+    const sums *of; /* each realization */
+    double shift;
+} summed;
+
+enum { RESOLVED = FRACAS_NPOOLED, UNRESOLVED = 2 * FRACAS_NPOOLED, UNRESOLVED_MASS, WITHIN, BETWEEN, INTRACLASS, DESIGN_EFFECT, NVALUES };
+
+/* (estimators.15) */
+static void means(double number, double size, double squares, double mass, double moment, double shift, double *value)
+{
+    const double mean = size / number;
+    value[FRACAS_POOLED_MEAN] = shift + mean;
+    value[FRACAS_POOLED_MASS_MEAN] = shift + moment / mass;
+    value[FRACAS_POOLED_VARIATION] = sqrt(fmax(squares / number - mean * mean, 0)) / (shift + mean);
+}
+
+/* m0 of a realizations (estimators.18) */
+static double typical_group(const sums *all, double a)
+{
+    return (all->number - all->group / all->number) / (a - 1);
+}
+
+/* (estimators.18), (estimators.19) */
+static void components(const sums *all, double a, double *value)
+{
+    const double m0 = typical_group(all, a);
+    const double within = fmax(all->squares - all->between, 0) / (all->number - a);
+    const double among = fmax(all->between - all->size * all->size / all->number, 0) / (a - 1);
+    value[WITHIN] = within;
+    value[BETWEEN] = (among - within) / m0;
+    value[INTRACLASS] = (among - within) / (among + (m0 - 1) * within);
+    value[DESIGN_EFFECT] = 1 + (m0 - 1) * value[INTRACLASS];
+}
+
+static sums add_up(const summed *of, const uint32_t *weight, double *a)
+{
+    double total[NSUMS] = {0};
+    *a = 0;
+    for (size_t i = 0; i < of->n; i++) {
+        if (!weight[i]) continue;
+        const double *one = &of->of[i].number;
+        for (int k = 0; k < NSUMS; k++) total[k] += weight[i] * one[k];
+        *a += weight[i];
+    }
+    return (sums){total[0], total[1], total[2], total[3], total[4], total[5], total[6], total[7], total[8], total[9], total[10], total[11]};
+}
+
+static void of_sums(void *context, const uint32_t *weight, double *value)
+{
+    const summed *of = context;
+    double a;
+    const sums all = add_up(of, weight, &a);
+    means(all.number, all.size, all.squares, all.mass, all.moment, of->shift, value);
+    means(all.resolved, all.resolved_size, all.resolved_squares, all.resolved_mass, all.resolved_moment, of->shift, value + RESOLVED);
+    value[UNRESOLVED] = 1 - all.resolved / all.number; /* (estimators.17) */
+    value[UNRESOLVED_MASS] = 1 - all.resolved_mass / all.mass;
+    components(&all, a, value);
+}
+
+static sums sums_of(const fracas_ensemble *ensemble, size_t i, double shift, double cut)
+{
+    sums of = {0};
+    for (size_t f = ensemble->first[i]; f < ensemble->first[i + 1]; f++) {
+        const double size = ensemble->size[f] - shift, mass = ensemble->mass[f];
+        of.number++;
+        of.size += size;
+        of.squares += size * size;
+        of.mass += mass;
+        of.moment += mass * size;
+        if (!(ensemble->size[f] > cut)) continue;
+        of.resolved++;
+        of.resolved_size += size;
+        of.resolved_squares += size * size;
+        of.resolved_mass += mass;
+        of.resolved_moment += mass * size;
+    }
+    of.between = of.number > 0 ? of.size * of.size / of.number : 0;
+    of.group = of.number * of.number;
+    return of;
+}
+
+/* Of the first n realizations; `all` their sum. */
+static fracas_err resample_sums(const fracas_ensemble *ensemble, size_t n, double cut, uint64_t seed, fracas_interval *interval, sums *all)
+{
+    sums *of = malloc((n + 1) * sizeof *of);
+    if (!of) return fracas_no_memory("the sums of the realizations of a point");
+    summed context = {.n = n, .of = of, .shift = ensemble->nfragments ? ensemble->size[0] : 0};
+    for (size_t i = 0; i < n; i++) of[i] = sums_of(ensemble, i, context.shift, cut);
+    fracas_err err = fracas_bootstrap(n, NVALUES, of_sums, &context, &(fracas_bootstrap_options){.seed = seed}, interval);
+    *all = (sums){0};
+    for (size_t i = 0; i < n; i++) {
+        all->number += of[i].number;
+        all->resolved += of[i].resolved;
+        all->group += of[i].group;
+    }
+    free(of);
+    return err;
+}
+
+static void put_means(const fracas_interval *interval, fracas_sizes *sizes)
+{
+    sizes->mean = interval[FRACAS_POOLED_MEAN];
+    sizes->mass_mean = interval[FRACAS_POOLED_MASS_MEAN];
+    sizes->variation = interval[FRACAS_POOLED_VARIATION];
+}
+
+fracas_err fracas_pooled_of(const fracas_ensemble *ensemble, uint64_t seed, fracas_pooled *pooled)
+{
+    fracas_interval interval[NVALUES];
+    sums all;
+    *pooled = (fracas_pooled){.cut = fracas_ensemble_cut(ensemble)};
+    TRY(resample_sums(ensemble, ensemble->nrealizations, pooled->cut, seed, interval, &all));
+    put_means(interval, &pooled->all);
+    put_means(interval + RESOLVED, &pooled->above);
+    pooled->number = (int64_t)all.number;
+    pooled->resolved = (int64_t)all.resolved;
+    pooled->unresolved = interval[UNRESOLVED];
+    pooled->unresolved_mass = interval[UNRESOLVED_MASS];
+    pooled->variance = (fracas_variance){
+        .within = interval[WITHIN], .between = interval[BETWEEN], .intraclass = interval[INTRACLASS],
+        .design_effect = interval[DESIGN_EFFECT], .group = typical_group(&all, (double)ensemble->nrealizations),
+        .effective = all.number / interval[DESIGN_EFFECT].value, /* (estimators.20) */
+    };
+    return fracas_quantiles_of(ensemble, pooled->cut, seed, pooled);
+}
+
+fracas_err fracas_pooled_first(const fracas_ensemble *ensemble, size_t realizations, uint64_t seed, fracas_interval interval[FRACAS_NPOOLED])
+{
+    fracas_interval found[NVALUES];
+    sums all;
+    TRY(resample_sums(ensemble, realizations, 0, seed, found, &all));
+    for (int v = 0; v < FRACAS_NPOOLED; v++) interval[v] = found[v];
+    return FRACAS_OK;
+}
