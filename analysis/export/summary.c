@@ -34,6 +34,14 @@ static void write_statistics(fracas_json *json, const fracas_point_statistics *s
     fracas_json_close_object(json);
 }
 
+/* Why a statistic is null, by its key. */
+static void write_reasons(fracas_json *json, const fracas_point_statistics *statistics)
+{
+    fracas_json_object(json, "reasons");
+    if (statistics->without_mott) fracas_json_text(json, "law.mott", statistics->without_mott);
+    fracas_json_close_object(json);
+}
+
 static void write_decision(fracas_json *json, const fracas_decision *last)
 {
     if (!last) return;
@@ -61,6 +69,7 @@ static void write_point(fracas_json *json, const fracas_analysis *analysis, size
     write_decision(json, fracas_analysis_decision(analysis, p));
     write_parameters(json, analysis->table, p);
     write_statistics(json, &analysis->point[p]);
+    write_reasons(json, &analysis->point[p]);
     fracas_json_close_object(json);
 }
 

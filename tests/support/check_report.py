@@ -41,6 +41,9 @@ def same(ours, theirs):
 
 
 # The example script gives the numbers of the JSON summary, and those of points.csv.
+# Why a number is not there.
+for point in summary["points"]:
+    assert (point["statistics"]["law.mott"] is None) == ("law.mott" in point["reasons"])
 points = list(csv.DictReader(open(os.path.join(report, "points.csv"))))
 assert len(summary["points"]) == len(rows) == len(points)
 for row, point, line in zip(rows, summary["points"], points):
@@ -166,11 +169,12 @@ for row, line in zip(rows, text[2:]):
         shows(mean, row[key + ".mean"], unit)
         if mean != "-":
             shows(half_width, row[key + ".half_width"], unit)
-    for cell, key in zip(cells[5:8], ("law.zmr", "law.grady", "law.glenn_chudnovsky")):
+    laws = ("law.zmr", "law.grady", "law.glenn_chudnovsky") + ("law.mott",) * ("Mott" in text[0])
+    for cell, key in zip(cells[5:], laws):
         shows(cell, row[key], size_unit)
-    shows(cells[8], row["size.mean"] / row["law.zmr"])
-    shows(cells[9], row["residual"])
-    shows(cells[10], row["created"])
+    shows(cells[5 + len(laws)], row["size.mean"] / row["law.zmr"])
+    shows(cells[6 + len(laws)], row["residual"])
+    shows(cells[7 + len(laws)], row["created"])
 
 # A line of fragments.csv for each fragment of the study, with its numbers to 15 digits.
 size, mass, position, spin = (fragment[name] for name in ("size", "mass", "position", "spin"))
