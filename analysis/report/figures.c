@@ -1,9 +1,12 @@
 #include "analysis/report/figures.h"
 
+#include "analysis/laws/crossover.h"
 #include "analysis/tables/format.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { LAW_VALUES = 80, TALL = 300, LOW = 200, STRIP = 80 };
 
@@ -148,6 +151,32 @@ static fracas_err add_laws(const rate_plot *plot, const double rate[2], size_t f
     return FRACAS_OK;
 }
 
+/* The fitted crossover of each series that has one, in the colour of its marks. */
+static fracas_err add_crossovers(const rate_plot *plot, const double rate[2], fracas_panel *panel)
+{
+    fracas_size_crossover *list;
+    size_t count;
+    TRY(fracas_size_crossovers(plot->analysis, false, &list, &count));
+    fracas_err err = FRACAS_OK;
+    for (size_t i = 0; i < count && !err; i++) {
+        const fracas_scales *scales = &list[i].scales;
+        const double x_unit = plot->normalised ? scales->rate : 1, y_unit = plot->normalised ? scales->size : 1 / plot->size_factor;
+        if (*list[i].reason || !isfinite(x_unit) || !isfinite(y_unit)) continue;
+        fracas_series *series;
+        size_t marks = 0;
+        while (marks < panel->nseries && strcmp(panel->series[marks].name, list[i].name)) marks++;
+        const unsigned look = marks < panel->nseries ? panel->series[marks].look : 0;
+        err = fracas_panel_add(panel, FRACAS_CURVE, look, LAW_VALUES, &series);
+        for (size_t v = 0; !err && v < LAW_VALUES; v++) {
+            series->x[v] = rate[0] / 2 * pow(4 * rate[1] / rate[0], (double)v / (LAW_VALUES - 1));
+            series->y[v] = fracas_crossover_at(&list[i], series->x[v] * x_unit) / y_unit;
+        }
+        if (!err && count == 1) snprintf(series->name, sizeof series->name, "fitted crossover");
+    }
+    free(list);
+    return err;
+}
+
 static fracas_err draw_against_rate(const rate_plot *plot, fracas_chart *chart)
 {
     double rate[2];
@@ -165,7 +194,7 @@ static fracas_err draw_against_rate(const rate_plot *plot, fracas_chart *chart)
         TRY(add_means(plot, p, look, panel));
         look++;
     }
-    return FRACAS_OK;
+    return add_crossovers(plot, rate, panel);
 }
 
 static bool any_curve(const fracas_chart *chart)
