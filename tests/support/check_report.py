@@ -40,6 +40,13 @@ def same(ours, theirs):
     return math.isclose(ours, theirs, rel_tol=1e-11, abs_tol=0)
 
 
+# Every key is on its page.
+page = open(os.path.join(source, "docs/formats/summary.md")).read()
+for named in [summary, *summary["points"], *(point.get("decision", {}) for point in summary["points"]), *summary["slopes"], *summary["warnings"]]:
+    for key in named:
+        assert f"`{key}`" in page, f"docs/formats/summary.md does not name {key}"
+assert json.load(open(os.path.join(report, "summary.json"))) == summary
+
 # The example script gives the numbers of the JSON summary, and those of points.csv.
 points = list(csv.DictReader(open(os.path.join(report, "points.csv"))))
 assert len(summary["points"]) == len(rows) == len(points)
