@@ -1,15 +1,20 @@
 #include "cli/cli.h"
 
+#include "analysis/analysis.h"
+#include "base/param.h"
 #include "campaigns/campaign.h"
+
+enum { STATISTICS };
+static const fracas_option options[] = {[STATISTICS] = {"statistics", NULL, "every key of the JSON summary's statistics instead"}};
 
 static fracas_err reference(const fracas_arguments *arguments)
 {
-    (void)arguments;
-    fracas_campaign_reference(stdout);
+    if (arguments->value[STATISTICS]) fracas_analysis_reference(stdout);
+    else fracas_campaign_reference(stdout);
     return FRACAS_OK;
 }
 
 const fracas_command fracas_command_reference = {
     .name = "reference", .doc = "Prints every key of a campaign file: unit, default, range, meaning",
-    .more = "", .run = reference,
+    .more = "", .options = options, .noptions = FRACAS_COUNT(options), .run = reference,
 };

@@ -178,6 +178,17 @@ static void write_crossovers(fracas_json *json, const fracas_analysis *analysis)
     free(list);
 }
 
+void fracas_analysis_reference(FILE *out)
+{
+    fputs("| key | type | unit | meaning |\n|---|---|---|---|\n", out);
+    for (size_t i = 0; i < fracas_nstatistics; i++) {
+        const fracas_statistic *what = &fracas_statistics[i];
+        fprintf(out, "| `%s` | %s | %s | ", what->key, what->integer ? "integer" : "number", what->unit);
+        for (const char *c = what->doc; *c; c++) fprintf(out, *c == '|' ? "\\%c" : "%c", *c); /* |residual| is no column */
+        fputs(" |\n", out);
+    }
+}
+
 void fracas_analysis_write_json(const fracas_analysis *analysis, FILE *out)
 {
     char hash[FRACAS_HASH_HEX], seed[24];

@@ -335,13 +335,12 @@ static fracas_err put_page(const report_page *page)
 static fracas_err write_tables(const fracas_analysis *analysis, const char *folder)
 {
     fracas_output_file output;
-    TRY(fracas_output_open(folder, "points.csv", &output));
-    fracas_csv_points(analysis, output.file);
-    TRY(fracas_output_close(&output, FRACAS_OK));
-    TRY(fracas_output_open(folder, "slopes.csv", &output));
-    TRY(fracas_output_close(&output, fracas_csv_slopes(analysis, output.file)));
-    TRY(fracas_output_open(folder, "fragments.csv", &output));
-    return fracas_output_close(&output, fracas_csv_fragments(analysis, output.file));
+    TRY(fracas_csv_file(&fracas_csv_table_points, analysis, folder));
+    TRY(fracas_csv_file(&fracas_csv_table_slopes, analysis, folder));
+    TRY(fracas_csv_file(&fracas_csv_table_fragments, analysis, folder));
+    TRY(fracas_output_open(folder, "summary.json", &output));
+    fracas_analysis_write_json(analysis, output.file);
+    return fracas_output_close(&output, FRACAS_OK);
 }
 
 static fracas_err write_page(const fracas_analysis *analysis, const char *folder)

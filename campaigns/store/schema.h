@@ -1,5 +1,5 @@
 /* The schema of segments and studies: one const table that writer, reader, verification and docs/formats/study.md
- * are driven by. Private to the store. */
+ * are driven by. For the store alone, and for analysis/export, whose tables have the same columns. */
 #ifndef FRACAS_CAMPAIGNS_STORE_SCHEMA_H
 #define FRACAS_CAMPAIGNS_STORE_SCHEMA_H
 

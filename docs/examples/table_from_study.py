@@ -3,7 +3,8 @@
 
 usage: table_from_study.py STUDY/study.h5
 
-Prints a line a point, tab-separated, in SI units; the columns are the keys of the JSON summary of `fracas report`.
+Prints a line a point, tab-separated, in SI units; the columns are the rate, every key of the statistics in the JSON summary of
+`fracas report` (docs/formats/summary.md), and how many realizations ended how. A test compares them all with the program's own.
 """
 import math
 import sys
@@ -81,6 +82,7 @@ def modulus_of(point, p):
 def laws(row, young, density, strength, fracture_energy, modulus, rate):
     """Scales and mean-size laws (docs/theory/size-laws.md)."""
     speed = math.sqrt(young / density)
+    row["scale.time"] = young * fracture_energy / (strength**2 * speed)
     row["scale.size"] = s0 = young * fracture_energy / strength**2
     row["scale.rate"] = rate0 = speed * strength**3 / (young**2 * fracture_energy)
     e = rate / rate0 if rate > 0 else math.nan  # a ring that spins or is accelerated begins at 0: the laws say nothing
@@ -113,42 +115,84 @@ def fracture_energy_of(point, p):
     return opening * point["derived.strength_mean"][p] / 2 if opening > 0 else point["cohesive.fracture_energy"][p]
 
 
+def drift(row, of):
+    """Largest |residual| over the run / largest energy at the end; how many realizations have more than 1 % of it."""
+    largest = np.maximum.reduce([of["kinetic"], of["elastic"] + of["cohesive"] + of["dissipated"], np.abs(of["work"])])
+    drifts = of["residual"][largest > 0] / largest[largest > 0]
+    row["drift"] = drifts.max() if len(drifts) else math.nan
+    row["drifted"] = (drifts > 0.01).sum()
+
+
+MOTION = ("radial_velocity", "radial_scatter", "circumferential_velocity", "angular_velocity")
+
+
+def motion(of, radius):
+    """Of the fragments of a ring, weighed by mass (docs/theory/estimators.md, 4 to 9): outward mean, scatter, rms along, mean |spin|."""
+    if len(of["mass"]) < 2:
+        return [math.nan] * 4
+    angle = np.arctan2(of["position"][:, 1], of["position"][:, 0])
+    outward = of["velocity"][:, 0] * np.cos(angle) + of["velocity"][:, 1] * np.sin(angle)
+    along = of["velocity"][:, 1] * np.cos(angle) - of["velocity"][:, 0] * np.sin(angle)
+    half = of["size"] / (2 * radius)
+    inertia = of["mass"] * radius**2 * (1 - np.sinc(half / np.pi)**2)
+    mean = np.average(outward, weights=of["mass"])
+    return [mean, math.sqrt(np.average((outward - mean)**2, weights=of["mass"])),
+            math.sqrt(np.average(along**2, weights=of["mass"])),
+            np.average(np.abs(of["angular_momentum"][:, 2]) / inertia, weights=of["mass"])]
+
+
+def flight(of):
+    """Kinetic energy of the fragments of a surface as rigid bodies: of their centres of mass, of their spins (12 and 13)."""
+    if len(of["mass"]) < 2:
+        return [math.nan] * 2
+    return [(of["mass"][:, None] * of["velocity"]**2).sum() / 2, (of["angular_momentum"] * of["spin"]).sum() / 2]
+
+
+def by_realization(row, keys, pieces, values_of):
+    values = np.array([values_of(of) for of in pieces], float).reshape(-1, len(keys))
+    for key, column in zip(keys, values.T):
+        estimate(row, key, column)
+
+
+def row_of(point, p, realization, fragment, offset):
+    """Every number of point p; `realization` and `fragment` are the columns of those groups."""
+    mine = realization["point"] == p
+    used = mine & np.isin(realization["outcome"], list(USABLE))
+    of = {name: column[used] for name, column in realization.items()}
+    pieces = [{name: column[offset[i]:offset[i + 1]] for name, column in fragment.items()} for i in np.flatnonzero(used)]
+    rate = point.get("derived.strain_rate", point.get("loading.rate"))[p]  # the latter in studies before the former
+    surface, ring = is_surface(point, p), "model" in point and point["model"][p] == b"ring"
+    row = {"rate": rate, "realizations": mine.sum(), "usable": used.sum(), "unusable": mine.sum() - used.sum()}
+    estimate(row, "count", of["fragments"].astype(float))
+    estimate(row, "count_large", (of["fragments"] - of["fragments_dust"]).astype(float))
+    if surface:  # mean over fragments of the square root of the area
+        estimate(row, "size", np.array([piece["size"].mean() for piece in pieces]))
+    else:
+        estimate(row, "size", length_of(point, p) / of["fragments"])
+    estimate(row, "dissipated", of["dissipated"])
+    estimate(row, "dissipated_bending", of["dissipated_bending"])
+    estimate(row, "onset_time", of["onset_time"])
+    by_realization(row, MOTION, pieces if ring else [], lambda piece: motion(piece, point["geometry.radius"][p]))
+    by_realization(row, ("translation", "rotation"), pieces if surface else [], flight)
+    row["residual"] = largest_ratio(of["residual"], of["dissipated"])
+    row["created"] = largest_ratio(of["created"], of["dissipated"])
+    drift(row, of)
+    elements, dust = (np.concatenate([piece[name] for piece in pieces] or [[]]) for name in ("elements", "dust"))
+    row["elements"] = elements.mean() if len(elements) else math.nan
+    row["dust_share"] = dust.mean() if len(dust) else math.nan
+    laws(row, point["material.young"][p], point["material.density"][p], point["derived.strength_mean"][p],
+         fracture_energy_of(point, p), modulus_of(point, p), math.nan if surface else rate)
+    for o, name in enumerate(OUTCOMES):
+        row[name] = (realization["outcome"][mine] == o).sum()
+    return row
+
+
 def table(path):
     with h5py.File(path, "r") as study:
-        point = {name: column[()] for name, column in study["point"].items()}
-        realization = {name: column[()] for name, column in study["realization"].items()}
-        offset = study["fragment/offset"][()]
-        elements, dust = study["fragment/elements"][()], study["fragment/dust"][()]
-        size = study["fragment/size"][()]
-    rows = []
-    for p in range(len(point["hash"])):
-        mine = realization["point"] == p
-        used = mine & np.isin(realization["outcome"], list(USABLE))
-        of = {name: column[used] for name, column in realization.items()}
-        rate = point.get("derived.strain_rate", point.get("loading.rate"))[p]  # the latter in studies before the former
-        row = {"rate": rate, "realizations": mine.sum(), "usable": used.sum(),
-               "unusable": mine.sum() - used.sum()}
-        estimate(row, "count", of["fragments"].astype(float))
-        estimate(row, "count_large", (of["fragments"] - of["fragments_dust"]).astype(float))
-        if is_surface(point, p):  # mean over fragments of the square root of the area
-            estimate(row, "size", np.array([size[offset[i]:offset[i + 1]].mean() for i in np.flatnonzero(used)]))
-        else:
-            estimate(row, "size", length_of(point, p) / of["fragments"])
-        estimate(row, "dissipated", of["dissipated"])
-        estimate(row, "onset_time", of["onset_time"])
-        row["residual"] = largest_ratio(of["residual"], of["dissipated"])
-        row["created"] = largest_ratio(of["created"], of["dissipated"])
-        fragment = np.zeros(len(elements), bool)
-        for i in np.flatnonzero(used):
-            fragment[offset[i]:offset[i + 1]] = True
-        row["elements"] = elements[fragment].mean() if fragment.any() else math.nan
-        row["dust_share"] = dust[fragment].mean() if fragment.any() else math.nan
-        laws(row, point["material.young"][p], point["material.density"][p], point["derived.strength_mean"][p],
-             fracture_energy_of(point, p), modulus_of(point, p), math.nan if is_surface(point, p) else rate)
-        for o, name in enumerate(OUTCOMES):
-            row[name] = (realization["outcome"][mine] == o).sum()
-        rows.append(row)
-    return rows
+        point, realization, fragment = ({name: column[()] for name, column in study[group].items()}
+                                        for group in ("point", "realization", "fragment"))
+    offset = fragment.pop("offset")
+    return [row_of(point, p, realization, fragment, offset) for p in range(len(point["hash"]))]
 
 
 if __name__ == "__main__":

@@ -22,85 +22,29 @@ import numpy as np
 study, source = sys.argv[1:3]
 report = os.path.join(study, "report")
 summary = json.load(open(os.path.join(study, "summary.json")))
-script = os.path.join(source, "docs/examples/table_from_study.py")
-sys.path.insert(0, os.path.dirname(script))
+sys.path.insert(0, os.path.join(source, "docs/examples"))
 sys.dont_write_bytecode = True
-from table_from_study import estimate, student_quantile
+from check_numbers import check, same
+from table_from_study import student_quantile
 
-printed = subprocess.run([sys.executable, script, study + "/study.h5"], check=True, capture_output=True,
-                         text=True).stdout.splitlines()
-keys = printed[0].split("\t")
-rows = [dict(zip(keys, map(float, line.split("\t")))) for line in printed[1:]]
-
-
-def same(ours, theirs):
-    """Both sum up to 32 000 values of one sign: 32 000 x 1.1e-16 = 4e-12 relative at the very worst."""
-    if ours is None:
-        return math.isnan(theirs)
-    return math.isclose(ours, theirs, rel_tol=1e-11, abs_tol=0)
-
+# Every key is on its page.
+page = open(os.path.join(source, "docs/formats/summary.md")).read()
+for named in [summary, *summary["points"], *(point.get("decision", {}) for point in summary["points"]), *summary["slopes"], *summary["warnings"]]:
+    for key in named:
+        assert f"`{key}`" in page, f"docs/formats/summary.md does not name {key}"
 
 # The example script gives the numbers of the JSON summary, and those of points.csv.
+written, rows = check(study, source)
+assert written == summary and len(rows) == len(summary["points"])
 # Why a number is not there.
 for point in summary["points"]:
     assert (point["statistics"]["law.mott"] is None) == ("law.mott" in point["reasons"])
-points = list(csv.DictReader(open(os.path.join(report, "points.csv"))))
-assert len(summary["points"]) == len(rows) == len(points)
-for row, point, line in zip(rows, summary["points"], points):
-    assert line["hash"] == point["hash"]
-    compared = 0
-    for key, value in row.items():
-        if key in point["statistics"]:
-            assert same(point["statistics"][key], value), (key, point["statistics"][key], value)
-            assert same(float(line[key]) if line[key] else None, value), (key, line[key], value)
-            compared += 1
-        elif key in point["outcomes"]:
-            assert point["outcomes"][key] == value == int(line["outcome." + key])
-        else:
-            parameters = point["parameters"]
-            assert key == "rate" and same(parameters.get("derived.strain_rate", parameters.get("loading.rate")), value)
-    assert compared == len(row) - 7  # all but the rate and the outcomes
 
-
-# What the script does not print: drift of every usable realization, motion of the fragments of rings.
+# What the checks below look at.
 with h5py.File(study + "/study.h5", "r") as file:
     realization = {name: column[()] for name, column in file["realization"].items()}
     fragment = {name: column[()] for name, column in file["fragment"].items()}
 model = [point["parameters"].get("model") for point in summary["points"]]
-
-
-def motion(i, radius):
-    """Outward mean, scatter, rms along and mean |spin| of the fragments of realization i, by numpy's means."""
-    of = {name: column[slice(*fragment["offset"][i:i + 2])] for name, column in fragment.items() if name != "offset"}
-    if len(of["mass"]) < 2:
-        return [math.nan] * 4
-    angle = np.arctan2(of["position"][:, 1], of["position"][:, 0])
-    outward = of["velocity"][:, 0] * np.cos(angle) + of["velocity"][:, 1] * np.sin(angle)
-    along = of["velocity"][:, 1] * np.cos(angle) - of["velocity"][:, 0] * np.sin(angle)
-    half = of["size"] / (2 * radius)
-    inertia = of["mass"] * radius**2 * (1 - np.sinc(half / np.pi)**2)
-    mean = np.average(outward, weights=of["mass"])
-    return [mean, math.sqrt(np.average((outward - mean)**2, weights=of["mass"])),
-            math.sqrt(np.average(along**2, weights=of["mass"])),
-            np.average(np.abs(of["angular_momentum"][:, 2]) / inertia, weights=of["mass"])]
-
-
-MOTION = ("radial_velocity", "radial_scatter", "circumferential_velocity", "angular_velocity")
-for p, point in enumerate(summary["points"]):
-    used = np.flatnonzero((realization["point"] == p) & (realization["outcome"] <= 2))
-    of = {name: column[used] for name, column in realization.items()}
-    largest = np.maximum.reduce([of["kinetic"], of["elastic"] + of["cohesive"] + of["dissipated"], np.abs(of["work"])])
-    drift = of["residual"][largest > 0] / largest[largest > 0]
-    assert same(point["statistics"]["drift"], drift.max() if len(drift) else math.nan)
-    assert point["statistics"]["drifted"] == (drift > 0.01).sum()
-    moving = [motion(i, point["parameters"]["geometry.radius"]) for i in used] if model[p] == "ring" else []
-    for key, values in zip(MOTION, np.array(moving).reshape(-1, 4).T):
-        row = {}
-        estimate(row, key, values)
-        for name, value in row.items():
-            ours = point["statistics"][name]
-            # Sines and the cancellation in numpy's inertia of short arcs: 1e-16/(a^2/3), a > 1e-3.
-            assert same(ours, value) or math.isclose(ours, value, rel_tol=1e-9, abs_tol=1e-9), (name, ours, value)
 
 # Slopes: numpy's weighted fit of the points that the series of that name has.
 MAKERS = ("loading.rate", "loading.radial", "loading.velocity")

@@ -71,7 +71,7 @@ static inline void report_write_study(const char *folder, const fracas_file_head
     report_write_index(folder, table, &seal, make, context);
 }
 
-/* table.txt, summary.json and report/ into the study's folder. */
+/* table.txt, summary.json, report/ and export/ into the study's folder. */
 static inline void report_analyse(const char *folder)
 {
     fracas_analysis *analysis;
@@ -88,6 +88,8 @@ static inline void report_analyse(const char *folder)
     fracas_analysis_write_json(analysis, out);
     assert_int_equal(fclose(out), 0);
     assert_int_equal(fracas_report_write(analysis, folder), FRACAS_OK);
+    snprintf(path, sizeof path, "%s/export", folder);
+    assert_int_equal(fracas_export_write(analysis, path, true), FRACAS_OK);
     fracas_analysis_destroy(analysis);
 }
 
@@ -109,13 +111,14 @@ static inline int report_remove_root(void **state)
     return getenv("FRACAS_KEEP") ? 0 : system(command);
 }
 
-/* Runs the script on the study; its status 77 says that python3 with h5py is not there. */
+/* Runs the scripts on the study; status 77 says that python3 with h5py is not there. */
 static inline void report_check(const char *folder)
 {
-    char command[1024];
+    char command[2048];
     snprintf(command, sizeof command, "/usr/bin/python3 -c 'import h5py' 2>/dev/null || exit 77; "
+             "/usr/bin/python3 '" FRACAS_SOURCE_DIR "/tests/support/check_export.py' '%s' && "
              "exec /usr/bin/python3 '" FRACAS_SOURCE_DIR "/tests/support/check_report.py' '%s' '" FRACAS_SOURCE_DIR "'",
-             folder);
+             folder, folder);
     int status = system(command);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 77) {
         print_message("skipped: python3-h5py is not installed\n");

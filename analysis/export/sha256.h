@@ -1,0 +1,14 @@
+/* SHA-256 (FIPS 180-4) of a file: the digest that data packages name and sha256sum checks. */
+#ifndef FRACAS_ANALYSIS_EXPORT_SHA256_H
+#define FRACAS_ANALYSIS_EXPORT_SHA256_H
+
+#include "base/err.h"
+
+#include <stdint.h>
+
+enum { FRACAS_SHA256_HEX = 65 }; /* 64 digits and the end */
+
+/* Digest and size of the file's bytes. FRACAS_ENVIRONMENT if it cannot be read. */
+FRACAS_MUST_USE fracas_err fracas_sha256_of_file(const char *path, char hex[FRACAS_SHA256_HEX], uint64_t *bytes);
+
+#endif
