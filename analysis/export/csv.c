@@ -62,30 +62,27 @@ void fracas_csv_points(const fracas_analysis *analysis, FILE *out)
     for (size_t p = 0; p < analysis->table->npoints; p++) point_line(analysis, p, out);
 }
 
+static fracas_err fragment_lines(void *context, fracas_result *result)
+{
+    FILE *out = context;
+    const fracas_record *record = &result->record;
+    for (size_t i = 0; i < record->nfragment; i++) {
+        const fracas_fragment *fragment = &record->fragment[i];
+        fprintf(out, "%zu,%" PRId64 ",%s,%zu", result->point, result->replica, fracas_outcome_name(record->outcome), i);
+        fracas_csv_real(fragment->mass, out);
+        fracas_csv_real(fragment->size, out);
+        fprintf(out, ",%" PRId64 ",%" PRId64, fragment->elements, fragment->dust);
+        for (int axis = 0; axis < 3; axis++) fracas_csv_real(fragment->position[axis], out);
+        for (int axis = 0; axis < 3; axis++) fracas_csv_real(fragment->velocity[axis], out);
+        for (int axis = 0; axis < 3; axis++) fracas_csv_real(fragment->spin[axis], out);
+        putc('\n', out);
+    }
+    return FRACAS_OK;
+}
+
 fracas_err fracas_csv_fragments(const fracas_analysis *analysis, FILE *out)
 {
     fputs("point,replica,outcome,fragment,mass,size,elements,dust,position_x,position_y,position_z,"
           "velocity_x,velocity_y,velocity_z,spin_x,spin_y,spin_z\n", out);
-    fracas_record record;
-    fracas_record_init(&record);
-    fracas_err err = FRACAS_OK;
-    size_t rows = fracas_reader_realizations(analysis->reader);
-    for (size_t row = 0; row < rows && !err; row++) {
-        size_t point;
-        int64_t replica;
-        err = fracas_reader_record(analysis->reader, row, FRACAS_READ_FRAGMENTS, &point, &replica, &record);
-        for (size_t i = 0; i < record.nfragment && !err; i++) {
-            const fracas_fragment *fragment = &record.fragment[i];
-            fprintf(out, "%zu,%" PRId64 ",%s,%zu", point, replica, fracas_outcome_name(record.outcome), i);
-            fracas_csv_real(fragment->mass, out);
-            fracas_csv_real(fragment->size, out);
-            fprintf(out, ",%" PRId64 ",%" PRId64, fragment->elements, fragment->dust);
-            for (int axis = 0; axis < 3; axis++) fracas_csv_real(fragment->position[axis], out);
-            for (int axis = 0; axis < 3; axis++) fracas_csv_real(fragment->velocity[axis], out);
-            for (int axis = 0; axis < 3; axis++) fracas_csv_real(fragment->spin[axis], out);
-            putc('\n', out);
-        }
-        fracas_record_clear(&record);
-    }
-    return err;
+    return fracas_results_walk(analysis->results, FRACAS_READ_FRAGMENTS, fragment_lines, out);
 }
