@@ -342,7 +342,7 @@ typedef struct {
     size_t *sorted; /* numbers of `result`, by segment and row there */
 } window;
 
-enum { WINDOW_BYTES = 96 << 20 };
+enum { WINDOW_BYTES = 192 << 20 };
 
 /* At most; of interfaces, which are stored compactly, about. */
 static uint64_t size_of(const fracas_results *results, const entry *row, unsigned parts)

@@ -40,7 +40,7 @@ typedef struct {
 } fracas_result;
 
 /* Calls `visit` with every realization in the order of its row, whatever the segments. Partial ones are read by segment, as many
- * ahead as fit some 96 MiB; one whose segment is missing or damaged is left out, counted by fracas_results_missing, and the segment
+ * ahead as fit some 192 MiB; one whose segment is missing or damaged is left out, counted by fracas_results_missing, and the segment
  * is named in a note. */
 FRACAS_MUST_USE fracas_err fracas_results_walk(fracas_results *results, unsigned parts,
                                                fracas_err (*visit)(void *context, fracas_result *result), void *context);
