@@ -3,6 +3,8 @@
 #define FRACAS_ANALYSIS_ANALYSIS_H
 
 #include "base/err.h"
+#include "base/hash.h"
+#include "campaigns/points.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -11,9 +13,10 @@
 
 typedef struct fracas_analysis fracas_analysis;
 
-/* Reads STUDY/study.h5 and computes every statistic. FRACAS_DAMAGED if it is not there (the message says that
- * `fracas run` makes it) or is no study. */
-FRACAS_MUST_USE fracas_err fracas_analysis_create(const char *study, fracas_analysis **analysis);
+/* Reads the results of STUDY, complete or not, and computes every statistic. `campaign` and `table`, which must outlive the analysis, are
+ * hash and points of STUDY/campaign.yaml, both NULL: STUDY/study.h5 as it is. Errors as fracas_results_open. */
+FRACAS_MUST_USE fracas_err fracas_analysis_create(const char *study, const fracas_hash *campaign, const fracas_point_table *table,
+                                                  fracas_analysis **analysis);
 void fracas_analysis_destroy(fracas_analysis *analysis); /* NULL is allowed */
 
 /* The result table, one line a point, for a terminal. */
@@ -47,6 +50,7 @@ typedef struct {
 #define FRACAS_VIEW_DEFAULT {45, 35.264389682754654} /* in the direction (1, 1, 1) */
 
 typedef struct {
+    const fracas_hash *campaign; /* that study.h5 must be of; NULL: of any */
     size_t point;
     int64_t replica;
     size_t count;       /* pictures */
@@ -60,7 +64,8 @@ typedef struct {
 
 /* Writes surface-point-P-replica-R-K.svg for K from 1, with `table` times-point-P.csv, and says on `out` which, and when the
  * realization first cracked, broke, and cracked through. FRACAS_USAGE, saying what there is, for a point, replica or time that
- * the study has not, a point that is no surface, and a study without interfaces. */
+ * the study has not, a point that is no surface, and a study without interfaces; FRACAS_DAMAGED if study.h5 is not there, or of another
+ * campaign: only a complete study has the meshes. */
 FRACAS_MUST_USE fracas_err fracas_pictures_write(const char *study, const fracas_picture_request *request, FILE *out);
 
 #endif

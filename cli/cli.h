@@ -76,7 +76,11 @@ FRACAS_MUST_USE fracas_err fracas_cli_check_study(const char *study);
 struct fracas_campaign;
 FRACAS_MUST_USE fracas_err fracas_cli_read_campaign(const char *study, struct fracas_campaign **campaign);
 
-/* Prints the result table and writes the report of a study that is complete; with `json` prints the statistics as
+/* The analysis of a study by its campaign, partial or not; the campaign must outlive it. Both are destroyed by the caller. */
+struct fracas_analysis;
+FRACAS_MUST_USE fracas_err fracas_cli_analyse(const char *study, struct fracas_campaign **campaign, struct fracas_analysis **analysis);
+
+/* Prints the result table and writes the report of a study, of what is done of it by now; with `json` prints the statistics as
  * JSON instead of the table. What `fracas run` ends with and `fracas report` does. */
 FRACAS_MUST_USE fracas_err fracas_cli_report(const char *study, bool json);
 

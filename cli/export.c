@@ -2,6 +2,7 @@
 
 #include "analysis/analysis.h"
 #include "base/param.h"
+#include "campaigns/campaign.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,10 +15,12 @@ static const fracas_option options[] = {
 
 static fracas_err write_tables(const fracas_arguments *arguments, const char *folder)
 {
+    fracas_campaign *campaign;
     fracas_analysis *analysis;
-    TRY(fracas_analysis_create(arguments->operand, &analysis));
+    TRY(fracas_cli_analyse(arguments->operand, &campaign, &analysis));
     const fracas_err err = fracas_export_write(analysis, folder, arguments->value[HISTORIES] != NULL);
     fracas_analysis_destroy(analysis);
+    fracas_campaign_destroy(campaign);
     if (!err) printf("export: %s/datapackage.json\n", folder);
     return err;
 }

@@ -3,6 +3,7 @@
 #include "analysis/analysis.h"
 #include "base/param.h"
 #include "base/units.h"
+#include "campaigns/campaign.h"
 
 #include <limits.h>
 #include <math.h>
@@ -102,6 +103,7 @@ static fracas_err picture(const fracas_arguments *arguments)
     int point = 0, replica = 0, show = FRACAS_SHOW_FRAGMENTS;
     double *time = NULL;
     fracas_view view;
+    fracas_campaign *campaign;
     TRY(fracas_arguments_integer(arguments, POINT, 0, INT_MAX, &point));
     TRY(fracas_arguments_integer(arguments, REPLICA, 0, INT_MAX, &replica));
     TRY(fracas_arguments_word(arguments, SHOW, words, FRACAS_COUNT(words), &show));
@@ -109,8 +111,12 @@ static fracas_err picture(const fracas_arguments *arguments)
                                       .table = arguments->value[TABLE] != NULL, .folder = arguments->value[OUTPUT]};
     TRY(read_view(arguments, &request, &view));
     fracas_err err = read_times(arguments, &request, &time);
-    if (!err) err = fracas_cli_check_study(arguments->operand);
-    if (!err) err = fracas_pictures_write(arguments->operand, &request, stdout);
+    if (!err) err = fracas_cli_read_campaign(arguments->operand, &campaign);
+    if (!err) {
+        request.campaign = &campaign->hash;
+        err = fracas_pictures_write(arguments->operand, &request, stdout);
+        fracas_campaign_destroy(campaign);
+    }
     free(time);
     return err;
 }

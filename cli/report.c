@@ -31,15 +31,24 @@ fracas_err fracas_cli_read_campaign(const char *study, fracas_campaign **campaig
                               "restore it");
 }
 
+fracas_err fracas_cli_analyse(const char *study, fracas_campaign **campaign, fracas_analysis **analysis)
+{
+    TRY(fracas_cli_read_campaign(study, campaign));
+    fracas_err err = fracas_analysis_create(study, &(*campaign)->hash, &(*campaign)->table, analysis);
+    if (err) fracas_campaign_destroy(*campaign), *campaign = NULL;
+    return err;
+}
+
 fracas_err fracas_cli_report(const char *study, bool json)
 {
+    fracas_campaign *campaign;
     fracas_analysis *analysis;
-    TRY(fracas_cli_check_study(study));
-    TRY(fracas_analysis_create(study, &analysis));
+    TRY(fracas_cli_analyse(study, &campaign, &analysis));
     if (json) fracas_analysis_write_json(analysis, stdout);
     else fracas_analysis_print_table(analysis, stdout);
     fracas_err code = fracas_report_write(analysis, study);
     fracas_analysis_destroy(analysis);
+    fracas_campaign_destroy(campaign);
     if (!code && !json) printf("report: %s/report/index.html\n", study);
     return code;
 }
@@ -51,6 +60,7 @@ static fracas_err report(const fracas_arguments *arguments)
 
 const fracas_command fracas_command_report = {
     .name = "report", .operand = "STUDY", .doc = "Prints the result table and writes STUDY/report",
-    .more = "\nThe report is index.html with its figures, and the numbers as CSV files.\n",
+    .more = "\nThe report is index.html with its figures, and the numbers as CSV files. Of a study that is being computed, or was interrupted,\n"
+            "it is of what is done by now, and says so.\n",
     .options = options, .noptions = FRACAS_COUNT(options), .run = report,
 };

@@ -48,9 +48,9 @@ static void place_fields(const char *number, const char *doc, fracas_field_sink 
     sink(context, &(fracas_field){number, FRACAS_FIELD_INTEGER, "1", doc, false});
 }
 
-static void put_place(size_t point, int64_t replica, const fracas_record *record, FILE *out)
+static void put_place(const fracas_result *result, FILE *out)
 {
-    fprintf(out, "%zu,%" PRId64 ",%s", point, replica, fracas_outcome_name(record->outcome));
+    fprintf(out, "%zu,%" PRId64 ",%s", result->point, result->replica, fracas_outcome_name(result->record.outcome));
 }
 
 /* The values of a row of a set from column `first` on, and the end of the line. */
@@ -67,22 +67,22 @@ static void put_values(fracas_set_name set, size_t first, const void *row, FILE 
     putc('\n', out);
 }
 
-typedef void put_record(size_t point, int64_t replica, const fracas_record *record, FILE *out);
+typedef struct {
+    void (*put)(const fracas_result *result, FILE *out);
+    FILE *out;
+} record_printer;
 
-static fracas_err put_records(const fracas_analysis *analysis, unsigned parts, put_record *put, FILE *out)
+static fracas_err visit(void *context, fracas_result *result)
 {
-    fracas_record record;
-    fracas_record_init(&record);
-    fracas_err err = FRACAS_OK;
-    const size_t rows = fracas_reader_realizations(analysis->reader);
-    for (size_t row = 0; row < rows && !err; row++) {
-        size_t point;
-        int64_t replica;
-        err = fracas_reader_record(analysis->reader, row, parts, &point, &replica, &record);
-        if (!err) put(point, replica, &record, out);
-        fracas_record_clear(&record);
-    }
-    return err;
+    const record_printer *printer = context;
+    printer->put(result, printer->out);
+    return FRACAS_OK;
+}
+
+static fracas_err put_records(const fracas_analysis *analysis, unsigned parts, void (*put)(const fracas_result *result, FILE *out), FILE *out)
+{
+    record_printer printer = {put, out};
+    return fracas_results_walk(analysis->results, parts, visit, &printer);
 }
 
 /* ---- realizations ---- */
@@ -94,10 +94,10 @@ static void realization_fields(const fracas_analysis *analysis, fracas_field_sin
         dataset_fields(&fracas_store_sets[FRACAS_SET_REALIZATION].column[c], sink, context);
 }
 
-static void put_realization(size_t point, int64_t replica, const fracas_record *record, FILE *out)
+static void put_realization(const fracas_result *result, FILE *out)
 {
-    const fracas_stored_realization row = {(int64_t)point, replica, *record};
-    put_place(point, replica, record, out);
+    const fracas_stored_realization row = {(int64_t)result->point, result->replica, result->record};
+    put_place(result, out);
     put_values(FRACAS_SET_REALIZATION, PLACE, &row, out);
 }
 
@@ -121,10 +121,11 @@ static void fragment_fields(const fracas_analysis *analysis, fracas_field_sink *
         dataset_fields(&fracas_store_sets[FRACAS_SET_FRAGMENT].column[c], sink, context);
 }
 
-static void put_fragments(size_t point, int64_t replica, const fracas_record *record, FILE *out)
+static void put_fragments(const fracas_result *result, FILE *out)
 {
+    const fracas_record *record = &result->record;
     for (size_t i = 0; i < record->nfragment; i++) {
-        put_place(point, replica, record, out);
+        put_place(result, out);
         fprintf(out, ",%zu", i);
         put_values(FRACAS_SET_FRAGMENT, 0, &record->fragment[i], out);
     }
@@ -150,10 +151,11 @@ static void history_fields(const fracas_analysis *analysis, fracas_field_sink *s
         dataset_fields(&fracas_store_sets[FRACAS_SET_HISTORY].column[c], sink, context);
 }
 
-static void put_history(size_t point, int64_t replica, const fracas_record *record, FILE *out)
+static void put_history(const fracas_result *result, FILE *out)
 {
+    const fracas_record *record = &result->record;
     for (size_t i = 0; i < record->nhistory; i++) {
-        put_place(point, replica, record, out);
+        put_place(result, out);
         fprintf(out, ",%zu", i);
         put_values(FRACAS_SET_HISTORY, 0, &record->history[i], out);
     }

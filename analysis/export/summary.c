@@ -60,15 +60,28 @@ static void write_decision(fracas_json *json, const fracas_decision *last)
     fracas_json_close_object(json);
 }
 
+static void write_progress(fracas_json *json, const fracas_progress *progress)
+{
+    fracas_json_object(json, "progress");
+    fracas_json_integer(json, "planned", progress->planned);
+    fracas_json_integer(json, "done", progress->done);
+    fracas_json_integer(json, "failed", progress->failed);
+    fracas_json_integer(json, "missing", progress->missing);
+    fracas_json_boolean(json, "complete", progress->complete);
+    fracas_json_close_object(json);
+}
+
 static void write_point(fracas_json *json, const fracas_analysis *analysis, size_t p)
 {
     char label[256], hash[FRACAS_HASH_HEX];
     fracas_analysis_label(analysis, p, label, sizeof label);
     fracas_hash_hex(&analysis->table->point[p].hash, hash);
+    const fracas_progress progress = fracas_analysis_progress_of(analysis, p);
     fracas_json_object(json, NULL);
     fracas_json_text(json, "label", label);
     fracas_json_text(json, "hash", hash);
     fracas_json_integer(json, "replicas", analysis->table->point[p].replicas);
+    write_progress(json, &progress);
     write_decision(json, fracas_analysis_decision(analysis, p));
     write_parameters(json, analysis->table, p);
     write_statistics(json, &analysis->point[p]);
@@ -194,6 +207,7 @@ void fracas_analysis_write_json(const fracas_analysis *analysis, FILE *out)
     char hash[FRACAS_HASH_HEX], seed[24];
     fracas_hash_hex(&analysis->header.campaign, hash);
     snprintf(seed, sizeof seed, "%" PRIu64, analysis->header.seed);
+    const fracas_progress progress = fracas_analysis_progress(analysis);
     fracas_json json;
     fracas_json_begin(&json, out);
     fracas_json_object(&json, NULL);
@@ -202,6 +216,8 @@ void fracas_analysis_write_json(const fracas_analysis *analysis, FILE *out)
     fracas_json_text(&json, "seed", seed); /* text: a 64-bit number is more than every JSON reader keeps */
     fracas_json_text(&json, "version", analysis->header.version);
     fracas_json_boolean(&json, "complete", analysis->header.complete);
+    fracas_json_boolean(&json, "partial", fracas_results_partial(analysis->results));
+    write_progress(&json, &progress);
     fracas_json_array(&json, "varying");
     for (size_t i = 0; i < analysis->shown.count; i++)
         fracas_json_text(&json, NULL, analysis->table->column[analysis->shown.column[i]].path);

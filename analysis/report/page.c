@@ -241,6 +241,7 @@ static fracas_err put_head(const report_page *page)
     snprintf(text, sizeof text, "%zu points, %" PRId64 " realizations, of these %" PRId64 " failed (not in any mean)",
              analysis->table->npoints, realizations, unusable);
     put_term(page->out, "study", text);
+    if (fracas_analysis_partial(analysis, text, sizeof text)) put_term(page->out, "state", text);
     fracas_hash_hex(&analysis->header.campaign, text);
     put_term(page->out, "campaign", text);
     snprintf(text, sizeof text, "%" PRIu64, analysis->header.seed);

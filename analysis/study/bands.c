@@ -7,12 +7,6 @@
 static const double tail = 0.05;
 enum { ROOM = 1 << 24 }; /* bytes of the tails */
 
-/* The `most` least values of each time and energy, and the least of their negatives: heaps whose first is the greatest kept. */
-typedef struct {
-    size_t times, most, count; /* count: realizations taken in */
-    double *least, *negative;  /* [time][energy][most] */
-} tails;
-
 /* Quantile p of n values is between numbers floor(p (n - 1)) and the next, from 0; only the first of few. */
 static size_t kept(size_t n)
 {
@@ -54,8 +48,9 @@ static void keep(double *heap, size_t most, size_t count, double value)
 }
 
 /* One realization: of each time the first row at or after it, which is its own, and the last row beyond (estimators.22). */
-static void take_in(const fracas_record *record, fracas_bands *bands, tails *of)
+static void take_in(const fracas_record *record, fracas_bands_collector *of)
 {
+    fracas_bands *bands = of->bands;
     size_t row = 0;
     for (size_t j = 0; j < of->times; j++) {
         while (row + 1 < record->nhistory && record->history[row].time < bands->time[j]) row++;
@@ -83,9 +78,10 @@ static double low_of(double *least, size_t most, size_t n)
     return least[below] + (at - (double)below) * (least[below + 1] - least[below]);
 }
 
-static void finish(fracas_bands *bands, tails *of)
+static void finish(fracas_bands_collector *of)
 {
     const size_t n = of->count;
+    fracas_bands *bands = of->bands;
     bands->realizations = (int64_t)n;
     bands->extremes = n < FRACAS_BAND_LEAST;
     for (size_t j = 0; j < of->times && n > 0 && bands->running[j] > 0; j++) {
@@ -100,10 +96,14 @@ static void finish(fracas_bands *bands, tails *of)
     }
 }
 
-static fracas_err make_room(double end, size_t realizations, size_t times, fracas_bands *bands, tails *of)
+fracas_err fracas_bands_begin(int64_t intervals, double end, size_t realizations, fracas_bands *bands, fracas_bands_collector *of)
 {
-    const size_t values = times * FRACAS_NENERGIES;
-    *of = (tails){.times = times, .most = kept(realizations)};
+    *bands = (fracas_bands){0};
+    *of = (fracas_bands_collector){.bands = bands, .all = realizations};
+    if (intervals <= 0 || !(end > 0) || realizations == 0) return FRACAS_OK;
+    const size_t times = (size_t)intervals + 1, values = times * FRACAS_NENERGIES;
+    of->selected = taken(realizations, times);
+    of->most = kept(of->selected);
     bands->time = malloc(times * sizeof *bands->time);
     bands->running = calloc(times, sizeof *bands->running);
     bands->energy = calloc(times, sizeof *bands->energy);
@@ -111,39 +111,25 @@ static fracas_err make_room(double end, size_t realizations, size_t times, fraca
     of->negative = malloc(values * of->most * sizeof *of->negative);
     if (!bands->time || !bands->running || !bands->energy || !of->least || !of->negative)
         return fracas_no_memory("the energies over time of a point");
+    of->times = times;
     for (size_t j = 0; j < times; j++) bands->time[j] = (double)j * end / (double)(times - 1); /* rounded as the histories' are */
     return FRACAS_OK;
 }
 
-static fracas_err read_all(fracas_reader *reader, const fracas_ensemble *ensemble, size_t n, fracas_bands *bands, tails *of)
+/* Number i of those taken is number floor(i all/selected). */
+void fracas_bands_add(fracas_bands_collector *of, const fracas_record *record)
 {
-    fracas_record record;
-    fracas_record_init(&record);
-    fracas_err err = FRACAS_OK;
-    for (size_t i = 0; i < n && !err; i++) {
-        const size_t row = ensemble->row[(size_t)((double)i / (double)n * (double)ensemble->nrealizations)];
-        size_t point;
-        int64_t replica;
-        err = fracas_reader_record(reader, row, FRACAS_READ_HISTORY, &point, &replica, &record);
-        if (!err && record.nhistory > 0) take_in(&record, bands, of);
-        fracas_record_clear(&record);
-    }
-    return err;
+    if (!of->times || of->count >= of->selected) return;
+    const size_t next = (size_t)((double)of->count / (double)of->selected * (double)of->all);
+    if (of->met++ >= next && record->nhistory > 0) take_in(record, of);
 }
 
-fracas_err fracas_bands_read(fracas_reader *reader, const fracas_ensemble *ensemble, double end, fracas_bands *bands)
+void fracas_bands_end(fracas_bands_collector *of)
 {
-    *bands = (fracas_bands){0};
-    const int64_t intervals = fracas_reader_header(reader)->history;
-    if (intervals <= 0 || !(end > 0) || ensemble->nrealizations == 0) return FRACAS_OK;
-    const size_t times = (size_t)intervals + 1, n = taken(ensemble->nrealizations, times);
-    tails of;
-    fracas_err err = make_room(end, n, times, bands, &of);
-    if (!err) err = read_all(reader, ensemble, n, bands, &of);
-    if (!err) finish(bands, &of);
-    free(of.least);
-    free(of.negative);
-    return err;
+    finish(of);
+    free(of->least);
+    free(of->negative);
+    *of = (fracas_bands_collector){.bands = of->bands};
 }
 
 void fracas_bands_clear(fracas_bands *bands)

@@ -30,9 +30,23 @@ typedef struct {
 
 enum { FRACAS_BAND_LEAST = 20 };
 
-/* Reads the histories of the realizations of `ensemble` one after the other; `end` is the time.end of their point [s]. At most 16 MiB beside
- * the bands, whatever the realizations. FRACAS_DAMAGED or FRACAS_ENVIRONMENT as fracas_reader_record. Cleared by the caller, also after an error. */
-FRACAS_MUST_USE fracas_err fracas_bands_read(fracas_reader *reader, const fracas_ensemble *ensemble, double end, fracas_bands *bands);
+/* Takes in one realization after the other, at most 16 MiB beside the bands, whatever their number. */
+typedef struct {
+    fracas_bands *bands;
+    size_t times;              /* 0: there are no histories */
+    size_t all, selected;      /* usable realizations of the point, and how many of them are taken, evenly */
+    size_t met, count;         /* of those, so far */
+    size_t most;               /* values in a heap */
+    double *least, *negative;  /* [time][energy][most]: heaps of the least values and of the least negatives, the first is the greatest kept */
+} fracas_bands_collector;
+
+/* Of `realizations` usable ones; their histories have `intervals` (>= 0) equal ones of time.end `end` [s]. Both are cleared by the caller, also
+ * after an error: fracas_bands_end frees what only the collector needs. */
+FRACAS_MUST_USE fracas_err fracas_bands_begin(int64_t intervals, double end, size_t realizations, fracas_bands *bands,
+                                              fracas_bands_collector *collector);
+/* The history of the next usable realization, in the order of the study. */
+void fracas_bands_add(fracas_bands_collector *collector, const fracas_record *record);
+void fracas_bands_end(fracas_bands_collector *collector);
 void fracas_bands_clear(fracas_bands *bands);
 
 #endif

@@ -54,7 +54,7 @@ typedef struct {
     fracas_pooled pooled;
     fracas_convergence convergence; /* of the headline numbers */
     fracas_normalised normalised;
-    fracas_bands bands;    /* of the energies; made by fracas_bands_read */
+    fracas_bands bands;    /* of the energies; made by a fracas_bands_collector */
 
     /* The replica whose dissipated energy is the nearest to the mean, the first of several. */
     int64_t typical_replica; /* -1 without a usable realization */

@@ -5,7 +5,7 @@
 #include "analysis/analysis.h"
 #include "analysis/study/columns.h"
 #include "analysis/study/statistics.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/results.h"
 
 struct fracas_analysis {
     char *name;                     /* of the study's folder */
@@ -14,11 +14,24 @@ struct fracas_analysis {
     fracas_columns shown;           /* columns that tell the points apart */
     fracas_point_statistics *point; /* table->npoints of them */
     fracas_decision *decision;      /* of each point, the last one on its replicas, replicas 0 where they were given; NULL: at all points */
-    fracas_reader *reader;          /* open as long as the analysis: it owns the table */
+    fracas_results *results;        /* open as long as the analysis: it owns the table */
 };
 
-/* Opens STUDY/study.h5; FRACAS_DAMAGED if it is not there (the message says that `fracas run` makes it). */
-FRACAS_MUST_USE fracas_err fracas_analysis_open(const char *study, fracas_reader **reader);
+/* How far the study, or a point of it, is. */
+typedef struct {
+    int64_t planned; /* realizations; where a rule decides their number, those that were asked for by now */
+    int64_t done;    /* that are here, as they ended */
+    int64_t failed;  /* that FAILED; they are here too, as rows of NaN */
+    int64_t missing; /* done, but their segment is missing or damaged */
+    bool settled;    /* all are done or FAILED, and the rule, if there is one, asks for no more */
+    bool complete;   /* settled, and none FAILED */
+} fracas_progress;
+
+fracas_progress fracas_analysis_progress_of(const fracas_analysis *analysis, size_t point);
+fracas_progress fracas_analysis_progress(const fracas_analysis *analysis); /* of all points together */
+
+/* "partial: 120 of 256 realizations done, 2 FAILED, 8 missing"; false, and no text, of a study whose study.h5 is of everything. */
+bool fracas_analysis_partial(const fracas_analysis *analysis, char *text, size_t size);
 
 /* The last decision on the replicas of a point, NULL if they were given; and what it looks at, "mean-count". */
 const fracas_decision *fracas_analysis_decision(const fracas_analysis *analysis, size_t point);
@@ -30,7 +43,7 @@ bool fracas_analysis_decided(const fracas_analysis *analysis, size_t point, char
 /* Something a reader must know before trusting a number. */
 typedef struct {
     size_t point; /* SIZE_MAX: the study as a whole */
-    char text[256];
+    char text[480];
 } fracas_warning;
 
 /* Every warning of the study in the order of its points; *warning freed by the caller with free(). */

@@ -15,7 +15,7 @@ static const double elements_limit = 10;   /* elements of a mean fragment */
 static const double dust_limit = 0.05;     /* share of all fragments */
 static const double zone_limit = 0.25;     /* fracture-limiting zone of a mean fragment (docs/results/ring.md) */
 
-enum { WARNINGS_PER_POINT = 14 }; /* at most what warn_of_point can say */
+enum { WARNINGS_PER_POINT = 16, WARNINGS_PER_STUDY = 2 }; /* at most, of a study beside its notes */
 
 typedef struct {
     size_t count;
@@ -110,14 +110,40 @@ static void warn_of_decision(const fracas_decision *last, size_t p, warning_list
          (long long)last->maximum, fracas_analysis_quantity(last), found, 100 * last->relative_half_width);
 }
 
+static void warn_of_study(const fracas_analysis *analysis, warning_list *list)
+{
+    char text[128];
+    const fracas_progress all = fracas_analysis_progress(analysis);
+    const bool partial = fracas_analysis_partial(analysis, text, sizeof text);
+    if (partial && all.settled)
+        warn(list, SIZE_MAX, "%s, but study.h5 is not there or not of all of them: `fracas merge` writes it", text);
+    else if (partial)
+        warn(list, SIZE_MAX, "%s: every number is of these alone; `fracas run` with the campaign file completes the study", text);
+    else if (!analysis->header.complete)
+        warn(list, SIZE_MAX, "the study is not complete: realizations are missing or FAILED");
+    for (size_t n = 0; n < fracas_results_notes(analysis->results); n++)
+        warn(list, SIZE_MAX, "%s", fracas_results_note(analysis->results, n));
+}
+
+static void warn_of_progress(const fracas_analysis *analysis, size_t p, warning_list *list)
+{
+    const fracas_progress progress = fracas_analysis_progress_of(analysis, p);
+    const long long here = (long long)(progress.done + progress.failed), planned = (long long)progress.planned;
+    if (!fracas_results_partial(analysis->results)) return;
+    if (here < planned) warn(list, p, "partial: %lld of %lld realizations done", here, planned);
+    else if (!fracas_results_decided(analysis->results, p))
+        warn(list, p, "partial: %lld realizations done, and the rule for replicas has not decided whether these are enough", here);
+}
+
 fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warning **warning, size_t *count)
 {
     size_t npoints = analysis->table->npoints;
-    warning_list list = {.warning = malloc((WARNINGS_PER_POINT * npoints + 1) * sizeof *list.warning)};
+    const size_t most = WARNINGS_PER_POINT * npoints + WARNINGS_PER_STUDY + fracas_results_notes(analysis->results);
+    warning_list list = {.warning = malloc(most * sizeof *list.warning)};
     if (!list.warning) return fracas_no_memory("warnings");
-    if (!analysis->header.complete)
-        warn(&list, SIZE_MAX, "the study is not complete: realizations are missing or FAILED");
+    warn_of_study(analysis, &list);
     for (size_t p = 0; p < npoints; p++) {
+        warn_of_progress(analysis, p, &list);
         warn_of_point(&analysis->point[p], p, &list);
         warn_of_convergence(&analysis->point[p], p, &list);
         warn_of_decision(fracas_analysis_decision(analysis, p), p, &list);

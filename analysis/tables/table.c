@@ -89,15 +89,19 @@ static char *cell_of(painter *paint, size_t row, size_t c)
 }
 
 
-/* "32 FRAGMENTED, 1 FAILED": the outcomes that occurred. */
-static void outcomes_text(const fracas_point_statistics *statistics, char *text, size_t size)
+/* "32 FRAGMENTED, 1 FAILED, 7 not there": the outcomes that occurred, and what a partial study lacks. */
+static void outcomes_text(const fracas_analysis *analysis, size_t p, char *text, size_t size)
 {
+    const fracas_point_statistics *statistics = &analysis->point[p];
+    const fracas_progress progress = fracas_analysis_progress_of(analysis, p);
+    const long long to_come = (long long)(progress.planned - progress.done - progress.failed);
     size_t used = 0;
     snprintf(text, size, "-");
     for (int o = 0; o < FRACAS_NOUTCOMES && used < size; o++)
         if (statistics->outcome[o] > 0)
             used += (size_t)snprintf(text + used, size - used, "%s%lld %s", used ? ", " : "",
                                      (long long)statistics->outcome[o], fracas_outcome_name(o));
+    if (to_come > 0 && used < size) snprintf(text + used, size - used, "%s%lld not there", used ? ", " : "", to_come);
 }
 
 /* One prefix for a column, from the values of `member` at all points. */
@@ -184,7 +188,7 @@ static void paint_point(painter *paint, size_t p)
     fracas_format_digits(statistics->residual, 2, cell[RESIDUAL], FRACAS_CELL);
     fracas_format_digits(statistics->created, 2, cell[CREATED], FRACAS_CELL);
     fracas_format_digits(statistics->rotation.mean / statistics->translation.mean, 2, cell[ROTATION], FRACAS_CELL);
-    outcomes_text(statistics, cell[OUTCOMES], FRACAS_CELL);
+    outcomes_text(paint->analysis, p, cell[OUTCOMES], FRACAS_CELL);
 }
 
 fracas_err fracas_result_table_create(const fracas_analysis *analysis, bool unicode, fracas_result_table *table)

@@ -42,7 +42,7 @@ static fracas_err compare(void *context, fracas_step *step)
     if (step->status != FRACAS_DONE) return FRACAS_OK;
     TRY(place_of(c->index, point, step->replica, &place));
     if (place.status != FRACAS_DONE) return FRACAS_OK;
-    TRY(fracas_segments_record(c->segments, &place, point, step->replica, &c->record));
+    TRY(fracas_segments_record(c->segments, &place, point, step->replica, FRACAS_READ_ALL, &c->record));
     c->both++;
     if (fracas_record_same(&c->record, &step->record)) return FRACAS_OK;
     char hex[FRACAS_HASH_HEX];

@@ -12,6 +12,7 @@ static const char reindex[] = "`fracas reindex` makes the index anew from the se
 struct fracas_segments {
     const char *study;
     fracas_index *index;
+    char *index_path; /* for messages, when the index is closed */
     fracas_identity identity;
     fracas_known_segment *segment; /* by id */
     size_t count;
@@ -28,7 +29,8 @@ fracas_err fracas_segments_create(const char *study, fracas_index *index, const 
     new->study = study;
     new->index = index;
     new->identity = *identity;
-    fracas_err err = fracas_index_segments(index, &new->segment, &new->count);
+    new->index_path = strdup(index->path);
+    fracas_err err = new->index_path ? fracas_index_segments(index, &new->segment, &new->count) : fracas_no_memory("the segments");
     if (!err) {
         new->checked = calloc(new->count + 1, sizeof *new->checked);
         new->bad = calloc(new->count + 1, sizeof *new->bad);
@@ -47,6 +49,7 @@ void fracas_segments_destroy(fracas_segments *segments)
     fracas_index_segments_free(segments->segment, segments->count);
     free(segments->checked);
     free(segments->bad);
+    free(segments->index_path);
     free(segments);
 }
 
@@ -71,6 +74,18 @@ bool fracas_segments_is_bad(const fracas_segments *segments, int64_t id)
 {
     size_t s = find(segments, id);
     return s != SIZE_MAX && segments->bad[s];
+}
+
+const char *fracas_segments_name(const fracas_segments *segments, int64_t id)
+{
+    const size_t s = find(segments, id);
+    return s == SIZE_MAX ? "" : segments->segment[s].name;
+}
+
+uint64_t fracas_segments_share(const fracas_segments *segments, int64_t id)
+{
+    const size_t s = find(segments, id);
+    return s == SIZE_MAX ? 0 : segments->segment[s].seal.bytes / (uint64_t)(segments->segment[s].rows + 1);
 }
 
 static fracas_err check_identity(const fracas_segments *segments, const char *path)
@@ -103,7 +118,7 @@ fracas_reader *fracas_segments_reader(const fracas_segments *segments) { return 
 fracas_err fracas_segments_open(fracas_segments *segments, int64_t id)
 {
     size_t s = find(segments, id);
-    if (s == SIZE_MAX) return fracas_fail(FRACAS_DAMAGED, "%s has no segment %" PRId64 "; %s", segments->index->path, id, reindex);
+    if (s == SIZE_MAX) return fracas_fail(FRACAS_DAMAGED, "%s has no segment %" PRId64 "; %s", segments->index_path, id, reindex);
     if (segments->bad[s]) return fracas_fail(FRACAS_DAMAGED, "segment %s is damaged", segments->segment[s].name);
     if (segments->reader && segments->current == s) return FRACAS_OK;
     fracas_reader_close(segments->reader);
@@ -124,7 +139,7 @@ bool fracas_place_fits(const fracas_place *place, const fracas_record *record)
 }
 
 fracas_err fracas_segments_record(fracas_segments *segments, const fracas_place *place, const fracas_hash *point,
-                                  int64_t replica, fracas_record *record)
+                                  int64_t replica, unsigned parts, fracas_record *record)
 {
     TRY(fracas_segments_open(segments, place->segment));
     const char *name = segments->segment[segments->current].name;
@@ -133,17 +148,19 @@ fracas_err fracas_segments_record(fracas_segments *segments, const fracas_place 
         return fracas_fail(FRACAS_DAMAGED, "segment %s has no row %" PRId64 ", which the index names; %s", name, place->row, reindex);
     size_t found_point;
     int64_t found_replica;
-    fracas_err err = fracas_reader_record(reader, (size_t)place->row, FRACAS_READ_ALL, &found_point, &found_replica, record);
+    fracas_err err = fracas_reader_record(reader, (size_t)place->row, parts, &found_point, &found_replica, record);
     if (err == FRACAS_DAMAGED) err = fracas_fail_within(err, "to compute its realizations again, move it away and run again");
     TRY(err);
     if (!fracas_hash_equal(&fracas_reader_points(reader)->point[found_point].hash, point) || found_replica != replica)
         return fracas_fail(FRACAS_DAMAGED, "segment %s: row %" PRId64 " is another realization than the index says; %s", name,
                            place->row, reindex);
-    if (fracas_place_fits(place, record)) return FRACAS_OK;
+    fracas_place said = *place;
+    if (!(parts & FRACAS_READ_FRAGMENTS)) said.sized = false; /* their mean size is not known here */
+    if (fracas_place_fits(&said, record)) return FRACAS_OK;
     char hex[FRACAS_HASH_HEX];
     fracas_hash_hex(point, hex);
     return fracas_fail(FRACAS_DAMAGED, "%s: replica %" PRId64 " of point %s: its row differs from its record in segment %s; %s",
-                       segments->index->path, replica, hex, name, reindex);
+                       segments->index_path, replica, hex, name, reindex);
 }
 
 /* ---- the walk in plan order ---- */
@@ -181,9 +198,7 @@ static fracas_err window_add(window *w, fracas_segments *segments, const fracas_
     item->step = (fracas_step){.point = point, .replica = replica, .status = item->place.status};
     fracas_record_init(&item->step.record);
     w->count++;
-    size_t s = find(segments, item->place.segment);
-    w->bytes += sizeof *item + sizeof item;
-    if (s != SIZE_MAX) w->bytes += segments->segment[s].seal.bytes / (uint64_t)(segments->segment[s].rows + 1);
+    w->bytes += sizeof *item + sizeof item + fracas_segments_share(segments, item->place.segment);
     return FRACAS_OK;
 }
 
@@ -200,7 +215,7 @@ static fracas_err check_failed(const fracas_segments *segments, const fracas_pla
     const bool failed = place->status == FRACAS_FAILED_ROW || place->status == FRACAS_QUARANTINED;
     if (!failed || place->outcome == FRACAS_FAILED) return FRACAS_OK;
     return fracas_fail(FRACAS_DAMAGED, "%s: replica %" PRId64 " of a point has failed, but has the outcome %" PRId64 "; %s",
-                       segments->index->path, replica, place->outcome, reindex);
+                       segments->index_path, replica, place->outcome, reindex);
 }
 
 static fracas_err window_read(window *w, fracas_segments *segments, const fracas_point_table *table, bool tolerant)
@@ -214,7 +229,7 @@ static fracas_err window_read(window *w, fracas_segments *segments, const fracas
     for (size_t i = 0; i < n; i++) {
         fracas_step *step = &w->sorted[i]->step;
         fracas_err err = fracas_segments_record(segments, &w->sorted[i]->place, &table->point[step->point].hash,
-                                                step->replica, &step->record);
+                                                step->replica, FRACAS_READ_ALL, &step->record);
         step->damaged = err == FRACAS_DAMAGED;
         if (err && !(tolerant && step->damaged)) return err;
     }

@@ -8,7 +8,7 @@
 
 typedef struct fracas_segments fracas_segments;
 
-/* A segment of another identity is FRACAS_DAMAGED. `study` and `index` must outlive it. */
+/* A segment of another identity is FRACAS_DAMAGED. `study` must outlive it, and `index` the walk; the rest goes on when it is closed. */
 FRACAS_MUST_USE fracas_err fracas_segments_create(const char *study, fracas_index *index,
                                                   const fracas_identity *identity, fracas_segments **segments);
 void fracas_segments_destroy(fracas_segments *segments); /* NULL is allowed */
@@ -26,9 +26,12 @@ fracas_reader *fracas_segments_reader(const fracas_segments *segments);
 /* True after fracas_segments_open has found it damaged. */
 bool fracas_segments_is_bad(const fracas_segments *segments, int64_t id);
 
-/* The record in a place, which must be that of this realization; all parts. Cheapest by segment and row. */
-FRACAS_MUST_USE fracas_err fracas_segments_record(fracas_segments *segments, const fracas_place *place,
-                                                  const fracas_hash *point, int64_t replica, fracas_record *record);
+/* The record in a place, which must be that of this realization; parts as fracas_reader_record. Cheapest by segment and row. */
+FRACAS_MUST_USE fracas_err fracas_segments_record(fracas_segments *segments, const fracas_place *place, const fracas_hash *point,
+                                                  int64_t replica, unsigned parts, fracas_record *record);
+/* File name of a segment, "" if there is none of that id; bytes a realization of it takes there. */
+const char *fracas_segments_name(const fracas_segments *segments, int64_t id);
+uint64_t fracas_segments_share(const fracas_segments *segments, int64_t id);
 
 /* One realization on the walk below. */
 typedef struct {

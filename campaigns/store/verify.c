@@ -213,7 +213,7 @@ static fracas_err check_row(verification *v, sqlite3_stmt *row)
                                 real_at(row, 11), sqlite3_column_type(row, 11) != SQLITE_NULL};
     if (!hex || !fracas_hash_parse(hex, &point)) return found(v, "%s: a point has no valid hash", v->index->path);
     if (fracas_segments_is_bad(v->segments, place.segment)) return FRACAS_OK; /* said already */
-    return problem(v, fracas_segments_record(v->segments, &place, &point, replica, &v->record));
+    return problem(v, fracas_segments_record(v->segments, &place, &point, replica, FRACAS_READ_ALL, &v->record));
 }
 
 static fracas_err check_rows(verification *v)

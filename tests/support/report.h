@@ -75,7 +75,7 @@ static inline void report_write_study(const char *folder, const fracas_file_head
 static inline void report_analyse(const char *folder)
 {
     fracas_analysis *analysis;
-    assert_int_equal(fracas_analysis_create(folder, &analysis), FRACAS_OK);
+    assert_int_equal(fracas_analysis_create(folder, NULL, NULL, &analysis), FRACAS_OK);
     char path[640];
     snprintf(path, sizeof path, "%s/table.txt", folder);
     FILE *out = fopen(path, "w");

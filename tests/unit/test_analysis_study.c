@@ -212,9 +212,9 @@ static void study_that_is_not_there(void **state)
 {
     (void)state;
     fracas_analysis *analysis;
-    assert_int_equal(fracas_analysis_create("/nonexistent", &analysis), FRACAS_DAMAGED);
+    assert_int_equal(fracas_analysis_create("/nonexistent", NULL, NULL, &analysis), FRACAS_DAMAGED);
     assert_null(analysis);
-    assert_int_equal(fracas_analysis_create(report_root, &analysis), FRACAS_DAMAGED);
+    assert_int_equal(fracas_analysis_create(report_root, NULL, NULL, &analysis), FRACAS_DAMAGED);
     assert_non_null(strstr(fracas_message(), "fracas run"));
 }
 
@@ -229,7 +229,7 @@ static void report_that_cannot_be_written(void **state)
     assert_non_null(file);
     fclose(file);
     fracas_analysis *analysis;
-    assert_int_equal(fracas_analysis_create(folder, &analysis), FRACAS_OK);
+    assert_int_equal(fracas_analysis_create(folder, NULL, NULL, &analysis), FRACAS_OK);
     assert_int_equal(fracas_report_write(analysis, folder), FRACAS_ENVIRONMENT);
     assert_non_null(strstr(fracas_message(), "blocked/report"));
     fracas_analysis_destroy(analysis);

@@ -361,7 +361,7 @@ static void page_has(const char *part, bool wanted)
 static void report(void)
 {
     fracas_analysis *analysis;
-    OK(fracas_analysis_create(study, &analysis));
+    OK(fracas_analysis_create(study, NULL, NULL, &analysis));
     OK(fracas_report_write(analysis, study));
     fracas_analysis_destroy(analysis);
 }

@@ -96,8 +96,8 @@ fracas_err fracas_picture_create(const fracas_analysis *analysis, size_t point, 
     fracas_record_init(&record);
     size_t of;
     int64_t replica;
-    fracas_err err = fracas_reader_record(analysis->reader, statistics->broken_row, FRACAS_READ_FRAGMENTS, &of, &replica,
-                                          &record);
+    fracas_err err = fracas_results_record(analysis->results, statistics->broken_row, FRACAS_READ_FRAGMENTS, &of, &replica,
+                                           &record);
     if (!err) err = fracas_ring_pattern_create(&record, statistics->radius, &picture->pattern);
     fracas_record_clear(&record);
     TRY(err);

@@ -13,7 +13,7 @@
 typedef struct {
     const char *study;
     const fracas_picture_request *request;
-    fracas_reader *reader;
+    fracas_results *results; /* study.h5 */
     const fracas_point_table *table;
     size_t first_row; /* of the point, in the study */
     char *folder;
@@ -22,17 +22,26 @@ typedef struct {
 
 /* ---- what is asked for ---- */
 
+/* The points of a study that was extended are numbered anew. */
+static fracas_err check_campaign(const making *m)
+{
+    const fracas_hash *wanted = m->request->campaign;
+    if (!wanted || fracas_hash_equal(&fracas_results_header(m->results)->campaign, wanted)) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED, "pictures come with the complete study: %s/study.h5 is of another campaign than "
+                       "%s/campaign.yaml, from before it was extended; `fracas run` with the campaign file completes it", m->study, m->study);
+}
+
 static fracas_err check_point(making *m)
 {
     const size_t point = m->request->point, npoints = m->table->npoints;
-    if (!fracas_reader_header(m->reader)->interfaces)
+    if (!fracas_results_header(m->results)->interfaces)
         return fracas_fail(FRACAS_USAGE, "%s keeps no interfaces, so it does not say where the cracks are: run the campaign with "
                            "`output: {interfaces: true}` into another study", m->study);
     if (point >= npoints)
         return fracas_fail(FRACAS_USAGE, "there is no point %zu: %s has %zu of them, from 0", point, m->study, npoints);
     for (size_t p = 0; p < point; p++) m->first_row += (size_t)m->table->point[p].replicas;
     size_t interfaces;
-    TRY(fracas_reader_mesh_interfaces(m->reader, point, &interfaces));
+    TRY(fracas_results_mesh_interfaces(m->results, point, &interfaces));
     if (interfaces) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE, "point %zu is no surface: only membranes and shells have pictures; "
                        "`fracas report` draws the fragments of rings", point);
@@ -107,7 +116,7 @@ static fracas_err put_line(const making *m, const fracas_stored_mesh *mesh, int6
 {
     size_t point;
     int64_t found;
-    TRY(fracas_reader_record(m->reader, m->first_row + (size_t)replica, FRACAS_READ_INTERFACES, &point, &found, record));
+    TRY(fracas_results_record(m->results, m->first_row + (size_t)replica, FRACAS_READ_INTERFACES, &point, &found, record));
     fracas_surface_times times = {NAN, NAN, {NAN, NAN}};
     if (record->ninterface > 0) TRY(fracas_surface_times_of(mesh, record, &times));
     fprintf(out, "%" PRId64 ",%s", replica, fracas_outcome_name(record->outcome));
@@ -154,10 +163,10 @@ static fracas_err make_folder(making *m)
 static fracas_err make(making *m)
 {
     fracas_broken_surface surface;
-    m->table = fracas_reader_points(m->reader);
+    m->table = fracas_results_points(m->results);
     TRY(check_point(m));
     TRY(check_replica(m));
-    fracas_err err = fracas_broken_surface_read(m->reader, m->request->point, m->first_row + (size_t)m->request->replica,
+    fracas_err err = fracas_broken_surface_read(m->results, m->request->point, m->first_row + (size_t)m->request->replica,
                                                 &surface);
     if (!err) err = check_record(m, &surface.record);
     if (!err) err = make_folder(m);
@@ -171,9 +180,11 @@ static fracas_err make(making *m)
 fracas_err fracas_pictures_write(const char *study, const fracas_picture_request *request, FILE *out)
 {
     making m = {.study = study, .request = request, .out = out};
-    TRY(fracas_analysis_open(study, &m.reader));
-    fracas_err err = make(&m);
-    fracas_reader_close(m.reader);
+    fracas_err err = fracas_results_open(study, NULL, NULL, &m.results);
+    if (err) return fracas_fail_within(err, "pictures come with the complete study");
+    err = check_campaign(&m);
+    if (!err) err = make(&m);
+    fracas_results_close(m.results);
     free(m.folder);
     return err;
 }

@@ -9,16 +9,16 @@ static const size_t most_elements = 1500000; /* drawn on a page, some 20 MB of i
 static const double apart = 0.1;             /* fragments of surfaces in space on a page */
 static const size_t most_apart = 50000;      /* elements of a mesh; of larger ones the gaps are not worth the room they take */
 
-fracas_err fracas_broken_surface_read(fracas_reader *reader, size_t point, size_t row, fracas_broken_surface *surface)
+fracas_err fracas_broken_surface_read(fracas_results *results, size_t point, size_t row, fracas_broken_surface *surface)
 {
     size_t of;
     int64_t replica;
     *surface = (fracas_broken_surface){0};
     fracas_record_init(&surface->record);
-    const double thickness = fracas_columns_real(fracas_reader_points(reader), point, "geometry.thickness");
+    const double thickness = fracas_columns_real(fracas_results_points(results), point, "geometry.thickness");
     if (thickness > 0) surface->thickness = thickness;
-    TRY(fracas_reader_mesh(reader, point, &surface->mesh));
-    return fracas_reader_record(reader, row, FRACAS_READ_INTERFACES, &of, &replica, &surface->record);
+    TRY(fracas_results_mesh(results, point, &surface->mesh));
+    return fracas_results_record(results, row, FRACAS_READ_INTERFACES, &of, &replica, &surface->record);
 }
 
 void fracas_broken_surface_clear(fracas_broken_surface *surface)
@@ -51,7 +51,7 @@ fracas_err fracas_broken_surface_save(const fracas_broken_surface *surface, doub
 static fracas_err has_mesh(const fracas_analysis *analysis, size_t point, bool *has)
 {
     size_t interfaces;
-    TRY(fracas_reader_mesh_interfaces(analysis->reader, point, &interfaces));
+    TRY(fracas_results_mesh_interfaces(analysis->results, point, &interfaces));
     *has = interfaces > 0;
     return FRACAS_OK;
 }
@@ -144,11 +144,19 @@ static fracas_err put_point(gallery *to, size_t p)
         return FRACAS_OK;
     }
     fracas_broken_surface surface;
-    fracas_err err = fracas_broken_surface_read(to->analysis->reader, p,
+    fracas_err err = fracas_broken_surface_read(to->analysis->results, p,
                                                 broken ? statistics->broken_row : statistics->typical_row, &surface);
     if (!err) err = put_row(to, &surface, p, replica);
     fracas_broken_surface_clear(&surface);
     return err;
+}
+
+/* Meshes come with study.h5. */
+static void say_later(const fracas_analysis *analysis, FILE *page)
+{
+    if (!fracas_results_partial(analysis->results) || !analysis->header.interfaces || !fracas_analysis_any_surface(analysis)) return;
+    fputs("<h2>Broken surfaces</h2>\n<p>Crack pictures come with the complete study: its meshes are in study.h5, which "
+          "<code>fracas run</code> writes at the end.</p>\n", page);
 }
 
 fracas_err fracas_surfaces_put(const fracas_analysis *analysis, const char *folder, FILE *page)
@@ -156,7 +164,10 @@ fracas_err fracas_surfaces_put(const fracas_analysis *analysis, const char *fold
     bool any;
     gallery to = {analysis, folder, page, 0};
     TRY(fracas_surfaces_any(analysis, &any));
-    if (!any) return FRACAS_OK;
+    if (!any) {
+        say_later(analysis, page);
+        return FRACAS_OK;
+    }
     fputs("<h2>Broken surfaces</h2>\n<p>One realization of each point, the first that ended FRAGMENTED, at even times from the "
           "first onset to the end, drawn as it was before any motion. Strong lines: broken interfaces; faint ones: cracked, not "
           "yet broken. Fragments have tints by which neighbours differ; orange: dust, of one or two elements. Others: "

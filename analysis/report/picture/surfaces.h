@@ -16,7 +16,7 @@ typedef struct {
 } fracas_broken_surface;
 
 /* The realization in row `row` of the study. Cleared by the caller, after an error too. */
-FRACAS_MUST_USE fracas_err fracas_broken_surface_read(fracas_reader *reader, size_t point, size_t row,
+FRACAS_MUST_USE fracas_err fracas_broken_surface_read(fracas_results *results, size_t point, size_t row,
                                                       fracas_broken_surface *surface);
 void fracas_broken_surface_clear(fracas_broken_surface *surface);
 
@@ -28,7 +28,7 @@ FRACAS_MUST_USE fracas_err fracas_broken_surface_save(const fracas_broken_surfac
 /* True if some point of the study has a mesh. */
 FRACAS_MUST_USE fracas_err fracas_surfaces_any(const fracas_analysis *analysis, bool *any);
 
-/* The section of the page, nothing if there are no surfaces: of every point one realization, the first that ended FRAGMENTED or
+/* The section of the page, nothing if there are no surfaces; of a partial study, which has no meshes, that they come: of every point one realization, the first that ended FRAGMENTED or
  * else the typical one, at FRACAS_MOMENTS times; each picture into the folder, too. After some 1.5 million elements drawn it only
  * says how to get the others. */
 FRACAS_MUST_USE fracas_err fracas_surfaces_put(const fracas_analysis *analysis, const char *folder, FILE *page);
