@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-enum { RIGHT = 16, LINE_HEIGHT = 19, SWATCH = 30, GAP = 14, TICK = 4 }; /* pixels */
+enum { RIGHT = 22, LINE_HEIGHT = 19, SWATCH = 30, GAP = 14, TICK = 4 }; /* pixels */
 enum { LEGEND_MOST = 12 }; /* further series are counted, not named */
 enum { COLOURS = FRACAS_CHART_COLOURS, DASHES = 5, SHAPES = 4 };
 
@@ -102,10 +102,12 @@ static void draw_axes(const frame *f, double bottom)
                     f->ytick[i].label);
     }
     fprintf(f->out, "<path class=\"axis\" d=\"M%.1f %.1fV%.1fH%.1f\"/>\n", f->x.from, f->y.to, bottom, f->x.to);
-    fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">", (f->x.from + f->x.to) / 2, bottom + 39);
-    fracas_markup_text(f->panel.x.label, f->out);
-    double middle = (f->y.from + f->y.to) / 2;
-    fprintf(f->out, "</text>\n<text transform=\"translate(15 %.1f) rotate(-90)\" text-anchor=\"middle\">", middle);
+    if (*f->panel.x.label) {
+        fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">", (f->x.from + f->x.to) / 2, bottom + 39);
+        fracas_markup_text(f->panel.x.label, f->out);
+        fputs("</text>\n", f->out);
+    }
+    fprintf(f->out, "<text transform=\"translate(15 %.1f) rotate(-90)\" text-anchor=\"middle\">", (f->y.from + f->y.to) / 2);
     fracas_markup_text(f->panel.y.label, f->out);
     fputs("</text>\n", f->out);
 }

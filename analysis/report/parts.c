@@ -4,6 +4,7 @@
 #include "analysis/export/output.h"
 #include "analysis/report/pdf.h"
 
+#include <ctype.h>
 #include <stdlib.h>
 
 /* ---- figures ---- */
@@ -64,12 +65,22 @@ static void put_source(fracas_page *page)
     fprintf(page->out, ", campaign %.12s, fracas %s.</span>", hash, page->analysis->header.version);
 }
 
+/* Text in which the c of "G_c" stands low; an underscore within a word stays. */
+static void put_words(const char *text, FILE *out)
+{
+    for (const char *rest = text; *rest; rest++) {
+        const bool low = rest[0] == '_' && rest > text && isalpha((unsigned char)rest[1]) && !isalnum((unsigned char)rest[2]) && rest[2] != '_';
+        if (low) fprintf(out, "<sub>%c</sub>", *++rest);
+        else fracas_markup_text((const char[]){*rest, '\0'}, out);
+    }
+}
+
 void fracas_page_figure_end(fracas_page *page, const char *title, const char *caption, const char *file, bool drawn, bool csv)
 {
     fprintf(page->out, "<figcaption><b>Figure %d.</b> ", ++page->figures);
     fracas_markup_text(title, page->out);
     fputs(*caption ? ". " : ".", page->out);
-    fracas_markup_text(caption, page->out);
+    put_words(caption, page->out);
     put_source(page);
     fracas_page_links(page, file, drawn, csv);
     fputs("</figcaption>\n</figure>\n", page->out);

@@ -158,7 +158,7 @@ static void paint_headline(const fracas_analysis *analysis, size_t p, const frac
 
 static fracas_err make_headlines(const fracas_analysis *analysis, fracas_result_table *table)
 {
-    static const char *const name[NHEADLINE] = {"point", "n", "fragments", "mean size", "mean size"};
+    static const char *const name[NHEADLINE] = {"point", "n", "fragments", "mean size", "size"};
     const size_t npoints = analysis->table->npoints, rows = npoints < HEADLINES ? npoints : HEADLINES;
     const fracas_prefix unit = size_prefix(analysis);
     *table = (fracas_result_table){.rows = FRACAS_RESULT_TABLE_HEAD + rows, .columns = fracas_analysis_all_surfaces(analysis) ? RATIO : NHEADLINE};

@@ -43,7 +43,7 @@ fracas_err fracas_section_slopes(fracas_page *page)
 {
     fracas_result_table table = {0};
     const fracas_err built = fracas_slope_table_create(page->analysis, true, &table);
-    return fracas_page_table(page, "slopes", "Slope of log(mean size) against log(strain rate)", false, &table, fracas_slope_table_legend,
+    return fracas_page_table(page, "slopes", "Slope of log(mean size) against log(strain rate)", true, &table, fracas_slope_table_legend,
                              built);
 }
 
@@ -51,7 +51,7 @@ fracas_err fracas_section_motion(fracas_page *page)
 {
     fracas_result_table table = {0};
     const fracas_err built = fracas_motion_table_create(page->analysis, true, &table);
-    return fracas_page_table(page, "motion", "Velocities of the fragments of rings at the end", false, &table, fracas_motion_table_legend,
+    return fracas_page_table(page, "motion", "Velocities of the fragments of rings at the end", true, &table, fracas_motion_table_legend,
                              built);
 }
 
