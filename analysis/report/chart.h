@@ -1,4 +1,4 @@
-/* Charts as SVG: panels of series over two axes. */
+/* Charts as SVG and as CSV, both from the same values: panels of series over two axes. */
 #ifndef FRACAS_ANALYSIS_REPORT_CHART_H
 #define FRACAS_ANALYSIS_REPORT_CHART_H
 
@@ -11,7 +11,8 @@
 typedef enum {
     FRACAS_CURVE, /* straight lines from value to value */
     FRACAS_STEPS, /* from a value down to the next one's y, then across: a complementary cumulative */
-    FRACAS_MARKS  /* a mark a value, with a bar from low to high; open below where low is off a log axis */
+    FRACAS_MARKS, /* a mark a value, with a bar from low to high; open below where low is off a log axis */
+    FRACAS_BAND   /* an area from low to high, and the line y within it */
 } fracas_series_kind;
 
 typedef struct {
@@ -20,7 +21,7 @@ typedef struct {
     unsigned look;       /* which colour, dash or shape of mark: each look is another */
     size_t n;
     double *x, *y;
-    double *low, *high;  /* of MARKS; NaN: no bar */
+    double *low, *high;  /* of MARKS and BAND; NaN: no bar, a gap in the area */
 } fracas_series;
 
 typedef struct {
@@ -32,16 +33,25 @@ typedef struct {
     fracas_axis x, y;
     double height;  /* pixels of the plot area */
     double y_floor; /* smaller values are not shown; 0 for none */
+    const char *bars; /* what low to high are, as on hover: "95 %"; NULL is that */
     size_t nseries, capacity;
     fracas_series *series;
 } fracas_panel;
 
 enum { FRACAS_MAX_PANELS = 2 };
 
+/* Axes that a figure on a page can be seen with beside its own, where those are logarithmic. */
+typedef enum {
+    FRACAS_AXES_OWN = 0,     /* as the panels have them */
+    FRACAS_AXES_SEMILOG = 1, /* x linear */
+    FRACAS_AXES_LINEAR = 2
+} fracas_axes;
+
 typedef struct {
-    char file[64];    /* name of the SVG file without its ending */
+    char file[64];    /* name of the SVG, PDF and CSV files without their endings */
     char title[256];
-    char caption[1024];
+    char caption[1024]; /* sentences: what is drawn, n, what the bars are */
+    unsigned offers;  /* FRACAS_AXES_SEMILOG | FRACAS_AXES_LINEAR, those that make sense; 0: none */
     int width;        /* pixels of the drawing's own coordinates; a page scales it */
     size_t npanels;   /* one above the other */
     fracas_panel panel[FRACAS_MAX_PANELS];
@@ -57,18 +67,25 @@ void fracas_chart_clear(fracas_chart *chart);
 
 /* Adds a panel (at most FRACAS_MAX_PANELS). */
 fracas_panel *fracas_chart_add(fracas_chart *chart, double height);
-/* Adds a series with room for n values in x and y (and low and high for MARKS), n >= 0. */
+/* Adds a series with room for n values in x and y (and low and high for MARKS and BAND), n >= 0. */
 FRACAS_MUST_USE fracas_err fracas_panel_add(fracas_panel *panel, fracas_series_kind kind, unsigned look, size_t n,
                                             fracas_series **series);
 
 /* Opens the <svg> element of a drawing of so many pixels; who draws closes it. `standalone`: a file of its own, with its
- * style, on white; else for a page that has fracas_chart_style, light or dark as the reader has it. */
+ * style, on white; else for a page that has the style sheets of assets.h, light or dark as the reader has it. */
 void fracas_svg_begin(const char *title, int width, double height, bool standalone, FILE *out);
 /* Writes the whole element. */
 void fracas_chart_write(const fracas_chart *chart, bool standalone, FILE *out);
+/* The same for a page, with these axes. */
+void fracas_chart_write_axes(const fracas_chart *chart, fracas_axes axes, FILE *out);
 
-/* Style sheet of the charts of a page: light, then dark inside its media query. Colours of Okabe and Ito (2008). */
-void fracas_chart_style(FILE *out);
+/* What fracas_chart_write draws, a line a value: panel (from 1), series, kind (mark, curve, steps, band), x, y, low, high; the
+ * first line names them with the labels of the axes and so their units, of several panels separated by " | " where they
+ * differ. Nothing in a field for NaN. */
+void fracas_chart_csv(const fracas_chart *chart, FILE *out);
+
+/* True if value i of the series is drawn: finite, above 0 on a log axis, not below the panel's floor. */
+bool fracas_panel_shows(const fracas_panel *panel, const fracas_series *series, size_t i);
 
 /* Writes text with &, <, > and " escaped. */
 void fracas_markup_text(const char *text, FILE *out);

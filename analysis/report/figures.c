@@ -183,6 +183,7 @@ static fracas_err draw_against_rate(const rate_plot *plot, fracas_chart *chart)
     if (!rate_range(plot, rate)) return FRACAS_OK;
     fracas_panel *panel = fracas_chart_add(chart, TALL);
     panel->x.log = panel->y.log = true;
+    chart->offers = FRACAS_AXES_LINEAR;
     size_t npoints = plot->analysis->table->npoints;
     unsigned looks = 0;
     for (size_t p = 0; p < npoints; p++)
@@ -204,19 +205,35 @@ static bool any_curve(const fracas_chart *chart)
     return false;
 }
 
+/* "n = 64", "n = 16 to 64": replicas a mark. */
+static void replicas_text(const fracas_analysis *analysis, char *text, size_t size)
+{
+    int64_t least = INT64_MAX, most = 0;
+    for (size_t p = 0; p < analysis->table->npoints; p++) {
+        const int64_t n = analysis->point[p].size.n;
+        if (!has_mean(&analysis->point[p])) continue;
+        if (n < least) least = n;
+        if (n > most) most = n;
+    }
+    if (least < most) snprintf(text, size, "n = %lld to %lld", (long long)least, (long long)most);
+    else snprintf(text, size, "n = %lld", (long long)most);
+}
+
 static void caption_of_rate(const fracas_analysis *analysis, bool normalised, bool one_law, fracas_chart *chart)
 {
+    char n[64];
+    replicas_text(analysis, n, sizeof n);
     if (fracas_analysis_all_surfaces(analysis)) {
         snprintf(chart->caption, sizeof chart->caption,
-                 "Mean over replicas of the mean square root of a fragment\u2019s area, dust included; bars: 95 %% interval of the "
-                 "mean (Student\u2019s t over replicas).");
+                 "Mean over replicas (%s) of the mean square root of a fragment\u2019s area, dust included; bars: 95 %% interval of the "
+                 "mean (Student\u2019s t over replicas).", n);
         return;
     }
     snprintf(chart->caption, sizeof chart->caption,
-             "%sMean over replicas of body length / fragments%s; bars: 95 %% interval of the mean (Student\u2019s t over "
+             "%sMean over replicas (%s) of body length / fragments%s; bars: 95 %% interval of the mean (Student\u2019s t over "
              "replicas).%s",
              normalised ? "Sizes over s\u2080 = E G_c/\u03c3_c\u00b2, rates over "
-                          "\u03b5\u0307\u2080 = c \u03c3_c\u00b3/(E\u00b2 G_c), \u03c3_c the mean strength. " : "",
+                          "\u03b5\u0307\u2080 = c \u03c3_c\u00b3/(E\u00b2 G_c), \u03c3_c the mean strength. " : "", n,
              !normalised && fracas_analysis_any_surface(analysis) ? ", of surfaces of the mean square root of their areas" : "",
              !one_law && !any_curve(chart) ? " No size law serves all marks of one colour: their materials differ."
              : normalised || one_law       ? " Lines: size laws of Zhou, Molinari and Ramesh (ZMR, ZMR-2), Grady, and Glenn "
@@ -303,26 +320,24 @@ fracas_err fracas_figure_sizes_together(const fracas_analysis *analysis, fracas_
     }
     if (!panel) return FRACAS_OK;
     name_cumulative_axes(panel);
+    chart->offers = FRACAS_AXES_SEMILOG | FRACAS_AXES_LINEAR;
     snprintf(panel->x.label, sizeof panel->x.label, "fragment size s / mean size");
     return FRACAS_OK;
 }
 
-enum { LABEL = 160 };
-
-/* File name and title of a figure of one point, and the point's label. */
-static void name_figure(const fracas_analysis *analysis, size_t point, const char *file, const char *title,
-                        fracas_chart *chart, char label[LABEL])
+/* File name and title of a figure of one point. */
+static void name_figure(const fracas_analysis *analysis, size_t point, const char *file, const char *title, fracas_chart *chart)
 {
-    fracas_analysis_label(analysis, point, label, LABEL);
+    char label[160];
+    fracas_analysis_label(analysis, point, label, sizeof label);
     snprintf(chart->file, sizeof chart->file, "%s-point-%zu", file, point);
-    snprintf(chart->title, sizeof chart->title, "%s: %s", title, label);
+    snprintf(chart->title, sizeof chart->title, "%s%s%s", title, *label ? ", " : "", label);
 }
 
 fracas_err fracas_figure_sizes(const fracas_analysis *analysis, size_t point, fracas_chart *chart)
 {
     const fracas_point_statistics *statistics = &analysis->point[point];
-    char label[LABEL];
-    name_figure(analysis, point, "sizes", "Fragment sizes", chart, label);
+    name_figure(analysis, point, "sizes", "Fragment sizes", chart);
     if (statistics->nfragments == 0) return FRACAS_OK;
     double mean = mean_of(statistics->fragment_size, statistics->nfragments);
     fracas_prefix prefix = fracas_prefix_for(&mean, 1);
@@ -331,8 +346,9 @@ fracas_err fracas_figure_sizes(const fracas_analysis *analysis, size_t point, fr
     TRY(add_sizes(statistics, 1 / prefix.factor, (unsigned)point, panel));
     name_cumulative_axes(panel);
     snprintf(panel->x.label, sizeof panel->x.label, "fragment size s [%sm]", prefix.sign);
-    snprintf(chart->caption, sizeof chart->caption, "%s; fragments: %zu, replicas: %lld.", label,
-             statistics->nfragments, (long long)statistics->usable);
+    chart->offers = FRACAS_AXES_SEMILOG | FRACAS_AXES_LINEAR;
+    snprintf(chart->caption, sizeof chart->caption, "Share of the fragments that are at least of size s: n = %zu fragments of %lld replicas "
+             "together, dust included.", statistics->nfragments, (long long)statistics->usable);
     return FRACAS_OK;
 }
 
@@ -400,8 +416,7 @@ static const double residual_floor = 1e-12;
 fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point, fracas_chart *chart)
 {
     const fracas_point_statistics *statistics = &analysis->point[point];
-    char label[LABEL];
-    name_figure(analysis, point, "energies", "Energies", chart, label);
+    name_figure(analysis, point, "energies", "Energies", chart);
     double largest = largest_energy(statistics);
     if (statistics->nhistory == 0 || !(largest > 0)) return FRACAS_OK;
     fracas_prefix time = fracas_prefix_for(&statistics->history[statistics->nhistory - 1].time, 1);
@@ -423,8 +438,8 @@ fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point,
                  statistics->surface ? "surface" : "ring");
     else if (statistics->surface) motion[0] = '\0';
     snprintf(chart->caption, sizeof chart->caption,
-             "%s: replica %lld, the one whose dissipated energy is the nearest to the mean. %s Below: |residual| "
+             "Replica %lld of %lld, the one whose dissipated energy is the nearest to the mean. %s%sBelow: |residual| "
              "of the energy balance; its largest value over all replicas is %s of the dissipated energy.",
-             label, (long long)statistics->typical_replica, motion, residual);
+             (long long)statistics->typical_replica, (long long)statistics->usable, motion, *motion ? " " : "", residual);
     return FRACAS_OK;
 }

@@ -159,11 +159,47 @@ def marks(name):
 
 for name in glob.glob(os.path.join(report, "*.svg")):
     xml.parse(name)
+PDF = "PDF</a>" in open(os.path.join(report, "index.html"), encoding="utf-8").read()  # not in a program without librsvg
+drawn = {name[:-4] for name in os.listdir(report) if name.endswith(".svg")}
+assert {name[:-4] for name in os.listdir(report) if name.endswith(".pdf")} == (drawn if PDF else set())
 assert marks("size-against-rate.svg") == marks("size-against-rate-normalised.svg") == with_mean
 assert len(glob.glob(os.path.join(report, "sizes-point-*.svg"))) == with_mean
 assert len(glob.glob(os.path.join(report, "energies-point-*.svg"))) == with_mean
 together = xml.parse(os.path.join(report, "sizes.svg")).findall(f".//{SVG}path[@class='line']/{SVG}title")
 assert len(together) == with_mean
+
+# The data of each chart: of the means, the numbers of the summary; of the sizes, the fragments themselves.
+def data(name):
+    with open(os.path.join(report, name + ".csv"), encoding="utf-8") as file:
+        head, *lines = csv.reader(file)
+    assert head[:3] == ["panel", "series", "kind"] and head[5:] == ["low", "high"]
+    return head, lines
+
+
+if with_mean:
+    head, lines = data("size-against-rate")
+    unit = {"n": 1e-9, "µ": 1e-6, "m": 1e-3, "": 1.0, "k": 1e3}[re.fullmatch(r"mean fragment size \[(.?)m\]", head[4]).group(1)]
+    assert head[3] == "strain rate [1/s]"
+    means = sorted(tuple(map(float, line[3:5])) + tuple(float(field) if field else math.nan for field in line[5:]) for line in lines
+                   if line[2] == "mark")
+    wanted = sorted((row["rate"], row["size.mean"], row["size.mean"] - row["size.half_width"], row["size.mean"] + row["size.half_width"])
+                    for row in rows if not math.isnan(row["size.mean"]))
+    assert len(means) == len(wanted) == with_mean
+    for ours, theirs in zip(means, wanted):
+        assert all(math.isclose(a * b, c, rel_tol=1e-13) or (math.isnan(a) and math.isnan(c)) for a, b, c in zip(ours, (1, unit, unit, unit), theirs))
+    assert {line[1] for line in lines if line[2] == "curve"} <= {"ZMR", "Grady", "GC", "ZMR-2", ""}
+usable = [np.flatnonzero((realization["point"] == p) & (realization["outcome"] <= 2)) for p in range(len(rows))]
+for p, at in enumerate(usable):
+    sizes = np.sort(np.concatenate([size[slice(*fragment["offset"][i:i + 2])] for i in at])) if len(at) else np.array([])
+    if not len(sizes):
+        continue
+    head, lines = data(f"sizes-point-{p}")
+    unit = {"n": 1e-9, "µ": 1e-6, "m": 1e-3, "": 1.0, "k": 1e3}[re.fullmatch(r"fragment size s \[(.?)m\]", head[3]).group(1)]
+    values = np.array([[float(field) for field in line[3:5]] for line in lines])
+    first = np.concatenate([[True], np.diff(sizes) > 1e-9 * sizes[1:]])  # those that differ by rounding are one
+    assert len(values) == first.sum() and {line[2] for line in lines} == {"steps"}
+    assert np.allclose(values[:, 0] * unit, sizes[first], rtol=1e-9, atol=0)
+    assert np.allclose(values[:, 1], 1 - np.flatnonzero(first) / len(sizes), rtol=1e-12, atol=0)
 
 # Crack patterns: of rings with a FRAGMENTED realization, six at most with the first and the last; a band a fragment.
 rings = [p for p, name in enumerate(model) if name == "ring" and summary["points"][p]["outcomes"]["FRAGMENTED"] > 0]
@@ -218,11 +254,12 @@ for p in pictures:
         assert np.linalg.norm(middle - [far * math.cos(angle), far * math.sin(angle)]) * scale < 0.03
 
 
-# The page: the same marks, a table row a point, balanced, and nothing fetched from elsewhere.
+# The page: the same marks with either axes, a table row a point, numbered captions, balanced, and nothing fetched from elsewhere.
 class Page(html.parser.HTMLParser):
     def __init__(self):
         super().__init__()
         self.open, self.marks, self.rows, self.links, self.bands = [], 0, {}, [], 0
+        self.lists, self.warnings, self.captions, self.cells, self.scripts = [], 0, [], {}, 0
 
     def handle_starttag(self, tag, attributes):
         attributes = dict(attributes)
@@ -233,7 +270,16 @@ class Page(html.parser.HTMLParser):
         if tag == "tr" and "tbody" in self.open:
             self.rows[self.table] = self.rows.get(self.table, 0) + 1
         self.links += [attributes[name] for name in ("src", "href") if name in attributes]
-        assert tag != "script"
+        if tag == "script":
+            assert not attributes  # its text is on the page
+            self.scripts += 1
+        self.warnings += tag == "li" and "warnings" in self.lists
+        if tag == "ul":
+            self.lists.append(attributes.get("class"))
+        if tag == "figcaption":
+            self.captions.append("")
+        if tag in ("td", "th"):
+            self.cells.setdefault(self.table, []).append("")
         if tag not in ("meta", "link"):
             self.open.append(tag)
 
@@ -244,13 +290,36 @@ class Page(html.parser.HTMLParser):
 
     def handle_endtag(self, tag):
         assert self.open.pop() == tag, tag
+        if tag == "ul":
+            self.lists.pop()
+
+    def handle_data(self, text):
+        if "figcaption" in self.open:
+            self.captions[-1] += text
+        if self.open and self.open[-1] in ("td", "th"):  # without the units, which are small
+            self.cells[self.table][-1] += text
 
 
 source_text = open(os.path.join(report, "index.html"), encoding="utf-8").read()
 page = Page()
 page.feed(source_text)
 assert page.open == []
-assert page.marks == 2 * with_mean
+assert page.scripts == 1
+assert page.marks == 4 * with_mean
+for number, caption in enumerate((caption for caption in page.captions if caption.startswith("Figure")), 1):
+    assert caption.startswith(f"Figure {number}. ") and f", campaign {summary['campaign'][:12]}, fracas {summary['version']}." in caption
+assert number == len(drawn) - len(glob.glob(os.path.join(report, "surface-*-*-*.svg"))) + len(glob.glob(os.path.join(report, "surface-*.csv")))
+shown_points = [i * (len(rows) - 1) // (min(12, len(rows)) - 1) if len(rows) > 1 else 0 for i in range(min(12, len(rows)))]
+assert page.rows.pop("headline") == len(shown_points)
+head, cells = page.cells["headline"][:5 if "ZMR" in text[0] else 4], page.cells["headline"]
+for place, p in enumerate(shown_points, 1):
+    line = cells[place * len(head):(place + 1) * len(head)]
+    assert line[0] == summary["points"][p]["label"] and int(line[1]) == rows[p]["usable"]
+    for cell, key, unit in zip(line[2:], ("count", "size", "size"), (1.0, size_unit, rows[p]["law.zmr"])):
+        mean, _, half_width = cell.partition(" ± ")
+        shows(mean, rows[p][key + ".mean"], unit)
+        if mean != "-":
+            shows(half_width, rows[p][key + ".half_width"], unit)
 assert page.rows.pop("results") == len(rows)
 assert page.rows.pop("slopes", 0) == len(summary["slopes"])
 assert page.rows.pop("windows", 0) == len(summary["windows"])
@@ -259,11 +328,11 @@ assert page.rows.pop("motion", 0) == model.count("ring") and not page.rows
 firsts = [np.flatnonzero((realization["point"] == p) & (realization["outcome"] == 0))[0] for p in pictures]
 assert page.bands == sum(realization["fragments"][i] for i in firsts)
 for link in page.links:
-    assert link.startswith("data:") or os.path.exists(os.path.join(report, link)), link
+    assert link.startswith("data:") or f'id="{link[1:]}"' in source_text if link[0] == "#" or ":" in link else os.path.exists(os.path.join(report, link)), link
 assert "url(" not in source_text and "@import" not in source_text
 assert f"<h1>{html.escape(summary['name'])}</h1>" in source_text
 assert summary["campaign"] in source_text and summary["seed"] in source_text
-assert source_text.count("<li>") == len(summary["warnings"])
+assert page.warnings == len(summary["warnings"])
 
 # Nothing is left of the temporary names.
 assert not [name for name in os.listdir(report) if name.startswith(".")]

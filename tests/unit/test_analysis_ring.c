@@ -252,7 +252,7 @@ static void report_of_rings(void **state)
     assert_non_null(strstr(table, "  [mm]   [m/s]        [1/s]"));
     assert_non_null(strstr(table, "     8      25         3125"));
     assert_non_null(strstr(table, "energy drift above 1 %: 2 of 6 usable realizations, their |residual| up to 1.2 %"));
-    assert_non_null(strstr(page, "replica 1, the first that ended FRAGMENTED"));
+    assert_non_null(strstr(page, "Replica 1, the first that ended FRAGMENTED"));
     assert_null(strstr(page, "pattern-point-0.svg"));
     assert_non_null(strstr(page, "radius 8 mm"));
     report_check(folder);

@@ -77,15 +77,15 @@ static void write_caption(const fracas_analysis *analysis, size_t point, fracas_
     with_unit(picture->fastest, "m/s", speed, sizeof speed);
     snprintf(factor, sizeof factor, "%.0f", picture->exaggeration);
     snprintf(picture->file, sizeof picture->file, "pattern-point-%zu", point);
-    snprintf(picture->title, sizeof picture->title, "Crack pattern: %s", label);
+    snprintf(picture->title, sizeof picture->title, "Crack pattern%s%s", *label ? ", " : "", label);
     if (picture->arrows)
         snprintf(arrows, sizeof arrows, "Arrows: velocity of the centre of mass beside the uniform expansion, the longest "
                  "%s; none on dust. ", speed);
     snprintf(picture->caption, sizeof picture->caption,
-             "%s: replica %lld, the first that ended FRAGMENTED; fragments: %zu, of these dust: %zu; time: %s. Each "
+             "Replica %lld, the first that ended FRAGMENTED; fragments: %zu, of these dust: %zu; time: %s. Each "
              "fragment is where its centre of mass is, its displacement outward drawn %s times as large; its own turning is "
              "not recorded and not drawn. %sDots: dust. Dashes: the ring at its start.",
-             label, (long long)analysis->point[point].broken_replica, pattern->n, dust_of(pattern), time, factor, arrows);
+             (long long)analysis->point[point].broken_replica, pattern->n, dust_of(pattern), time, factor, arrows);
 }
 
 fracas_err fracas_picture_create(const fracas_analysis *analysis, size_t point, fracas_picture *picture)

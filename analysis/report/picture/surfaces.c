@@ -1,7 +1,8 @@
 #include "analysis/report/picture/surfaces.h"
 
-#include "analysis/report/chart.h"
+#include "analysis/export/csv.h"
 #include "analysis/export/output.h"
+#include "analysis/report/chart.h"
 
 #include <math.h>
 
@@ -64,9 +65,7 @@ fracas_err fracas_surfaces_any(const fracas_analysis *analysis, bool *any)
 }
 
 typedef struct {
-    const fracas_analysis *analysis;
-    const char *folder;
-    FILE *out;
+    fracas_page *page;
     size_t drawn; /* elements so far; a gap takes twice the room of an element */
 } gallery;
 
@@ -79,99 +78,124 @@ static fracas_err put_moment(const gallery *to, const fracas_broken_surface *sur
 {
     char label[160], title[256], moment[48], name[64], file[80];
     fracas_surface_time_text(time, true, moment, sizeof moment);
-    fracas_analysis_label(to->analysis, p, label, sizeof label);
+    fracas_analysis_label(to->page->analysis, p, label, sizeof label);
     snprintf(title, sizeof title, "Broken surface at %s%s%s", moment, *label ? ": " : "", label);
     snprintf(name, sizeof name, "surface-point-%zu-%zu", p, k + 1);
     snprintf(file, sizeof file, "%s.svg", name);
+    TRY(fracas_page_drew(to->page, name));
     fracas_surface_picture picture = {.title = title, .show = FRACAS_SHOW_FRAGMENTS, .width = FRACAS_CHART_NARROW,
                                       .explode = explode_of(&surface->mesh), .thickness = surface->thickness};
-    fprintf(to->out, "<figure id=\"%s\">\n", name);
-    TRY(write_picture(surface, time, &picture, to->out));
-    fprintf(to->out, "<figcaption><a href=\"%s\">SVG</a></figcaption>\n</figure>\n", file);
+    fprintf(to->page->out, "<figure id=\"%s\">\n", name); /* in that of the point */
+    TRY(write_picture(surface, time, &picture, to->page->out));
+    fputs("<figcaption>", to->page->out);
+    fracas_page_links(to->page, name, true, false);
+    fputs("</figcaption>\n</figure>\n", to->page->out);
     picture.standalone = true;
     picture.width = FRACAS_SURFACE_WIDTH;
-    return fracas_broken_surface_save(surface, time, &picture, to->folder, file);
+    return fracas_broken_surface_save(surface, time, &picture, to->page->folder, file);
 }
 
 /* "; first crack through the width: 27.1 us" and the like, that one over both pairs of borders of a flat surface. */
-static fracas_err put_times(const gallery *to, const fracas_broken_surface *surface)
+static fracas_err write_caption(const fracas_broken_surface *surface, int64_t replica, bool broken, char *text, size_t size)
 {
     static const char *const what[] = {"first onset", "first break", "first crack through the width"};
     fracas_surface_times times;
     TRY(fracas_surface_times_of(&surface->mesh, &surface->record, &times));
     const double at[] = {times.onset, times.broken, fmin(times.through[0], times.through[1])};
     const bool flat = fracas_surface_is_flat(&surface->mesh);
+    size_t used = (size_t)snprintf(text, size, "Replica %lld, %s, at even times from the first onset to the end", (long long)replica,
+                                   broken ? "the first that ended FRAGMENTED" : "of typical dissipated energy, for none ended FRAGMENTED");
     for (int k = 0; k < (flat ? 3 : 2); k++) {
-        char text[48];
-        fracas_surface_time_text(at[k], true, text, sizeof text);
-        fprintf(to->out, "; %s: %s", what[k], text);
+        char moment[48];
+        fracas_surface_time_text(at[k], true, moment, sizeof moment);
+        used += (size_t)snprintf(text + used, size - used, "; %s: %s", what[k], moment);
     }
-    putc('.', to->out);
-    if (!flat) fputs(" Seen from the direction (1, 1, 1)", to->out);
+    used += (size_t)snprintf(text + used, size - used, ".%s", flat ? "" : " Seen from the direction (1, 1, 1)");
     if (explode_of(&surface->mesh) > 0)
-        fprintf(to->out, ", each fragment moved by %g of the way from the centroid of the surface to its own", apart);
-    fputs(flat ? "</p>\n" : ".</p>\n", to->out);
+        used += (size_t)snprintf(text + used, size - used, ", each fragment moved by %g of the way from the centroid of the surface to its own",
+                                 apart);
+    snprintf(text + used, size - used, "%s", flat ? "" : ".");
     return FRACAS_OK;
 }
 
-static fracas_err put_row(gallery *to, const fracas_broken_surface *surface, size_t p, int64_t replica)
+/* What all pictures of a point are drawn from: an interface a line. */
+static void write_interfaces(const fracas_broken_surface *surface, FILE *out)
 {
-    char label[160];
+    fputs("interface,x1,y1,z1,x2,y2,z2,onset_time,break_time\n", out);
+    for (size_t i = 0; i < surface->mesh.ninterfaces; i++) {
+        fprintf(out, "%zu", i);
+        for (int end = 0; end < 2; end++)
+            for (int axis = 0; axis < 3; axis++)
+                fracas_csv_real(surface->mesh.node[surface->mesh.interface[i].node[end]].position[axis], out);
+        fracas_csv_real(surface->record.interface[i].onset_time, out);
+        fracas_csv_real(surface->record.interface[i].break_time, out);
+        putc('\n', out);
+    }
+}
+
+static fracas_err put_row(gallery *to, const fracas_broken_surface *surface, size_t p, int64_t replica, bool broken)
+{
+    char label[160], name[64], title[256], caption[640], file[80];
     double time[FRACAS_MOMENTS];
     const size_t count = fracas_surface_moments(&surface->record, FRACAS_MOMENTS, time);
-    fracas_analysis_label(to->analysis, p, label, sizeof label);
-    fputs("<p class=\"quiet\">", to->out);
-    fracas_markup_text(label, to->out);
-    fprintf(to->out, "%sreplica %lld", *label ? ": " : "", (long long)replica);
-    TRY(put_times(to, surface));
-    fputs("<div class=\"small\">\n", to->out);
+    fracas_analysis_label(to->page->analysis, p, label, sizeof label);
+    snprintf(name, sizeof name, "surface-point-%zu", p);
+    snprintf(file, sizeof file, "%s.csv", name);
+    snprintf(title, sizeof title, "Broken surface%s%s", *label ? ", " : "", label);
+    TRY(write_caption(surface, replica, broken, caption, sizeof caption));
+    fracas_page_figure(to->page, name, "row");
+    fputs("<div class=\"small\">\n", to->page->out);
     for (size_t k = 0; k < count; k++) TRY(put_moment(to, surface, p, k, time[k]));
-    fputs("</div>\n", to->out);
+    fputs("</div>\n", to->page->out);
+    fracas_page_figure_end(to->page, title, caption, name, false, true);
     to->drawn += (explode_of(&surface->mesh) > 0 ? 3 : 1) * count * surface->mesh.nelements;
-    return FRACAS_OK;
+    fracas_output_file output;
+    TRY(fracas_output_open(to->page->folder, file, &output));
+    write_interfaces(surface, output.file);
+    return fracas_output_close(&output, FRACAS_OK);
 }
 
 static fracas_err put_point(gallery *to, size_t p)
 {
-    const fracas_point_statistics *statistics = &to->analysis->point[p];
+    const fracas_point_statistics *statistics = &to->page->analysis->point[p];
     const bool broken = statistics->broken_replica >= 0;
     const int64_t replica = broken ? statistics->broken_replica : statistics->typical_replica;
     bool has;
-    TRY(has_mesh(to->analysis, p, &has));
+    TRY(has_mesh(to->page->analysis, p, &has));
     if (!has || replica < 0) return FRACAS_OK;
     if (to->drawn > most_elements) {
-        fprintf(to->out, "<p>Point %zu: <code>fracas picture STUDY --point %zu</code></p>\n", p, p);
+        fprintf(to->page->out, "<p>Point %zu: <code>fracas picture STUDY --point %zu</code></p>\n", p, p);
         return FRACAS_OK;
     }
     fracas_broken_surface surface;
-    fracas_err err = fracas_broken_surface_read(to->analysis->results, p,
+    fracas_err err = fracas_broken_surface_read(to->page->analysis->results, p,
                                                 broken ? statistics->broken_row : statistics->typical_row, &surface);
-    if (!err) err = put_row(to, &surface, p, replica);
+    if (!err) err = put_row(to, &surface, p, replica, broken);
     fracas_broken_surface_clear(&surface);
     return err;
 }
 
 /* Meshes come with study.h5. */
-static void say_later(const fracas_analysis *analysis, FILE *page)
+static void say_later(const fracas_page *page)
 {
+    const fracas_analysis *analysis = page->analysis;
     if (!fracas_results_partial(analysis->results) || !analysis->header.interfaces || !fracas_analysis_any_surface(analysis)) return;
-    fputs("<h2>Broken surfaces</h2>\n<p>Crack pictures come with the complete study: its meshes are in study.h5, which "
-          "<code>fracas run</code> writes at the end.</p>\n", page);
+    fputs("<p>Crack pictures come with the complete study: its meshes are in study.h5, which <code>fracas run</code> writes at the end.</p>\n",
+          page->out);
 }
 
-fracas_err fracas_surfaces_put(const fracas_analysis *analysis, const char *folder, FILE *page)
+fracas_err fracas_surfaces_put(fracas_page *page)
 {
     bool any;
-    gallery to = {analysis, folder, page, 0};
-    TRY(fracas_surfaces_any(analysis, &any));
+    gallery to = {page, 0};
+    TRY(fracas_surfaces_any(page->analysis, &any));
     if (!any) {
-        say_later(analysis, page);
+        say_later(page);
         return FRACAS_OK;
     }
-    fputs("<h2>Broken surfaces</h2>\n<p>One realization of each point, the first that ended FRAGMENTED, at even times from the "
-          "first onset to the end, drawn as it was before any motion. Strong lines: broken interfaces; faint ones: cracked, not "
-          "yet broken. Fragments have tints by which neighbours differ; orange: dust, of one or two elements. Others: "
-          "<code>fracas picture STUDY</code>.</p>\n", page);
-    for (size_t p = 0; p < analysis->table->npoints; p++) TRY(put_point(&to, p));
+    fputs("<p>One realization of each point, the first that ended FRAGMENTED, as it was before any motion. Strong lines: broken "
+          "interfaces; faint ones: cracked, not yet broken. Fragments have tints by which neighbours differ; orange: dust, of one or two "
+          "elements. Others: <code>fracas picture STUDY</code>.</p>\n", page->out);
+    for (size_t p = 0; p < page->analysis->table->npoints; p++) TRY(put_point(&to, p));
     return FRACAS_OK;
 }

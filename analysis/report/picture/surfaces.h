@@ -2,6 +2,7 @@
 #ifndef FRACAS_ANALYSIS_REPORT_PICTURE_SURFACES_H
 #define FRACAS_ANALYSIS_REPORT_PICTURE_SURFACES_H
 
+#include "analysis/report/page.h"
 #include "analysis/report/picture/surface_picture.h"
 #include "analysis/study/study.h"
 
@@ -28,9 +29,10 @@ FRACAS_MUST_USE fracas_err fracas_broken_surface_save(const fracas_broken_surfac
 /* True if some point of the study has a mesh. */
 FRACAS_MUST_USE fracas_err fracas_surfaces_any(const fracas_analysis *analysis, bool *any);
 
-/* The section of the page, nothing if there are no surfaces; of a partial study, which has no meshes, that they come: of every point one realization, the first that ended FRAGMENTED or
- * else the typical one, at FRACAS_MOMENTS times; each picture into the folder, too. After some 1.5 million elements drawn it only
+/* The section of the page, nothing if there are no surfaces; of a partial study, which has no meshes, that they come; else of every point one realization, the first that ended FRAGMENTED or
+ * else the typical one, at FRACAS_MOMENTS times; a figure a point, each picture into the folder, too, with a CSV of when each interface
+ * cracked and broke. After some 1.5 million elements drawn it only
  * says how to get the others. */
-FRACAS_MUST_USE fracas_err fracas_surfaces_put(const fracas_analysis *analysis, const char *folder, FILE *page);
+FRACAS_MUST_USE fracas_err fracas_surfaces_put(fracas_page *page);
 
 #endif

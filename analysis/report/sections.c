@@ -1,0 +1,95 @@
+/* The sections of figures. */
+#include "analysis/report/page.h"
+
+#include "analysis/export/output.h"
+#include "analysis/report/figures.h"
+#include "analysis/report/picture/picture.h"
+#include "analysis/report/picture/surfaces.h"
+
+/* Instead of the figures against the rate, where there is none. */
+static void say_no_rate(const fracas_page *page)
+{
+    for (size_t p = 0; p < page->analysis->table->npoints; p++)
+        if (page->analysis->point[p].rate > 0) return;
+    fputs("<p>No point begins with a strain rate above 0: nothing to draw against it.</p>\n", page->out);
+}
+
+fracas_err fracas_section_rate(fracas_page *page)
+{
+    fracas_chart chart;
+    fracas_chart_init(&chart);
+    say_no_rate(page);
+    fracas_page_grid(page, "wide");
+    TRY(fracas_page_chart(page, &chart, fracas_figure_rate(page->analysis, false, &chart)));
+    TRY(fracas_page_chart(page, &chart, fracas_figure_rate(page->analysis, true, &chart)));
+    fracas_page_grid_end(page);
+    return FRACAS_OK;
+}
+
+fracas_err fracas_section_sizes(fracas_page *page)
+{
+    const fracas_analysis *analysis = page->analysis;
+    fracas_chart chart;
+    fracas_chart_init(&chart);
+    fracas_page_grid(page, "wide");
+    TRY(fracas_page_chart(page, &chart, fracas_figure_sizes_together(analysis, &chart)));
+    fracas_page_grid_end(page);
+    fracas_page_grid(page, "small");
+    for (size_t p = 0; p < analysis->table->npoints; p++)
+        TRY(fracas_page_chart(page, &chart, fracas_figure_sizes(analysis, p, &chart)));
+    fracas_page_grid_end(page);
+    return FRACAS_OK;
+}
+
+static fracas_err write_pattern(fracas_page *page, const fracas_picture *picture)
+{
+    char name[sizeof picture->file + 8];
+    snprintf(name, sizeof name, "%s.svg", picture->file);
+    fracas_output_file output;
+    TRY(fracas_output_open(page->folder, name, &output));
+    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", output.file);
+    fracas_picture_write(picture, true, output.file);
+    TRY(fracas_output_close(&output, FRACAS_OK));
+    snprintf(name, sizeof name, "%s.csv", picture->file);
+    TRY(fracas_output_open(page->folder, name, &output));
+    fracas_picture_csv(picture, output.file);
+    TRY(fracas_output_close(&output, FRACAS_OK));
+    return fracas_page_drew(page, picture->file);
+}
+
+static fracas_err put_pattern(fracas_page *page, size_t point)
+{
+    fracas_picture picture;
+    TRY(fracas_picture_create(page->analysis, point, &picture));
+    fracas_page_figure(page, picture.file, NULL);
+    fracas_picture_write(&picture, false, page->out);
+    fracas_page_figure_end(page, picture.title, picture.caption, picture.file, true, true);
+    fracas_err err = write_pattern(page, &picture);
+    fracas_picture_clear(&picture);
+    return err;
+}
+
+fracas_err fracas_section_patterns(fracas_page *page)
+{
+    size_t point[FRACAS_MAX_PICTURES], count = fracas_picture_points(page->analysis, point);
+    fracas_page_grid(page, "wide");
+    for (size_t i = 0; i < count; i++) TRY(put_pattern(page, point[i]));
+    fracas_page_grid_end(page);
+    return FRACAS_OK;
+}
+
+fracas_err fracas_section_surfaces(fracas_page *page)
+{
+    return fracas_surfaces_put(page);
+}
+
+fracas_err fracas_section_energies(fracas_page *page)
+{
+    fracas_chart chart;
+    fracas_chart_init(&chart);
+    fracas_page_grid(page, "wide");
+    for (size_t p = 0; p < page->analysis->table->npoints; p++)
+        TRY(fracas_page_chart(page, &chart, fracas_figure_energies(page->analysis, p, &chart)));
+    fracas_page_grid_end(page);
+    return FRACAS_OK;
+}

@@ -1,0 +1,278 @@
+/* The first section: what was run, what came out, what to beware of. */
+#include "analysis/report/page.h"
+
+#include "analysis/laws/slope.h"
+#include "analysis/tables/format.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- what was run ---- */
+
+static void put_term(FILE *out, const char *term, const char *value)
+{
+    fprintf(out, "<dt>%s</dt><dd>", term);
+    fracas_markup_text(value, out);
+    fputs("</dd>\n", out);
+}
+
+/* True if the list "a, b" has this item. */
+static bool listed(const char *list, const char *item)
+{
+    const size_t length = strlen(item);
+    for (const char *at = list; at; at = (at = strstr(at, ", ")) ? at + 2 : NULL)
+        if (!strncmp(at, item, length) && (at[length] == '\0' || at[length] == ',')) return true;
+    return false;
+}
+
+/* "nitsche, tied": the words of a column, each once; "" where no point has one. */
+static void words_of(const fracas_point_table *table, size_t c, char *text, size_t size)
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (size_t p = 0; p < table->npoints && used < size; p++) {
+        const char *word = table->point[p].value[c].text;
+        if (*word && !listed(text, word)) used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", word);
+    }
+}
+
+/* "275 GPa", "1e3 to 1e6 1/s": the numbers of a column; "" where no point has one. */
+static void numbers_of(const fracas_point_table *table, size_t c, char *text, size_t size)
+{
+    const char *unit = table->column[c].unit;
+    double least = INFINITY, most = -INFINITY;
+    for (size_t p = 0; p < table->npoints; p++) {
+        const double value = table->point[p].value[c].real;
+        if (isnan(value)) continue;
+        least = fmin(least, value);
+        most = fmax(most, value);
+    }
+    text[0] = '\0';
+    if (least > most) return;
+    const bool scales = !strcmp(unit, "m") || !strcmp(unit, "Pa") || !strcmp(unit, "s"), pure = !strcmp(unit, "1");
+    const fracas_prefix prefix = scales ? fracas_prefix_for((double[]){least, most}, 2) : (fracas_prefix){1, "", ""};
+    char from[32], to[32];
+    fracas_format_short(least * prefix.factor, from, sizeof from);
+    fracas_format_short(most * prefix.factor, to, sizeof to);
+    snprintf(text, size, "%s%s%s%s%s%s", from, least < most ? " to " : "", least < most ? to : "", pure ? "" : " ", prefix.sign,
+             pure ? "" : unit);
+}
+
+static void values_of(const fracas_point_table *table, size_t c, char *text, size_t size)
+{
+    if (table->column[c].text) words_of(table, c, text, size);
+    else numbers_of(table, c, text, size);
+}
+
+/* All parameters whose path begins with `prefix`, on one line. */
+static void put_parameters(const fracas_page *page, const char *term, const char *prefix)
+{
+    const fracas_point_table *table = page->analysis->table;
+    char line[1024] = "";
+    for (size_t c = 0; c < table->ncolumns; c++) {
+        char text[192];
+        const size_t length = strlen(prefix), used = strlen(line);
+        if (strncmp(table->column[c].path, prefix, length)) continue;
+        values_of(table, c, text, sizeof text);
+        if (*text) snprintf(line + used, sizeof line - used, "%s%s %s", used ? ", " : "", table->column[c].path + length, text);
+    }
+    if (*line) put_term(page->out, term, line);
+}
+
+static void put_replicas(const fracas_page *page)
+{
+    const fracas_analysis *analysis = page->analysis;
+    int64_t least = INT64_MAX, most = 0;
+    for (size_t p = 0; p < analysis->table->npoints; p++) {
+        const int64_t n = analysis->point[p].realizations;
+        if (n < least) least = n;
+        if (n > most) most = n;
+    }
+    char text[96];
+    if (least >= most) snprintf(text, sizeof text, "%zu of %" PRId64 " replicas each", analysis->table->npoints, most);
+    else snprintf(text, sizeof text, "%zu of %" PRId64 " to %" PRId64 " replicas", analysis->table->npoints, least, most);
+    put_term(page->out, "points", text);
+}
+
+static void put_campaign(const fracas_page *page)
+{
+    static const struct {
+        const char *term, *prefix;
+    } group[] = {{"body", "geometry."}, {"mesh", "mesh."},         {"material", "material."}, {"cohesive", "cohesive."},
+                 {"strength", "strength."}, {"loading", "loading."}, {"time", "time."}};
+    const fracas_file_header *header = &page->analysis->header;
+    char text[128];
+    fputs("<h3>What was run</h3>\n<dl>\n", page->out);
+    put_replicas(page);
+    const fracas_point_table *table = page->analysis->table;
+    const size_t model = fracas_point_table_find(table, "model");
+    if (model != SIZE_MAX) {
+        values_of(table, model, text, sizeof text);
+        put_term(page->out, "model", text);
+    }
+    for (size_t g = 0; g < sizeof group / sizeof *group; g++) put_parameters(page, group[g].term, group[g].prefix);
+    fracas_hash_hex(&header->campaign, text);
+    put_term(page->out, "campaign", text);
+    snprintf(text, sizeof text, "%" PRIu64, header->seed);
+    put_term(page->out, "seed", text);
+    snprintf(text, sizeof text, "fracas %s", header->version);
+    put_term(page->out, "program", text);
+    fputs("</dl>\n", page->out);
+}
+
+/* ---- headline numbers ---- */
+
+enum { HEADLINES = 12 }; /* points in the table of the summary */
+static const double scatter_limit = 4; /* chi2/dof; of two degrees of freedom above it in 2 % of studies on one line */
+
+static fracas_prefix size_prefix(const fracas_analysis *analysis)
+{
+    double extreme[2] = {INFINITY, 0};
+    for (size_t p = 0; p < analysis->table->npoints; p++) {
+        const double mean = analysis->point[p].size.mean;
+        if (!(mean > 0)) continue;
+        extreme[0] = fmin(extreme[0], mean);
+        extreme[1] = fmax(extreme[1], mean);
+    }
+    return fracas_prefix_for(extreme, 2);
+}
+
+enum { POINT, USED, COUNT, SIZE, RATIO, NHEADLINE };
+
+static void paint_headline(const fracas_analysis *analysis, size_t p, const fracas_prefix *unit, fracas_result_table *table, size_t row)
+{
+    const fracas_point_statistics *statistics = &analysis->point[p];
+    char *cell[NHEADLINE];
+    for (size_t c = 0; c < table->columns; c++) cell[c] = fracas_result_table_cell(table, row, c);
+    fracas_analysis_label(analysis, p, cell[POINT], FRACAS_CELL);
+    if (!*cell[POINT]) snprintf(cell[POINT], FRACAS_CELL, "%zu", p);
+    snprintf(cell[USED], FRACAS_CELL, "%" PRId64, statistics->usable);
+    fracas_format_estimate(&statistics->count, 1, "\u00b1", cell[COUNT], FRACAS_CELL);
+    fracas_format_estimate(&statistics->size, unit->factor, "\u00b1", cell[SIZE], FRACAS_CELL);
+    if (table->columns == NHEADLINE)
+        fracas_format_estimate(&statistics->size, 1 / statistics->law[FRACAS_LAW_ZMR], "\u00b1", cell[RATIO], FRACAS_CELL);
+}
+
+static fracas_err make_headlines(const fracas_analysis *analysis, fracas_result_table *table)
+{
+    static const char *const name[NHEADLINE] = {"point", "n", "fragments", "mean size", "size"};
+    const size_t npoints = analysis->table->npoints, rows = npoints < HEADLINES ? npoints : HEADLINES;
+    const fracas_prefix unit = size_prefix(analysis);
+    *table = (fracas_result_table){.rows = FRACAS_RESULT_TABLE_HEAD + rows, .columns = fracas_analysis_all_surfaces(analysis) ? RATIO : NHEADLINE};
+    table->cell = calloc(table->rows * table->columns, sizeof *table->cell);
+    if (!table->cell) return fracas_no_memory("the table of the summary");
+    for (size_t c = 0; c < table->columns; c++) snprintf(fracas_result_table_cell(table, 0, c), FRACAS_CELL, "%s", name[c]);
+    snprintf(fracas_result_table_cell(table, 1, SIZE), FRACAS_CELL, "[%sm]", unit.sign);
+    if (table->columns == NHEADLINE) snprintf(fracas_result_table_cell(table, 1, RATIO), FRACAS_CELL, "/ZMR");
+    for (size_t i = 0; i < rows; i++) /* all of them, or so many evenly spread over them, the first and the last among them */
+        paint_headline(analysis, rows < 2 ? 0 : i * (npoints - 1) / (rows - 1), &unit, table, FRACAS_RESULT_TABLE_HEAD + i);
+    return FRACAS_OK;
+}
+
+static fracas_err put_headlines(fracas_page *page)
+{
+    const fracas_analysis *analysis = page->analysis;
+    char legend[256];
+    const bool all = analysis->table->npoints <= HEADLINES;
+    snprintf(legend, sizeof legend, "Means over n realizations with the half widths of their 95 %% intervals (Student\u2019s t); ZMR: the law of Zhou, "
+             "Molinari and Ramesh. %s", all ? "" : "A selection of the points.");
+    fracas_result_table table = {0};
+    const fracas_err built = make_headlines(analysis, &table);
+    return fracas_page_table(page, "headline", "Headline numbers", false, &table, (const char *const[]){legend, NULL}, built);
+}
+
+/* The slope of all points, and whether they are on one line at all. */
+static fracas_err put_slope(const fracas_page *page)
+{
+    fracas_size_slope *list;
+    size_t count;
+    TRY(fracas_size_slopes(page->analysis, &list, &count));
+    if (count > 0) {
+        const fracas_slope *slope = &list->slope;
+        const fracas_estimate k = {.n = slope->n, .mean = slope->slope, .half_width = slope->half_width};
+        const double scatter = slope->chi2 / (double)(slope->n - 2);
+        char value[64], times[32];
+        fracas_format_estimate(&k, 1, "\u00b1", value, sizeof value);
+        fracas_format_digits(scatter, 2, times, sizeof times);
+        fprintf(page->out, "<p>Over all %" PRId64 " points the mean size goes with the strain rate to the power %s (Mott: -1, Grady: -2/3)",
+                slope->n, value);
+        if (scatter > scatter_limit)
+            fprintf(page->out, ", but they are not on one line: their scatter about it is %s times what their errors explain (<a "
+                    "href=\"#slopes\">slopes</a>)", times);
+        fputs(".</p>\n", page->out);
+    }
+    free(list);
+    return FRACAS_OK;
+}
+
+/* The worst known mean count. */
+static void put_precision(const fracas_page *page)
+{
+    const fracas_analysis *analysis = page->analysis;
+    size_t worst = SIZE_MAX;
+    double part = -1;
+    for (size_t p = 0; p < analysis->table->npoints; p++) {
+        const fracas_estimate *count = &analysis->point[p].count;
+        const double here = count->half_width / count->mean;
+        if (!(here > part)) continue;
+        part = here;
+        worst = p;
+    }
+    if (worst == SIZE_MAX) return;
+    char label[256], value[32];
+    fracas_analysis_label(analysis, worst, label, sizeof label);
+    fracas_format_digits(100 * part, 2, value, sizeof value);
+    fprintf(page->out, "<p>The mean number of fragments is known to \u00b1 %s %% or better", value);
+    if (analysis->table->npoints > 1) {
+        fputs(" (the least well: ", page->out);
+        fracas_markup_text(label, page->out);
+        putc(')', page->out);
+    }
+    fputs(".</p>\n", page->out);
+}
+
+/* ---- warnings ---- */
+
+static fracas_err put_warnings(const fracas_page *page)
+{
+    fracas_warning *warning;
+    size_t count;
+    TRY(fracas_analysis_warnings(page->analysis, &warning, &count));
+    fprintf(page->out, "<h3 id=\"warnings\">Warnings</h3>\n");
+    if (count == 0) {
+        fputs("<p class=\"fine\">None: no realization failed or was stopped by its time limit; ledger residuals are below 1e-3 and "
+              "created energy below 1e-2 of the dissipated energy, residuals below 1 % of the largest energy; mean "
+              "fragments have 10 elements or more; at most 5 % of the fragments are dust.</p>\n", page->out);
+    } else {
+        fputs("<ul class=\"warnings\">\n", page->out);
+        for (size_t i = 0; i < count; i++) {
+            char label[256] = "";
+            if (warning[i].point != SIZE_MAX)
+                fracas_analysis_label(page->analysis, warning[i].point, label, sizeof label);
+            fputs("<li>", page->out);
+            fracas_markup_text(label, page->out);
+            fputs(*label ? ": " : "", page->out);
+            fracas_markup_text(warning[i].text, page->out);
+            fputs("</li>\n", page->out);
+        }
+        fputs("</ul>\n", page->out);
+    }
+    free(warning);
+    return FRACAS_OK;
+}
+
+fracas_err fracas_section_summary(fracas_page *page)
+{
+    fputs("<div class=\"summary\">\n<div>\n", page->out);
+    TRY(put_headlines(page));
+    TRY(put_slope(page));
+    put_precision(page);
+    TRY(put_warnings(page));
+    fputs("</div>\n<div>\n", page->out);
+    put_campaign(page);
+    fputs("</div>\n</div>\n", page->out);
+    return FRACAS_OK;
+}

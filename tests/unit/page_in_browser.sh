@@ -1,0 +1,43 @@
+# The page of a report in headless Chromium (tests/support/check_page.py): a bar at three rates, and rings with their crack patterns.
+. tests/support/campaigns.sh
+
+lacking=
+for program in chromium chromedriver pdfinfo; do
+    command -v $program > /dev/null || lacking="$lacking $program"
+done
+/usr/bin/python3 -c 'import selenium' 2>/dev/null || lacking="$lacking python3-selenium"
+if [ -n "$lacking" ]; then
+    echo "skipped: not installed:$lacking"
+    exit 0
+fi
+
+campaign rates.yaml 6 '3e4 1/s, 1e5 1/s, 3e5 1/s'
+expect 0 "$fracas" run rates.yaml --study rates
+
+cat > rings.yaml <<END
+name: rings
+seed: 11
+model: ring
+geometry: {radius: 1 mm, area: 1 mm2}
+mesh: {elements: 200}
+material: {young: 275 GPa, density: 2750 kg/m3}
+cohesive: {law: nitsche, fracture_energy: 100 J/m2}
+strength: {distribution: uniform, minimum: 290 MPa, maximum: 310 MPa}
+loading: {type: initial-velocity, radial: 100 m/s}
+time: {stop: time, end: 150 ns, safety: 0.5}
+replicas: 4
+output: {history: 20}
+sweep:
+  - loading.radial: [50 m/s, 100 m/s]
+END
+expect 0 "$fracas" run rings.yaml --study rings
+
+for study in rates rings; do
+    /usr/bin/python3 "$source/tests/support/check_page.py" $study || fail "the page of $study"
+done
+
+# Equal studies have equal reports.
+cp -r rates again
+expect 0 "$fracas" report again
+rm -f again/report/index.html rates/report/index.html # which name the study's folder
+diff -r rates/report again/report || fail "a report that is made again differs"
