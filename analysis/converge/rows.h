@@ -1,0 +1,53 @@
+/* The numbers of a convergence, a row each. */
+#ifndef FRACAS_ANALYSIS_CONVERGE_ROWS_H
+#define FRACAS_ANALYSIS_CONVERGE_ROWS_H
+
+#include "analysis/converge/converge.h"
+#include "analysis/converge/difference.h"
+#include "analysis/study/study.h"
+
+typedef enum {
+    FRACAS_NUMBER_MOVED, FRACAS_NUMBER_SHIFTED, FRACAS_NUMBER_HOLDS, FRACAS_NUMBER_UNCLEAR, FRACAS_NUMBER_UNKNOWN, FRACAS_NUMBER_VERDICTS
+} fracas_number_verdict;
+extern const char *const fracas_number_verdict_name[FRACAS_NUMBER_VERDICTS]; /* "moved", ... */
+
+typedef struct {
+    const char *key;  /* in JSON and CSV, and in the table */
+    const char *unit; /* SI */
+    size_t offset;    /* in fracas_replica_values */
+} fracas_headline;
+
+enum { FRACAS_NHEADLINES = 6 };
+extern const fracas_headline fracas_headlines[FRACAS_NHEADLINES];
+
+typedef struct {
+    const char *refinement;
+    size_t point;    /* of the study as it is */
+    size_t headline;
+    bool paired;
+    size_t pairs;    /* 0 unless paired */
+    fracas_estimate before, after;
+    fracas_difference difference;
+    double adjusted; /* p among all rows */
+    fracas_number_verdict verdict;
+} fracas_convergence_row;
+
+enum { FRACAS_MOST_LEFT = 3 }; /* refinements */
+
+struct fracas_convergence {
+    fracas_analysis *study; /* as it is */
+    double tolerance;
+    size_t nrows, room;
+    fracas_convergence_row *row;
+    size_t nleft;
+    struct {
+        const char *refinement, *why;
+        size_t points;
+    } left[FRACAS_MOST_LEFT];
+};
+
+/* Replicas of every point with which the interval of the row's difference would be half as wide, from its middle, as the tolerance; NaN
+ * where that cannot be said. */
+double fracas_convergence_replicas(const fracas_convergence *convergence, const fracas_convergence_row *row);
+
+#endif
