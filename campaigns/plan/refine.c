@@ -59,26 +59,24 @@ static fracas_err refine_point(const fracas_catalog *catalog, fracas_refinement 
     return fracas_fail(FRACAS_USAGE, "its interfaces have no cohesive.beta");
 }
 
-/* Refines point p of the file, as the next of the campaign, unless that cannot be: then it is left out, the first one with why. */
-static fracas_err take_point(const fracas_catalog *catalog, fracas_refinement what, size_t p, fracas_refined *refined)
+/* Refines point p, as number `next` of the campaign to be, unless that cannot be: then it is left out, the first one with why. */
+static fracas_err take_point(const fracas_catalog *catalog, fracas_refinement what, size_t p, size_t *next, fracas_refined *refined)
 {
     fracas_campaign *campaign = refined->campaign;
-    const size_t next = campaign->npoints;
-    fracas_point *point = &campaign->point[next];
-    *point = campaign->point[p];
+    fracas_point *point = &campaign->point[p];
     double cost = 0;
     fracas_err err = refine_point(catalog, what, point);
+    if (err) err = fracas_fail_within(err, "point %zu", p);
     if (!err) err = fracas_point_identify(catalog, point);
-    campaign->npoints++;
-    if (!err) err = fracas_plan_cost(campaign, next, &cost, NULL);
-    if (!err) {
-        refined->from[next] = p;
-        refined->cost[next] = cost * (double)fracas_point_most(point);
+    if (!err) err = fracas_plan_cost(campaign, p, &cost, NULL);
+    if (err && (err != FRACAS_USAGE || what == FRACAS_REFINE_NOTHING)) return err;
+    if (err) {
+        if (refined->left++ == 0) snprintf(refined->why, sizeof refined->why, "%s", fracas_message());
         return FRACAS_OK;
     }
-    campaign->npoints--;
-    if (err != FRACAS_USAGE || what == FRACAS_REFINE_NOTHING) return err;
-    if (refined->left++ == 0) snprintf(refined->why, sizeof refined->why, "point %zu: %s", p, fracas_message());
+    refined->from[*next] = p;
+    refined->cost[*next] = cost * (double)fracas_point_most(point);
+    campaign->point[(*next)++] = *point;
     return FRACAS_OK;
 }
 
@@ -91,8 +89,9 @@ static fracas_err refine_points(const fracas_catalog *catalog, fracas_refinement
     refined->from = calloc(npoints, sizeof *refined->from);
     refined->cost = calloc(npoints, sizeof *refined->cost);
     if (!name || !refined->from || !refined->cost) return fracas_no_memory("the refined campaign");
-    campaign->npoints = 0;
-    for (size_t p = 0; p < npoints; p++) TRY(take_point(catalog, what, p, refined));
+    size_t left = 0;
+    for (size_t p = 0; p < npoints; p++) TRY(take_point(catalog, what, p, &left, refined));
+    campaign->npoints = left;
     for (size_t p = 0; p < campaign->npoints; p++)
         name[p] = named == SIZE_MAX ? "" : before.point[refined->from[p]].value[named].text;
     if (campaign->npoints == 0) {
