@@ -1,16 +1,13 @@
 #include "analysis/converge/rows.h"
 
+#include "analysis/compare/difference.h"
+#include "base/param.h"
+
+#include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdlib.h>
 
 const char *const fracas_number_verdict_name[FRACAS_NUMBER_VERDICTS] = {"moved", "shifted", "holds", "unclear", "unknown"};
-
-#define HEADLINE(key, unit, member) {key, unit, offsetof(fracas_replica_values, member)}
-const fracas_headline fracas_headlines[FRACAS_NHEADLINES] = {
-    HEADLINE("count", "1", count),           HEADLINE("count_large", "1", count_large),
-    HEADLINE("size", "m", size),             HEADLINE("dissipated", "J", dissipated),
-    HEADLINE("dissipated_bending", "J", bending), HEADLINE("onset_time", "s", onset_time),
-};
 
 fracas_err fracas_convergence_create(const char *study, double tolerance, fracas_convergence **convergence)
 {
@@ -34,45 +31,59 @@ void fracas_convergence_destroy(fracas_convergence *convergence)
 
 /* ---- rows ---- */
 
-static double value_of(const fracas_ensemble *ensemble, size_t i, size_t headline)
+/* What a table of results begins with; of the rest a campaign that does not converge moves some by chance of having many. */
+static bool is_headline(const fracas_compared_quantity *number)
 {
-    return *(const double *)(const void *)((const char *)&ensemble->value[i] + fracas_headlines[headline].offset);
+    static const size_t headline[] = {offsetof(fracas_replica_values, count), offsetof(fracas_replica_values, count_large),
+                                      offsetof(fracas_replica_values, size), offsetof(fracas_replica_values, dissipated),
+                                      offsetof(fracas_replica_values, bending), offsetof(fracas_replica_values, onset_time)};
+    for (size_t h = 0; h < FRACAS_COUNT(headline); h++)
+        if (number->offset == headline[h]) return true;
+    return false;
 }
 
-static fracas_estimate estimate(const fracas_ensemble *ensemble, size_t headline)
+static double value_of(const fracas_ensemble *ensemble, size_t i, const fracas_compared_quantity *number)
 {
-    static const fracas_replica_values nothing;
-    const char *first = (const char *)(ensemble->nrealizations ? ensemble->value : &nothing);
-    return fracas_estimate_of((const double *)(const void *)(first + fracas_headlines[headline].offset), FRACAS_REPLICA_STRIDE,
-                              ensemble->nrealizations);
+    return *(const double *)(const void *)((const char *)&ensemble->value[i] + number->offset);
 }
 
-/* Of the replicas that both have. */
-static fracas_err compare_pairs(const fracas_ensemble *before, const fracas_ensemble *after, fracas_convergence_row *row)
+/* The same number of two points, realization by realization: of pairs those that both have, else all. */
+typedef struct {
+    size_t n[2];
+    double *value[2];
+} two_samples;
+
+static void gather(const fracas_ensemble *before, const fracas_ensemble *after, const fracas_compared_quantity *number, bool paired, two_samples *to)
 {
-    double *difference = malloc((before->nrealizations + 1) * sizeof *difference);
-    if (!difference) return fracas_no_memory("the pairs of realizations");
-    size_t n = 0;
+    to->n[0] = to->n[1] = 0;
     for (size_t i = 0, k = 0; i < before->nrealizations; i++) { /* both in the order of their replicas */
-        while (k < after->nrealizations && after->replica[k] < before->replica[i]) k++;
-        if (k < after->nrealizations && after->replica[k] == before->replica[i])
-            difference[n++] = value_of(after, k, row->headline) - value_of(before, i, row->headline);
+        while (paired && k < after->nrealizations && after->replica[k] < before->replica[i]) k++;
+        const bool found = k < after->nrealizations && after->replica[k] == before->replica[i];
+        if (paired && !found) continue;
+        to->value[0][to->n[0]++] = value_of(before, i, number);
+        if (paired) to->value[1][to->n[1]++] = value_of(after, k, number);
     }
-    const fracas_estimate pairs = fracas_estimate_of(difference, 1, n);
-    free(difference);
-    row->pairs = (size_t)pairs.n;
-    row->difference = fracas_difference_of_pairs(&pairs);
-    return FRACAS_OK;
+    for (size_t k = 0; !paired && k < after->nrealizations; k++) to->value[1][to->n[1]++] = value_of(after, k, number);
 }
 
-/* True of a number that says nothing: that no realization has, that is 0 in all of them, or that is the count again. */
-static bool is_idle(const fracas_convergence_row *row, const fracas_ensemble *before, const fracas_ensemble *after)
+/* Two-sided, by Student's law: the intervals are of the same  (convergence.1) */
+static double student(const fracas_compared_value *value)
 {
-    const fracas_estimate *a = &row->before, *b = &row->after;
-    if (a->n == 0 && b->n == 0) return true;
-    if (a->mean == 0 && b->mean == 0 && !(a->deviation > 0) && !(b->deviation > 0)) return true;
-    return fracas_headlines[row->headline].offset == offsetof(fracas_replica_values, count_large) && a->mean == estimate(before, 0).mean &&
-           b->mean == estimate(after, 0).mean; /* dust only ever takes away */
+    if (!isfinite(value->low)) return NAN;
+    if (!(value->high > value->low)) return value->difference == 0;
+    const double error = 0.5 * (value->high - value->low) / gsl_cdf_tdist_Pinv(0.975, value->freedom);
+    return 2 * gsl_cdf_tdist_Q(fabs(value->difference) / error, value->freedom);
+}
+
+static bool is_zero(const fracas_estimate *estimate)
+{
+    return estimate->mean == 0 && !(estimate->deviation > 0);
+}
+
+/* True of a number that says nothing: that a study has not, or that is 0 in all realizations of both. */
+static bool is_idle(const fracas_compared_value *value)
+{
+    return value->a.n == 0 || value->b.n == 0 || (is_zero(&value->a) && is_zero(&value->b));
 }
 
 static fracas_err add_row(fracas_convergence *convergence, const fracas_convergence_row *row)
@@ -88,18 +99,37 @@ static fracas_err add_row(fracas_convergence *convergence, const fracas_converge
     return FRACAS_OK;
 }
 
-static fracas_err compare_point(fracas_convergence *convergence, size_t p, const fracas_ensemble *after, const fracas_refinement_map *map)
+static fracas_err compare_point(fracas_convergence *convergence, size_t p, const fracas_ensemble *after, const fracas_refinement_map *map,
+                                two_samples *samples)
 {
     const fracas_ensemble *before = &convergence->study->point[p].ensemble;
-    for (size_t h = 0; h < FRACAS_NHEADLINES; h++) {
-        fracas_convergence_row row = {.refinement = map->name, .point = p, .headline = h, .paired = map->paired,
-                                      .before = estimate(before, h), .after = estimate(after, h)};
-        if (is_idle(&row, before, after)) continue;
-        if (map->paired) TRY(compare_pairs(before, after, &row));
-        else row.difference = fracas_difference_of_samples(&row.before, &row.after);
-        TRY(add_row(convergence, &row));
+    double count[2] = {NAN, NAN}; /* without dust it is the count again */
+    for (size_t v = 0; v < FRACAS_COMPARED_VALUES; v++) {
+        fracas_convergence_row row = {.refinement = map->name, .point = p, .number = &fracas_compared_quantities[v], .paired = map->paired};
+        if (!is_headline(row.number)) continue;
+        gather(before, after, row.number, map->paired, samples);
+        if (map->paired) fracas_difference_of_pairs(samples->value[0], samples->value[1], samples->n[0], 1, &row.value);
+        else fracas_difference_of(samples->value[0], samples->n[0], samples->value[1], samples->n[1], 1, &row.value);
+        const bool counted = row.number->offset == offsetof(fracas_replica_values, count_large) && row.value.a.mean == count[0] &&
+                             row.value.b.mean == count[1];
+        if (row.number->offset == offsetof(fracas_replica_values, count)) count[0] = row.value.a.mean, count[1] = row.value.b.mean;
+        row.value.p = student(&row.value);
+        if (!counted && !is_idle(&row.value)) TRY(add_row(convergence, &row));
     }
     return FRACAS_OK;
+}
+
+static fracas_err compare_points(fracas_convergence *convergence, size_t before, const fracas_analysis *refined, size_t after,
+                                 const fracas_refinement_map *map)
+{
+    const fracas_ensemble *a = &convergence->study->point[before].ensemble, *b = &refined->point[after].ensemble;
+    two_samples samples = {.value = {malloc((a->nrealizations + 1) * sizeof(double)),
+                                     malloc((a->nrealizations + b->nrealizations + 1) * sizeof(double))}};
+    fracas_err err = samples.value[0] && samples.value[1] ? compare_point(convergence, before, b, map, &samples)
+                                                          : fracas_no_memory("the realizations of two points");
+    free(samples.value[0]);
+    free(samples.value[1]);
+    return err;
 }
 
 static fracas_err find_point(const fracas_analysis *study, const fracas_hash *hash, size_t *point)
@@ -120,7 +150,7 @@ fracas_err fracas_convergence_add(fracas_convergence *convergence, const char *s
         size_t before, after;
         err = find_point(convergence->study, &map->before[i], &before);
         if (!err) err = find_point(refined, &map->after[i], &after);
-        if (!err) err = compare_point(convergence, before, &refined->point[after].ensemble, map);
+        if (!err) err = compare_points(convergence, before, refined, after, map);
     }
     fracas_analysis_destroy(refined);
     return err;
@@ -136,38 +166,40 @@ void fracas_convergence_leave(fracas_convergence *convergence, const char *refin
 
 /* ---- judgement ---- */
 
-static bool is_within(const fracas_difference *difference, double most)
+static bool is_within(const fracas_compared_value *value, double most)
 {
-    return difference->low >= -most && difference->high <= most;
+    return value->relative_low >= -most && value->relative_high <= most;
 }
 
-static fracas_number_verdict judge(const fracas_convergence_row *row, double tolerance)
+static fracas_number_verdict judge(const fracas_compared_value *value, double tolerance)
 {
-    const double level = 0.05, round_off = 1e-9, number = fabs(row->before.mean);
-    if (isnan(row->difference.p)) return FRACAS_NUMBER_UNKNOWN;
-    const bool differs = row->adjusted < level && !is_within(&row->difference, round_off * number);
-    if (is_within(&row->difference, tolerance * number)) return differs ? FRACAS_NUMBER_SHIFTED : FRACAS_NUMBER_HOLDS;
+    const double level = 0.05, round_off = 1e-9;
+    if (isnan(value->p)) return FRACAS_NUMBER_UNKNOWN;
+    const bool differs = value->p_holm < level && !is_within(value, round_off);
+    if (is_within(value, tolerance)) return differs ? FRACAS_NUMBER_SHIFTED : FRACAS_NUMBER_HOLDS;
     return differs ? FRACAS_NUMBER_MOVED : FRACAS_NUMBER_UNCLEAR;
 }
 
 fracas_err fracas_convergence_judge(fracas_convergence *convergence)
 {
-    double *p = malloc((convergence->nrows + 1) * sizeof *p);
+    double *p = calloc(2 * convergence->nrows + 1, sizeof *p), *corrected = p + convergence->nrows;
     if (!p) return fracas_no_memory("the p-values");
-    for (size_t i = 0; i < convergence->nrows; i++) p[i] = convergence->row[i].difference.p;
-    fracas_err err = fracas_difference_adjust(p, convergence->nrows);
+    for (size_t i = 0; i < convergence->nrows; i++) p[i] = convergence->row[i].value.p;
+    fracas_err err = fracas_holm(p, convergence->nrows, 1, corrected);
     for (size_t i = 0; i < convergence->nrows && !err; i++) {
-        convergence->row[i].adjusted = p[i];
-        convergence->row[i].verdict = judge(&convergence->row[i], convergence->tolerance);
+        fracas_convergence_row *row = &convergence->row[i];
+        row->value.p_holm = corrected[i];
+        row->verdict = judge(&row->value, convergence->tolerance);
     }
     free(p);
     return err;
 }
 
-/* An interval falls as n^(-1/2). */
+/* An interval falls as n^(-1/2)  (convergence.2) */
 double fracas_convergence_replicas(const fracas_convergence *convergence, const fracas_convergence_row *row)
 {
-    const double n = row->paired ? (double)row->pairs : fmin((double)row->before.n, (double)row->after.n);
-    const double reach = row->difference.high - row->difference.value, wanted = 0.5 * convergence->tolerance * fabs(row->before.mean);
-    return wanted > 0 ? ceil(n * (reach / wanted) * (reach / wanted)) : NAN;
+    const fracas_compared_value *value = &row->value;
+    const double n = fmin((double)value->a.n, (double)value->b.n), reach = 0.5 * (value->relative_high - value->relative_low);
+    const double part = reach / (0.5 * convergence->tolerance);
+    return ceil(n * part * part);
 }

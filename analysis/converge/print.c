@@ -5,6 +5,7 @@
 #include "analysis/export/output.h"
 #include "analysis/tables/format.h"
 #include "base/json.h"
+#include "base/param.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -22,28 +23,26 @@ typedef struct {
 /* ---- text ---- */
 
 /* The prefix that all values of a number are shown with. */
-static fracas_prefix prefix_of(const fracas_convergence *convergence, size_t headline)
+static fracas_prefix prefix_of(const fracas_convergence *convergence, const fracas_compared_quantity *number)
 {
     double ends[2] = {INFINITY, 0};
-    if (!strcmp(fracas_headlines[headline].unit, "1")) return (fracas_prefix){1, "", ""};
+    if (!strcmp(number->unit, "1")) return (fracas_prefix){1, "", ""};
     for (size_t i = 0; i < convergence->nrows; i++) {
         const fracas_convergence_row *row = &convergence->row[i];
-        if (row->headline != headline || !(row->before.mean > 0)) continue;
-        ends[0] = fmin(ends[0], row->before.mean);
-        ends[1] = fmax(ends[1], row->before.mean);
+        if (row->number != number || !(row->value.a.mean > 0)) continue;
+        ends[0] = fmin(ends[0], row->value.a.mean);
+        ends[1] = fmax(ends[1], row->value.a.mean);
     }
     return fracas_prefix_for(ends, 2);
 }
 
 /* "+0.8 +- 2.0": in per cent of the number as it is. Round-off has no digits worth a reader's time. */
-static void format_change(const fracas_convergence_row *row, char *text, size_t size)
+static void format_change(const fracas_compared_value *value, char *text, size_t size)
 {
-    const double part = 100 / fabs(row->before.mean);
-    const fracas_estimate change = {.n = row->before.n, .mean = part * row->difference.value,
-                                    .half_width = part * (row->difference.high - row->difference.value)};
+    const fracas_estimate change = {.n = value->a.n, .mean = 100 * value->relative,
+                                    .half_width = 50 * (value->relative_high - value->relative_low)};
     char plain[CELL - 1];
-    const bool slight = fabs(change.mean) + change.half_width < 1e-3;
-    if (slight) {
+    if (fabs(change.mean) + change.half_width < 1e-3) {
         snprintf(text, size, change.mean == 0 && change.half_width == 0 ? "0" : "below 0.001");
         return;
     }
@@ -53,16 +52,17 @@ static void format_change(const fracas_convergence_row *row, char *text, size_t 
 
 static void fill_row(const fracas_convergence *convergence, const fracas_convergence_row *row, char cell[COLUMNS][CELL])
 {
-    const fracas_headline *headline = &fracas_headlines[row->headline];
-    const fracas_prefix prefix = prefix_of(convergence, row->headline);
-    const bool pure = !strcmp(headline->unit, "1");
+    const fracas_compared_value *value = &row->value;
+    const fracas_prefix prefix = prefix_of(convergence, row->number);
+    const bool pure = !strcmp(row->number->unit, "1");
     snprintf(cell[0], CELL, "%s", row->refinement);
     fracas_analysis_label(convergence->study, row->point, cell[1], CELL);
-    snprintf(cell[2], CELL, "%s%s%s%s%s", headline->key, pure ? "" : " [", pure ? "" : prefix.symbol, pure ? "" : headline->unit, pure ? "" : "]");
-    fracas_format_estimate(&row->before, prefix.factor, "+-", cell[3], CELL);
-    fracas_format_estimate(&row->after, prefix.factor, "+-", cell[4], CELL);
-    format_change(row, cell[5], CELL);
-    fracas_format_digits(row->difference.value / row->before.half_width, 2, cell[6], CELL);
+    snprintf(cell[2], CELL, "%s%s%s%s%s", row->number->key, pure ? "" : " [", pure ? "" : prefix.symbol, pure ? "" : row->number->unit,
+             pure ? "" : "]");
+    fracas_format_estimate(&value->a, prefix.factor, "+-", cell[3], CELL);
+    fracas_format_estimate(&value->b, prefix.factor, "+-", cell[4], CELL);
+    format_change(value, cell[5], CELL);
+    fracas_format_digits(value->difference / value->a.half_width, 2, cell[6], CELL);
     snprintf(cell[7], CELL, "%s", fracas_number_verdict_name[row->verdict]);
 }
 
@@ -134,6 +134,22 @@ fracas_err fracas_convergence_print(const fracas_convergence *convergence, FILE 
 
 /* ---- JSON ---- */
 
+/* What JSON and CSV have of a difference. */
+static const struct {
+    const char *name;
+    size_t offset;
+} columns[] = {
+    {"difference", offsetof(fracas_compared_value, difference)}, {"low", offsetof(fracas_compared_value, low)},
+    {"high", offsetof(fracas_compared_value, high)}, {"relative", offsetof(fracas_compared_value, relative)},
+    {"relative_low", offsetof(fracas_compared_value, relative_low)}, {"relative_high", offsetof(fracas_compared_value, relative_high)},
+    {"p", offsetof(fracas_compared_value, p)}, {"p_holm", offsetof(fracas_compared_value, p_holm)},
+};
+
+static const double *column_at(const fracas_convergence_row *row, size_t c)
+{
+    return (const double *)(const void *)((const char *)&row->value + columns[c].offset);
+}
+
 static void write_estimate(fracas_json *json, const char *key, const fracas_estimate *estimate)
 {
     fracas_json_object(json, key);
@@ -153,19 +169,13 @@ static void write_row(const fracas_convergence *convergence, const fracas_conver
     fracas_json_integer(json, "point", (int64_t)row->point);
     fracas_json_text(json, "hash", hash);
     fracas_json_text(json, "label", label);
-    fracas_json_text(json, "number", fracas_headlines[row->headline].key);
-    fracas_json_text(json, "unit", fracas_headlines[row->headline].unit);
-    write_estimate(json, "base", &row->before);
-    write_estimate(json, "refined", &row->after);
-    fracas_json_real(json, "difference", row->difference.value);
-    fracas_json_real(json, "low", row->difference.low);
-    fracas_json_real(json, "high", row->difference.high);
-    fracas_json_real(json, "relative", row->difference.value / fabs(row->before.mean));
-    fracas_json_real(json, "half_widths", row->difference.value / row->before.half_width);
+    fracas_json_text(json, "number", row->number->key);
+    fracas_json_text(json, "unit", row->number->unit);
+    write_estimate(json, "base", &row->value.a);
+    write_estimate(json, "refined", &row->value.b);
+    for (size_t c = 0; c < FRACAS_COUNT(columns); c++) fracas_json_real(json, columns[c].name, *column_at(row, c));
+    fracas_json_real(json, "half_widths", row->value.difference / row->value.a.half_width);
     fracas_json_text(json, "method", row->paired ? "pairs" : "welch");
-    fracas_json_integer(json, "pairs", (int64_t)row->pairs);
-    fracas_json_real(json, "p", row->difference.p);
-    fracas_json_real(json, "p_holm", row->adjusted);
     fracas_json_text(json, "verdict", fracas_number_verdict_name[row->verdict]);
     fracas_json_close_object(json);
 }
@@ -219,24 +229,21 @@ static void csv_row(const fracas_convergence *convergence, const fracas_converge
 {
     char hash[FRACAS_HASH_HEX];
     fracas_hash_hex(&convergence->study->table->point[row->point].hash, hash);
-    fprintf(out, "%s,%zu,%s,%s,%s", row->refinement, row->point, hash, fracas_headlines[row->headline].key, fracas_headlines[row->headline].unit);
-    csv_estimate(&row->before, out);
-    csv_estimate(&row->after, out);
-    const double of[] = {row->difference.value, row->difference.low, row->difference.high, row->difference.value / fabs(row->before.mean),
-                         row->difference.value / row->before.half_width};
-    for (size_t i = 0; i < sizeof of / sizeof *of; i++) fracas_csv_real(of[i], out);
-    fprintf(out, ",%s,%zu", row->paired ? "pairs" : "welch", row->pairs);
-    fracas_csv_real(row->difference.p, out);
-    fracas_csv_real(row->adjusted, out);
-    fprintf(out, ",%s\n", fracas_number_verdict_name[row->verdict]);
+    fprintf(out, "%s,%zu,%s,%s,%s", row->refinement, row->point, hash, row->number->key, row->number->unit);
+    csv_estimate(&row->value.a, out);
+    csv_estimate(&row->value.b, out);
+    for (size_t c = 0; c < FRACAS_COUNT(columns); c++) fracas_csv_real(*column_at(row, c), out);
+    fracas_csv_real(row->value.difference / row->value.a.half_width, out);
+    fprintf(out, ",%s,%s\n", row->paired ? "pairs" : "welch", fracas_number_verdict_name[row->verdict]);
 }
 
 fracas_err fracas_convergence_write_csv(const fracas_convergence *convergence, const char *folder)
 {
     fracas_output_file output;
     TRY(fracas_output_open(folder, "converge.csv", &output));
-    fputs("refinement,point,hash,number,unit,base_n,base_mean,base_half_width,refined_n,refined_mean,refined_half_width,difference,low,high,"
-          "relative,half_widths,method,pairs,p,p_holm,verdict\n", output.file);
+    fputs("refinement,point,hash,number,unit,base_n,base_mean,base_half_width,refined_n,refined_mean,refined_half_width", output.file);
+    for (size_t c = 0; c < FRACAS_COUNT(columns); c++) fprintf(output.file, ",%s", columns[c].name);
+    fputs(",half_widths,method,verdict\n", output.file);
     for (size_t i = 0; i < convergence->nrows; i++) csv_row(convergence, &convergence->row[i], output.file);
     return fracas_output_close(&output, FRACAS_OK);
 }

@@ -2,8 +2,8 @@
 #ifndef FRACAS_ANALYSIS_CONVERGE_ROWS_H
 #define FRACAS_ANALYSIS_CONVERGE_ROWS_H
 
+#include "analysis/compare/compare.h"
 #include "analysis/converge/converge.h"
-#include "analysis/converge/difference.h"
 #include "analysis/study/study.h"
 
 typedef enum {
@@ -12,23 +12,11 @@ typedef enum {
 extern const char *const fracas_number_verdict_name[FRACAS_NUMBER_VERDICTS]; /* "moved", ... */
 
 typedef struct {
-    const char *key;  /* in JSON and CSV, and in the table */
-    const char *unit; /* SI */
-    size_t offset;    /* in fracas_replica_values */
-} fracas_headline;
-
-enum { FRACAS_NHEADLINES = 6 };
-extern const fracas_headline fracas_headlines[FRACAS_NHEADLINES];
-
-typedef struct {
     const char *refinement;
     size_t point;    /* of the study as it is */
-    size_t headline;
+    const fracas_compared_quantity *number;
     bool paired;
-    size_t pairs;    /* 0 unless paired */
-    fracas_estimate before, after;
-    fracas_difference difference;
-    double adjusted; /* p among all rows */
+    fracas_compared_value value; /* its p: Student's, of the difference */
     fracas_number_verdict verdict;
 } fracas_convergence_row;
 

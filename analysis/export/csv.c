@@ -1,8 +1,12 @@
 #include "analysis/export/csv.h"
 
+#include "analysis/laws/slope.h"
+#include "analysis/laws/windows.h"
+
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 void fracas_csv_real(double value, FILE *out)
@@ -60,6 +64,34 @@ void fracas_csv_points(const fracas_analysis *analysis, FILE *out)
 {
     points_head(analysis->table, out);
     for (size_t p = 0; p < analysis->table->npoints; p++) point_line(analysis, p, out);
+}
+
+fracas_err fracas_csv_slopes(const fracas_analysis *analysis, FILE *out)
+{
+    fracas_size_slope *line;
+    fracas_size_window *window;
+    size_t lines, windows;
+    TRY(fracas_size_slopes(analysis, &line, &lines));
+    fracas_err err = fracas_size_windows(analysis, &window, &windows);
+    fputs("series,kind,points,from_rate,to_rate,slope,standard_error,half_width,chi2\n", out);
+    for (size_t i = 0; i < lines && !err; i++) {
+        put_text(line[i].name, out);
+        fprintf(out, ",line,%" PRId64 ",,", line[i].slope.n);
+        const double value[] = {line[i].slope.slope, line[i].slope.standard_error, line[i].slope.half_width, line[i].slope.chi2};
+        for (size_t v = 0; v < sizeof value / sizeof *value; v++) fracas_csv_real(value[v], out);
+        putc('\n', out);
+    }
+    for (size_t i = 0; i < windows && !err; i++) {
+        put_text(window[i].name, out);
+        fputs(",window,2", out);
+        const double value[] = {window[i].rate[0], window[i].rate[1], window[i].window.slope, window[i].window.standard_error,
+                                window[i].window.half_width, NAN};
+        for (size_t v = 0; v < sizeof value / sizeof *value; v++) fracas_csv_real(value[v], out);
+        putc('\n', out);
+    }
+    free(line);
+    free(window);
+    return err;
 }
 
 fracas_err fracas_csv_fragments(const fracas_analysis *analysis, FILE *out)

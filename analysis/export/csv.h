@@ -10,6 +10,9 @@ void fracas_csv_real(double value, FILE *out);
 /* A line a point: its index and hash, every parameter and every statistic (the keys of the JSON summary), outcomes. */
 void fracas_csv_points(const fracas_analysis *analysis, FILE *out);
 
+/* A line a slope of mean size against strain rate: `kind` line, through all points of a series, or window, between two rates. */
+FRACAS_MUST_USE fracas_err fracas_csv_slopes(const fracas_analysis *analysis, FILE *out);
+
 /* A line a fragment, read again from the study in its order. */
 FRACAS_MUST_USE fracas_err fracas_csv_fragments(const fracas_analysis *analysis, FILE *out);
 

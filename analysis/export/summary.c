@@ -1,10 +1,13 @@
 /* The JSON summary. Its keys are those of fracas_statistics and of /point: they do not change. */
+#include "analysis/laws/crossover.h"
 #include "analysis/laws/slope.h"
+#include "analysis/laws/windows.h"
 #include "analysis/study/study.h"
 
 #include "base/json.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -31,6 +34,14 @@ static void write_statistics(fracas_json *json, const fracas_point_statistics *s
     fracas_json_object(json, "outcomes");
     for (int o = 0; o < FRACAS_NOUTCOMES; o++)
         fracas_json_integer(json, fracas_outcome_name(o), statistics->outcome[o]);
+    fracas_json_close_object(json);
+}
+
+/* Why a statistic is null, by its key. */
+static void write_reasons(fracas_json *json, const fracas_point_statistics *statistics)
+{
+    fracas_json_object(json, "reasons");
+    if (statistics->without_mott) fracas_json_text(json, "law.mott", statistics->without_mott);
     fracas_json_close_object(json);
 }
 
@@ -61,6 +72,7 @@ static void write_point(fracas_json *json, const fracas_analysis *analysis, size
     write_decision(json, fracas_analysis_decision(analysis, p));
     write_parameters(json, analysis->table, p);
     write_statistics(json, &analysis->point[p]);
+    write_reasons(json, &analysis->point[p]);
     fracas_json_close_object(json);
 }
 
@@ -104,6 +116,68 @@ static void write_slopes(fracas_json *json, const fracas_analysis *analysis)
     free(list);
 }
 
+static void write_windows(fracas_json *json, const fracas_analysis *analysis)
+{
+    fracas_size_window *list = NULL;
+    size_t count = 0;
+    fracas_json_array(json, "windows");
+    if (fracas_size_windows(analysis, &list, &count)) fracas_json_text(json, NULL, fracas_message());
+    for (size_t i = 0; i < count; i++) {
+        fracas_json_object(json, NULL);
+        fracas_json_text(json, "series", list[i].name);
+        fracas_json_integer(json, "from_point", (int64_t)list[i].point[0]);
+        fracas_json_integer(json, "to_point", (int64_t)list[i].point[1]);
+        fracas_json_real(json, "from_rate", list[i].rate[0]);
+        fracas_json_real(json, "to_rate", list[i].rate[1]);
+        fracas_json_real(json, "from_rate_normalised", list[i].rate[0] / list[i].scales.rate);
+        fracas_json_real(json, "to_rate_normalised", list[i].rate[1] / list[i].scales.rate);
+        fracas_json_real(json, "slope", list[i].window.slope);
+        fracas_json_real(json, "standard_error", list[i].window.standard_error);
+        fracas_json_real(json, "freedom", list[i].window.freedom);
+        fracas_json_real(json, "half_width", list[i].window.half_width);
+        fracas_json_close_object(json);
+    }
+    fracas_json_close_array(json);
+    free(list);
+}
+
+static void write_interval(fracas_json *json, const char *key, const fracas_interval *interval, double factor)
+{
+    fracas_json_object(json, key);
+    fracas_json_real(json, "value", interval->value * factor);
+    fracas_json_real(json, "low", interval->low * factor);
+    fracas_json_real(json, "high", interval->high * factor);
+    fracas_json_real(json, "standard_error", interval->standard_error * factor);
+    fracas_json_close_object(json);
+}
+
+static void write_crossovers(fracas_json *json, const fracas_analysis *analysis)
+{
+    fracas_size_crossover *list = NULL;
+    size_t count = 0;
+    fracas_json_array(json, "crossovers");
+    if (fracas_size_crossovers(analysis, true, &list, &count)) fracas_json_text(json, NULL, fracas_message());
+    for (size_t i = 0; i < count; i++) {
+        fracas_json_object(json, NULL);
+        fracas_json_text(json, "series", list[i].name);
+        fracas_json_integer(json, "points", list[i].n);
+        fracas_json_text(json, "reason", *list[i].reason ? list[i].reason : NULL);
+        write_interval(json, "rate", &list[i].rate, 1);
+        write_interval(json, "rate_normalised", &list[i].rate, 1 / list[i].scales.rate);
+        write_interval(json, "size", &list[i].size, 1);
+        write_interval(json, "size_normalised", &list[i].size, 1 / list[i].scales.size);
+        fracas_json_real(json, "low_exponent", *list[i].reason ? NAN : 0);
+        write_interval(json, "high_exponent", &list[i].exponent, 1);
+        fracas_json_real(json, "chi2", list[i].chi2);
+        fracas_json_real(json, "freedom", list[i].freedom);
+        fracas_json_real(json, "inflation", list[i].inflation);
+        fracas_json_integer(json, "resamples", list[i].rate.resamples);
+        fracas_json_close_object(json);
+    }
+    fracas_json_close_array(json);
+    free(list);
+}
+
 void fracas_analysis_write_json(const fracas_analysis *analysis, FILE *out)
 {
     char hash[FRACAS_HASH_HEX], seed[24];
@@ -125,6 +199,8 @@ void fracas_analysis_write_json(const fracas_analysis *analysis, FILE *out)
     for (size_t p = 0; p < analysis->table->npoints; p++) write_point(&json, analysis, p);
     fracas_json_close_array(&json);
     write_slopes(&json, analysis);
+    write_windows(&json, analysis);
+    write_crossovers(&json, analysis);
     write_warnings(&json, analysis);
     fracas_json_close_object(&json);
     fracas_json_end(&json);

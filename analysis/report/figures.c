@@ -1,9 +1,12 @@
 #include "analysis/report/figures.h"
 
+#include "analysis/laws/crossover.h"
 #include "analysis/tables/format.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { LAW_VALUES = 80, TALL = 300, LOW = 200, STRIP = 80 };
 
@@ -77,7 +80,7 @@ static fracas_err add_law(const rate_plot *plot, fracas_size_law_id law, const f
     for (size_t i = 0; i < LAW_VALUES; i++) {
         double at = rate[0] / 2 * pow(4 * rate[1] / rate[0], (double)i / (LAW_VALUES - 1));
         series->x[i] = at;
-        series->y[i] = plot->normalised ? fracas_size_laws[law].normalised(at)
+        series->y[i] = plot->normalised ? fracas_size_laws[law].normalised(at, scales->modulus)
                                         : fracas_size_law_at(law, scales, at) * plot->size_factor;
     }
     return FRACAS_OK;
@@ -112,6 +115,15 @@ static bool same_scales(const rate_plot *plot, size_t series)
     return true;
 }
 
+/* True if the law is a number, and one curve of it serves all points: Mott's only where all strengths have one modulus. */
+static bool law_serves(const rate_plot *plot, fracas_size_law_id law, const fracas_scales *scales)
+{
+    if (!isfinite(fracas_size_laws[law].normalised(1, scales->modulus))) return false;
+    for (size_t p = 0; law == FRACAS_LAW_MOTT && p < plot->analysis->table->npoints; p++)
+        if (has_scales(&plot->analysis->point[p]) && plot->analysis->point[p].scales.modulus != scales->modulus) return false;
+    return true;
+}
+
 /* True if a series before that of point `first` has drawn the laws for all. */
 static bool laws_are_drawn(const rate_plot *plot, size_t first)
 {
@@ -129,13 +141,40 @@ static fracas_err add_laws(const rate_plot *plot, const double rate[2], size_t f
     if (plot->normalised || same_scales(plot, ALL_SERIES)) {
         if (laws_are_drawn(plot, first)) return FRACAS_OK;
         for (unsigned law = 0; law < FRACAS_NLAWS; law++)
-            TRY(add_law(plot, (fracas_size_law_id)law, scales, rate, looks + law, panel));
+            if (law_serves(plot, (fracas_size_law_id)law, scales))
+                TRY(add_law(plot, (fracas_size_law_id)law, scales, rate, looks + law, panel));
         return FRACAS_OK;
     }
     if (!same_scales(plot, first)) return FRACAS_OK;
     TRY(add_law(plot, FRACAS_LAW_ZMR, scales, rate, look, panel));
     panel->series[panel->nseries - 1].name[0] = '\0'; /* named by its marks */
     return FRACAS_OK;
+}
+
+/* The fitted crossover of each series that has one, in the colour of its marks. */
+static fracas_err add_crossovers(const rate_plot *plot, const double rate[2], fracas_panel *panel)
+{
+    fracas_size_crossover *list;
+    size_t count;
+    TRY(fracas_size_crossovers(plot->analysis, false, &list, &count));
+    fracas_err err = FRACAS_OK;
+    for (size_t i = 0; i < count && !err; i++) {
+        const fracas_scales *scales = &list[i].scales;
+        const double x_unit = plot->normalised ? scales->rate : 1, y_unit = plot->normalised ? scales->size : 1 / plot->size_factor;
+        if (*list[i].reason || !isfinite(x_unit) || !isfinite(y_unit)) continue;
+        fracas_series *series;
+        size_t marks = 0;
+        while (marks < panel->nseries && strcmp(panel->series[marks].name, list[i].name)) marks++;
+        const unsigned look = marks < panel->nseries ? panel->series[marks].look : 0;
+        err = fracas_panel_add(panel, FRACAS_CURVE, look, LAW_VALUES, &series);
+        for (size_t v = 0; !err && v < LAW_VALUES; v++) {
+            series->x[v] = rate[0] / 2 * pow(4 * rate[1] / rate[0], (double)v / (LAW_VALUES - 1));
+            series->y[v] = fracas_crossover_at(&list[i], series->x[v] * x_unit) / y_unit;
+        }
+        if (!err && count == 1) snprintf(series->name, sizeof series->name, "fitted crossover");
+    }
+    free(list);
+    return err;
 }
 
 static fracas_err draw_against_rate(const rate_plot *plot, fracas_chart *chart)
@@ -155,7 +194,7 @@ static fracas_err draw_against_rate(const rate_plot *plot, fracas_chart *chart)
         TRY(add_means(plot, p, look, panel));
         look++;
     }
-    return FRACAS_OK;
+    return add_crossovers(plot, rate, panel);
 }
 
 static bool any_curve(const fracas_chart *chart)
@@ -181,7 +220,7 @@ static void caption_of_rate(const fracas_analysis *analysis, bool normalised, bo
              !normalised && fracas_analysis_any_surface(analysis) ? ", of surfaces of the mean square root of their areas" : "",
              !one_law && !any_curve(chart) ? " No size law serves all marks of one colour: their materials differ."
              : normalised || one_law       ? " Lines: size laws of Zhou, Molinari and Ramesh (ZMR, ZMR-2), Grady, and Glenn "
-                                             "and Chudnovsky (GC)."
+                                             "and Chudnovsky (GC); Mott\u2019s where all strengths have one Weibull modulus."
                                            : " Lines: ZMR law with the material of the marks of the same colour, where these have one.");
 }
 

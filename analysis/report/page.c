@@ -192,6 +192,8 @@ static fracas_err put_figures(const report_page *page)
     fputs("</div>\n", page->out);
     say_no_rate(page);
     TRY(put_side_table(page, "slopes", NULL, fracas_slope_table_create, fracas_slope_table_legend));
+    TRY(put_side_table(page, "windows", NULL, fracas_window_table_create, fracas_window_table_legend));
+    TRY(put_side_table(page, "crossovers", NULL, fracas_crossover_table_create, fracas_crossover_table_legend));
     fputs("<h2>Fragment sizes</h2>\n<div class=\"wide\">\n", page->out);
     TRY(put_figure(page, &chart, fracas_figure_sizes_together(analysis, &chart)));
     fputs("</div>\n<div class=\"small\">\n", page->out);
@@ -336,6 +338,8 @@ static fracas_err write_tables(const fracas_analysis *analysis, const char *fold
     TRY(fracas_output_open(folder, "points.csv", &output));
     fracas_csv_points(analysis, output.file);
     TRY(fracas_output_close(&output, FRACAS_OK));
+    TRY(fracas_output_open(folder, "slopes.csv", &output));
+    TRY(fracas_output_close(&output, fracas_csv_slopes(analysis, output.file)));
     TRY(fracas_output_open(folder, "fragments.csv", &output));
     return fracas_output_close(&output, fracas_csv_fragments(analysis, output.file));
 }

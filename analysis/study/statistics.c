@@ -1,5 +1,6 @@
 #include "analysis/study/statistics.h"
 
+#include "analysis/laws/modulus.h"
 #include "analysis/study/columns.h"
 
 #include <gsl/gsl_sort.h>
@@ -41,10 +42,12 @@ const fracas_statistic fracas_statistics[] = {
     STATISTIC("scale.time", "s", "t0 = E Gc/(sigma_c^2 c)", scales.time),
     STATISTIC("scale.size", "m", "s0 = E Gc/sigma_c^2", scales.size),
     STATISTIC("scale.rate", "1/s", "edot0 = c sigma_c^3/(E^2 Gc)", scales.rate),
+    STATISTIC("scale.modulus", "1", "M of the strengths, of Mott's law", scales.modulus),
     STATISTIC("law.zmr", "m", "mean size by Zhou, Molinari and Ramesh (APL 2006)", law[FRACAS_LAW_ZMR]),
     STATISTIC("law.grady", "m", "mean size by Grady", law[FRACAS_LAW_GRADY]),
     STATISTIC("law.glenn_chudnovsky", "m", "mean size by Glenn and Chudnovsky", law[FRACAS_LAW_GLENN_CHUDNOVSKY]),
     STATISTIC("law.zmr2", "m", "mean size by Zhou, Molinari and Ramesh, second form", law[FRACAS_LAW_ZMR2]),
+    STATISTIC("law.mott", "m", "mean size by Mott", law[FRACAS_LAW_MOTT]),
 };
 const size_t fracas_nstatistics = sizeof fracas_statistics / sizeof *fracas_statistics;
 
@@ -107,6 +110,10 @@ void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
         .typical_replica = -1, .broken_replica = -1,
     };
     if (statistics->radius > 0) statistics->length = 2 * M_PI * statistics->radius;
+    const fracas_modulus modulus = fracas_modulus_of(table, point, statistics->length);
+    statistics->scales.modulus = modulus.value;
+    statistics->without_mott = statistics->surface ? "the law is of one dimension"
+        : !(statistics->rate > 0) ? "there is no strain rate" : modulus.reason;
     fracas_ensemble_init(&statistics->ensemble, lattice_of(table, point, statistics->length));
     for (int law = 0; law < FRACAS_NLAWS; law++) /* at rate 0, a ring that spins or is accelerated, they say nothing */
         statistics->law[law] = statistics->rate > 0 && !statistics->surface

@@ -19,6 +19,7 @@ typedef struct {
     bool surface;  /* a size is the square root of an area, and the size laws, of one dimension, say nothing */
     fracas_scales scales;
     double law[FRACAS_NLAWS]; /* m, mean size by each law; NaN of surfaces */
+    const char *without_mott; /* why the size by Mott's law is NaN; NULL: it is not */
 
     /* Over its realizations. Usable are FRAGMENTED, INTACT and TIME_LIMIT: their fragments mean something. */
     int64_t realizations, usable, unusable;

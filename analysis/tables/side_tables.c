@@ -1,7 +1,9 @@
 #include "analysis/tables/side_tables.h"
 
 #include "analysis/tables/format.h"
+#include "analysis/laws/crossover.h"
 #include "analysis/laws/slope.h"
+#include "analysis/laws/windows.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,6 +14,20 @@ const char *const fracas_slope_table_legend[] = {
     "mean over replicas; after it the half width of its 95 % interval (Student's t with points - 2 degrees of freedom).",
     "chi2/dof: scatter of the points about the line over what their errors explain; where it is above 1 the interval is "
     "wider by its square root. Mott, Grady: exponents of the theories.",
+    NULL,
+};
+const char *const fracas_window_table_legend[] = {
+    "slope: of log(mean size) against log(strain rate) between two neighbouring rates; after it the half width of its 95 % interval, from the "
+    "standard errors of the two means (Student's t, degrees of freedom by Welch and Satterthwaite).",
+    "from, to: the rates, and as parts of the characteristic rate edot0 of the material.",
+    NULL,
+};
+const char *const fracas_crossover_table_legend[] = {
+    "s = s_q/(1 + (rate/crossover)^k), by weighted least squares of log(mean size): s_q is the size at low rates (exponent 0), -k the exponent at "
+    "high rates. In brackets 95 % intervals by the parametric bootstrap: means drawn again by their standard errors. /s0, /edot0: as parts of "
+    "the characteristic size and rate of the material.",
+    "chi2/dof: scatter of the points about the curve over what their errors explain; where that is more than in 99 % of cases the intervals are "
+    "wider by its square root. At least five rates with the bend among them are needed; else the last column says what is missing.",
     NULL,
 };
 const char *const fracas_motion_table_legend[] = {
@@ -53,6 +69,88 @@ fracas_err fracas_slope_table_create(const fracas_analysis *analysis, bool unico
         snprintf(cell[POINTS], FRACAS_CELL, "%lld", (long long)slope->n);
         fracas_format_digits(slope->chi2 / (double)(slope->n - 2), 2, cell[CHI2], FRACAS_CELL);
         snprintf(cell[SERIES], FRACAS_CELL, "%s", list[i].name);
+    }
+    free(list);
+    return err;
+}
+
+fracas_err fracas_window_table_create(const fracas_analysis *analysis, bool unicode, fracas_result_table *table)
+{
+    enum { SLOPE, FROM, TO, FROM_PART, TO_PART, SERIES, NCOLUMNS };
+    static const char *const name[NCOLUMNS] = {"slope", "from", "to", "from", "to", "series"};
+    fracas_size_window *list;
+    size_t count;
+    TRY(fracas_size_windows(analysis, &list, &count));
+    fracas_err err = make_table(count, NCOLUMNS, name, table);
+    for (size_t c = FROM; c <= TO_PART && !err; c++)
+        snprintf(fracas_result_table_cell(table, 1, c), FRACAS_CELL, "%s", c <= TO ? "[1/s]" : unicode ? "/\u03b5\u0307\u2080" : "/edot0");
+    for (size_t i = 0; i < count && !err; i++) {
+        const fracas_window *window = &list[i].window;
+        char *cell[NCOLUMNS];
+        for (size_t c = 0; c < NCOLUMNS; c++) cell[c] = fracas_result_table_cell(table, FRACAS_RESULT_TABLE_HEAD + i, c);
+        const fracas_estimate estimate = {.n = 2, .mean = window->slope, .half_width = window->half_width};
+        fracas_format_estimate(&estimate, 1, unicode ? "\u00b1" : "+-", cell[SLOPE], FRACAS_CELL);
+        for (size_t end = 0; end < 2; end++) {
+            fracas_format_short(list[i].rate[end], cell[FROM + end], FRACAS_CELL);
+            fracas_format_digits(list[i].rate[end] / list[i].scales.rate, 3, cell[FROM_PART + end], FRACAS_CELL);
+        }
+        snprintf(cell[SERIES], FRACAS_CELL, "%s", list[i].name);
+    }
+    free(list);
+    return err;
+}
+
+/* "3.51e4 [3.2e4, 3.9e4]" */
+static void format_interval(const fracas_interval *interval, double factor, char *text)
+{
+    char value[32], low[32], high[32];
+    fracas_format_digits(interval->value * factor, 3, value, sizeof value);
+    fracas_format_digits((factor > 0 ? interval->low : interval->high) * factor, 3, low, sizeof low);
+    fracas_format_digits((factor > 0 ? interval->high : interval->low) * factor, 3, high, sizeof high);
+    snprintf(text, FRACAS_CELL, "%s [%s, %s]", value, low, high);
+    if (!isfinite(interval->low)) snprintf(text, FRACAS_CELL, "%s", value);
+}
+
+/* A series of one rate has nothing to go over from. */
+static void keep_series_of_rates(fracas_size_crossover *list, size_t *count)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < *count; i++)
+        if (list[i].n > 1) list[kept++] = list[i];
+    *count = kept;
+}
+
+fracas_err fracas_crossover_table_create(const fracas_analysis *analysis, bool unicode, fracas_result_table *table)
+{
+    enum { RATE, RATE_PART, SIZE, SIZE_PART, EXPONENT, POINTS, CHI2, SERIES, NCOLUMNS };
+    static const char *const name[NCOLUMNS] = {"crossover", "crossover", "s_q", "s_q", "exponent", "points", "chi2/dof", "series"};
+    fracas_size_crossover *list;
+    size_t count;
+    TRY(fracas_size_crossovers(analysis, true, &list, &count));
+    keep_series_of_rates(list, &count);
+    double size[2] = {INFINITY, 0};
+    for (size_t i = 0; i < count; i++)
+        if (list[i].size.value > 0) size[0] = fmin(size[0], list[i].size.value), size[1] = fmax(size[1], list[i].size.value);
+    const fracas_prefix prefix = fracas_prefix_for(size, 2);
+    fracas_err err = make_table(count, NCOLUMNS, name, table);
+    if (!err) {
+        snprintf(fracas_result_table_cell(table, 1, RATE), FRACAS_CELL, "[1/s]");
+        snprintf(fracas_result_table_cell(table, 1, RATE_PART), FRACAS_CELL, unicode ? "/\u03b5\u0307\u2080" : "/edot0");
+        snprintf(fracas_result_table_cell(table, 1, SIZE), FRACAS_CELL, "[%sm]", unicode ? prefix.sign : prefix.symbol);
+        snprintf(fracas_result_table_cell(table, 1, SIZE_PART), FRACAS_CELL, unicode ? "/s\u2080" : "/s0");
+    }
+    for (size_t i = 0; i < count && !err; i++) {
+        const fracas_size_crossover *of = &list[i];
+        char *cell[NCOLUMNS];
+        for (size_t c = 0; c < NCOLUMNS; c++) cell[c] = fracas_result_table_cell(table, FRACAS_RESULT_TABLE_HEAD + i, c);
+        format_interval(&of->rate, 1, cell[RATE]);
+        format_interval(&of->rate, 1 / of->scales.rate, cell[RATE_PART]);
+        format_interval(&of->size, prefix.factor, cell[SIZE]);
+        format_interval(&of->size, 1 / of->scales.size, cell[SIZE_PART]);
+        format_interval(&of->exponent, 1, cell[EXPONENT]);
+        snprintf(cell[POINTS], FRACAS_CELL, "%lld", (long long)of->n);
+        fracas_format_digits(of->chi2 / of->freedom, 2, cell[CHI2], FRACAS_CELL);
+        snprintf(cell[SERIES], FRACAS_CELL, "%.60s%s%.60s", of->name, *of->reason ? ": " : "", of->reason);
     }
     free(list);
     return err;

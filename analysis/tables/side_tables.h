@@ -1,4 +1,4 @@
-/* Tables beside the headline one: slopes of mean size, motion of a ring's fragments. */
+/* Tables beside the headline one: slopes and crossover of mean size, motion of a ring's fragments. */
 #ifndef FRACAS_ANALYSIS_TABLES_SIDE_TABLES_H
 #define FRACAS_ANALYSIS_TABLES_SIDE_TABLES_H
 
@@ -9,11 +9,18 @@
 FRACAS_MUST_USE fracas_err fracas_slope_table_create(const fracas_analysis *analysis, bool unicode,
                                                      fracas_result_table *table);
 
+/* A row for every two neighbouring rates of a series. */
+FRACAS_MUST_USE fracas_err fracas_window_table_create(const fracas_analysis *analysis, bool unicode, fracas_result_table *table);
+
+/* A row a series: its crossover, or why there is none. */
+FRACAS_MUST_USE fracas_err fracas_crossover_table_create(const fracas_analysis *analysis, bool unicode, fracas_result_table *table);
+
 /* A row a point that is a ring: mean velocity outward, its scatter, rms velocity along the ring, mean |angular velocity|. */
 FRACAS_MUST_USE fracas_err fracas_motion_table_create(const fracas_analysis *analysis, bool unicode,
                                                       fracas_result_table *table);
 
 /* What the columns mean, a line each; ends with NULL. */
-extern const char *const fracas_slope_table_legend[], *const fracas_motion_table_legend[];
+extern const char *const fracas_slope_table_legend[], *const fracas_window_table_legend[], *const fracas_crossover_table_legend[],
+    *const fracas_motion_table_legend[];
 
 #endif

@@ -8,12 +8,13 @@
 #include <string.h>
 
 /* Columns after those that tell the points apart. */
-enum { USED, FAILED, COUNT, LARGE, SIZE, DISSIPATED, BENDING, ZMR, GRADY, GC, RATIO, RESIDUAL, CREATED, ROTATION, OUTCOMES, NCOLUMNS };
+enum { USED, FAILED, COUNT, LARGE, SIZE, DISSIPATED, BENDING, ZMR, GRADY, GC, MOTT, RATIO, RESIDUAL, CREATED, ROTATION, OUTCOMES, NCOLUMNS };
 
 static const char *const legend_of_chains[] = {
     "n: realizations used (FRAGMENTED, INTACT, TIME_LIMIT); fail: all others. After the mean: half width of its 95 %",
     "interval over replicas (Student's t). count: fragments, dust included. size: mean over replicas of length/count.",
-    "ZMR, Grady, GC (Glenn-Chudnovsky): size laws with the point's material and mean strength; size/ZMR: ratio to ZMR.",
+    "ZMR, Grady, GC (Glenn-Chudnovsky), Mott (of strengths with a Weibull modulus): size laws with the point's material and mean",
+    "strength; size/ZMR: ratio to ZMR.",
     "resid., created: largest over replicas of |ledger residual| and of created energy, as parts of the dissipated.",
     NULL,
 };
@@ -21,7 +22,7 @@ static const char *const legend_with_surfaces[] = {
     "n: realizations used (FRAGMENTED, INTACT, TIME_LIMIT); fail: all others. After the mean: half width of its 95 %",
     "interval over replicas (Student's t). count: fragments, dust included; no dust: without it (of a surface pieces of one or",
     "two elements). size: mean over replicas of the mean size, of a surface of the square root of a fragment's area, dust",
-    "included; of a bar or a ring length/count, beside size laws (ZMR, Grady, Glenn-Chudnovsky), which are of one dimension.",
+    "included; of a bar or a ring length/count, beside size laws (ZMR, Grady, Glenn-Chudnovsky, Mott), which are of one dimension.",
     "bending, where there is any: its part of dissipated. resid., created: largest over replicas of |ledger residual| and of",
     "created energy, as parts of the dissipated. rotation: mean kinetic energy of the spins of a surface's fragments, as part of",
     "that of their centres of mass. Of an octant (geometry.part) all this is the octant's own, an eighth of the sphere.",
@@ -61,6 +62,13 @@ static bool any_bending(const fracas_analysis *analysis)
     return false;
 }
 
+static bool any_mott(const fracas_analysis *analysis)
+{
+    for (size_t p = 0; p < analysis->table->npoints; p++)
+        if (isfinite(analysis->point[p].law[FRACAS_LAW_MOTT])) return true;
+    return false;
+}
+
 /* Counts without dust and rotation are for surfaces, size laws for what is none. Returns how many columns there are. */
 static size_t place_columns(painter *paint)
 {
@@ -68,7 +76,7 @@ static size_t place_columns(painter *paint)
     size_t next = paint->first->count;
     for (size_t c = 0; c < NCOLUMNS; c++) {
         const bool law = c >= ZMR && c <= RATIO, of_surfaces = c == LARGE || c == ROTATION;
-        const bool shown = law ? !all : of_surfaces ? any : c != BENDING || any_bending(paint->analysis);
+        const bool shown = law ? !all && (c != MOTT || any_mott(paint->analysis)) : of_surfaces ? any : c != BENDING || any_bending(paint->analysis);
         paint->place[c] = shown ? next++ : HIDDEN;
     }
     return next;
@@ -130,7 +138,7 @@ static void paint_head(painter *paint)
     static const char *const name[NCOLUMNS] = {
         [USED] = "n", [FAILED] = "fail", [COUNT] = "count", [LARGE] = "no dust", [SIZE] = "size", [DISSIPATED] = "dissipated",
         [BENDING] = "bending",
-        [ZMR] = "ZMR", [GRADY] = "Grady", [GC] = "GC", [RATIO] = "size", [RESIDUAL] = "resid.",
+        [ZMR] = "ZMR", [GRADY] = "Grady", [GC] = "GC", [MOTT] = "Mott", [RATIO] = "size", [RESIDUAL] = "resid.",
         [CREATED] = "created", [ROTATION] = "rotation", [OUTCOMES] = "outcomes",
     };
     const fracas_columns *shown = paint->first;
@@ -142,7 +150,7 @@ static void paint_head(painter *paint)
         if (!column->text && strcmp(column->unit, "1")) paint_unit(paint, fracas_result_table_cell(paint->table, 1, i), &prefix, column->unit);
     }
     for (size_t c = 0; c < NCOLUMNS; c++) snprintf(cell_of(paint, 0, c), FRACAS_CELL, "%s", name[c]);
-    for (size_t c = SIZE; c <= GC; c++) paint_unit(paint, cell_of(paint, 1, c), &paint->size, "m");
+    for (size_t c = SIZE; c <= MOTT; c++) paint_unit(paint, cell_of(paint, 1, c), &paint->size, "m");
     paint_unit(paint, cell_of(paint, 1, DISSIPATED), &paint->energy, "J");
     paint_unit(paint, cell_of(paint, 1, BENDING), &paint->energy, "J");
     snprintf(cell_of(paint, 1, RATIO), FRACAS_CELL, "/ZMR");
@@ -169,8 +177,8 @@ static void paint_point(painter *paint, size_t p)
     fracas_format_estimate(&statistics->size, paint->size.factor, sign, cell[SIZE], FRACAS_CELL);
     fracas_format_estimate(&statistics->dissipated, paint->energy.factor, sign, cell[DISSIPATED], FRACAS_CELL);
     fracas_format_estimate(&statistics->bending, paint->energy.factor, sign, cell[BENDING], FRACAS_CELL);
-    const fracas_size_law_id law[] = {FRACAS_LAW_ZMR, FRACAS_LAW_GRADY, FRACAS_LAW_GLENN_CHUDNOVSKY};
-    for (size_t i = 0; i < 3; i++)
+    const fracas_size_law_id law[] = {FRACAS_LAW_ZMR, FRACAS_LAW_GRADY, FRACAS_LAW_GLENN_CHUDNOVSKY, FRACAS_LAW_MOTT};
+    for (size_t i = 0; i < sizeof law / sizeof *law; i++)
         fracas_format_digits(statistics->law[law[i]] * paint->size.factor, 4, cell[ZMR + i], FRACAS_CELL);
     fracas_format_digits(statistics->size.mean / statistics->law[FRACAS_LAW_ZMR], 3, cell[RATIO], FRACAS_CELL);
     fracas_format_digits(statistics->residual, 2, cell[RESIDUAL], FRACAS_CELL);
@@ -191,7 +199,7 @@ fracas_err fracas_result_table_create(const fracas_analysis *analysis, bool unic
     };
     table->rows = FRACAS_RESULT_TABLE_HEAD + analysis->table->npoints;
     table->columns = place_columns(&paint);
-    table->laws = paint.place[ZMR] == HIDDEN ? 0 : RATIO - ZMR + 1;
+    table->laws = paint.place[ZMR] == HIDDEN ? 0 : paint.place[RATIO] - paint.place[ZMR] + 1;
     table->first_law = paint.place[ZMR];
     table->cell = calloc(table->rows * table->columns, sizeof *table->cell);
     if (table->cell) {

@@ -49,7 +49,36 @@ def estimate(row, key, values):
     row[key + ".half_width"] = student_quantile(0.975, n - 1) * deviation / math.sqrt(n) if n > 1 else math.nan
 
 
-def laws(row, young, density, strength, fracture_energy, rate):
+def weibull_shape(ratio):
+    """Of strengths whose deviation/(mean - minimum) is `ratio`, by halving."""
+    low, high = 1e-3, 10.0
+    while high - low > 1e-15 * high:
+        x = (low + high) / 2
+        less = math.lgamma(1 + 2 * x) - 2 * math.lgamma(1 + x) < math.log1p(ratio**2)
+        low, high = (x, high) if less else (low, x)
+    return 1 / low
+
+
+def modulus_of(point, p):
+    """Of the strengths, for Mott's law: NaN unless they are weibull or flaws (docs/theory/size-laws.md)."""
+    def real(name, missing=math.nan):
+        value = point[name][p] if name in point else math.nan
+        return missing if math.isnan(value) else value
+    distribution = point["strength.distribution"][p] if "strength.distribution" in point else b""
+    mean, minimum = real("derived.strength_mean"), real("strength.minimum", 0.0)
+    if distribution == b"weibull":
+        m = real("strength.shape")
+        if math.isnan(m):
+            m = weibull_shape(real("strength.deviation") / (real("strength.mean") - minimum))
+    elif distribution == b"flaws" and real("strength.flaw_density") * real("geometry.area") * length_of(point, p) > (
+            math.log(2) * real("mesh.elements")):
+        m = real("strength.exponent")
+    else:
+        return math.nan
+    return m * mean / (mean - minimum)
+
+
+def laws(row, young, density, strength, fracture_energy, modulus, rate):
     """Scales and mean-size laws (docs/theory/size-laws.md)."""
     speed = math.sqrt(young / density)
     row["scale.size"] = s0 = young * fracture_energy / strength**2
@@ -59,6 +88,7 @@ def laws(row, young, density, strength, fracture_energy, rate):
     row["law.grady"] = s0 * (24 / e**2) ** (1 / 3)
     row["law.glenn_chudnovsky"] = s0 * 4 / e * math.sinh(math.asinh(1.5 * e) / 3)
     row["law.zmr2"] = s0 * 4.5 / (1 + 0.77 * e**0.25 + 5.4 * e**0.75)
+    row["law.mott"] = math.sqrt(2 * math.pi / (density * modulus * young)) * strength / rate if rate > 0 else math.nan
 
 
 def largest_ratio(values, dissipated):
@@ -114,7 +144,7 @@ def table(path):
         row["elements"] = elements[fragment].mean() if fragment.any() else math.nan
         row["dust_share"] = dust[fragment].mean() if fragment.any() else math.nan
         laws(row, point["material.young"][p], point["material.density"][p], point["derived.strength_mean"][p],
-             fracture_energy_of(point, p), math.nan if is_surface(point, p) else rate)
+             fracture_energy_of(point, p), modulus_of(point, p), math.nan if is_surface(point, p) else rate)
         for o, name in enumerate(OUTCOMES):
             row[name] = (realization["outcome"][mine] == o).sum()
         rows.append(row)

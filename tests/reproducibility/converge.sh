@@ -61,13 +61,14 @@ expect 0 "$fracas" verify coarse/step
 import csv, json, math
 told = json.load(open("coarse.json"))
 rows = list(csv.DictReader(open("coarse/converge.csv")))
-assert len(rows) == len(told["numbers"]) == 12 and told["left_out"] == []
-assert sum(told[v] for v in ("moved", "shifted", "holds", "unclear", "unknown")) == 12
+assert len(rows) == len(told["numbers"]) >= 12 and told["left_out"] == []
+assert sum(told[v] for v in ("moved", "shifted", "holds", "unclear", "unknown")) == len(rows)
 for row, number in zip(rows, told["numbers"]):
     assert row["verdict"] == number["verdict"] and row["refinement"] == number["refinement"] and row["number"] == number["number"]
     assert (row["method"] == "welch") == (row["refinement"] == "mesh")
     for key in ("difference", "low", "high", "relative", "half_widths", "p", "p_holm"):
-        assert math.isclose(float(row[key]), number[key], rel_tol=1e-14, abs_tol=1e-300), (key, row, number)
+        same = row[key] == "" if number[key] is None else math.isclose(float(row[key]), number[key], rel_tol=1e-14, abs_tol=1e-300)
+        assert same, (key, row, number)
     assert math.isclose(number["difference"], number["refined"]["mean"] - number["base"]["mean"], rel_tol=1e-9, abs_tol=1e-9 * abs(number["base"]["mean"]))
 END2
 
@@ -98,7 +99,6 @@ done
 
 # More replicas extend every study; another campaign is refused before anything is written.
 expect 0 "$fracas" converge coarse.yaml --study coarse --jobs 2 --replicas 40 --only mesh
-[ "$(awk -F, '$4 == "count" {print $1, $7, $10}' coarse/converge.csv | sed 's/base_n.*//')" ] || fail "no count"
 [ "$(awk -F, 'NR > 1 {print $6, $9}' coarse/converge.csv | sort -u)" = '40 40' ] || { cat coarse/converge.csv >&2; fail "not 40 replicas"; }
 sed 's/1e5/2e5/' coarse.yaml > other.yaml
 expect 5 "$fracas" converge other.yaml --study coarse

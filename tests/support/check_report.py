@@ -41,6 +41,9 @@ def same(ours, theirs):
 
 
 # The example script gives the numbers of the JSON summary, and those of points.csv.
+# Why a number is not there.
+for point in summary["points"]:
+    assert (point["statistics"]["law.mott"] is None) == ("law.mott" in point["reasons"])
 points = list(csv.DictReader(open(os.path.join(report, "points.csv"))))
 assert len(summary["points"]) == len(rows) == len(points)
 for row, point, line in zip(rows, summary["points"], points):
@@ -127,6 +130,24 @@ for ours, theirs in zip(summary["slopes"], expected):
     for key, value in zip(("slope", "standard_error", "half_width", "chi2"), theirs[1:]):
         assert math.isclose(ours[key], value, rel_tol=1e-7), (key, ours[key], value)  # numpy solves by SVD
 
+# Slopes between neighbouring rates, in the summary and the file.
+expected = []
+for group in groups.values():
+    of = sorted((row for row in group if row["rate"] > 0 and not math.isnan(row["size.mean"])), key=lambda row: row["rate"])
+    for low, high in zip(of, of[1:]):
+        x = math.log(high["rate"] / low["rate"])
+        if x > 1e-9:
+            errors = [(row["size.deviation"] / row["size.mean"])**2 / row["size.n"] for row in (low, high)]
+            expected.append((low["rate"], high["rate"], math.log(high["size.mean"] / low["size.mean"]) / x,
+                             math.sqrt(sum(errors)) / x))
+assert len(summary["windows"]) == len(expected)
+lines = [line for line in csv.DictReader(open(os.path.join(report, "slopes.csv")))]
+assert len(lines) == len(summary["slopes"]) + len(expected)
+for ours, line, theirs in zip(summary["windows"], lines[len(summary["slopes"]):], expected):
+    for key, value in zip(("from_rate", "to_rate", "slope", "standard_error"), theirs):
+        for mine in (ours[key], float(line[key]) if line[key] else None):
+            assert mine is None and math.isnan(value) or math.isclose(mine, value, rel_tol=1e-9), (key, mine, value)
+
 # So does the SQL example, from the index, as far as the index goes.
 if shutil.which("sqlite3"):
     with open(os.path.join(source, "docs/examples/table_from_index.sql")) as script:
@@ -166,11 +187,12 @@ for row, line in zip(rows, text[2:]):
         shows(mean, row[key + ".mean"], unit)
         if mean != "-":
             shows(half_width, row[key + ".half_width"], unit)
-    for cell, key in zip(cells[5:8], ("law.zmr", "law.grady", "law.glenn_chudnovsky")):
+    laws = ("law.zmr", "law.grady", "law.glenn_chudnovsky") + ("law.mott",) * ("Mott" in text[0])
+    for cell, key in zip(cells[5:], laws):
         shows(cell, row[key], size_unit)
-    shows(cells[8], row["size.mean"] / row["law.zmr"])
-    shows(cells[9], row["residual"])
-    shows(cells[10], row["created"])
+    shows(cells[5 + len(laws)], row["size.mean"] / row["law.zmr"])
+    shows(cells[6 + len(laws)], row["residual"])
+    shows(cells[7 + len(laws)], row["created"])
 
 # A line of fragments.csv for each fragment of the study, with its numbers to 15 digits.
 size, mass, position, spin = (fragment[name] for name in ("size", "mass", "position", "spin"))
@@ -287,6 +309,8 @@ assert page.open == []
 assert page.marks == 2 * with_mean
 assert page.rows.pop("results") == len(rows)
 assert page.rows.pop("slopes", 0) == len(summary["slopes"])
+assert page.rows.pop("windows", 0) == len(summary["windows"])
+assert page.rows.pop("crossovers", 0) == sum(of["points"] > 1 for of in summary["crossovers"])
 assert page.rows.pop("motion", 0) == model.count("ring") and not page.rows
 firsts = [np.flatnonzero((realization["point"] == p) & (realization["outcome"] == 0))[0] for p in pictures]
 assert page.bands == sum(realization["fragments"][i] for i in firsts)

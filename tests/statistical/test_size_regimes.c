@@ -1,0 +1,182 @@
+/* Slopes between rates and the crossover of mean size: known exponents are found, 95 % intervals hold them in 93 to 97 % of repetitions, and
+ * what cannot be fitted says why. */
+#include "analysis/laws/crossover.h"
+#include "analysis/laws/windows.h"
+#include "analysis/estimate/estimate.h"
+
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { RATES = 9, REPLICAS = 16 };
+static const double TRUE_SIZE = 1e-3, TRUE_RATE = 3e4, TRUE_K = 0.7;
+
+static double rate_of(size_t i)
+{
+    return 1e2 * pow(10, 5.0 * (double)i / (RATES - 1)); /* 1e2 to 1e7 */
+}
+
+static double size_at(double rate)
+{
+    return TRUE_SIZE / (1 + pow(rate / TRUE_RATE, TRUE_K));
+}
+
+/* Means with a known relative standard error; exact where random is NULL. */
+static void make(fracas_size_point point[RATES], double error, gsl_rng *random)
+{
+    for (size_t i = 0; i < RATES; i++) {
+        const double noise = random ? exp(gsl_ran_gaussian(random, error)) : 1;
+        point[i] = (fracas_size_point){.point = i, .replicas = 64, .rate = rate_of(i), .size = size_at(rate_of(i)) * noise, .error = error};
+    }
+}
+
+static void exact_windows(void **state)
+{
+    (void)state;
+    fracas_size_point low = {.replicas = 8, .rate = 1e3, .size = 2e-4, .error = 0.03}, high = {.replicas = 8, .rate = 1e4, .size = 2e-5, .error = 0.04};
+    fracas_window window = fracas_window_of(&low, &high);
+    assert_true(fabs(window.slope + 1) < 1e-14);
+    assert_true(fabs(window.standard_error - 0.05 / log(10)) < 1e-15);
+    /* Welch and Satterthwaite: 7 (9 + 16)^2/(81 + 256) = 12.98; tabulated t_(0.975, 13) = 2.160. */
+    assert_true(fabs(window.freedom - 7 * 625.0 / 337) < 1e-10);
+    assert_true(fabs(window.half_width / window.standard_error - 2.160) < 2e-3);
+    high.error = NAN; /* one replica */
+    assert_true(isfinite(fracas_window_of(&low, &high).slope) && isnan(fracas_window_of(&low, &high).half_width));
+    low.error = high.error = 0;
+    assert_true(fracas_window_of(&low, &high).half_width == 0);
+    high.rate = 1e3 * (1 + 1e-12);
+    assert_true(isnan(fracas_window_of(&low, &high).slope));
+}
+
+/* Sizes of 16 replicas, of unequal spread: 2000 repetitions know the coverage to 0.5 %. */
+static void windows_cover(void **state)
+{
+    (void)state;
+    enum { REPETITIONS = 2000 };
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    int held = 0;
+    for (int round = 0; round < REPETITIONS; round++) {
+        fracas_size_point point[2];
+        for (size_t i = 0; i < 2; i++) {
+            double value[REPLICAS];
+            for (size_t r = 0; r < REPLICAS; r++) value[r] = (i ? 0.2 : 1) * (1 + gsl_ran_gaussian(random, i ? 0.1 : 0.03));
+            const fracas_estimate size = fracas_estimate_of(value, 1, REPLICAS);
+            point[i] = (fracas_size_point){.replicas = size.n, .rate = i ? 1e4 : 1e3, .size = size.mean, .error = size.deviation / (4 * size.mean)};
+        }
+        const fracas_window window = fracas_window_of(&point[0], &point[1]);
+        held += fabs(window.slope - log10(0.2)) <= window.half_width;
+    }
+    gsl_rng_free(random);
+    print_message("windows: %.4f of %d intervals hold the slope\n", (double)held / REPETITIONS, (int)REPETITIONS);
+    assert_true(held > 0.93 * REPETITIONS && held < 0.97 * REPETITIONS);
+}
+
+/* Without noise the constants are those of the truth; the fit stops at steps of 1e-9. */
+static void exact_crossover(void **state)
+{
+    (void)state;
+    fracas_size_point point[RATES];
+    make(point, 0.01, NULL);
+    const fracas_size_series series = {.name = "all points", .n = RATES, .point = point};
+    fracas_size_crossover found;
+    assert_int_equal(fracas_crossover_fit(&series, 0, 1, &found), FRACAS_OK);
+    assert_string_equal(found.reason, "");
+    assert_true(fabs(found.size.value / TRUE_SIZE - 1) < 1e-6);
+    assert_true(fabs(found.rate.value / TRUE_RATE - 1) < 1e-6);
+    assert_true(fabs(found.exponent.value + TRUE_K) < 1e-6);
+    assert_true(found.chi2 < 1e-6 && found.inflation == 1 && isnan(found.rate.low));
+    assert_true(fabs(fracas_crossover_at(&found, TRUE_RATE) / (TRUE_SIZE / 2) - 1) < 1e-6);
+}
+
+/* Known errors of 1 %: 1000 repetitions know a coverage to 0.7 %, and the limits are 2 % away. */
+static void crossover_covers(void **state)
+{
+    (void)state;
+    enum { REPETITIONS = 1000, RESAMPLES = 399 };
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    gsl_rng_set(random, 2);
+    int held[3] = {0}, inflated = 0;
+    for (int round = 0; round < REPETITIONS; round++) {
+        fracas_size_point point[RATES];
+        make(point, 0.01, random);
+        const fracas_size_series series = {.name = "", .n = RATES, .point = point};
+        fracas_size_crossover found;
+        assert_int_equal(fracas_crossover_fit(&series, RESAMPLES, (uint64_t)round + 1, &found), FRACAS_OK);
+        assert_string_equal(found.reason, "");
+        held[0] += found.size.low <= TRUE_SIZE && TRUE_SIZE <= found.size.high;
+        held[1] += found.rate.low <= TRUE_RATE && TRUE_RATE <= found.rate.high;
+        held[2] += found.exponent.low <= -TRUE_K && -TRUE_K <= found.exponent.high;
+        inflated += found.inflation > 1;
+    }
+    gsl_rng_free(random);
+    print_message("crossover: of %d intervals %.3f hold s_q, %.3f the rate, %.3f the exponent; %.3f are inflated\n", (int)REPETITIONS,
+                  held[0] / (double)REPETITIONS, held[1] / (double)REPETITIONS, held[2] / (double)REPETITIONS, inflated / (double)REPETITIONS);
+    for (int i = 0; i < 3; i++) assert_true(held[i] > 0.93 * REPETITIONS && held[i] < 0.97 * REPETITIONS);
+    assert_true(inflated < 0.03 * REPETITIONS); /* 1 % expected; 6 standard deviations */
+}
+
+/* The stated errors are a fifth of the scatter: the intervals are inflated and hold the truth about as often. */
+static void understated_errors(void **state)
+{
+    (void)state;
+    enum { REPETITIONS = 200 };
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    gsl_rng_set(random, 3);
+    int held = 0;
+    for (int round = 0; round < REPETITIONS; round++) {
+        fracas_size_point point[RATES];
+        make(point, 0.02, random);
+        for (size_t i = 0; i < RATES; i++) point[i].error = 0.004;
+        const fracas_size_series series = {.name = "", .n = RATES, .point = point};
+        fracas_size_crossover found;
+        assert_int_equal(fracas_crossover_fit(&series, 399, (uint64_t)round + 1, &found), FRACAS_OK);
+        held += found.rate.low <= TRUE_RATE && TRUE_RATE <= found.rate.high;
+    }
+    gsl_rng_free(random);
+    print_message("understated: %.3f\n", held / (double)REPETITIONS);
+    assert_true(held > 0.85 * REPETITIONS); /* 6 degrees of freedom and a normal quantile: 91 % expected; uninflated 30 % */
+}
+
+static void without_a_fit(void **state)
+{
+    (void)state;
+    fracas_size_point point[RATES];
+    fracas_size_series series = {.name = "steel", .n = RATES, .point = point};
+    fracas_size_crossover found;
+    struct {
+        const char *what, *reason;
+    } const row[] = {{"few", "4 rates with a known standard error, 5 are needed"}, {"one", "1 rate with a known standard error, 5 are needed"},
+                     {"equal", "1 rate with a known standard error, 5 are needed"}, {"unknown", "0 rates with a known"},
+                     {"powers", "no bend between the rates: the fitted crossover is below all"},
+                     {"level", "no bend between the rates: the fitted crossover is above all"}};
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        make(point, 0.01, NULL);
+        series.n = !strcmp(row[k].what, "few") ? 4 : !strcmp(row[k].what, "one") ? 1 : RATES;
+        for (size_t i = 0; i < RATES; i++) {
+            if (!strcmp(row[k].what, "equal")) point[i].rate = 1e4;
+            if (!strcmp(row[k].what, "unknown")) point[i].error = i % 2 ? NAN : 0;
+            if (!strcmp(row[k].what, "powers")) point[i].size = pow(point[i].rate, -0.7) * (i % 2 ? 1.002 : 0.998);
+            if (!strcmp(row[k].what, "level")) point[i].size = 1e-3 / (1 + point[i].rate / 1e8);
+        }
+        assert_int_equal(fracas_crossover_fit(&series, 99, 1, &found), FRACAS_OK);
+        print_message("%s: %s\n", row[k].what, found.reason);
+        assert_non_null(strstr(found.reason, row[k].reason));
+        assert_true(isnan(found.rate.value) && isnan(found.size.value) && isnan(found.exponent.low) && isnan(found.chi2));
+        assert_string_equal(found.name, "steel");
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(exact_windows), cmocka_unit_test(windows_cover), cmocka_unit_test(exact_crossover),
+        cmocka_unit_test(crossover_covers), cmocka_unit_test(understated_errors), cmocka_unit_test(without_a_fit),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
