@@ -119,10 +119,9 @@ static fracas_err compare_point(fracas_convergence *convergence, size_t p, const
     return FRACAS_OK;
 }
 
-static fracas_err compare_points(fracas_convergence *convergence, size_t before, const fracas_analysis *refined, size_t after,
-                                 const fracas_refinement_map *map)
+fracas_err fracas_convergence_compare(fracas_convergence *convergence, size_t before, const fracas_ensemble *b, const fracas_refinement_map *map)
 {
-    const fracas_ensemble *a = &convergence->study->point[before].ensemble, *b = &refined->point[after].ensemble;
+    const fracas_ensemble *a = &convergence->study->point[before].ensemble;
     two_samples samples = {.value = {malloc((a->nrealizations + 1) * sizeof(double)),
                                      malloc((a->nrealizations + b->nrealizations + 1) * sizeof(double))}};
     fracas_err err = samples.value[0] && samples.value[1] ? compare_point(convergence, before, b, map, &samples)
@@ -150,7 +149,7 @@ fracas_err fracas_convergence_add(fracas_convergence *convergence, const char *s
         size_t before, after;
         err = find_point(convergence->study, &map->before[i], &before);
         if (!err) err = find_point(refined, &map->after[i], &after);
-        if (!err) err = compare_points(convergence, before, refined, after, map);
+        if (!err) err = fracas_convergence_compare(convergence, before, &refined->point[after].ensemble, map);
     }
     fracas_analysis_destroy(refined);
     return err;

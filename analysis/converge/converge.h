@@ -24,14 +24,15 @@ typedef struct {
 } fracas_refinement_map;
 
 /* Compares the refined study, point by point and number by number (count, count without dust where there is dust, mean size,
- * dissipated energy, its part of bending where there is one, time of first onset): the difference of means with its 95 % interval,
- * of pairs or by Welch (convergence.1), (convergence.2). FRACAS_DAMAGED where a study lacks a point. */
+ * dissipated energy, its part of bending where there is one, time of first onset): the difference of means with its 95 % interval, of
+ * pairs (compare.4), (compare.5) or by Welch (compare.1) to (compare.3), and its p (convergence.1). FRACAS_DAMAGED where a study lacks
+ * a point. */
 FRACAS_MUST_USE fracas_err fracas_convergence_add(fracas_convergence *convergence, const char *study, const fracas_refinement_map *map);
 
 /* Notes that a refinement could not be made of so many points, and why; the texts outlive the convergence. Three times at most. */
 void fracas_convergence_leave(fracas_convergence *convergence, const char *refinement, size_t points, const char *why);
 
-/* Says of every number, with p-values adjusted by Holm over all of them (convergence.3), whether it
+/* Says of every number, with p-values corrected by Holm over all of them (compare.10), whether it
  *   moved:   it differs, p below 0.05, and not surely within the tolerance
  *   shifted: it differs, but the interval of the difference is within the tolerance
  *   holds:   it does not differ, and that interval is within the tolerance

@@ -34,8 +34,12 @@ struct fracas_convergence {
     } left[FRACAS_MOST_LEFT];
 };
 
-/* Replicas of every point with which the interval of the row's difference would be half as wide, from its middle, as the tolerance; NaN
- * where that cannot be said. */
+/* Adds the rows of one point, `before` in the study as it is, from the realizations of its refined self. */
+FRACAS_MUST_USE fracas_err fracas_convergence_compare(fracas_convergence *convergence, size_t before, const fracas_ensemble *after,
+                                                      const fracas_refinement_map *map);
+
+/* Replicas n (h/(tolerance/2))^2 of every point with which the half width h of the row's relative change, of n replicas now, would be half
+ * of the tolerance: what does not differ then holds in 19 of 20 cases (convergence.2). NaN without an interval. */
 double fracas_convergence_replicas(const fracas_convergence *convergence, const fracas_convergence_row *row);
 
 #endif
