@@ -63,6 +63,30 @@ static void pair_up(gathered *of)
     of->na = of->nb = pairs;
 }
 
+static bool same_but_rounding(double a, double b)
+{
+    return fabs(a - b) <= 1e-12 * fmax(fabs(a), fabs(b));
+}
+
+/* Values that differ by rounding alone are equal: else an onset time that a parameter does not touch would differ, and surely. */
+static void forget_rounding(gathered *of, bool paired)
+{
+    const size_t nv = FRACAS_COMPARED_VALUES, n = of->na + of->nb;
+    for (size_t v = 0; v < nv; v++) {
+        double least = INFINITY, most = -INFINITY;
+        for (size_t i = 0; i < n; i++) {
+            least = fmin(least, of->value[i * nv + v]); /* the number where the other is NaN */
+            most = fmax(most, of->value[i * nv + v]);
+        }
+        for (size_t i = 0; i < n && same_but_rounding(least, most); i++)
+            if (isfinite(of->value[i * nv + v])) of->value[i * nv + v] = least;
+        for (size_t i = 0; i < of->na && paired; i++) {
+            double *a = &of->value[i * nv + v], *b = a + of->na * nv;
+            if (same_but_rounding(*a, *b)) *b = *a;
+        }
+    }
+}
+
 static fracas_err gather(const fracas_ensemble *a, const fracas_ensemble *b, bool paired, gathered *of)
 {
     *of = (gathered){.na = a->nrealizations, .nb = b->nrealizations, .a = a, .b = b};
@@ -80,6 +104,7 @@ static fracas_err gather(const fracas_ensemble *a, const fracas_ensemble *b, boo
         for (size_t v = 0; v < FRACAS_COMPARED_VALUES; v++)
             memcpy(&of->value[i * FRACAS_COMPARED_VALUES + v], value + fracas_compared_quantities[v].offset, sizeof *of->value);
     }
+    forget_rounding(of, paired);
     return FRACAS_OK;
 }
 
