@@ -5,15 +5,6 @@
 #include <inttypes.h>
 #include <limits.h>
 #include <stdio.h>
-#include <string.h>
-
-/* The place of --replicas among the options. */
-static size_t replicas_option(void)
-{
-    size_t i = 0;
-    while (strcmp(FRACAS_STUDY_RUN_OPTIONS[i].name, "replicas") != 0) i++;
-    return i;
-}
 
 /* What the study has, and what it will have; FRACAS_USAGE if that is less, or not for us to say. */
 static fracas_err check(const char *study, const fracas_campaign *campaign, int replicas)
@@ -40,7 +31,7 @@ static fracas_err extend(const fracas_arguments *arguments)
 {
     int replicas = 0;
     fracas_campaign *campaign;
-    TRY(fracas_arguments_integer(arguments, replicas_option(), 1, INT_MAX, &replicas));
+    TRY(fracas_arguments_integer(arguments, fracas_cli_run_option("replicas"), 1, INT_MAX, &replicas));
     if (!replicas)
         return fracas_fail(FRACAS_USAGE, "extend: --replicas N is missing: how many every point shall have");
     TRY(fracas_cli_read_campaign(arguments->operand, &campaign));

@@ -121,28 +121,43 @@ static void read_own_part(const char *study, char *text, size_t size)
     fracas_index_close(index);
 }
 
-fracas_err fracas_cli_run_study(const fracas_arguments *arguments)
+fracas_err fracas_cli_run_as(const fracas_arguments *arguments, const char *file, const char *study, fracas_cli_runner *runner)
 {
     /* As `run` has them: behind --study, which is not given. */
     const fracas_command as_run = {.name = arguments->command->name, .options = fracas_cli_run_options, .noptions = FRACAS_NRUN_OPTIONS};
     fracas_arguments given = {.command = &as_run};
     memcpy(given.value + 1, arguments->value, FRACAS_NSTUDY_RUN_OPTIONS * sizeof *given.value);
     fracas_run_options run;
-    char study[PATH_MAX], file[PATH_MAX + 16], part[32], program[] = "fracas", command[] = "run", option[] = "--study";
+    char program[] = "fracas", command[] = "run", option[] = "--study";
     enum { BEFORE = 5 };
-    char *argv[BEFORE + FRACAS_NRUN_OPTIONS + 1] = {program, command, file, option, study};
+    char *argv[BEFORE + FRACAS_NRUN_OPTIONS + 1] = {program, command, (char *)file, option, (char *)study};
     int argc;
     const char *none;
-    read_own_part(arguments->operand, part, sizeof part);
-    if (!given.value[PART] && *part) given.value[PART] = part;
     TRY(fracas_cli_read_run_options(&given, &run, &none));
-    if (snprintf(study, sizeof study, "%s", arguments->operand) >= (int)sizeof study)
-        return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s", arguments->operand);
-    snprintf(file, sizeof file, "%s/campaign.yaml", study);
     run.file = file;
     run.study = study;
     fracas_err code = give_on(&given, BEFORE, argv, &argc);
-    if (!code) code = fracas_cli_run(&run, argc, argv);
+    if (!code) code = runner(&run, argc, argv);
     for (int i = BEFORE; i < argc; i++) free(argv[i]);
     return code;
+}
+
+size_t fracas_cli_run_option(const char *name)
+{
+    size_t i = 0;
+    while (strcmp(FRACAS_STUDY_RUN_OPTIONS[i].name, name) != 0) i++;
+    return i;
+}
+
+fracas_err fracas_cli_run_study(const fracas_arguments *arguments)
+{
+    fracas_arguments given = *arguments;
+    char file[PATH_MAX + 16], part[32];
+    const size_t parts = fracas_cli_run_option("part");
+    read_own_part(arguments->operand, part, sizeof part);
+    if (!given.value[parts] && *part) given.value[parts] = part;
+    if (strlen(arguments->operand) >= PATH_MAX)
+        return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s", arguments->operand);
+    snprintf(file, sizeof file, "%s/campaign.yaml", arguments->operand);
+    return fracas_cli_run_as(&given, file, arguments->operand, fracas_cli_run);
 }

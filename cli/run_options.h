@@ -21,6 +21,13 @@ FRACAS_MUST_USE fracas_err fracas_cli_read_run_options(const fracas_arguments *a
  * `argv`: the command line of the ranks, `fracas run FILE ...`, which must give the same options. */
 FRACAS_MUST_USE fracas_err fracas_cli_run(const fracas_run_options *run, int argc, char **argv);
 
+/* `fracas run FILE --study STUDY` with the options that `given` has, those of a command with FRACAS_STUDY_RUN_OPTIONS, done by `runner`. */
+typedef fracas_err fracas_cli_runner(const fracas_run_options *run, int argc, char **argv);
+FRACAS_MUST_USE fracas_err fracas_cli_run_as(const fracas_arguments *given, const char *file, const char *study, fracas_cli_runner *runner);
+
+/* The place of an option of FRACAS_STUDY_RUN_OPTIONS, which has one of that name, in its command's values. */
+size_t fracas_cli_run_option(const char *name);
+
 /* Goes on with the study that is the operand of a command with FRACAS_STUDY_RUN_OPTIONS: `fracas run STUDY/campaign.yaml --study STUDY`
  * with the options that were given. */
 FRACAS_MUST_USE fracas_err fracas_cli_run_study(const fracas_arguments *arguments);

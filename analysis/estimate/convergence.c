@@ -37,10 +37,10 @@ static bool settled(const fracas_settling *number, double half)
     return width <= FRACAS_CONVERGED_WIDTH * fabs(number->value) && fabs(half - number->value) <= FRACAS_CONVERGED_DRIFT * width;
 }
 
-fracas_err fracas_convergence_of(const fracas_ensemble *ensemble, uint64_t seed, fracas_convergence *convergence)
+fracas_err fracas_replica_convergence_of(const fracas_ensemble *ensemble, uint64_t seed, fracas_replica_convergence *convergence)
 {
     const size_t n = ensemble->nrealizations;
-    *convergence = (fracas_convergence){0};
+    *convergence = (fracas_replica_convergence){0};
     for (int h = 0; h < FRACAS_NHEADLINES; h++) convergence->half[h] = NAN;
     if (n == 0) return FRACAS_OK;
     size_t rows = 1;
@@ -66,8 +66,8 @@ fracas_err fracas_convergence_of(const fracas_ensemble *ensemble, uint64_t seed,
     return FRACAS_OK;
 }
 
-void fracas_convergence_clear(fracas_convergence *convergence)
+void fracas_replica_convergence_clear(fracas_replica_convergence *convergence)
 {
     free(convergence->row);
-    *convergence = (fracas_convergence){0};
+    *convergence = (fracas_replica_convergence){0};
 }

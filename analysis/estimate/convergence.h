@@ -39,7 +39,7 @@ typedef struct {
     double half[FRACAS_NHEADLINES];       /* of the first half of the realizations alone; NaN of fewer than two */
     int64_t converged[FRACAS_NHEADLINES]; /* 1, or 0 */
     int64_t unconverged;                  /* numbers that are not, of those that the point has */
-} fracas_convergence;
+} fracas_replica_convergence;
 
 /* (estimators.21): a number is converged if its half width w = (high - low)/2 is at most FRACAS_CONVERGED_WIDTH |value| and the value of the first half
  * of the realizations lies within FRACAS_CONVERGED_DRIFT w of it: independent replicas pass that but once in 1600 times. */
@@ -48,7 +48,7 @@ typedef struct {
 
 /* Of the realizations in the order of the study, which is that of replicas. Cleared by the caller, also after an error.
  * FRACAS_ENVIRONMENT without memory. */
-FRACAS_MUST_USE fracas_err fracas_convergence_of(const fracas_ensemble *ensemble, uint64_t seed, fracas_convergence *convergence);
-void fracas_convergence_clear(fracas_convergence *convergence);
+FRACAS_MUST_USE fracas_err fracas_replica_convergence_of(const fracas_ensemble *ensemble, uint64_t seed, fracas_replica_convergence *convergence);
+void fracas_replica_convergence_clear(fracas_replica_convergence *convergence);
 
 #endif

@@ -43,8 +43,12 @@ fracas_err fracas_section_slopes(fracas_page *page)
 {
     fracas_result_table table = {0};
     const fracas_err built = fracas_slope_table_create(page->analysis, true, &table);
-    return fracas_page_table(page, "slopes", "Slope of log(mean size) against log(strain rate)", true, &table, fracas_slope_table_legend,
-                             built);
+    TRY(fracas_page_table(page, "slopes", "Slope of log(mean size) against log(strain rate)", true, &table, fracas_slope_table_legend, built));
+    const fracas_err windows = fracas_window_table_create(page->analysis, true, &table);
+    TRY(fracas_page_table(page, "windows", "Slope from each strain rate to the next", true, &table, fracas_window_table_legend, windows));
+    const fracas_err crossovers = fracas_crossover_table_create(page->analysis, true, &table);
+    return fracas_page_table(page, "crossovers", "Crossover from the quasi-static to the dynamic regime", true, &table,
+                             fracas_crossover_table_legend, crossovers);
 }
 
 fracas_err fracas_section_motion(fracas_page *page)
@@ -58,7 +62,8 @@ fracas_err fracas_section_motion(fracas_page *page)
 fracas_err fracas_section_files(fracas_page *page)
 {
     fputs("<p>In SI units: <a href=\"points.csv\">points.csv</a>, every parameter and statistic of every point; <a "
-          "href=\"fragments.csv\">fragments.csv</a>, every fragment. Below each figure are its drawing and its data, in the units of "
+          "href=\"fragments.csv\">fragments.csv</a>, every fragment; <a href=\"slopes.csv\">slopes.csv</a>; <a "
+          "href=\"summary.json\">summary.json</a>, all numbers for programs. Below each figure are its drawing and its data, in the units of "
           "its axes.</p>\n", page->out);
     return FRACAS_OK;
 }

@@ -330,7 +330,7 @@ fracas_err fracas_point_statistics_finish(fracas_point_statistics *statistics)
     }
     TRY(pool(statistics));
     TRY(fracas_pooled_of(ensemble, statistics->seed, &statistics->pooled));
-    TRY(fracas_convergence_of(ensemble, statistics->seed, &statistics->convergence));
+    TRY(fracas_replica_convergence_of(ensemble, statistics->seed, &statistics->convergence));
     normalise(statistics);
     return FRACAS_OK;
 }
@@ -338,7 +338,7 @@ fracas_err fracas_point_statistics_finish(fracas_point_statistics *statistics)
 void fracas_point_statistics_clear(fracas_point_statistics *statistics)
 {
     fracas_ensemble_clear(&statistics->ensemble);
-    fracas_convergence_clear(&statistics->convergence);
+    fracas_replica_convergence_clear(&statistics->convergence);
     fracas_bands_clear(&statistics->bands);
     free(statistics->fragment_size);
     free(statistics->history);

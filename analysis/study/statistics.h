@@ -52,7 +52,7 @@ typedef struct {
     double dust_share;     /* dust fragments/all fragments */
     uint64_t seed;         /* of what is drawn to estimate: of the point's hash */
     fracas_pooled pooled;
-    fracas_convergence convergence; /* of the headline numbers */
+    fracas_replica_convergence convergence; /* of the headline numbers */
     fracas_normalised normalised;
     fracas_bands bands;    /* of the energies; made by a fracas_bands_collector */
 

@@ -79,7 +79,7 @@ static void warn_of_point(const fracas_point_statistics *statistics, size_t p, w
 /* The headline numbers that are known to more than FRACAS_CONVERGED_WIDTH, or that the first half of the replicas has otherwise. */
 static void warn_of_convergence(const fracas_point_statistics *statistics, size_t p, warning_list *list)
 {
-    const fracas_convergence *of = &statistics->convergence;
+    const fracas_replica_convergence *of = &statistics->convergence;
     if (of->unconverged == 0) return;
     const fracas_running *all = &of->row[of->count - 1];
     if (all->replicas < FRACAS_BOOTSTRAP_LEAST) {

@@ -194,6 +194,13 @@ static fracas_err copy_attachments(const char *study, const fracas_campaign *cam
     return FRACAS_OK;
 }
 
+fracas_err fracas_campaign_keep(const fracas_campaign *campaign, const char *folder, const char *name)
+{
+    TRY(make_folder(folder));
+    TRY(copy_attachments(folder, campaign));
+    return write_whole(folder, name, campaign_to, campaign);
+}
+
 fracas_err fracas_study_plan(const char *study, const fracas_campaign *campaign, fracas_index **index, char **report)
 {
     *report = NULL;
@@ -202,8 +209,7 @@ fracas_err fracas_study_plan(const char *study, const fracas_campaign *campaign,
     TRY(fracas_index_open(study, true, index));
     fracas_file_header header = fracas_segment_header(campaign);
     fracas_err err = fracas_index_claim(*index, &header);
-    if (!err) err = copy_attachments(study, campaign);
-    if (!err) err = write_whole(study, "campaign.yaml", campaign_to, campaign);
+    if (!err) err = fracas_campaign_keep(campaign, study, "campaign.yaml");
     if (!err) err = fracas_study_recover(study, *index, &header, &campaign->table, report);
     if (!err) err = fracas_index_plan(*index, &campaign->table);
     if (err) {

@@ -12,6 +12,10 @@
 FRACAS_MUST_USE fracas_err fracas_study_folder(const fracas_run_options *options, const fracas_campaign *campaign,
                                                char *study, size_t size);
 
+/* Writes FOLDER/NAME, the campaign as resolved, and copies of the files it names beside it; each whole or not at all. The folders are
+ * made if they are not there. */
+FRACAS_MUST_USE fracas_err fracas_campaign_keep(const fracas_campaign *campaign, const char *folder, const char *name);
+
 /* FRACAS_OK when there is no study yet or the campaign extends (or is) the one in it; else FRACAS_DAMAGED naming the
  * first difference. Writes nothing. */
 FRACAS_MUST_USE fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign);

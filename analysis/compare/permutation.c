@@ -1,0 +1,222 @@
+#include "analysis/compare/permutation.h"
+
+#include <gsl/gsl_combination.h>
+#include <gsl/gsl_rng.h>
+#include <gsl/gsl_sf_gamma.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double hair = 1e-10; /* statistics that differ by rounding alone are equal */
+
+typedef struct {
+    const fracas_two_samples *of;
+    size_t n;                     /* na + nb */
+    double *value;                /* as given, less their mean and over their deviation: equal in statistic, better in rounding */
+    bool *in_a;                   /* the assignment */
+    double *sum, *square, *known; /* of side a: a value each */
+    double *all_sum, *all_square, *all_known;
+    double *cut, *all_cut;        /* fragments up to each cut, of side a and of both */
+    double *statistic;            /* nvalues + 1 */
+    double *observed, *reached;   /* nvalues + 1 */
+} permuter;
+
+static void standardise(permuter *p)
+{
+    for (size_t v = 0; v < p->of->nvalues; v++) {
+        double n = 0, mean = 0, squares = 0;
+        for (size_t i = 0; i < p->n; i++) {
+            const double x = p->of->value[i * p->of->nvalues + v];
+            if (!isfinite(x)) continue;
+            n++;
+            const double step = x - mean;
+            mean += step / n;
+            squares += step * (x - mean);
+        }
+        const double deviation = sqrt(squares / n);
+        for (size_t i = 0; i < p->n; i++) {
+            const double x = p->of->value[i * p->of->nvalues + v];
+            p->value[i * p->of->nvalues + v] = deviation > 0 ? (x - mean) / deviation : x - mean;
+        }
+    }
+}
+
+static void add_up(const permuter *p, bool all, double *sum, double *square, double *known, double *cut)
+{
+    const size_t nv = p->of->nvalues, nc = p->of->ncuts;
+    memset(sum, 0, nv * sizeof *sum);
+    memset(square, 0, nv * sizeof *square);
+    memset(known, 0, nv * sizeof *known);
+    memset(cut, 0, (nc + 1) * sizeof *cut);
+    for (size_t i = 0; i < p->n; i++) {
+        if (!all && !p->in_a[i]) continue;
+        for (size_t v = 0; v < nv; v++) {
+            const double x = p->value[i * nv + v];
+            if (!isfinite(x)) continue;
+            sum[v] += x;
+            square[v] += x * x;
+            known[v]++;
+        }
+        const double *below = p->of->below + i * nc;
+        for (size_t c = 0; c < nc; c++) cut[c] += below[c];
+        cut[nc] += p->of->fragments[i];
+    }
+}
+
+/* |T| of one value  (compare.6) */
+static double welch(double sum, double square, double n, double all_sum, double all_square, double all_n)
+{
+    const double m = all_n - n, mean = sum / n, other = (all_sum - sum) / m;
+    if (!(n >= 2 && m >= 2)) return NAN;
+    double a = (square - sum * mean) / (n - 1), b = (all_square - square - (all_sum - sum) * other) / (m - 1);
+    a = a > hair ? a : 0; /* of values with the deviation 1: all equal */
+    b = b > hair ? b : 0;
+    const double difference = fabs(mean - other);
+    return difference < hair ? 0 : difference / sqrt(a / n + b / m);
+}
+
+/* |mean of the differences| of pairs  (compare.8) */
+static double paired(const permuter *p, size_t v)
+{
+    double sum = 0, n = 0;
+    const size_t pairs = p->of->na, nv = p->of->nvalues;
+    for (size_t i = 0; i < pairs; i++) {
+        const double d = p->value[(pairs + i) * nv + v] - p->value[i * nv + v];
+        if (!isfinite(d)) continue;
+        sum += p->in_a[i] ? d : -d;
+        n++;
+    }
+    return n < 2 ? NAN : fabs(sum / n);
+}
+
+/* (compare.9) */
+static double distance(const permuter *p)
+{
+    double most = 0;
+    const size_t nc = p->of->ncuts;
+    const double a = p->cut[nc], b = p->all_cut[nc] - a;
+    if (!(a > 0 && b > 0)) return NAN;
+    for (size_t c = 0; c < nc; c++) most = fmax(most, fabs(p->cut[c] / a - (p->all_cut[c] - p->cut[c]) / b));
+    return most;
+}
+
+static void evaluate(permuter *p)
+{
+    add_up(p, false, p->sum, p->square, p->known, p->cut);
+    for (size_t v = 0; v < p->of->nvalues; v++)
+        p->statistic[v] = p->of->paired ? paired(p, v)
+            : welch(p->sum[v], p->square[v], p->known[v], p->all_sum[v], p->all_square[v], p->all_known[v]);
+    p->statistic[p->of->nvalues] = distance(p);
+}
+
+/* One that has no statistic counts as one that reaches the observed: p is not too small. */
+static void take(permuter *p)
+{
+    evaluate(p);
+    for (size_t v = 0; v <= p->of->nvalues; v++)
+        if (!(p->statistic[v] < p->observed[v] * (1 - hair) - (isinf(p->observed[v]) ? 0 : 1e-14))) p->reached[v]++;
+}
+
+static void flip(permuter *p, size_t pair, bool swapped)
+{
+    p->in_a[pair] = !swapped;
+    p->in_a[p->of->na + pair] = swapped;
+}
+
+/* Every assignment; returns how many. */
+static fracas_err enumerate(permuter *p, int64_t *count)
+{
+    *count = 0;
+    for (uint64_t word = 0; p->of->paired && word < UINT64_C(1) << p->of->na; word++, ++*count) {
+        for (size_t i = 0; i < p->of->na; i++) flip(p, i, word >> i & 1);
+        take(p);
+    }
+    if (p->of->paired) return FRACAS_OK;
+    gsl_combination *chosen = gsl_combination_calloc(p->n, p->of->na);
+    if (!chosen) return fracas_no_memory("a permutation test");
+    do {
+        memset(p->in_a, 0, p->n * sizeof *p->in_a);
+        for (size_t i = 0; i < p->of->na; i++) p->in_a[gsl_combination_get(chosen, i)] = true;
+        take(p);
+        ++*count;
+    } while (gsl_combination_next(chosen) == GSL_SUCCESS);
+    gsl_combination_free(chosen);
+    return FRACAS_OK;
+}
+
+static fracas_err draw(permuter *p, int64_t permutations, uint64_t seed)
+{
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    if (!random) return fracas_no_memory("a permutation test");
+    gsl_rng_set(random, (unsigned long)(seed ^ seed >> 32)); /* it takes 32 bits */
+    for (int64_t b = 0; b < permutations; b++) {
+        if (p->of->paired) {
+            for (size_t i = 0; i < p->of->na; i++) flip(p, i, gsl_rng_uniform_int(random, 2));
+        } else { /* a random order of the labels: Fisher and Yates */
+            for (size_t i = p->n; i-- > 1;) {
+                const size_t j = gsl_rng_uniform_int(random, i + 1);
+                const bool held = p->in_a[i];
+                p->in_a[i] = p->in_a[j];
+                p->in_a[j] = held;
+            }
+        }
+        take(p);
+    }
+    gsl_rng_free(random);
+    return FRACAS_OK;
+}
+
+/* (compare.7) */
+static fracas_err test(permuter *p, int64_t permutations, uint64_t seed, fracas_permuted *result, int64_t *count, bool *exact)
+{
+    const fracas_two_samples *of = p->of;
+    const double all = of->paired ? exp2((double)of->na) : exp(gsl_sf_lnchoose((unsigned)p->n, (unsigned)of->na));
+    standardise(p);
+    add_up(p, true, p->all_sum, p->all_square, p->all_known, p->all_cut);
+    for (size_t i = 0; i < p->n; i++) p->in_a[i] = i < of->na;
+    evaluate(p);
+    memcpy(p->observed, p->statistic, (of->nvalues + 1) * sizeof *p->observed);
+    *exact = all < (double)permutations + 1.5;
+    if (*exact) {
+        TRY(enumerate(p, count));
+    } else {
+        TRY(draw(p, permutations, seed));
+        *count = permutations + 1;
+        for (size_t v = 0; v <= of->nvalues; v++) p->reached[v]++; /* the observed one */
+    }
+    for (size_t v = 0; v <= of->nvalues; v++) {
+        const double observed = p->observed[v];
+        result[v] = (fracas_permuted){.p = isnan(observed) ? NAN : p->reached[v] / (double)*count,
+                                      .distance = v == of->nvalues ? observed : NAN};
+    }
+    return FRACAS_OK;
+}
+
+fracas_err fracas_permutation_test(const fracas_two_samples *samples, int64_t permutations, uint64_t seed, fracas_permuted *result,
+                                   int64_t *count, bool *exact)
+{
+    const size_t nv = samples->nvalues, nc = samples->ncuts, n = samples->na + samples->nb;
+    for (size_t v = 0; v <= nv; v++) result[v] = (fracas_permuted){NAN, NAN};
+    *count = 0;
+    *exact = false;
+    if (samples->na == 0 || samples->nb == 0) return FRACAS_OK;
+    double *room = calloc(n * nv + 6 * nv + 2 * (nc + 1) + 3 * (nv + 1), sizeof *room);
+    bool *in_a = calloc(n, sizeof *in_a);
+    fracas_err err = room && in_a ? FRACAS_OK : fracas_no_memory("a permutation test");
+    if (!err) {
+        double *at = room + n * nv;
+        permuter p = {.of = samples, .n = n, .value = room, .in_a = in_a, .sum = at, .square = at + nv, .known = at + 2 * nv,
+                      .all_sum = at + 3 * nv, .all_square = at + 4 * nv, .all_known = at + 5 * nv};
+        at += 6 * nv;
+        p.cut = at;
+        p.all_cut = at + nc + 1;
+        at += 2 * (nc + 1);
+        p.statistic = at;
+        p.observed = at + nv + 1;
+        p.reached = at + 2 * (nv + 1);
+        err = test(&p, permutations, seed, result, count, exact);
+    }
+    free(room);
+    free(in_a);
+    return err;
+}

@@ -1,0 +1,204 @@
+#include "analysis/converge/rows.h"
+
+#include "analysis/compare/difference.h"
+#include "base/param.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <stdlib.h>
+
+const char *const fracas_number_verdict_name[FRACAS_NUMBER_VERDICTS] = {"moved", "shifted", "holds", "unclear", "unknown"};
+
+fracas_err fracas_convergence_create(const char *study, double tolerance, fracas_convergence **convergence)
+{
+    *convergence = NULL;
+    fracas_convergence *made = calloc(1, sizeof *made);
+    if (!made) return fracas_no_memory("the convergence");
+    made->tolerance = tolerance;
+    fracas_err err = fracas_analysis_create(study, NULL, NULL, &made->study);
+    if (err) fracas_convergence_destroy(made);
+    else *convergence = made;
+    return err;
+}
+
+void fracas_convergence_destroy(fracas_convergence *convergence)
+{
+    if (!convergence) return;
+    fracas_analysis_destroy(convergence->study);
+    free(convergence->row);
+    free(convergence);
+}
+
+/* ---- rows ---- */
+
+/* What a table of results begins with; of the rest a campaign that does not converge moves some by chance of having many. */
+static bool is_headline(const fracas_compared_quantity *number)
+{
+    static const size_t headline[] = {offsetof(fracas_replica_values, count), offsetof(fracas_replica_values, count_large),
+                                      offsetof(fracas_replica_values, size), offsetof(fracas_replica_values, dissipated),
+                                      offsetof(fracas_replica_values, bending), offsetof(fracas_replica_values, onset_time)};
+    for (size_t h = 0; h < FRACAS_COUNT(headline); h++)
+        if (number->offset == headline[h]) return true;
+    return false;
+}
+
+static double value_of(const fracas_ensemble *ensemble, size_t i, const fracas_compared_quantity *number)
+{
+    return *(const double *)(const void *)((const char *)&ensemble->value[i] + number->offset);
+}
+
+/* The same number of two points, realization by realization: of pairs those that both have, else all. */
+typedef struct {
+    size_t n[2];
+    double *value[2];
+} two_samples;
+
+static void gather(const fracas_ensemble *before, const fracas_ensemble *after, const fracas_compared_quantity *number, bool paired, two_samples *to)
+{
+    to->n[0] = to->n[1] = 0;
+    for (size_t i = 0, k = 0; i < before->nrealizations; i++) { /* both in the order of their replicas */
+        while (paired && k < after->nrealizations && after->replica[k] < before->replica[i]) k++;
+        const bool found = k < after->nrealizations && after->replica[k] == before->replica[i];
+        if (paired && !found) continue;
+        to->value[0][to->n[0]++] = value_of(before, i, number);
+        if (paired) to->value[1][to->n[1]++] = value_of(after, k, number);
+    }
+    for (size_t k = 0; !paired && k < after->nrealizations; k++) to->value[1][to->n[1]++] = value_of(after, k, number);
+}
+
+/* Two-sided, by Student's law: the intervals are of the same  (convergence.1) */
+static double student(const fracas_compared_value *value)
+{
+    if (!isfinite(value->low)) return NAN;
+    if (!(value->high > value->low)) return value->difference == 0;
+    const double error = 0.5 * (value->high - value->low) / gsl_cdf_tdist_Pinv(0.975, value->freedom);
+    return 2 * gsl_cdf_tdist_Q(fabs(value->difference) / error, value->freedom);
+}
+
+static bool is_zero(const fracas_estimate *estimate)
+{
+    return estimate->mean == 0 && !(estimate->deviation > 0);
+}
+
+/* True of a number that says nothing: that a study has not, or that is 0 in all realizations of both. */
+static bool is_idle(const fracas_compared_value *value)
+{
+    return value->a.n == 0 || value->b.n == 0 || (is_zero(&value->a) && is_zero(&value->b));
+}
+
+static fracas_err add_row(fracas_convergence *convergence, const fracas_convergence_row *row)
+{
+    if (convergence->nrows == convergence->room) {
+        const size_t room = 2 * convergence->room + 64;
+        fracas_convergence_row *more = realloc(convergence->row, room * sizeof *more);
+        if (!more) return fracas_no_memory("the convergence");
+        convergence->row = more;
+        convergence->room = room;
+    }
+    convergence->row[convergence->nrows++] = *row;
+    return FRACAS_OK;
+}
+
+static fracas_err compare_point(fracas_convergence *convergence, size_t p, const fracas_ensemble *after, const fracas_refinement_map *map,
+                                two_samples *samples)
+{
+    const fracas_ensemble *before = &convergence->study->point[p].ensemble;
+    double count[2] = {NAN, NAN}; /* without dust it is the count again */
+    for (size_t v = 0; v < FRACAS_COMPARED_VALUES; v++) {
+        fracas_convergence_row row = {.refinement = map->name, .point = p, .number = &fracas_compared_quantities[v], .paired = map->paired};
+        if (!is_headline(row.number)) continue;
+        gather(before, after, row.number, map->paired, samples);
+        if (map->paired) fracas_difference_of_pairs(samples->value[0], samples->value[1], samples->n[0], 1, &row.value);
+        else fracas_difference_of(samples->value[0], samples->n[0], samples->value[1], samples->n[1], 1, &row.value);
+        const bool counted = row.number->offset == offsetof(fracas_replica_values, count_large) && row.value.a.mean == count[0] &&
+                             row.value.b.mean == count[1];
+        if (row.number->offset == offsetof(fracas_replica_values, count)) count[0] = row.value.a.mean, count[1] = row.value.b.mean;
+        row.value.p = student(&row.value);
+        if (!counted && !is_idle(&row.value)) TRY(add_row(convergence, &row));
+    }
+    return FRACAS_OK;
+}
+
+fracas_err fracas_convergence_compare(fracas_convergence *convergence, size_t before, const fracas_ensemble *b, const fracas_refinement_map *map)
+{
+    const fracas_ensemble *a = &convergence->study->point[before].ensemble;
+    two_samples samples = {.value = {malloc((a->nrealizations + 1) * sizeof(double)),
+                                     malloc((a->nrealizations + b->nrealizations + 1) * sizeof(double))}};
+    fracas_err err = samples.value[0] && samples.value[1] ? compare_point(convergence, before, b, map, &samples)
+                                                          : fracas_no_memory("the realizations of two points");
+    free(samples.value[0]);
+    free(samples.value[1]);
+    return err;
+}
+
+static fracas_err find_point(const fracas_analysis *study, const fracas_hash *hash, size_t *point)
+{
+    char hex[FRACAS_HASH_HEX];
+    for (*point = 0; *point < study->table->npoints; ++*point)
+        if (fracas_hash_equal(&study->table->point[*point].hash, hash)) return FRACAS_OK;
+    fracas_hash_hex(hash, hex);
+    return fracas_fail(FRACAS_DAMAGED, "the study %s has no point %s; it is of another campaign: remove it and run again", study->name, hex);
+}
+
+fracas_err fracas_convergence_add(fracas_convergence *convergence, const char *study, const fracas_refinement_map *map)
+{
+    fracas_analysis *refined;
+    TRY(fracas_analysis_create(study, NULL, NULL, &refined));
+    fracas_err err = FRACAS_OK;
+    for (size_t i = 0; i < map->npoints && !err; i++) {
+        size_t before, after;
+        err = find_point(convergence->study, &map->before[i], &before);
+        if (!err) err = find_point(refined, &map->after[i], &after);
+        if (!err) err = fracas_convergence_compare(convergence, before, &refined->point[after].ensemble, map);
+    }
+    fracas_analysis_destroy(refined);
+    return err;
+}
+
+void fracas_convergence_leave(fracas_convergence *convergence, const char *refinement, size_t points, const char *why)
+{
+    if (convergence->nleft == FRACAS_MOST_LEFT) return;
+    convergence->left[convergence->nleft].refinement = refinement;
+    convergence->left[convergence->nleft].points = points;
+    convergence->left[convergence->nleft++].why = why;
+}
+
+/* ---- judgement ---- */
+
+static bool is_within(const fracas_compared_value *value, double most)
+{
+    return value->relative_low >= -most && value->relative_high <= most;
+}
+
+static fracas_number_verdict judge(const fracas_compared_value *value, double tolerance)
+{
+    const double level = 0.05, round_off = 1e-9;
+    if (isnan(value->p)) return FRACAS_NUMBER_UNKNOWN;
+    const bool differs = value->p_holm < level && !is_within(value, round_off);
+    if (is_within(value, tolerance)) return differs ? FRACAS_NUMBER_SHIFTED : FRACAS_NUMBER_HOLDS;
+    return differs ? FRACAS_NUMBER_MOVED : FRACAS_NUMBER_UNCLEAR;
+}
+
+fracas_err fracas_convergence_judge(fracas_convergence *convergence)
+{
+    double *p = calloc(2 * convergence->nrows + 1, sizeof *p), *corrected = p + convergence->nrows;
+    if (!p) return fracas_no_memory("the p-values");
+    for (size_t i = 0; i < convergence->nrows; i++) p[i] = convergence->row[i].value.p;
+    fracas_err err = fracas_holm(p, convergence->nrows, 1, corrected);
+    for (size_t i = 0; i < convergence->nrows && !err; i++) {
+        fracas_convergence_row *row = &convergence->row[i];
+        row->value.p_holm = corrected[i];
+        row->verdict = judge(&row->value, convergence->tolerance);
+    }
+    free(p);
+    return err;
+}
+
+/* An interval falls as n^(-1/2)  (convergence.2) */
+double fracas_convergence_replicas(const fracas_convergence *convergence, const fracas_convergence_row *row)
+{
+    const fracas_compared_value *value = &row->value;
+    const double n = fmin((double)value->a.n, (double)value->b.n), reach = 0.5 * (value->relative_high - value->relative_low);
+    const double part = reach / (0.5 * convergence->tolerance);
+    return ceil(n * part * part);
+}

@@ -1,0 +1,249 @@
+/* A convergence as text, JSON and CSV. */
+#include "analysis/converge/rows.h"
+
+#include "analysis/export/csv.h"
+#include "analysis/export/output.h"
+#include "analysis/tables/format.h"
+#include "base/json.h"
+#include "base/param.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { CELL = 200, COLUMNS = 8 };
+
+typedef struct {
+    size_t rows;
+    char (*cell)[COLUMNS][CELL];
+} text_table;
+
+/* ---- text ---- */
+
+/* The prefix that all values of a number are shown with. */
+static fracas_prefix prefix_of(const fracas_convergence *convergence, const fracas_compared_quantity *number)
+{
+    double ends[2] = {INFINITY, 0};
+    if (!strcmp(number->unit, "1")) return (fracas_prefix){1, "", ""};
+    for (size_t i = 0; i < convergence->nrows; i++) {
+        const fracas_convergence_row *row = &convergence->row[i];
+        if (row->number != number || !(row->value.a.mean > 0)) continue;
+        ends[0] = fmin(ends[0], row->value.a.mean);
+        ends[1] = fmax(ends[1], row->value.a.mean);
+    }
+    return fracas_prefix_for(ends, 2);
+}
+
+/* "+0.8 +- 2.0": in per cent of the number as it is. Round-off has no digits worth a reader's time. */
+static void format_change(const fracas_compared_value *value, char *text, size_t size)
+{
+    const fracas_estimate change = {.n = value->a.n, .mean = 100 * value->relative,
+                                    .half_width = 50 * (value->relative_high - value->relative_low)};
+    char plain[CELL - 1];
+    if (fabs(change.mean) + change.half_width < 1e-3) {
+        snprintf(text, size, change.mean == 0 && change.half_width == 0 ? "0" : "below 0.001");
+        return;
+    }
+    fracas_format_estimate(&change, 1, "+-", plain, sizeof plain);
+    snprintf(text, size, "%s%s", change.mean > 0 ? "+" : "", plain);
+}
+
+static void fill_row(const fracas_convergence *convergence, const fracas_convergence_row *row, char cell[COLUMNS][CELL])
+{
+    const fracas_compared_value *value = &row->value;
+    const fracas_prefix prefix = prefix_of(convergence, row->number);
+    const bool pure = !strcmp(row->number->unit, "1");
+    snprintf(cell[0], CELL, "%s", row->refinement);
+    fracas_analysis_label(convergence->study, row->point, cell[1], CELL);
+    snprintf(cell[2], CELL, "%s%s%s%s%s", row->number->key, pure ? "" : " [", pure ? "" : prefix.symbol, pure ? "" : row->number->unit,
+             pure ? "" : "]");
+    fracas_format_estimate(&value->a, prefix.factor, "+-", cell[3], CELL);
+    fracas_format_estimate(&value->b, prefix.factor, "+-", cell[4], CELL);
+    format_change(value, cell[5], CELL);
+    fracas_format_digits(value->difference / value->a.half_width, 2, cell[6], CELL);
+    snprintf(cell[7], CELL, "%s", fracas_number_verdict_name[row->verdict]);
+}
+
+static void print_sheet(const text_table *sheet, FILE *out)
+{
+    int width[COLUMNS] = {0};
+    for (size_t r = 0; r < sheet->rows; r++)
+        for (int c = 0; c < COLUMNS; c++) width[c] = (int)fmax(width[c], (double)strlen(sheet->cell[r][c]));
+    for (size_t r = 0; r < sheet->rows; r++)
+        for (int c = 0; c < COLUMNS; c++) {
+            const bool last = c + 1 == COLUMNS, text = c < 3 || last;
+            fprintf(out, text ? "%-*s%s" : "%*s%s", last ? 0 : width[c], sheet->cell[r][c], last ? "\n" : "  ");
+        }
+}
+
+/* "mesh: of 8 numbers 2 moved, ..." */
+static void print_counts(const fracas_convergence *convergence, const char *refinement, FILE *out)
+{
+    size_t all = 0, of[FRACAS_NUMBER_VERDICTS] = {0};
+    for (size_t i = 0; i < convergence->nrows; i++) {
+        if (strcmp(convergence->row[i].refinement, refinement) != 0) continue;
+        all++;
+        of[convergence->row[i].verdict]++;
+    }
+    fprintf(out, "%s: of %zu numbers %zu moved, %zu shifted and %zu hold within %g %%, %zu unclear", refinement, all, of[FRACAS_NUMBER_MOVED],
+            of[FRACAS_NUMBER_SHIFTED], of[FRACAS_NUMBER_HOLDS], 100 * convergence->tolerance, of[FRACAS_NUMBER_UNCLEAR]);
+    if (of[FRACAS_NUMBER_UNKNOWN]) fprintf(out, ", %zu without an interval (fewer than two realizations)", of[FRACAS_NUMBER_UNKNOWN]);
+    putc('\n', out);
+}
+
+static void print_sum(const fracas_convergence *convergence, FILE *out)
+{
+    double replicas = 0;
+    putc('\n', out);
+    for (size_t i = 0; i < convergence->nrows; i++) {
+        const fracas_convergence_row *row = &convergence->row[i];
+        if (i == 0 || strcmp(row->refinement, row[-1].refinement) != 0) print_counts(convergence, row->refinement, out);
+        if (row->verdict == FRACAS_NUMBER_UNCLEAR) replicas = fmax(replicas, fracas_convergence_replicas(convergence, row));
+    }
+    for (size_t i = 0; i < convergence->nleft; i++)
+        fprintf(out, "%s: %zu point%s left out: %s\n", convergence->left[i].refinement, convergence->left[i].points,
+                convergence->left[i].points == 1 ? "" : "s", convergence->left[i].why);
+    if (replicas > 0 && replicas < 1e9) fprintf(out, "About %.0f replicas of each point would tell of all that are unclear.\n", replicas);
+}
+
+static fracas_err print_with(const fracas_convergence *convergence, text_table *sheet, FILE *out)
+{
+    static const char *const head[COLUMNS] = {"", "point", "number", "as it is", "refined", "change [%]", "half widths", ""};
+    for (int c = 0; c < COLUMNS; c++) snprintf(sheet->cell[0][c], CELL, "%s", head[c]);
+    for (size_t i = 0; i < convergence->nrows; i++) fill_row(convergence, &convergence->row[i], sheet->cell[i + 1]);
+    print_sheet(sheet, out);
+    fprintf(out, "\nchange: of the mean, with the half width of its 95 %% interval: of pairs with the same strengths for step and beta, by Welch\n"
+            "for mesh; half widths: in those of the number as it is. moved: Holm's p among all %zu numbers is below 0.05, and the interval is\n"
+            "not within %g %%; shifted: it is; holds: it is, and p is not; unclear: neither.\n", convergence->nrows, 100 * convergence->tolerance);
+    print_sum(convergence, out);
+    if (!ferror(out)) return FRACAS_OK;
+    return fracas_fail_system(errno, "cannot write the table");
+}
+
+fracas_err fracas_convergence_print(const fracas_convergence *convergence, FILE *out)
+{
+    text_table made = {.rows = convergence->nrows + 1};
+    made.cell = calloc(made.rows, sizeof *made.cell);
+    if (!made.cell) return fracas_no_memory("the table");
+    fracas_err err = print_with(convergence, &made, out);
+    free(made.cell);
+    return err;
+}
+
+/* ---- JSON ---- */
+
+/* What JSON and CSV have of a difference. */
+static const struct {
+    const char *name;
+    size_t offset;
+} columns[] = {
+    {"difference", offsetof(fracas_compared_value, difference)}, {"low", offsetof(fracas_compared_value, low)},
+    {"high", offsetof(fracas_compared_value, high)}, {"relative", offsetof(fracas_compared_value, relative)},
+    {"relative_low", offsetof(fracas_compared_value, relative_low)}, {"relative_high", offsetof(fracas_compared_value, relative_high)},
+    {"p", offsetof(fracas_compared_value, p)}, {"p_holm", offsetof(fracas_compared_value, p_holm)},
+};
+
+static const double *column_at(const fracas_convergence_row *row, size_t c)
+{
+    return (const double *)(const void *)((const char *)&row->value + columns[c].offset);
+}
+
+static void write_estimate(fracas_json *json, const char *key, const fracas_estimate *estimate)
+{
+    fracas_json_object(json, key);
+    fracas_json_integer(json, "n", estimate->n);
+    fracas_json_real(json, "mean", estimate->mean);
+    fracas_json_real(json, "half_width", estimate->half_width);
+    fracas_json_close_object(json);
+}
+
+static void write_row(const fracas_convergence *convergence, const fracas_convergence_row *row, fracas_json *json)
+{
+    char label[CELL], hash[FRACAS_HASH_HEX];
+    fracas_analysis_label(convergence->study, row->point, label, sizeof label);
+    fracas_hash_hex(&convergence->study->table->point[row->point].hash, hash);
+    fracas_json_object(json, NULL);
+    fracas_json_text(json, "refinement", row->refinement);
+    fracas_json_integer(json, "point", (int64_t)row->point);
+    fracas_json_text(json, "hash", hash);
+    fracas_json_text(json, "label", label);
+    fracas_json_text(json, "number", row->number->key);
+    fracas_json_text(json, "unit", row->number->unit);
+    write_estimate(json, "base", &row->value.a);
+    write_estimate(json, "refined", &row->value.b);
+    for (size_t c = 0; c < FRACAS_COUNT(columns); c++) fracas_json_real(json, columns[c].name, *column_at(row, c));
+    fracas_json_real(json, "half_widths", row->value.difference / row->value.a.half_width);
+    fracas_json_text(json, "method", row->paired ? "pairs" : "welch");
+    fracas_json_text(json, "verdict", fracas_number_verdict_name[row->verdict]);
+    fracas_json_close_object(json);
+}
+
+static size_t count_of(const fracas_convergence *convergence, fracas_number_verdict verdict)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < convergence->nrows; i++) count += convergence->row[i].verdict == verdict;
+    return count;
+}
+
+static void write_left(const fracas_convergence *convergence, fracas_json *json)
+{
+    fracas_json_array(json, "left_out");
+    for (size_t i = 0; i < convergence->nleft; i++) {
+        fracas_json_object(json, NULL);
+        fracas_json_text(json, "refinement", convergence->left[i].refinement);
+        fracas_json_integer(json, "points", (int64_t)convergence->left[i].points);
+        fracas_json_text(json, "why", convergence->left[i].why);
+        fracas_json_close_object(json);
+    }
+    fracas_json_close_array(json);
+}
+
+void fracas_convergence_write_json(const fracas_convergence *convergence, FILE *out)
+{
+    fracas_json json;
+    fracas_json_begin(&json, out);
+    fracas_json_object(&json, NULL);
+    fracas_json_real(&json, "tolerance", convergence->tolerance);
+    for (int v = 0; v < FRACAS_NUMBER_VERDICTS; v++)
+        fracas_json_integer(&json, fracas_number_verdict_name[v], (int64_t)count_of(convergence, (fracas_number_verdict)v));
+    write_left(convergence, &json);
+    fracas_json_array(&json, "numbers");
+    for (size_t i = 0; i < convergence->nrows; i++) write_row(convergence, &convergence->row[i], &json);
+    fracas_json_close_array(&json);
+    fracas_json_close_object(&json);
+    fracas_json_end(&json);
+}
+
+/* ---- CSV ---- */
+
+static void csv_estimate(const fracas_estimate *estimate, FILE *out)
+{
+    fprintf(out, ",%" PRId64, estimate->n);
+    fracas_csv_real(estimate->mean, out);
+    fracas_csv_real(estimate->half_width, out);
+}
+
+static void csv_row(const fracas_convergence *convergence, const fracas_convergence_row *row, FILE *out)
+{
+    char hash[FRACAS_HASH_HEX];
+    fracas_hash_hex(&convergence->study->table->point[row->point].hash, hash);
+    fprintf(out, "%s,%zu,%s,%s,%s", row->refinement, row->point, hash, row->number->key, row->number->unit);
+    csv_estimate(&row->value.a, out);
+    csv_estimate(&row->value.b, out);
+    for (size_t c = 0; c < FRACAS_COUNT(columns); c++) fracas_csv_real(*column_at(row, c), out);
+    fracas_csv_real(row->value.difference / row->value.a.half_width, out);
+    fprintf(out, ",%s,%s\n", row->paired ? "pairs" : "welch", fracas_number_verdict_name[row->verdict]);
+}
+
+fracas_err fracas_convergence_write_csv(const fracas_convergence *convergence, const char *folder)
+{
+    fracas_output_file output;
+    TRY(fracas_output_open(folder, "converge.csv", &output));
+    fputs("refinement,point,hash,number,unit,base_n,base_mean,base_half_width,refined_n,refined_mean,refined_half_width", output.file);
+    for (size_t c = 0; c < FRACAS_COUNT(columns); c++) fprintf(output.file, ",%s", columns[c].name);
+    fputs(",half_widths,method,verdict\n", output.file);
+    for (size_t i = 0; i < convergence->nrows; i++) csv_row(convergence, &convergence->row[i], output.file);
+    return fracas_output_close(&output, FRACAS_OK);
+}

@@ -1,0 +1,45 @@
+/* The numbers of a convergence, a row each. */
+#ifndef FRACAS_ANALYSIS_CONVERGE_ROWS_H
+#define FRACAS_ANALYSIS_CONVERGE_ROWS_H
+
+#include "analysis/compare/compare.h"
+#include "analysis/converge/converge.h"
+#include "analysis/study/study.h"
+
+typedef enum {
+    FRACAS_NUMBER_MOVED, FRACAS_NUMBER_SHIFTED, FRACAS_NUMBER_HOLDS, FRACAS_NUMBER_UNCLEAR, FRACAS_NUMBER_UNKNOWN, FRACAS_NUMBER_VERDICTS
+} fracas_number_verdict;
+extern const char *const fracas_number_verdict_name[FRACAS_NUMBER_VERDICTS]; /* "moved", ... */
+
+typedef struct {
+    const char *refinement;
+    size_t point;    /* of the study as it is */
+    const fracas_compared_quantity *number;
+    bool paired;
+    fracas_compared_value value; /* its p: Student's, of the difference */
+    fracas_number_verdict verdict;
+} fracas_convergence_row;
+
+enum { FRACAS_MOST_LEFT = 3 }; /* refinements */
+
+struct fracas_convergence {
+    fracas_analysis *study; /* as it is */
+    double tolerance;
+    size_t nrows, room;
+    fracas_convergence_row *row;
+    size_t nleft;
+    struct {
+        const char *refinement, *why;
+        size_t points;
+    } left[FRACAS_MOST_LEFT];
+};
+
+/* Adds the rows of one point, `before` in the study as it is, from the realizations of its refined self. */
+FRACAS_MUST_USE fracas_err fracas_convergence_compare(fracas_convergence *convergence, size_t before, const fracas_ensemble *after,
+                                                      const fracas_refinement_map *map);
+
+/* Replicas n (h/(tolerance/2))^2 of every point with which the half width h of the row's relative change, of n replicas now, would be half
+ * of the tolerance: what does not differ then holds in 19 of 20 cases (convergence.2). NaN without an interval. */
+double fracas_convergence_replicas(const fracas_convergence *convergence, const fracas_convergence_row *row);
+
+#endif

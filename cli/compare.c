@@ -1,0 +1,62 @@
+#include "cli/cli.h"
+
+#include "analysis/compare/compare.h"
+#include "base/param.h"
+#include "campaigns/campaign.h"
+
+#include <stdio.h>
+
+enum { BY, JSON };
+static const fracas_option options[] = {
+    [BY] = {"by", "COLUMNS", "match points by these columns alone, as loading.rate,strength.shape"},
+    [JSON] = {"json", NULL, "print it as JSON"},
+};
+
+/* study.h5 does not say whether random numbers are common: the campaign does. */
+static fracas_err read_common(const char *study, bool *common)
+{
+    fracas_campaign *campaign;
+    TRY(fracas_cli_read_campaign(study, &campaign));
+    *common = campaign->common_random_numbers;
+    fracas_campaign_destroy(campaign);
+    return FRACAS_OK;
+}
+
+static fracas_err say(const fracas_arguments *arguments, const fracas_analysis *a, const fracas_analysis *b)
+{
+    bool common_a, common_b;
+    TRY(read_common(arguments->operand, &common_a));
+    TRY(read_common(arguments->second, &common_b));
+    const fracas_compare_options how = {.by = arguments->value[BY], .common = common_a && common_b};
+    fracas_comparison comparison;
+    TRY(fracas_compare(a, b, &how, &comparison));
+    fracas_err err = FRACAS_OK;
+    if (arguments->value[JSON]) fracas_comparison_write_json(&comparison, a, b, stdout);
+    else err = fracas_comparison_print(&comparison, a, b, stdout);
+    fracas_comparison_clear(&comparison);
+    return err;
+}
+
+static fracas_err compare(const fracas_arguments *arguments)
+{
+    fracas_campaign *of_a, *of_b;
+    fracas_analysis *a, *b;
+    TRY(fracas_cli_check_study(arguments->second));
+    TRY(fracas_cli_analyse(arguments->operand, &of_a, &a));
+    fracas_err err = fracas_cli_analyse(arguments->second, &of_b, &b);
+    if (!err) {
+        err = say(arguments, a, b);
+        fracas_analysis_destroy(b);
+        fracas_campaign_destroy(of_b);
+    }
+    fracas_analysis_destroy(a);
+    fracas_campaign_destroy(of_a);
+    return err;
+}
+
+const fracas_command fracas_command_compare = {
+    .name = "compare", .operand = "A", .second = "B", .doc = "Says in which numbers two studies differ, and how surely",
+    .more = "\nPoints are matched by their parameters. For each pair: B - A of every mean over realizations with its 95 % interval, and p of\n"
+            "tests that permute whole realizations. The status is 0 whatever they find.\n",
+    .options = options, .noptions = FRACAS_COUNT(options), .run = compare,
+};

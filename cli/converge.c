@@ -1,0 +1,252 @@
+#include "cli/run_options.h"
+
+#include "analysis/converge/converge.h"
+#include "base/param.h"
+#include "campaigns/plan/forecast.h"
+#include "campaigns/plan/refine.h"
+#include "campaigns/scheduler/clock.h"
+#include "campaigns/scheduler/launch/allocation.h"
+#include "campaigns/scheduler/study/prepare.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Behind those of `fracas run STUDY`, which are handed on to it. */
+enum { STUDY = FRACAS_NSTUDY_RUN_OPTIONS, ONLY, TOLERANCE, JSON, NOPTIONS };
+#define OWN(option) [(option) - FRACAS_NSTUDY_RUN_OPTIONS]
+static const fracas_option options[NOPTIONS - FRACAS_NSTUDY_RUN_OPTIONS] = {
+    OWN(STUDY) = {"study", "DIR", "folder of the studies (studies/NAME-converge)"},
+    OWN(ONLY) = {"only", "mesh|step|beta", "refine that alone (all three in turn)"},
+    OWN(TOLERANCE) = {"tolerance", "PERCENT", "a change within which a number holds (2)"},
+    OWN(JSON) = {"json", NULL, "print the result as JSON"},
+};
+
+enum { NAME = 8, STUDY_PATH = PATH_MAX + NAME };
+
+/* The order of the runs: what is short, first. */
+static const fracas_refinement order[] = {FRACAS_REFINE_NOTHING, FRACAS_REFINE_STEP, FRACAS_REFINE_BETA, FRACAS_REFINE_MESH};
+
+typedef struct {
+    const fracas_arguments *arguments;
+    char folder[PATH_MAX];
+    char study[FRACAS_NREFINEMENTS][STUDY_PATH]; /* FOLDER/mesh */
+    fracas_refined refined[FRACAS_NREFINEMENTS]; /* campaign NULL: not asked for, or it cannot be */
+    double began, walltime; /* s */
+    fracas_err end;         /* FRACAS_SOME_FAILED if some realization of some study did */
+    char failure[1024];
+} converging;
+
+static const fracas_refined *base_of(const converging *c)
+{
+    return &c->refined[FRACAS_REFINE_NOTHING];
+}
+
+/* ---- before ---- */
+
+static fracas_err check_arguments(const fracas_arguments *arguments)
+{
+    if (fracas_run_is_rank())
+        return fracas_fail(FRACAS_USAGE, "converge: it starts several runs, each with an mpirun of its own: give it --jobs N instead of starting it by "
+                           "mpirun or srun");
+    if (arguments->value[fracas_cli_run_option("part")])
+        return fracas_fail(FRACAS_USAGE, "converge: --part is of one study; here there are several, which are compared when all of them are complete");
+    return FRACAS_OK;
+}
+
+static fracas_err find_folder(converging *c)
+{
+    const char *given = c->arguments->value[STUDY];
+    fracas_campaign *campaign;
+    if (given && !*given) return fracas_fail(FRACAS_USAGE, "--study is empty; name a folder, or leave it out");
+    TRY(fracas_campaign_read(c->arguments->operand, &campaign));
+    const int n = given ? snprintf(c->folder, sizeof c->folder, "%s", given)
+                        : snprintf(c->folder, sizeof c->folder, "studies/%s-converge", campaign->name);
+    fracas_campaign_destroy(campaign);
+    if (n >= (int)sizeof c->folder) return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s", given);
+    for (size_t r = 0; r < FRACAS_NREFINEMENTS; r++)
+        snprintf(c->study[r], sizeof c->study[r], "%s/%s", c->folder, fracas_refinement_name[r]);
+    return FRACAS_OK;
+}
+
+/* Every campaign, and whether its study, if it is there, is one of it: before anything is written. */
+static fracas_err make_campaigns(converging *c)
+{
+    int replicas = 0, only = -1;
+    TRY(fracas_arguments_integer(c->arguments, fracas_cli_run_option("replicas"), 1, INT_MAX, &replicas));
+    TRY(fracas_arguments_word(c->arguments, ONLY, fracas_refinement_name + 1, FRACAS_NREFINEMENTS - 1, &only));
+    bool any = false;
+    for (size_t r = 0; r < FRACAS_NREFINEMENTS; r++) {
+        if (r != FRACAS_REFINE_NOTHING && only >= 0 && (size_t)only + 1 != r) continue;
+        fracas_refined *refined = &c->refined[r];
+        TRY(fracas_refined_create(c->arguments->operand, replicas, (fracas_refinement)r, refined));
+        if (refined->left > 0)
+            fprintf(stderr, "fracas: %s: %zu point%s left out: %s\n", fracas_refinement_name[r], refined->left, refined->left == 1 ? " is" : "s are",
+                    refined->why);
+        if (!refined->campaign) continue;
+        any = any || r != FRACAS_REFINE_NOTHING;
+        TRY(fracas_study_fits(c->study[r], refined->campaign));
+    }
+    if (any) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "%s: nothing of it can be refined (above: why)", c->arguments->operand);
+}
+
+/* Predicted seconds of the campaign as it is, at most. */
+static fracas_err predict(const converging *c, double *time)
+{
+    const fracas_campaign *campaign = base_of(c)->campaign;
+    fracas_run_options run;
+    int jobs;
+    fracas_run_options_init(&run);
+    TRY(fracas_arguments_integer(c->arguments, fracas_cli_run_option("jobs"), 1, INT_MAX, &run.jobs));
+    TRY(fracas_allocation_jobs(run.jobs, &jobs));
+    fracas_forecast *forecast = calloc(campaign->npoints, sizeof *forecast);
+    if (!forecast) return fracas_no_memory("the plan");
+    fracas_err err = fracas_forecast_all(campaign, jobs, forecast);
+    *time = 0;
+    for (size_t p = 0; p < campaign->npoints; p++) *time += forecast[p].time;
+    free(forecast);
+    return err;
+}
+
+static double cost_of(const fracas_refined *refined)
+{
+    double sum = 0;
+    for (size_t p = 0; p < refined->campaign->npoints; p++) sum += refined->cost[p];
+    return sum;
+}
+
+/* What all this will take, at the speed of the campaign as it is. */
+static fracas_err say_costs(const converging *c)
+{
+    double base = 0, total = 0;
+    TRY(predict(c, &base));
+    fprintf(stderr, "fracas: predicted for whole studies, at most:\n");
+    for (size_t i = 0; i < FRACAS_COUNT(order); i++) {
+        const fracas_refined *refined = &c->refined[order[i]];
+        if (!refined->campaign) continue;
+        const double factor = cost_of(refined) / cost_of(base_of(c)), time = factor * base;
+        total += time;
+        fprintf(stderr, "fracas:   %s  %-25s %4zu point%s  %6.3g times the work  %8.2g s\n", fracas_refinement_name[order[i]],
+                fracas_refinement_doc[order[i]], refined->campaign->npoints, refined->campaign->npoints == 1 ? " " : "s", factor, time);
+    }
+    fprintf(stderr, "fracas:   together %.2g s\n", total);
+    return FRACAS_OK;
+}
+
+/* ---- the runs ---- */
+
+static fracas_err run_one(const fracas_run_options *run, int argc, char **argv)
+{
+    bool ran;
+    fracas_err end = fracas_run(run, argc, argv, &ran);
+    if (!end && !ran) fprintf(stderr, "fracas: %s is complete, nothing to compute\n", run->study);
+    return end;
+}
+
+/* A run has what is left of the walltime. */
+static fracas_err run_study(converging *c, fracas_refinement what)
+{
+    char file[STUDY_PATH + NAME], name[2 * NAME], left[32];
+    fracas_arguments given = *c->arguments;
+    snprintf(name, sizeof name, "%s.yaml", fracas_refinement_name[what]);
+    snprintf(file, sizeof file, "%s/%s", c->folder, name);
+    TRY(fracas_campaign_keep(c->refined[what].campaign, c->folder, name));
+    if (c->walltime > 0) {
+        const double rest = c->walltime - (fracas_now() - c->began);
+        if (rest < 0.1) return fracas_fail(FRACAS_INTERRUPTED, "the walltime is over: what was done is kept; the same command goes on from there");
+        snprintf(left, sizeof left, "%.3fs", rest);
+        given.value[fracas_cli_run_option("walltime")] = left;
+    }
+    given.value[fracas_cli_run_option("replicas")] = NULL; /* the file has them */
+    fprintf(stderr, "fracas: %s, %s\n", fracas_refinement_name[what], fracas_refinement_doc[what]);
+    fracas_err end = fracas_cli_run_as(&given, file, c->study[what], run_one);
+    if (end != FRACAS_SOME_FAILED) return end ? fracas_fail_within(end, "%s", c->study[what]) : FRACAS_OK;
+    c->end = end;
+    snprintf(c->failure, sizeof c->failure, "%s: %s", c->study[what], fracas_message());
+    return FRACAS_OK;
+}
+
+/* ---- what came of it ---- */
+
+static fracas_err add_refinement(const converging *c, fracas_refinement what, fracas_convergence *convergence)
+{
+    const fracas_refined *refined = &c->refined[what], *base = base_of(c);
+    const size_t npoints = refined->campaign->npoints;
+    fracas_hash *before = calloc(npoints, sizeof *before), *after = calloc(npoints, sizeof *after);
+    fracas_err err = before && after ? FRACAS_OK : fracas_no_memory("the points of the campaign");
+    for (size_t p = 0; p < npoints && !err; p++) {
+        before[p] = base->campaign->point[refined->from[p]].hash;
+        after[p] = refined->campaign->point[p].hash;
+    }
+    const fracas_refinement_map map = {fracas_refinement_name[what], fracas_refinement_doc[what], what != FRACAS_REFINE_MESH, npoints, before, after};
+    if (!err) err = fracas_convergence_add(convergence, c->study[what], &map);
+    free(before);
+    free(after);
+    return err;
+}
+
+static fracas_err compare_with(const converging *c, fracas_convergence *convergence)
+{
+    for (fracas_refinement r = FRACAS_REFINE_MESH; r < FRACAS_NREFINEMENTS; r++) {
+        const fracas_refined *refined = &c->refined[r];
+        if (refined->campaign) TRY(add_refinement(c, r, convergence));
+        if (refined->left > 0) fracas_convergence_leave(convergence, fracas_refinement_name[r], refined->left, refined->why);
+    }
+    TRY(fracas_convergence_judge(convergence));
+    TRY(fracas_convergence_write_csv(convergence, c->folder));
+    if (c->arguments->value[JSON]) {
+        fracas_convergence_write_json(convergence, stdout);
+        return FRACAS_OK;
+    }
+    TRY(fracas_convergence_print(convergence, stdout));
+    printf("all digits: %s/converge.csv; a study's own report: fracas report %s\n", c->folder, c->study[FRACAS_REFINE_NOTHING]);
+    return FRACAS_OK;
+}
+
+static fracas_err compare(const converging *c, double tolerance)
+{
+    fracas_convergence *convergence;
+    TRY(fracas_convergence_create(c->study[FRACAS_REFINE_NOTHING], tolerance, &convergence));
+    fracas_err err = compare_with(c, convergence);
+    fracas_convergence_destroy(convergence);
+    return err;
+}
+
+static fracas_err converge_with(converging *c)
+{
+    double tolerance = 0.02;
+    TRY(check_arguments(c->arguments));
+    TRY(fracas_arguments_real(c->arguments, TOLERANCE, 0.01, &tolerance));
+    if (tolerance <= 0) return fracas_fail(FRACAS_USAGE, "converge: --tolerance is 0; a number never is the same: give a per cent above 0");
+    TRY(fracas_arguments_time(c->arguments, fracas_cli_run_option("walltime"), &c->walltime));
+    TRY(find_folder(c));
+    TRY(make_campaigns(c));
+    TRY(say_costs(c));
+    for (size_t i = 0; i < FRACAS_COUNT(order); i++)
+        if (c->refined[order[i]].campaign) TRY(run_study(c, order[i]));
+    TRY(compare(c, tolerance));
+    return c->end ? fracas_fail(c->end, "%s", c->failure) : FRACAS_OK;
+}
+
+static fracas_err converge(const fracas_arguments *arguments)
+{
+    converging *c = calloc(1, sizeof *c);
+    if (!c) return fracas_no_memory("the convergence");
+    c->arguments = arguments;
+    c->began = fracas_now();
+    fracas_err err = converge_with(c);
+    for (size_t r = 0; r < FRACAS_NREFINEMENTS; r++) fracas_refined_clear(&c->refined[r]);
+    free(c);
+    return err;
+}
+
+const fracas_command fracas_command_converge = {
+    .name = "converge", .operand = "FILE", .doc = "Runs FILE with mesh, step and beta refined in turn: which numbers move?",
+    .more = "\nThe campaign of FILE as it is, with half the time step, with interfaces twice as stiff, and on a mesh of half the size is computed, each as\n"
+            "a study in DIR; then every headline number is compared with what it is without. It ends with 0 whatever moved. The same command\n"
+            "goes on with what was interrupted, prints the result of what is complete, and extends all studies by more --replicas.\n",
+    .options = FRACAS_STUDY_RUN_OPTIONS, .noptions = FRACAS_NSTUDY_RUN_OPTIONS, .own = options, .nown = FRACAS_COUNT(options), .run = converge,
+};
