@@ -1,6 +1,8 @@
 #include "analysis/fit/goodness.h"
 
-#include <gsl/gsl_rng.h>
+#include "analysis/fit/draw.h"
+
+#include <gsl/gsl_randist.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,34 +23,89 @@ fracas_fit_distance fracas_fit_distance_of(size_t ncells, const double *count, c
     return distance;
 }
 
-/* (fits.11) */
-void fracas_fit_transport_of(const fracas_fit_sample *sample, const double *probability, fracas_fit_transport *transport)
+/* Which realization each fragment is of: cell by cell, in random order within each. */
+static void order(const fracas_fit_sample *sample, gsl_rng *random, size_t *place, uint32_t *owner)
 {
-    double below = 0, law_below = 0; /* shares below the cells */
-    size_t to = 0;
-    transport->n = 0;
-    for (size_t from = 0; from < sample->ncells; from++) {
-        const double share = sample->count[from] / sample->total, end = below + share;
-        double left = share;
-        while (share > 0 && left > 0) {
-            const double law_end = law_below + probability[to];
-            const bool last = to + 1 == sample->ncells || law_end >= end;
-            const double part = last ? left : fmin(fmax(law_end - fmax(below, law_below), 0), left);
-            if (part > 0) transport->step[transport->n++] = (fracas_fit_carriage){(uint32_t)from, (uint32_t)to, part / share};
-            left -= part;
-            if (last) break;
-            law_below = law_end;
-            to++;
-        }
-        below = end;
+    size_t begin = 0;
+    for (size_t k = 0; k < sample->ncells; k++) {
+        place[k] = begin;
+        begin += (size_t)sample->count[k];
+    }
+    for (size_t i = 0; i < sample->nrealizations; i++)
+        for (size_t c = sample->first[i]; c < sample->first[i + 1]; c++)
+            for (double t = 0; t < sample->times[c]; t++) owner[place[sample->cell[c]]++] = (uint32_t)i;
+    for (size_t k = 0; k < sample->ncells; k++) {
+        const size_t n = (size_t)sample->count[k];
+        if (n > 1) gsl_ran_shuffle(random, owner + place[k] - n, n, sizeof *owner);
     }
 }
 
-void fracas_fit_transport_apply(const fracas_fit_transport *transport, size_t ncells, const double *count, double *carried)
+/* Fragments in their order, each to the cell of its quantile; lists of realizations begin at first[i] and end at end[i]. */
+static void move(const fracas_fit_sample *sample, const double *probability, const uint32_t *owner, size_t *end, fracas_fit_sample *carried)
 {
-    memset(carried, 0, ncells * sizeof *carried);
-    for (const fracas_fit_carriage *step = transport->step; step < transport->step + transport->n; step++)
-        carried[step->to] += step->share * count[step->from];
+    double below = 0;
+    size_t to = 0;
+    memcpy(end, carried->first, carried->nrealizations * sizeof *end);
+    for (size_t r = 0; r < (size_t)sample->total; r++) {
+        while (to + 1 < sample->ncells && below + probability[to] < ((double)r + 0.5) / sample->total) below += probability[to++];
+        const size_t i = owner[r], last = end[i];
+        const bool again = last > carried->first[i] && carried->cell[last - 1] == to;
+        if (!again) {
+            carried->cell[last] = (uint32_t)to;
+            carried->times[last] = 0;
+            end[i]++;
+        }
+        carried->times[end[i] - 1] += 1;
+        carried->count[to] += 1;
+    }
+}
+
+/* Takes the room between the lists out. */
+static void compact(const size_t *end, fracas_fit_sample *carried)
+{
+    size_t used = 0;
+    for (size_t i = 0; i < carried->nrealizations; i++) {
+        const size_t begin = carried->first[i];
+        carried->first[i] = used;
+        for (size_t c = begin; c < end[i]; c++, used++) {
+            carried->cell[used] = carried->cell[c];
+            carried->times[used] = carried->times[c];
+        }
+    }
+    carried->first[carried->nrealizations] = used;
+}
+
+/* (fits.11) */
+fracas_err fracas_fit_carry(const fracas_fit_sample *sample, const double *probability, uint64_t seed, fracas_fit_sample *carried)
+{
+    const size_t n = sample->nrealizations, fragments = (size_t)sample->total;
+    size_t place[FRACAS_FIT_CELLS];
+    *carried = *sample;
+    memset(carried->count, 0, sizeof carried->count);
+    carried->kept = carried->sum = carried->squares = NULL;
+    carried->first = malloc((n + 1) * sizeof *carried->first);
+    carried->cell = malloc((fragments + 1) * sizeof *carried->cell);
+    carried->times = malloc((fragments + 1) * sizeof *carried->times);
+    uint32_t *owner = malloc((fragments + 1) * sizeof *owner);
+    size_t *end = malloc((n + 1) * sizeof *end);
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    const bool room = carried->first && carried->cell && carried->times && owner && end && random;
+    if (room) {
+        gsl_rng_set(random, (unsigned long)(seed ^ seed >> 32)); /* it takes 32 bits */
+        for (size_t i = 0, begin = 0; i < n; i++) {
+            carried->first[i] = begin;
+            begin += (size_t)sample->kept[i];
+        }
+        order(sample, random, place, owner);
+        move(sample, probability, owner, end, carried);
+        compact(end, carried);
+    } else {
+        fracas_fit_sample_clear(carried);
+    }
+    free(owner);
+    free(end);
+    if (random) gsl_rng_free(random);
+    return room ? FRACAS_OK : fracas_no_memory("a resample");
 }
 
 typedef struct {
@@ -57,16 +114,15 @@ typedef struct {
 
 /* One resample under the law. Distances of n realizations drawn from n are too small by sqrt((n - 1)/n), their squares by the square of
  * that. */
-static void resample(const fracas_family *family, const fracas_fit_sample *sample, const fracas_fit *fit, const fracas_fit_transport *transport,
-                     const uint32_t *weight, const fracas_fit_distance *distance, tally *sum)
+static void resample(const fracas_family *family, const fracas_fit_sample *carried, const fracas_fit *fit, const uint32_t *weight,
+                     const fracas_fit_distance *distance, tally *sum)
 {
-    double count[FRACAS_FIT_CELLS], carried[FRACAS_FIT_CELLS], probability[FRACAS_FIT_CELLS], parameter[FRACAS_FAMILY_PARAMETERS], mean, cv;
-    fracas_fit_sample_weigh(sample, weight, count, &mean, &cv);
-    fracas_fit_transport_apply(transport, sample->ncells, count, carried);
-    if (!fracas_fit_again(family, sample, carried, fit, parameter)) return;
-    if (!fracas_fit_probabilities(family, sample, parameter, probability)) return;
-    const fracas_fit_distance other = fracas_fit_distance_of(sample->ncells, carried, probability);
-    const double widen = (double)sample->nrealizations / (double)(sample->nrealizations - 1);
+    double count[FRACAS_FIT_CELLS], probability[FRACAS_FIT_CELLS], parameter[FRACAS_FAMILY_PARAMETERS];
+    fracas_fit_sample_count(carried, weight, count);
+    if (!fracas_fit_again(family, carried, count, fit, parameter)) return;
+    if (!fracas_fit_probabilities(family, carried, parameter, probability)) return;
+    const fracas_fit_distance other = fracas_fit_distance_of(carried->ncells, count, probability);
+    const double widen = (double)carried->nrealizations / (double)(carried->nrealizations - 1);
     sum->found++;
     sum->ks += sqrt(widen) * other.ks >= distance->ks;
     sum->ad += widen * other.ad >= distance->ad;
@@ -77,32 +133,23 @@ fracas_err fracas_fit_goodness_of(const fracas_family *family, const fracas_fit_
                                   uint64_t seed, fracas_fit_goodness *goodness)
 {
     double probability[FRACAS_FIT_CELLS];
-    const size_t n = sample->nrealizations;
     *goodness = (fracas_fit_goodness){{NAN, NAN}, NAN, NAN, 0};
     if (!fracas_fit_probabilities(family, sample, fit->parameter, probability)) return FRACAS_OK;
     goodness->distance = fracas_fit_distance_of(sample->ncells, sample->count, probability);
-    if (n < FRACAS_FIT_GOODNESS_LEAST) return FRACAS_OK;
-    uint32_t *weight = malloc(n * sizeof *weight);
-    fracas_fit_transport *transport = malloc(sizeof *transport);
-    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
-    const bool room = weight && transport && random;
+    if (sample->nrealizations < FRACAS_FIT_GOODNESS_LEAST) return FRACAS_OK;
+    fracas_fit_sample carried;
+    fracas_fit_draw draw;
     tally sum = {0};
-    if (room) {
-        gsl_rng_set(random, (unsigned long)(seed ^ seed >> 32)); /* it takes 32 bits */
-        fracas_fit_transport_of(sample, probability, transport);
-        for (int64_t b = 0; b < resamples; b++) {
-            memset(weight, 0, n * sizeof *weight);
-            for (size_t i = 0; i < n; i++) weight[gsl_rng_uniform_int(random, n)]++;
-            resample(family, sample, fit, transport, weight, &goodness->distance, &sum);
-        }
-        goodness->resamples = sum.found;
-        if (sum.found > 0) {
-            goodness->ks_p = (double)(1 + sum.ks) / (double)(1 + sum.found);
-            goodness->ad_p = (double)(1 + sum.ad) / (double)(1 + sum.found);
-        }
+    TRY(fracas_fit_carry(sample, probability, seed, &carried));
+    fracas_err err = fracas_fit_draw_create(sample->nrealizations, seed, &draw);
+    for (int64_t b = 0; b < resamples && !err; b++)
+        resample(family, &carried, fit, fracas_fit_draw_next(&draw), &goodness->distance, &sum);
+    fracas_fit_draw_clear(&draw);
+    fracas_fit_sample_clear(&carried);
+    goodness->resamples = sum.found;
+    if (sum.found > 0) {
+        goodness->ks_p = (double)(1 + sum.ks) / (double)(1 + sum.found);
+        goodness->ad_p = (double)(1 + sum.ad) / (double)(1 + sum.found);
     }
-    free(weight);
-    free(transport);
-    if (random) gsl_rng_free(random);
-    return room ? FRACAS_OK : fracas_no_memory("a goodness of fit");
+    return err;
 }

@@ -18,19 +18,11 @@ enum { FRACAS_FIT_GOODNESS_LEAST = 4 };
 
 fracas_fit_distance fracas_fit_distance_of(size_t ncells, const double *count, const double *probability);
 
-/* Carries counts over cells with the sample's shares to cells with the shares of a law, in the order of sizes  (fits.11). */
-typedef struct {
-    uint32_t from, to;
-    double share;
-} fracas_fit_carriage;
-
-typedef struct {
-    size_t n;
-    fracas_fit_carriage step[2 * FRACAS_FIT_CELLS + 1];
-} fracas_fit_transport;
-
-void fracas_fit_transport_of(const fracas_fit_sample *sample, const double *probability, fracas_fit_transport *transport);
-void fracas_fit_transport_apply(const fracas_fit_transport *transport, size_t ncells, const double *count, double *carried);
+/* The sample with every fragment moved to the cell where it would be under a law: the fragment of rank r of N (by size, in random order
+ * within a cell) to the cell that holds the quantile (r - 1/2)/N of the law  (fits.11). Together they have that law; realizations are what
+ * they were, in how many fragments they have and how these depend on each other. Has no sizes, only cells. Cleared by the caller. */
+FRACAS_MUST_USE fracas_err fracas_fit_carry(const fracas_fit_sample *sample, const double *probability, uint64_t seed,
+                                            fracas_fit_sample *carried);
 
 /* D and A2 of a fit and their p-values from `resamples` resamples of realizations, carried over to the fitted law and fitted again. */
 FRACAS_MUST_USE fracas_err fracas_fit_goodness_of(const fracas_family *family, const fracas_fit_sample *sample, const fracas_fit *fit,

@@ -135,17 +135,20 @@ fracas_err fracas_fit_sample_create(const fracas_ensemble *ensemble, fracas_fit_
     return err;
 }
 
-void fracas_fit_sample_weigh(const fracas_fit_sample *sample, const uint32_t *weight, double *count, double *mean, double *cv)
+void fracas_fit_sample_count(const fracas_fit_sample *sample, const uint32_t *weight, double *count)
+{
+    memset(count, 0, sample->ncells * sizeof *count);
+    for (size_t i = 0; i < sample->nrealizations; i++)
+        for (size_t c = sample->first[i]; weight[i] && c < sample->first[i + 1]; c++) count[sample->cell[c]] += weight[i] * sample->times[c];
+}
+
+void fracas_fit_sample_moments(const fracas_fit_sample *sample, const uint32_t *weight, double *mean, double *cv)
 {
     double total = 0, sum = 0, squares = 0;
-    memset(count, 0, sample->ncells * sizeof *count);
     for (size_t i = 0; i < sample->nrealizations; i++) {
-        if (!weight[i]) continue;
-        const double w = weight[i];
-        for (size_t c = sample->first[i]; c < sample->first[i + 1]; c++) count[sample->cell[c]] += w * sample->times[c];
-        total += w * sample->kept[i];
-        sum += w * sample->sum[i];
-        squares += w * sample->squares[i];
+        total += weight[i] * sample->kept[i];
+        sum += weight[i] * sample->sum[i];
+        squares += weight[i] * sample->squares[i];
     }
     *mean = sum / total;
     *cv = sqrt(fmax(squares / total - *mean * *mean, 0)) / *mean;

@@ -35,8 +35,9 @@ double fracas_fit_cut(const fracas_ensemble *ensemble);
 FRACAS_MUST_USE fracas_err fracas_fit_sample_create(const fracas_ensemble *ensemble, fracas_fit_sample *sample);
 void fracas_fit_sample_clear(fracas_fit_sample *sample);
 
-/* Counts of a resample in which realization i is weight[i] times, count[ncells], and the mean of its sizes [m] and their coefficient of
+/* Of a resample in which realization i is weight[i] times: counts, count[ncells]; the mean of its sizes [m] and their coefficient of
  * variation. */
-void fracas_fit_sample_weigh(const fracas_fit_sample *sample, const uint32_t *weight, double *count, double *mean, double *cv);
+void fracas_fit_sample_count(const fracas_fit_sample *sample, const uint32_t *weight, double *count);
+void fracas_fit_sample_moments(const fracas_fit_sample *sample, const uint32_t *weight, double *mean, double *cv);
 
 #endif
