@@ -38,7 +38,7 @@ typedef struct {
 } fracas_family;
 
 enum { FRACAS_NFAMILIES = 10 };
-extern const fracas_family *const fracas_families[FRACAS_NFAMILIES];
+extern const fracas_family *const fracas_families[FRACAS_NFAMILIES]; /* Mott's, which is of masses, last */
 
 /* NULL for a name that is none. */
 const fracas_family *fracas_family_find(const char *name);

@@ -96,7 +96,7 @@ static void put_family(rows *to, size_t f, const fracas_point_fits *fits)
 {
     const fracas_family_fit *fit = &fits->family[f];
     const fracas_fit_goodness *goodness = &fit->goodness;
-    to->family = fracas_families[f]->name;
+    to->family = fits->families[f]->name;
     put_number(to, "fitted", "1", !*fit->fit.why, 0, fit->fit.why);
     if (fit->rank > 0) put_number(to, "rank", "1", fit->rank, 0, "by AICc");
     if (!isfinite(fit->fit.log_likelihood)) return;
@@ -110,15 +110,15 @@ static void put_family(rows *to, size_t f, const fracas_point_fits *fits)
         put_number(to, "ad", "1", goodness->distance.ad * fits->sample.total, 0, "Anderson-Darling");
         put_number(to, "ad_p", "1", goodness->ad_p, goodness->resamples, "share of resamples under the fit that are as far");
     }
-    put_parameters(to, fracas_families[f], fit, &fits->sample);
+    put_parameters(to, fits->families[f], fit, &fits->sample);
 }
 
 static void put_comparison(rows *to, const fracas_point_fits *fits)
 {
     if (fits->nfits < 2) return;
     const fracas_fit_comparison *comparison = &fits->comparison;
-    const char *first = fracas_families[fits->best[0]]->name, *second = fracas_families[fits->best[1]]->name;
-    const bool told = comparison->p < 0.05, first_special = fracas_family_within(fracas_families[fits->best[0]], fracas_families[fits->best[1]]);
+    const char *first = fits->families[fits->best[0]]->name, *second = fits->families[fits->best[1]]->name;
+    const bool told = comparison->p < 0.05, first_special = fracas_family_within(fits->families[fits->best[0]], fits->families[fits->best[1]]);
     char note[160];
     if (!isfinite(comparison->p))
         snprintf(note, sizeof note, "%s and %s: too few realizations to compare", first, second);
@@ -139,9 +139,11 @@ static fracas_err fit_point(const fracas_analysis *analysis, size_t p, int64_t r
     rows to = {.fits = fits, .point = (int64_t)p};
     fracas_hash_words(&analysis->table->point[p].hash, word);
     fracas_hash_hex(&analysis->table->point[p].hash, to.hash);
-    TRY(fracas_point_fits_create(&analysis->point[p].ensemble, analysis->point[p].surface, resamples, word[0], &found));
+    size_t nfamilies;
+    const fracas_family *const *families = fracas_point_families(analysis->point[p].surface, &nfamilies);
+    TRY(fracas_point_fits_of(&analysis->point[p].ensemble, families, nfamilies, resamples, word[0], &found));
     put_data(&to, &found);
-    for (size_t f = 0; f < FRACAS_NFAMILIES; f++) put_family(&to, f, &found);
+    for (size_t f = 0; f < nfamilies; f++) put_family(&to, f, &found);
     put_comparison(&to, &found);
     fracas_point_fits_clear(&found);
     return to.full ? fracas_no_memory("the fits of a study") : FRACAS_OK;

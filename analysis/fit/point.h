@@ -18,16 +18,22 @@ typedef struct {
 
 typedef struct {
     fracas_fit_sample sample;
-    fracas_family_fit family[FRACAS_NFAMILIES]; /* in the order of fracas_families */
+    const fracas_family *const *families;       /* nfamilies of them */
+    size_t nfamilies;
+    fracas_family_fit family[FRACAS_NFAMILIES]; /* in their order */
     fracas_interval mean, cv;                   /* of the sizes above the cut [m], [1] */
     size_t nfits;                               /* that are ones */
     size_t best[2];                             /* families of rank 1 and 2, where there are so many */
     fracas_fit_comparison comparison;           /* of these two */
 } fracas_point_fits;
 
-/* `surface`: sizes are square roots of areas, and Mott's law is another one. Equal seeds give equal fits. Cleared by the caller. */
-FRACAS_MUST_USE fracas_err fracas_point_fits_create(const fracas_ensemble *ensemble, bool surface, int64_t resamples, uint64_t seed,
-                                                    fracas_point_fits *fits);
+/* The families that are fitted to sizes: all; of surfaces, whose sizes are square roots of areas, all but Mott's law, which is exponential in
+ * them. */
+const fracas_family *const *fracas_point_families(bool surface, size_t *nfamilies);
+
+/* Fits at most FRACAS_NFAMILIES families, which must outlive *fits. Equal seeds give equal fits. Cleared by the caller. */
+FRACAS_MUST_USE fracas_err fracas_point_fits_of(const fracas_ensemble *ensemble, const fracas_family *const *families, size_t nfamilies,
+                                                int64_t resamples, uint64_t seed, fracas_point_fits *fits);
 void fracas_point_fits_clear(fracas_point_fits *fits);
 
 #endif
