@@ -1,0 +1,176 @@
+/* STUDY/fits.csv: a stamp in its first lines, then a line a number. */
+#include "analysis/export/output.h"
+#include "analysis/fit/fits.h"
+#include "campaigns/store/disk.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { LINE = 1024, FIELDS = 10 };
+static const char HEAD[] = "point,hash,family,quantity,unit,value,low,high,resamples,note\n";
+
+static void put_real(double value, FILE *out)
+{
+    putc(',', out);
+    if (isfinite(value)) fprintf(out, "%.17g", value);
+}
+
+static void write_all(const fracas_fits *fits, FILE *out)
+{
+    fputs(HEAD, out);
+    fprintf(out, ",,study,campaign,,,,,,%s\n", fits->campaign);
+    fprintf(out, ",,study,checksum,,,,,,%016" PRIx64 "\n", fits->checksum);
+    fprintf(out, ",,study,bytes,1,%" PRIu64 ",,,,of study.h5\n", fits->bytes);
+    fprintf(out, ",,study,realizations,1,%" PRId64 ",,,,in study.h5\n", fits->realizations);
+    for (const fracas_fits_row *row = fits->row; row < fits->row + fits->n; row++) {
+        fprintf(out, "%" PRId64 ",%s,%s,%s,%s", row->point, row->hash, row->family, row->quantity, row->unit);
+        put_real(row->value, out);
+        put_real(row->low, out);
+        put_real(row->high, out);
+        putc(',', out);
+        if (row->resamples) fprintf(out, "%" PRId64, row->resamples);
+        fprintf(out, ",%s\n", row->note);
+    }
+}
+
+fracas_err fracas_fits_write(const fracas_fits *fits, const char *study)
+{
+    fracas_output_file output;
+    char *path;
+    TRY(fracas_output_open(study, FRACAS_FITS_FILE, &output));
+    write_all(fits, output.file);
+    fracas_err err = FRACAS_OK;
+    if (fflush(output.file) || fsync(fileno(output.file)))
+        err = fracas_fail_system(errno, "cannot write %s/" FRACAS_FITS_FILE, study);
+    TRY(fracas_output_close(&output, err));
+    TRY(fracas_disk_join(study, FRACAS_FITS_FILE, &path));
+    err = fracas_disk_sync_folder(path);
+    free(path);
+    return err;
+}
+
+/* Splits a line at its commas, FIELDS of them exactly; takes the line feed away. */
+static bool split(char *line, char *field[FIELDS])
+{
+    size_t n = 0;
+    char *end = strchr(line, '\n');
+    if (!end) return false;
+    *end = '\0';
+    for (char *rest = line; rest;) {
+        char *one = strsep(&rest, ",");
+        if (n == FIELDS) return false;
+        field[n++] = one;
+    }
+    return n == FIELDS;
+}
+
+/* An empty field is NaN. */
+static bool read_real(const char *text, double *value)
+{
+    char *end;
+    *value = *text ? strtod(text, &end) : NAN;
+    return !*text || (!*end && isfinite(*value));
+}
+
+static bool read_integer(const char *text, int64_t *value)
+{
+    char *end;
+    errno = 0;
+    *value = *text ? strtoll(text, &end, 10) : 0;
+    return !*text || (!*end && !errno && *value >= 0);
+}
+
+static bool copy(const char *text, char *to, size_t size)
+{
+    return (size_t)snprintf(to, size, "%s", text) < size;
+}
+
+static bool read_stamp(char *const field[FIELDS], fracas_fits *fits)
+{
+    char *end = field[9];
+    int64_t bytes = 0;
+    bool good = true;
+    errno = 0;
+    if (!strcmp(field[3], "campaign")) good = copy(field[9], fits->campaign, sizeof fits->campaign);
+    else if (!strcmp(field[3], "checksum")) {
+        fits->checksum = strtoull(field[9], &end, 16);
+        good = !*end && !errno;
+    } else if (!strcmp(field[3], "bytes")) {
+        good = read_integer(field[5], &bytes);
+        fits->bytes = (uint64_t)bytes;
+    } else if (!strcmp(field[3], "realizations")) good = read_integer(field[5], &fits->realizations);
+    return good;
+}
+
+static bool read_row(char *const field[FIELDS], fracas_fits_row *row)
+{
+    return *field[0] && read_integer(field[0], &row->point) && copy(field[1], row->hash, sizeof row->hash) &&
+           copy(field[2], row->family, sizeof row->family) && copy(field[3], row->quantity, sizeof row->quantity) &&
+           copy(field[4], row->unit, sizeof row->unit) && read_real(field[5], &row->value) && read_real(field[6], &row->low) &&
+           read_real(field[7], &row->high) && read_integer(field[8], &row->resamples) && copy(field[9], row->note, sizeof row->note);
+}
+
+static fracas_err read_lines(FILE *in, const char *path, fracas_fits *fits)
+{
+    char line[LINE], *field[FIELDS];
+    size_t number = 1;
+    if (!fgets(line, sizeof line, in) || strcmp(line, HEAD) != 0)
+        return fracas_fail(FRACAS_DAMAGED, "%s: line 1 is not that of a file of fits; `fracas fit` makes it again", path);
+    for (; fgets(line, sizeof line, in); number++) {
+        fracas_fits_row row = {0};
+        const bool whole = split(line, field);
+        if (!whole || !(*field[0] ? read_row(field, &row) : read_stamp(field, fits)))
+            return fracas_fail(FRACAS_DAMAGED, "%s: line %zu is none of ours; remove the file, `fracas fit` makes it again", path, number + 1);
+        if (!*field[0]) continue;
+        if (fits->n == fits->room) {
+            fracas_fits_row *grown = realloc(fits->row, (fits->room + 256) * sizeof *grown);
+            if (!grown) return fracas_no_memory("the fits of a study");
+            fits->row = grown;
+            fits->room += 256;
+        }
+        fits->row[fits->n++] = row;
+    }
+    return ferror(in) ? fracas_fail_system(errno, "cannot read %s", path) : FRACAS_OK;
+}
+
+/* Sizes first: most studies that have changed have another. */
+static fracas_err look_whether_stale(const char *study, const fracas_fits *fits, bool *stale)
+{
+    char *path;
+    fracas_file_seal seal;
+    TRY(fracas_disk_join(study, "study.h5", &path));
+    *stale = true;
+    fracas_err err = fracas_disk_has_size(path, fits->bytes, stale);
+    const bool same_size = *stale;
+    *stale = true;
+    if (!err && same_size) {
+        err = fracas_disk_seal_path(path, &seal);
+        if (!err) *stale = seal.checksum != fits->checksum;
+    }
+    free(path);
+    return err;
+}
+
+fracas_err fracas_fits_read(const char *study, fracas_fits **fits, bool *stale)
+{
+    char *path;
+    *fits = NULL;
+    *stale = false;
+    TRY(fracas_disk_join(study, FRACAS_FITS_FILE, &path));
+    FILE *in = fopen(path, "r");
+    fracas_err err = FRACAS_OK;
+    fracas_fits *found = in ? calloc(1, sizeof *found) : NULL;
+    if (!in && errno != ENOENT) err = fracas_fail_system(errno, "cannot read %s", path);
+    if (in && !found) err = fracas_no_memory("the fits of a study");
+    if (found) err = read_lines(in, path, found);
+    if (found && !err) err = look_whether_stale(study, found, stale);
+    if (in) fclose(in);
+    free(path);
+    if (err) fracas_fits_destroy(found);
+    else *fits = found;
+    return err;
+}

@@ -1,0 +1,58 @@
+/* The fits of a study as rows: what STUDY/fits.csv keeps (docs/formats/study.md), what a terminal and a report show. */
+#ifndef FRACAS_ANALYSIS_FIT_FITS_H
+#define FRACAS_ANALYSIS_FIT_FITS_H
+
+#include "analysis/analysis.h"
+#include "base/err.h"
+#include "base/hash.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* One number. */
+typedef struct {
+    int64_t point;        /* in the study */
+    char hash[FRACAS_HASH_HEX]; /* of the point */
+    char family[24];      /* or "data", "comparison" */
+    char quantity[24], unit[8];
+    double value, low, high; /* NaN: none */
+    int64_t resamples;    /* that the interval or the p-value is from; 0: none */
+    char note[160];       /* no comma, no line feed */
+} fracas_fits_row;
+
+typedef struct {
+    char campaign[FRACAS_HASH_HEX];       /* of the study that was fitted */
+    uint64_t bytes, checksum;             /* of its study.h5 */
+    int64_t realizations;                 /* in that */
+    size_t n, room;
+    fracas_fits_row *row;                 /* point by point */
+} fracas_fits;
+
+enum { FRACAS_FITS_RESAMPLES = 999 };
+#define FRACAS_FITS_FILE "fits.csv"
+
+/* Fits every point of the study with usable realizations, or `point` alone (else SIZE_MAX). Deterministic: seeds are of the points' hashes.
+ * FRACAS_USAGE for a point that the study has not. */
+FRACAS_MUST_USE fracas_err fracas_fits_create(const fracas_analysis *analysis, const char *study, size_t point, int64_t resamples,
+                                              fracas_fits **fits);
+void fracas_fits_destroy(fracas_fits *fits); /* NULL is allowed */
+
+/* STUDY/fits.csv, whole: temporary, synced, renamed. */
+FRACAS_MUST_USE fracas_err fracas_fits_write(const fracas_fits *fits, const char *study);
+/* *fits: NULL if there is no file. *stale: it is not of study.h5 as that is now. FRACAS_DAMAGED, saying which line, if it is none of ours. */
+FRACAS_MUST_USE fracas_err fracas_fits_read(const char *study, fracas_fits **fits, bool *stale);
+/* Takes over the rows of `older` for the points that `fits` has none of; both must be of the same study.h5. */
+FRACAS_MUST_USE fracas_err fracas_fits_complete(fracas_fits *fits, const fracas_fits *older);
+
+/* NULL if there is no such row. */
+const fracas_fits_row *fracas_fits_find(const fracas_fits *fits, int64_t point, const char *family, const char *quantity);
+/* The family of this rank by AICc, from 1, at the point; NULL for none. */
+const char *fracas_fits_ranked(const fracas_fits *fits, int64_t point, int rank);
+
+/* For a terminal: of each point its families by rank, then those that failed, and why. */
+void fracas_fits_print(const fracas_fits *fits, const fracas_analysis *analysis, FILE *out);
+void fracas_fits_write_json(const fracas_fits *fits, FILE *out);
+
+#endif

@@ -1,0 +1,155 @@
+#include "analysis/fit/goodness.h"
+
+#include "analysis/fit/draw.h"
+
+#include <gsl/gsl_randist.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* (fits.9), (fits.10) */
+fracas_fit_distance fracas_fit_distance_of(size_t ncells, const double *count, const double *probability)
+{
+    fracas_fit_distance distance = {0, 0};
+    double total = 0, observed = 0, expected = 0;
+    for (size_t k = 0; k < ncells; k++) total += count[k];
+    for (size_t k = 0; k + 1 < ncells; k++) {
+        observed += count[k] / total;
+        expected += probability[k];
+        const double apart = observed - expected, spread = expected * (1 - expected);
+        distance.ks = fmax(distance.ks, fabs(apart));
+        if (probability[k] > 0 && spread > 1e-12) distance.ad += probability[k] * apart * apart / spread;
+    }
+    return distance;
+}
+
+/* Which realization each fragment is of: cell by cell, in random order within each. */
+static void order(const fracas_fit_sample *sample, gsl_rng *random, size_t *place, uint32_t *owner)
+{
+    size_t begin = 0;
+    for (size_t k = 0; k < sample->ncells; k++) {
+        place[k] = begin;
+        begin += (size_t)sample->count[k];
+    }
+    for (size_t i = 0; i < sample->nrealizations; i++)
+        for (size_t c = sample->first[i]; c < sample->first[i + 1]; c++)
+            for (double t = 0; t < sample->times[c]; t++) owner[place[sample->cell[c]]++] = (uint32_t)i;
+    for (size_t k = 0; k < sample->ncells; k++) {
+        const size_t n = (size_t)sample->count[k];
+        if (n > 1) gsl_ran_shuffle(random, owner + place[k] - n, n, sizeof *owner);
+    }
+}
+
+/* Fragments in their order, each to the cell of its quantile; lists of realizations begin at first[i] and end at end[i]. */
+static void move(const fracas_fit_sample *sample, const double *probability, const uint32_t *owner, size_t *end, fracas_fit_sample *carried)
+{
+    double below = 0;
+    size_t to = 0;
+    memcpy(end, carried->first, carried->nrealizations * sizeof *end);
+    for (size_t r = 0; r < (size_t)sample->total; r++) {
+        while (to + 1 < sample->ncells && below + probability[to] < ((double)r + 0.5) / sample->total) below += probability[to++];
+        const size_t i = owner[r], last = end[i];
+        const bool again = last > carried->first[i] && carried->cell[last - 1] == to;
+        if (!again) {
+            carried->cell[last] = (uint32_t)to;
+            carried->times[last] = 0;
+            end[i]++;
+        }
+        carried->times[end[i] - 1] += 1;
+        carried->count[to] += 1;
+    }
+}
+
+/* Takes the room between the lists out. */
+static void compact(const size_t *end, fracas_fit_sample *carried)
+{
+    size_t used = 0;
+    for (size_t i = 0; i < carried->nrealizations; i++) {
+        const size_t begin = carried->first[i];
+        carried->first[i] = used;
+        for (size_t c = begin; c < end[i]; c++, used++) {
+            carried->cell[used] = carried->cell[c];
+            carried->times[used] = carried->times[c];
+        }
+    }
+    carried->first[carried->nrealizations] = used;
+}
+
+/* (fits.11) */
+fracas_err fracas_fit_carry(const fracas_fit_sample *sample, const double *probability, uint64_t seed, fracas_fit_sample *carried)
+{
+    const size_t n = sample->nrealizations, fragments = (size_t)sample->total;
+    size_t place[FRACAS_FIT_CELLS];
+    *carried = *sample;
+    memset(carried->count, 0, sizeof carried->count);
+    carried->kept = carried->sum = carried->squares = NULL;
+    carried->first = malloc((n + 1) * sizeof *carried->first);
+    carried->cell = malloc((fragments + 1) * sizeof *carried->cell);
+    carried->times = malloc((fragments + 1) * sizeof *carried->times);
+    uint32_t *owner = malloc((fragments + 1) * sizeof *owner);
+    size_t *end = malloc((n + 1) * sizeof *end);
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    const bool room = carried->first && carried->cell && carried->times && owner && end && random;
+    if (room) {
+        gsl_rng_set(random, (unsigned long)(seed ^ seed >> 32)); /* it takes 32 bits */
+        for (size_t i = 0, begin = 0; i < n; i++) {
+            carried->first[i] = begin;
+            begin += (size_t)sample->kept[i];
+        }
+        order(sample, random, place, owner);
+        move(sample, probability, owner, end, carried);
+        compact(end, carried);
+    } else {
+        fracas_fit_sample_clear(carried);
+    }
+    free(owner);
+    free(end);
+    if (random) gsl_rng_free(random);
+    return room ? FRACAS_OK : fracas_no_memory("a resample");
+}
+
+typedef struct {
+    int64_t found, ks, ad; /* resamples, and those of them as far as the sample */
+} tally;
+
+/* One resample under the law. Distances of n realizations drawn from n are too small by sqrt((n - 1)/n), their squares by the square of
+ * that. */
+static void resample(const fracas_family *family, const fracas_fit_sample *carried, const fracas_fit *fit, const uint32_t *weight,
+                     const fracas_fit_distance *distance, tally *sum)
+{
+    double count[FRACAS_FIT_CELLS], probability[FRACAS_FIT_CELLS], parameter[FRACAS_FAMILY_PARAMETERS];
+    fracas_fit_sample_count(carried, weight, count);
+    if (!fracas_fit_again(family, carried, count, fit, parameter)) return;
+    if (!fracas_fit_probabilities(family, carried, parameter, probability)) return;
+    const fracas_fit_distance other = fracas_fit_distance_of(carried->ncells, count, probability);
+    const double widen = (double)carried->nrealizations / (double)(carried->nrealizations - 1);
+    sum->found++;
+    sum->ks += sqrt(widen) * other.ks >= distance->ks;
+    sum->ad += widen * other.ad >= distance->ad;
+}
+
+/* (fits.12) */
+fracas_err fracas_fit_goodness_of(const fracas_family *family, const fracas_fit_sample *sample, const fracas_fit *fit, int64_t resamples,
+                                  uint64_t seed, fracas_fit_goodness *goodness)
+{
+    double probability[FRACAS_FIT_CELLS];
+    *goodness = (fracas_fit_goodness){{NAN, NAN}, NAN, NAN, 0};
+    if (!fracas_fit_probabilities(family, sample, fit->parameter, probability)) return FRACAS_OK;
+    goodness->distance = fracas_fit_distance_of(sample->ncells, sample->count, probability);
+    if (sample->nrealizations < FRACAS_FIT_GOODNESS_LEAST) return FRACAS_OK;
+    fracas_fit_sample carried;
+    fracas_fit_draw draw;
+    tally sum = {0};
+    TRY(fracas_fit_carry(sample, probability, seed, &carried));
+    fracas_err err = fracas_fit_draw_create(sample->nrealizations, seed, &draw);
+    for (int64_t b = 0; b < resamples && !err; b++)
+        resample(family, &carried, fit, fracas_fit_draw_next(&draw), &goodness->distance, &sum);
+    fracas_fit_draw_clear(&draw);
+    fracas_fit_sample_clear(&carried);
+    goodness->resamples = sum.found;
+    if (sum.found > 0) {
+        goodness->ks_p = (double)(1 + sum.ks) / (double)(1 + sum.found);
+        goodness->ad_p = (double)(1 + sum.ad) / (double)(1 + sum.found);
+    }
+    return err;
+}

@@ -1,0 +1,140 @@
+/* Fits for a terminal, and as JSON. */
+#include "analysis/fit/family.h"
+#include "analysis/fit/fits.h"
+#include "analysis/study/study.h"
+#include "analysis/tables/format.h"
+#include "base/json.h"
+
+#include <math.h>
+#include <string.h>
+
+static double value_of(const fracas_fits *fits, int64_t point, const char *family, const char *quantity)
+{
+    const fracas_fits_row *row = fracas_fits_find(fits, point, family, quantity);
+    return row ? row->value : NAN;
+}
+
+/* "0.401 [0.393, 0.409]": digits as the interval supports. */
+static void print_interval(const fracas_fits_row *row, double factor, FILE *out)
+{
+    char value[32];
+    const double width = (row->high - row->low) * factor;
+    fracas_format_digits(row->value * factor, 3, value, sizeof value);
+    if (!(width > 0)) {
+        fputs(value, out);
+        return;
+    }
+    const int decimals = (int)fmax(0, 1 - floor(log10(width / 2)));
+    fprintf(out, "%.*f [%.*f, %.*f]", decimals, row->value * factor, decimals, row->low * factor, decimals, row->high * factor);
+}
+
+/* A p-value; none less than its resamples can show. */
+static void format_p(const fracas_fits_row *row, char text[16])
+{
+    if (!row || !isfinite(row->value)) snprintf(text, 16, "-");
+    else if (row->resamples > 0 && row->value <= 1.5 / (double)(row->resamples + 1))
+        snprintf(text, 16, "<%.2g", 2.0 / (double)(row->resamples + 1));
+    else snprintf(text, 16, "%.2g", row->value);
+}
+
+static void print_parameters(const fracas_fits *fits, int64_t point, const fracas_family *family, FILE *out)
+{
+    for (size_t i = 0; i < family->nparameters; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "%s%s", family->parameter[i].name, family->parameter[i].length ? "/mean" : "");
+        const fracas_fits_row *row = fracas_fits_find(fits, point, family->name, name);
+        if (!row) continue;
+        fprintf(out, "%s%s ", i ? "  " : "", name);
+        print_interval(row, 1, out);
+    }
+    fputc('\n', out);
+}
+
+static void print_family(const fracas_fits *fits, int64_t point, const fracas_family *family, int rank, FILE *out)
+{
+    char ks_p[16], ad_p[16], delta[24];
+    format_p(fracas_fits_find(fits, point, family->name, "ks_p"), ks_p);
+    format_p(fracas_fits_find(fits, point, family->name, "ad_p"), ad_p);
+    snprintf(delta, sizeof delta, "%.1f", value_of(fits, point, family->name, "delta_aicc"));
+    fprintf(out, "  %2d  %-18s %9s  %7.4f %7s  %9.4g %7s  ", rank, family->name, delta, value_of(fits, point, family->name, "ks"), ks_p,
+            value_of(fits, point, family->name, "ad"), ad_p);
+    print_parameters(fits, point, family, out);
+}
+
+static void print_failed(const fracas_fits *fits, int64_t point, const fracas_family *family, FILE *out)
+{
+    const fracas_fits_row *row = fracas_fits_find(fits, point, family->name, "fitted");
+    const double delta = value_of(fits, point, family->name, "delta_aicc");
+    char text[24] = "-";
+    if (!row || row->value != 0) return;
+    if (isfinite(delta)) snprintf(text, sizeof text, "%.1f", delta);
+    fprintf(out, "   -  %-18s %9s  no fit: %s\n", family->name, text, row->note);
+}
+
+static void print_head(const fracas_fits *fits, const fracas_analysis *analysis, int64_t point, FILE *out)
+{
+    char label[256], mean[32], unit[8];
+    fracas_analysis_label(analysis, (size_t)point, label, sizeof label);
+    const fracas_fits_row *size = fracas_fits_find(fits, point, "data", "mean"), *cv = fracas_fits_find(fits, point, "data", "cv");
+    const fracas_prefix prefix = fracas_prefix_for(&size->value, 1);
+    snprintf(unit, sizeof unit, "%sm", prefix.symbol);
+    fracas_format_digits(value_of(fits, point, "data", "cut") * prefix.factor, 4, mean, sizeof mean);
+    fprintf(out, "\npoint %lld%s%s: %.0f of %.0f fragments of %.0f realizations, those above %s %s; mean size ", (long long)point,
+            *label ? ", " : "", label, value_of(fits, point, "data", "above_cut"), value_of(fits, point, "data", "fragments"),
+            value_of(fits, point, "data", "realizations"), mean, unit);
+    print_interval(size, prefix.factor, out);
+    fprintf(out, " %s, deviation/mean ", unit);
+    print_interval(cv, 1, out);
+    fputc('\n', out);
+}
+
+static void print_point(const fracas_fits *fits, const fracas_analysis *analysis, int64_t point, FILE *out)
+{
+    char p[16];
+    print_head(fits, analysis, point, out);
+    fprintf(out, "      %-18s %9s  %7s %7s  %9s %7s  %s\n", "family", "d AICc", "KS", "p", "AD", "p", "parameters [95 % interval]");
+    for (int rank = 1; rank <= FRACAS_NFAMILIES; rank++) {
+        const char *name = fracas_fits_ranked(fits, point, rank);
+        const fracas_family *family = name ? fracas_family_find(name) : NULL;
+        if (family) print_family(fits, point, family, rank, out);
+    }
+    for (size_t f = 0; f < FRACAS_NFAMILIES; f++) print_failed(fits, point, fracas_families[f], out);
+    const fracas_fits_row *row = fracas_fits_find(fits, point, "comparison", "p");
+    if (!row) return;
+    format_p(row, p);
+    fprintf(out, "  %s (p = %s)\n", row->note, p);
+}
+
+void fracas_fits_print(const fracas_fits *fits, const fracas_analysis *analysis, FILE *out)
+{
+    fputs("Fits by maximum likelihood to the sizes above the cut. Intervals and p-values resample realizations, and hold from 50 of them on;\n"
+          "p: how often data of the fitted law are as far from their own fit; below 0.05 the family does not describe the sizes.\n", out);
+    for (size_t p = 0; p < analysis->table->npoints; p++)
+        if (fracas_fits_find(fits, (int64_t)p, "data", "mean")) print_point(fits, analysis, (int64_t)p, out);
+}
+
+void fracas_fits_write_json(const fracas_fits *fits, FILE *out)
+{
+    fracas_json json;
+    fracas_json_begin(&json, out);
+    fracas_json_object(&json, NULL);
+    fracas_json_text(&json, "campaign", fits->campaign);
+    fracas_json_array(&json, "fits");
+    for (const fracas_fits_row *row = fits->row; row < fits->row + fits->n; row++) {
+        fracas_json_object(&json, NULL);
+        fracas_json_integer(&json, "point", row->point);
+        fracas_json_text(&json, "hash", row->hash);
+        fracas_json_text(&json, "family", row->family);
+        fracas_json_text(&json, "quantity", row->quantity);
+        fracas_json_text(&json, "unit", row->unit);
+        fracas_json_real(&json, "value", row->value);
+        fracas_json_real(&json, "low", row->low);
+        fracas_json_real(&json, "high", row->high);
+        fracas_json_integer(&json, "resamples", row->resamples);
+        fracas_json_text(&json, "note", row->note);
+        fracas_json_close_object(&json);
+    }
+    fracas_json_close_array(&json);
+    fracas_json_close_object(&json);
+    fracas_json_end(&json);
+}

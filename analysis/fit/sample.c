@@ -1,0 +1,155 @@
+#include "analysis/fit/sample.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Grid of log sizes; the cell beyond the last is open. */
+enum { GRID = 300 };
+static const double BEYOND = 2; /* the grid ends at so many of the largest size: what is resampled under a law may be larger */
+
+double fracas_fit_cut(const fracas_ensemble *ensemble)
+{
+    if (ensemble->lattice > 0) return 1.5 * ensemble->lattice;
+    double area = 0, elements = 0;
+    for (size_t i = 0; i < ensemble->nfragments; i++) {
+        area += ensemble->size[i] * ensemble->size[i];
+        elements += ensemble->elements[i];
+    }
+    return elements > 0 ? sqrt(2.5 * area / elements) : 0;
+}
+
+static fracas_err make_room(const fracas_ensemble *ensemble, fracas_fit_sample *sample)
+{
+    const size_t n = ensemble->nrealizations + 1, most = ensemble->nfragments + 1;
+    sample->first = calloc(n, sizeof *sample->first);
+    sample->kept = calloc(n, sizeof *sample->kept);
+    sample->sum = calloc(n, sizeof *sample->sum);
+    sample->squares = calloc(n, sizeof *sample->squares);
+    sample->cell = calloc(most, sizeof *sample->cell);
+    sample->times = calloc(most, sizeof *sample->times);
+    const bool all = sample->first && sample->kept && sample->sum && sample->squares && sample->cell && sample->times;
+    return all ? FRACAS_OK : fracas_no_memory("the fragments of a fit");
+}
+
+void fracas_fit_sample_clear(fracas_fit_sample *sample)
+{
+    free(sample->first);
+    free(sample->kept);
+    free(sample->sum);
+    free(sample->squares);
+    free(sample->cell);
+    free(sample->times);
+    *sample = (fracas_fit_sample){0};
+}
+
+/* Sums of what is above the cut; the smallest and the largest size. */
+static void add_up(const fracas_ensemble *ensemble, fracas_fit_sample *sample, double *smallest, double *largest)
+{
+    double sum = 0, squares = 0;
+    *smallest = INFINITY;
+    *largest = 0;
+    for (size_t i = 0; i < ensemble->nrealizations; i++) {
+        for (size_t f = ensemble->first[i]; f < ensemble->first[i + 1]; f++) {
+            const double size = ensemble->size[f];
+            if (!(size > sample->cut)) continue;
+            sample->kept[i] += 1;
+            sample->sum[i] += size;
+            sample->squares[i] += size * size;
+            *smallest = fmin(*smallest, size);
+            *largest = fmax(*largest, size);
+        }
+        sample->total += sample->kept[i];
+        sum += sample->sum[i];
+        squares += sample->squares[i];
+    }
+    sample->mean = sum / sample->total;
+    sample->cv = sqrt(fmax(squares / sample->total - sample->mean * sample->mean, 0)) / sample->mean;
+    sample->moments = (fracas_family_moments){sample->cv, *smallest / sample->mean};
+}
+
+/* Between two sizes of the lattice, in units of the mean; as it is where there is no lattice. */
+static double on_lattice(const fracas_fit_sample *sample, double edge)
+{
+    if (!(sample->lattice > 0)) return edge;
+    const double step = sample->lattice / sample->mean;
+    return (floor(edge / step) + 0.5) * step;
+}
+
+static void make_cells(fracas_fit_sample *sample, double smallest, double largest)
+{
+    const double low = fmax(sample->cut, 0.99 * smallest) / sample->mean, high = BEYOND * largest / sample->mean;
+    size_t n = 0;
+    sample->edge[n++] = sample->cut / sample->mean;
+    for (int i = 0; i <= GRID; i++) {
+        const double edge = on_lattice(sample, low * pow(high / low, (double)i / GRID));
+        if (edge > sample->edge[n - 1] * (1 + 1e-9)) sample->edge[n++] = edge;
+    }
+    sample->edge[n] = INFINITY;
+    sample->ncells = n;
+}
+
+/* The cell of a size over the mean above the cut. */
+static uint32_t cell_of(const fracas_fit_sample *sample, double size)
+{
+    size_t low = 0, high = sample->ncells;
+    while (high - low > 1) {
+        const size_t middle = (low + high) / 2;
+        *(size > sample->edge[middle] ? &low : &high) = middle;
+    }
+    return (uint32_t)low;
+}
+
+static void sort_into_cells(const fracas_ensemble *ensemble, fracas_fit_sample *sample)
+{
+    double of_one[FRACAS_FIT_CELLS] = {0};
+    size_t used = 0;
+    for (size_t i = 0; i < ensemble->nrealizations; i++) {
+        for (size_t f = ensemble->first[i]; f < ensemble->first[i + 1]; f++)
+            if (ensemble->size[f] > sample->cut) of_one[cell_of(sample, ensemble->size[f] / sample->mean)] += 1;
+        for (size_t k = 0; k < sample->ncells; k++) {
+            if (!(of_one[k] > 0)) continue;
+            sample->cell[used] = (uint32_t)k;
+            sample->times[used++] = of_one[k];
+            sample->count[k] += of_one[k];
+            of_one[k] = 0;
+        }
+        sample->first[i + 1] = used;
+    }
+}
+
+fracas_err fracas_fit_sample_create(const fracas_ensemble *ensemble, fracas_fit_sample *sample)
+{
+    double smallest, largest;
+    *sample = (fracas_fit_sample){.nrealizations = ensemble->nrealizations, .fragments = ensemble->nfragments,
+                                  .lattice = ensemble->lattice, .cut = fracas_fit_cut(ensemble)};
+    fracas_err err = make_room(ensemble, sample);
+    if (!err) {
+        add_up(ensemble, sample, &smallest, &largest);
+        if (sample->total > 0) {
+            make_cells(sample, smallest, largest);
+            sort_into_cells(ensemble, sample);
+        }
+    }
+    if (err) fracas_fit_sample_clear(sample);
+    return err;
+}
+
+void fracas_fit_sample_count(const fracas_fit_sample *sample, const uint32_t *weight, double *count)
+{
+    memset(count, 0, sample->ncells * sizeof *count);
+    for (size_t i = 0; i < sample->nrealizations; i++)
+        for (size_t c = sample->first[i]; weight[i] && c < sample->first[i + 1]; c++) count[sample->cell[c]] += weight[i] * sample->times[c];
+}
+
+void fracas_fit_sample_moments(const fracas_fit_sample *sample, const uint32_t *weight, double *mean, double *cv)
+{
+    double total = 0, sum = 0, squares = 0;
+    for (size_t i = 0; i < sample->nrealizations; i++) {
+        total += weight[i] * sample->kept[i];
+        sum += weight[i] * sample->sum[i];
+        squares += weight[i] * sample->squares[i];
+    }
+    *mean = sum / total;
+    *cv = sqrt(fmax(squares / total - *mean * *mean, 0)) / *mean;
+}

@@ -1,0 +1,43 @@
+/* The sizes of a point's fragments in cells, apart by realization: all that a fit looks at (docs/theory/fits.md). */
+#ifndef FRACAS_ANALYSIS_FIT_SAMPLE_H
+#define FRACAS_ANALYSIS_FIT_SAMPLE_H
+
+#include "analysis/fit/family.h"
+#include "analysis/study/ensemble.h"
+#include "base/err.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum { FRACAS_FIT_CELLS = 320 }; /* at most */
+
+typedef struct {
+    size_t ncells;
+    double edge[FRACAS_FIT_CELLS + 1]; /* over the mean, ascending: the cut first, INFINITY last */
+    double count[FRACAS_FIT_CELLS];    /* fragments in each cell, (edge[k], edge[k + 1]] */
+    size_t nrealizations;
+    size_t *first;           /* the cells of realization i that have fragments: first[i] to first[i + 1] - 1 */
+    uint32_t *cell;
+    double *times;           /* fragments in each */
+    double *kept, *sum, *squares; /* of each realization: fragments above the cut, their sizes [m], squares of these [m2] */
+    size_t fragments;        /* of all realizations, dust included */
+    double total;            /* above the cut */
+    double mean, cv;         /* of those [m], [1] */
+    double cut, lattice;     /* m */
+    fracas_family_moments moments;
+} fracas_fit_sample;
+
+/* The size below or at which the mesh decides what there is [m]: 1.5 elements where sizes are whole multiples of one, that of two and a
+ * half mean elements of a surface, and 0 without fragments. */
+double fracas_fit_cut(const fracas_ensemble *ensemble);
+
+/* Cells of about equal width in log size, none narrower than what two neighbouring sizes of a lattice are apart. Cleared by the caller. */
+FRACAS_MUST_USE fracas_err fracas_fit_sample_create(const fracas_ensemble *ensemble, fracas_fit_sample *sample);
+void fracas_fit_sample_clear(fracas_fit_sample *sample);
+
+/* Of a resample in which realization i is weight[i] times: counts, count[ncells]; the mean of its sizes [m] and their coefficient of
+ * variation. */
+void fracas_fit_sample_count(const fracas_fit_sample *sample, const uint32_t *weight, double *count);
+void fracas_fit_sample_moments(const fracas_fit_sample *sample, const uint32_t *weight, double *mean, double *cv);
+
+#endif

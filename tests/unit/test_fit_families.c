@@ -1,0 +1,304 @@
+/* Families of size distributions: density, distribution and quantiles are those of one law, what is drawn from it is fitted again, and
+ * what cannot be fitted is said. */
+#include "analysis/fit/goodness.h"
+#include "tests/support/fit_sample.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_integration.h>
+#include <gsl/gsl_sort.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define OK(call) assert_int_equal(call, FRACAS_OK)
+
+/* Lengths in elements, of some 20 a fragment; power laws above and below an exponent of 1. */
+static const synthetic law[] = {
+    {.family = &fracas_family_exponential, .parameter = {20}},
+    {.family = &fracas_family_mott, .parameter = {10}},
+    {.family = &fracas_family_rayleigh, .parameter = {16}},
+    {.family = &fracas_family_shifted_rayleigh, .parameter = {8, 9.6}},
+    {.family = &fracas_family_weibull, .parameter = {20, 1.5}},
+    {.family = &fracas_family_weibull3, .parameter = {6, 16, 1.6}},
+    {.family = &fracas_family_lognormal, .parameter = {18, 0.5}},
+    {.family = &fracas_family_gamma, .parameter = {5, 4}},
+    {.family = &fracas_family_generalised_gamma, .parameter = {20, 0.5, 0.6}},
+    {.family = &fracas_family_power_law, .parameter = {0.6, 20}, .from = 1.5},
+    {.family = &fracas_family_power_law, .parameter = {1.4, 40}, .from = 1.5},
+};
+enum { LAWS = sizeof law / sizeof *law };
+
+static double above(const synthetic *what, double x)
+{
+    double below, rest;
+    what->family->tails(what->parameter, what->from, x, &below, &rest);
+    assert_true(fabs(below + rest - 1) < 1e-12);
+    return rest;
+}
+
+static double density(double x, void *context)
+{
+    const synthetic *what = context;
+    return exp(what->family->log_density(what->parameter, what->from, x));
+}
+
+static double integral(const synthetic *what, double low, double high)
+{
+    double sum, error;
+    gsl_integration_workspace *room = gsl_integration_workspace_alloc(1000);
+    gsl_function function = {density, (void *)(uintptr_t)what};
+    assert_int_equal(gsl_integration_qags(&function, low, high, 1e-11, 1e-9, 1000, room, &sum, &error), GSL_SUCCESS);
+    gsl_integration_workspace_free(room);
+    return sum;
+}
+
+/* The integral is good to 1e-9; beyond the quantile of 1e-10 there is 1e-10. */
+static void density_integrates_to_the_distribution(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < LAWS; i++) {
+        const synthetic *what = &law[i];
+        const fracas_family *family = what->family;
+        const double shift = family->parameter[0].shift ? what->parameter[0] : what->from;
+        const double far = family->quantile(what->parameter, what->from, 1e-10);
+        double at = shift, all = 0;
+        for (int part = 9; part >= 0; part--) {
+            const double next = part ? family->quantile(what->parameter, what->from, 0.1 * part) : far;
+            const double found = integral(what, at, next);
+            if (!(fabs(found - (above(what, at) - above(what, next))) < 2e-9))
+                fail_msg("%s from %g to %g: %.12g, not %.12g", family->name, at, next, found, above(what, at) - above(what, next));
+            all += found;
+            at = next;
+        }
+        assert_true(fabs(all - 1) < 1e-8);
+        assert_true(density(0.99 * shift - 1e-3, (void *)(uintptr_t)what) == 0);
+    }
+}
+
+/* Tails to a relative 1e-9, as far out as 1e-12: the inverse of a distribution is no better than its slope times rounding. */
+static void quantiles_are_the_inverse(void **state)
+{
+    (void)state;
+    static const double p[] = {1 - 1e-6, 0.99, 0.5, 0.1, 1e-3, 1e-6, 1e-12};
+    for (size_t i = 0; i < LAWS; i++)
+        for (size_t k = 0; k < sizeof p / sizeof *p; k++) {
+            const double x = law[i].family->quantile(law[i].parameter, law[i].from, p[k]);
+            if (!(fabs(above(&law[i], x) - p[k]) < 1e-9 * p[k]))
+                fail_msg("%s: P(size > %g) is %.12g instead of %g", law[i].family->name, x, above(&law[i], x), p[k]);
+        }
+}
+
+/* Kolmogorov's distance of 20000 numbers: above 2.69/sqrt(n) once in 1e6. */
+static void samples_have_the_distribution(void **state)
+{
+    (void)state;
+    enum { N = 20000 };
+    static double x[N];
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    for (size_t i = 0; i < LAWS; i++) {
+        double distance = 0;
+        for (size_t k = 0; k < N; k++) x[k] = synthetic_size(&law[i], gsl_ran_ugaussian(random));
+        gsl_sort(x, 1, N);
+        for (size_t k = 0; k < N; k++) {
+            const double below = 1 - above(&law[i], x[k]);
+            distance = fmax(distance, fmax(fabs(below - (double)k / N), fabs(below - (double)(k + 1) / N)));
+        }
+        assert_true(distance < 2.69 / sqrt(N));
+    }
+    gsl_rng_free(random);
+}
+
+/* The fit is as likely as the truth or more, to rounding (1e-6 of a search that has arrived), and by Wilks' theorem 2 log of the ratio is
+ * chi-squared: above its quantile of 1e-6 once in a million. On a lattice and without. */
+static void fits_recover_the_truth(void **state)
+{
+    (void)state;
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    for (size_t i = 0; i < 2 * LAWS; i++) {
+        synthetic what = law[i / 2];
+        what.lattice = (double)(i % 2);
+        what.realizations = 100;
+        what.fragments = 100;
+        fracas_ensemble ensemble;
+        fracas_fit_sample sample;
+        fracas_fit fit;
+        double truth[FRACAS_FAMILY_PARAMETERS];
+        OK(synthetic_ensemble(&what, random, &ensemble));
+        OK(fracas_fit_sample_create(&ensemble, &sample));
+        fracas_fit_of(what.family, &sample, &fit);
+        if (*fit.why) fail_msg("%s: %s", what.family->name, fit.why);
+        for (size_t p = 0; p < what.family->nparameters; p++)
+            truth[p] = what.parameter[p] / (what.family->parameter[p].length ? sample.mean : 1);
+        const double gain = 2 * (fit.log_likelihood - fracas_fit_log_likelihood(what.family, &sample, sample.count, truth));
+        print_message("%-18s lattice %.0f, %3zu cells: 2 log ratio to the truth %.2f\n", what.family->name, what.lattice, sample.ncells, gain);
+        assert_true(gain > -1e-6 && gain < gsl_cdf_chisq_Qinv(1e-6, (double)what.family->nparameters));
+        fracas_fit_sample_clear(&sample);
+        fracas_ensemble_clear(&ensemble);
+    }
+    gsl_rng_free(random);
+}
+
+static fracas_fit fit_of(const synthetic *what, const fracas_family *family, unsigned long seed)
+{
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    gsl_rng_set(random, seed);
+    fracas_ensemble ensemble;
+    fracas_fit_sample sample;
+    fracas_fit fit;
+    OK(synthetic_ensemble(what, random, &ensemble));
+    OK(fracas_fit_sample_create(&ensemble, &sample));
+    fracas_fit_of(family, &sample, &fit);
+    fracas_fit_sample_clear(&sample);
+    fracas_ensemble_clear(&ensemble);
+    gsl_rng_free(random);
+    return fit;
+}
+
+static void what_is_no_fit_says_why(void **state)
+{
+    (void)state;
+    synthetic what = law[0];
+    what.lattice = 1;
+    what.realizations = 100;
+    what.fragments = 40;
+    assert_string_equal(fit_of(&what, &fracas_family_exponential, 1).why, "");
+    assert_string_equal(fit_of(&what, &fracas_family_shifted_rayleigh, 1).why, "x0 goes to its bound, 0");
+    what.family = &fracas_family_gamma;
+    what.parameter[0] = 5;
+    what.parameter[1] = 4;
+    fracas_fit fit = fit_of(&what, &fracas_family_power_law, 1);
+    assert_string_equal(fit.why, "alpha goes to its bound, 0");
+    assert_true(isfinite(fit.log_likelihood)); /* what it is at the bound is known */
+    what.realizations = 2;
+    what.fragments = 5;
+    fit = fit_of(&what, &fracas_family_gamma, 1);
+    assert_non_null(strstr(fit.why, "fragments above the cut, 30 are needed"));
+    assert_true(isnan(fit.log_likelihood) && isnan(fit.parameter[0]));
+    what.realizations = 0;
+    assert_non_null(strstr(fit_of(&what, &fracas_family_gamma, 1).why, "0 fragments above the cut"));
+    what = law[2];
+    what.parameter[0] = 1e-4; /* every size is one element */
+    what.lattice = 1;
+    what.realizations = 10;
+    what.fragments = 20;
+    assert_non_null(strstr(fit_of(&what, &fracas_family_rayleigh, 1).why, "fragments above the cut"));
+}
+
+/* Dust is below the cut; cells hold whole sizes, every fragment above is in one, and a resample of each realization once is the sample. */
+static void cells_of_a_lattice(void **state)
+{
+    (void)state;
+    synthetic what = law[0];
+    what.lattice = 0.001;
+    what.parameter[0] = 0.02;
+    what.realizations = 30;
+    what.fragments = 50;
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    fracas_ensemble ensemble;
+    fracas_fit_sample sample;
+    uint32_t once[30];
+    double count[FRACAS_FIT_CELLS], mean, cv, total = 0, expected = 0;
+    OK(synthetic_ensemble(&what, random, &ensemble));
+    OK(fracas_fit_sample_create(&ensemble, &sample));
+    for (size_t f = 0; f < ensemble.nfragments; f++) expected += !ensemble.dust[f];
+    assert_true(expected < (double)ensemble.nfragments && sample.total == expected);
+    assert_true(fabs(sample.cut - 0.0015) < 1e-15 && fabs(sample.edge[0] * sample.mean - 0.0015) < 1e-15);
+    for (size_t k = 0; k + 1 < sample.ncells; k++) {
+        const double steps = sample.edge[k + 1] * sample.mean / 0.001 - 0.5;
+        assert_true(fabs(steps - round(steps)) < 1e-9 && sample.edge[k + 1] > sample.edge[k]);
+    }
+    for (size_t i = 0; i < 30; i++) once[i] = 1;
+    fracas_fit_sample_count(&sample, once, count);
+    fracas_fit_sample_moments(&sample, once, &mean, &cv);
+    for (size_t k = 0; k < sample.ncells; k++) {
+        assert_true(count[k] == sample.count[k]);
+        total += count[k];
+    }
+    assert_true(total == expected && fabs(mean / sample.mean - 1) < 1e-14 && fabs(cv / sample.cv - 1) < 1e-12);
+    fracas_fit_sample_clear(&sample);
+    ensemble.lattice = 0; /* a surface: two and a half mean elements */
+    double area = 0, elements = 0;
+    for (size_t f = 0; f < ensemble.nfragments; f++) {
+        area += ensemble.size[f] * ensemble.size[f];
+        elements += ensemble.elements[f];
+    }
+    assert_true(fabs(fracas_fit_cut(&ensemble) - sqrt(2.5 * area / elements)) < 1e-15);
+    fracas_ensemble_clear(&ensemble);
+    gsl_rng_free(random);
+}
+
+/* Every fragment is carried, each realization keeps as many, and together they have the law: cells to one fragment. Order is kept. */
+static void carried_samples_have_the_law(void **state)
+{
+    (void)state;
+    synthetic what = law[3];
+    what.lattice = 1;
+    what.realizations = 30;
+    what.fragments = 50;
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    fracas_ensemble ensemble;
+    fracas_fit_sample sample, carried;
+    fracas_fit fit;
+    double probability[FRACAS_FIT_CELLS], seen = 0, law_below = 0;
+    OK(synthetic_ensemble(&what, random, &ensemble));
+    OK(fracas_fit_sample_create(&ensemble, &sample));
+    fracas_fit_of(&fracas_family_exponential, &sample, &fit); /* a law of other sizes */
+    assert_true(fracas_fit_probabilities(&fracas_family_exponential, &sample, fit.parameter, probability));
+    OK(fracas_fit_carry(&sample, probability, 1, &carried));
+    for (size_t k = 0; k < sample.ncells; k++) {
+        seen += carried.count[k];
+        law_below += probability[k];
+        assert_true(fabs(seen - law_below * sample.total) <= 0.5 + 1e-6);
+    }
+    assert_true(seen == sample.total);
+    for (size_t i = 0; i < sample.nrealizations; i++) {
+        double kept = 0;
+        for (size_t c = carried.first[i]; c < carried.first[i + 1]; c++) {
+            kept += carried.times[c];
+            assert_true(c == carried.first[i] || carried.cell[c] > carried.cell[c - 1]);
+        }
+        assert_true(kept == sample.kept[i]);
+    }
+    fracas_fit_sample_clear(&carried);
+    fracas_fit_sample_clear(&sample);
+    fracas_ensemble_clear(&ensemble);
+    gsl_rng_free(random);
+}
+
+/* Four cells with shares 1/4, counts 2 1 0 1: distribution functions 1/2, 3/4, 3/4 beside 1/4, 1/2, 3/4. D = 1/4;
+ * A2/N = 1/4 (1/16/(3/16) + 1/16/(1/4) + 0) = 7/48. */
+static void distances(void **state)
+{
+    (void)state;
+    const double count[4] = {2, 1, 0, 1}, probability[4] = {0.25, 0.25, 0.25, 0.25};
+    const fracas_fit_distance found = fracas_fit_distance_of(4, count, probability);
+    assert_true(fabs(found.ks - 0.25) < 1e-15 && fabs(found.ad - 7.0 / 48) < 1e-15);
+}
+
+static void special_cases(void **state)
+{
+    (void)state;
+    assert_true(fracas_family_within(&fracas_family_rayleigh, &fracas_family_shifted_rayleigh));
+    assert_true(fracas_family_within(&fracas_family_gamma, &fracas_family_generalised_gamma));
+    assert_false(fracas_family_within(&fracas_family_generalised_gamma, &fracas_family_gamma));
+    assert_false(fracas_family_within(&fracas_family_mott, &fracas_family_gamma)); /* not by the end of a longer name */
+    assert_ptr_equal(fracas_family_find("weibull-3"), &fracas_family_weibull3);
+    assert_null(fracas_family_find("weibull-4"));
+}
+
+int main(void)
+{
+    gsl_set_error_handler_off();
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(density_integrates_to_the_distribution), cmocka_unit_test(quantiles_are_the_inverse),
+        cmocka_unit_test(samples_have_the_distribution),          cmocka_unit_test(fits_recover_the_truth),
+        cmocka_unit_test(what_is_no_fit_says_why),                cmocka_unit_test(cells_of_a_lattice),
+        cmocka_unit_test(carried_samples_have_the_law),           cmocka_unit_test(distances),
+        cmocka_unit_test(special_cases),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
