@@ -12,6 +12,8 @@ import sys
 import h5py
 import numpy as np
 
+from estimates_from_study import estimates
+
 USABLE = {0: "FRAGMENTED", 1: "INTACT", 2: "TIME_LIMIT"}
 OUTCOMES = ["FRAGMENTED", "INTACT", "TIME_LIMIT", "NONFINITE", "ENERGY_DRIFT", "FAILED"]
 
@@ -61,6 +63,13 @@ def laws(row, young, density, strength, fracture_energy, rate):
     row["law.grady"] = s0 * (24 / e**2) ** (1 / 3)
     row["law.glenn_chudnovsky"] = s0 * 4 / e * math.sinh(math.asinh(1.5 * e) / 3)
     row["law.zmr2"] = s0 * 4.5 / (1 + 0.77 * e**0.25 + 5.4 * e**0.75)
+
+
+def lattice_of(point, p):
+    """Of a bar or ring of equal elements: what every size is a multiple of; else 0."""
+    equal = "mesh.spacing" not in point or point["mesh.spacing"][p] == b"uniform"
+    elements = point["mesh.elements"][p] if "mesh.elements" in point else math.nan
+    return length_of(point, p) / elements if equal and elements > 0 and not is_surface(point, p) else 0
 
 
 def largest_ratio(values, dissipated):
@@ -125,7 +134,7 @@ def by_realization(row, keys, pieces, values_of):
 
 
 def row_of(point, p, realization, fragment, offset):
-    """Every number of point p; `realization` and `fragment` are the columns of those groups."""
+    """Every number of point p, and what `estimates` returns; `realization` and `fragment` are the columns of those groups."""
     mine = realization["point"] == p
     used = mine & np.isin(realization["outcome"], list(USABLE))
     of = {name: column[used] for name, column in realization.items()}
@@ -133,13 +142,14 @@ def row_of(point, p, realization, fragment, offset):
     rate = point.get("derived.strain_rate", point.get("loading.rate"))[p]  # the latter in studies before the former
     surface, ring = is_surface(point, p), "model" in point and point["model"][p] == b"ring"
     row = {"rate": rate, "realizations": mine.sum(), "usable": used.sum(), "unusable": mine.sum() - used.sum()}
-    estimate(row, "count", of["fragments"].astype(float))
-    estimate(row, "count_large", (of["fragments"] - of["fragments_dust"]).astype(float))
+    replicas = {"count": of["fragments"].astype(float), "dissipated": of["dissipated"]}
     if surface:  # mean over fragments of the square root of the area
-        estimate(row, "size", np.array([piece["size"].mean() for piece in pieces]))
+        replicas["size"] = np.array([piece["size"].mean() for piece in pieces])
     else:
-        estimate(row, "size", length_of(point, p) / of["fragments"])
-    estimate(row, "dissipated", of["dissipated"])
+        replicas["size"] = length_of(point, p) / of["fragments"]
+    for key, values in replicas.items():
+        estimate(row, key, values)
+    estimate(row, "count_large", (of["fragments"] - of["fragments_dust"]).astype(float))
     estimate(row, "dissipated_bending", of["dissipated_bending"])
     estimate(row, "onset_time", of["onset_time"])
     by_realization(row, MOTION, pieces if ring else [], lambda piece: motion(piece, point["geometry.radius"][p]))
@@ -152,9 +162,10 @@ def row_of(point, p, realization, fragment, offset):
     row["dust_share"] = dust.mean() if len(dust) else math.nan
     laws(row, point["material.young"][p], point["material.density"][p], point["derived.strength_mean"][p],
          fracture_energy_of(point, p), math.nan if surface else rate)
+    found = estimates(row, pieces, lattice_of(point, p), surface, replicas, estimate)
     for o, name in enumerate(OUTCOMES):
         row[name] = (realization["outcome"][mine] == o).sum()
-    return row
+    return row, *found
 
 
 def table(path):
@@ -168,7 +179,7 @@ def table(path):
 if __name__ == "__main__":
     if len(sys.argv) != 2:
         sys.exit(__doc__)
-    rows = table(sys.argv[1])
+    rows = [row for row, *_ in table(sys.argv[1])]
     print(*rows[0], sep="\t")
     for row in rows:
         print(*(f"{value:.15g}" for value in row.values()), sep="\t")
