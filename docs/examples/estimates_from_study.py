@@ -100,21 +100,26 @@ class Fragments:
 
 
 def interval(value, jackknife, resampled):
-    """BCa (Efron and Tibshirani 1993, 14.9 to 14.15): low and high, and the two shares of the resamples below them."""
+    """BCa (Efron and Tibshirani 1993, 14.9 to 14.15): low and high. For each also the share of the resamples below it, and the standard error
+    that their number gives it as a normal quantile: of the bias correction, and of the order statistic."""
     resampled = resampled[np.isfinite(resampled)]
     if not len(resampled) or not math.isfinite(value):
-        return math.nan, math.nan, (math.nan, math.nan)
+        return math.nan, math.nan, ()
     below = ((resampled < value).mean() + (resampled <= value).mean()) / 2  # ties are halved
     below = min(max(below, 0.5 / len(resampled)), 1 - 0.5 / len(resampled))
     lean = jackknife.mean() - jackknife
     square = (lean**2).sum()
     acceleration = (lean**3).sum() / (6 * square**1.5) if square > 0 else 0.0
-    z0, shares = PHI.inv_cdf(below), []
+    z0, ends, count = PHI.inv_cdf(below), [], len(resampled)
     for z in (PHI.inv_cdf(0.025), PHI.inv_cdf(0.975)):
         room = 1 - acceleration * (z0 + z)
-        shares.append(PHI.cdf(z0 + (z0 + z) / room) if room > 0 else float(z > 0))
-    low, high = np.quantile(resampled, shares, method="inverted_cdf")
-    return low, high, tuple(shares)
+        share = PHI.cdf(z0 + (z0 + z) / room) if room > 0 else float(z > 0)
+        share = min(max(share, 1 / count), 1 - 1 / count)
+        bias = math.sqrt(below * (1 - below) / count) / PHI.pdf(z0) * (1 + 1 / room**2)
+        order = math.sqrt(share * (1 - share) / count) / PHI.pdf(PHI.inv_cdf(share))
+        ends.append((share, math.hypot(bias, order)))
+    low, high = np.quantile(resampled, [share for share, _ in ends], method="inverted_cdf")
+    return low, high, tuple(ends)
 
 
 def bootstrap(fragments, n, seed):
@@ -125,7 +130,7 @@ def bootstrap(fragments, n, seed):
 
 
 def with_intervals(row, fragments, n):
-    """NAME.value, .low and .high of every number; returns the resamples with the shares that the ends are at."""
+    """NAME.value, .low and .high of every number; returns the resamples, with where among them the ends are."""
     if n < 4:
         values, resamples = fragments.of(np.ones((1, n)))[0], {}
         for key, value in values.items():
@@ -134,9 +139,9 @@ def with_intervals(row, fragments, n):
     values, jackknife, resampled = bootstrap(fragments, n, 1)
     resamples = {}
     for key, (value,) in values.items():
-        low, high, shares = interval(value, jackknife[key], resampled[key])
+        low, high, ends = interval(value, jackknife[key], resampled[key])
         row[key + ".value"], row[key + ".low"], row[key + ".high"] = value, low, high
-        resamples[key] = resampled[key], shares
+        resamples[key] = resampled[key], ends
     return resamples
 
 

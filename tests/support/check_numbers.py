@@ -37,22 +37,30 @@ def rank_of(share):
     return statistics.NormalDist().inv_cdf(min(max(share, 1e-6), 1 - 1e-6))
 
 
-def is_end(ours, share, resampled):
-    """An end of a bootstrap interval is where `share` of the resamples are below, to 0.45 standard deviations: with B = 2000 in each program
-    the bias correction has a standard error of sqrt(1/4/B)/0.399 = 0.028, which counts twice, and the order statistic one of
-    sqrt(0.025 0.975/B)/0.058 = 0.060; both programs together sqrt(2) sqrt(0.056^2 + 0.060^2) = 0.116 at most, on four of which 0.45 is."""
+def is_end(ours, end, resampled):
+    """An end of a bootstrap interval is where a share of the resamples is below it, as a normal quantile to five times the noise of the 2000
+    that each of both programs draws: 0.58 standard deviations at a share of 0.025."""
+    share, noise = end
     resampled = resampled[np.isfinite(resampled)]
-    hair = 1e-9 * np.abs(resampled).max()
+    hair = 1e-11 * np.abs(resampled).max()
     below, to = (resampled < ours - hair).mean(), (resampled <= ours + hair).mean() + 1 / len(resampled)
-    return rank_of(below) - 0.45 <= rank_of(share) <= rank_of(to) + 0.45
+    room = 5 * math.sqrt(2) * noise
+    return rank_of(below) - room <= rank_of(share) <= rank_of(to) + room
+
+
+# What a difference of variances is compared with: those may be 1e3 times as large, and come from sums of 1e6 terms.
+SCALE = {"variance.between": "variance.within.value", "variance.design_effect": "variance.group"}
 
 
 def near(key, row, resamples, unsure):
     """How our value of the key is compared with that of the script."""
     name, _, part = key.rpartition(".")
     if part in ("low", "high") and name in resamples and math.isfinite(row[key]):
-        resampled, shares = resamples[name]
-        return lambda ours, _: ours is not None and is_end(ours, shares[part == "high"], resampled)
+        resampled, ends = resamples[name]
+        return lambda ours, _: ours is not None and is_end(ours, ends[part == "high"], resampled)
+    if key.startswith("variance.") and math.isfinite(row[key]):
+        scale = row[SCALE[name]] if name in SCALE else 1 if name == "variance.intraclass" else 0
+        return lambda ours, theirs: ours is not None and math.isclose(ours, theirs, rel_tol=1e-9, abs_tol=1e-11 * scale)
     if key in unsure:
         return lambda ours, _: ours in (0, 1)
     if key == "unconverged":
