@@ -1,4 +1,4 @@
-"""Estimates from all fragments of a point together, from the equations of docs/theory/estimators.md (14 to 21) alone.
+"""Estimates from all fragments of a point together, from the equations of docs/theory/estimators.md (14 to 21, 24) alone.
 
 Used by table_from_study.py. Intervals are resampled with random numbers of its own, so they are those of fracas within the noise of
 2000 resamples.
@@ -12,6 +12,29 @@ RESAMPLES = 2000
 SHARES = (5, 25, 50, 75, 95)  # percent, of the quantiles
 HEADLINES = ("count", "size", "dissipated", "largest_share", "fragment.mean", "fragment.mass_mean", "fragment.variation")
 PHI = normal.NormalDist()
+
+
+def student_cdf(t, n):
+    """P(T <= t) for n degrees of freedom, t >= 0 (Abramowitz & Stegun 26.7.3 and 26.7.4)."""
+    theta = math.atan(t / math.sqrt(n))
+    cos2 = math.cos(theta) ** 2
+    term = math.cos(theta) if n % 2 else 1.0
+    total = 0.0
+    for k in range(1 if n % 2 else 0, n - 1, 2):
+        total += term
+        term *= cos2 * (k + 1) / (k + 2)
+    central = math.sin(theta) * total
+    if n % 2:
+        central = 2 / math.pi * (theta + central)
+    return 0.5 + central / 2
+
+
+def student_quantile(p, n):
+    low, high = 0.0, 1e3
+    while high - low > 1e-13 * high:
+        middle = (low + high) / 2
+        low, high = (middle, high) if student_cdf(middle, n) < p else (low, middle)
+    return (low + high) / 2
 
 
 def divided(a, b):
@@ -100,7 +123,7 @@ class Fragments:
 
 
 def interval(value, jackknife, resampled):
-    """BCa (Efron and Tibshirani 1993, 14.9 to 14.15): low and high. For each also the share of the resamples below it, and the standard error
+    """(24): BCa (Efron and Tibshirani 1993, 14.9 to 14.15), expanded: low and high. For each also the share of the resamples below it, and the standard error
     that their number gives it as a normal quantile: of the bias correction, and of the order statistic."""
     resampled = resampled[np.isfinite(resampled)]
     if not len(resampled) or not math.isfinite(value):
@@ -110,8 +133,9 @@ def interval(value, jackknife, resampled):
     lean = jackknife.mean() - jackknife
     square = (lean**2).sum()
     acceleration = (lean**3).sum() / (6 * square**1.5) if square > 0 else 0.0
-    z0, ends, count = PHI.inv_cdf(below), [], len(resampled)
-    for z in (PHI.inv_cdf(0.025), PHI.inv_cdf(0.975)):
+    z0, ends, count, n = PHI.inv_cdf(below), [], len(resampled), len(jackknife)
+    far = math.sqrt(n / (n - 1)) * student_quantile(0.975, n - 1)
+    for z in (-far, far):
         room = 1 - acceleration * (z0 + z)
         share = PHI.cdf(z0 + (z0 + z) / room) if room > 0 else float(z > 0)
         share = min(max(share, 1 / count), 1 - 1 / count)

@@ -12,33 +12,10 @@ import sys
 import h5py
 import numpy as np
 
-from estimates_from_study import estimates
+from estimates_from_study import estimates, student_quantile
 
 USABLE = {0: "FRAGMENTED", 1: "INTACT", 2: "TIME_LIMIT"}
 OUTCOMES = ["FRAGMENTED", "INTACT", "TIME_LIMIT", "NONFINITE", "ENERGY_DRIFT", "FAILED"]
-
-
-def student_cdf(t, n):
-    """P(T <= t) for n degrees of freedom, t >= 0 (Abramowitz & Stegun 26.7.3 and 26.7.4)."""
-    theta = math.atan(t / math.sqrt(n))
-    cos2 = math.cos(theta) ** 2
-    term = math.cos(theta) if n % 2 else 1.0
-    total = 0.0
-    for k in range(1 if n % 2 else 0, n - 1, 2):
-        total += term
-        term *= cos2 * (k + 1) / (k + 2)
-    central = math.sin(theta) * total
-    if n % 2:
-        central = 2 / math.pi * (theta + central)
-    return 0.5 + central / 2
-
-
-def student_quantile(p, n):
-    low, high = 0.0, 1e3
-    while high - low > 1e-13 * high:
-        middle = (low + high) / 2
-        low, high = (middle, high) if student_cdf(middle, n) < p else (low, middle)
-    return (low + high) / 2
 
 
 def estimate(row, key, values):
