@@ -22,6 +22,20 @@ static void write_parameters(fracas_json *json, const fracas_point_table *table,
     fracas_json_close_object(json);
 }
 
+/* Of every number below "parameters" and "statistics", so that the document explains itself. */
+static void write_units(fracas_json *json, const fracas_point_table *table)
+{
+    fracas_json_object(json, "units");
+    fracas_json_object(json, "parameters");
+    for (size_t c = 0; c < table->ncolumns; c++)
+        if (!table->column[c].text) fracas_json_text(json, table->column[c].path, table->column[c].unit);
+    fracas_json_close_object(json);
+    fracas_json_object(json, "statistics");
+    for (size_t i = 0; i < fracas_nstatistics; i++) fracas_json_text(json, fracas_statistics[i].key, fracas_statistics[i].unit);
+    fracas_json_close_object(json);
+    fracas_json_close_object(json);
+}
+
 static void write_statistics(fracas_json *json, const fracas_point_statistics *statistics)
 {
     fracas_json_object(json, "statistics");
@@ -222,6 +236,7 @@ void fracas_analysis_write_json(const fracas_analysis *analysis, FILE *out)
     for (size_t i = 0; i < analysis->shown.count; i++)
         fracas_json_text(&json, NULL, analysis->table->column[analysis->shown.column[i]].path);
     fracas_json_close_array(&json);
+    write_units(&json, analysis->table);
     fracas_json_array(&json, "points");
     for (size_t p = 0; p < analysis->table->npoints; p++) write_point(&json, analysis, p);
     fracas_json_close_array(&json);

@@ -12,31 +12,10 @@ import sys
 import h5py
 import numpy as np
 
+from estimates_from_study import estimates, student_quantile
+
 USABLE = {0: "FRAGMENTED", 1: "INTACT", 2: "TIME_LIMIT"}
 OUTCOMES = ["FRAGMENTED", "INTACT", "TIME_LIMIT", "NONFINITE", "ENERGY_DRIFT", "FAILED"]
-
-
-def student_cdf(t, n):
-    """P(T <= t) for n degrees of freedom, t >= 0 (Abramowitz & Stegun 26.7.3 and 26.7.4)."""
-    theta = math.atan(t / math.sqrt(n))
-    cos2 = math.cos(theta) ** 2
-    term = math.cos(theta) if n % 2 else 1.0
-    total = 0.0
-    for k in range(1 if n % 2 else 0, n - 1, 2):
-        total += term
-        term *= cos2 * (k + 1) / (k + 2)
-    central = math.sin(theta) * total
-    if n % 2:
-        central = 2 / math.pi * (theta + central)
-    return 0.5 + central / 2
-
-
-def student_quantile(p, n):
-    low, high = 0.0, 1e3
-    while high - low > 1e-13 * high:
-        middle = (low + high) / 2
-        low, high = (middle, high) if student_cdf(middle, n) < p else (low, middle)
-    return (low + high) / 2
 
 
 def estimate(row, key, values):
@@ -91,6 +70,13 @@ def laws(row, young, density, strength, fracture_energy, modulus, rate):
     row["law.glenn_chudnovsky"] = s0 * 4 / e * math.sinh(math.asinh(1.5 * e) / 3)
     row["law.zmr2"] = s0 * 4.5 / (1 + 0.77 * e**0.25 + 5.4 * e**0.75)
     row["law.mott"] = math.sqrt(2 * math.pi / (density * modulus * young)) * strength / rate if rate > 0 else math.nan
+
+
+def lattice_of(point, p):
+    """Of a bar or ring of equal elements: what every size is a multiple of; else 0."""
+    equal = "mesh.spacing" not in point or point["mesh.spacing"][p] == b"uniform"
+    elements = point["mesh.elements"][p] if "mesh.elements" in point else math.nan
+    return length_of(point, p) / elements if equal and elements > 0 and not is_surface(point, p) else 0
 
 
 def largest_ratio(values, dissipated):
@@ -155,7 +141,7 @@ def by_realization(row, keys, pieces, values_of):
 
 
 def row_of(point, p, realization, fragment, offset):
-    """Every number of point p; `realization` and `fragment` are the columns of those groups."""
+    """Every number of point p, and what `estimates` returns; `realization` and `fragment` are the columns of those groups."""
     mine = realization["point"] == p
     used = mine & np.isin(realization["outcome"], list(USABLE))
     of = {name: column[used] for name, column in realization.items()}
@@ -163,13 +149,14 @@ def row_of(point, p, realization, fragment, offset):
     rate = point.get("derived.strain_rate", point.get("loading.rate"))[p]  # the latter in studies before the former
     surface, ring = is_surface(point, p), "model" in point and point["model"][p] == b"ring"
     row = {"rate": rate, "realizations": mine.sum(), "usable": used.sum(), "unusable": mine.sum() - used.sum()}
-    estimate(row, "count", of["fragments"].astype(float))
-    estimate(row, "count_large", (of["fragments"] - of["fragments_dust"]).astype(float))
+    replicas = {"count": of["fragments"].astype(float), "dissipated": of["dissipated"]}
     if surface:  # mean over fragments of the square root of the area
-        estimate(row, "size", np.array([piece["size"].mean() for piece in pieces]))
+        replicas["size"] = np.array([piece["size"].mean() for piece in pieces])
     else:
-        estimate(row, "size", length_of(point, p) / of["fragments"])
-    estimate(row, "dissipated", of["dissipated"])
+        replicas["size"] = length_of(point, p) / of["fragments"]
+    for key, values in replicas.items():
+        estimate(row, key, values)
+    estimate(row, "count_large", (of["fragments"] - of["fragments_dust"]).astype(float))
     estimate(row, "dissipated_bending", of["dissipated_bending"])
     estimate(row, "onset_time", of["onset_time"])
     by_realization(row, MOTION, pieces if ring else [], lambda piece: motion(piece, point["geometry.radius"][p]))
@@ -182,9 +169,10 @@ def row_of(point, p, realization, fragment, offset):
     row["dust_share"] = dust.mean() if len(dust) else math.nan
     laws(row, point["material.young"][p], point["material.density"][p], point["derived.strength_mean"][p],
          fracture_energy_of(point, p), modulus_of(point, p), math.nan if surface else rate)
+    found = estimates(row, pieces, lattice_of(point, p), surface, replicas, estimate)
     for o, name in enumerate(OUTCOMES):
         row[name] = (realization["outcome"][mine] == o).sum()
-    return row
+    return row, *found
 
 
 def table(path):
@@ -198,7 +186,7 @@ def table(path):
 if __name__ == "__main__":
     if len(sys.argv) != 2:
         sys.exit(__doc__)
-    rows = table(sys.argv[1])
+    rows = [row for row, *_ in table(sys.argv[1])]
     print(*rows[0], sep="\t")
     for row in rows:
         print(*(f"{value:.15g}" for value in row.values()), sep="\t")

@@ -162,11 +162,16 @@ def check_statistics(package, points, statistics, parameters):
         wanted((line["point"], line["key"], line["value"], line["unit"]) == numbers, "statistics line", n, "is", line, "and points.csv has", numbers)
 
 
-def check_summary(study_folder, points, parameters):
+def check_summary(study_folder, resource, points, parameters):
     path = os.path.join(study_folder, "report/summary.json")
     if not os.path.exists(path):
         return
-    for row, point in zip(points, json.load(open(path))["points"], strict=True):
+    summary = json.load(open(path))
+    units = {field["name"]: field["unit"] for field in resource["schema"]["fields"] if "unit" in field}
+    for key, unit in [*summary["units"]["parameters"].items(), *summary["units"]["statistics"].items()]:
+        wanted(units[key] == unit, "summary.json has another unit of", key, ":", unit)
+    wanted(set(summary["units"]["statistics"]) == set(summary["points"][0]["statistics"]) if points else True, "summary.json lacks units")
+    for row, point in zip(points, summary["points"], strict=True):
         there = dict(point["statistics"], **{"outcome." + name: count for name, count in point["outcomes"].items()})
         wanted(set(there) == set(row) - parameters, "summary.json has other keys:", set(there) ^ (set(row) - parameters))
         for key, value in there.items():
@@ -198,7 +203,7 @@ def check(study_folder, folder):
         check_units(resources["points"], units)
         wanted([row["point"] for row in rows["points"]] == list(range(len(columns["hash"]))), "points are not numbered")
     check_statistics(resources, rows["points"], rows["statistics"], parameters)
-    check_summary(study_folder, rows["points"], parameters)
+    check_summary(study_folder, resources["points"], rows["points"], parameters)
     here = {name for name in os.listdir(folder) if name.endswith(".csv") or name.startswith(".")}
     wanted(folder != os.path.join(study_folder, "export") or here == {name + ".csv" for name in rows}, "files that are not of the package:", here)
 

@@ -43,6 +43,16 @@ expect 6 "$fracas" export one --to taken
 said 'cannot rename .* to taken/points.csv'
 [ ! -e taken/datapackage.json ] || fail "a package that is not whole"
 [ -z "$(ls -A taken | grep '^\.')" ] || fail "temporary files are left"
+limited()
+{
+    trap '' XFSZ
+    ulimit -f 8 # of 512 bytes: points.csv fits, realizations.csv or fragments.csv does not
+    "$fracas" export one --to small
+}
+expect 6 limited
+said 'cannot write small/'
+[ ! -e small/datapackage.json ] || fail "a package that is not whole"
+[ -z "$(ls -A small | grep '^\.')" ] || fail "temporary files are left"
 mkdir own
 touch own/histories.csv # somebody else's: there was no package
 expect 0 "$fracas" export one --to own
