@@ -61,6 +61,62 @@ def laws(row, young, density, strength, fracture_energy, rate):
     row["law.zmr2"] = s0 * 4.5 / (1 + 0.77 * e**0.25 + 5.4 * e**0.75)
 
 
+def quantile(size, weight, share, step):
+    """Of grouped sizes where they are multiples of a step, else the least size with that share of the weight."""
+    kind, where = np.unique(np.round(size / step) * step if step > 0 else size, return_inverse=True)
+    inside = np.bincount(where, weight)
+    after = np.cumsum(inside)
+    k = np.searchsorted(after, share * after[-1])
+    return kind[k] + step * ((share * after[-1] - after[k] + inside[k]) / inside[k] - 0.5)
+
+
+def sizes(row, key, size, mass, step):
+    """By number and by mass (docs/theory/estimators.md)."""
+    row[key + ".n"] = len(size)
+    some = len(size) > 0
+    row[key + ".mean.value"] = size.mean() if some else math.nan
+    row[key + ".mass_mean.value"] = (mass * size).sum() / mass.sum() if some else math.nan
+    row[key + ".variation.value"] = size.std() / size.mean() if some else math.nan
+    for percent in (5, 25, 50, 75, 95):
+        for name, weight in (("quantile", np.ones(len(size))), ("mass_quantile", mass)):
+            row[f"{key}.{name}_{percent:02}.value"] = quantile(size, weight, percent / 100, step) if some else math.nan
+
+
+def pooled(row, size, mass, elements, group, step, dimension):
+    """Of all fragments of a point; `group`: the realization of each."""
+    some = len(size) > 0
+    row["cut"] = cut = {1: 1.5, 2: math.sqrt(2.5)}[dimension] * ((size**dimension).sum() / elements.sum()) ** (1 / dimension) if some else 0
+    above = size > cut
+    sizes(row, "fragment", size, mass, step)
+    sizes(row, "resolved", size[above], mass[above], step)
+    row["unresolved.share.value"] = (~above).mean() if some else math.nan
+    row["unresolved.mass_share.value"] = mass[~above].sum() / mass.sum() if some else math.nan
+    n = np.bincount(group)
+    a = len(n)
+    estimate(row, "largest_size", np.array([size[group == i][mass[group == i].argmax()] for i in range(a)]))
+    estimate(row, "largest_share", np.array([mass[group == i].max() / mass[group == i].sum() for i in range(a)]))
+
+
+def variance(row, size, group):
+    """One-way analysis of variance."""
+    n = np.bincount(group)
+    a, mean = len(n), np.bincount(group, size) / np.maximum(n, 1)
+    defined = a > 1 and len(size) > a
+    within = ((size - mean[group]) ** 2).sum() / (len(size) - a) if len(size) > a else math.nan
+    among = (n * (mean - size.mean()) ** 2).sum() / (a - 1) if defined else math.nan
+    m0 = (len(size) - (n**2).sum() / len(size)) / (a - 1) if a > 1 else math.nan
+    row["variance.within.value"], row["variance.group"] = within, m0
+    row["variance.between.value"] = (among - within) / m0
+    row["variance.intraclass.value"] = rho = (among - within) / (among + (m0 - 1) * within)
+    row["variance.design_effect.value"] = 1 + (m0 - 1) * rho
+
+
+def step_of(point, p):
+    """What all sizes are multiples of; 0 of surfaces and graded meshes."""
+    graded = "mesh.spacing" in point and point["mesh.spacing"][p] != b"uniform"
+    return 0 if graded or is_surface(point, p) else length_of(point, p) / point["mesh.elements"][p]
+
+
 def largest_ratio(values, dissipated):
     cracked = dissipated > 0
     return (values[cracked] / dissipated[cracked]).max() if cracked.any() else math.nan
@@ -89,7 +145,7 @@ def table(path):
         realization = {name: column[()] for name, column in study["realization"].items()}
         offset = study["fragment/offset"][()]
         elements, dust = study["fragment/elements"][()], study["fragment/dust"][()]
-        size = study["fragment/size"][()]
+        size, mass = study["fragment/size"][()], study["fragment/mass"][()]
     rows = []
     for p in range(len(point["hash"])):
         mine = realization["point"] == p
@@ -108,13 +164,20 @@ def table(path):
         estimate(row, "onset_time", of["onset_time"])
         row["residual"] = largest_ratio(of["residual"], of["dissipated"])
         row["created"] = largest_ratio(of["created"], of["dissipated"])
-        fragment = np.zeros(len(elements), bool)
-        for i in np.flatnonzero(used):
+        fragment, group = np.zeros(len(elements), bool), np.zeros(len(elements), int)
+        for g, i in enumerate(np.flatnonzero(used)):
             fragment[offset[i]:offset[i + 1]] = True
+            group[offset[i]:offset[i + 1]] = g
+        pooled(row, size[fragment], mass[fragment], elements[fragment], group[fragment], step_of(point, p), 2 if is_surface(point, p) else 1)
+        variance(row, size[fragment], group[fragment])
         row["elements"] = elements[fragment].mean() if fragment.any() else math.nan
         row["dust_share"] = dust[fragment].mean() if fragment.any() else math.nan
         laws(row, point["material.young"][p], point["material.density"][p], point["derived.strength_mean"][p],
              fracture_energy_of(point, p), math.nan if is_surface(point, p) else rate)
+        for key, name in (("mean", "mean"), ("mass_mean", "mass_mean"), ("median", "quantile_50")):
+            row[f"normalised.{key}.value"] = row[f"fragment.{name}.value"] / row["scale.size"]
+        row["normalised.size.mean"] = row["size.mean"] / row["scale.size"]
+        row["normalised.rate"] = rate / row["scale.rate"]
         for o, name in enumerate(OUTCOMES):
             row[name] = (realization["outcome"][mine] == o).sum()
         rows.append(row)
