@@ -12,6 +12,7 @@ import math
 import os
 import re
 import shutil
+import statistics
 import subprocess
 import sys
 import xml.etree.ElementTree as xml
@@ -40,6 +41,17 @@ def same(ours, theirs):
     return math.isclose(ours, theirs, rel_tol=1e-11, abs_tol=0)
 
 
+CANCEL = ("variance.between.value", "variance.intraclass.value", "variance.design_effect.value")
+
+
+def same_statistic(row, key, ours, theirs):
+    """Components of variance are differences of mean squares: as above, but of what is taken away."""
+    if key not in CANCEL or ours is None or math.isnan(theirs):
+        return same(ours, theirs)
+    beside = {"between": row["variance.within.value"], "intraclass": 1, "design_effect": row["variance.group"]}[key.split(".")[1]]
+    return math.isclose(ours, theirs, rel_tol=1e-11, abs_tol=1e-11 * beside)
+
+
 # The example script gives the numbers of the JSON summary, and those of points.csv.
 points = list(csv.DictReader(open(os.path.join(report, "points.csv"))))
 assert len(summary["points"]) == len(rows) == len(points)
@@ -48,8 +60,8 @@ for row, point, line in zip(rows, summary["points"], points):
     compared = 0
     for key, value in row.items():
         if key in point["statistics"]:
-            assert same(point["statistics"][key], value), (key, point["statistics"][key], value)
-            assert same(float(line[key]) if line[key] else None, value), (key, line[key], value)
+            assert same_statistic(row, key, point["statistics"][key], value), (key, point["statistics"][key], value)
+            assert same_statistic(row, key, float(line[key]) if line[key] else None, value), (key, line[key], value)
             compared += 1
         elif key in point["outcomes"]:
             assert point["outcomes"][key] == value == int(line["outcome." + key])
@@ -98,6 +110,42 @@ for p, point in enumerate(summary["points"]):
             ours = point["statistics"][name]
             # Sines and the cancellation in numpy's inertia of short arcs: 1e-16/(a^2/3), a > 1e-3.
             assert same(ours, value) or math.isclose(ours, value, rel_tol=1e-9, abs_tol=1e-9), (name, ours, value)
+
+
+
+# Intervals: numpy's resamples of realizations, BCa as docs/theory/estimators.md has it. An end of 2000 is known to sqrt(0.024/2000)/0.058 = 0.06 standard
+# errors, z0 to 0.028 and the end by twice that: 0.12 between two, of which 4.9 are 0.6; the rest is for estimates of few different values.
+def expanded_bca(values, groups):
+    """values(weights): of realizations drawn so often, a row a resample."""
+    normal, draws = statistics.NormalDist(), np.random.default_rng(1)
+    weights = draws.multinomial(groups, np.full(groups, 1 / groups), 2000).astype(float)
+    estimate, found = values(np.ones((1, groups)))[0], np.sort(values(weights))
+    left_out = values(1 - np.eye(groups))
+    d = left_out.mean() - left_out
+    a = (d**3).sum() / (6 * (d**2).sum() ** 1.5) if (d**2).sum() > 0 else 0
+    share = ((found < estimate).sum() + 0.5 * (found == estimate).sum()) / 2000
+    z0 = normal.inv_cdf(min(max(share, 1 / 4000), 1 - 1 / 4000))
+    z = math.sqrt(groups / (groups - 1)) * student_quantile(0.975, groups - 1)
+    ends = [normal.cdf(z0 + (z0 + s * z) / (1 - a * (z0 + s * z))) for s in (-1, 1)]
+    return np.quantile(found, ends), found.std()
+
+
+def sums_of(used):
+    """Of each realization: number, sum s, s^2, m, m s."""
+    return np.array([[len(s), s.sum(), (s**2).sum(), m.sum(), (m * s).sum()] for s, m in
+                     ((fragment["size"][slice(*fragment["offset"][i:i + 2])], fragment["mass"][slice(*fragment["offset"][i:i + 2])]) for i in used)])
+
+
+for p, point in enumerate(summary["points"]):
+    used = np.flatnonzero((realization["point"] == p) & (realization["outcome"] <= 2))
+    if len(used) < 16:  # the ends of few are at the least and the greatest of the resamples
+        continue
+    each = sums_of(used)
+    for key, value in {"fragment.mean": lambda t: t[:, 1] / t[:, 0], "fragment.mass_mean": lambda t: t[:, 4] / t[:, 3],
+                       "fragment.variation": lambda t: np.sqrt(t[:, 2] * t[:, 0] / t[:, 1]**2 - 1)}.items():
+        ends, error = expanded_bca(lambda weights: value(weights @ each), len(used))
+        for ours, theirs in zip((point["statistics"][key + ".low"], point["statistics"][key + ".high"]), ends):
+            assert abs(ours - theirs) <= error + 1e-12 * abs(theirs), (key, ours, theirs, error)
 
 # Slopes: numpy's weighted fit of the points that the series of that name has.
 MAKERS = ("loading.rate", "loading.radial", "loading.velocity")
