@@ -64,7 +64,15 @@ static double quantile(const double *ascending, size_t count, double p)
     return ascending[below] + (at - (double)below) * (ascending[below + 1] - ascending[below]);
 }
 
-static void summarise(double *found, size_t most, const double *left_out, size_t groups, double confidence, fracas_interval *interval)
+/* Upper quantile of the confidence (estimators.24) */
+static double upper(size_t n, const fracas_bootstrap_options *options)
+{
+    const double p = 0.5 + 0.5 * (options->confidence > 0 ? options->confidence : 0.95);
+    if (options->plain) return gsl_cdf_ugaussian_Pinv(p);
+    return sqrt((double)n / (double)(n - 1)) * gsl_cdf_tdist_Pinv(p, (double)(n - 1));
+}
+
+static void summarise(double *found, size_t most, const double *left_out, size_t groups, double quantile_up, fracas_interval *interval)
 {
     size_t count = 0;
     double below = 0, sum = 0, squares = 0;
@@ -86,7 +94,7 @@ static void summarise(double *found, size_t most, const double *left_out, size_t
     const double share = fmin(fmax(below, 0.5), (double)count - 0.5) / (double)count;
     const double z0 = gsl_cdf_ugaussian_Pinv(share), a = acceleration(left_out, groups);
     for (int side = 0; side < 2; side++) {
-        const double z = z0 + gsl_cdf_ugaussian_Pinv(side ? 0.5 + 0.5 * confidence : 0.5 - 0.5 * confidence);
+        const double z = z0 + (side ? quantile_up : -quantile_up);
         const double p = gsl_cdf_ugaussian_P(a * z < 1 ? z0 + z / (1 - a * z) : copysign(INFINITY, z));
         *(side ? &interval->high : &interval->low) = quantile(found, count, p);
     }
@@ -94,7 +102,6 @@ static void summarise(double *found, size_t most, const double *left_out, size_t
 
 static fracas_err resample(resampling *r, const fracas_bootstrap_options *options, fracas_interval *interval, double *value)
 {
-    const double confidence = options->confidence > 0 ? options->confidence : 0.95;
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     if (!random) return fracas_no_memory("a bootstrap");
     gsl_rng_set(random, (unsigned long)(options->seed ^ options->seed >> 32)); /* it takes 32 bits */
@@ -109,7 +116,7 @@ static fracas_err resample(resampling *r, const fracas_bootstrap_options *option
         }
         leave_out(r, value);
         for (size_t v = 0; v < r->nvalues; v++)
-            summarise(r->found + v * r->most, r->most, r->left_out + v * r->groups, r->groups, confidence, &interval[v]);
+            summarise(r->found + v * r->most, r->most, r->left_out + v * r->groups, r->groups, upper(r->n, options), &interval[v]);
     }
     gsl_rng_free(random);
     return FRACAS_OK;

@@ -41,13 +41,18 @@ static void interval_of_a_published_example(void **state)
     static const double score[26] = {48, 36, 20, 29, 42, 42, 20, 42, 22, 41, 45, 14, 6, 0, 33, 28, 34, 4, 32, 24, 47, 41, 24, 26, 30, 41};
     sample s = {.n = 26, .x = score, .whole = true};
     fracas_interval interval[2];
-    const fracas_bootstrap_options options = {.resamples = 20000, .confidence = 0.9, .seed = 1};
+    const fracas_bootstrap_options options = {.resamples = 20000, .confidence = 0.9, .seed = 1, .plain = true};
     assert_int_equal(fracas_bootstrap(26, 2, moments, &s, &options, interval), FRACAS_OK);
     assert_true(fabs(interval[1].value - 171.5) < 0.05);
     assert_true(fabs(interval[1].low - 115.8) < 9 && fabs(interval[1].high - 259.6) < 9);
     assert_true(fabs(interval[1].low - 116.7) < 3 && fabs(interval[1].high - 260.9) < 3);
     assert_true(s.whole && s.calls == 1 + 20000 + 26);
     assert_int_equal(interval[1].resamples, 20000);
+    /* Expanded by sqrt(26/25) t_(0.95, 25) = 1.0198 x 1.7081 = 1.7419, of which the normal distribution has 0.91849 between its negative and it. */
+    fracas_interval wide[2], longer[2];
+    assert_int_equal(fracas_bootstrap(26, 2, moments, &s, &(fracas_bootstrap_options){.confidence = 0.9}, wide), FRACAS_OK);
+    assert_int_equal(fracas_bootstrap(26, 2, moments, &s, &(fracas_bootstrap_options){.confidence = 0.91849, .plain = true}, longer), FRACAS_OK);
+    assert_true(fabs(wide[1].low - longer[1].low) < 1e-3 && fabs(wide[1].high - longer[1].high) < 1e-2); /* equal resamples */
     /* Of a resample the variance is (1 - 1/n) of it in the mean, and the mean's standard error sqrt(variance/n): each known to 1/sqrt(2 x 20000). */
     assert_true(fabs(interval[1].bias + 171.5 / 26) < 4.9 * interval[1].standard_error / sqrt(20000));
     assert_true(fabs(interval[0].standard_error / sqrt(interval[1].value / 26) - 1) < 4.9 / sqrt(40000));
