@@ -52,9 +52,9 @@ typedef struct {
     size_t *only_a, *only_b; /* points without a partner */
 } fracas_comparison;
 
-/* Points matched by fracas_match_points; differences with their intervals (compare.1) to (compare.5); p (compare.6) to (compare.9), corrected over the
- * points for each number by itself (compare.10). Realizations are paired by their replica where seeds are equal, and hashes or common random
- * numbers. *comparison is cleared by the caller. */
+/* Points matched by fracas_match_points; differences with their intervals (compare.1) to (compare.5); p (compare.6) to (compare.9),
+ * corrected over the points for each number by itself (compare.10). Realizations are paired by their replica where seeds are equal, and
+ * hashes are or both have common random numbers. FRACAS_USAGE if points cannot be matched. *comparison is cleared by the caller. */
 FRACAS_MUST_USE fracas_err fracas_compare(const fracas_analysis *a, const fracas_analysis *b, const fracas_compare_options *options,
                                           fracas_comparison *comparison);
 void fracas_comparison_clear(fracas_comparison *comparison);

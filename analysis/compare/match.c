@@ -64,8 +64,8 @@ static void match_hashes(const fracas_point_table *a, const fracas_point_table *
 
 static fracas_err ambiguous(const char *which, size_t first, size_t second, const char *how)
 {
-    return fracas_fail(FRACAS_USAGE, "points %zu and %zu of the %s study are alike in %s: name by --by more columns, in which they differ", first,
-                       second, which, *how ? how : "all that varies");
+    return fracas_fail(FRACAS_USAGE, "points %zu and %zu of the %s study are alike in %s: name by --by more columns, in which they differ",
+                       first, second, which, *how ? how : "all that varies");
 }
 
 static fracas_err match_values(const fracas_point_table *a, const fracas_point_table *b, const char *const *path, size_t count,

@@ -66,8 +66,8 @@ static void print_cells(const fracas_result_table *table, size_t rows, FILE *out
 
 static void print_head(const fracas_compared_point *point, FILE *out)
 {
-    fprintf(out, "\n%s%spoint %zu of A and %zu of B, %" PRId64 " and %" PRId64 " realizations%s%s; p from %s%" PRId64 " assignments\n", point->label,
-            *point->label ? ": " : "", point->a, point->b, point->used_a, point->used_b, point->paired ? ", paired by replica" : "",
+    fprintf(out, "\n%s%spoint %zu of A and %zu of B, %" PRId64 " and %" PRId64 " realizations%s%s; p from %s%" PRId64 " assignments\n",
+            point->label, *point->label ? ": " : "", point->a, point->b, point->used_a, point->used_b, point->paired ? ", paired by replica" : "",
             point->used_a && point->used_b ? "" : " (no test)", point->exact ? "all " : "", point->permutations);
     if (*point->differs) fprintf(out, "  they differ in %s\n", point->differs);
 }

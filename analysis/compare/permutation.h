@@ -23,10 +23,10 @@ typedef struct {
     double distance; /* of sizes: largest difference of the two distribution functions, at the cuts */
 } fracas_permuted;
 
-/* p[nvalues] of equal means, and one more behind them of equal distributions of sizes. Means are studentized by Welch's standard error
- * (compare.6), of pairs by the signs of the differences (compare.8); sizes by (compare.9). All assignments are counted where they are
- * at most `permutations` + 1, else `permutations` random ones and the observed one; *count: how many, the observed one with them; *exact. A sample with fewer than two
- * values has no p. Equal seeds give equal p. */
+/* result[nvalues] of equal means, and one more behind them of equal distributions of sizes. Means are studentized by Welch's standard
+ * error (compare.6), of pairs by the signs of the differences (compare.8); sizes by (compare.9). All assignments are counted where they are
+ * at most `permutations` + 1 (*exact), else `permutations` random ones and the observed one; *count: how many. A sample with fewer than
+ * two values has no p. Equal seeds give equal p. */
 FRACAS_MUST_USE fracas_err fracas_permutation_test(const fracas_two_samples *samples, int64_t permutations, uint64_t seed,
                                                    fracas_permuted *result, int64_t *count, bool *exact);
 

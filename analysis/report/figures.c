@@ -165,7 +165,7 @@ static fracas_err add_crossovers(const rate_plot *plot, const double rate[2], fr
         fracas_series *series;
         size_t marks = 0;
         while (marks < panel->nseries && strcmp(panel->series[marks].name, list[i].name)) marks++;
-        const unsigned look = marks < panel->nseries ? panel->series[marks].look : 0;
+        const unsigned look = marks < panel->nseries ? panel->series[marks].look + FRACAS_CHART_COLOURS : 0; /* ZMR has the other dashes */
         err = fracas_panel_add(panel, FRACAS_CURVE, look, LAW_VALUES, &series);
         for (size_t v = 0; !err && v < LAW_VALUES; v++) {
             series->x[v] = rate[0] / 2 * pow(4 * rate[1] / rate[0], (double)v / (LAW_VALUES - 1));
@@ -198,10 +198,11 @@ static fracas_err draw_against_rate(const rate_plot *plot, fracas_chart *chart)
     return add_crossovers(plot, rate, panel);
 }
 
-static bool any_curve(const fracas_chart *chart)
+/* True if a law serves the marks of some colour. */
+static bool any_law(const rate_plot *plot)
 {
-    for (size_t i = 0; chart->npanels > 0 && i < chart->panel[0].nseries; i++)
-        if (chart->panel[0].series[i].kind == FRACAS_CURVE) return true;
+    for (size_t p = 0; p < plot->analysis->table->npoints; p++)
+        if (has_scales(&plot->analysis->point[p]) && same_scales(plot, series_of(plot, p))) return true;
     return false;
 }
 
@@ -219,7 +220,7 @@ static void replicas_text(const fracas_analysis *analysis, char *text, size_t si
     else snprintf(text, size, "n = %lld", (long long)most);
 }
 
-static void caption_of_rate(const fracas_analysis *analysis, bool normalised, bool one_law, fracas_chart *chart)
+static void caption_of_rate(const fracas_analysis *analysis, bool normalised, bool one_law, bool some_law, fracas_chart *chart)
 {
     char n[64];
     replicas_text(analysis, n, sizeof n);
@@ -231,11 +232,11 @@ static void caption_of_rate(const fracas_analysis *analysis, bool normalised, bo
     }
     snprintf(chart->caption, sizeof chart->caption,
              "%sMean over replicas (%s) of body length / fragments%s; bars: 95 %% interval of the mean (Student\u2019s t over "
-             "replicas).%s",
+             "replicas).%s A crossover fitted to the marks, where there is one, is a line in their colour, too.",
              normalised ? "Sizes over s\u2080 = E G_c/\u03c3_c\u00b2, rates over "
                           "\u03b5\u0307\u2080 = c \u03c3_c\u00b3/(E\u00b2 G_c), \u03c3_c the mean strength. " : "", n,
              !normalised && fracas_analysis_any_surface(analysis) ? ", of surfaces of the mean square root of their areas" : "",
-             !one_law && !any_curve(chart) ? " No size law serves all marks of one colour: their materials differ."
+             !one_law && !some_law ? " No size law serves all marks of one colour: their materials differ."
              : normalised || one_law       ? " Lines: size laws of Zhou, Molinari and Ramesh (ZMR, ZMR-2), Grady, and Glenn "
                                              "and Chudnovsky (GC); Mott\u2019s where all strengths have one Weibull modulus."
                                            : " Lines: ZMR law with the material of the marks of the same colour, where these have one.");
@@ -254,13 +255,13 @@ fracas_err fracas_figure_rate(const fracas_analysis *analysis, bool normalised, 
     TRY(fracas_columns_without_rate(analysis->table, &analysis->shown, &others));
     rate_plot plot = {.analysis = analysis, .others = &others, .normalised = normalised, .size_factor = prefix.factor};
     fracas_err err = draw_against_rate(&plot, chart);
-    bool one_law = same_scales(&plot, ALL_SERIES);
+    bool one_law = same_scales(&plot, ALL_SERIES), some_law = any_law(&plot);
     fracas_columns_clear(&others);
     TRY(err);
     snprintf(chart->file, sizeof chart->file, "size-against-rate%s", normalised ? "-normalised" : "");
     snprintf(chart->title, sizeof chart->title, "%s", normalised ? "Normalised mean fragment size against strain rate"
                                                                  : "Mean fragment size against strain rate");
-    caption_of_rate(analysis, normalised, one_law, chart);
+    caption_of_rate(analysis, normalised, one_law, some_law, chart);
     if (chart->npanels == 0) return FRACAS_OK;
     snprintf(chart->panel[0].x.label, sizeof chart->panel[0].x.label, "%s",
              normalised ? "strain rate \u03b5\u0307/\u03b5\u0307\u2080" : "strain rate [1/s]");

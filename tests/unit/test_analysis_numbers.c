@@ -217,8 +217,9 @@ static void laws_of_a_given_opening(void **state)
     fracas_point_statistics_init(&table, 2, &still);
     assert_true(fabs(given.scales.size / (275e9 * 150 / 9e16) - 1) < 1e-14);
     for (int law = 0; law < FRACAS_NLAWS; law++) {
-        assert_true(given.law[law] > 0 && fabs(given.law[law] / energy.law[law] - 1) < 1e-13);
         assert_true(isnan(still.law[law]));
+        if (law == FRACAS_LAW_MOTT) continue; /* the table does not say how strengths are distributed */
+        assert_true(given.law[law] > 0 && fabs(given.law[law] / energy.law[law] - 1) < 1e-13);
     }
 }
 

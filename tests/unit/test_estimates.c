@@ -15,8 +15,6 @@
 
 #include <cmocka.h>
 
-#define FOLDER "fracas-estimates"
-
 /* A few roundings of sums of some ten numbers, relative. */
 static const double rounding = 1e-14;
 
