@@ -19,6 +19,7 @@ struct fracas_reader {
     fracas_file_header header;
     fracas_stored_table points;
     bool decisions, meshes; /* has a group /decision, /mesh */
+    unsigned parts;         /* of records, that it was opened for */
     set_reader set[FRACAS_NSETS];
 };
 
@@ -129,23 +130,30 @@ static fracas_err open_meshes(fracas_reader *reader)
     return FRACAS_OK;
 }
 
-static fracas_err open_sets(fracas_reader *reader)
+static fracas_err open_records(fracas_reader *reader, unsigned parts)
 {
+    reader->parts = parts;
     TRY(open_set(reader, FRACAS_SET_REALIZATION));
     const uint64_t realizations = reader->set[FRACAS_SET_REALIZATION].rows;
-    TRY(open_ragged(reader, realizations, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT));
-    TRY(open_ragged(reader, realizations, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY));
+    if (parts & FRACAS_READ_FRAGMENTS) TRY(open_ragged(reader, realizations, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT));
+    if (parts & FRACAS_READ_HISTORY) TRY(open_ragged(reader, realizations, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY));
     bool there = false;
     TRY(is_there(reader, "/interface", &there));
     if (reader->header.interfaces != there)
         return damaged(reader, "interfaces", "the group /interface is there when it must not be, or missing");
-    if (there) TRY(open_ragged(reader, realizations, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE));
+    if (there && parts & FRACAS_READ_INTERFACES)
+        TRY(open_ragged(reader, realizations, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE));
+    return FRACAS_OK;
+}
+
+static fracas_err open_rest(fracas_reader *reader)
+{
     TRY(is_there(reader, "/decision", &reader->decisions));
     if (reader->decisions) TRY(open_set(reader, FRACAS_SET_DECISION));
     return open_meshes(reader);
 }
 
-fracas_err fracas_reader_open(const char *path, fracas_reader **reader)
+static fracas_err open_file(const char *path, unsigned parts, bool all, fracas_reader **reader)
 {
     *reader = calloc(1, sizeof **reader);
     if (!*reader) return fracas_no_memory("a file");
@@ -153,12 +161,20 @@ fracas_err fracas_reader_open(const char *path, fracas_reader **reader)
     r->h5 = FRACAS_H5_CLOSED;
     fracas_err err = (r->path = strdup(path)) ? fracas_h5_open(&r->h5, r->path) : fracas_no_memory("a file");
     if (!err) err = read_header(r);
-    if (!err) err = fracas_table_read(&r->h5, &r->points);
-    if (!err) err = open_sets(r);
+    if (!err) err = all ? fracas_table_read(&r->h5, &r->points) : fracas_table_read_points(&r->h5, &r->points);
+    if (!err) err = open_records(r, parts);
+    if (!err && all) err = open_rest(r);
     if (!err) return FRACAS_OK;
     fracas_reader_close(r);
     *reader = NULL;
     return err;
+}
+
+fracas_err fracas_reader_open(const char *path, fracas_reader **reader) { return open_file(path, FRACAS_READ_ALL, true, reader); }
+
+fracas_err fracas_reader_open_records(const char *path, unsigned parts, fracas_reader **reader)
+{
+    return open_file(path, parts, false, reader);
 }
 
 void fracas_reader_close(fracas_reader *reader)
@@ -253,6 +269,7 @@ static fracas_err load_ragged(fracas_reader *reader, int offsets, int s, size_t 
 static fracas_err load_parts(fracas_reader *reader, size_t row, unsigned parts, fracas_record *record)
 {
     void *rows;
+    parts &= reader->parts;
     if (parts & FRACAS_READ_FRAGMENTS) {
         TRY(load_ragged(reader, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT, row, &rows, &record->nfragment));
         record->fragment = rows;

@@ -223,7 +223,9 @@ static fracas_err read_index(const char *study, fracas_index *index, const fraca
     read_header(&identity, campaign, &results->header);
     TRY(read_points(results, index));
     TRY(read_decisions(results, index));
-    return fracas_segments_create(study, index, &identity, &results->segments);
+    TRY(fracas_segments_create(study, index, &identity, &results->segments));
+    fracas_segments_only_records(results->segments);
+    return FRACAS_OK;
 }
 
 /* ---- opening ---- */

@@ -17,7 +17,9 @@ struct fracas_segments {
     fracas_known_segment *segment; /* by id */
     size_t count;
     bool *checked, *bad;   /* of each segment */
-    size_t current;        /* the one that is open */
+    bool only_records;
+    size_t current;        /* the one that is open, */
+    unsigned parts;        /* with these parts */
     fracas_reader *reader; /* NULL if none is */
 };
 
@@ -97,12 +99,18 @@ static fracas_err check_identity(const fracas_segments *segments, const char *pa
     return fracas_fail(FRACAS_DAMAGED, "%s: not of this study: %s", path, text);
 }
 
+static fracas_err open_reader(fracas_segments *segments, const char *path)
+{
+    return segments->only_records ? fracas_reader_open_records(path, segments->parts, &segments->reader)
+                                  : fracas_reader_open(path, &segments->reader);
+}
+
 static fracas_err open_segment(fracas_segments *segments, size_t s)
 {
     char *path;
     TRY(fracas_disk_segment(segments->study, segments->segment[s].name, &path));
     fracas_err err = segments->checked[s] ? FRACAS_OK : fracas_disk_check_seal(path, &segments->segment[s].seal);
-    if (!err) err = fracas_reader_open(path, &segments->reader);
+    if (!err) err = open_reader(segments, path);
     if (!err) err = check_identity(segments, path);
     if (err) fracas_reader_close(segments->reader), segments->reader = NULL;
     segments->checked[s] = true;
@@ -115,17 +123,22 @@ static fracas_err open_segment(fracas_segments *segments, size_t s)
 
 fracas_reader *fracas_segments_reader(const fracas_segments *segments) { return segments->reader; }
 
-fracas_err fracas_segments_open(fracas_segments *segments, int64_t id)
+void fracas_segments_only_records(fracas_segments *segments) { segments->only_records = true; }
+
+static fracas_err open_with(fracas_segments *segments, int64_t id, unsigned parts)
 {
     size_t s = find(segments, id);
     if (s == SIZE_MAX) return fracas_fail(FRACAS_DAMAGED, "%s has no segment %" PRId64 "; %s", segments->index_path, id, reindex);
     if (segments->bad[s]) return fracas_fail(FRACAS_DAMAGED, "segment %s is damaged", segments->segment[s].name);
-    if (segments->reader && segments->current == s) return FRACAS_OK;
+    if (segments->reader && segments->current == s && (segments->parts & parts) == parts) return FRACAS_OK;
     fracas_reader_close(segments->reader);
     segments->reader = NULL;
     segments->current = s;
+    segments->parts = segments->only_records ? parts : FRACAS_READ_ALL;
     return open_segment(segments, s);
 }
+
+fracas_err fracas_segments_open(fracas_segments *segments, int64_t id) { return open_with(segments, id, FRACAS_READ_ALL); }
 
 static bool same_real(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
 
@@ -141,7 +154,7 @@ bool fracas_place_fits(const fracas_place *place, const fracas_record *record)
 fracas_err fracas_segments_record(fracas_segments *segments, const fracas_place *place, const fracas_hash *point,
                                   int64_t replica, unsigned parts, fracas_record *record)
 {
-    TRY(fracas_segments_open(segments, place->segment));
+    TRY(open_with(segments, place->segment, parts));
     const char *name = segments->segment[segments->current].name;
     fracas_reader *reader = segments->reader;
     if (place->row < 0 || (uint64_t)place->row >= fracas_reader_realizations(reader))

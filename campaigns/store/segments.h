@@ -12,6 +12,8 @@ typedef struct fracas_segments fracas_segments;
 FRACAS_MUST_USE fracas_err fracas_segments_create(const char *study, fracas_index *index,
                                                   const fracas_identity *identity, fracas_segments **segments);
 void fracas_segments_destroy(fracas_segments *segments); /* NULL is allowed */
+/* From now on segments are opened for their records alone (fracas_reader_open_records), with the parts that each is asked for. */
+void fracas_segments_only_records(fracas_segments *segments);
 
 /* Forgets what is lost of the segments that the index knows: those that are missing, and those of another size or (with `seals`, which
  * reads them all) with another byte than the index says, which are set aside as NAME.damaged. *rows: realizations planned again. Each

@@ -87,6 +87,9 @@ void fracas_writer_abandon(fracas_writer *writer);
 FRACAS_MUST_USE fracas_err fracas_file_version(const char *path, uint64_t *version);
 /* FRACAS_DAMAGED if it is not a fracas file of a known format version, naming the file. */
 FRACAS_MUST_USE fracas_err fracas_reader_open(const char *path, fracas_reader **reader);
+/* The same for who wants records with no more than these parts (FRACAS_READ_...), in half the time or less: the table of points has hashes
+ * and replicas and no columns, and decisions and meshes are none. */
+FRACAS_MUST_USE fracas_err fracas_reader_open_records(const char *path, unsigned parts, fracas_reader **reader);
 void fracas_reader_close(fracas_reader *reader); /* NULL is allowed */
 const fracas_file_header *fracas_reader_header(const fracas_reader *reader);
 const fracas_point_table *fracas_reader_points(const fracas_reader *reader);

@@ -110,7 +110,7 @@ static fracas_err read_column(const fracas_h5 *h5, const fracas_store_column *co
     return err;
 }
 
-static fracas_err read_points(const fracas_h5 *h5, fracas_stored_table *stored)
+fracas_err fracas_table_read_points(const fracas_h5 *h5, fracas_stored_table *stored)
 {
     size_t count = SIZE_MAX, width = fracas_store_point_hash.width;
     void *hashes = NULL, *replicas = NULL;
@@ -182,7 +182,7 @@ fracas_err fracas_table_read(const fracas_h5 *h5, fracas_stored_table *stored)
 {
     H5G_info_t info;
     if (H5Gget_info_by_name(h5->id, "/point", &info, H5P_DEFAULT) < 0) return fracas_h5_fail(h5, "/point");
-    TRY(read_points(h5, stored));
+    TRY(fracas_table_read_points(h5, stored));
     /* After a bad checksum in a part of a group's header HDF5 1.10 may go on without the links in it. */
     uint64_t columns;
     TRY(fracas_h5_get_integer(h5, "/point", "columns", H5T_STD_I64LE, &columns));

@@ -17,6 +17,8 @@ typedef struct {
 FRACAS_MUST_USE fracas_err fracas_table_write(const fracas_h5 *h5, const fracas_point_table *table);
 /* *stored must be all zero; cleared by the caller, after an error too. */
 FRACAS_MUST_USE fracas_err fracas_table_read(const fracas_h5 *h5, fracas_stored_table *stored);
+/* The same without columns: only hash and replicas of each point. */
+FRACAS_MUST_USE fracas_err fracas_table_read_points(const fracas_h5 *h5, fracas_stored_table *stored);
 void fracas_table_clear(fracas_stored_table *stored);
 
 #endif
