@@ -21,7 +21,8 @@ void fracas_analysis_print_table(const fracas_analysis *analysis, FILE *out);
 /* The same numbers (and the rest of the statistics) as one JSON document. */
 void fracas_analysis_write_json(const fracas_analysis *analysis, FILE *out);
 
-/* STUDY/report/: index.html (self-contained), points.csv, fragments.csv, and each figure as SVG, PDF (fracas_pdf_made) and CSV. */
+/* STUDY/report/: index.html (self-contained), points.csv, fragments.csv and one SVG file a figure (and one CSV file a
+ * crack pattern of a ring). */
 FRACAS_MUST_USE fracas_err fracas_report_write(const fracas_analysis *analysis, const char *study);
 
 /* ---- pictures of broken surfaces ---- */
