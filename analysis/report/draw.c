@@ -7,11 +7,11 @@
 
 #include <math.h>
 
-enum { RIGHT = 22, LINE_HEIGHT = 19, SWATCH = 30, GAP = 14, TICK = 4 }; /* pixels */
+enum { RIGHT = 24, LINE_HEIGHT = 21, SWATCH = 30, GAP = 14, TICK = 4 }; /* pixels */
 enum { LEGEND_MOST = 12 }; /* further series are counted, not named */
 enum { COLOURS = FRACAS_CHART_COLOURS, DASHES = 5, SHAPES = 4 };
 
-static const double character = 7.6; /* width of a mean character of 13 px sans serif */
+static const double character = 8.6; /* width of a mean character of 15 px sans serif */
 
 /* ---- where things are ---- */
 
@@ -88,7 +88,7 @@ static void draw_axes(const frame *f, double bottom)
             fprintf(f->out, "<path class=\"grid\" d=\"M%.1f %.1fV%.1f\"/>\n", x, f->y.to, bottom);
         fprintf(f->out, "<path class=\"axis\" d=\"M%.1f %.1fv%d\"/>\n", x, bottom, major ? TICK : TICK / 2);
         if (major)
-            fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>\n", x, bottom + 18,
+            fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>\n", x, bottom + 20,
                     f->xtick[i].label);
     }
     for (size_t i = 0; i < f->nytick; i++) {
@@ -98,16 +98,16 @@ static void draw_axes(const frame *f, double bottom)
             fprintf(f->out, "<path class=\"grid\" d=\"M%.1f %.1fH%.1f\"/>\n", f->x.from, y, f->x.to);
         fprintf(f->out, "<path class=\"axis\" d=\"M%.1f %.1fh%d\"/>\n", f->x.from, y, major ? -TICK : -TICK / 2);
         if (major)
-            fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%s</text>\n", f->x.from - 7, y + 4.5,
+            fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%s</text>\n", f->x.from - 7, y + 5.2,
                     f->ytick[i].label);
     }
     fprintf(f->out, "<path class=\"axis\" d=\"M%.1f %.1fV%.1fH%.1f\"/>\n", f->x.from, f->y.to, bottom, f->x.to);
     if (*f->panel.x.label) {
-        fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">", (f->x.from + f->x.to) / 2, bottom + 39);
+        fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">", (f->x.from + f->x.to) / 2, bottom + 43);
         fracas_markup_text(f->panel.x.label, f->out);
         fputs("</text>\n", f->out);
     }
-    fprintf(f->out, "<text transform=\"translate(15 %.1f) rotate(-90)\" text-anchor=\"middle\">", (f->y.from + f->y.to) / 2);
+    fprintf(f->out, "<text transform=\"translate(16 %.1f) rotate(-90)\" text-anchor=\"middle\">", (f->y.from + f->y.to) / 2);
     fracas_markup_text(f->panel.y.label, f->out);
     fputs("</text>\n", f->out);
 }
@@ -261,7 +261,7 @@ static void draw_entry(const frame *f, size_t s, double x, double y, double widt
     } else {
         fprintf(f->out, LINE_START "M%.1f %.1fh24\"/>", dash_of(series->look), x, y);
     }
-    fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\">", x + SWATCH, y + 4.5);
+    fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\">", x + SWATCH, y + 5.2);
     fracas_markup_text(series->name, f->out);
     fputs("</text></g>\n", f->out);
 }
@@ -302,7 +302,7 @@ static double legend(const frame *f, bool draw)
             x = f->x.from;
             y += LINE_HEIGHT;
         }
-        if (draw) fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\">%s</text>\n", x, y + 4.5, text);
+        if (draw) fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\">%s</text>\n", x, y + 5.2, text);
     }
     return y + LINE_HEIGHT / 2.0 - f->top;
 }
@@ -328,7 +328,7 @@ static double left_margin(const fracas_chart *chart, fracas_axes axes)
         for (size_t i = 0; i < f.nytick; i++)
             if (characters(f.ytick[i].label) > widest) widest = characters(f.ytick[i].label);
     }
-    return 34 + character * (double)widest;
+    return 36 + character * (double)widest;
 }
 
 /* Places the panel, of which `f` has what it is, below `top`; returns where it ends. */
@@ -340,7 +340,7 @@ static double place(frame *f, double left, double top)
     f->x.to = f->width - RIGHT;
     f->y.to = top + legend(f, false) + 8;
     f->y.from = f->y.to + f->panel.height;
-    return f->y.from + (*f->panel.x.label ? 48 : 28);
+    return f->y.from + (*f->panel.x.label ? 53 : 30);
 }
 
 void fracas_svg_begin(const char *title, int width, double height, bool standalone, FILE *out)

@@ -306,10 +306,19 @@ fracas_err fracas_figure_sizes_together(const fracas_analysis *analysis, fracas_
 {
     snprintf(chart->file, sizeof chart->file, "sizes");
     snprintf(chart->title, sizeof chart->title, "Fragment sizes of all points");
+    size_t least = SIZE_MAX, most = 0;
+    for (size_t p = 0; p < analysis->table->npoints; p++) {
+        const size_t n = analysis->point[p].nfragments;
+        if (n > 0 && n < least) least = n;
+        if (n > most) most = n;
+    }
+    char n[64];
+    if (least < most) snprintf(n, sizeof n, "%zu to %zu", least, most);
+    else snprintf(n, sizeof n, "%zu", most);
     snprintf(chart->caption, sizeof chart->caption,
              "Share of the fragments that are at least of size s, over s / mean size of the point\u2019s "
-             "fragments; fragments of all usable replicas together, dust included.%s",
-             fracas_analysis_any_surface(analysis) ? " The size of a piece of a surface is the square root of its area." : "");
+             "fragments; n = %s fragments a point, of all usable replicas together, dust included.%s",
+             n, fracas_analysis_any_surface(analysis) ? " The size of a piece of a surface is the square root of its area." : "");
     fracas_panel *panel = NULL;
     for (size_t p = 0; p < analysis->table->npoints; p++) {
         const fracas_point_statistics *statistics = &analysis->point[p];

@@ -25,7 +25,7 @@ static const struct {
     {"energies-over-time", "Energies over time", fracas_section_energies},
     {"table-of-results", "Results", fracas_section_results},
     {"table-of-slopes", "Slopes", fracas_section_slopes},
-    {"table-of-motion", "Expansion after break-up", fracas_section_motion},
+    {"table-of-motion", "Expansion", fracas_section_motion},
     {"files", "Files", fracas_section_files},
 };
 enum { SECTIONS = sizeof sections / sizeof *sections };

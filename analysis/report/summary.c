@@ -177,10 +177,11 @@ static fracas_err put_headlines(fracas_page *page)
     const fracas_analysis *analysis = page->analysis;
     char legend[256];
     const bool all = analysis->table->npoints <= HEADLINES;
-    snprintf(legend, sizeof legend, "Means over n realizations with the half widths of their 95 %% intervals (Student\u2019s t); ZMR: the law of Zhou, "
-             "Molinari and Ramesh. %s", all ? "" : "A selection of the points.");
     fracas_result_table table = {0};
     const fracas_err built = make_headlines(analysis, &table);
+    snprintf(legend, sizeof legend, "Means over n realizations with the half widths of their 95 %% intervals (Student\u2019s t).%s%s%s",
+             fracas_analysis_any_surface(analysis) ? " Size of a piece of a surface: the square root of its area." : "",
+             table.columns == NHEADLINE ? " ZMR: the law of Zhou, Molinari and Ramesh." : "", all ? "" : " A selection of the points.");
     return fracas_page_table(page, "headline", "Headline numbers", false, &table, (const char *const[]){legend, NULL}, built);
 }
 

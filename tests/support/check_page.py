@@ -282,7 +282,7 @@ def check_print(figures, tables):
     for table in all_of("table"):
         box = table.rect
         assert box["x"] + box["width"] <= 703, "a table is cut when printed"
-    media()
+    media(kind="")
     browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
     data = base64.b64decode(browser.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True, "printBackground": True})["data"])
     path = os.path.join(home.name, "page.pdf")
@@ -290,8 +290,10 @@ def check_print(figures, tables):
     said = subprocess.run(["pdfinfo", path], check=True, capture_output=True, text=True).stdout
     pages = int(re.search(r"Pages: +(\d+)", said).group(1))
     text = subprocess.run(["pdftotext", "-layout", path, "-"], check=True, capture_output=True, text=True).stdout
+    media()
     resize(1600)
-    assert pages > 0
+    assert 0 < pages <= figures
+    assert "Contents" not in text and "linear axes" not in text  # what is for a screen alone
     for k in range(1, figures + 1):
         assert f"Figure {k}." in text
     for k in range(1, tables + 1):

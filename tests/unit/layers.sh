@@ -38,6 +38,8 @@ plant campaigns/store/planted.c '#include "campaigns/campaign.h"'
 plant campaigns/scheduler/planted.c '#include "analysis/analysis.h"'
 plant analysis/planted.c '#include "campaigns/campaign.h"'
 plant analysis/planted.c '#include "engine/engine.h"'
+plant analysis/report/planted.c '#include <librsvg/rsvg.h>'
+plant analysis/planted.c '#include <cairo-pdf.h>'
 plant campaigns/planted.c '#include "cli/cli.h"'
 
 # Which room alone knows a library.

@@ -1,0 +1,201 @@
+/* Charts: what their CSV says, what their drawings have, and drawings as PDF. */
+#include "analysis/report/chart.h"
+#include "analysis/report/pdf.h"
+#include "base/param.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+/* A mark without a bar and one that no log axis shows, a line without a name in the look of the marks, and a band with a gap. */
+static void make_chart(fracas_chart *chart)
+{
+    fracas_series *series;
+    fracas_chart_init(chart);
+    fracas_panel *panel = fracas_chart_add(chart, 200);
+    panel->x.log = panel->y.log = true;
+    strcpy(panel->x.label, "rate [1/s]");
+    strcpy(panel->y.label, "size [mm]");
+    assert_int_equal(fracas_panel_add(panel, FRACAS_CURVE, 0, 2, &series), FRACAS_OK);
+    for (size_t i = 0; i < 2; i++) series->x[i] = series->y[i] = i ? 10 : 1;
+    assert_int_equal(fracas_panel_add(panel, FRACAS_MARKS, 0, 3, &series), FRACAS_OK);
+    strcpy(series->name, "a \"quoted\", <name>");
+    for (size_t i = 0; i < 3; i++) {
+        series->x[i] = 1 + (double)i;
+        series->y[i] = i == 2 ? -1 : 2;
+        series->low[i] = series->high[i] = NAN;
+    }
+    series->low[0] = -1;
+    series->high[0] = 3;
+    panel = fracas_chart_add(chart, 80);
+    strcpy(panel->x.label, "rate [1/s]");
+    strcpy(panel->y.label, "energy [J]");
+    panel->bars = "quartiles";
+    assert_int_equal(fracas_panel_add(panel, FRACAS_BAND, 1, 5, &series), FRACAS_OK);
+    strcpy(series->name, "band");
+    for (size_t i = 0; i < 5; i++) {
+        series->x[i] = (double)i;
+        series->y[i] = 2;
+        series->low[i] = i == 2 ? NAN : 1;
+        series->high[i] = 4;
+    }
+}
+
+static char *written(void (*write)(const fracas_chart *chart, FILE *out))
+{
+    char *text;
+    size_t size;
+    fracas_chart chart;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    make_chart(&chart);
+    write(&chart, out);
+    fracas_chart_clear(&chart);
+    assert_int_equal(fclose(out), 0);
+    return text;
+}
+
+static void the_csv_has_what_is_drawn(void **state)
+{
+    (void)state;
+    char *text = written(fracas_chart_csv);
+    assert_string_equal(text, "panel,series,kind,\"rate [1/s]\",\"size [mm] | energy [J]\",low,high\n"
+                              "1,\"\",curve,1,1,,\n"
+                              "1,\"\",curve,10,10,,\n"
+                              "1,\"a \"\"quoted\"\", <name>\",mark,1,2,-1,3\n"
+                              "1,\"a \"\"quoted\"\", <name>\",mark,2,2,,\n"
+                              "2,\"band\",band,0,2,1,4\n"
+                              "2,\"band\",band,1,2,1,4\n"
+                              "2,\"band\",band,2,2,,4\n"
+                              "2,\"band\",band,3,2,1,4\n"
+                              "2,\"band\",band,4,2,1,4\n");
+    free(text);
+}
+
+static size_t count_of(const char *text, const char *part)
+{
+    size_t count = 0;
+    for (const char *at = text; (at = strstr(at, part)); at += strlen(part)) count++;
+    return count;
+}
+
+static void write_page(const fracas_chart *chart, FILE *out)
+{
+    fracas_chart_write(chart, false, out);
+}
+
+static void write_linear(const fracas_chart *chart, FILE *out)
+{
+    fracas_chart_write_axes(chart, FRACAS_AXES_LINEAR, out);
+}
+
+static void write_file(const fracas_chart *chart, FILE *out)
+{
+    fracas_chart_write(chart, true, out);
+}
+
+static void drawings_have_marks_bands_and_keys(void **state)
+{
+    (void)state;
+    char *page = written(write_page), *linear = written(write_linear), *file = written(write_file);
+    assert_int_equal(count_of(page, "class=\"mark\""), 2);
+    assert_int_equal(count_of(page, "class=\"bar\""), 1);
+    assert_int_equal(count_of(page, "class=\"area\""), 3); /* before the gap, after it, and in the legend */
+    assert_int_equal(count_of(page, "class=\"series c0\" data-key=\"0.1\""), 2); /* the line goes with the marks */
+    assert_int_equal(count_of(page, "class=\"entry c0\" data-key=\"0.1\""), 1);
+    assert_int_equal(count_of(page, "class=\"entry"), 2);
+    assert_non_null(strstr(page, "data-x=\"log 1 10 "));
+    assert_non_null(strstr(linear, "data-x=\"linear 0 10 "));
+    assert_int_equal(count_of(linear, "class=\"mark\""), 3); /* where it can be below 0 */
+    assert_non_null(strstr(page, "a &quot;quoted&quot;, &lt;name&gt;; rate [1/s]: 1.000; size [mm]: 2.000 (95 %: -1.000 to 3.000)"));
+    assert_null(strstr(page, "<style>"));
+    assert_non_null(strstr(file, ".c5{color:#56B4E9}"));
+    assert_null(strstr(file, "data-"));
+    assert_null(strstr(file, "class=\"hit\""));
+    free(page);
+    free(linear);
+    free(file);
+}
+
+/* ---- PDF ---- */
+
+static char folder[256];
+
+static int make_folder(void **state)
+{
+    (void)state;
+    snprintf(folder, sizeof folder, "%s/chart-XXXXXX", FRACAS_BINARY_DIR);
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char command[sizeof folder + 16];
+    snprintf(command, sizeof command, "rm -rf '%s'", folder);
+    return system(command);
+}
+
+static void put_file(const char *name, const char *text)
+{
+    char path[512];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void fails_with(char (*name)[FRACAS_DRAWING], const char *message)
+{
+    assert_int_equal(fracas_pdf_write(folder, name, 1), FRACAS_ENVIRONMENT);
+    if (!strstr(fracas_message(), message)) fail_msg("%s", fracas_message());
+}
+
+static void drawings_become_pdf(void **state)
+{
+    (void)state;
+    if (!fracas_pdf_made) {
+        print_message("skipped: built without librsvg\n");
+        skip();
+    }
+    char names[2][FRACAS_DRAWING] = {"chart", "again"}, path[512], begin[6] = "", *svg = written(write_file);
+    put_file("chart.svg", svg);
+    put_file("again.svg", svg);
+    free(svg);
+    assert_int_equal(fracas_pdf_write(folder, names, 2), FRACAS_OK);
+    for (int i = 0; i < 2; i++) {
+        snprintf(path, sizeof path, "%s/%s.pdf", folder, names[i]);
+        FILE *file = fopen(path, "r");
+        assert_non_null(file);
+        assert_int_equal(fread(begin, 1, 5, file), 5);
+        assert_string_equal(begin, "%PDF-");
+        fclose(file);
+    }
+    char missing[1][FRACAS_DRAWING] = {"missing"}, torn[1][FRACAS_DRAWING] = {"torn"}, taken[1][FRACAS_DRAWING] = {"taken"};
+    fails_with(missing, "missing.svg to make a PDF of it");
+    put_file("torn.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\"><path");
+    fails_with(torn, "torn.svg");
+    put_file("taken.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\"/>");
+    snprintf(path, sizeof path, "%s/taken.pdf", folder);
+    assert_int_equal(mkdir(path, 0777), 0);
+    fails_with(taken, "taken.pdf");
+    assert_int_equal(fracas_pdf_write(folder, NULL, 0), FRACAS_OK);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_csv_has_what_is_drawn),
+        cmocka_unit_test(drawings_have_marks_bands_and_keys),
+        cmocka_unit_test_setup_teardown(drawings_become_pdf, make_folder, remove_folder),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
