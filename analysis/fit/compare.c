@@ -8,7 +8,7 @@
 
 enum { LEAST = FRACAS_FIT_GOODNESS_LEAST };
 
-/* (fits.13): realization i gives the sum over its fragments of log p_1 - log p_2. */
+/* (fits.14): realization i gives the sum over its fragments of log p_1 - log p_2. */
 static void vuong(const fracas_fit_sample *sample, const fracas_family *const family[2], const double probability[2][FRACAS_FIT_CELLS],
                   fracas_fit_comparison *comparison)
 {
@@ -39,7 +39,7 @@ static double gain_of(const fracas_fit_sample *carried, const uint32_t *weight, 
                 fracas_fit_log_likelihood(family[0], carried, count, parameter[0]));
 }
 
-/* (fits.14): family and fit of the special case, then of the general one. */
+/* (fits.15): family and fit of the special case, then of the general one. */
 static fracas_err likelihood_ratio(const fracas_fit_sample *sample, const fracas_family *const family[2], const fracas_fit *const fit[2],
                                    const double *probability, int64_t resamples, uint64_t seed, fracas_fit_comparison *comparison)
 {

@@ -6,7 +6,7 @@
 
 typedef struct {
     bool nested;         /* one family is a special case of the other */
-    double statistic;    /* Vuong's z  (fits.13), positive where the first is the better one; nested: 2 log likelihood ratio  (fits.14) */
+    double statistic;    /* Vuong's z  (fits.14), positive where the first is the better one; nested: 2 log likelihood ratio  (fits.15) */
     double p;            /* of a difference as large though neither is better; nested: of a gain as large though the special case holds;
                           * NaN where it is not known */
     int64_t resamples;   /* of a nested one, those whose refits arrived */

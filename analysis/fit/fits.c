@@ -50,6 +50,7 @@ static void put(rows *to, const char *quantity, const char *unit, const fracas_i
     snprintf(row->quantity, sizeof row->quantity, "%s", quantity);
     snprintf(row->unit, sizeof row->unit, "%s", unit);
     snprintf(row->note, sizeof row->note, "%s", note);
+    for (char *at = row->note; (at = strchr(at, ',')); at++) *at = ';'; /* the file has commas between its fields alone */
     row->value = value->value;
     row->low = value->low;
     row->high = value->high;

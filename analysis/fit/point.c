@@ -7,7 +7,7 @@
 
 static const fracas_interval NO_INTERVAL = {NAN, NAN, NAN, NAN, NAN, 0};
 
-/* (fits.15) */
+/* (fits.13) */
 static void criteria(const fracas_family *family, const fracas_fit_sample *sample, fracas_family_fit *fit)
 {
     const double k = (double)family->nparameters, n = sample->total;

@@ -8,7 +8,7 @@
 
 typedef struct {
     fracas_fit fit;
-    double aicc, bic;  /* (fits.15) */
+    double aicc, bic;  /* (fits.13) */
     double delta;      /* aicc - the least of the fits that are ones */
     int rank;          /* by aicc from 1; 0: it is no fit */
     fracas_fit_goodness goodness;

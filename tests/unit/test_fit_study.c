@@ -1,0 +1,195 @@
+/* fracas fit of a study: its rows, its file, whether it is of the study as it is now, and points that cannot be fitted. */
+#include "tests/support/report.h"
+
+#include "analysis/fit/fits.h"
+#include "analysis/study/study.h"
+#include "tests/support/fit_sample.h"
+
+#include <gsl/gsl_errno.h>
+
+enum { NPOINTS = 4, NCOLUMNS = 6, RESAMPLES = 99 };
+
+static const fracas_column column[NCOLUMNS] = {
+    {"geometry.length", "m", "length", false},      {"geometry.thickness", "m", "thickness", false}, {"loading.rate", "1/s", "rate", false},
+    {"mesh.elements", "1", "elements", false}, {"model", "", "model", true}, {"time.end", "s", "end", false},
+};
+
+/* Point 0: shifted Rayleigh on a lattice of 20 um; 1: one realization of three fragments; 2: a surface; 3: nothing usable. */
+static const synthetic law[3] = {
+    {.family = &fracas_family_shifted_rayleigh, .parameter = {200e-6, 200e-6}, .lattice = 20e-6, .realizations = 1, .fragments = 60},
+    {.family = &fracas_family_exponential, .parameter = {400e-6}, .lattice = 20e-6, .realizations = 1, .fragments = 4},
+    {.family = &fracas_family_lognormal, .parameter = {1e-3, 0.4}, .realizations = 1, .fragments = 50},
+};
+
+typedef struct {
+    fracas_value value[NPOINTS][NCOLUMNS];
+    fracas_point_row point[NPOINTS];
+    fracas_point_table table;
+} made_table;
+
+static void make_table(made_table *made, int64_t replicas)
+{
+    static const int64_t few[NPOINTS] = {0, 1, 0, 2};
+    for (size_t p = 0; p < NPOINTS; p++) {
+        const bool surface = p == 2;
+        const double real[NCOLUMNS] = {surface ? NAN : 20e-3, surface ? 1e-3 : NAN, pow(10, 3 + (double)p), surface ? NAN : 1000, NAN, 1e-6};
+        for (size_t c = 0; c < NCOLUMNS; c++) made->value[p][c] = (fracas_value){.real = real[c], .text = c == 4 ? surface ? "shell" : "bar" : ""};
+        made->point[p] = (fracas_point_row){.hash = fracas_hash_of(&p, sizeof p), .replicas = few[p] ? few[p] : replicas, .value = made->value[p]};
+    }
+    made->table = (fracas_point_table){.ncolumns = NCOLUMNS, .column = column, .npoints = NPOINTS, .point = made->point};
+}
+
+static void make_record(const void *context, size_t point, int64_t replica, fracas_record *record)
+{
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    gsl_rng_set(random, (unsigned long)(1 + 1000 * point) + (unsigned long)replica);
+    (void)context;
+    if (point == 3) fracas_record_init(record);
+    else synthetic_realization(&law[point], random, record);
+    record->outcome = point == 3 ? FRACAS_NONFINITE : FRACAS_FRAGMENTED;
+    gsl_rng_free(random);
+}
+
+static void write_study(const char *folder, int64_t replicas)
+{
+    made_table made;
+    make_table(&made, replicas);
+    const fracas_file_header header = {.campaign = fracas_hash_of(folder, 1), .seed = 1, .version = "test", .complete = true};
+    report_write_study(folder, &header, &made.table, make_record, NULL);
+}
+
+static fracas_fits *fit(const char *folder, size_t point, FILE *out)
+{
+    fracas_analysis *analysis;
+    fracas_fits *fits = NULL;
+    assert_int_equal(fracas_analysis_create(folder, &analysis), FRACAS_OK);
+    assert_int_equal(fracas_fits_create(analysis, folder, point, RESAMPLES, &fits), FRACAS_OK);
+    if (out) fracas_fits_print(fits, analysis, out);
+    fracas_analysis_destroy(analysis);
+    return fits;
+}
+
+static double value_of(const fracas_fits *fits, int64_t point, const char *family, const char *quantity)
+{
+    const fracas_fits_row *row = fracas_fits_find(fits, point, family, quantity);
+    if (!row) fail_msg("no %s of %s at point %lld", quantity, family, (long long)point);
+    return row->value;
+}
+
+static void same_rows(const fracas_fits *a, const fracas_fits *b)
+{
+    assert_int_equal(a->n, b->n);
+    for (size_t i = 0; i < a->n; i++) {
+        const fracas_fits_row *x = &a->row[i], *y = &b->row[i];
+        assert_true(x->point == y->point && x->resamples == y->resamples);
+        assert_string_equal(x->hash, y->hash);
+        assert_string_equal(x->family, y->family);
+        assert_string_equal(x->quantity, y->quantity);
+        assert_string_equal(x->unit, y->unit);
+        assert_string_equal(x->note, y->note);
+        assert_true(x->value == y->value || (isnan(x->value) && isnan(y->value)));
+        assert_true(x->low == y->low || (isnan(x->low) && isnan(y->low)));
+        assert_true(x->high == y->high || (isnan(x->high) && isnan(y->high)));
+    }
+}
+
+/* The truth is ranked first or beside it (delta below 10; a Weibull with a shift holds it too), and its shift, 200 um, is within four half
+ * widths of its interval: eight standard errors of 2400 fragments. */
+static void fits_of_a_study(void **state)
+{
+    (void)state;
+    char folder[320], path[340], *text = NULL;
+    size_t size;
+    snprintf(folder, sizeof folder, "%s/one", report_root);
+    write_study(folder, 40);
+    FILE *out = open_memstream(&text, &size);
+    fracas_fits *fits = fit(folder, SIZE_MAX, out), *read = NULL;
+    fclose(out);
+    print_message("%s", text);
+    assert_non_null(strstr(text, "shifted-rayleigh"));
+    assert_non_null(strstr(text, "fragments above the cut; 30 are needed"));
+    free(text);
+    const fracas_fits_row *shift = fracas_fits_find(fits, 0, "shifted-rayleigh", "x0");
+    assert_true(value_of(fits, 0, "shifted-rayleigh", "delta_aicc") < 10 && value_of(fits, 0, "shifted-rayleigh", "fitted") == 1);
+    assert_true(shift->low < shift->value && shift->value < shift->high && shift->resamples > 0.9 * RESAMPLES);
+    assert_true(fabs(shift->value - 200e-6) < 2 * (shift->high - shift->low));
+    assert_true(fabs(value_of(fits, 0, "data", "cut") - 30e-6) < 1e-12 && value_of(fits, 0, "data", "realizations") == 40);
+    assert_true(value_of(fits, 0, "shifted-rayleigh", "ks_p") > 1e-2 && value_of(fits, 0, "exponential", "ks_p") == 1.0 / (RESAMPLES + 1));
+    const double relative = value_of(fits, 0, "shifted-rayleigh", "x0/mean") * value_of(fits, 0, "data", "mean");
+    assert_true(fabs(relative - shift->value) < 1e-9 * shift->value);
+    assert_string_equal(fracas_fits_ranked(fits, 2, 1), "lognormal");
+    assert_null(fracas_fits_find(fits, 2, "mott", "fitted")); /* a law of masses */
+    assert_null(fracas_fits_ranked(fits, 1, 1));
+    assert_true(value_of(fits, 1, "gamma", "fitted") == 0 && value_of(fits, 3, "gamma", "fitted") == 0);
+    bool stale;
+    assert_int_equal(fracas_fits_read(folder, &read, &stale), FRACAS_OK);
+    assert_null(read);
+    assert_int_equal(fracas_fits_write(fits, folder), FRACAS_OK);
+    assert_int_equal(fracas_fits_read(folder, &read, &stale), FRACAS_OK);
+    assert_false(stale);
+    assert_string_equal(read->campaign, fits->campaign);
+    assert_int_equal(read->realizations, 40 + 1 + 40 + 2);
+    same_rows(fits, read);
+    fracas_fits_destroy(read);
+    snprintf(path, sizeof path, "%s/study.h5", folder);
+    out = fopen(path, "r+"); /* same size, another byte */
+    assert_true(out && fseek(out, -1, SEEK_END) == 0);
+    const int last = fgetc(out);
+    assert_true(fseek(out, -1, SEEK_END) == 0 && fputc(last ^ 1, out) != EOF && fclose(out) == 0);
+    assert_int_equal(fracas_fits_read(folder, &read, &stale), FRACAS_OK);
+    assert_true(stale);
+    fracas_fits_destroy(read);
+    fracas_fits_destroy(fits);
+}
+
+/* A point fitted alone has the same rows as with the others, which are taken over. */
+static void one_point(void **state)
+{
+    (void)state;
+    char folder[320];
+    snprintf(folder, sizeof folder, "%s/two", report_root);
+    write_study(folder, 12);
+    fracas_analysis *analysis;
+    fracas_fits *all = fit(folder, SIZE_MAX, NULL), *one = fit(folder, 0, NULL);
+    assert_true(one->n < all->n && one->row[one->n - 1].point == 0);
+    assert_int_equal(fracas_fits_complete(one, all), FRACAS_OK);
+    same_rows(one, all);
+    fracas_fits_destroy(one);
+    assert_int_equal(fracas_analysis_create(folder, &analysis), FRACAS_OK);
+    assert_int_equal(fracas_fits_create(analysis, folder, NPOINTS, RESAMPLES, &one), FRACAS_USAGE);
+    assert_non_null(strstr(fracas_message(), "point 4: the study has points 0 to 3"));
+    fracas_analysis_destroy(analysis);
+    fracas_fits_destroy(all);
+}
+
+static void damaged_files(void **state)
+{
+    (void)state;
+    static const char *const line[] = {
+        "point,hash\n",
+        "point,hash,family,quantity,unit,value,low,high,resamples,note\n0,aa,gamma,k,1,1.5,,,\n",
+        "point,hash,family,quantity,unit,value,low,high,resamples,note\n0,aa,gamma,k,1,1.5x,,,,\n",
+        "point,hash,family,quantity,unit,value,low,high,resamples,note\n0,aa,gamma,k,1,1.5,,,-3,\n",
+        "point,hash,family,quantity,unit,value,low,high,resamples,note\n0,aa,gamma,k,1,1.5,,,,cut short",
+        "point,hash,family,quantity,unit,value,low,high,resamples,note\n0,aa,a-family-of-more-than-twenty-three-letters,k,1,1,,,,\n",
+    };
+    char path[340];
+    bool stale;
+    fracas_fits *fits;
+    snprintf(path, sizeof path, "%s/fits.csv", report_root);
+    for (size_t i = 0; i < sizeof line / sizeof *line; i++) {
+        FILE *out = fopen(path, "w");
+        assert_non_null(out);
+        fputs(line[i], out);
+        fclose(out);
+        assert_int_equal(fracas_fits_read(report_root, &fits, &stale), FRACAS_DAMAGED);
+        assert_non_null(strstr(fracas_message(), i ? "line 2 is none of ours" : "line 1 is not"));
+        assert_null(fits);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(fits_of_a_study), cmocka_unit_test(one_point), cmocka_unit_test(damaged_files)};
+    return cmocka_run_group_tests(tests, report_make_root, report_remove_root);
+}
