@@ -45,13 +45,13 @@ static void means(double number, double size, double squares, double mass, doubl
     value[FRACAS_POOLED_VARIATION] = sqrt(fmax(squares / number - mean * mean, 0)) / (shift + mean);
 }
 
-/* m0 (estimators.18) */
+/* m0 (estimators.19) */
 static double typical_group(const sums *all)
 {
     return (all->number - all->group / all->number) / (all->realizations - 1);
 }
 
-/* (estimators.18), (estimators.19) */
+/* (estimators.19), (estimators.20) */
 static void components(const sums *all, double *value)
 {
     const double m0 = typical_group(all), a = all->realizations;
@@ -147,7 +147,7 @@ fracas_err fracas_pooled_of(const fracas_ensemble *ensemble, uint64_t seed, frac
     pooled->variance = (fracas_variance){
         .within = interval[WITHIN], .between = interval[BETWEEN], .intraclass = interval[INTRACLASS],
         .design_effect = interval[DESIGN_EFFECT], .group = typical_group(&all),
-        .effective = all.number / interval[DESIGN_EFFECT].value, /* (estimators.20) */
+        .effective = all.number / interval[DESIGN_EFFECT].value, /* (estimators.21) */
     };
     return fracas_quantiles_of(ensemble, pooled->cut, seed, pooled);
 }

@@ -40,7 +40,7 @@ size_t fracas_pooled_units(size_t realizations);
 /* The unit of realization i. */
 size_t fracas_pooled_unit(size_t i, size_t realizations);
 
-/* (estimators.15) to (estimators.20), with 95 % intervals by fracas_bootstrap from 2000 resamples of units. Equal seeds give equal intervals.
+/* (estimators.15) to (estimators.21), with 95 % intervals by fracas_bootstrap from 2000 resamples of units. Equal seeds give equal intervals.
  * FRACAS_ENVIRONMENT without memory: 32 bytes a fragment and 4 kB a unit. */
 FRACAS_MUST_USE fracas_err fracas_pooled_of(const fracas_ensemble *ensemble, uint64_t seed, fracas_pooled *pooled);
 
