@@ -13,4 +13,9 @@ void fracas_csv_points(const fracas_analysis *analysis, FILE *out);
 /* A line a fragment, read again from the study in its order. */
 FRACAS_MUST_USE fracas_err fracas_csv_fragments(const fracas_analysis *analysis, FILE *out);
 
+/* Energies over time of each point: mean and band at each time of its histories. */
+void fracas_csv_energies(const fracas_analysis *analysis, FILE *out);
+/* The headline numbers of each point from its first 4, 8, 16, ... replicas and from all. */
+void fracas_csv_convergence(const fracas_analysis *analysis, FILE *out);
+
 #endif

@@ -336,6 +336,12 @@ static fracas_err write_tables(const fracas_analysis *analysis, const char *fold
     TRY(fracas_output_open(folder, "points.csv", &output));
     fracas_csv_points(analysis, output.file);
     TRY(fracas_output_close(&output, FRACAS_OK));
+    TRY(fracas_output_open(folder, "energies.csv", &output));
+    fracas_csv_energies(analysis, output.file);
+    TRY(fracas_output_close(&output, FRACAS_OK));
+    TRY(fracas_output_open(folder, "convergence.csv", &output));
+    fracas_csv_convergence(analysis, output.file);
+    TRY(fracas_output_close(&output, FRACAS_OK));
     TRY(fracas_output_open(folder, "fragments.csv", &output));
     return fracas_output_close(&output, fracas_csv_fragments(analysis, output.file));
 }
