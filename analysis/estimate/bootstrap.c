@@ -64,7 +64,7 @@ static double quantile(const double *ascending, size_t count, double p)
     return ascending[below] + (at - (double)below) * (ascending[below + 1] - ascending[below]);
 }
 
-/* Upper quantile of the confidence (estimators.24) */
+/* Upper quantile of the confidence (estimators.18) */
 static double upper(size_t n, const fracas_bootstrap_options *options)
 {
     const double p = 0.5 + 0.5 * (options->confidence > 0 ? options->confidence : 0.95);

@@ -30,7 +30,7 @@ typedef struct {
 /* Bias-corrected and accelerated intervals (BCa; Efron 1987, Efron and Tibshirani 1993, chapter 14) of `nvalues` values of n realizations,
  * from B resamples of n realizations with replacement; the acceleration from the jackknife, over at most 200 groups of realizations where
  * there are more. Normal quantiles z in them are replaced by sqrt(n/(n - 1)) t_(n-1), as Hesterberg (The American Statistician 69, 371, 2015) expands
- * percentile intervals: resamples of n values vary less by (n - 1)/n, and what they vary by is itself an estimate (estimators.24). interval[nvalues]. Below n = FRACAS_BOOTSTRAP_LEAST low and high are NaN. FRACAS_ENVIRONMENT without memory. */
+ * percentile intervals: resamples of n values vary less by (n - 1)/n, and what they vary by is itself an estimate (estimators.18). interval[nvalues]. Below n = FRACAS_BOOTSTRAP_LEAST low and high are NaN. FRACAS_ENVIRONMENT without memory. */
 enum { FRACAS_BOOTSTRAP_LEAST = 4 };
 FRACAS_MUST_USE fracas_err fracas_bootstrap(size_t n, size_t nvalues, fracas_resampled *statistic, void *context,
                                             const fracas_bootstrap_options *options, fracas_interval *interval);

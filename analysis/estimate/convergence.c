@@ -30,7 +30,7 @@ static fracas_err run(const fracas_ensemble *ensemble, size_t n, uint64_t seed, 
     return FRACAS_OK;
 }
 
-/* (estimators.21) */
+/* (estimators.22) */
 static bool settled(const fracas_settling *number, double half)
 {
     const double width = 0.5 * (number->high - number->low);

@@ -41,7 +41,7 @@ typedef struct {
     int64_t unconverged;                  /* numbers that are not, of those that the point has */
 } fracas_replica_convergence;
 
-/* (estimators.21): a number is converged if its half width w = (high - low)/2 is at most FRACAS_CONVERGED_WIDTH |value| and the value of the first half
+/* (estimators.22): a number is converged if its half width w = (high - low)/2 is at most FRACAS_CONVERGED_WIDTH |value| and the value of the first half
  * of the realizations lies within FRACAS_CONVERGED_DRIFT w of it: independent replicas pass that but once in 1600 times. */
 #define FRACAS_CONVERGED_WIDTH 0.05
 #define FRACAS_CONVERGED_DRIFT 1.75

@@ -5,19 +5,32 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Of one realization, or of a resample; sizes less `shift`, so that equal ones have a deviation of exactly 0. */
+enum { SINGLE = 1000, GROUPS = 500 };
+
+size_t fracas_pooled_units(size_t realizations)
+{
+    return realizations > SINGLE ? GROUPS : realizations;
+}
+
+size_t fracas_pooled_unit(size_t i, size_t realizations)
+{
+    return i * fracas_pooled_units(realizations) / realizations;
+}
+
+/* Of one unit, or of a resample; sizes less `shift`, so that equal ones have a deviation of exactly 0. */
 typedef struct {
     double number, size, squares, mass, moment; /* of all fragments: 1, s, s^2, m, m s */
     double resolved, resolved_size, resolved_squares, resolved_mass, resolved_moment; /* of those above the cut */
-    double between; /* (sum s)^2/number */
-    double group;   /* number^2 */
+    double between; /* (sum s)^2/number of each realization */
+    double group;   /* number^2 of each */
+    double realizations;
 } sums;
 
 enum { NSUMS = sizeof(sums) / sizeof(double) };
 
 typedef struct {
-    size_t n;
-    const sums *of; /* each realization */
+    size_t units;
+    const sums *of; /* each unit */
     double shift;
 } summed;
 
@@ -32,16 +45,16 @@ static void means(double number, double size, double squares, double mass, doubl
     value[FRACAS_POOLED_VARIATION] = sqrt(fmax(squares / number - mean * mean, 0)) / (shift + mean);
 }
 
-/* m0 of a realizations (estimators.18) */
-static double typical_group(const sums *all, double a)
+/* m0 (estimators.19) */
+static double typical_group(const sums *all)
 {
-    return (all->number - all->group / all->number) / (a - 1);
+    return (all->number - all->group / all->number) / (all->realizations - 1);
 }
 
-/* (estimators.18), (estimators.19) */
-static void components(const sums *all, double a, double *value)
+/* (estimators.19), (estimators.20) */
+static void components(const sums *all, double *value)
 {
-    const double m0 = typical_group(all, a);
+    const double m0 = typical_group(all), a = all->realizations;
     const double within = fmax(all->squares - all->between, 0) / (all->number - a);
     const double among = fmax(all->between - all->size * all->size / all->number, 0) / (a - 1);
     value[WITHIN] = within;
@@ -50,29 +63,24 @@ static void components(const sums *all, double a, double *value)
     value[DESIGN_EFFECT] = 1 + (m0 - 1) * value[INTRACLASS];
 }
 
-static sums add_up(const summed *of, const uint32_t *weight, double *a)
+static void add(sums *to, const sums *more, double times)
 {
-    double total[NSUMS] = {0};
-    *a = 0;
-    for (size_t i = 0; i < of->n; i++) {
-        if (!weight[i]) continue;
-        const double *one = &of->of[i].number;
-        for (int k = 0; k < NSUMS; k++) total[k] += weight[i] * one[k];
-        *a += weight[i];
-    }
-    return (sums){total[0], total[1], total[2], total[3], total[4], total[5], total[6], total[7], total[8], total[9], total[10], total[11]};
+    double *into = &to->number;
+    const double *from = &more->number;
+    for (int k = 0; k < NSUMS; k++) into[k] += times * from[k];
 }
 
 static void of_sums(void *context, const uint32_t *weight, double *value)
 {
     const summed *of = context;
-    double a;
-    const sums all = add_up(of, weight, &a);
+    sums all = {0};
+    for (size_t u = 0; u < of->units; u++)
+        if (weight[u]) add(&all, &of->of[u], weight[u]);
     means(all.number, all.size, all.squares, all.mass, all.moment, of->shift, value);
     means(all.resolved, all.resolved_size, all.resolved_squares, all.resolved_mass, all.resolved_moment, of->shift, value + RESOLVED);
     value[UNRESOLVED] = 1 - all.resolved / all.number; /* (estimators.17) */
     value[UNRESOLVED_MASS] = 1 - all.resolved_mass / all.mass;
-    components(&all, a, value);
+    components(&all, value);
 }
 
 static sums sums_of(const fracas_ensemble *ensemble, size_t i, double shift, double cut)
@@ -94,23 +102,25 @@ static sums sums_of(const fracas_ensemble *ensemble, size_t i, double shift, dou
     }
     of.between = of.number > 0 ? of.size * of.size / of.number : 0;
     of.group = of.number * of.number;
+    of.realizations = 1;
     return of;
 }
 
 /* Of the first n realizations; `all` their sum. */
 static fracas_err resample_sums(const fracas_ensemble *ensemble, size_t n, double cut, uint64_t seed, fracas_interval *interval, sums *all)
 {
-    sums *of = malloc((n + 1) * sizeof *of);
+    const size_t units = fracas_pooled_units(n);
+    sums *of = calloc(units + 1, sizeof *of);
     if (!of) return fracas_no_memory("the sums of the realizations of a point");
-    summed context = {.n = n, .of = of, .shift = ensemble->nfragments ? ensemble->size[0] : 0};
-    for (size_t i = 0; i < n; i++) of[i] = sums_of(ensemble, i, context.shift, cut);
-    fracas_err err = fracas_bootstrap(n, NVALUES, of_sums, &context, &(fracas_bootstrap_options){.seed = seed}, interval);
-    *all = (sums){0};
+    const double shift = ensemble->nfragments ? ensemble->size[0] : 0;
     for (size_t i = 0; i < n; i++) {
-        all->number += of[i].number;
-        all->resolved += of[i].resolved;
-        all->group += of[i].group;
+        const sums one = sums_of(ensemble, i, shift, cut);
+        add(&of[fracas_pooled_unit(i, n)], &one, 1);
     }
+    *all = (sums){0};
+    for (size_t u = 0; u < units; u++) add(all, &of[u], 1);
+    summed context = {.units = units, .of = of, .shift = shift};
+    fracas_err err = fracas_bootstrap(units, NVALUES, of_sums, &context, &(fracas_bootstrap_options){.seed = seed}, interval);
     free(of);
     return err;
 }
@@ -136,8 +146,8 @@ fracas_err fracas_pooled_of(const fracas_ensemble *ensemble, uint64_t seed, frac
     pooled->unresolved_mass = interval[UNRESOLVED_MASS];
     pooled->variance = (fracas_variance){
         .within = interval[WITHIN], .between = interval[BETWEEN], .intraclass = interval[INTRACLASS],
-        .design_effect = interval[DESIGN_EFFECT], .group = typical_group(&all, (double)ensemble->nrealizations),
-        .effective = all.number / interval[DESIGN_EFFECT].value, /* (estimators.20) */
+        .design_effect = interval[DESIGN_EFFECT], .group = typical_group(&all),
+        .effective = all.number / interval[DESIGN_EFFECT].value, /* (estimators.21) */
     };
     return fracas_quantiles_of(ensemble, pooled->cut, seed, pooled);
 }

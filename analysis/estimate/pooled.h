@@ -35,9 +35,13 @@ typedef struct {
     fracas_variance variance;  /* of all */
 } fracas_pooled;
 
-/* (estimators.15) to (estimators.20), with 95 % intervals by fracas_bootstrap over the realizations: 2000 resamples, of the quantiles as many
- * as need 5e7 visits of a fragment, between 300 and 2000. Equal sizes of a realization are one visit. Equal seeds give equal intervals.
- * FRACAS_ENVIRONMENT without memory: some 24 bytes a fragment and 120 a realization. */
+/* What is resampled: realizations, of more than 1000 of them 500 groups of as many neighbours. */
+size_t fracas_pooled_units(size_t realizations);
+/* The unit of realization i. */
+size_t fracas_pooled_unit(size_t i, size_t realizations);
+
+/* (estimators.15) to (estimators.21), with 95 % intervals by fracas_bootstrap from 2000 resamples of units. Equal seeds give equal intervals.
+ * FRACAS_ENVIRONMENT without memory: 32 bytes a fragment and 4 kB a unit. */
 FRACAS_MUST_USE fracas_err fracas_pooled_of(const fracas_ensemble *ensemble, uint64_t seed, fracas_pooled *pooled);
 
 /* What depends on sums alone: mean, mass_mean, variation of all fragments of the first `realizations` realizations. */

@@ -6,57 +6,84 @@
 
 const double fracas_quantile_share[FRACAS_NQUANTILES] = {0.05, 0.25, 0.5, 0.75, 0.95};
 
-static const double most_visits = 5e7;
-enum { FEWEST = 300, MOST = 2000 };
+enum { CELLS = 256 };
 
-/* Fragments of one size in one realization. */
+typedef struct {
+    double number, mass;
+} amount;
+
+/* Fragments of one size in one unit of resampling. */
 typedef struct {
     double size;
-    double mass;          /* of them together */
-    uint32_t realization;
-    uint32_t number;
+    amount of;
+    size_t unit;
 } entry;
 
+/* A resample looks at the cells first, runs of entries, and at the entries of those alone in which a quantile lies: it costs units x cells, not
+ * fragments. No size is in two cells, and none of them lies on both sides of the cut. */
 typedef struct {
     double lattice, cut;
-    size_t n;       /* realizations */
-    size_t count;   /* entries, ascending in size, then in realization */
-    entry *entry;
-    double *number, *mass; /* of each realization: a total is found without a visit of every entry */
+    size_t units, count, cells;
+    entry *entry;   /* count of them, ascending in size, then in unit */
+    size_t *begin;  /* of each cell, and the end */
+    amount *part;   /* [unit][cell] */
+    amount *total;  /* of each cell in a resample */
 } merged;
 
 static int by_size(const void *a, const void *b)
 {
     const entry *left = a, *right = b;
     if (left->size != right->size) return left->size < right->size ? -1 : 1;
-    return (left->realization > right->realization) - (left->realization < right->realization);
+    return (left->unit > right->unit) - (left->unit < right->unit);
+}
+
+static void add(amount *to, const amount *more, double times)
+{
+    to->number += times * more->number;
+    to->mass += times * more->mass;
 }
 
 /* On a lattice sizes are whole numbers of steps until they are shown: equal sizes differ in their last digits. */
-static fracas_err merge(const fracas_ensemble *ensemble, merged *all)
+static void merge(const fracas_ensemble *ensemble, merged *all)
 {
-    size_t count = 0;
-    all->entry = malloc((ensemble->nfragments + 1) * sizeof *all->entry);
-    all->number = calloc(all->n + 1, sizeof *all->number);
-    all->mass = calloc(all->n + 1, sizeof *all->mass);
-    if (!all->entry || !all->number || !all->mass) return fracas_no_memory("the sizes of a point's fragments");
-    for (size_t i = 0; i < all->n; i++)
+    for (size_t i = 0; i < ensemble->nrealizations; i++)
         for (size_t f = ensemble->first[i]; f < ensemble->first[i + 1]; f++) {
             const double size = all->lattice > 0 ? all->lattice * round(ensemble->size[f] / all->lattice) : ensemble->size[f];
-            all->entry[f] = (entry){size, ensemble->mass[f], (uint32_t)i, 1};
-            all->number[i]++;
-            all->mass[i] += ensemble->mass[f];
+            all->entry[f] = (entry){size, {1, ensemble->mass[f]}, fracas_pooled_unit(i, ensemble->nrealizations)};
         }
     qsort(all->entry, ensemble->nfragments, sizeof *all->entry, by_size);
     for (size_t f = 0; f < ensemble->nfragments; f++) {
-        if (count > 0 && by_size(&all->entry[count - 1], &all->entry[f]) == 0) {
-            all->entry[count - 1].mass += all->entry[f].mass;
-            all->entry[count - 1].number++;
-        } else {
-            all->entry[count++] = all->entry[f];
-        }
+        if (all->count > 0 && by_size(&all->entry[all->count - 1], &all->entry[f]) == 0)
+            add(&all->entry[all->count - 1].of, &all->entry[f].of, 1);
+        else
+            all->entry[all->count++] = all->entry[f];
     }
-    all->count = count;
+}
+
+static void divide(merged *all)
+{
+    const size_t least = all->count / CELLS + 1;
+    for (size_t e = 0; e < all->count; e++) {
+        const entry *now = &all->entry[e];
+        const bool another = e == 0 || now->size != now[-1].size;
+        const bool crosses = e > 0 && now->size > all->cut && !(now[-1].size > all->cut);
+        if (e == 0 || crosses || (another && e - all->begin[all->cells - 1] >= least)) all->begin[all->cells++] = e;
+    }
+    all->begin[all->cells] = all->count;
+}
+
+static fracas_err prepare(const fracas_ensemble *ensemble, merged *all)
+{
+    all->entry = malloc((ensemble->nfragments + 1) * sizeof *all->entry);
+    all->begin = malloc((CELLS + 3) * sizeof *all->begin);
+    all->total = malloc((CELLS + 3) * sizeof *all->total);
+    all->part = calloc(all->units * (CELLS + 3) + 1, sizeof *all->part);
+    if (!all->entry || !all->begin || !all->total || !all->part) return fracas_no_memory("the sizes of a point's fragments");
+    merge(ensemble, all);
+    divide(all);
+    for (size_t c = 0; c < all->cells; c++)
+        for (size_t e = all->begin[c]; e < all->begin[c + 1]; e++)
+            add(&all->part[all->entry[e].unit * all->cells + c], &all->entry[e].of, 1);
     return FRACAS_OK;
 }
 
@@ -69,9 +96,9 @@ typedef struct {
 
 /* What was summed goes from `before` to `after` at a size: the quantiles passed lie at it, on a lattice as if its fragments were spread evenly over half
  * a step to either side (estimators.16). */
-static inline void pass(row *of, double before, double after, double size, double lattice)
+static void pass(row *of, double before, double after, double size, double lattice)
 {
-    while (of->next < FRACAS_NQUANTILES) {
+    while (of->next < FRACAS_NQUANTILES && after > before) {
         const double wanted = of->floor + fracas_quantile_share[of->next] * (of->total - of->floor);
         if (!(after >= wanted)) return;
         of->value[of->next++] = size + lattice * ((wanted - before) / (after - before) - 0.5);
@@ -80,55 +107,68 @@ static inline void pass(row *of, double before, double after, double size, doubl
 
 enum { NUMBER, MASS, NROWS = 4, NVALUES = NROWS * FRACAS_NQUANTILES }; /* of all, then of those above the cut */
 
-static void begin(row *of, double floor, double total, double *value)
+static void begin(row of[2], const amount *floor, const amount *total, double *value)
 {
-    *of = (row){.floor = floor, .total = total, .value = value, .next = total > floor ? 0 : FRACAS_NQUANTILES};
+    of[NUMBER] = (row){floor->number, total->number, total->number > floor->number ? 0 : FRACAS_NQUANTILES, value};
+    of[MASS] = (row){floor->mass, total->mass, total->mass > floor->mass ? 0 : FRACAS_NQUANTILES, value + FRACAS_NQUANTILES};
+}
+
+static bool reaches(const row *of, double sum)
+{
+    return of->next < FRACAS_NQUANTILES && sum >= of->floor + fracas_quantile_share[of->next] * (of->total - of->floor);
+}
+
+/* Through a cell, size by size; `sum` is what lies below it. */
+static void scan(const merged *all, size_t cell, const uint32_t *weight, amount sum, row *of, int rows)
+{
+    for (size_t e = all->begin[cell]; e < all->begin[cell + 1];) {
+        const double size = all->entry[e].size;
+        const amount before = sum;
+        for (; e < all->begin[cell + 1] && all->entry[e].size == size; e++) add(&sum, &all->entry[e].of, weight[all->entry[e].unit]);
+        for (int r = 0; r < rows; r += 2) {
+            pass(&of[r + NUMBER], before.number, sum.number, size, all->lattice);
+            pass(&of[r + MASS], before.mass, sum.mass, size, all->lattice);
+        }
+    }
 }
 
 static void quantiles(void *context, const uint32_t *weight, double *value)
 {
     const merged *all = context;
+    const amount nothing = {0, 0};
+    amount whole = nothing, sum = nothing;
     row of[NROWS];
-    double total[2] = {0, 0}, sum[2] = {0, 0};
-    bool above = false;
+    int rows = 2;
     for (int v = 0; v < NVALUES; v++) value[v] = NAN;
-    for (size_t i = 0; i < all->n; i++) {
-        total[NUMBER] += weight[i] * all->number[i];
-        total[MASS] += weight[i] * all->mass[i];
+    for (size_t c = 0; c < all->cells; c++) all->total[c] = nothing;
+    for (size_t u = 0; u < all->units; u++) {
+        const amount *part = all->part + u * all->cells;
+        const double w = weight[u];
+        if (weight[u])
+            for (size_t c = 0; c < all->cells; c++) add(&all->total[c], &part[c], w);
     }
-    for (int r = 0; r < 2; r++) begin(&of[r], 0, total[r], value + r * FRACAS_NQUANTILES);
-    for (size_t e = 0; e < all->count;) {
-        const double size = all->entry[e].size;
-        if (!above && size > all->cut) {
-            above = true;
-            for (int r = 0; r < 2; r++) begin(&of[2 + r], sum[r], total[r], value + (2 + r) * FRACAS_NQUANTILES);
+    for (size_t c = 0; c < all->cells; c++) add(&whole, &all->total[c], 1);
+    begin(of, &nothing, &whole, value);
+    for (size_t c = 0; c < all->cells; c++) {
+        if (rows == 2 && all->entry[all->begin[c]].size > all->cut) {
+            begin(of + 2, &sum, &whole, value + 2 * FRACAS_NQUANTILES);
+            rows = NROWS;
         }
-        const double before[2] = {sum[NUMBER], sum[MASS]};
-        for (; e < all->count && all->entry[e].size == size; e++) {
-            const double w = weight[all->entry[e].realization];
-            sum[NUMBER] += w * all->entry[e].number;
-            sum[MASS] += w * all->entry[e].mass;
-        }
-        for (int r = 0; r < (above ? NROWS : 2); r++)
-            if (sum[r & 1] > before[r & 1]) pass(&of[r], before[r & 1], sum[r & 1], size, all->lattice);
+        amount after = sum;
+        add(&after, &all->total[c], 1);
+        bool here = false;
+        for (int r = 0; r < rows; r += 2) here = here || reaches(&of[r + NUMBER], after.number) || reaches(&of[r + MASS], after.mass);
+        if (here) scan(all, c, weight, sum, of, rows);
+        sum = after;
     }
-}
-
-static int64_t resamples_of(size_t entries)
-{
-    const double wanted = most_visits / (double)(entries + 1);
-    return wanted >= MOST ? MOST : wanted <= FEWEST ? FEWEST : (int64_t)wanted;
 }
 
 fracas_err fracas_quantiles_of(const fracas_ensemble *ensemble, double cut, uint64_t seed, fracas_pooled *pooled)
 {
-    merged all = {.lattice = ensemble->lattice, .cut = cut, .n = ensemble->nrealizations};
+    merged all = {.lattice = ensemble->lattice, .cut = cut, .units = fracas_pooled_units(ensemble->nrealizations)};
     fracas_interval interval[NVALUES];
-    fracas_err err = merge(ensemble, &all);
-    if (!err) {
-        const fracas_bootstrap_options options = {.seed = seed, .resamples = resamples_of(all.count)};
-        err = fracas_bootstrap(all.n, NVALUES, quantiles, &all, &options, interval);
-    }
+    fracas_err err = prepare(ensemble, &all);
+    if (!err) err = fracas_bootstrap(all.units, NVALUES, quantiles, &all, &(fracas_bootstrap_options){.seed = seed}, interval);
     if (!err) {
         memcpy(pooled->all.quantile, interval, sizeof pooled->all.quantile);
         memcpy(pooled->all.mass_quantile, interval + FRACAS_NQUANTILES, sizeof pooled->all.mass_quantile);
@@ -136,7 +176,8 @@ fracas_err fracas_quantiles_of(const fracas_ensemble *ensemble, double cut, uint
         memcpy(pooled->above.mass_quantile, interval + 3 * FRACAS_NQUANTILES, sizeof pooled->above.mass_quantile);
     }
     free(all.entry);
-    free(all.number);
-    free(all.mass);
+    free(all.begin);
+    free(all.total);
+    free(all.part);
     return err;
 }

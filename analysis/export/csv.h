@@ -34,8 +34,9 @@ typedef struct fracas_csv_table {
 extern const fracas_csv_table fracas_csv_table_points, fracas_csv_table_realizations, fracas_csv_table_fragments,
     fracas_csv_table_histories, fracas_csv_table_statistics;
 
-/* A line a slope of mean size against strain rate: `kind` line, through all points of a series, or window, between two rates. */
-extern const fracas_csv_table fracas_csv_table_slopes;
+/* A line a time of a point: its energies, mean and band; a number of replicas: the headline numbers from the first 4, 8, 16, ... and from all;
+ * a slope of mean size against strain rate: `kind` line, through all points of a series, or window, between two rates. */
+extern const fracas_csv_table fracas_csv_table_energies, fracas_csv_table_convergence, fracas_csv_table_slopes;
 
 /* The head and the lines of a table; equal bytes for equal study.h5. The error is of reading the study: the caller looks at `out`. */
 FRACAS_MUST_USE fracas_err fracas_csv_write(const fracas_csv_table *table, const fracas_analysis *analysis, FILE *out);

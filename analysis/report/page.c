@@ -98,6 +98,8 @@ static fracas_err write_tables(const fracas_analysis *analysis, const char *fold
     fracas_output_file output;
     TRY(fracas_csv_file(&fracas_csv_table_points, analysis, folder));
     TRY(fracas_csv_file(&fracas_csv_table_slopes, analysis, folder));
+    TRY(fracas_csv_file(&fracas_csv_table_energies, analysis, folder));
+    TRY(fracas_csv_file(&fracas_csv_table_convergence, analysis, folder));
     TRY(fracas_csv_file(&fracas_csv_table_fragments, analysis, folder));
     TRY(fracas_output_open(folder, "summary.json", &output));
     fracas_analysis_write_json(analysis, output.file);

@@ -47,7 +47,7 @@ static void keep(double *heap, size_t most, size_t count, double value)
     heap[at] = value;
 }
 
-/* One realization: of each time the first row at or after it, which is its own, and the last row beyond (estimators.22). */
+/* One realization: of each time the first row at or after it, which is its own, and the last row beyond (estimators.23). */
 static void take_in(const fracas_record *record, fracas_bands_collector *of)
 {
     fracas_bands *bands = of->bands;
@@ -67,7 +67,7 @@ static void take_in(const fracas_record *record, fracas_bands_collector *of)
     of->count++;
 }
 
-/* (estimators.23) of the `most` least of n values. */
+/* (estimators.24) of the `most` least of n values. */
 static double low_of(double *least, size_t most, size_t n)
 {
     const size_t there = most < n ? most : n;

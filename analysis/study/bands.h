@@ -18,7 +18,7 @@ typedef struct {
     double mean, low, high; /* J */
 } fracas_band;
 
-/* At the times t_j = j time.end/intervals of the histories (estimators.22), (estimators.23), until all realizations have ended. */
+/* At the times t_j = j time.end/intervals of the histories (estimators.23), (estimators.24), until all realizations have ended. */
 typedef struct {
     size_t count;         /* times, 0 of a study without histories */
     double *time;         /* s */

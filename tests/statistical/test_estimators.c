@@ -187,7 +187,7 @@ static void intervals_hold_the_truth_as_often_as_stated(void **state)
     tally of[CASES] = {{.repetitions = 0}};
     truths(truth);
     for (int c = 0; c < CASES; c++)
-        if (repetitions >= STATED || make[c].n <= 50) repeat(make[c].n, make[c].apart, repetitions, truth, &of[c]);
+        if (repetitions >= STATED || make[c].n <= 50) repeat(make[c].n, make[c].apart, make[c].apart ? ORDINARY : repetitions, truth, &of[c]);
     for (int v = 0; v < NNUMBERS; v++)
         for (int c = 0; c < CASES; c++)
             if (of[c].repetitions) print_row((number)v, c, truth[v], &of[c]);

@@ -46,6 +46,36 @@ with h5py.File(study + "/study.h5", "r") as file:
     fragment = {name: column[()] for name, column in file["fragment"].items()}
 model = [point["parameters"].get("model") for point in summary["points"]]
 
+# Convergence: its last row is of all replicas, the rows before of the first 4, 8, 16, ...
+convergence = list(csv.DictReader(open(os.path.join(report, "convergence.csv"))))
+for p, row in enumerate(rows):
+    of = [line for line in convergence if int(line["point"]) == p]
+    usable = int(row["usable"])
+    assert [int(line["replicas"]) for line in of] == [4 * 2**k for k in range(20) if 4 * 2**k < usable] + [usable] * (usable > 0)
+    for name, key in (("count", "count.mean"), ("size", "size.mean"), ("fragment.mean", "fragment.mean.value")) if of else ():
+        assert same(float(of[-1][name + ".value"]), row[key]), key
+
+# Energies over time: at each time of the histories the first row at or after it, the last one beyond.
+with h5py.File(study + "/study.h5", "r") as file:
+    intervals = int(file.attrs.get("history", 0))
+    history = {name: column[()] for name, column in file["history"].items()}
+energies = list(csv.DictReader(open(os.path.join(report, "energies.csv"))))
+for p, point in enumerate(summary["points"]):
+    used = np.flatnonzero((realization["point"] == p) & (realization["outcome"] <= 2))
+    of = [line for line in energies if int(line["point"]) == p]
+    assert bool(of) == (intervals > 0 and len(used) > 0)
+    for j, line in list(enumerate(of))[::7]:
+        time = j * point["parameters"]["time.end"] / intervals
+        assert same(float(line["time"]), time) and int(line["realizations"]) == len(used)
+        begin, end = history["offset"][used], history["offset"][used + 1]
+        place = [b + np.searchsorted(history["time"][b:e], time) for b, e in zip(begin, end)]
+        assert int(line["running"]) == sum(at < e for at, e in zip(place, end))
+        for name in ("kinetic", "elastic", "cohesive", "dissipated"):
+            value = history[name][np.minimum(place, end - 1)]
+            ends = (value.min(), value.max()) if len(used) < 20 else np.quantile(value, (0.05, 0.95))
+            for which, expected in zip(("mean", "low", "high"), (value.mean(), *ends)):  # sums of both signs, and interpolation
+                assert math.isclose(float(line[f"{name}.{which}"]), expected, rel_tol=1e-11, abs_tol=1e-12 * abs(value).max()), (name, which)
+
 # Slopes: numpy's weighted fit of the points that the series of that name has.
 MAKERS = ("loading.rate", "loading.radial", "loading.velocity")
 others = [path for path in summary["varying"] if path not in MAKERS]

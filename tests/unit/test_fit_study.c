@@ -62,7 +62,7 @@ static fracas_fits *fit(const char *folder, size_t point, FILE *out)
 {
     fracas_analysis *analysis;
     fracas_fits *fits = NULL;
-    assert_int_equal(fracas_analysis_create(folder, &analysis), FRACAS_OK);
+    assert_int_equal(fracas_analysis_create(folder, NULL, NULL, &analysis), FRACAS_OK);
     assert_int_equal(fracas_fits_create(analysis, folder, point, RESAMPLES, &fits), FRACAS_OK);
     if (out) fracas_fits_print(fits, analysis, out);
     fracas_analysis_destroy(analysis);
@@ -155,7 +155,7 @@ static void one_point(void **state)
     assert_int_equal(fracas_fits_complete(one, all), FRACAS_OK);
     same_rows(one, all);
     fracas_fits_destroy(one);
-    assert_int_equal(fracas_analysis_create(folder, &analysis), FRACAS_OK);
+    assert_int_equal(fracas_analysis_create(folder, NULL, NULL, &analysis), FRACAS_OK);
     assert_int_equal(fracas_fits_create(analysis, folder, NPOINTS, RESAMPLES, &one), FRACAS_USAGE);
     assert_non_null(strstr(fracas_message(), "point 4: the study has points 0 to 3"));
     fracas_analysis_destroy(analysis);
