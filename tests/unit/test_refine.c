@@ -1,4 +1,5 @@
-/* Refined campaigns: of every shipped example, and where a refinement cannot be. */
+/* Refined campaigns: of every shipped example, and where a refinement cannot be.
+ * ctest-labels: slow-sanitize */
 #include "campaigns/plan/forecast.h"
 #include "campaigns/plan/refine.h"
 #include "campaigns/scheduler/study/prepare.h"
