@@ -118,10 +118,20 @@ static double cost_of(const fracas_refined *refined)
     return sum;
 }
 
+/* To two digits, which is more than a prediction has. */
+static void write_duration(double seconds, char text[32])
+{
+    if (seconds < 99.5) snprintf(text, 32, "%.2g s", seconds);
+    else if (seconds < 5940) snprintf(text, 32, "%.0f min", seconds / 60);
+    else if (seconds < 172800) snprintf(text, 32, "%.1f h", seconds / 3600);
+    else snprintf(text, 32, "%.1f days", seconds / 86400);
+}
+
 /* What all this will take, at the speed of the campaign as it is. */
 static fracas_err say_costs(const converging *c)
 {
     double base = 0, total = 0;
+    char text[32];
     TRY(predict(c, &base));
     fprintf(stderr, "fracas: predicted for whole studies, at most:\n");
     for (size_t i = 0; i < FRACAS_COUNT(order); i++) {
@@ -129,10 +139,12 @@ static fracas_err say_costs(const converging *c)
         if (!refined->campaign) continue;
         const double factor = cost_of(refined) / cost_of(base_of(c)), time = factor * base;
         total += time;
-        fprintf(stderr, "fracas:   %s  %-25s %4zu point%s  %6.3g times the work  %8.2g s\n", fracas_refinement_name[order[i]],
-                fracas_refinement_doc[order[i]], refined->campaign->npoints, refined->campaign->npoints == 1 ? " " : "s", factor, time);
+        write_duration(time, text);
+        fprintf(stderr, "fracas:   %s  %-25s %4zu point%s  %6.3g times the work  %8s\n", fracas_refinement_name[order[i]],
+                fracas_refinement_doc[order[i]], refined->campaign->npoints, refined->campaign->npoints == 1 ? " " : "s", factor, text);
     }
-    fprintf(stderr, "fracas:   together %.2g s\n", total);
+    write_duration(total, text);
+    fprintf(stderr, "fracas:   together %s\n", text);
     return FRACAS_OK;
 }
 
@@ -244,7 +256,7 @@ static fracas_err converge(const fracas_arguments *arguments)
 }
 
 const fracas_command fracas_command_converge = {
-    .name = "converge", .operand = "FILE", .doc = "Runs FILE with mesh, step and beta refined in turn: which numbers move?",
+    .name = "converge", .operand = "FILE", .doc = "Runs FILE with mesh, step and beta refined in turn, and says which numbers move",
     .more = "\nThe campaign of FILE as it is, with half the time step, with interfaces twice as stiff, and on a mesh of half the size is computed, each as\n"
             "a study in DIR; then every headline number is compared with what it is without. It ends with 0 whatever moved. The same command\n"
             "goes on with what was interrupted, prints the result of what is complete, and extends all studies by more --replicas.\n",

@@ -1,3 +1,4 @@
+# ctest-labels: slow-sanitize
 # fracas converge from end to end: a coarse mesh is found out and a fine one holds, what is interrupted goes on to the same numbers, more
 # replicas extend all studies, and what cannot be refined is said so.
 . tests/support/campaigns.sh

@@ -46,6 +46,35 @@ static void verdicts(void **state)
     assert_true(fracas_convergence_replicas(&convergence, &row[4]) == 65);
 }
 
+/* Pairs are those of one replica, which replica 4 of one and 5 of the other have none in. Differences 1, 2, 3, 4 of them: t = 2.5/(s/2), s^2 = 5/3;
+ * of three degrees of freedom P(|T| > t) = 1 - 2/pi (atan x + x/(1 + x^2)), x = t/sqrt(3). Energies are equal. */
+static void pairs_by_replica(void **state)
+{
+    (void)state;
+    fracas_replica_values before[5], after[5];
+    int64_t replica[2][5] = {{0, 1, 2, 3, 5}, {0, 1, 2, 3, 4}};
+    const double count[5] = {40, 70, 50, 60, 1};
+    for (int i = 0; i < 5; i++) {
+        before[i] = (fracas_replica_values){.count = count[i], .count_large = count[i], .size = NAN, .dissipated = 2, .onset_time = NAN};
+        after[i] = before[i];
+        after[i].count = after[i].count_large = i < 4 ? count[i] + i + 1 : 1000;
+    }
+    fracas_point_statistics point = {.ensemble = {.nrealizations = 5, .value = before, .replica = replica[0]}};
+    const fracas_ensemble refined = {.nrealizations = 5, .value = after, .replica = replica[1]};
+    fracas_analysis study = {.point = &point};
+    fracas_convergence convergence = {.study = &study, .tolerance = 0.02};
+    const fracas_refinement_map map = {.name = "step", .paired = true};
+    assert_int_equal(fracas_convergence_compare(&convergence, 0, &refined, &map), FRACAS_OK);
+    assert_int_equal(convergence.nrows, 2);
+    const fracas_compared_value *of = &convergence.row[0].value;
+    const double x = 2.5 / (0.5 * sqrt(5.0 / 3)) / sqrt(3), p = 1 - 2 / M_PI * (atan(x) + x / (1 + x * x));
+    assert_int_equal(of->a.n, 4);
+    assert_true(of->a.mean == 55 && fabs(of->difference - 2.5) < 1e-12);
+    assert_true(fabs(of->p - p) < 1e-9);
+    assert_true(convergence.row[1].value.difference == 0 && convergence.row[1].value.p == 1);
+    free(convergence.row);
+}
+
 /* ---- samples of known truth ---- */
 
 enum { MOST = 64 };
@@ -134,6 +163,7 @@ static void moves_are_found(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(verdicts), cmocka_unit_test(no_false_alarm), cmocka_unit_test(moves_are_found)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(verdicts), cmocka_unit_test(pairs_by_replica), cmocka_unit_test(no_false_alarm),
+                                       cmocka_unit_test(moves_are_found)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
