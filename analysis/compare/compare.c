@@ -10,7 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CUTS = 256 }; /* of the sizes: more would not be seen, and each is a sum over realizations a permutation */
+/* Cuts of the sizes: more than CUTS would not be seen, and each is a sum over realizations in every permutation, of which there are no more than
+ * SUMS at a time. */
+enum { CUTS = 256, LEAST_CUTS = 16, SUMS = 200000 };
 
 #define QUANTITY(key, unit, doc, member) {key, unit, doc, offsetof(fracas_replica_values, member)}
 const fracas_compared_quantity fracas_compared_quantities[FRACAS_COMPARED_VALUES] = {
@@ -108,7 +110,7 @@ static fracas_err gather(const fracas_ensemble *a, const fracas_ensemble *b, boo
     return FRACAS_OK;
 }
 
-/* Where the distributions of sizes are compared: all sizes that occur, up to CUTS of them, else quantiles  (compare.9). */
+/* Where the distributions of sizes are compared: all sizes that occur if they are few, else even ones of them  (compare.9). */
 static fracas_err make_cuts(gathered *of)
 {
     size_t n = 0, distinct = 0;
@@ -121,8 +123,9 @@ static fracas_err make_cuts(gathered *of)
     gsl_sort(size, 1, n);
     for (size_t i = 0; i < n; i++) /* sizes that differ by rounding alone are one */
         if (i == 0 || size[i] > size[distinct - 1] * (1 + 1e-9)) size[distinct++] = size[i];
-    of->ncuts = distinct < CUTS ? distinct : CUTS;
-    for (size_t c = 0; c < of->ncuts; c++) of->cut[c] = size[distinct <= CUTS ? c : c * (distinct - 1) / (CUTS - 1)] * (1 + 1e-9);
+    const size_t affordable = SUMS / (of->na + of->nb + 1), most = affordable > CUTS ? CUTS : affordable < LEAST_CUTS ? LEAST_CUTS : affordable;
+    of->ncuts = distinct < most ? distinct : most;
+    for (size_t c = 0; c < of->ncuts; c++) of->cut[c] = size[distinct <= most ? c : c * (distinct - 1) / (most - 1)] * (1 + 1e-9);
     free(size);
     return FRACAS_OK;
 }

@@ -53,6 +53,9 @@ static void pairs_by_hand(void **state)
     assert_true(value.a.n == 4 && value.b.n == 4 && value.freedom == 3 && fabs(value.difference - 2) < 1e-15);
     assert_true(fabs(value.high - 2 - 3.182446 * sqrt(2.0 / 3) / 2) < 1e-6);
     assert_true(fabs(value.relative - 2 / 4.25) < 1e-15);
+    double squares = 0; /* of what is left of b beside its ratio to a, 6.25/4.25 */
+    for (size_t i = 0; i < 5; i++) squares += i == 2 ? 0 : pow(b[i] - 6.25 - 6.25 / 4.25 * (a[i] - 4.25), 2);
+    assert_true(fabs(value.relative_high - value.relative - 3.182446 * sqrt(squares / 12) / 4.25) < 1e-6);
     const double equal[] = {3, 4, 5};
     fracas_difference_of_pairs(equal, equal, 3, 1, &value);
     assert_true(value.difference == 0 && value.low == 0 && value.high == 0);

@@ -122,6 +122,28 @@ for ours, line, theirs in zip(summary["windows"], lines[len(summary["slopes"]):]
         for mine in (ours[key], float(line[key]) if line[key] else None):
             assert mine is None and math.isnan(value) or math.isclose(mine, value, rel_tol=1e-9), (key, mine, value)
 
+# Crossovers: chi2 is that of the constants, and the least about them.
+used = [[(math.log(row["rate"]), math.log(row["size.mean"]), row["size.deviation"] / row["size.mean"] / math.sqrt(row["size.n"]))
+         for row in group if row["rate"] > 0 and row["size.deviation"] > 0] for group in groups.values()
+        if any(row["rate"] > 0 and not math.isnan(row["size.mean"]) for row in group)]
+if not any(point["parameters"].get("geometry.thickness") for point in summary["points"]):  # of surfaces there are none
+    assert len(summary["crossovers"]) == len(used)
+    for fit, of in zip(summary["crossovers"], used):
+        assert fit["points"] == len(of) and (fit["reason"] is None) == (fit["rate"]["value"] is not None)
+        if fit["reason"] is not None:
+            continue
+        x, y, error = np.array(of).T
+
+        def chi2(size, rate, k):
+            return np.sum(((y - math.log(size) + np.logaddexp(0, k * (x - math.log(rate)))) / error)**2)
+
+        best = np.array([fit["size"]["value"], fit["rate"]["value"], -fit["high_exponent"]["value"]])
+        assert math.isclose(chi2(*best), fit["chi2"], rel_tol=1e-9)
+        for step in np.vstack((np.eye(3), -np.eye(3))) * 1e-3:
+            assert chi2(*(best * (1 + step))) > fit["chi2"]
+        for name in ("size", "rate", "high_exponent"):
+            assert fit[name]["low"] < fit[name]["value"] < fit[name]["high"]
+
 # So does the SQL example, from the index, as far as the index goes.
 if shutil.which("sqlite3"):
     with open(os.path.join(source, "docs/examples/table_from_index.sql")) as script:
