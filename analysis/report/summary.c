@@ -198,7 +198,7 @@ static fracas_err put_slope(const fracas_page *page)
         char value[64], times[32];
         fracas_format_estimate(&k, 1, "\u00b1", value, sizeof value);
         fracas_format_digits(scatter, 2, times, sizeof times);
-        fprintf(page->out, "<p>Over all %" PRId64 " points the mean size goes with the strain rate to the power %s (Mott: -1, Grady: -2/3)",
+        fprintf(page->out, "<p>Over %" PRId64 " points the mean size goes with the strain rate to the power %s (Mott: -1, Grady: -2/3)",
                 slope->n, value);
         if (scatter > scatter_limit)
             fprintf(page->out, ", but they are not on one line: their scatter about it is %s times what their errors explain (<a "
@@ -242,13 +242,14 @@ static fracas_err put_warnings(const fracas_page *page)
     fracas_warning *warning;
     size_t count;
     TRY(fracas_analysis_warnings(page->analysis, &warning, &count));
-    fprintf(page->out, "<h3 id=\"warnings\">Warnings</h3>\n");
+    if (count > 1) fprintf(page->out, "<h3 id=\"warnings\">Warnings: %zu</h3>\n", count);
+    else fputs("<h3 id=\"warnings\">Warnings</h3>\n", page->out);
     if (count == 0) {
         fputs("<p class=\"fine\">None: no realization failed or was stopped by its time limit; ledger residuals are below 1e-3 and "
               "created energy below 1e-2 of the dissipated energy, residuals below 1 % of the largest energy; mean "
               "fragments have 10 elements or more; at most 5 % of the fragments are dust.</p>\n", page->out);
     } else {
-        fputs("<ul class=\"warnings\">\n", page->out);
+        fputs("<ul class=\"warnings\" tabindex=\"0\">\n", page->out);
         for (size_t i = 0; i < count; i++) {
             char label[256] = "";
             if (warning[i].point != SIZE_MAX)
