@@ -15,34 +15,49 @@ static const fracas_option options[] = {
     [JSON] = {"json", NULL, "print the fits as JSON", 0},
 };
 
-/* Fits of the other points, if they are of the same study.h5. */
-static fracas_err keep_others(const char *study, fracas_fits *fits)
+/* What the file has of the other points, if it is of the same study.h5; NULL if there is nothing. Before anything is computed: what cannot be
+ * read is said at once. */
+static fracas_err read_others(const char *study, bool wanted, fracas_fits **older)
 {
-    fracas_fits *older;
     bool stale;
-    TRY(fracas_fits_read(study, &older, &stale));
-    fracas_err code = older && !stale ? fracas_fits_complete(fits, older) : FRACAS_OK;
+    *older = NULL;
+    if (!wanted) return FRACAS_OK;
+    TRY(fracas_fits_read(study, older, &stale));
+    if (stale) {
+        fracas_fits_destroy(*older);
+        *older = NULL;
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err fit_study(const fracas_arguments *arguments, const fracas_analysis *analysis, size_t point, int resamples)
+{
+    const char *study = arguments->operand;
+    const bool json = arguments->value[JSON] != NULL;
+    fracas_fits *fits, *older;
+    TRY(read_others(study, point != SIZE_MAX, &older));
+    fracas_err code = fracas_fits_create(analysis, study, point, resamples, &fits);
+    if (!code) {
+        if (json) fracas_fits_write_json(fits, stdout);
+        else fracas_fits_print(fits, analysis, stdout);
+        if (older) code = fracas_fits_complete(fits, older);
+        if (!code) code = fracas_fits_write(fits, study);
+        if (!code && !json) printf("\nfits: %s/" FRACAS_FITS_FILE "\n", study);
+        fracas_fits_destroy(fits);
+    }
     fracas_fits_destroy(older);
     return code;
 }
 
 static fracas_err fit(const fracas_arguments *arguments)
 {
-    const char *study = arguments->operand;
     int point = -1, resamples = FRACAS_FITS_RESAMPLES;
     fracas_campaign *campaign;
     fracas_analysis *analysis;
-    fracas_fits *fits = NULL;
     TRY(fracas_arguments_integer(arguments, POINT, 0, INT_MAX, &point));
     TRY(fracas_arguments_integer(arguments, RESAMPLES, 99, 100000, &resamples));
-    TRY(fracas_cli_analyse(study, &campaign, &analysis));
-    fracas_err code = fracas_fits_create(analysis, study, point < 0 ? SIZE_MAX : (size_t)point, resamples, &fits);
-    if (!code && !arguments->value[JSON]) fracas_fits_print(fits, analysis, stdout);
-    if (!code && arguments->value[JSON]) fracas_fits_write_json(fits, stdout);
-    if (!code && point >= 0) code = keep_others(study, fits);
-    if (!code) code = fracas_fits_write(fits, study);
-    if (!code && !arguments->value[JSON]) printf("\nfits: %s/" FRACAS_FITS_FILE "\n", study);
-    fracas_fits_destroy(fits);
+    TRY(fracas_cli_analyse(arguments->operand, &campaign, &analysis));
+    fracas_err code = fit_study(arguments, analysis, point < 0 ? SIZE_MAX : (size_t)point, resamples);
     fracas_analysis_destroy(analysis);
     fracas_campaign_destroy(campaign);
     return code;

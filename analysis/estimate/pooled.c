@@ -136,7 +136,7 @@ fracas_err fracas_pooled_of(const fracas_ensemble *ensemble, uint64_t seed, frac
 {
     fracas_interval interval[NVALUES];
     sums all;
-    *pooled = (fracas_pooled){.cut = fracas_ensemble_cut(ensemble)};
+    *pooled = (fracas_pooled){.cut = ensemble->nfragments ? fracas_ensemble_cut(ensemble) : NAN};
     TRY(resample_sums(ensemble, ensemble->nrealizations, pooled->cut, seed, interval, &all));
     put_means(interval, &pooled->all);
     put_means(interval + RESOLVED, &pooled->above);

@@ -192,7 +192,7 @@ def convergence(row, replicas, make, n):
         row["converged." + key], away = settled(x, before, w)
         if key not in replicas and away < 0.3:
             unsure.add("converged." + key)
-    row["unconverged"] = sum(1 - row["converged." + key] for key in HEADLINES)
+        row["unconverged"] = row.get("unconverged", 0) + (math.isfinite(x) and not row["converged." + key])
     return unsure
 
 
