@@ -151,7 +151,7 @@ static void read_stated(const char *what, double stated[CASES])
     fclose(in);
     snprintf(row, sizeof row, "| %s |", what);
     const char *found = strstr(page, row);
-    if (!found || sscanf(found + strlen(row), " %lf | %lf | %lf | %lf |", &stated[0], &stated[1], &stated[2], &stated[3]) != CASES)
+    if (!found || sscanf(found + strlen(row), " %lf | %lf | %lf | %lf |", &stated[0], &stated[1], &stated[2], &stated[3]) < APART) /* of groups of one there is no correlation */
         fail_msg("the page states nothing for %s", what);
 }
 
@@ -164,13 +164,13 @@ static void print_row(number v, int c, double truth, const tally *of)
 
 /* Coverage c of R repetitions is known to e = sqrt(c (1 - c)/R). In 1000 it is within 93 to 97 % from 50 realizations on, and what the page states, but for
  * its three digits and a few repetitions of other roundings: 0.004. In fewer it is that within 4.9 e (alpha 1e-6), of c = 0.9 at the least. The bias is below
- * a tenth of the half width, beside 4.9 of its own errors. Fragment by fragment, intervals of what depends on scales hold the truth in less than 0.8. */
+ * a tenth of the half width, beside 4.9 of its own errors. Fragment by fragment, intervals of mean sizes hold the truth in less than 0.8. */
 static void check(number v, int c, double truth, double stated, const tally *of)
 {
     const bool all = of->repetitions >= STATED;
     const double n = of->repetitions, held = of->held[v] / n, bias = of->value[v] / n - truth;
     if (make[c].apart) {
-        assert_true(v == MEAN || v == MASS_MEAN || v == MEDIAN ? held < 0.8 : true);
+        assert_true(v == MEAN || v == MASS_MEAN ? held < 0.8 : true);
         return;
     }
     assert_true(fabs(held - stated) <= (all ? 0.004 : 4.9 * sqrt(0.9 * 0.1 / n)));
@@ -187,7 +187,7 @@ static void intervals_hold_the_truth_as_often_as_stated(void **state)
     tally of[CASES] = {{.repetitions = 0}};
     truths(truth);
     for (int c = 0; c < CASES; c++)
-        if (repetitions >= STATED || make[c].n <= 50) repeat(make[c].n, make[c].apart, make[c].apart ? ORDINARY : repetitions, truth, &of[c]);
+        if (repetitions >= STATED || make[c].n <= 50) repeat(make[c].n, make[c].apart, make[c].apart ? (repetitions >= STATED ? ORDINARY : ORDINARY / 4) : repetitions, truth, &of[c]);
     for (int v = 0; v < NNUMBERS; v++)
         for (int c = 0; c < CASES; c++)
             if (of[c].repetitions) print_row((number)v, c, truth[v], &of[c]);
