@@ -260,8 +260,8 @@ static fracas_err open_by_index(const char *study, const fracas_hash *campaign, 
         fracas_index_close(index);
     }
     if (err == FRACAS_IN_USE)
-        err = fracas_fail_within(err, "the index of %s cannot be read now: on a network filesystem nobody else can while a run has it; try again "
-                                 "when the run has ended", study);
+        err = fracas_fail_within(err, "the index of %s cannot be read now: on a network filesystem nobody else can while a run has it; "
+                                 "try again when the run has ended", study);
     return err ? err : check_any(study, results);
 }
 
@@ -313,7 +313,8 @@ static fracas_err lose(fracas_results *results, entry *row)
     results->named[results->nnamed++] = id;
     char *why = strdup(fracas_message());
     if (!why) return fracas_no_memory("a note");
-    fracas_err err = take_note(results, "segment %s is left out (`fracas verify` checks the study): %s", fracas_segments_name(results->segments, id), why);
+    fracas_err err = take_note(results, "segment %s is left out (`fracas verify` checks the study): %s",
+                               fracas_segments_name(results->segments, id), why);
     free(why);
     return err;
 }

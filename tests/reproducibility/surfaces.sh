@@ -100,6 +100,16 @@ for point in 1 2; do
 done
 ! grep -q 'surface-point-0' one/report/index.html || fail "the bar was drawn as a surface"
 
+# The meshes are in study.h5 alone: without it the page says when pictures come.
+cp -r one partial
+rm partial/study.h5
+expect 0 "$fracas" report partial
+grep -q 'Crack pictures come with the complete study' partial/report/index.html || fail "the page does not say where its pictures are"
+! grep -q '<figure id="surface-' partial/report/index.html || fail "a surface was drawn without its mesh"
+cmp one/report/points.csv partial/report/points.csv || fail "from segments a surface has other numbers"
+expect 5 "$fracas" picture partial
+said 'pictures come with the complete study: .*partial/study.h5 is not there'
+
 # refuses TEXT ARGUMENTS...
 refuses()
 {
