@@ -82,6 +82,7 @@ same undisturbed broken
 
 # Stopped while it waits to start again: at once, resumable.
 rm -r broken starts
+: > background # what the run before said is none of this one's words
 PATH="$PWD/bin:$PATH" setsid "$fracas" run small.yaml --study broken --jobs 2 > background 2>&1 &
 session=$!
 tries=0

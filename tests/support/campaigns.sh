@@ -62,6 +62,7 @@ segments()
 # start ARGUMENTS...: fracas run in the background, in a session of its own; waits below end after a minute.
 start()
 {
+    : > background
     setsid "$fracas" run "$@" > background 2>&1 &
     session=$!
 }

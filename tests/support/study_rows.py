@@ -1,6 +1,8 @@
 """No row done without its bytes, read without code of ours: sqlite3 and h5py."""
 import os
+import shutil
 import sqlite3
+import tempfile
 
 import h5py
 
@@ -10,7 +12,24 @@ def value(x):
 
 
 def open_index(study):
-    return sqlite3.connect(f"file:{study}/index.sqlite?mode=ro", uri=True, timeout=60)
+    """To read. After a kill in the middle of a transaction with a journal (while the index is made, or where there is no log) SQLite must
+    roll back first, which it does in a copy: the study stays as the next run will find it."""
+    db = sqlite3.connect(f"file:{study}/index.sqlite?mode=ro", uri=True, timeout=60)
+    try:
+        db.execute("SELECT 1 FROM sqlite_master").fetchone()
+        return db
+    except sqlite3.OperationalError as error:
+        db.close()
+        if "readonly" not in str(error):
+            raise
+    with tempfile.TemporaryDirectory() as folder:
+        for tail in ("", "-journal"):
+            if os.path.exists(f"{study}/index.sqlite{tail}"):
+                shutil.copy(f"{study}/index.sqlite{tail}", f"{folder}/index.sqlite{tail}")
+        copy, rolled_back = sqlite3.connect(f"{folder}/index.sqlite"), sqlite3.connect(":memory:")
+        copy.backup(rolled_back)
+        copy.close()
+    return rolled_back
 
 
 def done_rows(study, trusted=()):

@@ -286,7 +286,7 @@ static void an_older_index_is_brought_up(void **state)
     assert_int_equal(rounds.open, 1);
     fracas_campaign *now = make("{minimum: 8, maximum: 24, until: {quantity: mean-size, relative-half-width: 0.1}}");
     fracas_rounds again;
-    sample_fails(fracas_rounds_init(&again, now, index_), FRACAS_DAMAGED, "remove index.sqlite");
+    sample_fails(fracas_rounds_init(&again, now, index_), FRACAS_DAMAGED, "fracas reindex");
     fracas_rounds_clear(&again);
     fracas_campaign_destroy(now);
 }

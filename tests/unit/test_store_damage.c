@@ -153,8 +153,8 @@ static void a_run_does_not_begin_with_a_damaged_index(void **state)
     sqlite3_exec(index_->db, "PRAGMA ignore_check_constraints = OFF", NULL, NULL, NULL);
     sample_fails(fracas_study_recover(study, index_, &header, &table, &report), FRACAS_DAMAGED, "fracas reindex");
     execute("UPDATE realization SET status = 'done' WHERE point = 1 AND replica = 3");
-    execute("UPDATE point SET hash = '00000000000000000000000000000000' WHERE id = 1"); /* it is planned anew beside it */
-    sample_fails(fracas_study_recover(study, index_, &header, &table, &report), FRACAS_DAMAGED, "it has 4 points, the campaign 3");
+    execute("UPDATE point SET hash = '00000000000000000000000000000000' WHERE id = 1"); /* no point of the campaign */
+    sample_fails(fracas_study_recover(study, index_, &header, &table, &report), FRACAS_DAMAGED, "1 of its 3 points are not in the campaign");
 }
 
 /* Sampled flips of the index file: the next run gives the same study.h5, or says that the index is damaged; never another one. */
