@@ -337,7 +337,8 @@ static double place(frame *f, double left, double top)
     f->top = top;
     fit(f);
     f->x.from = left;
-    f->x.to = f->width - RIGHT;
+    const char *last = f->nxtick > 0 ? f->xtick[f->nxtick - 1].label : ""; /* in the middle of which the axis may end */
+    f->x.to = f->width - fmax(RIGHT, 4 + character * (double)characters(last) / 2);
     f->y.to = top + legend(f, false) + 8;
     f->y.from = f->y.to + f->panel.height;
     return f->y.from + (*f->panel.x.label ? 53 : 30);
