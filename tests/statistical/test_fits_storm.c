@@ -18,7 +18,8 @@ static const synthetic truth[] = {
     TRUTH(shifted_rayleigh, 16, RING_SCORES, 8, 9.6), TRUTH(shifted_rayleigh, 16, SHARED, 8, 9.6),
 };
 
-/* 93 to 97 % with 50 realizations, as stated. A bias of a fifth of the standard deviation takes one percent off a coverage; five standard
+/* 93 to 97 % with 50 realizations, as stated; up to 98.5 for the Weibull law of shape 1.6, whose shift is not regular (below 2 it is known
+ * better than errors of 1/sqrt(n) say). A bias of a fifth of the standard deviation takes one percent off a coverage; five standard
  * errors of the mean of 1000 beside it. */
 static void fifty_realizations(void **state)
 {
@@ -28,8 +29,9 @@ static void fifty_realizations(void **state)
         fit_check_print(&truth[t], &found);
         assert_true(found.failed <= REPETITIONS / 100); /* a shift at the smallest size, which has no interval */
         assert_true(found.ks < FIT_KOLMOGOROV && found.ad < FIT_KOLMOGOROV);
+        const double most = truth[t].family == &fracas_family_weibull3 ? 0.985 : 0.97;
         for (size_t i = 0; i < truth[t].family->nparameters; i++) {
-            assert_true(found.held[i] >= 0.93 && found.held[i] <= 0.97);
+            assert_true(found.held[i] >= 0.93 && found.held[i] <= most);
             assert_true(fabs(found.bias[i]) < 0.2 + 5 / sqrt(REPETITIONS));
         }
     }

@@ -85,7 +85,7 @@ static inline fit_check fit_check_of(const synthetic *what, size_t repetitions, 
 
 static inline void fit_check_print(const synthetic *what, const fit_check *found)
 {
-    static const char *const how[NDEPENDENCES] = {"independent", "ring", "shared"};
+    static const char *const how[NDEPENDENCES] = {"independent", "ring", "shared", "strong"};
     print_message("| %s | %zu | %s | %zu, %zu | %.2f, %.2f | %.3f |", what->family->name, what->realizations, how[what->how], found->n,
                   found->failed, found->ks, found->ad, found->rejected);
     for (size_t i = 0; i < what->family->nparameters; i++)

@@ -13,8 +13,8 @@
 
 /* How the fragments of a realization depend on each other. Every one has the law's distribution exactly: its normal score is standard.
  * RING: neighbours of score (e_j - e_(j+1))/sqrt(2), correlation -1/2, which sum to 0 round the ring, as sizes do that fill a length.
- * SHARED: a tenth of the variance is the realization's own. */
-typedef enum { INDEPENDENT, RING_SCORES, SHARED, NDEPENDENCES } dependence;
+ * SHARED: a tenth of the variance is the realization's own; STRONG: half of it. */
+typedef enum { INDEPENDENT, RING_SCORES, SHARED, STRONG, NDEPENDENCES } dependence;
 
 typedef struct {
     const fracas_family *family;
@@ -36,6 +36,7 @@ static inline double synthetic_size(const synthetic *what, double score)
 static inline void synthetic_realization(const synthetic *what, gsl_rng *random, fracas_record *record)
 {
     const size_t n = 2 + gsl_ran_poisson(random, what->fragments - 2);
+    const double part = what->how == SHARED ? 0.1 : what->how == STRONG ? 0.5 : 0;
     const double shared = gsl_ran_ugaussian(random), first = gsl_ran_ugaussian(random);
     double last = first;
     fracas_record_init(record);
@@ -43,7 +44,7 @@ static inline void synthetic_realization(const synthetic *what, gsl_rng *random,
     for (size_t j = 0; record->fragment && j < n; j++) {
         const double next = what->how == RING_SCORES && j + 1 == n ? first : gsl_ran_ugaussian(random);
         const double score = what->how == RING_SCORES ? (last - next) / M_SQRT2
-            : what->how == SHARED ? sqrt(0.1) * shared + sqrt(0.9) * next : next;
+            : sqrt(part) * shared + sqrt(1 - part) * next;
         const double size = synthetic_size(what, score);
         last = next;
         if (!(size > 0)) continue;

@@ -51,6 +51,7 @@ says 2 err '--jobs needs a value' run a.yaml --jobs
 says 2 err '--shuffle takes no value' run a.yaml --shuffle=yes
 says 2 err '--json takes no value' status x --json=1
 says 0 out '--times LIST' help picture
+says 0 out '--resamples B' help fit
 says 2 err '--output needs a value' picture x -o
 says 2 err 'unknown option `-t`' picture x -t
 says 2 err '--point is `-1`; it must be a whole number from 0' picture . --point -1
