@@ -79,13 +79,6 @@ static void hand_out(fracas_point_fits *fits, const fracas_interval *interval)
     }
 }
 
-/* (fits.16): 95 % of Student's distribution, and the n/(n - 1) that resamples of n scatter too little, as a confidence of the normal one. */
-static double expanded(size_t n)
-{
-    if (n < 2) return 0.95;
-    return 1 - 2 * gsl_cdf_ugaussian_Q(sqrt((double)n / (double)(n - 1)) * gsl_cdf_tdist_Pinv(0.975, (double)(n - 1)));
-}
-
 static fracas_err intervals(fracas_point_fits *fits, int64_t resamples, uint64_t seed)
 {
     enum { MOST = 2 + FRACAS_NFAMILIES * 2 * FRACAS_FAMILY_PARAMETERS };
@@ -94,7 +87,7 @@ static fracas_err intervals(fracas_point_fits *fits, int64_t resamples, uint64_t
     for (size_t f = 0; f < fits->nfamilies; f++)
         for (size_t i = 0; !*fits->family[f].fit.why && i < fits->families[f]->nparameters; i++)
             nvalues += fits->families[f]->parameter[i].length ? 2 : 1;
-    const fracas_bootstrap_options options = {.resamples = resamples, .seed = seed, .confidence = expanded(fits->sample.nrealizations)};
+    const fracas_bootstrap_options options = {.resamples = resamples, .seed = seed};
     TRY(fracas_bootstrap(fits->sample.nrealizations, nvalues, values_of, fits, &options, interval));
     hand_out(fits, interval);
     return FRACAS_OK;

@@ -8,17 +8,6 @@
 enum { GRID = 300 };
 static const double BEYOND = 2; /* the grid ends at so many of the largest size: what is resampled under a law may be larger */
 
-double fracas_fit_cut(const fracas_ensemble *ensemble)
-{
-    if (ensemble->lattice > 0) return 1.5 * ensemble->lattice;
-    double area = 0, elements = 0;
-    for (size_t i = 0; i < ensemble->nfragments; i++) {
-        area += ensemble->size[i] * ensemble->size[i];
-        elements += ensemble->elements[i];
-    }
-    return elements > 0 ? sqrt(2.5 * area / elements) : 0;
-}
-
 static fracas_err make_room(const fracas_ensemble *ensemble, fracas_fit_sample *sample)
 {
     const size_t n = ensemble->nrealizations + 1, most = ensemble->nfragments + 1;
@@ -122,7 +111,7 @@ fracas_err fracas_fit_sample_create(const fracas_ensemble *ensemble, fracas_fit_
 {
     double smallest, largest;
     *sample = (fracas_fit_sample){.nrealizations = ensemble->nrealizations, .fragments = ensemble->nfragments,
-                                  .lattice = ensemble->lattice, .cut = fracas_fit_cut(ensemble)};
+                                  .lattice = ensemble->lattice, .cut = fracas_ensemble_cut(ensemble)};
     fracas_err err = make_room(ensemble, sample);
     if (!err) {
         add_up(ensemble, sample, &smallest, &largest);

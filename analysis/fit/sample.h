@@ -27,10 +27,6 @@ typedef struct {
     fracas_family_moments moments;
 } fracas_fit_sample;
 
-/* The size below or at which the mesh decides what there is [m]: 1.5 elements where sizes are whole multiples of one, that of two and a
- * half mean elements of a surface, and 0 without fragments. */
-double fracas_fit_cut(const fracas_ensemble *ensemble);
-
 /* Cells of about equal width in log size, none narrower than what two neighbouring sizes of a lattice are apart. Cleared by the caller. */
 FRACAS_MUST_USE fracas_err fracas_fit_sample_create(const fracas_ensemble *ensemble, fracas_fit_sample *sample);
 void fracas_fit_sample_clear(fracas_fit_sample *sample);

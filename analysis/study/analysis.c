@@ -63,7 +63,6 @@ static fracas_err read_histories(fracas_analysis *analysis)
 {
     fracas_bands none = {0};
     history_reading reading = {.analysis = analysis, .point = SIZE_MAX, .collector = {.bands = &none}};
-    if (analysis->header.history <= 0) return FRACAS_OK;
     fracas_err err = fracas_results_walk(analysis->results, FRACAS_READ_HISTORY, add_history, &reading);
     fracas_bands_end(&reading.collector);
     return err;

@@ -64,6 +64,7 @@ def laws(row, young, density, strength, fracture_energy, modulus, rate):
     row["scale.time"] = young * fracture_energy / (strength**2 * speed)
     row["scale.size"] = s0 = young * fracture_energy / strength**2
     row["scale.rate"] = rate0 = speed * strength**3 / (young**2 * fracture_energy)
+    row["scale.modulus"] = modulus
     e = rate / rate0 if rate > 0 else math.nan  # a ring that spins or is accelerated begins at 0: the laws say nothing
     row["law.zmr"] = s0 * 4.5 / (1 + 4.5 * e ** (2 / 3))
     row["law.grady"] = s0 * (24 / e**2) ** (1 / 3)

@@ -60,6 +60,7 @@ static inline fracas_err synthetic_ensemble(const synthetic *what, gsl_rng *rand
 {
     const fracas_replica_values value = {0};
     fracas_ensemble_init(ensemble, what->lattice);
+    ensemble->surface = !(what->lattice > 0);
     fracas_err err = FRACAS_OK;
     for (size_t i = 0; i < what->realizations && !err; i++) {
         fracas_record record;

@@ -40,4 +40,4 @@ done
 cp -r rates again
 expect 0 "$fracas" report again
 rm -f again/report/index.html rates/report/index.html # which name the study's folder
-diff -r rates/report again/report || fail "a report that is made again differs"
+diff -r -x summary.json rates/report again/report || fail "a report that is made again differs"

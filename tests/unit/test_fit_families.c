@@ -220,13 +220,6 @@ static void cells_of_a_lattice(void **state)
     }
     assert_true(total == expected && fabs(mean / sample.mean - 1) < 1e-14 && fabs(cv / sample.cv - 1) < 1e-12);
     fracas_fit_sample_clear(&sample);
-    ensemble.lattice = 0; /* a surface: two and a half mean elements */
-    double area = 0, elements = 0;
-    for (size_t f = 0; f < ensemble.nfragments; f++) {
-        area += ensemble.size[f] * ensemble.size[f];
-        elements += ensemble.elements[f];
-    }
-    assert_true(fabs(fracas_fit_cut(&ensemble) - sqrt(2.5 * area / elements)) < 1e-15);
     fracas_ensemble_clear(&ensemble);
     gsl_rng_free(random);
 }
