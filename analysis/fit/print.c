@@ -14,51 +14,54 @@ static double value_of(const fracas_fits *fits, int64_t point, const char *famil
     return row ? row->value : NAN;
 }
 
-/* "0.401 [0.393, 0.409]": digits as the interval supports. */
-static void print_interval(const fracas_fits_row *row, double factor, FILE *out)
+void fracas_fits_format_interval(const fracas_fits_row *row, double factor, char *text, size_t size)
 {
-    char value[32];
     const double width = (row->high - row->low) * factor;
-    fracas_format_digits(row->value * factor, 3, value, sizeof value);
-    if (!(width > 0)) {
-        fputs(value, out);
-        return;
-    }
     const int decimals = (int)fmax(0, 1 - floor(log10(width / 2)));
-    fprintf(out, "%.*f [%.*f, %.*f]", decimals, row->value * factor, decimals, row->low * factor, decimals, row->high * factor);
+    if (width > 0)
+        snprintf(text, size, "%.*f [%.*f, %.*f]", decimals, row->value * factor, decimals, row->low * factor, decimals, row->high * factor);
+    else fracas_format_digits(row->value * factor, 3, text, size);
 }
 
-/* A p-value; none less than its resamples can show. */
-static void format_p(const fracas_fits_row *row, char text[16])
+void fracas_fits_format_p(const fracas_fits_row *row, char *text, size_t size)
 {
-    if (!row || !isfinite(row->value)) snprintf(text, 16, "-");
+    if (!row || !isfinite(row->value)) snprintf(text, size, "-");
     else if (row->resamples > 0 && row->value <= 1.5 / (double)(row->resamples + 1))
-        snprintf(text, 16, "<%.2g", 2.0 / (double)(row->resamples + 1));
-    else snprintf(text, 16, "%.2g", row->value);
+        snprintf(text, size, "<%.2g", 2.0 / (double)(row->resamples + 1));
+    else snprintf(text, size, "%.2g", row->value);
 }
 
-static void print_parameters(const fracas_fits *fits, int64_t point, const fracas_family *family, FILE *out)
+void fracas_fits_format_parameters(const fracas_fits *fits, int64_t point, const fracas_family *family, char *text, size_t size)
 {
-    for (size_t i = 0; i < family->nparameters; i++) {
-        char name[32];
+    size_t used = 0;
+    *text = '\0';
+    for (size_t i = 0; i < family->nparameters && used < size; i++) {
+        char name[32], value[96];
         snprintf(name, sizeof name, "%s%s", family->parameter[i].name, family->parameter[i].length ? "/mean" : "");
         const fracas_fits_row *row = fracas_fits_find(fits, point, family->name, name);
         if (!row) continue;
-        fprintf(out, "%s%s ", i ? "  " : "", name);
-        print_interval(row, 1, out);
+        fracas_fits_format_interval(row, 1, value, sizeof value);
+        used += (size_t)snprintf(text + used, size - used, "%s%s %s", i ? "  " : "", name, value);
     }
-    fputc('\n', out);
+}
+
+static void print_interval(const fracas_fits_row *row, double factor, FILE *out)
+{
+    char text[96];
+    fracas_fits_format_interval(row, factor, text, sizeof text);
+    fputs(text, out);
 }
 
 static void print_family(const fracas_fits *fits, int64_t point, const fracas_family *family, int rank, FILE *out)
 {
-    char ks_p[16], ad_p[16], delta[24];
-    format_p(fracas_fits_find(fits, point, family->name, "ks_p"), ks_p);
-    format_p(fracas_fits_find(fits, point, family->name, "ad_p"), ad_p);
+    char ks_p[16], ad_p[16], delta[24], parameters[320];
+    fracas_fits_format_p(fracas_fits_find(fits, point, family->name, "ks_p"), ks_p, sizeof ks_p);
+    fracas_fits_format_p(fracas_fits_find(fits, point, family->name, "ad_p"), ad_p, sizeof ad_p);
     snprintf(delta, sizeof delta, "%.1f", value_of(fits, point, family->name, "delta_aicc"));
     fprintf(out, "  %2d  %-18s %9s  %7.4f %7s  %9.4g %7s  ", rank, family->name, delta, value_of(fits, point, family->name, "ks"), ks_p,
             value_of(fits, point, family->name, "ad"), ad_p);
-    print_parameters(fits, point, family, out);
+    fracas_fits_format_parameters(fits, point, family, parameters, sizeof parameters);
+    fprintf(out, "%s\n", parameters);
 }
 
 static void print_failed(const fracas_fits *fits, int64_t point, const fracas_family *family, FILE *out)
@@ -101,7 +104,7 @@ static void print_point(const fracas_fits *fits, const fracas_analysis *analysis
     for (size_t f = 0; f < FRACAS_NFAMILIES; f++) print_failed(fits, point, fracas_families[f], out);
     const fracas_fits_row *row = fracas_fits_find(fits, point, "comparison", "p");
     if (!row) return;
-    format_p(row, p);
+    fracas_fits_format_p(row, p, sizeof p);
     fprintf(out, "  %s (p = %s)\n", row->note, p);
 }
 

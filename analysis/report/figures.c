@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LAW_VALUES = 80, TALL = 300, LOW = 200, STRIP = 80 };
+enum { LAW_VALUES = 80, TALL = 300, LOW = FRACAS_FIGURE_LOW, STRIP = 80 };
 
 /* ---- mean size against rate ---- */
 
@@ -335,8 +335,7 @@ fracas_err fracas_figure_sizes_together(const fracas_analysis *analysis, fracas_
     return FRACAS_OK;
 }
 
-/* File name and title of a figure of one point. */
-static void name_figure(const fracas_analysis *analysis, size_t point, const char *file, const char *title, fracas_chart *chart)
+void fracas_figure_name(const fracas_analysis *analysis, size_t point, const char *file, const char *title, fracas_chart *chart)
 {
     char label[160];
     fracas_analysis_label(analysis, point, label, sizeof label);
@@ -347,7 +346,7 @@ static void name_figure(const fracas_analysis *analysis, size_t point, const cha
 fracas_err fracas_figure_sizes(const fracas_analysis *analysis, size_t point, fracas_chart *chart)
 {
     const fracas_point_statistics *statistics = &analysis->point[point];
-    name_figure(analysis, point, "sizes", "Fragment sizes", chart);
+    fracas_figure_name(analysis, point, "sizes", "Fragment sizes", chart);
     if (statistics->nfragments == 0) return FRACAS_OK;
     double mean = mean_of(statistics->fragment_size, statistics->nfragments);
     fracas_prefix prefix = fracas_prefix_for(&mean, 1);
@@ -426,7 +425,7 @@ static const double residual_floor = 1e-12;
 fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point, fracas_chart *chart)
 {
     const fracas_point_statistics *statistics = &analysis->point[point];
-    name_figure(analysis, point, "energies", "Energies", chart);
+    fracas_figure_name(analysis, point, "energies", "Energies", chart);
     double largest = largest_energy(statistics);
     if (statistics->nhistory == 0 || !(largest > 0)) return FRACAS_OK;
     fracas_prefix time = fracas_prefix_for(&statistics->history[statistics->nhistory - 1].time, 1);

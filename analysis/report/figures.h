@@ -2,6 +2,7 @@
 #ifndef FRACAS_ANALYSIS_REPORT_FIGURES_H
 #define FRACAS_ANALYSIS_REPORT_FIGURES_H
 
+#include "analysis/fit/fits.h"
 #include "analysis/report/chart.h"
 #include "analysis/study/study.h"
 
@@ -16,5 +17,17 @@ FRACAS_MUST_USE fracas_err fracas_figure_sizes(const fracas_analysis *analysis, 
 
 /* Energies of the point's typical replica over time, and below them the residual of their balance. */
 FRACAS_MUST_USE fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point, fracas_chart *chart);
+
+/* Energies of all usable realizations over time: mean and band of each. */
+FRACAS_MUST_USE fracas_err fracas_figure_bands(const fracas_analysis *analysis, size_t point, fracas_chart *chart);
+/* The headline numbers of the point from its first 4, 8, 16, ... replicas, over what they are of all. */
+FRACAS_MUST_USE fracas_err fracas_figure_convergence(const fracas_analysis *analysis, size_t point, fracas_chart *chart);
+/* Sizes above the cut and the families that fit them best. */
+FRACAS_MUST_USE fracas_err fracas_figure_fits(const fracas_analysis *analysis, const fracas_fits *fits, size_t point, fracas_chart *chart);
+
+enum { FRACAS_FIGURE_LOW = 200 }; /* pixels of a panel of one point */
+
+/* File name and title of a figure of one point. */
+void fracas_figure_name(const fracas_analysis *analysis, size_t point, const char *file, const char *title, fracas_chart *chart);
 
 #endif

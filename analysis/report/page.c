@@ -20,9 +20,11 @@ static const struct {
     {"summary", "Summary", fracas_section_summary},
     {"mean-size", "Mean fragment size", fracas_section_rate},
     {"fragment-sizes", "Fragment sizes", fracas_section_sizes},
+    {"fits", "Fits to fragment sizes", fracas_section_fits},
     {"crack-patterns", "Crack patterns", fracas_section_patterns},
     {"broken-surfaces", "Broken surfaces", fracas_section_surfaces},
     {"energies-over-time", "Energies over time", fracas_section_energies},
+    {"convergence", "Convergence with replicas", fracas_section_convergence},
     {"table-of-results", "Results", fracas_section_results},
     {"table-of-slopes", "Slopes", fracas_section_slopes},
     {"table-of-motion", "Expansion", fracas_section_motion},
@@ -106,10 +108,10 @@ static fracas_err write_tables(const fracas_analysis *analysis, const char *fold
     return fracas_output_close(&output, FRACAS_OK);
 }
 
-static fracas_err write_page(const fracas_analysis *analysis, const char *folder)
+static fracas_err write_page(const fracas_analysis *analysis, const char *folder, const fracas_fits *fits, bool stale)
 {
     contents of = {0};
-    fracas_page page = {.analysis = analysis, .folder = folder};
+    fracas_page page = {.analysis = analysis, .folder = folder, .fits = fits, .stale = stale};
     fracas_err err = FRACAS_OK;
     for (int i = 0; i < SECTIONS && !err; i++) err = write_section(&page, i, &of);
     if (!err) err = fracas_pdf_write(folder, page.drawing, page.ndrawings);
@@ -129,7 +131,11 @@ fracas_err fracas_report_write(const fracas_analysis *analysis, const char *stud
     if (mkdir(folder, 0777) && errno != EEXIST)
         err = fracas_fail(FRACAS_ENVIRONMENT, "cannot make the folder %s: %s", folder, strerror(errno));
     if (!err) err = write_tables(analysis, folder);
-    if (!err) err = write_page(analysis, folder);
+    fracas_fits *fits = NULL;
+    bool stale = false;
+    if (!err) err = fracas_fits_read(study, &fits, &stale);
+    if (!err) err = write_page(analysis, folder, fits, stale);
+    fracas_fits_destroy(fits);
     free(folder);
     return err;
 }

@@ -5,6 +5,7 @@
 #ifndef FRACAS_ANALYSIS_REPORT_PAGE_H
 #define FRACAS_ANALYSIS_REPORT_PAGE_H
 
+#include "analysis/fit/fits.h"
 #include "analysis/report/chart.h"
 #include "analysis/study/study.h"
 #include "analysis/tables/table.h"
@@ -17,6 +18,8 @@ enum { FRACAS_DRAWING = 72 };
 typedef struct {
     const fracas_analysis *analysis;
     const char *folder; /* of the report */
+    const fracas_fits *fits; /* NULL: there are none */
+    bool stale;              /* they are not of the results as these are now */
     FILE *out;          /* of the section */
     int figures, tables; /* numbered so far */
     size_t ndrawings, room;
@@ -54,7 +57,7 @@ FRACAS_MUST_USE fracas_err fracas_page_table(fracas_page *page, const char *id, 
 
 fracas_page_section fracas_section_summary;  /* summary.c */
 fracas_page_section fracas_section_rate, fracas_section_sizes, fracas_section_patterns, fracas_section_surfaces,
-    fracas_section_energies;                 /* sections.c */
+    fracas_section_energies, fracas_section_fits, fracas_section_convergence; /* sections.c */
 fracas_page_section fracas_section_results, fracas_section_slopes, fracas_section_motion, fracas_section_files; /* tables.c */
 
 #endif

@@ -5,6 +5,7 @@
 #include "analysis/report/figures.h"
 #include "analysis/report/picture/picture.h"
 #include "analysis/report/picture/surfaces.h"
+#include "analysis/tables/side_tables.h"
 
 /* Instead of the figures against the rate, where there is none. */
 static void say_no_rate(const fracas_page *page)
@@ -88,8 +89,39 @@ fracas_err fracas_section_energies(fracas_page *page)
     fracas_chart chart;
     fracas_chart_init(&chart);
     fracas_page_grid(page, "wide");
-    for (size_t p = 0; p < page->analysis->table->npoints; p++)
+    for (size_t p = 0; p < page->analysis->table->npoints; p++) {
         TRY(fracas_page_chart(page, &chart, fracas_figure_energies(page->analysis, p, &chart)));
+        TRY(fracas_page_chart(page, &chart, fracas_figure_bands(page->analysis, p, &chart)));
+    }
     fracas_page_grid_end(page);
     return FRACAS_OK;
+}
+
+fracas_err fracas_section_convergence(fracas_page *page)
+{
+    fracas_chart chart;
+    fracas_chart_init(&chart);
+    fracas_page_grid(page, "small");
+    for (size_t p = 0; p < page->analysis->table->npoints; p++)
+        TRY(fracas_page_chart(page, &chart, fracas_figure_convergence(page->analysis, p, &chart)));
+    fracas_page_grid_end(page);
+    return FRACAS_OK;
+}
+
+fracas_err fracas_section_fits(fracas_page *page)
+{
+    fracas_chart chart;
+    fracas_result_table table = {0};
+    if (!page->fits) return FRACAS_OK;
+    if (page->stale) {
+        fputs("<p>What <code>fracas fit</code> kept is not of these results: run it again.</p>\n", page->out);
+        return FRACAS_OK;
+    }
+    fracas_chart_init(&chart);
+    fracas_page_grid(page, "wide");
+    for (size_t p = 0; p < page->analysis->table->npoints; p++)
+        TRY(fracas_page_chart(page, &chart, fracas_figure_fits(page->analysis, page->fits, p, &chart)));
+    fracas_page_grid_end(page);
+    const fracas_err built = fracas_fit_table_create(page->analysis, page->fits, true, &table);
+    return fracas_page_table(page, "fits-table", "Families of distributions, by AICc", true, &table, fracas_fit_table_legend, built);
 }

@@ -39,7 +39,7 @@ const char *const fracas_motion_table_legend[] = {
     NULL,
 };
 
-static fracas_err make_table(size_t rows, size_t columns, const char *const *name, fracas_result_table *table)
+fracas_err fracas_side_table_make(size_t rows, size_t columns, const char *const *name, fracas_result_table *table)
 {
     table->rows = FRACAS_RESULT_TABLE_HEAD + rows;
     table->columns = columns;
@@ -57,7 +57,7 @@ fracas_err fracas_slope_table_create(const fracas_analysis *analysis, bool unico
     fracas_size_slope *list;
     size_t count;
     TRY(fracas_size_slopes(analysis, &list, &count));
-    fracas_err err = make_table(count, NCOLUMNS, name, table);
+    fracas_err err = fracas_side_table_make(count, NCOLUMNS, name, table);
     for (size_t i = 0; i < count && !err; i++) {
         const fracas_slope *slope = &list[i].slope;
         char *cell[NCOLUMNS];
@@ -81,7 +81,7 @@ fracas_err fracas_window_table_create(const fracas_analysis *analysis, bool unic
     fracas_size_window *list;
     size_t count;
     TRY(fracas_size_windows(analysis, &list, &count));
-    fracas_err err = make_table(count, NCOLUMNS, name, table);
+    fracas_err err = fracas_side_table_make(count, NCOLUMNS, name, table);
     for (size_t c = FROM; c <= TO_PART && !err; c++)
         snprintf(fracas_result_table_cell(table, 1, c), FRACAS_CELL, "%s", c <= TO ? "[1/s]" : unicode ? "/\u03b5\u0307\u2080" : "/edot0");
     for (size_t i = 0; i < count && !err; i++) {
@@ -132,7 +132,7 @@ fracas_err fracas_crossover_table_create(const fracas_analysis *analysis, bool u
     for (size_t i = 0; i < count; i++)
         if (list[i].size.value > 0) size[0] = fmin(size[0], list[i].size.value), size[1] = fmax(size[1], list[i].size.value);
     const fracas_prefix prefix = fracas_prefix_for(size, 2);
-    fracas_err err = make_table(count, NCOLUMNS, name, table);
+    fracas_err err = fracas_side_table_make(count, NCOLUMNS, name, table);
     if (!err) {
         snprintf(fracas_result_table_cell(table, 1, RATE), FRACAS_CELL, "[1/s]");
         snprintf(fracas_result_table_cell(table, 1, RATE_PART), FRACAS_CELL, unicode ? "/\u03b5\u0307\u2080" : "/edot0");
@@ -175,7 +175,7 @@ fracas_err fracas_motion_table_create(const fracas_analysis *analysis, bool unic
     static const char *const name[NCOLUMNS] = {"n", "outward", "scatter", "along", "spin", "point"};
     size_t rings = 0, row = FRACAS_RESULT_TABLE_HEAD;
     for (size_t p = 0; p < analysis->table->npoints; p++) rings += analysis->point[p].radius > 0;
-    TRY(make_table(rings, NCOLUMNS, name, table));
+    TRY(fracas_side_table_make(rings, NCOLUMNS, name, table));
     fracas_prefix spin = spin_prefix(analysis);
     for (size_t c = OUTWARD; c <= ALONG; c++) snprintf(fracas_result_table_cell(table, 1, c), FRACAS_CELL, "[m/s]");
     snprintf(fracas_result_table_cell(table, 1, SPIN), FRACAS_CELL, "[%srad/s]", unicode ? spin.sign : spin.symbol);
