@@ -66,11 +66,16 @@ static void gather(const fracas_ensemble *before, const fracas_ensemble *after, 
     for (size_t k = 0; !paired && k < after->nrealizations; k++) to->value[1][to->n[1]++] = value_of(after, k, number);
 }
 
+/* All realizations are alike: they do not say how far the difference scatters, and of few of them it may be chance. */
+static bool is_alike(const fracas_compared_value *value) { return !(value->high > value->low); }
+
+enum { ALIKE_LEAST = 8 }; /* from so many on nobody takes that for chance: two values, each as likely, are alike once in 128 times */
+
 /* Two-sided, by Student's law: the intervals are of the same  (convergence.1) */
 static double student(const fracas_compared_value *value)
 {
     if (!isfinite(value->low)) return NAN;
-    if (!(value->high > value->low)) return value->difference == 0;
+    if (is_alike(value)) return value->difference == 0 ? 1 : NAN; /* no scatter, no law */
     const double error = 0.5 * (value->high - value->low) / gsl_cdf_tdist_Pinv(0.975, value->freedom);
     return 2 * gsl_cdf_tdist_Q(fabs(value->difference) / error, value->freedom);
 }
@@ -173,7 +178,11 @@ static bool is_within(const fracas_compared_value *value, double most)
 static fracas_number_verdict judge(const fracas_compared_value *value, double tolerance)
 {
     const double level = 0.05, round_off = 1e-9;
-    if (isnan(value->p)) return FRACAS_NUMBER_UNKNOWN;
+    if (!isfinite(value->low)) return FRACAS_NUMBER_UNKNOWN;
+    if (is_alike(value)) {
+        const bool many = value->a.n >= ALIKE_LEAST && value->b.n >= ALIKE_LEAST;
+        return many && is_within(value, round_off) ? FRACAS_NUMBER_HOLDS : FRACAS_NUMBER_UNCLEAR;
+    }
     const bool differs = value->p_holm < level && !is_within(value, round_off);
     if (is_within(value, tolerance)) return differs ? FRACAS_NUMBER_SHIFTED : FRACAS_NUMBER_HOLDS;
     return differs ? FRACAS_NUMBER_MOVED : FRACAS_NUMBER_UNCLEAR;
@@ -194,11 +203,12 @@ fracas_err fracas_convergence_judge(fracas_convergence *convergence)
     return err;
 }
 
-/* An interval falls as n^(-1/2)  (convergence.2) */
+/* An interval falls as n^(-1/2), and its quantile to the normal one  (convergence.2) */
 double fracas_convergence_replicas(const fracas_convergence *convergence, const fracas_convergence_row *row)
 {
     const fracas_compared_value *value = &row->value;
     const double n = fmin((double)value->a.n, (double)value->b.n), reach = 0.5 * (value->relative_high - value->relative_low);
-    const double part = reach / (0.5 * convergence->tolerance);
-    return ceil(n * part * part);
+    const double t = value->freedom > 0 ? gsl_cdf_tdist_Pinv(0.975, value->freedom) : gsl_cdf_ugaussian_Pinv(0.975);
+    const double part = reach / (0.5 * convergence->tolerance) * gsl_cdf_ugaussian_Pinv(0.975) / t;
+    return fmax(ALIKE_LEAST, ceil(n * part * part));
 }

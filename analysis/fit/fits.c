@@ -122,7 +122,7 @@ static void put_comparison(rows *to, const fracas_point_fits *fits)
     const bool told = comparison->p < 0.05, first_special = fracas_family_within(fits->families[fits->best[0]], fits->families[fits->best[1]]);
     char note[160];
     if (!isfinite(comparison->p))
-        snprintf(note, sizeof note, "%s and %s: too few realizations to compare", first, second);
+        snprintf(note, sizeof note, "%s and %s cannot be compared: too few realizations or refits", first, second);
     else if (comparison->nested)
         snprintf(note, sizeof note, "%s is a special case of %s and %s", first_special ? first : second, first_special ? second : first,
                  told ? "does not suffice" : "suffices");

@@ -18,7 +18,7 @@ void fracas_fits_format_interval(const fracas_fits_row *row, double factor, char
 {
     const double width = (row->high - row->low) * factor;
     const int decimals = (int)fmax(0, 1 - floor(log10(width / 2)));
-    if (width > 0)
+    if (width > 1e-9 * fabs(row->value * factor)) /* else it is rounding */
         snprintf(text, size, "%.*f [%.*f, %.*f]", decimals, row->value * factor, decimals, row->low * factor, decimals, row->high * factor);
     else fracas_format_digits(row->value * factor, 3, text, size);
 }
@@ -105,7 +105,7 @@ static void print_point(const fracas_fits *fits, const fracas_analysis *analysis
     const fracas_fits_row *row = fracas_fits_find(fits, point, "comparison", "p");
     if (!row) return;
     fracas_fits_format_p(row, p, sizeof p);
-    fprintf(out, "  %s (p = %s)\n", row->note, p);
+    fprintf(out, "  %s (p %s%s)\n", row->note, *p == '<' ? "" : "= ", p);
 }
 
 void fracas_fits_print(const fracas_fits *fits, const fracas_analysis *analysis, FILE *out)

@@ -4,6 +4,7 @@
 #include "analysis/laws/slope.h"
 #include "analysis/tables/format.h"
 
+#include <gsl/gsl_cdf.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdint.h>
@@ -126,7 +127,7 @@ static void put_campaign(const fracas_page *page)
 /* ---- headline numbers ---- */
 
 enum { HEADLINES = 12 }; /* points in the table of the summary */
-static const double scatter_limit = 4; /* chi2/dof; of two degrees of freedom above it in 2 % of studies on one line */
+static const double line_confidence = 0.99; /* of chi2: it is beyond in 1 % of studies on one line, more where replicas are few */
 
 static fracas_prefix size_prefix(const fracas_analysis *analysis)
 {
@@ -197,10 +198,10 @@ static fracas_err put_slope(const fracas_page *page)
         const double scatter = slope->chi2 / (double)(slope->n - 2);
         char value[64], times[32];
         fracas_format_estimate(&k, 1, "\u00b1", value, sizeof value);
-        fracas_format_digits(scatter, 2, times, sizeof times);
+        fracas_format_digits(sqrt(scatter), 2, times, sizeof times);
         fprintf(page->out, "<p>Over %" PRId64 " points the mean size goes with the strain rate to the power %s (Mott: -1, Grady: -2/3)",
                 slope->n, value);
-        if (scatter > scatter_limit)
+        if (slope->chi2 > gsl_cdf_chisq_Pinv(line_confidence, (double)(slope->n - 2)))
             fprintf(page->out, ", but they are not on one line: their scatter about it is %s times what their errors explain (<a "
                     "href=\"#slopes\">slopes</a>)", times);
         fputs(".</p>\n", page->out);
@@ -228,7 +229,7 @@ static void put_precision(const fracas_page *page)
     fracas_format_digits(100 * part, 2, value, sizeof value);
     fprintf(page->out, "<p>The mean number of fragments is known to \u00b1 %s %% or better", value);
     if (analysis->table->npoints > 1) {
-        fputs(" (the least well: ", page->out);
+        fputs(", of the points with two replicas or more (the least well: ", page->out);
         fracas_markup_text(label, page->out);
         putc(')', page->out);
     }

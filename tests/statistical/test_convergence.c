@@ -17,7 +17,7 @@
 static fracas_convergence_row row_of(double low, double high, double p)
 {
     return (fracas_convergence_row){.refinement = "mesh", .value = {.a = {.n = 20, .mean = 100, .half_width = 1}, .b = {.n = 30, .mean = 100},
-                                    .relative_low = low, .relative_high = high, .p = p}};
+                                    .low = 100 * low, .high = 100 * high, .relative_low = low, .relative_high = high, .p = p}};
 }
 
 static void verdicts(void **state)
@@ -44,6 +44,24 @@ static void verdicts(void **state)
     assert_true(fabs(row[5].value.p_holm - 0.0504) < 1e-12);
     /* 20 replicas, half width 0.018, half of the tolerance 0.01: 20 x 3.24 = 64.8 */
     assert_true(fracas_convergence_replicas(&convergence, &row[4]) == 65);
+}
+
+/* Realizations that are all alike show no scatter: they say that nothing moved only if they are many, and never that something did. */
+static void realizations_that_are_alike(void **state)
+{
+    (void)state;
+    fracas_convergence_row row[] = {row_of(0.5, 0.5, NAN), row_of(0, 0, 1), row_of(0, 0, 1)};
+    row[2].value.a.n = row[2].value.b.n = 2;
+    const fracas_number_verdict expected[] = {FRACAS_NUMBER_UNCLEAR, FRACAS_NUMBER_HOLDS, FRACAS_NUMBER_UNCLEAR};
+    fracas_convergence convergence = {.tolerance = 0.02, .nrows = 3, .row = row};
+    assert_int_equal(fracas_convergence_judge(&convergence), FRACAS_OK);
+    for (int i = 0; i < 3; i++) assert_int_equal(row[i].verdict, expected[i]);
+    assert_true(fracas_convergence_replicas(&convergence, &row[2]) == 8);
+    row[2].value.relative_high = 0.036; /* of two pairs, t = 12.7: 2 (0.018/0.01 x 1.96/12.706)^2 = 0.15 */
+    row[2].value.freedom = 1;
+    assert_true(fracas_convergence_replicas(&convergence, &row[2]) == 8);
+    row[2].value.relative_high = 0.36; /* a hundred times as many: 15.4 */
+    assert_true(fracas_convergence_replicas(&convergence, &row[2]) == 16);
 }
 
 /* Pairs are those of one replica, which replica 4 of one and 5 of the other have none in. Differences 1, 2, 3, 4 of them: t = 2.5/(s/2), s^2 = 5/3;
@@ -163,7 +181,8 @@ static void moves_are_found(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(verdicts), cmocka_unit_test(pairs_by_replica), cmocka_unit_test(no_false_alarm),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(verdicts),
+        cmocka_unit_test(realizations_that_are_alike), cmocka_unit_test(pairs_by_replica), cmocka_unit_test(no_false_alarm),
                                        cmocka_unit_test(moves_are_found)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -253,6 +253,78 @@ for p, at in enumerate(usable):
     assert np.allclose(values[:, 0] * unit, sizes[first], rtol=1e-9, atol=0)
     assert np.allclose(values[:, 1], 1 - np.flatnonzero(first) / len(sizes), rtol=1e-12, atol=0)
 
+PREFIX = {"n": 1e-9, "µ": 1e-6, "m": 1e-3, "": 1.0, "k": 1e3, "M": 1e6}
+
+
+def unit_of(label, symbol):
+    return PREFIX[re.search(rf"\[(.?){symbol}\]$", label).group(1)]
+
+
+# Bands of energies are those of energies.csv; a ring's kinetic energy less what it begins with.
+for p in range(len(rows)):
+    of = [line for line in energies if int(line["point"]) == p]
+    if not os.path.exists(os.path.join(report, f"bands-point-{p}.csv")):
+        assert not of or int(of[0]["realizations"]) < 2
+        continue
+    head, lines = data(f"bands-point-{p}")
+    assert len(lines) == 4 * len(of) and {line[2] for line in lines} == {"band"}
+    second, joule = unit_of(head[3], "s"), unit_of(head[4], "J")
+    for e, name in enumerate(("kinetic", "elastic", "cohesive", "dissipated")):
+        start = float(of[0]["kinetic.mean"]) if name == "kinetic" and float(of[0]["time"]) == 0 else 0
+        for line, row in zip(lines[e * len(of):], of):
+            assert line[1] == name + (" - start" if start > 0 else "")
+            assert math.isclose(float(line[3]) * second, float(row["time"]), rel_tol=1e-13)
+            for field, key in ((4, "mean"), (5, "low"), (6, "high")):  # the start is taken off: rounding of that
+                assert math.isclose(float(line[field]) * joule, float(row[f"{name}.{key}"]) - start, rel_tol=1e-12, abs_tol=1e-14 * start + 1e-300)
+
+# Convergence in per cent of the last, for numbers that are not 0.
+for p in range(len(rows)):
+    of = [line for line in convergence if int(line["point"]) == p]
+    if len(of) < 2:
+        assert not os.path.exists(os.path.join(report, f"convergence-point-{p}.csv"))
+        continue
+    head, lines = data(f"convergence-point-{p}")
+    keys = [key[:-6] for key in of[0] if key.endswith(".value") and of[-1][key] and float(of[-1][key]) != 0]
+    assert [line[1] for line in lines[::len(of)]] == keys and len(lines) == len(keys) * len(of)
+    for line, (key, row) in zip(lines, ((key, row) for key in keys for row in of)):
+        assert float(line[3]) == int(row["replicas"])
+        assert math.isclose(float(line[4]), 100 * (float(row[key + ".value"]) / float(of[-1][key + ".value"]) - 1), rel_tol=1e-9, abs_tol=1e-11)
+
+# Fits, where there are any: shares above the cut, and the survival functions of their parameters.
+SURVIVAL = {
+    "exponential": lambda x, of: np.exp(-x / of["mu"]),
+    "rayleigh": lambda x, of: np.exp(-x**2 / (2 * of["sigma"]**2)),
+    "shifted-rayleigh": lambda x, of: np.exp(-np.maximum(x - of["x0"], 0)**2 / (2 * of["sigma"]**2)),
+    "weibull": lambda x, of: np.exp(-(x / of["lambda"])**of["k"]),
+    "weibull-3": lambda x, of: np.exp(-(np.maximum(x - of["x0"], 0) / of["lambda"])**of["k"]),
+    "lognormal": lambda x, of: np.array([math.erfc((math.log(v) - math.log(of["m"])) / (of["sigma"] * math.sqrt(2))) / 2 for v in x]),
+}
+if os.path.exists(os.path.join(study, "fits.csv")):
+    fits = list(csv.DictReader(open(os.path.join(study, "fits.csv"))))
+    checked = 0
+    for p, at in enumerate(usable):
+        of = {(row["family"], row["quantity"]): float(row["value"]) for row in fits if row["point"] == str(p) and row["value"]}
+        if ("data", "cut") not in of or not os.path.exists(os.path.join(report, f"fits-point-{p}.csv")):
+            continue
+        head, lines = data(f"fits-point-{p}")
+        metre, cut = unit_of(head[3], "m"), of["data", "cut"]
+        sizes = np.sort(np.concatenate([size[slice(*fragment["offset"][i:i + 2])] for i in at]))
+        sizes = sizes[sizes > cut]
+        steps = np.array([[float(field) for field in line[3:5]] for line in lines if line[2] == "steps"])
+        first = np.concatenate([[True], np.diff(sizes) > 1e-9 * sizes[1:]])
+        assert np.allclose(steps[:, 0] * metre, sizes[first] - of["data", "lattice"] / 2, rtol=1e-9, atol=0)
+        assert np.allclose(steps[:, 1], 1 - np.flatnonzero(first) / len(sizes), rtol=1e-12, atol=0)
+        best = sorted((value, family) for (family, quantity), value in of.items() if quantity == "rank")[:3]
+        assert list(dict.fromkeys(line[1] for line in lines if line[2] == "curve")) == [family for _, family in best]
+        for _, family in best:
+            if family in SURVIVAL:
+                curve = np.array([[float(field) for field in line[3:5]] for line in lines if line[1] == family])
+                parameters = {quantity: value for (name, quantity), value in of.items() if name == family}
+                wanted = SURVIVAL[family](curve[:, 0] * metre, parameters) / SURVIVAL[family](np.array([cut]), parameters)
+                assert np.allclose(curve[:, 1], wanted, rtol=1e-9, atol=1e-300), family
+                checked += 1
+    assert checked > 0
+
 # Crack patterns: of rings with a FRAGMENTED realization, six at most with the first and the last; a band a fragment.
 rings = [p for p, name in enumerate(model) if name == "ring" and summary["points"][p]["outcomes"]["FRAGMENTED"] > 0]
 pictures = sorted(int(re.search(r"(\d+)\.svg", name).group(1)) for name in glob.glob(report + "/pattern-point-*.svg"))
@@ -376,6 +448,8 @@ assert page.rows.pop("results") == len(rows)
 assert page.rows.pop("slopes", 0) == len(summary["slopes"])
 assert page.rows.pop("windows", 0) == len(summary["windows"])
 assert page.rows.pop("crossovers", 0) == sum(of["points"] > 1 for of in summary["crossovers"])
+if os.path.exists(os.path.join(study, "fits.csv")):
+    assert page.rows.pop("fits-table") == sum(row["quantity"] == "rank" for row in fits)
 assert page.rows.pop("motion", 0) == model.count("ring") and not page.rows
 firsts = [np.flatnonzero((realization["point"] == p) & (realization["outcome"] == 0))[0] for p in pictures]
 assert page.bands == sum(realization["fragments"][i] for i in firsts)

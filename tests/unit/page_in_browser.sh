@@ -13,6 +13,9 @@ fi
 
 campaign rates.yaml 6 '3e4 1/s, 1e5 1/s, 3e5 1/s'
 expect 0 "$fracas" run rates.yaml --study rates
+expect 0 "$fracas" fit rates --resamples 99
+expect 0 "$fracas" report rates
+grep -q 'id="fits"' rates/report/index.html || fail "the page has no fits"
 
 cat > rings.yaml <<END
 name: rings
@@ -35,6 +38,17 @@ expect 0 "$fracas" run rings.yaml --study rings
 for study in rates rings; do
     /usr/bin/python3 "$source/tests/support/check_page.py" $study || fail "the page of $study"
 done
+
+"$fracas" report rates > table.txt
+cp table.txt rates/table.txt
+cp rates/report/summary.json rates/summary.json
+/usr/bin/python3 "$source/tests/support/check_report.py" rates "$source" || fail "the numbers of the report of rates"
+rm rates/table.txt rates/summary.json
+
+# Fits of other results are not shown.
+cp -r rates older
+expect 0 "$fracas" extend older --replicas 8
+grep -q 'is not of these results' older/report/index.html || fail "stale fits are shown"
 
 # Equal studies have equal reports.
 cp -r rates again
