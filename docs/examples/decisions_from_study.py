@@ -13,19 +13,11 @@ import sys
 import h5py
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from table_from_study import USABLE, student_cdf  # noqa: E402
+from estimates_from_study import student_quantile  # noqa: E402
+from table_from_study import USABLE  # noqa: E402
 
 QUANTITIES = ["mean-count", "mean-size", "dissipated"]
 STOPS = ["goes on", "precise", "maximum"]
-
-
-def student_quantile(p, n):
-    """The t with P(T <= t) = p, by halving."""
-    low, high = 0.0, 1e3
-    for _ in range(200):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if student_cdf(middle, n) < p else (low, middle)
-    return high
 
 
 def values_of(study, quantity):
