@@ -39,5 +39,7 @@ took=$(($(date +%s) - began))
 [ $took -le 8 ] || fail "$took s with a walltime of 8 s"
 [ -z "$(processes)" ] || fail "processes outlive the run: $(processes)"
 session=
+expect 0 "$fracas" status still
+said ', 0 leased, ' # what was given out is to be computed
 expect 0 "$fracas" run small.yaml --study still
 same undisturbed still

@@ -28,6 +28,7 @@ import sys
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import study_rows  # noqa: E402
 from study_rows import done_rows  # noqa: E402
 
 CAMPAIGN = """\
@@ -203,6 +204,7 @@ class Storm:
         phase = self.phase(kinds)
         before = os.path.getsize(self.log)
         done = self.look()
+        tree = self.tree()  # looking took a while: there are other children by now
         below = tree.below(victim)
         try:
             os.kill(victim, signal.SIGKILL)
@@ -230,7 +232,6 @@ class Storm:
 
     def attempted(self):
         try:
-            import study_rows
             db = study_rows.open_index(self.study)
             most = db.execute("SELECT max(attempts) FROM realization WHERE status <> 'done'").fetchone()[0]
             db.close()
@@ -328,6 +329,12 @@ class Storm:
 
     # ---- the accounts ----
 
+    def events(self):
+        db = study_rows.open_index(self.study)
+        found = db.execute("SELECT time, kind, text FROM event WHERE kind IN ('overdue', 'server replaced', 'worker lost', 'restarted', 'copy failed')").fetchall()
+        db.close()
+        return found
+
     def account(self):
         hashes = self.point_numbers()
         begun = collections.defaultdict(list)  # (point, replica): [(place in the log, pids of who began it)]
@@ -345,7 +352,9 @@ class Storm:
                 kinds = [kind for before, after, kind, below, done in self.victims
                          if first < after and second >= before and key not in done and (kind in ENDS_THE_RUN or who & below)]
                 if not kinds:
-                    end(f"replica {realization[1]} of point {realization[0]} was begun again though no kill met it: {first}, {second} in the log")
+                    near = [(kind, before, after, sorted(below)) for before, after, kind, below, _ in self.victims if before <= second + 2000 and after >= first - 2000]
+                    end(f"replica {realization[1]} of point {realization[0]} was begun again though no kill met it: at {first} of the log by {who}, at "
+                        f"{second}; kills near that (kind, places in the log, pids): {near}; events: {self.events()}")
                 again[kinds[0]] += 1
         flight = 0
         for before, after, kind, below, done in self.victims:
@@ -383,11 +392,11 @@ def main():
     for kind in KINDS:
         if storm.killed(kind):
             print(f"{kind:12}" + "".join(f"{storm.table[kind, p]:12}" for p in phases))
-    total, flight, again = storm.account()
-    print(f"{total} realizations begun for {replicas}: {total - replicas} again ({dict(again)}), {flight} were in flight at the kills")
     with open(f"{folder}/undisturbed/study.h5", "rb") as a, open(f"{storm.study}/study.h5", "rb") as b:
         if a.read() != b.read():
             end("study.h5 is not that of the undisturbed run")
+    total, flight, again = storm.account()
+    print(f"{total} realizations begun for {replicas}: {total - replicas} again ({dict(again)}), {flight} were in flight at the kills")
     said = subprocess.run([fracas, "verify", storm.study], capture_output=True, text=True)
     if said.returncode:
         end(f"fracas verify: {said.stdout}{said.stderr}")
