@@ -1,4 +1,6 @@
-/* The motion of the ring and of its fragments: momenta, symmetries, and lanes that do not see each other. */
+/* The motion of the ring and of its fragments: momenta, symmetries, and lanes that do not see each other.
+ * ctest-labels: slow-sanitize
+ */
 #include "tests/support/ring_sample.h"
 
 #include <stdlib.h>

@@ -1,4 +1,6 @@
-/* Shells that break: lanes do not depend on each other, momenta are kept, ledgers close, and a sphere cracks when it must. */
+/* Shells that break: lanes do not depend on each other, momenta are kept, ledgers close, and a sphere cracks when it must.
+ * ctest-labels: slow-sanitize
+ */
 #include "tests/support/shell_cracks.h"
 #include "tests/support/same_record.h"
 

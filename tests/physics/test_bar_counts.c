@@ -1,4 +1,6 @@
-/* Published and independently computed fragment counts of the periodic bar, reference set, strength +- 0.33 %. */
+/* Published and independently computed fragment counts of the periodic bar, reference set, strength +- 0.33 %.
+ * ctest-labels: slow-sanitize
+ */
 #include "tests/support/bar.h"
 
 #include <math.h>

@@ -1,5 +1,7 @@
 /* How often the intervals of a point's estimates hold the truth, where fragments of one realization are alike. docs/theory/estimators.md states it from 1000
- * repetitions, which tests/statistical/coverage.sh repeats (FRACAS_REPETITIONS=1000, minutes); the ordinary run has fewer. */
+ * repetitions, which tests/statistical/coverage.sh repeats (FRACAS_REPETITIONS=1000, minutes); the ordinary run has fewer.
+ * ctest-labels: slow-sanitize
+ */
 #include "analysis/estimate/estimate.h"
 #include "analysis/estimate/pooled.h"
 

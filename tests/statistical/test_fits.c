@@ -1,5 +1,7 @@
 /* Intervals of fitted parameters hold the truth as often as they say, and p-values are uniform, whether the fragments of a realization
- * depend on each other or not; a few repetitions of what test_fits_storm.c has a thousand of. */
+ * depend on each other or not; a few repetitions of what test_fits_storm.c has a thousand of.
+ * ctest-labels: slow-sanitize
+ */
 #include "tests/support/fit_checks.h"
 
 #include <gsl/gsl_cdf.h>

@@ -75,13 +75,13 @@ has log 'install -y --no-install-recommends libyaml-dev'
 lacks log sqlite3
 has out "$folder: fracas run a file.yaml --jobs 2"
 has err 'installing packages: libyaml-dev'
-[ "$(tail -n 2 "$log" | tr '\n' ';')" = 'cmake --preset release;cmake --build --preset release;' ]
+[ "$(tail -n 2 "$log" | tr '\n' ';')" = 'cmake --preset release;cmake --build --preset release --target fracas;' ]
 
 # Again: nothing is said or done but asking the builder.
 : >"$log"
 ends 3 status study
 [ ! -s "$folder/err" ] || { echo "a second call is not silent:"; cat "$folder/err"; exit 1; }
-[ "$(cat "$log")" = 'cmake --build --preset release' ]
+[ "$(cat "$log")" = 'cmake --build --preset release --target fracas' ]
 
 # The tests: their packages as well, all builds, the suite's summary last.
 : >"$log"
@@ -89,25 +89,25 @@ ends 0 test
 has log 'install -y --no-install-recommends sqlite3'
 for preset in werror clang sanitize; do has log "cmake --build --preset $preset"; done
 has log 'ctest --preset sanitize -j 7 -LE storm|slow-sanitize'
-has log 'ctest --preset release -j 7 -LE storm'
-[ "$(tail -n 1 "$folder/out")" = 'summary of release' ]
+has log 'ctest --preset werror -j 7 -LE storm'
+[ "$(tail -n 1 "$folder/out")" = 'summary of werror' ]
 ends 0 test --all
-[ "$(tail -n 1 "$log")" = 'ctest --preset release -j 7' ]
+[ "$(tail -n 1 "$log")" = 'ctest --preset werror -j 7' ]
 ends 2 test --al
 has err "unknown option '--al'"
 
 # A failure before the suite is not forgotten; the suite still runs.
 cp "$bin/ctest" "$folder/ctest"
-for failing in sanitize release; do
+for failing in sanitize werror; do
     sed "s/^echo.*/&; [ \"\$2\" != $failing ]/" "$folder/ctest" >"$bin/ctest"
     ends 1 test
-    has out 'summary of release'
-    has err "failed: $failing"
+    has out 'summary of werror'
+    has err "failed: $([ $failing = werror ] && echo suite || echo $failing)"
 done
 cp "$folder/ctest" "$bin/ctest"
 sed -i 's/^printf.*/[ "$3" != clang ] || exit 1/' "$bin/cmake"
 ends 1 test
-has out 'summary of release'
+has out 'summary of werror'
 has err 'failed: clang'
 
 # Two calls at once: one builds, the other waits.

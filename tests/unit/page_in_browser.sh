@@ -1,3 +1,4 @@
+# ctest-labels: slow-sanitize
 # The page of a report in headless Chromium (tests/support/check_page.py): a bar at three rates, and rings with their crack patterns.
 . tests/support/campaigns.sh
 

@@ -1,4 +1,6 @@
-/* Covariances against GSL, and the covariances of normal fields, found from the factors and not by sampling, against them. */
+/* Covariances against GSL, and the covariances of normal fields, found from the factors and not by sampling, against them.
+ * ctest-labels: slow-sanitize
+ */
 #include "sampler/field/circulant.h"
 #include "sampler/field/correlation.h"
 #include "sampler/field/dense_factor.h"

@@ -1,4 +1,6 @@
-/* Manufactured solutions: how fast the membrane's errors fall with the size of its elements. */
+/* Manufactured solutions: how fast the membrane's errors fall with the size of its elements.
+ * ctest-labels: slow-sanitize
+ */
 #include "tests/support/membrane_elastic.h"
 
 #include "engine/element/triangle.h"
