@@ -23,7 +23,7 @@ static fracas_err check(const char *study, const fracas_campaign *campaign, int 
     }
     const int64_t after = (int64_t)campaign->npoints * replicas;
     if (fracas_run_speaks() && after > before)
-        fprintf(stderr, "fracas: %s grows from %" PRId64 " realizations to %" PRId64 "\n", study, before, after);
+        fprintf(stderr, "fracas: %s is to grow from %" PRId64 " realizations to %" PRId64 "\n", study, before, after);
     return FRACAS_OK;
 }
 

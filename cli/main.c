@@ -74,7 +74,7 @@ static fracas_err run_command(int argc, char **argv)
 
 static fracas_err help(int argc, char **argv)
 {
-    if (argc < 3) {
+    if (argc < 3 || !strcmp(argv[2], "help")) {
         print_usage(stdout);
         return FRACAS_OK;
     }

@@ -174,19 +174,22 @@ static void print_failure(void *any, const fracas_index_row *row, const char *re
     printf("  point %zu replica %" PRId64 ", %" PRId64 " attempts: %s\n", row->point, row->replica, row->attempts, reason);
 }
 
-static const char *state_of(const fracas_status *status)
+static const char *state_of(const fracas_status *status, char text[5000])
 {
     if (status->lock == FRACAS_LOCK_HELD) return "being computed";
     if (status->complete) return status->all.failed == 0 ? "complete" : "computed, some realizations FAILED (below)";
     if (status->parts > 1 && status->left == 0) return "its part is complete: `fracas merge-studies` makes one study of all parts";
-    return "interrupted: `fracas run` with the campaign file resumes it";
+    /* not the file that the user ran: the study may have been extended since */
+    snprintf(text, 5000, "interrupted: `fracas run %.2000s/campaign.yaml --study %.2000s` resumes it", status->study, status->study);
+    return text;
 }
 
 static fracas_err print_text(const fracas_status *status)
 {
     const fracas_index_counts *all = &status->all;
     printf("study         %s of campaign %s\n", status->study, status->campaign->name);
-    printf("state         %s\n", state_of(status));
+    char state[5000];
+    printf("state         %s\n", state_of(status, state));
     if (status->parts > 1)
         printf("part          %d of %d: %" PRId64 " realizations, %" PRId64 " to be computed\n", status->part, status->parts,
                status->share, status->left);

@@ -112,7 +112,7 @@ fracas_err fracas_comparison_print(const fracas_comparison *comparison, const fr
     putc('\n', out);
     print_alone("A", a, comparison->only_a, comparison->nonly_a, out);
     print_alone("B", b, comparison->only_b, comparison->nonly_b, out);
-    if (comparison->npoints == 0) fputs("no point of A is one of B: name by --by the columns to match by, as --by loading.rate\n", out);
+    if (comparison->npoints == 0) fputs("no point of A is one of B: name by --by the columns to match by, as --by derived.strain_rate\n", out);
     else
         fputs("After the means and the differences: half widths of their 95 % intervals (Student's t; of the difference Welch's, or of the paired\n"
               "differences). p: by permutation of whole realizations, of pairs by exchange within them; Holm: corrected over the points, each number\n"

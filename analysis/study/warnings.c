@@ -13,9 +13,10 @@ static const double residual_limit = 1e-3; /* of the dissipated energy */
 static const double created_limit = 1e-2;  /* of the dissipated energy */
 static const double elements_limit = 10;   /* elements of a mean fragment */
 static const double dust_limit = 0.05;     /* share of all fragments */
+static const double rise_limit = 0.01;     /* of the dissipated energy, in the last tenth of the time */
 static const double zone_limit = 0.25;     /* fracture-limiting zone of a mean fragment (docs/results/ring.md) */
 
-enum { WARNINGS_PER_POINT = 16, WARNINGS_PER_STUDY = 2 }; /* at most, of a study beside its notes */
+enum { WARNINGS_PER_POINT = 17, WARNINGS_PER_STUDY = 2 }; /* at most, of a study beside its notes */
 
 typedef struct {
     size_t count;
@@ -101,6 +102,22 @@ static void warn_of_convergence(const fracas_point_statistics *statistics, size_
     warn(list, p, "unconverged with %lld replicas, known %s: raise replicas", (long long)all->replicas, text);
 }
 
+/* Bodies that ran until time.end and were still breaking: `stop: time` ends them as if they were done. */
+static void warn_of_end(const fracas_bands *bands, double end, size_t p, warning_list *list)
+{
+    if (bands->count == 0 || bands->time[bands->count - 1] < end * (1 - 1e-9)) return;
+    const size_t last = bands->count - 1;
+    size_t before = last;
+    while (before > 0 && bands->time[before] > 0.9 * end * (1 + 1e-9)) before--;
+    const double dissipated = bands->energy[last][FRACAS_ENERGY_DISSIPATED].mean;
+    const double rise = dissipated - bands->energy[before][FRACAS_ENERGY_DISSIPATED].mean;
+    if (!(rise > rise_limit * dissipated)) return;
+    char value[32];
+    fracas_format_digits(100 * rise / dissipated, 2, value, sizeof value);
+    warn(list, p, "bodies were still breaking at time.end: %s %% of the energy was dissipated in the last tenth of the time (more than 1 %%): raise "
+         "time.end", value);
+}
+
 static void warn_of_decision(const fracas_decision *last, size_t p, warning_list *list)
 {
     if (!last || last->stop != 2) return;
@@ -118,7 +135,7 @@ static void warn_of_study(const fracas_analysis *analysis, warning_list *list)
     if (partial && all.settled)
         warn(list, SIZE_MAX, "%s, but study.h5 is not there or not of all of them: `fracas merge` writes it", text);
     else if (partial)
-        warn(list, SIZE_MAX, "%s: every number is of these alone; `fracas run` with the campaign file completes the study", text);
+        warn(list, SIZE_MAX, "%s: every number is of these alone; `fracas run STUDY/campaign.yaml --study STUDY` completes the study", text);
     else if (!analysis->header.complete)
         warn(list, SIZE_MAX, "the study is not complete: realizations are missing or FAILED");
     for (size_t n = 0; n < fracas_results_notes(analysis->results); n++)
@@ -147,6 +164,8 @@ fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warn
         warn_of_point(&analysis->point[p], p, &list);
         warn_of_convergence(&analysis->point[p], p, &list);
         warn_of_decision(fracas_analysis_decision(analysis, p), p, &list);
+        if (analysis->point[p].outcome[FRACAS_TIME_LIMIT] == 0) /* those are warned of already */
+            warn_of_end(&analysis->point[p].bands, fracas_columns_real(analysis->table, p, "time.end"), p, &list);
         const double zones = fracas_columns_real(analysis->table, p, "cohesive.zone") / analysis->point[p].size.mean;
         if (zones > zone_limit)
             warn(&list, p, "cohesive.zone is %.2g of a mean fragment (more than 0.25): it influences the size: shorten it", zones);

@@ -266,7 +266,9 @@ static fracas_err parse(reading *reader, fracas_node **root)
 {
     if (!yaml_parser_initialize(&reader->parser)) return fracas_no_memory("the campaign file");
     yaml_parser_set_encoding(&reader->parser, YAML_UTF8_ENCODING);
-    yaml_parser_set_input_string(&reader->parser, reader->bytes, reader->size);
+    static const unsigned char mark[] = {0xEF, 0xBB, 0xBF}; /* editors on Windows begin a file with it; libyaml, once told the encoding, knows none */
+    const size_t skipped = reader->size >= sizeof mark && memcmp(reader->bytes, mark, sizeof mark) == 0 ? sizeof mark : 0;
+    yaml_parser_set_input_string(&reader->parser, reader->bytes + skipped, reader->size - skipped);
     fracas_err err = read_document(reader, root);
     yaml_parser_delete(&reader->parser);
     return err;

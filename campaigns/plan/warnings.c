@@ -11,6 +11,9 @@
 
 /* The softening zone of a crack, some E G_c/sigma_c^2 long, should hold elements. */
 #define COARSE 0.5
+/* Speeds sqrt(E/rho) of waves that solids have, from rubber to diamond [m/s]. */
+#define SLOWEST 10.0
+#define FASTEST 2.5e4
 /* A ring turned further than this no longer opens along the directions of its start [rad]: 1 - cos of it is 5e-5. */
 #define TURNED 0.01
 
@@ -58,6 +61,16 @@ static bool warn_lines(const fracas_point *point, const fracas_forecast *forecas
     return forecast->lines;
 }
 
+/* A unit slipped: no other check compares these two. */
+static bool warn_wave(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
+{
+    (void)forecast;
+    const double speed = sqrt(point->spec.material.young / point->spec.material.density);
+    snprintf(text, size, "waves go at sqrt(young/density) = %.3g m/s, in solids at %.3g to %.3g: are material.young [Pa] and material.density [kg/m3] in "
+             "the units meant? A bare number is SI", speed, SLOWEST, FASTEST);
+    return speed < SLOWEST || speed > FASTEST;
+}
+
 static bool warn_weak_load(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
 {
     snprintf(text, size, "until time.end the stress stays below %.3g MPa, the mean strength is %.3g MPa: the weakest interfaces will "
@@ -101,8 +114,8 @@ static bool warn_passed(const fracas_point *point, const fracas_forecast *foreca
 static bool warn_step(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size)
 {
     (void)point;
-    snprintf(text, size, "one time step adds %.3g Pa of stress, more than the mean strength of %.3g Pa: is that in Pa? A bare number "
-             "is SI", forecast->step_stress, forecast->mean);
+    snprintf(text, size, "one time step adds %.3g Pa of stress, more than the mean strength of %.3g Pa: are strength, material and loading in "
+             "the units meant? A bare number is SI", forecast->step_stress, forecast->mean);
     return forecast->step_stress > forecast->mean;
 }
 
@@ -149,4 +162,4 @@ static bool warn_weakest(const fracas_point *point, const fracas_forecast *forec
 
 fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS] = {warn_coarse, warn_uniform, warn_lines, warn_weak_load, warn_repeated,
                                     warn_folds,  warn_lonely,  warn_step,  warn_turned,    warn_passed,
-                                    warn_short,  warn_long,    warn_flat,  warn_weakest};
+                                    warn_short,  warn_long,    warn_flat,  warn_weakest,  warn_wave};

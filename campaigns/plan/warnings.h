@@ -7,7 +7,7 @@
 /* Writes what to know of a point; false, whatever the text, if it does not apply. */
 typedef bool fracas_plan_warning(const fracas_point *point, const fracas_forecast *forecast, char *text, size_t size);
 
-enum { FRACAS_PLAN_WARNINGS = 14 };
+enum { FRACAS_PLAN_WARNINGS = 15 };
 extern fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS];
 
 #endif

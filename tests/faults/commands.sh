@@ -120,8 +120,10 @@ said 'has 6 already'
 expect 0 "$fracas" extend extended --replicas 6
 said 'complete, nothing to compute'
 expect 0 "$fracas" extend extended --replicas 9 --jobs 2 --lanes 4
-said 'grows from 12 realizations to 18'
+said 'is to grow from 12 realizations to 18'
 same longer extended
+expect 5 "$fracas" run small.yaml --study extended
+said 'extended has been extended since: `fracas run extended/campaign.yaml --study extended` goes on with it'
 cmp longer/campaign.yaml extended/campaign.yaml || fail "campaign.yaml is not that of the longer campaign"
 expect 0 "$fracas" verify extended --full
 sed 's/^replicas:.*/replicas: {minimum: 8, maximum: 9, until: {quantity: mean-count, relative-half-width: 0.5}}/' small.yaml > rule.yaml

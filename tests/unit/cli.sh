@@ -28,6 +28,7 @@ says() {
 says 0 out 'fracas 0.' --version
 says 0 out 'fracas run FILE' --help
 says 0 out 'fracas verify STUDY' help
+says 0 out 'fracas verify STUDY' help help
 says 0 out '--segment-age S' help run
 says 0 out '--segment-age S' run --help
 says 0 out '--segment-age S' run a.yaml b.yaml -h

@@ -77,6 +77,24 @@ static char *read_whole(const char *path)
 }
 
 /* The hashes were computed by xxhsum, not by this program, as docs/formats/campaign-file.md says. */
+/* Editors on Windows begin a file with a byte order mark and end lines with CR LF: the same campaign. */
+static void test_windows(void **state)
+{
+    (void)state;
+    char text[4096] = "\xEF\xBB\xBF";
+    size_t used = strlen(text);
+    for (const char *c = plain_campaign; *c; c++) {
+        assert_true(used + 3 < sizeof text);
+        if (*c == '\n') text[used++] = '\r';
+        text[used++] = *c;
+    }
+    text[used] = '\0';
+    fracas_campaign *plain = read_text(plain_campaign), *windows = read_text(text);
+    assert_true(fracas_hash_equal(&plain->hash, &windows->hash));
+    fracas_campaign_destroy(windows);
+    fracas_campaign_destroy(plain);
+}
+
 static void test_golden_hash(void **state)
 {
     (void)state;
@@ -541,7 +559,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_example),      cmocka_unit_test(test_plain),
-        cmocka_unit_test(test_golden_hash),  cmocka_unit_test(test_hashes),
+        cmocka_unit_test(test_windows), cmocka_unit_test(test_golden_hash),  cmocka_unit_test(test_hashes),
         cmocka_unit_test(test_product),      cmocka_unit_test(test_ranges),
         cmocka_unit_test(test_zip),          cmocka_unit_test(test_cases),
         cmocka_unit_test(test_changed_kind), cmocka_unit_test(test_supplied_by_sweep),

@@ -147,7 +147,7 @@ static void test_warnings_of_rings(void **state)
     (void)state;
     static const char *const says[] = {"swings back: raise its velocity", "raise its velocity or time.end", "load it harder, or longer",
                                        "the whole ring comes under compression", "cohesive.zone is longer than half",
-                                       "is that in Pa?", "the ring turns by"};
+                                       "are strength, material and loading in", "the ring turns by", "waves go at"};
     const struct {
         const char *loading, *more;
         unsigned expected; /* bit i: says[i] */
@@ -165,6 +165,9 @@ static void test_warnings_of_rings(void **state)
         /* 275 GPa 1e5/s dt, dt = 62.8 um/(10 km/s) 0.25/f, f of a few units: 10 to 40 MPa */
         {"type: initial-velocity, radial: 1000 m/s", ", strength: {distribution: uniform, minimum: 299, maximum: 301}", 32},
         {"type: initial-velocity, radial: 1000 m/s", ", strength: {distribution: uniform, minimum: 45 MPa, maximum: 50 MPa}", 0},
+        {"type: initial-velocity, radial: 1000 m/s", ", material: {young: 275 GPa, density: 2.7}", 128}, /* 319 km/s */
+        {"type: initial-velocity, radial: 1000 m/s", ", material: {young: 60 GPa, density: 100}", 0},         /* 24.5 km/s */
+        {"type: initial-velocity, radial: 1000 m/s", ", material: {young: 65 GPa, density: 100}", 128},       /* 25.5 km/s */
         /* turned until 0.5 us by V t/R, V t/R + a t^2/2R, f t^2/(2 rho A R) + f' t^3/(6 rho A R): 0.0075 or 0.0125 */
         {"type: initial-velocity, radial: 1000 m/s, circumferential: 150 m/s", "initial", 0},
         {"type: initial-velocity, radial: 1000 m/s, circumferential: -250 m/s", "initial", 64},

@@ -28,7 +28,8 @@ static fracas_err check_campaign(const making *m)
     const fracas_hash *wanted = m->request->campaign;
     if (!wanted || fracas_hash_equal(&fracas_results_header(m->results)->campaign, wanted)) return FRACAS_OK;
     return fracas_fail(FRACAS_DAMAGED, "pictures come with the complete study: %s/study.h5 is of another campaign than "
-                       "%s/campaign.yaml, from before it was extended; `fracas run` with the campaign file completes it", m->study, m->study);
+                       "%s/campaign.yaml, from before it was extended; `fracas run %s/campaign.yaml --study %s` completes it", m->study, m->study,
+                       m->study, m->study);
 }
 
 static fracas_err check_point(making *m)

@@ -44,8 +44,12 @@ fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign)
         return fracas_fail_within(FRACAS_DAMAGED, "the study's own campaign file is damaged (remove it and run again: it is written anew; or run in "
                                   "another --study)");
     TRY(err);
+    const bool extended = !fracas_campaign_extends(before, campaign);
     err = fracas_campaign_extends(campaign, before);
     fracas_campaign_destroy(before);
+    if (err && extended)
+        return fracas_fail(FRACAS_DAMAGED, "%s has been extended since: `fracas run %s --study %s` goes on with it (or choose another --study)",
+                           study, path, study);
     if (err) return fracas_fail_within(err, "%s is a study of another campaign (choose another --study)", study);
     return FRACAS_OK;
 }

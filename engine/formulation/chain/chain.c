@@ -31,9 +31,11 @@ fracas_err fracas_chain_check_strength(const fracas_model *model, double strengt
     double margin = 2 * (cohesive->beta * young / h) * energy / strength - strength;
     double most = 2 * cohesive->beta * young * energy / (strength * strength);
     if (margin > 0 && isfinite(margin)) return FRACAS_OK;
+    const double needed = ceil((double)model->elements * h / most);
     return fracas_fail(FRACAS_USAGE, "strength %g Pa needs elements shorter than %.4g m, they are %.4g m: "
-                       "raise mesh.elements above %.0f (or cohesive.beta)", strength, most, h,
-                       ceil((double)model->elements * h / most));
+                       "raise mesh.elements above %.0f (or cohesive.beta)%s", strength, most, h, needed,
+                       needed < 1e7 ? "" : "; so many: are material.young [Pa], cohesive.fracture_energy [J/m2] and lengths [m] in the units meant? "
+                                           "A bare number is SI");
 }
 
 int64_t fracas_chain_fragment_count(const fracas_model *model, fracas_step *step, int lane)
