@@ -62,3 +62,26 @@ if Rscript -e 'library(jsonlite)' >/dev/null 2>&1; then
 else
     echo "skipped: r-base-core or r-cran-jsonlite is not installed"
 fi
+
+# A ring has no geometry.length: the pages are not of bars alone.
+mv STUDY bars
+cat > ring.yaml <<'END'
+name: ring
+seed: 7
+model: ring
+geometry: {radius: 2 mm, area: 1 mm2}
+mesh: {elements: 500}
+material: {young: 275 GPa, density: 2750 kg/m3}
+cohesive: {law: nitsche, fracture_energy: 100 J/m2}
+strength: {distribution: uniform, minimum: 299 MPa, maximum: 301 MPa}
+loading: {type: initial-velocity, radial: 100 m/s}
+time: {stop: time, end: 200 ns, safety: 0.25}
+sweep:
+  - loading.radial: [100 m/s, 200 m/s]
+replicas: 3
+output: {history: 20, interfaces: false}
+END
+expect 0 "$fracas" run ring.yaml --study STUDY --jobs 2
+expect 0 "$fracas" export STUDY --histories
+[ ! -e page.py ] || /usr/bin/python3 -W error page.py || fail "the page of pandas, of rings"
+[ ! -e page.R ] || Rscript --vanilla -e 'options(warn = 2); source("page.R")' || fail "the page of R, of rings"
