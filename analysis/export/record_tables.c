@@ -1,7 +1,7 @@
 /* What the study has of each realization, fragment and moment: the datasets of study.h5 as columns, by the store's own table of them. */
 #include "analysis/export/csv.h"
 
-#include "campaigns/store/schema.h"
+#include "campaigns/store/file/schema.h"
 
 #include <inttypes.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* STUDY/fits.csv: a stamp in its first lines, then a line a number. */
 #include "analysis/export/output.h"
 #include "analysis/fit/fits.h"
-#include "campaigns/store/disk.h"
+#include "campaigns/store/file/disk.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -2,7 +2,7 @@
 
 #include "analysis/fit/point.h"
 #include "analysis/study/study.h"
-#include "campaigns/store/disk.h"
+#include "campaigns/store/file/disk.h"
 
 #include <math.h>
 #include <stdlib.h>

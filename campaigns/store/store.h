@@ -10,7 +10,7 @@
 #include "base/err.h"
 #include "base/hash.h"
 #include "campaigns/points.h"
-#include "campaigns/store/mesh.h"
+#include "campaigns/store/file/mesh.h"
 #include "engine/record.h"
 
 #include <stdbool.h>

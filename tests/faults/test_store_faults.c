@@ -1,9 +1,9 @@
 /* Damage and death: flipped bytes, truncated files, a full disk, kill -9. */
 #include "tests/support/store_sample.h"
 
-#include "campaigns/store/disk.h"
-#include "campaigns/store/h5.h"
-#include "campaigns/store/index.h"
+#include "campaigns/store/file/disk.h"
+#include "campaigns/store/file/h5.h"
+#include "campaigns/store/index/index.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -4,10 +4,10 @@
  * written again. For libFuzzer (tools/fuzz), and the corpus as a test.
  *
  * Bytes are changed without making the checksums of HDF5 fit again: HDF5 1.10 can be crashed that way, and fracas lets it see a
- * segment only after a checksum over all of it (campaigns/store/disk.h). */
+ * segment only after a checksum over all of it (campaigns/store/file/disk.h). */
 #include "tests/fuzz/fuzz.h"
 
-#include "campaigns/store/h5.h"
+#include "campaigns/store/file/h5.h"
 #include "tests/support/store_sample.h"
 #include "tests/support/stored_mesh.h"
 

@@ -4,8 +4,8 @@
 
 #include "tests/support/store_sample.h"
 
-#include "campaigns/store/disk.h"
-#include "campaigns/store/index.h"
+#include "campaigns/store/file/disk.h"
+#include "campaigns/store/index/index.h"
 
 #include <sys/wait.h>
 

@@ -5,7 +5,7 @@
 #include "tests/support/study_fixture.h"
 
 #include "base/param.h"
-#include "campaigns/store/h5.h"
+#include "campaigns/store/file/h5.h"
 #include "campaigns/store/upkeep.h"
 
 #include <signal.h>

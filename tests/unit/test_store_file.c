@@ -2,8 +2,8 @@
 #include "tests/support/store_sample.h"
 #include "tests/support/stored_mesh.h"
 
-#include "campaigns/store/disk.h"
-#include "campaigns/store/schema.h"
+#include "campaigns/store/file/disk.h"
+#include "campaigns/store/file/schema.h"
 
 #include <malloc.h>
 #include <math.h>

@@ -1,0 +1,146 @@
+#include "campaigns/store/file/disk.h"
+
+#include "base/param.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <linux/magic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/vfs.h>
+#include <unistd.h>
+
+static const char temporary_mark[] = ".tmp-";
+
+fracas_err fracas_disk_fail(const char *verb, const char *path) { return fracas_fail_system(errno, "cannot %s %s", verb, path); }
+
+fracas_err fracas_disk_join(const char *folder, const char *name, char **path)
+{
+    if (asprintf(path, "%s/%s", folder, name) < 0) return fracas_no_memory("a file name");
+    return FRACAS_OK;
+}
+
+fracas_err fracas_disk_segment(const char *study, const char *name, char **path)
+{
+    char *folder;
+    TRY(fracas_disk_join(study, "segments", &folder));
+    fracas_err err = fracas_disk_join(folder, name, path);
+    free(folder);
+    return err;
+}
+
+fracas_err fracas_disk_temporary(const char *path, char **temporary)
+{
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    if (asprintf(temporary, "%.*s.%s%s%ld", (int)(name - path), path, name, temporary_mark, (long)getpid()) < 0)
+        return fracas_no_memory("a file name");
+    return FRACAS_OK;
+}
+
+bool fracas_disk_is_temporary(const char *name)
+{
+    const char *mark = strstr(name, temporary_mark);
+    return name[0] == '.' && mark && isdigit((unsigned char)mark[sizeof temporary_mark - 1]);
+}
+
+fracas_err fracas_disk_sync_folder(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    char *folder = slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path)) : strdup(".");
+    if (!folder) return fracas_no_memory("a file name");
+    fracas_err err = FRACAS_OK;
+    int fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    /* EINVAL: a filesystem that has no syncing of folders, and so nothing to wait for. */
+    if (fd < 0 || (fsync(fd) < 0 && errno != EINVAL)) err = fracas_disk_fail("sync folder", folder);
+    if (fd >= 0) close(fd);
+    free(folder);
+    return err;
+}
+
+fracas_err fracas_disk_seal_first(int fd, const char *path, uint64_t most, fracas_file_seal *seal)
+{
+    enum { BLOCK = 1 << 20 };
+    char *block = malloc(BLOCK);
+    fracas_checksum *checksum = NULL;
+    *seal = (fracas_file_seal){0};
+    fracas_err err = block ? fracas_checksum_create(&checksum) : fracas_no_memory("a checksum");
+    while (!err) {
+        const uint64_t left = most - seal->bytes;
+        ssize_t got = pread(fd, block, left < BLOCK ? left : BLOCK, (off_t)seal->bytes);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) err = fracas_disk_fail("read", path);
+        if (got <= 0) break;
+        seal->bytes += (uint64_t)got;
+        fracas_checksum_add(checksum, block, (size_t)got);
+    }
+    if (!err) seal->checksum = fracas_checksum_end(checksum); /* = fracas_checksum_of the whole */
+    fracas_checksum_destroy(checksum);
+    free(block);
+    return err;
+}
+
+fracas_err fracas_disk_seal(int fd, const char *path, fracas_file_seal *seal)
+{
+    return fracas_disk_seal_first(fd, path, INT64_MAX, seal);
+}
+
+fracas_err fracas_disk_seal_path(const char *path, fracas_file_seal *seal)
+{
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (fd < 0 && errno == ENOENT) return fracas_fail(FRACAS_DAMAGED, "%s is not there", path);
+    if (fd < 0) return fracas_disk_fail("open", path);
+    fracas_err err = fracas_disk_seal(fd, path, seal);
+    close(fd);
+    return err;
+}
+
+fracas_err fracas_disk_check_seal(const char *path, const fracas_file_seal *wanted)
+{
+    fracas_file_seal seal;
+    TRY(fracas_disk_seal_path(path, &seal));
+    if (seal.bytes == wanted->bytes && seal.checksum == wanted->checksum) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED, "%s: damaged: it has %" PRIu64 " bytes of checksum %016" PRIx64 ", the index says %" PRIu64
+                       " of %016" PRIx64, path, seal.bytes, seal.checksum, wanted->bytes, wanted->checksum);
+}
+
+fracas_err fracas_disk_set_aside(const char *path, char **aside)
+{
+    const char *dot = strrchr(path, '.'), *slash = strrchr(path, '/');
+    if (!dot || (slash && dot < slash)) dot = path + strlen(path);
+    if (asprintf(aside, "%.*s.damaged", (int)(dot - path), path) < 0) {
+        *aside = NULL;
+        return fracas_no_memory("a file name");
+    }
+    fracas_err err = FRACAS_OK;
+    if (rename(path, *aside) == 0) err = fracas_disk_sync_folder(path);
+    else if (errno != ENOENT) err = fracas_disk_fail("rename", path);
+    if (err) free(*aside), *aside = NULL;
+    return err;
+}
+
+fracas_err fracas_disk_has_size(const char *path, uint64_t bytes, bool *has)
+{
+    struct stat info;
+    int code = stat(path, &info);
+    *has = code == 0 && (uint64_t)info.st_size == bytes;
+    return code < 0 && errno != ENOENT ? fracas_disk_fail("look at", path) : FRACAS_OK;
+}
+
+fracas_err fracas_disk_is_local(const char *path, bool *local)
+{
+    /* Those whose locks and shared memory WAL can rely on; all others are taken for network filesystems. */
+    static const unsigned long known[] = {EXT4_SUPER_MAGIC, XFS_SUPER_MAGIC,  BTRFS_SUPER_MAGIC, TMPFS_MAGIC,
+                                          RAMFS_MAGIC,      F2FS_SUPER_MAGIC, OVERLAYFS_SUPER_MAGIC,
+                                          REISERFS_SUPER_MAGIC, 0x2fc12fc1 /* ZFS */, 0xca451a4e /* bcachefs */,
+                                          0x3153464a /* JFS */};
+    struct statfs info;
+    *local = false;
+    if (statfs(path, &info) < 0) return fracas_disk_fail("look at", path);
+    for (size_t k = 0; k < FRACAS_COUNT(known); k++)
+        if ((uint32_t)info.f_type == (uint32_t)known[k]) *local = true;
+    return FRACAS_OK;
+}

@@ -1,0 +1,380 @@
+#include "campaigns/store/file/disk.h"
+#include "campaigns/store/store.h"
+#include "campaigns/store/file/table.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The datasets of one set, and a block of their rows. */
+typedef struct {
+    hid_t dataset[FRACAS_MAX_COLUMNS];
+    unsigned char *stored[FRACAS_MAX_COLUMNS];
+    uint64_t rows;         /* in the file */
+    uint64_t first, count; /* rows in `stored` */
+} set_reader;
+
+struct fracas_reader {
+    fracas_h5 h5;
+    char *path;
+    fracas_file_header header;
+    fracas_stored_table points;
+    bool decisions, meshes; /* has a group /decision, /mesh */
+    unsigned parts;         /* of records, that it was opened for */
+    set_reader set[FRACAS_NSETS];
+};
+
+enum { BLOCK_CHUNKS = 4 }; /* chunks read ahead */
+
+static fracas_err damaged(const fracas_reader *reader, const char *where, const char *what)
+{
+    return fracas_fail(FRACAS_DAMAGED, "%s: %s: damaged: %s", reader->path, where, what);
+}
+
+/* ---- opening ---- */
+
+static fracas_err read_text_attribute(fracas_reader *reader, const char *name, size_t size, char *to)
+{
+    char *text;
+    TRY(fracas_h5_get_text(&reader->h5, "/", name, &text));
+    bool fits = strlen(text) < size;
+    if (fits) memcpy(to, text, strlen(text) + 1);
+    free(text);
+    return fits ? FRACAS_OK : damaged(reader, name, "it is too long");
+}
+
+static fracas_err read_truth(fracas_reader *reader, const char *name, bool *truth)
+{
+    uint64_t value;
+    TRY(fracas_h5_get_integer(&reader->h5, "/", name, H5T_STD_I8LE, &value));
+    *truth = value == 1;
+    return value <= 1 ? FRACAS_OK : damaged(reader, name, "it is neither 0 nor 1");
+}
+
+fracas_err fracas_file_version(const char *path, uint64_t *version)
+{
+    fracas_h5 h5 = FRACAS_H5_CLOSED;
+    TRY(fracas_disk_check_own_seal(path));
+    fracas_err err = fracas_h5_open(&h5, path);
+    if (!err) err = fracas_h5_get_integer(&h5, "/", "format_version", H5T_STD_I32LE, version);
+    fracas_h5_close(&h5);
+    return err;
+}
+
+static fracas_err read_header(fracas_reader *reader)
+{
+    uint64_t version, history;
+    char hex[FRACAS_HASH_HEX];
+    fracas_file_header *header = &reader->header;
+    TRY(fracas_h5_get_integer(&reader->h5, "/", "format_version", H5T_STD_I32LE, &version));
+    if (version != FRACAS_FORMAT_VERSION)
+        return fracas_fail(FRACAS_DAMAGED, "%s has format version %llu; this program reads %d: use the program version "
+                           "that wrote it, or compute the study again in another folder", reader->path,
+                           (unsigned long long)version, FRACAS_FORMAT_VERSION);
+    TRY(read_text_attribute(reader, "campaign", sizeof hex, hex));
+    if (!fracas_hash_parse(hex, &header->campaign)) return damaged(reader, "campaign", "it is no hash");
+    TRY(fracas_h5_get_integer(&reader->h5, "/", "seed", H5T_STD_U64LE, &header->seed));
+    TRY(fracas_h5_get_integer(&reader->h5, "/", "history", H5T_STD_I64LE, &history));
+    header->history = (int64_t)history;
+    TRY(read_truth(reader, "interfaces", &header->interfaces));
+    TRY(read_text_attribute(reader, "program_version", sizeof header->version, header->version));
+    return read_truth(reader, "complete", &header->complete);
+}
+
+static fracas_err open_set(fracas_reader *reader, int s)
+{
+    const fracas_store_set *schema = &fracas_store_sets[s];
+    set_reader *set = &reader->set[s];
+    for (size_t c = 0; c < schema->ncolumns; c++) {
+        uint64_t rows;
+        TRY(fracas_h5_open_column(&reader->h5, &schema->column[c], schema->chunk, &set->dataset[c], &rows));
+        if (c > 0 && rows != set->rows)
+            return damaged(reader, schema->column[c].path, "it has another number of rows than its neighbours");
+        set->rows = rows;
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err load_rows(fracas_reader *reader, int s, uint64_t first, size_t count, void *rows);
+
+/* Offsets of `owners` things go from 0 to the rows of the set; that they never fall is checked where they are used. */
+static fracas_err open_ragged(fracas_reader *reader, uint64_t owners, int offsets, int s)
+{
+    const char *path = fracas_store_sets[offsets].column->path;
+    TRY(open_set(reader, offsets));
+    TRY(open_set(reader, s));
+    if (reader->set[offsets].rows != owners + 1)
+        return damaged(reader, path, "it must have one value more than there are realizations, or points");
+    int64_t first, last;
+    TRY(load_rows(reader, offsets, owners, 1, &last));
+    TRY(load_rows(reader, offsets, 0, 1, &first));
+    if (first != 0 || last < 0 || (uint64_t)last != reader->set[s].rows)
+        return damaged(reader, path, "it does not go from 0 to the number of rows");
+    return FRACAS_OK;
+}
+
+static fracas_err is_there(const fracas_reader *reader, const char *group, bool *there)
+{
+    htri_t found = H5Lexists(reader->h5.id, group, H5P_DEFAULT);
+    if (found < 0) return fracas_h5_fail(&reader->h5, group);
+    *there = found > 0;
+    return FRACAS_OK;
+}
+
+static fracas_err open_meshes(fracas_reader *reader)
+{
+    TRY(is_there(reader, "/mesh", &reader->meshes));
+    if (reader->meshes && !reader->header.interfaces)
+        return damaged(reader, "/mesh", "there are meshes, but no interfaces");
+    for (int s = FRACAS_SET_MESH_NODE_OFFSET; reader->meshes && s < FRACAS_NSETS; s += 2)
+        TRY(open_ragged(reader, reader->points.table.npoints, s, s + 1));
+    return FRACAS_OK;
+}
+
+static fracas_err open_records(fracas_reader *reader, unsigned parts)
+{
+    reader->parts = parts;
+    TRY(open_set(reader, FRACAS_SET_REALIZATION));
+    const uint64_t realizations = reader->set[FRACAS_SET_REALIZATION].rows;
+    if (parts & FRACAS_READ_FRAGMENTS) TRY(open_ragged(reader, realizations, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT));
+    if (parts & FRACAS_READ_HISTORY) TRY(open_ragged(reader, realizations, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY));
+    bool there = false;
+    TRY(is_there(reader, "/interface", &there));
+    if (reader->header.interfaces != there)
+        return damaged(reader, "interfaces", "the group /interface is there when it must not be, or missing");
+    if (there && parts & FRACAS_READ_INTERFACES)
+        TRY(open_ragged(reader, realizations, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE));
+    return FRACAS_OK;
+}
+
+static fracas_err open_rest(fracas_reader *reader)
+{
+    TRY(is_there(reader, "/decision", &reader->decisions));
+    if (reader->decisions) TRY(open_set(reader, FRACAS_SET_DECISION));
+    return open_meshes(reader);
+}
+
+static fracas_err open_file(const char *path, unsigned parts, bool all, fracas_reader **reader)
+{
+    *reader = calloc(1, sizeof **reader);
+    if (!*reader) return fracas_no_memory("a file");
+    fracas_reader *r = *reader;
+    r->h5 = FRACAS_H5_CLOSED;
+    fracas_err err = (r->path = strdup(path)) ? fracas_h5_open(&r->h5, r->path) : fracas_no_memory("a file");
+    if (!err) err = read_header(r);
+    if (!err) err = all ? fracas_table_read(&r->h5, &r->points) : fracas_table_read_points(&r->h5, &r->points);
+    if (!err) err = open_records(r, parts);
+    if (!err && all) err = open_rest(r);
+    if (!err) return FRACAS_OK;
+    fracas_reader_close(r);
+    *reader = NULL;
+    return err;
+}
+
+fracas_err fracas_reader_open(const char *path, fracas_reader **reader) { return open_file(path, FRACAS_READ_ALL, true, reader); }
+
+fracas_err fracas_reader_open_records(const char *path, unsigned parts, fracas_reader **reader)
+{
+    return open_file(path, parts, false, reader);
+}
+
+void fracas_reader_close(fracas_reader *reader)
+{
+    if (!reader) return;
+    for (int s = 0; s < FRACAS_NSETS; s++)
+        for (size_t c = 0; c < fracas_store_sets[s].ncolumns; c++) free(reader->set[s].stored[c]);
+    fracas_table_clear(&reader->points);
+    fracas_h5_close(&reader->h5);
+    free(reader->path);
+    free(reader);
+}
+
+const fracas_file_header *fracas_reader_header(const fracas_reader *reader) { return &reader->header; }
+const fracas_point_table *fracas_reader_points(const fracas_reader *reader) { return &reader->points.table; }
+size_t fracas_reader_realizations(const fracas_reader *reader) { return reader->set[FRACAS_SET_REALIZATION].rows; }
+
+fracas_err fracas_reader_provenance(const fracas_reader *reader, char **provenance)
+{
+    bool has;
+    *provenance = NULL;
+    TRY(fracas_h5_has_attribute(&reader->h5, "/", FRACAS_PROVENANCE, &has));
+    return has ? fracas_h5_get_text(&reader->h5, "/", FRACAS_PROVENANCE, provenance) : FRACAS_OK;
+}
+
+/* ---- rows ---- */
+
+static fracas_err read_block(fracas_reader *reader, int s, uint64_t row)
+{
+    const fracas_store_set *schema = &fracas_store_sets[s];
+    set_reader *set = &reader->set[s];
+    uint64_t block = BLOCK_CHUNKS * schema->chunk, first = row - row % block;
+    uint64_t count = set->rows - first < block ? set->rows - first : block;
+    set->count = 0;
+    for (size_t c = 0; c < schema->ncolumns; c++) {
+        const fracas_store_column *column = &schema->column[c];
+        if (!set->stored[c]) set->stored[c] = malloc(block * fracas_stored_size(column));
+        if (!set->stored[c]) return fracas_no_memory("the columns of a file");
+        TRY(fracas_h5_read_rows(&reader->h5, column, set->dataset[c], first, count, set->stored[c]));
+    }
+    set->first = first;
+    set->count = count;
+    return FRACAS_OK;
+}
+
+/* Rows first .. first+count-1, which must be in the set, into structs. */
+static fracas_err load_rows(fracas_reader *reader, int s, uint64_t first, size_t count, void *rows)
+{
+    const fracas_store_set *schema = &fracas_store_sets[s];
+    set_reader *set = &reader->set[s];
+    char *to = rows;
+    while (count > 0) {
+        if (first < set->first || first >= set->first + set->count) TRY(read_block(reader, s, first));
+        uint64_t at = first - set->first, there = set->count - at;
+        size_t take = count < there ? count : there;
+        for (size_t c = 0; c < schema->ncolumns; c++) {
+            const fracas_store_column *column = &schema->column[c];
+            fracas_rows_load(column, set->stored[c] + at * fracas_stored_size(column), take, to, schema->row_size);
+        }
+        first += take;
+        count -= take;
+        to += take * schema->row_size;
+    }
+    return FRACAS_OK;
+}
+
+/* Where the rows of realization or point `row` are in a ragged set. */
+static fracas_err find_ragged(fracas_reader *reader, int offsets, int s, size_t row, int64_t *begin, size_t *count)
+{
+    int64_t end;
+    TRY(load_rows(reader, offsets, row, 1, begin));
+    TRY(load_rows(reader, offsets, row + 1, 1, &end));
+    if (*begin < 0 || end < *begin || (uint64_t)end > reader->set[s].rows)
+        return damaged(reader, fracas_store_sets[offsets].column->path, "an offset is out of order");
+    *count = (size_t)(end - *begin);
+    return FRACAS_OK;
+}
+
+/* Those rows; *rows freed by the caller, NULL if there are none. */
+static fracas_err load_ragged(fracas_reader *reader, int offsets, int s, size_t row, void **rows, size_t *count)
+{
+    int64_t begin;
+    *rows = NULL;
+    TRY(find_ragged(reader, offsets, s, row, &begin, count));
+    if (!*count) return FRACAS_OK;
+    *rows = calloc(*count, fracas_store_sets[s].row_size);
+    fracas_err err = *rows ? load_rows(reader, s, (uint64_t)begin, *count, *rows) : fracas_no_memory("a record");
+    if (err) free(*rows), *rows = NULL;
+    return err;
+}
+
+static fracas_err load_parts(fracas_reader *reader, size_t row, unsigned parts, fracas_record *record)
+{
+    void *rows;
+    parts &= reader->parts;
+    if (parts & FRACAS_READ_FRAGMENTS) {
+        TRY(load_ragged(reader, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT, row, &rows, &record->nfragment));
+        record->fragment = rows;
+        if (record->outcome != FRACAS_FAILED && (uint64_t)record->fragments != record->nfragment)
+            return damaged(reader, "/realization/fragments", "it is not the number of rows in /fragment");
+    }
+    if (parts & FRACAS_READ_HISTORY) {
+        TRY(load_ragged(reader, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY, row, &rows, &record->nhistory));
+        record->history = rows;
+    }
+    if (parts & FRACAS_READ_INTERFACES && reader->header.interfaces) {
+        TRY(load_ragged(reader, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE, row, &rows, &record->ninterface));
+        record->interface = rows;
+    }
+    return FRACAS_OK;
+}
+
+fracas_err fracas_reader_record(fracas_reader *reader, size_t row, unsigned parts, size_t *point, int64_t *replica,
+                                fracas_record *record)
+{
+    fracas_stored_realization stored = {0};
+    fracas_record_clear(record);
+    if (row >= fracas_reader_realizations(reader))
+        return fracas_fail(FRACAS_BUG, "%s has %zu realizations; row %zu was asked for", reader->path,
+                           fracas_reader_realizations(reader), row);
+    TRY(load_rows(reader, FRACAS_SET_REALIZATION, row, 1, &stored));
+    if (stored.point < 0 || (uint64_t)stored.point >= reader->points.table.npoints || stored.replica < 0)
+        return damaged(reader, "/realization/point", "a realization is of no point of the file");
+    if (stored.record.outcome < 0 || stored.record.outcome >= FRACAS_NOUTCOMES || stored.record.fragments < 0 ||
+        stored.record.fragments_dust < 0 || stored.record.fragments_dust > stored.record.fragments)
+        return damaged(reader, "/realization/outcome", "an outcome or a count is out of range");
+    *point = (size_t)stored.point;
+    *replica = stored.replica;
+    *record = stored.record;
+    fracas_err err = load_parts(reader, row, parts, record);
+    if (err) fracas_record_clear(record);
+    return err;
+}
+
+/* ---- decisions ---- */
+
+fracas_err fracas_reader_decisions(fracas_reader *reader, fracas_decision **decision, size_t *count)
+{
+    *count = reader->decisions ? reader->set[FRACAS_SET_DECISION].rows : 0;
+    *decision = calloc(*count + 1, sizeof **decision);
+    if (!*decision) return fracas_no_memory("the decisions of a study");
+    fracas_err err = *count ? load_rows(reader, FRACAS_SET_DECISION, 0, *count, *decision) : FRACAS_OK;
+    for (size_t d = 0; !err && d < *count; d++)
+        if (!fracas_decision_valid(&(*decision)[d]) || (*decision)[d].point < 0 ||
+            (uint64_t)(*decision)[d].point >= reader->points.table.npoints)
+            err = damaged(reader, "/decision", "a decision is of no point of the file, or out of range");
+    if (err) free(*decision), *decision = NULL;
+    return err;
+}
+
+/* ---- meshes ---- */
+
+fracas_err fracas_reader_mesh_interfaces(fracas_reader *reader, size_t point, size_t *interfaces)
+{
+    int64_t begin;
+    *interfaces = 0;
+    if (!reader->meshes) return FRACAS_OK;
+    return find_ragged(reader, FRACAS_SET_MESH_INTERFACE_OFFSET, FRACAS_SET_MESH_INTERFACE, point, &begin, interfaces);
+}
+
+static fracas_err load_mesh(fracas_reader *reader, size_t point, fracas_stored_mesh *mesh)
+{
+    void *rows;
+    TRY(load_ragged(reader, FRACAS_SET_MESH_NODE_OFFSET, FRACAS_SET_MESH_NODE, point, &rows, &mesh->nnodes));
+    mesh->node = rows;
+    TRY(load_ragged(reader, FRACAS_SET_MESH_ELEMENT_OFFSET, FRACAS_SET_MESH_ELEMENT, point, &rows, &mesh->nelements));
+    mesh->element = rows;
+    TRY(load_ragged(reader, FRACAS_SET_MESH_INTERFACE_OFFSET, FRACAS_SET_MESH_INTERFACE, point, &rows,
+                    &mesh->ninterfaces));
+    mesh->interface = rows;
+    TRY(load_ragged(reader, FRACAS_SET_MESH_BORDER_OFFSET, FRACAS_SET_MESH_BORDER, point, &rows, &mesh->nborders));
+    mesh->border = rows;
+    const char *fault = fracas_stored_mesh_fault(mesh);
+    return fault ? damaged(reader, "/mesh", fault) : FRACAS_OK;
+}
+
+fracas_err fracas_reader_mesh(fracas_reader *reader, size_t point, fracas_stored_mesh *mesh)
+{
+    *mesh = (fracas_stored_mesh){0};
+    if (point >= reader->points.table.npoints)
+        return fracas_fail(FRACAS_BUG, "%s has %zu points; the mesh of point %zu was asked for", reader->path,
+                           reader->points.table.npoints, point);
+    if (!reader->meshes) return FRACAS_OK;
+    fracas_err err = load_mesh(reader, point, mesh);
+    if (err) fracas_stored_mesh_clear(mesh);
+    return err;
+}
+
+fracas_err fracas_reader_check_meshes(fracas_reader *reader, const fracas_mesh_source *meshes)
+{
+    fracas_err err = FRACAS_OK;
+    for (size_t p = 0; !err && reader->header.interfaces && p < reader->points.table.npoints; p++) {
+        fracas_stored_mesh wanted = {0}, found = {0};
+        err = meshes->get(meshes->context, p, &wanted);
+        if (!err) err = fracas_reader_mesh(reader, p, &found);
+        if (!err && !fracas_stored_mesh_same(&wanted, &found))
+            err = fracas_fail(FRACAS_DAMAGED, "%s: the mesh of point %zu is not that of the campaign; remove the file and run "
+                              "again", reader->path, p);
+        fracas_stored_mesh_clear(&wanted);
+        fracas_stored_mesh_clear(&found);
+    }
+    return err;
+}

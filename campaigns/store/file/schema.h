@@ -1,0 +1,82 @@
+/* The schema of segments and studies: one const table that writer, reader, verification and docs/formats/study.md
+ * are driven by. For the store alone, and for analysis/export, whose tables have the same columns. */
+#ifndef FRACAS_CAMPAIGNS_STORE_FILE_SCHEMA_H
+#define FRACAS_CAMPAIGNS_STORE_FILE_SCHEMA_H
+
+#include "engine/record.h"
+
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* How a value is stored (little-endian). In memory integers are int64_t, reals double. */
+typedef enum { FRACAS_INT8, FRACAS_INT32, FRACAS_INT64, FRACAS_FLOAT64, FRACAS_TEXT } fracas_stored_type;
+
+/* One dataset. */
+typedef struct {
+    const char *path; /* "/fragment/mass" */
+    fracas_stored_type type;
+    size_t width;     /* values in a row; of FRACAS_TEXT: bytes, padded with NUL */
+    const char *unit; /* as UDUNITS-2 reads it; "" for text */
+    const char *description;
+    size_t offset;    /* of the row's first value in its struct in memory */
+} fracas_store_column;
+
+/* A set: datasets that grow together, row by row. */
+typedef enum {
+    FRACAS_SET_REALIZATION,
+    FRACAS_SET_FRAGMENT_OFFSET,
+    FRACAS_SET_FRAGMENT,
+    FRACAS_SET_HISTORY_OFFSET,
+    FRACAS_SET_HISTORY,
+    FRACAS_SET_INTERFACE_OFFSET, /* this and the next only in files with interfaces */
+    FRACAS_SET_INTERFACE,
+    FRACAS_SET_DECISION, /* only in a study.h5 with points whose replicas a rule decided */
+    FRACAS_SET_MESH_NODE_OFFSET, /* from here on only in a study.h5 that keeps meshes of surfaces */
+    FRACAS_SET_MESH_NODE,
+    FRACAS_SET_MESH_ELEMENT_OFFSET,
+    FRACAS_SET_MESH_ELEMENT,
+    FRACAS_SET_MESH_INTERFACE_OFFSET,
+    FRACAS_SET_MESH_INTERFACE,
+    FRACAS_SET_MESH_BORDER_OFFSET,
+    FRACAS_SET_MESH_BORDER,
+    FRACAS_NSETS
+} fracas_set_name;
+
+#define FRACAS_MAX_COLUMNS 32 /* of a set */
+
+typedef struct {
+    const fracas_store_column *column;
+    size_t ncolumns;
+    size_t chunk;    /* rows in a chunk of every dataset of the set */
+    size_t row_size; /* bytes of a row's struct in memory */
+} fracas_store_set;
+
+extern const fracas_store_set fracas_store_sets[FRACAS_NSETS];
+
+/* A row of FRACAS_SET_REALIZATION in memory; rows of the others are fracas_fragment, fracas_history_row,
+ * fracas_interface_row, fracas_decision, those of campaigns/store/file/mesh.h, and an int64_t for the offsets. */
+typedef struct {
+    int64_t point, replica;
+    fracas_record record; /* its scalars */
+} fracas_stored_realization;
+
+/* /point: these two, then one dataset a column of the point table. */
+extern const fracas_store_column fracas_store_point_hash, fracas_store_point_replicas;
+#define FRACAS_POINT_CHUNK 64
+
+/* Bytes of a row as stored. */
+size_t fracas_stored_size(const fracas_store_column *column);
+
+/* Puts `count` rows (structs of `row_size` bytes) into `stored`, NaNs in one bit pattern.
+ * Returns the number of integers that do not fit the stored type. */
+size_t fracas_rows_store(const fracas_store_column *column, const void *rows, size_t row_size, size_t count,
+                         void *stored);
+/* The inverse. */
+void fracas_rows_load(const fracas_store_column *column, const void *stored, size_t count, void *rows,
+                      size_t row_size);
+
+/* The dataset tables of docs/formats/study.md. */
+void fracas_store_reference(FILE *out);
+
+#endif

@@ -1,0 +1,225 @@
+#include "campaigns/store/file/table.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Bytes that one column of `count` rows takes in the file, at least one for malloc. */
+static void *column_memory(const fracas_store_column *column, size_t count)
+{
+    return calloc(count ? count : 1, fracas_stored_size(column));
+}
+
+/* ---- writing ---- */
+
+static fracas_err write_column(const fracas_h5 *h5, const fracas_store_column *column, size_t count,
+                               const void *stored)
+{
+    hid_t dataset;
+    TRY(fracas_h5_create_column(h5, column, FRACAS_POINT_CHUNK, &dataset));
+    fracas_err err = count ? fracas_h5_append_rows(h5, column, dataset, 0, count, stored) : FRACAS_OK;
+    H5Dclose(dataset);
+    return err;
+}
+
+static fracas_err write_hashes(const fracas_h5 *h5, const fracas_point_table *table)
+{
+    size_t width = fracas_store_point_hash.width;
+    char *stored = column_memory(&fracas_store_point_hash, table->npoints);
+    if (!stored) return fracas_no_memory("the point table");
+    for (size_t p = 0; p < table->npoints; p++) {
+        char hex[FRACAS_HASH_HEX];
+        fracas_hash_hex(&table->point[p].hash, hex);
+        memcpy(stored + p * width, hex, width);
+    }
+    fracas_err err = write_column(h5, &fracas_store_point_hash, table->npoints, stored);
+    free(stored);
+    return err;
+}
+
+static fracas_err write_replicas(const fracas_h5 *h5, const fracas_point_table *table)
+{
+    int64_t *stored = column_memory(&fracas_store_point_replicas, table->npoints);
+    if (!stored) return fracas_no_memory("the point table");
+    for (size_t p = 0; p < table->npoints; p++) stored[p] = table->point[p].replicas;
+    fracas_err err = write_column(h5, &fracas_store_point_replicas, table->npoints, stored);
+    free(stored);
+    return err;
+}
+
+static size_t longest_text(const fracas_point_table *table, size_t c)
+{
+    size_t longest = 1; /* HDF5 has no empty type */
+    for (size_t p = 0; p < table->npoints; p++) {
+        size_t length = strlen(table->point[p].value[c].text);
+        if (length > longest) longest = length;
+    }
+    return longest;
+}
+
+static fracas_err write_values(const fracas_h5 *h5, const fracas_point_table *table, size_t c)
+{
+    const fracas_column *from = &table->column[c];
+    char path[256];
+    if ((size_t)snprintf(path, sizeof path, "/point/%s", from->path) >= sizeof path || strchr(from->path, '/') ||
+        !strcmp(path, fracas_store_point_hash.path) || !strcmp(path, fracas_store_point_replicas.path))
+        return fracas_fail(FRACAS_BUG, "a column of the point table cannot be named '%s'", from->path);
+    fracas_store_column column = {path, FRACAS_FLOAT64, 1, from->unit, from->doc, offsetof(fracas_value, real)};
+    if (from->text) column.type = FRACAS_TEXT, column.width = longest_text(table, c);
+    char *stored = column_memory(&column, table->npoints);
+    if (!stored) return fracas_no_memory("the point table");
+    for (size_t p = 0; p < table->npoints; p++) {
+        const fracas_value *value = &table->point[p].value[c];
+        char *at = stored + p * fracas_stored_size(&column);
+        if (from->text) memcpy(at, value->text, strlen(value->text));
+        else (void)fracas_rows_store(&column, value, sizeof *value, 1, at);
+    }
+    fracas_err err = write_column(h5, &column, table->npoints, stored);
+    free(stored);
+    return err;
+}
+
+fracas_err fracas_table_write(const fracas_h5 *h5, const fracas_point_table *table)
+{
+    TRY(fracas_h5_create_group(h5, "/point"));
+    TRY(fracas_h5_put_integer(h5, "/point", "columns", H5T_STD_I64LE, table->ncolumns));
+    TRY(write_hashes(h5, table));
+    TRY(write_replicas(h5, table));
+    for (size_t c = 0; c < table->ncolumns; c++) TRY(write_values(h5, table, c));
+    return FRACAS_OK;
+}
+
+/* ---- reading ---- */
+
+/* A whole column; `rows` is what it must have, SIZE_MAX for any number. *stored freed by the caller. */
+static fracas_err read_column(const fracas_h5 *h5, const fracas_store_column *column, size_t *rows, void **stored)
+{
+    hid_t dataset;
+    uint64_t found;
+    *stored = NULL;
+    TRY(fracas_h5_open_column(h5, column, FRACAS_POINT_CHUNK, &dataset, &found));
+    fracas_err err = FRACAS_OK;
+    if (*rows == SIZE_MAX) *rows = found;
+    else if (*rows != found)
+        err = fracas_fail(FRACAS_DAMAGED, "%s: %s: damaged: %llu rows for %zu points", h5->path, column->path,
+                          (unsigned long long)found, *rows);
+    if (!err && !(*stored = column_memory(column, *rows))) err = fracas_no_memory("the point table");
+    if (!err && *rows) err = fracas_h5_read_rows(h5, column, dataset, 0, *rows, *stored);
+    H5Dclose(dataset);
+    if (err) free(*stored), *stored = NULL;
+    return err;
+}
+
+fracas_err fracas_table_read_points(const fracas_h5 *h5, fracas_stored_table *stored)
+{
+    size_t count = SIZE_MAX, width = fracas_store_point_hash.width;
+    void *hashes = NULL, *replicas = NULL;
+    fracas_err err = read_column(h5, &fracas_store_point_hash, &count, &hashes);
+    if (!err) err = read_column(h5, &fracas_store_point_replicas, &count, &replicas);
+    if (!err && !(stored->point = calloc(count ? count : 1, sizeof *stored->point)))
+        err = fracas_no_memory("the point table");
+    for (size_t p = 0; !err && p < count; p++) {
+        char hex[FRACAS_HASH_HEX] = "";
+        memcpy(hex, (char *)hashes + p * width, width);
+        stored->point[p].replicas = ((int64_t *)replicas)[p];
+        if (!fracas_hash_parse(hex, &stored->point[p].hash) || stored->point[p].replicas < 0)
+            err = fracas_fail(FRACAS_DAMAGED, "%s: /point: damaged: row %zu has no valid hash and replicas", h5->path,
+                              p);
+    }
+    stored->table.npoints = err ? 0 : count;
+    stored->table.point = stored->point;
+    free(hashes);
+    free(replicas);
+    return err;
+}
+
+/* Spreads a column as read over the rows' values. */
+static fracas_err spread_values(fracas_stored_table *stored, size_t c, const fracas_store_column *column,
+                                const char *from)
+{
+    size_t npoints = stored->table.npoints, ncolumns = stored->table.ncolumns, step = column->width + 1;
+    bool text = column->type == FRACAS_TEXT;
+    if (text && !(stored->text[c] = calloc(npoints ? npoints : 1, step))) return fracas_no_memory("the point table");
+    for (size_t p = 0; p < npoints; p++) {
+        fracas_value *value = &stored->value[p * ncolumns + c];
+        *value = (fracas_value){NAN, ""};
+        if (text) value->text = memcpy(stored->text[c] + p * step, from + p * column->width, column->width);
+        else fracas_rows_load(column, from + p * fracas_stored_size(column), 1, value, sizeof *value);
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err read_values(const fracas_h5 *h5, const char *name, fracas_stored_table *stored, size_t c)
+{
+    char path[256], *unit = NULL, *doc = NULL;
+    snprintf(path, sizeof path, "/point/%s", name);
+    fracas_store_column column = {path, FRACAS_FLOAT64, 1, "", "", offsetof(fracas_value, real)};
+    void *values = NULL;
+    size_t width, rows = stored->table.npoints;
+    TRY(fracas_h5_text_width(h5, path, &width));
+    if (width) column.type = FRACAS_TEXT, column.width = width;
+    fracas_err err = read_column(h5, &column, &rows, &values);
+    if (!err) err = fracas_h5_get_text(h5, path, "unit", &unit);
+    if (!err) err = fracas_h5_get_text(h5, path, "description", &doc);
+    if (!err) err = spread_values(stored, c, &column, values);
+    free(values);
+    stored->column[c] = (fracas_column){strdup(name), unit, doc, width > 0};
+    if (!err && !stored->column[c].path) err = fracas_no_memory("the point table");
+    return err;
+}
+
+/* Name of link `n` of /point in byte order; false for the two that are no columns of the table. */
+static fracas_err column_name(const fracas_h5 *h5, hsize_t n, char name[240], bool *is_column)
+{
+    ssize_t length = H5Lget_name_by_idx(h5->id, "/point", H5_INDEX_NAME, H5_ITER_INC, n, name, 240, H5P_DEFAULT);
+    if (length <= 0 || length >= 240) return fracas_h5_fail(h5, "/point");
+    *is_column = strcmp(name, strrchr(fracas_store_point_hash.path, '/') + 1) != 0 &&
+                 strcmp(name, strrchr(fracas_store_point_replicas.path, '/') + 1) != 0;
+    return FRACAS_OK;
+}
+
+fracas_err fracas_table_read(const fracas_h5 *h5, fracas_stored_table *stored)
+{
+    H5G_info_t info;
+    if (H5Gget_info_by_name(h5->id, "/point", &info, H5P_DEFAULT) < 0) return fracas_h5_fail(h5, "/point");
+    TRY(fracas_table_read_points(h5, stored));
+    /* After a bad checksum in a part of a group's header HDF5 1.10 may go on without the links in it. */
+    uint64_t columns;
+    TRY(fracas_h5_get_integer(h5, "/point", "columns", H5T_STD_I64LE, &columns));
+    if (info.nlinks < 2 || info.nlinks > h5->bytes || info.nlinks - 2 != columns)
+        return fracas_fail(FRACAS_DAMAGED, "%s: /point: damaged: it has not the columns that it says", h5->path);
+    size_t ncolumns = columns, npoints = stored->table.npoints;
+    stored->column = calloc(ncolumns + 1, sizeof *stored->column);
+    stored->text = calloc(ncolumns + 1, sizeof *stored->text);
+    stored->value = calloc(npoints * ncolumns + 1, sizeof *stored->value);
+    if (!stored->column || !stored->text || !stored->value) return fracas_no_memory("the point table");
+    stored->table.column = stored->column;
+    stored->table.ncolumns = ncolumns;
+    size_t c = 0;
+    for (hsize_t n = 0; n < info.nlinks; n++) {
+        char name[240];
+        bool is_column = false;
+        TRY(column_name(h5, n, name, &is_column));
+        if (!is_column) continue;
+        if (c == ncolumns) return fracas_h5_fail(h5, "/point");
+        TRY(read_values(h5, name, stored, c));
+        c++;
+    }
+    for (size_t p = 0; p < npoints; p++) stored->point[p].value = stored->value + p * ncolumns;
+    return FRACAS_OK;
+}
+
+void fracas_table_clear(fracas_stored_table *stored)
+{
+    for (size_t c = 0; stored->column && c < stored->table.ncolumns; c++) {
+        free((void *)(uintptr_t)stored->column[c].path);
+        free((void *)(uintptr_t)stored->column[c].unit);
+        free((void *)(uintptr_t)stored->column[c].doc);
+        free(stored->text[c]);
+    }
+    free(stored->column);
+    free(stored->point);
+    free(stored->value);
+    free(stored->text);
+    *stored = (fracas_stored_table){0};
+}

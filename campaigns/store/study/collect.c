@@ -1,0 +1,249 @@
+/* What nobody needs in a study: found, and removed. */
+#include "campaigns/store/file/disk.h"
+#include "campaigns/store/index/query.h"
+#include "campaigns/store/upkeep.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+typedef struct {
+    const char *study;
+    fracas_index *index;
+    const fracas_collect_options *options;
+    fracas_known_segment *segment; /* by name */
+    size_t nsegments;
+    int64_t *needless;             /* ids of segments that no row names, ascending */
+    size_t nneedless;
+    uint64_t freed;
+} collection;
+
+typedef enum { KEEP, REMOVE, LEAVE } fate;
+
+static bool starts_with(const char *name, const char *start) { return strncmp(name, start, strlen(start)) == 0; }
+
+static bool ends_with(const char *name, const char *end)
+{
+    const size_t length = strlen(name), tail = strlen(end);
+    return length >= tail && strcmp(name + length - tail, end) == 0;
+}
+
+/* Says what becomes of a file, and removes it; an empty folder, too. */
+static fracas_err dispose(collection *c, const char *path, fate what, const char *why)
+{
+    struct stat info;
+    if (what == KEEP) return FRACAS_OK;
+    if (lstat(path, &info) < 0) return errno == ENOENT ? FRACAS_OK : fracas_disk_fail("look at", path);
+    const uint64_t bytes = S_ISDIR(info.st_mode) ? 0 : (uint64_t)info.st_size;
+    if (what == REMOVE && !c->options->dry && remove(path) < 0 && errno != ENOENT) return fracas_disk_fail("remove", path);
+    if (what == REMOVE) c->freed += bytes;
+    c->options->found(c->options->context, &(fracas_collected){path, bytes, why, what == REMOVE});
+    return FRACAS_OK;
+}
+
+/* Every name of a folder (none if it is not there), in their order. */
+static fracas_err each(collection *c, const char *folder, fate (*judge)(const collection *c, const char *name, const char **why))
+{
+    struct dirent **entry;
+    const int count = scandir(folder, &entry, NULL, alphasort);
+    if (count < 0) return errno == ENOENT ? FRACAS_OK : fracas_disk_fail("list", folder);
+    fracas_err err = FRACAS_OK;
+    for (int e = 0; e < count; e++) {
+        const char *name = entry[e]->d_name, *why = "not of fracas, as far as it knows";
+        char *path;
+        if (!err && strcmp(name, ".") != 0 && strcmp(name, "..") != 0 && !(err = fracas_disk_join(folder, name, &path))) {
+            const fate what = judge(c, name, &why);
+            err = dispose(c, path, what, why);
+            free(path);
+        }
+        free(entry[e]);
+    }
+    free(entry);
+    return err;
+}
+
+/* ---- the study folder, and what a reindex left ---- */
+
+static fate judge_nursery(const collection *c, const char *name, const char **why)
+{
+    (void)c;
+    *why = "an index that was not finished";
+    return starts_with(name, "index.sqlite") ? REMOVE : LEAVE;
+}
+
+static fate judge_study(const collection *c, const char *name, const char **why)
+{
+    static const char *const ours[] = {"campaign.yaml", "index.sqlite", "index.sqlite-wal", "index.sqlite-shm", "index.sqlite-journal",
+                                       "lock",          "study.h5",     "segments",    "attachments",      "report"};
+    (void)c;
+    for (size_t i = 0; i < sizeof ours / sizeof *ours; i++)
+        if (strcmp(name, ours[i]) == 0) return KEEP;
+    if (fracas_disk_is_temporary(name) || strcmp(name, "campaign.yaml.tmp") == 0) *why = "half written";
+    else if (starts_with(name, "index.sqlite.before-")) *why = "an index that was replaced";
+    else if (strcmp(name, FRACAS_REINDEX_FOLDER) == 0) *why = "of an interrupted reindex";
+    else return LEAVE;
+    return REMOVE;
+}
+
+/* ---- attachments ---- */
+
+static fate judge_attachment(const collection *c, const char *name, const char **why)
+{
+    fracas_hash hash;
+    for (size_t a = 0; a < c->options->nattachments; a++)
+        if (strcmp(c->options->attachment[a], name) == 0) return KEEP;
+    char digest[FRACAS_HASH_HEX];
+    snprintf(digest, sizeof digest, "%.32s", name);
+    if (!fracas_hash_parse(digest, &hash)) return LEAVE;
+    const char *rest = name + strlen(digest);
+    if (*rest && strcmp(rest, ".tmp") != 0) return LEAVE;
+    *why = *rest ? "half written" : "campaign.yaml does not name it";
+    return REMOVE;
+}
+
+/* ---- segments ---- */
+
+static int compare_ids(const void *a, const void *b)
+{
+    const int64_t x = *(const int64_t *)a, y = *(const int64_t *)b;
+    return (x > y) - (x < y);
+}
+
+static fate judge_segment(const collection *c, const char *name, const char **why)
+{
+    union { const char *given; char *name; } key = {.given = name};
+    const fracas_known_segment wanted = {.name = key.name};
+    const fracas_known_segment *known =
+        c->nsegments ? bsearch(&wanted, c->segment, c->nsegments, sizeof wanted, fracas_segment_compare_names) : NULL;
+    if (fracas_disk_is_temporary(name)) {
+        *why = "half written";
+        return REMOVE;
+    }
+    if (known) {
+        *why = "another segment has each of its realizations";
+        return c->nneedless && bsearch(&known->id, c->needless, c->nneedless, sizeof known->id, compare_ids) ? REMOVE : KEEP;
+    }
+    if (name[0] != '.' && ends_with(name, ".damaged")) {
+        *why = "a damaged segment that was set aside";
+        return REMOVE;
+    }
+    if (ends_with(name, ".h5")) *why = "not in the index; `fracas run` and `fracas merge` adopt it, if it is of this study";
+    return LEAVE;
+}
+
+#define NEEDLESS "id NOT IN (SELECT segment FROM realization WHERE segment IS NOT NULL)"
+
+static fracas_err list_needless(collection *c)
+{
+    sqlite3_stmt *statement;
+    bool row = false;
+    c->needless = calloc(c->nsegments + 1, sizeof *c->needless);
+    if (!c->needless) return fracas_no_memory("the list of segments");
+    fracas_err err = fracas_query_begin(c->index, "SELECT id FROM segment WHERE " NEEDLESS " ORDER BY id", &statement);
+    while (!err && !(err = fracas_query_step(c->index, statement, &row)) && row && c->nneedless < c->nsegments)
+        c->needless[c->nneedless++] = sqlite3_column_int64(statement, 0);
+    sqlite3_finalize(statement);
+    return err;
+}
+
+/* Before their files go: killed in between, they are found and known again; the other way round they would be missed. */
+static fracas_err forget_needless(collection *c)
+{
+    char text[96];
+    if (!c->nneedless || c->options->dry) return FRACAS_OK;
+    snprintf(text, sizeof text, "%zu segments that no realization needs are removed", c->nneedless);
+    TRY(fracas_index_begin(c->index));
+    fracas_err err = fracas_query_all(c->index, "DELETE FROM segment WHERE " NEEDLESS);
+    if (!err) err = fracas_index_event(c->index, "collected", text);
+    return fracas_index_end(c->index, err);
+}
+
+static fracas_err collect_segments(collection *c)
+{
+    char *folder;
+    TRY(fracas_index_segments(c->index, &c->segment, &c->nsegments));
+    if (c->nsegments) qsort(c->segment, c->nsegments, sizeof *c->segment, fracas_segment_compare_names);
+    TRY(list_needless(c));
+    TRY(forget_needless(c));
+    TRY(fracas_disk_join(c->study, "segments", &folder));
+    fracas_err err = each(c, folder, judge_segment);
+    free(folder);
+    return err;
+}
+
+/* ---- the index ---- */
+
+/* Bytes of the database and of its log. */
+static fracas_err index_bytes(const collection *c, uint64_t *bytes)
+{
+    static const char *const tail[] = {"", "-wal"};
+    *bytes = 0;
+    for (int t = 0; t < 2; t++) {
+        char *path;
+        struct stat info;
+        if (asprintf(&path, "%s%s", c->index->path, tail[t]) < 0) return fracas_no_memory("a file name");
+        if (stat(path, &info) == 0) *bytes += (uint64_t)info.st_size;
+        free(path);
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err free_pages(const collection *c, uint64_t before, uint64_t *bytes)
+{
+    int64_t pages, size, all;
+    TRY(fracas_query_number(c->index, "PRAGMA freelist_count", &pages));
+    TRY(fracas_query_number(c->index, "PRAGMA page_count", &all));
+    TRY(fracas_query_number(c->index, "PRAGMA page_size", &size));
+    const uint64_t after = (uint64_t)((all - pages) * size);
+    *bytes = before > after ? before - after : 0;
+    return FRACAS_OK;
+}
+
+static fracas_err compact(collection *c)
+{
+    uint64_t before, after, freed;
+    TRY(index_bytes(c, &before));
+    if (c->options->dry) {
+        TRY(free_pages(c, before, &freed));
+    } else {
+        TRY(fracas_query_checkpoint(c->index));
+        TRY(fracas_query_all(c->index, "VACUUM"));
+        TRY(fracas_query_checkpoint(c->index));
+        TRY(index_bytes(c, &after));
+        freed = before > after ? before - after : 0;
+    }
+    c->freed += freed;
+    if (freed) c->options->found(c->options->context, &(fracas_collected){c->index->path, freed, "free pages, and its log", true});
+    return FRACAS_OK;
+}
+
+/* ---- all of it ---- */
+
+static fracas_err collect(collection *c)
+{
+    char *folder;
+    TRY(fracas_disk_join(c->study, FRACAS_REINDEX_FOLDER, &folder));
+    fracas_err err = each(c, folder, judge_nursery);
+    free(folder);
+    if (!err) err = each(c, c->study, judge_study);
+    if (!err) err = collect_segments(c);
+    TRY(err);
+    TRY(fracas_disk_join(c->study, "attachments", &folder));
+    err = each(c, folder, judge_attachment);
+    free(folder);
+    return err ? err : compact(c);
+}
+
+fracas_err fracas_study_collect(const char *study, fracas_index *index, const fracas_collect_options *options, uint64_t *freed)
+{
+    collection c = {.study = study, .index = index, .options = options};
+    fracas_err err = collect(&c);
+    fracas_index_segments_free(c.segment, c.nsegments);
+    free(c.needless);
+    *freed = c.freed;
+    return err;
+}

@@ -1,0 +1,334 @@
+/* Two studies of one campaign, computed in two places, made one. */
+#include "campaigns/store/file/disk.h"
+#include "campaigns/store/index/query.h"
+#include "campaigns/store/study/segments.h"
+#include "campaigns/store/upkeep.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* ---- comparing ---- */
+
+typedef struct {
+    const char *into, *from;
+    fracas_index *index; /* of `into` */
+    fracas_segments *segments;
+    const fracas_point_table *table;
+    fracas_record record; /* as `into` has it */
+    int64_t both;
+} comparison;
+
+/* Where `index` has a realization; status FRACAS_PLANNED if it has not. */
+static fracas_err place_of(fracas_index *index, const fracas_hash *point, int64_t replica, fracas_place *place)
+{
+    int64_t id;
+    *place = (fracas_place){.status = FRACAS_PLANNED};
+    TRY(fracas_index_find_point(index, point, &id));
+    if (!id) return FRACAS_OK;
+    fracas_err err = fracas_index_place(index, point, replica, place);
+    return err == FRACAS_DAMAGED ? FRACAS_OK : err;
+}
+
+static fracas_err compare(void *context, fracas_step *step)
+{
+    comparison *c = context;
+    const fracas_hash *point = &c->table->point[step->point].hash;
+    fracas_place place;
+    if (step->status != FRACAS_DONE) return FRACAS_OK;
+    TRY(place_of(c->index, point, step->replica, &place));
+    if (place.status != FRACAS_DONE) return FRACAS_OK;
+    TRY(fracas_segments_record(c->segments, &place, point, step->replica, FRACAS_READ_ALL, &c->record));
+    c->both++;
+    if (fracas_record_same(&c->record, &step->record)) return FRACAS_OK;
+    char hex[FRACAS_HASH_HEX];
+    fracas_hash_hex(point, hex);
+    return fracas_fail(FRACAS_DAMAGED, "replica %" PRId64 " of point %zu (%s) is not the same in %s and %s: one of them was computed by "
+                       "another build of the program, or on a faulty machine; compute it again in both (docs/how-to/two-machines.md)",
+                       step->replica, step->point, hex, c->into, c->from);
+}
+
+fracas_err fracas_study_compare(const char *into, fracas_index *into_index, const char *from, fracas_index *from_index,
+                                const fracas_file_header *header, const fracas_point_table *table, int64_t *both)
+{
+    comparison c = {.into = into, .from = from, .index = into_index, .table = table};
+    fracas_segments *theirs = NULL;
+    fracas_identity identity;
+    fracas_identity_of(header, &identity);
+    fracas_record_init(&c.record);
+    fracas_err err = fracas_segments_create(into, into_index, &identity, &c.segments);
+    if (!err) err = fracas_segments_create(from, from_index, &identity, &theirs);
+    if (!err) err = fracas_segments_walk(theirs, table, false, compare, &c);
+    fracas_segments_destroy(theirs);
+    fracas_segments_destroy(c.segments);
+    fracas_record_clear(&c.record);
+    *both = c.both;
+    return err;
+}
+
+/* ---- taking over ---- */
+
+typedef struct {
+    const char *into, *from;
+    fracas_index *index, *theirs;
+    fracas_known_segment *segment; /* of `from`, by id */
+    size_t nsegments;
+    fracas_segment_row *row; /* of the segment that is being looked at */
+    size_t nrows, room;
+    fracas_joined *joined;
+} joining;
+
+static fracas_err copy_bytes(int from, int to, const char *path)
+{
+    enum { BLOCK = 1 << 20 };
+    char *block = malloc(BLOCK);
+    fracas_err err = block ? FRACAS_OK : fracas_no_memory("a copy");
+    for (ssize_t got = 1; !err && got > 0;) {
+        got = read(from, block, BLOCK);
+        if (got < 0 && errno == EINTR) got = 1;
+        else if (got < 0) err = fracas_disk_fail("read for", path);
+        else
+            for (ssize_t at = 0, put; !err && at < got; at += put)
+                if ((put = write(to, block + at, (size_t)(got - at))) < 0) err = fracas_disk_fail("write", path);
+    }
+    free(block);
+    return err;
+}
+
+/* Whole under a temporary name, of the right checksum, synced, renamed. */
+static fracas_err copy_to(int from, const fracas_file_seal *seal, const char *path)
+{
+    char *temporary;
+    fracas_file_seal copied;
+    TRY(fracas_disk_temporary(path, &temporary));
+    int to = open(temporary, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    fracas_err err = to < 0 ? fracas_disk_fail("create", temporary) : copy_bytes(from, to, path);
+    if (!err) err = fracas_disk_seal(to, path, &copied);
+    if (!err && (copied.bytes != seal->bytes || copied.checksum != seal->checksum))
+        err = fracas_fail(FRACAS_ENVIRONMENT, "the copy of a segment to %s came out as %" PRIu64 " bytes of checksum %016" PRIx64
+                          ", not %" PRIu64 " of %016" PRIx64 "; look after the disk, then run again", path, copied.bytes,
+                          copied.checksum, seal->bytes, seal->checksum);
+    if (!err && fsync(to) < 0) err = fracas_disk_fail("sync", path);
+    if (to >= 0) close(to);
+    if (!err && rename(temporary, path) < 0) err = fracas_disk_fail("rename to", path);
+    if (err) unlink(temporary);
+    free(temporary);
+    return err;
+}
+
+/* A link where both lie on one filesystem, else a copy. */
+static fracas_err bring(const char *theirs, const fracas_file_seal *seal, const char *ours)
+{
+    int from = open(theirs, O_RDONLY | O_CLOEXEC);
+    if (from < 0) return fracas_disk_fail("open", theirs);
+    /* It may have come here by a copy that nobody has synced. */
+    fracas_err err = fsync(from) == 0 || errno == EROFS || errno == EINVAL ? FRACAS_OK : fracas_disk_fail("sync", theirs);
+    if (!err && link(theirs, ours) < 0)
+        err = errno == EEXIST ? fracas_disk_fail("link to", ours) : copy_to(from, seal, ours);
+    close(from);
+    return err ? err : fracas_disk_sync_folder(ours);
+}
+
+/* Its name in `into`: the same, or one that tells it from another segment there; *there: its bytes are. */
+static fracas_err choose_name(const joining *j, const fracas_known_segment *segment, char **name, char **path, bool *there)
+{
+    const char *dot = strrchr(segment->name, '.');
+    const int stem = dot ? (int)(dot - segment->name) : (int)strlen(segment->name);
+    *name = *path = NULL;
+    for (int other = 0; other < 2; other++) {
+        fracas_file_seal seal;
+        free(*name);
+        free(*path);
+        *path = NULL;
+        const int length = other ? asprintf(name, "%.*s-%016" PRIx64 ".h5", stem, segment->name, segment->seal.checksum)
+                                 : asprintf(name, "%s", segment->name);
+        if (length < 0) *name = NULL;
+        if (!*name) return fracas_no_memory("a file name");
+        TRY(fracas_disk_segment(j->into, *name, path));
+        *there = access(*path, F_OK) == 0;
+        if (!*there) return FRACAS_OK;
+        TRY(fracas_disk_seal_path(*path, &seal));
+        if (seal.bytes == segment->seal.bytes && seal.checksum == segment->seal.checksum) return FRACAS_OK;
+    }
+    return fracas_fail(FRACAS_DAMAGED, "%s is there, but not the segment of %s; move it away", *path, j->from);
+}
+
+static fracas_err take_segment(const joining *j, const fracas_known_segment *segment, char **name)
+{
+    char *path = NULL, *theirs = NULL;
+    bool there = false;
+    fracas_err err = choose_name(j, segment, name, &path, &there);
+    if (!err && !there) err = fracas_disk_segment(j->from, segment->name, &theirs);
+    if (!err && !there) err = bring(theirs, &segment->seal, path);
+    free(theirs);
+    free(path);
+    return err;
+}
+
+static fracas_err provenance_of(fracas_index *index, int64_t id, char **text)
+{
+    sqlite3_stmt *statement;
+    bool row = false;
+    *text = NULL;
+    fracas_err err = fracas_query_begin(index, "SELECT provenance FROM segment WHERE id = ?1", &statement);
+    if (!err) err = fracas_query_bind(index, statement, 1, id);
+    if (!err) err = fracas_query_step(index, statement, &row);
+    if (!err && !(*text = strdup(row ? (const char *)sqlite3_column_text(statement, 0) : "{}"))) err = fracas_no_memory("provenance");
+    sqlite3_finalize(statement);
+    return err;
+}
+
+/* Decisions that counted this realization as failed. */
+static fracas_err undecide(fracas_index *index, const fracas_segment_row *row)
+{
+    sqlite3_stmt *statement;
+    fracas_err err = fracas_query_begin(index, "DELETE FROM decision WHERE replicas > ?2 AND point = (SELECT id FROM point WHERE hash = ?1)",
+                                        &statement);
+    if (!err) err = fracas_query_bind_hash(index, statement, 1, &row->point);
+    if (!err) err = fracas_query_bind(index, statement, 2, row->replica);
+    if (!err) err = fracas_query_do(index, statement);
+    sqlite3_finalize(statement);
+    return err;
+}
+
+/* Those rows that `into` has not done; where it has failed, study.h5 will change. */
+static fracas_err count_fresh(joining *j, int64_t *fresh)
+{
+    *fresh = 0;
+    for (size_t r = 0; r < j->nrows; r++) {
+        fracas_place place;
+        TRY(place_of(j->index, &j->row[r].point, j->row[r].replica, &place));
+        if (place.status == FRACAS_DONE || (place.status == FRACAS_FAILED_ROW && j->row[r].outcome == FRACAS_FAILED)) continue;
+        ++*fresh;
+        if (place.status != FRACAS_FAILED_ROW && place.status != FRACAS_QUARANTINED) continue;
+        TRY(fracas_index_seal_study(j->index, NULL));
+        TRY(undecide(j->index, &j->row[r]));
+    }
+    return FRACAS_OK;
+}
+
+static int compare_ids(const void *a, const void *b)
+{
+    const int64_t x = ((const fracas_known_segment *)a)->id, y = ((const fracas_known_segment *)b)->id;
+    return (x > y) - (x < y);
+}
+
+/* The rows that were gathered, all of segment `id` of `from`: its file first, then its rows. */
+static fracas_err take_rows(joining *j, int64_t id)
+{
+    const fracas_known_segment wanted = {.id = id};
+    int64_t fresh;
+    char *name = NULL, *provenance = NULL;
+    if (!j->nrows) return FRACAS_OK;
+    const fracas_known_segment *segment = j->nsegments ? bsearch(&wanted, j->segment, j->nsegments, sizeof wanted, compare_ids) : NULL;
+    if (!segment) return fracas_fail(FRACAS_DAMAGED, "%s has no segment %" PRId64, j->theirs->path, id);
+    TRY(count_fresh(j, &fresh));
+    if (!fresh) return FRACAS_OK;
+    fracas_err err = take_segment(j, segment, &name);
+    if (!err) err = provenance_of(j->theirs, id, &provenance);
+    if (!err) err = fracas_index_commit(j->index, name, &segment->seal, j->row, j->nrows, provenance);
+    free(provenance);
+    free(name);
+    if (err) return err;
+    j->joined->realizations += fresh;
+    j->joined->segments++;
+    return FRACAS_OK;
+}
+
+static double real_at(sqlite3_stmt *s, int column) /* NULL is NaN */
+{
+    return sqlite3_column_type(s, column) == SQLITE_NULL ? 0.0 / 0.0 : sqlite3_column_double(s, column);
+}
+
+/* A row of FRACAS_SQL_ROW_BY_SEGMENT. */
+static fracas_err add_row(joining *j, sqlite3_stmt *s)
+{
+    if (j->nrows == j->room) {
+        j->room = 2 * j->room + 256;
+        fracas_segment_row *bigger = realloc(j->row, j->room * sizeof *bigger);
+        if (!bigger) return fracas_no_memory("the rows of a segment");
+        j->row = bigger;
+    }
+    fracas_segment_row *row = &j->row[j->nrows++];
+    *row = (fracas_segment_row){.replica = sqlite3_column_int64(s, 3), .row = sqlite3_column_int64(s, 1),
+                                .outcome = sqlite3_column_int64(s, 4), .fragments = sqlite3_column_int64(s, 5),
+                                .fragments_dust = sqlite3_column_int64(s, 6), .steps = sqlite3_column_int64(s, 7),
+                                .dissipated = real_at(s, 8), .residual = real_at(s, 9), .size = real_at(s, 11)};
+    const char *hex = (const char *)sqlite3_column_text(s, 2);
+    if (hex && fracas_hash_parse(hex, &row->point)) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED, "%s: a point has no valid hash", j->theirs->path);
+}
+
+static fracas_err take_segments(joining *j)
+{
+    sqlite3_stmt *s = j->theirs->statement[FRACAS_SQL_ROW_BY_SEGMENT];
+    int64_t id = 0;
+    bool more = true;
+    fracas_err err = FRACAS_OK;
+    while (!err && !(err = fracas_index_step(j->theirs, FRACAS_SQL_ROW_BY_SEGMENT, &more)) && more) {
+        if (sqlite3_column_int64(s, 0) != id) {
+            err = take_rows(j, id);
+            j->nrows = 0;
+            id = sqlite3_column_int64(s, 0);
+        }
+        if (!err) err = add_row(j, s);
+    }
+    if (!err) err = take_rows(j, id);
+    fracas_index_reset(j->theirs, FRACAS_SQL_ROW_BY_SEGMENT);
+    return err;
+}
+
+/* ---- failures ---- */
+
+typedef struct {
+    joining *joining;
+    const fracas_point_table *table;
+    sqlite3_stmt *fail;
+    fracas_err err;
+} failing;
+
+static void take_failure(void *context, const fracas_index_row *row, const char *reason)
+{
+    failing *f = context;
+    fracas_index *index = f->joining->index;
+    if (!f->err) f->err = fracas_query_bind_hash(index, f->fail, 1, &f->table->point[row->point].hash);
+    if (!f->err) f->err = fracas_query_bind(index, f->fail, 2, row->replica);
+    if (!f->err) f->err = fracas_query_bind(index, f->fail, 3, row->attempts);
+    if (!f->err) f->err = fracas_query_bind_text(index, f->fail, 4, reason);
+    if (!f->err) f->err = fracas_query_bind(index, f->fail, 5, FRACAS_FAILED);
+    if (!f->err) f->err = fracas_query_do(index, f->fail);
+    if (!f->err) f->joining->joined->failed += sqlite3_changes(index->db);
+}
+
+static fracas_err take_failures(joining *j, const fracas_point_table *table)
+{
+    failing f = {.joining = j, .table = table};
+    TRY(fracas_index_begin(j->index));
+    fracas_err err = fracas_query_begin(j->index, "UPDATE realization SET status = 'failed', attempts = ?3, reason = ?4, outcome = ?5"
+                                                  " WHERE point = (SELECT id FROM point WHERE hash = ?1) AND replica = ?2"
+                                                  " AND status IN ('planned', 'leased')", &f.fail);
+    if (!err) err = fracas_index_failures(j->theirs, table, take_failure, &f);
+    sqlite3_finalize(f.fail);
+    return fracas_index_end(j->index, err ? err : f.err);
+}
+
+fracas_err fracas_study_join(const char *into, fracas_index *into_index, const char *from, fracas_index *from_index,
+                             const fracas_point_table *table, fracas_joined *joined)
+{
+    joining j = {.into = into, .from = from, .index = into_index, .theirs = from_index, .joined = joined};
+    char text[4400];
+    *joined = (fracas_joined){0};
+    fracas_err err = fracas_index_segments(from_index, &j.segment, &j.nsegments);
+    if (!err) err = take_segments(&j);
+    if (!err) err = take_failures(&j, table);
+    fracas_index_segments_free(j.segment, j.nsegments);
+    free(j.row);
+    if (err || (!joined->realizations && !joined->failed)) return err;
+    snprintf(text, sizeof text, "%" PRId64 " realizations in %" PRId64 " segments, and %" PRId64 " failures, of %s", joined->realizations,
+             joined->segments, joined->failed, from);
+    return fracas_index_event(into_index, "joined", text);
+}

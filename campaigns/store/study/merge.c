@@ -1,0 +1,117 @@
+/* STUDY/study.h5 from the segments, in plan order. */
+#include "campaigns/store/file/disk.h"
+#include "campaigns/store/study/segments.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+typedef struct {
+    const fracas_point_table *table;
+    fracas_writer *writer;
+    bool complete; /* no realization failed */
+} merging;
+
+static fracas_err append(void *context, fracas_step *step)
+{
+    merging *m = context;
+    if (step->status == FRACAS_PLANNED || step->status == FRACAS_LEASED) {
+        char hex[FRACAS_HASH_HEX];
+        fracas_hash_hex(&m->table->point[step->point].hash, hex);
+        return fracas_fail(FRACAS_INTERRUPTED, "replica %" PRId64 " of point %s is not computed yet; run again to go "
+                           "on", step->replica, hex);
+    }
+    if (step->status != FRACAS_DONE) m->complete = false;
+    return fracas_writer_append(m->writer, step->point, step->replica, &step->record);
+}
+
+/* After all records, point by point, of the points whose replicas a rule decides. */
+static fracas_err append_decisions(const merging *m, fracas_index *index)
+{
+    fracas_err err = FRACAS_OK;
+    for (size_t p = 0; !err && p < m->table->npoints; p++) {
+        fracas_decision *decision;
+        size_t count;
+        if (!m->table->point[p].most) continue;
+        TRY(fracas_index_decisions(index, &m->table->point[p].hash, &decision, &count));
+        for (size_t d = 0; d < count; d++) decision[d].point = (int64_t)p;
+        err = fracas_writer_decisions(m->writer, decision, count);
+        free(decision);
+    }
+    return err;
+}
+
+/* After all records, point by point: the order depends on nothing else. */
+static fracas_err append_meshes(const merging *m, const fracas_mesh_source *meshes)
+{
+    fracas_err err = FRACAS_OK;
+    for (size_t p = 0; !err && p < m->table->npoints; p++) {
+        fracas_stored_mesh mesh = {0};
+        err = meshes->get(meshes->context, p, &mesh);
+        if (!err) err = fracas_writer_mesh(m->writer, &mesh);
+        fracas_stored_mesh_clear(&mesh);
+    }
+    return err;
+}
+
+/* After a merge that found damage. If that is in the bytes of segments, they are set aside and FRACAS_INTERRUPTED says so; else it says
+ * what it said. */
+static fracas_err plan_damaged_again(const char *study, fracas_index *index)
+{
+    char *text = NULL, before[1024];
+    size_t size;
+    int64_t rows = 0;
+    snprintf(before, sizeof before, "%s", fracas_message());
+    FILE *report = open_memstream(&text, &size);
+    if (!report) return fracas_no_memory("a report");
+    fracas_err err = fracas_segments_sweep(study, index, true, report, &rows);
+    if (fclose(report) != 0 && !err) err = fracas_no_memory("a report");
+    if (!err && *text) err = fracas_index_event(index, "recovered", text);
+    if (!err)
+        err = rows ? fracas_fail(FRACAS_INTERRUPTED, "damage was found when study.h5 was to be made: %sthe same command computes them", text)
+                   : fracas_fail(FRACAS_DAMAGED, "%s", before);
+    free(text);
+    return err;
+}
+
+fracas_err fracas_study_merge(const char *study, fracas_index *index, const fracas_file_header *header,
+                              const fracas_point_table *table, const fracas_mesh_source *meshes)
+{
+    char *path;
+    merging m = {.table = table, .complete = true};
+    fracas_segments *segments = NULL;
+    fracas_identity identity;
+    fracas_file_seal seal;
+    fracas_identity_of(header, &identity);
+    TRY(fracas_disk_join(study, "study.h5", &path));
+    fracas_err err = fracas_segments_create(study, index, &identity, &segments);
+    if (!err) err = fracas_writer_create(path, header, table, &m.writer);
+    if (!err) err = fracas_segments_walk(segments, table, false, append, &m);
+    if (!err) err = append_decisions(&m, index);
+    if (!err && meshes && header->interfaces) err = append_meshes(&m, meshes);
+    if (!err) err = fracas_index_seal_study(index, NULL); /* a death from here on leaves no seal: merged again */
+    if (err) fracas_writer_abandon(m.writer);
+    else err = fracas_writer_finish(m.writer, m.complete, &seal);
+    if (!err) err = fracas_index_seal_study(index, &seal);
+    fracas_segments_destroy(segments);
+    free(path);
+    return err == FRACAS_DAMAGED ? plan_damaged_again(study, index) : err;
+}
+
+fracas_err fracas_study_sealed(const char *study, fracas_index *index, bool *sealed)
+{
+    char *path;
+    fracas_file_seal seal;
+    fracas_known_segment *segment;
+    size_t count;
+    TRY(fracas_index_study_seal(index, sealed, &seal));
+    if (!*sealed) return FRACAS_OK;
+    TRY(fracas_disk_join(study, "study.h5", &path));
+    fracas_err err = fracas_disk_has_size(path, seal.bytes, sealed);
+    free(path);
+    TRY(err);
+    TRY(fracas_index_segments(index, &segment, &count));
+    for (size_t s = 0; !err && *sealed && s < count; s++) err = fracas_segment_is_there(study, &segment[s], sealed);
+    fracas_index_segments_free(segment, count);
+    return err;
+}

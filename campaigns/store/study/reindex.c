@@ -1,0 +1,307 @@
+/* STUDY/index.sqlite made anew from the segments. */
+#include "campaigns/store/file/disk.h"
+#include "campaigns/store/index/query.h"
+#include "campaigns/store/upkeep.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+/* What SQLite has beside a database, and the database itself. */
+static const char *const tail[] = {"", "-wal", "-shm", "-journal"};
+enum { NTAILS = sizeof tail / sizeof *tail };
+
+typedef struct {
+    const char *study;
+    const fracas_point_table *table;
+    fracas_identity identity;
+    const fracas_said *said;
+    char *nursery, *fresh, *old; /* STUDY/.reindex, its index.sqlite, STUDY/index.sqlite */
+    fracas_index *index;         /* the new one */
+    bool readable;               /* the old one is there, sound and of this study */
+} reindexing;
+
+void fracas_say_line(const fracas_said *said, const char *format, ...)
+{
+    char text[1200];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    said->line(said->context, text);
+}
+
+void fracas_say_lines(const fracas_said *said, const char *text)
+{
+    for (size_t length; *text; text += length + (text[length] == '\n')) {
+        length = strcspn(text, "\n");
+        fracas_say_line(said, "%.*s", (int)length, text);
+    }
+}
+
+/* ---- what is there ---- */
+
+/* A study of another format version is refused as such, and not as one without any segment of ours. */
+static fracas_err check_versions(const char *study)
+{
+    char *folder, *other = NULL;
+    uint64_t version, found = 0;
+    size_t ours = 0;
+    TRY(fracas_disk_join(study, "segments", &folder));
+    DIR *list = opendir(folder);
+    fracas_err err = list || errno == ENOENT ? FRACAS_OK : fracas_disk_fail("list", folder);
+    for (struct dirent *entry; !err && !ours && list && (entry = readdir(list));) {
+        const char *dot = strrchr(entry->d_name, '.');
+        char *path;
+        if (entry->d_name[0] == '.' || !dot || strcmp(dot, ".h5") != 0) continue;
+        err = fracas_disk_join(folder, entry->d_name, &path);
+        if (err) break;
+        err = fracas_file_version(path, &version);
+        if (!err && version == FRACAS_FORMAT_VERSION) ours++;
+        if (err == FRACAS_DAMAGED) err = FRACAS_OK; /* one to be removed */
+        else if (!err && !ours && !other) found = version, other = path, path = NULL;
+        free(path);
+    }
+    if (!err && !ours && other)
+        err = fracas_fail(FRACAS_DAMAGED, "%s has format version %" PRIu64 "; this program reads %d: use the program version that wrote "
+                          "it, or compute the study again in another folder", other, found, FRACAS_FORMAT_VERSION);
+    if (list) closedir(list);
+    free(other);
+    free(folder);
+    return err;
+}
+
+/* Every page of the old index, before anything is taken from it. */
+static fracas_err check_old(reindexing *r, fracas_index *old)
+{
+    fracas_identity found;
+    char difference[FRACAS_DIFFERENCE_TEXT];
+    sqlite3_stmt *check;
+    bool row = false;
+    fracas_err err = fracas_query_begin(old, "PRAGMA integrity_check(1)", &check);
+    if (!err) err = fracas_query_step(old, check, &row);
+    const char *text = row ? (const char *)sqlite3_column_text(check, 0) : NULL;
+    if (!err && (!text || strcmp(text, "ok") != 0)) err = fracas_fail(FRACAS_DAMAGED, "%s: damaged: %s", r->old, text ? text : "");
+    sqlite3_finalize(check);
+    if (!err) err = fracas_index_identity(old, &found);
+    if (!err && fracas_identity_differs(&found, &r->identity, difference))
+        err = fracas_fail(FRACAS_DAMAGED, "%s: not of this study: %s", r->old, difference);
+    if (!err) err = fracas_query_checkpoint(old); /* so that its file alone is all of it */
+    return err;
+}
+
+static fracas_err look_at_old(reindexing *r)
+{
+    fracas_index *old;
+    if (access(r->old, F_OK) < 0 && errno == ENOENT) return FRACAS_OK;
+    fracas_err err = fracas_index_open(r->study, false, &old);
+    if (!err) {
+        err = check_old(r, old);
+        fracas_index_close(old);
+    }
+    r->readable = !err;
+    if (err != FRACAS_DAMAGED && err != FRACAS_BUG) return err; /* a bug: tables that are not as ours */
+    fracas_say_line(r->said, "the index before cannot be used: %s", fracas_message());
+    fracas_say_line(r->said, "realizations that FAILED are computed again, for that index alone knew of them");
+    return FRACAS_OK;
+}
+
+/* ---- the new index ---- */
+
+static void drop_nursery(const reindexing *r)
+{
+    for (int t = 0; t < NTAILS; t++) {
+        char *path;
+        if (asprintf(&path, "%s%s", r->fresh, tail[t]) < 0) return;
+        unlink(path);
+        free(path);
+    }
+    rmdir(r->nursery);
+}
+
+static fracas_err clear_nursery(const reindexing *r)
+{
+    drop_nursery(r);
+    if (rmdir(r->nursery) == 0 || errno == ENOENT) return FRACAS_OK;
+    return fracas_disk_fail("remove folder", r->nursery);
+}
+
+/* Replicas that the old index had planned where a rule decides how many. */
+static fracas_err plan_as_before(reindexing *r)
+{
+    sqlite3_stmt *most;
+    bool row = true;
+    TRY(fracas_query_begin(r->index, "SELECT coalesce(max(r.replica) + 1, 0) FROM old.realization r JOIN old.point q ON q.id = r.point"
+                                     " WHERE q.hash = ?1 AND r.replica < ?2", &most));
+    fracas_err err = FRACAS_OK;
+    for (size_t p = 0; !err && p < r->table->npoints; p++) {
+        fracas_point_row point = r->table->point[p];
+        if (!point.most) continue;
+        err = fracas_query_bind_hash(r->index, most, 1, &point.hash);
+        if (!err) err = fracas_query_bind(r->index, most, 2, point.most);
+        if (!err) err = fracas_query_step(r->index, most, &row);
+        if (err) break;
+        const int64_t replicas = sqlite3_column_int64(most, 0);
+        sqlite3_reset(most);
+        if (replicas > point.replicas) point.replicas = replicas;
+        err = fracas_index_plan_point(r->index, &point);
+    }
+    sqlite3_finalize(most);
+    return err;
+}
+
+/* A failure holds unless a segment has the realization. */
+static const char carried[] =
+    "INSERT INTO main.event(time, kind, text) SELECT time, kind, text FROM old.event ORDER BY id;"
+    "INSERT INTO main.meta SELECT key, value FROM old.meta WHERE key = 'part';"
+    "UPDATE main.segment SET provenance = o.provenance FROM old.segment o"
+    " WHERE o.name = main.segment.name AND o.bytes = main.segment.bytes AND o.checksum = main.segment.checksum;"
+    "UPDATE main.realization SET attempts = o.attempts, reason = o.reason,"
+    " outcome = CASE WHEN main.realization.status = 'planned' AND o.failed THEN o.outcome ELSE main.realization.outcome END,"
+    " status = CASE WHEN main.realization.status = 'planned' AND o.failed THEN o.status ELSE main.realization.status END"
+    " FROM (SELECT p.id AS point, r.replica, r.attempts, r.reason, r.outcome, r.status,"
+    "  r.status IN ('failed', 'quarantined') AND r.segment IS NULL AS failed"
+    "  FROM old.realization r JOIN old.point q ON q.id = r.point JOIN main.point p ON p.hash = q.hash"
+    "  WHERE r.attempts > 0 OR r.status IN ('failed', 'quarantined')) AS o"
+    " WHERE main.realization.point = o.point AND main.realization.replica = o.replica;";
+
+static fracas_err carry(reindexing *r)
+{
+    TRY(fracas_index_begin(r->index));
+    fracas_err err = plan_as_before(r);
+    if (!err) err = fracas_query_all(r->index, carried);
+    return fracas_index_end(r->index, err);
+}
+
+/* What only the old index knows. */
+static fracas_err take_over(reindexing *r)
+{
+    sqlite3_stmt *attach;
+    if (!r->readable) return FRACAS_OK;
+    fracas_err err = fracas_query_begin(r->index, "ATTACH ?1 AS old", &attach);
+    if (!err) err = fracas_query_bind_text(r->index, attach, 1, r->old);
+    if (!err) err = fracas_query_do(r->index, attach);
+    sqlite3_finalize(attach);
+    if (err) return err;
+    err = carry(r);
+    /* Told first: what went wrong before may keep it attached. */
+    const fracas_err left = err ? FRACAS_OK : fracas_query_all(r->index, "DETACH old");
+    return err ? err : left;
+}
+
+/* The lines of the sweep, with one for all that was adopted. */
+static void tell(const reindexing *r, char *report)
+{
+    int64_t adopted = 0;
+    for (char *line = strtok(report, "\n"); line; line = strtok(NULL, "\n")) {
+        if (strncmp(line, "adopted ", 8) == 0) adopted++;
+        else fracas_say_line(r->said, "%s", line);
+    }
+    fracas_say_line(r->said, "%" PRId64 " segments read", adopted);
+}
+
+static fracas_err fill(reindexing *r, const fracas_file_header *header)
+{
+    char *report;
+    TRY(fracas_index_claim(r->index, header));
+    TRY(fracas_study_recover(r->study, r->index, header, r->table, &report));
+    tell(r, report);
+    free(report);
+    TRY(take_over(r));
+    TRY(fracas_index_event(r->index, "reindexed", "index.sqlite is made anew from the segments"));
+    return fracas_query_checkpoint(r->index);
+}
+
+static fracas_err sync_file(const char *path)
+{
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    fracas_err err = fd >= 0 && fsync(fd) == 0 ? FRACAS_OK : fracas_disk_fail("sync", path);
+    if (fd >= 0) close(fd);
+    return err;
+}
+
+static fracas_err make(reindexing *r, const fracas_file_header *header)
+{
+    if (mkdir(r->nursery, 0777) < 0) return fracas_disk_fail("create", r->nursery);
+    TRY(fracas_index_open(r->nursery, true, &r->index));
+    fracas_err err = fill(r, header);
+    fracas_index_close(r->index); /* removes its log, which is empty */
+    r->index = NULL;
+    return err ? err : sync_file(r->fresh);
+}
+
+/* ---- the exchange ---- */
+
+/* Moves the old index away with all that SQLite has beside it, itself first: a log without its database is nothing, but
+ * it must not be found beside another one. */
+static fracas_err move_old(const reindexing *r)
+{
+    char stamp[32];
+    struct tm utc;
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    gmtime_r(&now.tv_sec, &utc);
+    strftime(stamp, sizeof stamp, "%Y%m%dT%H%M%S", &utc);
+    for (int t = 0; t < NTAILS; t++) {
+        char *from, *to = NULL;
+        if (asprintf(&from, "%s%s", r->old, tail[t]) < 0) return fracas_no_memory("a file name");
+        if (asprintf(&to, "%s.before-%s.%09ld%s", r->old, stamp, now.tv_nsec, tail[t]) < 0) to = NULL;
+        fracas_err err = to ? FRACAS_OK : fracas_no_memory("a file name");
+        if (!err && rename(from, to) < 0 && errno != ENOENT) err = fracas_disk_fail("move away", from);
+        else if (!err && t == 0 && access(to, F_OK) == 0) fracas_say_line(r->said, "the index before is %s", to);
+        free(from);
+        free(to);
+        TRY(err);
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err exchange(const reindexing *r)
+{
+    bool whole = r->readable; /* nothing of it is in a log */
+    for (int t = 1; whole && t < NTAILS; t++) {
+        char *path;
+        struct stat info;
+        if (asprintf(&path, "%s%s", r->old, tail[t]) < 0) return fracas_no_memory("a file name");
+        whole = stat(path, &info) < 0 || info.st_size == 0 || strcmp(tail[t], "-shm") == 0;
+        free(path);
+    }
+    if (!whole) TRY(move_old(r));
+    if (rename(r->fresh, r->old) < 0) return fracas_disk_fail("rename to", r->old);
+    TRY(fracas_disk_sync_folder(r->old));
+    return clear_nursery(r);
+}
+
+static fracas_err reindex(reindexing *r, const fracas_file_header *header)
+{
+    TRY(check_versions(r->study));
+    TRY(clear_nursery(r)); /* of one that was interrupted */
+    TRY(look_at_old(r));
+    fracas_err err = make(r, header);
+    if (!err) err = exchange(r);
+    if (err) drop_nursery(r); /* a full disk needs the room */
+    return err;
+}
+
+fracas_err fracas_study_reindex(const char *study, const fracas_file_header *header, const fracas_point_table *table,
+                                const fracas_said *said)
+{
+    reindexing r = {.study = study, .table = table, .said = said};
+    fracas_identity_of(header, &r.identity);
+    fracas_err err = fracas_disk_join(study, FRACAS_REINDEX_FOLDER, &r.nursery);
+    if (!err) err = fracas_disk_join(r.nursery, "index.sqlite", &r.fresh);
+    if (!err) err = fracas_disk_join(study, "index.sqlite", &r.old);
+    if (!err) err = reindex(&r, header);
+    free(r.nursery);
+    free(r.fresh);
+    free(r.old);
+    return err;
+}

@@ -1,0 +1,494 @@
+#include "campaigns/store/results.h"
+
+#include "campaigns/store/file/disk.h"
+#include "campaigns/store/index/query.h"
+#include "campaigns/store/study/segments.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* A realization that is done or failed, as the index had it. */
+typedef struct {
+    size_t point;
+    int64_t replica;
+    fracas_place place;
+    bool lost; /* it could not be read */
+} entry;
+
+struct fracas_results {
+    fracas_reader *reader; /* study.h5; NULL of partial ones, which are all that follows */
+    fracas_file_header header;
+    fracas_point_table table;
+    fracas_point_row *point;     /* of the table, with the replicas of by now */
+    int64_t *missing;            /* of each point */
+    entry *row;
+    size_t nrows, room;
+    fracas_segments *segments;
+    fracas_decision *decision;
+    size_t ndecisions;
+    char **note;                 /* of both */
+    size_t nnotes;
+    int64_t *named;              /* segments that a note names */
+    size_t nnamed;
+};
+
+FRACAS_PRINTF(2, 3) static fracas_err take_note(fracas_results *results, const char *format, ...)
+{
+    char *text;
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vasprintf(&text, format, arguments);
+    va_end(arguments);
+    if (length < 0) return fracas_no_memory("a note");
+    char **more = realloc(results->note, (results->nnotes + 1) * sizeof *more);
+    if (!more) {
+        free(text);
+        return fracas_no_memory("a note");
+    }
+    results->note = more;
+    results->note[results->nnotes++] = text;
+    return FRACAS_OK;
+}
+
+/* ---- study.h5 ---- */
+
+static fracas_err file_is_there(const char *study, bool *there)
+{
+    char *path;
+    TRY(fracas_disk_join(study, "study.h5", &path));
+    *there = access(path, F_OK) == 0;
+    free(path);
+    return FRACAS_OK;
+}
+
+static fracas_err open_file(const char *study, fracas_reader **reader)
+{
+    char *path;
+    TRY(fracas_disk_join(study, "study.h5", &path));
+    fracas_err err = access(path, F_OK) ? fracas_fail(FRACAS_DAMAGED, "%s is not there; `fracas run` makes it", path)
+                                        : fracas_reader_open(path, reader);
+    free(path);
+    return err;
+}
+
+static fracas_err file_is_sealed(const char *study, fracas_index *index, bool *sealed)
+{
+    char *path;
+    fracas_file_seal seal;
+    TRY(fracas_index_study_seal(index, sealed, &seal));
+    if (!*sealed) return FRACAS_OK;
+    TRY(fracas_disk_join(study, "study.h5", &path));
+    fracas_err err = fracas_disk_has_size(path, seal.bytes, sealed);
+    free(path);
+    return err;
+}
+
+/* Takes study.h5 if it is of all that the index has; else leaves results->reader NULL. */
+static fracas_err take_file(const char *study, fracas_index *index, const fracas_hash *campaign, fracas_results *results)
+{
+    bool sealed;
+    fracas_index_counts counts;
+    TRY(file_is_sealed(study, index, &sealed));
+    if (!sealed) return FRACAS_OK;
+    TRY(fracas_index_count(index, &counts));
+    if (counts.planned || counts.leased) return FRACAS_OK;
+    TRY(open_file(study, &results->reader));
+    if (fracas_hash_equal(&fracas_reader_header(results->reader)->campaign, campaign) &&
+        (int64_t)fracas_reader_realizations(results->reader) == counts.realizations)
+        return FRACAS_OK;
+    fracas_reader_close(results->reader);
+    results->reader = NULL;
+    return FRACAS_OK;
+}
+
+/* Without an index, whose message is the present one: study.h5, if it is of this campaign. */
+static fracas_err take_file_alone(const char *study, const fracas_hash *campaign, fracas_results *results)
+{
+    char *why = strdup(fracas_message());
+    if (!why) return fracas_no_memory("a message");
+    bool there = false;
+    fracas_err err = file_is_there(study, &there);
+    if (!err && !there) err = fracas_fail(FRACAS_DAMAGED, "%s; and there is no %s/study.h5", why, study);
+    if (!err) err = open_file(study, &results->reader);
+    if (!err && !fracas_hash_equal(&fracas_reader_header(results->reader)->campaign, campaign))
+        err = fracas_fail(FRACAS_DAMAGED, "%s; and %s/study.h5 is of another campaign than %s/campaign.yaml, from before it was extended", why,
+                          study, study);
+    if (!err) err = take_note(results, "%s; study.h5 is taken as it is", why);
+    free(why);
+    return err;
+}
+
+/* ---- the index ---- */
+
+static fracas_err add_row(fracas_results *results, size_t p, int64_t replica, const fracas_place *place)
+{
+    if (results->nrows == results->room) {
+        const size_t room = results->room ? 2 * results->room : 256;
+        entry *more = realloc(results->row, room * sizeof *more);
+        if (!more) return fracas_no_memory("the realizations of a study");
+        results->row = more;
+        results->room = room;
+    }
+    results->row[results->nrows++] = (entry){.point = p, .replica = replica, .place = *place};
+    return FRACAS_OK;
+}
+
+static double real_at(sqlite3_stmt *s, int column) /* NULL is NaN */
+{
+    return sqlite3_column_type(s, column) == SQLITE_NULL ? NAN : sqlite3_column_double(s, column);
+}
+
+/* The rows of a point that `statement` gives; those that the campaign has not are none of ours. */
+static fracas_err read_rows(fracas_results *results, fracas_index *index, sqlite3_stmt *s, size_t p)
+{
+    fracas_point_row *point = &results->point[p];
+    const int64_t most = point->most ? point->most : point->replicas;
+    int64_t given = 0;
+    for (;;) {
+        bool more;
+        TRY(fracas_query_step(index, s, &more));
+        if (!more) break;
+        const int64_t replica = sqlite3_column_int64(s, 0);
+        if (replica < 0 || replica >= most) continue;
+        given++;
+        const fracas_place place = {
+            fracas_index_status(sqlite3_column_text(s, 1)), sqlite3_column_int64(s, 2), sqlite3_column_int64(s, 3),
+            sqlite3_column_int64(s, 4), sqlite3_column_int64(s, 5), sqlite3_column_int64(s, 6), sqlite3_column_int64(s, 7),
+            real_at(s, 8), real_at(s, 9), real_at(s, 10), sqlite3_column_type(s, 10) != SQLITE_NULL};
+        if (place.status != FRACAS_PLANNED && place.status != FRACAS_LEASED) TRY(add_row(results, p, replica, &place));
+    }
+    sqlite3_reset(s);
+    if (point->most && given) point->replicas = given;
+    return FRACAS_OK;
+}
+
+static fracas_err read_points(fracas_results *results, fracas_index *index)
+{
+    char text[256];
+    sqlite3_stmt *s;
+    snprintf(text, sizeof text, "SELECT replica, status, segment, row, outcome, fragments, fragments_dust, steps, dissipated, residual, %s"
+             " FROM realization WHERE point = (SELECT id FROM point WHERE hash = ?1) ORDER BY replica", index->old ? "NULL" : "size");
+    fracas_err err = fracas_query_begin(index, text, &s);
+    for (size_t p = 0; !err && p < results->table.npoints; p++) {
+        err = fracas_query_bind_hash(index, s, 1, &results->point[p].hash);
+        if (!err) err = read_rows(results, index, s, p);
+    }
+    sqlite3_finalize(s);
+    return err;
+}
+
+static fracas_err read_decisions(fracas_results *results, fracas_index *index)
+{
+    for (size_t p = 0; p < results->table.npoints; p++) {
+        fracas_decision *decision, *more;
+        size_t count;
+        int64_t id;
+        if (!results->point[p].most) continue;
+        TRY(fracas_index_find_point(index, &results->point[p].hash, &id));
+        if (!id) continue; /* it is not planned yet */
+        TRY(fracas_index_decisions(index, &results->point[p].hash, &decision, &count));
+        for (size_t d = 0; d < count; d++) decision[d].point = (int64_t)p;
+        more = count ? realloc(results->decision, (results->ndecisions + count) * sizeof *more) : results->decision;
+        if (count && more) memcpy(more + results->ndecisions, decision, count * sizeof *decision);
+        free(decision);
+        if (count && !more) return fracas_no_memory("the decisions of a study");
+        results->decision = more;
+        results->ndecisions += count;
+    }
+    return FRACAS_OK;
+}
+
+/* What the study was begun with: its segments are of that. */
+static void read_header(const fracas_identity *identity, const fracas_hash *campaign, fracas_file_header *header)
+{
+    *header = (fracas_file_header){.campaign = *campaign};
+    snprintf(header->version, sizeof header->version, "%s", identity->value[0]);
+    header->seed = strtoull(identity->value[1], NULL, 10);
+    header->history = strtoll(identity->value[2], NULL, 10);
+    header->interfaces = !strcmp(identity->value[3], "1");
+}
+
+/* Within a transaction, so that all of it is of one moment. */
+static fracas_err read_index(const char *study, fracas_index *index, const fracas_hash *campaign, fracas_results *results)
+{
+    fracas_identity identity;
+    TRY(take_file(study, index, campaign, results));
+    if (results->reader) return FRACAS_OK;
+    TRY(fracas_index_identity(index, &identity));
+    read_header(&identity, campaign, &results->header);
+    TRY(read_points(results, index));
+    TRY(read_decisions(results, index));
+    TRY(fracas_segments_create(study, index, &identity, &results->segments));
+    fracas_segments_only_records(results->segments);
+    return FRACAS_OK;
+}
+
+/* ---- opening ---- */
+
+static fracas_err copy_table(const fracas_point_table *table, fracas_results *results)
+{
+    results->table = *table;
+    results->table.point = results->point = malloc((table->npoints + 1) * sizeof *results->point);
+    results->missing = calloc(table->npoints + 1, sizeof *results->missing);
+    if (!results->point || !results->missing) return fracas_no_memory("the points of a study");
+    memcpy(results->point, table->point, table->npoints * sizeof *table->point);
+    return FRACAS_OK;
+}
+
+static fracas_err check_any(const char *study, const fracas_results *results)
+{
+    if (results->reader || results->nrows) return FRACAS_OK;
+    int64_t planned = 0;
+    for (size_t p = 0; p < results->table.npoints; p++) planned += results->point[p].replicas;
+    return fracas_fail(FRACAS_INTERRUPTED, "no realization of %s is done yet, of %" PRId64 ": there is nothing to report; `fracas run` with the "
+                       "campaign file goes on", study, planned);
+}
+
+static fracas_err open_by_index(const char *study, const fracas_hash *campaign, fracas_results *results)
+{
+    fracas_index *index;
+    fracas_err err = fracas_index_open(study, false, &index);
+    if (err == FRACAS_DAMAGED) return take_file_alone(study, campaign, results);
+    if (!err) {
+        err = fracas_index_do(index, FRACAS_SQL_BEGIN_READING);
+        if (!err) err = fracas_index_end(index, read_index(study, index, campaign, results));
+        fracas_index_close(index);
+    }
+    if (err == FRACAS_IN_USE)
+        err = fracas_fail_within(err, "the index of %s cannot be read now: on a network filesystem nobody else can while a run has it; "
+                                 "try again when the run has ended", study);
+    return err ? err : check_any(study, results);
+}
+
+fracas_err fracas_results_open(const char *study, const fracas_hash *campaign, const fracas_point_table *table, fracas_results **results)
+{
+    fracas_results *new = *results = calloc(1, sizeof **results);
+    if (!new) return fracas_no_memory("the results of a study");
+    fracas_err err;
+    if (campaign && table) {
+        err = copy_table(table, new);
+        if (!err) err = open_by_index(study, campaign, new);
+    } else {
+        err = open_file(study, &new->reader);
+    }
+    if (!err) return FRACAS_OK;
+    fracas_results_close(new);
+    *results = NULL;
+    return err;
+}
+
+void fracas_results_close(fracas_results *results)
+{
+    if (!results) return;
+    fracas_reader_close(results->reader);
+    fracas_segments_destroy(results->segments);
+    for (size_t n = 0; n < results->nnotes; n++) free(results->note[n]);
+    free(results->note);
+    free(results->named);
+    free(results->point);
+    free(results->missing);
+    free(results->row);
+    free(results->decision);
+    free(results);
+}
+
+/* ---- one realization ---- */
+
+/* After a failure that the present message tells: it is left out, and its segment named once. */
+static fracas_err lose(fracas_results *results, entry *row)
+{
+    const int64_t id = row->place.segment;
+    row->lost = true;
+    results->missing[row->point]++;
+    for (size_t n = 0; n < results->nnamed; n++)
+        if (results->named[n] == id) return FRACAS_OK;
+    int64_t *more = realloc(results->named, (results->nnamed + 1) * sizeof *more);
+    if (!more) return fracas_no_memory("a note");
+    results->named = more;
+    results->named[results->nnamed++] = id;
+    char *why = strdup(fracas_message());
+    if (!why) return fracas_no_memory("a note");
+    fracas_err err = take_note(results, "segment %s is left out (`fracas verify` checks the study): %s",
+                               fracas_segments_name(results->segments, id), why);
+    free(why);
+    return err;
+}
+
+static fracas_err read_entry(fracas_results *results, const entry *row, unsigned parts, fracas_record *record)
+{
+    fracas_record_clear(record);
+    if (row->place.status != FRACAS_DONE) return FRACAS_OK; /* it failed: nothing is known of it */
+    return fracas_segments_record(results->segments, &row->place, &results->point[row->point].hash, row->replica, parts, record);
+}
+
+fracas_err fracas_results_record(fracas_results *results, size_t row, unsigned parts, size_t *point, int64_t *replica, fracas_record *record)
+{
+    if (results->reader) return fracas_reader_record(results->reader, row, parts, point, replica, record);
+    if (row >= results->nrows)
+        return fracas_fail(FRACAS_BUG, "there are %zu realizations by now; row %zu was asked for", results->nrows, row);
+    *point = results->row[row].point;
+    *replica = results->row[row].replica;
+    return read_entry(results, &results->row[row], parts, record);
+}
+
+/* ---- all of them ---- */
+
+/* Realizations read ahead, from row `first` on. */
+typedef struct {
+    size_t first, count, room;
+    fracas_result *result;
+    size_t *sorted; /* numbers of `result`, by segment and row there */
+} window;
+
+enum { WINDOW_BYTES = 192 << 20 };
+
+/* At most; of interfaces, which are stored compactly, about. */
+static uint64_t size_of(const fracas_results *results, const entry *row, unsigned parts)
+{
+    uint64_t bytes = sizeof(fracas_result) + sizeof(size_t);
+    if (parts & FRACAS_READ_FRAGMENTS) bytes += (uint64_t)row->place.fragments * sizeof(fracas_fragment);
+    if (parts & FRACAS_READ_HISTORY) bytes += (uint64_t)(results->header.history + 4) * sizeof(fracas_history_row);
+    if (parts & FRACAS_READ_INTERFACES) bytes += 2 * fracas_segments_share(results->segments, row->place.segment);
+    return bytes;
+}
+
+static fracas_err window_fill(const fracas_results *results, unsigned parts, window *w)
+{
+    uint64_t bytes = 0;
+    for (w->count = 0; w->first + w->count < results->nrows && (w->count == 0 || bytes < WINDOW_BYTES); w->count++)
+        bytes += size_of(results, &results->row[w->first + w->count], parts);
+    if (w->count <= w->room) return FRACAS_OK;
+    w->room = w->count;
+    free(w->result);
+    free(w->sorted);
+    w->result = malloc(w->room * sizeof *w->result);
+    w->sorted = malloc(w->room * sizeof *w->sorted);
+    if (w->result && w->sorted) return FRACAS_OK;
+    w->count = 0;
+    return fracas_no_memory("realizations read ahead");
+}
+
+static int by_place(const void *a, const void *b, void *rows)
+{
+    const fracas_place *x = &((const entry *)rows)[*(const size_t *)a].place, *y = &((const entry *)rows)[*(const size_t *)b].place;
+    if (x->segment != y->segment) return x->segment < y->segment ? -1 : 1;
+    return (x->row > y->row) - (x->row < y->row);
+}
+
+static fracas_err window_read(fracas_results *results, unsigned parts, window *w)
+{
+    for (size_t i = 0; i < w->count; i++) {
+        const entry *row = &results->row[w->first + i];
+        w->result[i] = (fracas_result){.row = w->first + i, .point = row->point, .replica = row->replica};
+        fracas_record_init(&w->result[i].record);
+        w->sorted[i] = i;
+    }
+    qsort_r(w->sorted, w->count, sizeof *w->sorted, by_place, &results->row[w->first]);
+    for (size_t n = 0; n < w->count; n++) {
+        entry *row = &results->row[w->first + w->sorted[n]];
+        if (row->lost) continue;
+        fracas_err err = read_entry(results, row, parts, &w->result[w->sorted[n]].record);
+        if (err == FRACAS_DAMAGED) err = lose(results, row);
+        TRY(err);
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err walk_segments(fracas_results *results, unsigned parts, fracas_err (*visit)(void *context, fracas_result *result),
+                                void *context)
+{
+    window w = {0};
+    fracas_err err = FRACAS_OK;
+    while (!err && w.first < results->nrows) {
+        err = window_fill(results, parts, &w);
+        if (!err) err = window_read(results, parts, &w);
+        for (size_t i = 0; !err && i < w.count; i++)
+            if (!results->row[w.first + i].lost) err = visit(context, &w.result[i]);
+        for (size_t i = 0; i < w.count; i++) fracas_record_clear(&w.result[i].record);
+        w.first += w.count;
+    }
+    free(w.result);
+    free(w.sorted);
+    return err;
+}
+
+static fracas_err walk_file(fracas_reader *reader, unsigned parts, fracas_err (*visit)(void *context, fracas_result *result), void *context)
+{
+    fracas_result result = {0};
+    fracas_err err = FRACAS_OK;
+    fracas_record_init(&result.record);
+    for (; !err && result.row < fracas_reader_realizations(reader); result.row++) {
+        err = fracas_reader_record(reader, result.row, parts, &result.point, &result.replica, &result.record);
+        if (!err) err = visit(context, &result);
+    }
+    fracas_record_clear(&result.record);
+    return err;
+}
+
+fracas_err fracas_results_walk(fracas_results *results, unsigned parts, fracas_err (*visit)(void *context, fracas_result *result),
+                               void *context)
+{
+    return results->reader ? walk_file(results->reader, parts, visit, context) : walk_segments(results, parts, visit, context);
+}
+
+/* ---- what is known of them ---- */
+
+bool fracas_results_partial(const fracas_results *results) { return results && !results->reader; }
+
+const fracas_file_header *fracas_results_header(const fracas_results *results)
+{
+    return results->reader ? fracas_reader_header(results->reader) : &results->header;
+}
+
+const fracas_point_table *fracas_results_points(const fracas_results *results)
+{
+    return results->reader ? fracas_reader_points(results->reader) : &results->table;
+}
+
+size_t fracas_results_realizations(const fracas_results *results)
+{
+    return results->reader ? fracas_reader_realizations(results->reader) : results->nrows;
+}
+
+int64_t fracas_results_missing(const fracas_results *results, size_t point)
+{
+    return fracas_results_partial(results) ? results->missing[point] : 0;
+}
+
+bool fracas_results_decided(const fracas_results *results, size_t point)
+{
+    bool decided = !fracas_results_partial(results) || !results->point[point].most;
+    for (size_t d = 0; !decided && d < results->ndecisions; d++)
+        decided = results->decision[d].point == (int64_t)point && results->decision[d].stop != 0;
+    return decided;
+}
+
+size_t fracas_results_notes(const fracas_results *results) { return results ? results->nnotes : 0; }
+const char *fracas_results_note(const fracas_results *results, size_t note) { return results->note[note]; }
+
+fracas_err fracas_results_decisions(fracas_results *results, fracas_decision **decision, size_t *count)
+{
+    if (results->reader) return fracas_reader_decisions(results->reader, decision, count);
+    *count = results->ndecisions;
+    *decision = malloc((*count + 1) * sizeof **decision);
+    if (!*decision) return fracas_no_memory("the decisions of a study");
+    if (*count) memcpy(*decision, results->decision, *count * sizeof **decision);
+    return FRACAS_OK;
+}
+
+fracas_err fracas_results_mesh_interfaces(fracas_results *results, size_t point, size_t *interfaces)
+{
+    *interfaces = 0;
+    return results->reader ? fracas_reader_mesh_interfaces(results->reader, point, interfaces) : FRACAS_OK;
+}
+
+fracas_err fracas_results_mesh(fracas_results *results, size_t point, fracas_stored_mesh *mesh)
+{
+    *mesh = (fracas_stored_mesh){0};
+    return results->reader ? fracas_reader_mesh(results->reader, point, mesh) : FRACAS_OK;
+}
