@@ -3,6 +3,7 @@
 
 #include "analysis/export/csv.h"
 #include "analysis/export/output.h"
+#include "analysis/export/summary.h"
 #include "analysis/report/assets.h"
 #include "analysis/report/pdf.h"
 #include "analysis/report/picture/surfaces.h"
@@ -95,7 +96,7 @@ static fracas_err put_page(const fracas_analysis *analysis, const contents *of, 
 
 /* ---- files ---- */
 
-static fracas_err write_tables(const fracas_analysis *analysis, const char *folder)
+static fracas_err write_tables(const fracas_analysis *analysis, const char *folder, const fracas_fits *fits, bool stale)
 {
     fracas_output_file output;
     TRY(fracas_csv_file(&fracas_csv_table_points, analysis, folder));
@@ -104,7 +105,7 @@ static fracas_err write_tables(const fracas_analysis *analysis, const char *fold
     TRY(fracas_csv_file(&fracas_csv_table_convergence, analysis, folder));
     TRY(fracas_csv_file(&fracas_csv_table_fragments, analysis, folder));
     TRY(fracas_output_open(folder, "summary.json", &output));
-    fracas_analysis_write_json(analysis, output.file);
+    fracas_summary_write(analysis, fits, stale, output.file);
     return fracas_output_close(&output, FRACAS_OK);
 }
 
@@ -130,10 +131,10 @@ fracas_err fracas_report_write(const fracas_analysis *analysis, const char *stud
     fracas_err err = FRACAS_OK;
     if (mkdir(folder, 0777) && errno != EEXIST)
         err = fracas_fail(FRACAS_ENVIRONMENT, "cannot make the folder %s: %s", folder, strerror(errno));
-    if (!err) err = write_tables(analysis, folder);
     fracas_fits *fits = NULL;
     bool stale = false;
     if (!err) err = fracas_fits_read(study, &fits, &stale);
+    if (!err) err = write_tables(analysis, folder, fits, stale);
     if (!err) err = write_page(analysis, folder, fits, stale);
     fracas_fits_destroy(fits);
     free(folder);
