@@ -209,12 +209,15 @@ static fracas_err compare_with(const converging *c, fracas_convergence *converge
     }
     TRY(fracas_convergence_judge(convergence));
     TRY(fracas_convergence_write_csv(convergence, c->folder));
+    const char *slash = strrchr(c->folder, '/');
+    TRY(fracas_convergence_write_page(convergence, c->folder, slash && slash[1] ? slash + 1 : c->folder));
     if (c->arguments->value[JSON]) {
         fracas_convergence_write_json(convergence, stdout);
         return FRACAS_OK;
     }
     TRY(fracas_convergence_print(convergence, stdout));
-    printf("all digits: %s/converge.csv; a study's own report: fracas report %s\n", c->folder, c->study[FRACAS_REFINE_NOTHING]);
+    printf("report: %s/report/index.html; all digits: %s/converge.csv; a study's own report: fracas report %s\n", c->folder, c->folder,
+           c->study[FRACAS_REFINE_NOTHING]);
     return FRACAS_OK;
 }
 

@@ -79,7 +79,9 @@ void fracas_format_beside(double value, double limit, char *text, size_t size)
 void fracas_format_estimate(const fracas_estimate *estimate, double factor, const char *plus_minus, char *text,
                             size_t size)
 {
+    const double round_off = 1e-12; /* values that are equal but for it have no interval */
     double mean = estimate->mean * factor, half_width = estimate->half_width * factor;
+    if (half_width <= round_off * fabs(mean)) half_width = 0;
     if (!isfinite(mean)) {
         snprintf(text, size, "-");
     } else if (half_width > 0) {
