@@ -57,9 +57,10 @@ says 2 err 'when all of them are complete: leave it out' converge a.yaml --part 
 says 2 err 'submit: --walltime follows from --time: leave it out' submit a.yaml --walltime 1h
 says 2 err 'unknown option `--parts`; it knows' converge a.yaml --parts 1/2
 listed=0
-for command in $("$fracas" help | sed -n 's/^  fracas \([a-z-]*\) .*/\1/p' | grep -vx help); do
-    for option in $("$fracas" help "$command" | sed -n 's/^  --\([a-z-]*\) .*/\1/p'); do
-        argument=$("$fracas" help "$command" | sed -n "s/^  --$option \([^ ]\).*/\1/p")
+for command in $("$fracas" help | sed -n 's/^  fracas \([a-z][a-z-]*\) .*/\1/p' | grep -vx help); do
+    "$fracas" help "$command" >"$folder/help"
+    for option in $(sed -n 's/^  --\([a-z-]*\) .*/\1/p' "$folder/help"); do
+        argument=$(sed -n "s/^  --$option \([^ ]\).*/\1/p" "$folder/help")
         status=0
         "$fracas" "$command" none none "--$option${argument:+=1}" >"$folder/out" 2>"$folder/err" </dev/null || status=$?
         ! grep -q 'leave it out' "$folder/err" || { echo "fracas help $command lists --$option: $(cat "$folder/err")"; exit 1; }
