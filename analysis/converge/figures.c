@@ -138,8 +138,8 @@ static void put_words(const subject *what, bool tolerance, fracas_chart *chart)
     snprintf(chart->title, sizeof chart->title, "What refinement changes: %s", what->number->key);
     if (!what->relative) snprintf(beyond, sizeof beyond, " As it is the mean is 0 at some point: no parts of it are shown.");
     else if (!tolerance) snprintf(beyond, sizeof beyond, " The tolerance of %g %% is far outside.", 100 * convergence->tolerance);
-    snprintf(chart->caption, sizeof chart->caption, "Change of the mean (%s) with half the element size (mesh), half the time step (step) and interfaces twice as "
-             "stiff (beta), bars: 95 %% interval of the change; boxes: that of the number as it is. Filled: it differs, by p corrected for all "
+    snprintf(chart->caption, sizeof chart->caption, "Change of the mean (%s) with half the element size (mesh), half the time step (step) and "
+             "interfaces twice as stiff (beta), bars: 95 %% interval of the change; boxes: that of the number as it is. Filled: it differs, by p corrected for all "
              "numbers; open: it need not. Moved: %zu, shifted: %zu, hold: %zu, unclear: %zu.%s", what->number->doc, of[FRACAS_NUMBER_MOVED],
              of[FRACAS_NUMBER_SHIFTED], of[FRACAS_NUMBER_HOLDS], of[FRACAS_NUMBER_UNCLEAR] + of[FRACAS_NUMBER_UNKNOWN], beyond);
 }

@@ -57,8 +57,9 @@ void fracas_convergence_conclude(const fracas_convergence *convergence, fracas_c
 
 /* Rows of this number. */
 size_t fracas_convergence_rows_of(const fracas_convergence *convergence, const fracas_compared_quantity *number);
-/* The figure of one number: its change at each refinement, a mark a row, filled if it differs, with its interval; behind it a box, the interval of the number as
- * it is. No panel if there is no row. */
-FRACAS_MUST_USE fracas_err fracas_convergence_figure(const fracas_convergence *convergence, const fracas_compared_quantity *number, fracas_chart *chart);
+/* The figure of one number: its change at each refinement, a mark a row, filled if it differs, with its interval; behind it a box, the
+ * interval of the number as it is. No panel if there is no row. */
+FRACAS_MUST_USE fracas_err fracas_convergence_figure(const fracas_convergence *convergence, const fracas_compared_quantity *number,
+                                                     fracas_chart *chart);
 
 #endif

@@ -1,7 +1,7 @@
 /* The page of a report while it is written, and what its sections are made of.
  *
- * A section is a function that writes to page->out, and a line in the table of page.c (of a convergence: of converge/page.c). One that writes nothing is left out, heading and
- * all. Figures and tables are numbered in the order of the page. */
+ * A section is a function that writes to page->out, and a line in the table of page.c (of a convergence: of converge/page.c). One that
+ * writes nothing is left out, heading and all. Figures and tables are numbered in the order of the page. */
 #ifndef FRACAS_ANALYSIS_REPORT_PAGE_H
 #define FRACAS_ANALYSIS_REPORT_PAGE_H
 
