@@ -21,15 +21,15 @@ void fracas_analysis_destroy(fracas_analysis *analysis); /* NULL is allowed */
 
 /* The result table, one line a point, for a terminal. */
 void fracas_analysis_print_table(const fracas_analysis *analysis, FILE *out);
-/* The same numbers (and the rest of the statistics) as one JSON document. */
-void fracas_analysis_write_json(const fracas_analysis *analysis, FILE *out);
+/* The same numbers (and the rest of the statistics), and the fits that STUDY/fits.csv has, as one JSON document. Errors as fracas_fits_read. */
+FRACAS_MUST_USE fracas_err fracas_analysis_write_json(const fracas_analysis *analysis, const char *study, FILE *out);
 
 /* STUDY/report/: index.html (self-contained), points.csv, fragments.csv, summary.json and one SVG file a figure (and one CSV file a
  * crack pattern of a ring). */
 FRACAS_MUST_USE fracas_err fracas_report_write(const fracas_analysis *analysis, const char *study);
 
-/* A Frictionless Data Package in `folder`, made if it is not there: points.csv, realizations.csv, fragments.csv, statistics.csv, with
- * `histories` histories.csv, and at last datapackage.json, the schema of each (docs/formats/export.md). Equal bytes for equal study.h5.
+/* A Frictionless Data Package in `folder`, made if it is not there: points.csv, realizations.csv, fragments.csv, statistics.csv,
+ * energies.csv, convergence.csv, with `histories` histories.csv, and at last datapackage.json, the schema of each (docs/formats/export.md). Equal bytes for equal study.h5.
  * FRACAS_USAGE if `folder` is a file, FRACAS_ENVIRONMENT if it cannot be made or written. */
 FRACAS_MUST_USE fracas_err fracas_export_write(const fracas_analysis *analysis, const char *folder, bool histories);
 

@@ -20,6 +20,22 @@ const fracas_option *fracas_command_option(const fracas_command *command, size_t
     return i < command->noptions ? &command->options[i] : &command->own[i - command->noptions];
 }
 
+const fracas_refusal *fracas_command_refusal(const fracas_command *command, size_t i)
+{
+    for (size_t r = 0; r < command->nrefused; r++)
+        if (!strcmp(command->refused[r].name, fracas_command_option(command, i)->name)) return &command->refused[r];
+    return NULL;
+}
+
+static fracas_err check_refusals(const fracas_arguments *arguments)
+{
+    for (size_t i = 0; i < fracas_command_noptions(arguments->command); i++) {
+        const fracas_refusal *refusal = arguments->value[i] ? fracas_command_refusal(arguments->command, i) : NULL;
+        if (refusal) return fracas_fail(FRACAS_USAGE, "%s: --%s %s", arguments->command->name, refusal->name, refusal->why);
+    }
+    return FRACAS_OK;
+}
+
 static fracas_err unknown_option(const fracas_command *command, const char *given)
 {
     const char *name = given + strspn(given, "-");
@@ -29,6 +45,7 @@ static fracas_err unknown_option(const fracas_command *command, const char *give
     fracas_words_init(&words, found);
     char option[FRACAS_MOST_OPTIONS][32];
     for (size_t i = 0; i < fracas_command_noptions(command); i++) {
+        if (fracas_command_refusal(command, i)) continue;
         snprintf(option[i], sizeof option[i], "--%s", fracas_command_option(command, i)->name);
         fracas_words_add(&words, option[i]);
     }
@@ -114,6 +131,7 @@ fracas_err fracas_arguments_read(const fracas_command *command, int argc, char *
     if (command->takes_rest) cut_rest(arguments);
     TRY(read_options(command, arguments));
     if (arguments->help) return FRACAS_OK;
+    TRY(check_refusals(arguments));
     if (command->operand && optind < arguments->argc) arguments->operand = argv[optind++];
     if (command->second && optind < arguments->argc) arguments->second = argv[optind++];
     if (optind < arguments->argc)

@@ -16,6 +16,12 @@ typedef struct {
 
 enum { FRACAS_MOST_OPTIONS = 32 }; /* of one subcommand */
 
+/* An option of those shared with other commands that this one does not take. */
+typedef struct {
+    const char *name;
+    const char *why; /* "follows from --time: leave it out" */
+} fracas_refusal;
+
 typedef struct fracas_arguments fracas_arguments;
 
 /* A subcommand is one file with one const fracas_command and one line in main.c. */
@@ -29,6 +35,8 @@ typedef struct {
     size_t noptions;
     const fracas_option *own; /* more of them, where `options` are shared with others */
     size_t nown;
+    const fracas_refusal *refused; /* of the shared ones: not in the help */
+    size_t nrefused;
     bool takes_rest;      /* what follows `--` is kept for another program */
     fracas_err (*run)(const fracas_arguments *arguments);
 } fracas_command;
@@ -54,8 +62,11 @@ struct fracas_arguments {
 size_t fracas_command_noptions(const fracas_command *command);
 const fracas_option *fracas_command_option(const fracas_command *command, size_t i);
 
+/* NULL for an option that the command takes. */
+const fracas_refusal *fracas_command_refusal(const fracas_command *command, size_t i);
+
 /* Reads the program's command line, argv[1] being the command's name. FRACAS_USAGE for an unknown option (naming the
- * nearest), a missing or extra argument. */
+ * nearest), one that is refused (saying why), a missing or extra argument. */
 FRACAS_MUST_USE fracas_err fracas_arguments_read(const fracas_command *command, int argc, char **argv,
                                                  fracas_arguments *arguments);
 

@@ -46,13 +46,11 @@ static const fracas_refined *base_of(const converging *c)
 
 /* ---- before ---- */
 
-static fracas_err check_arguments(const fracas_arguments *arguments)
+static fracas_err check_rank(void)
 {
     if (fracas_run_is_rank())
         return fracas_fail(FRACAS_USAGE, "converge: it starts several runs, each with an mpirun of its own: give it --jobs N instead of starting it by "
                            "mpirun or srun");
-    if (arguments->value[fracas_cli_run_option("part")])
-        return fracas_fail(FRACAS_USAGE, "converge: --part is of one study; here there are several, which are compared when all of them are complete");
     return FRACAS_OK;
 }
 
@@ -209,12 +207,15 @@ static fracas_err compare_with(const converging *c, fracas_convergence *converge
     }
     TRY(fracas_convergence_judge(convergence));
     TRY(fracas_convergence_write_csv(convergence, c->folder));
+    const char *slash = strrchr(c->folder, '/');
+    TRY(fracas_convergence_write_page(convergence, c->folder, slash && slash[1] ? slash + 1 : c->folder));
     if (c->arguments->value[JSON]) {
         fracas_convergence_write_json(convergence, stdout);
         return FRACAS_OK;
     }
     TRY(fracas_convergence_print(convergence, stdout));
-    printf("all digits: %s/converge.csv; a study's own report: fracas report %s\n", c->folder, c->study[FRACAS_REFINE_NOTHING]);
+    printf("report: %s/report/index.html; all digits: %s/converge.csv; a study's own report: fracas report %s\n", c->folder, c->folder,
+           c->study[FRACAS_REFINE_NOTHING]);
     return FRACAS_OK;
 }
 
@@ -230,7 +231,7 @@ static fracas_err compare(const converging *c, double tolerance)
 static fracas_err converge_with(converging *c)
 {
     double tolerance = 0.02;
-    TRY(check_arguments(c->arguments));
+    TRY(check_rank());
     TRY(fracas_arguments_real(c->arguments, TOLERANCE, 0.01, &tolerance));
     if (tolerance <= 0) return fracas_fail(FRACAS_USAGE, "converge: --tolerance is 0; a number never is the same: give a per cent above 0");
     TRY(fracas_arguments_time(c->arguments, fracas_cli_run_option("walltime"), &c->walltime));
@@ -255,10 +256,16 @@ static fracas_err converge(const fracas_arguments *arguments)
     return err;
 }
 
+static const fracas_refusal refused[] = {
+    {"part", "is of one study; here there are several, which are compared when all of them are complete: leave it out"},
+};
+
 const fracas_command fracas_command_converge = {
     .name = "converge", .operand = "FILE", .doc = "Runs FILE with mesh, step and beta refined in turn, and says which numbers move",
     .more = "\nThe campaign of FILE as it is, with half the time step, with interfaces twice as stiff, and on a mesh of half the size is computed, each as\n"
-            "a study in DIR; then every headline number is compared with what it is without. It ends with 0 whatever moved. The same command\n"
-            "goes on with what was interrupted, prints the result of what is complete, and extends all studies by more --replicas.\n",
-    .options = FRACAS_STUDY_RUN_OPTIONS, .noptions = FRACAS_NSTUDY_RUN_OPTIONS, .own = options, .nown = FRACAS_COUNT(options), .run = converge,
+            "a study in DIR; then every headline number is compared with what it is without: a table, and figures on the page DIR/report/index.html.\n"
+            "It ends with 0 whatever moved. The same command goes on with what was interrupted, prints the result of what is complete, and extends\n"
+            "all studies by more --replicas.\n",
+    .options = FRACAS_STUDY_RUN_OPTIONS, .noptions = FRACAS_NSTUDY_RUN_OPTIONS, .own = options, .nown = FRACAS_COUNT(options),
+    .refused = refused, .nrefused = FRACAS_COUNT(refused), .run = converge,
 };

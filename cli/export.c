@@ -39,6 +39,6 @@ static fracas_err export(const fracas_arguments *arguments)
 const fracas_command fracas_command_export = {
     .name = "export", .operand = "STUDY", .doc = "Writes the tables of STUDY as a Frictionless Data Package",
     .more = "\npoints.csv (parameters and statistics), realizations.csv, fragments.csv, statistics.csv (a line a number, with its unit),\n"
-            "and datapackage.json, which says of every column what it is: type, unit, meaning. For pandas, R, or a data repository.\n",
+            "energies.csv and convergence.csv (over time, and with the replicas), and datapackage.json, which says of every column what it is: type, unit, meaning. For pandas, R, or a data repository.\n",
     .options = options, .noptions = FRACAS_COUNT(options), .run = export,
 };

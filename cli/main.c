@@ -42,6 +42,7 @@ static void print_help(const fracas_command *command)
     for (size_t i = 0; i < noptions; i++) {
         const fracas_option *option = fracas_command_option(command, i);
         char call[40];
+        if (fracas_command_refusal(command, i)) continue;
         snprintf(call, sizeof call, "--%s %s", option->name, option->argument ? option->argument : "");
         printf("  %-28s %s\n", call, option->doc);
     }

@@ -44,9 +44,10 @@ fracas_err fracas_cli_report(const char *study, bool json)
     fracas_campaign *campaign;
     fracas_analysis *analysis;
     TRY(fracas_cli_analyse(study, &campaign, &analysis));
-    if (json) fracas_analysis_write_json(analysis, stdout);
+    fracas_err code = FRACAS_OK;
+    if (json) code = fracas_analysis_write_json(analysis, study, stdout);
     else fracas_analysis_print_table(analysis, stdout);
-    fracas_err code = fracas_report_write(analysis, study);
+    if (!code) code = fracas_report_write(analysis, study);
     fracas_analysis_destroy(analysis);
     fracas_campaign_destroy(campaign);
     if (!code && !json) printf("report: %s/report/index.html\n", study);

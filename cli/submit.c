@@ -61,7 +61,6 @@ static fracas_err make_run(const fracas_arguments *arguments, submission *s, fra
     TRY(fracas_arguments_read(&fracas_command_run, n, line, &of_run));
     TRY(fracas_cli_read_run_options(&of_run, run, &run->study));
     run->file = arguments->operand;
-    if (run->walltime > 0) return fracas_fail(FRACAS_USAGE, "submit: --walltime follows from --time: leave it out");
     return FRACAS_OK;
 }
 
@@ -190,9 +189,12 @@ static fracas_err submit(const fracas_arguments *arguments)
     return err;
 }
 
+static const fracas_refusal refused[] = {{"walltime", "follows from --time: leave it out"}};
+
 const fracas_command fracas_command_submit = {
     .name = "submit", .operand = "FILE", .doc = "Writes a Slurm job that runs the campaign of FILE, and submits it",
     .more = "\nThe job drains before its time is over or when it is preempted, and is queued again until the study is complete.\n"
             "What follows `--` is handed to sbatch: fracas submit FILE --time 2:00:00 -- --mem=8G --constraint=skylake\n",
-    .options = fracas_cli_run_options, .noptions = FRACAS_NRUN_OPTIONS, .own = options, .nown = FRACAS_COUNT(options), .takes_rest = true, .run = submit,
+    .options = fracas_cli_run_options, .noptions = FRACAS_NRUN_OPTIONS, .own = options, .nown = FRACAS_COUNT(options),
+    .refused = refused, .nrefused = FRACAS_COUNT(refused), .takes_rest = true, .run = submit,
 };

@@ -6,6 +6,7 @@
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 const char *const fracas_number_verdict_name[FRACAS_NUMBER_VERDICTS] = {"moved", "shifted", "holds", "unclear", "unknown"};
 
@@ -188,8 +189,17 @@ static fracas_number_verdict judge(const fracas_compared_value *value, double to
     return differs ? FRACAS_NUMBER_MOVED : FRACAS_NUMBER_UNCLEAR;
 }
 
+static void find_levels(fracas_convergence *convergence)
+{
+    convergence->nlevels = 0;
+    for (size_t i = 0; i < convergence->nrows && convergence->nlevels < FRACAS_MOST_LEFT; i++)
+        if (i == 0 || strcmp(convergence->row[i].refinement, convergence->row[i - 1].refinement) != 0)
+            convergence->level[convergence->nlevels++] = convergence->row[i].refinement;
+}
+
 fracas_err fracas_convergence_judge(fracas_convergence *convergence)
 {
+    find_levels(convergence);
     double *p = calloc(2 * convergence->nrows + 1, sizeof *p), *corrected = p + convergence->nrows;
     if (!p) return fracas_no_memory("the p-values");
     for (size_t i = 0; i < convergence->nrows; i++) p[i] = convergence->row[i].value.p;

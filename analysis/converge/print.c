@@ -3,7 +3,6 @@
 
 #include "analysis/export/csv.h"
 #include "analysis/export/output.h"
-#include "analysis/tables/format.h"
 #include "base/json.h"
 #include "base/param.h"
 
@@ -13,73 +12,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CELL = 200, COLUMNS = 8 };
-
-typedef struct {
-    size_t rows;
-    char (*cell)[COLUMNS][CELL];
-} text_table;
-
 /* ---- text ---- */
 
-/* The prefix that all values of a number are shown with. */
-static fracas_prefix prefix_of(const fracas_convergence *convergence, const fracas_compared_quantity *number)
+static void print_table(const fracas_result_table *table, FILE *out)
 {
-    double ends[2] = {INFINITY, 0};
-    if (!strcmp(number->unit, "1")) return (fracas_prefix){1, "", ""};
-    for (size_t i = 0; i < convergence->nrows; i++) {
-        const fracas_convergence_row *row = &convergence->row[i];
-        if (row->number != number || !(row->value.a.mean > 0)) continue;
-        ends[0] = fmin(ends[0], row->value.a.mean);
-        ends[1] = fmax(ends[1], row->value.a.mean);
-    }
-    return fracas_prefix_for(ends, 2);
-}
-
-/* "+0.8 +- 2.0": in per cent of the number as it is. Round-off has no digits worth a reader's time. */
-static void format_change(const fracas_compared_value *value, char *text, size_t size)
-{
-    const fracas_estimate change = {.n = value->a.n, .mean = 100 * value->relative,
-                                    .half_width = 50 * (value->relative_high - value->relative_low)};
-    char plain[CELL - 1];
-    if (fabs(change.mean) + change.half_width < 1e-3) {
-        snprintf(text, size, change.mean == 0 && change.half_width == 0 ? "0" : "below 0.001");
-        return;
-    }
-    fracas_format_estimate(&change, 1, "+-", plain, sizeof plain);
-    snprintf(text, size, "%s%s", change.mean > 0 ? "+" : "", plain);
-}
-
-static void fill_row(const fracas_convergence *convergence, const fracas_convergence_row *row, char cell[COLUMNS][CELL])
-{
-    const fracas_compared_value *value = &row->value;
-    const fracas_prefix prefix = prefix_of(convergence, row->number);
-    const bool pure = !strcmp(row->number->unit, "1");
-    snprintf(cell[0], CELL, "%s", row->refinement);
-    fracas_analysis_label(convergence->study, row->point, cell[1], CELL);
-    snprintf(cell[2], CELL, "%s%s%s%s%s", row->number->key, pure ? "" : " [", pure ? "" : prefix.symbol, pure ? "" : row->number->unit,
-             pure ? "" : "]");
-    fracas_format_estimate(&value->a, prefix.factor, "+-", cell[3], CELL);
-    fracas_format_estimate(&value->b, prefix.factor, "+-", cell[4], CELL);
-    format_change(value, cell[5], CELL);
-    fracas_format_digits(value->difference / value->a.half_width, 2, cell[6], CELL);
-    snprintf(cell[7], CELL, "%s", fracas_number_verdict_name[row->verdict]);
-}
-
-static void print_sheet(const text_table *sheet, FILE *out)
-{
-    int width[COLUMNS] = {0};
-    for (size_t r = 0; r < sheet->rows; r++)
-        for (int c = 0; c < COLUMNS; c++) width[c] = (int)fmax(width[c], (double)strlen(sheet->cell[r][c]));
-    for (size_t r = 0; r < sheet->rows; r++)
-        for (int c = 0; c < COLUMNS; c++) {
-            const bool last = c + 1 == COLUMNS, text = c < 3 || last;
-            fprintf(out, text ? "%-*s%s" : "%*s%s", last ? 0 : width[c], sheet->cell[r][c], last ? "\n" : "  ");
+    int width[FRACAS_CONVERGENCE_COLUMNS] = {0};
+    for (size_t r = 0; r < table->rows; r++)
+        for (size_t c = 0; c < table->columns; c++) width[c] = (int)fmax(width[c], (double)strlen(fracas_result_table_cell(table, r, c)));
+    for (size_t r = 0; r < table->rows; r++)
+        for (size_t c = 0; c < table->columns; c++) {
+            if (r > 0 && r < FRACAS_RESULT_TABLE_HEAD) continue; /* units stand behind the numbers */
+            const bool last = c + 1 == table->columns, text = c < 3 || last;
+            fprintf(out, text ? "%-*s%s" : "%*s%s", last ? 0 : width[c], fracas_result_table_cell(table, r, c), last ? "\n" : "  ");
         }
 }
 
 /* "mesh: of 8 numbers 2 moved, ..." */
-static void print_counts(const fracas_convergence *convergence, const char *refinement, FILE *out)
+static void format_counts(const fracas_convergence *convergence, const char *refinement, char *text, size_t size)
 {
     size_t all = 0, of[FRACAS_NUMBER_VERDICTS] = {0};
     for (size_t i = 0; i < convergence->nrows; i++) {
@@ -87,49 +36,48 @@ static void print_counts(const fracas_convergence *convergence, const char *refi
         all++;
         of[convergence->row[i].verdict]++;
     }
-    fprintf(out, "%s: of %zu numbers %zu moved, %zu shifted and %zu hold within %g %%, %zu unclear", refinement, all, of[FRACAS_NUMBER_MOVED],
-            of[FRACAS_NUMBER_SHIFTED], of[FRACAS_NUMBER_HOLDS], 100 * convergence->tolerance, of[FRACAS_NUMBER_UNCLEAR]);
-    if (of[FRACAS_NUMBER_UNKNOWN]) fprintf(out, ", %zu without an interval (fewer than two realizations)", of[FRACAS_NUMBER_UNKNOWN]);
-    putc('\n', out);
+    const int used = snprintf(text, size, "%s: of %zu numbers %zu moved, %zu shifted and %zu hold within %g %%, %zu unclear", refinement, all,
+                              of[FRACAS_NUMBER_MOVED], of[FRACAS_NUMBER_SHIFTED], of[FRACAS_NUMBER_HOLDS], 100 * convergence->tolerance,
+                              of[FRACAS_NUMBER_UNCLEAR]);
+    if (of[FRACAS_NUMBER_UNKNOWN] && used < (int)size)
+        snprintf(text + used, size - (size_t)used, ", %zu without an interval (fewer than two realizations)", of[FRACAS_NUMBER_UNKNOWN]);
 }
 
-static void print_sum(const fracas_convergence *convergence, FILE *out)
+void fracas_convergence_conclude(const fracas_convergence *convergence, fracas_convergence_line *line, void *context)
 {
     double replicas = 0;
-    putc('\n', out);
+    char text[512];
     for (size_t i = 0; i < convergence->nrows; i++) {
         const fracas_convergence_row *row = &convergence->row[i];
-        if (i == 0 || strcmp(row->refinement, row[-1].refinement) != 0) print_counts(convergence, row->refinement, out);
         if (row->verdict == FRACAS_NUMBER_UNCLEAR) replicas = fmax(replicas, fracas_convergence_replicas(convergence, row));
+        if (i > 0 && strcmp(row->refinement, row[-1].refinement) == 0) continue;
+        format_counts(convergence, row->refinement, text, sizeof text);
+        line(context, text);
     }
-    for (size_t i = 0; i < convergence->nleft; i++)
-        fprintf(out, "%s: %zu point%s left out: %s\n", convergence->left[i].refinement, convergence->left[i].points,
-                convergence->left[i].points == 1 ? "" : "s", convergence->left[i].why);
-    if (replicas > 0 && replicas < 1e9) fprintf(out, "About %.0f replicas of each point would tell of all that are unclear.\n", replicas);
+    for (size_t i = 0; i < convergence->nleft; i++) {
+        snprintf(text, sizeof text, "%s: %zu point%s left out: %s", convergence->left[i].refinement, convergence->left[i].points,
+                 convergence->left[i].points == 1 ? "" : "s", convergence->left[i].why);
+        line(context, text);
+    }
+    if (!(replicas > 0 && replicas < 1e9)) return;
+    snprintf(text, sizeof text, "About %.0f replicas of each point would tell of all that are unclear.", replicas);
+    line(context, text);
 }
 
-static fracas_err print_with(const fracas_convergence *convergence, text_table *sheet, FILE *out)
-{
-    static const char *const head[COLUMNS] = {"", "point", "number", "as it is", "refined", "change [%]", "half widths", ""};
-    for (int c = 0; c < COLUMNS; c++) snprintf(sheet->cell[0][c], CELL, "%s", head[c]);
-    for (size_t i = 0; i < convergence->nrows; i++) fill_row(convergence, &convergence->row[i], sheet->cell[i + 1]);
-    print_sheet(sheet, out);
-    fprintf(out, "\nchange: of the mean, with the half width of its 95 %% interval: of pairs with the same strengths for step and beta, by Welch\n"
-            "for mesh; half widths: in those of the number as it is. moved: Holm's p among all %zu numbers is below 0.05, and the interval is\n"
-            "not within %g %%; shifted: it is; holds: it is, and p is not; unclear: neither.\n", convergence->nrows, 100 * convergence->tolerance);
-    print_sum(convergence, out);
-    if (!ferror(out)) return FRACAS_OK;
-    return fracas_fail_system(errno, "cannot write the table");
-}
+static void print_line(void *out, const char *text) { fprintf(out, "%s\n", text); }
 
 fracas_err fracas_convergence_print(const fracas_convergence *convergence, FILE *out)
 {
-    text_table made = {.rows = convergence->nrows + 1};
-    made.cell = calloc(made.rows, sizeof *made.cell);
-    if (!made.cell) return fracas_no_memory("the table");
-    fracas_err err = print_with(convergence, &made, out);
-    free(made.cell);
-    return err;
+    fracas_result_table table = {0};
+    TRY(fracas_convergence_table_create(convergence, false, &table));
+    print_table(&table, out);
+    fracas_result_table_clear(&table);
+    fprintf(out, "\nchange: of the mean, with the half width of its 95 %% interval: of pairs with the same strengths for step and beta, by Welch\n"
+            "for mesh; half widths: in those of the number as it is. moved: Holm's p among all %zu numbers is below 0.05, and the interval is\n"
+            "not within %g %%; shifted: it is; holds: it is, and p is not; unclear: neither.\n\n", convergence->nrows, 100 * convergence->tolerance);
+    fracas_convergence_conclude(convergence, print_line, out);
+    if (!ferror(out)) return FRACAS_OK;
+    return fracas_fail_system(errno, "cannot write the table");
 }
 
 /* ---- JSON ---- */
@@ -161,7 +109,7 @@ static void write_estimate(fracas_json *json, const char *key, const fracas_esti
 
 static void write_row(const fracas_convergence *convergence, const fracas_convergence_row *row, fracas_json *json)
 {
-    char label[CELL], hash[FRACAS_HASH_HEX];
+    char label[256], hash[FRACAS_HASH_HEX];
     fracas_analysis_label(convergence->study, row->point, label, sizeof label);
     fracas_hash_hex(&convergence->study->table->point[row->point].hash, hash);
     fracas_json_object(json, NULL);

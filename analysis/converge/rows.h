@@ -4,7 +4,9 @@
 
 #include "analysis/compare/compare.h"
 #include "analysis/converge/converge.h"
+#include "analysis/report/chart.h"
 #include "analysis/study/study.h"
+#include "analysis/tables/table.h"
 
 typedef enum {
     FRACAS_NUMBER_MOVED, FRACAS_NUMBER_SHIFTED, FRACAS_NUMBER_HOLDS, FRACAS_NUMBER_UNCLEAR, FRACAS_NUMBER_UNKNOWN, FRACAS_NUMBER_VERDICTS
@@ -27,6 +29,8 @@ struct fracas_convergence {
     double tolerance;
     size_t nrows, room;
     fracas_convergence_row *row;
+    size_t nlevels; /* refinements that there are rows of, in their order: fracas_convergence_judge finds them */
+    const char *level[FRACAS_MOST_LEFT];
     size_t nleft;
     struct {
         const char *refinement, *why;
@@ -41,5 +45,21 @@ FRACAS_MUST_USE fracas_err fracas_convergence_compare(fracas_convergence *conver
 /* Replicas n (h/(tolerance/2))^2 of every point with which the half width h of the row's relative change, of n replicas now, would be half
  * of the tolerance: what does not differ then holds in 19 of 20 cases (convergence.2). NaN without an interval. */
 double fracas_convergence_replicas(const fracas_convergence *convergence, const fracas_convergence_row *row);
+
+enum { FRACAS_CONVERGENCE_COLUMNS = 8 };
+
+/* A line a row: refinement, point, number, its mean as it is and refined, change in per cent, in half widths, verdict. */
+FRACAS_MUST_USE fracas_err fracas_convergence_table_create(const fracas_convergence *convergence, bool unicode, fracas_result_table *table);
+
+/* Takes a line of what it comes to: of each refinement how many numbers moved, what was left out, how many replicas would tell more. */
+typedef void fracas_convergence_line(void *context, const char *text);
+void fracas_convergence_conclude(const fracas_convergence *convergence, fracas_convergence_line *line, void *context);
+
+/* Rows of this number. */
+size_t fracas_convergence_rows_of(const fracas_convergence *convergence, const fracas_compared_quantity *number);
+/* The figure of one number: its change at each refinement, a mark a row, filled if it differs, with its interval; behind it a box, the
+ * interval of the number as it is. No panel if there is no row. */
+FRACAS_MUST_USE fracas_err fracas_convergence_figure(const fracas_convergence *convergence, const fracas_compared_quantity *number,
+                                                     fracas_chart *chart);
 
 #endif

@@ -158,7 +158,7 @@ fracas_err fracas_export_write(const fracas_analysis *analysis, const char *fold
 {
     const fracas_csv_table *const table[] = {
         &fracas_csv_table_points, &fracas_csv_table_realizations, &fracas_csv_table_fragments, &fracas_csv_table_statistics,
-        histories ? &fracas_csv_table_histories : NULL, NULL,
+        &fracas_csv_table_energies, &fracas_csv_table_convergence, histories ? &fracas_csv_table_histories : NULL, NULL,
     };
     fracas_output_file output;
     TRY(make_folder(folder));

@@ -29,8 +29,6 @@ static void put_three(const char *key, const char *middle, const char *unit, con
 
 /* ---- energies ---- */
 
-static const char *const energy_name[FRACAS_NENERGIES] = {"kinetic", "elastic", "cohesive", "dissipated"};
-
 static void energy_fields(const fracas_analysis *analysis, fracas_field_sink *sink, void *context)
 {
     (void)analysis;
@@ -41,7 +39,7 @@ static void energy_fields(const fracas_analysis *analysis, fracas_field_sink *si
         {"realizations", FRACAS_FIELD_INTEGER, "1", "realizations that are taken", false},
     };
     put_fields(field, sizeof field / sizeof *field, sink, context);
-    for (int e = 0; e < FRACAS_NENERGIES; e++) put_three(energy_name[e], "mean", "J", "energy over realizations", sink, context);
+    for (int e = 0; e < FRACAS_NENERGIES; e++) put_three(fracas_energy_key[e], "mean", "J", "energy over realizations", sink, context);
 }
 
 static fracas_err energy_rows(const fracas_analysis *analysis, FILE *out)

@@ -1,4 +1,4 @@
-/* SHA-256 (FIPS 180-4) of a file: the digest that data packages name and sha256sum checks. */
+/* SHA-256 of a file, by libcrypto: the digest that data packages name and sha256sum checks. */
 #ifndef FRACAS_ANALYSIS_EXPORT_SHA256_H
 #define FRACAS_ANALYSIS_EXPORT_SHA256_H
 
@@ -8,7 +8,7 @@
 
 enum { FRACAS_SHA256_HEX = 65 }; /* 64 digits and the end */
 
-/* Digest and size of the file's bytes. FRACAS_ENVIRONMENT if it cannot be read. */
+/* Digest and size of the file's bytes. FRACAS_ENVIRONMENT if it cannot be read, or without memory. */
 FRACAS_MUST_USE fracas_err fracas_sha256_of_file(const char *path, char hex[FRACAS_SHA256_HEX], uint64_t *bytes);
 
 #endif

@@ -1,10 +1,9 @@
 /* The JSON summary. Its keys are those of fracas_statistics and of /point: they do not change. */
+#include "analysis/export/summary.h"
+
 #include "analysis/laws/crossover.h"
 #include "analysis/laws/slope.h"
 #include "analysis/laws/windows.h"
-#include "analysis/study/study.h"
-
-#include "base/json.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -85,7 +84,7 @@ static void write_progress(fracas_json *json, const fracas_progress *progress)
     fracas_json_close_object(json);
 }
 
-static void write_point(fracas_json *json, const fracas_analysis *analysis, size_t p)
+static void write_point(fracas_json *json, const fracas_analysis *analysis, size_t p, const fracas_fits *fits, bool stale)
 {
     char label[256], hash[FRACAS_HASH_HEX];
     fracas_analysis_label(analysis, p, label, sizeof label);
@@ -100,6 +99,9 @@ static void write_point(fracas_json *json, const fracas_analysis *analysis, size
     write_parameters(json, analysis->table, p);
     write_statistics(json, &analysis->point[p]);
     write_reasons(json, &analysis->point[p]);
+    fracas_summary_put_convergence(json, analysis, p);
+    fracas_summary_put_energies(json, analysis, p);
+    fracas_summary_put_fits(json, analysis, p, fits, stale);
     fracas_json_close_object(json);
 }
 
@@ -216,7 +218,7 @@ void fracas_analysis_reference(FILE *out)
     }
 }
 
-void fracas_analysis_write_json(const fracas_analysis *analysis, FILE *out)
+void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fits, bool stale, FILE *out)
 {
     char hash[FRACAS_HASH_HEX], seed[24];
     fracas_hash_hex(&analysis->header.campaign, hash);
@@ -238,7 +240,7 @@ void fracas_analysis_write_json(const fracas_analysis *analysis, FILE *out)
     fracas_json_close_array(&json);
     write_units(&json, analysis->table);
     fracas_json_array(&json, "points");
-    for (size_t p = 0; p < analysis->table->npoints; p++) write_point(&json, analysis, p);
+    for (size_t p = 0; p < analysis->table->npoints; p++) write_point(&json, analysis, p, fits, stale);
     fracas_json_close_array(&json);
     write_slopes(&json, analysis);
     write_windows(&json, analysis);
@@ -246,4 +248,14 @@ void fracas_analysis_write_json(const fracas_analysis *analysis, FILE *out)
     write_warnings(&json, analysis);
     fracas_json_close_object(&json);
     fracas_json_end(&json);
+}
+
+fracas_err fracas_analysis_write_json(const fracas_analysis *analysis, const char *study, FILE *out)
+{
+    fracas_fits *fits;
+    bool stale;
+    TRY(fracas_fits_read(study, &fits, &stale));
+    fracas_summary_write(analysis, fits, stale, out);
+    fracas_fits_destroy(fits);
+    return FRACAS_OK;
 }

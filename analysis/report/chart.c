@@ -47,7 +47,7 @@ fracas_err fracas_panel_add(fracas_panel *panel, fracas_series_kind kind, unsign
     *made = (fracas_series){.kind = kind, .look = look, .n = n};
     made->x = calloc(n + 1, sizeof *made->x);
     made->y = calloc(n + 1, sizeof *made->y);
-    const bool ranges = kind == FRACAS_MARKS || kind == FRACAS_BAND;
+    const bool ranges = kind == FRACAS_MARKS || kind == FRACAS_BAND || kind == FRACAS_BOXES;
     if (ranges) {
         made->low = calloc(n + 1, sizeof *made->low);
         made->high = calloc(n + 1, sizeof *made->high);
@@ -78,6 +78,13 @@ bool fracas_panel_shows(const fracas_panel *panel, const fracas_series *series, 
     return !(panel->y_floor > 0) || y >= panel->y_floor;
 }
 
+const char *fracas_axis_name(const fracas_axis *axis, double value)
+{
+    if (axis->nnames == 0) return NULL;
+    const double most = (double)axis->nnames, nearest = round(value);
+    return axis->name[(size_t)fmin(fmax(nearest, 1), most) - 1];
+}
+
 /* ---- CSV ---- */
 
 static void put_field(const char *text, FILE *out)
@@ -105,15 +112,26 @@ static void put_label(const fracas_chart *chart, bool of_y, FILE *out)
     put_field(text, out);
 }
 
+static void put_x(const fracas_axis *axis, double x, FILE *out)
+{
+    const char *name = fracas_axis_name(axis, x);
+    if (!name) {
+        fracas_csv_real(x, out);
+        return;
+    }
+    putc(',', out);
+    put_field(name, out);
+}
+
 static void put_series(const fracas_panel *panel, size_t number, const fracas_series *series, FILE *out)
 {
-    static const char *const kind[] = {"curve", "steps", "mark", "band"};
+    static const char *const kind[] = {"curve", "steps", "mark", "band", "box"};
     for (size_t i = 0; i < series->n; i++) {
         if (!fracas_panel_shows(panel, series, i)) continue;
         fprintf(out, "%zu,", number);
         put_field(series->name, out);
         fprintf(out, ",%s", kind[series->kind]);
-        fracas_csv_real(series->x[i], out);
+        put_x(&panel->x, series->x[i], out);
         fracas_csv_real(series->y[i], out);
         fracas_csv_real(series->low ? series->low[i] : NAN, out);
         fracas_csv_real(series->high ? series->high[i] : NAN, out);

@@ -12,21 +12,25 @@ typedef enum {
     FRACAS_CURVE, /* straight lines from value to value */
     FRACAS_STEPS, /* from a value down to the next one's y, then across: a complementary cumulative */
     FRACAS_MARKS, /* a mark a value, with a bar from low to high; open below where low is off a log axis */
-    FRACAS_BAND   /* an area from low to high, and the line y within it */
+    FRACAS_BAND,  /* an area from low to high, and the line y within it */
+    FRACAS_BOXES  /* a narrow area a value, from low to high */
 } fracas_series_kind;
 
 typedef struct {
     char name[128];      /* in the legend and on hover */
     fracas_series_kind kind;
     unsigned look;       /* which colour, dash or shape of mark: each look is another */
+    bool open;           /* MARKS: outlines. Not in the legend: it goes with the series of its look that is */
     size_t n;
     double *x, *y;
-    double *low, *high;  /* of MARKS and BAND; NaN: no bar, a gap in the area */
+    double *low, *high;  /* of MARKS, BAND and BOXES; NaN: no bar, a gap in the area, no box */
 } fracas_series;
 
 typedef struct {
     char label[96];      /* "": none */
     bool log;
+    size_t nnames;       /* of x: values about 1, 2, ... nnames have names, and the axis no numbers; 0: an axis as any other */
+    const char *const *name; /* these; they outlive the chart */
 } fracas_axis;
 
 typedef struct {
@@ -60,6 +64,7 @@ typedef struct {
 enum { FRACAS_CHART_WIDE = 470, FRACAS_CHART_NARROW = 380 }; /* narrow enough for text to be readable on a phone */
 
 enum { FRACAS_CHART_COLOURS = 6 }; /* classes c0 to c5 of the style sheet */
+enum { FRACAS_CHART_GREY = 100 };  /* looks from here on are grey, class cg: of what is no data */
 
 /* A wide chart without panels. */
 void fracas_chart_init(fracas_chart *chart);
@@ -67,7 +72,7 @@ void fracas_chart_clear(fracas_chart *chart);
 
 /* Adds a panel (at most FRACAS_MAX_PANELS). */
 fracas_panel *fracas_chart_add(fracas_chart *chart, double height);
-/* Adds a series with room for n values in x and y (and low and high for MARKS and BAND), n >= 0. */
+/* Adds a series with room for n values in x and y (and low and high for MARKS, BAND and BOXES), n >= 0. */
 FRACAS_MUST_USE fracas_err fracas_panel_add(fracas_panel *panel, fracas_series_kind kind, unsigned look, size_t n,
                                             fracas_series **series);
 
@@ -79,13 +84,16 @@ void fracas_chart_write(const fracas_chart *chart, bool standalone, FILE *out);
 /* The same for a page, with these axes. */
 void fracas_chart_write_axes(const fracas_chart *chart, fracas_axes axes, FILE *out);
 
-/* What fracas_chart_write draws, a line a value: panel (from 1), series, kind (mark, curve, steps, band), x, y, low, high; the
+/* What fracas_chart_write draws, a line a value: panel (from 1), series, kind (mark, curve, steps, band, box), x (or its name), y, low, high; the
  * first line names them with the labels of the axes and so their units, of several panels separated by " | " where they
  * differ. Nothing in a field for NaN. */
 void fracas_chart_csv(const fracas_chart *chart, FILE *out);
 
 /* True if value i of the series is drawn: finite, above 0 on a log axis, not below the panel's floor. */
 bool fracas_panel_shows(const fracas_panel *panel, const fracas_series *series, size_t i);
+
+/* The name of a value on an axis that has names; NULL on any other. */
+const char *fracas_axis_name(const fracas_axis *axis, double value);
 
 /* Writes text with &, <, > and " escaped. */
 void fracas_markup_text(const char *text, FILE *out);

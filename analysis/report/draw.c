@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+enum { BOX = 8 }; /* half the width of a box */
 enum { RIGHT = 24, LINE_HEIGHT = 21, SWATCH = 30, GAP = 14, TICK = 4 }; /* pixels */
 enum { LEGEND_MOST = 12 }; /* further series are counted, not named */
 enum { COLOURS = FRACAS_CHART_COLOURS, DASHES = 5, SHAPES = 4 };
@@ -42,7 +43,7 @@ static bool shown(double value, const fracas_axis *axis)
 
 static bool ranges(const fracas_series *series)
 {
-    return series->kind == FRACAS_MARKS || series->kind == FRACAS_BAND;
+    return series->kind == FRACAS_MARKS || series->kind == FRACAS_BAND || series->kind == FRACAS_BOXES;
 }
 
 static void widen(double value, const fracas_axis *axis, double *least, double *greatest)
@@ -50,6 +51,18 @@ static void widen(double value, const fracas_axis *axis, double *least, double *
     if (!shown(value, axis)) return;
     if (value < *least) *least = value;
     if (value > *greatest) *greatest = value;
+}
+
+/* From 1/2 to n + 1/2, with a tick a name. */
+static void fit_names(frame *f)
+{
+    f->x = (fracas_scale){.low = 0.5, .high = (double)f->panel.x.nnames + 0.5};
+    f->nxtick = 0;
+    for (size_t i = 0; i < f->panel.x.nnames && i < FRACAS_MAX_TICKS; i++) {
+        fracas_tick *tick = &f->xtick[f->nxtick++];
+        tick->value = (double)i + 1;
+        snprintf(tick->label, sizeof tick->label, "%s", f->panel.x.name[i]);
+    }
 }
 
 /* Scales that hold every shown value and bar. */
@@ -69,11 +82,12 @@ static void fit(frame *f)
     }
     if (x[0] > x[1]) x[0] = x[1] = 1; /* nothing to show: axes about one */
     if (y[0] > y[1]) y[0] = y[1] = 1;
-    fracas_scale_fit(&f->x, f->panel.x.log, x[0], x[1]);
+    if (f->panel.x.nnames > 0) fit_names(f);
+    else fracas_scale_fit(&f->x, f->panel.x.log, x[0], x[1]);
     fracas_scale_fit(&f->y, f->panel.y.log, y[0], y[1]);
     f->y.from = f->panel.height; /* ticks depend on the room they have; their places come later */
     f->x.to = f->width;
-    f->nxtick = fracas_scale_ticks(&f->x, f->xtick);
+    if (f->panel.x.nnames == 0) f->nxtick = fracas_scale_ticks(&f->x, f->xtick);
     f->nytick = fracas_scale_ticks(&f->y, f->ytick);
 }
 
@@ -87,9 +101,10 @@ static void draw_axes(const frame *f, double bottom)
         if (major)
             fprintf(f->out, "<path class=\"grid\" d=\"M%.1f %.1fV%.1f\"/>\n", x, f->y.to, bottom);
         fprintf(f->out, "<path class=\"axis\" d=\"M%.1f %.1fv%d\"/>\n", x, bottom, major ? TICK : TICK / 2);
-        if (major)
-            fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>\n", x, bottom + 20,
-                    f->xtick[i].label);
+        if (!major) continue;
+        fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">", x, bottom + 20);
+        fracas_markup_text(f->xtick[i].label, f->out);
+        fputs("</text>\n", f->out);
     }
     for (size_t i = 0; i < f->nytick; i++) {
         double y = fracas_scale_place(&f->y, f->ytick[i].value);
@@ -134,13 +149,17 @@ static const char *dash_of(unsigned look)
 static void draw_title(const frame *f, const fracas_series *series, size_t i)
 {
     char x[32], y[32];
-    fracas_format_digits(series->x[i], 4, x, sizeof x);
+    const char *name = fracas_axis_name(&f->panel.x, series->x[i]);
+    if (name) snprintf(x, sizeof x, "%s", name);
+    else fracas_format_digits(series->x[i], 4, x, sizeof x);
     fracas_format_digits(series->y[i], 4, y, sizeof y);
     fputs("<title>", f->out);
     fracas_markup_text(series->name, f->out);
     fprintf(f->out, "%s", *series->name ? "; " : "");
     fracas_markup_text(f->panel.x.label, f->out);
-    fprintf(f->out, ": %s; ", x);
+    fputs(": ", f->out);
+    fracas_markup_text(x, f->out);
+    fputs("; ", f->out);
     fracas_markup_text(f->panel.y.label, f->out);
     fprintf(f->out, ": %s", y);
     if (isfinite(series->low[i])) {
@@ -163,7 +182,7 @@ static void draw_marks(const frame *f, const fracas_series *series)
             const char *foot = open ? "" : "m-4 0h8m-4 0";
             fprintf(f->out, "<path class=\"bar\" d=\"M%.1f %.1f%sV%.1fm-4 0h8\"/>\n", x, low, foot, high);
         }
-        fputs("<path class=\"mark\" d=\"", f->out);
+        fprintf(f->out, "<path class=\"mark%s\" d=\"", series->open ? " open" : "");
         draw_mark(series->look, x, y, f->out);
         fputs("\">", f->out);
         draw_title(f, series, i);
@@ -218,19 +237,34 @@ static void draw_band(const frame *f, const fracas_series *series)
     draw_line(f, series);
 }
 
-/* The series by whose legend entry series s is shown and hidden: one without a name goes with one of its look that has one. */
+static void draw_boxes(const frame *f, const fracas_series *series)
+{
+    for (size_t i = 0; i < series->n; i++) {
+        if (!fracas_panel_shows(&f->panel, series, i) || !isfinite(series->low[i]) || !isfinite(series->high[i])) continue;
+        const double top = fracas_scale_place(&f->y, series->high[i]);
+        const double bottom = shown(series->low[i], &f->panel.y) ? fracas_scale_place(&f->y, series->low[i]) : f->y.from;
+        fprintf(f->out, "<path class=\"area\" d=\"M%.1f %.1fh%dV%.1fh%dz\"/>\n", fracas_scale_place(&f->x, series->x[i]) - BOX, top, 2 * BOX,
+                bottom, -2 * BOX);
+    }
+}
+
+static bool in_legend(const fracas_series *series) { return *series->name && !series->open; }
+
+/* The series by whose legend entry series s is shown and hidden: one that has none goes with one of its look that has. */
 static size_t named_for(const fracas_panel *panel, size_t s)
 {
-    if (*panel->series[s].name) return s;
+    if (in_legend(&panel->series[s])) return s;
     for (size_t other = 0; other < panel->nseries; other++)
-        if (*panel->series[other].name && panel->series[other].look == panel->series[s].look) return other;
+        if (in_legend(&panel->series[other]) && panel->series[other].look == panel->series[s].look) return other;
     return s;
 }
 
 /* Opens the group of what belongs to series s of the panel. */
 static void open_group(const frame *f, const char *class, size_t s)
 {
-    fprintf(f->out, "<g class=\"%s c%u\"", class, f->panel.series[s].look % COLOURS);
+    const unsigned look = f->panel.series[s].look;
+    if (look >= FRACAS_CHART_GREY) fprintf(f->out, "<g class=\"%s cg\"", class);
+    else fprintf(f->out, "<g class=\"%s c%u\"", class, look % COLOURS);
     if (f->page) fprintf(f->out, " data-key=\"%zu.%zu\"", f->number, named_for(&f->panel, s));
     fputs(">\n", f->out);
 }
@@ -241,6 +275,7 @@ static void draw_series(const frame *f, size_t s)
     open_group(f, "series", s);
     if (series->kind == FRACAS_MARKS) draw_marks(f, series);
     else if (series->kind == FRACAS_BAND) draw_band(f, series);
+    else if (series->kind == FRACAS_BOXES) draw_boxes(f, series);
     else draw_line(f, series);
     fputs("</g>\n", f->out);
 }
@@ -252,13 +287,13 @@ static void draw_entry(const frame *f, size_t s, double x, double y, double widt
     if (f->page)
         fprintf(f->out, "<rect class=\"hit\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%d\" rx=\"3\"/>", x - 3, y - LINE_HEIGHT / 2.0,
                 width - GAP + 6, LINE_HEIGHT);
-    if (series->kind == FRACAS_BAND)
+    if (series->kind == FRACAS_BAND || series->kind == FRACAS_BOXES)
         fprintf(f->out, "<path class=\"area\" d=\"M%.1f %.1fh24v10h-24z\"/>", x, y - 5);
     if (series->kind == FRACAS_MARKS) {
         fputs("<path class=\"key\" fill=\"currentColor\" d=\"", f->out);
         draw_mark(series->look, x + 12, y, f->out);
         fputs("\"/>", f->out);
-    } else {
+    } else if (series->kind != FRACAS_BOXES) {
         fprintf(f->out, LINE_START "M%.1f %.1fh24\"/>", dash_of(series->look), x, y);
     }
     fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\">", x + SWATCH, y + 5.2);
@@ -272,7 +307,7 @@ static size_t legend_order(const fracas_panel *panel, size_t order[LEGEND_MOST])
     size_t named = 0;
     for (int lines = 0; lines < 2; lines++) {
         for (size_t s = 0; s < panel->nseries; s++) {
-            if (!*panel->series[s].name || (panel->series[s].kind != FRACAS_MARKS) != lines) continue;
+            if (!in_legend(&panel->series[s]) || (panel->series[s].kind != FRACAS_MARKS) != lines) continue;
             if (named < LEGEND_MOST) order[named] = s;
             named++;
         }
@@ -358,10 +393,10 @@ void fracas_svg_begin(const char *title, int width, double height, bool standalo
 }
 
 /* What the script of a page needs to read values off a drawing: ends of the axes, values and places. */
-static void put_axis(const frame *f, const char *name, const fracas_scale *scale, const char *label)
+static void put_axis(const frame *f, const char *name, const fracas_scale *scale, const fracas_axis *axis, const char *label)
 {
-    fprintf(f->out, " data-%s=\"%s %.9g %.9g %.1f %.1f\" data-%s-label=\"", name, scale->log ? "log" : "linear", scale->low, scale->high,
-            scale->from, scale->to, name);
+    fprintf(f->out, " data-%s=\"%s %.9g %.9g %.1f %.1f\" data-%s-label=\"", name, axis->nnames ? "names" : scale->log ? "log" : "linear", scale->low,
+            scale->high, scale->from, scale->to, name);
     fracas_markup_text(label, f->out);
     putc('"', f->out);
 }
@@ -377,8 +412,8 @@ static void draw_panel(const fracas_chart *chart, const frame *f)
 {
     fputs("<g class=\"panel\"", f->out);
     if (f->page) {
-        put_axis(f, "x", &f->x, x_label(chart, f->number));
-        put_axis(f, "y", &f->y, f->panel.y.label);
+        put_axis(f, "x", &f->x, &f->panel.x, x_label(chart, f->number));
+        put_axis(f, "y", &f->y, &f->panel.y, f->panel.y.label);
     }
     fputs(">\n", f->out);
     legend(f, true);

@@ -8,7 +8,6 @@
 
 /* ---- energies ---- */
 
-static const char *const energy_name[FRACAS_NENERGIES] = {"kinetic", "elastic", "cohesive", "dissipated"};
 static const unsigned energy_look[FRACAS_NENERGIES] = {0, 1, 3, 2}; /* as in the figure of one realization */
 
 /* What the kinetic energy begins with, a ring that flies: it would dwarf the rest [J]. */
@@ -38,7 +37,7 @@ fracas_err fracas_figure_bands(const fracas_analysis *analysis, size_t point, fr
         fracas_series *series;
         const double start = start_of(bands, e);
         TRY(fracas_panel_add(panel, FRACAS_BAND, energy_look[e], bands->count, &series));
-        snprintf(series->name, sizeof series->name, "%s%s", energy_name[e], start > 0 ? " - start" : "");
+        snprintf(series->name, sizeof series->name, "%s%s", fracas_energy_key[e], start > 0 ? " - start" : "");
         for (size_t j = 0; j < bands->count; j++) {
             const fracas_band *band = &bands->energy[j][e];
             series->x[j] = bands->time[j] * time.factor;

@@ -1,11 +1,13 @@
-/* fracas_report_write: the frame of the page, the order of its sections, and the files beside it. */
+/* The frame of a page; fracas_report_write: the sections of a study, and the files beside them. */
 #include "analysis/report/page.h"
 
 #include "analysis/export/csv.h"
 #include "analysis/export/output.h"
+#include "analysis/export/summary.h"
 #include "analysis/report/assets.h"
 #include "analysis/report/pdf.h"
 #include "analysis/report/picture/surfaces.h"
+#include "base/param.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -13,10 +15,76 @@
 #include <string.h>
 #include <sys/stat.h>
 
-static const struct {
-    const char *id, *title;
-    fracas_page_section *put;
-} sections[] = {
+/* What each section wrote; empty ones are not on the page. */
+typedef struct {
+    char *text[FRACAS_PAGE_SECTIONS];
+    size_t size[FRACAS_PAGE_SECTIONS];
+} contents;
+
+static fracas_err write_section(fracas_page *page, const fracas_page_entry *section, char **text, size_t *size)
+{
+    page->out = open_memstream(text, size);
+    if (!page->out) return fracas_no_memory("a section of the report");
+    fracas_err err = section->put(page);
+    const bool bad = ferror(page->out);
+    if ((fclose(page->out) || bad) && !err) err = fracas_no_memory("a section of the report");
+    return err;
+}
+
+static void put_head(const fracas_page *page, const char *title, const char *lead, FILE *out)
+{
+    fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+          "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"/>\n"
+          "<link rel=\"icon\" href=\"data:,\"/>\n<title>", out);
+    fracas_markup_text(title, out);
+    fprintf(out, " \u00b7 fracas</title>\n<style>\n%s%s", fracas_chart_style, fracas_page_style);
+    if (page->surfaces) fracas_surface_style(out);
+    fputs("</style>\n</head>\n<body>\n<header>\n<h1>", out);
+    fracas_markup_text(title, out);
+    fputs("</h1>\n<p class=\"lead\">", out);
+    fracas_markup_text(lead, out);
+    fputs("</p>\n</header>\n", out);
+}
+
+static void put_page(const fracas_page *page, const char *title, const char *lead, const fracas_page_entry *section, size_t count,
+                     const contents *of, FILE *out)
+{
+    put_head(page, title, lead, out);
+    fputs("<nav aria-label=\"Contents\"><ul>\n", out);
+    for (size_t i = 0; i < count; i++)
+        if (of->size[i] > 0) fprintf(out, "<li><a href=\"#%s\">%s</a></li>\n", section[i].id, section[i].title);
+    fputs("</ul></nav>\n<main>\n", out);
+    for (size_t i = 0; i < count; i++) {
+        if (of->size[i] == 0) continue;
+        fprintf(out, "<section id=\"%s\">\n<h2>%s</h2>\n", section[i].id, section[i].title);
+        fwrite(of->text[i], 1, of->size[i], out);
+        fputs("</section>\n", out);
+    }
+    fprintf(out, "</main>\n<script>\n%s</script>\n</body>\n</html>\n", fracas_page_script);
+}
+
+fracas_err fracas_page_write(fracas_page *page, const char *title, const char *lead, const fracas_page_entry *section, size_t count)
+{
+    contents of = {0};
+    fracas_err err = FRACAS_OK;
+    for (size_t i = 0; i < count && !err; i++) err = write_section(page, &section[i], &of.text[i], &of.size[i]);
+    if (!err) err = fracas_pdf_write(page->folder, page->drawing, page->ndrawings);
+    fracas_output_file output;
+    if (!err) err = fracas_output_open(page->folder, "index.html", &output);
+    if (!err) {
+        put_page(page, title, lead, section, count, &of, output.file);
+        err = fracas_output_close(&output, FRACAS_OK);
+    }
+    for (size_t i = 0; i < count; i++) free(of.text[i]);
+    free(page->drawing);
+    page->drawing = NULL;
+    page->ndrawings = page->room = 0;
+    return err;
+}
+
+/* ---- the page of a study ---- */
+
+static const fracas_page_entry sections[] = {
     {"summary", "Summary", fracas_section_summary},
     {"mean-size", "Mean fragment size", fracas_section_rate},
     {"fragment-sizes", "Fragment sizes", fracas_section_sizes},
@@ -30,72 +98,26 @@ static const struct {
     {"table-of-motion", "Expansion", fracas_section_motion},
     {"files", "Files", fracas_section_files},
 };
-enum { SECTIONS = sizeof sections / sizeof *sections };
+_Static_assert(FRACAS_COUNT(sections) <= FRACAS_PAGE_SECTIONS, "a page has no room for its sections");
 
-/* What each section wrote; empty ones are not on the page. */
-typedef struct {
-    char *text[SECTIONS];
-    size_t size[SECTIONS];
-} contents;
-
-static fracas_err write_section(fracas_page *page, int i, contents *of)
+/* "3 points, 96 realizations, none failed" */
+static void say_what(const fracas_analysis *analysis, char *text, size_t size)
 {
-    page->out = open_memstream(&of->text[i], &of->size[i]);
-    if (!page->out) return fracas_no_memory("a section of the report");
-    fracas_err err = sections[i].put(page);
-    const bool bad = ferror(page->out);
-    if ((fclose(page->out) || bad) && !err) err = fracas_no_memory("a section of the report");
-    return err;
-}
-
-static fracas_err put_head(const fracas_analysis *analysis, FILE *out)
-{
-    bool surfaces;
-    TRY(fracas_surfaces_any(analysis, &surfaces));
-    fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-          "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"/>\n"
-          "<link rel=\"icon\" href=\"data:,\"/>\n<title>", out);
-    fracas_markup_text(analysis->name, out);
-    fprintf(out, " \u00b7 fracas</title>\n<style>\n%s%s", fracas_chart_style, fracas_page_style);
-    if (surfaces) fracas_surface_style(out);
-    fputs("</style>\n</head>\n<body>\n<header>\n<h1>", out);
-    fracas_markup_text(analysis->name, out);
-    fputs("</h1>\n", out);
     int64_t realizations = 0, unusable = 0;
     for (size_t p = 0; p < analysis->table->npoints; p++) {
         realizations += analysis->point[p].realizations;
         unusable += analysis->point[p].unusable;
     }
-    fprintf(out, "<p class=\"lead\">%zu point%s, %" PRId64 " realizations", analysis->table->npoints, analysis->table->npoints == 1 ? "" : "s",
-            realizations);
-    if (unusable > 0) fprintf(out, ", of these %" PRId64 " failed (not in any mean)", unusable);
-    else fputs(", none failed", out);
-    char partial[128];
-    if (fracas_analysis_partial(analysis, partial, sizeof partial)) fprintf(out, "; %s", partial);
-    fputs("</p>\n</header>\n", out);
-    return FRACAS_OK;
-}
-
-static fracas_err put_page(const fracas_analysis *analysis, const contents *of, FILE *out)
-{
-    TRY(put_head(analysis, out));
-    fputs("<nav aria-label=\"Contents\"><ul>\n", out);
-    for (int i = 0; i < SECTIONS; i++)
-        if (of->size[i] > 0) fprintf(out, "<li><a href=\"#%s\">%s</a></li>\n", sections[i].id, sections[i].title);
-    fputs("</ul></nav>\n<main>\n", out);
-    for (int i = 0; i < SECTIONS; i++) {
-        if (of->size[i] == 0) continue;
-        fprintf(out, "<section id=\"%s\">\n<h2>%s</h2>\n", sections[i].id, sections[i].title);
-        fwrite(of->text[i], 1, of->size[i], out);
-        fputs("</section>\n", out);
-    }
-    fprintf(out, "</main>\n<script>\n%s</script>\n</body>\n</html>\n", fracas_page_script);
-    return FRACAS_OK;
+    char failed[96] = ", none failed", partial[128] = "";
+    if (unusable > 0) snprintf(failed, sizeof failed, ", of these %" PRId64 " failed (not in any mean)", unusable);
+    const bool is_partial = fracas_analysis_partial(analysis, partial, sizeof partial);
+    snprintf(text, size, "%zu point%s, %" PRId64 " realizations%s%s%s", analysis->table->npoints, analysis->table->npoints == 1 ? "" : "s",
+             realizations, failed, is_partial ? "; " : "", partial);
 }
 
 /* ---- files ---- */
 
-static fracas_err write_tables(const fracas_analysis *analysis, const char *folder)
+static fracas_err write_tables(const fracas_analysis *analysis, const char *folder, const fracas_fits *fits, bool stale)
 {
     fracas_output_file output;
     TRY(fracas_csv_file(&fracas_csv_table_points, analysis, folder));
@@ -104,23 +126,17 @@ static fracas_err write_tables(const fracas_analysis *analysis, const char *fold
     TRY(fracas_csv_file(&fracas_csv_table_convergence, analysis, folder));
     TRY(fracas_csv_file(&fracas_csv_table_fragments, analysis, folder));
     TRY(fracas_output_open(folder, "summary.json", &output));
-    fracas_analysis_write_json(analysis, output.file);
+    fracas_summary_write(analysis, fits, stale, output.file);
     return fracas_output_close(&output, FRACAS_OK);
 }
 
 static fracas_err write_page(const fracas_analysis *analysis, const char *folder, const fracas_fits *fits, bool stale)
 {
-    contents of = {0};
     fracas_page page = {.analysis = analysis, .folder = folder, .fits = fits, .stale = stale};
-    fracas_err err = FRACAS_OK;
-    for (int i = 0; i < SECTIONS && !err; i++) err = write_section(&page, i, &of);
-    if (!err) err = fracas_pdf_write(folder, page.drawing, page.ndrawings);
-    fracas_output_file output;
-    if (!err) err = fracas_output_open(folder, "index.html", &output);
-    if (!err) err = fracas_output_close(&output, put_page(analysis, &of, output.file));
-    for (int i = 0; i < SECTIONS; i++) free(of.text[i]);
-    free(page.drawing);
-    return err;
+    char lead[512];
+    TRY(fracas_surfaces_any(analysis, &page.surfaces));
+    say_what(analysis, lead, sizeof lead);
+    return fracas_page_write(&page, analysis->name, lead, sections, FRACAS_COUNT(sections));
 }
 
 fracas_err fracas_report_write(const fracas_analysis *analysis, const char *study)
@@ -130,10 +146,10 @@ fracas_err fracas_report_write(const fracas_analysis *analysis, const char *stud
     fracas_err err = FRACAS_OK;
     if (mkdir(folder, 0777) && errno != EEXIST)
         err = fracas_fail(FRACAS_ENVIRONMENT, "cannot make the folder %s: %s", folder, strerror(errno));
-    if (!err) err = write_tables(analysis, folder);
     fracas_fits *fits = NULL;
     bool stale = false;
     if (!err) err = fracas_fits_read(study, &fits, &stale);
+    if (!err) err = write_tables(analysis, folder, fits, stale);
     if (!err) err = write_page(analysis, folder, fits, stale);
     fracas_fits_destroy(fits);
     free(folder);

@@ -1,7 +1,7 @@
 /* The page of a report while it is written, and what its sections are made of.
  *
- * A section is a function that writes to page->out, and a line in the table of page.c. One that writes nothing is left out, heading and
- * all. Figures and tables are numbered in the order of the page. */
+ * A section is a function that writes to page->out, and a line in the table of page.c (of a convergence: of converge/page.c). One that
+ * writes nothing is left out, heading and all. Figures and tables are numbered in the order of the page. */
 #ifndef FRACAS_ANALYSIS_REPORT_PAGE_H
 #define FRACAS_ANALYSIS_REPORT_PAGE_H
 
@@ -20,6 +20,8 @@ typedef struct {
     const char *folder; /* of the report */
     const fracas_fits *fits; /* NULL: there are none */
     bool stale;              /* they are not of the results as these are now */
+    bool surfaces;           /* pictures of surfaces are on it */
+    const void *of;          /* what the sections of another page than a study's are about */
     FILE *out;          /* of the section */
     int figures, tables; /* numbered so far */
     size_t ndrawings, room;
@@ -29,6 +31,17 @@ typedef struct {
 } fracas_page;
 
 typedef fracas_err fracas_page_section(fracas_page *page);
+
+enum { FRACAS_PAGE_SECTIONS = 16 }; /* at most */
+
+typedef struct {
+    const char *id, *title;
+    fracas_page_section *put;
+} fracas_page_entry;
+
+/* The page as page->folder/index.html, with what its sections write, and the PDFs of their drawings. `lead`: a line below the title. */
+FRACAS_MUST_USE fracas_err fracas_page_write(fracas_page *page, const char *title, const char *lead, const fracas_page_entry *section,
+                                             size_t count);
 
 /* Figures from here to fracas_page_grid_end stand side by side: "wide", "small". No figure, no grid. */
 void fracas_page_grid(fracas_page *page, const char *class);

@@ -140,7 +140,7 @@ function lineAt(panel, x, y) {
 
 function showLine(panel, found, event) {
   const name = titleOf(found.path), of = panel.dataset;
-  const text = `${of.xLabel}: ${valueAt(of.x, found.x)}; ${of.yLabel}: ${valueAt(of.y, found.y)}`;
+  const text = (of.x.startsWith("names") ? "" : `${of.xLabel}: ${valueAt(of.x, found.x)}; `) + `${of.yLabel}: ${valueAt(of.y, found.y)}`;
   spot.setAttribute("cx", found.x);
   spot.setAttribute("cy", found.y);
   panel.append(spot);

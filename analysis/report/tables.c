@@ -63,7 +63,8 @@ fracas_err fracas_section_files(fracas_page *page)
 {
     fputs("<p>In SI units: <a href=\"points.csv\">points.csv</a>, every parameter and statistic of every point; <a "
           "href=\"fragments.csv\">fragments.csv</a>, every fragment; <a href=\"slopes.csv\">slopes.csv</a>; <a "
-          "href=\"summary.json\">summary.json</a>, all numbers for programs. Below each figure are its drawing and its data, in the units of "
+          "href=\"energies.csv\">energies.csv</a>, mean and band at each time; <a href=\"convergence.csv\">convergence.csv</a>, the headline numbers "
+          "from the first replicas; <a href=\"summary.json\">summary.json</a>, all numbers, and fits, for programs. Below each figure are its drawing and its data, in the units of "
           "its axes.</p>\n", page->out);
     return FRACAS_OK;
 }

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+const char *const fracas_energy_key[FRACAS_NENERGIES] = {"kinetic", "elastic", "cohesive", "dissipated"};
+
 static const double tail = 0.05;
 enum { ROOM = 1 << 24 }; /* bytes of the tails */
 

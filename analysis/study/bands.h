@@ -14,6 +14,8 @@ typedef enum { FRACAS_ENERGY_KINETIC, FRACAS_ENERGY_ELASTIC, FRACAS_ENERGY_COHES
 
 #define FRACAS_NENERGIES 4
 
+extern const char *const fracas_energy_key[FRACAS_NENERGIES]; /* "kinetic", ... */
+
 typedef struct {
     double mean, low, high; /* J */
 } fracas_band;

@@ -1,6 +1,7 @@
 #include "analysis/tables/format.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -76,10 +77,51 @@ void fracas_format_beside(double value, double limit, char *text, size_t size)
     }
 }
 
+enum { UNKNOWN = 3 }; /* digits of what has no interval beside others that do */
+static const double round_off = 1e-12; /* values that are equal but for it have no interval */
+
+void fracas_format_mean(const fracas_estimate *estimate, double factor, char *text, size_t size)
+{
+    const double mean = estimate->mean * factor, half_width = estimate->half_width * factor;
+    if (isfinite(mean) && half_width > round_off * fabs(mean)) snprintf(text, size, "%.*f", decimals_for(half_width, 2), mean);
+    else fracas_format_digits(mean, UNKNOWN, text, size);
+}
+
+/* The number to a power of ten that is not its own, "12.4e5"; without one where the exponent is 0. */
+static void format_power(double value, int exponent, int decimals, char *text, size_t size)
+{
+    if (exponent == 0) snprintf(text, size, "%.*f", decimals, value);
+    else snprintf(text, size, "%.*fe%d", decimals, value * pow(10, -exponent), exponent);
+}
+
+void fracas_format_interval(double value, double low, double high, char *text, size_t size)
+{
+    const double half_width = (high - low) / 2;
+    char part[3][32];
+    if (!isfinite(value)) {
+        snprintf(text, size, "-");
+        return;
+    }
+    if (!(half_width > round_off * fabs(value))) {
+        fracas_format_digits(value, UNKNOWN, part[0], sizeof part[0]);
+        snprintf(text, size, "%s%s", part[0], isfinite(half_width) ? "" : " [-]");
+        return;
+    }
+    char rounded[64];
+    snprintf(rounded, sizeof rounded, "%.1e", half_width);
+    const int place = exponent_of(strtod(rounded, NULL)) - 1; /* of the last digit that the interval supports */
+    const bool large = place > 0, small = value != 0 && fabs(value) < 1e-2;
+    const int exponent = large || small ? exponent_of(value) : 0;
+    const double ends[3] = {value, low, high};
+    for (int i = 0; i < 3; i++) format_power(ends[i], exponent, exponent > place ? exponent - place : 0, part[i], sizeof part[i]);
+    snprintf(text, size, "%s [%s, %s]", part[0], part[1], part[2]);
+}
+
 void fracas_format_estimate(const fracas_estimate *estimate, double factor, const char *plus_minus, char *text,
                             size_t size)
 {
     double mean = estimate->mean * factor, half_width = estimate->half_width * factor;
+    if (half_width <= round_off * fabs(mean)) half_width = 0;
     if (!isfinite(mean)) {
         snprintf(text, size, "-");
     } else if (half_width > 0) {

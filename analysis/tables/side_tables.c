@@ -100,15 +100,10 @@ fracas_err fracas_window_table_create(const fracas_analysis *analysis, bool unic
     return err;
 }
 
-/* "3.51e4 [3.2e4, 3.9e4]" */
+/* "3.51e4 [3.20e4, 3.94e4]" */
 static void format_interval(const fracas_interval *interval, double factor, char *text)
 {
-    char value[32], low[32], high[32];
-    fracas_format_digits(interval->value * factor, 3, value, sizeof value);
-    fracas_format_digits((factor > 0 ? interval->low : interval->high) * factor, 3, low, sizeof low);
-    fracas_format_digits((factor > 0 ? interval->high : interval->low) * factor, 3, high, sizeof high);
-    snprintf(text, FRACAS_CELL, "%s [%s, %s]", value, low, high);
-    if (!isfinite(interval->low)) snprintf(text, FRACAS_CELL, "%s", value);
+    fracas_format_interval(interval->value * factor, interval->low * factor, interval->high * factor, text, FRACAS_CELL);
 }
 
 /* A series of one rate has nothing to go over from. */

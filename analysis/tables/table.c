@@ -12,16 +12,16 @@ enum { USED, FAILED, COUNT, LARGE, SIZE, DISSIPATED, BENDING, ZMR, GRADY, GC, MO
 
 static const char *const legend_of_chains[] = {
     "n: realizations used (FRAGMENTED, INTACT, TIME_LIMIT); fail: all others. After the mean: half width of its 95 %",
-    "interval over replicas (Student's t). count: fragments, dust included. size: mean over replicas of length/count.",
-    "ZMR, Grady, GC (Glenn-Chudnovsky), Mott (of strengths with a Weibull modulus): size laws with the point's material and mean",
-    "strength; size/ZMR: ratio to ZMR.",
+    "interval over replicas (Student's t), - where one replica has none. count: fragments, dust included. size: mean over",
+    "replicas of length/count. ZMR, Grady, GC (Glenn-Chudnovsky), Mott (of strengths with a Weibull modulus): size laws with the",
+    "point's material and mean strength; size/ZMR: ratio to ZMR, to the digits that the interval of the size supports.",
     "resid., created: largest over replicas of |ledger residual| and of created energy, as parts of the dissipated.",
     NULL,
 };
 static const char *const legend_with_surfaces[] = {
     "n: realizations used (FRAGMENTED, INTACT, TIME_LIMIT); fail: all others. After the mean: half width of its 95 %",
-    "interval over replicas (Student's t). count: fragments, dust included; no dust: without it (of a surface pieces of one or",
-    "two elements). size: mean over replicas of the mean size, of a surface of the square root of a fragment's area, dust",
+    "interval over replicas (Student's t), - where one replica has none. count: fragments, dust included; no dust: without it",
+    "(of a surface pieces of one or two elements). size: mean over replicas of the mean size, of a surface of the square root of a fragment's area, dust",
     "included; of a bar or a ring length/count, beside size laws (ZMR, Grady, Glenn-Chudnovsky, Mott), which are of one dimension.",
     "bending, where there is any: its part of dissipated. resid., created: largest over replicas of |ledger residual| and of",
     "created energy, as parts of the dissipated. rotation: mean kinetic energy of the spins of a surface's fragments, as part of",
@@ -184,7 +184,7 @@ static void paint_point(painter *paint, size_t p)
     const fracas_size_law_id law[] = {FRACAS_LAW_ZMR, FRACAS_LAW_GRADY, FRACAS_LAW_GLENN_CHUDNOVSKY, FRACAS_LAW_MOTT};
     for (size_t i = 0; i < sizeof law / sizeof *law; i++)
         fracas_format_digits(statistics->law[law[i]] * paint->size.factor, 4, cell[ZMR + i], FRACAS_CELL);
-    fracas_format_digits(statistics->size.mean / statistics->law[FRACAS_LAW_ZMR], 3, cell[RATIO], FRACAS_CELL);
+    fracas_format_mean(&statistics->size, 1 / statistics->law[FRACAS_LAW_ZMR], cell[RATIO], FRACAS_CELL);
     fracas_format_digits(statistics->residual, 2, cell[RESIDUAL], FRACAS_CELL);
     fracas_format_digits(statistics->created, 2, cell[CREATED], FRACAS_CELL);
     fracas_format_digits(statistics->rotation.mean / statistics->translation.mean, 2, cell[ROTATION], FRACAS_CELL);

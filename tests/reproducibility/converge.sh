@@ -73,6 +73,50 @@ for row, number in zip(rows, told["numbers"]):
     assert math.isclose(number["difference"], number["refined"]["mean"] - number["base"]["mean"], rel_tol=1e-9, abs_tol=1e-9 * abs(number["base"]["mean"]))
 END2
 
+# The figures: of all of them together a mark for each line of converge.csv, filled where it differs, with its numbers beside it; the page has them.
+# figures FOLDER
+figures()
+{
+    /usr/bin/python3 - "$1" <<'END3'
+import csv, math, os, re, sys
+import xml.etree.ElementTree as xml
+report = os.path.join(sys.argv[1], "report")
+rows = list(csv.DictReader(open(os.path.join(sys.argv[1], "converge.csv"))))
+page = open(os.path.join(report, "index.html"), encoding="utf-8").read()
+names = sorted({row["number"] for row in rows})
+assert sorted(name for name in os.listdir(report) if name.endswith(".svg")) == [f"converge-{name}.svg" for name in names]
+assert len(re.findall('class="mark', page)) == len(rows) >= 12
+for name in names:
+    of = [row for row in rows if row["number"] == name]
+    drawing = xml.parse(os.path.join(report, f"converge-{name}.svg"))
+    marks = [path.get("class") for path in drawing.iter("{http://www.w3.org/2000/svg}path") if path.get("class").startswith("mark")]
+    assert len(marks) == len(of), (name, len(marks), len(of))
+    assert marks.count("mark") == sum(row["verdict"] in ("moved", "shifted") for row in of), (name, marks)
+    with open(os.path.join(report, f"converge-{name}.csv"), encoding="utf-8") as file:
+        lines = list(csv.DictReader(file))
+    for kind in ("mark", "box"):
+        drawn = [line for line in lines if line["kind"] == kind]
+        assert len(drawn) == len(of), (name, kind)
+        (label,) = [key for key in lines[0] if key.startswith(f"change of {name} [")]
+        relative = label.endswith("[%]")
+        assert relative == all(row["relative"] for row in of)
+        factor = 100 if relative else {"1": 1, "µm": 1e6, "mm": 1e3, "m": 1, "mJ": 1e3, "ns": 1e9}[label[:-1].rpartition("[")[2]]
+        for row in of:
+            half = float(row["base_half_width"]) / (float(row["base_mean"]) if relative else 1)
+            part = "relative_{}" if relative else "{}"
+            wanted = (-half, half, 0) if kind == "box" else (float(row[part.format("low")]), float(row[part.format("high")]),
+                                                             float(row["relative" if relative else "difference"]))
+            found = [line for line in drawn if line["refined"] == row["refinement"] and
+                     all(math.isclose(float(line[key]), factor * number, rel_tol=1e-11, abs_tol=1e-9)
+                         for key, number in zip(("low", "high", label), wanted))]
+            assert found, (name, kind, row)
+assert any("[%]" not in line for line in re.findall("change of [a-z_]* .[^ ]*.", page)) == (sys.argv[1] == "coarse") # no dust to begin with
+assert page.count("<tr>") == 1 + len(rows) and all(f'href="converge-{name}.csv"' in page for name in names)
+END3
+}
+figures coarse || fail "the figures of coarse"
+figures fine || fail "the figures of fine"
+
 # Interrupted in the second study: status 3; with the same command the same end.
 bar 1600 '16 mm' 40 > long.yaml
 expect 0 "$fracas" converge long.yaml --study undisturbed --jobs 2
@@ -100,6 +144,7 @@ done
 
 # More replicas extend every study; another campaign is refused before anything is written.
 expect 0 "$fracas" converge coarse.yaml --study coarse --jobs 2 --replicas 40 --only mesh
+[ "$(sed -n 's/.*"refined".*//p' coarse/report/converge-count.csv | wc -l)" = 1 ] && ! grep -q beta coarse/report/converge-count.csv || fail "refinements that were not asked for"
 [ "$(awk -F, 'NR > 1 {print $6, $9}' coarse/converge.csv | sort -u)" = '40 40' ] || { cat coarse/converge.csv >&2; fail "not 40 replicas"; }
 sed 's/1e5/2e5/' coarse.yaml > other.yaml
 expect 5 "$fracas" converge other.yaml --study coarse

@@ -18,8 +18,9 @@ import numpy as np
 
 OUTCOMES = ["FRAGMENTED", "INTACT", "TIME_LIMIT", "NONFINITE", "ENERGY_DRIFT", "FAILED"]
 KEYS = {"points": ["point"], "realizations": ["point", "replica"], "fragments": ["point", "replica", "fragment"],
-        "histories": ["point", "replica", "row"], "statistics": ["point", "key"]}
-PARENTS = {"realizations": "points", "fragments": "realizations", "histories": "realizations", "statistics": "points"}
+        "histories": ["point", "replica", "row"], "statistics": ["point", "key"], "energies": ["point", "time"], "convergence": ["point", "replicas"]}
+PARENTS = {"realizations": "points", "fragments": "realizations", "histories": "realizations", "statistics": "points",
+           "energies": "points", "convergence": "points"}
 
 
 def wanted(true, *what):
@@ -178,12 +179,24 @@ def check_summary(study_folder, resource, points, parameters):
             wanted(same(row[key], math.nan if value is None else value), "points.csv", key, "is", row[key], "and in summary.json", value)
 
 
+def check_series(study_folder, folder, package):
+    """Those that a report has too are checked there, by check_report.py: the same bytes."""
+    for name in ("energies", "convergence"):
+        path = os.path.join(study_folder, "report", name + ".csv")
+        if os.path.exists(path):
+            wanted(open(path).read() == open(os.path.join(folder, name + ".csv")).read(), name, "is not that of the report")
+        for field in package[name]["schema"]["fields"]:
+            key = field["name"].rpartition(".")[0]
+            unit = {"point": "1", "time": "s", "running": "1", "realizations": "1", "replicas": "1", "dissipated": "J"}.get(key or field["name"])
+            wanted(unit in (None, field["unit"]), name, "has a wrong unit:", field)
+
+
 def check(study_folder, folder):
     package = json.load(open(os.path.join(folder, "datapackage.json")))
     wanted(package["profile"] == "tabular-data-package" and re.fullmatch("[a-z0-9._/-]+", package["name"]), "profile or name", package["name"])
     resources = {resource["name"]: resource for resource in package["resources"]}
     wanted(len(resources) == len(package["resources"]), "two resources of one name")
-    wanted(list(resources)[:4] == ["points", "realizations", "fragments", "statistics"], "other resources:", list(resources))
+    wanted(list(resources)[:6] == ["points", "realizations", "fragments", "statistics", "energies", "convergence"], "other resources:", list(resources))
     rows = {name: read(resource, folder) for name, resource in resources.items()}
     check_keys(package, rows)
     with h5py.File(os.path.join(study_folder, "study.h5"), "r") as study:
@@ -203,6 +216,7 @@ def check(study_folder, folder):
         check_units(resources["points"], units)
         wanted([row["point"] for row in rows["points"]] == list(range(len(columns["hash"]))), "points are not numbered")
     check_statistics(resources, rows["points"], rows["statistics"], parameters)
+    check_series(study_folder, folder, resources)
     check_summary(study_folder, resources["points"], rows["points"], parameters)
     here = {name for name in os.listdir(folder) if name.endswith(".csv") or name.startswith(".")}
     wanted(folder != os.path.join(study_folder, "export") or here == {name + ".csv" for name in rows}, "files that are not of the package:", here)

@@ -106,24 +106,49 @@ def distance(point, line):
     return best
 
 
+def check_names(panel, rows, drawn):
+    """Marks and boxes on an axis of names, in the order of the rows: at the height of their values, nearest to the name that the rows have."""
+    places = list(dict.fromkeys(row[3] for row in panel["rows"]))  # the first series has them all in their order
+    assert len(drawn) == len(rows)
+    for row, (x, *heights) in zip(rows, drawn):
+        assert abs(x - place(panel["x"], 1 + places.index(row[3]))) <= abs(place(panel["x"], 0.5) - place(panel["x"], 1)), row
+        wanted = [row[6], row[5]] if row[2] == "box" else [row[4]]
+        for value, height in zip(wanted, heights):
+            assert abs(place(panel["y"], float(value)) - height) < 0.1, row
+
+
 def check_drawing(svg, rows):
-    """Every mark and every line of a drawing, panel by panel, against the rows of the CSV."""
+    """Every mark, box and line of a drawing, panel by panel, against the rows of the CSV."""
     panels = browser.execute_script("""return [...arguments[0].querySelectorAll('.panel')].map(panel => ({x: panel.dataset.x, y: panel.dataset.y,
         series: [...panel.querySelectorAll('.series')].map(s => ({marks: [...s.querySelectorAll('.mark')].map(m => m.getAttribute('d')),
-            bars: s.querySelectorAll('.bar').length, lines: [...s.querySelectorAll('.line')].map(l => l.getAttribute('d'))}))}))""", svg)
+            boxes: [...s.querySelectorAll('.area')].map(b => b.getAttribute('d')), bars: s.querySelectorAll('.bar').length, lines: [...s.querySelectorAll('.line')].map(l => l.getAttribute('d'))}))}))""", svg)
     left = list(rows)
     for number, panel in enumerate(panels, 1):
+        panel["rows"], named = list(left), panel["x"].startswith("names")
         for series in panel["series"]:
+            if named and series["boxes"]:
+                of = [row for row in left if row[2] == "box"]
+                left = left[len(of):]
+                check_names(panel, [row for row in of if row[5]], [[x + 8, top, bottom] for x, top, _, bottom, _ in
+                                                                  ([float(n) for n in re.findall(r"-?[\d.]+", box)] for box in series["boxes"])])
+                continue
             if not series["marks"] and not series["lines"]:
                 continue
             name, kind = left[0][1:3]
             of = []
             while left and left[0][:3] == [str(number), name, kind] and (kind == "mark" or not of or len(series["lines"]) == 1):
                 of.append(left.pop(0))
-                if kind != "mark" and left and float(left[0][3]) < float(of[-1][3]):
+                if kind != "mark" and left and not named and float(left[0][3]) < float(of[-1][3]):
                     break  # the next series of no name begins
                 if kind == "mark" and len(of) == len(series["marks"]):
                     break
+            if named:
+                drawn = [[float(n) for n in re.findall(r"-?[\d.]+", mark)[:2]] for mark in series["marks"]]
+                assert not drawn or series["bars"] == sum(row[5] != "" for row in of)
+                check_names(panel, of if drawn else [], drawn)
+                for line in series["lines"]:
+                    assert all(abs(y - place(panel["y"], float(of[0][4]))) < 0.1 for _, y in corners(line)), of
+                continue
             spots = [(place(panel["x"], float(row[3])), place(panel["y"], float(row[4]))) for row in of]
             if kind == "mark":
                 assert len(series["marks"]) == len(of) and not series["lines"]
@@ -217,7 +242,9 @@ def check_values(figure):
             hover(mark)
             x, y = list(row.values())[3:5]
             numbers = [float(n.replace("−", "-")) for n in re.findall(r": (-?[\d.]+(?:e-?\d+)?)", tip())]
-            assert math.isclose(numbers[0], float(x), rel_tol=6e-4) and math.isclose(numbers[1], float(y), rel_tol=6e-4), (tip(), row)
+            named = not re.fullmatch(r"-?[\d.]+(?:e[-+]?\d+)?", x)
+            assert f": {x}\n" in tip() if named else math.isclose(numbers.pop(0), float(x), rel_tol=6e-4), (tip(), row)
+            assert math.isclose(numbers[0], float(y), rel_tol=6e-4, abs_tol=1e-12), (tip(), row)
             assert not all_of(":scope > title", mark)  # the browser's own would cover it
         hover(one_of("h1"))
         assert tip() is None
@@ -342,7 +369,8 @@ try:
     charts = check_figures()
     assert charts >= 4
     assert not overlaps(), overlaps()
-    for name in ("size-against-rate", "size-against-rate-normalised", "sizes", "sizes-point-1", "energies-point-0"):
+    converged = [f"converge-{name}" for name in ("count", "size", "dissipated", "onset_time")]
+    for name in converged if all_of("#converge-count") else ("size-against-rate", "size-against-rate-normalised", "sizes", "sizes-point-1", "energies-point-0"):
         figure = browser.find_element(By.ID, name)
         check_toggles(figure)
         check_values(figure)

@@ -25,13 +25,14 @@ summary = json.load(open(os.path.join(study, "summary.json")))
 sys.path.insert(0, os.path.join(source, "docs/examples"))
 sys.dont_write_bytecode = True
 from check_numbers import check, same
+from check_summary import check_fits, check_pages, check_series
 from table_from_study import student_quantile
 
-# Every key is on its page.
-page = open(os.path.join(source, "docs/formats/summary.md")).read()
-for named in [summary, *summary["points"], *(point.get("decision", {}) for point in summary["points"]), *summary["slopes"], *summary["warnings"]]:
-    for key in named:
-        assert f"`{key}`" in page, f"docs/formats/summary.md does not name {key}"
+# Every key is on its page; the series and fits in it are those of the files beside it.
+check_pages(summary, source)
+for p, point in enumerate(summary["points"]):
+    check_series(p, point, report)
+    check_fits(p, point, study)
 
 # The example script gives the numbers of the JSON summary, and those of points.csv.
 written, rows = check(study, source)

@@ -85,7 +85,7 @@ static inline void report_analyse(const char *folder)
     snprintf(path, sizeof path, "%s/summary.json", folder);
     out = fopen(path, "w");
     assert_non_null(out);
-    fracas_analysis_write_json(analysis, out);
+    assert_int_equal(fracas_analysis_write_json(analysis, folder, out), FRACAS_OK);
     assert_int_equal(fclose(out), 0);
     assert_int_equal(fracas_report_write(analysis, folder), FRACAS_OK);
     snprintf(path, sizeof path, "%s/export", folder);

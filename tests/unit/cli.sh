@@ -53,6 +53,23 @@ says 2 err '--shuffle takes no value' run a.yaml --shuffle=yes
 says 2 err '--json takes no value' status x --json=1
 says 0 out '--times LIST' help picture
 says 0 out '--resamples B' help fit
+# What a command refuses, with a reason, its help does not list.
+says 2 err 'when all of them are complete: leave it out' converge a.yaml --part 1/2
+says 2 err 'submit: --walltime follows from --time: leave it out' submit a.yaml --walltime 1h
+says 2 err 'unknown option `--parts`; it knows' converge a.yaml --parts 1/2
+listed=0
+for command in $("$fracas" help | sed -n 's/^  fracas \([a-z][a-z-]*\) .*/\1/p' | grep -vx help); do
+    "$fracas" help "$command" >"$folder/help"
+    for option in $(sed -n 's/^  --\([a-z-]*\) .*/\1/p' "$folder/help"); do
+        argument=$(sed -n "s/^  --$option \([^ ]\).*/\1/p" "$folder/help")
+        status=0
+        "$fracas" "$command" none none "--$option${argument:+=1}" >"$folder/out" 2>"$folder/err" </dev/null || status=$?
+        ! grep -q 'leave it out' "$folder/err" || { echo "fracas help $command lists --$option: $(cat "$folder/err")"; exit 1; }
+        [ $status -ne 0 ] || { echo "fracas $command none none --$option=1 ends with 0"; exit 1; }
+        listed=$((listed + 1))
+    done
+done
+[ $listed -gt 100 ] || { echo "only $listed options"; exit 1; }
 says 2 err '--output needs a value' picture x -o
 says 2 err 'unknown option `-t`' picture x -t
 says 2 err '--point is `-1`; it must be a whole number from 0' picture . --point -1

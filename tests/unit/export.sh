@@ -24,9 +24,8 @@ diff -r one/export other/export
 expect 0 "$fracas" export other
 [ ! -e other/export/histories.csv ] || fail "the histories of the package of before"
 check other
-for name in points realizations fragments statistics; do cmp one/export/$name.csv other/export/$name.csv; done
-cmp one/export/fragments.csv one/report/fragments.csv
-cmp one/export/points.csv one/report/points.csv
+for name in points realizations fragments statistics energies convergence; do cmp one/export/$name.csv other/export/$name.csv; done
+for name in points fragments energies convergence; do cmp one/export/$name.csv one/report/$name.csv; done
 "$fracas" report one --json > summary.json
 cmp summary.json one/report/summary.json
 
@@ -97,6 +96,8 @@ planted 'has .* columns and not' fragments.csv '2s/$/,1/'
 planted 'has the head' points.csv '1s/count.mean/count_mean/'
 planted 'statistics line 2 is' statistics.csv '2s/,3,/,4,/'
 planted 'statistics line' statistics.csv 's/,J$/,kJ/'
+planted 'energies is not that of the report' energies.csv '3s/\(\([^,]*,\)\{4\}\)[^,]*/\10.001/'
+planted 'points at no line of points' convergence.csv '2s/^0/9/'
 planted 'lines and not' fragments.csv '$d'
 planted 'a wrong unit' datapackage.json 's/kg m\/s/kg/'
 planted 'foreign keys' datapackage.json 's/foreignKeys/foreignkeys/'

@@ -42,6 +42,7 @@ plant campaigns/scheduler/planted.c '#include "analysis/analysis.h"'
 plant analysis/planted.c '#include "campaigns/campaign.h"'
 plant analysis/planted.c '#include "engine/engine.h"'
 plant analysis/report/planted.c '#include <librsvg/rsvg.h>'
+plant analysis/report/planted.c '#include <openssl/evp.h>'
 plant analysis/planted.c '#include <cairo-pdf.h>'
 plant campaigns/planted.c '#include "cli/cli.h"'
 

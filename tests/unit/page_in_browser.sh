@@ -36,7 +36,11 @@ sweep:
 END
 expect 0 "$fracas" run rings.yaml --study rings
 
-for study in rates rings; do
+# What fracas converge draws is such a page, too.
+sed 's/stop: settled, end: 300 ns, quiet: 50 ns/stop: time, end: 300 ns/' rates.yaml > converged.yaml
+expect 0 "$fracas" converge converged.yaml --study converged --replicas 12
+
+for study in rates rings converged; do
     /usr/bin/python3 "$source/tests/support/check_page.py" $study || fail "the page of $study"
 done
 
@@ -50,6 +54,7 @@ rm rates/table.txt rates/summary.json
 cp -r rates older
 expect 0 "$fracas" extend older --replicas 8
 grep -q 'is not of these results' older/report/index.html || fail "stale fits are shown"
+[ "$(grep -c '"stale": true' older/report/summary.json)" = 3 ] || fail "the summary does not say that fits are stale"
 
 # Equal studies have equal reports.
 cp -r rates again

@@ -58,7 +58,49 @@ static void estimates_as_text(void **state)
     assert_estimate(1641.4, 123.4, 1, "1641 +- 123");
     assert_estimate(1641.4, NAN, 1, "1641 +- -");
     assert_estimate(116, 0, 1, "116.0 +- 0");
+    assert_estimate(116, 2e-14, 1, "116.0 +- 0"); /* round-off of equal values */
     assert_estimate(NAN, NAN, 1, "-");
+}
+
+static void assert_mean(double mean, double half_width, double factor, const char *expected)
+{
+    char text[64];
+    fracas_estimate estimate = {.n = 3, .mean = mean, .half_width = half_width};
+    fracas_format_mean(&estimate, factor, text, sizeof text);
+    assert_string_equal(text, expected);
+}
+
+static void assert_interval(double value, double low, double high, const char *expected)
+{
+    char text[64];
+    fracas_format_interval(value, low, high, text, sizeof text);
+    assert_string_equal(text, expected);
+}
+
+/* As many digits as the interval has two of. */
+static void digits_as_the_interval_supports(void **state)
+{
+    (void)state;
+    assert_mean(1.01387, 0.0142, 1, "1.014");
+    assert_mean(1.01387, 0.142, 1, "1.01");
+    assert_mean(1.01387e-4, 0.0000142e-4, 1e4, "1.013870");
+    assert_mean(1.01387, 3.2, 1, "1.0");
+    assert_mean(1.01387, NAN, 1, "1.01");
+    assert_mean(1.01387, 0, 1, "1.01");
+    assert_mean(1.01387, 1e-14, 1, "1.01"); /* round-off */
+    assert_mean(NAN, NAN, 1, "-");
+    assert_interval(0.0851, 0.066, 0.109, "0.085 [0.066, 0.109]");
+    assert_interval(0.0851, 0.0802, 0.0899, "0.0851 [0.0802, 0.0899]");
+    assert_interval(-0.667, -0.7, -0.6, "-0.667 [-0.700, -0.600]");
+    assert_interval(123456, 118000, 129000, "1.235e5 [1.180e5, 1.290e5]");
+    assert_interval(123456, 93000, 1290000, "1.2e5 [0.9e5, 12.9e5]");
+    assert_interval(123.4, 120, 127, "123.4 [120.0, 127.0]");
+    assert_interval(123.4, 80, 170, "123 [80, 170]");
+    assert_interval(12, -300, 900, "1e1 [-30e1, 90e1]"); /* tens */
+    assert_interval(2.34e-4, 2.1e-4, 2.5e-4, "2.34e-4 [2.10e-4, 2.50e-4]");
+    assert_interval(3.14159, NAN, NAN, "3.14 [-]");
+    assert_interval(3.14159, 3.14159, 3.14159, "3.14");
+    assert_interval(NAN, NAN, NAN, "-");
 }
 
 static void assert_short(double value, const char *expected)
@@ -373,6 +415,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(estimate_of_eight), cmocka_unit_test(estimate_of_few), cmocka_unit_test(estimates_as_text),
+        cmocka_unit_test(digits_as_the_interval_supports),
         cmocka_unit_test(numbers_as_text), cmocka_unit_test(prefixes), cmocka_unit_test(columns_that_tell_points_apart),
         cmocka_unit_test(names_come_before_their_numbers),
         cmocka_unit_test(labels_leave_out_what_a_point_lacks),

@@ -48,18 +48,54 @@ static void make_chart(fracas_chart *chart)
     }
 }
 
-static char *written(void (*write)(const fracas_chart *chart, FILE *out))
+/* An axis of names: boxes, a filled mark on them, and an open one, with a line in grey. */
+static void make_names(fracas_chart *chart)
+{
+    static const char *const name[] = {"mesh", "<beta>"};
+    fracas_series *series;
+    fracas_chart_init(chart);
+    fracas_panel *panel = fracas_chart_add(chart, 200);
+    panel->x.name = name;
+    panel->x.nnames = 2;
+    strcpy(panel->x.label, "refined");
+    strcpy(panel->y.label, "change [%]");
+    assert_int_equal(fracas_panel_add(panel, FRACAS_BOXES, FRACAS_CHART_GREY, 3, &series), FRACAS_OK);
+    strcpy(series->name, "as it is");
+    for (size_t i = 0; i < 3; i++) {
+        series->x[i] = i < 2 ? 0.8 + (double)i : 2;
+        series->low[i] = i == 1 ? NAN : -1;
+        series->high[i] = 1;
+    }
+    for (int open = 0; open < 2; open++) {
+        assert_int_equal(fracas_panel_add(panel, FRACAS_MARKS, 2, 1, &series), FRACAS_OK);
+        strcpy(series->name, "a point");
+        series->open = open;
+        series->x[0] = open ? 2.2 : 0.8;
+        series->y[0] = open ? 0.5 : 2;
+        series->low[0] = 0;
+        series->high[0] = 3;
+    }
+    assert_int_equal(fracas_panel_add(panel, FRACAS_CURVE, FRACAS_CHART_GREY + 2, 2, &series), FRACAS_OK);
+    for (size_t i = 0; i < 2; i++) series->x[i] = i ? 2.5 : 0.5, series->y[i] = 2;
+}
+
+static char *written_of(void (*make)(fracas_chart *chart), void (*write)(const fracas_chart *chart, FILE *out))
 {
     char *text;
     size_t size;
     fracas_chart chart;
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
-    make_chart(&chart);
+    make(&chart);
     write(&chart, out);
     fracas_chart_clear(&chart);
     assert_int_equal(fclose(out), 0);
     return text;
+}
+
+static char *written(void (*write)(const fracas_chart *chart, FILE *out))
+{
+    return written_of(make_chart, write);
 }
 
 static void the_csv_has_what_is_drawn(void **state)
@@ -122,6 +158,43 @@ static void drawings_have_marks_bands_and_keys(void **state)
     free(page);
     free(linear);
     free(file);
+}
+
+/* Where the tick of a name is, pixels. */
+static double place_of(const char *drawing, const char *name)
+{
+    const char *at = strstr(drawing, name);
+    assert_non_null(at);
+    while (strncmp(at, "<text x=\"", 9) != 0) at--;
+    return strtod(at + 9, NULL);
+}
+
+static void an_axis_may_have_names(void **state)
+{
+    (void)state;
+    char *page = written_of(make_names, write_page), *table = written_of(make_names, fracas_chart_csv);
+    assert_string_equal(table, "panel,series,kind,\"refined\",\"change [%]\",low,high\n"
+                               "1,\"as it is\",box,\"mesh\",0,-1,1\n"
+                               "1,\"as it is\",box,\"<beta>\",0,,1\n"
+                               "1,\"as it is\",box,\"<beta>\",0,-1,1\n"
+                               "1,\"a point\",mark,\"mesh\",2,0,3\n"
+                               "1,\"a point\",mark,\"<beta>\",0.5,0,3\n"
+                               "1,\"\",curve,\"mesh\",2,,\n"
+                               "1,\"\",curve,\"<beta>\",2,,\n");
+    assert_int_equal(count_of(page, "class=\"mark\""), 1);
+    assert_int_equal(count_of(page, "class=\"mark open\""), 1);
+    assert_int_equal(count_of(page, "class=\"area\""), 3); /* two, for one has no low end, and in the legend */
+    assert_int_equal(count_of(page, "class=\"entry c2\" data-key=\"0.1\""), 1); /* both kinds of marks have one entry */
+    assert_int_equal(count_of(page, "class=\"series c2\" data-key=\"0.1\""), 2);
+    assert_int_equal(count_of(page, "class=\"series cg\""), 2);
+    assert_non_null(strstr(page, "data-x=\"names 0.5 2.5 "));
+    assert_non_null(strstr(page, "<title>a point; refined: mesh; change [%]: 2.000 (95 %: 0 to 3.000)</title>"));
+    assert_non_null(strstr(page, "refined: &lt;beta&gt;; "));
+    const double mesh = place_of(page, ">mesh</text>"), beta = place_of(page, ">&lt;beta&gt;</text>");
+    const char *mark = strstr(page, "class=\"mark open\" d=\"M");
+    assert_true(fabs(strtod(mark + strlen("class=\"mark open\" d=\"M"), NULL) - (beta + 0.2 * (beta - mesh))) < 0.2); /* each to 0.05 pixels */
+    free(page);
+    free(table);
 }
 
 /* ---- PDF ---- */
@@ -195,6 +268,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_csv_has_what_is_drawn),
         cmocka_unit_test(drawings_have_marks_bands_and_keys),
+        cmocka_unit_test(an_axis_may_have_names),
         cmocka_unit_test_setup_teardown(drawings_become_pdf, make_folder, remove_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

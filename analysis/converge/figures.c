@@ -1,0 +1,168 @@
+/* What a convergence looks like: a figure a headline number. */
+#include "analysis/converge/rows.h"
+
+#include "analysis/tables/format.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { HEIGHT = 220, MARK_PIXELS = 22, MARGINS = 150, WIDEST = 940 };
+enum { BOX_LOOK = FRACAS_CHART_GREY, TOLERANCE_LOOK = FRACAS_CHART_GREY + 2 };
+
+size_t fracas_convergence_rows_of(const fracas_convergence *convergence, const fracas_compared_quantity *number)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < convergence->nrows; i++) count += convergence->row[i].number == number;
+    return count;
+}
+
+static size_t level_of(const fracas_convergence *convergence, const fracas_convergence_row *row)
+{
+    size_t at = 0;
+    while (at + 1 < convergence->nlevels && strcmp(convergence->level[at], row->refinement) != 0) at++;
+    return at;
+}
+
+/* Beside each other at a level, in the order of the points. */
+static double place_of(const fracas_convergence *convergence, const fracas_convergence_row *row)
+{
+    const double points = (double)convergence->study->table->npoints, apart = fmin(0.2, 0.8 / points);
+    return (double)level_of(convergence, row) + 1 + apart * ((double)row->point - (points - 1) / 2);
+}
+
+/* What a figure is of. Changes are parts of the number as it is, in per cent; where that is 0 at some point, they are in its unit. */
+typedef struct {
+    const fracas_convergence *convergence;
+    const fracas_compared_quantity *number;
+    bool relative;
+    fracas_prefix prefix;
+} subject;
+
+static subject subject_of(const fracas_convergence *convergence, const fracas_compared_quantity *number)
+{
+    subject of = {convergence, number, true, {1, "", ""}};
+    double most = 0;
+    for (size_t i = 0; i < convergence->nrows; i++) {
+        const fracas_convergence_row *row = &convergence->row[i];
+        if (row->number != number) continue;
+        if (!isfinite(row->value.relative)) of.relative = false;
+        most = fmax(most, fabs(row->value.difference));
+    }
+    if (!of.relative && strcmp(number->unit, "1") != 0) of.prefix = fracas_prefix_for(&most, 1);
+    return of;
+}
+
+/* Per cent of a change `of` the number as it is, or the change as it is. */
+static double shown_as(const subject *what, double relative, double change)
+{
+    return what->relative ? 100 * relative : what->prefix.factor * change;
+}
+
+static bool differs(const fracas_convergence_row *row)
+{
+    return row->verdict == FRACAS_NUMBER_MOVED || row->verdict == FRACAS_NUMBER_SHIFTED;
+}
+
+/* The interval of the number as it is, behind every mark. */
+static fracas_err add_boxes(const subject *what, fracas_panel *panel)
+{
+    const fracas_convergence *convergence = what->convergence;
+    fracas_series *series;
+    size_t n = 0;
+    TRY(fracas_panel_add(panel, FRACAS_BOXES, BOX_LOOK, fracas_convergence_rows_of(convergence, what->number), &series));
+    snprintf(series->name, sizeof series->name, "95 %% as it is");
+    for (size_t i = 0; i < convergence->nrows; i++) {
+        const fracas_convergence_row *row = &convergence->row[i];
+        const fracas_estimate *base = &row->value.a;
+        if (row->number != what->number) continue;
+        series->x[n] = place_of(convergence, row);
+        series->high[n] = shown_as(what, base->half_width / fabs(base->mean), base->half_width);
+        series->low[n] = -series->high[n];
+        n++;
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err add_point(const subject *what, size_t point, bool open, fracas_panel *panel)
+{
+    const fracas_convergence *convergence = what->convergence;
+    fracas_series *series;
+    size_t n = 0;
+    TRY(fracas_panel_add(panel, FRACAS_MARKS, (unsigned)point, convergence->nlevels, &series));
+    fracas_analysis_label(convergence->study, point, series->name, sizeof series->name);
+    if (!*series->name) snprintf(series->name, sizeof series->name, "refined");
+    series->open = open;
+    for (size_t i = 0; i < convergence->nrows && n < convergence->nlevels; i++) {
+        const fracas_convergence_row *row = &convergence->row[i];
+        const fracas_compared_value *value = &row->value;
+        if (row->number != what->number || row->point != point || differs(row) == open) continue;
+        series->x[n] = place_of(convergence, row);
+        series->y[n] = shown_as(what, value->relative, value->difference);
+        series->low[n] = shown_as(what, value->relative_low, value->low);
+        series->high[n] = shown_as(what, value->relative_high, value->high);
+        n++;
+    }
+    series->n = n;
+    return FRACAS_OK;
+}
+
+/* Lines at the tolerance, where the changes are not so small that these would hide them; false if they are, or if it is no number of this axis. */
+static fracas_err add_tolerance(const subject *what, fracas_panel *panel, bool *shown)
+{
+    const double tolerance = 100 * what->convergence->tolerance, most = 4;
+    double largest = 0;
+    for (size_t s = 0; s < panel->nseries; s++)
+        for (size_t i = 0; i < panel->series[s].n; i++)
+            largest = fmax(largest, fmax(fabs(panel->series[s].low[i]), fabs(panel->series[s].high[i])));
+    *shown = what->relative && tolerance <= most * largest;
+    for (int side = -1; side <= 1 && *shown; side += 2) {
+        fracas_series *series;
+        TRY(fracas_panel_add(panel, FRACAS_CURVE, TOLERANCE_LOOK, 2, &series));
+        if (side < 0) snprintf(series->name, sizeof series->name, "\u00b1 %g %%", tolerance);
+        series->x[0] = 0.5;
+        series->x[1] = (double)what->convergence->nlevels + 0.5;
+        series->y[0] = series->y[1] = side * tolerance;
+    }
+    return FRACAS_OK;
+}
+
+static void put_words(const subject *what, bool tolerance, fracas_chart *chart)
+{
+    const fracas_convergence *convergence = what->convergence;
+    size_t of[FRACAS_NUMBER_VERDICTS] = {0};
+    char beyond[96] = "";
+    for (size_t i = 0; i < convergence->nrows; i++)
+        if (convergence->row[i].number == what->number) of[convergence->row[i].verdict]++;
+    snprintf(chart->file, sizeof chart->file, "converge-%s", what->number->key);
+    snprintf(chart->title, sizeof chart->title, "What refinement changes: %s", what->number->key);
+    if (!what->relative) snprintf(beyond, sizeof beyond, " As it is the mean is 0 at some point: no parts of it are shown.");
+    else if (!tolerance) snprintf(beyond, sizeof beyond, " The tolerance of %g %% is far outside.", 100 * convergence->tolerance);
+    snprintf(chart->caption, sizeof chart->caption, "Change of the mean (%s) with half the element size (mesh), half the time step (step) and "
+             "interfaces twice as stiff (beta), bars: 95 %% interval of the change; boxes: that of the number as it is. Filled: it differs, by p corrected for all "
+             "numbers; open: it need not. Moved: %zu, shifted: %zu, hold: %zu, unclear: %zu.%s", what->number->doc, of[FRACAS_NUMBER_MOVED],
+             of[FRACAS_NUMBER_SHIFTED], of[FRACAS_NUMBER_HOLDS], of[FRACAS_NUMBER_UNCLEAR] + of[FRACAS_NUMBER_UNKNOWN], beyond);
+}
+
+fracas_err fracas_convergence_figure(const fracas_convergence *convergence, const fracas_compared_quantity *number, fracas_chart *chart)
+{
+    const size_t npoints = convergence->study->table->npoints;
+    const subject what = subject_of(convergence, number);
+    bool tolerance = false;
+    if (fracas_convergence_rows_of(convergence, number) == 0) return FRACAS_OK;
+    chart->width = (int)fmin(fmax(FRACAS_CHART_WIDE, MARGINS + MARK_PIXELS * (double)(convergence->nlevels * npoints)), WIDEST);
+    fracas_panel *panel = fracas_chart_add(chart, HEIGHT);
+    TRY(add_boxes(&what, panel));
+    for (size_t p = 0; p < npoints; p++) {
+        TRY(add_point(&what, p, false, panel));
+        TRY(add_point(&what, p, true, panel));
+    }
+    TRY(add_tolerance(&what, panel, &tolerance));
+    panel->x.name = convergence->level;
+    panel->x.nnames = convergence->nlevels;
+    snprintf(panel->x.label, sizeof panel->x.label, "refined");
+    if (what.relative) snprintf(panel->y.label, sizeof panel->y.label, "change of %s [%%]", number->key);
+    else snprintf(panel->y.label, sizeof panel->y.label, "change of %s [%s%s]", number->key, what.prefix.sign, number->unit);
+    put_words(&what, tolerance, chart);
+    return FRACAS_OK;
+}

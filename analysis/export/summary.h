@@ -1,0 +1,17 @@
+/* The JSON summary of a study (docs/formats/summary.md). */
+#ifndef FRACAS_ANALYSIS_EXPORT_SUMMARY_H
+#define FRACAS_ANALYSIS_EXPORT_SUMMARY_H
+
+#include "analysis/fit/fits.h"
+#include "analysis/study/study.h"
+#include "base/json.h"
+
+/* The whole document. `fits`: of STUDY/fits.csv, NULL if there are none; `stale`: they are not of the results as these are now. */
+void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fits, bool stale, FILE *out);
+
+/* Keys of a point, in summary_series.c: `fits`, by the point's hash, for its number may be another one since they were made; `convergence`; `energies`. */
+void fracas_summary_put_fits(fracas_json *json, const fracas_analysis *analysis, size_t point, const fracas_fits *fits, bool stale);
+void fracas_summary_put_convergence(fracas_json *json, const fracas_analysis *analysis, size_t point);
+void fracas_summary_put_energies(fracas_json *json, const fracas_analysis *analysis, size_t point);
+
+#endif

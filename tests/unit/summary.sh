@@ -1,0 +1,80 @@
+# What summary.json has of fits, convergence and energies is what fits.csv, convergence.csv and energies.csv have: every number, none that is
+# not there, and a wrong one is found. Fits of other results are said to be stale, and are found though their point has another number.
+. tests/support/campaigns.sh
+
+/usr/bin/python3 -c 'import h5py' 2>/dev/null || { echo "skipped: python3-h5py is not installed"; exit 0; }
+
+campaign one.yaml 22 '1e5, 2e5'
+expect 0 "$fracas" run one.yaml --study one --jobs 2
+expect 0 "$fracas" fit one --resamples 99 --point 1
+"$fracas" report one > one/table.txt
+"$fracas" report one --json > one/summary.json
+cmp one/summary.json one/report/summary.json
+/usr/bin/python3 "$source/tests/support/check_report.py" one "$source"
+[ "$(wc -c < one/summary.json)" -lt 120000 ] || fail "a summary of $(wc -c < one/summary.json) bytes"
+
+cat > planted.py <<'END'
+import copy, json, os, sys
+sys.path[:0] = [os.path.join(sys.argv[1], "tests/support")]
+from check_summary import check_fits, check_series
+points = json.load(open("one/summary.json"))["points"]
+
+def found(p, point):
+    try:
+        check_series(p, point, "one/report")
+        check_fits(p, point, "one")
+    except (AssertionError, KeyError):
+        return True
+    return False
+
+def places(of, path=()):
+    """Where numbers, texts and nulls are."""
+    for key in of if isinstance(of, dict) else range(len(of)):
+        if isinstance(of[key], (dict, list)):
+            yield from places(of[key], (*path, key))
+        else:
+            yield (*path, key)
+
+planted = 0
+for p, point in enumerate(points):
+    assert not found(p, point)
+    for part in ("convergence", "energies", "fits"):
+        for *path, last in places(point[part]) if point[part] else ():
+            wrong = copy.deepcopy(point)
+            of = wrong[part]
+            for key in path:
+                of = of[key]
+            value = of[last]
+            of[last] = not value if isinstance(value, bool) else "x" if isinstance(value, str) else 1 if value is None else value * (1 + 1e-12) + (value == 0)
+            if isinstance(value, int) and not isinstance(value, bool):
+                of[last] = value + 1
+            assert found(p, wrong), (part, path, last)
+            del of[last]
+            assert found(p, wrong), (part, path, last)
+            planted += 1
+assert points[0]["fits"] is None and points[1]["fits"]["families"] and points[0]["convergence"] and points[0]["energies"]
+assert sum(family["fitted"] for family in points[1]["fits"]["families"]) > 3 and any(family["reason"] for family in points[1]["fits"]["families"])
+print(planted, "wrong numbers found")
+END
+/usr/bin/python3 planted.py "$source" || fail "a wrong number went unnoticed"
+
+# The fits as they were, of another number of points: that of 2e5 is the first now, and what was fitted is not what is there.
+campaign other.yaml 5 '2e5'
+expect 0 "$fracas" run other.yaml --study other --jobs 2
+cp one/fits.csv other
+expect 0 "$fracas" report other
+/usr/bin/python3 - "$source" <<'END' || fail "stale fits"
+import json, os, sys
+sys.path[:0] = [os.path.join(sys.argv[1], "tests/support")]
+from check_summary import check_fits
+point, = json.load(open("other/report/summary.json"))["points"]
+assert point["fits"]["stale"] is True
+check_fits(0, point, "other", stale=True)
+END
+
+# A file of fits that is none is no reason for half a document.
+echo nonsense > other/fits.csv
+status=0
+"$fracas" report other --json > json 2> said || status=$?
+[ $status -eq 5 ] && [ ! -s json ] || fail "status $status of fits that are damaged"
+said 'line 1 is not that of a file of fits'
