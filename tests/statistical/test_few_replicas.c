@@ -82,8 +82,30 @@ static void draws_are_students(void **state)
     assert_true(width_of(2, 1, 0) > width_of(2, 2, 0));
 }
 
+/* The same pooled variance, all of it from the scatter at the lowest rate: means there are drawn three times as far off, and s_q, which they
+ * tell, is known less well. Were they drawn by the pooled error, both widths would be equal. */
+static void draws_know_who_scatters(void **state)
+{
+    (void)state;
+    double width[2];
+    for (int one = 0; one < 2; one++) {
+        fracas_size_point point[FEW_RATES];
+        for (size_t i = 0; i < FEW_RATES; i++) {
+            const double at = 1e2 * pow(10, 5.0 * (double)i / (FEW_RATES - 1));
+            point[i] = (fracas_size_point){.replicas = 3, .rate = at, .size = 1e-3 / (1 + pow(at / 3e4, 0.7)), .error = one ? i ? 0 : 3e-3 : 1e-3};
+        }
+        const fracas_size_series series = {.name = "", .n = FEW_RATES, .point = point};
+        fracas_size_crossover fit;
+        assert_int_equal(fracas_crossover_fit(&series, 999, 1, &fit), FRACAS_OK);
+        assert_true(fit.pooled == 18);
+        width[one] = fit.size.high - fit.size.low;
+    }
+    assert_true(width[1] > 1.2 * width[0]);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lines), cmocka_unit_test(own_weights), cmocka_unit_test(crossovers), cmocka_unit_test(draws_are_students)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lines), cmocka_unit_test(own_weights), cmocka_unit_test(crossovers), cmocka_unit_test(draws_are_students),
+                                        cmocka_unit_test(draws_know_who_scatters)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -158,6 +158,9 @@ for group in groups.values():
 assert len(summary["windows"]) == len(expected)
 lines = [line for line in csv.DictReader(open(os.path.join(report, "slopes.csv")))]
 assert len(lines) == len(summary["slopes"]) + len(expected)
+for ours, line in zip(summary["slopes"], lines):
+    for key in ("slope", "standard_error", "half_width", "chi2", "misfit", "pooled_freedom"):
+        assert ours[key] is None and line[key] == "" or math.isclose(ours[key], float(line[key]), rel_tol=1e-12), key
 for ours, line, theirs in zip(summary["windows"], lines[len(summary["slopes"]):], expected):
     for key, value in zip(("from_rate", "to_rate", "slope", "standard_error"), theirs):
         for mine in (ours[key], float(line[key]) if line[key] else None):

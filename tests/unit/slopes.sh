@@ -23,4 +23,8 @@ assert deviation[0] == 0 and 0 in deviation[1:] and few["points"][0]["statistics
 assert few["slopes"][0]["points"] == few["crossovers"][0]["points"] == 6 and few["slopes"][0]["pooled_freedom"] == 12
 assert few["crossovers"][0]["reason"] is None and many["crossovers"][0]["reason"] is None
 assert many["slopes"][0]["points"] == 6 and many["slopes"][0]["pooled_freedom"] is None
+for replicas, study in ((3, few), (8, many)):
+    off = study["slopes"][0]["misfit"] < 0.01
+    assert off == ("they are not on one line" in open(f"{replicas}/report/index.html", encoding="utf-8").read())
+    assert off  # one line through sizes that bend
 END
