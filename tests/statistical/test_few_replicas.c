@@ -26,7 +26,7 @@ static void lines(void **state)
     enum { ROUNDS = 20000 };
     for (size_t c = 0; c < FEW_CLAIMS; c++) {
         const few_stated *claim = &few_claims[c];
-        const few_lines found = few_lines_of(claim->replicas, claim->falling, false, ROUNDS, 1000 + c);
+        const few_lines found = few_lines_of(FEW_POINTS, claim->replicas, claim->falling, false, ROUNDS, 1000 + c);
         few_assert_share(found.slope, claim->slope, 0.001, ROUNDS);
         few_assert_share(found.alarms, claim->slope_alarms, 0.001, ROUNDS);
         if (claim->falling || claim->replicas >= FRACAS_REPLICAS_OWN) continue;
@@ -40,7 +40,17 @@ static void own_weights(void **state)
     (void)state;
     enum { ROUNDS = 20000 };
     static const double stated[] = {0.71, 0.87, 0.92};
-    for (int i = 0; i < 3; i++) few_assert_share(few_lines_of(2 + i, false, true, ROUNDS, 500 + (unsigned long)i).slope, stated[i], 0.01, ROUNDS);
+    for (int i = 0; i < 3; i++) few_assert_share(few_lines_of(FEW_POINTS, 2 + i, false, true, ROUNDS, 500 + (unsigned long)i).slope, stated[i], 0.01, ROUNDS);
+}
+
+/* Of more points pooling holds less where scatter falls. */
+static void twelve_points(void **state)
+{
+    (void)state;
+    enum { ROUNDS = 20000 };
+    static const double stated[] = {0.95, 0.95, 0.95};
+    for (int i = 0; i < 3; i++)
+        few_assert_share(few_lines_of(12, 2 + i, true, false, ROUNDS, 700 + (unsigned long)i).slope, stated[i], 0.01, ROUNDS);
 }
 
 static void crossovers(void **state)
@@ -105,7 +115,8 @@ static void draws_know_who_scatters(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lines), cmocka_unit_test(own_weights), cmocka_unit_test(crossovers), cmocka_unit_test(draws_are_students),
-                                        cmocka_unit_test(draws_know_who_scatters)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lines), cmocka_unit_test(own_weights), cmocka_unit_test(twelve_points),
+                                       cmocka_unit_test(crossovers), cmocka_unit_test(draws_are_students),
+                                       cmocka_unit_test(draws_know_who_scatters)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

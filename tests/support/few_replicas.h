@@ -16,7 +16,7 @@
 
 #include <cmocka.h>
 
-enum { FEW_MOST = 32, FEW_POINTS = 8, FEW_RATES = 9, FEW_DRAWS = 199 };
+enum { FEW_MOST = 32, FEW_POINTS = 8, FEW_MOST_POINTS = 12, FEW_RATES = 9, FEW_DRAWS = 199 };
 
 /* One scatter of a replica for all points, 5 %; or falling to a tenth from the first point to the last, from 10 %. */
 static inline double few_scatter(bool falling, size_t i, size_t n)
@@ -37,29 +37,29 @@ typedef struct {
 } few_lines;
 
 /* own: weights of each point's own replicas, however few, as they must not be. */
-static inline few_lines few_lines_of(int replicas, bool falling, bool own, int rounds, unsigned long seed)
+static inline few_lines few_lines_of(size_t points, int replicas, bool falling, bool own, int rounds, unsigned long seed)
 {
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(random, seed);
     int held = 0, alarms = 0;
     for (int round = 0; round < rounds; round++) {
-        double x[FEW_POINTS], y[FEW_POINTS];
-        fracas_mean mean[FEW_POINTS];
-        fracas_mean_error error[FEW_POINTS];
-        for (size_t i = 0; i < FEW_POINTS; i++) {
-            x[i] = log(1e3) + log(1e3) * (double)i / (FEW_POINTS - 1);
-            const fracas_estimate size = few_mean(random, exp(-0.7 * x[i]), few_scatter(falling, i, FEW_POINTS), replicas);
+        double x[FEW_MOST_POINTS], y[FEW_MOST_POINTS];
+        fracas_mean mean[FEW_MOST_POINTS];
+        fracas_mean_error error[FEW_MOST_POINTS];
+        for (size_t i = 0; i < points; i++) {
+            x[i] = log(1e3) + log(1e3) * (double)i / (double)(points - 1);
+            const fracas_estimate size = few_mean(random, exp(-0.7 * x[i]), few_scatter(falling, i, points), replicas);
             y[i] = log(size.mean);
             mean[i] = (fracas_mean){size.n, size.deviation / size.mean};
         }
-        fracas_mean_errors(mean, FEW_POINTS, error);
-        for (size_t i = 0; own && i < FEW_POINTS; i++) error[i].variance = mean[i].scatter * mean[i].scatter / replicas;
-        const fracas_slope line = fracas_slope_of(x, y, error, FEW_POINTS);
+        fracas_mean_errors(mean, points, error);
+        for (size_t i = 0; own && i < points; i++) error[i].variance = mean[i].scatter * mean[i].scatter / replicas;
+        const fracas_slope line = fracas_slope_of(x, y, error, points);
         held += fabs(line.slope + 0.7) <= line.half_width;
         alarms += line.misfit < FRACAS_MISFIT_LIMIT;
     }
     gsl_rng_free(random);
-    print_message("line, %2d replicas%s, scatter %s: %.4f hold the slope, %.4f are said to be no line\n", replicas,
+    print_message("%zu points, %2d replicas%s, scatter %s: %.4f hold the slope, %.4f are said to be no line\n", points, replicas,
                   own ? " that weigh by themselves" : "", falling ? "falling" : "equal", (double)held / rounds, (double)alarms / rounds);
     return (few_lines){rounds, (double)held / rounds, (double)alarms / rounds};
 }
