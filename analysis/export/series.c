@@ -127,15 +127,17 @@ static void slope_fields(const fracas_analysis *analysis, fracas_field_sink *sin
         {"standard_error", FRACAS_FIELD_NUMBER, "1", "of the slope", false},
         {"half_width", FRACAS_FIELD_NUMBER, "1", "half width of its 95 % interval", false},
         {"chi2", FRACAS_FIELD_NUMBER, "1", "squared residuals of a line, each over its variance", false},
+        {"misfit", FRACAS_FIELD_NUMBER, "1", "probability of such a chi2 or more if the points are on a line", false},
+        {"pooled_freedom", FRACAS_FIELD_NUMBER, "1", "degrees of freedom of the variance that the points of a line share, if they do", false},
     };
     put_fields(field, sizeof field / sizeof *field, sink, context);
 }
 
-static void put_slope(const char *series, const char *kind, int64_t points, const double value[6], FILE *out)
+static void put_slope(const char *series, const char *kind, int64_t points, const double value[8], FILE *out)
 {
     fracas_csv_text(series, out);
     fprintf(out, ",%s,%" PRId64, kind, points);
-    for (size_t v = 0; v < 6; v++) fracas_csv_real(value[v], out);
+    for (size_t v = 0; v < 8; v++) fracas_csv_real(value[v], out);
     putc('\n', out);
 }
 
@@ -148,12 +150,13 @@ static fracas_err slope_rows(const fracas_analysis *analysis, FILE *out)
     fracas_err err = fracas_size_windows(analysis, &window, &windows);
     for (size_t i = 0; i < lines && !err; i++) {
         const fracas_slope *s = &line[i].slope;
-        put_slope(line[i].name, "line", s->n, (double[6]){NAN, NAN, s->slope, s->standard_error, s->half_width, s->chi2}, out);
+        put_slope(line[i].name, "line", s->n,
+                  (double[8]){NAN, NAN, s->slope, s->standard_error, s->half_width, s->chi2, s->misfit, s->pooled}, out);
     }
     for (size_t i = 0; i < windows && !err; i++) {
         const fracas_size_window *w = &window[i];
         put_slope(w->name, "window", 2,
-                  (double[6]){w->rate[0], w->rate[1], w->window.slope, w->window.standard_error, w->window.half_width, NAN}, out);
+                  (double[8]){w->rate[0], w->rate[1], w->window.slope, w->window.standard_error, w->window.half_width, NAN, NAN, NAN}, out);
     }
     free(line);
     if (!err) free(window);

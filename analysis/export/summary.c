@@ -137,6 +137,8 @@ static void write_slopes(fracas_json *json, const fracas_analysis *analysis)
         fracas_json_real(json, "standard_error", slope->standard_error);
         fracas_json_real(json, "half_width", slope->half_width);
         fracas_json_real(json, "chi2", slope->chi2);
+        fracas_json_real(json, "misfit", slope->misfit);
+        fracas_json_real(json, "pooled_freedom", slope->pooled);
         fracas_json_real(json, "mott", FRACAS_SLOPE_MOTT);
         fracas_json_real(json, "grady", FRACAS_SLOPE_GRADY);
         fracas_json_close_object(json);
@@ -199,6 +201,8 @@ static void write_crossovers(fracas_json *json, const fracas_analysis *analysis)
         write_interval(json, "high_exponent", &list[i].exponent, 1);
         fracas_json_real(json, "chi2", list[i].chi2);
         fracas_json_real(json, "freedom", list[i].freedom);
+        fracas_json_real(json, "misfit", list[i].misfit);
+        fracas_json_real(json, "pooled_freedom", list[i].pooled);
         fracas_json_real(json, "inflation", list[i].inflation);
         fracas_json_integer(json, "resamples", list[i].rate.resamples);
         fracas_json_close_object(json);

@@ -1,6 +1,5 @@
 #include "analysis/laws/crossover.h"
 
-#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multifit_nlinear.h>
 #include <gsl/gsl_randist.h>
@@ -15,6 +14,8 @@ enum { SIZE, RATE, EXPONENT, NPARAMETERS }; /* log s_q, log edot_c, log k */
 typedef struct {
     size_t n;
     double *x, *y, *error; /* log rate, log size, its standard error */
+    fracas_mean *mean;
+    fracas_mean_error *known; /* what the standard error is from */
     gsl_multifit_nlinear_workspace *solver;
     gsl_multifit_nlinear_fdf problem;
 } fitter;
@@ -107,7 +108,44 @@ static void summarise(double *found, size_t count, double best, double sign, fra
     interval->high = quantile(found, count, 0.975);
 }
 
-/* Means are drawn again about the fitted ones by their standard errors  (size-laws.16). */
+/* Whether the means are on the curve `best`, of that chi2, and by how much their errors are too small if they are not. */
+static fracas_err judge(fitter *of, double best[NPARAMETERS], double chi2, fracas_size_crossover *crossover)
+{
+    gsl_vector_view at = gsl_vector_view_array(best, NPARAMETERS);
+    gsl_matrix *covariance = gsl_matrix_alloc(NPARAMETERS, NPARAMETERS);
+    if (!covariance) return fracas_no_memory("a crossover");
+    fracas_misfit misfit = {0};
+    crossover->chi2 = chi2;
+    crossover->freedom = (double)(of->n - NPARAMETERS);
+    gsl_multifit_nlinear_init(&at.vector, &of->problem, of->solver); /* derivatives there */
+    const gsl_matrix *J = gsl_multifit_nlinear_jac(of->solver);
+    gsl_multifit_nlinear_covar(J, 0, covariance);
+    for (size_t i = 0; i < of->n; i++) {
+        double leverage = 0; /* J_i (J^T J)^-1 J_i^T: rows are over their standard errors */
+        for (size_t a = 0; a < NPARAMETERS; a++)
+            for (size_t b = 0; b < NPARAMETERS; b++)
+                leverage += gsl_matrix_get(J, i, a) * gsl_matrix_get(covariance, a, b) * gsl_matrix_get(J, i, b);
+        fracas_misfit_add(&misfit, leverage, &of->known[i]);
+    }
+    gsl_matrix_free(covariance);
+    crossover->misfit = fracas_misfit_probability(&misfit, crossover->chi2, crossover->freedom);
+    crossover->pooled = misfit.shared > 0 ? misfit.shared : NAN;
+    crossover->inflation = crossover->misfit < FRACAS_MISFIT_LIMIT ? sqrt(crossover->chi2 / crossover->freedom) : 1;
+    return FRACAS_OK;
+}
+
+/* Means about the fitted ones, as far off as their errors are, and as uncertain as these  (size-laws.16). */
+static void draw(const fitter *of, const double best[NPARAMETERS], const fracas_size_crossover *crossover, gsl_rng *random)
+{
+    const double shared = crossover->inflation > 1 ? crossover->freedom : crossover->pooled; /* an error that all share is off for all alike */
+    const double factor = shared > 0 ? sqrt(shared / gsl_ran_chisq(random, shared)) : 1;
+    for (size_t i = 0; i < of->n; i++) {
+        const double z = shared > 0 ? factor * gsl_ran_ugaussian(random) : gsl_ran_tdist(random, of->known[i].freedom);
+        of->y[i] = model(best, of->x[i]) + crossover->inflation * sqrt(of->known[i].most) * z;
+    }
+}
+
+/* The quantiles of constants fitted to drawn means  (size-laws.16). */
 static fracas_err resample(fitter *of, const double best[NPARAMETERS], int64_t resamples, uint64_t seed, fracas_size_crossover *crossover)
 {
     const size_t most = (size_t)resamples;
@@ -118,8 +156,7 @@ static fracas_err resample(fitter *of, const double best[NPARAMETERS], int64_t r
         gsl_rng_set(random, (unsigned long)(seed ^ seed >> 32)); /* it takes 32 bits */
         for (size_t b = 0; b < most; b++) {
             double parameter[NPARAMETERS] = {best[SIZE], best[RATE], best[EXPONENT]};
-            for (size_t i = 0; i < of->n; i++)
-                of->y[i] = model(best, of->x[i]) + gsl_ran_gaussian(random, crossover->inflation * of->error[i]);
+            draw(of, best, crossover, random);
             if (!isfinite(descend(of, parameter))) continue;
             for (size_t j = 0; j < NPARAMETERS; j++) found[j * most + count] = parameter[j];
             count++;
@@ -148,51 +185,68 @@ static fracas_err fit(fitter *of, int64_t resamples, uint64_t seed, fracas_size_
                  best[RATE] <= of->x[0] ? "below all" : "above all");
         return FRACAS_OK;
     }
-    crossover->chi2 = chi2;
-    crossover->freedom = (double)(of->n - NPARAMETERS);
-    crossover->inflation = chi2 > gsl_cdf_chisq_Pinv(0.99, crossover->freedom) ? sqrt(chi2 / crossover->freedom) : 1;
+    TRY(judge(of, best, chi2, crossover));
     return resample(of, best, resamples, seed, crossover);
 }
 
-/* Takes the points whose standard error is known; returns how many rates they are at. */
+/* Takes the points that came apart and whose standard error is known; returns how many rates they are at. */
 static size_t take(const fracas_size_series *series, fitter *of)
 {
-    size_t rates = 0;
+    size_t rates = 0, n = 0;
     for (size_t i = 0; i < series->n; i++) {
         const fracas_size_point *point = &series->point[i];
-        if (!(point->error > 0) || !isfinite(point->error)) continue;
-        of->x[of->n] = log(point->rate);
-        of->y[of->n] = log(point->size);
-        of->error[of->n] = point->error;
+        if (point->whole) continue;
+        of->x[n] = log(point->rate);
+        of->y[n] = log(point->size);
+        of->mean[n++] = (fracas_mean){point->replicas, sqrt((double)point->replicas) * point->error};
+    }
+    fracas_mean_errors(of->mean, n, of->known);
+    for (size_t i = 0; i < n; i++) {
+        if (!(of->known[i].variance > 0) || !isfinite(of->known[i].variance)) continue;
+        of->x[of->n] = of->x[i];
+        of->y[of->n] = of->y[i];
+        of->known[of->n] = of->known[i];
+        of->error[of->n] = sqrt(of->known[i].variance);
         rates += of->n == 0 || of->x[of->n] - of->x[of->n - 1] > 1e-9;
         of->n++;
     }
     return rates;
 }
 
+static fracas_err fit_taken(const fracas_size_series *series, int64_t resamples, uint64_t seed, fitter *of, fracas_size_crossover *crossover)
+{
+    const size_t rates = take(series, of);
+    crossover->n = (int64_t)of->n;
+    if (rates < FRACAS_CROSSOVER_RATES) {
+        snprintf(crossover->reason, sizeof crossover->reason, "%zu rate%s with a known standard error, %d are needed", rates,
+                 rates == 1 ? "" : "s", FRACAS_CROSSOVER_RATES);
+        return FRACAS_OK;
+    }
+    const gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
+    of->problem = (gsl_multifit_nlinear_fdf){.f = residuals, .df = jacobian, .n = of->n, .p = NPARAMETERS, .params = of};
+    of->solver = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, of->n, NPARAMETERS);
+    if (!of->solver) return fracas_no_memory("a crossover");
+    const fracas_err err = fit(of, resamples, seed, crossover);
+    gsl_multifit_nlinear_free(of->solver);
+    return err;
+}
+
 static fracas_err fit_series(const fracas_size_series *series, int64_t resamples, uint64_t seed, fracas_size_crossover *crossover)
 {
     const fracas_interval none = {NAN, NAN, NAN, NAN, NAN, 0};
     *crossover = (fracas_size_crossover){.scales = series->scales, .size = none, .rate = none, .exponent = none, .chi2 = NAN,
-                                         .freedom = NAN, .inflation = NAN};
+                                         .freedom = NAN, .misfit = NAN, .pooled = NAN, .inflation = NAN};
     snprintf(crossover->name, sizeof crossover->name, "%s", series->name);
     double *value = malloc((3 * series->n + 1) * sizeof *value);
-    if (!value) return fracas_no_memory("a crossover");
-    fitter of = {.x = value, .y = value + series->n, .error = value + 2 * series->n};
-    const size_t rates = take(series, &of);
-    crossover->n = (int64_t)of.n;
-    fracas_err err = FRACAS_OK;
-    if (rates < FRACAS_CROSSOVER_RATES) {
-        snprintf(crossover->reason, sizeof crossover->reason, "%zu rate%s with a known standard error, %d are needed", rates,
-                 rates == 1 ? "" : "s", FRACAS_CROSSOVER_RATES);
-    } else {
-        const gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
-        of.problem = (gsl_multifit_nlinear_fdf){.f = residuals, .df = jacobian, .n = of.n, .p = NPARAMETERS, .params = &of};
-        of.solver = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, of.n, NPARAMETERS);
-        err = of.solver ? fit(&of, resamples, seed, crossover) : fracas_no_memory("a crossover");
-        if (of.solver) gsl_multifit_nlinear_free(of.solver);
-    }
+    fitter of = {.mean = malloc((series->n + 1) * sizeof *of.mean), .known = malloc((series->n + 1) * sizeof *of.known)};
+    fracas_err err = value && of.mean && of.known ? FRACAS_OK : fracas_no_memory("a crossover");
+    of.x = value;
+    of.y = value ? value + series->n : NULL;
+    of.error = value ? value + 2 * series->n : NULL;
+    if (!err) err = fit_taken(series, resamples, seed, &of, crossover);
     free(value);
+    free(of.mean);
+    free(of.known);
     return err;
 }
 

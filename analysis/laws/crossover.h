@@ -4,6 +4,7 @@
 
 #include "analysis/estimate/bootstrap.h"
 #include "analysis/laws/series.h"
+#include "analysis/laws/weights.h"
 
 enum { FRACAS_CROSSOVER_RATES = 5 }; /* two more than the form has constants */
 
@@ -18,11 +19,13 @@ typedef struct {
     fracas_interval exponent; /* -k, of high rates; that of low ones is 0 by the form */
     double chi2;             /* sum of squared residuals of log s, each over its standard error */
     double freedom;          /* n - 3 */
-    double inflation;        /* of the standard errors, in the intervals: 1, or sqrt(chi2/freedom) where chi2 is beyond its 99 % quantile */
+    double misfit;           /* probability of such a chi2 or more if the means are on such a curve */
+    double pooled;           /* degrees of freedom of the variance that the means share; NaN: each has its own */
+    double inflation;        /* of the standard errors, in the intervals: 1, or sqrt(chi2/freedom) where misfit < FRACAS_MISFIT_LIMIT */
 } fracas_size_crossover;
 
-/* (size-laws.14), (size-laws.15), (size-laws.16): weighted least squares of log s over the points whose standard error is known, and 95 %
- * intervals from `resamples` draws of their means (0: no intervals; NaN). Numbers are NaN and `reason` says why for fewer than
+/* (size-laws.14), (size-laws.15), (size-laws.16): weighted least squares of log s over the points that came apart and whose standard error
+ * is known (fracas_mean_errors), and 95 % intervals from `resamples` draws of their means (0: no intervals; NaN). Numbers are NaN and `reason` says why for fewer than
  * FRACAS_CROSSOVER_RATES rates, or where no bend lies between them. Equal seeds give equal intervals. */
 FRACAS_MUST_USE fracas_err fracas_crossover_fit(const fracas_size_series *series, int64_t resamples, uint64_t seed,
                                                 fracas_size_crossover *crossover);

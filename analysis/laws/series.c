@@ -6,9 +6,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static bool counts(const fracas_point_statistics *statistics)
+bool fracas_size_counts(const fracas_analysis *analysis, size_t point)
 {
+    const fracas_point_statistics *statistics = &analysis->point[point];
     return statistics->rate > 0 && isfinite(statistics->rate) && statistics->size.mean > 0 && !statistics->surface;
+}
+
+bool fracas_size_whole(const fracas_analysis *analysis, size_t point)
+{
+    return analysis->point[point].count.mean == 1; /* no body has less than one */
 }
 
 static int by_rate(const void *a, const void *b)
@@ -33,12 +39,12 @@ static fracas_err gather(const fracas_analysis *analysis, const fracas_columns *
     if (!series->point) return fracas_no_memory("the series of the study");
     for (size_t p = first; p < npoints; p++) {
         const fracas_point_statistics *statistics = &analysis->point[p];
-        if (!counts(statistics) || !fracas_columns_same(analysis->table, others, p, first)) continue;
+        if (!fracas_size_counts(analysis, p) || !fracas_columns_same(analysis->table, others, p, first)) continue;
         const fracas_estimate *size = &statistics->size;
         if (!same_scales(&statistics->scales, &analysis->point[first].scales)) series->scales = none;
         series->point[series->n++] = (fracas_size_point){
             .point = p, .replicas = size->n, .rate = statistics->rate, .size = size->mean,
-            .error = size->deviation / (sqrt((double)size->n) * size->mean)};
+            .error = size->deviation / (sqrt((double)size->n) * size->mean), .whole = fracas_size_whole(analysis, p)};
     }
     qsort(series->point, series->n, sizeof *series->point, by_rate);
     return FRACAS_OK;
@@ -46,9 +52,9 @@ static fracas_err gather(const fracas_analysis *analysis, const fracas_columns *
 
 static bool begins_series(const fracas_analysis *analysis, const fracas_columns *others, size_t p)
 {
-    if (!counts(&analysis->point[p])) return false;
+    if (!fracas_size_counts(analysis, p)) return false;
     for (size_t q = 0; q < p; q++)
-        if (counts(&analysis->point[q]) && fracas_columns_same(analysis->table, others, p, q)) return false;
+        if (fracas_size_counts(analysis, q) && fracas_columns_same(analysis->table, others, p, q)) return false;
     return true;
 }
 

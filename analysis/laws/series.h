@@ -5,6 +5,7 @@
 #include "analysis/laws/size_laws.h"
 #include "base/err.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -15,7 +16,8 @@ typedef struct {
     int64_t replicas; /* in the mean */
     double rate;      /* 1/s, > 0 */
     double size;      /* m, mean over replicas, > 0 */
-    double error;     /* standard error of log(size); 0: all replicas alike, NaN: one replica */
+    double error;     /* standard error of log(size) by its own replicas; 0: all alike, NaN: one replica */
+    bool whole;       /* fracas_size_whole */
 } fracas_size_point;
 
 typedef struct {
@@ -25,8 +27,12 @@ typedef struct {
     fracas_size_point *point; /* ascending in rate */
 } fracas_size_series;
 
-/* Points alike in all that does not make the rate are a series; without those of no rate or no mean, and without surfaces, of which the
- * theories say nothing. A series without any point is left out. *list freed by fracas_size_series_free. */
+/* Whether a point has a rate and a mean size that the theories speak of: surfaces have none. */
+bool fracas_size_counts(const struct fracas_analysis *analysis, size_t point);
+/* Whether no body of the point came apart: each is of one fragment. */
+bool fracas_size_whole(const struct fracas_analysis *analysis, size_t point);
+
+/* Points alike in all that does not make the rate are a series; without those that do not count. A series without any point is left out. *list freed by fracas_size_series_free. */
 FRACAS_MUST_USE fracas_err fracas_size_series_create(const struct fracas_analysis *analysis, fracas_size_series **list, size_t *count);
 void fracas_size_series_free(fracas_size_series *list, size_t count);
 

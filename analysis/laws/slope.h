@@ -2,6 +2,7 @@
 #ifndef FRACAS_ANALYSIS_LAWS_SLOPE_H
 #define FRACAS_ANALYSIS_LAWS_SLOPE_H
 
+#include "analysis/laws/weights.h"
 #include "base/err.h"
 
 #include <stddef.h>
@@ -16,15 +17,17 @@ typedef struct {
     int64_t n;             /* values used */
     double slope, intercept;
     double chi2;           /* sum of squared residuals, each over its variance; NaN if the variances are not known */
+    double misfit;         /* probability of such a chi2 or more if the values are on a line; NaN as chi2 */
+    double pooled;         /* degrees of freedom of the variance that the values share; NaN: each has its own, or it is not known */
     double standard_error; /* of the slope, inflated where chi2/(n - 2) > 1 */
     double half_width;     /* of the 95 % interval of the slope: t_(0.975, n-2) standard_error */
 } fracas_slope;
 
-/* (estimators.1), (estimators.2), (estimators.3). x, y, variance (of y): n values each. A variance that is not positive
+/* (estimators.1), (estimators.2), (estimators.3). x, y, error (of y): n values each. A variance that is not positive
  * or not finite is unknown: its value is left out, unless none is known; then all weigh the same, and the
  * residuals alone make the interval. Values that are not finite are left out. With fewer than FRACAS_SLOPE_POINTS left,
  * or all at one x, everything but n is NaN. */
-fracas_slope fracas_slope_of(const double *x, const double *y, const double *variance, size_t n);
+fracas_slope fracas_slope_of(const double *x, const double *y, const fracas_mean_error *error, size_t n);
 
 /* log(mean size) against log(strain rate) over some points of a study. */
 typedef struct {

@@ -4,7 +4,6 @@
 #include "analysis/laws/slope.h"
 #include "analysis/tables/format.h"
 
-#include <gsl/gsl_cdf.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdint.h>
@@ -127,7 +126,6 @@ static void put_campaign(const fracas_page *page)
 /* ---- headline numbers ---- */
 
 enum { HEADLINES = 12 }; /* points in the table of the summary */
-static const double line_confidence = 0.99; /* of chi2: it is beyond in 1 % of studies on one line, more where replicas are few */
 
 static fracas_prefix size_prefix(const fracas_analysis *analysis)
 {
@@ -201,7 +199,7 @@ static fracas_err put_slope(const fracas_page *page)
         fracas_format_digits(sqrt(scatter), 2, times, sizeof times);
         fprintf(page->out, "<p>Over %" PRId64 " points the mean size goes with the strain rate to the power %s (Mott: -1, Grady: -2/3)",
                 slope->n, value);
-        if (slope->chi2 > gsl_cdf_chisq_Pinv(line_confidence, (double)(slope->n - 2)))
+        if (slope->misfit < FRACAS_MISFIT_LIMIT)
             fprintf(page->out, ", but they are not on one line: their scatter about it is %s times what their errors explain (<a "
                     "href=\"#slopes\">slopes</a>)", times);
         fputs(".</p>\n", page->out);

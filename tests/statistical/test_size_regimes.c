@@ -140,7 +140,7 @@ static void understated_errors(void **state)
     }
     gsl_rng_free(random);
     print_message("understated: %.3f\n", held / (double)REPETITIONS);
-    assert_true(held > 0.85 * REPETITIONS); /* 6 degrees of freedom and a normal quantile: 91 % expected; uninflated 30 % */
+    assert_true(held > 0.85 * REPETITIONS); /* Student's law of 6 degrees of freedom: 95 % expected; uninflated 30 % */
 }
 
 static void without_a_fit(void **state)

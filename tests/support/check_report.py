@@ -85,16 +85,57 @@ for row, point in zip(rows, summary["points"]):
     groups.setdefault(tuple(point["parameters"][path] for path in others), []).append(row)
 
 
+def fisher_beyond(x, above, below):
+    """P(F > x), by Gauss's rule over the angle whose sine squared is of the beta distribution."""
+    end = math.asin(math.sqrt(below / (below + above * x)))
+    node, weight = np.polynomial.legendre.leggauss(400)
+    angle = end * (node + 1) / 2
+    log = (below - 1) * np.log(np.sin(angle)) + (above - 1) * np.log(np.cos(angle))
+    log += math.log(2) + math.lgamma((above + below) / 2) - math.lgamma(above / 2) - math.lgamma(below / 2)
+    return float(np.sum(weight * np.exp(log)) * end / 2)
+
+
+def known_of(group):
+    """The points of a line: log rate, log size, error, degrees of freedom behind it, and those of a variance that all share (or None)."""
+    of = [row for row in group if row["rate"] > 0 and row["size.mean"] > 0 and row["count.mean"] != 1]
+    n = np.array([row["size.n"] for row in of], float)
+    relative = np.array([row["size.deviation"] / row["size.mean"] if row["size.n"] > 1 else 0 for row in of])**2
+    few = len(n) > 0 and min(n) < 8
+    together = sum(n) - len(n)
+    if few and together:
+        relative = np.full(len(n), np.average(relative, weights=n - 1))
+    x, y = (np.array([math.log(row[key]) for row in of]) for key in ("rate", "size.mean"))
+    used = relative > 0
+    return x[used], y[used], np.sqrt(relative / n)[used], n[used] - 1, together if few and any(used) else None, (x, y)
+
+
+def misfit_of(chi2, freedom, derivative, error, behind, together):
+    """Of a least-squares fit: rows of derivative are d(fitted)/d(constants)."""
+    if together is not None:
+        return fisher_beyond(chi2 / freedom, freedom, together)
+    weighted = derivative / error[:, None]
+    kept = 1 - np.einsum("ia,ia->i", weighted @ np.linalg.inv(weighted.T @ weighted), weighted)
+    a = np.sum(kept**2 / behind)
+    return fisher_beyond(chi2 / (freedom + 2 * a - 6 * a / (freedom + 2)), freedom, freedom * (freedom + 2) / (3 * a))
+
+
 def slope(group):
-    x, y, sigma = np.array([(math.log(row["rate"]), math.log(row["size.mean"]), row["size.deviation"] /
-                             math.sqrt(row["size.n"]) / row["size.mean"]) for row in group
-                            if row["rate"] > 0 and row["size.deviation"] > 0]).reshape(-1, 3).T
+    x, y, sigma, behind, together, everything = known_of(group)
+    weighted = len(x) > 0
+    if not weighted:
+        x, y = everything
+        sigma = np.ones(len(x))
     if len(x) < 3 or np.ptp(x) == 0:
         return None
     (exponent, _), covariance = np.polyfit(x, y, 1, w=1 / sigma, cov="unscaled")
     chi2 = np.sum(((y - np.polyval(np.polyfit(x, y, 1, w=1 / sigma), x)) / sigma)**2)
-    error = math.sqrt(covariance[0, 0] * max(1, chi2 / (len(x) - 2)))
-    return len(x), exponent, error, student_quantile(0.975, len(x) - 2) * error, chi2
+    freedom = len(x) - 2
+    error = math.sqrt(covariance[0, 0] * max(1 if weighted else 0, chi2 / freedom))
+    half_width = student_quantile(0.975, freedom) * error
+    if not weighted:
+        return len(x), exponent, error, half_width, None, None, None
+    misfit = misfit_of(chi2, freedom, np.stack((np.ones(len(x)), x), axis=1), sigma, behind, together)
+    return len(x), exponent, error, half_width, chi2, misfit, together
 
 
 expected = [slope(rows)] + ([slope(group) for group in groups.values()] if len(groups) > 1 else [])
@@ -102,8 +143,8 @@ expected = [fit for fit in expected if fit]
 assert len(summary["slopes"]) == len(expected)
 for ours, theirs in zip(summary["slopes"], expected):
     assert ours["points"] == theirs[0] and ours["mott"] == -1 and math.isclose(ours["grady"], -2 / 3)
-    for key, value in zip(("slope", "standard_error", "half_width", "chi2"), theirs[1:]):
-        assert math.isclose(ours[key], value, rel_tol=1e-7), (key, ours[key], value)  # numpy solves by SVD
+    for key, value in zip(("slope", "standard_error", "half_width", "chi2", "misfit", "pooled_freedom"), theirs[1:]):
+        assert ours[key] is value is None or math.isclose(ours[key], value, rel_tol=1e-7, abs_tol=1e-12), (key, ours[key], value)  # numpy solves by SVD
 
 # Slopes between neighbouring rates, in the summary and the file.
 expected = []
@@ -118,22 +159,23 @@ for group in groups.values():
 assert len(summary["windows"]) == len(expected)
 lines = [line for line in csv.DictReader(open(os.path.join(report, "slopes.csv")))]
 assert len(lines) == len(summary["slopes"]) + len(expected)
+for ours, line in zip(summary["slopes"], lines):
+    for key in ("slope", "standard_error", "half_width", "chi2", "misfit", "pooled_freedom"):
+        assert ours[key] is None and line[key] == "" or math.isclose(ours[key], float(line[key]), rel_tol=1e-12), key
 for ours, line, theirs in zip(summary["windows"], lines[len(summary["slopes"]):], expected):
     for key, value in zip(("from_rate", "to_rate", "slope", "standard_error"), theirs):
         for mine in (ours[key], float(line[key]) if line[key] else None):
             assert mine is None and math.isnan(value) or math.isclose(mine, value, rel_tol=1e-9), (key, mine, value)
 
 # Crossovers: chi2 is that of the constants, and the least about them.
-used = [[(math.log(row["rate"]), math.log(row["size.mean"]), row["size.deviation"] / row["size.mean"] / math.sqrt(row["size.n"]))
-         for row in group if row["rate"] > 0 and row["size.deviation"] > 0] for group in groups.values()
-        if any(row["rate"] > 0 and not math.isnan(row["size.mean"]) for row in group)]
+used = [known_of(group) for group in groups.values() if any(row["rate"] > 0 and not math.isnan(row["size.mean"]) for row in group)]
 if not any(point["parameters"].get("geometry.thickness") for point in summary["points"]):  # of surfaces there are none
     assert len(summary["crossovers"]) == len(used)
     for fit, of in zip(summary["crossovers"], used):
-        assert fit["points"] == len(of) and (fit["reason"] is None) == (fit["rate"]["value"] is not None)
+        x, y, error, behind, together, _ = of
+        assert fit["points"] == len(x) and (fit["reason"] is None) == (fit["rate"]["value"] is not None)
         if fit["reason"] is not None:
             continue
-        x, y, error = np.array(of).T
 
         def chi2(size, rate, k):
             return np.sum(((y - math.log(size) + np.logaddexp(0, k * (x - math.log(rate)))) / error)**2)
@@ -142,6 +184,12 @@ if not any(point["parameters"].get("geometry.thickness") for point in summary["p
         assert math.isclose(chi2(*best), fit["chi2"], rel_tol=1e-9)
         for step in np.vstack((np.eye(3), -np.eye(3))) * 1e-3:
             assert chi2(*(best * (1 + step))) > fit["chi2"]
+        z = -best[2] * (math.log(best[1]) - x)
+        soft = 1 / (1 + np.exp(-z))
+        derivative = np.stack((np.ones(len(x)), soft * best[2], -soft * z), axis=1)  # by the logarithms of the constants
+        misfit = misfit_of(fit["chi2"], len(x) - 3, derivative, error, behind, together)
+        assert math.isclose(fit["misfit"], misfit, rel_tol=1e-5) and fit["pooled_freedom"] == together
+        assert math.isclose(fit["inflation"], math.sqrt(fit["chi2"] / (len(x) - 3)) if misfit < 0.01 else 1, rel_tol=1e-9)
         for name in ("size", "rate", "high_exponent"):
             assert fit[name]["low"] < fit[name]["value"] < fit[name]["high"]
 
@@ -240,7 +288,7 @@ if with_mean:
     assert len(means) == len(wanted) == with_mean
     for ours, theirs in zip(means, wanted):
         assert all(math.isclose(a * b, c, rel_tol=1e-13) or (math.isnan(a) and math.isnan(c)) for a, b, c in zip(ours, (1, unit, unit, unit), theirs))
-    assert {line[1] for line in lines if line[2] == "curve"} <= {"ZMR", "Grady", "GC", "ZMR-2", ""}
+    assert {line[1] for line in lines if line[2] == "curve"} <= {"ZMR", "Grady", "GC", "ZMR-2", "fitted crossover", ""}
 usable = [np.flatnonzero((realization["point"] == p) & (realization["outcome"] <= 2)) for p in range(len(rows))]
 for p, at in enumerate(usable):
     sizes = np.sort(np.concatenate([size[slice(*fragment["offset"][i:i + 2])] for i in at])) if len(at) else np.array([])

@@ -1,4 +1,5 @@
-/* The slope of a line and its interval: exact lines, GSL, the interval's coverage, and which points of a study count. */
+/* The slope of a line and its interval: exact lines, GSL, the interval's coverage, errors that points share, and which points of a study
+ * count. */
 #include "analysis/laws/slope.h"
 #include "analysis/study/study.h"
 
@@ -15,21 +16,28 @@
 
 #include <cmocka.h>
 
+/* A variance that is given, not estimated. */
+static fracas_mean_error given(double variance)
+{
+    return (fracas_mean_error){.variance = variance, .most = variance, .freedom = INFINITY};
+}
+
 /* s = 3 rate^(-2/3) at rates 1e3 to 1e6: logarithms of about 10 are good to 2e-15, slopes over a range of 7 to 1e-15. */
 static void exact_power_law(void **state)
 {
     (void)state;
-    double x[5], y[5], variance[5];
+    double x[5], y[5];
+    fracas_mean_error error[5];
     for (size_t i = 0; i < 5; i++) {
         x[i] = log(1e3 * pow(10, 0.75 * (double)i));
         y[i] = log(3) - 2.0 / 3 * x[i];
-        variance[i] = 1e-4 * (double)(1 + i);
+        error[i] = given(1e-4 * (double)(1 + i));
     }
-    fracas_slope line = fracas_slope_of(x, y, variance, 5);
+    fracas_slope line = fracas_slope_of(x, y, error, 5);
     assert_int_equal(line.n, 5);
     assert_true(fabs(line.slope - FRACAS_SLOPE_GRADY) < 1e-14);
     assert_true(fabs(line.intercept - log(3)) < 1e-13);
-    assert_true(line.chi2 < 1e-20);
+    assert_true(line.chi2 < 1e-20 && line.misfit > 1 - 1e-12 && isnan(line.pooled));
     /* The points' own errors, not the residuals that are not there: t = 3.18, 0.01 to 0.022 over sqrt(sum of squares 30). */
     assert_true(line.half_width > 3.18 * 0.01 / sqrt(30));
 }
@@ -42,17 +50,20 @@ static void as_gsl_has_it(void **state)
     for (int round = 0; round < 50; round++) {
         enum { N = 9 };
         double x[N], y[N], variance[N], weight[N], c0, c1, v00, v01, v11, chi2;
+        fracas_mean_error stated[N];
         double noise = round % 2 ? 3 : 0.3; /* of the stated error: chi2/dof above 1, or below */
         for (size_t i = 0; i < N; i++) {
             variance[i] = 1e-4 * (1 + 20 * gsl_rng_uniform(rng));
             weight[i] = 1 / variance[i];
+            stated[i] = given(variance[i]);
             x[i] = 10 * gsl_rng_uniform(rng);
             y[i] = 2 - 0.8 * x[i] + noise * gsl_ran_gaussian(rng, sqrt(variance[i]));
         }
         gsl_fit_wlinear(x, 1, weight, 1, y, 1, N, &c0, &c1, &v00, &v01, &v11, &chi2);
-        fracas_slope line = fracas_slope_of(x, y, variance, N);
+        fracas_slope line = fracas_slope_of(x, y, stated, N);
         assert_true(fabs(line.slope - c1) < 1e-12 && fabs(line.intercept - c0) < 1e-11);
         assert_true(fabs(line.chi2 - chi2) < 1e-9 * chi2);
+        assert_true(fabs(line.misfit - gsl_cdf_chisq_Q(chi2, N - 2)) < 1e-8 * line.misfit); /* variances that are known, not estimated */
         double error = sqrt(v11 * fmax(1, chi2 / (N - 2)));
         assert_true(fabs(line.standard_error - error) < 1e-11 * error);
         assert_true(fabs(line.half_width - 2.364624 * error) < 1e-6 * error); /* tabulated t_(0.975, 7) */
@@ -71,14 +82,15 @@ static double coverage(double factor, bool stated, unsigned long seed)
     gsl_rng_set(rng, seed);
     int held = 0;
     for (int round = 0; round < REPETITIONS; round++) {
-        double x[RATES], y[RATES], variance[RATES];
+        double x[RATES], y[RATES];
+        fracas_mean_error error[RATES];
         for (size_t i = 0; i < RATES; i++) {
             double deviation = stated ? 0.01 * (1 + (double)(i % 3)) : 0.01;
             x[i] = log(1e3) + (double)i * log(1e3) / (RATES - 1);
             y[i] = 1 - 0.7 * x[i] + gsl_ran_gaussian(rng, factor * deviation);
-            variance[i] = stated ? deviation * deviation : NAN;
+            error[i] = given(stated ? deviation * deviation : NAN);
         }
-        fracas_slope line = fracas_slope_of(x, y, variance, RATES);
+        fracas_slope line = fracas_slope_of(x, y, error, RATES);
         held += fabs(line.slope + 0.7) <= line.half_width;
     }
     gsl_rng_free(rng);
@@ -115,7 +127,7 @@ static void interval_covers(void **state)
 static void assert_no_slope(fracas_slope line, int64_t n)
 {
     assert_int_equal(line.n, n);
-    assert_true(isnan(line.slope) && isnan(line.intercept) && isnan(line.chi2));
+    assert_true(isnan(line.slope) && isnan(line.intercept) && isnan(line.chi2) && isnan(line.misfit) && isnan(line.pooled));
     assert_true(isnan(line.standard_error) && isnan(line.half_width));
 }
 
@@ -123,16 +135,62 @@ static void values_left_out(void **state)
 {
     (void)state;
     const double x[] = {1, 2, 3, 4, NAN, 5}, y[] = {2, 4, 6, 100, 3, -INFINITY};
-    const double variance[] = {1, 4, 1, NAN, 1, 1}, none[] = {0, NAN, 0, NAN, 0, NAN};
-    fracas_slope line = fracas_slope_of(x, y, variance, 6);
+    const fracas_mean_error error[] = {given(1), given(4), given(1), given(NAN), given(1), given(1)};
+    const fracas_mean_error none[] = {given(0), given(NAN), given(0)};
+    fracas_slope line = fracas_slope_of(x, y, error, 6);
     assert_int_equal(line.n, 3);
     assert_true(fabs(line.slope - 2) < 1e-15);
-    assert_no_slope(fracas_slope_of(x, y, variance, 2), 2);
+    assert_no_slope(fracas_slope_of(x, y, error, 2), 2);
     line = fracas_slope_of(x, y, none, 3); /* no variance known: all weigh the same; no residual, no width */
     assert_int_equal(line.n, 3);
-    assert_true(fabs(line.slope - 2) < 1e-15 && isnan(line.chi2) && line.half_width < 1e-14);
+    assert_true(fabs(line.slope - 2) < 1e-15 && isnan(line.chi2) && isnan(line.misfit) && line.half_width < 1e-14);
     const double one[] = {log(80 / 0.008), log(160 / 0.016), nextafter(log(1e4), 10)}; /* one rate, but for rounding */
-    assert_no_slope(fracas_slope_of(one, y, variance, 3), 3);
+    assert_no_slope(fracas_slope_of(one, y, error, 3), 3);
+}
+
+/* Replicas 3, 1, 9, 2 with scatter 0.02, unknown, 0.04, 0: r^2 = (2 0.0004 + 8 0.0016 + 1 0)/(2 + 8 + 1) = 0.0136/11. */
+static void shared_errors(void **state)
+{
+    (void)state;
+    fracas_mean mean[] = {{3, 0.02}, {1, NAN}, {9, 0.04}, {2, 0}};
+    fracas_mean_error error[4];
+    fracas_mean_errors(mean, 4, error);
+    const double r2 = 0.0136 / 11;
+    for (size_t i = 0; i < 4; i++) {
+        assert_true(fabs(error[i].variance - r2 / (double)mean[i].replicas) < 1e-18);
+        assert_true(error[i].pooled && error[i].freedom == 11);
+    }
+    assert_true(error[0].most == error[0].variance && error[1].most == error[1].variance && error[3].most == error[3].variance);
+    assert_true(fabs(error[2].most - 0.0016 / 9) < 1e-18); /* its own is the greater */
+    mean[0].replicas = mean[1].replicas = 8; /* eight and more: each its own */
+    mean[1].scatter = 0;
+    fracas_mean_errors(mean, 3, error);
+    assert_true(fabs(error[0].variance - 0.0004 / 8) < 1e-18 && error[0].most == error[0].variance && error[0].freedom == 7);
+    assert_true(!error[0].pooled && error[1].variance == 0 && error[2].freedom == 8);
+    for (size_t i = 0; i < 4; i++) mean[i] = (fracas_mean){1, NAN};
+    fracas_mean_errors(mean, 4, error);
+    assert_true(isnan(error[0].variance) && isnan(error[3].variance)); /* none is known */
+    for (size_t i = 0; i < 4; i++) mean[i] = (fracas_mean){3, 0};
+    fracas_mean_errors(mean, 4, error);
+    assert_true(error[0].variance == 0 && error[3].variance == 0);
+}
+
+/* With two degrees of freedom above, P(F > x) = (1 + 2 x/f)^(-f/2). Of Johansen, sum (1 - h)^2/f = 2 (0.75^2/4.5 + 0.25^2/0.5) = 0.5 makes
+ * chi2/(2 + 1 - 3/4) an F with 2 and 2 4/1.5 = 16/3 degrees of freedom. */
+static void misfits(void **state)
+{
+    (void)state;
+    fracas_misfit shared = {0}, own = {0}, known = {0};
+    for (int i = 0; i < 4; i++) {
+        fracas_misfit_add(&shared, 0.5, &(fracas_mean_error){.variance = 1, .freedom = 5, .pooled = true});
+        fracas_misfit_add(&own, i % 2 ? 0.75 : 0.25, &(fracas_mean_error){.variance = 1, .freedom = i % 2 ? 0.5 : 4.5});
+    }
+    fracas_misfit_add(&known, 0.5, &(fracas_mean_error){.variance = 1, .freedom = INFINITY});
+    assert_true(fabs(own.doubt - 0.5) < 1e-15);
+    assert_true(fabs(fracas_misfit_probability(&shared, 7, 2) - pow(1 + 7.0 / 5, -2.5)) < 1e-13);
+    assert_true(fabs(fracas_misfit_probability(&own, 7, 2) - pow(1 + 2 * 7 / 2.25 / (16.0 / 3), -8.0 / 3)) < 1e-13);
+    assert_true(fabs(fracas_misfit_probability(&known, 7, 2) - exp(-3.5)) < 1e-13);
+    assert_true(isnan(fracas_misfit_probability(&shared, NAN, 2)) && isnan(fracas_misfit_probability(&shared, 7, 0)));
 }
 
 /* ---- of a study ---- */
@@ -176,6 +234,20 @@ static void slopes_of_series(void **state)
     assert_true(fabs(list[1].slope.standard_error - error) < 1e-12);
     assert_true(fabs(list[1].slope.half_width - 4.302653 * error) < 1e-6 * error); /* tabulated t_(0.975, 2) */
     free(list);
+    /* A mean of two replicas: all of the series share (15 + 15 + 15 + 1)/46 0.04^2, and weigh as their replicas, 16, 16, 16, 2. */
+    point[6].size.n = 2;
+    assert_int_equal(fracas_size_slopes(&analysis, &list, &count), FRACAS_OK);
+    assert_true(list[1].slope.pooled == 46 && isnan(list[2].slope.pooled) && list[0].slope.pooled == 106);
+    error = 0.04 / (log(2) * sqrt(16 * (0 + 1 + 4) + 2 * 9 - pow(16 * 3 + 2 * 3, 2) / 50));
+    assert_true(fabs(list[1].slope.standard_error - error) < 1e-12 && list[1].slope.misfit > 1 - 1e-12);
+    free(list);
+    /* One replica counts as soon as another mean has two; where no body came apart, nothing. */
+    point[6].size = (fracas_estimate){.n = 1, .mean = point[6].size.mean, .deviation = NAN};
+    point[0].count.mean = 1;
+    assert_int_equal(fracas_size_slopes(&analysis, &list, &count), FRACAS_OK);
+    assert_true(list[1].slope.pooled == 30 && list[1].slope.n == 3 && list[0].slope.n == 7);
+    free(list);
+    point[0].count.mean = 0;
     point[6].size = (fracas_estimate){.n = 0, .mean = NAN, .deviation = NAN}; /* three points of 8 mm, then two */
     assert_int_equal(fracas_size_slopes(&analysis, &list, &count), FRACAS_OK);
     assert_int_equal(count, 3);
@@ -196,7 +268,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact_power_law), cmocka_unit_test(as_gsl_has_it), cmocka_unit_test(interval_covers),
-        cmocka_unit_test(values_left_out), cmocka_unit_test(slopes_of_series),
+        cmocka_unit_test(values_left_out), cmocka_unit_test(shared_errors), cmocka_unit_test(misfits), cmocka_unit_test(slopes_of_series),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,122 @@
+/* Slopes and crossovers from few replicas: intervals hold the truth, and lines are taken for lines, as often as the pages of theory state.
+ * Crossovers of a few hundred repetitions; test_few_replicas_storm.c has thousands. */
+#include "tests/support/few_replicas.h"
+
+#include <gsl/gsl_cdf.h>
+
+/* Where scatter is equal and pooled, weights are no random numbers, and the interval t max(r, S) of variances r^2 (f degrees of freedom) and
+ * S^2 (q, of the residuals), all independent, holds a normal deviate of variance 1 with the probability that two midpoint rules give. */
+static double exact_share(double q, double f)
+{
+    enum { PARTS = 300 };
+    const double t = gsl_cdf_tdist_Pinv(0.975, q);
+    double sum = 0, residual[PARTS], own[PARTS];
+    for (int i = 0; i < PARTS; i++) {
+        residual[i] = gsl_cdf_chisq_Pinv((i + 0.5) / PARTS, q) / q;
+        own[i] = gsl_cdf_chisq_Pinv((i + 0.5) / PARTS, f) / f;
+    }
+    for (int i = 0; i < PARTS; i++)
+        for (int j = 0; j < PARTS; j++) sum += 1 - 2 * gsl_cdf_ugaussian_Q(t * sqrt(fmax(residual[i], own[j])));
+    return sum / PARTS / PARTS;
+}
+
+static void lines(void **state)
+{
+    (void)state;
+    enum { ROUNDS = 20000 };
+    for (size_t c = 0; c < FEW_CLAIMS; c++) {
+        const few_stated *claim = &few_claims[c];
+        const few_lines found = few_lines_of(FEW_POINTS, claim->replicas, claim->falling, false, ROUNDS, 1000 + c);
+        few_assert_share(found.slope, claim->slope, 0.001, ROUNDS);
+        few_assert_share(found.alarms, claim->slope_alarms, 0.001, ROUNDS);
+        if (claim->falling || claim->replicas >= FRACAS_REPLICAS_OWN) continue;
+        few_assert_share(found.slope, exact_share(FEW_POINTS - 2, FEW_POINTS * (claim->replicas - 1)), 0.001, ROUNDS);
+    }
+}
+
+/* Why errors are pooled. */
+static void own_weights(void **state)
+{
+    (void)state;
+    enum { ROUNDS = 20000 };
+    static const double stated[] = {0.71, 0.87, 0.92};
+    for (int i = 0; i < 3; i++) few_assert_share(few_lines_of(FEW_POINTS, 2 + i, false, true, ROUNDS, 500 + (unsigned long)i).slope, stated[i], 0.01, ROUNDS);
+}
+
+/* Of more points pooling holds less where scatter falls. */
+static void twelve_points(void **state)
+{
+    (void)state;
+    enum { ROUNDS = 20000 };
+    static const double stated[] = {0.95, 0.95, 0.95};
+    for (int i = 0; i < 3; i++)
+        few_assert_share(few_lines_of(12, 2 + i, true, false, ROUNDS, 700 + (unsigned long)i).slope, stated[i], 0.01, ROUNDS);
+}
+
+static void crossovers(void **state)
+{
+    (void)state;
+    for (size_t c = 0; c < FEW_CLAIMS; c += 2) few_assert_bends(&few_claims[c], 200, 2000 + c);
+}
+
+/* Draws about a curve without noise are as wide as Student's law of the freedom behind the errors, beside those of errors known from 100000
+ * replicas: the fit is linear in errors of 0.1 %. Of 19999 draws the quantile 0.025 is known to 1.4 % at worst; 5 % are allowed. */
+static double width_of(int64_t replicas, int64_t of_last, double zigzag)
+{
+    fracas_size_point point[FEW_RATES];
+    for (size_t i = 0; i < FEW_RATES; i++) {
+        const double at = 1e2 * pow(10, 5.0 * (double)i / (FEW_RATES - 1)), off = exp(zigzag * 1e-3 * (i % 2 ? 1 : -1));
+        const int64_t n = i + 1 < FEW_RATES ? replicas : of_last;
+        point[i] = (fracas_size_point){.replicas = n, .rate = at, .size = 1e-3 * off / (1 + pow(at / 3e4, 0.7)), .error = n > 1 ? 1e-3 : NAN};
+    }
+    const fracas_size_series series = {.name = "", .n = FEW_RATES, .point = point};
+    fracas_size_crossover fit;
+    assert_int_equal(fracas_crossover_fit(&series, 19999, 1, &fit), FRACAS_OK);
+    print_message("%lld replicas, the last mean %lld: pooled %g, inflation %.3f, width %.5f\n", (long long)replicas, (long long)of_last,
+                  fit.pooled, fit.inflation, log(fit.rate.high / fit.rate.low));
+    assert_true(isnan(fit.pooled) || fit.pooled == 8.0 * (double)(replicas - 1) + (double)(of_last - 1));
+    return log(fit.rate.high / fit.rate.low) / fit.inflation;
+}
+
+static void draws_are_students(void **state)
+{
+    (void)state;
+    const double known = width_of(100000, 100000, 0), normal = gsl_cdf_ugaussian_Pinv(0.975);
+    assert_true(fabs(width_of(2, 2, 0) / known / (gsl_cdf_tdist_Pinv(0.975, 9) / normal) - 1) < 0.05);
+    assert_true(fabs(width_of(3, 3, 0) / known / (gsl_cdf_tdist_Pinv(0.975, 18) / normal) - 1) < 0.05);
+    /* Each its own, of 7 degrees of freedom: independent, of variance 7/5 each, a sum of which is nearly normal. */
+    assert_true(fabs(width_of(8, 8, 0) / known / sqrt(7.0 / 5) - 1) < 0.05);
+    /* Off the curve: the residuals' own 6 degrees of freedom, whatever the replicas. */
+    assert_true(fabs(width_of(100000, 100000, 30) / known / (gsl_cdf_tdist_Pinv(0.975, 6) / normal) - 1) < 0.05);
+    /* A last mean of one replica has an error too, and takes part: the eight others have 8 degrees of freedom. */
+    assert_true(width_of(2, 1, 0) > width_of(2, 2, 0));
+}
+
+/* The same pooled variance, all of it from the scatter at the lowest rate: means there are drawn three times as far off, and s_q, which they
+ * tell, is known less well. Were they drawn by the pooled error, both widths would be equal. */
+static void draws_know_who_scatters(void **state)
+{
+    (void)state;
+    double width[2];
+    for (int one = 0; one < 2; one++) {
+        fracas_size_point point[FEW_RATES];
+        for (size_t i = 0; i < FEW_RATES; i++) {
+            const double at = 1e2 * pow(10, 5.0 * (double)i / (FEW_RATES - 1));
+            point[i] = (fracas_size_point){.replicas = 3, .rate = at, .size = 1e-3 / (1 + pow(at / 3e4, 0.7)), .error = one ? i ? 0 : 3e-3 : 1e-3};
+        }
+        const fracas_size_series series = {.name = "", .n = FEW_RATES, .point = point};
+        fracas_size_crossover fit;
+        assert_int_equal(fracas_crossover_fit(&series, 999, 1, &fit), FRACAS_OK);
+        assert_true(fit.pooled == 18);
+        width[one] = fit.size.high - fit.size.low;
+    }
+    assert_true(width[1] > 1.2 * width[0]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lines), cmocka_unit_test(own_weights), cmocka_unit_test(twelve_points),
+                                       cmocka_unit_test(crossovers), cmocka_unit_test(draws_are_students),
+                                       cmocka_unit_test(draws_know_who_scatters)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
