@@ -181,7 +181,7 @@ static fracas_err fit(fitter *of, int64_t resamples, uint64_t seed, fracas_size_
         return FRACAS_OK;
     }
     if (!(best[RATE] > of->x[0] && best[RATE] < of->x[of->n - 1])) {
-        snprintf(crossover->reason, sizeof crossover->reason, "no bend between the rates: the fitted crossover is %s of them",
+        snprintf(crossover->reason, sizeof crossover->reason, "no bend: the fitted crossover is %s rates",
                  best[RATE] <= of->x[0] ? "below all" : "above all");
         return FRACAS_OK;
     }

@@ -23,7 +23,7 @@ static void add_series(const fracas_size_series *series, fracas_size_window *lis
         const fracas_size_point *low = &series->point[i], *high = low + 1;
         fracas_size_window made = {.point = {low->point, high->point}, .rate = {low->rate, high->rate}, .scales = series->scales,
                                    .window = fracas_window_of(low, high)};
-        if (!isfinite(made.window.slope)) continue;
+        if (low->whole || high->whole || !isfinite(made.window.slope)) continue; /* the length of a body is no fragment size */
         snprintf(made.name, sizeof made.name, "%s", series->name);
         list[(*count)++] = made;
     }

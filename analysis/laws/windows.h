@@ -23,7 +23,7 @@ typedef struct {
     fracas_window window;
 } fracas_size_window;
 
-/* Of every two neighbouring rates of every series, series by series, ascending. *list freed by the caller with free(). */
+/* Of every two neighbouring rates of every series at which some body came apart, series by series, ascending. *list freed by the caller with free(). */
 FRACAS_MUST_USE fracas_err fracas_size_windows(const struct fracas_analysis *analysis, fracas_size_window **list, size_t *count);
 
 #endif

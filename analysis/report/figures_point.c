@@ -49,8 +49,9 @@ fracas_err fracas_figure_bands(const fracas_analysis *analysis, size_t point, fr
     snprintf(panel->x.label, sizeof panel->x.label, "time [%ss]", time.sign);
     snprintf(panel->y.label, sizeof panel->y.label, "energy [%sJ]", joule.sign);
     snprintf(chart->caption, sizeof chart->caption, "Lines: means over n = %lld realizations; areas: %s. A realization that has ended counts with what it "
-             "had in the end; of the last times some are still running.", (long long)bands->realizations,
-             bands->extremes ? "from the least to the greatest" : "between the quantiles 5 % and 95 %");
+             "had in the end%s.", (long long)bands->realizations,
+             bands->extremes ? "from the least to the greatest" : "between the quantiles 5 % and 95 %",
+             bands->running[bands->count - 1] < bands->realizations ? "; at the last times some are still running" : "");
     return FRACAS_OK;
 }
 

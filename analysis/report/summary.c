@@ -1,6 +1,7 @@
 /* The first section: what was run, what came out, what to beware of. */
 #include "analysis/report/page.h"
 
+#include "analysis/laws/crossover.h"
 #include "analysis/laws/slope.h"
 #include "analysis/tables/format.h"
 
@@ -208,12 +209,29 @@ static fracas_err put_slope(const fracas_page *page)
     return FRACAS_OK;
 }
 
+/* Where the sizes of a study of one series bend, if they do. */
+static fracas_err put_crossover(const fracas_page *page)
+{
+    fracas_size_crossover *list;
+    size_t count;
+    TRY(fracas_size_crossovers(page->analysis, true, &list, &count));
+    if (count == 1 && !*list->reason && list->rate.low > 0) {
+        char rate[96], exponent[96];
+        fracas_format_interval(list->rate.value, list->rate.low, list->rate.high, rate, sizeof rate);
+        fracas_format_interval(list->exponent.value, list->exponent.low, list->exponent.high, exponent, sizeof exponent);
+        fprintf(page->out, "<p>A curve that is level at low rates bends at %s /s, to the power %s at high ones (<a href=\"#crossovers\">crossover</a>).</p>\n",
+                rate, exponent);
+    }
+    free(list);
+    return FRACAS_OK;
+}
+
 /* The worst known mean count. */
 static void put_precision(const fracas_page *page)
 {
     const fracas_analysis *analysis = page->analysis;
     size_t worst = SIZE_MAX;
-    double part = -1;
+    double part = 0; /* 0: all replicas of a point are alike, as where every body stays whole */
     for (size_t p = 0; p < analysis->table->npoints; p++) {
         const fracas_estimate *count = &analysis->point[p].count;
         const double here = count->half_width / count->mean;
@@ -270,6 +288,7 @@ fracas_err fracas_section_summary(fracas_page *page)
     fputs("<div class=\"summary\">\n<div>\n", page->out);
     TRY(put_headlines(page));
     TRY(put_slope(page));
+    TRY(put_crossover(page));
     put_precision(page);
     TRY(put_warnings(page));
     fputs("</div>\n<div>\n", page->out);

@@ -121,12 +121,6 @@ static double ring_radius(const fracas_point_table *table, size_t point)
     return ring ? fracas_columns_real(table, point, "geometry.radius") : NAN;
 }
 
-/* Surfaces alone have a thickness. */
-static bool is_surface(const fracas_point_table *table, size_t point)
-{
-    return isfinite(fracas_columns_real(table, point, "geometry.thickness"));
-}
-
 /* G_c [J/m2], of the mean strength where the critical opening is given: fracture_energy is 0 then. */
 static double fracture_energy(const fracas_point_table *table, size_t point)
 {
@@ -141,7 +135,7 @@ static double lattice_of(const fracas_point_table *table, size_t point, double l
     const size_t spacing = fracas_point_table_find(table, "mesh.spacing");
     const double elements = fracas_columns_real(table, point, "mesh.elements");
     const bool equal = spacing == SIZE_MAX || !strcmp(table->point[point].value[spacing].text, "uniform");
-    return equal && !is_surface(table, point) && length > 0 && elements > 0 ? length / elements : 0;
+    return equal && !fracas_columns_surface(table, point) && length > 0 && elements > 0 ? length / elements : 0;
 }
 
 void fracas_point_statistics_init(const fracas_point_table *table, size_t point, fracas_point_statistics *statistics)
@@ -150,7 +144,7 @@ void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
         .rate = fracas_columns_rate(table, point),
         .length = fracas_columns_real(table, point, "geometry.length"),
         .radius = ring_radius(table, point),
-        .surface = is_surface(table, point),
+        .surface = fracas_columns_surface(table, point),
         .scales = fracas_scales_of(fracas_columns_real(table, point, "material.young"),
                                    fracas_columns_real(table, point, "material.density"),
                                    fracas_columns_real(table, point, "derived.strength_mean"),

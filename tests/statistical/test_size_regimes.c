@@ -153,8 +153,8 @@ static void without_a_fit(void **state)
         const char *what, *reason;
     } const row[] = {{"few", "4 rates with a known standard error, 5 are needed"}, {"one", "1 rate with a known standard error, 5 are needed"},
                      {"equal", "1 rate with a known standard error, 5 are needed"}, {"unknown", "0 rates with a known"},
-                     {"powers", "no bend between the rates: the fitted crossover is below all"},
-                     {"level", "no bend between the rates: the fitted crossover is above all"}};
+                     {"powers", "no bend: the fitted crossover is below all rates"},
+                     {"level", "no bend: the fitted crossover is above all rates"}};
     for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
         make(point, 0.01, NULL);
         series.n = !strcmp(row[k].what, "few") ? 4 : !strcmp(row[k].what, "one") ? 1 : RATES;

@@ -152,7 +152,7 @@ for group in groups.values():
     of = sorted((row for row in group if row["rate"] > 0 and not math.isnan(row["size.mean"])), key=lambda row: row["rate"])
     for low, high in zip(of, of[1:]):
         x = math.log(high["rate"] / low["rate"])
-        if x > 1e-9:
+        if x > 1e-9 and low["count.mean"] != 1 and high["count.mean"] != 1:
             errors = [(row["size.deviation"] / row["size.mean"])**2 / row["size.n"] for row in (low, high)]
             expected.append((low["rate"], high["rate"], math.log(high["size.mean"] / low["size.mean"]) / x,
                              math.sqrt(sum(errors)) / x))

@@ -2,6 +2,7 @@
 #include "analysis/export/csv.h"
 #include "analysis/export/output.h"
 #include "analysis/report/picture/surfaces.h"
+#include "analysis/study/columns.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -32,9 +33,16 @@ static fracas_err check_campaign(const making *m)
                        m->study, m->study);
 }
 
+static fracas_err no_surface(size_t point)
+{
+    return fracas_fail(FRACAS_USAGE, "point %zu is no surface: only membranes and shells have pictures; "
+                       "`fracas report` draws the fragments of rings", point);
+}
+
 static fracas_err check_point(making *m)
 {
     const size_t point = m->request->point, npoints = m->table->npoints;
+    if (point < npoints && !fracas_columns_surface(m->table, point)) return no_surface(point);
     if (!fracas_results_header(m->results)->interfaces)
         return fracas_fail(FRACAS_USAGE, "%s keeps no interfaces, so it does not say where the cracks are: run the campaign with "
                            "`output: {interfaces: true}` into another study", m->study);
@@ -43,9 +51,7 @@ static fracas_err check_point(making *m)
     for (size_t p = 0; p < point; p++) m->first_row += (size_t)m->table->point[p].replicas;
     size_t interfaces;
     TRY(fracas_results_mesh_interfaces(m->results, point, &interfaces));
-    if (interfaces) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "point %zu is no surface: only membranes and shells have pictures; "
-                       "`fracas report` draws the fragments of rings", point);
+    return interfaces ? FRACAS_OK : no_surface(point);
 }
 
 static fracas_err check_replica(const making *m)
