@@ -173,6 +173,14 @@ static bool is_absent(const fracas_point_table *table, size_t column, size_t poi
     return table->column[column].text ? *value->text == '\0' : isnan(value->real);
 }
 
+static bool takes_prefix(const char *unit)
+{
+    static const char *const plain[] = {"m", "s", "Pa", "J"};
+    for (size_t i = 0; i < sizeof plain / sizeof *plain; i++)
+        if (!strcmp(unit, plain[i])) return true;
+    return false;
+}
+
 /* A point is called by the values that it has, unless it has none of them: a load by its own keys, not by the lack of those
  * of other loads. */
 void fracas_columns_label(const fracas_point_table *table, const fracas_columns *columns, size_t point, char *text,
@@ -187,7 +195,7 @@ void fracas_columns_label(const fracas_point_table *table, const fracas_columns 
         if (absent && present > 0) continue;
         char value[64];
         fracas_prefix prefix = {1, "", ""};
-        if (!strcmp(column->unit, "m")) prefix = fracas_prefix_for(&table->point[point].value[columns->column[i]].real, 1);
+        if (takes_prefix(column->unit)) prefix = fracas_prefix_for(&table->point[point].value[columns->column[i]].real, 1);
         fracas_columns_value(table, columns->column[i], point, prefix.factor, value, sizeof value);
         bool unit = !column->text && !absent && strcmp(column->unit, "1");
         const char *name = fracas_columns_name(table, columns, i);
