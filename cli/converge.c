@@ -265,7 +265,8 @@ const fracas_command fracas_command_converge = {
     .more = "\nThe campaign of FILE as it is, with half the time step, with interfaces twice as stiff, and on a mesh of half the size is computed, each as\n"
             "a study in DIR; then every headline number is compared with what it is without: a table, and figures on the page DIR/report/index.html.\n"
             "It ends with 0 whatever moved. The same command goes on with what was interrupted, prints the result of what is complete, and extends\n"
-            "all studies by more --replicas.\n",
+            "all studies by more --replicas. FILE itself is run anew, as a study of its own: the same strengths in all studies, of which those of step\n"
+            "and beta make pairs. Strengths that scatter much and have no reference volume belong to interfaces: mesh moves with their number.\n",
     .options = FRACAS_STUDY_RUN_OPTIONS, .noptions = FRACAS_NSTUDY_RUN_OPTIONS, .own = options, .nown = FRACAS_COUNT(options),
     .refused = refused, .nrefused = FRACAS_COUNT(refused), .run = converge,
 };
