@@ -43,7 +43,7 @@ assert octant["dissipated_bending.mean"] > 0 and bar["law.zmr"] > 0 and plate["l
 END
 
 # Each number in turn is off, in points.csv and summary.json alike: by 1e-9 of it (motions of rings, which may be a little off, by 1e-8 and
-# 2e-9 m/s; variances by 1e-9; an end of a bootstrap
+# 2e-9 m/s; variances by 1e-9; ends by 1e-9 of value and length; an end of a bootstrap
 # interval, of the plate, is missing: that of few realizations is as exact as a mean), or it is there where none is.
 /usr/bin/python3 - "$source" <<'END' || fail "a wrong number went unnoticed"
 import copy, csv, json, os, sys
@@ -60,13 +60,16 @@ def found(row, point, line):
         return True
     return False
 
-def off(key, value, resamples):
+def off(key, value, resamples, row):
     name, _, part = key.rpartition(".")
     spread = np.nanstd(resamples[name][0]) if part in ("low", "high") and name in resamples else 0
     if spread > 1e-9 * abs(value):
         return None
     if key.startswith("variance."): # differences of larger numbers
         return value * (1 + 1e-8) + np.copysign(1e-7 if "design_effect" in key else 1e-9, value)
+    if part in ("low", "high"): # the least of them are a small difference of two numbers
+        size = abs(row[name + ".value"]) + row[name + ".high"] - row[name + ".low"]
+        return value + (1e-9 * size if size > 1e-12 else 1)
     relative, absolute = (1e-8, 2e-9) if key.partition(".")[0] in NEAR else (1e-9, 0)
     return value * (1 + relative) + absolute + (value == 0)
 
@@ -77,7 +80,7 @@ for row, point, line in zip(rows, summary["points"], lines, strict=True):
         if key in row[2] or key == "unconverged" and row[2]:
             continue # noise of the resamples decides
         wrong, cells = copy.deepcopy(point), dict(line)
-        wrong["statistics"][key] = 1 if value is None else off(key, value, row[1])
+        wrong["statistics"][key] = 1 if value is None else off(key, value, row[1], row[0])
         cells[key] = "" if wrong["statistics"][key] is None else repr(float(wrong["statistics"][key]))
         assert found(row, wrong, cells), key
         assert found(row, point, cells), key
