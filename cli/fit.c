@@ -15,18 +15,15 @@ static const fracas_option options[] = {
     [JSON] = {"json", NULL, "print the fits as JSON", 0},
 };
 
-/* What the file has of the other points, if it is of the same study.h5; NULL if there is nothing. Before anything is computed: what cannot be
+/* What the file has of the other points as the analysis sees them; NULL if there is no file. Before anything is computed: what cannot be
  * read is said at once. */
-static fracas_err read_others(const char *study, bool wanted, fracas_fits **older)
+static fracas_err read_others(const char *study, const fracas_analysis *analysis, bool wanted, fracas_fits **older)
 {
-    bool stale;
+    size_t stale;
     *older = NULL;
     if (!wanted) return FRACAS_OK;
-    TRY(fracas_fits_read(study, older, &stale));
-    if (stale) {
-        fracas_fits_destroy(*older);
-        *older = NULL;
-    }
+    TRY(fracas_fits_read(study, older));
+    if (*older) fracas_fits_keep(*older, analysis, &stale);
     return FRACAS_OK;
 }
 
@@ -35,8 +32,8 @@ static fracas_err fit_study(const fracas_arguments *arguments, const fracas_anal
     const char *study = arguments->operand;
     const bool json = arguments->value[JSON] != NULL;
     fracas_fits *fits, *older;
-    TRY(read_others(study, point != SIZE_MAX, &older));
-    fracas_err code = fracas_fits_create(analysis, study, point, resamples, &fits);
+    TRY(read_others(study, analysis, point != SIZE_MAX, &older));
+    fracas_err code = fracas_fits_create(analysis, point, resamples, &fits);
     if (!code) {
         if (json) fracas_fits_write_json(fits, stdout);
         else fracas_fits_print(fits, analysis, stdout);

@@ -64,10 +64,15 @@ static double quantile(const double *ascending, size_t count, double p)
     return ascending[below] + (at - (double)below) * (ascending[below + 1] - ascending[below]);
 }
 
+static double upper_share(const fracas_bootstrap_options *options)
+{
+    return 0.5 + 0.5 * (options->confidence > 0 ? options->confidence : 0.95);
+}
+
 /* Upper quantile of the confidence (estimators.18) */
 static double upper(size_t n, const fracas_bootstrap_options *options)
 {
-    const double p = 0.5 + 0.5 * (options->confidence > 0 ? options->confidence : 0.95);
+    const double p = upper_share(options);
     if (options->plain) return gsl_cdf_ugaussian_Pinv(p);
     return sqrt((double)n / (double)(n - 1)) * gsl_cdf_tdist_Pinv(p, (double)(n - 1));
 }
@@ -100,43 +105,102 @@ static void summarise(double *found, size_t most, const double *left_out, size_t
     }
 }
 
+/* value[] of all realizations, then without each group; its standard error is of deviations from the value itself, not from the mean without groups:
+ * where a value is biased, longer. */
+static void jackknife(resampling *r, double *value, fracas_jackknifed *found)
+{
+    for (size_t i = 0; i < r->n; i++) r->weight[i] = 1;
+    r->statistic(r->context, r->weight, value);
+    for (size_t v = 0; v < r->nvalues; v++) found[v] = (fracas_jackknifed){value[v], NAN, NAN, r->groups};
+    if (r->n < 2) return;
+    const double g = (double)r->groups;
+    leave_out(r, value);
+    for (size_t v = 0; v < r->nvalues; v++) {
+        double sum = 0, squares = 0;
+        for (size_t k = 0; k < r->groups; k++) {
+            const double d = r->left_out[v * r->groups + k] - found[v].value;
+            sum += d;
+            squares += d * d;
+        }
+        found[v].standard_error = sqrt((g - 1) / g * squares);
+        found[v].bias = (g - 1) / g * sum;
+    }
+}
+
+/* (estimators.18) */
+static void student(const resampling *r, const fracas_bootstrap_options *options, const fracas_jackknifed *found, fracas_interval *interval)
+{
+    const double t = r->n > 1 ? gsl_cdf_tdist_Pinv(upper_share(options), (double)(r->n - 1)) : NAN;
+    for (size_t v = 0; v < r->nvalues; v++) {
+        const double half = t * found[v].standard_error;
+        interval[v] = (fracas_interval){found[v].value, found[v].value - half, found[v].value + half, found[v].standard_error, found[v].bias,
+                                        isfinite(half) ? (int64_t)r->groups : 0};
+    }
+}
+
 static fracas_err resample(resampling *r, const fracas_bootstrap_options *options, fracas_interval *interval, double *value)
 {
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     if (!random) return fracas_no_memory("a bootstrap");
     gsl_rng_set(random, (unsigned long)(options->seed ^ options->seed >> 32)); /* it takes 32 bits */
-    for (size_t i = 0; i < r->n; i++) r->weight[i] = 1;
-    r->statistic(r->context, r->weight, value);
-    for (size_t v = 0; v < r->nvalues; v++) interval[v].value = value[v];
-    if (r->n >= FRACAS_BOOTSTRAP_LEAST) {
-        for (size_t b = 0; b < r->most; b++) {
-            draw(r, random);
-            r->statistic(r->context, r->weight, value);
-            put(r, value, r->found, r->most, b);
-        }
-        leave_out(r, value);
-        for (size_t v = 0; v < r->nvalues; v++)
-            summarise(r->found + v * r->most, r->most, r->left_out + v * r->groups, r->groups, upper(r->n, options), &interval[v]);
+    for (size_t b = 0; b < r->most; b++) {
+        draw(r, random);
+        r->statistic(r->context, r->weight, value);
+        put(r, value, r->found, r->most, b);
     }
+    for (size_t v = 0; v < r->nvalues; v++)
+        summarise(r->found + v * r->most, r->most, r->left_out + v * r->groups, r->groups, upper(r->n, options), &interval[v]);
     gsl_rng_free(random);
     return FRACAS_OK;
+}
+
+/* Room for `most` resamples, of which there may be none. */
+static fracas_err make_room(resampling *r, double **value, fracas_jackknifed **found)
+{
+    r->weight = malloc((r->n + 1) * sizeof *r->weight);
+    r->found = malloc((r->nvalues * r->most + 1) * sizeof *r->found);
+    r->left_out = malloc((r->nvalues * r->groups + 1) * sizeof *r->left_out);
+    *value = malloc((r->nvalues + 1) * sizeof **value);
+    if (found) *found = malloc((r->nvalues + 1) * sizeof **found);
+    return r->weight && r->found && r->left_out && *value && (!found || *found) ? FRACAS_OK : fracas_no_memory("a bootstrap");
+}
+
+static void clear(resampling *r, double *value)
+{
+    free(r->weight);
+    free(r->found);
+    free(r->left_out);
+    free(value);
 }
 
 fracas_err fracas_bootstrap(size_t n, size_t nvalues, fracas_resampled *statistic, void *context, const fracas_bootstrap_options *options,
                             fracas_interval *interval)
 {
-    resampling r = {.n = n, .nvalues = nvalues, .statistic = statistic, .context = context,
-                    .most = options->resamples > 0 ? (size_t)options->resamples : RESAMPLES, .groups = n < GROUPS ? n : GROUPS};
+    resampling r = {.n = n, .nvalues = nvalues, .statistic = statistic, .context = context, .groups = n < GROUPS ? n : GROUPS};
+    double *value = NULL;
+    fracas_jackknifed *found = NULL;
+    if (n >= FRACAS_BOOTSTRAP_LEAST) r.most = options->resamples > 0 ? (size_t)options->resamples : RESAMPLES;
     for (size_t v = 0; v < nvalues; v++) interval[v] = (fracas_interval){NAN, NAN, NAN, NAN, NAN, 0};
-    r.weight = malloc((n + 1) * sizeof *r.weight);
-    r.found = malloc((nvalues * r.most + 1) * sizeof *r.found);
-    r.left_out = malloc((nvalues * r.groups + 1) * sizeof *r.left_out);
-    double *value = malloc((nvalues + 1) * sizeof *value);
-    const bool room = r.weight && r.found && r.left_out && value;
-    fracas_err err = !room ? fracas_no_memory("a bootstrap") : n ? resample(&r, options, interval, value) : FRACAS_OK;
-    free(r.weight);
-    free(r.found);
-    free(r.left_out);
-    free(value);
+    fracas_err err = make_room(&r, &value, &found);
+    if (!err && n) {
+        jackknife(&r, value, found);
+        if (r.most) {
+            for (size_t v = 0; v < nvalues; v++) interval[v].value = found[v].value;
+            err = resample(&r, options, interval, value);
+        } else student(&r, options, found, interval);
+    }
+    clear(&r, value);
+    free(found);
+    return err;
+}
+
+fracas_err fracas_jackknife(size_t n, size_t nvalues, fracas_resampled *statistic, void *context, fracas_jackknifed *found)
+{
+    resampling r = {.n = n, .nvalues = nvalues, .statistic = statistic, .context = context, .groups = n < GROUPS ? n : GROUPS};
+    double *value = NULL;
+    for (size_t v = 0; v < nvalues; v++) found[v] = (fracas_jackknifed){NAN, NAN, NAN, 0};
+    fracas_err err = make_room(&r, &value, NULL);
+    if (!err && n) jackknife(&r, value, found);
+    clear(&r, value);
     return err;
 }

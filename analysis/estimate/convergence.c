@@ -30,37 +30,63 @@ static fracas_err run(const fracas_ensemble *ensemble, size_t n, uint64_t seed, 
     return FRACAS_OK;
 }
 
-/* (estimators.22) */
-static bool settled(const fracas_settling *number, double half)
+/* The same of realizations begin to end - 1 alone. */
+static fracas_err run_part(const fracas_ensemble *ensemble, size_t begin, size_t end, fracas_part part[FRACAS_NHEADLINES])
 {
-    const double width = 0.5 * (number->high - number->low);
-    return width <= FRACAS_CONVERGED_WIDTH * fabs(number->value) && fabs(half - number->value) <= FRACAS_CONVERGED_DRIFT * width;
+    const fracas_replica_values *of = ensemble->value + begin;
+    const size_t n = end - begin;
+    part[FRACAS_HEADLINE_COUNT] = fracas_part_of(&of->count, FRACAS_REPLICA_STRIDE, n);
+    part[FRACAS_HEADLINE_SIZE] = fracas_part_of(&of->size, FRACAS_REPLICA_STRIDE, n);
+    part[FRACAS_HEADLINE_DISSIPATED] = fracas_part_of(&of->dissipated, FRACAS_REPLICA_STRIDE, n);
+    part[FRACAS_HEADLINE_LARGEST_SHARE] = fracas_part_of(&of->largest_share, FRACAS_REPLICA_STRIDE, n);
+    return fracas_pooled_part(ensemble, begin, end, part + FRACAS_HEADLINE_MEAN);
+}
+
+static fracas_err compare_halves(const fracas_ensemble *ensemble, fracas_replica_convergence *convergence)
+{
+    const size_t n = ensemble->nrealizations;
+    fracas_part first[FRACAS_NHEADLINES], second[FRACAS_NHEADLINES];
+    TRY(run_part(ensemble, 0, n / 2, first));
+    TRY(run_part(ensemble, n / 2, n, second));
+    for (int h = 0; h < FRACAS_NHEADLINES; h++) {
+        convergence->half[h] = first[h].value;
+        convergence->rest[h] = second[h].value;
+        convergence->alike[h] = fracas_parts_alike(&first[h], &second[h]);
+    }
+    return FRACAS_OK;
+}
+
+bool fracas_replica_convergence_drifts(const fracas_replica_convergence *convergence, fracas_headline headline)
+{
+    return convergence->alike[headline] < FRACAS_CONVERGED_ALARM;
+}
+
+/* (estimators.22) */
+static bool settled(const fracas_settling *number)
+{
+    return 0.5 * (number->high - number->low) <= FRACAS_CONVERGED_WIDTH * fabs(number->value);
 }
 
 fracas_err fracas_replica_convergence_of(const fracas_ensemble *ensemble, uint64_t seed, fracas_replica_convergence *convergence)
 {
     const size_t n = ensemble->nrealizations;
     *convergence = (fracas_replica_convergence){0};
-    for (int h = 0; h < FRACAS_NHEADLINES; h++) convergence->half[h] = NAN;
+    for (int h = 0; h < FRACAS_NHEADLINES; h++) convergence->half[h] = convergence->rest[h] = convergence->alike[h] = NAN;
     if (n == 0) return FRACAS_OK;
     size_t rows = 1;
-    for (size_t first = FRACAS_BOOTSTRAP_LEAST; first < n; first *= 2) rows++;
+    for (size_t first = FRACAS_CONVERGENCE_FIRST; first < n; first *= 2) rows++;
     convergence->row = malloc(rows * sizeof *convergence->row);
     if (!convergence->row) return fracas_no_memory("the convergence of a point");
-    for (size_t first = FRACAS_BOOTSTRAP_LEAST; convergence->count < rows; first *= 2) {
+    for (size_t first = FRACAS_CONVERGENCE_FIRST; convergence->count < rows; first *= 2) {
         fracas_running *row = &convergence->row[convergence->count++];
         row->replicas = (int64_t)(convergence->count == rows ? n : first);
         TRY(run(ensemble, (size_t)row->replicas, seed, row->number));
     }
-    if (n >= 2) {
-        fracas_settling half[FRACAS_NHEADLINES];
-        TRY(run(ensemble, n / 2, seed, half));
-        for (int h = 0; h < FRACAS_NHEADLINES; h++) convergence->half[h] = half[h].value;
-    }
+    if (n >= 2) TRY(compare_halves(ensemble, convergence));
     for (int h = 0; h < FRACAS_NHEADLINES; h++) {
         const fracas_settling *number = &convergence->row[rows - 1].number[h];
         const bool has = isfinite(number->value);
-        convergence->converged[h] = has && settled(number, convergence->half[h]);
+        convergence->converged[h] = has && settled(number) && !fracas_replica_convergence_drifts(convergence, (fracas_headline)h);
         convergence->unconverged += has && !convergence->converged[h];
     }
     return FRACAS_OK;

@@ -35,16 +35,21 @@ typedef struct {
 
 typedef struct {
     size_t count;
-    fracas_running *row;                  /* after 4, 8, 16, ... realizations, and after all */
-    double half[FRACAS_NHEADLINES];       /* of the first half of the realizations alone; NaN of fewer than two */
+    fracas_running *row;                  /* after FRACAS_CONVERGENCE_FIRST 2^k realizations, and after all */
+    double half[FRACAS_NHEADLINES], rest[FRACAS_NHEADLINES]; /* of the first half of the realizations alone, and of the others; NaN of fewer than two */
+    double alike[FRACAS_NHEADLINES];      /* probability that halves of like realizations are as far apart; NaN: nothing says how far they may be */
     int64_t converged[FRACAS_NHEADLINES]; /* 1, or 0 */
     int64_t unconverged;                  /* numbers that are not, of those that the point has */
 } fracas_replica_convergence;
 
-/* (estimators.22): a number is converged if its half width w = (high - low)/2 is at most FRACAS_CONVERGED_WIDTH |value| and the value of the first half
- * of the realizations lies within FRACAS_CONVERGED_DRIFT w of it: independent replicas pass that but once in 1600 times. */
+/* (estimators.22): a number is converged if its half width w = (high - low)/2 is at most FRACAS_CONVERGED_WIDTH |value| and its halves are not such as
+ * replicas that are alike have but once in 1/FRACAS_CONVERGED_ALARM times (fracas_parts_alike). */
 #define FRACAS_CONVERGED_WIDTH 0.05
-#define FRACAS_CONVERGED_DRIFT 1.75
+#define FRACAS_CONVERGED_ALARM (1.0 / 1600)
+enum { FRACAS_CONVERGENCE_FIRST = 4 };
+
+/* True if halves say that replicas are not alike: the number drifts. */
+bool fracas_replica_convergence_drifts(const fracas_replica_convergence *convergence, fracas_headline headline);
 
 /* Of the realizations in the order of the study, which is that of replicas. Cleared by the caller, also after an error.
  * FRACAS_ENVIRONMENT without memory. */

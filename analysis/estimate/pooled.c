@@ -30,7 +30,7 @@ enum { NSUMS = sizeof(sums) / sizeof(double) };
 
 typedef struct {
     size_t units;
-    const sums *of; /* each unit */
+    sums *of; /* each unit */
     double shift;
 } summed;
 
@@ -106,22 +106,29 @@ static sums sums_of(const fracas_ensemble *ensemble, size_t i, double shift, dou
     return of;
 }
 
+/* Sums of each unit of realizations begin to begin + n - 1, freed by the caller. */
+static fracas_err sum_units(const fracas_ensemble *ensemble, size_t begin, size_t n, double cut, summed *context)
+{
+    *context = (summed){.units = fracas_pooled_units(n), .shift = ensemble->nfragments ? ensemble->size[0] : 0};
+    sums *of = calloc(context->units + 1, sizeof *of);
+    if (!of) return fracas_no_memory("the sums of the realizations of a point");
+    for (size_t i = 0; i < n; i++) {
+        const sums one = sums_of(ensemble, begin + i, context->shift, cut);
+        add(&of[fracas_pooled_unit(i, n)], &one, 1);
+    }
+    context->of = of;
+    return FRACAS_OK;
+}
+
 /* Of the first n realizations; `all` their sum. */
 static fracas_err resample_sums(const fracas_ensemble *ensemble, size_t n, double cut, uint64_t seed, fracas_interval *interval, sums *all)
 {
-    const size_t units = fracas_pooled_units(n);
-    sums *of = calloc(units + 1, sizeof *of);
-    if (!of) return fracas_no_memory("the sums of the realizations of a point");
-    const double shift = ensemble->nfragments ? ensemble->size[0] : 0;
-    for (size_t i = 0; i < n; i++) {
-        const sums one = sums_of(ensemble, i, shift, cut);
-        add(&of[fracas_pooled_unit(i, n)], &one, 1);
-    }
+    summed context;
+    TRY(sum_units(ensemble, 0, n, cut, &context));
     *all = (sums){0};
-    for (size_t u = 0; u < units; u++) add(all, &of[u], 1);
-    summed context = {.units = units, .of = of, .shift = shift};
-    fracas_err err = fracas_bootstrap(units, NVALUES, of_sums, &context, &(fracas_bootstrap_options){.seed = seed}, interval);
-    free(of);
+    for (size_t u = 0; u < context.units; u++) add(all, &context.of[u], 1);
+    fracas_err err = fracas_bootstrap(context.units, NVALUES, of_sums, &context, &(fracas_bootstrap_options){.seed = seed}, interval);
+    free(context.of);
     return err;
 }
 
@@ -159,4 +166,20 @@ fracas_err fracas_pooled_first(const fracas_ensemble *ensemble, size_t realizati
     TRY(resample_sums(ensemble, realizations, 0, seed, found, &all));
     for (int v = 0; v < FRACAS_NPOOLED; v++) interval[v] = found[v];
     return FRACAS_OK;
+}
+
+fracas_err fracas_pooled_part(const fracas_ensemble *ensemble, size_t begin, size_t end, fracas_part part[FRACAS_NPOOLED])
+{
+    fracas_jackknifed found[NVALUES];
+    summed context;
+    TRY(sum_units(ensemble, begin, end - begin, 0, &context));
+    fracas_err err = fracas_jackknife(context.units, NVALUES, of_sums, &context, found);
+    const double n = (double)(end - begin);
+    for (int v = 0; v < FRACAS_NPOOLED && !err; v++) {
+        const bool known = isfinite(found[v].standard_error);
+        part[v] = (fracas_part){found[v].value, n, known ? n * found[v].standard_error * found[v].standard_error : NAN,
+                                known ? (double)(found[v].groups - 1) : 0};
+    }
+    free(context.of);
+    return err;
 }

@@ -3,6 +3,7 @@
 #define FRACAS_ANALYSIS_ESTIMATE_POOLED_H
 
 #include "analysis/estimate/bootstrap.h"
+#include "analysis/estimate/halves.h"
 #include "analysis/study/ensemble.h"
 #include "base/err.h"
 
@@ -48,5 +49,7 @@ FRACAS_MUST_USE fracas_err fracas_pooled_of(const fracas_ensemble *ensemble, uin
 enum { FRACAS_POOLED_MEAN, FRACAS_POOLED_MASS_MEAN, FRACAS_POOLED_VARIATION, FRACAS_NPOOLED };
 FRACAS_MUST_USE fracas_err fracas_pooled_first(const fracas_ensemble *ensemble, size_t realizations, uint64_t seed,
                                                fracas_interval interval[FRACAS_NPOOLED]);
+/* The same of realizations begin to end - 1 alone, with variances from leaving out units in turn (fracas_jackknife). */
+FRACAS_MUST_USE fracas_err fracas_pooled_part(const fracas_ensemble *ensemble, size_t begin, size_t end, fracas_part part[FRACAS_NPOOLED]);
 
 #endif

@@ -84,7 +84,7 @@ static void write_progress(fracas_json *json, const fracas_progress *progress)
     fracas_json_close_object(json);
 }
 
-static void write_point(fracas_json *json, const fracas_analysis *analysis, size_t p, const fracas_fits *fits, bool stale)
+static void write_point(fracas_json *json, const fracas_analysis *analysis, size_t p, const fracas_fits *fits)
 {
     char label[256], hash[FRACAS_HASH_HEX];
     fracas_analysis_label(analysis, p, label, sizeof label);
@@ -101,7 +101,7 @@ static void write_point(fracas_json *json, const fracas_analysis *analysis, size
     write_reasons(json, &analysis->point[p]);
     fracas_summary_put_convergence(json, analysis, p);
     fracas_summary_put_energies(json, analysis, p);
-    fracas_summary_put_fits(json, analysis, p, fits, stale);
+    fracas_summary_put_fits(json, p, fits);
     fracas_json_close_object(json);
 }
 
@@ -222,7 +222,7 @@ void fracas_analysis_reference(FILE *out)
     }
 }
 
-void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fits, bool stale, FILE *out)
+void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fits, size_t stale, FILE *out)
 {
     char hash[FRACAS_HASH_HEX], seed[24];
     fracas_hash_hex(&analysis->header.campaign, hash);
@@ -238,13 +238,14 @@ void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fi
     fracas_json_boolean(&json, "complete", analysis->header.complete);
     fracas_json_boolean(&json, "partial", fracas_results_partial(analysis->results));
     write_progress(&json, &progress);
+    fracas_json_integer(&json, "stale_fits", (int64_t)stale);
     fracas_json_array(&json, "varying");
     for (size_t i = 0; i < analysis->shown.count; i++)
         fracas_json_text(&json, NULL, analysis->table->column[analysis->shown.column[i]].path);
     fracas_json_close_array(&json);
     write_units(&json, analysis->table);
     fracas_json_array(&json, "points");
-    for (size_t p = 0; p < analysis->table->npoints; p++) write_point(&json, analysis, p, fits, stale);
+    for (size_t p = 0; p < analysis->table->npoints; p++) write_point(&json, analysis, p, fits);
     fracas_json_close_array(&json);
     write_slopes(&json, analysis);
     write_windows(&json, analysis);
@@ -257,8 +258,9 @@ void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fi
 fracas_err fracas_analysis_write_json(const fracas_analysis *analysis, const char *study, FILE *out)
 {
     fracas_fits *fits;
-    bool stale;
-    TRY(fracas_fits_read(study, &fits, &stale));
+    size_t stale = 0;
+    TRY(fracas_fits_read(study, &fits));
+    if (fits) fracas_fits_keep(fits, analysis, &stale);
     fracas_summary_write(analysis, fits, stale, out);
     fracas_fits_destroy(fits);
     return FRACAS_OK;

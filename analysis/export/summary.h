@@ -6,11 +6,11 @@
 #include "analysis/study/study.h"
 #include "base/json.h"
 
-/* The whole document. `fits`: of STUDY/fits.csv, NULL if there are none; `stale`: they are not of the results as these are now. */
-void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fits, bool stale, FILE *out);
+/* The whole document. `fits`: what fracas_fits_keep kept of STUDY/fits.csv, NULL if there are none; `stale`: of how many points it kept none. */
+void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fits, size_t stale, FILE *out);
 
-/* Keys of a point, in summary_series.c: `fits`, by the point's hash, for its number may be another one since they were made; `convergence`; `energies`. */
-void fracas_summary_put_fits(fracas_json *json, const fracas_analysis *analysis, size_t point, const fracas_fits *fits, bool stale);
+/* Keys of a point, in summary_series.c: `fits`; `convergence`; `energies`. */
+void fracas_summary_put_fits(fracas_json *json, size_t point, const fracas_fits *fits);
 void fracas_summary_put_convergence(fracas_json *json, const fracas_analysis *analysis, size_t point);
 void fracas_summary_put_energies(fracas_json *json, const fracas_analysis *analysis, size_t point);
 

@@ -16,13 +16,11 @@ typedef struct {
     size_t count;
 } point_rows;
 
-static point_rows rows_of(const fracas_fits *fits, const fracas_hash *hash)
+static point_rows rows_of(const fracas_fits *fits, size_t point)
 {
-    char hex[FRACAS_HASH_HEX];
     point_rows of = {0};
-    fracas_hash_hex(hash, hex);
     for (size_t i = 0; fits && i < fits->n; i++) {
-        if (strcmp(fits->row[i].hash, hex) != 0) continue;
+        if (fits->row[i].point != (int64_t)point) continue;
         if (!of.row) of.row = &fits->row[i];
         of.count++;
     }
@@ -55,8 +53,9 @@ static void put_interval(fracas_json *json, const fracas_fits_row *row)
 
 static void put_data(fracas_json *json, const point_rows *of)
 {
-    static const char *const plain[] = {"realizations", "fragments", "above_cut", "cut", "lattice", "cells"}, *const ends[] = {"mean", "cv"};
+    static const char *const plain[] = {"realizations", "whole", "fragments", "above_cut", "cut", "lattice", "cells"}, *const ends[] = {"mean", "cv"};
     fracas_json_object(json, "data");
+    fracas_json_text(json, "fingerprint", find(of, "data", "fingerprint")->note); /* it was compared: fracas_fits_keep */
     for (size_t i = 0; i < FRACAS_COUNT(plain); i++) put_value(json, of, "data", plain[i]);
     for (size_t i = 0; i < FRACAS_COUNT(ends); i++) {
         const fracas_fits_row *row = find(of, "data", ends[i]);
@@ -111,15 +110,14 @@ static const char *preferred(const point_rows *of)
     return NULL;
 }
 
-void fracas_summary_put_fits(fracas_json *json, const fracas_analysis *analysis, size_t point, const fracas_fits *fits, bool stale)
+void fracas_summary_put_fits(fracas_json *json, size_t point, const fracas_fits *fits)
 {
-    const point_rows of = rows_of(fits, &analysis->table->point[point].hash);
+    const point_rows of = rows_of(fits, point);
     if (of.count == 0) {
         fracas_json_text(json, "fits", NULL);
         return;
     }
     fracas_json_object(json, "fits");
-    fracas_json_boolean(json, "stale", stale);
     fracas_json_text(json, "preferred", preferred(&of));
     put_data(json, &of);
     fracas_json_array(json, "families");

@@ -23,9 +23,7 @@ static void write_all(const fracas_fits *fits, FILE *out)
 {
     fputs(HEAD, out);
     fprintf(out, ",,study,campaign,,,,,,%s\n", fits->campaign);
-    fprintf(out, ",,study,checksum,,,,,,%016" PRIx64 "\n", fits->checksum);
-    fprintf(out, ",,study,bytes,1,%" PRIu64 ",,,,of study.h5\n", fits->bytes);
-    fprintf(out, ",,study,realizations,1,%" PRId64 ",,,,in study.h5\n", fits->realizations);
+    fprintf(out, ",,study,realizations,1,%" PRId64 ",,,,it had then\n", fits->realizations);
     for (const fracas_fits_row *row = fits->row; row < fits->row + fits->n; row++) {
         fprintf(out, "%" PRId64 ",%s,%s,%s,%s", row->point, row->hash, row->family, row->quantity, row->unit);
         put_real(row->value, out);
@@ -91,19 +89,8 @@ static bool copy(const char *text, char *to, size_t size)
 
 static bool read_stamp(char *const field[FIELDS], fracas_fits *fits)
 {
-    char *end = field[9];
-    int64_t bytes = 0;
-    bool good = true;
-    errno = 0;
-    if (!strcmp(field[3], "campaign")) good = copy(field[9], fits->campaign, sizeof fits->campaign);
-    else if (!strcmp(field[3], "checksum")) {
-        fits->checksum = strtoull(field[9], &end, 16);
-        good = !*end && !errno;
-    } else if (!strcmp(field[3], "bytes")) {
-        good = read_integer(field[5], &bytes);
-        fits->bytes = (uint64_t)bytes;
-    } else if (!strcmp(field[3], "realizations")) good = read_integer(field[5], &fits->realizations);
-    return good;
+    if (!strcmp(field[3], "campaign")) return copy(field[9], fits->campaign, sizeof fits->campaign);
+    return strcmp(field[3], "realizations") != 0 || read_integer(field[5], &fits->realizations);
 }
 
 static bool read_row(char *const field[FIELDS], fracas_fits_row *row)
@@ -137,29 +124,10 @@ static fracas_err read_lines(FILE *in, const char *path, fracas_fits *fits)
     return ferror(in) ? fracas_fail_system(errno, "cannot read %s", path) : FRACAS_OK;
 }
 
-/* Sizes first: most studies that have changed have another. */
-static fracas_err look_whether_stale(const char *study, const fracas_fits *fits, bool *stale)
-{
-    char *path;
-    fracas_file_seal seal;
-    TRY(fracas_disk_join(study, "study.h5", &path));
-    *stale = true;
-    fracas_err err = fracas_disk_has_size(path, fits->bytes, stale);
-    const bool same_size = *stale;
-    *stale = true;
-    if (!err && same_size) {
-        err = fracas_disk_seal_path(path, &seal);
-        if (!err) *stale = seal.checksum != fits->checksum;
-    }
-    free(path);
-    return err;
-}
-
-fracas_err fracas_fits_read(const char *study, fracas_fits **fits, bool *stale)
+fracas_err fracas_fits_read(const char *study, fracas_fits **fits)
 {
     char *path;
     *fits = NULL;
-    *stale = false;
     TRY(fracas_disk_join(study, FRACAS_FITS_FILE, &path));
     FILE *in = fopen(path, "r");
     fracas_err err = FRACAS_OK;
@@ -167,7 +135,6 @@ fracas_err fracas_fits_read(const char *study, fracas_fits **fits, bool *stale)
     if (!in && errno != ENOENT) err = fracas_fail_system(errno, "cannot read %s", path);
     if (in && !found) err = fracas_no_memory("the fits of a study");
     if (found) err = read_lines(in, path, found);
-    if (found && !err) err = look_whether_stale(study, found, stale);
     if (in) fclose(in);
     free(path);
     if (err) fracas_fits_destroy(found);

@@ -2,7 +2,6 @@
 
 #include "analysis/fit/point.h"
 #include "analysis/study/study.h"
-#include "campaigns/store/file/disk.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -63,11 +62,39 @@ static void put_number(rows *to, const char *quantity, const char *unit, double 
     put(to, quantity, unit, &alone, note);
 }
 
-static void put_data(rows *to, const fracas_point_fits *fits)
+/* Of all that a fit looks at: equal for the same realizations, wherever they were read from. */
+static fracas_hash fingerprint_of(const fracas_ensemble *ensemble)
+{
+    const uint64_t count[] = {ensemble->nrealizations, ensemble->nfragments, ensemble->surface};
+    const size_t n = ensemble->nrealizations, fragments = ensemble->nfragments;
+    const fracas_hash part[] = {
+        fracas_hash_of(count, sizeof count), fracas_hash_of(&ensemble->lattice, sizeof ensemble->lattice),
+        fracas_hash_of(ensemble->replica, n * sizeof *ensemble->replica), fracas_hash_of(ensemble->first, n ? (n + 1) * sizeof *ensemble->first : 0),
+        fracas_hash_of(ensemble->size, fragments * sizeof *ensemble->size), fracas_hash_of(ensemble->elements, fragments * sizeof *ensemble->elements),
+    };
+    return fracas_hash_of(part, sizeof part);
+}
+
+/* A body of one piece says that it did not break, not how sizes are where it does: with any, the sizes of the others are fitted and the number is told. */
+static void put_whole(rows *to, const fracas_fit_sample *sample)
+{
+    char note[160] = "";
+    if (sample->whole > 0)
+        snprintf(note, sizeof note, "of %zu realizations are of one piece: the body; left out of the fits, which are of bodies that break; give this share with "
+                 "them or load harder", sample->whole + sample->nrealizations);
+    put_number(to, "whole", "1", (double)sample->whole, 0, note);
+}
+
+static void put_data(rows *to, const fracas_ensemble *ensemble, const fracas_point_fits *fits)
 {
     const fracas_fit_sample *sample = &fits->sample;
+    const fracas_hash fingerprint = fingerprint_of(ensemble);
+    char text[FRACAS_HASH_HEX];
+    fracas_hash_hex(&fingerprint, text);
     to->family = "data";
-    put_number(to, "realizations", "1", (double)sample->nrealizations, 0, "usable");
+    put_number(to, "fingerprint", "", NAN, 0, text);
+    put_number(to, "realizations", "1", (double)ensemble->nrealizations, 0, "usable");
+    put_whole(to, sample);
     put_number(to, "fragments", "1", (double)sample->fragments, 0, "of these");
     put_number(to, "above_cut", "1", sample->total, 0, "fragments that are fitted");
     put_number(to, "cut", "m", sample->cut, 0, "sizes above are fitted");
@@ -143,35 +170,21 @@ static fracas_err fit_point(const fracas_analysis *analysis, size_t p, int64_t r
     size_t nfamilies;
     const fracas_family *const *families = fracas_point_families(analysis->point[p].surface, &nfamilies);
     TRY(fracas_point_fits_of(&analysis->point[p].ensemble, families, nfamilies, resamples, word[0], &found));
-    put_data(&to, &found);
+    put_data(&to, &analysis->point[p].ensemble, &found);
     for (size_t f = 0; f < nfamilies; f++) put_family(&to, f, &found);
     put_comparison(&to, &found);
     fracas_point_fits_clear(&found);
     return to.full ? fracas_no_memory("the fits of a study") : FRACAS_OK;
 }
 
-/* What study.h5 is now. */
-static fracas_err stamp(const char *study, fracas_file_seal *seal)
-{
-    char *path;
-    TRY(fracas_disk_join(study, "study.h5", &path));
-    fracas_err err = fracas_disk_seal_path(path, seal);
-    free(path);
-    return err;
-}
-
-fracas_err fracas_fits_create(const fracas_analysis *analysis, const char *study, size_t point, int64_t resamples, fracas_fits **fits)
+fracas_err fracas_fits_create(const fracas_analysis *analysis, size_t point, int64_t resamples, fracas_fits **fits)
 {
     const size_t npoints = analysis->table->npoints;
-    fracas_file_seal seal;
     if (point != SIZE_MAX && point >= npoints)
         return fracas_fail(FRACAS_USAGE, "point %zu: the study has points 0 to %zu", point, npoints - 1);
-    TRY(stamp(study, &seal));
     fracas_fits *made = calloc(1, sizeof *made);
     if (!made) return fracas_no_memory("the fits of a study");
     fracas_hash_hex(&analysis->header.campaign, made->campaign);
-    made->bytes = seal.bytes;
-    made->checksum = seal.checksum;
     made->realizations = (int64_t)fracas_results_realizations(analysis->results);
     fracas_err err = FRACAS_OK;
     for (size_t p = 0; p < npoints && !err; p++)
@@ -179,6 +192,52 @@ fracas_err fracas_fits_create(const fracas_analysis *analysis, const char *study
     if (err) fracas_fits_destroy(made);
     else *fits = made;
     return err;
+}
+
+/* The point of this hash, SIZE_MAX if there is none; `near` is tried first. */
+static size_t point_of(const fracas_analysis *analysis, const char *hash, size_t near)
+{
+    char own[FRACAS_HASH_HEX];
+    const size_t npoints = analysis->table->npoints;
+    for (size_t k = 0; k <= npoints; k++) {
+        const size_t p = k ? k - 1 : near;
+        if (p >= npoints) continue;
+        fracas_hash_hex(&analysis->table->point[p].hash, own);
+        if (!strcmp(own, hash)) return p;
+    }
+    return SIZE_MAX;
+}
+
+/* Whether rows `begin` to `end` - 1, of one point, are of the realizations that point p of the analysis has. */
+static bool is_of(const fracas_fits *fits, size_t begin, size_t end, const fracas_analysis *analysis, size_t p)
+{
+    char own[FRACAS_HASH_HEX];
+    if (p == SIZE_MAX) return false;
+    const fracas_hash fingerprint = fingerprint_of(&analysis->point[p].ensemble);
+    fracas_hash_hex(&fingerprint, own);
+    for (size_t i = begin; i < end; i++)
+        if (!strcmp(fits->row[i].quantity, "fingerprint")) return !strcmp(fits->row[i].note, own);
+    return false;
+}
+
+void fracas_fits_keep(fracas_fits *fits, const fracas_analysis *analysis, size_t *stale)
+{
+    size_t kept = 0;
+    *stale = 0;
+    for (size_t begin = 0, end; begin < fits->n; begin = end) {
+        const fracas_fits_row *first = &fits->row[begin];
+        for (end = begin + 1; end < fits->n && !strcmp(fits->row[end].hash, first->hash);) end++;
+        const size_t p = point_of(analysis, first->hash, (size_t)first->point);
+        if (!is_of(fits, begin, end, analysis, p)) {
+            ++*stale;
+            continue;
+        }
+        for (size_t i = begin; i < end; i++) {
+            fits->row[kept] = fits->row[i];
+            fits->row[kept++].point = (int64_t)p;
+        }
+    }
+    fits->n = kept;
 }
 
 fracas_err fracas_fits_complete(fracas_fits *fits, const fracas_fits *older)

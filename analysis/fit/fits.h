@@ -25,8 +25,7 @@ typedef struct {
 
 typedef struct {
     char campaign[FRACAS_HASH_HEX];       /* of the study that was fitted */
-    uint64_t bytes, checksum;             /* of its study.h5 */
-    int64_t realizations;                 /* in that */
+    int64_t realizations;                 /* it had then */
     size_t n, room;
     fracas_fits_row *row;                 /* point by point */
 } fracas_fits;
@@ -34,17 +33,19 @@ typedef struct {
 enum { FRACAS_FITS_RESAMPLES = 999 };
 #define FRACAS_FITS_FILE "fits.csv"
 
-/* Fits every point of the study with usable realizations, or `point` alone (else SIZE_MAX). Deterministic: seeds are of the points' hashes.
+/* Fits every point of what the analysis sees, whole or partial, or `point` alone (else SIZE_MAX). Deterministic: seeds are of the points' hashes.
  * FRACAS_USAGE for a point that the study has not. */
-FRACAS_MUST_USE fracas_err fracas_fits_create(const fracas_analysis *analysis, const char *study, size_t point, int64_t resamples,
-                                              fracas_fits **fits);
+FRACAS_MUST_USE fracas_err fracas_fits_create(const fracas_analysis *analysis, size_t point, int64_t resamples, fracas_fits **fits);
 void fracas_fits_destroy(fracas_fits *fits); /* NULL is allowed */
 
 /* STUDY/fits.csv, whole: temporary, synced, renamed. */
 FRACAS_MUST_USE fracas_err fracas_fits_write(const fracas_fits *fits, const char *study);
-/* *fits: NULL if there is no file. *stale: it is not of study.h5 as that is now. FRACAS_DAMAGED, saying which line, if it is none of ours. */
-FRACAS_MUST_USE fracas_err fracas_fits_read(const char *study, fracas_fits **fits, bool *stale);
-/* Takes over the rows of `older` for the points that `fits` has none of; both must be of the same study.h5. */
+/* *fits: NULL if there is no file. FRACAS_DAMAGED, saying which line, if it is none of ours. */
+FRACAS_MUST_USE fracas_err fracas_fits_read(const char *study, fracas_fits **fits);
+/* Keeps the rows of points of the analysis, by hash and under their numbers in it, whose usable realizations are the ones that were fitted; the others go.
+ * *stale: fitted points that are gone. Whether the study is complete, where its realizations were read from and what other points have makes no difference. */
+void fracas_fits_keep(fracas_fits *fits, const fracas_analysis *analysis, size_t *stale);
+/* Takes over the rows of `older` for the points that `fits` has none of; both must be of the same analysis. */
 FRACAS_MUST_USE fracas_err fracas_fits_complete(fracas_fits *fits, const fracas_fits *older);
 
 /* NULL if there is no such row. */

@@ -89,6 +89,8 @@ static void print_head(const fracas_fits *fits, const fracas_analysis *analysis,
     fprintf(out, " %s, deviation/mean ", unit);
     print_interval(cv, 1, out);
     fputc('\n', out);
+    const fracas_fits_row *whole = fracas_fits_find(fits, point, "data", "whole");
+    if (whole && whole->value > 0) fprintf(out, "  warning: %.0f %s\n", whole->value, whole->note);
 }
 
 static void print_point(const fracas_fits *fits, const fracas_analysis *analysis, int64_t point, FILE *out)

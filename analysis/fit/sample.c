@@ -32,29 +32,54 @@ void fracas_fit_sample_clear(fracas_fit_sample *sample)
     *sample = (fracas_fit_sample){0};
 }
 
-/* Sums of what is above the cut; the smallest and the largest size. */
-static void add_up(const fracas_ensemble *ensemble, fracas_fit_sample *sample, double *smallest, double *largest)
+/* One piece: the body itself. */
+static bool is_whole(const fracas_ensemble *ensemble, size_t i)
 {
-    double sum = 0, squares = 0;
+    return ensemble->first[i + 1] - ensemble->first[i] == 1;
+}
+
+/* What is above the cut: numbers and mean; the smallest and the largest size. */
+static void count_up(const fracas_ensemble *ensemble, fracas_fit_sample *sample, double *smallest, double *largest)
+{
+    double sum = 0;
     *smallest = INFINITY;
     *largest = 0;
     for (size_t i = 0; i < ensemble->nrealizations; i++) {
+        if (is_whole(ensemble, i)) {
+            sample->whole++;
+            continue;
+        }
         for (size_t f = ensemble->first[i]; f < ensemble->first[i + 1]; f++) {
             const double size = ensemble->size[f];
             if (!(size > sample->cut)) continue;
-            sample->kept[i] += 1;
-            sample->sum[i] += size;
-            sample->squares[i] += size * size;
+            sample->kept[sample->nrealizations] += 1;
+            sum += size;
             *smallest = fmin(*smallest, size);
             *largest = fmax(*largest, size);
         }
-        sample->total += sample->kept[i];
-        sum += sample->sum[i];
-        squares += sample->squares[i];
+        sample->total += sample->kept[sample->nrealizations++];
     }
     sample->mean = sum / sample->total;
-    sample->cv = sqrt(fmax(squares / sample->total - sample->mean * sample->mean, 0)) / sample->mean;
-    sample->moments = (fracas_family_moments){sample->cv, *smallest / sample->mean};
+}
+
+/* Sums of sizes less their mean, whose squares do not cancel where sizes are nearly alike. */
+static void add_up(const fracas_ensemble *ensemble, fracas_fit_sample *sample, double smallest)
+{
+    double sum = 0, squares = 0;
+    for (size_t i = 0, k = 0; i < ensemble->nrealizations; i++) {
+        if (is_whole(ensemble, i)) continue;
+        for (size_t f = ensemble->first[i]; f < ensemble->first[i + 1]; f++) {
+            if (!(ensemble->size[f] > sample->cut)) continue;
+            const double size = ensemble->size[f] - sample->mean;
+            sample->sum[k] += size;
+            sample->squares[k] += size * size;
+        }
+        sum += sample->sum[k];
+        squares += sample->squares[k++];
+    }
+    const double rest = sum / sample->total;
+    sample->cv = sqrt(fmax(squares / sample->total - rest * rest, 0)) / sample->mean;
+    sample->moments = (fracas_family_moments){sample->cv, smallest / sample->mean};
 }
 
 /* Between two sizes of the lattice, in units of the mean; as it is where there is no lattice. */
@@ -93,7 +118,8 @@ static void sort_into_cells(const fracas_ensemble *ensemble, fracas_fit_sample *
 {
     double of_one[FRACAS_FIT_CELLS] = {0};
     size_t used = 0;
-    for (size_t i = 0; i < ensemble->nrealizations; i++) {
+    for (size_t i = 0, realization = 0; i < ensemble->nrealizations; i++) {
+        if (is_whole(ensemble, i)) continue;
         for (size_t f = ensemble->first[i]; f < ensemble->first[i + 1]; f++)
             if (ensemble->size[f] > sample->cut) of_one[cell_of(sample, ensemble->size[f] / sample->mean)] += 1;
         for (size_t k = 0; k < sample->ncells; k++) {
@@ -103,18 +129,18 @@ static void sort_into_cells(const fracas_ensemble *ensemble, fracas_fit_sample *
             sample->count[k] += of_one[k];
             of_one[k] = 0;
         }
-        sample->first[i + 1] = used;
+        sample->first[++realization] = used;
     }
 }
 
 fracas_err fracas_fit_sample_create(const fracas_ensemble *ensemble, fracas_fit_sample *sample)
 {
     double smallest, largest;
-    *sample = (fracas_fit_sample){.nrealizations = ensemble->nrealizations, .fragments = ensemble->nfragments,
-                                  .lattice = ensemble->lattice, .cut = fracas_ensemble_cut(ensemble)};
+    *sample = (fracas_fit_sample){.fragments = ensemble->nfragments, .lattice = ensemble->lattice, .cut = fracas_ensemble_cut(ensemble)};
     fracas_err err = make_room(ensemble, sample);
     if (!err) {
-        add_up(ensemble, sample, &smallest, &largest);
+        count_up(ensemble, sample, &smallest, &largest);
+        add_up(ensemble, sample, smallest);
         if (sample->total > 0) {
             make_cells(sample, smallest, largest);
             sort_into_cells(ensemble, sample);
@@ -139,6 +165,7 @@ void fracas_fit_sample_moments(const fracas_fit_sample *sample, const uint32_t *
         sum += weight[i] * sample->sum[i];
         squares += weight[i] * sample->squares[i];
     }
-    *mean = sum / total;
-    *cv = sqrt(fmax(squares / total - *mean * *mean, 0)) / *mean;
+    const double rest = sum / total;
+    *mean = sample->mean + rest;
+    *cv = sqrt(fmax(squares / total - rest * rest, 0)) / *mean;
 }

@@ -91,11 +91,10 @@ fracas_err fracas_figure_convergence(const fracas_analysis *analysis, size_t poi
 
 enum { BEST = 3, CURVE_VALUES = 160 };
 
-/* Sizes above the cut: P(size >= s | size > cut), each size of a lattice at the lower edge of its cell. */
-static fracas_err add_above(const fracas_point_statistics *statistics, double cut, double factor, fracas_panel *panel, size_t *above)
+/* The n sizes above the cut: P(size >= s | size > cut), each size of a lattice at the lower edge of its cell. */
+static fracas_err add_above(const fracas_point_statistics *statistics, size_t n, double cut, double factor, fracas_panel *panel, size_t *above)
 {
     const double *size = statistics->fragment_size, half = statistics->ensemble.lattice / 2;
-    const size_t n = statistics->nfragments;
     size_t first = 0, vertex = 0;
     while (first < n && !(size[first] > cut)) first++;
     *above = n - first;
@@ -148,11 +147,12 @@ fracas_err fracas_figure_fits(const fracas_analysis *analysis, const fracas_fits
     fracas_figure_name(analysis, point, "fits", "Fits to fragment sizes", chart);
     if (!mean || !cut || !(cut->value > 0) || !fracas_fits_ranked(fits, (int64_t)point, 1)) return FRACAS_OK;
     const fracas_prefix prefix = fracas_prefix_for(&mean->value, 1);
+    const fracas_fits_row *whole = fracas_fits_find(fits, (int64_t)point, "data", "whole");
+    const size_t n = statistics->nfragments - (whole ? (size_t)whole->value : 0); /* bodies of one piece: none is larger, and sizes ascend */
     size_t above;
     fracas_panel *panel = fracas_chart_add(chart, FRACAS_FIGURE_LOW);
-    TRY(add_above(statistics, cut->value, prefix.factor, panel, &above));
-    const double range[2] = {fmax(cut->value, 0.8 * statistics->fragment_size[statistics->nfragments - above]),
-                             1.1 * statistics->fragment_size[statistics->nfragments - 1]};
+    TRY(add_above(statistics, n, cut->value, prefix.factor, panel, &above));
+    const double range[2] = {fmax(cut->value, 0.8 * statistics->fragment_size[n - above]), 1.1 * statistics->fragment_size[n - 1]};
     for (int rank = 1; rank <= BEST; rank++) {
         const char *name = fracas_fits_ranked(fits, (int64_t)point, rank);
         const fracas_family *family = name ? fracas_family_find(name) : NULL;

@@ -117,7 +117,7 @@ static void say_what(const fracas_analysis *analysis, char *text, size_t size)
 
 /* ---- files ---- */
 
-static fracas_err write_tables(const fracas_analysis *analysis, const char *folder, const fracas_fits *fits, bool stale)
+static fracas_err write_tables(const fracas_analysis *analysis, const char *folder, const fracas_fits *fits, size_t stale)
 {
     fracas_output_file output;
     TRY(fracas_csv_file(&fracas_csv_table_points, analysis, folder));
@@ -130,7 +130,7 @@ static fracas_err write_tables(const fracas_analysis *analysis, const char *fold
     return fracas_output_close(&output, FRACAS_OK);
 }
 
-static fracas_err write_page(const fracas_analysis *analysis, const char *folder, const fracas_fits *fits, bool stale)
+static fracas_err write_page(const fracas_analysis *analysis, const char *folder, const fracas_fits *fits, size_t stale)
 {
     fracas_page page = {.analysis = analysis, .folder = folder, .fits = fits, .stale = stale};
     char lead[512];
@@ -147,8 +147,9 @@ fracas_err fracas_report_write(const fracas_analysis *analysis, const char *stud
     if (mkdir(folder, 0777) && errno != EEXIST)
         err = fracas_fail(FRACAS_ENVIRONMENT, "cannot make the folder %s: %s", folder, strerror(errno));
     fracas_fits *fits = NULL;
-    bool stale = false;
-    if (!err) err = fracas_fits_read(study, &fits, &stale);
+    size_t stale = 0;
+    if (!err) err = fracas_fits_read(study, &fits);
+    if (!err && fits) fracas_fits_keep(fits, analysis, &stale);
     if (!err) err = write_tables(analysis, folder, fits, stale);
     if (!err) err = write_page(analysis, folder, fits, stale);
     fracas_fits_destroy(fits);

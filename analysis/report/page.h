@@ -19,7 +19,7 @@ typedef struct {
     const fracas_analysis *analysis;
     const char *folder; /* of the report */
     const fracas_fits *fits; /* NULL: there are none */
-    bool stale;              /* they are not of the results as these are now */
+    size_t stale;            /* points whose fits were not of the results as these are now, and are not shown */
     bool surfaces;           /* pictures of surfaces are on it */
     const void *of;          /* what the sections of another page than a study's are about */
     FILE *out;          /* of the section */

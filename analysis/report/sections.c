@@ -108,15 +108,30 @@ fracas_err fracas_section_convergence(fracas_page *page)
     return FRACAS_OK;
 }
 
+/* Points where some realizations are of one piece, which the fits leave out. */
+static void put_whole_bodies(const fracas_page *page)
+{
+    for (size_t p = 0; p < page->analysis->table->npoints; p++) {
+        char label[256];
+        const fracas_fits_row *whole = fracas_fits_find(page->fits, (int64_t)p, "data", "whole");
+        if (!whole || !(whole->value > 0)) continue;
+        fracas_analysis_label(page->analysis, p, label, sizeof label);
+        fprintf(page->out, "<p>Point %zu%s", p, *label ? ", " : "");
+        fracas_markup_text(label, page->out);
+        fprintf(page->out, ": %.0f %s.</p>\n", whole->value, whole->note);
+    }
+}
+
 fracas_err fracas_section_fits(fracas_page *page)
 {
     fracas_chart chart;
     fracas_result_table table = {0};
     if (!page->fits) return FRACAS_OK;
-    if (page->stale) {
-        fputs("<p>What <code>fracas fit</code> kept is not of these results: run it again.</p>\n", page->out);
-        return FRACAS_OK;
-    }
+    if (page->stale)
+        fprintf(page->out, "<p>What <code>fracas fit</code> kept of %zu point%s is not of these results: run it again.</p>\n", page->stale,
+                page->stale == 1 ? "" : "s");
+    if (page->fits->n == 0) return FRACAS_OK;
+    put_whole_bodies(page);
     fracas_chart_init(&chart);
     fracas_page_grid(page, "wide");
     for (size_t p = 0; p < page->analysis->table->npoints; p++)

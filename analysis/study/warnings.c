@@ -77,15 +77,14 @@ static void warn_of_point(const fracas_point_statistics *statistics, size_t p, w
              "refine the mesh", 100 * statistics->dust_share);
 }
 
-/* The headline numbers that are known to more than FRACAS_CONVERGED_WIDTH, or that the first half of the replicas has otherwise. */
+/* The headline numbers that are known to more than FRACAS_CONVERGED_WIDTH, or whose halves differ. */
 static void warn_of_convergence(const fracas_point_statistics *statistics, size_t p, warning_list *list)
 {
     const fracas_replica_convergence *of = &statistics->convergence;
     if (of->unconverged == 0) return;
     const fracas_running *all = &of->row[of->count - 1];
-    if (all->replicas < FRACAS_BOOTSTRAP_LEAST) {
-        warn(list, p, "%lld usable replica%s cannot say how well the mean sizes are known: %d or more do", (long long)all->replicas,
-             all->replicas == 1 ? "" : "s", FRACAS_BOOTSTRAP_LEAST);
+    if (all->replicas < 2) {
+        warn(list, p, "one usable replica cannot say how well anything is known: raise replicas");
         return;
     }
     char text[192] = "";
@@ -97,7 +96,7 @@ static void warn_of_convergence(const fracas_point_statistics *statistics, size_
         const double relative = 0.5 * (number->high - number->low) / fabs(number->value);
         fracas_format_digits(100 * relative, 2, width, sizeof width);
         used += (size_t)snprintf(text + used, sizeof text - used, "%s%s to %s %%%s", used ? ", " : "", fracas_headline_key[h], width,
-                                 relative <= FRACAS_CONVERGED_WIDTH ? " (drifts)" : "");
+                                 fracas_replica_convergence_drifts(of, (fracas_headline)h) ? " (drifts)" : "");
     }
     warn(list, p, "unconverged with %lld replicas, known %s: raise replicas", (long long)all->replicas, text);
 }

@@ -1,6 +1,6 @@
-"""Estimates from all fragments of a point together, from the equations of docs/theory/estimators.md (14 to 21, 24) alone.
+"""Estimates from all fragments of a point together, from the equations of docs/theory/estimators.md (14 to 22) alone.
 
-Used by table_from_study.py. Intervals are resampled with random numbers of its own, so they are those of fracas within the noise of
+Used by table_from_study.py. Intervals of eight realizations and more are resampled with random numbers of its own, so they are those of fracas within the noise of
 2000 resamples.
 """
 import math
@@ -93,7 +93,7 @@ class Fragments:
         return n, m
 
     def variances(self, weight, values):
-        """(18) and (19); a realization drawn w times is w realizations."""
+        """(19) and (20); a realization drawn w times is w realizations."""
         group = self.number.sum(axis=1)
         with np.errstate(invalid="ignore"):
             average = self.number @ self.size / group
@@ -123,7 +123,7 @@ class Fragments:
 
 
 def interval(value, jackknife, resampled):
-    """(24): BCa (Efron and Tibshirani 1993, 14.9 to 14.15), expanded: low and high. For each also the share of the resamples below it, and the standard error
+    """(18): BCa (Efron and Tibshirani 1993, 14.9 to 14.15), expanded: low and high. For each also the share of the resamples below it, and the standard error
     that their number gives it as a normal quantile: of the bias correction, and of the order statistic."""
     resampled = resampled[np.isfinite(resampled)]
     if not len(resampled) or not math.isfinite(value):
@@ -150,18 +150,25 @@ def bootstrap(fragments, n, seed):
     """Value of each number, its leave-one-out values and its resamples."""
     generator = np.random.Generator(np.random.PCG64(seed))
     drawn = generator.multinomial(n, np.full(n, 1 / n), size=RESAMPLES).astype(float)
-    return fragments.of(np.ones((1, n)) - 0)[0], fragments.of(1 - np.eye(n))[0], fragments.of(drawn)[0]
+    return fragments.of(np.ones((1, n)))[0], fragments.of(1 - np.eye(n))[0], fragments.of(drawn)[0]
+
+
+def standard_error(value, jackknife):
+    """e of (18)."""
+    n = len(jackknife)
+    return math.sqrt((n - 1) / n * ((jackknife - value)**2).sum()) if n > 1 else math.nan
 
 
 def with_intervals(row, fragments, n):
     """NAME.value, .low and .high of every number; returns the resamples, with where among them the ends are."""
-    if n < 4:
-        values, resamples = fragments.of(np.ones((1, n)))[0], {}
-        for key, value in values.items():
-            row[key + ".value"], row[key + ".low"], row[key + ".high"] = value[0], math.nan, math.nan
+    resamples = {}
+    if n < 8:
+        left_out = fragments.of(1 - np.eye(n))[0] if n > 1 else {}
+        for key, (value,) in fragments.of(np.ones((1, n)))[0].items():
+            half = student_quantile(0.975, n - 1) * standard_error(value, left_out[key]) if n > 1 else math.nan
+            row[key + ".value"], row[key + ".low"], row[key + ".high"] = value, value - half, value + half
         return resamples
     values, jackknife, resampled = bootstrap(fragments, n, 1)
-    resamples = {}
     for key, (value,) in values.items():
         low, high, ends = interval(value, jackknife[key], resampled[key])
         row[key + ".value"], row[key + ".low"], row[key + ".high"] = value, low, high
@@ -169,27 +176,43 @@ def with_intervals(row, fragments, n):
     return resamples
 
 
-def settled(x, first_half, w):
-    """(21): converged or not, and how far from the limits: 1 is at one of them."""
-    if not all(map(math.isfinite, (x, first_half, w))):
+def alike(first, second):
+    """|x1 - x2| over its limit in (22); 0 where nothing says how far apart halves may be. Of each half: value, variance of one replica's part, number."""
+    (x1, v1, n1), (x2, v2, n2) = first, second
+    apart, freedom, hair = abs(x1 - x2), n1 + n2 - 2, 1e-12 * max(abs(x1), abs(x2))
+    if not math.isfinite(apart) or apart <= hair or freedom < 1:
+        return 0.0
+    scatter = math.sqrt(sum((n - 1) * v for n, v in ((n1, v1), (n2, v2)) if n > 1) / freedom)
+    if scatter <= hair:
+        return math.inf if 2 / math.comb(n1 + n2, n1) < 1 / 1600 else 0.0
+    return apart / (student_quantile(1 - 1 / 3200, freedom) * scatter * math.sqrt(1 / n1 + 1 / n2))
+
+
+def settled(x, w, drift):
+    """(22): converged or not, and how far from the limits: 1 is at one of them."""
+    if not all(map(math.isfinite, (x, w))):
         return 0, math.inf
     precise = w / (0.05 * abs(x)) if x else (0.0 if w == 0 else math.inf)
-    steady = abs(first_half - x) / (1.75 * w) if w > 0 else (0.0 if first_half == x else math.inf)
-    return int(precise <= 1 and steady <= 1), min(abs(math.log(max(ratio, 1e-9))) for ratio in (precise, steady))
+    return int(precise <= 1 and drift <= 1), min(abs(math.log(min(max(ratio, 1e-9), 1e9))) for ratio in (precise, drift))
 
 
-def convergence(row, replicas, make, n):
-    """`replicas`: a value a realization of those that are means; returns the keys that resampling noise may decide."""
-    unsure, half = set(), n // 2
-    first = make(half).of(np.ones((1, half)))[0] if half else {}
+def convergence(row, replicas, part, n):
+    """`replicas`: a value a realization of those that are means; `part`: the fragments of realizations first to last - 1. Returns the keys that resampling noise
+    may decide."""
+    unsure, halves = set(), [(0, n // 2), (n // 2, n)] if n > 1 else []
+    sums = []
+    for begin, end in halves:
+        fragments, count = part(begin, end), end - begin
+        sums.append((count, fragments.of(np.ones((1, count)))[0], fragments.of(1 - np.eye(count))[0]))
     for key in HEADLINES:
         if key in replicas:
             x, w = row[key + ".mean"], row[key + ".half_width"]
-            before = replicas[key][:half].mean() if half else math.nan
+            pieces = [replicas[key][begin:end] for begin, end in halves]
+            parts = [(piece.mean(), piece.var(ddof=1) if len(piece) > 1 else math.nan, len(piece)) for piece in pieces]
         else:
             x, w = row[key + ".value"], (row[key + ".high"] - row[key + ".low"]) / 2
-            before = first[key][0] if half else math.nan
-        row["converged." + key], away = settled(x, before, w)
+            parts = [(whole[key][0], count * standard_error(whole[key][0], without[key])**2, count) for count, whole, without in sums]
+        row["converged." + key], away = settled(x, w, alike(*parts) if parts else 0.0)
         if key not in replicas and away < 0.3:
             unsure.add("converged." + key)
         row["unconverged"] = row.get("unconverged", 0) + (math.isfinite(x) and not row["converged." + key])
@@ -223,4 +246,4 @@ def estimates(row, pieces, lattice, surface, replicas, estimate):
             row[f"normalised.{name}.{end}"] = row[f"{key}.{end}"] / row["scale.size"]
         if key in resamples:
             resamples["normalised." + name] = resamples[key][0] / row["scale.size"], resamples[key][1]
-    return resamples, convergence(row, replicas, lambda count: Fragments(pieces[:count], lattice, surface), n)
+    return resamples, convergence(row, replicas, lambda begin, end: Fragments(pieces[begin:end], lattice, surface), n)

@@ -135,32 +135,40 @@ static void repeat(size_t n, bool apart, int repetitions, const double truth[NNU
     gsl_rng_free(random);
 }
 
-
-enum { CASES = 4, APART = CASES - 1 };
+/* Of 16 realizations and more, whose intervals are BCa; and of a few, whose intervals are Student's and cost so little that every run has all repetitions. */
+enum { CASES = 4, APART = CASES - 1, FEWS = 6, COLUMNS = FEWS };
 static const struct {
     size_t n;
     bool apart;
 } make[CASES] = {{16, false}, {50, false}, {100, false}, {16, true}};
+static const size_t few[FEWS] = {2, 3, 4, 5, 6, 7};
 
-/* What the theory page states of a number, "| mean size | 0.94 | 0.95 | 0.95 | 0.6 |". */
-static void read_stated(const char *what, double stated[CASES])
+/* What the theory page states of a number in the table of this head, "| mean size | 0.94 | 0.95 | 0.95 | 0.6 |", NaN for what is no number there. */
+static void read_stated(const char *head, const char *what, size_t columns, double stated[COLUMNS])
 {
     static char page[1 << 16];
-    char row[80];
+    char row[80], *end;
     FILE *in = fopen(FRACAS_SOURCE_DIR "/docs/theory/estimators.md", "r");
     assert_non_null(in);
     page[fread(page, 1, sizeof page - 1, in)] = '\0';
     fclose(in);
-    snprintf(row, sizeof row, "| %s |", what);
-    const char *found = strstr(page, row);
-    if (!found || sscanf(found + strlen(row), " %lf | %lf | %lf | %lf |", &stated[0], &stated[1], &stated[2], &stated[3]) < APART) /* of groups of one there is no correlation */
-        fail_msg("the page states nothing for %s", what);
+    snprintf(row, sizeof row, "\n| %s |", what);
+    const char *table = strstr(page, head), *at = table ? strstr(table, row) : NULL;
+    if (!at) fail_msg("the page states nothing for %s", what);
+    at += strlen(row);
+    for (size_t c = 0; c < columns; c++) {
+        stated[c] = strtod(at, &end);
+        if (end == at) stated[c] = NAN;
+        at = strchr(at, '|');
+        assert_non_null(at);
+        at++;
+    }
 }
 
-static void print_row(number v, int c, double truth, const tally *of)
+static void print_row(number v, size_t realizations, bool apart, double truth, const tally *of)
 {
     const double n = of->repetitions;
-    printf("%-22s n %3zu%s: truth %.4f, bias %+.4f, rms error %.4f, half width %.4f, held %.3f\n", name[v], make[c].n, make[c].apart ? " apart" : "",
+    printf("%-22s n %3zu%s: truth %.4f, bias %+.4f, rms error %.4f, half width %.4f, held %.3f\n", name[v], realizations, apart ? " apart" : "",
            truth, of->value[v] / n - truth, sqrt(of->squares[v] / n), of->width[v] / n, of->held[v] / n);
 }
 
@@ -185,24 +193,46 @@ static void intervals_hold_the_truth_as_often_as_stated(void **state)
     (void)state;
     const char *asked = getenv("FRACAS_REPETITIONS");
     const int repetitions = asked ? atoi(asked) : ORDINARY;
-    double truth[NNUMBERS];
+    double truth[NNUMBERS], stated[COLUMNS];
     tally of[CASES] = {{.repetitions = 0}};
     truths(truth);
     for (int c = 0; c < CASES; c++)
         if (repetitions >= STATED || make[c].n <= 50) repeat(make[c].n, make[c].apart, make[c].apart ? (repetitions >= STATED ? ORDINARY : ORDINARY / 4) : repetitions, truth, &of[c]);
     for (int v = 0; v < NNUMBERS; v++)
         for (int c = 0; c < CASES; c++)
-            if (of[c].repetitions) print_row((number)v, c, truth[v], &of[c]);
+            if (of[c].repetitions) print_row((number)v, make[c].n, make[c].apart, truth[v], &of[c]);
     for (int v = 0; v < NNUMBERS; v++) {
-        double stated[CASES];
-        read_stated(name[v], stated);
+        read_stated("\n| number | n = 16 |", name[v], v == INTRACLASS ? APART : CASES, stated); /* of groups of one there is no correlation */
         for (int c = 0; c < CASES; c++)
             if (of[c].repetitions) check((number)v, c, truth[v], stated[c], &of[c]);
     }
 }
 
+/* With two realizations and more: what the page states, to its three digits and a few repetitions of other roundings; and of the mean size and the median,
+ * whose intervals are the ones that are read most, 93 % but for 4.9 errors of a share of 0.93 in 1000 repetitions, 0.040, where resampling held 83 to 91 %
+ * of means of four and five, and less of the others. */
+static void intervals_of_few_realizations(void **state)
+{
+    (void)state;
+    double truth[NNUMBERS], stated[COLUMNS];
+    tally of[FEWS];
+    truths(truth);
+    for (int c = 0; c < FEWS; c++) repeat(few[c], false, STATED, truth, &of[c]);
+    for (int v = 0; v < NNUMBERS; v++)
+        for (int c = 0; c < FEWS; c++) print_row((number)v, few[c], false, truth[v], &of[c]);
+    for (int v = 0; v < NNUMBERS; v++) {
+        read_stated("\n| number | n = 2 |", name[v], FEWS, stated);
+        for (int c = 0; c < FEWS; c++) {
+            const double held = of[c].held[v] / STATED;
+            if (v == INTRACLASS && few[c] == 2) assert_true(held == 0 && isnan(stated[c])); /* there is none without one of two */
+            else assert_true(fabs(held - stated[c]) <= 0.004);
+            if (v == MEAN || v == MEDIAN) assert_true(held >= 0.93 - 0.040);
+        }
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(intervals_hold_the_truth_as_often_as_stated)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(intervals_hold_the_truth_as_often_as_stated), cmocka_unit_test(intervals_of_few_realizations)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

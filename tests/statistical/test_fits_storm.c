@@ -7,12 +7,13 @@
 enum { REPETITIONS = 1000, RESAMPLES = 299 };
 
 #define TRUTH(of, realizations_, how_, ...) \
-    {.family = &fracas_family_##of, .parameter = {__VA_ARGS__}, .lattice = 1, .realizations = realizations_, .fragments = 40, .how = how_}
+    {.family = &fracas_family_##of, .parameter = {__VA_ARGS__}, .from = 1.5, .lattice = 1, .realizations = realizations_, .fragments = 40, .how = how_}
 
 static const synthetic truth[] = {
     TRUTH(exponential, 50, INDEPENDENT, 20), TRUTH(exponential, 50, RING_SCORES, 20), TRUTH(exponential, 50, SHARED, 20),
     TRUTH(shifted_rayleigh, 50, INDEPENDENT, 8, 9.6), TRUTH(shifted_rayleigh, 50, RING_SCORES, 8, 9.6), TRUTH(shifted_rayleigh, 50, SHARED, 8, 9.6),
     TRUTH(weibull, 50, RING_SCORES, 20, 1.5), TRUTH(weibull3, 50, RING_SCORES, 6, 16, 1.6), TRUTH(lognormal, 50, RING_SCORES, 18, 0.5),
+    TRUTH(gamma, 50, RING_SCORES, 5, 4), TRUTH(generalised_gamma, 50, RING_SCORES, 20, 0.4, 0.6), TRUTH(power_law, 50, RING_SCORES, 0.8, 30),
 }, few[] = {
     TRUTH(exponential, 16, INDEPENDENT, 20), TRUTH(exponential, 16, RING_SCORES, 20), TRUTH(exponential, 16, SHARED, 20),
     TRUTH(shifted_rayleigh, 16, RING_SCORES, 8, 9.6), TRUTH(shifted_rayleigh, 16, SHARED, 8, 9.6),

@@ -61,6 +61,9 @@ def near(key, row, resamples, unsure):
     if part in ("low", "high") and name in resamples and math.isfinite(row[key]):
         resampled, ends = resamples[name]
         return lambda ours, _: ours is not None and is_end(ours, ends[part == "high"], resampled)
+    if part in ("low", "high") and not key.startswith("variance.") and math.isfinite(row[key]): # value -+ t e: what it is made of is as exact, not what is left of it
+        size = max(abs(row[name + ".value"]), abs(row[name + ".high"] - row[name + ".low"]))
+        return lambda ours, theirs: ours is not None and abs(ours - theirs) <= 1e-10 * size
     if key.startswith("variance.") and math.isfinite(row[key]):
         scale = row[SCALE[name]] if name in SCALE else 1 if name == "variance.intraclass" else 0
         return lambda ours, theirs: ours is not None and math.isclose(ours, theirs, rel_tol=1e-9, abs_tol=1e-11 * scale)

@@ -59,7 +59,7 @@ def check_series(p, point, report):
             assert alike(value, last[f"{name}.{part}"]), (name, part, value)
 
 
-def check_fits(p, point, study, stale=False):
+def check_fits(p, point, study, moved=False):
     """Every line of fits.csv of the point, each once, with all its digits, and no number that is not there."""
     told, path = point["fits"], os.path.join(study, "fits.csv")
     lines = [line for line in csv.DictReader(open(path)) if line["hash"] == point["hash"]] if os.path.exists(path) else []
@@ -67,9 +67,8 @@ def check_fits(p, point, study, stale=False):
     if told is None:
         return
     left = {(line["family"], line["quantity"]): line for line in lines}
-    assert len(left) == len(lines) and (stale or {line["point"] for line in lines} == {str(p)})
-    assert set(told) == {"stale", "preferred", "data", "families"} | ({"comparison"} if ("comparison", "p") in left else set())
-    assert told["stale"] is stale
+    assert len(left) == len(lines) and (moved or {line["point"] for line in lines} == {str(p)})
+    assert set(told) == {"preferred", "data", "families"} | ({"comparison"} if ("comparison", "p") in left else set())
     assert {told["preferred"]} == ({line["family"] for line in lines if line["quantity"] == "rank" and float(line["value"]) == 1} or {None})
 
     def number(family, quantity, value):
@@ -85,6 +84,9 @@ def check_fits(p, point, study, stale=False):
         assert of["unit"] == line["unit"] and of["resamples"] == int(line["resamples"] or 0)
 
     for key, value in told["data"].items():
+        if key == "fingerprint":
+            assert value == left.pop(("data", key))["note"]
+            continue
         interval("data", key, value) if isinstance(value, dict) else number("data", key, value)
     for of in told["families"]:
         name = of["family"]

@@ -1,5 +1,5 @@
 # What summary.json has of fits, convergence and energies is what fits.csv, convergence.csv and energies.csv have: every number, none that is
-# not there, and a wrong one is found. Fits of other results are said to be stale, and are found though their point has another number.
+# not there, and a wrong one is found. Fits of other realizations are left out and counted, those of the same are found though their point has another number.
 . tests/support/campaigns.sh
 
 /usr/bin/python3 -c 'import h5py' 2>/dev/null || { echo "skipped: python3-h5py is not installed"; exit 0; }
@@ -58,18 +58,25 @@ print(planted, "wrong numbers found")
 END
 /usr/bin/python3 planted.py "$source" || fail "a wrong number went unnoticed"
 
-# The fits as they were, of another number of points: that of 2e5 is the first now, and what was fitted is not what is there.
-campaign other.yaml 5 '2e5'
+# The point of 2e5 alone, with the same realizations under another number: it keeps its fits, until it has more realizations.
+campaign other.yaml 22 '2e5'
 expect 0 "$fracas" run other.yaml --study other --jobs 2
 cp one/fits.csv other
 expect 0 "$fracas" report other
-/usr/bin/python3 - "$source" <<'END' || fail "stale fits"
+/usr/bin/python3 - "$source" <<'END' || fail "the fits of a point that has another number"
 import json, os, sys
 sys.path[:0] = [os.path.join(sys.argv[1], "tests/support")]
 from check_summary import check_fits
-point, = json.load(open("other/report/summary.json"))["points"]
-assert point["fits"]["stale"] is True
-check_fits(0, point, "other", stale=True)
+summary = json.load(open("other/report/summary.json"))
+point, = summary["points"]
+assert point["fits"]["families"] and summary["stale_fits"] == 0
+check_fits(0, point, "other", moved=True)
+END
+expect 0 "$fracas" extend other --replicas 23 --jobs 2
+/usr/bin/python3 - <<'END' || fail "stale fits"
+import json
+summary = json.load(open("other/report/summary.json"))
+assert summary["points"][0]["fits"] is None and summary["stale_fits"] == 1
 END
 
 # A file of fits that is none is no reason for half a document.

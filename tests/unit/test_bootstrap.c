@@ -15,7 +15,7 @@ typedef struct {
     size_t n;
     const double *x;
     size_t calls;
-    bool whole; /* weights have always summed to n, until realizations were left out */
+    bool whole; /* weights have always summed to n, but for the first n calls after the first, which leave realizations out */
 } sample;
 
 /* Mean and variance (divisor n) of the weighted values. */
@@ -26,7 +26,7 @@ static void moments(void *context, const uint32_t *weight, double *value)
     for (size_t i = 0; i < s->n; i++) n += weight[i], sum += weight[i] * s->x[i];
     for (size_t i = 0; i < s->n; i++) squares += weight[i] * (s->x[i] - sum / n) * (s->x[i] - sum / n);
     s->calls++;
-    s->whole = s->whole && (n == (double)s->n || s->calls > 20001); /* leaving out */
+    s->whole = s->whole && (n == (double)s->n || (s->calls > 1 && s->calls <= 1 + s->n && n == (double)s->n - 1));
     value[0] = sum / n;
     value[1] = squares / n;
 }
@@ -83,20 +83,52 @@ static void second(void *context, const uint32_t *weight, double *value)
     value[1] = 8;
 }
 
-/* Too few realizations have values and no interval; resamples without a value are not counted, (1 - 1/8)^8 = 0.344 of them, known to 0.0047 of 10000: 4.9
- * of these. Where nothing differs, the interval is a point. None: nothing. */
-static void intervals_of_few_and_of_none(void **state)
+/* Resamples without a value are not counted, (1 - 1/8)^8 = 0.344 of them, known to 0.0047 of 10000: 4.9 of these. Where nothing differs, the interval is
+ * a point. None: nothing. */
+static void intervals_of_what_is_not_always_there(void **state)
 {
     (void)state;
     fracas_interval interval[2];
     const fracas_bootstrap_options options = {.resamples = 10000};
-    assert_int_equal(fracas_bootstrap(3, 2, second, NULL, &options, interval), FRACAS_OK);
-    assert_true(interval[0].value == 3 && interval[1].value == 8 && isnan(interval[0].low) && isnan(interval[1].high));
+    assert_int_equal(fracas_bootstrap(3, 2, second, NULL, &options, interval), FRACAS_OK); /* of few: none without the second */
+    assert_true(interval[0].value == 3 && isnan(interval[0].low) && isnan(interval[0].high) && interval[0].resamples == 0);
+    assert_true(interval[1].value == 8 && interval[1].low == 8 && interval[1].high == 8 && interval[1].resamples == 3);
     assert_int_equal(fracas_bootstrap(8, 2, second, NULL, &options, interval), FRACAS_OK);
     assert_true(fabs((double)interval[0].resamples / 1e4 - (1 - 0.3436)) < 4.9 * 0.0047);
     assert_true(interval[0].low == 3 && interval[0].high == 3 && interval[1].low == 8 && interval[1].high == 8 && interval[1].bias == 0);
     assert_int_equal(fracas_bootstrap(0, 2, second, NULL, &options, interval), FRACAS_OK);
     assert_true(isnan(interval[0].value) && isnan(interval[0].low) && interval[0].resamples == 0);
+}
+
+/* Of few realizations the interval of a mean is Student's: of 1 2 4 5 9 mean 4.2, squares about it 38.8, t_(0.975, 4) = 2.776445 and t_(0.95, 4) = 2.131847
+ * (tabulated to seven digits). Of the variance (divisor n) 7.76, without one of the five: leaving out x makes it (38.8 - 5/4 (x - 4.2)^2)/4, deviations
+ * from 7.76 of 1.94 - 5/16 (x - 4.2)^2. Eight are resampled, one has no interval. */
+static void intervals_of_few_are_students(void **state)
+{
+    (void)state;
+    const double x[] = {1, 2, 4, 5, 9, 1, 1, 1};
+    fracas_interval interval[2];
+    sample s = {.n = 5, .x = x};
+    assert_int_equal(fracas_bootstrap(5, 2, moments, &s, &(fracas_bootstrap_options){.seed = 1}, interval), FRACAS_OK);
+    const double error = sqrt(38.8 / 4 / 5);
+    assert_true(s.calls == 6 && interval[0].resamples == 5);
+    assert_true(fabs(interval[0].value - 4.2) < 1e-14 && fabs(interval[0].standard_error - error) < 1e-14 && fabs(interval[0].bias) < 1e-14);
+    assert_true(fabs(interval[0].low - (4.2 - 2.776445 * error)) < 1e-6 && fabs(interval[0].high - (4.2 + 2.776445 * error)) < 1e-6);
+    double squares = 0, sum = 0;
+    for (int i = 0; i < 5; i++) {
+        const double d = 1.94 - 5.0 / 16 * (x[i] - 4.2) * (x[i] - 4.2);
+        sum += d;
+        squares += d * d;
+    }
+    assert_true(fabs(interval[1].standard_error - sqrt(0.8 * squares)) < 1e-13 && fabs(interval[1].bias - 0.8 * sum) < 1e-13);
+    assert_int_equal(fracas_bootstrap(5, 2, moments, &s, &(fracas_bootstrap_options){.confidence = 0.9}, interval), FRACAS_OK);
+    assert_true(fabs(interval[0].high - (4.2 + 2.131847 * error)) < 1e-6);
+    s = (sample){.n = 8, .x = x};
+    assert_int_equal(fracas_bootstrap(8, 2, moments, &s, &(fracas_bootstrap_options){.seed = 1}, interval), FRACAS_OK);
+    assert_true(s.calls == 1 + 8 + 2000 && interval[0].resamples == 2000);
+    s = (sample){.n = 1, .x = x};
+    assert_int_equal(fracas_bootstrap(1, 2, moments, &s, &(fracas_bootstrap_options){.seed = 1}, interval), FRACAS_OK);
+    assert_true(interval[0].value == 1 && isnan(interval[0].low) && isnan(interval[0].standard_error));
 }
 
 static void ensemble_of(fracas_ensemble *ensemble, const fracas_fragment *fragment, size_t count)
@@ -138,7 +170,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(interval_of_a_published_example), cmocka_unit_test(options_are_heard),
-        cmocka_unit_test(intervals_of_few_and_of_none), cmocka_unit_test(cut_off_of_each_mesh),
+        cmocka_unit_test(intervals_of_what_is_not_always_there), cmocka_unit_test(intervals_of_few_are_students), cmocka_unit_test(cut_off_of_each_mesh),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

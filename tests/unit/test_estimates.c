@@ -125,7 +125,7 @@ static void estimates_at_their_ends(void **state)
     add(&ensemble, &value, (double[]){1, 3}, 2);
     assert_int_equal(fracas_pooled_of(&ensemble, 1, &pooled), FRACAS_OK);
     assert_true(pooled.all.mean.value == 2 && isnan(pooled.all.mean.low) && isnan(pooled.variance.intraclass.value));
-    for (int i = 0; i < 4; i++) add(&ensemble, &value, (double[]){1, 3}, 2);
+    for (int i = 0; i < 7; i++) add(&ensemble, &value, (double[]){1, 3}, 2);
     assert_int_equal(fracas_pooled_of(&ensemble, 1, &pooled), FRACAS_OK);
     assert_true(pooled.variance.intraclass.value == -1 && pooled.variance.design_effect.value == 0);
     assert_true(pooled.all.mean.low == 2 && pooled.all.mean.high == 2);
@@ -134,8 +134,8 @@ static void estimates_at_their_ends(void **state)
 }
 
 /* Of 40 replicas: counts alternate about 100; sizes about 1 in the first half and 1.1 in the second; dissipated 1 or 3. Four of 100 -+ 1 have deviation 1.1547 and
- * half width 3.182446 (tabulated t of 3) x 1.1547/2. Sizes: 1.05 +- 0.016 (deviation 0.0506), from which 1.00 is further than 1.75 x that; dissipated
- * 2 +- 0.32. What all replicas have alike is converged. */
+ * half width 3.182446 (tabulated t of 3) x 1.1547/2. Sizes: 1.05 +- 0.016 (deviation 0.0506), of halves that nothing but 2 of the C(40, 20) deals of these replicas
+ * have; dissipated 2 +- 0.32, of equal halves. What all replicas have alike is converged. */
 static void numbers_that_settle_and_others(void **state)
 {
     (void)state;
@@ -152,7 +152,9 @@ static void numbers_that_settle_and_others(void **state)
     for (size_t r = 0; r < of.count; r++) assert_int_equal(of.row[r].replicas, rows[r]);
     const fracas_settling *count = &of.row[0].number[FRACAS_HEADLINE_COUNT];
     assert_true(count->value == 100 && fabs(0.5 * (count->high - count->low) - 3.182446 * sqrt(4.0 / 3) / 2) < 1e-6);
-    assert_true(of.half[FRACAS_HEADLINE_SIZE] == 1 && fabs(of.row[4].number[FRACAS_HEADLINE_SIZE].value - 1.05) < 1e-14);
+    assert_true(of.half[FRACAS_HEADLINE_SIZE] == 1 && fabs(of.rest[FRACAS_HEADLINE_SIZE] - 1.1) < 1e-14 && of.alike[FRACAS_HEADLINE_COUNT] == 1);
+    assert_true(fabs(of.alike[FRACAS_HEADLINE_SIZE] * 137846528820.0 / 2 - 1) < 1e-9); /* C(40, 20) */
+    assert_true(fabs(of.row[4].number[FRACAS_HEADLINE_SIZE].value - 1.05) < 1e-14);
     const int64_t converged[FRACAS_NHEADLINES] = {1, 0, 0, 1, 1, 1, 1};
     for (int h = 0; h < FRACAS_NHEADLINES; h++) assert_int_equal(of.converged[h], converged[h]);
     assert_int_equal(of.unconverged, 2);
@@ -168,12 +170,19 @@ static void numbers_that_settle_and_others(void **state)
     free(warning);
     fracas_replica_convergence_clear(&of);
 
-    ensemble.nrealizations = 2; /* too few for intervals of sums */
+    /* Of two, count is 100 -+ t_(0.975, 1) = 12.7 and dissipated 2 -+ 12.7; what they have alike is known, and nothing says whether halves differ. */
+    ensemble.nrealizations = 2;
     assert_int_equal(fracas_replica_convergence_of(&ensemble, 1, &point.convergence), FRACAS_OK);
-    assert_true(point.convergence.count == 1 && point.convergence.unconverged == 5); /* count, dissipated, and the three of sums */
+    assert_true(point.convergence.count == 1 && point.convergence.unconverged == 2 && isnan(point.convergence.alike[FRACAS_HEADLINE_SIZE]));
     assert_int_equal(fracas_analysis_warnings(&analysis, &warning, &warnings), FRACAS_OK);
     assert_int_equal(warnings, 1);
-    assert_non_null(strstr(warning->text, "2 usable replicas cannot say"));
+    assert_string_equal(warning->text, "unconverged with 2 replicas, known count to 13 %, dissipated to 635 %: raise replicas");
+    free(warning);
+    fracas_replica_convergence_clear(&point.convergence);
+    ensemble.nrealizations = 1;
+    assert_int_equal(fracas_replica_convergence_of(&ensemble, 1, &point.convergence), FRACAS_OK);
+    assert_int_equal(fracas_analysis_warnings(&analysis, &warning, &warnings), FRACAS_OK);
+    assert_true(warnings == 1 && strstr(warning->text, "one usable replica cannot say"));
     free(warning);
     fracas_replica_convergence_clear(&point.convergence);
     fracas_ensemble_clear(&ensemble);

@@ -224,6 +224,86 @@ static void cells_of_a_lattice(void **state)
     gsl_rng_free(random);
 }
 
+static void add(fracas_ensemble *ensemble, const double *size, size_t count)
+{
+    fracas_fragment fragment[80];
+    const fracas_replica_values value = {0};
+    fracas_record record;
+    fracas_record_init(&record);
+    for (size_t f = 0; f < count; f++) fragment[f] = (fracas_fragment){.size = size[f], .mass = size[f], .elements = 100};
+    record.fragment = fragment;
+    record.nfragment = count;
+    OK(fracas_ensemble_add(ensemble, ensemble->nrealizations, (int64_t)ensemble->nrealizations, &value, &record));
+}
+
+/* Bodies that stay whole are atoms of the distribution of sizes. Among 20 of exponential fragments they change no bit of sample and fit but their own
+ * number, in whatever order they come; where nothing else is, there is nothing to fit. */
+static void whole_bodies_are_left_out(void **state)
+{
+    (void)state;
+    enum { BROKEN = 20, PIECES = 50 };
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    fracas_ensemble with, without, alone;
+    fracas_fit_sample a, b, c;
+    fracas_fit fit_a, fit_b, fit_c;
+    fracas_ensemble_init(&with, 0);
+    fracas_ensemble_init(&without, 0);
+    fracas_ensemble_init(&alone, 0);
+    const double body = 1000;
+    for (int i = 0; i < BROKEN; i++) {
+        double size[PIECES];
+        for (int f = 0; f < PIECES; f++) size[f] = 20 + gsl_ran_exponential(random, 20);
+        if (i % 3 == 0) add(&with, &body, 1);
+        if (i % 3 == 0) add(&alone, &body, 1);
+        add(&with, size, PIECES);
+        add(&without, size, PIECES);
+    }
+    OK(fracas_fit_sample_create(&with, &a));
+    OK(fracas_fit_sample_create(&without, &b));
+    OK(fracas_fit_sample_create(&alone, &c));
+    assert_true(a.whole == 7 && b.whole == 0 && a.nrealizations == BROKEN && a.fragments == BROKEN * PIECES + 7 && a.total == BROKEN * PIECES);
+    a.cut = b.cut; /* of mean elements, which are larger with whole bodies; both below 20 */
+    a.edge[0] = b.edge[0];
+    assert_true(a.mean == b.mean && a.cv == b.cv && a.ncells == b.ncells);
+    assert_memory_equal(a.count, b.count, b.ncells * sizeof *b.count);
+    assert_memory_equal(a.first, b.first, (BROKEN + 1) * sizeof *b.first);
+    assert_memory_equal(a.kept, b.kept, BROKEN * sizeof *b.kept);
+    fracas_fit_of(&fracas_family_exponential, &a, &fit_a);
+    fracas_fit_of(&fracas_family_exponential, &b, &fit_b);
+    fracas_fit_of(&fracas_family_exponential, &c, &fit_c);
+    assert_true(fit_a.parameter[0] == fit_b.parameter[0] && fit_a.log_likelihood == fit_b.log_likelihood && !*fit_a.why);
+    assert_true(c.whole == 7 && c.total == 0 && strstr(fit_c.why, "0 fragments above the cut"));
+    fracas_fit_sample_clear(&a);
+    fracas_fit_sample_clear(&b);
+    fracas_fit_sample_clear(&c);
+    fracas_ensemble_clear(&with);
+    fracas_ensemble_clear(&without);
+    fracas_ensemble_clear(&alone);
+    gsl_rng_free(random);
+}
+
+/* Sizes 1 -+ 1e-6 in turn: mean 1, deviation/mean 1e-6. Each size is rounded to 1.1e-16, and so is the mean (of sums of 2000 to some ten of these): of the
+ * deviation that is 2e-9 at most. Squares of the sizes themselves would be rounded to 1e-16 of 1, in a variance of 1e-12: wrong in the fourth digit at best.
+ * A resample of the first realization alone, twice: the same. */
+static void sizes_that_are_nearly_alike(void **state)
+{
+    (void)state;
+    enum { REALIZATIONS = 40, PIECES = 50 };
+    fracas_ensemble ensemble;
+    fracas_fit_sample sample;
+    uint32_t weight[REALIZATIONS] = {2};
+    double size[PIECES], mean, cv;
+    fracas_ensemble_init(&ensemble, 0);
+    for (int f = 0; f < PIECES; f++) size[f] = 1 + (f % 2 ? 1e-6 : -1e-6);
+    for (int i = 0; i < REALIZATIONS; i++) add(&ensemble, size, PIECES);
+    OK(fracas_fit_sample_create(&ensemble, &sample));
+    assert_true(fabs(sample.mean - 1) < 2e-15 && fabs(sample.cv / 1e-6 - 1) < 2e-9);
+    fracas_fit_sample_moments(&sample, weight, &mean, &cv);
+    assert_true(fabs(mean - 1) < 2e-15 && fabs(cv / 1e-6 - 1) < 2e-9);
+    fracas_fit_sample_clear(&sample);
+    fracas_ensemble_clear(&ensemble);
+}
+
 /* Every fragment is carried, each realization keeps as many, and together they have the law: cells to one fragment. Order is kept. */
 static void carried_samples_have_the_law(void **state)
 {
@@ -291,7 +371,8 @@ int main(void)
         cmocka_unit_test(samples_have_the_distribution),          cmocka_unit_test(fits_recover_the_truth),
         cmocka_unit_test(what_is_no_fit_says_why),                cmocka_unit_test(cells_of_a_lattice),
         cmocka_unit_test(carried_samples_have_the_law),           cmocka_unit_test(distances),
-        cmocka_unit_test(special_cases),
+        cmocka_unit_test(special_cases),                          cmocka_unit_test(whole_bodies_are_left_out),
+        cmocka_unit_test(sizes_that_are_nearly_alike),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* fracas fit of a study: its rows, its file, whether it is of the study as it is now, and points that cannot be fitted. */
+/* fracas fit of a study: its rows, its file, whether they are of the realizations that a study has, and points that cannot be fitted. */
 #include "tests/support/report.h"
 
 #include "analysis/fit/fits.h"
@@ -63,7 +63,7 @@ static fracas_fits *fit(const char *folder, size_t point, FILE *out)
     fracas_analysis *analysis;
     fracas_fits *fits = NULL;
     assert_int_equal(fracas_analysis_create(folder, NULL, NULL, &analysis), FRACAS_OK);
-    assert_int_equal(fracas_fits_create(analysis, folder, point, RESAMPLES, &fits), FRACAS_OK);
+    assert_int_equal(fracas_fits_create(analysis, point, RESAMPLES, &fits), FRACAS_OK);
     if (out) fracas_fits_print(fits, analysis, out);
     fracas_analysis_destroy(analysis);
     return fits;
@@ -98,7 +98,7 @@ static void same_rows(const fracas_fits *a, const fracas_fits *b)
 static void fits_of_a_study(void **state)
 {
     (void)state;
-    char folder[320], path[340], *text = NULL;
+    char folder[320], *text = NULL;
     size_t size;
     snprintf(folder, sizeof folder, "%s/one", report_root);
     write_study(folder, 40);
@@ -121,24 +121,65 @@ static void fits_of_a_study(void **state)
     assert_null(fracas_fits_find(fits, 2, "mott", "fitted")); /* a law of masses */
     assert_null(fracas_fits_ranked(fits, 1, 1));
     assert_true(value_of(fits, 1, "gamma", "fitted") == 0 && value_of(fits, 3, "gamma", "fitted") == 0);
-    bool stale;
-    assert_int_equal(fracas_fits_read(folder, &read, &stale), FRACAS_OK);
+    assert_int_equal(fracas_fits_read(folder, &read), FRACAS_OK);
     assert_null(read);
     assert_int_equal(fracas_fits_write(fits, folder), FRACAS_OK);
-    assert_int_equal(fracas_fits_read(folder, &read, &stale), FRACAS_OK);
-    assert_false(stale);
+    assert_int_equal(fracas_fits_read(folder, &read), FRACAS_OK);
     assert_string_equal(read->campaign, fits->campaign);
     assert_int_equal(read->realizations, 40 + 1 + 40 + 2);
     same_rows(fits, read);
     fracas_fits_destroy(read);
-    snprintf(path, sizeof path, "%s/study.h5", folder);
-    out = fopen(path, "r+"); /* same size, another byte */
-    assert_true(out && fseek(out, -1, SEEK_END) == 0);
-    const int last = fgetc(out);
-    assert_true(fseek(out, -1, SEEK_END) == 0 && fputc(last ^ 1, out) != EOF && fclose(out) == 0);
-    assert_int_equal(fracas_fits_read(folder, &read, &stale), FRACAS_OK);
-    assert_true(stale);
-    fracas_fits_destroy(read);
+    fracas_fits_destroy(fits);
+}
+
+/* Rows that are kept of what was fitted in `folder`, in a study of so many replicas. */
+static size_t keep(const char *folder, const char *other, size_t *stale, fracas_fits **fits)
+{
+    fracas_analysis *analysis;
+    assert_int_equal(fracas_fits_read(folder, fits), FRACAS_OK);
+    assert_int_equal(fracas_analysis_create(other, NULL, NULL, &analysis), FRACAS_OK);
+    fracas_fits_keep(*fits, analysis, stale);
+    fracas_analysis_destroy(analysis);
+    return (*fits)->n;
+}
+
+/* Fits are of realizations, not of files: the same in another study are fitted already, and where some points have more, those alone are stale. Points
+ * that have changed places keep theirs, under the new number. */
+static void fits_of_the_same_realizations(void **state)
+{
+    (void)state;
+    char folder[320], other[320];
+    size_t stale;
+    fracas_fits *kept;
+    snprintf(folder, sizeof folder, "%s/kept", report_root);
+    snprintf(other, sizeof other, "%s/other", report_root);
+    write_study(folder, 12);
+    fracas_fits *fits = fit(folder, SIZE_MAX, NULL);
+    assert_int_equal(fracas_fits_write(fits, folder), FRACAS_OK);
+    keep(folder, folder, &stale, &kept);
+    assert_int_equal(stale, 0);
+    same_rows(fits, kept);
+    fracas_fits_destroy(kept);
+    write_study(other, 13); /* points 0 and 2 have one more */
+    assert_true(keep(folder, other, &stale, &kept) < fits->n);
+    assert_int_equal(stale, 2);
+    assert_true(!fracas_fits_find(kept, 0, "data", "cut") && !fracas_fits_find(kept, 2, "data", "cut"));
+    assert_true(fracas_fits_find(kept, 1, "data", "cut") && fracas_fits_find(kept, 3, "data", "cut"));
+    fracas_fits_destroy(kept);
+    for (size_t i = 0; i < fits->n; i++) fits->row[i].point = NPOINTS - 1 - fits->row[i].point;
+    assert_int_equal(fracas_fits_write(fits, other), FRACAS_OK);
+    fracas_fits_destroy(fits);
+    fits = fit(folder, SIZE_MAX, NULL);
+    keep(other, folder, &stale, &kept);
+    assert_int_equal(stale, 0);
+    same_rows(fits, kept);
+    fracas_fits_destroy(kept);
+    for (size_t i = 0; i < fits->n; i++) /* another realization of as many fragments */
+        if (fits->row[i].point == 2 && !strcmp(fits->row[i].quantity, "fingerprint")) fits->row[i].note[5] ^= 1;
+    assert_int_equal(fracas_fits_write(fits, other), FRACAS_OK);
+    keep(other, folder, &stale, &kept);
+    assert_int_equal(stale, 1);
+    fracas_fits_destroy(kept);
     fracas_fits_destroy(fits);
 }
 
@@ -156,7 +197,7 @@ static void one_point(void **state)
     same_rows(one, all);
     fracas_fits_destroy(one);
     assert_int_equal(fracas_analysis_create(folder, NULL, NULL, &analysis), FRACAS_OK);
-    assert_int_equal(fracas_fits_create(analysis, folder, NPOINTS, RESAMPLES, &one), FRACAS_USAGE);
+    assert_int_equal(fracas_fits_create(analysis, NPOINTS, RESAMPLES, &one), FRACAS_USAGE);
     assert_non_null(strstr(fracas_message(), "point 4: the study has points 0 to 3"));
     fracas_analysis_destroy(analysis);
     fracas_fits_destroy(all);
@@ -174,7 +215,6 @@ static void damaged_files(void **state)
         "point,hash,family,quantity,unit,value,low,high,resamples,note\n0,aa,a-family-of-more-than-twenty-three-letters,k,1,1,,,,\n",
     };
     char path[340];
-    bool stale;
     fracas_fits *fits;
     snprintf(path, sizeof path, "%s/fits.csv", report_root);
     for (size_t i = 0; i < sizeof line / sizeof *line; i++) {
@@ -182,7 +222,7 @@ static void damaged_files(void **state)
         assert_non_null(out);
         fputs(line[i], out);
         fclose(out);
-        assert_int_equal(fracas_fits_read(report_root, &fits, &stale), FRACAS_DAMAGED);
+        assert_int_equal(fracas_fits_read(report_root, &fits), FRACAS_DAMAGED);
         assert_non_null(strstr(fracas_message(), i ? "line 2 is none of ours" : "line 1 is not"));
         assert_null(fits);
     }
@@ -190,6 +230,7 @@ static void damaged_files(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(fits_of_a_study), cmocka_unit_test(one_point), cmocka_unit_test(damaged_files)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(fits_of_a_study), cmocka_unit_test(fits_of_the_same_realizations), cmocka_unit_test(one_point),
+                                       cmocka_unit_test(damaged_files)};
     return cmocka_run_group_tests(tests, report_make_root, report_remove_root);
 }
