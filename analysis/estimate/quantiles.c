@@ -94,20 +94,24 @@ typedef struct {
     double *value;
 } row;
 
-/* What the next quantile is reached with; a sum that equals it but for rounding reaches it: equal elements make such ties, and beyond one a gap may be. */
 static double wanted_by(const row *of)
 {
-    return of->floor + fracas_quantile_share[of->next] * (of->total - of->floor) - 1e-12 * of->total;
+    return of->floor + fracas_quantile_share[of->next] * (of->total - of->floor);
+}
+
+/* A sum that equals what is wanted but for rounding reaches it: equal elements make such ties, and beyond one a gap may be. */
+static bool reaches(const row *of, double sum)
+{
+    return of->next < FRACAS_NQUANTILES && sum >= wanted_by(of) - 1e-12 * of->total;
 }
 
 /* What was summed goes from `before` to `after` at a size: the quantiles passed lie at it, on a lattice as if its fragments were spread evenly over half
  * a step to either side (estimators.16). */
 static void pass(row *of, double before, double after, double size, double lattice)
 {
-    while (of->next < FRACAS_NQUANTILES && after > before) {
-        const double wanted = wanted_by(of);
-        if (!(after >= wanted)) return;
-        of->value[of->next++] = size + lattice * ((wanted - before) / (after - before) - 0.5);
+    while (after > before && reaches(of, after)) {
+        const double value = size + lattice * ((wanted_by(of) - before) / (after - before) - 0.5);
+        of->value[of->next++] = value;
     }
 }
 
@@ -117,11 +121,6 @@ static void begin(row of[2], const amount *floor, const amount *total, double *v
 {
     of[NUMBER] = (row){floor->number, total->number, total->number > floor->number ? 0 : FRACAS_NQUANTILES, value};
     of[MASS] = (row){floor->mass, total->mass, total->mass > floor->mass ? 0 : FRACAS_NQUANTILES, value + FRACAS_NQUANTILES};
-}
-
-static bool reaches(const row *of, double sum)
-{
-    return of->next < FRACAS_NQUANTILES && sum >= wanted_by(of);
 }
 
 /* Through a cell, size by size; `sum` is what lies below it. */
