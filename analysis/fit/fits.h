@@ -57,6 +57,8 @@ const char *fracas_fits_ranked(const fracas_fits *fits, int64_t point, int rank)
 void fracas_fits_format_interval(const fracas_fits_row *row, double factor, char *text, size_t size);
 /* A p-value, none less than its resamples can show; "-" for NULL and NaN. */
 void fracas_fits_format_p(const fracas_fits_row *row, char *text, size_t size);
+/* "x is a special case of y and suffices (p = 0.3)": the best two families; false, and no text, if they were not compared. */
+bool fracas_fits_format_comparison(const fracas_fits *fits, int64_t point, char *text, size_t size);
 /* Every parameter with its interval; lengths over the mean size. */
 void fracas_fits_format_parameters(const fracas_fits *fits, int64_t point, const fracas_family *family, char *text, size_t size);
 

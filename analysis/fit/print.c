@@ -45,6 +45,16 @@ void fracas_fits_format_parameters(const fracas_fits *fits, int64_t point, const
     }
 }
 
+bool fracas_fits_format_comparison(const fracas_fits *fits, int64_t point, char *text, size_t size)
+{
+    char p[16];
+    const fracas_fits_row *row = fracas_fits_find(fits, point, "comparison", "p");
+    if (!row) return false;
+    fracas_fits_format_p(row, p, sizeof p);
+    snprintf(text, size, "%s (p %s%s)", row->note, *p == '<' ? "" : "= ", p);
+    return true;
+}
+
 static void print_interval(const fracas_fits_row *row, double factor, FILE *out)
 {
     char text[96];
@@ -95,7 +105,7 @@ static void print_head(const fracas_fits *fits, const fracas_analysis *analysis,
 
 static void print_point(const fracas_fits *fits, const fracas_analysis *analysis, int64_t point, FILE *out)
 {
-    char p[16];
+    char comparison[256];
     print_head(fits, analysis, point, out);
     fprintf(out, "      %-18s %9s  %7s %7s  %9s %7s  %s\n", "family", "d AICc", "KS", "p", "AD", "p", "parameters [95 % interval]");
     for (int rank = 1; rank <= FRACAS_NFAMILIES; rank++) {
@@ -104,10 +114,7 @@ static void print_point(const fracas_fits *fits, const fracas_analysis *analysis
         if (family) print_family(fits, point, family, rank, out);
     }
     for (size_t f = 0; f < FRACAS_NFAMILIES; f++) print_failed(fits, point, fracas_families[f], out);
-    const fracas_fits_row *row = fracas_fits_find(fits, point, "comparison", "p");
-    if (!row) return;
-    fracas_fits_format_p(row, p, sizeof p);
-    fprintf(out, "  %s (p %s%s)\n", row->note, *p == '<' ? "" : "= ", p);
+    if (fracas_fits_format_comparison(fits, point, comparison, sizeof comparison)) fprintf(out, "  %s\n", comparison);
 }
 
 void fracas_fits_print(const fracas_fits *fits, const fracas_analysis *analysis, FILE *out)

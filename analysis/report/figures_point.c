@@ -142,9 +142,10 @@ static fracas_err add_family(const fracas_family *family, const double *paramete
 fracas_err fracas_figure_fits(const fracas_analysis *analysis, const fracas_fits *fits, size_t point, fracas_chart *chart)
 {
     const fracas_point_statistics *statistics = &analysis->point[point];
+    fracas_figure_name(analysis, point, "fits", "Fits to fragment sizes", chart);
+    if (!fits) return FRACAS_OK;
     const fracas_fits_row *mean = fracas_fits_find(fits, (int64_t)point, "data", "mean");
     const fracas_fits_row *cut = fracas_fits_find(fits, (int64_t)point, "data", "cut");
-    fracas_figure_name(analysis, point, "fits", "Fits to fragment sizes", chart);
     if (!mean || !cut || !(cut->value > 0) || !fracas_fits_ranked(fits, (int64_t)point, 1)) return FRACAS_OK;
     const fracas_prefix prefix = fracas_prefix_for(&mean->value, 1);
     const fracas_fits_row *whole = fracas_fits_find(fits, (int64_t)point, "data", "whole");

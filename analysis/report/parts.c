@@ -5,7 +5,9 @@
 #include "analysis/report/pdf.h"
 
 #include <ctype.h>
+#include <limits.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 /* ---- figures ---- */
 
@@ -137,6 +139,16 @@ static fracas_err write_files(fracas_page *page, const fracas_chart *chart)
     return fracas_page_drew(page, chart->file);
 }
 
+/* A figure that there is no more leaves no files of an older report behind. */
+static void forget_files(const fracas_page *page, const char *name)
+{
+    static const char *const kind[] = {"svg", "pdf", "csv"};
+    for (size_t k = 0; k < sizeof kind / sizeof *kind; k++) {
+        char path[PATH_MAX];
+        if (snprintf(path, sizeof path, "%s/%s.%s", page->folder, name, kind[k]) < (int)sizeof path) unlink(path);
+    }
+}
+
 fracas_err fracas_page_chart(fracas_page *page, fracas_chart *chart, fracas_err built)
 {
     fracas_err err = built;
@@ -145,6 +157,8 @@ fracas_err fracas_page_chart(fracas_page *page, fracas_chart *chart, fracas_err 
         put_drawings(page, chart);
         fracas_page_figure_end(page, chart->title, chart->caption, chart->file, true, true);
         err = write_files(page, chart);
+    } else if (!err) {
+        forget_files(page, chart->file);
     }
     fracas_chart_clear(chart);
     return err;

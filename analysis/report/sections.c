@@ -108,35 +108,55 @@ fracas_err fracas_section_convergence(fracas_page *page)
     return FRACAS_OK;
 }
 
+static void put_of_point(const fracas_page *page, size_t p, const char *text)
+{
+    char label[256];
+    fracas_analysis_label(page->analysis, p, label, sizeof label);
+    fprintf(page->out, "<p>Point %zu%s", p, *label ? ", " : "");
+    fracas_markup_text(label, page->out);
+    fputs(": ", page->out);
+    fracas_markup_text(text, page->out);
+    fputs(".</p>\n", page->out);
+}
+
 /* Points where some realizations are of one piece, which the fits leave out. */
 static void put_whole_bodies(const fracas_page *page)
 {
     for (size_t p = 0; p < page->analysis->table->npoints; p++) {
-        char label[256];
+        char text[256];
         const fracas_fits_row *whole = fracas_fits_find(page->fits, (int64_t)p, "data", "whole");
         if (!whole || !(whole->value > 0)) continue;
-        fracas_analysis_label(page->analysis, p, label, sizeof label);
-        fprintf(page->out, "<p>Point %zu%s", p, *label ? ", " : "");
-        fracas_markup_text(label, page->out);
-        fprintf(page->out, ": %.0f %s.</p>\n", whole->value, whole->note);
+        snprintf(text, sizeof text, "%.0f %s", whole->value, whole->note);
+        put_of_point(page, p, text);
     }
+}
+
+static void put_comparisons(const fracas_page *page)
+{
+    char text[256];
+    for (size_t p = 0; p < page->analysis->table->npoints; p++)
+        if (fracas_fits_format_comparison(page->fits, (int64_t)p, text, sizeof text)) put_of_point(page, p, text);
 }
 
 fracas_err fracas_section_fits(fracas_page *page)
 {
     fracas_chart chart;
     fracas_result_table table = {0};
-    if (!page->fits) return FRACAS_OK;
     if (page->stale)
         fprintf(page->out, "<p>What <code>fracas fit</code> kept of %zu point%s is not of these results: run it again.</p>\n", page->stale,
                 page->stale == 1 ? "" : "s");
-    if (page->fits->n == 0) return FRACAS_OK;
-    put_whole_bodies(page);
+    const bool any = page->fits && page->fits->n > 0;
+    if (any) {
+        put_whole_bodies(page);
+        fracas_page_grid(page, "wide");
+    }
     fracas_chart_init(&chart);
-    fracas_page_grid(page, "wide");
     for (size_t p = 0; p < page->analysis->table->npoints; p++)
         TRY(fracas_page_chart(page, &chart, fracas_figure_fits(page->analysis, page->fits, p, &chart)));
+    if (!any) return FRACAS_OK;
     fracas_page_grid_end(page);
     const fracas_err built = fracas_fit_table_create(page->analysis, page->fits, true, &table);
-    return fracas_page_table(page, "fits-table", "Families of distributions, by AICc", true, &table, fracas_fit_table_legend, built);
+    TRY(fracas_page_table(page, "fits-table", "Families of distributions, by AICc", true, &table, fracas_fit_table_legend, built));
+    put_comparisons(page);
+    return FRACAS_OK;
 }

@@ -6,10 +6,10 @@
 #include <math.h>
 
 const char *const fracas_fit_table_legend[] = {
-    "\u0394AICc: above that of the best family; of families within some 4 of each other the data prefer none.",
+    "\u0394AICc: above that of the best family; of families within some 4 of each other the data prefer none, but for what is said below the table.",
     "KS, AD: distance of the fragments from the family, Kolmogorov and Smirnov\u2019s and Anderson and Darling\u2019s; p: how often data of the",
     "fitted law are as far from their own fit, by resampling realizations: below 0.05 the family does not describe the sizes.",
-    "Parameters with 95 % intervals (BCa over realizations), lengths over the mean of the sizes above the cut.",
+    "Parameters with 95 % intervals that resample realizations, lengths over the mean of the sizes above the cut. Intervals and p hold from 50 realizations on.",
     NULL,
 };
 

@@ -54,6 +54,7 @@ rm rates/table.txt rates/summary.json
 cp -r rates older
 expect 0 "$fracas" extend older --replicas 8
 grep -q 'is not of these results' older/report/index.html || fail "stale fits are shown"
+[ -z "$(find older/report -name 'fits-point-*')" ] || fail "figures of stale fits are left in the folder"
 grep -q '"stale_fits": 3' older/report/summary.json || fail "the summary does not say that fits are stale"
 
 # Equal studies have equal reports.
