@@ -5,8 +5,10 @@
 #include "base/param.h"
 #include "campaigns/campaign.h"
 
+#include <errno.h>
 #include <limits.h>
 #include <stdint.h>
+#include <unistd.h>
 
 enum { POINT, RESAMPLES, JSON };
 static const fracas_option options[] = {
@@ -53,6 +55,9 @@ static fracas_err fit(const fracas_arguments *arguments)
     fracas_analysis *analysis;
     TRY(fracas_arguments_integer(arguments, POINT, 0, INT_MAX, &point));
     TRY(fracas_arguments_integer(arguments, RESAMPLES, 99, 100000, &resamples));
+    if (access(arguments->operand, W_OK) && errno != ENOENT) /* minutes of computing would be lost */
+        return fracas_fail_system(errno, "fit: %s/" FRACAS_FITS_FILE " could not be written; make the folder writable, or fit a copy of the study",
+                                  arguments->operand);
     TRY(fracas_cli_analyse(arguments->operand, &campaign, &analysis));
     fracas_err code = fit_study(arguments, analysis, point < 0 ? SIZE_MAX : (size_t)point, resamples);
     fracas_analysis_destroy(analysis);
