@@ -199,14 +199,14 @@ for command in 'verify aged' 'status aged' 'report aged' 'reindex aged' 'merge a
     said 'aged/.* has format version 1; this program reads 2: use the program version that wrote it, or compute the study again'
 done
 
-# Killed at random times, and repeated.
+# Killed at random times, and repeated. Without --foreground timeout kills its own group, itself too, and does not wait for who dies.
 kill=0
 for command in "reindex" "gc" "merge"; do
     for delay in 0.005 0.01 0.02; do
         rm -rf victim
         cp -r lost victim
         rm victim/study.h5
-        timeout -s KILL $delay "$fracas" $command victim > said 2>&1 && kill=$((kill + 1)) || true
+        timeout --foreground -s KILL $delay "$fracas" $command victim > said 2>&1 && kill=$((kill + 1)) || true
         expect 0 "$fracas" $command victim
         expect 0 "$fracas" merge victim
         same undisturbed victim

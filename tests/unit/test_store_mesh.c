@@ -244,7 +244,7 @@ static void pictures_of_what_is_not_there(void **state)
     OK(fracas_writer_finish(writer, false, &seal));
     OK(fracas_reader_open(sample_path(study, "study.h5"), &reader));
     fracas_reader_close(reader);
-    refused(study, (fracas_picture_request){.point = 1, .count = 6}, "keeps no interfaces");
+    refused(study, (fracas_picture_request){.point = 1, .count = 6}, "point 1 is no surface");
 }
 
 /* Two pictures and the table; replica 1 of point 1 cracks first at 1 us and breaks first at 1.5 us. */

@@ -42,8 +42,9 @@ static fracas_err no_surface(size_t point)
 static fracas_err check_point(making *m)
 {
     const size_t point = m->request->point, npoints = m->table->npoints;
-    if (point < npoints && !fracas_columns_surface(m->table, point)) return no_surface(point);
-    if (!fracas_results_header(m->results)->interfaces)
+    const bool kept = fracas_results_header(m->results)->interfaces;
+    if (!kept && point < npoints && !fracas_columns_surface(m->table, point)) return no_surface(point);
+    if (!kept)
         return fracas_fail(FRACAS_USAGE, "%s keeps no interfaces, so it does not say where the cracks are: run the campaign with "
                            "`output: {interfaces: true}` into another study", m->study);
     if (point >= npoints)

@@ -48,8 +48,8 @@ fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign)
     err = fracas_campaign_extends(campaign, before);
     fracas_campaign_destroy(before);
     if (err && extended)
-        return fracas_fail(FRACAS_DAMAGED, "%s has been extended since: `fracas run %s --study %s` goes on with it (or choose another --study)",
-                           study, path, study);
+        return fracas_fail_within(err, "%s has been extended since: `fracas run %s --study %s` goes on with it (or choose another --study)",
+                                  study, path, study);
     if (err) return fracas_fail_within(err, "%s is a study of another campaign (choose another --study)", study);
     return FRACAS_OK;
 }
