@@ -37,10 +37,12 @@ static fracas_err fit_study(const fracas_arguments *arguments, const fracas_anal
     TRY(read_others(study, analysis, point != SIZE_MAX, &older));
     fracas_err code = fracas_fits_create(analysis, point, resamples, &fits);
     if (!code) {
+        const size_t made = fits->n; /* rows: what is shown, of all that is kept */
+        if (older) code = fracas_fits_complete(fits, older);
+        if (!code) code = fracas_fits_write(fits, study); /* before anything is printed: who reads it may go away */
+        fits->n = made;
         if (json) fracas_fits_write_json(fits, stdout);
         else fracas_fits_print(fits, analysis, stdout);
-        if (older) code = fracas_fits_complete(fits, older);
-        if (!code) code = fracas_fits_write(fits, study);
         if (!code && !json) printf("\nfits: %s/" FRACAS_FITS_FILE "\n", study);
         fracas_fits_destroy(fits);
     }

@@ -1,6 +1,7 @@
 #include "cli/cli.h"
 
 #include "analysis/analysis.h"
+#include "analysis/fit/fits.h"
 #include "base/param.h"
 #include "campaigns/campaign.h"
 
@@ -39,6 +40,21 @@ fracas_err fracas_cli_analyse(const char *study, fracas_campaign **campaign, fra
     return err;
 }
 
+/* The page does not show them, and says so; who looks at the table alone would not know. */
+static fracas_err say_stale(const fracas_analysis *analysis, const char *study)
+{
+    fracas_fits *fits;
+    size_t stale;
+    TRY(fracas_fits_read(study, &fits));
+    if (!fits) return FRACAS_OK;
+    fracas_fits_keep(fits, analysis, &stale);
+    fracas_fits_destroy(fits);
+    if (stale > 0)
+        printf("fits of %zu point%s in %s/" FRACAS_FITS_FILE " are of other realizations and not shown: `fracas fit %s` makes them again\n", stale,
+               stale == 1 ? "" : "s", study, study);
+    return FRACAS_OK;
+}
+
 fracas_err fracas_cli_report(const char *study, bool json)
 {
     fracas_campaign *campaign;
@@ -48,6 +64,7 @@ fracas_err fracas_cli_report(const char *study, bool json)
     if (json) code = fracas_analysis_write_json(analysis, study, stdout);
     else fracas_analysis_print_table(analysis, stdout);
     if (!code) code = fracas_report_write(analysis, study);
+    if (!code && !json) code = say_stale(analysis, study);
     fracas_analysis_destroy(analysis);
     fracas_campaign_destroy(campaign);
     if (!code && !json) printf("report: %s/report/index.html\n", study);

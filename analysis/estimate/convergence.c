@@ -61,10 +61,16 @@ bool fracas_replica_convergence_drifts(const fracas_replica_convergence *converg
     return convergence->alike[headline] < FRACAS_CONVERGED_ALARM;
 }
 
-/* (estimators.22) */
-static bool settled(const fracas_settling *number)
+bool fracas_settling_alike(const fracas_settling *number)
 {
-    return 0.5 * (number->high - number->low) <= FRACAS_CONVERGED_WIDTH * fabs(number->value);
+    return number->high - number->low <= 2e-12 * fabs(number->value);
+}
+
+/* (estimators.22) */
+static bool settled(const fracas_settling *number, size_t n)
+{
+    return (n >= FRACAS_BOOTSTRAP_LEAST || !fracas_settling_alike(number)) &&
+           0.5 * (number->high - number->low) <= FRACAS_CONVERGED_WIDTH * fabs(number->value);
 }
 
 fracas_err fracas_replica_convergence_of(const fracas_ensemble *ensemble, uint64_t seed, fracas_replica_convergence *convergence)
@@ -86,7 +92,7 @@ fracas_err fracas_replica_convergence_of(const fracas_ensemble *ensemble, uint64
     for (int h = 0; h < FRACAS_NHEADLINES; h++) {
         const fracas_settling *number = &convergence->row[rows - 1].number[h];
         const bool has = isfinite(number->value);
-        convergence->converged[h] = has && settled(number) && !fracas_replica_convergence_drifts(convergence, (fracas_headline)h);
+        convergence->converged[h] = has && settled(number, n) && !fracas_replica_convergence_drifts(convergence, (fracas_headline)h);
         convergence->unconverged += has && !convergence->converged[h];
     }
     return FRACAS_OK;

@@ -28,6 +28,9 @@ typedef struct {
     double value, low, high; /* NaN where there is none */
 } fracas_settling;
 
+/* All replicas gave the same: no scatter, but for rounding, to know the value by. */
+bool fracas_settling_alike(const fracas_settling *number);
+
 typedef struct {
     int64_t replicas; /* the first so many usable ones */
     fracas_settling number[FRACAS_NHEADLINES];

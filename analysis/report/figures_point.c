@@ -99,12 +99,16 @@ static fracas_err add_above(const fracas_point_statistics *statistics, size_t n,
     while (first < n && !(size[first] > cut)) first++;
     *above = n - first;
     fracas_series *series;
-    TRY(fracas_panel_add(panel, FRACAS_STEPS, 0, *above, &series));
+    /* k elements count as spread over k -+ 1/2 of them, as in the likelihood: what is known are the shares at these ends */
+    const bool lattice = half > 0;
+    TRY(fracas_panel_add(panel, lattice ? FRACAS_MARKS : FRACAS_STEPS, 0, *above, &series));
     snprintf(series->name, sizeof series->name, "fragments");
     for (size_t i = first; i < n; i++) {
         if (i > first && size[i] <= size[i - 1] * (1 + 1e-9)) continue; /* the same number of elements */
         series->x[vertex] = (size[i] - half) * factor;
-        series->y[vertex++] = (double)(n - i) / (double)*above;
+        series->y[vertex] = (double)(n - i) / (double)*above;
+        if (lattice) series->low[vertex] = series->high[vertex] = NAN;
+        vertex++;
     }
     series->n = vertex;
     return FRACAS_OK;
@@ -167,7 +171,8 @@ fracas_err fracas_figure_fits(const fracas_analysis *analysis, const fracas_fits
     snprintf(panel->x.label, sizeof panel->x.label, "fragment size s [%sm]", prefix.sign);
     snprintf(panel->y.label, sizeof panel->y.label, "share of fragments \u2265 s");
     snprintf(chart->caption, sizeof chart->caption, "Of the n = %zu fragments larger than %.4g %sm, below which the mesh decides, of %lld replicas together: the "
-             "share that is at least of size s. Lines: the %d families of least AICc, by maximum likelihood.", above,
-             cut->value * prefix.factor, prefix.sign, (long long)statistics->usable, BEST);
+             "share that is at least of size s%s. Lines: the %d families of least AICc, by maximum likelihood.", above,
+             cut->value * prefix.factor, prefix.sign, (long long)statistics->usable - (whole ? (long long)whole->value : 0),
+             statistics->ensemble.lattice > 0 ? ", at half an element from the sizes, which are whole numbers of elements" : "", BEST);
     return FRACAS_OK;
 }

@@ -87,16 +87,18 @@ static void warn_of_convergence(const fracas_point_statistics *statistics, size_
         warn(list, p, "one usable replica cannot say how well anything is known: raise replicas");
         return;
     }
-    char text[192] = "";
+    char text[320] = "";
     size_t used = 0;
     for (int h = 0; h < FRACAS_NHEADLINES && used < sizeof text; h++) {
         const fracas_settling *number = &all->number[h];
         if (of->converged[h] || !isfinite(number->value)) continue;
         char width[32];
         const double relative = 0.5 * (number->high - number->low) / fabs(number->value);
-        fracas_format_digits(100 * relative, 2, width, sizeof width);
+        fracas_format_digits(number->high > number->low ? 100 * relative : 0, 2, width, sizeof width);
         used += (size_t)snprintf(text + used, sizeof text - used, "%s%s to %s %%%s", used ? ", " : "", fracas_headline_key[h], width,
-                                 fracas_replica_convergence_drifts(of, (fracas_headline)h) ? " (drifts)" : "");
+                                 fracas_replica_convergence_drifts(of, (fracas_headline)h) ? " (drifts)"
+                                 : fracas_settling_alike(number)                             ? " (all alike)"
+                                                                                             : "");
     }
     warn(list, p, "unconverged with %lld replicas, known %s: raise replicas", (long long)all->replicas, text);
 }
@@ -108,6 +110,7 @@ static void warn_of_end(const fracas_bands *bands, double end, size_t p, warning
     const size_t last = bands->count - 1;
     size_t before = last;
     while (before > 0 && bands->time[before] > 0.9 * end * (1 + 1e-9)) before--;
+    if (bands->time[before] < 0.85 * end) return; /* fewer than ten intervals: no tenth to look at */
     const double dissipated = bands->energy[last][FRACAS_ENERGY_DISSIPATED].mean;
     const double rise = dissipated - bands->energy[before][FRACAS_ENERGY_DISSIPATED].mean;
     if (!(rise > rise_limit * dissipated)) return;

@@ -188,9 +188,11 @@ def alike(first, second):
     return apart / (student_quantile(1 - 1 / 3200, freedom) * scatter * math.sqrt(1 / n1 + 1 / n2))
 
 
-def settled(x, w, drift):
+def settled(x, w, drift, n):
     """(22): converged or not, and how far from the limits: 1 is at one of them."""
     if not all(map(math.isfinite, (x, w))):
+        return 0, math.inf
+    if n < 8 and w <= 1e-12 * abs(x):  # all alike, of few
         return 0, math.inf
     precise = w / (0.05 * abs(x)) if x else (0.0 if w == 0 else math.inf)
     return int(precise <= 1 and drift <= 1), min(abs(math.log(min(max(ratio, 1e-9), 1e9))) for ratio in (precise, drift))
@@ -212,7 +214,7 @@ def convergence(row, replicas, part, n):
         else:
             x, w = row[key + ".value"], (row[key + ".high"] - row[key + ".low"]) / 2
             parts = [(whole[key][0], count * standard_error(whole[key][0], without[key])**2, count) for count, whole, without in sums]
-        row["converged." + key], away = settled(x, w, alike(*parts) if parts else 0.0)
+        row["converged." + key], away = settled(x, w, alike(*parts) if parts else 0.0, n)
         if key not in replicas and away < 0.3:
             unsure.add("converged." + key)
         row["unconverged"] = row.get("unconverged", 0) + (math.isfinite(x) and not row["converged." + key])

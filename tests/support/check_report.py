@@ -359,7 +359,7 @@ if os.path.exists(os.path.join(study, "fits.csv")):
         metre, cut = unit_of(head[3], "m"), of["data", "cut"]
         sizes = np.sort(np.concatenate([size[slice(*fragment["offset"][i:i + 2])] for i in at]))
         sizes = sizes[sizes > cut]
-        steps = np.array([[float(field) for field in line[3:5]] for line in lines if line[2] == "steps"])
+        steps = np.array([[float(field) for field in line[3:5]] for line in lines if line[2] in ("steps", "mark")])
         first = np.concatenate([[True], np.diff(sizes) > 1e-9 * sizes[1:]])
         assert np.allclose(steps[:, 0] * metre, sizes[first] - of["data", "lattice"] / 2, rtol=1e-9, atol=0)
         assert np.allclose(steps[:, 1], 1 - np.flatnonzero(first) / len(sizes), rtol=1e-12, atol=0)
@@ -478,7 +478,8 @@ page = Page()
 page.feed(source_text)
 assert page.open == []
 assert page.scripts == 1
-assert page.marks == 4 * with_mean
+fitted = sum(line[2] == "mark" for path in glob.glob(report + "/fits-point-*.csv") for line in csv.reader(open(path, encoding="utf-8")))
+assert page.marks == 4 * with_mean + 3 * fitted  # on two and three pairs of axes
 for number, caption in enumerate((caption for caption in page.captions if caption.startswith("Figure")), 1):
     assert caption.startswith(f"Figure {number}. ") and f", campaign {summary['campaign'][:12]}, fracas {summary['version']}." in caption
 assert number == len(drawn) - len(glob.glob(os.path.join(report, "surface-*-*-*.svg"))) + len(glob.glob(os.path.join(report, "surface-*.csv")))

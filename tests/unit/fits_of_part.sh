@@ -24,6 +24,7 @@ grep -q 'Point 0, rate 1e3 1/s: 12 of 12 realizations are of one piece' $page ||
 expect 0 "$fracas" run small.yaml --study part --jobs 2
 same whole part
 expect 0 "$fracas" report part
+said 'fits of 1 point in part/fits.csv are of other realizations and not shown'
 grep -q 'kept of 1 point is not of these results' $page || fail "fits of half a point are shown as if they were of all"
 [ -e part/report/fits-point-1.svg ] || fail "the fits of a point that has not changed are gone"
 
