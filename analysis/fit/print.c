@@ -105,7 +105,12 @@ static void print_head(const fracas_fits *fits, const fracas_analysis *analysis,
 
 static void print_point(const fracas_fits *fits, const fracas_analysis *analysis, int64_t point, FILE *out)
 {
-    char comparison[256];
+    char comparison[256], label[256];
+    if (!(value_of(fits, point, "data", "above_cut") > 0)) {
+        fracas_analysis_label(analysis, (size_t)point, label, sizeof label);
+        fprintf(out, "\npoint %lld%s%s: no fragment of a body that came apart is above the cut: nothing to fit\n", (long long)point, *label ? ", " : "", label);
+        return;
+    }
     print_head(fits, analysis, point, out);
     fprintf(out, "      %-18s %9s  %7s %7s  %9s %7s  %s\n", "family", "d AICc", "KS", "p", "AD", "p", "parameters [95 % interval]");
     for (int rank = 1; rank <= FRACAS_NFAMILIES; rank++) {

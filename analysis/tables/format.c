@@ -113,7 +113,11 @@ void fracas_format_interval(double value, double low, double high, char *text, s
     const bool large = place > 0, small = value != 0 && fabs(value) < 1e-2;
     const int exponent = large || small ? exponent_of(value) : 0;
     const double ends[3] = {value, low, high};
-    for (int i = 0; i < 3; i++) format_power(ends[i], exponent, exponent > place ? exponent - place : 0, part[i], sizeof part[i]);
+    for (int i = 0; i < 3; i++) {
+        const bool vanishes = ends[i] > 0 && ends[i] < 0.5 * pow(10, place); /* what is above 0 is not shown as 0 */
+        const int last = vanishes ? exponent_of(ends[i]) : place;
+        format_power(ends[i], exponent, exponent > last ? exponent - last : 0, part[i], sizeof part[i]);
+    }
     snprintf(text, size, "%s [%s, %s]", part[0], part[1], part[2]);
 }
 

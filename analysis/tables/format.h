@@ -23,7 +23,7 @@ void fracas_format_estimate(const fracas_estimate *estimate, double factor, cons
 void fracas_format_mean(const fracas_estimate *estimate, double factor, char *text, size_t size);
 
 /* "0.0851 [0.066, 0.109]" to the place of the second digit of half the interval's width, "1.24e5 [1.10e5, 1.39e5]" where that is above the point or the
- * value below 0.01. Without an interval, or with one that is round-off, the value to three digits, and " [-]" where there is none. "-" without a value. */
+ * value below 0.01. An end above 0 that this rounds to 0 has the digit it needs. Without an interval, or with one that is round-off, the value to three digits, and " [-]" where there is none. "-" without a value. */
 void fracas_format_interval(double value, double low, double high, char *text, size_t size);
 
 /* A power of 1000 for a unit: shown value = factor * SI value. */

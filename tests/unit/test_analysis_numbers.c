@@ -96,6 +96,8 @@ static void digits_as_the_interval_supports(void **state)
     assert_interval(123456, 93000, 1290000, "1.2e5 [0.9e5, 12.9e5]");
     assert_interval(123.4, 120, 127, "123.4 [120.0, 127.0]");
     assert_interval(123.4, 80, 170, "123 [80, 170]");
+    assert_interval(0.20, 0.0014, 0.71, "0.20 [0.001, 0.71]"); /* above 0, and shown so */
+    assert_interval(7000, 51.2, 24000, "7e3 [0.05e3, 24e3]");
     assert_interval(12, -300, 900, "1e1 [-30e1, 90e1]"); /* tens */
     assert_interval(2.34e-4, 2.1e-4, 2.5e-4, "2.34e-4 [2.10e-4, 2.50e-4]");
     assert_interval(3.14159, NAN, NAN, "3.14 [-]");
