@@ -80,9 +80,27 @@ static void gather(const fracas_ensemble *before, const fracas_ensemble *after, 
 /* All realizations are alike: they do not say how far the difference scatters, and of few of them it may be chance. */
 static bool is_alike(const fracas_compared_value *value) { return !(value->high > value->low); }
 
+/* The change in parts of the number as it is, and what is but rounding taken as none  (convergence.1), (convergence.2) */
+static void put_parts(fracas_compared_value *value)
+{
+    const double base = fabs(value->a.mean);
+    if (fmax(fabs(value->low), fabs(value->high)) <= FRACAS_CONVERGENCE_ROUND_OFF * base) value->difference = value->low = value->high = 0; /* false of NaN */
+    if (base == 0) return;
+    value->relative = value->difference / base;
+    value->relative_low = value->low / base;
+    value->relative_high = value->high / base;
+}
+
 enum { ALIKE_LEAST = 8 }; /* from so many on nobody takes that for chance: two values, each as likely, are alike once in 128 times */
 
-/* Two-sided, by Student's law: the intervals are of the same  (convergence.1) */
+/* Onset times and the part of bending are not alike by chance; the others may be multiples of one break. */
+static int64_t least_alike(const fracas_compared_quantity *number)
+{
+    const bool continuous = number->offset == offsetof(fracas_replica_values, onset_time) || number->offset == offsetof(fracas_replica_values, bending);
+    return continuous ? 2 : ALIKE_LEAST;
+}
+
+/* Two-sided, by Student's law: the intervals are of the same  (convergence.3) */
 static double student(const fracas_compared_value *value)
 {
     if (!isfinite(value->low)) return NAN;
@@ -133,6 +151,7 @@ static fracas_err compare_point(fracas_convergence *convergence, size_t p, const
         gather(before, after, row.number, paired, samples);
         if (paired) fracas_difference_of_pairs(samples->value[0], samples->value[1], samples->n[0], 1, &row.value);
         else fracas_difference_of(samples->value[0], samples->n[0], samples->value[1], samples->n[1], 1, &row.value);
+        put_parts(&row.value);
         const bool counted = row.number->offset == offsetof(fracas_replica_values, count_large) && is_same(row.value.a.mean, count[0]) &&
                              is_same(row.value.b.mean, count[1]);
         if (row.number->offset == offsetof(fracas_replica_values, count)) count[0] = row.value.a.mean, count[1] = row.value.b.mean;
@@ -206,15 +225,17 @@ static bool is_within(const fracas_compared_value *value, double most)
     return value->relative_low >= -most && value->relative_high <= most;
 }
 
-static fracas_number_verdict judge(const fracas_compared_value *value, double tolerance)
+static fracas_number_verdict judge(const fracas_convergence_row *row, double tolerance)
 {
-    const double level = 0.05, round_off = 1e-9;
+    const fracas_compared_value *value = &row->value;
+    const double level = 0.05;
     if (!isfinite(value->low)) return FRACAS_NUMBER_UNKNOWN;
     if (is_alike(value)) {
-        const bool many = value->a.n >= ALIKE_LEAST && value->b.n >= ALIKE_LEAST;
-        return many && is_within(value, round_off) ? FRACAS_NUMBER_HOLDS : FRACAS_NUMBER_UNCLEAR;
+        const int64_t least = least_alike(row->number);
+        const bool many = value->a.n >= least && value->b.n >= least;
+        return many && value->difference == 0 ? FRACAS_NUMBER_HOLDS : FRACAS_NUMBER_UNCLEAR;
     }
-    const bool differs = value->p_holm < level && !is_within(value, round_off);
+    const bool differs = value->p_holm < level;
     if (is_within(value, tolerance)) return differs ? FRACAS_NUMBER_SHIFTED : FRACAS_NUMBER_HOLDS;
     return differs ? FRACAS_NUMBER_MOVED : FRACAS_NUMBER_UNCLEAR;
 }
@@ -237,13 +258,13 @@ fracas_err fracas_convergence_judge(fracas_convergence *convergence)
     for (size_t i = 0; i < convergence->nrows && !err; i++) {
         fracas_convergence_row *row = &convergence->row[i];
         row->value.p_holm = corrected[i];
-        row->verdict = judge(&row->value, convergence->tolerance);
+        row->verdict = judge(row, convergence->tolerance);
     }
     free(p);
     return err;
 }
 
-/* An interval falls as n^(-1/2), and its quantile to the normal one  (convergence.2) */
+/* An interval falls as n^(-1/2), and its quantile to the normal one  (convergence.4) */
 double fracas_convergence_replicas(const fracas_convergence *convergence, const fracas_convergence_row *row)
 {
     const fracas_compared_value *value = &row->value;

@@ -80,8 +80,9 @@ static fracas_err add_boxes(const subject *what, fracas_panel *panel)
         const fracas_estimate *base = &row->value.a;
         if (row->number != what->number || !has_change(row)) continue;
         series->x[n] = place_of(convergence, row);
-        series->high[n] = shown_as(what, base->half_width / fabs(base->mean), base->half_width);
-        series->low[n] = -series->high[n];
+        const double half_width = base->half_width > FRACAS_CONVERGENCE_ROUND_OFF * fabs(base->mean) ? base->half_width : 0;
+        series->high[n] = shown_as(what, half_width / fabs(base->mean), half_width);
+        series->low[n] = 0 - series->high[n]; /* no -0 */
         n++;
     }
     return FRACAS_OK;

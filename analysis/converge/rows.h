@@ -22,6 +22,8 @@ typedef struct {
     fracas_number_verdict verdict;
 } fracas_convergence_row;
 
+#define FRACAS_CONVERGENCE_ROUND_OFF 1e-9 /* of a number: less is no change of it, and no scatter */
+
 enum { FRACAS_MOST_LEFT = 3 }; /* refinements */
 
 /* What a reader must know of the realizations of a study, or of one point of it, before trusting its verdicts. */
@@ -62,7 +64,7 @@ FRACAS_MUST_USE fracas_err fracas_convergence_compare(fracas_convergence *conver
                                                       const fracas_refinement_map *map);
 
 /* Replicas n (h/(tolerance/2))^2 of every point with which the half width h of the row's relative change, of n replicas now, would be half
- * of the tolerance: what does not differ then holds in 19 of 20 cases (convergence.2). NaN without an interval. */
+ * of the tolerance: what does not differ then holds in 19 of 20 cases (convergence.4). NaN without an interval. */
 double fracas_convergence_replicas(const fracas_convergence *convergence, const fracas_convergence_row *row);
 
 enum { FRACAS_CONVERGENCE_COLUMNS = 8 };
