@@ -43,13 +43,35 @@ static void format_counts(const fracas_convergence *convergence, const char *ref
         snprintf(text + used, size - (size_t)used, ", %zu without an interval (fewer than two usable realizations)", of[FRACAS_NUMBER_UNKNOWN]);
 }
 
+/* How many replicas would tell of what is unclear: of the numbers whose change is known to 50 % by now. Of the others that would be a guess at
+ * what does not end. */
+static void conclude_replicas(const fracas_convergence *convergence, fracas_convergence_line *line, void *context)
+{
+    const double known = 0.5;
+    double replicas = 0;
+    size_t unclear = 0, vague = 0;
+    char text[320], others[128] = "";
+    for (size_t i = 0; i < convergence->nrows; i++) {
+        const fracas_convergence_row *row = &convergence->row[i];
+        if (row->verdict != FRACAS_NUMBER_UNCLEAR) continue;
+        const double reach = 0.5 * (row->value.relative_high - row->value.relative_low);
+        unclear++;
+        if (reach <= known) replicas = fmax(replicas, fracas_convergence_replicas(convergence, row));
+        else vague++; /* or in parts of 0 */
+    }
+    if (unclear == 0) return;
+    if (vague > 0) snprintf(others, sizeof others, "%zu of the %zu unclear changes %s known no better than to 50 %% of the number", vague, unclear, vague == 1 ? "is" : "are");
+    if (vague == unclear) snprintf(text, sizeof text, "No change that is unclear is known better than to 50 %% of the number: how many replicas would tell cannot be said.");
+    else if (vague > 0) snprintf(text, sizeof text, "About %.0f replicas of each point would tell of %zu that are unclear; %s.", replicas, unclear - vague, others);
+    else snprintf(text, sizeof text, "About %.0f replicas of each point would tell of all that are unclear.", replicas);
+    line(context, text);
+}
+
 void fracas_convergence_conclude(const fracas_convergence *convergence, fracas_convergence_line *line, void *context)
 {
-    double replicas = 0;
     char text[800];
     for (size_t i = 0; i < convergence->nrows; i++) {
         const fracas_convergence_row *row = &convergence->row[i];
-        if (row->verdict == FRACAS_NUMBER_UNCLEAR) replicas = fmax(replicas, fracas_convergence_replicas(convergence, row));
         if (i > 0 && strcmp(row->refinement, row[-1].refinement) == 0) continue;
         format_counts(convergence, row->refinement, text, sizeof text);
         line(context, text);
@@ -64,9 +86,7 @@ void fracas_convergence_conclude(const fracas_convergence *convergence, fracas_c
         fracas_convergence_note_line(convergence, &convergence->note[i], text + used, sizeof text - (size_t)used);
         line(context, text);
     }
-    if (!(replicas > 0 && replicas < 1e9)) return;
-    snprintf(text, sizeof text, "About %.0f replicas of each point would tell of all that are unclear.", replicas);
-    line(context, text);
+    conclude_replicas(convergence, line, context);
 }
 
 static void print_line(void *out, const char *text) { fprintf(out, "%s\n", text); }

@@ -92,6 +92,44 @@ static void pairs_by_replica(void **state)
     free(convergence.row);
 }
 
+typedef struct {
+    char last[256];
+} said;
+
+static void hear(void *context, const char *text)
+{
+    snprintf(((said *)context)->last, sizeof(said), "%s", text);
+}
+
+/* Replicas are said of numbers that are known to 50 %, by the widest of them, 20 x (0.3/0.01)^2: not by one that is known to 900 %, or has no parts. */
+static void replicas_of_what_is_known(void **state)
+{
+    (void)state;
+    fracas_convergence_row row[] = {row_of(-0.05, 0.05, 0.7), row_of(-0.3, 0.3, 0.8), row_of(-9, 9, 0.9), row_of(-0.1, 0.1, 0.9)};
+    row[3].value.relative_low = row[3].value.relative_high = NAN;
+    said heard = {""};
+    fracas_convergence convergence = {.tolerance = 0.02, .nrows = 2, .row = row};
+    assert_int_equal(fracas_convergence_judge(&convergence), FRACAS_OK);
+    fracas_convergence_conclude(&convergence, hear, &heard);
+    assert_string_equal(heard.last, "About 18000 replicas of each point would tell of all that are unclear.");
+    convergence.nrows = 4;
+    assert_int_equal(fracas_convergence_judge(&convergence), FRACAS_OK);
+    fracas_convergence_conclude(&convergence, hear, &heard);
+    assert_string_equal(heard.last, "About 18000 replicas of each point would tell of 2 that are unclear; "
+                        "2 of the 4 unclear changes are known no better than to 50 % of the number.");
+    convergence.row = row + 2;
+    convergence.nrows = 1;
+    assert_int_equal(fracas_convergence_judge(&convergence), FRACAS_OK);
+    fracas_convergence_conclude(&convergence, hear, &heard);
+    assert_string_equal(heard.last, "No change that is unclear is known better than to 50 % of the number: how many replicas would tell cannot be said.");
+    convergence.row = row;
+    row[0] = row_of(-0.01, 0.01, 0.9);
+    heard.last[0] = '\0';
+    assert_int_equal(fracas_convergence_judge(&convergence), FRACAS_OK);
+    fracas_convergence_conclude(&convergence, hear, &heard);
+    assert_null(strstr(heard.last, "replicas"));
+}
+
 /* The same numbers of `n` replicas but for a factor 1 + factor k on replica k: a table of them, its rows freed by the caller. */
 static void scale(size_t n, double factor, bool paired, fracas_convergence *convergence)
 {
@@ -270,7 +308,7 @@ static void moves_are_found(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(verdicts),
-        cmocka_unit_test(realizations_that_are_alike), cmocka_unit_test(pairs_by_replica), cmocka_unit_test(rounding_is_no_change),
+        cmocka_unit_test(realizations_that_are_alike), cmocka_unit_test(pairs_by_replica), cmocka_unit_test(rounding_is_no_change), cmocka_unit_test(replicas_of_what_is_known),
         cmocka_unit_test(intervals_agree_with_verdicts), cmocka_unit_test(no_false_alarm),
                                        cmocka_unit_test(moves_are_found)};
     return cmocka_run_group_tests(tests, NULL, NULL);
