@@ -47,7 +47,8 @@ FRACAS_MUST_USE fracas_err fracas_convergence_print(const fracas_convergence *co
 void fracas_convergence_write_json(const fracas_convergence *convergence, FILE *out);
 FRACAS_MUST_USE fracas_err fracas_convergence_write_csv(const fracas_convergence *convergence, const char *folder);
 
-/* FOLDER/report/: index.html, with a figure a headline number, each also as SVG, PDF and CSV, and the table. `title` heads the page. */
+/* FOLDER/report/: index.html, with a figure a headline number, each also as SVG, PDF and CSV, and the table. `title` heads the page, and its figures
+ * and tables name it as what they are from. */
 FRACAS_MUST_USE fracas_err fracas_convergence_write_page(const fracas_convergence *convergence, const char *folder, const char *title);
 
 #endif

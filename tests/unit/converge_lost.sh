@@ -55,6 +55,11 @@ assert [(w["refinement"], w["point"], w["text"]) for w in told["warnings"]] == w
 assert re.findall("^warning: (.*)$", terminal, re.M) == [text for _, _, text in wanted]
 assert re.findall("<li>warning: (.*)</li>", page) == [text for _, _, text in wanted]
 
+# Figures and tables are of all four studies: they name the folder of them.
+sources = re.findall('<span class="source">([^<]*)</span>', page)
+assert len(sources) == page.count("<b>Figure") + page.count("<b>Table") >= 5, sources
+assert all(re.fullmatch(r" ?lossy, fracas [^,]*\.", source) for source in sources), sources
+
 # A point of which a study has lost all is in the table, and counted.
 for study in ("mesh", "step", "beta"):
     of = [row for row in rows if row["refinement"] == study]
@@ -68,3 +73,21 @@ for study in ("mesh", "step", "beta"):
     assert re.search(f"^{study} +rate 9e5 1/s +count .* unknown$", terminal, re.M)
 assert told["unknown"] == sum(row["verdict"] == "unknown" for row in rows)
 END
+
+# Asked for fewer replicas than there are, it says how many these are, and writes nothing; with them it prints the table. A campaign that differs
+# in more is told what differs.
+expect 0 "$fracas" converge lossy.yaml --study lossy --jobs 2 --replicas 12 --only beta
+cp lossy/base.yaml before.yaml
+for replicas in '' '--replicas 11'; do
+    # shellcheck disable=SC2086 # two words
+    expect 5 "$fracas" converge lossy.yaml --study lossy $replicas
+    said 'lossy has 12 replicas of each point already: give --replicas 12 or more'
+    ! grep -q 'campaign.yaml' said || fail "it says more than what to do"
+done
+cmp before.yaml lossy/base.yaml
+expect 0 "$fracas" converge lossy.yaml --study lossy --jobs 2 --replicas 12
+said '^mesh .* count '
+sed 's/9e5 1/8e5 1/' lossy.yaml > other.yaml
+expect 5 "$fracas" converge other.yaml --study lossy
+! grep -q 'give --replicas' said || { cat said >&2; fail "replicas would not help"; }
+said 'another campaign'
