@@ -60,10 +60,15 @@ static void conclude_replicas(const fracas_convergence *convergence, fracas_conv
         else vague++; /* or in parts of 0 */
     }
     if (unclear == 0) return;
-    if (vague > 0) snprintf(others, sizeof others, "%zu of the %zu unclear changes %s known no better than to 50 %% of the number", vague, unclear, vague == 1 ? "is" : "are");
-    if (vague == unclear) snprintf(text, sizeof text, "No change that is unclear is known better than to 50 %% of the number: how many replicas would tell cannot be said.");
-    else if (vague > 0) snprintf(text, sizeof text, "About %.0f replicas of each point would tell of %zu that are unclear; %s.", replicas, unclear - vague, others);
-    else snprintf(text, sizeof text, "About %.0f replicas of each point would tell of all that are unclear.", replicas);
+    if (vague > 0)
+        snprintf(others, sizeof others, "%zu of the %zu unclear changes %s known no better than to 50 %% of the number", vague, unclear,
+                 vague == 1 ? "is" : "are");
+    if (vague == unclear)
+        snprintf(text, sizeof text, "No change that is unclear is known better than to 50 %% of the number: how many replicas would tell cannot be said.");
+    else if (vague > 0)
+        snprintf(text, sizeof text, "About %.0f replicas of each point would tell of %zu that are unclear; %s.", replicas, unclear - vague, others);
+    else
+        snprintf(text, sizeof text, "About %.0f replicas of each point would tell of all that are unclear.", replicas);
     line(context, text);
 }
 
