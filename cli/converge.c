@@ -8,6 +8,7 @@
 #include "campaigns/scheduler/launch/allocation.h"
 #include "campaigns/scheduler/study/prepare.h"
 
+#include <inttypes.h>
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -69,6 +70,35 @@ static fracas_err find_folder(converging *c)
     return FRACAS_OK;
 }
 
+/* True if the study is of the same points as the campaign of `file`, with more replicas: *replicas of them, the most that a point has. */
+static bool has_more(const char *study, const char *file, fracas_refinement what, int64_t *replicas)
+{
+    char path[STUDY_PATH + 2 * NAME];
+    fracas_campaign *there;
+    fracas_refined refined = {0};
+    snprintf(path, sizeof path, "%s/campaign.yaml", study);
+    if (fracas_campaign_read(path, &there)) return false;
+    *replicas = 0;
+    for (size_t p = 0; p < there->npoints; p++)
+        if (there->point[p].replicas > *replicas) *replicas = there->point[p].replicas;
+    fracas_campaign_destroy(there);
+    const bool fits = !fracas_refined_create(file, *replicas, what, &refined) && refined.campaign && !fracas_study_fits(study, refined.campaign);
+    fracas_refined_clear(&refined);
+    return fits;
+}
+
+/* An error with the replicas to ask for, where these are all that is amiss; the most of all studies, so that none asks for more afterwards. */
+static fracas_err check_study(const converging *c, fracas_refinement what)
+{
+    int64_t replicas, most = 0;
+    fracas_err err = fracas_study_fits(c->study[what], c->refined[what].campaign);
+    if (!err) return FRACAS_OK;
+    if (!has_more(c->study[what], c->arguments->operand, what, &replicas)) return fracas_study_fits(c->study[what], c->refined[what].campaign);
+    for (fracas_refinement r = 0; r < FRACAS_NREFINEMENTS; r++)
+        if (has_more(c->study[r], c->arguments->operand, r, &replicas) && replicas > most) most = replicas;
+    return fracas_fail(err, "%s has %" PRId64 " replicas of each point already: give --replicas %" PRId64 " or more (or another --study)", c->folder, most, most);
+}
+
 /* Every campaign, and whether its study, if it is there, is one of it: before anything is written. */
 static fracas_err make_campaigns(converging *c)
 {
@@ -85,7 +115,7 @@ static fracas_err make_campaigns(converging *c)
                     refined->why);
         if (!refined->campaign) continue;
         any = any || r != FRACAS_REFINE_NOTHING;
-        TRY(fracas_study_fits(c->study[r], refined->campaign));
+        TRY(check_study(c, (fracas_refinement)r));
     }
     if (any) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE, "%s: nothing of it can be refined (above: why)", c->arguments->operand);

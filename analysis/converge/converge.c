@@ -10,6 +10,14 @@
 
 const char *const fracas_number_verdict_name[FRACAS_NUMBER_VERDICTS] = {"moved", "shifted", "holds", "unclear", "unknown"};
 
+static fracas_err note_base(fracas_convergence *convergence, const char *study)
+{
+    const fracas_analysis *base = convergence->study;
+    for (size_t p = 0; p < base->table->npoints; p++)
+        TRY(fracas_convergence_note_point(convergence, "base", p, &base->point[p], base->point[p].ensemble.nrealizations));
+    return fracas_convergence_note_study(convergence, "base", base, study);
+}
+
 fracas_err fracas_convergence_create(const char *study, double tolerance, fracas_convergence **convergence)
 {
     *convergence = NULL;
@@ -17,6 +25,7 @@ fracas_err fracas_convergence_create(const char *study, double tolerance, fracas
     if (!made) return fracas_no_memory("the convergence");
     made->tolerance = tolerance;
     fracas_err err = fracas_analysis_create(study, NULL, NULL, &made->study);
+    if (!err) err = note_base(made, study);
     if (err) fracas_convergence_destroy(made);
     else *convergence = made;
     return err;
@@ -27,6 +36,7 @@ void fracas_convergence_destroy(fracas_convergence *convergence)
     if (!convergence) return;
     fracas_analysis_destroy(convergence->study);
     free(convergence->row);
+    free(convergence->note);
     free(convergence);
 }
 
@@ -70,9 +80,27 @@ static void gather(const fracas_ensemble *before, const fracas_ensemble *after, 
 /* All realizations are alike: they do not say how far the difference scatters, and of few of them it may be chance. */
 static bool is_alike(const fracas_compared_value *value) { return !(value->high > value->low); }
 
+/* The change in parts of the number as it is, and what is but rounding taken as none  (convergence.1), (convergence.2) */
+static void put_parts(fracas_compared_value *value)
+{
+    const double base = fabs(value->a.mean);
+    if (fmax(fabs(value->low), fabs(value->high)) <= FRACAS_CONVERGENCE_ROUND_OFF * base) value->difference = value->low = value->high = 0; /* false of NaN */
+    if (base == 0) return;
+    value->relative = value->difference / base;
+    value->relative_low = value->low / base;
+    value->relative_high = value->high / base;
+}
+
 enum { ALIKE_LEAST = 8 }; /* from so many on nobody takes that for chance: two values, each as likely, are alike once in 128 times */
 
-/* Two-sided, by Student's law: the intervals are of the same  (convergence.1) */
+/* Onset times and the part of bending are not alike by chance; the others may be multiples of one break. */
+static int64_t least_alike(const fracas_compared_quantity *number)
+{
+    const bool continuous = number->offset == offsetof(fracas_replica_values, onset_time) || number->offset == offsetof(fracas_replica_values, bending);
+    return continuous ? 2 : ALIKE_LEAST;
+}
+
+/* Two-sided, by Student's law: the intervals are of the same  (convergence.3) */
 static double student(const fracas_compared_value *value)
 {
     if (!isfinite(value->low)) return NAN;
@@ -86,11 +114,17 @@ static bool is_zero(const fracas_estimate *estimate)
     return estimate->mean == 0 && !(estimate->deviation > 0);
 }
 
-/* True of a number that says nothing: that a study has not, or that is 0 in all realizations of both. */
-static bool is_idle(const fracas_compared_value *value)
+/* True of a number that says nothing: that a study has not, or that is 0 in all realizations of both. Where a study has `lost` all realizations
+ * of the point, what the other says is not idle but unknown; where both have, the count stands for all. */
+static bool is_idle(const fracas_convergence_row *row, bool lost)
 {
-    return value->a.n == 0 || value->b.n == 0 || (is_zero(&value->a) && is_zero(&value->b));
+    const fracas_compared_value *value = &row->value;
+    const bool a = value->a.n > 0, b = value->b.n > 0, zero_a = is_zero(&value->a), zero_b = is_zero(&value->b);
+    if (lost) return (!a || zero_a) && (!b || zero_b) && row->number->offset != offsetof(fracas_replica_values, count);
+    return !a || !b || (zero_a && zero_b);
 }
+
+static bool is_same(double x, double y) { return x == y || (isnan(x) && isnan(y)); }
 
 static fracas_err add_row(fracas_convergence *convergence, const fracas_convergence_row *row)
 {
@@ -109,18 +143,20 @@ static fracas_err compare_point(fracas_convergence *convergence, size_t p, const
                                 two_samples *samples)
 {
     const fracas_ensemble *before = &convergence->study->point[p].ensemble;
+    const bool lost = before->nrealizations == 0 || after->nrealizations == 0, paired = map->paired && !lost;
     double count[2] = {NAN, NAN}; /* without dust it is the count again */
     for (size_t v = 0; v < FRACAS_COMPARED_VALUES; v++) {
         fracas_convergence_row row = {.refinement = map->name, .point = p, .number = &fracas_compared_quantities[v], .paired = map->paired};
         if (!is_headline(row.number)) continue;
-        gather(before, after, row.number, map->paired, samples);
-        if (map->paired) fracas_difference_of_pairs(samples->value[0], samples->value[1], samples->n[0], 1, &row.value);
+        gather(before, after, row.number, paired, samples);
+        if (paired) fracas_difference_of_pairs(samples->value[0], samples->value[1], samples->n[0], 1, &row.value);
         else fracas_difference_of(samples->value[0], samples->n[0], samples->value[1], samples->n[1], 1, &row.value);
-        const bool counted = row.number->offset == offsetof(fracas_replica_values, count_large) && row.value.a.mean == count[0] &&
-                             row.value.b.mean == count[1];
+        put_parts(&row.value);
+        const bool counted = row.number->offset == offsetof(fracas_replica_values, count_large) && is_same(row.value.a.mean, count[0]) &&
+                             is_same(row.value.b.mean, count[1]);
         if (row.number->offset == offsetof(fracas_replica_values, count)) count[0] = row.value.a.mean, count[1] = row.value.b.mean;
         row.value.p = student(&row.value);
-        if (!counted && !is_idle(&row.value)) TRY(add_row(convergence, &row));
+        if (!counted && !is_idle(&row, lost)) TRY(add_row(convergence, &row));
     }
     return FRACAS_OK;
 }
@@ -146,6 +182,17 @@ static fracas_err find_point(const fracas_analysis *study, const fracas_hash *ha
     return fracas_fail(FRACAS_DAMAGED, "the study %s has no point %s; it is of another campaign: remove it and run again", study->name, hex);
 }
 
+static fracas_err note_refined(fracas_convergence *convergence, size_t before, const fracas_point_statistics *after, const fracas_refinement_map *map)
+{
+    const fracas_ensemble *a = &convergence->study->point[before].ensemble, *b = &after->ensemble;
+    size_t judged = a->nrealizations > 0 && !map->paired ? b->nrealizations : 0;
+    for (size_t i = 0, k = 0; map->paired && i < a->nrealizations; i++) { /* as gather does */
+        while (k < b->nrealizations && b->replica[k] < a->replica[i]) k++;
+        judged += k < b->nrealizations && b->replica[k] == a->replica[i];
+    }
+    return fracas_convergence_note_point(convergence, map->name, before, after, judged);
+}
+
 fracas_err fracas_convergence_add(fracas_convergence *convergence, const char *study, const fracas_refinement_map *map)
 {
     fracas_analysis *refined;
@@ -156,7 +203,9 @@ fracas_err fracas_convergence_add(fracas_convergence *convergence, const char *s
         err = find_point(convergence->study, &map->before[i], &before);
         if (!err) err = find_point(refined, &map->after[i], &after);
         if (!err) err = fracas_convergence_compare(convergence, before, &refined->point[after].ensemble, map);
+        if (!err) err = note_refined(convergence, before, &refined->point[after], map);
     }
+    if (!err) err = fracas_convergence_note_study(convergence, map->name, refined, study);
     fracas_analysis_destroy(refined);
     return err;
 }
@@ -176,15 +225,17 @@ static bool is_within(const fracas_compared_value *value, double most)
     return value->relative_low >= -most && value->relative_high <= most;
 }
 
-static fracas_number_verdict judge(const fracas_compared_value *value, double tolerance)
+static fracas_number_verdict judge(const fracas_convergence_row *row, double tolerance)
 {
-    const double level = 0.05, round_off = 1e-9;
+    const fracas_compared_value *value = &row->value;
+    const double level = 0.05;
     if (!isfinite(value->low)) return FRACAS_NUMBER_UNKNOWN;
     if (is_alike(value)) {
-        const bool many = value->a.n >= ALIKE_LEAST && value->b.n >= ALIKE_LEAST;
-        return many && is_within(value, round_off) ? FRACAS_NUMBER_HOLDS : FRACAS_NUMBER_UNCLEAR;
+        const int64_t least = least_alike(row->number);
+        const bool many = value->a.n >= least && value->b.n >= least;
+        return many && value->difference == 0 ? FRACAS_NUMBER_HOLDS : FRACAS_NUMBER_UNCLEAR;
     }
-    const bool differs = value->p_holm < level && !is_within(value, round_off);
+    const bool differs = value->p_holm < level;
     if (is_within(value, tolerance)) return differs ? FRACAS_NUMBER_SHIFTED : FRACAS_NUMBER_HOLDS;
     return differs ? FRACAS_NUMBER_MOVED : FRACAS_NUMBER_UNCLEAR;
 }
@@ -207,13 +258,13 @@ fracas_err fracas_convergence_judge(fracas_convergence *convergence)
     for (size_t i = 0; i < convergence->nrows && !err; i++) {
         fracas_convergence_row *row = &convergence->row[i];
         row->value.p_holm = corrected[i];
-        row->verdict = judge(&row->value, convergence->tolerance);
+        row->verdict = judge(row, convergence->tolerance);
     }
     free(p);
     return err;
 }
 
-/* An interval falls as n^(-1/2), and its quantile to the normal one  (convergence.2) */
+/* An interval falls as n^(-1/2), and its quantile to the normal one  (convergence.4) */
 double fracas_convergence_replicas(const fracas_convergence *convergence, const fracas_convergence_row *row)
 {
     const fracas_compared_value *value = &row->value;

@@ -25,8 +25,9 @@ typedef struct {
 
 /* Compares the refined study, point by point and number by number (count, count without dust where there is dust, mean size,
  * dissipated energy, its part of bending where there is one, time of first onset): the difference of means with its 95 % interval, of
- * pairs (compare.4), (compare.5) or by Welch (compare.1) to (compare.3), and its p (convergence.1). FRACAS_DAMAGED where a study lacks
- * a point. */
+ * pairs (compare.4) or by Welch (compare.1), (compare.2), both in parts of the number as it is (convergence.1), and its p (convergence.3);
+ * what is but rounding is no change (convergence.2). FRACAS_DAMAGED where a study lacks a point. Points of which a study has no usable
+ * realization have rows without a change. */
 FRACAS_MUST_USE fracas_err fracas_convergence_add(fracas_convergence *convergence, const char *study, const fracas_refinement_map *map);
 
 /* Notes that a refinement could not be made of so many points, and why; the texts outlive the convergence. Three times at most. */
@@ -46,7 +47,8 @@ FRACAS_MUST_USE fracas_err fracas_convergence_print(const fracas_convergence *co
 void fracas_convergence_write_json(const fracas_convergence *convergence, FILE *out);
 FRACAS_MUST_USE fracas_err fracas_convergence_write_csv(const fracas_convergence *convergence, const char *folder);
 
-/* FOLDER/report/: index.html, with a figure a headline number, each also as SVG, PDF and CSV, and the table. `title` heads the page. */
+/* FOLDER/report/: index.html, with a figure a headline number, each also as SVG, PDF and CSV, and the table. `title` heads the page, and its figures
+ * and tables name it as what they are from. */
 FRACAS_MUST_USE fracas_err fracas_convergence_write_page(const fracas_convergence *convergence, const char *folder, const char *title);
 
 #endif

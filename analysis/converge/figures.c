@@ -10,10 +10,13 @@
 enum { HEIGHT = 220, MARK_PIXELS = 22, MARGINS = 150, WIDEST = 940 };
 enum { BOX_LOOK = FRACAS_CHART_GREY, TOLERANCE_LOOK = FRACAS_CHART_GREY + 2 };
 
+/* False of a point without a usable realization: its number is unknown, and nothing is drawn of it. */
+static bool has_change(const fracas_convergence_row *row) { return isfinite(row->value.difference); }
+
 size_t fracas_convergence_rows_of(const fracas_convergence *convergence, const fracas_compared_quantity *number)
 {
     size_t count = 0;
-    for (size_t i = 0; i < convergence->nrows; i++) count += convergence->row[i].number == number;
+    for (size_t i = 0; i < convergence->nrows; i++) count += convergence->row[i].number == number && has_change(&convergence->row[i]);
     return count;
 }
 
@@ -45,7 +48,7 @@ static subject subject_of(const fracas_convergence *convergence, const fracas_co
     double most = 0;
     for (size_t i = 0; i < convergence->nrows; i++) {
         const fracas_convergence_row *row = &convergence->row[i];
-        if (row->number != number) continue;
+        if (row->number != number || !has_change(row)) continue;
         if (!isfinite(row->value.relative)) of.relative = false;
         most = fmax(most, fabs(row->value.difference));
     }
@@ -75,10 +78,11 @@ static fracas_err add_boxes(const subject *what, fracas_panel *panel)
     for (size_t i = 0; i < convergence->nrows; i++) {
         const fracas_convergence_row *row = &convergence->row[i];
         const fracas_estimate *base = &row->value.a;
-        if (row->number != what->number) continue;
+        if (row->number != what->number || !has_change(row)) continue;
         series->x[n] = place_of(convergence, row);
-        series->high[n] = shown_as(what, base->half_width / fabs(base->mean), base->half_width);
-        series->low[n] = -series->high[n];
+        const double half_width = base->half_width > FRACAS_CONVERGENCE_ROUND_OFF * fabs(base->mean) ? base->half_width : 0;
+        series->high[n] = shown_as(what, half_width / fabs(base->mean), half_width);
+        series->low[n] = 0 - series->high[n]; /* no -0 */
         n++;
     }
     return FRACAS_OK;
@@ -96,7 +100,7 @@ static fracas_err add_point(const subject *what, size_t point, bool open, fracas
     for (size_t i = 0; i < convergence->nrows && n < convergence->nlevels; i++) {
         const fracas_convergence_row *row = &convergence->row[i];
         const fracas_compared_value *value = &row->value;
-        if (row->number != what->number || row->point != point || differs(row) == open) continue;
+        if (row->number != what->number || row->point != point || !has_change(row) || differs(row) == open) continue;
         series->x[n] = place_of(convergence, row);
         series->y[n] = shown_as(what, value->relative, value->difference);
         series->low[n] = shown_as(what, value->relative_low, value->low);

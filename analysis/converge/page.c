@@ -60,7 +60,7 @@ fracas_err fracas_convergence_write_page(const fracas_convergence *convergence, 
 {
     char *to, lead[160];
     if (asprintf(&to, "%s/report", folder) < 0) return fracas_no_memory("a path");
-    fracas_page page = {.analysis = convergence->study, .folder = to, .of = convergence};
+    fracas_page page = {.analysis = convergence->study, .folder = to, .of = convergence, .source = title};
     const size_t npoints = convergence->study->table->npoints;
     snprintf(lead, sizeof lead, "What refinement changes: %zu point%s, %zu numbers, tolerance %g %%", npoints, npoints == 1 ? "" : "s",
              convergence->nrows, 100 * convergence->tolerance);

@@ -40,16 +40,43 @@ static void format_counts(const fracas_convergence *convergence, const char *ref
                               of[FRACAS_NUMBER_MOVED], of[FRACAS_NUMBER_SHIFTED], of[FRACAS_NUMBER_HOLDS], 100 * convergence->tolerance,
                               of[FRACAS_NUMBER_UNCLEAR]);
     if (of[FRACAS_NUMBER_UNKNOWN] && used < (int)size)
-        snprintf(text + used, size - (size_t)used, ", %zu without an interval (fewer than two realizations)", of[FRACAS_NUMBER_UNKNOWN]);
+        snprintf(text + used, size - (size_t)used, ", %zu without an interval (fewer than two usable realizations)", of[FRACAS_NUMBER_UNKNOWN]);
+}
+
+/* How many replicas would tell of what is unclear: of the numbers whose change is known to 50 % by now. Of the others that would be a guess at
+ * what does not end. */
+static void conclude_replicas(const fracas_convergence *convergence, fracas_convergence_line *line, void *context)
+{
+    const double known = 0.5;
+    double replicas = 0;
+    size_t unclear = 0, vague = 0;
+    char text[320], others[128] = "";
+    for (size_t i = 0; i < convergence->nrows; i++) {
+        const fracas_convergence_row *row = &convergence->row[i];
+        if (row->verdict != FRACAS_NUMBER_UNCLEAR) continue;
+        const double reach = 0.5 * (row->value.relative_high - row->value.relative_low);
+        unclear++;
+        if (reach <= known) replicas = fmax(replicas, fracas_convergence_replicas(convergence, row));
+        else vague++; /* or in parts of 0 */
+    }
+    if (unclear == 0) return;
+    if (vague > 0)
+        snprintf(others, sizeof others, "%zu of the %zu unclear changes %s known no better than to 50 %% of the number", vague, unclear,
+                 vague == 1 ? "is" : "are");
+    if (vague == unclear)
+        snprintf(text, sizeof text, "No change that is unclear is known better than to 50 %% of the number: how many replicas would tell cannot be said.");
+    else if (vague > 0)
+        snprintf(text, sizeof text, "About %.0f replicas of each point would tell of %zu that are unclear; %s.", replicas, unclear - vague, others);
+    else
+        snprintf(text, sizeof text, "About %.0f replicas of each point would tell of all that are unclear.", replicas);
+    line(context, text);
 }
 
 void fracas_convergence_conclude(const fracas_convergence *convergence, fracas_convergence_line *line, void *context)
 {
-    double replicas = 0;
-    char text[512];
+    char text[800];
     for (size_t i = 0; i < convergence->nrows; i++) {
         const fracas_convergence_row *row = &convergence->row[i];
-        if (row->verdict == FRACAS_NUMBER_UNCLEAR) replicas = fmax(replicas, fracas_convergence_replicas(convergence, row));
         if (i > 0 && strcmp(row->refinement, row[-1].refinement) == 0) continue;
         format_counts(convergence, row->refinement, text, sizeof text);
         line(context, text);
@@ -59,9 +86,12 @@ void fracas_convergence_conclude(const fracas_convergence *convergence, fracas_c
                  convergence->left[i].points == 1 ? "" : "s", convergence->left[i].why);
         line(context, text);
     }
-    if (!(replicas > 0 && replicas < 1e9)) return;
-    snprintf(text, sizeof text, "About %.0f replicas of each point would tell of all that are unclear.", replicas);
-    line(context, text);
+    for (size_t i = 0; i < convergence->nnotes; i++) {
+        int used = snprintf(text, sizeof text, "warning: ");
+        fracas_convergence_note_line(convergence, &convergence->note[i], text + used, sizeof text - (size_t)used);
+        line(context, text);
+    }
+    conclude_replicas(convergence, line, context);
 }
 
 static void print_line(void *out, const char *text) { fprintf(out, "%s\n", text); }
@@ -148,6 +178,23 @@ static void write_left(const fracas_convergence *convergence, fracas_json *json)
     fracas_json_close_array(json);
 }
 
+static void write_notes(const fracas_convergence *convergence, fracas_json *json)
+{
+    char text[800];
+    fracas_json_array(json, "warnings");
+    for (size_t i = 0; i < convergence->nnotes; i++) {
+        const fracas_convergence_note *note = &convergence->note[i];
+        fracas_json_object(json, NULL);
+        fracas_json_text(json, "refinement", note->refinement);
+        if (note->point == SIZE_MAX) fracas_json_text(json, "point", NULL);
+        else fracas_json_integer(json, "point", (int64_t)note->point);
+        fracas_convergence_note_line(convergence, note, text, sizeof text);
+        fracas_json_text(json, "text", text);
+        fracas_json_close_object(json);
+    }
+    fracas_json_close_array(json);
+}
+
 void fracas_convergence_write_json(const fracas_convergence *convergence, FILE *out)
 {
     fracas_json json;
@@ -157,6 +204,7 @@ void fracas_convergence_write_json(const fracas_convergence *convergence, FILE *
     for (int v = 0; v < FRACAS_NUMBER_VERDICTS; v++)
         fracas_json_integer(&json, fracas_number_verdict_name[v], (int64_t)count_of(convergence, (fracas_number_verdict)v));
     write_left(convergence, &json);
+    write_notes(convergence, &json);
     fracas_json_array(&json, "numbers");
     for (size_t i = 0; i < convergence->nrows; i++) write_row(convergence, &convergence->row[i], &json);
     fracas_json_close_array(&json);

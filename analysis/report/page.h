@@ -22,6 +22,7 @@ typedef struct {
     size_t stale;            /* points whose fits were not of the results as these are now, and are not shown */
     bool surfaces;           /* pictures of surfaces are on it */
     const void *of;          /* what the sections of another page than a study's are about */
+    const char *source;      /* what its figures and tables are from; NULL: the study, by its name and campaign */
     FILE *out;          /* of the section */
     int figures, tables; /* numbered so far */
     size_t ndrawings, room;

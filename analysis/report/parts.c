@@ -63,8 +63,9 @@ static void put_source(fracas_page *page)
     char hash[FRACAS_HASH_HEX];
     fracas_hash_hex(&page->analysis->header.campaign, hash);
     fputs(" <span class=\"source\">", page->out);
-    fracas_markup_text(page->analysis->name, page->out);
-    fprintf(page->out, ", campaign %.12s, fracas %s.</span>", hash, page->analysis->header.version);
+    fracas_markup_text(page->source ? page->source : page->analysis->name, page->out);
+    if (!page->source) fprintf(page->out, ", campaign %.12s", hash);
+    fprintf(page->out, ", fracas %s.</span>", page->analysis->header.version);
 }
 
 /* Text in which the c of "G_c" stands low; an underscore within a word stays. */
