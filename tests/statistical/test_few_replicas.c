@@ -43,6 +43,35 @@ static void own_weights(void **state)
     for (int i = 0; i < 3; i++) few_assert_share(few_lines_of(FEW_POINTS, 2 + i, false, true, ROUNDS, 500 + (unsigned long)i).slope, stated[i], 0.01, ROUNDS);
 }
 
+/* Points of few replicas beside such as have their own: neither hides how the others scatter. Their numbers, and what the page states for equal
+ * and for falling scatter. */
+static void mixed(void **state)
+{
+    (void)state;
+    enum { ROUNDS = 20000 };
+    for (size_t k = 0; k < FRACAS_COUNT(few_mixed); k++)
+        for (int falling = 0; falling < 2; falling++) {
+            const few_mixture *claim = &few_mixed[k];
+            const few_lines found = few_lines_through(FEW_POINTS, claim->replicas, falling, false, ROUNDS, 900 + k);
+            few_assert_share(found.slope, claim->slope[falling], 0.001, ROUNDS);
+            few_assert_share(found.alarms, claim->alarms[falling], 0.001, ROUNDS);
+        }
+}
+
+/* Of many points, each of its own weight from eight replicas, intervals are short. */
+static void many_points(void **state)
+{
+    (void)state;
+    enum { ROUNDS = 5000 };
+    static const struct { size_t points; double slope, alarms; } stated[] = {{20, 0.923, 0.020}, {30, 0.909, 0.025}};
+    for (int i = 0; i < 2; i++)
+        for (int falling = 0; falling < 2; falling++) {
+            const few_lines found = few_lines_of(stated[i].points, FRACAS_REPLICAS_OWN, falling, false, ROUNDS, 800 + (unsigned long)i);
+            few_assert_share(found.slope, stated[i].slope, 0.01, ROUNDS);
+            few_assert_share(found.alarms, stated[i].alarms, 0.01, ROUNDS);
+        }
+}
+
 /* Of more points pooling holds less where scatter falls. */
 static void twelve_points(void **state)
 {
@@ -115,7 +144,7 @@ static void draws_know_who_scatters(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lines), cmocka_unit_test(own_weights), cmocka_unit_test(twelve_points),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lines), cmocka_unit_test(own_weights), cmocka_unit_test(twelve_points), cmocka_unit_test(mixed), cmocka_unit_test(many_points),
                                        cmocka_unit_test(crossovers), cmocka_unit_test(draws_are_students),
                                        cmocka_unit_test(draws_know_who_scatters)};
     return cmocka_run_group_tests(tests, NULL, NULL);
