@@ -128,7 +128,7 @@ static void slope_fields(const fracas_analysis *analysis, fracas_field_sink *sin
         {"half_width", FRACAS_FIELD_NUMBER, "1", "half width of its 95 % interval", false},
         {"chi2", FRACAS_FIELD_NUMBER, "1", "squared residuals of a line, each over its variance", false},
         {"misfit", FRACAS_FIELD_NUMBER, "1", "probability of such a chi2 or more if the points are on a line", false},
-        {"pooled_freedom", FRACAS_FIELD_NUMBER, "1", "degrees of freedom of the variance that the points of a line share, if they do", false},
+        {"pooled_freedom", FRACAS_FIELD_NUMBER, "1", "degrees of freedom of the variance that points of a line share, if some do", false},
     };
     put_fields(field, sizeof field / sizeof *field, sink, context);
 }

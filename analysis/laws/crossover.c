@@ -92,18 +92,15 @@ static double quantile(double *value, size_t count, double p)
     return value[below] + (at - (double)below) * (value[below + 1] - value[below]);
 }
 
-/* `sign` exp(value): s_q and edot_c as they are, the exponent -k. */
+/* Quantiles of `sign` exp(value): s_q and edot_c as they are, the exponent -k. */
 static void summarise(double *found, size_t count, double best, double sign, fracas_interval *interval)
 {
     *interval = (fracas_interval){sign * exp(best), NAN, NAN, NAN, NAN, (int64_t)count};
     if (count < 20) return;
-    double sum = 0, squares = 0;
     for (size_t b = 0; b < count; b++) found[b] = sign * exp(found[b]);
-    for (size_t b = 0; b < count; b++) sum += found[b] - interval->value;
-    interval->bias = sum / (double)count;
-    for (size_t b = 0; b < count; b++) squares += pow(found[b] - interval->value - interval->bias, 2);
-    interval->standard_error = sqrt(squares / (double)(count - 1));
     gsl_sort(found, 1, count);
+    interval->bias = quantile(found, count, 0.5) - interval->value; /* some draws run away, and their moments with them */
+    interval->standard_error = (quantile(found, count, 0.8413) - quantile(found, count, 0.1587)) / 2;
     interval->low = quantile(found, count, 0.025);
     interval->high = quantile(found, count, 0.975);
 }
@@ -130,17 +127,19 @@ static fracas_err judge(fitter *of, double best[NPARAMETERS], double chi2, fraca
     gsl_matrix_free(covariance);
     crossover->misfit = fracas_misfit_probability(&misfit, crossover->chi2, crossover->freedom);
     crossover->pooled = misfit.shared > 0 ? misfit.shared : NAN;
-    crossover->inflation = crossover->misfit < FRACAS_MISFIT_LIMIT ? sqrt(crossover->chi2 / crossover->freedom) : 1;
+    crossover->inflation = fmax(1, sqrt(crossover->chi2 / crossover->freedom));
     return FRACAS_OK;
 }
 
 /* Means about the fitted ones, as far off as their errors are, and as uncertain as these  (size-laws.16). */
 static void draw(const fitter *of, const double best[NPARAMETERS], const fracas_size_crossover *crossover, gsl_rng *random)
 {
-    const double shared = crossover->inflation > 1 ? crossover->freedom : crossover->pooled; /* an error that all share is off for all alike */
-    const double factor = shared > 0 ? sqrt(shared / gsl_ran_chisq(random, shared)) : 1;
+    const bool off = crossover->misfit < FRACAS_MISFIT_LIMIT; /* then the residuals tell how far off, for all alike */
+    const double shared = off ? crossover->freedom : crossover->pooled;
+    const double factor = shared > 0 ? sqrt(shared / gsl_ran_chisq(random, shared)) : 1; /* an error that is shared is off for all alike */
     for (size_t i = 0; i < of->n; i++) {
-        const double z = shared > 0 ? factor * gsl_ran_ugaussian(random) : gsl_ran_tdist(random, of->known[i].freedom);
+        const bool alike = off || of->known[i].pooled;
+        const double z = alike ? factor * gsl_ran_ugaussian(random) : gsl_ran_tdist(random, of->known[i].freedom);
         of->y[i] = model(best, of->x[i]) + crossover->inflation * sqrt(of->known[i].most) * z;
     }
 }

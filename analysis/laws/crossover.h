@@ -8,7 +8,8 @@
 
 enum { FRACAS_CROSSOVER_RATES = 5 }; /* two more than the form has constants */
 
-/* s = s_q/(1 + (edot/edot_c)^k): s_q at low rates, exponent 0, and s_q (edot/edot_c)^(-k) at high ones. */
+/* s = s_q/(1 + (edot/edot_c)^k): s_q at low rates, exponent 0, and s_q (edot/edot_c)^(-k) at high ones. Of draws that run away intervals have
+ * quantiles alone: standard_error is half the width between those of 0.1587 and 0.8413, bias the median less the value. */
 typedef struct {
     char name[128];          /* of the series */
     char reason[160];        /* why there is no fit; "": there is one */
@@ -20,8 +21,8 @@ typedef struct {
     double chi2;             /* sum of squared residuals of log s, each over its standard error */
     double freedom;          /* n - 3 */
     double misfit;           /* probability of such a chi2 or more if the means are on such a curve */
-    double pooled;           /* degrees of freedom of the variance that the means share; NaN: each has its own */
-    double inflation;        /* of the standard errors, in the intervals: 1, or sqrt(chi2/freedom) where misfit < FRACAS_MISFIT_LIMIT */
+    double pooled;           /* degrees of freedom of the variance that means share; NaN: each has its own */
+    double inflation;        /* of the standard errors, in the intervals: max(1, sqrt(chi2/freedom)) */
 } fracas_size_crossover;
 
 /* (size-laws.14), (size-laws.15), (size-laws.16): weighted least squares of log s over the points that came apart and whose standard error

@@ -18,7 +18,7 @@ typedef struct {
     double slope, intercept;
     double chi2;           /* sum of squared residuals, each over its variance; NaN if the variances are not known */
     double misfit;         /* probability of such a chi2 or more if the values are on a line; NaN as chi2 */
-    double pooled;         /* degrees of freedom of the variance that the values share; NaN: each has its own, or it is not known */
+    double pooled;         /* degrees of freedom of the variance that values share; NaN: each has its own, or it is not known */
     double standard_error; /* of the slope, inflated where chi2/(n - 2) > 1 */
     double half_width;     /* of the 95 % interval of the slope: t_(0.975, n-2) standard_error */
 } fracas_slope;

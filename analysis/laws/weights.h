@@ -16,20 +16,23 @@ typedef struct {
     double variance; /* of log(mean); not positive or not finite: unknown */
     double most;     /* the greater of that and the one by its own replicas, what a draw must not fall short of */
     double freedom;  /* degrees of freedom behind it; infinite: it is given, not estimated */
-    bool pooled;     /* one relative variance for all means */
+    bool pooled;     /* one relative variance for this mean and others */
 } fracas_mean_error;
 
 enum { FRACAS_REPLICAS_OWN = 8 }; /* from so many on a mean is weighed by the scatter of its own replicas */
 
-/* (estimators.25), (estimators.26): the errors of the `n` means of one line or curve, error[n]. If one of them has less than
- * FRACAS_REPLICAS_OWN replicas they share one relative variance, which is known to a mean of one replica as well, and unknown to all
- * if all have one, or all scatter is 0. Otherwise each has its own, unknown where its scatter is 0. */
+/* (estimators.25), (estimators.26): the errors of the `n` means of one line or curve, error[n]. Those of less than FRACAS_REPLICAS_OWN
+ * replicas share one relative variance, from their own replicas, which is known to a mean of one replica as well; if these have less than 4
+ * degrees of freedom together, or no scatter, it is not less than that pooled over all means. Each of the others has its own,
+ * unknown where its scatter is 0. All are unknown if all have one replica, or all scatter is 0. */
 void fracas_mean_errors(const fracas_mean *mean, size_t n, fracas_mean_error *error);
 
 /* What a test of the line needs to know of its means; {0} before the first. */
 typedef struct {
-    double shared; /* degrees of freedom of the pooled variance; 0: it is not */
-    double doubt;  /* sum of (1 - leverage)^2/freedom of the others */
+    double shared;        /* degrees of freedom of the pooled variance; 0: there is none */
+    double kept, squares; /* sums of 1 - leverage and of its square over the means that share it */
+    double doubt;         /* sum of (1 - leverage)^2/freedom of the others */
+    bool others;          /* there are such */
 } fracas_misfit;
 
 /* leverage: d(fitted value)/d(value) of the mean, 0 to 1. */

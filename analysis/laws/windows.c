@@ -1,5 +1,7 @@
 #include "analysis/laws/windows.h"
 
+#include "analysis/laws/weights.h"
+
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdio.h>
@@ -13,7 +15,9 @@ fracas_window fracas_window_of(const fracas_size_point *low, const fracas_size_p
     const double a = low->error * low->error, b = high->error * high->error;
     fracas_window window = {.slope = log(high->size / low->size) / x, .standard_error = sqrt(a + b) / fabs(x)};
     window.freedom = (a + b) * (a + b) / (a * a / (double)(low->replicas - 1) + b * b / (double)(high->replicas - 1));
-    window.half_width = a + b > 0 ? gsl_cdf_tdist_Pinv(0.975, window.freedom) * window.standard_error : window.standard_error;
+    const bool few = low->replicas < FRACAS_REPLICAS_OWN || high->replicas < FRACAS_REPLICAS_OWN; /* alike by chance */
+    if (a + b > 0) window.half_width = gsl_cdf_tdist_Pinv(0.975, window.freedom) * window.standard_error;
+    else window.half_width = few ? NAN : window.standard_error;
     return window;
 }
 

@@ -9,7 +9,7 @@ typedef struct {
     double slope;
     double standard_error; /* from those of the two means */
     double freedom;        /* degrees of freedom of that, by Welch and Satterthwaite */
-    double half_width;     /* of the 95 % interval; NaN if a mean is of one replica */
+    double half_width;     /* of the 95 % interval; NaN if a mean is of one replica, or of less than FRACAS_REPLICAS_OWN where neither scatters */
 } fracas_window;
 
 /* (size-laws.11), (size-laws.12), (size-laws.13). NaN if the rates differ by rounding alone (1e-9). */

@@ -11,7 +11,7 @@
 
 const char *const fracas_slope_table_legend[] = {
     "slope: of log(mean size) against log(strain rate), weighted least squares, each point by the standard error of its "
-    "mean over replicas, from one relative variance pooled over the points if one of them has less than eight; points where no body came apart are left "
+    "mean over replicas, from one relative variance pooled over the points that have less than eight; points where no body came apart are left "
     "out; after it the half width of its 95 % interval (Student's t with points - 2 degrees of freedom).",
     "chi2/dof: scatter of the points about the line over what their errors explain; where it is above 1 the interval is "
     "wider by its square root. Mott, Grady: exponents of the theories.",
@@ -27,7 +27,7 @@ const char *const fracas_crossover_table_legend[] = {
     "s = s_q/(1 + (rate/crossover)^k), by least squares of log(mean size), weighted as slopes are: s_q is the size at low rates (exponent 0), -k the exponent at "
     "high rates. In brackets 95 % intervals by the parametric bootstrap: means drawn again by their standard errors, Student's. /s0, /edot0: as parts of "
     "the characteristic size and rate of the material.",
-    "chi2/dof: scatter of the points about the curve over what their errors explain; where that is more than in 99 % of studies on the curve the intervals "
+    "chi2/dof: scatter of the points about the curve over what their errors explain; where it is above 1 the intervals "
     "are wider by its square root. At least five rates with the bend among them are needed; else the last column says what is missing.",
     NULL,
 };

@@ -43,6 +43,35 @@ static void own_weights(void **state)
     for (int i = 0; i < 3; i++) few_assert_share(few_lines_of(FEW_POINTS, 2 + i, false, true, ROUNDS, 500 + (unsigned long)i).slope, stated[i], 0.01, ROUNDS);
 }
 
+/* Points of few replicas beside such as have their own: neither hides how the others scatter. Their numbers, and what the page states for equal
+ * and for falling scatter. */
+static void mixed(void **state)
+{
+    (void)state;
+    enum { ROUNDS = 20000 };
+    for (size_t k = 0; k < FRACAS_COUNT(few_mixed); k++)
+        for (int falling = 0; falling < 2; falling++) {
+            const few_mixture *claim = &few_mixed[k];
+            const few_lines found = few_lines_through(FEW_POINTS, claim->replicas, falling, false, ROUNDS, 900 + k);
+            few_assert_share(found.slope, claim->slope[falling], 0.001, ROUNDS);
+            few_assert_share(found.alarms, claim->alarms[falling], 0.001, ROUNDS);
+        }
+}
+
+/* Of many points, each of its own weight from eight replicas, intervals are short. */
+static void many_points(void **state)
+{
+    (void)state;
+    enum { ROUNDS = 5000 };
+    static const struct { size_t points; double slope, alarms; } stated[] = {{20, 0.923, 0.020}, {30, 0.909, 0.025}};
+    for (int i = 0; i < 2; i++)
+        for (int falling = 0; falling < 2; falling++) {
+            const few_lines found = few_lines_of(stated[i].points, FRACAS_REPLICAS_OWN, falling, false, ROUNDS, 800 + (unsigned long)i);
+            few_assert_share(found.slope, stated[i].slope, 0.01, ROUNDS);
+            few_assert_share(found.alarms, stated[i].alarms, 0.01, ROUNDS);
+        }
+}
+
 /* Of more points pooling holds less where scatter falls. */
 static void twelve_points(void **state)
 {
@@ -74,7 +103,8 @@ static double width_of(int64_t replicas, int64_t of_last, double zigzag)
     assert_int_equal(fracas_crossover_fit(&series, 19999, 1, &fit), FRACAS_OK);
     print_message("%lld replicas, the last mean %lld: pooled %g, inflation %.3f, width %.5f\n", (long long)replicas, (long long)of_last,
                   fit.pooled, fit.inflation, log(fit.rate.high / fit.rate.low));
-    assert_true(isnan(fit.pooled) || fit.pooled == 8.0 * (double)(replicas - 1) + (double)(of_last - 1));
+    const double few = replicas < FRACAS_REPLICAS_OWN ? 8.0 * (double)(replicas - 1) : 0, last = of_last < FRACAS_REPLICAS_OWN ? (double)(of_last - 1) : 0;
+    assert_true(few + last > 0 ? fit.pooled == few + last : isnan(fit.pooled));
     return log(fit.rate.high / fit.rate.low) / fit.inflation;
 }
 
@@ -88,6 +118,9 @@ static void draws_are_students(void **state)
     assert_true(fabs(width_of(8, 8, 0) / known / sqrt(7.0 / 5) - 1) < 0.05);
     /* Off the curve: the residuals' own 6 degrees of freedom, whatever the replicas. */
     assert_true(fabs(width_of(100000, 100000, 30) / known / (gsl_cdf_tdist_Pinv(0.975, 6) / normal) - 1) < 0.05);
+    /* The last mean alone of five degrees of freedom: only its own draws are wider, not all by t_5 = 2.57 over 1.96. */
+    const double mixed = width_of(100000, 6, 0) / known;
+    assert_true(mixed > 1.005 && mixed < 1.15);
     /* A last mean of one replica has an error too, and takes part: the eight others have 8 degrees of freedom. */
     assert_true(width_of(2, 1, 0) > width_of(2, 2, 0));
 }
@@ -115,7 +148,7 @@ static void draws_know_who_scatters(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lines), cmocka_unit_test(own_weights), cmocka_unit_test(twelve_points),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lines), cmocka_unit_test(own_weights), cmocka_unit_test(twelve_points), cmocka_unit_test(mixed), cmocka_unit_test(many_points),
                                        cmocka_unit_test(crossovers), cmocka_unit_test(draws_are_students),
                                        cmocka_unit_test(draws_know_who_scatters)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -96,31 +96,39 @@ def fisher_beyond(x, above, below):
 
 
 def known_of(group):
-    """The points of a line: log rate, log size, error, degrees of freedom behind it, and those of a variance that all share (or None)."""
+    """The points of a line: log rate, log size, error, degrees of freedom behind it, whether its variance is shared, and the freedom of that (or None)."""
     of = [row for row in group if row["rate"] > 0 and row["size.mean"] > 0 and row["count.mean"] != 1]
     n = np.array([row["size.n"] for row in of], float)
     relative = np.array([row["size.deviation"] / row["size.mean"] if row["size.n"] > 1 else 0 for row in of])**2
-    few = len(n) > 0 and min(n) < 8
-    together = sum(n) - len(n)
-    if few and together:
-        relative = np.full(len(n), np.average(relative, weights=n - 1))
+    behind = n - 1
+    few = n < 8
+    together = None
+    if any(behind > 0) and any(few):
+        every = np.average(relative, weights=behind)
+        together = sum(behind[few])
+        own = np.average(relative[few], weights=behind[few]) if together else 0
+        relative[few] = max(own, every) if together < 4 or not own else own
+        together = together or sum(behind)
+        behind[few] = together
     x, y = (np.array([math.log(row[key]) for row in of]) for key in ("rate", "size.mean"))
     used = relative > 0
-    return x[used], y[used], np.sqrt(relative / n)[used], n[used] - 1, together if few and any(used) else None, (x, y)
+    return x[used], y[used], np.sqrt(relative / n)[used], behind[used], few[used], together if any(used & few) else None, (x, y)
 
 
-def misfit_of(chi2, freedom, derivative, error, behind, together):
+def misfit_of(chi2, freedom, derivative, error, behind, few):
     """Of a least-squares fit: rows of derivative are d(fitted)/d(constants)."""
-    if together is not None:
-        return fisher_beyond(chi2 / freedom, freedom, together)
+    if all(few):
+        return fisher_beyond(chi2 / freedom, freedom, behind[0])
     weighted = derivative / error[:, None]
     kept = 1 - np.einsum("ia,ia->i", weighted @ np.linalg.inv(weighted.T @ weighted), weighted)
-    a = np.sum(kept**2 / behind)
+    a = np.sum((kept**2 / behind)[~few])
+    if any(few):
+        a += (np.sum(kept[few])**2 + np.sum(kept[few]**2)) / (2 * behind[few][0])
     return fisher_beyond(chi2 / (freedom + 2 * a - 6 * a / (freedom + 2)), freedom, freedom * (freedom + 2) / (3 * a))
 
 
 def slope(group):
-    x, y, sigma, behind, together, everything = known_of(group)
+    x, y, sigma, behind, few, together, everything = known_of(group)
     weighted = len(x) > 0
     if not weighted:
         x, y = everything
@@ -134,7 +142,7 @@ def slope(group):
     half_width = student_quantile(0.975, freedom) * error
     if not weighted:
         return len(x), exponent, error, half_width, None, None, None
-    misfit = misfit_of(chi2, freedom, np.stack((np.ones(len(x)), x), axis=1), sigma, behind, together)
+    misfit = misfit_of(chi2, freedom, np.stack((np.ones(len(x)), x), axis=1), sigma, behind, few)
     return len(x), exponent, error, half_width, chi2, misfit, together
 
 
@@ -147,7 +155,7 @@ for ours, theirs in zip(summary["slopes"], expected):
         assert ours[key] is value is None or math.isclose(ours[key], value, rel_tol=1e-7, abs_tol=1e-12), (key, ours[key], value)  # numpy solves by SVD
 
 # Slopes between neighbouring rates, in the summary and the file.
-expected = []
+expected, certain = [], []  # certain: whether there is an interval, and its freedom
 for group in groups.values():
     of = sorted((row for row in group if row["rate"] > 0 and not math.isnan(row["size.mean"])), key=lambda row: row["rate"])
     for low, high in zip(of, of[1:]):
@@ -156,6 +164,10 @@ for group in groups.values():
             errors = [(row["size.deviation"] / row["size.mean"])**2 / row["size.n"] for row in (low, high)]
             expected.append((low["rate"], high["rate"], math.log(high["size.mean"] / low["size.mean"]) / x,
                              math.sqrt(sum(errors)) / x))
+            n = [row["size.n"] for row in (low, high)]
+            some = min(n) > 1 and (sum(errors) > 0 or min(n) >= 8)
+            freedom = sum(errors)**2 / sum(v**2 / (m - 1) for v, m in zip(errors, n)) if some and sum(errors) > 0 else None
+            certain.append((some, freedom))
 assert len(summary["windows"]) == len(expected)
 lines = [line for line in csv.DictReader(open(os.path.join(report, "slopes.csv")))]
 assert len(lines) == len(summary["slopes"]) + len(expected)
@@ -167,12 +179,17 @@ for ours, line, theirs in zip(summary["windows"], lines[len(summary["slopes"]):]
         for mine in (ours[key], float(line[key]) if line[key] else None):
             assert mine is None and math.isnan(value) or math.isclose(mine, value, rel_tol=1e-9), (key, mine, value)
 
+for ours, (some, freedom) in zip(summary["windows"], certain):
+    assert (ours["half_width"] is not None) == some
+    if freedom:
+        assert math.isclose(fisher_beyond((ours["half_width"] / ours["standard_error"])**2, 1, freedom), 0.05, rel_tol=1e-6)
+
 # Crossovers: chi2 is that of the constants, and the least about them.
 used = [known_of(group) for group in groups.values() if any(row["rate"] > 0 and not math.isnan(row["size.mean"]) for row in group)]
 if not any(point["parameters"].get("geometry.thickness") for point in summary["points"]):  # of surfaces there are none
     assert len(summary["crossovers"]) == len(used)
     for fit, of in zip(summary["crossovers"], used):
-        x, y, error, behind, together, _ = of
+        x, y, error, behind, few, together, _ = of
         assert fit["points"] == len(x) and (fit["reason"] is None) == (fit["rate"]["value"] is not None)
         if fit["reason"] is not None:
             continue
@@ -187,11 +204,12 @@ if not any(point["parameters"].get("geometry.thickness") for point in summary["p
         z = -best[2] * (math.log(best[1]) - x)
         soft = 1 / (1 + np.exp(-z))
         derivative = np.stack((np.ones(len(x)), soft * best[2], -soft * z), axis=1)  # by the logarithms of the constants
-        misfit = misfit_of(fit["chi2"], len(x) - 3, derivative, error, behind, together)
+        misfit = misfit_of(fit["chi2"], len(x) - 3, derivative, error, behind, few)
         assert math.isclose(fit["misfit"], misfit, rel_tol=1e-5) and fit["pooled_freedom"] == together
-        assert math.isclose(fit["inflation"], math.sqrt(fit["chi2"] / (len(x) - 3)) if misfit < 0.01 else 1, rel_tol=1e-9)
+        assert math.isclose(fit["inflation"], max(1, math.sqrt(fit["chi2"] / (len(x) - 3))), rel_tol=1e-9)
         for name in ("size", "rate", "high_exponent"):
             assert fit[name]["low"] < fit[name]["value"] < fit[name]["high"]
+            assert 0 < 2 * fit[name]["standard_error"] < fit[name]["high"] - fit[name]["low"]
 
 # So does the SQL example, from the index, as far as the index goes.
 if shutil.which("sqlite3"):

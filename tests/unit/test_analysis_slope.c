@@ -148,43 +148,65 @@ static void values_left_out(void **state)
     assert_no_slope(fracas_slope_of(one, y, error, 3), 3);
 }
 
-/* Replicas 3, 1, 9, 2 with scatter 0.02, unknown, 0.04, 0: r^2 = (2 0.0004 + 8 0.0016 + 1 0)/(2 + 8 + 1) = 0.0136/11. */
+static void assert_variance(const fracas_mean_error *error, double variance, bool pooled, double freedom)
+{
+    assert_true(fabs(error->variance - variance) < 1e-14 * variance && error->most >= error->variance && error->pooled == pooled && error->freedom == freedom);
+}
+
+/* Replicas 3, 1, 4, 2 with scatter 0.02, unknown, 0.04, 0, beside 9 with 0.1, which has its own: r^2 = (2 0.0004 + 3 0.0016 + 1 0)/(2 + 3 + 1). */
 static void shared_errors(void **state)
 {
     (void)state;
-    fracas_mean mean[] = {{3, 0.02}, {1, NAN}, {9, 0.04}, {2, 0}};
-    fracas_mean_error error[4];
-    fracas_mean_errors(mean, 4, error);
-    const double r2 = 0.0136 / 11;
-    for (size_t i = 0; i < 4; i++) {
-        assert_true(fabs(error[i].variance - r2 / (double)mean[i].replicas) < 1e-18);
-        assert_true(error[i].pooled && error[i].freedom == 11);
+    fracas_mean mean[] = {{3, 0.02}, {1, NAN}, {4, 0.04}, {2, 0}, {9, 0.1}};
+    fracas_mean_error error[5];
+    for (size_t n = 4; n <= 5; n++) { /* with the last or without, the few are as they are */
+        fracas_mean_errors(mean, n, error);
+        for (size_t i = 0; i < 4; i++) assert_variance(&error[i], 0.0056 / 6 / (double)mean[i].replicas, true, 6);
     }
+    assert_variance(&error[4], 0.01 / 9, false, 8);
     assert_true(error[0].most == error[0].variance && error[1].most == error[1].variance && error[3].most == error[3].variance);
-    assert_true(fabs(error[2].most - 0.0016 / 9) < 1e-18); /* its own is the greater */
-    mean[0].replicas = mean[1].replicas = 8; /* eight and more: each its own */
-    mean[1].scatter = 0;
-    fracas_mean_errors(mean, 3, error);
-    assert_true(fabs(error[0].variance - 0.0004 / 8) < 1e-18 && error[0].most == error[0].variance && error[0].freedom == 7);
-    assert_true(!error[0].pooled && error[1].variance == 0 && error[2].freedom == 8);
+    assert_true(fabs(error[2].most - 0.0016 / 4) < 1e-18); /* its own is the greater */
+    /* Less than four degrees of freedom, or no scatter: not less than that of all, 8 0.01/f. */
+    mean[2].replicas = 1;
+    fracas_mean_errors(mean, 5, error);
+    for (size_t i = 0; i < 4; i++) assert_variance(&error[i], (0.0008 + 0.08) / 11 / (double)mean[i].replicas, true, 3);
+    mean[4].scatter = 0.001;
+    fracas_mean_errors(mean, 5, error);
+    assert_variance(&error[0], 0.0008 / 3 / 3, true, 3);
+    mean[4].scatter = 0.1;
+    for (size_t i = 0; i < 4; i++) mean[i] = (fracas_mean){3, 0};
+    fracas_mean_errors(mean, 5, error);
+    assert_variance(&error[0], 0.08 / 16 / 3, true, 8);
     for (size_t i = 0; i < 4; i++) mean[i] = (fracas_mean){1, NAN};
+    fracas_mean_errors(mean, 5, error);
+    assert_variance(&error[0], 0.01, true, 8);
     fracas_mean_errors(mean, 4, error);
     assert_true(isnan(error[0].variance) && isnan(error[3].variance)); /* none is known */
     for (size_t i = 0; i < 4; i++) mean[i] = (fracas_mean){3, 0};
     fracas_mean_errors(mean, 4, error);
     assert_true(error[0].variance == 0 && error[3].variance == 0);
+    /* Eight and more: each its own, unknown where all are alike. */
+    mean[0] = mean[1] = (fracas_mean){8, 0.02};
+    mean[1].scatter = 0;
+    fracas_mean_errors(mean, 2, error);
+    assert_variance(&error[0], 0.0004 / 8, false, 7);
+    assert_true(error[0].most == error[0].variance && !error[1].pooled && error[1].variance == 0);
 }
 
 /* With two degrees of freedom above, P(F > x) = (1 + 2 x/f)^(-f/2). Of Johansen, sum (1 - h)^2/f = 2 (0.75^2/4.5 + 0.25^2/0.5) = 0.5 makes
- * chi2/(2 + 1 - 3/4) an F with 2 and 2 4/1.5 = 16/3 degrees of freedom. */
+ * chi2/(2 + 1 - 3/4) an F with 2 and 2 4/1.5 = 16/3 degrees of freedom; and so do two that share 5, beside one of its own with 0.75^2/f = 0.5 - (1 + 1/2)/10. */
 static void misfits(void **state)
 {
     (void)state;
-    fracas_misfit shared = {0}, own = {0}, known = {0};
+    fracas_misfit shared = {0}, own = {0}, mixed = {0}, known = {0};
     for (int i = 0; i < 4; i++) {
         fracas_misfit_add(&shared, 0.5, &(fracas_mean_error){.variance = 1, .freedom = 5, .pooled = true});
         fracas_misfit_add(&own, i % 2 ? 0.75 : 0.25, &(fracas_mean_error){.variance = 1, .freedom = i % 2 ? 0.5 : 4.5});
     }
+    fracas_misfit_add(&mixed, 0.5, &(fracas_mean_error){.variance = 1, .freedom = 5, .pooled = true});
+    fracas_misfit_add(&mixed, 0.25, &(fracas_mean_error){.variance = 1, .freedom = 0.5625 / 0.35});
+    fracas_misfit_add(&mixed, 0.5, &(fracas_mean_error){.variance = 1, .freedom = 5, .pooled = true});
+    assert_true(fabs(fracas_misfit_probability(&mixed, 7, 2) - pow(1 + 2 * 7 / 2.25 / (16.0 / 3), -8.0 / 3)) < 1e-13);
     fracas_misfit_add(&known, 0.5, &(fracas_mean_error){.variance = 1, .freedom = INFINITY});
     assert_true(fabs(own.doubt - 0.5) < 1e-15);
     assert_true(fabs(fracas_misfit_probability(&shared, 7, 2) - pow(1 + 7.0 / 5, -2.5)) < 1e-13);
@@ -234,10 +256,10 @@ static void slopes_of_series(void **state)
     assert_true(fabs(list[1].slope.standard_error - error) < 1e-12);
     assert_true(fabs(list[1].slope.half_width - 4.302653 * error) < 1e-6 * error); /* tabulated t_(0.975, 2) */
     free(list);
-    /* A mean of two replicas: all of the series share (15 + 15 + 15 + 1)/46 0.04^2, and weigh as their replicas, 16, 16, 16, 2. */
+    /* A mean of two replicas, of one degree of freedom, and as the others scatter: they weigh as their replicas, 16, 16, 16, 2. */
     point[6].size.n = 2;
     assert_int_equal(fracas_size_slopes(&analysis, &list, &count), FRACAS_OK);
-    assert_true(list[1].slope.pooled == 46 && isnan(list[2].slope.pooled) && list[0].slope.pooled == 106);
+    assert_true(list[1].slope.pooled == 1 && isnan(list[2].slope.pooled) && list[0].slope.pooled == 1);
     error = 0.04 / (log(2) * sqrt(16 * (0 + 1 + 4) + 2 * 9 - pow(16 * 3 + 2 * 3, 2) / 50));
     assert_true(fabs(list[1].slope.standard_error - error) < 1e-12 && list[1].slope.misfit > 1 - 1e-12);
     free(list);
