@@ -1,5 +1,7 @@
 /* Slopes and crossovers from few replicas: intervals hold the truth, and lines are taken for lines, as often as the pages of theory state.
- * Crossovers of a few hundred repetitions; test_few_replicas_storm.c has thousands. */
+ * Crossovers of a few hundred repetitions; test_few_replicas_storm.c has thousands.
+ * ctest-labels: slow-sanitize
+ */
 #include "tests/support/few_replicas.h"
 
 #include <gsl/gsl_cdf.h>
