@@ -84,6 +84,12 @@ static void print_failed(const fracas_fits *fits, int64_t point, const fracas_fa
     fprintf(out, "   -  %-18s %9s  no fit: %s\n", family->name, text, row->note);
 }
 
+static void print_whole(const fracas_fits *fits, int64_t point, FILE *out)
+{
+    const fracas_fits_row *whole = fracas_fits_find(fits, point, "data", "whole");
+    if (whole && whole->value > 0) fprintf(out, "  warning: %.0f %s\n", whole->value, whole->note);
+}
+
 static void print_head(const fracas_fits *fits, const fracas_analysis *analysis, int64_t point, FILE *out)
 {
     char label[256], mean[32], unit[8];
@@ -99,8 +105,7 @@ static void print_head(const fracas_fits *fits, const fracas_analysis *analysis,
     fprintf(out, " %s, deviation/mean ", unit);
     print_interval(cv, 1, out);
     fputc('\n', out);
-    const fracas_fits_row *whole = fracas_fits_find(fits, point, "data", "whole");
-    if (whole && whole->value > 0) fprintf(out, "  warning: %.0f %s\n", whole->value, whole->note);
+    print_whole(fits, point, out);
 }
 
 static void print_point(const fracas_fits *fits, const fracas_analysis *analysis, int64_t point, FILE *out)
@@ -109,6 +114,7 @@ static void print_point(const fracas_fits *fits, const fracas_analysis *analysis
     if (!(value_of(fits, point, "data", "above_cut") > 0)) {
         fracas_analysis_label(analysis, (size_t)point, label, sizeof label);
         fprintf(out, "\npoint %lld%s%s: no fragment of a body that came apart is above the cut: nothing to fit\n", (long long)point, *label ? ", " : "", label);
+        print_whole(fits, point, out);
         return;
     }
     print_head(fits, analysis, point, out);
