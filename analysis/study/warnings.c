@@ -109,8 +109,7 @@ static void warn_of_end(const fracas_bands *bands, double end, size_t p, warning
     if (bands->count == 0 || bands->time[bands->count - 1] < end * (1 - 1e-9)) return;
     const size_t last = bands->count - 1;
     size_t before = last;
-    while (before > 0 && bands->time[before] > 0.9 * end * (1 + 1e-9)) before--;
-    if (bands->time[before] < 0.85 * end) return; /* fewer than ten intervals: no tenth to look at */
+    while (before > 0 && bands->time[before - 1] >= 0.9 * end * (1 - 1e-9)) before--; /* within the last tenth: the end itself of fewer than ten intervals */
     const double dissipated = bands->energy[last][FRACAS_ENERGY_DISSIPATED].mean;
     const double rise = dissipated - bands->energy[before][FRACAS_ENERGY_DISSIPATED].mean;
     if (!(rise > rise_limit * dissipated)) return;

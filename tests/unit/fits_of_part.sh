@@ -33,3 +33,8 @@ expect 0 "$fracas" fit part --point 2 --resamples 99
 expect 0 "$fracas" fit whole --resamples 99
 sort part/fits.csv > part.sorted
 sort whole/fits.csv | diff - part.sorted || fail "the fits of a study depend on when they were made"
+
+# What was computed is kept though nobody reads what is printed.
+rm part/fits.csv
+"$fracas" fit part --resamples 99 --point 1 --json | true
+[ -e part/fits.csv ] || fail "fits are lost with the reader of what is printed"
