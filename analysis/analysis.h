@@ -1,4 +1,6 @@
-/* Statistics of a study, point by point, beside the size laws; the table, the exports and the report. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Statistics of a study, point by point, beside the size laws; the table, the exports and the
+ * report. */
 #ifndef FRACAS_ANALYSIS_ANALYSIS_H
 #define FRACAS_ANALYSIS_ANALYSIS_H
 
@@ -13,25 +15,32 @@
 
 typedef struct fracas_analysis fracas_analysis;
 
-/* Reads the results of STUDY, complete or not, and computes every statistic. `campaign` and `table`, which must outlive the analysis, are
- * hash and points of STUDY/campaign.yaml, both NULL: STUDY/study.h5 as it is. Errors as fracas_results_open. */
-FRACAS_MUST_USE fracas_err fracas_analysis_create(const char *study, const fracas_hash *campaign, const fracas_point_table *table,
+/* Reads the results of STUDY, complete or not, and computes every statistic. `campaign` and
+ * `table`, which must outlive the analysis, are hash and points of STUDY/campaign.yaml, both NULL:
+ * STUDY/study.h5 as it is. Errors as fracas_results_open. */
+FRACAS_MUST_USE fracas_err fracas_analysis_create(const char *study, const fracas_hash *campaign,
+                                                  const fracas_point_table *table,
                                                   fracas_analysis **analysis);
 void fracas_analysis_destroy(fracas_analysis *analysis); /* NULL is allowed */
 
 /* The result table, one line a point, for a terminal. */
 void fracas_analysis_print_table(const fracas_analysis *analysis, FILE *out);
-/* The same numbers (and the rest of the statistics), and the fits that STUDY/fits.csv has, as one JSON document. Errors as fracas_fits_read. */
-FRACAS_MUST_USE fracas_err fracas_analysis_write_json(const fracas_analysis *analysis, const char *study, FILE *out);
+/* The same numbers (and the rest of the statistics), and the fits that STUDY/fits.csv has, as one
+ * JSON document. Errors as fracas_fits_read. */
+FRACAS_MUST_USE fracas_err fracas_analysis_write_json(const fracas_analysis *analysis,
+                                                      const char *study, FILE *out);
 
-/* STUDY/report/: index.html (self-contained), points.csv, fragments.csv, summary.json and one SVG file a figure (and one CSV file a
- * crack pattern of a ring). */
+/* STUDY/report/: index.html (self-contained), points.csv, fragments.csv, summary.json and one SVG
+ * file a figure (and one CSV file a crack pattern of a ring). */
 FRACAS_MUST_USE fracas_err fracas_report_write(const fracas_analysis *analysis, const char *study);
 
-/* A Frictionless Data Package in `folder`, made if it is not there: points.csv, realizations.csv, fragments.csv, statistics.csv,
- * energies.csv, convergence.csv, with `histories` histories.csv, and at last datapackage.json, the schema of each (docs/formats/export.md). Equal bytes for equal study.h5.
- * FRACAS_USAGE if `folder` is a file, FRACAS_ENVIRONMENT if it cannot be made or written. */
-FRACAS_MUST_USE fracas_err fracas_export_write(const fracas_analysis *analysis, const char *folder, bool histories);
+/* A Frictionless Data Package in `folder`, made if it is not there: points.csv, realizations.csv,
+ * fragments.csv, statistics.csv, energies.csv, convergence.csv, with `histories` histories.csv, and
+ * at last datapackage.json, the schema of each (docs/formats/export.md). Equal bytes for equal
+ * study.h5. FRACAS_USAGE if `folder` is a file, FRACAS_ENVIRONMENT if it cannot be made or written.
+ */
+FRACAS_MUST_USE fracas_err fracas_export_write(const fracas_analysis *analysis, const char *folder,
+                                               bool histories);
 
 /* The keys of a point's "statistics" in the JSON summary: the table of docs/formats/summary.md. */
 void fracas_analysis_reference(FILE *out);
@@ -42,12 +51,16 @@ typedef enum { FRACAS_SHOW_CRACKS, FRACAS_SHOW_FRAGMENTS, FRACAS_SHOW_MESH } fra
 
 enum { FRACAS_MOMENTS = 6 }; /* times of a row of pictures */
 
-/* Where the reader is, far away, z upward: from x toward y by the azimuth, above the plane of both by the elevation [degrees]. */
+/* Where the reader is, far away, z upward: from x toward y by the azimuth, above the plane of both
+ * by the elevation [degrees]. */
 typedef struct {
     double azimuth, elevation;
 } fracas_view;
 
-#define FRACAS_VIEW_DEFAULT {45, 35.264389682754654} /* in the direction (1, 1, 1) */
+#define FRACAS_VIEW_DEFAULT    \
+    {                          \
+        45, 35.264389682754654 \
+    } /* in the direction (1, 1, 1) */
 
 typedef struct {
     const fracas_hash *campaign; /* that study.h5 must be of; NULL: of any */
@@ -57,15 +70,18 @@ typedef struct {
     const double *time; /* s, of each; NULL: evenly from the first onset (without it) to the end */
     fracas_surface_show show;
     const fracas_view *view; /* NULL: a flat surface as it lies, any other by FRACAS_VIEW_DEFAULT */
-    double explode;     /* >= 0: fragments moved apart by this times (their centroid - that of the surface) */
+    double explode;     /* >= 0: fragments moved apart by this times (their centroid - that of the
+                           surface) */
     bool table;         /* the first times of all replicas as CSV, too */
     const char *folder; /* made if it is not there; NULL: STUDY/pictures */
 } fracas_picture_request;
 
-/* Writes surface-point-P-replica-R-K.svg for K from 1, with `table` times-point-P.csv, and says on `out` which, and when the
- * realization first cracked, broke, and cracked through. FRACAS_USAGE, saying what there is, for a point, replica or time that
- * the study has not, a point that is no surface, and a study without interfaces; FRACAS_DAMAGED if study.h5 is not there, or of another
+/* Writes surface-point-P-replica-R-K.svg for K from 1, with `table` times-point-P.csv, and says on
+ * `out` which, and when the realization first cracked, broke, and cracked through. FRACAS_USAGE,
+ * saying what there is, for a point, replica or time that the study has not, a point that is no
+ * surface, and a study without interfaces; FRACAS_DAMAGED if study.h5 is not there, or of another
  * campaign: only a complete study has the meshes. */
-FRACAS_MUST_USE fracas_err fracas_pictures_write(const char *study, const fracas_picture_request *request, FILE *out);
+FRACAS_MUST_USE fracas_err fracas_pictures_write(const char *study,
+                                                 const fracas_picture_request *request, FILE *out);
 
 #endif

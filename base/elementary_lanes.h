@@ -1,7 +1,9 @@
-/* fracas_log and fracas_exp over lanes, with the same bits for every argument. Include after base/lanes.h.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* fracas_log and fracas_exp over lanes, with the same bits for every argument. Include after
+ * base/lanes.h.
  *
- * The usual arguments take the operations of base/elementary.c in the same order, without a branch. Lanes of which one has another
- * argument (below) take the scalar function in turn. */
+ * The usual arguments take the operations of base/elementary.c in the same order, without a branch.
+ * Lanes of which one has another argument (below) take the scalar function in turn. */
 #include "base/elementary.h"
 #include "base/elementary_terms.h"
 
@@ -37,20 +39,23 @@ __attribute__((unused, noinline, cold)) static vd lanes_each(double (*function)(
 LANES_FUNCTION vd lanes_log(vd x)
 {
     const uint64_t one = 0x3ff0000000000000, two_52 = 0x4330000000000000;
-    if (!lanes_all(lanes_and(lanes_le(lanes_set(DBL_MIN), x), lanes_le(x, lanes_set(DBL_MAX))))) return lanes_each(fracas_log, x);
+    if (!lanes_all(lanes_and(lanes_le(lanes_set(DBL_MIN), x), lanes_le(x, lanes_set(DBL_MAX)))))
+        return lanes_each(fracas_log, x);
     vu place = lanes_bits(x) + (one - sqrt_half);
     vd k = lanes_double((place >> 52) | two_52) - (0x1p52 + 1023.0);
     vd f = lanes_double(lanes_bits(x) - (place & ~(uint64_t)0 << 52) + one) - 1.0;
     vd s = f / (2.0 + f);
     vd z = s * s;
     vd half_square = 0.5 * f * f;
-    return k * ln2_hi - ((half_square - (s * (half_square + z * lanes_poly8(log_rest, z)) + k * ln2_lo)) - f);
+    return k * ln2_hi -
+           ((half_square - (s * (half_square + z * lanes_poly8(log_rest, z)) + k * ln2_lo)) - f);
 }
 
 /* (lanes.2) Usual: |x| <= 708, where 2^k y is a normal number: k is added to the exponent of y. */
 LANES_FUNCTION vd lanes_exp(vd x)
 {
-    if (!lanes_all(lanes_and(lanes_le(lanes_set(-708.0), x), lanes_le(x, lanes_set(708.0))))) return lanes_each(fracas_exp, x);
+    if (!lanes_all(lanes_and(lanes_le(lanes_set(-708.0), x), lanes_le(x, lanes_set(708.0)))))
+        return lanes_each(fracas_exp, x);
     vd shifted = x * log2_e + to_integer;
     vd kd = shifted - to_integer;
     vd exact = x - kd * ln2_hi;

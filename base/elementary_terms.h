@@ -1,4 +1,6 @@
-/* Constants of log and exp, for one number at a time (base/elementary.c) and over lanes (base/elementary_lanes.h). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Constants of log and exp, for one number at a time (base/elementary.c) and over lanes
+ * (base/elementary_lanes.h). */
 #ifndef FRACAS_BASE_ELEMENTARY_TERMS_H
 #define FRACAS_BASE_ELEMENTARY_TERMS_H
 
@@ -21,7 +23,7 @@ static const double log2_e = 0x1.71547652b82fep+0, to_integer = 0x1.8p52;
 
 /* (e^r - 1 - r)/r^2 in |r| <= 0.3467: 2^-60 */
 static const double exp_rest[12] = {
-    0x1.0000000000000p-1, 0x1.5555555555555p-3, 0x1.5555555555557p-5, 0x1.1111111111111p-7,
+    0x1.0000000000000p-1,  0x1.5555555555555p-3,  0x1.5555555555557p-5,  0x1.1111111111111p-7,
     0x1.6c16c16c15a5fp-10, 0x1.a01a01a0196a7p-13, 0x1.a01a01a9ed901p-16, 0x1.71de3a5aa9dc9p-19,
     0x1.27e4d40eb84dfp-22, 0x1.ae642c777eecbp-26, 0x1.1f7f3b37e9a58p-29, 0x1.61bfbf339abc9p-33,
 };

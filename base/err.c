@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/err.h"
 
 #include <errno.h>
@@ -34,18 +35,29 @@ fracas_err fracas_fail_within(fracas_err code, const char *format, ...)
 const char *fracas_remedy(int reason)
 {
     switch (reason) {
-    case ENOSPC: return "; free some space (or files, if `df -i` says that those ran out) and run again";
-    case EDQUOT: return "; your quota on that disk is used up (`quota -s`): free some space, or ask for more, and run again";
+    case ENOSPC:
+        return "; free some space (or files, if `df -i` says that those ran out) and run again";
+    case EDQUOT:
+        return "; your quota on that disk is used up (`quota -s`): free some space, or ask for "
+               "more, and run again";
     case EFBIG: return "; raise the limit on the size of files (`ulimit -f`) and run again";
     case EMFILE: return "; raise the limit on open files (`ulimit -n`) and run again";
-    case ENFILE: return "; this machine has no more files to open: end other programs, or raise fs.file-max, and run again";
-    case EIO: return "; the disk reports a fault: look at `dmesg`, copy the study to a sound one, and run again there";
-    case EROFS: return "; mount it to be written (`dmesg` says if a fault has made it read-only), or copy the study to where you may write";
+    case ENFILE:
+        return "; this machine has no more files to open: end other programs, or raise "
+               "fs.file-max, and run again";
+    case EIO:
+        return "; the disk reports a fault: look at `dmesg`, copy the study to a sound one, and "
+               "run again there";
+    case EROFS:
+        return "; mount it to be written (`dmesg` says if a fault has made it read-only), or copy "
+               "the study to where you may write";
     case EACCES:
     case EPERM: return "; make it accessible to you, or copy the study to where you may write";
     case ENOMEM: return "; free some memory, or use fewer --jobs, and run again";
-    case EAGAIN: return "; raise the limits on processes (`ulimit -u`), or use fewer --jobs, and run again";
-    case ESTALE: return "; the network filesystem has lost it: look whether it is mounted, and run again";
+    case EAGAIN:
+        return "; raise the limits on processes (`ulimit -u`), or use fewer --jobs, and run again";
+    case ESTALE:
+        return "; the network filesystem has lost it: look whether it is mounted, and run again";
     default: return "";
     }
 }
@@ -57,7 +69,8 @@ fracas_err fracas_fail_system(int reason, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    return fracas_fail(FRACAS_ENVIRONMENT, "%s: %s%s", text, strerror(reason), fracas_remedy(reason));
+    return fracas_fail(FRACAS_ENVIRONMENT, "%s: %s%s", text, strerror(reason),
+                       fracas_remedy(reason));
 }
 
 fracas_err fracas_no_memory(const char *what)

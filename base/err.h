@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Errors: a must-use code, and one message set where the fault is found. */
 #ifndef FRACAS_BASE_ERR_H
 #define FRACAS_BASE_ERR_H
@@ -5,36 +6,40 @@
 /* The codes are the program's exit statuses (docs/formats/exit-status.md). */
 typedef enum {
     FRACAS_OK = 0,
-    FRACAS_SOME_FAILED = 1,  /* done, some realizations FAILED */
-    FRACAS_USAGE = 2,        /* wrong usage or campaign file */
-    FRACAS_INTERRUPTED = 3,  /* interrupted, resumable */
-    FRACAS_IN_USE = 4,       /* study in use by another run */
-    FRACAS_DAMAGED = 5,      /* study damaged, of another campaign or format */
-    FRACAS_ENVIRONMENT = 6,  /* disk full, permission, memory, MPI */
-    FRACAS_BUG = 70          /* our own bug */
+    FRACAS_SOME_FAILED = 1, /* done, some realizations FAILED */
+    FRACAS_USAGE = 2,       /* wrong usage or campaign file */
+    FRACAS_INTERRUPTED = 3, /* interrupted, resumable */
+    FRACAS_IN_USE = 4,      /* study in use by another run */
+    FRACAS_DAMAGED = 5,     /* study damaged, of another campaign or format */
+    FRACAS_ENVIRONMENT = 6, /* disk full, permission, memory, MPI */
+    FRACAS_BUG = 70         /* our own bug */
 } fracas_err;
 
 #define FRACAS_MUST_USE __attribute__((warn_unused_result))
 #define FRACAS_PRINTF(f, a) __attribute__((format(printf, f, a)))
 
 /* Passes an error up: returns from the enclosing function when `call` failed. */
-#define TRY(call)                          \
-    do {                                   \
-        fracas_err try_code_ = (call);     \
-        if (try_code_) return try_code_;   \
+#define TRY(call)                        \
+    do {                                 \
+        fracas_err try_code_ = (call);   \
+        if (try_code_) return try_code_; \
     } while (0)
 
 /* Sets this thread's message (which names the value, the place and the remedy) and returns `code`.
  * Messages longer than 1023 bytes are cut. The previous message is overwritten, so it may not be an
  * argument of its own replacement: use fracas_fail_within for that. */
-FRACAS_MUST_USE fracas_err fracas_fail(fracas_err code, const char *format, ...) FRACAS_PRINTF(2, 3);
+FRACAS_MUST_USE fracas_err fracas_fail(fracas_err code, const char *format, ...)
+    FRACAS_PRINTF(2, 3);
 
 /* Puts "context: " before the present message and returns `code`. */
-FRACAS_MUST_USE fracas_err fracas_fail_within(fracas_err code, const char *format, ...) FRACAS_PRINTF(2, 3);
+FRACAS_MUST_USE fracas_err fracas_fail_within(fracas_err code, const char *format, ...)
+    FRACAS_PRINTF(2, 3);
 
-/* FRACAS_ENVIRONMENT with "<what the format says>: <what the system says of `reason`, an errno>; <remedy>", the remedy for what limits a
- * long run: disk, quota, open files, size of files, memory, a disk that fails or that was made read-only. */
-FRACAS_MUST_USE fracas_err fracas_fail_system(int reason, const char *format, ...) FRACAS_PRINTF(2, 3);
+/* FRACAS_ENVIRONMENT with "<what the format says>: <what the system says of `reason`, an errno>;
+ * <remedy>", the remedy for what limits a long run: disk, quota, open files, size of files, memory,
+ * a disk that fails or that was made read-only. */
+FRACAS_MUST_USE fracas_err fracas_fail_system(int reason, const char *format, ...)
+    FRACAS_PRINTF(2, 3);
 /* That remedy with the semicolon before it, "" where there is none to give. */
 const char *fracas_remedy(int reason);
 

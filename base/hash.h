@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* 128-bit names of things: XXH3 in its canonical (big-endian) form. */
 #ifndef FRACAS_BASE_HASH_H
 #define FRACAS_BASE_HASH_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/isa.h"
 
 #include <stdbool.h>
@@ -19,8 +20,12 @@ fracas_err fracas_isa_choose(fracas_isa wanted, fracas_isa *isa)
 {
     *isa = wanted;
     if (wanted == FRACAS_ISA_BEST)
-        *isa = has_isa(FRACAS_ISA_AVX512) ? FRACAS_ISA_AVX512 : has_isa(FRACAS_ISA_AVX2) ? FRACAS_ISA_AVX2 : FRACAS_ISA_BASELINE;
+        *isa = has_isa(FRACAS_ISA_AVX512) ? FRACAS_ISA_AVX512
+               : has_isa(FRACAS_ISA_AVX2) ? FRACAS_ISA_AVX2
+                                          : FRACAS_ISA_BASELINE;
     if (!has_isa(*isa))
-        return fracas_fail(FRACAS_USAGE, "this CPU has no %s: choose a lower instruction set or leave it out", fracas_isa_name[*isa]);
+        return fracas_fail(FRACAS_USAGE,
+                           "this CPU has no %s: choose a lower instruction set or leave it out",
+                           fracas_isa_name[*isa]);
     return FRACAS_OK;
 }

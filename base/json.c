@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/json.h"
 
 #include <inttypes.h>
@@ -49,10 +50,22 @@ void fracas_json_end(fracas_json *json)
     putc('\n', json->out);
 }
 
-void fracas_json_object(fracas_json *json, const char *key) { open_level(json, key, '{'); }
-void fracas_json_array(fracas_json *json, const char *key) { open_level(json, key, '['); }
-void fracas_json_close_object(fracas_json *json) { close_level(json, '}'); }
-void fracas_json_close_array(fracas_json *json) { close_level(json, ']'); }
+void fracas_json_object(fracas_json *json, const char *key)
+{
+    open_level(json, key, '{');
+}
+void fracas_json_array(fracas_json *json, const char *key)
+{
+    open_level(json, key, '[');
+}
+void fracas_json_close_object(fracas_json *json)
+{
+    close_level(json, '}');
+}
+void fracas_json_close_array(fracas_json *json)
+{
+    close_level(json, ']');
+}
 
 void fracas_json_real(fracas_json *json, const char *key, double value)
 {

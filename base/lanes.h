@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lanes: realizations side by side in one SIMD register, from one kernel source.
  *
  * Include with LANES defined as 1, 4 (AVX2) or 8 (AVX-512). The kernel is written with
@@ -11,9 +12,10 @@
  *   lanes_sqrt(a)                            the correctly rounded square root
  *   vu          LANES words of 64 bits (a plain uint64_t for LANES 1)
  *   lanes_bits(a) / lanes_double(b)          the words that represent the doubles, and back
- * and + - * / of C, for words also & | ^ << >>. Every operation is the IEEE one in every width and instruction set (contraction is off for
- * the whole build), so a lane's bits depend on its own values alone. Intrinsics are used only where GNU C has no
- * operator: masks and selection. The names are undefined again by base/lanes_end.h. */
+ * and + - * / of C, for words also & | ^ << >>. Every operation is the IEEE one in every width and
+ * instruction set (contraction is off for the whole build), so a lane's bits depend on its own
+ * values alone. Intrinsics are used only where GNU C has no operator: masks and selection. The
+ * names are undefined again by base/lanes_end.h. */
 #include <stdint.h>
 #include <string.h>
 #if defined(__AVX2__) || defined(__AVX512F__)
@@ -48,18 +50,55 @@
 typedef double vd;
 typedef int vmask;
 typedef uint64_t vu;
-LANES_FUNCTION vd lanes_load(const double *from) { return *from; }
-LANES_FUNCTION void lanes_store(double *to, vd x) { *to = x; }
-LANES_FUNCTION vd lanes_set(double x) { return x; }
-LANES_FUNCTION vmask lanes_lt(vd a, vd b) { return a < b; }
-LANES_FUNCTION vmask lanes_le(vd a, vd b) { return a <= b; }
-LANES_FUNCTION vmask lanes_and(vmask a, vmask b) { return a & b; }
-LANES_FUNCTION vmask lanes_or(vmask a, vmask b) { return a | b; }
-LANES_FUNCTION int lanes_any(vmask m) { return m; }
-LANES_FUNCTION int lanes_all(vmask m) { return m; }
-LANES_FUNCTION vd lanes_select(vmask m, vd a, vd b) { return m ? a : b; }
-LANES_FUNCTION int lanes_get(vmask m, int lane) { (void)lane; return m; }
-LANES_FUNCTION vd lanes_sqrt(vd a) { return __builtin_sqrt(a); }
+LANES_FUNCTION vd lanes_load(const double *from)
+{
+    return *from;
+}
+LANES_FUNCTION void lanes_store(double *to, vd x)
+{
+    *to = x;
+}
+LANES_FUNCTION vd lanes_set(double x)
+{
+    return x;
+}
+LANES_FUNCTION vmask lanes_lt(vd a, vd b)
+{
+    return a < b;
+}
+LANES_FUNCTION vmask lanes_le(vd a, vd b)
+{
+    return a <= b;
+}
+LANES_FUNCTION vmask lanes_and(vmask a, vmask b)
+{
+    return a & b;
+}
+LANES_FUNCTION vmask lanes_or(vmask a, vmask b)
+{
+    return a | b;
+}
+LANES_FUNCTION int lanes_any(vmask m)
+{
+    return m;
+}
+LANES_FUNCTION int lanes_all(vmask m)
+{
+    return m;
+}
+LANES_FUNCTION vd lanes_select(vmask m, vd a, vd b)
+{
+    return m ? a : b;
+}
+LANES_FUNCTION int lanes_get(vmask m, int lane)
+{
+    (void)lane;
+    return m;
+}
+LANES_FUNCTION vd lanes_sqrt(vd a)
+{
+    return __builtin_sqrt(a);
+}
 
 #else
 
@@ -87,31 +126,85 @@ LANES_FUNCTION vd lanes_set(double x)
 #if LANES == 8 && defined(__AVX512F__)
 
 typedef __mmask8 vmask;
-LANES_FUNCTION vmask lanes_lt(vd a, vd b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ); }
-LANES_FUNCTION vmask lanes_le(vd a, vd b) { return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LE_OQ); }
-LANES_FUNCTION vmask lanes_and(vmask a, vmask b) { return (vmask)(a & b); }
-LANES_FUNCTION vmask lanes_or(vmask a, vmask b) { return (vmask)(a | b); }
-LANES_FUNCTION int lanes_any(vmask m) { return m != 0; }
-LANES_FUNCTION int lanes_all(vmask m) { return m == 0xff; }
-LANES_FUNCTION vd lanes_select(vmask m, vd a, vd b) { return (vd)_mm512_mask_blend_pd(m, (__m512d)b, (__m512d)a); }
-LANES_FUNCTION int lanes_get(vmask m, int lane) { return m >> lane & 1; }
-LANES_FUNCTION vd lanes_sqrt(vd a) { return (vd)_mm512_sqrt_pd((__m512d)a); }
+LANES_FUNCTION vmask lanes_lt(vd a, vd b)
+{
+    return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ);
+}
+LANES_FUNCTION vmask lanes_le(vd a, vd b)
+{
+    return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LE_OQ);
+}
+LANES_FUNCTION vmask lanes_and(vmask a, vmask b)
+{
+    return (vmask)(a & b);
+}
+LANES_FUNCTION vmask lanes_or(vmask a, vmask b)
+{
+    return (vmask)(a | b);
+}
+LANES_FUNCTION int lanes_any(vmask m)
+{
+    return m != 0;
+}
+LANES_FUNCTION int lanes_all(vmask m)
+{
+    return m == 0xff;
+}
+LANES_FUNCTION vd lanes_select(vmask m, vd a, vd b)
+{
+    return (vd)_mm512_mask_blend_pd(m, (__m512d)b, (__m512d)a);
+}
+LANES_FUNCTION int lanes_get(vmask m, int lane)
+{
+    return m >> lane & 1;
+}
+LANES_FUNCTION vd lanes_sqrt(vd a)
+{
+    return (vd)_mm512_sqrt_pd((__m512d)a);
+}
 
 #elif LANES == 4 && defined(__AVX2__)
 
 typedef __m256d vmask;
-LANES_FUNCTION vmask lanes_lt(vd a, vd b) { return _mm256_cmp_pd((__m256d)a, (__m256d)b, _CMP_LT_OQ); }
-LANES_FUNCTION vmask lanes_le(vd a, vd b) { return _mm256_cmp_pd((__m256d)a, (__m256d)b, _CMP_LE_OQ); }
-LANES_FUNCTION vmask lanes_and(vmask a, vmask b) { return _mm256_and_pd(a, b); }
-LANES_FUNCTION vmask lanes_or(vmask a, vmask b) { return _mm256_or_pd(a, b); }
-LANES_FUNCTION int lanes_any(vmask m) { return _mm256_movemask_pd(m) != 0; }
-LANES_FUNCTION int lanes_all(vmask m) { return _mm256_movemask_pd(m) == 0xf; }
-LANES_FUNCTION vd lanes_select(vmask m, vd a, vd b) { return (vd)_mm256_blendv_pd((__m256d)b, (__m256d)a, m); }
-LANES_FUNCTION int lanes_get(vmask m, int lane) { return _mm256_movemask_pd(m) >> lane & 1; }
-LANES_FUNCTION vd lanes_sqrt(vd a) { return (vd)_mm256_sqrt_pd((__m256d)a); }
+LANES_FUNCTION vmask lanes_lt(vd a, vd b)
+{
+    return _mm256_cmp_pd((__m256d)a, (__m256d)b, _CMP_LT_OQ);
+}
+LANES_FUNCTION vmask lanes_le(vd a, vd b)
+{
+    return _mm256_cmp_pd((__m256d)a, (__m256d)b, _CMP_LE_OQ);
+}
+LANES_FUNCTION vmask lanes_and(vmask a, vmask b)
+{
+    return _mm256_and_pd(a, b);
+}
+LANES_FUNCTION vmask lanes_or(vmask a, vmask b)
+{
+    return _mm256_or_pd(a, b);
+}
+LANES_FUNCTION int lanes_any(vmask m)
+{
+    return _mm256_movemask_pd(m) != 0;
+}
+LANES_FUNCTION int lanes_all(vmask m)
+{
+    return _mm256_movemask_pd(m) == 0xf;
+}
+LANES_FUNCTION vd lanes_select(vmask m, vd a, vd b)
+{
+    return (vd)_mm256_blendv_pd((__m256d)b, (__m256d)a, m);
+}
+LANES_FUNCTION int lanes_get(vmask m, int lane)
+{
+    return _mm256_movemask_pd(m) >> lane & 1;
+}
+LANES_FUNCTION vd lanes_sqrt(vd a)
+{
+    return (vd)_mm256_sqrt_pd((__m256d)a);
+}
 
 #else
-#error "4 lanes need AVX2, 8 lanes need AVX-512: narrower lanes in turn are faster than registers the CPU lacks"
+#error "4 lanes need AVX2, 8 lanes need AVX-512: see docs/decisions/lanes-and-registers.md"
 #endif
 #endif
 

@@ -1,4 +1,6 @@
-/* Undefines the names of base/lanes.h and base/elementary_lanes.h, so that it can be included again with another LANES. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Undefines the names of base/lanes.h and base/elementary_lanes.h, so that it can be included again
+ * with another LANES. */
 #undef vd
 #undef vmask
 #undef vu

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/param.h"
 
 static const void *place(const fracas_param *param, const void *section)
@@ -61,7 +62,8 @@ const fracas_attachment *fracas_param_attachment(const fracas_param *param, cons
     return *(const fracas_attachment *const *)place(param, section);
 }
 
-void fracas_param_attach(const fracas_param *param, void *section, const fracas_attachment *attachment)
+void fracas_param_attach(const fracas_param *param, void *section,
+                         const fracas_attachment *attachment)
 {
     *(const fracas_attachment **)(void *)((char *)section + param->offset) = attachment;
 }
@@ -69,8 +71,9 @@ void fracas_param_attach(const fracas_param *param, void *section, const fracas_
 const char *fracas_param_text(const fracas_param *param, const void *section)
 {
     if (param->type == FRACAS_CHOICE && chosen(param, section)) return chosen(param, section)->name;
-    const fracas_attachment *attachment =
-        param->type == FRACAS_ATTACHMENT ? fracas_param_attachment(param, section) : NULL;
+    const fracas_attachment *attachment = param->type == FRACAS_ATTACHMENT
+                                              ? fracas_param_attachment(param, section)
+                                              : NULL;
     return attachment ? attachment->digest : "";
 }
 
@@ -82,7 +85,8 @@ bool fracas_param_is_of(const fracas_param *param, const fracas_kind *model)
     return false;
 }
 
-const fracas_kind *fracas_kind_partner(const fracas_kind *kind, const fracas_section *section, size_t i)
+const fracas_kind *fracas_kind_partner(const fracas_kind *kind, const fracas_section *section,
+                                       size_t i)
 {
     for (size_t g = 0; g < kind->ngoes_with; g++)
         for (size_t k = 0; k < section->nkinds; k++)

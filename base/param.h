@@ -1,9 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parameter tables: the one description of every value of a campaign file.
  *
- * A section of the file fills one C struct. A table says, for each key, its type, unit, range, default
- * and where in the struct it goes; parsing, validation, the resolved file, HDF5 columns and the
- * reference page (`fracas reference`) are all driven by it. A section may have a selector: a key
- * whose value names a kind (a law, a distribution, a stop rule ...), each with a table of its own. */
+ * A section of the file fills one C struct. A table says, for each key, its type, unit, range,
+ * default and where in the struct it goes; parsing, validation, the resolved file, HDF5 columns and
+ * the reference page (`fracas reference`) are all driven by it. A section may have a selector: a
+ * key whose value names a kind (a law, a distribution, a stop rule ...), each with a table of its
+ * own. */
 #ifndef FRACAS_BASE_PARAM_H
 #define FRACAS_BASE_PARAM_H
 
@@ -18,38 +20,44 @@ typedef enum {
     FRACAS_REAL,    /* double, may carry a unit */
     FRACAS_INTEGER, /* int64_t */
     FRACAS_BOOLEAN, /* bool */
-    FRACAS_CHOICE,  /* const fracas_kind *, one of `choices` (which have no parameters); the first is the default */
-    FRACAS_ATTACHMENT /* const fracas_attachment *, a file named by its path; NULL where none is given */
+    FRACAS_CHOICE, /* const fracas_kind *, one of `choices` (which have no parameters); the first is
+                      the default */
+    FRACAS_ATTACHMENT /* const fracas_attachment *, a file named by its path; NULL where none is
+                         given */
 } fracas_param_type;
 
-/* What a selector can name. Objects with functions (a law, a distribution) have this as first member. */
+/* What a selector can name. Objects with functions (a law, a distribution) have this as first
+ * member. */
 typedef struct fracas_kind fracas_kind;
 
-/* A file that a campaign file names, read whole along with it: the rooms that understand its content read no files. */
+/* A file that a campaign file names, read whole along with it: the rooms that understand its
+ * content read no files. */
 typedef struct {
-    const char *path;   /* as named */
-    const char *text;   /* content, and a NUL after it */
-    size_t size;        /* bytes, without that NUL */
-    char digest[33];    /* of the content, XXH3 in hexadecimal: stands for the file wherever a point is identified */
+    const char *path; /* as named */
+    const char *text; /* content, and a NUL after it */
+    size_t size;      /* bytes, without that NUL */
+    char digest[33]; /* of the content, XXH3 in hexadecimal: stands for the file wherever a point is
+                        identified */
 } fracas_attachment;
 
 /* A required value has no default. */
 #define FRACAS_REQUIRED NAN
 
 typedef struct {
-    const char *name;       /* key in its section */
+    const char *name; /* key in its section */
     fracas_param_type type;
-    const char *unit;       /* SI unit as UDUNITS-2 reads it; "1" for a pure number */
-    const char *doc;        /* one sentence, no full stop */
-    double fallback;        /* default in SI, FRACAS_REQUIRED if there is none */
-    double minimum;         /* allowed range, both ends included unless minimum_open */
-    double maximum;         /* INFINITY: no upper limit */
-    bool minimum_open;      /* value must be > minimum */
-    size_t offset;          /* of the value in the section's struct */
+    const char *unit;                  /* SI unit as UDUNITS-2 reads it; "1" for a pure number */
+    const char *doc;                   /* one sentence, no full stop */
+    double fallback;                   /* default in SI, FRACAS_REQUIRED if there is none */
+    double minimum;                    /* allowed range, both ends included unless minimum_open */
+    double maximum;                    /* INFINITY: no upper limit */
+    bool minimum_open;                 /* value must be > minimum */
+    size_t offset;                     /* of the value in the section's struct */
     const fracas_kind *const *choices; /* of a FRACAS_CHOICE */
     size_t nchoices;
     const fracas_kind *const *only; /* models that have it, up to a NULL; NULL: all have */
-    bool optional; /* no default: where it is not given the point has none (NaN, NULL). Not of FRACAS_INTEGER, FRACAS_BOOLEAN */
+    bool optional; /* no default: where it is not given the point has none (NaN, NULL). Not of
+                      FRACAS_INTEGER, FRACAS_BOOLEAN */
 } fracas_param;
 
 struct fracas_kind {
@@ -57,36 +65,38 @@ struct fracas_kind {
     const char *doc;
     const fracas_param *params;
     size_t nparams;
-    /* Kinds of other sections that this one can be combined with. A section of which at least one kind is named here takes
-     * those only, and the first of them by default; of any other section it takes every kind. Only `model` restricts. */
+    /* Kinds of other sections that this one can be combined with. A section of which at least one
+     * kind is named here takes those only, and the first of them by default; of any other section
+     * it takes every kind. Only `model` restricts. */
     const fracas_kind *const *goes_with;
     size_t ngoes_with;
 };
 
 typedef struct {
-    const char *name;                /* key of the section at the top of the file */
+    const char *name; /* key of the section at the top of the file */
     const char *doc;
     const char *selector;            /* key that names the kind; NULL: the section has no kinds */
     const fracas_kind *const *kinds; /* registry; the first is the default */
     size_t nkinds;
-    size_t kind_offset;              /* of the `const fracas_kind *` in the section's struct */
-    const fracas_param *params;      /* keys common to all kinds */
+    size_t kind_offset;         /* of the `const fracas_kind *` in the section's struct */
+    const fracas_param *params; /* keys common to all kinds */
     size_t nparams;
-    size_t offset;                   /* of the section's struct in its owner (see the registry) */
-    bool hashed;                     /* part of a point's identity (output options are not) */
+    size_t offset; /* of the section's struct in its owner (see the registry) */
+    bool hashed;   /* part of a point's identity (output options are not) */
     fracas_err (*check)(const void *section); /* of values that must fit each other; NULL: none */
 } fracas_section;
 
 #define FRACAS_COUNT(array) (sizeof(array) / sizeof *(array))
 
-/* True for numbers and booleans: what the next two functions are for, a choice by its index in `choices`. */
+/* True for numbers and booleans: what the next two functions are for, a choice by its index in
+ * `choices`. */
 static inline bool fracas_param_is_text(const fracas_param *param)
 {
     return param->type == FRACAS_CHOICE || param->type == FRACAS_ATTACHMENT;
 }
 
-/* The value that `param` describes within the section's struct at `section`, as a double: of a choice, its index (NaN for
- * none of them); NaN of an attachment. */
+/* The value that `param` describes within the section's struct at `section`, as a double: of a
+ * choice, its index (NaN for none of them); NaN of an attachment. */
 double fracas_param_get(const fracas_param *param, const void *section);
 
 /* Makes it what it is where nothing gives it: NaN, or NULL. */
@@ -95,21 +105,25 @@ void fracas_param_clear(const fracas_param *param, void *section);
 /* False of an optional parameter that nothing gives. */
 bool fracas_param_is_given(const fracas_param *param, const void *section);
 
-/* Stores `value` (SI, already validated; an index of a choice) at the place that `param` describes; nothing for an attachment. */
+/* Stores `value` (SI, already validated; an index of a choice) at the place that `param` describes;
+ * nothing for an attachment. */
 void fracas_param_set(const fracas_param *param, void *section, double value);
 
 /* The same of an attachment; NULL for none. */
 const fracas_attachment *fracas_param_attachment(const fracas_param *param, const void *section);
-void fracas_param_attach(const fracas_param *param, void *section, const fracas_attachment *attachment);
+void fracas_param_attach(const fracas_param *param, void *section,
+                         const fracas_attachment *attachment);
 
-/* What stands for the value of a choice or attachment in a point: the name, the digest; "" where there is none, and for
- * any other type. */
+/* What stands for the value of a choice or attachment in a point: the name, the digest; "" where
+ * there is none, and for any other type. */
 const char *fracas_param_text(const fracas_param *param, const void *section);
 
 /* True if points of this model (NULL: none is chosen) have the parameter. */
 bool fracas_param_is_of(const fracas_param *param, const fracas_kind *model);
 
-/* Number i, from 0, of the kinds of `section` that `kind` names in goes_with; NULL after the last. */
-const fracas_kind *fracas_kind_partner(const fracas_kind *kind, const fracas_section *section, size_t i);
+/* Number i, from 0, of the kinds of `section` that `kind` names in goes_with; NULL after the last.
+ */
+const fracas_kind *fracas_kind_partner(const fracas_kind *kind, const fracas_section *section,
+                                       size_t i);
 
 #endif

@@ -1,5 +1,7 @@
-/* Connected sets of things numbered from 0, by union-find: elements over unbroken interfaces are fragments, vertices over
- * broken ones cracks. Here, not in one room, because the engine counts fragments and the analysis draws them. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Connected sets of things numbered from 0, by union-find: elements over unbroken interfaces are
+ * fragments, vertices over broken ones cracks. Here, not in one room, because the engine counts
+ * fragments and the analysis draws them. */
 #ifndef FRACAS_BASE_PARTITION_H
 #define FRACAS_BASE_PARTITION_H
 

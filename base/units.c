@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/units.h"
 
 #include <ctype.h>
@@ -40,7 +41,8 @@ static const size_t ndimensions = sizeof dimensions / sizeof *dimensions;
 
 /* ---- numbers ---- */
 
-/* The "C" locale for this thread while numbers are read or written; glibc keeps it ready, so this allocates nothing. */
+/* The "C" locale for this thread while numbers are read or written; glibc keeps it ready, so this
+ * allocates nothing. */
 static locale_t enter_plain_locale(void)
 {
     return uselocale(newlocale(LC_ALL_MASK, "C", (locale_t)0));
@@ -93,7 +95,8 @@ static fracas_err number_value(const char *text, double *value)
     locale_t before = enter_plain_locale();
     double read = strtod(text, NULL);
     uselocale(before);
-    if (!isfinite(read)) return fracas_fail(FRACAS_USAGE, "`%s` is too large for a double-precision number", text);
+    if (!isfinite(read))
+        return fracas_fail(FRACAS_USAGE, "`%s` is too large for a double-precision number", text);
     bool zero = true; /* as written, not by underflow */
     for (const char *c = text; *c && *c != 'e' && *c != 'E' && *c != ' '; c++)
         if (*c >= '1' && *c <= '9') zero = false;
@@ -123,8 +126,9 @@ fracas_err fracas_units_create(fracas_units **units)
     uselocale(before);
     if (!made->system) {
         free(made);
-        return fracas_fail(FRACAS_ENVIRONMENT, "cannot load the unit database of UDUNITS-2; install the package "
-                                               "libudunits2-data, and unset UDUNITS2_XML_PATH if it is set");
+        return fracas_fail(FRACAS_ENVIRONMENT,
+                           "cannot load the unit database of UDUNITS-2; install the package "
+                           "libudunits2-data, and unset UDUNITS2_XML_PATH if it is set");
     }
     *units = made;
     return FRACAS_OK;
@@ -157,7 +161,8 @@ static bool is_origin_word(const char *word, size_t length)
     return false;
 }
 
-/* Skips a name (ASCII letters, the two characters for micro) and its exponent; NULL if there is none. */
+/* Skips a name (ASCII letters, the two characters for micro) and its exponent; NULL if there is
+ * none. */
 static const char *skip_power(const char *at)
 {
     const char *name = at;
@@ -167,7 +172,8 @@ static const char *skip_power(const char *at)
         else break;
     }
     if (at == name || is_origin_word(name, (size_t)(at - name))) return NULL;
-    if (strncmp(at, "\xc2\xb2", 2) == 0 || strncmp(at, "\xc2\xb3", 2) == 0) return at + 2; /* squared, cubed */
+    if (strncmp(at, "\xc2\xb2", 2) == 0 || strncmp(at, "\xc2\xb3", 2) == 0)
+        return at + 2; /* squared, cubed */
     const char *exponent = at + (*at == '^');
     exponent += *exponent == '-';
     size_t length = digits(exponent);
@@ -217,7 +223,9 @@ static void name_dimension(ut_system *system, const ut_unit *unit, char *what, s
     char formatted[64];
     if (found) return;
     int length = ut_format(unit, formatted, sizeof formatted - 1, UT_ASCII);
-    formatted[length < 0 ? 0 : length >= (int)sizeof formatted ? (int)sizeof formatted - 1 : length] = '\0';
+    formatted[length < 0                        ? 0
+              : length >= (int)sizeof formatted ? (int)sizeof formatted - 1
+                                                : length] = '\0';
     snprintf(what, size, "a quantity in %s", formatted);
 }
 
@@ -230,8 +238,9 @@ static double convert_once(ut_unit *from, ut_unit *to, double value)
     return converted;
 }
 
-/* Factor from `found` to `expected`; NAN when they measure different things, 0 for a unit with an origin of its own.
- * The ratio is taken because ut_are_convertible() holds s and 1/s for convertible (by the reciprocal). */
+/* Factor from `found` to `expected`; NAN when they measure different things, 0 for a unit with an
+ * origin of its own. The ratio is taken because ut_are_convertible() holds s and 1/s for
+ * convertible (by the reciprocal). */
 static double unit_factor(ut_system *system, ut_unit *found, ut_unit *expected)
 {
     double factor = NAN;
@@ -243,30 +252,36 @@ static double unit_factor(ut_system *system, ut_unit *found, ut_unit *expected)
     return factor;
 }
 
-/* Factor from the unit written as `name` to `expected`, or what is wrong with it. `text`: the whole value. */
-static fracas_err parse_factor(ut_system *system, const char *text, const char *name, const char *si, double *factor)
+/* Factor from the unit written as `name` to `expected`, or what is wrong with it. `text`: the whole
+ * value. */
+static fracas_err parse_factor(ut_system *system, const char *text, const char *name,
+                               const char *si, double *factor)
 {
     const char *what, *write_in;
     fracas_units_describe(si, &what, &write_in);
     ut_unit *expected = ut_parse(system, si, UT_UTF8);
-    if (!expected) return fracas_fail(FRACAS_BUG, "a parameter table has the unit `%s`, unknown to UDUNITS-2", si);
+    if (!expected)
+        return fracas_fail(FRACAS_BUG, "a parameter table has the unit `%s`, unknown to UDUNITS-2",
+                           si);
     const bool plain = is_plain_unit(name);
     ut_unit *found = plain ? ut_parse(system, name, UT_UTF8) : NULL;
     fracas_err err = FRACAS_OK;
     if (!found && plain && ut_get_status() == UT_OS) {
         err = fracas_no_memory("a unit");
     } else if (!found) {
-        err =
-            fracas_fail(FRACAS_USAGE, "`%s` has an unknown unit, `%s`; expected %s, in %s", text, name, what, write_in);
+        err = fracas_fail(FRACAS_USAGE, "`%s` has an unknown unit, `%s`; expected %s, in %s", text,
+                          name, what, write_in);
     } else {
         *factor = unit_factor(system, found, expected);
         if (isnan(*factor)) {
             char is[96];
             name_dimension(system, found, is, sizeof is);
-            err = fracas_fail(FRACAS_USAGE, "`%s` is %s; expected %s, in %s", text, is, what, write_in);
-        } else if (*factor == 0.0) {
-            err = fracas_fail(FRACAS_USAGE, "`%s` is counted from an origin of its own; expected %s, in %s", text, what,
+            err = fracas_fail(FRACAS_USAGE, "`%s` is %s; expected %s, in %s", text, is, what,
                               write_in);
+        } else if (*factor == 0.0) {
+            err = fracas_fail(FRACAS_USAGE,
+                              "`%s` is counted from an origin of its own; expected %s, in %s", text,
+                              what, write_in);
         }
     }
     ut_free(found);
@@ -275,13 +290,14 @@ static fracas_err parse_factor(ut_system *system, const char *text, const char *
 }
 
 /* Reads the unit `name` that follows the number in `text`. */
-static fracas_err read_factor(const fracas_units *units, const char *text, const char *name, const char *si,
-                              double *factor)
+static fracas_err read_factor(const fracas_units *units, const char *text, const char *name,
+                              const char *si, double *factor)
 {
     if (strcmp(si, "1") == 0) {
         *factor = 0.01;
         if (strcmp(name, "%") == 0) return FRACAS_OK;
-        return fracas_fail(FRACAS_USAGE, "`%s` has a unit; expected a pure number, with no unit, or %%", text);
+        return fracas_fail(FRACAS_USAGE,
+                           "`%s` has a unit; expected a pure number, with no unit, or %%", text);
     }
     locale_t before = enter_plain_locale();
     fracas_err err = parse_factor(units->system, text, name, si, factor);
@@ -289,7 +305,8 @@ static fracas_err read_factor(const fracas_units *units, const char *text, const
     return err;
 }
 
-fracas_err fracas_units_read(const fracas_units *units, const char *text, const char *si, double *value)
+fracas_err fracas_units_read(const fracas_units *units, const char *text, const char *si,
+                             double *value)
 {
     const char *what, *write_in;
     fracas_units_describe(si, &what, &write_in);
@@ -297,8 +314,9 @@ fracas_err fracas_units_read(const fracas_units *units, const char *text, const 
     const char *unit = text + length + strspn(text + length, " ");
     bool apart = unit > text + length || strcmp(unit, "%") == 0;
     if (length == 0 || (*unit && !apart))
-        return fracas_fail(FRACAS_USAGE, "`%s` is not a number; expected %s, in %s%s", text, what, write_in,
-                           length > 0 && strcmp(si, "1") != 0 ? ", with a space before the unit" : "");
+        return fracas_fail(
+            FRACAS_USAGE, "`%s` is not a number; expected %s, in %s%s", text, what, write_in,
+            length > 0 && strcmp(si, "1") != 0 ? ", with a space before the unit" : "");
     double number, factor = 1.0;
     TRY(number_value(text, &number));
     if (*unit) TRY(read_factor(units, text, unit, si, &factor));

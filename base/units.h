@@ -1,4 +1,6 @@
-/* Numbers and units of a campaign file: strict, independent of the locale, converted to SI by UDUNITS-2. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Numbers and units of a campaign file: strict, independent of the locale, converted to SI by
+ * UDUNITS-2. */
 #ifndef FRACAS_BASE_UNITS_H
 #define FRACAS_BASE_UNITS_H
 
@@ -6,15 +8,16 @@
 
 #define FRACAS_NUMBER_TEXT 32 /* bytes that fracas_number_write needs */
 
-/* Rounds to 15 significant decimal digits (what "%.15g" keeps; -0 becomes 0), so that values reached by different
- * conversions are equal and text is exact. */
+/* Rounds to 15 significant decimal digits (what "%.15g" keeps; -0 becomes 0), so that values
+ * reached by different conversions are equal and text is exact. */
 double fracas_number_round(double value);
 
 /* Writes `value` as "%.15g", with a point in every locale. */
 void fracas_number_write(double value, char text[FRACAS_NUMBER_TEXT]);
 
-/* Reads a finite decimal number that is all of `text`: [sign] digits [. digits] [e [sign] digits]. No space, "nan",
- * "inf" or hexadecimal. FRACAS_USAGE says what is wrong. The value is the nearest double, not rounded to 15 digits. */
+/* Reads a finite decimal number that is all of `text`: [sign] digits [. digits] [e [sign] digits].
+ * No space, "nan", "inf" or hexadecimal. FRACAS_USAGE says what is wrong. The value is the nearest
+ * double, not rounded to 15 digits. */
 FRACAS_MUST_USE fracas_err fracas_number_read(const char *text, double *value);
 
 /* The unit database of UDUNITS-2, loaded once. */
@@ -24,15 +27,16 @@ typedef struct fracas_units fracas_units;
 FRACAS_MUST_USE fracas_err fracas_units_create(fracas_units **units);
 void fracas_units_destroy(fracas_units *units); /* NULL is allowed */
 
-/* Reads "264 MPa", "1e4 1/s" or a bare number, which is in SI already, as a value in the unit `si` ("1" for a pure
- * number, which may be written with %), rounded to 15 digits. A unit is a product of powers of names ("J/m2",
- * "J/m^2", "kg m-3", "W/(m2 K)"); dates, logarithms, offsets and further numbers, which UDUNITS-2 would also
- * understand, are refused. FRACAS_USAGE says what was found and what is expected. */
-FRACAS_MUST_USE fracas_err fracas_units_read(const fracas_units *units, const char *text, const char *si,
-                                             double *value);
+/* Reads "264 MPa", "1e4 1/s" or a bare number, which is in SI already, as a value in the unit `si`
+ * ("1" for a pure number, which may be written with %), rounded to 15 digits. A unit is a product
+ * of powers of names ("J/m2", "J/m^2", "kg m-3", "W/(m2 K)"); dates, logarithms, offsets and
+ * further numbers, which UDUNITS-2 would also understand, are refused. FRACAS_USAGE says what was
+ * found and what is expected. */
+FRACAS_MUST_USE fracas_err fracas_units_read(const fracas_units *units, const char *text,
+                                             const char *si, double *value);
 
-/* What a value in the unit `si` is, with its article, "a stress", and what one writes, "Pa or MPa"; "a value" and
- * `si` itself for a dimension without a name. */
+/* What a value in the unit `si` is, with its article, "a stress", and what one writes, "Pa or MPa";
+ * "a value" and `si` itself for a dimension without a name. */
 void fracas_units_describe(const char *si, const char **what, const char **write_in);
 
 #endif

@@ -1,9 +1,12 @@
-/* What a run would be on a cluster: the real scheduler (campaigns/scheduler/lease/scheduler.h) gives leases to workers that are simulated, by a
- * rank 0 that does one thing at a time, through ranks that poll, with segments that a filesystem takes so many of a second.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a run would be on a cluster: the real scheduler (campaigns/scheduler/lease/scheduler.h)
+ * gives leases to workers that are simulated, by a rank 0 that does one thing at a time, through
+ * ranks that poll, with segments that a filesystem takes so many of a second.
  *
  *   bench_cluster [name=value ...]          the names and what they mean: bench_cluster help
  *
- * Prints one line for each number of workers. docs/results/scheduling.md has the figures, and where the costs come from. */
+ * Prints one line for each number of workers. docs/results/scheduling.md has the figures, and where
+ * the costs come from. */
 #include "bench/bench.h"
 
 #include "campaigns/scheduler/lease/scheduler.h"
@@ -17,14 +20,17 @@
 /* ---- what is asked ---- */
 
 typedef struct {
-    double work;      /* s of realizations for each worker */
+    double work;                /* s of realizations for each worker */
     double task, share, longer; /* s of one, as fracas bench scheduler has it */
-    double lease, age; /* s: --lease-time, --segment-age */
+    double lease, age;          /* s: --lease-time, --segment-age */
     double message, give, give_row, commit, commit_row; /* s of rank 0 */
-    double fork, batch, row; /* s of a worker for a lease, a batch, a realization beside computing it */
-    double write, write_row, files; /* s of a worker to write a segment; files/s that the filesystem takes from all, 0: no bound */
-    double poll;       /* s, longest pause of a rank that looks for messages */
-    double start, merge_row; /* s of mpirun's start and end for any number of workers; s of the merge for a realization */
+    double fork, batch,
+        row; /* s of a worker for a lease, a batch, a realization beside computing it */
+    double write, write_row, files; /* s of a worker to write a segment; files/s that the filesystem
+                                       takes from all, 0: no bound */
+    double poll;                    /* s, longest pause of a rank that looks for messages */
+    double start, merge_row; /* s of mpirun's start and end for any number of workers; s of the
+                                merge for a realization */
     double width, points;
 } costs;
 
@@ -33,7 +39,10 @@ static const struct {
     size_t at;
     double value;
 } setting[] = {
-#define SETTING(name, value, doc) {#name, doc, offsetof(costs, name), value}
+#define SETTING(name, value, doc)                \
+    {                                            \
+#name, doc, offsetof(costs, name), value \
+    }
     SETTING(work, 600, "s of realizations for each worker"),
     SETTING(task, 1, "s of a realization"),
     SETTING(share, 0, "share of realizations that take `longer`"),
@@ -62,12 +71,17 @@ enum { NSETTINGS = sizeof setting / sizeof *setting, MOST_TIMES = 1000000 };
 static double times[MOST_TIMES]; /* s of realizations that were measured: times=FILE */
 static size_t ntimes;
 
-static double *value_of(costs *c, size_t i) { return (double *)(void *)((char *)c + setting[i].at); }
+static double *value_of(costs *c, size_t i)
+{
+    return (double *)(void *)((char *)c + setting[i].at);
+}
 
 static void read_times(const char *path)
 {
     FILE *in = fopen(path, "r");
-    while (in && ntimes < MOST_TIMES && fscanf(in, "%lf", &times[ntimes]) == 1 && times[ntimes] >= 0) ntimes++;
+    while (in && ntimes < MOST_TIMES && fscanf(in, "%lf", &times[ntimes]) == 1 &&
+           times[ntimes] >= 0)
+        ntimes++;
     const bool good = in && feof(in) && ntimes > 0;
     if (in) fclose(in);
     if (!good) demand(fracas_fail(FRACAS_USAGE, "%s is no list of times [s], one a line", path));
@@ -92,8 +106,8 @@ typedef struct {
     double seconds[FRACAS_LEASES_HELD]; /* that they will take */
     size_t rows[FRACAS_LEASES_HELD], nheld;
     bool computing;
-    size_t kept;      /* realizations in its memory */
-    double oldest;    /* time of the first of them */
+    size_t kept;   /* realizations in its memory */
+    double oldest; /* time of the first of them */
     bool writing;
 } worker;
 
@@ -109,9 +123,9 @@ typedef struct {
     double now, free_at; /* of rank 0: when it can turn to what comes next */
     event *queue;        /* messages that wait for rank 0, a ring */
     size_t first, waiting, queue_room;
-    double disk;         /* when the filesystem takes the next segment */
-    double busy;         /* s of rank 0 */
-    double policy;       /* s that this program spent in the scheduler itself */
+    double disk;   /* when the filesystem takes the next segment */
+    double busy;   /* s of rank 0 */
+    double policy; /* s that this program spent in the scheduler itself */
     size_t leases, commits, messages, committed, total;
     double delay; /* s that messages waited for rank 0, sum */
     bool stopped;
@@ -125,7 +139,10 @@ static double any(world *w) /* 0 to 1 */
     return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
 }
 
-static bool earlier(const event *a, const event *b) { return a->time < b->time || (a->time == b->time && a->order < b->order); }
+static bool earlier(const event *a, const event *b)
+{
+    return a->time < b->time || (a->time == b->time && a->order < b->order);
+}
 
 static void push(world *w, event e)
 {
@@ -136,7 +153,8 @@ static void push(world *w, event e)
     }
     e.order = w->order++;
     size_t i = w->nheap++;
-    for (; i && earlier(&e, &w->heap[(i - 1) / 2]); i = (i - 1) / 2) w->heap[i] = w->heap[(i - 1) / 2];
+    for (; i && earlier(&e, &w->heap[(i - 1) / 2]); i = (i - 1) / 2)
+        w->heap[i] = w->heap[(i - 1) / 2];
     w->heap[i] = e;
 }
 
@@ -159,9 +177,11 @@ static double seconds_of_lease(const world *w, const fracas_lease *lease)
 {
     const costs *c = w->c;
     const fracas_stand_in stand_in = {c->task, c->share, c->longer};
-    double sum = c->fork + c->batch * ceil((double)lease->count / c->width) + c->row * (double)lease->count;
+    double sum = c->fork + c->batch * ceil((double)lease->count / c->width) +
+                 c->row * (double)lease->count;
     for (size_t i = 0; i < lease->count; i++)
-        sum += ntimes ? times[(size_t)lease->replica[i] % ntimes] : fracas_stand_in_seconds(&stand_in, lease->point, lease->replica[i]);
+        sum += ntimes ? times[(size_t)lease->replica[i] % ntimes]
+                      : fracas_stand_in_seconds(&stand_in, lease->point, lease->replica[i]);
     return sum;
 }
 
@@ -170,7 +190,11 @@ static void start_next(world *w, size_t n)
     worker *me = &w->worker[n];
     if (me->computing || !me->nheld) return;
     me->computing = true;
-    push(w, (event){.time = w->now + me->seconds[0], .kind = COMPUTED, .worker = n, .lease = me->lease[0], .seconds = me->seconds[0],
+    push(w, (event){.time = w->now + me->seconds[0],
+                    .kind = COMPUTED,
+                    .worker = n,
+                    .lease = me->lease[0],
+                    .seconds = me->seconds[0],
                     .rows = me->rows[0]});
 }
 
@@ -191,8 +215,11 @@ static void write_segment(world *w, size_t n)
     me->writing = true;
     const double from = fmax(w->now, w->disk);
     if (w->c->files > 0) w->disk = from + 1 / w->c->files;
-    push(w, (event){.time = (w->c->files > 0 ? from : w->now) + w->c->write + w->c->write_row * (double)me->kept, .kind = WRITTEN,
-                    .worker = n, .rows = me->kept});
+    push(w, (event){.time = (w->c->files > 0 ? from : w->now) + w->c->write +
+                            w->c->write_row * (double)me->kept,
+                    .kind = WRITTEN,
+                    .worker = n,
+                    .rows = me->kept});
     me->kept = 0;
 }
 
@@ -234,8 +261,12 @@ static void offer(world *w, size_t n)
         if (!given) return;
         w->leases++;
         w->free_at += w->c->give + w->c->give_row * (double)lease.count;
-        push(w, (event){.time = w->free_at + any(w) * w->c->poll, .kind = GET_LEASE, .worker = n, .lease = lease.id,
-                        .seconds = seconds_of_lease(w, &lease), .rows = (size_t)lease.count});
+        push(w, (event){.time = w->free_at + any(w) * w->c->poll,
+                        .kind = GET_LEASE,
+                        .worker = n,
+                        .lease = lease.id,
+                        .seconds = seconds_of_lease(w, &lease),
+                        .rows = (size_t)lease.count});
     }
 }
 
@@ -290,15 +321,24 @@ static void serve_next(world *w)
 
 static void make(world *w, const costs *c, size_t workers, double mean)
 {
-    const size_t points = (size_t)c->points, each = (size_t)fmax(1, c->work * (double)workers / mean / c->points);
+    const size_t points = (size_t)c->points,
+                 each = (size_t)fmax(1, c->work * (double)workers / mean / c->points);
     double *cost = malloc(points * sizeof *cost);
     fracas_index_row *row = malloc(points * each * sizeof *row);
-    *w = (world){.c = c, .workers = workers, .worker = calloc(workers, sizeof *w->worker), .total = points * each, .dice = 1,
+    *w = (world){.c = c,
+                 .workers = workers,
+                 .worker = calloc(workers, sizeof *w->worker),
+                 .total = points * each,
+                 .dice = 1,
                  .cost = cost};
     if (!cost || !row || !w->worker) demand(fracas_no_memory("the campaign"));
     for (size_t p = 0; p < points; p++) cost[p] = 1;
-    for (size_t i = 0; i < w->total; i++) row[i] = (fracas_index_row){i / each, (int64_t)(i % each), FRACAS_PLANNED, 0};
-    const fracas_scheduler_options options = {.cost = cost, .npoints = points, .workers = workers, .width = (size_t)c->width,
+    for (size_t i = 0; i < w->total; i++)
+        row[i] = (fracas_index_row){i / each, (int64_t)(i % each), FRACAS_PLANNED, 0};
+    const fracas_scheduler_options options = {.cost = cost,
+                                              .npoints = points,
+                                              .workers = workers,
+                                              .width = (size_t)c->width,
                                               .seconds = c->lease};
     demand(fracas_scheduler_create(row, w->total, &options, &w->scheduler));
     free(row);
@@ -329,13 +369,18 @@ static void simulate(const costs *c, size_t workers, double mean, bool head)
 {
     world w;
     make(&w, c, workers, mean);
-    const double working = run(&w), wall = working + c->start + c->merge_row * (double)w.total, work = mean * (double)w.total;
-    if (w.committed < w.total) demand(fracas_fail(FRACAS_BUG, "%zu of %zu realizations were committed", w.committed, w.total));
+    const double working = run(&w), wall = working + c->start + c->merge_row * (double)w.total,
+                 work = mean * (double)w.total;
+    if (w.committed < w.total)
+        demand(fracas_fail(FRACAS_BUG, "%zu of %zu realizations were committed", w.committed,
+                           w.total));
     if (head)
-        puts("workers  working [s]  efficiency  with start and merge  rank 0 busy  messages/s  leases/s  commits/s  delay [s]  policy [us/lease]");
-    printf("%7zu %12.3f %11.4f %21.4f %12.4f %11.1f %9.1f %10.2f %10.4f %18.2f\n", workers, working, work / ((double)workers * working),
-           work / ((double)workers * wall), w.busy / working, (double)w.messages / working, (double)w.leases / working,
-           (double)w.commits / working, w.delay / (double)w.messages, 1e6 * w.policy / (double)w.leases);
+        puts("workers  working [s]  efficiency  with start and merge  rank 0 busy  messages/s  "
+             "leases/s  commits/s  delay [s]  policy [us/lease]");
+    printf("%7zu %12.3f %11.4f %21.4f %12.4f %11.1f %9.1f %10.2f %10.4f %18.2f\n", workers, working,
+           work / ((double)workers * working), work / ((double)workers * wall), w.busy / working,
+           (double)w.messages / working, (double)w.leases / working, (double)w.commits / working,
+           w.delay / (double)w.messages, 1e6 * w.policy / (double)w.leases);
     fracas_scheduler_destroy(w.scheduler);
     free(w.cost);
     free(w.worker);
@@ -346,8 +391,10 @@ static void simulate(const costs *c, size_t workers, double mean, bool head)
 static void help(void)
 {
     puts("bench_cluster [workers=N,N,...] [times=FILE] [NAME=VALUE ...]");
-    for (size_t i = 0; i < NSETTINGS; i++) printf("  %-11s %-10g %s\n", setting[i].name, setting[i].value, setting[i].doc);
-    puts("  times                  file of times [s] of realizations that were measured, one a line, instead of task, share, longer");
+    for (size_t i = 0; i < NSETTINGS; i++)
+        printf("  %-11s %-10g %s\n", setting[i].name, setting[i].value, setting[i].doc);
+    puts("  times                  file of times [s] of realizations that were measured, one a "
+         "line, instead of task, share, longer");
     exit(0);
 }
 
@@ -360,7 +407,9 @@ static void read_setting(costs *c, const char *argument, const char **workers)
     if (!strncmp(argument, "times=", 6)) read_times(is + 1);
     if (!strncmp(argument, "workers=", 8) || !strncmp(argument, "times=", 6)) return;
     for (size_t i = 0; is && i < NSETTINGS; i++) {
-        if (strlen(setting[i].name) != (size_t)(is - argument) || strncmp(setting[i].name, argument, (size_t)(is - argument))) continue;
+        if (strlen(setting[i].name) != (size_t)(is - argument) ||
+            strncmp(setting[i].name, argument, (size_t)(is - argument)))
+            continue;
         *value_of(c, i) = strtod(is + 1, &end);
         if (!*end && end > is + 1 && *value_of(c, i) >= 0) return;
     }
@@ -376,12 +425,15 @@ int main(int argc, char **argv)
     double mean = c.share * c.longer + (1 - c.share) * c.task;
     for (size_t i = 0; i < ntimes; i++) mean = (i ? mean : 0) + times[i] / (double)ntimes;
     if (!(mean > 0) || c.width < 1 || c.width > FRACAS_BATCH_MAX || c.points < 1)
-        demand(fracas_fail(FRACAS_USAGE, "a realization must take some time, a batch have 1 to %d of them, and a campaign a point",
+        demand(fracas_fail(FRACAS_USAGE,
+                           "a realization must take some time, a batch have 1 to %d of them, and a "
+                           "campaign a point",
                            FRACAS_BATCH_MAX));
     bool head = true;
     for (char *end; *workers; workers = *end ? end + 1 : end, head = false) {
         const long count = strtol(workers, &end, 10);
-        if (end == workers || count < 1 || (*end && *end != ',')) demand(fracas_fail(FRACAS_USAGE, "workers= takes numbers, such as 10,100"));
+        if (end == workers || count < 1 || (*end && *end != ','))
+            demand(fracas_fail(FRACAS_USAGE, "workers= takes numbers, such as 10,100"));
         simulate(&c, (size_t)count, mean, head);
     }
     return 0;

@@ -1,8 +1,12 @@
-/* Speed of strength fields: values a second, in blocks of 2500 interfaces, one replica after the other.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Speed of strength fields: values a second, in blocks of 2500 interfaces, one replica after the
+ * other.
  *
- *   bench_sampler [--distribution NAME] [--stride N] [--isa baseline|avx2|avx512|best] [--seconds S]
+ *   bench_sampler [--distribution NAME] [--stride N] [--isa baseline|avx2|avx512|best] [--seconds
+ * S]
  *
- * The median of five measurements, by the clock and by the time of the CPU (the two agree on a quiet machine). */
+ * The median of five measurements, by the clock and by the time of the CPU (the two agree on a
+ * quiet machine). */
 #include "bench/bench.h"
 
 #include "sampler/sampler.h"
@@ -16,17 +20,28 @@ enum { INTERFACES = 2500, MOST_STRIDE = 8 };
 
 static fracas_strength strength_of(const char *name)
 {
-    fracas_strength strength = {.value = 300e6, .minimum = 264e6, .maximum = 364e6, .scale = 50e6, .shape = 2, .median = 300e6,
-                                .sigma = 0.1, .density = 1e9, .exponent = 3};
-    if (strcmp(name, "normal") == 0) strength.mean = 10 * (strength.deviation = 30e6); /* of other laws they replace their own parameters */
+    fracas_strength strength = {.value = 300e6,
+                                .minimum = 264e6,
+                                .maximum = 364e6,
+                                .scale = 50e6,
+                                .shape = 2,
+                                .median = 300e6,
+                                .sigma = 0.1,
+                                .density = 1e9,
+                                .exponent = 3};
+    if (strcmp(name, "normal") == 0)
+        strength.mean =
+            10 * (strength.deviation = 30e6); /* of other laws they replace their own parameters */
     for (size_t i = 0; i < fracas_strength_section.nkinds; i++)
-        if (strcmp(fracas_strength_section.kinds[i]->name, name) == 0) strength.distribution = fracas_strength_section.kinds[i];
+        if (strcmp(fracas_strength_section.kinds[i]->name, name) == 0)
+            strength.distribution = fracas_strength_section.kinds[i];
     if (strength.distribution && !fracas_strength_is_given(&strength)) return strength;
     fprintf(stderr, "bench_sampler: no distribution %s that is drawn\n", name);
     exit(2);
 }
 
-static void measure(const fracas_field *field, size_t stride, double seconds, double *by_clock, double *by_cpu)
+static void measure(const fracas_field *field, size_t stride, double seconds, double *by_clock,
+                    double *by_cpu)
 {
     static double sigma_c[INTERFACES * MOST_STRIDE];
     fracas_stream stream = {1, FRACAS_PURPOSE_STRENGTH, {2, 3}, 0};
@@ -42,8 +57,11 @@ static void measure(const fracas_field *field, size_t stride, double seconds, do
 
 int main(int argc, char **argv)
 {
-    static const struct option known[] = {{"distribution", required_argument, NULL, 'd'}, {"stride", required_argument, NULL, 'l'},
-                                          {"isa", required_argument, NULL, 'i'}, {"seconds", required_argument, NULL, 's'}, {0}};
+    static const struct option known[] = {{"distribution", required_argument, NULL, 'd'},
+                                          {"stride", required_argument, NULL, 'l'},
+                                          {"isa", required_argument, NULL, 'i'},
+                                          {"seconds", required_argument, NULL, 's'},
+                                          {0}};
     const char *name = "weibull", *isa_name = "best";
     double seconds = 2.5;
     size_t stride = 1;
@@ -62,7 +80,8 @@ int main(int argc, char **argv)
     static fracas_extent extent[INTERFACES];
     static double position[INTERFACES][3];
     for (size_t i = 0; i < INTERFACES; i++) extent[i] = (fracas_extent){1e-9, 1e-6};
-    const fracas_sites sites = {.n = INTERFACES, .points = 1, .extent = extent, .position = (const double(*)[3])position};
+    const fracas_sites sites = {
+        .n = INTERFACES, .points = 1, .extent = extent, .position = (const double(*)[3])position};
     fracas_field *field;
     demand(fracas_field_create(&strength, &sites, &field));
     demand(fracas_field_use(field, isa));
@@ -70,6 +89,7 @@ int main(int argc, char **argv)
     for (int i = 0; i < 5; i++) measure(field, stride, seconds / 5, &by_clock[i], &by_cpu[i]);
     qsort(by_clock, 5, sizeof *by_clock, by_value);
     qsort(by_cpu, 5, sizeof *by_cpu, by_value);
-    printf("%-10s stride %zu %-8s %.3g values/s, %.3g by the time of the CPU\n", name, stride, isa_name, by_clock[2], by_cpu[2]);
+    printf("%-10s stride %zu %-8s %.3g values/s, %.3g by the time of the CPU\n", name, stride,
+           isa_name, by_clock[2], by_cpu[2]);
     fracas_field_destroy(field);
 }

@@ -1,10 +1,14 @@
-/* Speed of the sweeps: element-steps a second (elements x lanes x steps), ledger included, links active.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Speed of the sweeps: element-steps a second (elements x lanes x steps), ledger included, links
+ * active.
  *
- *   bench_sweep [--model bar|ring|stershic|linear|quadratic|shell] [--elements N] [--lanes 1|4|8] [--isa baseline|avx2|avx512|best] [--seconds S]
+ *   bench_sweep [--model bar|ring|stershic|linear|quadratic|shell] [--elements N] [--lanes 1|4|8]
+ * [--isa baseline|avx2|avx512|best] [--seconds S]
  *
- * A batch at 1e5 /s with strengths 300 MPa +- 0.33 % is run until half the interfaces have cracked (within a few steps all
- * have); then steps are timed in five blocks and the median is printed. Linear and quadratic are plates of such triangles, shell is
- * an octant of a sphere, with perturbed meshes; there a random half of the interfaces of each lane is too strong to crack, and timing
+ * A batch at 1e5 /s with strengths 300 MPa +- 0.33 % is run until half the interfaces have cracked
+ * (within a few steps all have); then steps are timed in five blocks and the median is printed.
+ * Linear and quadratic are plates of such triangles, shell is an octant of a sphere, with perturbed
+ * meshes; there a random half of the interfaces of each lane is too strong to crack, and timing
  * starts when 95 % of the others have. */
 #include "bench/bench.h"
 
@@ -23,7 +27,8 @@
 
 static bool is_surface(const char *model)
 {
-    return strcmp(model, "linear") == 0 || strcmp(model, "quadratic") == 0 || strcmp(model, "shell") == 0;
+    return strcmp(model, "linear") == 0 || strcmp(model, "quadratic") == 0 ||
+           strcmp(model, "shell") == 0;
 }
 
 /* Uniform in [0, 1). */
@@ -49,27 +54,45 @@ static fracas_spec plate(int64_t order, int64_t elements)
 {
     const int64_t divisions = (int64_t)(sqrt(0.5 * (double)elements) + 0.5);
     const double side = 1e-4 * (double)divisions;
-    fracas_spec spec = {
-        .formulation = &fracas_formulation_membrane.kind,
-        .geometry = {.shape = &fracas_shape_plate, .width = side, .height = side, .thickness = 1e-4},
-        .mesh = {.spacing = &fracas_spacing_triangles, .divisions = divisions, .order = order, .amplitude = 0.2},
-        .material = {275e9, 2750, 0.22},
-        .cohesive = {.law = &fracas_law_nitsche, .fracture_energy = 100, .beta = 10, .onset = &fracas_onset_mean, .coupling = 1},
-        .loading = {.type = &fracas_loading_expansion, .rate = 1e5, .ratio = 1, .start = &fracas_start_moving},
-        .time = {.stop = &fracas_stop_time, .end = 1, .safety = 0.25, .integrator = &fracas_integrator_central_difference,
-                 .mass = &fracas_mass_lumped}};
+    fracas_spec spec = {.formulation = &fracas_formulation_membrane.kind,
+                        .geometry = {.shape = &fracas_shape_plate,
+                                     .width = side,
+                                     .height = side,
+                                     .thickness = 1e-4},
+                        .mesh = {.spacing = &fracas_spacing_triangles,
+                                 .divisions = divisions,
+                                 .order = order,
+                                 .amplitude = 0.2},
+                        .material = {275e9, 2750, 0.22},
+                        .cohesive = {.law = &fracas_law_nitsche,
+                                     .fracture_energy = 100,
+                                     .beta = 10,
+                                     .onset = &fracas_onset_mean,
+                                     .coupling = 1},
+                        .loading = {.type = &fracas_loading_expansion,
+                                    .rate = 1e5,
+                                    .ratio = 1,
+                                    .start = &fracas_start_moving},
+                        .time = {.stop = &fracas_stop_time,
+                                 .end = 1,
+                                 .safety = 0.25,
+                                 .integrator = &fracas_integrator_central_difference,
+                                 .mass = &fracas_mass_lumped}};
     perturb(&spec);
     return spec;
 }
 
-/* An octant of a sphere with edges of 0.1 mm, whatever their number, and the thickness of the paper's (Becker and Noels). */
+/* An octant of a sphere with edges of 0.1 mm, whatever their number, and the thickness of the
+ * paper's (Becker and Noels). */
 static fracas_spec shell(int64_t elements)
 {
     const int64_t divisions = (int64_t)(sqrt((double)elements) + 0.5);
     fracas_spec spec = plate(2, 8);
     spec.formulation = &fracas_formulation_shell.kind;
     /* area: pi/2 R^2 = divisions^2 sqrt(3)/4 (0.1 mm)^2 */
-    spec.geometry = (fracas_geometry){.shape = &fracas_shape_sphere, .part = &fracas_part_octant, .radius = 0.525e-4 * (double)divisions,
+    spec.geometry = (fracas_geometry){.shape = &fracas_shape_sphere,
+                                      .part = &fracas_part_octant,
+                                      .radius = 0.525e-4 * (double)divisions,
                                       .thickness = 1e-4};
     spec.mesh.divisions = divisions;
     spec.cohesive.beta_shear = 1;
@@ -81,24 +104,38 @@ static fracas_spec shell(int64_t elements)
 static fracas_spec reference(const char *model, int64_t elements)
 {
     const double radius = 0.05 / (2 * 3.14159265358979323846);
-    fracas_spec spec = {
-        .formulation = &fracas_formulation_bar.kind,
-        .geometry = {.shape = &fracas_shape_bar, .ends = &fracas_ends_periodic, .length = 0.05, .area = 1e-6},
-        .mesh = {.spacing = &fracas_spacing_uniform, .elements = elements}, .material = {275e9, 2750},
-        .cohesive = {.law = &fracas_law_nitsche, .fracture_energy = 100, .beta = 4},
-        .loading = {.type = &fracas_loading_imposed_rate, .rate = 1e5}, .time = {.stop = &fracas_stop_time, .end = 1, .safety = 0.25}};
+    fracas_spec spec = {.formulation = &fracas_formulation_bar.kind,
+                        .geometry = {.shape = &fracas_shape_bar,
+                                     .ends = &fracas_ends_periodic,
+                                     .length = 0.05,
+                                     .area = 1e-6},
+                        .mesh = {.spacing = &fracas_spacing_uniform, .elements = elements},
+                        .material = {275e9, 2750},
+                        .cohesive = {.law = &fracas_law_nitsche, .fracture_energy = 100, .beta = 4},
+                        .loading = {.type = &fracas_loading_imposed_rate, .rate = 1e5},
+                        .time = {.stop = &fracas_stop_time, .end = 1, .safety = 0.25}};
     if (strcmp(model, "bar") == 0) return spec;
     spec.formulation = &fracas_formulation_ring.kind;
-    spec.geometry = (fracas_geometry){.shape = &fracas_shape_ring, .direction = &fracas_direction_current, .radius = radius, .area = 1e-6};
-    spec.loading = (fracas_loading){.type = &fracas_loading_initial_velocity, .radial = 1e5 * radius};
+    spec.geometry = (fracas_geometry){.shape = &fracas_shape_ring,
+                                      .direction = &fracas_direction_current,
+                                      .radius = radius,
+                                      .area = 1e-6};
+    spec.loading = (fracas_loading){.type = &fracas_loading_initial_velocity,
+                                    .radial = 1e5 * radius};
     if (strcmp(model, "ring") == 0) return spec;
     if (strcmp(model, "shell") == 0) return shell(elements);
     if (is_surface(model)) return plate(strcmp(model, "quadratic") == 0 ? 2 : 1, elements);
     if (strcmp(model, "stershic") != 0) {
-        fprintf(stderr, "bench_sweep: no model `%s`; there are bar, ring, stershic, linear, quadratic, shell\n", model);
+        fprintf(
+            stderr,
+            "bench_sweep: no model `%s`; there are bar, ring, stershic, linear, quadratic, shell\n",
+            model);
         exit(2);
     }
-    spec.cohesive = (fracas_cohesive){.law = &fracas_law_stershic, .fracture_energy = 100, .penalty = 1, .refinement = 0.25,
+    spec.cohesive = (fracas_cohesive){.law = &fracas_law_stershic,
+                                      .fracture_energy = 100,
+                                      .penalty = 1,
+                                      .refinement = 0.25,
                                       .critical_zone = &fracas_zone_steep};
     return spec;
 }
@@ -110,7 +147,9 @@ int main(int argc, char **argv)
     int lanes = 8;
     double seconds = 1;
     fracas_isa isa = FRACAS_ISA_BEST;
-    static const struct option known[] = {{"model", 1, 0, 'm'}, {"elements", 1, 0, 'n'}, {"lanes", 1, 0, 'l'}, {"isa", 1, 0, 'i'}, {"seconds", 1, 0, 's'}, {0}};
+    static const struct option known[] = {{"model", 1, 0, 'm'},   {"elements", 1, 0, 'n'},
+                                          {"lanes", 1, 0, 'l'},   {"isa", 1, 0, 'i'},
+                                          {"seconds", 1, 0, 's'}, {0}};
     for (int o; (o = getopt_long(argc, argv, "", known, NULL)) != -1;) {
         if (o == 'm') name = optarg;
         else if (o == 'n') elements = atoll(optarg);
@@ -139,8 +178,10 @@ int main(int argc, char **argv)
     fracas_record record[FRACAS_MAX_LANES];
     demand(fracas_batch_begin(batch));
     elements = (int64_t)fracas_model_elements(model);
-    const double interfaces = (double)fracas_model_interfaces(model), enough = (is_surface(name) ? 0.475 : 0.5) * interfaces;
-    while (batch->step.cracked[0] < (int64_t)enough) demand(fracas_batch_step(batch, record, &running));
+    const double interfaces = (double)fracas_model_interfaces(model),
+                 enough = (is_surface(name) ? 0.475 : 0.5) * interfaces;
+    while (batch->step.cracked[0] < (int64_t)enough)
+        demand(fracas_batch_step(batch, record, &running));
 
     double rate[5];
     int64_t steps = 16;
@@ -154,8 +195,10 @@ int main(int argc, char **argv)
         rate[block] = (double)(done * elements * lanes) / spent;
     }
     qsort(rate, 5, sizeof *rate, by_value);
-    printf("%s: elements %lld lanes %d isa %s cracked %.0f %% : %.3g element-steps/s (min %.3g, max %.3g)\n", name, (long long)elements,
-           lanes, fracas_isa_name[batch->step.isa], 100.0 * (double)batch->step.cracked[0] / interfaces, rate[2], rate[0], rate[4]);
+    printf("%s: elements %lld lanes %d isa %s cracked %.0f %% : %.3g element-steps/s (min %.3g, "
+           "max %.3g)\n",
+           name, (long long)elements, lanes, fracas_isa_name[batch->step.isa],
+           100.0 * (double)batch->step.cracked[0] / interfaces, rate[2], rate[0], rate[4]);
     fracas_batch_destroy(batch);
     fracas_model_destroy(model);
     free((void *)spec.mesh.noise);

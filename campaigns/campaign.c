@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/campaign.h"
 
 #include "base/units.h"
@@ -20,12 +21,14 @@ void fracas_campaign_destroy(fracas_campaign *campaign)
 static fracas_value value_at(const fracas_point_table *table, size_t point, const char *path)
 {
     size_t column = fracas_point_table_find(table, path);
-    return column == SIZE_MAX ? (fracas_value){.real = NAN, .text = ""} : table->point[point].value[column];
+    return column == SIZE_MAX ? (fracas_value){.real = NAN, .text = ""}
+                              : table->point[point].value[column];
 }
 
 static bool is_equal(const fracas_value *a, const fracas_value *b)
 {
-    return (a->real == b->real || (isnan(a->real) && isnan(b->real))) && strcmp(a->text, b->text) == 0;
+    return (a->real == b->real || (isnan(a->real) && isnan(b->real))) &&
+           strcmp(a->text, b->text) == 0;
 }
 
 /* A column that is part of a point's identity: not `case`, nor what is derived from others. */
@@ -34,9 +37,10 @@ static bool is_identity(const fracas_column *column)
     return strcmp(column->path, "case") != 0 && strncmp(column->path, "derived.", 8) != 0;
 }
 
-/* How many values of point `b` of `before` differ in point `n` of `now`, and the first that does. Columns of `now` that
- * `before` lacks come with a kind, which differs too. */
-static size_t count_differences(const fracas_point_table *now, size_t n, const fracas_point_table *before, size_t b,
+/* How many values of point `b` of `before` differ in point `n` of `now`, and the first that does.
+ * Columns of `now` that `before` lacks come with a kind, which differs too. */
+static size_t count_differences(const fracas_point_table *now, size_t n,
+                                const fracas_point_table *before, size_t b,
                                 const fracas_column **first)
 {
     size_t count = 0;
@@ -64,20 +68,26 @@ static bool is_part(const fracas_campaign *now, const fracas_campaign *before)
 {
     for (size_t n = 0; n < now->npoints; n++) {
         size_t b = 0;
-        while (b < before->npoints && memcmp(now->point[n].hash.byte, before->point[b].hash.byte, sizeof(fracas_hash)) != 0) b++;
+        while (b < before->npoints && memcmp(now->point[n].hash.byte, before->point[b].hash.byte,
+                                             sizeof(fracas_hash)) != 0)
+            b++;
         if (b == before->npoints) return false;
     }
     return true;
 }
 
-/* The point of `before` is not in `now`: names its first difference from the point of `now` that is most like it. */
-static fracas_err say_point_missing(const fracas_campaign *now, const fracas_campaign *before, size_t b)
+/* The point of `before` is not in `now`: names its first difference from the point of `now` that is
+ * most like it. */
+static fracas_err say_point_missing(const fracas_campaign *now, const fracas_campaign *before,
+                                    size_t b)
 {
     const fracas_column *column = NULL;
     size_t like = 0, least = SIZE_MAX;
     if (is_part(now, before))
-        return fracas_fail(FRACAS_DAMAGED, "the study has %zu points, and this campaign file only %zu of them, the first that is missing "
-                           "being its point %zu; a study keeps its points: give them all, or use another --study",
+        return fracas_fail(FRACAS_DAMAGED,
+                           "the study has %zu points, and this campaign file only %zu of them, the "
+                           "first that is missing being its point %zu; a study keeps its points: "
+                           "give them all, or use another --study",
                            before->npoints, now->npoints, b);
     for (size_t n = 0; n < now->npoints; n++) {
         const fracas_column *first = NULL;
@@ -89,40 +99,45 @@ static fracas_err say_point_missing(const fracas_campaign *now, const fracas_cam
     }
     if (!column)
         return fracas_fail(FRACAS_DAMAGED,
-                           "the study has a point %zu that this campaign file has not; give the campaign a "
-                           "new name or another --study",
+                           "the study has a point %zu that this campaign file has not; give the "
+                           "campaign a new name or another --study",
                            b);
     char was[64], is[64];
     fracas_value value = value_at(&now->table, like, column->path);
     write_text(column, &value, is);
     value = value_at(&before->table, b, column->path);
     write_text(column, &value, was);
-    return fracas_fail(FRACAS_DAMAGED,
-                       "%s is %s in the study (its point %zu), but %s in this campaign file; a study can be "
-                       "extended by points and replicas, anything else needs a new name or another --study",
-                       column->path, was, b, is);
+    return fracas_fail(
+        FRACAS_DAMAGED,
+        "%s is %s in the study (its point %zu), but %s in this campaign file; a study can be "
+        "extended by points and replicas, anything else needs a new name or another --study",
+        column->path, was, b, is);
 }
 
 static fracas_err check_settings(const fracas_campaign *now, const fracas_campaign *before)
 {
-    static const char *const remedy = "it must stay as it is; else give the campaign a new name or another --study";
+    static const char *const remedy =
+        "it must stay as it is; else give the campaign a new name or another --study";
     if (now->seed != before->seed)
         return fracas_fail(FRACAS_DAMAGED,
-                           "seed is %" PRIu64 " in the study, but %" PRIu64 " in this campaign file; %s", before->seed,
-                           now->seed, remedy);
+                           "seed is %" PRIu64 " in the study, but %" PRIu64
+                           " in this campaign file; %s",
+                           before->seed, now->seed, remedy);
     if (now->common_random_numbers != before->common_random_numbers)
-        return fracas_fail(FRACAS_DAMAGED, "random_numbers is %s in the study, but %s in this campaign file; %s",
+        return fracas_fail(FRACAS_DAMAGED,
+                           "random_numbers is %s in the study, but %s in this campaign file; %s",
                            before->common_random_numbers ? "common" : "independent",
                            now->common_random_numbers ? "common" : "independent", remedy);
     if (now->output.history != before->output.history)
         return fracas_fail(FRACAS_DAMAGED,
-                           "output.history is %" PRId64 " in the study, but %" PRId64 " in this campaign "
-                           "file; %s",
+                           "output.history is %" PRId64 " in the study, but %" PRId64
+                           " in this campaign file; %s",
                            before->output.history, now->output.history, remedy);
     if (now->output.interfaces != before->output.interfaces)
-        return fracas_fail(FRACAS_DAMAGED, "output.interfaces is %s in the study, but %s in this campaign file; %s",
-                           before->output.interfaces ? "true" : "false", now->output.interfaces ? "true" : "false",
-                           remedy);
+        return fracas_fail(FRACAS_DAMAGED,
+                           "output.interfaces is %s in the study, but %s in this campaign file; %s",
+                           before->output.interfaces ? "true" : "false",
+                           now->output.interfaces ? "true" : "false", remedy);
     return FRACAS_OK;
 }
 
@@ -132,15 +147,17 @@ typedef struct {
 
 static int by_hash(const void *a, const void *b)
 {
-    return memcmp(((const point_link *)a)->point->hash.byte, ((const point_link *)b)->point->hash.byte,
-                  sizeof(fracas_hash));
+    return memcmp(((const point_link *)a)->point->hash.byte,
+                  ((const point_link *)b)->point->hash.byte, sizeof(fracas_hash));
 }
 
-static fracas_err check_points(const fracas_campaign *now, const fracas_campaign *before, const point_link *sorted)
+static fracas_err check_points(const fracas_campaign *now, const fracas_campaign *before,
+                               const point_link *sorted)
 {
     for (size_t b = 0; b < before->npoints; b++) {
         const fracas_point *was = &before->point[b];
-        const point_link wanted = {was}, *found = bsearch(&wanted, sorted, now->npoints, sizeof *sorted, by_hash);
+        const point_link wanted = {was},
+                         *found = bsearch(&wanted, sorted, now->npoints, sizeof *sorted, by_hash);
         if (!found) return say_point_missing(now, before, b);
         TRY(fracas_replicas_extend(found->point, was, b));
     }

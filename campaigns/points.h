@@ -1,4 +1,6 @@
-/* The points of a campaign as a table of columns: what the store writes to /point and the analysis reads. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The points of a campaign as a table of columns: what the store writes to /point and the analysis
+ * reads. */
 #ifndef FRACAS_CAMPAIGNS_POINTS_H
 #define FRACAS_CAMPAIGNS_POINTS_H
 
@@ -15,7 +17,7 @@ typedef struct {
     const char *path; /* dotted */
     const char *unit; /* SI, "1" for a pure number, "" for text */
     const char *doc;
-    bool text;        /* enum: values are text */
+    bool text; /* enum: values are text */
 } fracas_column;
 
 typedef struct {
@@ -27,11 +29,12 @@ typedef struct {
     fracas_hash hash;
     int64_t replicas;
     const fracas_value *value; /* one per column */
-    int64_t most;              /* replicas that it may get where a rule decides; 0: it has `replicas` */
+    int64_t most; /* replicas that it may get where a rule decides; 0: it has `replicas` */
 } fracas_point_row;
 
-/* Columns are sorted by path (byte order); they are the union over all points, so `strength.shape` is there,
- * and NaN for points of another distribution, as soon as one point has it. Booleans and integers are reals. */
+/* Columns are sorted by path (byte order); they are the union over all points, so `strength.shape`
+ * is there, and NaN for points of another distribution, as soon as one point has it. Booleans and
+ * integers are reals. */
 typedef struct {
     size_t ncolumns;
     const fracas_column *column;
@@ -39,7 +42,8 @@ typedef struct {
     const fracas_point_row *point;
 } fracas_point_table;
 
-/* Index of the column, or SIZE_MAX. Here, not in a file of one room, because rooms that do not meet ask it. */
+/* Index of the column, or SIZE_MAX. Here, not in a file of one room, because rooms that do not meet
+ * ask it. */
 static inline size_t fracas_point_table_find(const fracas_point_table *table, const char *path)
 {
     for (size_t c = 0; c < table->ncolumns; c++)
@@ -53,12 +57,14 @@ static inline bool fracas_value_same(const fracas_value *a, const fracas_value *
     return !strcmp(a->text, b->text) && (a->real == b->real || (isnan(a->real) && isnan(b->real)));
 }
 
-/* True if a column of the campaign's own (not a derived one) is not the same at every point: what its sweep varies. */
+/* True if a column of the campaign's own (not a derived one) is not the same at every point: what
+ * its sweep varies. */
 static inline bool fracas_point_table_varies(const fracas_point_table *table, size_t column)
 {
     if (!strncmp(table->column[column].path, "derived.", 8)) return false;
     for (size_t p = 1; p < table->npoints; p++)
-        if (!fracas_value_same(&table->point[0].value[column], &table->point[p].value[column])) return true;
+        if (!fracas_value_same(&table->point[0].value[column], &table->point[p].value[column]))
+            return true;
     return false;
 }
 

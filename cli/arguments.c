@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/cli.h"
 
 #include "campaigns/file/say.h"
@@ -10,10 +11,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What getopt_long returns for options[i] by its name; -h is 'h', and every letter of an option itself. */
+/* What getopt_long returns for options[i] by its name; -h is 'h', and every letter of an option
+ * itself. */
 enum { FIRST_OPTION = 256 };
 
-size_t fracas_command_noptions(const fracas_command *command) { return command->noptions + command->nown; }
+size_t fracas_command_noptions(const fracas_command *command)
+{
+    return command->noptions + command->nown;
+}
 
 const fracas_option *fracas_command_option(const fracas_command *command, size_t i)
 {
@@ -23,15 +28,20 @@ const fracas_option *fracas_command_option(const fracas_command *command, size_t
 const fracas_refusal *fracas_command_refusal(const fracas_command *command, size_t i)
 {
     for (size_t r = 0; r < command->nrefused; r++)
-        if (!strcmp(command->refused[r].name, fracas_command_option(command, i)->name)) return &command->refused[r];
+        if (!strcmp(command->refused[r].name, fracas_command_option(command, i)->name))
+            return &command->refused[r];
     return NULL;
 }
 
 static fracas_err check_refusals(const fracas_arguments *arguments)
 {
     for (size_t i = 0; i < fracas_command_noptions(arguments->command); i++) {
-        const fracas_refusal *refusal = arguments->value[i] ? fracas_command_refusal(arguments->command, i) : NULL;
-        if (refusal) return fracas_fail(FRACAS_USAGE, "%s: --%s %s", arguments->command->name, refusal->name, refusal->why);
+        const fracas_refusal *refusal = arguments->value[i]
+                                            ? fracas_command_refusal(arguments->command, i)
+                                            : NULL;
+        if (refusal)
+            return fracas_fail(FRACAS_USAGE, "%s: --%s %s", arguments->command->name, refusal->name,
+                               refusal->why);
     }
     return FRACAS_OK;
 }
@@ -50,7 +60,8 @@ static fracas_err unknown_option(const fracas_command *command, const char *give
         fracas_words_add(&words, option[i]);
     }
     fracas_words_add(&words, "--help");
-    return fracas_fail(FRACAS_USAGE, "%s: unknown option `%s`%s%s", command->name, given, fracas_words_hint(&words, "it knows", hint),
+    return fracas_fail(FRACAS_USAGE, "%s: unknown option `%s`%s%s", command->name, given,
+                       fracas_words_hint(&words, "it knows", hint),
                        command->takes_rest ? "; options of another program follow `--`" : "");
 }
 
@@ -59,23 +70,29 @@ static size_t option_of(const fracas_command *command, int found)
 {
     if (found >= FIRST_OPTION) return (size_t)(found - FIRST_OPTION);
     for (size_t i = 0; i < fracas_command_noptions(command); i++)
-        if (fracas_command_option(command, i)->letter && fracas_command_option(command, i)->letter == found) return i;
+        if (fracas_command_option(command, i)->letter &&
+            fracas_command_option(command, i)->letter == found)
+            return i;
     return FRACAS_MOST_OPTIONS;
 }
 
-/* The word that getopt_long has just read as an option: before its value, where that is a word of its own. */
+/* The word that getopt_long has just read as an option: before its value, where that is a word of
+ * its own. */
 static const char *given_option(char *const *argv)
 {
     const char *last = argv[optind - 1];
     return optarg && optarg == last ? argv[optind - 2] : last;
 }
 
-/* getopt_long takes any beginning of a name: --forc for --force, and what was meant for another program. */
+/* getopt_long takes any beginning of a name: --forc for --force, and what was meant for another
+ * program. */
 static bool is_abbreviated(const fracas_command *command, int found, char *const *argv)
 {
     if (option_of(command, found) >= fracas_command_noptions(command)) return false;
-    const char *name = fracas_command_option(command, option_of(command, found))->name, *given = given_option(argv);
-    return !strncmp(given, "--", 2) && (strlen(name) != strcspn(given + 2, "=") || strncmp(given + 2, name, strlen(name)) != 0);
+    const char *name = fracas_command_option(command, option_of(command, found))->name,
+               *given = given_option(argv);
+    return !strncmp(given, "--", 2) &&
+           (strlen(name) != strcspn(given + 2, "=") || strncmp(given + 2, name, strlen(name)) != 0);
 }
 
 static fracas_err read_options(const fracas_command *command, fracas_arguments *arguments)
@@ -87,7 +104,8 @@ static fracas_err read_options(const fracas_command *command, fracas_arguments *
         const fracas_option *option = fracas_command_option(command, i);
         char *end = letters + strlen(letters);
         if (option->letter) snprintf(end, 3, "%c%s", option->letter, option->argument ? ":" : "");
-        table[i + 1] = (struct option){option->name, option->argument ? required_argument : no_argument, NULL,
+        table[i + 1] = (struct option){option->name,
+                                       option->argument ? required_argument : no_argument, NULL,
                                        FIRST_OPTION + (int)i};
     }
 
@@ -95,7 +113,8 @@ static fracas_err read_options(const fracas_command *command, fracas_arguments *
     opterr = 0;
     int found;
     while ((found = getopt_long(arguments->argc, arguments->argv, letters, table, NULL)) != -1) {
-        if (is_abbreviated(command, found, arguments->argv)) return unknown_option(command, given_option(arguments->argv));
+        if (is_abbreviated(command, found, arguments->argv))
+            return unknown_option(command, given_option(arguments->argv));
         if (found == 'h') arguments->help = true;
         else if (option_of(command, found) < noptions)
             arguments->value[option_of(command, found)] = optarg ? optarg : "";
@@ -103,11 +122,13 @@ static fracas_err read_options(const fracas_command *command, fracas_arguments *
             const char letter[] = {'-', (char)optopt, '\0'};
             return unknown_option(command, optopt ? letter : arguments->argv[optind - 1]);
         } else {
-            const fracas_option *option = fracas_command_option(command, option_of(command, optopt));
+            const fracas_option *option = fracas_command_option(command,
+                                                                option_of(command, optopt));
             if (found == ':')
-                return fracas_fail(FRACAS_USAGE, "%s: --%s needs a value: --%s %s", command->name, option->name,
-                                   option->name, option->argument);
-            return fracas_fail(FRACAS_USAGE, "%s: --%s takes no value", command->name, option->name);
+                return fracas_fail(FRACAS_USAGE, "%s: --%s needs a value: --%s %s", command->name,
+                                   option->name, option->name, option->argument);
+            return fracas_fail(FRACAS_USAGE, "%s: --%s takes no value", command->name,
+                               option->name);
         }
     }
     return FRACAS_OK;
@@ -125,7 +146,8 @@ static void cut_rest(fracas_arguments *arguments)
     }
 }
 
-fracas_err fracas_arguments_read(const fracas_command *command, int argc, char **argv, fracas_arguments *arguments)
+fracas_err fracas_arguments_read(const fracas_command *command, int argc, char **argv,
+                                 fracas_arguments *arguments)
 {
     *arguments = (fracas_arguments){.command = command, .argc = argc, .argv = argv};
     if (command->takes_rest) cut_rest(arguments);
@@ -135,19 +157,20 @@ fracas_err fracas_arguments_read(const fracas_command *command, int argc, char *
     if (command->operand && optind < arguments->argc) arguments->operand = argv[optind++];
     if (command->second && optind < arguments->argc) arguments->second = argv[optind++];
     if (optind < arguments->argc)
-        return fracas_fail(FRACAS_USAGE, "%s: one argument too many: `%s`; see `fracas help %s`", command->name,
-                           argv[optind], command->name);
+        return fracas_fail(FRACAS_USAGE, "%s: one argument too many: `%s`; see `fracas help %s`",
+                           command->name, argv[optind], command->name);
     if (command->operand && !arguments->operand)
-        return fracas_fail(FRACAS_USAGE, "%s: %s is missing: fracas %s %s%s%s", command->name, command->operand, command->name,
-                           command->operand, command->second ? " " : "", command->second ? command->second : "");
+        return fracas_fail(FRACAS_USAGE, "%s: %s is missing: fracas %s %s%s%s", command->name,
+                           command->operand, command->name, command->operand,
+                           command->second ? " " : "", command->second ? command->second : "");
     if (command->second && !arguments->second)
-        return fracas_fail(FRACAS_USAGE, "%s: %s is missing: fracas %s %s %s", command->name, command->second, command->name,
-                           command->operand, command->second);
+        return fracas_fail(FRACAS_USAGE, "%s: %s is missing: fracas %s %s %s", command->name,
+                           command->second, command->name, command->operand, command->second);
     return FRACAS_OK;
 }
 
-fracas_err fracas_arguments_integer(const fracas_arguments *arguments, size_t i,
-                                    int minimum, int maximum, int *value)
+fracas_err fracas_arguments_integer(const fracas_arguments *arguments, size_t i, int minimum,
+                                    int maximum, int *value)
 {
     const char *text = arguments->value[i];
     if (!text) return FRACAS_OK;
@@ -155,21 +178,24 @@ fracas_err fracas_arguments_integer(const fracas_arguments *arguments, size_t i,
     errno = 0;
     long number = strtol(text, &end, 10);
     if (end == text || *end || errno || number < minimum || number > maximum)
-        return fracas_fail(FRACAS_USAGE, "%s: --%s is `%s`; it must be a whole number from %d to %d",
-                           arguments->command->name, fracas_command_option(arguments->command, i)->name, text, minimum, maximum);
+        return fracas_fail(
+            FRACAS_USAGE, "%s: --%s is `%s`; it must be a whole number from %d to %d",
+            arguments->command->name, fracas_command_option(arguments->command, i)->name, text,
+            minimum, maximum);
     *value = (int)number;
     return FRACAS_OK;
 }
 
-fracas_err fracas_arguments_real(const fracas_arguments *arguments, size_t i,
-                                 double scale, double *value)
+fracas_err fracas_arguments_real(const fracas_arguments *arguments, size_t i, double scale,
+                                 double *value)
 {
     const char *text = arguments->value[i];
     if (!text) return FRACAS_OK;
     char *end;
     double number = strtod(text, &end) * scale;
     if (end == text || *end || !isfinite(number) || number < 0)
-        return fracas_fail(FRACAS_USAGE, "%s: --%s is `%s`; it must be a number, 0 or more", arguments->command->name,
+        return fracas_fail(FRACAS_USAGE, "%s: --%s is `%s`; it must be a number, 0 or more",
+                           arguments->command->name,
                            fracas_command_option(arguments->command, i)->name, text);
     *value = number;
     return FRACAS_OK;
@@ -191,7 +217,8 @@ fracas_err fracas_arguments_word(const fracas_arguments *arguments, size_t i,
     }
     char hint[600];
     return fracas_fail(FRACAS_USAGE, "%s: --%s is `%s`%s", arguments->command->name,
-                       fracas_command_option(arguments->command, i)->name, text, fracas_words_hint(&known, "it can be", hint));
+                       fracas_command_option(arguments->command, i)->name, text,
+                       fracas_words_hint(&known, "it can be", hint));
 }
 
 /* [days-]hours:minutes:seconds, or hours:minutes:seconds without the days. */
@@ -199,9 +226,11 @@ static bool read_clock(const char *text, double *seconds)
 {
     unsigned days = 0, hours, minutes, rest;
     int end = 0;
-    const bool with_days = sscanf(text, "%u-%u:%2u:%2u%n", &days, &hours, &minutes, &rest, &end) == 4;
+    const bool with_days = sscanf(text, "%u-%u:%2u:%2u%n", &days, &hours, &minutes, &rest, &end) ==
+                           4;
     if (!with_days) days = 0;
-    if (!with_days && sscanf(text, "%u:%2u:%2u%n", &hours, &minutes, &rest, &end) != 3) return false;
+    if (!with_days && sscanf(text, "%u:%2u:%2u%n", &hours, &minutes, &rest, &end) != 3)
+        return false;
     if (text[end] || minutes > 59 || rest > 59 || text[strspn(text, "0123456789:-")]) return false;
     *seconds = 86400.0 * days + 3600.0 * hours + 60.0 * minutes + rest;
     return true;
@@ -231,8 +260,11 @@ fracas_err fracas_arguments_time(const fracas_arguments *arguments, size_t i, do
     double value;
     if (!text) return FRACAS_OK;
     if ((!read_clock(text, &value) && !read_duration(text, &value)) || value <= 0)
-        return fracas_fail(FRACAS_USAGE, "%s: --%s is `%s`; it must be a time above 0 with its unit, such as 90s, 55m, 1h30m, 2:00:00 or 1-00:00:00",
-                           arguments->command->name, fracas_command_option(arguments->command, i)->name, text);
+        return fracas_fail(FRACAS_USAGE,
+                           "%s: --%s is `%s`; it must be a time above 0 with its unit, such as "
+                           "90s, 55m, 1h30m, 2:00:00 or 1-00:00:00",
+                           arguments->command->name,
+                           fracas_command_option(arguments->command, i)->name, text);
     *seconds = value;
     return FRACAS_OK;
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The subcommands of fracas, and the command line that they share. */
 #ifndef FRACAS_CLI_CLI_H
 #define FRACAS_CLI_CLI_H
@@ -11,7 +12,7 @@ typedef struct {
     const char *name;     /* "jobs" for --jobs */
     const char *argument; /* what the help calls its value; NULL: it takes none */
     const char *doc;
-    char letter;          /* 'o' for -o, which is the same; 0: there is none */
+    char letter; /* 'o' for -o, which is the same; 0: there is none */
 } fracas_option;
 
 enum { FRACAS_MOST_OPTIONS = 32 }; /* of one subcommand */
@@ -27,73 +28,87 @@ typedef struct fracas_arguments fracas_arguments;
 /* A subcommand is one file with one const fracas_command and one line in main.c. */
 typedef struct {
     const char *name;
-    const char *operand; /* the argument that is no option, as the help calls it; NULL: there is none */
-    const char *second;  /* another one after it; NULL: there is none */
-    const char *doc;     /* one sentence, no full stop */
-    const char *more;    /* paragraph for `fracas help NAME` */
+    const char
+        *operand; /* the argument that is no option, as the help calls it; NULL: there is none */
+    const char *second; /* another one after it; NULL: there is none */
+    const char *doc;    /* one sentence, no full stop */
+    const char *more;   /* paragraph for `fracas help NAME` */
     const fracas_option *options;
     size_t noptions;
     const fracas_option *own; /* more of them, where `options` are shared with others */
     size_t nown;
     const fracas_refusal *refused; /* of the shared ones: not in the help */
     size_t nrefused;
-    bool takes_rest;      /* what follows `--` is kept for another program */
+    bool takes_rest; /* what follows `--` is kept for another program */
     fracas_err (*run)(const fracas_arguments *arguments);
 } fracas_command;
 
-extern const fracas_command fracas_command_run, fracas_command_plan, fracas_command_status, fracas_command_report,
-    fracas_command_export, fracas_command_picture, fracas_command_verify, fracas_command_sample, fracas_command_distributions,
-    fracas_command_reference, fracas_command_reindex, fracas_command_merge, fracas_command_gc, fracas_command_extend,
-    fracas_command_retry, fracas_command_merge_studies, fracas_command_compare, fracas_command_bench, fracas_command_submit,
-    fracas_command_converge, fracas_command_fit;
+extern const fracas_command fracas_command_run, fracas_command_plan, fracas_command_status,
+    fracas_command_report, fracas_command_export, fracas_command_picture, fracas_command_verify,
+    fracas_command_sample, fracas_command_distributions, fracas_command_reference,
+    fracas_command_reindex, fracas_command_merge, fracas_command_gc, fracas_command_extend,
+    fracas_command_retry, fracas_command_merge_studies, fracas_command_compare,
+    fracas_command_bench, fracas_command_submit, fracas_command_converge, fracas_command_fit;
 
 struct fracas_arguments {
     const fracas_command *command;
     const char *operand, *second;
-    const char *value[FRACAS_MOST_OPTIONS]; /* of command->options[i], then of command->own; NULL: not given; "" if it takes none */
+    const char *value[FRACAS_MOST_OPTIONS]; /* of command->options[i], then of command->own; NULL:
+                                               not given; "" if it takes none */
     bool help;                              /* --help was given: then nothing else is checked */
     int argc;                               /* the program's, options moved to the front */
     char **argv;
-    char **rest;                            /* of argv: nrest words after `--` */
+    char **rest; /* of argv: nrest words after `--` */
     int nrest;
 };
 
-/* Option `i` of a command, its own ones behind those that it shares; FRACAS_MOST_OPTIONS is no option. */
+/* Option `i` of a command, its own ones behind those that it shares; FRACAS_MOST_OPTIONS is no
+ * option. */
 size_t fracas_command_noptions(const fracas_command *command);
 const fracas_option *fracas_command_option(const fracas_command *command, size_t i);
 
 /* NULL for an option that the command takes. */
 const fracas_refusal *fracas_command_refusal(const fracas_command *command, size_t i);
 
-/* Reads the program's command line, argv[1] being the command's name. FRACAS_USAGE for an unknown option (naming the
- * nearest), one that is refused (saying why), a missing or extra argument. */
-FRACAS_MUST_USE fracas_err fracas_arguments_read(const fracas_command *command, int argc, char **argv,
-                                                 fracas_arguments *arguments);
+/* Reads the program's command line, argv[1] being the command's name. FRACAS_USAGE for an unknown
+ * option (naming the nearest), one that is refused (saying why), a missing or extra argument. */
+FRACAS_MUST_USE fracas_err fracas_arguments_read(const fracas_command *command, int argc,
+                                                 char **argv, fracas_arguments *arguments);
 
-/* The value of option `i` as a whole number in [minimum, maximum]; *value stays as it is if it was not given.
- * FRACAS_USAGE for anything else. */
-FRACAS_MUST_USE fracas_err fracas_arguments_integer(const fracas_arguments *arguments, size_t i, int minimum, int maximum, int *value);
+/* The value of option `i` as a whole number in [minimum, maximum]; *value stays as it is if it was
+ * not given. FRACAS_USAGE for anything else. */
+FRACAS_MUST_USE fracas_err fracas_arguments_integer(const fracas_arguments *arguments, size_t i,
+                                                    int minimum, int maximum, int *value);
 /* The same for a finite number >= 0, times `scale`. */
-FRACAS_MUST_USE fracas_err fracas_arguments_real(const fracas_arguments *arguments, size_t i, double scale, double *value);
+FRACAS_MUST_USE fracas_err fracas_arguments_real(const fracas_arguments *arguments, size_t i,
+                                                 double scale, double *value);
 /* The same for one of `count` words: *value becomes its place. */
-FRACAS_MUST_USE fracas_err fracas_arguments_word(const fracas_arguments *arguments, size_t i, const char *const *words, size_t count, int *value);
+FRACAS_MUST_USE fracas_err fracas_arguments_word(const fracas_arguments *arguments, size_t i,
+                                                 const char *const *words, size_t count,
+                                                 int *value);
 
-/* The same for a duration in s: a sum of numbers with s, m, h or d (`55m`, `1h30m`), or [days-]hours:minutes:seconds as Slurm writes it. */
-FRACAS_MUST_USE fracas_err fracas_arguments_time(const fracas_arguments *arguments, size_t i, double *seconds);
+/* The same for a duration in s: a sum of numbers with s, m, h or d (`55m`, `1h30m`), or
+ * [days-]hours:minutes:seconds as Slurm writes it. */
+FRACAS_MUST_USE fracas_err fracas_arguments_time(const fracas_arguments *arguments, size_t i,
+                                                 double *seconds);
 
 /* FRACAS_DAMAGED, saying what makes one, where `study` is no folder of a study. */
 FRACAS_MUST_USE fracas_err fracas_cli_check_study(const char *study);
 
 /* Reads STUDY/campaign.yaml; FRACAS_DAMAGED where it is damaged. */
 struct fracas_campaign;
-FRACAS_MUST_USE fracas_err fracas_cli_read_campaign(const char *study, struct fracas_campaign **campaign);
+FRACAS_MUST_USE fracas_err fracas_cli_read_campaign(const char *study,
+                                                    struct fracas_campaign **campaign);
 
-/* The analysis of a study by its campaign, partial or not; the campaign must outlive it. Both are destroyed by the caller. */
+/* The analysis of a study by its campaign, partial or not; the campaign must outlive it. Both are
+ * destroyed by the caller. */
 struct fracas_analysis;
-FRACAS_MUST_USE fracas_err fracas_cli_analyse(const char *study, struct fracas_campaign **campaign, struct fracas_analysis **analysis);
+FRACAS_MUST_USE fracas_err fracas_cli_analyse(const char *study, struct fracas_campaign **campaign,
+                                              struct fracas_analysis **analysis);
 
-/* Prints the result table and writes the report of a study, of what is done of it by now; with `json` prints the statistics as
- * JSON instead of the table. What `fracas run` ends with and `fracas report` does. */
+/* Prints the result table and writes the report of a study, of what is done of it by now; with
+ * `json` prints the statistics as JSON instead of the table. What `fracas run` ends with and
+ * `fracas report` does. */
 FRACAS_MUST_USE fracas_err fracas_cli_report(const char *study, bool json);
 
 #endif

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/cli.h"
 
 #include "analysis/compare/compare.h"
@@ -22,7 +23,8 @@ static fracas_err read_common(const char *study, bool *common)
     return FRACAS_OK;
 }
 
-static fracas_err say(const fracas_arguments *arguments, const fracas_analysis *a, const fracas_analysis *b)
+static fracas_err say(const fracas_arguments *arguments, const fracas_analysis *a,
+                      const fracas_analysis *b)
 {
     bool common_a, common_b;
     TRY(read_common(arguments->operand, &common_a));
@@ -55,8 +57,14 @@ static fracas_err compare(const fracas_arguments *arguments)
 }
 
 const fracas_command fracas_command_compare = {
-    .name = "compare", .operand = "A", .second = "B", .doc = "Says in which numbers two studies differ, and how surely",
-    .more = "\nPoints are matched by their parameters. For each pair: B - A of every mean over realizations with its 95 % interval, and p of\n"
+    .name = "compare",
+    .operand = "A",
+    .second = "B",
+    .doc = "Says in which numbers two studies differ, and how surely",
+    .more = "\nPoints are matched by their parameters. For each pair: B - A of every mean over "
+            "realizations with its 95 % interval, and p of\n"
             "tests that permute whole realizations. The status is 0 whatever they find.\n",
-    .options = options, .noptions = FRACAS_COUNT(options), .run = compare,
+    .options = options,
+    .noptions = FRACAS_COUNT(options),
+    .run = compare,
 };

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/run_options.h"
 
 #include "analysis/converge/converge.h"
@@ -17,7 +18,7 @@
 
 /* Behind those of `fracas run STUDY`, which are handed on to it. */
 enum { STUDY = FRACAS_NSTUDY_RUN_OPTIONS, ONLY, TOLERANCE, JSON, NOPTIONS };
-#define OWN(option) [(option) - FRACAS_NSTUDY_RUN_OPTIONS]
+#define OWN(option) [(option)-FRACAS_NSTUDY_RUN_OPTIONS]
 static const fracas_option options[NOPTIONS - FRACAS_NSTUDY_RUN_OPTIONS] = {
     OWN(STUDY) = {"study", "DIR", "folder of the studies (studies/NAME-converge)"},
     OWN(ONLY) = {"only", "mesh|step|beta", "refine that alone (all three in turn)"},
@@ -28,15 +29,16 @@ static const fracas_option options[NOPTIONS - FRACAS_NSTUDY_RUN_OPTIONS] = {
 enum { NAME = 8, STUDY_PATH = PATH_MAX + NAME };
 
 /* The order of the runs: what is short, first. */
-static const fracas_refinement order[] = {FRACAS_REFINE_NOTHING, FRACAS_REFINE_STEP, FRACAS_REFINE_BETA, FRACAS_REFINE_MESH};
+static const fracas_refinement order[] = {FRACAS_REFINE_NOTHING, FRACAS_REFINE_STEP,
+                                          FRACAS_REFINE_BETA, FRACAS_REFINE_MESH};
 
 typedef struct {
     const fracas_arguments *arguments;
     char folder[PATH_MAX];
     char study[FRACAS_NREFINEMENTS][STUDY_PATH]; /* FOLDER/mesh */
     fracas_refined refined[FRACAS_NREFINEMENTS]; /* campaign NULL: not asked for, or it cannot be */
-    double began, walltime; /* s */
-    fracas_err end;         /* FRACAS_SOME_FAILED if some realization of some study did */
+    double began, walltime;                      /* s */
+    fracas_err end; /* FRACAS_SOME_FAILED if some realization of some study did */
     char failure[1024];
 } converging;
 
@@ -50,8 +52,9 @@ static const fracas_refined *base_of(const converging *c)
 static fracas_err check_rank(void)
 {
     if (fracas_run_is_rank())
-        return fracas_fail(FRACAS_USAGE, "converge: it starts several runs, each with an mpirun of its own: give it --jobs N instead of starting it by "
-                           "mpirun or srun");
+        return fracas_fail(FRACAS_USAGE,
+                           "converge: it starts several runs, each with an mpirun of its own: give "
+                           "it --jobs N instead of starting it by mpirun or srun");
     return FRACAS_OK;
 }
 
@@ -59,18 +62,22 @@ static fracas_err find_folder(converging *c)
 {
     const char *given = c->arguments->value[STUDY];
     fracas_campaign *campaign;
-    if (given && !*given) return fracas_fail(FRACAS_USAGE, "--study is empty; name a folder, or leave it out");
+    if (given && !*given)
+        return fracas_fail(FRACAS_USAGE, "--study is empty; name a folder, or leave it out");
     TRY(fracas_campaign_read(c->arguments->operand, &campaign));
     const int n = given ? snprintf(c->folder, sizeof c->folder, "%s", given)
-                        : snprintf(c->folder, sizeof c->folder, "studies/%s-converge", campaign->name);
+                        : snprintf(c->folder, sizeof c->folder, "studies/%s-converge",
+                                   campaign->name);
     fracas_campaign_destroy(campaign);
-    if (n >= (int)sizeof c->folder) return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s", given);
+    if (n >= (int)sizeof c->folder)
+        return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s", given);
     for (size_t r = 0; r < FRACAS_NREFINEMENTS; r++)
         snprintf(c->study[r], sizeof c->study[r], "%s/%s", c->folder, fracas_refinement_name[r]);
     return FRACAS_OK;
 }
 
-/* True if the study is of the same points as the campaign of `file`, with more replicas: *replicas of them, the most that a point has. */
+/* True if the study is of the same points as the campaign of `file`, with more replicas: *replicas
+ * of them, the most that a point has. */
 static bool has_more(const char *study, const char *file, fracas_refinement what, int64_t *replicas)
 {
     char path[STUDY_PATH + 2 * NAME];
@@ -82,43 +89,54 @@ static bool has_more(const char *study, const char *file, fracas_refinement what
     for (size_t p = 0; p < there->npoints; p++)
         if (there->point[p].replicas > *replicas) *replicas = there->point[p].replicas;
     fracas_campaign_destroy(there);
-    const bool fits = !fracas_refined_create(file, *replicas, what, &refined) && refined.campaign && !fracas_study_fits(study, refined.campaign);
+    const bool fits = !fracas_refined_create(file, *replicas, what, &refined) && refined.campaign &&
+                      !fracas_study_fits(study, refined.campaign);
     fracas_refined_clear(&refined);
     return fits;
 }
 
-/* An error with the replicas to ask for, where these are all that is amiss; the most of all studies, so that none asks for more afterwards. */
+/* An error with the replicas to ask for, where these are all that is amiss; the most of all
+ * studies, so that none asks for more afterwards. */
 static fracas_err check_study(const converging *c, fracas_refinement what)
 {
     int64_t replicas, most = 0;
     fracas_err err = fracas_study_fits(c->study[what], c->refined[what].campaign);
     if (!err) return FRACAS_OK;
-    if (!has_more(c->study[what], c->arguments->operand, what, &replicas)) return fracas_study_fits(c->study[what], c->refined[what].campaign);
+    if (!has_more(c->study[what], c->arguments->operand, what, &replicas))
+        return fracas_study_fits(c->study[what], c->refined[what].campaign);
     for (fracas_refinement r = 0; r < FRACAS_NREFINEMENTS; r++)
-        if (has_more(c->study[r], c->arguments->operand, r, &replicas) && replicas > most) most = replicas;
-    return fracas_fail(err, "%s has %" PRId64 " replicas of each point already: give --replicas %" PRId64 " or more (or another --study)", c->folder, most, most);
+        if (has_more(c->study[r], c->arguments->operand, r, &replicas) && replicas > most)
+            most = replicas;
+    return fracas_fail(err,
+                       "%s has %" PRId64 " replicas of each point already: give --replicas %" PRId64
+                       " or more (or another --study)",
+                       c->folder, most, most);
 }
 
-/* Every campaign, and whether its study, if it is there, is one of it: before anything is written. */
+/* Every campaign, and whether its study, if it is there, is one of it: before anything is written.
+ */
 static fracas_err make_campaigns(converging *c)
 {
     int replicas = 0, only = -1;
-    TRY(fracas_arguments_integer(c->arguments, fracas_cli_run_option("replicas"), 1, INT_MAX, &replicas));
-    TRY(fracas_arguments_word(c->arguments, ONLY, fracas_refinement_name + 1, FRACAS_NREFINEMENTS - 1, &only));
+    TRY(fracas_arguments_integer(c->arguments, fracas_cli_run_option("replicas"), 1, INT_MAX,
+                                 &replicas));
+    TRY(fracas_arguments_word(c->arguments, ONLY, fracas_refinement_name + 1,
+                              FRACAS_NREFINEMENTS - 1, &only));
     bool any = false;
     for (size_t r = 0; r < FRACAS_NREFINEMENTS; r++) {
         if (r != FRACAS_REFINE_NOTHING && only >= 0 && (size_t)only + 1 != r) continue;
         fracas_refined *refined = &c->refined[r];
         TRY(fracas_refined_create(c->arguments->operand, replicas, (fracas_refinement)r, refined));
         if (refined->left > 0)
-            fprintf(stderr, "fracas: %s: %zu point%s left out: %s\n", fracas_refinement_name[r], refined->left, refined->left == 1 ? " is" : "s are",
-                    refined->why);
+            fprintf(stderr, "fracas: %s: %zu point%s left out: %s\n", fracas_refinement_name[r],
+                    refined->left, refined->left == 1 ? " is" : "s are", refined->why);
         if (!refined->campaign) continue;
         any = any || r != FRACAS_REFINE_NOTHING;
         TRY(check_study(c, (fracas_refinement)r));
     }
     if (any) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "%s: nothing of it can be refined (above: why)", c->arguments->operand);
+    return fracas_fail(FRACAS_USAGE, "%s: nothing of it can be refined (above: why)",
+                       c->arguments->operand);
 }
 
 /* Predicted seconds of the campaign as it is, at most. */
@@ -128,7 +146,8 @@ static fracas_err predict(const converging *c, double *time)
     fracas_run_options run;
     int jobs;
     fracas_run_options_init(&run);
-    TRY(fracas_arguments_integer(c->arguments, fracas_cli_run_option("jobs"), 1, INT_MAX, &run.jobs));
+    TRY(fracas_arguments_integer(c->arguments, fracas_cli_run_option("jobs"), 1, INT_MAX,
+                                 &run.jobs));
     TRY(fracas_allocation_jobs(run.jobs, &jobs));
     fracas_forecast *forecast = calloc(campaign->npoints, sizeof *forecast);
     if (!forecast) return fracas_no_memory("the plan");
@@ -168,8 +187,10 @@ static fracas_err say_costs(const converging *c)
         const double factor = cost_of(refined) / cost_of(base_of(c)), time = factor * base;
         total += time;
         write_duration(time, text);
-        fprintf(stderr, "fracas:   %s  %-25s %4zu point%s  %6.3g times the work  %8s\n", fracas_refinement_name[order[i]],
-                fracas_refinement_doc[order[i]], refined->campaign->npoints, refined->campaign->npoints == 1 ? " " : "s", factor, text);
+        fprintf(stderr, "fracas:   %s  %-25s %4zu point%s  %6.3g times the work  %8s\n",
+                fracas_refinement_name[order[i]], fracas_refinement_doc[order[i]],
+                refined->campaign->npoints, refined->campaign->npoints == 1 ? " " : "s", factor,
+                text);
     }
     write_duration(total, text);
     fprintf(stderr, "fracas:   together %s\n", text);
@@ -196,14 +217,18 @@ static fracas_err run_study(converging *c, fracas_refinement what)
     TRY(fracas_campaign_keep(c->refined[what].campaign, c->folder, name));
     if (c->walltime > 0) {
         const double rest = c->walltime - (fracas_now() - c->began);
-        if (rest < 0.1) return fracas_fail(FRACAS_INTERRUPTED, "the walltime is over: what was done is kept; the same command goes on from there");
+        if (rest < 0.1)
+            return fracas_fail(
+                FRACAS_INTERRUPTED,
+                "the walltime is over: what was done is kept; the same command goes on from there");
         snprintf(left, sizeof left, "%.3fs", rest);
         given.value[fracas_cli_run_option("walltime")] = left;
     }
     given.value[fracas_cli_run_option("replicas")] = NULL; /* the file has them */
     fprintf(stderr, "fracas: %s, %s\n", fracas_refinement_name[what], fracas_refinement_doc[what]);
     fracas_err end = fracas_cli_run_as(&given, file, c->study[what], run_one);
-    if (end != FRACAS_SOME_FAILED) return end ? fracas_fail_within(end, "%s", c->study[what]) : FRACAS_OK;
+    if (end != FRACAS_SOME_FAILED)
+        return end ? fracas_fail_within(end, "%s", c->study[what]) : FRACAS_OK;
     c->end = end;
     snprintf(c->failure, sizeof c->failure, "%s: %s", c->study[what], fracas_message());
     return FRACAS_OK;
@@ -211,7 +236,8 @@ static fracas_err run_study(converging *c, fracas_refinement what)
 
 /* ---- what came of it ---- */
 
-static fracas_err add_refinement(const converging *c, fracas_refinement what, fracas_convergence *convergence)
+static fracas_err add_refinement(const converging *c, fracas_refinement what,
+                                 fracas_convergence *convergence)
 {
     const fracas_refined *refined = &c->refined[what], *base = base_of(c);
     const size_t npoints = refined->campaign->npoints;
@@ -221,7 +247,12 @@ static fracas_err add_refinement(const converging *c, fracas_refinement what, fr
         before[p] = base->campaign->point[refined->from[p]].hash;
         after[p] = refined->campaign->point[p].hash;
     }
-    const fracas_refinement_map map = {fracas_refinement_name[what], fracas_refinement_doc[what], what != FRACAS_REFINE_MESH, npoints, before, after};
+    const fracas_refinement_map map = {fracas_refinement_name[what],
+                                       fracas_refinement_doc[what],
+                                       what != FRACAS_REFINE_MESH,
+                                       npoints,
+                                       before,
+                                       after};
     if (!err) err = fracas_convergence_add(convergence, c->study[what], &map);
     free(before);
     free(after);
@@ -233,19 +264,23 @@ static fracas_err compare_with(const converging *c, fracas_convergence *converge
     for (fracas_refinement r = FRACAS_REFINE_MESH; r < FRACAS_NREFINEMENTS; r++) {
         const fracas_refined *refined = &c->refined[r];
         if (refined->campaign) TRY(add_refinement(c, r, convergence));
-        if (refined->left > 0) fracas_convergence_leave(convergence, fracas_refinement_name[r], refined->left, refined->why);
+        if (refined->left > 0)
+            fracas_convergence_leave(convergence, fracas_refinement_name[r], refined->left,
+                                     refined->why);
     }
     TRY(fracas_convergence_judge(convergence));
     TRY(fracas_convergence_write_csv(convergence, c->folder));
     const char *slash = strrchr(c->folder, '/');
-    TRY(fracas_convergence_write_page(convergence, c->folder, slash && slash[1] ? slash + 1 : c->folder));
+    TRY(fracas_convergence_write_page(convergence, c->folder,
+                                      slash && slash[1] ? slash + 1 : c->folder));
     if (c->arguments->value[JSON]) {
         fracas_convergence_write_json(convergence, stdout);
         return FRACAS_OK;
     }
     TRY(fracas_convergence_print(convergence, stdout));
-    printf("report: %s/report/index.html; all digits: %s/converge.csv; a study's own report: fracas report %s\n", c->folder, c->folder,
-           c->study[FRACAS_REFINE_NOTHING]);
+    printf("report: %s/report/index.html; all digits: %s/converge.csv; a study's own report: "
+           "fracas report %s\n",
+           c->folder, c->folder, c->study[FRACAS_REFINE_NOTHING]);
     return FRACAS_OK;
 }
 
@@ -263,7 +298,10 @@ static fracas_err converge_with(converging *c)
     double tolerance = 0.02;
     TRY(check_rank());
     TRY(fracas_arguments_real(c->arguments, TOLERANCE, 0.01, &tolerance));
-    if (tolerance <= 0) return fracas_fail(FRACAS_USAGE, "converge: --tolerance is 0; a number never is the same: give a per cent above 0");
+    if (tolerance <= 0)
+        return fracas_fail(
+            FRACAS_USAGE,
+            "converge: --tolerance is 0; a number never is the same: give a per cent above 0");
     TRY(fracas_arguments_time(c->arguments, fracas_cli_run_option("walltime"), &c->walltime));
     TRY(find_folder(c));
     TRY(make_campaigns(c));
@@ -287,16 +325,29 @@ static fracas_err converge(const fracas_arguments *arguments)
 }
 
 static const fracas_refusal refused[] = {
-    {"part", "is of one study; here there are several, which are compared when all of them are complete: leave it out"},
+    {"part", "is of one study; here there are several, which are compared when all of them are "
+             "complete: leave it out"},
 };
 
 const fracas_command fracas_command_converge = {
-    .name = "converge", .operand = "FILE", .doc = "Runs FILE with mesh, step and beta refined in turn, and says which numbers move",
-    .more = "\nThe campaign of FILE as it is, with half the time step, with interfaces twice as stiff, and on a mesh of half the size is computed, each as\n"
-            "a study in DIR; then every headline number is compared with what it is without: a table, and figures on the page DIR/report/index.html.\n"
-            "It ends with 0 whatever moved. The same command goes on with what was interrupted, prints the result of what is complete, and extends\n"
-            "all studies by more --replicas. FILE itself is run anew, as a study of its own: the same strengths in all studies, of which those of step\n"
-            "and beta make pairs. Strengths that scatter much and have no reference volume belong to interfaces: mesh moves with their number.\n",
-    .options = FRACAS_STUDY_RUN_OPTIONS, .noptions = FRACAS_NSTUDY_RUN_OPTIONS, .own = options, .nown = FRACAS_COUNT(options),
-    .refused = refused, .nrefused = FRACAS_COUNT(refused), .run = converge,
+    .name = "converge",
+    .operand = "FILE",
+    .doc = "Runs FILE with mesh, step and beta refined in turn, and says which numbers move",
+    .more = "\nThe campaign of FILE as it is, with half the time step, with interfaces twice as "
+            "stiff, and on a mesh of half the size is computed, each as\n"
+            "a study in DIR; then every headline number is compared with what it is without: a "
+            "table, and figures on the page DIR/report/index.html.\n"
+            "It ends with 0 whatever moved. The same command goes on with what was interrupted, "
+            "prints the result of what is complete, and extends\n"
+            "all studies by more --replicas. FILE itself is run anew, as a study of its own: the "
+            "same strengths in all studies, of which those of step\n"
+            "and beta make pairs. Strengths that scatter much and have no reference volume belong "
+            "to interfaces: mesh moves with their number.\n",
+    .options = FRACAS_STUDY_RUN_OPTIONS,
+    .noptions = FRACAS_NSTUDY_RUN_OPTIONS,
+    .own = options,
+    .nown = FRACAS_COUNT(options),
+    .refused = refused,
+    .nrefused = FRACAS_COUNT(refused),
+    .run = converge,
 };

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/cli.h"
 
 #include "base/units.h"
@@ -6,7 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* `pair`: which of the two pairs of keys that say the same the key belongs to, 0 if there are none. */
+/* `pair`: which of the two pairs of keys that say the same the key belongs to, 0 if there are none.
+ */
 static void print_param(const fracas_param *param, size_t pair)
 {
     char name[80], fallback[FRACAS_NUMBER_TEXT] = "";
@@ -19,10 +21,12 @@ static void print_param(const fracas_param *param, size_t pair)
     snprintf(name, sizeof name, "%s%s%s%s", param->name, *unit ? " [" : "", unit, *unit ? "]" : "");
     printf("    %-26s %-9s %s\n", name, given, param->doc);
     for (size_t c = 0; c < param->nchoices; c++)
-        printf("    %-26s %-9s   %s: %s\n", "", "", param->choices[c]->name, param->choices[c]->doc);
+        printf("    %-26s %-9s   %s: %s\n", "", "", param->choices[c]->name,
+               param->choices[c]->doc);
 }
 
-/* Keys of a distribution without a default are four, two of its own and then two in their place, or none. */
+/* Keys of a distribution without a default are four, two of its own and then two in their place, or
+ * none. */
 static void print_kind(const fracas_kind *kind)
 {
     size_t optional = 0, before = 0;
@@ -52,8 +56,10 @@ static fracas_err distributions(const fracas_arguments *arguments)
 }
 
 const fracas_command fracas_command_distributions = {
-    .name = "distributions", .doc = "Lists the distributions of strengths, with their keys",
-    .more = "\nWhat the section `strength` of a campaign file can say: each distribution, its keys with their SI units and defaults, and the\n"
+    .name = "distributions",
+    .doc = "Lists the distributions of strengths, with their keys",
+    .more = "\nWhat the section `strength` of a campaign file can say: each distribution, its keys "
+            "with their SI units and defaults, and the\n"
             "keys that go with all of them.\n",
     .run = distributions,
 };

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/cli.h"
 
 #include "analysis/analysis.h"
@@ -10,7 +11,8 @@
 enum { TO, HISTORIES };
 static const fracas_option options[] = {
     [TO] = {"to", "DIR", "where to (STUDY/export)"},
-    [HISTORIES] = {"histories", NULL, "energies over time of every realization, too: histories.csv"},
+    [HISTORIES] = {"histories", NULL,
+                   "energies over time of every realization, too: histories.csv"},
 };
 
 static fracas_err write_tables(const fracas_arguments *arguments, const char *folder)
@@ -18,7 +20,8 @@ static fracas_err write_tables(const fracas_arguments *arguments, const char *fo
     fracas_campaign *campaign;
     fracas_analysis *analysis;
     TRY(fracas_cli_analyse(arguments->operand, &campaign, &analysis));
-    const fracas_err err = fracas_export_write(analysis, folder, arguments->value[HISTORIES] != NULL);
+    const fracas_err err = fracas_export_write(analysis, folder,
+                                               arguments->value[HISTORIES] != NULL);
     fracas_analysis_destroy(analysis);
     fracas_campaign_destroy(campaign);
     if (!err) printf("export: %s/datapackage.json\n", folder);
@@ -37,8 +40,15 @@ static fracas_err export(const fracas_arguments *arguments)
 }
 
 const fracas_command fracas_command_export = {
-    .name = "export", .operand = "STUDY", .doc = "Writes the tables of STUDY as a Frictionless Data Package",
-    .more = "\npoints.csv (parameters and statistics), realizations.csv, fragments.csv, statistics.csv (a line a number, with its unit),\n"
-            "energies.csv and convergence.csv (over time, and with the replicas), and datapackage.json, which says of every column what it is: type, unit, meaning. For pandas, R, or a data repository.\n",
-    .options = options, .noptions = FRACAS_COUNT(options), .run = export,
+    .name = "export",
+    .operand = "STUDY",
+    .doc = "Writes the tables of STUDY as a Frictionless Data Package",
+    .more = "\npoints.csv (parameters and statistics), realizations.csv, fragments.csv, "
+            "statistics.csv (a line a number, with its unit),\n"
+            "energies.csv and convergence.csv (over time, and with the replicas), and "
+            "datapackage.json, which says of every column what it is: type, unit, meaning. For "
+            "pandas, R, or a data repository.\n",
+    .options = options,
+    .noptions = FRACAS_COUNT(options),
+    .run = export,
 };

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/cli.h"
 
 #include "analysis/analysis.h"
@@ -12,14 +13,16 @@
 
 enum { POINT, RESAMPLES, JSON };
 static const fracas_option options[] = {
-    [POINT] = {"point", "P", "fit the point of this number alone, from 0, and keep the fits of the others", 0},
+    [POINT] = {"point", "P",
+               "fit the point of this number alone, from 0, and keep the fits of the others", 0},
     [RESAMPLES] = {"resamples", "B", "resamples of intervals and p-values, 99 to 100000 (999)", 0},
     [JSON] = {"json", NULL, "print the fits as JSON", 0},
 };
 
-/* What the file has of the other points as the analysis sees them; NULL if there is no file. Before anything is computed: what cannot be
- * read is said at once. */
-static fracas_err read_others(const char *study, const fracas_analysis *analysis, bool wanted, fracas_fits **older)
+/* What the file has of the other points as the analysis sees them; NULL if there is no file. Before
+ * anything is computed: what cannot be read is said at once. */
+static fracas_err read_others(const char *study, const fracas_analysis *analysis, bool wanted,
+                              fracas_fits **older)
 {
     size_t stale;
     *older = NULL;
@@ -29,7 +32,8 @@ static fracas_err read_others(const char *study, const fracas_analysis *analysis
     return FRACAS_OK;
 }
 
-static fracas_err fit_study(const fracas_arguments *arguments, const fracas_analysis *analysis, size_t point, int resamples)
+static fracas_err fit_study(const fracas_arguments *arguments, const fracas_analysis *analysis,
+                            size_t point, int resamples)
 {
     const char *study = arguments->operand;
     const bool json = arguments->value[JSON] != NULL;
@@ -39,7 +43,9 @@ static fracas_err fit_study(const fracas_arguments *arguments, const fracas_anal
     if (!code) {
         const size_t made = fits->n; /* rows: what is shown, of all that is kept */
         if (older) code = fracas_fits_complete(fits, older);
-        if (!code) code = fracas_fits_write(fits, study); /* before anything is printed: who reads it may go away */
+        if (!code)
+            code = fracas_fits_write(
+                fits, study); /* before anything is printed: who reads it may go away */
         fits->n = made;
         if (json) fracas_fits_write_json(fits, stdout);
         else fracas_fits_print(fits, analysis, stdout);
@@ -57,19 +63,29 @@ static fracas_err fit(const fracas_arguments *arguments)
     fracas_analysis *analysis;
     TRY(fracas_arguments_integer(arguments, POINT, 0, INT_MAX, &point));
     TRY(fracas_arguments_integer(arguments, RESAMPLES, 99, 100000, &resamples));
-    if (access(arguments->operand, W_OK) && errno != ENOENT) /* minutes of computing would be lost */
-        return fracas_fail_system(errno, "fit: %s/" FRACAS_FITS_FILE " could not be written; make the folder writable, or fit a copy of the study",
-                                  arguments->operand);
+    if (access(arguments->operand, W_OK) &&
+        errno != ENOENT) /* minutes of computing would be lost */
+        return fracas_fail_system(
+            errno,
+            "fit: %s/" FRACAS_FITS_FILE
+            " could not be written; make the folder writable, or fit a copy of the study",
+            arguments->operand);
     TRY(fracas_cli_analyse(arguments->operand, &campaign, &analysis));
-    fracas_err code = fit_study(arguments, analysis, point < 0 ? SIZE_MAX : (size_t)point, resamples);
+    fracas_err code = fit_study(arguments, analysis, point < 0 ? SIZE_MAX : (size_t)point,
+                                resamples);
     fracas_analysis_destroy(analysis);
     fracas_campaign_destroy(campaign);
     return code;
 }
 
 const fracas_command fracas_command_fit = {
-    .name = "fit", .operand = "STUDY", .doc = "Fits families of distributions to the fragment sizes of every point",
-    .more = "\nBy maximum likelihood, with intervals and p-values that resample realizations: half a minute or so for a point. They are kept in\n"
+    .name = "fit",
+    .operand = "STUDY",
+    .doc = "Fits families of distributions to the fragment sizes of every point",
+    .more = "\nBy maximum likelihood, with intervals and p-values that resample realizations: half "
+            "a minute or so for a point. They are kept in\n"
             "STUDY/fits.csv, for the report.\n",
-    .options = options, .noptions = FRACAS_COUNT(options), .run = fit,
+    .options = options,
+    .noptions = FRACAS_COUNT(options),
+    .run = fit,
 };

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/cli.h"
 
 #include "base/json.h"
@@ -23,8 +24,11 @@ static void print_item(void *context, const fracas_collected *item)
 {
     const printing *p = context;
     if (!p->json) {
-        printf("%s %s (%" PRIu64 " bytes): %s\n", !item->removed ? "left" : p->dry ? "would free" : "freed", item->path, item->bytes,
-               item->why);
+        printf("%s %s (%" PRIu64 " bytes): %s\n",
+               !item->removed ? "left"
+               : p->dry       ? "would free"
+                              : "freed",
+               item->path, item->bytes, item->why);
         return;
     }
     fracas_json_object(p->json, NULL);
@@ -35,7 +39,8 @@ static void print_item(void *context, const fracas_collected *item)
     fracas_json_close_object(p->json);
 }
 
-static fracas_err collect(const char *study, const fracas_campaign *campaign, bool dry, bool with_json)
+static fracas_err collect(const char *study, const fracas_campaign *campaign, bool dry,
+                          bool with_json)
 {
     fracas_json json;
     uint64_t freed = 0;
@@ -63,14 +68,21 @@ static fracas_err gc(const fracas_arguments *arguments)
 {
     fracas_campaign *campaign;
     TRY(fracas_cli_read_campaign(arguments->operand, &campaign));
-    fracas_err code = collect(arguments->operand, campaign, arguments->value[DRY_RUN], arguments->value[JSON]);
+    fracas_err code = collect(arguments->operand, campaign, arguments->value[DRY_RUN],
+                              arguments->value[JSON]);
     fracas_campaign_destroy(campaign);
     return code;
 }
 
 const fracas_command fracas_command_gc = {
-    .name = "gc", .operand = "STUDY", .doc = "Removes from STUDY what nobody needs",
-    .more = "\nHalf-written files, segments whose realizations another segment has, damaged ones that were set aside, what interrupted\n"
-            "commands left behind, attachments that campaign.yaml does not name; and gives free pages of the index back. What it does not know it lists and leaves.\n",
-    .options = options, .noptions = FRACAS_COUNT(options), .run = gc,
+    .name = "gc",
+    .operand = "STUDY",
+    .doc = "Removes from STUDY what nobody needs",
+    .more = "\nHalf-written files, segments whose realizations another segment has, damaged ones "
+            "that were set aside, what interrupted\n"
+            "commands left behind, attachments that campaign.yaml does not name; and gives free "
+            "pages of the index back. What it does not know it lists and leaves.\n",
+    .options = options,
+    .noptions = FRACAS_COUNT(options),
+    .run = gc,
 };

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/job.h"
 
 #include "base/hash.h"
@@ -13,8 +14,10 @@ static fracas_err check(const char *what, const char *value, bool quotes)
     if (!value) return FRACAS_OK;
     for (const char *c = value; *c; c++)
         if ((unsigned char)*c < ' ' || (quotes && strchr("\"\\", *c)))
-            return fracas_fail(FRACAS_USAGE, "submit: %s is `%s`, which cannot stand in a batch script: it may have no line breaks%s", what,
-                               value, quotes ? ", quotes or backslashes" : "");
+            return fracas_fail(FRACAS_USAGE,
+                               "submit: %s is `%s`, which cannot stand in a batch script: it may "
+                               "have no line breaks%s",
+                               what, value, quotes ? ", quotes or backslashes" : "");
     return FRACAS_OK;
 }
 
@@ -26,7 +29,9 @@ fracas_err fracas_job_check(const fracas_job *job)
     for (int i = 0; i < job->nmore; i++) {
         TRY(check("an option of sbatch", job->more[i], true));
         if (i == 0 && job->more[i][0] != '-')
-            return fracas_fail(FRACAS_USAGE, "submit: `%s` after `--` is no option of sbatch: these begin with -", job->more[i]);
+            return fracas_fail(FRACAS_USAGE,
+                               "submit: `%s` after `--` is no option of sbatch: these begin with -",
+                               job->more[i]);
     }
     return FRACAS_OK;
 }
@@ -46,7 +51,8 @@ static void write_options(const fracas_job *job, FILE *out)
     if (job->tasks) fprintf(out, "#SBATCH --ntasks-per-node=%d\n", job->tasks);
     else fputs("#SBATCH --exclusive\n", out);
     fprintf(out, "#SBATCH --time=%ld:%02ld:00\n", minutes / 60, minutes % 60);
-    fprintf(out, "#SBATCH --signal=B:USR1@%d\n#SBATCH --requeue\n#SBATCH --open-mode=append\n", job->lead);
+    fprintf(out, "#SBATCH --signal=B:USR1@%d\n#SBATCH --requeue\n#SBATCH --open-mode=append\n",
+            job->lead);
     fprintf(out, "#SBATCH --output=\"%s\"\n", job->output);
     if (job->partition) fprintf(out, "#SBATCH --partition=\"%s\"\n", job->partition);
     if (job->account) fprintf(out, "#SBATCH --account=\"%s\"\n", job->account);
@@ -77,8 +83,10 @@ static void write_settings(const fracas_job *job, FILE *out)
 
 /* What is the same in all scripts. */
 static const char *const body[] = {
-    "\n[ -n \"$SLURM_JOB_ID\" ] || { echo \"fracas: this is a batch script: sbatch $0\" >&2; exit 2; }\n"
-    "echo \"fracas: job $SLURM_JOB_ID on $SLURM_JOB_NODELIST, start $((${SLURM_RESTART_COUNT:-0} + 1)), $(date)\" >&2\n",
+    "\n[ -n \"$SLURM_JOB_ID\" ] || { echo \"fracas: this is a batch script: sbatch $0\" >&2; exit "
+    "2; }\n"
+    "echo \"fracas: job $SLURM_JOB_ID on $SLURM_JOB_NODELIST, start $((${SLURM_RESTART_COUNT:-0} + "
+    "1)), $(date)\" >&2\n",
 
     "\n# Seconds until Slurm ends the job.\n"
     "left() {\n"
@@ -95,9 +103,11 @@ static const char *const body[] = {
     "}\n",
 
     "\n# Realizations that are done.\n"
-    "count() { \"$program\" status \"$study\" --json 2>/dev/null | sed -n 's/.*\"done\": *\\([0-9]*\\).*/\\1/p' | head -n 1; }\n",
+    "count() { \"$program\" status \"$study\" --json 2>/dev/null | sed -n 's/.*\"done\": "
+    "*\\([0-9]*\\).*/\\1/p' | head -n 1; }\n",
 
-    "\n# Slurm signals this shell, which has the run drain: USR1 before the time is over or the job preempted, TERM when it is ended.\n"
+    "\n# Slurm signals this shell, which has the run drain: USR1 before the time is over or the "
+    "job preempted, TERM when it is ended.\n"
     "heard=0 pid=\n"
     "drain() { heard=$((heard + 1)); [ -z \"$pid\" ] || kill -USR1 \"$pid\" 2>/dev/null; }\n"
     "trap drain USR1 TERM\n",
@@ -114,7 +124,8 @@ static const char *const body[] = {
     "    pid=$!\n"
     "    [ \"$heard\" -eq 0 ] || kill -USR1 \"$pid\"\n"
     "    seen=-1 status=255\n"
-    "    while [ \"$status\" -gt 128 ] && [ \"$seen\" -ne \"$heard\" ]; do # a wait that a signal cut short\n"
+    "    while [ \"$status\" -gt 128 ] && [ \"$seen\" -ne \"$heard\" ]; do # a wait that a signal "
+    "cut short\n"
     "        seen=$heard\n"
     "        wait \"$pid\"\n"
     "        status=$?\n"
@@ -129,18 +140,23 @@ static const char *const body[] = {
     "\n[ \"$status\" -eq 3 ] || exit \"$status\"\n"
     "state=$(squeue -h -j \"$SLURM_JOB_ID\" -o %T 2>/dev/null)\n"
     "case $state in\n"
-    "COMPLETING | CANCELLED | '') echo 'fracas: Slurm has ended this job: it comes again only where Slurm queues it again' >&2; exit 3 ;;\n"
+    "COMPLETING | CANCELLED | '') echo 'fracas: Slurm has ended this job: it comes again only "
+    "where Slurm queues it again' >&2; exit 3 ;;\n"
     "esac\n"
     "if [ \"$SECONDS\" -gt $((time / 2)) ] && [ \"$(count)\" = \"$before\" ]; then\n"
-    "    echo \"fracas: nothing was finished in $SECONDS s: give the job more time; it is not queued again\" >&2\n"
+    "    echo \"fracas: nothing was finished in $SECONDS s: give the job more time; it is not "
+    "queued again\" >&2\n"
     "    exit 3\n"
     "fi\n"
-    "# Never status 0 here: a job that is being preempted would count as completed, and would not come again.\n"
-    "scontrol requeue \"$SLURM_JOB_ID\" || echo \"fracas: the job could not be queued again; by hand: sbatch $script\" >&2\n"
+    "# Never status 0 here: a job that is being preempted would count as completed, and would not "
+    "come again.\n"
+    "scontrol requeue \"$SLURM_JOB_ID\" || echo \"fracas: the job could not be queued again; by "
+    "hand: sbatch $script\" >&2\n"
     "exit 3\n",
 };
 
-static const char seal[] = "# Checksum of the lines above, by which `fracas submit` knows its own script: ";
+static const char seal[] =
+    "# Checksum of the lines above, by which `fracas submit` knows its own script: ";
 
 fracas_err fracas_job_write(const fracas_job *job, FILE *out)
 {

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* fracas: the program. Its subcommands are one file each; what they share is cli.h. */
 #include "cli/cli.h"
 
@@ -11,39 +12,47 @@
 #include <unistd.h>
 
 static const fracas_command *const commands[] = {
-    &fracas_command_run,    &fracas_command_plan,   &fracas_command_status,
-    &fracas_command_report, &fracas_command_fit, &fracas_command_export, &fracas_command_compare,
-    &fracas_command_picture, &fracas_command_verify, &fracas_command_sample,
-    &fracas_command_distributions, &fracas_command_reference,
-    &fracas_command_extend, &fracas_command_retry, &fracas_command_merge, &fracas_command_merge_studies, &fracas_command_reindex,
-    &fracas_command_gc, &fracas_command_submit, &fracas_command_converge, &fracas_command_bench,
+    &fracas_command_run,           &fracas_command_plan,          &fracas_command_status,
+    &fracas_command_report,        &fracas_command_fit,           &fracas_command_export,
+    &fracas_command_compare,       &fracas_command_picture,       &fracas_command_verify,
+    &fracas_command_sample,        &fracas_command_distributions, &fracas_command_reference,
+    &fracas_command_extend,        &fracas_command_retry,         &fracas_command_merge,
+    &fracas_command_merge_studies, &fracas_command_reindex,       &fracas_command_gc,
+    &fracas_command_submit,        &fracas_command_converge,      &fracas_command_bench,
 };
 enum { NCOMMANDS = sizeof commands / sizeof *commands };
 
 static void print_usage(FILE *out)
 {
-    fputs("fracas " FRACAS_VERSION ": from a campaign file to a report of fragment statistics\n\nusage:\n", out);
+    fputs("fracas " FRACAS_VERSION
+          ": from a campaign file to a report of fragment statistics\n\nusage:\n",
+          out);
     for (size_t i = 0; i < NCOMMANDS; i++) {
         char call[40];
-        const char *operand = commands[i]->operand ? commands[i]->operand : "", *second = commands[i]->second ? commands[i]->second : "";
+        const char *operand = commands[i]->operand ? commands[i]->operand : "",
+                   *second = commands[i]->second ? commands[i]->second : "";
         snprintf(call, sizeof call, "%s %s %s", commands[i]->name, operand, second);
         fprintf(out, "  fracas %-17s %s\n", call, commands[i]->doc);
     }
     fputs("  fracas help COMMAND      what COMMAND does, and its options\n"
-          "  fracas --version         the version\n", out);
+          "  fracas --version         the version\n",
+          out);
 }
 
 static void print_help(const fracas_command *command)
 {
     const size_t noptions = fracas_command_noptions(command);
-    printf("usage: fracas %s%s%s%s%s%s\n\n%s.\n%s", command->name, command->operand ? " " : "", command->operand ? command->operand : "",
-           command->second ? " " : "", command->second ? command->second : "", noptions ? " [options]" : "", command->doc, command->more);
+    printf("usage: fracas %s%s%s%s%s%s\n\n%s.\n%s", command->name, command->operand ? " " : "",
+           command->operand ? command->operand : "", command->second ? " " : "",
+           command->second ? command->second : "", noptions ? " [options]" : "", command->doc,
+           command->more);
     if (noptions) puts("\noptions:");
     for (size_t i = 0; i < noptions; i++) {
         const fracas_option *option = fracas_command_option(command, i);
         char call[40];
         if (fracas_command_refusal(command, i)) continue;
-        snprintf(call, sizeof call, "--%s %s", option->name, option->argument ? option->argument : "");
+        snprintf(call, sizeof call, "--%s %s", option->name,
+                 option->argument ? option->argument : "");
         printf("  %-28s %s\n", call, option->doc);
     }
 }
@@ -59,7 +68,8 @@ static fracas_err find_command(const char *name, const fracas_command **command)
     }
     fracas_words_add(&words, "help");
     char hint[600];
-    return fracas_fail(FRACAS_USAGE, "unknown command `%s`%s", name, fracas_words_hint(&words, "there are", hint));
+    return fracas_fail(FRACAS_USAGE, "unknown command `%s`%s", name,
+                       fracas_words_hint(&words, "there are", hint));
 }
 
 static fracas_err run_command(int argc, char **argv)
@@ -91,7 +101,8 @@ static fracas_err dispatch(int argc, char **argv)
         print_usage(stderr);
         return fracas_fail(FRACAS_USAGE, "no command given");
     }
-    if (!strcmp(argv[1], "help") || !strcmp(argv[1], "--help") || !strcmp(argv[1], "-h")) return help(argc, argv);
+    if (!strcmp(argv[1], "help") || !strcmp(argv[1], "--help") || !strcmp(argv[1], "-h"))
+        return help(argc, argv);
     if (!strcmp(argv[1], "--version")) {
         puts("fracas " FRACAS_VERSION);
         return FRACAS_OK;
@@ -101,8 +112,8 @@ static fracas_err dispatch(int argc, char **argv)
 
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/lsan_interface.h>
-/* Open MPI and the plugins that it unloads leave memory behind, under no name that a suppression could have: a process
- * that calls MPI_Init is not searched for leaks. */
+/* Open MPI and the plugins that it unloads leave memory behind, under no name that a suppression
+ * could have: a process that calls MPI_Init is not searched for leaks. */
 int __lsan_is_turned_off(void)
 {
     return fracas_run_is_rank();
@@ -124,10 +135,13 @@ int main(int argc, char **argv)
     open_standard_streams();
     fracas_err code = dispatch(argc, argv);
     if ((fflush(stdout) || ferror(stdout)) && !code)
-        code = fracas_fail(FRACAS_ENVIRONMENT, "the output could not be written; is the disk full?");
+        code = fracas_fail(FRACAS_ENVIRONMENT,
+                           "the output could not be written; is the disk full?");
     if (code) fprintf(stderr, "fracas: %s\n", fracas_message());
     if (code == FRACAS_BUG)
-        fputs("fracas: this is a fault of fracas, not yours. Please report it with this message, the version (" FRACAS_VERSION
-              "),\nfracas: the command line, and the campaign file or, if there is one, the study folder.\n", stderr);
+        fputs("fracas: this is a fault of fracas, not yours. Please report it with this message, "
+              "the version (" FRACAS_VERSION "),\nfracas: the command line, and the campaign file "
+              "or, if there is one, the study folder.\n",
+              stderr);
     return code;
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/upkeep.h"
 
 #include "base/param.h"
@@ -18,7 +19,8 @@ static fracas_err merge(const fracas_arguments *arguments)
     TRY(fracas_cli_read_campaign(study, &campaign));
     fracas_cli_upkeep_begin(&upkeep, study, arguments->value[JSON]);
     fracas_err code = fracas_upkeep_merge(study, campaign, &upkeep.said, &end, &written);
-    if (!code || code == FRACAS_SOME_FAILED || (code == FRACAS_INTERRUPTED && arguments->value[JSON])) {
+    if (!code || code == FRACAS_SOME_FAILED ||
+        (code == FRACAS_INTERRUPTED && arguments->value[JSON])) {
         fracas_cli_upkeep_counts(&upkeep, &end);
         if (arguments->value[JSON]) fracas_json_boolean(&upkeep.json, "written", written);
         else printf("%s/study.h5 is %s\n", study, written ? "written" : "there already");
@@ -29,8 +31,13 @@ static fracas_err merge(const fracas_arguments *arguments)
 }
 
 const fracas_command fracas_command_merge = {
-    .name = "merge", .operand = "STUDY", .doc = "Writes STUDY/study.h5 from its segments, and computes nothing",
-    .more = "\nWhat a run does at its end; for a study whose realizations are all there, as after `fracas reindex` or `fracas merge-studies`.\n"
+    .name = "merge",
+    .operand = "STUDY",
+    .doc = "Writes STUDY/study.h5 from its segments, and computes nothing",
+    .more = "\nWhat a run does at its end; for a study whose realizations are all there, as after "
+            "`fracas reindex` or `fracas merge-studies`.\n"
             "Status 3, saying how many, if some are missing.\n",
-    .options = options, .noptions = FRACAS_COUNT(options), .run = merge,
+    .options = options,
+    .noptions = FRACAS_COUNT(options),
+    .run = merge,
 };

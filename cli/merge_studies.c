@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/upkeep.h"
 
 #include "base/param.h"
@@ -8,7 +9,8 @@
 enum { JSON };
 static const fracas_option options[] = {[JSON] = {"json", NULL, "print it as JSON"}};
 
-static void print_joined(fracas_cli_upkeep *upkeep, const char *from, const fracas_joined *joined, int64_t both)
+static void print_joined(fracas_cli_upkeep *upkeep, const char *from, const fracas_joined *joined,
+                         int64_t both)
 {
     if (upkeep->with_json) {
         fracas_json_text(&upkeep->json, "from", from);
@@ -18,8 +20,9 @@ static void print_joined(fracas_cli_upkeep *upkeep, const char *from, const frac
         fracas_json_integer(&upkeep->json, "in_both", both);
         return;
     }
-    printf("from %s: %" PRId64 " realizations in %" PRId64 " segments, %" PRId64 " failures; %" PRId64
-           " realizations are in both, and the same\n", from, joined->realizations, joined->segments, joined->failed, both);
+    printf("from %s: %" PRId64 " realizations in %" PRId64 " segments, %" PRId64
+           " failures; %" PRId64 " realizations are in both, and the same\n",
+           from, joined->realizations, joined->segments, joined->failed, both);
 }
 
 static fracas_err merge_studies(const fracas_arguments *arguments)
@@ -43,10 +46,18 @@ static fracas_err merge_studies(const fracas_arguments *arguments)
 }
 
 const fracas_command fracas_command_merge_studies = {
-    .name = "merge-studies", .operand = "A", .second = "B", .doc = "Adds to study A what study B has of the same campaign",
-    .more = "\nFor a campaign that was computed in two places, as by `fracas run FILE --part 1/2` and `--part 2/2`. The campaign of one may\n"
-            "be an extension of the other's; program version, seed and output options must be the same. What both have is compared\n"
-            "bit for bit before anything is copied: status 5 names the first difference. B stays as it is, but for damaged\n"
+    .name = "merge-studies",
+    .operand = "A",
+    .second = "B",
+    .doc = "Adds to study A what study B has of the same campaign",
+    .more = "\nFor a campaign that was computed in two places, as by `fracas run FILE --part 1/2` "
+            "and `--part 2/2`. The campaign of one may\n"
+            "be an extension of the other's; program version, seed and output options must be the "
+            "same. What both have is compared\n"
+            "bit for bit before anything is copied: status 5 names the first difference. B stays "
+            "as it is, but for damaged\n"
             "segments, which are set aside.\n",
-    .options = options, .noptions = FRACAS_COUNT(options), .run = merge_studies,
+    .options = options,
+    .noptions = FRACAS_COUNT(options),
+    .run = merge_studies,
 };

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/cli.h"
 
 #include "analysis/analysis.h"
@@ -15,11 +16,18 @@ enum { POINT, REPLICA, TIMES, SHOW, VIEW, EXPLODE, TABLE, OUTPUT };
 static const fracas_option options[] = {
     [POINT] = {"point", "P", "which point (0): the first column of report/points.csv"},
     [REPLICA] = {"replica", "R", "which of its replicas (0)"},
-    [TIMES] = {"times", "LIST", "times, as 26us,28us, or how many, evenly from the first onset to the end (6)"},
-    [SHOW] = {"show", "WHAT", "cracks, fragments (these, and the cracks), or mesh (that, too) (fragments)"},
-    [VIEW] = {"view", "A,H", "from where, as 45,30: azimuth from x toward y, elevation above the plane of both, in degrees"},
-    [EXPLODE] = {"explode", "FACTOR", "fragments apart: moved by FACTOR times (their centroid - that of the surface) (0)"},
-    [TABLE] = {"table", NULL, "first onset, break and crack through of all replicas of the point, as CSV"},
+    [TIMES] = {"times", "LIST",
+               "times, as 26us,28us, or how many, evenly from the first onset to the end (6)"},
+    [SHOW] = {"show", "WHAT",
+              "cracks, fragments (these, and the cracks), or mesh (that, too) (fragments)"},
+    [VIEW] = {"view", "A,H",
+              "from where, as 45,30: azimuth from x toward y, elevation above the plane of both, "
+              "in degrees"},
+    [EXPLODE] =
+        {"explode", "FACTOR",
+         "fragments apart: moved by FACTOR times (their centroid - that of the surface) (0)"},
+    [TABLE] = {"table", NULL,
+               "first onset, break and crack through of all replicas of the point, as CSV"},
     [OUTPUT] = {"output", "FOLDER", "where to; also -o FOLDER (STUDY/pictures)", 'o'},
 };
 
@@ -32,7 +40,9 @@ static fracas_err read_time(const fracas_units *units, const char *one, double *
     char text[64];
     one += strspn(one, " ");
     const int digits = (int)strspn(one, "+-.0123456789eE");
-    snprintf(text, sizeof text, digits > 0 && one[digits] && one[digits] != ' ' ? "%.*s %s" : "%.*s%s", digits, one, one + digits);
+    snprintf(text, sizeof text,
+             digits > 0 && one[digits] && one[digits] != ' ' ? "%.*s %s" : "%.*s%s", digits, one,
+             one + digits);
     return fracas_units_read(units, text, "s", time);
 }
 
@@ -41,11 +51,14 @@ static fracas_err read_list(const char *text, double **time, size_t *count)
 {
     fracas_units *units;
     char *copy = strdup(text), *rest = copy;
-    *time = malloc((strlen(text) + 1) * sizeof **time); /* there are at most as many as characters */
+    *time = malloc((strlen(text) + 1) *
+                   sizeof **time); /* there are at most as many as characters */
     *count = 0;
-    fracas_err err = copy && *time ? fracas_units_create(&units) : fracas_no_memory("the times of pictures");
+    fracas_err err = copy && *time ? fracas_units_create(&units)
+                                   : fracas_no_memory("the times of pictures");
     if (!err) {
-        for (char *one; !err && (one = strsep(&rest, ","));) err = read_time(units, one, &(*time)[(*count)++]);
+        for (char *one; !err && (one = strsep(&rest, ","));)
+            err = read_time(units, one, &(*time)[(*count)++]);
         if (err) err = fracas_fail_within(err, "picture: --times is `%s`", text);
         fracas_units_destroy(units);
     }
@@ -54,7 +67,8 @@ static fracas_err read_list(const char *text, double **time, size_t *count)
 }
 
 /* A whole number is how many, anything else the times themselves. */
-static fracas_err read_times(const fracas_arguments *arguments, fracas_picture_request *request, double **time)
+static fracas_err read_times(const fracas_arguments *arguments, fracas_picture_request *request,
+                             double **time)
 {
     const char *text = arguments->value[TIMES];
     int count = FRACAS_MOMENTS;
@@ -81,25 +95,32 @@ static bool read_pair(const char *text, double *first, double *second)
 }
 
 /* What is not given stays as it is. */
-static fracas_err read_view(const fracas_arguments *arguments, fracas_picture_request *request, fracas_view *view)
+static fracas_err read_view(const fracas_arguments *arguments, fracas_picture_request *request,
+                            fracas_view *view)
 {
     const char *text = arguments->value[VIEW];
     if (text) {
-        if (!read_pair(text, &view->azimuth, &view->elevation) || !(fabs(view->azimuth) <= 360) || !(fabs(view->elevation) <= 90))
-            return fracas_fail(FRACAS_USAGE, "picture: --view is `%s`; it must be two numbers, as 45,30: an azimuth from -360 to 360 "
-                               "and an elevation from -90 to 90, in degrees", text);
+        if (!read_pair(text, &view->azimuth, &view->elevation) || !(fabs(view->azimuth) <= 360) ||
+            !(fabs(view->elevation) <= 90))
+            return fracas_fail(
+                FRACAS_USAGE,
+                "picture: --view is `%s`; it must be two numbers, as 45,30: an azimuth from -360 "
+                "to 360 and an elevation from -90 to 90, in degrees",
+                text);
         request->view = view;
     }
     TRY(fracas_arguments_real(arguments, EXPLODE, 1, &request->explode));
     if (request->explode <= most_apart) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "picture: --explode is `%s`; it must be a number from 0 to %g, such as 0.15",
+    return fracas_fail(FRACAS_USAGE,
+                       "picture: --explode is `%s`; it must be a number from 0 to %g, such as 0.15",
                        arguments->value[EXPLODE], most_apart);
 }
 
 static fracas_err picture(const fracas_arguments *arguments)
 {
-    static const char *const words[] = {
-        [FRACAS_SHOW_CRACKS] = "cracks", [FRACAS_SHOW_FRAGMENTS] = "fragments", [FRACAS_SHOW_MESH] = "mesh"};
+    static const char *const words[] = {[FRACAS_SHOW_CRACKS] = "cracks",
+                                        [FRACAS_SHOW_FRAGMENTS] = "fragments",
+                                        [FRACAS_SHOW_MESH] = "mesh"};
     int point = 0, replica = 0, show = FRACAS_SHOW_FRAGMENTS;
     double *time = NULL;
     fracas_view view;
@@ -107,8 +128,11 @@ static fracas_err picture(const fracas_arguments *arguments)
     TRY(fracas_arguments_integer(arguments, POINT, 0, INT_MAX, &point));
     TRY(fracas_arguments_integer(arguments, REPLICA, 0, INT_MAX, &replica));
     TRY(fracas_arguments_word(arguments, SHOW, words, FRACAS_COUNT(words), &show));
-    fracas_picture_request request = {.point = (size_t)point, .replica = replica, .show = (fracas_surface_show)show,
-                                      .table = arguments->value[TABLE] != NULL, .folder = arguments->value[OUTPUT]};
+    fracas_picture_request request = {.point = (size_t)point,
+                                      .replica = replica,
+                                      .show = (fracas_surface_show)show,
+                                      .table = arguments->value[TABLE] != NULL,
+                                      .folder = arguments->value[OUTPUT]};
     TRY(read_view(arguments, &request, &view));
     fracas_err err = read_times(arguments, &request, &time);
     if (!err) err = fracas_cli_read_campaign(arguments->operand, &campaign);
@@ -122,12 +146,21 @@ static fracas_err picture(const fracas_arguments *arguments)
 }
 
 const fracas_command fracas_command_picture = {
-    .name = "picture", .operand = "STUDY", .doc = "Draws broken surfaces of STUDY as SVG files",
-    .more = "\nOne file a time: the surface as it was before any motion, its broken interfaces dark, cracked ones grey, each fragment\n"
-            "filled, dust in orange. Then it prints when the realization first cracked, first broke, and first cracked through, from one\n"
-            "edge to the other (annulus: inner and outer; plate: left and right, or bottom and top). The campaign must say\n"
-            "`output: {interfaces: true}`.\n\n"
-            "A surface that is not flat is shaded and seen from --view (45,35.264: the direction (1, 1, 1)), z upward; what is hidden is left\n"
-            "out. --explode 0.15 moves its fragments apart, so that the gaps and the inside show.\n",
-    .options = options, .noptions = FRACAS_COUNT(options), .run = picture,
+    .name = "picture",
+    .operand = "STUDY",
+    .doc = "Draws broken surfaces of STUDY as SVG files",
+    .more =
+        "\nOne file a time: the surface as it was before any motion, its broken interfaces dark, "
+        "cracked ones grey, each fragment\n"
+        "filled, dust in orange. Then it prints when the realization first cracked, first broke, "
+        "and first cracked through, from one\n"
+        "edge to the other (annulus: inner and outer; plate: left and right, or bottom and top). "
+        "The campaign must say\n"
+        "`output: {interfaces: true}`.\n\n"
+        "A surface that is not flat is shaded and seen from --view (45,35.264: the direction (1, "
+        "1, 1)), z upward; what is hidden is left\n"
+        "out. --explode 0.15 moves its fragments apart, so that the gaps and the inside show.\n",
+    .options = options,
+    .noptions = FRACAS_COUNT(options),
+    .run = picture,
 };

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/cli.h"
 
 #include "base/param.h"
@@ -24,8 +25,14 @@ static fracas_err plan(const fracas_arguments *arguments)
 }
 
 const fracas_command fracas_command_plan = {
-    .name = "plan", .operand = "FILE", .doc = "Says what `fracas run FILE` would compute from its start, and computes nothing",
-    .more = "\nPoints, replicas, elements, steps, predicted time and size. An error in FILE is found here too.\n"
-            "A study that exists is not looked at: `fracas status STUDY` says what is done of it and how long the rest takes.\n",
-    .options = options, .noptions = FRACAS_COUNT(options), .run = plan,
+    .name = "plan",
+    .operand = "FILE",
+    .doc = "Says what `fracas run FILE` would compute from its start, and computes nothing",
+    .more = "\nPoints, replicas, elements, steps, predicted time and size. An error in FILE is "
+            "found here too.\n"
+            "A study that exists is not looked at: `fracas status STUDY` says what is done of it "
+            "and how long the rest takes.\n",
+    .options = options,
+    .noptions = FRACAS_COUNT(options),
+    .run = plan,
 };

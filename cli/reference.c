@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/cli.h"
 
 #include "analysis/analysis.h"
@@ -5,7 +6,8 @@
 #include "campaigns/campaign.h"
 
 enum { STATISTICS };
-static const fracas_option options[] = {[STATISTICS] = {"statistics", NULL, "every key of the JSON summary's statistics instead"}};
+static const fracas_option options[] = {
+    [STATISTICS] = {"statistics", NULL, "every key of the JSON summary's statistics instead"}};
 
 static fracas_err reference(const fracas_arguments *arguments)
 {
@@ -15,6 +17,10 @@ static fracas_err reference(const fracas_arguments *arguments)
 }
 
 const fracas_command fracas_command_reference = {
-    .name = "reference", .doc = "Prints every key of a campaign file: unit, default, range, meaning",
-    .more = "", .options = options, .noptions = FRACAS_COUNT(options), .run = reference,
+    .name = "reference",
+    .doc = "Prints every key of a campaign file: unit, default, range, meaning",
+    .more = "",
+    .options = options,
+    .noptions = FRACAS_COUNT(options),
+    .run = reference,
 };

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/upkeep.h"
 
 #include "base/param.h"
@@ -22,9 +23,16 @@ static fracas_err reindex(const fracas_arguments *arguments)
 }
 
 const fracas_command fracas_command_reindex = {
-    .name = "reindex", .operand = "STUDY", .doc = "Makes the index of STUDY anew from its segments",
-    .more = "\nFor an index.sqlite that is lost or damaged. Every segment is read; one that is damaged is set aside, one of another study\n"
-            "is left and named. From an index that can still be read it takes over what no segment has: which realizations FAILED and why,\n"
-            "attempts, provenance, events; one that cannot stays as index.sqlite.before-TIME. The new one takes its place when it is whole.\n",
-    .options = options, .noptions = FRACAS_COUNT(options), .run = reindex,
+    .name = "reindex",
+    .operand = "STUDY",
+    .doc = "Makes the index of STUDY anew from its segments",
+    .more = "\nFor an index.sqlite that is lost or damaged. Every segment is read; one that is "
+            "damaged is set aside, one of another study\n"
+            "is left and named. From an index that can still be read it takes over what no segment "
+            "has: which realizations FAILED and why,\n"
+            "attempts, provenance, events; one that cannot stays as index.sqlite.before-TIME. The "
+            "new one takes its place when it is whole.\n",
+    .options = options,
+    .noptions = FRACAS_COUNT(options),
+    .run = reindex,
 };

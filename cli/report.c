@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/cli.h"
 
 #include "analysis/analysis.h"
@@ -18,7 +19,8 @@ fracas_err fracas_cli_check_study(const char *study)
     char file[PATH_MAX];
     snprintf(file, sizeof file, "%s/campaign.yaml", study);
     if (!access(file, R_OK)) return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED, "%s is no study: %s: %s; `fracas run FILE` makes one", study, file, strerror(errno));
+    return fracas_fail(FRACAS_DAMAGED, "%s is no study: %s: %s; `fracas run FILE` makes one", study,
+                       file, strerror(errno));
 }
 
 fracas_err fracas_cli_read_campaign(const char *study, fracas_campaign **campaign)
@@ -28,14 +30,17 @@ fracas_err fracas_cli_read_campaign(const char *study, fracas_campaign **campaig
     snprintf(file, sizeof file, "%s/campaign.yaml", study);
     fracas_err code = fracas_campaign_read(file, campaign);
     if (code != FRACAS_USAGE) return code;
-    return fracas_fail_within(FRACAS_DAMAGED, "the study's campaign file is damaged; remove it and run the campaign file it was made from, or "
-                              "restore it");
+    return fracas_fail_within(FRACAS_DAMAGED,
+                              "the study's campaign file is damaged; remove it and run the "
+                              "campaign file it was made from, or restore it");
 }
 
-fracas_err fracas_cli_analyse(const char *study, fracas_campaign **campaign, fracas_analysis **analysis)
+fracas_err fracas_cli_analyse(const char *study, fracas_campaign **campaign,
+                              fracas_analysis **analysis)
 {
     TRY(fracas_cli_read_campaign(study, campaign));
-    fracas_err err = fracas_analysis_create(study, &(*campaign)->hash, &(*campaign)->table, analysis);
+    fracas_err err = fracas_analysis_create(study, &(*campaign)->hash, &(*campaign)->table,
+                                            analysis);
     if (err) fracas_campaign_destroy(*campaign), *campaign = NULL;
     return err;
 }
@@ -50,8 +55,9 @@ static fracas_err say_stale(const fracas_analysis *analysis, const char *study)
     fracas_fits_keep(fits, analysis, &stale);
     fracas_fits_destroy(fits);
     if (stale > 0)
-        printf("fits of %zu point%s in %s/" FRACAS_FITS_FILE " are of other realizations and not shown: `fracas fit %s` makes them again\n", stale,
-               stale == 1 ? "" : "s", study, study);
+        printf("fits of %zu point%s in %s/" FRACAS_FITS_FILE
+               " are of other realizations and not shown: `fracas fit %s` makes them again\n",
+               stale, stale == 1 ? "" : "s", study, study);
     return FRACAS_OK;
 }
 
@@ -77,8 +83,13 @@ static fracas_err report(const fracas_arguments *arguments)
 }
 
 const fracas_command fracas_command_report = {
-    .name = "report", .operand = "STUDY", .doc = "Prints the result table and writes STUDY/report",
-    .more = "\nThe report is index.html with its figures, and the numbers as CSV files. Of a study that is being computed, or was interrupted,\n"
+    .name = "report",
+    .operand = "STUDY",
+    .doc = "Prints the result table and writes STUDY/report",
+    .more = "\nThe report is index.html with its figures, and the numbers as CSV files. Of a study "
+            "that is being computed, or was interrupted,\n"
             "it is of what is done by now, and says so.\n",
-    .options = options, .noptions = FRACAS_COUNT(options), .run = report,
+    .options = options,
+    .noptions = FRACAS_COUNT(options),
+    .run = report,
 };

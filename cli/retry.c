@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/run_options.h"
 
 #include "base/param.h"
@@ -21,7 +22,9 @@ static fracas_err plan_again(const char *study, int point)
     TRY(fracas_cli_read_campaign(study, &campaign));
     fracas_err code = fracas_upkeep_retry(study, campaign, point, &rows);
     fracas_campaign_destroy(campaign);
-    if (!code) fprintf(stderr, "fracas: %" PRId64 " failed realizations of %s are planned again\n", rows, study);
+    if (!code)
+        fprintf(stderr, "fracas: %" PRId64 " failed realizations of %s are planned again\n", rows,
+                study);
     return code;
 }
 
@@ -30,16 +33,25 @@ static fracas_err retry(const fracas_arguments *arguments)
     int point = -1;
     TRY(fracas_arguments_integer(arguments, POINT, 0, INT_MAX, &point));
     if (!arguments->value[FAILED])
-        return fracas_fail(FRACAS_USAGE, "retry: --failed is missing: fracas retry STUDY --failed computes again what FAILED; what was "
-                           "interrupted, `fracas run` computes");
+        return fracas_fail(FRACAS_USAGE,
+                           "retry: --failed is missing: fracas retry STUDY --failed computes again "
+                           "what FAILED; what was interrupted, `fracas run` computes");
     if (fracas_run_speaks()) TRY(plan_again(arguments->operand, point));
     return fracas_cli_run_study(arguments);
 }
 
 const fracas_command fracas_command_retry = {
-    .name = "retry", .operand = "STUDY", .doc = "Computes again what FAILED in STUDY: --failed",
-    .more = "\nA realization that crashed its process three times is FAILED for good: `fracas status STUDY` names it and the reason. This\n"
-            "forgets its attempts and runs STUDY/campaign.yaml. Worth it after a machine or a limit was to blame (memory, time, a\n"
+    .name = "retry",
+    .operand = "STUDY",
+    .doc = "Computes again what FAILED in STUDY: --failed",
+    .more = "\nA realization that crashed its process three times is FAILED for good: `fracas "
+            "status STUDY` names it and the reason. This\n"
+            "forgets its attempts and runs STUDY/campaign.yaml. Worth it after a machine or a "
+            "limit was to blame (memory, time, a\n"
             "killed job); what crashes by itself fails again.\n",
-    .options = FRACAS_STUDY_RUN_OPTIONS, .noptions = FRACAS_NSTUDY_RUN_OPTIONS, .own = own, .nown = FRACAS_COUNT(own), .run = retry,
+    .options = FRACAS_STUDY_RUN_OPTIONS,
+    .noptions = FRACAS_NSTUDY_RUN_OPTIONS,
+    .own = own,
+    .nown = FRACAS_COUNT(own),
+    .run = retry,
 };

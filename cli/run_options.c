@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/run_options.h"
 
 #include "base/param.h"
@@ -11,8 +12,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { STUDY /* the first: FRACAS_STUDY_RUN_OPTIONS */, JOBS, REPLICAS, PART, WALLTIME, ISOLATION, LEASE_TIME, LEASE_LIMIT, MEMORY_LIMIT, LANES, ISA, SEGMENT_AGE, SEGMENT_SIZE,
-       SHUFFLE, FORCE, IGNORE_SPACE };
+enum {
+    STUDY /* the first: FRACAS_STUDY_RUN_OPTIONS */,
+    JOBS,
+    REPLICAS,
+    PART,
+    WALLTIME,
+    ISOLATION,
+    LEASE_TIME,
+    LEASE_LIMIT,
+    MEMORY_LIMIT,
+    LANES,
+    ISA,
+    SEGMENT_AGE,
+    SEGMENT_SIZE,
+    SHUFFLE,
+    FORCE,
+    IGNORE_SPACE
+};
 const fracas_option fracas_cli_run_options[FRACAS_NRUN_OPTIONS] = {
     [STUDY] = {"study", "DIR", "folder of the study (studies/NAME, NAME from the campaign file)"},
     [JOBS] = {"jobs", "N", "processes that compute (one a core)"},
@@ -21,7 +38,8 @@ const fracas_option fracas_cli_run_options[FRACAS_NRUN_OPTIONS] = {
     [WALLTIME] = {"walltime", "TIME", "have stopped, resumable, after TIME: 55m, 1h30m, 2:00:00"},
     [ISOLATION] = {"isolation", "lease|none", "a process for each lease, or none (lease)"},
     [LEASE_TIME] = {"lease-time", "S", "lease so much that it takes S seconds; 0: one batch (1)"},
-    [LEASE_LIMIT] = {"lease-limit", "TIME", "kill a lease after TIME (10m and 50 times its prediction)"},
+    [LEASE_LIMIT] = {"lease-limit", "TIME",
+                     "kill a lease after TIME (10m and 50 times its prediction)"},
     [MEMORY_LIMIT] = {"memory-limit", "MB", "memory that a lease may allocate (the machine's)"},
     [LANES] = {"lanes", "1|4|8", "realizations side by side in a batch (as many as fit)"},
     [ISA] = {"isa", "baseline|avx2|avx512", "instruction set (the best there is)"},
@@ -29,7 +47,8 @@ const fracas_option fracas_cli_run_options[FRACAS_NRUN_OPTIONS] = {
     [SEGMENT_SIZE] = {"segment-size", "MB", "or has MB megabytes (64; 1 MB is 1048576 bytes)"},
     [SHUFFLE] = {"shuffle", NULL, "compute in a shuffled order (the results are the same)"},
     [FORCE] = {"force", NULL, "take the study over from a run on another host that is dead"},
-    [IGNORE_SPACE] = {"ignore-space", NULL, "start though the disk has less space than is predicted"},
+    [IGNORE_SPACE] = {"ignore-space", NULL,
+                      "start though the disk has less space than is predicted"},
 };
 
 static fracas_err read_part(const fracas_arguments *arguments, fracas_run_options *run)
@@ -37,12 +56,16 @@ static fracas_err read_part(const fracas_arguments *arguments, fracas_run_option
     const char *text = arguments->value[PART];
     int end = 0;
     if (!text) return FRACAS_OK;
-    if (sscanf(text, "%d/%d%n", &run->part, &run->parts, &end) == 2 && !text[end] && run->part >= 1 && run->part <= run->parts)
+    if (sscanf(text, "%d/%d%n", &run->part, &run->parts, &end) == 2 && !text[end] &&
+        run->part >= 1 && run->part <= run->parts)
         return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "%s: --part is `%s`; it must be K/N with K from 1 to N, such as 1/2", arguments->command->name, text);
+    return fracas_fail(FRACAS_USAGE,
+                       "%s: --part is `%s`; it must be K/N with K from 1 to N, such as 1/2",
+                       arguments->command->name, text);
 }
 
-fracas_err fracas_cli_read_run_options(const fracas_arguments *arguments, fracas_run_options *run, const char **study)
+fracas_err fracas_cli_read_run_options(const fracas_arguments *arguments, fracas_run_options *run,
+                                       const char **study)
 {
     static const char *const lanes[] = {"1", "4", "8"};
     static const int widths[] = {1, 4, 8};
@@ -96,41 +119,49 @@ fracas_err fracas_cli_run(const fracas_run_options *run, int argc, char **argv)
     return end ? fracas_fail(end, "%s", message) : FRACAS_OK;
 }
 
-/* The options that were given, as --NAME=VALUE behind `before` arguments; freed by the caller, with all from there on. */
+/* The options that were given, as --NAME=VALUE behind `before` arguments; freed by the caller, with
+ * all from there on. */
 static fracas_err give_on(const fracas_arguments *given, int before, char **argv, int *argc)
 {
     *argc = before;
     for (size_t i = 0; i < FRACAS_NRUN_OPTIONS; i++) {
         const fracas_option *option = &fracas_cli_run_options[i];
         if (!given->value[i]) continue;
-        if (asprintf(&argv[*argc], "--%s%s%s", option->name, option->argument ? "=" : "", given->value[i]) < 0)
+        if (asprintf(&argv[*argc], "--%s%s%s", option->name, option->argument ? "=" : "",
+                     given->value[i]) < 0)
             return fracas_no_memory("the arguments of the run");
         ++*argc;
     }
     return FRACAS_OK;
 }
 
-/* "K/N" of a study that computes a part of its campaign, else "". An index that cannot be read the run will speak of. */
+/* "K/N" of a study that computes a part of its campaign, else "". An index that cannot be read the
+ * run will speak of. */
 static void read_own_part(const char *study, char *text, size_t size)
 {
     fracas_index *index;
     int part, parts;
     *text = '\0';
     if (fracas_index_open(study, false, &index)) return;
-    if (!fracas_index_part(index, &part, &parts) && parts > 1) snprintf(text, size, "%d/%d", part, parts);
+    if (!fracas_index_part(index, &part, &parts) && parts > 1)
+        snprintf(text, size, "%d/%d", part, parts);
     fracas_index_close(index);
 }
 
-fracas_err fracas_cli_run_as(const fracas_arguments *arguments, const char *file, const char *study, fracas_cli_runner *runner)
+fracas_err fracas_cli_run_as(const fracas_arguments *arguments, const char *file, const char *study,
+                             fracas_cli_runner *runner)
 {
     /* As `run` has them: behind --study, which is not given. */
-    const fracas_command as_run = {.name = arguments->command->name, .options = fracas_cli_run_options, .noptions = FRACAS_NRUN_OPTIONS};
+    const fracas_command as_run = {.name = arguments->command->name,
+                                   .options = fracas_cli_run_options,
+                                   .noptions = FRACAS_NRUN_OPTIONS};
     fracas_arguments given = {.command = &as_run};
     memcpy(given.value + 1, arguments->value, FRACAS_NSTUDY_RUN_OPTIONS * sizeof *given.value);
     fracas_run_options run;
     char program[] = "fracas", command[] = "run", option[] = "--study";
     enum { BEFORE = 5 };
-    char *argv[BEFORE + FRACAS_NRUN_OPTIONS + 1] = {program, command, (char *)file, option, (char *)study};
+    char *argv[BEFORE + FRACAS_NRUN_OPTIONS + 1] = {program, command, (char *)file, option,
+                                                    (char *)study};
     int argc;
     const char *none;
     TRY(fracas_cli_read_run_options(&given, &run, &none));
@@ -157,7 +188,8 @@ fracas_err fracas_cli_run_study(const fracas_arguments *arguments)
     read_own_part(arguments->operand, part, sizeof part);
     if (!given.value[parts] && *part) given.value[parts] = part;
     if (strlen(arguments->operand) >= PATH_MAX)
-        return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s", arguments->operand);
+        return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s",
+                           arguments->operand);
     snprintf(file, sizeof file, "%s/campaign.yaml", arguments->operand);
     return fracas_cli_run_as(&given, file, arguments->operand, fracas_cli_run);
 }

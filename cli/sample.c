@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/cli.h"
 
 #include "base/param.h"
@@ -14,12 +15,15 @@ enum { POINT, REPLICA, CSV, VTK, JSON };
 static const fracas_option options[] = {
     [POINT] = {"point", "P", "which point (0): the first column of `fracas plan FILE`"},
     [REPLICA] = {"replica", "R", "which of its replicas (0)"},
-    [CSV] = {"csv", "PATH", "write strengths and positions to PATH, a line each; - for standard output, without the summary"},
+    [CSV] = {"csv", "PATH",
+             "write strengths and positions to PATH, a line each; - for standard output, without "
+             "the summary"},
     [VTK] = {"vtk", "PATH", "write them to PATH for ParaView"},
     [JSON] = {"json", NULL, "print the summary as JSON"},
 };
 
-static bool write_to(const char *path, const fracas_sample *sample, void (*write)(const fracas_sample *sample, FILE *out))
+static bool write_to(const char *path, const fracas_sample *sample,
+                     void (*write)(const fracas_sample *sample, FILE *out))
 {
     errno = 0;
     FILE *out = fopen(path, "w");
@@ -29,18 +33,22 @@ static bool write_to(const char *path, const fracas_sample *sample, void (*write
     return fclose(out) == 0 && !bad;
 }
 
-/* Writes the file whole, or leaves what was there: under another name, renamed at the end. A device, a pipe or a link is written as it
- * is. `write` reports nothing, the stream does. */
-static fracas_err write_file(const fracas_sample *sample, void (*write)(const fracas_sample *sample, FILE *out), const char *path)
+/* Writes the file whole, or leaves what was there: under another name, renamed at the end. A
+ * device, a pipe or a link is written as it is. `write` reports nothing, the stream does. */
+static fracas_err write_file(const fracas_sample *sample,
+                             void (*write)(const fracas_sample *sample, FILE *out),
+                             const char *path)
 {
     struct stat found;
     char temporary[PATH_MAX];
     const bool plain = lstat(path, &found) != 0 || S_ISREG(found.st_mode);
-    if (snprintf(temporary, sizeof temporary, plain ? "%s.tmp-%ld" : "%s", path, (long)getpid()) >= (int)sizeof temporary)
+    if (snprintf(temporary, sizeof temporary, plain ? "%s.tmp-%ld" : "%s", path, (long)getpid()) >=
+        (int)sizeof temporary)
         return fracas_fail(FRACAS_USAGE, "the path of a file is too long: %s", path);
     const bool written = write_to(temporary, sample, write);
     if (written && (!plain || rename(temporary, path) == 0)) return FRACAS_OK;
-    const fracas_err err = fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: %s", path, strerror(errno));
+    const fracas_err err = fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: %s", path,
+                                       strerror(errno));
     if (plain) unlink(temporary);
     return err;
 }
@@ -60,9 +68,11 @@ static fracas_err show(const fracas_arguments *arguments, const fracas_sample *s
 static fracas_err check_outputs(const fracas_arguments *arguments)
 {
     const char *csv = arguments->value[CSV], *vtk = arguments->value[VTK];
-    if (vtk && strcmp(vtk, "-") == 0) return fracas_fail(FRACAS_USAGE, "sample: --vtk is `-`; it must be a file");
+    if (vtk && strcmp(vtk, "-") == 0)
+        return fracas_fail(FRACAS_USAGE, "sample: --vtk is `-`; it must be a file");
     if (csv && strcmp(csv, "-") == 0 && arguments->value[JSON])
-        return fracas_fail(FRACAS_USAGE, "sample: --csv - and --json both print; name a file for --csv, or leave out one of them");
+        return fracas_fail(FRACAS_USAGE, "sample: --csv - and --json both print; name a file for "
+                                         "--csv, or leave out one of them");
     return FRACAS_OK;
 }
 
@@ -83,9 +93,15 @@ static fracas_err sample(const fracas_arguments *arguments)
 }
 
 const fracas_command fracas_command_sample = {
-    .name = "sample", .operand = "FILE", .doc = "Draws the strengths of one realization of FILE, and computes nothing",
-    .more = "\nThe values are those that `fracas run FILE` gives that realization, to the last bit: a strength depends on the campaign's\n"
-            "seed, the point, the replica and its place alone. Prints what they are like; with --csv and --vtk writes all of them, with\n"
+    .name = "sample",
+    .operand = "FILE",
+    .doc = "Draws the strengths of one realization of FILE, and computes nothing",
+    .more = "\nThe values are those that `fracas run FILE` gives that realization, to the last "
+            "bit: a strength depends on the campaign's\n"
+            "seed, the point, the replica and its place alone. Prints what they are like; with "
+            "--csv and --vtk writes all of them, with\n"
             "where they are at the start. FILE may be the campaign.yaml of a study.\n",
-    .options = options, .noptions = FRACAS_COUNT(options), .run = sample,
+    .options = options,
+    .noptions = FRACAS_COUNT(options),
+    .run = sample,
 };

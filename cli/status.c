@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/cli.h"
 
 #include "analysis/tables/format.h"
@@ -22,18 +23,20 @@ typedef struct {
     const char *study;
     const fracas_campaign *campaign;
     fracas_index *index;
-    bool complete;               /* study.h5 is of this campaign and nothing is left to compute */
-    fracas_lock_state lock;      /* held: somebody computes it now */
+    bool complete;          /* study.h5 is of this campaign and nothing is left to compute */
+    fracas_lock_state lock; /* held: somebody computes it now */
     char holder[FRACAS_HOLDER_TEXT]; /* of the lock */
-    int part, parts;             /* that it computes */
-    int64_t share, left;         /* realizations of that part, and those of them to be computed yet */
+    int part, parts;                 /* that it computes */
+    int64_t share, left; /* realizations of that part, and those of them to be computed yet */
     fracas_index_counts all;
-    fracas_index_counts *point;  /* campaign->npoints */
+    fracas_index_counts *point; /* campaign->npoints */
 } fracas_status;
 
-static const char *const lock_name[] = {"free", "held", "left", "elsewhere"}; /* by fracas_lock_state */
-static const char *const lock_text[] = {"", "held", "left by a run that died, the next one takes it over",
-                                        "of another host; if that run is gone, `fracas run --force` takes it over"};
+static const char *const lock_name[] = {"free", "held", "left",
+                                        "elsewhere"}; /* by fracas_lock_state */
+static const char *const lock_text[] = {
+    "", "held", "left by a run that died, the next one takes it over",
+    "of another host; if that run is gone, `fracas run --force` takes it over"};
 
 static void write_counts(fracas_json *json, const fracas_index_counts *counts)
 {
@@ -43,7 +46,8 @@ static void write_counts(fracas_json *json, const fracas_index_counts *counts)
     fracas_json_integer(json, "leased", counts->leased);
     fracas_json_integer(json, "planned", counts->planned);
     fracas_json_object(json, "outcomes");
-    for (int o = 0; o < FRACAS_NOUTCOMES; o++) fracas_json_integer(json, fracas_outcome_name(o), counts->outcome[o]);
+    for (int o = 0; o < FRACAS_NOUTCOMES; o++)
+        fracas_json_integer(json, fracas_outcome_name(o), counts->outcome[o]);
     fracas_json_close_object(json);
 }
 
@@ -113,7 +117,8 @@ static fracas_err write_json(const fracas_status *status)
     }
     fracas_json_close_array(&json);
     fracas_json_array(&json, "failures");
-    if (!code && status->all.failed) code = fracas_index_failures(status->index, &status->campaign->table, write_failure, &json);
+    if (!code && status->all.failed)
+        code = fracas_index_failures(status->index, &status->campaign->table, write_failure, &json);
     fracas_json_close_array(&json);
     fracas_json_close_object(&json);
     fracas_json_end(&json);
@@ -129,7 +134,8 @@ static fracas_err print_points(const fracas_status *status)
     fputs("\nrealizations    done  failed  point\n", stdout);
     for (size_t i = 0; i < table->npoints; i++) {
         const fracas_index_counts *counts = &status->point[i];
-        printf("%12" PRId64 "%8" PRId64 "%8" PRId64 "  %zu", counts->realizations, counts->done, counts->failed, i);
+        printf("%12" PRId64 "%8" PRId64 "%8" PRId64 "  %zu", counts->realizations, counts->done,
+               counts->failed, i);
         for (size_t c = 0; c < table->ncolumns; c++) {
             if (!varies[c]) continue;
             const fracas_value *value = &table->point[i].value[c];
@@ -150,15 +156,23 @@ static fracas_err print_decisions(const fracas_status *status)
         fracas_decision *decision;
         size_t count;
         if (rule->maximum == 0) continue;
-        TRY(fracas_index_decisions(status->index, &status->campaign->point[p].hash, &decision, &count));
-        if (first && count) fputs("\ndecisions on replicas\npoint  round  replicas  of what        mean  +-  half width\n", stdout);
+        TRY(fracas_index_decisions(status->index, &status->campaign->point[p].hash, &decision,
+                                   &count));
+        if (first && count)
+            fputs("\ndecisions on replicas\npoint  round  replicas  of what        mean  +-  half "
+                  "width\n",
+                  stdout);
         for (size_t d = 0; d < count; d++) {
             char found[32];
             const double asked = 100 * decision[d].relative_half_width;
-            fracas_format_beside(100 * fracas_decision_relative(&decision[d]), asked, found, sizeof found);
-            printf("%5zu%7" PRId64 "%10" PRId64 "  %-10s  %.5g +- %.2g (%s %%; %.3g %% asked for): %s\n", p, decision[d].round,
-                   decision[d].replicas, fracas_quantity_name[decision[d].quantity], decision[d].mean, decision[d].half_width, found,
-                   asked, fracas_sequential_stop_name[decision[d].stop]);
+            fracas_format_beside(100 * fracas_decision_relative(&decision[d]), asked, found,
+                                 sizeof found);
+            printf("%5zu%7" PRId64 "%10" PRId64
+                   "  %-10s  %.5g +- %.2g (%s %%; %.3g %% asked for): %s\n",
+                   p, decision[d].round, decision[d].replicas,
+                   fracas_quantity_name[decision[d].quantity], decision[d].mean,
+                   decision[d].half_width, found, asked,
+                   fracas_sequential_stop_name[decision[d].stop]);
         }
         first = first && !count;
         free(decision);
@@ -171,16 +185,21 @@ static void print_failure(void *any, const fracas_index_row *row, const char *re
     bool *first = any;
     if (*first) fputs("\nfailed\n", stdout);
     *first = false;
-    printf("  point %zu replica %" PRId64 ", %" PRId64 " attempts: %s\n", row->point, row->replica, row->attempts, reason);
+    printf("  point %zu replica %" PRId64 ", %" PRId64 " attempts: %s\n", row->point, row->replica,
+           row->attempts, reason);
 }
 
 static const char *state_of(const fracas_status *status, char text[5000])
 {
     if (status->lock == FRACAS_LOCK_HELD) return "being computed";
-    if (status->complete) return status->all.failed == 0 ? "complete" : "computed, some realizations FAILED (below)";
-    if (status->parts > 1 && status->left == 0) return "its part is complete: `fracas merge-studies` makes one study of all parts";
+    if (status->complete)
+        return status->all.failed == 0 ? "complete" : "computed, some realizations FAILED (below)";
+    if (status->parts > 1 && status->left == 0)
+        return "its part is complete: `fracas merge-studies` makes one study of all parts";
     /* not the file that the user ran: the study may have been extended since */
-    snprintf(text, 5000, "interrupted: `fracas run %.2000s/campaign.yaml --study %.2000s` resumes it", status->study, status->study);
+    snprintf(text, 5000,
+             "interrupted: `fracas run %.2000s/campaign.yaml --study %.2000s` resumes it",
+             status->study, status->study);
     return text;
 }
 
@@ -191,10 +210,12 @@ static fracas_err print_text(const fracas_status *status)
     char state[5000];
     printf("state         %s\n", state_of(status, state));
     if (status->parts > 1)
-        printf("part          %d of %d: %" PRId64 " realizations, %" PRId64 " to be computed\n", status->part, status->parts,
-               status->share, status->left);
-    if (status->lock != FRACAS_LOCK_FREE) printf("lock          %s: %s\n", lock_text[status->lock], status->holder);
-    printf("realizations  %" PRId64 ": %" PRId64 " done, %" PRId64 " failed, %" PRId64 " leased, %" PRId64 " planned\n",
+        printf("part          %d of %d: %" PRId64 " realizations, %" PRId64 " to be computed\n",
+               status->part, status->parts, status->share, status->left);
+    if (status->lock != FRACAS_LOCK_FREE)
+        printf("lock          %s: %s\n", lock_text[status->lock], status->holder);
+    printf("realizations  %" PRId64 ": %" PRId64 " done, %" PRId64 " failed, %" PRId64
+           " leased, %" PRId64 " planned\n",
            all->realizations, all->done, all->failed, all->leased, all->planned);
     fputs("outcomes     ", stdout);
     for (int o = 0; o < FRACAS_NOUTCOMES; o++)
@@ -220,12 +241,14 @@ static fracas_err count_part(fracas_status *status)
     count = fracas_run_part(status->part, status->parts, row, count);
     status->share = (int64_t)count;
     status->left = 0;
-    for (size_t i = 0; i < count; i++) status->left += row[i].status == FRACAS_PLANNED || row[i].status == FRACAS_LEASED;
+    for (size_t i = 0; i < count; i++)
+        status->left += row[i].status == FRACAS_PLANNED || row[i].status == FRACAS_LEASED;
     free(row);
     return FRACAS_OK;
 }
 
-/* Where nobody computes nothing is leased: what a run that ended had given out is to be computed. */
+/* Where nobody computes nothing is leased: what a run that ended had given out is to be computed.
+ */
 static void unlease(fracas_index_counts *counts)
 {
     counts->planned += counts->leased;
@@ -243,7 +266,8 @@ static fracas_err count(fracas_status *status)
         for (size_t p = 0; p < campaign->npoints; p++) unlease(&status->point[p]);
     }
     status->complete = false;
-    if (status->all.planned || status->all.leased) return FRACAS_OK; /* no need to look at any file */
+    if (status->all.planned || status->all.leased)
+        return FRACAS_OK; /* no need to look at any file */
     int64_t failed;
     return fracas_study_settled(status->study, status->index, campaign, &status->complete, &failed);
 }
@@ -270,7 +294,11 @@ static fracas_err status(const fracas_arguments *arguments)
 }
 
 const fracas_command fracas_command_status = {
-    .name = "status", .operand = "STUDY", .doc = "Says how far STUDY is, point by point",
+    .name = "status",
+    .operand = "STUDY",
+    .doc = "Says how far STUDY is, point by point",
     .more = "\nIt only looks: it can be asked while the study is being computed.\n",
-    .options = options, .noptions = FRACAS_COUNT(options), .run = status,
+    .options = options,
+    .noptions = FRACAS_COUNT(options),
+    .run = status,
 };

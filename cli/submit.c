@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/job.h"
 #include "cli/run_options.h"
 
@@ -16,11 +17,23 @@
 #include <unistd.h>
 
 /* Behind those of `fracas run`, which are handed on to it. */
-enum { NODES = FRACAS_NRUN_OPTIONS, TIME, TASKS, PARTITION, ACCOUNT, LEAD, OUTPUT, SCRIPT, SUBMIT, NOPTIONS };
-#define OWN(option) [(option) - FRACAS_NRUN_OPTIONS]
+enum {
+    NODES = FRACAS_NRUN_OPTIONS,
+    TIME,
+    TASKS,
+    PARTITION,
+    ACCOUNT,
+    LEAD,
+    OUTPUT,
+    SCRIPT,
+    SUBMIT,
+    NOPTIONS
+};
+#define OWN(option) [(option)-FRACAS_NRUN_OPTIONS]
 static const fracas_option options[NOPTIONS - FRACAS_NRUN_OPTIONS] = {
     OWN(NODES) = {"nodes", "N", "nodes of the job (1)"},
-    OWN(TIME) = {"time", "TIME", "the most it may take each time it is started: 2:00:00, 90m; needed"},
+    OWN(TIME) = {"time", "TIME",
+                 "the most it may take each time it is started: 2:00:00, 90m; needed"},
     OWN(TASKS) = {"tasks-per-node", "N", "processes on each node (the whole node: one a core)"},
     OWN(PARTITION) = {"partition", "NAME", "partition (the cluster's default)"},
     OWN(ACCOUNT) = {"account", "NAME", "account that is charged (your default)"},
@@ -34,13 +47,15 @@ enum { MOST_WORDS = 4 + 2 * FRACAS_NRUN_OPTIONS };
 
 typedef struct {
     fracas_job job;
-    char folder[PATH_MAX], program[PATH_MAX], study[PATH_MAX], name[PATH_MAX], output[PATH_MAX], script[PATH_MAX];
+    char folder[PATH_MAX], program[PATH_MAX], study[PATH_MAX], name[PATH_MAX], output[PATH_MAX],
+        script[PATH_MAX];
     char option[FRACAS_NRUN_OPTIONS][40]; /* "--replicas" */
-    char *run[MOST_WORDS];     /* "fracas", then the job's */
+    char *run[MOST_WORDS];                /* "fracas", then the job's */
 } submission;
 
 /* The command line of the run, checked as `fracas run` does. */
-static fracas_err make_run(const fracas_arguments *arguments, submission *s, fracas_run_options *run)
+static fracas_err make_run(const fracas_arguments *arguments, submission *s,
+                           fracas_run_options *run)
 {
     int n = 0;
     s->run[n++] = (char *)"fracas";
@@ -89,13 +104,18 @@ static fracas_err read_job(const fracas_arguments *arguments, submission *s)
     TRY(fracas_arguments_integer(arguments, LEAD, 1, 65535, &job->lead));
     TRY(fracas_arguments_time(arguments, TIME, &job->time));
     if (job->time == 0)
-        return fracas_fail(FRACAS_USAGE, "submit: --time is missing: how long the job may take, such as --time 2:00:00");
+        return fracas_fail(
+            FRACAS_USAGE,
+            "submit: --time is missing: how long the job may take, such as --time 2:00:00");
     if (job->time < 60 || job->time <= job->lead)
-        return fracas_fail(FRACAS_USAGE, "submit: --time %s is too short: it must be a minute or more, and longer than --signal-lead (%d s)",
+        return fracas_fail(FRACAS_USAGE,
+                           "submit: --time %s is too short: it must be a minute or more, and "
+                           "longer than --signal-lead (%d s)",
                            arguments->value[TIME], job->lead);
     snprintf(s->output, sizeof s->output, "%s.%%j.out", arguments->operand);
     snprintf(s->script, sizeof s->script, "%s.sbatch", arguments->operand);
-    if (arguments->value[SCRIPT]) snprintf(s->script, sizeof s->script, "%s", arguments->value[SCRIPT]);
+    if (arguments->value[SCRIPT])
+        snprintf(s->script, sizeof s->script, "%s", arguments->value[SCRIPT]);
     job->output = arguments->value[OUTPUT] ? arguments->value[OUTPUT] : s->output;
     job->partition = arguments->value[PARTITION];
     job->account = arguments->value[ACCOUNT];
@@ -112,9 +132,12 @@ static fracas_err read_job(const fracas_arguments *arguments, submission *s)
 static fracas_err find_places(submission *s)
 {
     if (!getcwd(s->folder, sizeof s->folder))
-        return fracas_fail(FRACAS_ENVIRONMENT, "the current folder has no name: %s", strerror(errno));
+        return fracas_fail(FRACAS_ENVIRONMENT, "the current folder has no name: %s",
+                           strerror(errno));
     ssize_t n = readlink("/proc/self/exe", s->program, sizeof s->program - 1);
-    if (n < 0) return fracas_fail(FRACAS_ENVIRONMENT, "cannot find this program: /proc/self/exe: %s", strerror(errno));
+    if (n < 0)
+        return fracas_fail(FRACAS_ENVIRONMENT, "cannot find this program: /proc/self/exe: %s",
+                           strerror(errno));
     s->program[n] = '\0';
     return FRACAS_OK;
 }
@@ -129,18 +152,22 @@ static fracas_err check_place(const char *path)
     fracas_err err = fracas_job_is_own(file, &own);
     fclose(file);
     if (err || own) return err;
-    return fracas_fail(FRACAS_USAGE, "submit: %s is there already and is not as `fracas submit` writes it: move it away, or give "
-                       "--script PATH", path);
+    return fracas_fail(FRACAS_USAGE,
+                       "submit: %s is there already and is not as `fracas submit` writes it: move "
+                       "it away, or give --script PATH",
+                       path);
 }
 
 static fracas_err write_script(const submission *s)
 {
     TRY(check_place(s->script));
     FILE *out = fopen(s->script, "w");
-    if (!out) return fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: %s", s->script, strerror(errno));
+    if (!out)
+        return fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: %s", s->script, strerror(errno));
     fracas_err err = fracas_job_write(&s->job, out);
     const int bad = ferror(out);
-    if (fclose(out) || bad) return fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: is the disk full?", s->script);
+    if (fclose(out) || bad)
+        return fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: is the disk full?", s->script);
     return err;
 }
 
@@ -160,7 +187,9 @@ static fracas_err hand_in(const submission *s)
         ;
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return FRACAS_OK;
     if (WIFEXITED(status) && WEXITSTATUS(status) == MISSING)
-        return fracas_fail(FRACAS_ENVIRONMENT, "there is no sbatch here; the script is written: on the cluster's login node, sbatch %s",
+        return fracas_fail(FRACAS_ENVIRONMENT,
+                           "there is no sbatch here; the script is written: on the cluster's login "
+                           "node, sbatch %s",
                            s->script);
     return fracas_fail(FRACAS_ENVIRONMENT, "sbatch refused %s (above: why)", s->script);
 }
@@ -192,9 +221,19 @@ static fracas_err submit(const fracas_arguments *arguments)
 static const fracas_refusal refused[] = {{"walltime", "follows from --time: leave it out"}};
 
 const fracas_command fracas_command_submit = {
-    .name = "submit", .operand = "FILE", .doc = "Writes a Slurm job that runs the campaign of FILE, and submits it",
-    .more = "\nThe job drains before its time is over or when it is preempted, and is queued again until the study is complete.\n"
-            "What follows `--` is handed to sbatch: fracas submit FILE --time 2:00:00 -- --mem=8G --constraint=skylake\n",
-    .options = fracas_cli_run_options, .noptions = FRACAS_NRUN_OPTIONS, .own = options, .nown = FRACAS_COUNT(options),
-    .refused = refused, .nrefused = FRACAS_COUNT(refused), .takes_rest = true, .run = submit,
+    .name = "submit",
+    .operand = "FILE",
+    .doc = "Writes a Slurm job that runs the campaign of FILE, and submits it",
+    .more = "\nThe job drains before its time is over or when it is preempted, and is queued again "
+            "until the study is complete.\n"
+            "What follows `--` is handed to sbatch: fracas submit FILE --time 2:00:00 -- --mem=8G "
+            "--constraint=skylake\n",
+    .options = fracas_cli_run_options,
+    .noptions = FRACAS_NRUN_OPTIONS,
+    .own = options,
+    .nown = FRACAS_COUNT(options),
+    .refused = refused,
+    .nrefused = FRACAS_COUNT(refused),
+    .takes_rest = true,
+    .run = submit,
 };

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/upkeep.h"
 
 #include <inttypes.h>
@@ -32,14 +33,17 @@ void fracas_cli_upkeep_counts(fracas_cli_upkeep *upkeep, const fracas_upkeep *en
         fracas_json_integer(&upkeep->json, "segments", end->segments);
         return;
     }
-    printf("%s: %" PRId64 " realizations, %" PRId64 " done in %" PRId64 " segments, %" PRId64 " failed, %" PRId64 " missing\n",
+    printf("%s: %" PRId64 " realizations, %" PRId64 " done in %" PRId64 " segments, %" PRId64
+           " failed, %" PRId64 " missing\n",
            upkeep->study, end->realizations, end->done, end->segments, end->failed, end->missing);
 }
 
 void fracas_cli_upkeep_next(const fracas_cli_upkeep *upkeep, const fracas_upkeep *end)
 {
     if (upkeep->with_json) return;
-    if (end->missing) printf("`fracas run %s/campaign.yaml --study %s` computes what is missing\n", upkeep->study, upkeep->study);
+    if (end->missing)
+        printf("`fracas run %s/campaign.yaml --study %s` computes what is missing\n", upkeep->study,
+               upkeep->study);
     else printf("`fracas merge %s` writes study.h5\n", upkeep->study);
 }
 

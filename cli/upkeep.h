@@ -1,4 +1,6 @@
-/* What the commands that look after a study print: what they did, line by line, and what the study is then. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the commands that look after a study print: what they did, line by line, and what the study
+ * is then. */
 #ifndef FRACAS_CLI_UPKEEP_H
 #define FRACAS_CLI_UPKEEP_H
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/cli.h"
 
 #include "base/json.h"
@@ -13,8 +14,9 @@
 #include <unistd.h>
 
 enum { FULL, JSON };
-static const fracas_option options[] = {[FULL] = {"full", NULL, "read every dataset, and compare every row and record"},
-                                        [JSON] = {"json", NULL, "print the problems as JSON"}};
+static const fracas_option options[] = {
+    [FULL] = {"full", NULL, "read every dataset, and compare every row and record"},
+    [JSON] = {"json", NULL, "print the problems as JSON"}};
 
 typedef struct {
     const char *study;
@@ -78,13 +80,18 @@ static void verify_campaign(verification *v)
     snprintf(file, sizeof file, "%s/study.h5", v->study);
     const fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
     if (access(file, F_OK) == 0 && !v->problems && !fracas_reader_open(file, &reader)) {
-        const bool same = fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash);
+        const bool same = fracas_hash_equal(&fracas_reader_header(reader)->campaign,
+                                            &campaign->hash);
         if (!same && !is_growing(v->study))
-            say(v, "campaign.yaml is not the campaign of study.h5, which is older: run the file it was made from");
+            say(v, "campaign.yaml is not the campaign of study.h5, which is older: run the file it "
+                   "was made from");
         else if (!same)
-            fprintf(v->notes, "study.h5 is older than campaign.yaml, which asks for more: `fracas run %s/campaign.yaml --study %s` goes on%c", v->study,
-                    v->study, '\0');
-        else if ((v->full && fracas_reader_check_meshes(reader, &meshes)) || check_decisions(v->study, campaign))
+            fprintf(v->notes,
+                    "study.h5 is older than campaign.yaml, which asks for more: `fracas run "
+                    "%s/campaign.yaml --study %s` goes on%c",
+                    v->study, v->study, '\0');
+        else if ((v->full && fracas_reader_check_meshes(reader, &meshes)) ||
+                 check_decisions(v->study, campaign))
             say(v, fracas_message());
         fracas_reader_close(reader);
     }
@@ -93,7 +100,8 @@ static void verify_campaign(verification *v)
 
 static fracas_err verify_all(verification *v)
 {
-    const fracas_verify_options how = {.full = v->full, .say = print_problem, .note = keep_note, .context = v};
+    const fracas_verify_options how = {
+        .full = v->full, .say = print_problem, .note = keep_note, .context = v};
     TRY(fracas_study_verify(v->study, &how, &v->problems));
     verify_campaign(v);
     return FRACAS_OK;
@@ -112,7 +120,8 @@ static fracas_err print_json(verification *v, char *const *notes, const size_t *
     fracas_json_close_array(&json);
     fracas_json_array(&json, "notes");
     fflush(v->notes);
-    for (const char *note = *notes; note < *notes + *size; note += strlen(note) + 1) fracas_json_text(&json, NULL, note);
+    for (const char *note = *notes; note < *notes + *size; note += strlen(note) + 1)
+        fracas_json_text(&json, NULL, note);
     fracas_json_close_array(&json);
     fracas_json_boolean(&json, "sound", !code && !v->problems);
     fracas_json_close_object(&json);
@@ -124,8 +133,11 @@ static fracas_err print_text(verification *v, char *const *notes, const size_t *
 {
     fracas_err code = verify_all(v);
     fflush(v->notes);
-    for (const char *note = *notes; note < *notes + *size; note += strlen(note) + 1) printf("note: %s\n", note);
-    if (!code && !v->problems) printf("%s is sound%s\n", v->study, v->full ? "" : " (sizes, checksums, index; --full compares every value)");
+    for (const char *note = *notes; note < *notes + *size; note += strlen(note) + 1)
+        printf("note: %s\n", note);
+    if (!code && !v->problems)
+        printf("%s is sound%s\n", v->study,
+               v->full ? "" : " (sizes, checksums, index; --full compares every value)");
     return code;
 }
 
@@ -137,19 +149,28 @@ static fracas_err verify(const fracas_arguments *arguments)
     TRY(fracas_cli_check_study(v.study));
     v.notes = open_memstream(&notes, &size);
     if (!v.notes) return fracas_no_memory("the notes");
-    fracas_err code = arguments->value[JSON] ? print_json(&v, &notes, &size) : print_text(&v, &notes, &size);
+    fracas_err code = arguments->value[JSON] ? print_json(&v, &notes, &size)
+                                             : print_text(&v, &notes, &size);
     fclose(v.notes);
     free(notes);
     if (code || !v.problems) return code;
-    return fracas_fail(FRACAS_DAMAGED, "%s has %lld problem%s", v.study, (long long)v.problems, v.problems > 1 ? "s" : "");
+    return fracas_fail(FRACAS_DAMAGED, "%s has %lld problem%s", v.study, (long long)v.problems,
+                       v.problems > 1 ? "s" : "");
 }
 
 const fracas_command fracas_command_verify = {
-    .name = "verify", .operand = "STUDY", .doc = "Checks every byte of STUDY",
-    .more = "\nSizes and checksums of all segments and of study.h5, the index, campaign.yaml with the files it names, and every decision on\n"
-            "replicas. With --full also every dataset of every segment, the index against them row by row, and study.h5 against them\n"
+    .name = "verify",
+    .operand = "STUDY",
+    .doc = "Checks every byte of STUDY",
+    .more = "\nSizes and checksums of all segments and of study.h5, the index, campaign.yaml with "
+            "the files it names, and every decision on\n"
+            "replicas. With --full also every dataset of every segment, the index against them row "
+            "by row, and study.h5 against them\n"
             "record by record: what a fault of fracas or a hand in the index could have left.\n"
-            "Each problem is one line: what, where, and what to do. Status 5 if there is any. What an interrupted run left is noted, and is\n"
+            "Each problem is one line: what, where, and what to do. Status 5 if there is any. What "
+            "an interrupted run left is noted, and is\n"
             "no problem: the next run puts it right.\n",
-    .options = options, .noptions = FRACAS_COUNT(options), .run = verify,
+    .options = options,
+    .noptions = FRACAS_COUNT(options),
+    .run = verify,
 };

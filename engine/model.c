@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/formulation/formulation.h"
 
 #include "engine/cohesive/law.h"
@@ -14,7 +15,9 @@
 static double most_steps(const fracas_model *model)
 {
     const fracas_cohesive *cohesive = &model->spec.cohesive;
-    const double finest = cohesive->law == &fracas_law_stershic ? cohesive->refinement * cohesive->refinement : 1.0;
+    const double finest = cohesive->law == &fracas_law_stershic
+                              ? cohesive->refinement * cohesive->refinement
+                              : 1.0;
     return ceil(model->spec.time.end / (finest * model->time_step));
 }
 
@@ -22,13 +25,17 @@ static fracas_err check_steps(const fracas_model *model)
 {
     const double step = model->time_step, end = model->spec.time.end;
     if (!(step > 0 && isfinite(step)))
-        return fracas_fail(FRACAS_USAGE, "time step %g s: check material, mesh and time.safety", step);
+        return fracas_fail(FRACAS_USAGE, "time step %g s: check material, mesh and time.safety",
+                           step);
     if (end / step > MOST_STEPS)
-        return fracas_fail(FRACAS_USAGE, "time.end %g s is %.3g time steps of %.3g s; %g are allowed", end, end / step, step,
-                           MOST_STEPS);
+        return fracas_fail(FRACAS_USAGE,
+                           "time.end %g s is %.3g time steps of %.3g s; %g are allowed", end,
+                           end / step, step, MOST_STEPS);
     if (most_steps(model) <= MOST_STEPS) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "time.end %g s is %.3g of the finest time steps, refined twice by cohesive.refinement %g; %g are "
-                       "allowed: raise cohesive.refinement", end, most_steps(model), model->spec.cohesive.refinement, MOST_STEPS);
+    return fracas_fail(FRACAS_USAGE,
+                       "time.end %g s is %.3g of the finest time steps, refined twice by "
+                       "cohesive.refinement %g; %g are allowed: raise cohesive.refinement",
+                       end, most_steps(model), model->spec.cohesive.refinement, MOST_STEPS);
 }
 
 fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
@@ -36,7 +43,8 @@ fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
     fracas_model *model = calloc(1, sizeof *model);
     if (!model) return fracas_no_memory("a model");
     model->spec = *spec;
-    model->formulation = (const fracas_formulation *)(const void *)spec->formulation; /* .kind is its first member */
+    model->formulation =
+        (const fracas_formulation *)(const void *)spec->formulation; /* .kind is its first member */
     model->strengths = 1;
     fracas_err code = model->formulation->model_init(model);
     model->spec.mesh.noise = NULL; /* the caller's, and done with, as is a file */
@@ -60,16 +68,40 @@ void fracas_model_destroy(fracas_model *model)
     free(model);
 }
 
-size_t fracas_model_interfaces(const fracas_model *model) { return model->interfaces; }
-size_t fracas_model_strengths_per_interface(const fracas_model *model) { return model->strengths; }
-size_t fracas_model_elements(const fracas_model *model) { return model->elements; }
-double fracas_model_element_size(const fracas_model *model) { return model->element_size; }
-double fracas_model_critical_time_step(const fracas_model *model) { return model->critical_step; }
-double fracas_model_time_step(const fracas_model *model) { return model->time_step; }
+size_t fracas_model_interfaces(const fracas_model *model)
+{
+    return model->interfaces;
+}
+size_t fracas_model_strengths_per_interface(const fracas_model *model)
+{
+    return model->strengths;
+}
+size_t fracas_model_elements(const fracas_model *model)
+{
+    return model->elements;
+}
+double fracas_model_element_size(const fracas_model *model)
+{
+    return model->element_size;
+}
+double fracas_model_critical_time_step(const fracas_model *model)
+{
+    return model->critical_step;
+}
+double fracas_model_time_step(const fracas_model *model)
+{
+    return model->time_step;
+}
 
-const fracas_surface *fracas_model_surface(const fracas_model *model) { return model->surface; }
+const fracas_surface *fracas_model_surface(const fracas_model *model)
+{
+    return model->surface;
+}
 
-int64_t fracas_model_steps(const fracas_model *model) { return (int64_t)most_steps(model); }
+int64_t fracas_model_steps(const fracas_model *model)
+{
+    return (int64_t)most_steps(model);
+}
 
 double fracas_model_interface_volume(const fracas_model *model, size_t interface)
 {
@@ -80,7 +112,8 @@ double fracas_model_interface_area(const fracas_model *model, size_t interface)
 {
     const fracas_geometry *geometry = &model->spec.geometry;
     if (!model->surface) return geometry->area;
-    return fracas_surface_length(model->surface, model->surface->interface[interface].element[0], model->surface->interface[interface].edge[0]) *
+    return fracas_surface_length(model->surface, model->surface->interface[interface].element[0],
+                                 model->surface->interface[interface].edge[0]) *
            geometry->thickness;
 }
 
@@ -90,7 +123,8 @@ double fracas_model_period(const fracas_model *model)
     return geometry->ends == &fracas_ends_periodic ? geometry->length : 0;
 }
 
-/* Of an edge: its ends and, of quadratic triangles, its middle (else its first end, which then has no share). */
+/* Of an edge: its ends and, of quadratic triangles, its middle (else its first end, which then has
+ * no share). */
 static void edge_nodes(const fracas_surface *surface, size_t interface, const double *node[3])
 {
     const fracas_surface_interface *of = &surface->interface[interface];
@@ -102,17 +136,22 @@ static void edge_nodes(const fracas_surface *surface, size_t interface, const do
 }
 
 /* x = sum_a N_a(s_g) x_a  (grading.4) */
-static void surface_positions(const fracas_surface *surface, size_t strengths, double (*position)[3])
+static void surface_positions(const fracas_surface *surface, size_t strengths,
+                              double (*position)[3])
 {
-    static const double edge_point[2][FRACAS_EDGE_MOST] = {FRACAS_EDGE_POINTS_1, FRACAS_EDGE_POINTS_2};
+    static const double edge_point[2][FRACAS_EDGE_MOST] = {FRACAS_EDGE_POINTS_1,
+                                                           FRACAS_EDGE_POINTS_2};
     for (size_t i = 0, k = 0; i < surface->ninterfaces; i++) {
         const double *node[3];
         edge_nodes(surface, i, node);
         for (size_t g = 0; g < strengths; g++, k++) {
             double shape[3] = {0.5, 0.5, 0}, spread[3];
-            if (strengths > 1) fracas_edge_shape(surface->order, edge_point[surface->order - 1][g], shape, spread);
+            if (strengths > 1)
+                fracas_edge_shape(surface->order, edge_point[surface->order - 1][g], shape, spread);
             if (surface->order == 1) shape[2] = 0;
-            for (int j = 0; j < 3; j++) position[k][j] = shape[0] * node[0][j] + shape[1] * node[1][j] + shape[2] * node[2][j];
+            for (int j = 0; j < 3; j++)
+                position[k][j] = shape[0] * node[0][j] + shape[1] * node[1][j] +
+                                 shape[2] * node[2][j];
         }
     }
 }

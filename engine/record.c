@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/record.h"
 
 #include <math.h>
@@ -7,10 +8,20 @@ void fracas_record_init(fracas_record *record)
 {
     *record = (fracas_record){
         .outcome = FRACAS_FAILED,
-        .onset_time = NAN, .end_time = NAN, .time_step = NAN, .mass = NAN,
-        .kinetic = NAN, .elastic = NAN, .cohesive = NAN, .dissipated = NAN,
-        .dissipated_bending = NAN, .created = NAN, .work = NAN,
-        .residual = NAN, .residual_end = NAN, .momentum = {NAN, NAN, NAN},
+        .onset_time = NAN,
+        .end_time = NAN,
+        .time_step = NAN,
+        .mass = NAN,
+        .kinetic = NAN,
+        .elastic = NAN,
+        .cohesive = NAN,
+        .dissipated = NAN,
+        .dissipated_bending = NAN,
+        .created = NAN,
+        .work = NAN,
+        .residual = NAN,
+        .residual_end = NAN,
+        .momentum = {NAN, NAN, NAN},
     };
 }
 

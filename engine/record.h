@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What one realization leaves behind (columns of /realization, /fragment, /history, /interface). */
 #ifndef FRACAS_ENGINE_RECORD_H
 #define FRACAS_ENGINE_RECORD_H
@@ -7,29 +8,32 @@
 
 typedef enum {
     FRACAS_FRAGMENTED = 0,
-    FRACAS_INTACT = 1,       /* nothing broken at the end */
-    FRACAS_TIME_LIMIT = 2,   /* stopped by the cap with cracks still running */
+    FRACAS_INTACT = 1,     /* nothing broken at the end */
+    FRACAS_TIME_LIMIT = 2, /* stopped by the cap with cracks still running */
     FRACAS_NONFINITE = 3,
     FRACAS_ENERGY_DRIFT = 4,
-    FRACAS_FAILED = 5        /* crashed, timed out, quarantined: values NaN */
+    FRACAS_FAILED = 5 /* crashed, timed out, quarantined: values NaN */
 } fracas_outcome;
 
 #define FRACAS_NOUTCOMES 6
 
 typedef struct {
-    double mass;                /* kg */
-    double size;                /* m: length in 1D, sqrt(area) in 2D */
+    double mass; /* kg */
+    double size; /* m: length in 1D, sqrt(area) in 2D */
     int64_t elements;
-    int64_t dust;               /* 1 when of so few elements that the mesh decides (one in 1D), else 0 */
-    double position[3];         /* m, centre of mass at end_time */
-    double velocity[3];         /* m/s, of the centre of mass, background included, half a step after end_time */
+    int64_t dust;       /* 1 when of so few elements that the mesh decides (one in 1D), else 0 */
+    double position[3]; /* m, centre of mass at end_time */
+    double velocity[3]; /* m/s, of the centre of mass, background included, half a step after
+                           end_time */
     double angular_momentum[3]; /* kg m2/s, about the centre of mass */
-    double spin[3];             /* rad/s, of the rigid body with that angular momentum; 0 about an axis without inertia, and of a bar's */
+    double spin[3]; /* rad/s, of the rigid body with that angular momentum; 0 about an axis without
+                       inertia, and of a bar's */
 } fracas_fragment;
 
 typedef struct {
     double time; /* s */
-    double kinetic, elastic, cohesive, dissipated, dissipated_bending, created, work, residual; /* J */
+    double kinetic, elastic, cohesive, dissipated, dissipated_bending, created, work,
+        residual; /* J */
     int64_t fragments, broken;
 } fracas_history_row;
 
@@ -41,20 +45,21 @@ typedef struct {
 } fracas_interface_row;
 
 typedef struct {
-    int64_t outcome;        /* fracas_outcome */
-    int64_t fragments;      /* all */
-    int64_t fragments_dust; /* of those, dust */
+    int64_t outcome;         /* fracas_outcome */
+    int64_t fragments;       /* all */
+    int64_t fragments_dust;  /* of those, dust */
     int64_t broken, cracked; /* interfaces */
     int64_t steps;
-    double onset_time; /* s, first onset, NaN if none */
+    double onset_time;          /* s, first onset, NaN if none */
     double end_time, time_step; /* s */
-    double mass; /* kg */
-    double kinetic, elastic, cohesive, dissipated, dissipated_bending, created, work; /* J, at end_time */
+    double mass;                /* kg */
+    double kinetic, elastic, cohesive, dissipated, dissipated_bending, created,
+        work;            /* J, at end_time */
     double residual;     /* J, largest absolute value over the run */
     double residual_end; /* J */
     double momentum[3];  /* kg m/s, of the peculiar motion, half a step after end_time */
     size_t nfragment, nhistory, ninterface; /* rows below; nfragment == fragments unless FAILED */
-    fracas_fragment *fragment;       /* owned by the record, freed by fracas_record_clear */
+    fracas_fragment *fragment;              /* owned by the record, freed by fracas_record_clear */
     fracas_history_row *history;
     fracas_interface_row *interface; /* NULL unless asked for */
 } fracas_record;

@@ -1,4 +1,6 @@
-/* The registry: every section of a campaign file that the engine understands, and the kinds it can name. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The registry: every section of a campaign file that the engine understands, and the kinds it can
+ * name. */
 #include "engine/spec.h"
 
 #include "engine/cohesive/law.h"
@@ -8,24 +10,28 @@
 #include "engine/mesh/body.h"
 #include "engine/solver/stop.h"
 
-static const fracas_kind *const formulations[] = {&fracas_formulation_bar.kind, &fracas_formulation_ring.kind,
-                                                 &fracas_formulation_membrane.kind, &fracas_formulation_shell.kind};
-const fracas_kind *const fracas_chain_models[] = {&fracas_formulation_bar.kind, &fracas_formulation_ring.kind, NULL};
-const fracas_kind *const fracas_surface_models[] = {&fracas_formulation_membrane.kind, &fracas_formulation_shell.kind, NULL};
+static const fracas_kind *const formulations[] = {
+    &fracas_formulation_bar.kind, &fracas_formulation_ring.kind, &fracas_formulation_membrane.kind,
+    &fracas_formulation_shell.kind};
+const fracas_kind *const fracas_chain_models[] = {&fracas_formulation_bar.kind,
+                                                  &fracas_formulation_ring.kind, NULL};
+const fracas_kind *const fracas_surface_models[] = {&fracas_formulation_membrane.kind,
+                                                    &fracas_formulation_shell.kind, NULL};
 const fracas_kind *const fracas_membrane_models[] = {&fracas_formulation_membrane.kind, NULL};
 const fracas_kind *const fracas_shell_models[] = {&fracas_formulation_shell.kind, NULL};
 static const fracas_section formulation_section = {
-    .name = "model", .doc = "What is broken up", .kinds = formulations, .nkinds = FRACAS_COUNT(formulations),
-    .kind_offset = 0, .offset = offsetof(fracas_spec, formulation), .hashed = true,
+    .name = "model",
+    .doc = "What is broken up",
+    .kinds = formulations,
+    .nkinds = FRACAS_COUNT(formulations),
+    .kind_offset = 0,
+    .offset = offsetof(fracas_spec, formulation),
+    .hashed = true,
 };
 
 const fracas_section *const fracas_engine_sections[] = {
-    &formulation_section,
-    &fracas_geometry_section,
-    &fracas_mesh_section,
-    &fracas_material_section,
-    &fracas_cohesive_section,
-    &fracas_loading_section,
+    &formulation_section,     &fracas_geometry_section, &fracas_mesh_section,
+    &fracas_material_section, &fracas_cohesive_section, &fracas_loading_section,
     &fracas_time_section,
 };
 const size_t fracas_engine_nsections = FRACAS_COUNT(fracas_engine_sections);

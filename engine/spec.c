@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What follows from a point's parameters without a model. */
 #include "engine/spec.h"
 
@@ -15,8 +16,10 @@ double fracas_spec_length(const fracas_spec *spec)
 double fracas_spec_strain_rate(const fracas_spec *spec)
 {
     const fracas_loading *loading = &spec->loading;
-    if (loading->type == &fracas_loading_imposed_rate || loading->type == &fracas_loading_expansion) return loading->rate;
-    if (loading->type == &fracas_loading_initial_velocity) return loading->radial / spec->geometry.radius;
+    if (loading->type == &fracas_loading_imposed_rate || loading->type == &fracas_loading_expansion)
+        return loading->rate;
+    if (loading->type == &fracas_loading_initial_velocity)
+        return loading->radial / spec->geometry.radius;
     if (loading->type == &fracas_loading_held_velocity && loading->direction == &fracas_axis_radial)
         return loading->velocity / spec->geometry.radius;
     return NAN;
@@ -25,5 +28,6 @@ double fracas_spec_strain_rate(const fracas_spec *spec)
 double fracas_spec_fracture_energy(const fracas_spec *spec, double strength)
 {
     const fracas_cohesive *cohesive = &spec->cohesive;
-    return cohesive->critical_opening > 0 ? 0.5 * strength * cohesive->critical_opening : cohesive->fracture_energy;
+    return cohesive->critical_opening > 0 ? 0.5 * strength * cohesive->critical_opening
+                                          : cohesive->fracture_energy;
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What one point of a campaign asks of the engine: every physical parameter, resolved, in SI. */
 #ifndef FRACAS_ENGINE_SPEC_H
 #define FRACAS_ENGINE_SPEC_H
@@ -11,29 +12,31 @@
 #define FRACAS_EDGES 5 /* tags 1 to 4, and all others */
 
 typedef struct {
-    const fracas_kind *shape;     /* bar, ring; plate, annulus, sphere, file: surfaces */
-    const fracas_kind *ends;      /* bar: periodic, held */
-    const fracas_kind *direction; /* ring: initial, current; in which its interfaces open */
-    const fracas_kind *part;      /* sphere: whole, octant */
-    double length; /* m, bar */
-    double radius; /* m, ring, sphere */
-    double area;   /* m2, bar and ring: of the cross-section */
-    double width, height; /* m, plate */
-    double inner, outer;  /* m, annulus: radii */
+    const fracas_kind *shape;      /* bar, ring; plate, annulus, sphere, file: surfaces */
+    const fracas_kind *ends;       /* bar: periodic, held */
+    const fracas_kind *direction;  /* ring: initial, current; in which its interfaces open */
+    const fracas_kind *part;       /* sphere: whole, octant */
+    double length;                 /* m, bar */
+    double radius;                 /* m, ring, sphere */
+    double area;                   /* m2, bar and ring: of the cross-section */
+    double width, height;          /* m, plate */
+    double inner, outer;           /* m, annulus: radii */
     const fracas_attachment *file; /* file: the mesh */
-    double thickness;     /* m, surfaces */
-    const fracas_kind *edge[FRACAS_EDGES]; /* surfaces: what holds the edges of each tag; of any other tag the first */
+    double thickness;              /* m, surfaces */
+    const fracas_kind *edge[FRACAS_EDGES]; /* surfaces: what holds the edges of each tag; of any
+                                              other tag the first */
 } fracas_geometry;
 
 typedef struct {
     const fracas_kind *spacing; /* uniform, graded, perturbed; triangles, given: surfaces */
-    int64_t elements;    /* bar and ring */
-    double ratio;        /* graded: size of the last element / size of the first; 1 */
-    double amplitude;    /* perturbed, triangles: largest move of a node / element size; 1 */
-    double size;         /* m, triangles: see fracas_surface_fineness; or 0 and ... */
-    int64_t divisions;   /* ... a number */
-    int64_t order;       /* triangles: 1 linear, 2 quadratic */
-    const double *noise; /* in [-1, 1], move of each node / largest; not a parameter: drawn outside, where the mesh needs it */
+    int64_t elements;           /* bar and ring */
+    double ratio;               /* graded: size of the last element / size of the first; 1 */
+    double amplitude;           /* perturbed, triangles: largest move of a node / element size; 1 */
+    double size;                /* m, triangles: see fracas_surface_fineness; or 0 and ... */
+    int64_t divisions;          /* ... a number */
+    int64_t order;              /* triangles: 1 linear, 2 quadratic */
+    const double *noise; /* in [-1, 1], move of each node / largest; not a parameter: drawn outside,
+                            where the mesh needs it */
     size_t nnoise;       /* fracas_mesh_noise_count */
 } fracas_mesh;
 
@@ -50,27 +53,31 @@ typedef struct {
     double critical_opening; /* m, stershic: 0 where the fracture energy is given */
     double penalty;          /* stershic: stiffness of contact / (E/h); 1 */
     double refinement;       /* stershic: factor xi of the time step for each critical zone; 1 */
-    const fracas_kind *critical_zone; /* stershic: softening, steep; which open links refine the time step */
-    double zone;             /* m, stershic: no interface opens within this distance of an open one; 0: no zone */
-    double beta_shear;       /* shells: stiffness against shearing off; 1 */
-    const fracas_kind *onset; /* surfaces: mean, flux; the traction that is held against the strength */
-    double coupling;         /* surfaces: beta_c, shear strength / normal strength; 1 */
-    double friction;         /* surfaces: mu_c, Coulomb's coefficient; 1 */
+    const fracas_kind
+        *critical_zone; /* stershic: softening, steep; which open links refine the time step */
+    double
+        zone; /* m, stershic: no interface opens within this distance of an open one; 0: no zone */
+    double beta_shear; /* shells: stiffness against shearing off; 1 */
+    const fracas_kind
+        *onset;      /* surfaces: mean, flux; the traction that is held against the strength */
+    double coupling; /* surfaces: beta_c, shear strength / normal strength; 1 */
+    double friction; /* surfaces: mu_c, Coulomb's coefficient; 1 */
 } fracas_cohesive;
 
 typedef struct {
-    const fracas_kind *type;      /* imposed-rate, initial-velocity, held-velocity, force; expansion, centrifugal: surfaces */
-    double rate;                  /* 1/s, imposed-rate, expansion */
-    double ratio;                 /* 1, expansion: rate along y / rate along x */
-    const fracas_kind *start;     /* expansion: moving, rest; the inside */
-    double speed;                 /* rad/s, centrifugal */
-    double ramp;                  /* s, centrifugal: time to reach it */
+    const fracas_kind *type;  /* imposed-rate, initial-velocity, held-velocity, force; expansion,
+                                 centrifugal: surfaces */
+    double rate;              /* 1/s, imposed-rate, expansion */
+    double ratio;             /* 1, expansion: rate along y / rate along x */
+    const fracas_kind *start; /* expansion: moving, rest; the inside */
+    double speed;             /* rad/s, centrifugal */
+    double ramp;              /* s, centrifugal: time to reach it */
     double radial, circumferential; /* m/s, initial-velocity */
-    const fracas_kind *direction; /* held-velocity, force: radial, circumferential */
-    double velocity;              /* m/s, held-velocity */
-    double acceleration;          /* m/s2, held-velocity */
-    double force;                 /* N/m, force: per length of the ring */
-    double force_rate;            /* N/(m s), force */
+    const fracas_kind *direction;   /* held-velocity, force: radial, circumferential */
+    double velocity;                /* m/s, held-velocity */
+    double acceleration;            /* m/s2, held-velocity */
+    double force;                   /* N/m, force: per length of the ring */
+    double force_rate;              /* N/(m s), force */
 } fracas_loading;
 
 typedef struct {
@@ -79,16 +86,17 @@ typedef struct {
     double quiet;          /* s */
     double quiet_fraction; /* 1 */
     double multiple;       /* 1, peak-multiple */
-    double drop;           /* 1, peak-multiple: fall of the elastic energy that makes its maximum a peak */
-    double safety;         /* time step / critical time step; 1 */
+    double drop;   /* 1, peak-multiple: fall of the elastic energy that makes its maximum a peak */
+    double safety; /* time step / critical time step; 1 */
     const fracas_kind *integrator; /* surfaces: central-difference, hulbert-chung */
-    double spectral_radius; /* 1, hulbert-chung: at the bifurcation */
-    const fracas_kind *mass; /* surfaces: lumped, consistent */
+    double spectral_radius;        /* 1, hulbert-chung: at the bifurcation */
+    const fracas_kind *mass;       /* surfaces: lumped, consistent */
 } fracas_time;
 
 typedef struct {
     const fracas_kind *formulation; /* `model` of the campaign file */
-    bool strength_per_point; /* surfaces: each Gauss point of an interface has a strength; not a parameter of the engine's */
+    bool strength_per_point; /* surfaces: each Gauss point of an interface has a strength; not a
+                                parameter of the engine's */
     fracas_geometry geometry;
     fracas_mesh mesh;
     fracas_material material;
@@ -98,15 +106,17 @@ typedef struct {
 } fracas_spec;
 
 /* What follows from the parameters alone, without a model. */
-double fracas_spec_length(const fracas_spec *spec); /* m, of the bar or along the ring; NaN for surfaces */
-/* Strain rate that the loading begins with [1/s]: the imposed rate, radial velocity / radius, initial or held, or that of an
- * expansion along x; NaN for a loading that gives none (a force, a circumferential velocity, a centrifugal load). */
+double
+fracas_spec_length(const fracas_spec *spec); /* m, of the bar or along the ring; NaN for surfaces */
+/* Strain rate that the loading begins with [1/s]: the imposed rate, radial velocity / radius,
+ * initial or held, or that of an expansion along x; NaN for a loading that gives none (a force, a
+ * circumferential velocity, a centrifugal load). */
 double fracas_spec_strain_rate(const fracas_spec *spec);
 /* G_c [J/m2] of an interface of this strength [Pa]: as given, or sigma_c delta_c/2. */
 double fracas_spec_fracture_energy(const fracas_spec *spec, double strength);
 
-/* Registry of the engine: `model` is the section of that name without parameters of its own, and the
- * others follow in the order of the struct; offsets are into fracas_spec. */
+/* Registry of the engine: `model` is the section of that name without parameters of its own, and
+ * the others follow in the order of the struct; offsets are into fracas_spec. */
 extern const fracas_section *const fracas_engine_sections[];
 extern const size_t fracas_engine_nsections;
 

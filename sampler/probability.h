@@ -1,9 +1,10 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A probability with both of its tails. */
 #ifndef FRACAS_SAMPLER_PROBABILITY_H
 #define FRACAS_SAMPLER_PROBABILITY_H
 
-/* That a variable is below a value, and above it: below + above = 1, each between 0 and 1, the smaller of the two right to its last
- * digits however small it is. */
+/* That a variable is below a value, and above it: below + above = 1, each between 0 and 1, the
+ * smaller of the two right to its last digits however small it is. */
 typedef struct {
     double below, above;
 } fracas_probability;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Streams of random numbers by name: Philox4x64-10 (Salmon et al., SC11, 2011). */
 #include "sampler/stream.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Streams of random numbers by name. */
 #ifndef FRACAS_SAMPLER_STREAM_H
 #define FRACAS_SAMPLER_STREAM_H
@@ -5,7 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* The name of a stream of random numbers: a value depends on this and its place, on nothing else. */
+/* The name of a stream of random numbers: a value depends on this and its place, on nothing else.
+ */
 typedef struct {
     uint64_t seed;     /* of the campaign */
     uint64_t purpose;  /* FRACAS_PURPOSE_... */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The registry of distributions, and what is done with any of them. */
 #include "sampler/distribution/distribution.h"
 
@@ -7,50 +8,88 @@
 #include "sampler/field/grading.h"
 
 static const fracas_kind *const distributions[] = {
-    &fracas_weibull.kind,
-    &fracas_uniform.kind,
-    &fracas_lognormal.kind,
-    &fracas_constant.kind,
-    &fracas_normal.kind,
-    &fracas_gamma_law.kind,
-    &fracas_flaws.kind,
-    &fracas_empirical.kind,
-    &fracas_file_distribution.kind,
+    &fracas_weibull.kind,   &fracas_uniform.kind,   &fracas_lognormal.kind,
+    &fracas_constant.kind,  &fracas_normal.kind,    &fracas_gamma_law.kind,
+    &fracas_flaws.kind,     &fracas_empirical.kind, &fracas_file_distribution.kind,
     &fracas_positions.kind,
 };
-static const fracas_kind *const covariances[] = {&fracas_covariance_exponential, &fracas_covariance_matern, &fracas_covariance_gaussian};
-static const fracas_kind per_interface = {.name = "interface", .doc = "one strength for all of an interface"};
+static const fracas_kind *const covariances[] = {
+    &fracas_covariance_exponential, &fracas_covariance_matern, &fracas_covariance_gaussian};
+static const fracas_kind per_interface = {.name = "interface",
+                                          .doc = "one strength for all of an interface"};
 static const fracas_kind per_point = {.name = "gauss-point",
-                                      .doc = "one for each Gauss point of an interface of a surface; bars and rings have one point an interface"};
+                                      .doc = "one for each Gauss point of an interface of a "
+                                             "surface; bars and rings have one point an interface"};
 static const fracas_kind *const places[] = {&per_interface, &per_point};
 
-const fracas_kind fracas_along_x = {.name = "x", .doc = "along x"}, fracas_along_y = {.name = "y", .doc = "along y"},
+const fracas_kind fracas_along_x = {.name = "x", .doc = "along x"},
+                  fracas_along_y = {.name = "y", .doc = "along y"},
                   fracas_along_z = {.name = "z", .doc = "along z"},
-                  fracas_along_radius = {.name = "radius", .doc = "the distance from the z axis, sqrt(x^2 + y^2)"};
-static const fracas_kind *const directions[] = {&fracas_along_x, &fracas_along_y, &fracas_along_z, &fracas_along_radius};
+                  fracas_along_radius = {.name = "radius",
+                                         .doc = "the distance from the z axis, sqrt(x^2 + y^2)"};
+static const fracas_kind *const directions[] = {&fracas_along_x, &fracas_along_y, &fracas_along_z,
+                                                &fracas_along_radius};
 
 static const fracas_param params[] = {
-    {.name = "per", .type = FRACAS_CHOICE, .unit = "1", .doc = "what has a strength of its own; none is interface", .choices = places,
-     .nchoices = FRACAS_COUNT(places), .offset = offsetof(fracas_strength, per), .optional = true},
-    {.name = "factor", .type = FRACAS_ATTACHMENT, .unit = "1",
-     .doc = "text whose lines begin with a coordinate [m] and a factor by which strengths there are multiplied, linear between two lines; "
-            "coordinates increase, one that is given twice is a jump",
-     .offset = offsetof(fracas_strength, factor), .optional = true},
-    {.name = "factor_along", .type = FRACAS_CHOICE, .unit = "1", .doc = "which coordinate those of the file `factor` are",
-     .choices = directions, .nchoices = FRACAS_COUNT(directions), .offset = offsetof(fracas_strength, factor_along), .optional = true},
-    {"reference_volume", FRACAS_REAL, "m3", "volume of a specimen that has the strengths that are given: an interface has those of the "
-     "weakest of as many specimens as fill its volume", FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, reference_volume),
+    {.name = "per",
+     .type = FRACAS_CHOICE,
+     .unit = "1",
+     .doc = "what has a strength of its own; none is interface",
+     .choices = places,
+     .nchoices = FRACAS_COUNT(places),
+     .offset = offsetof(fracas_strength, per),
      .optional = true},
-    {"reference_area", FRACAS_REAL, "m2", "area of a specimen, in place of its volume: an interface counts by its own area",
-     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, reference_area), .optional = true},
-    {.name = "covariance", .type = FRACAS_CHOICE, .unit = "1",
-     .doc = "how strengths at a distance d are alike, through a Gaussian field of this covariance; without it they are independent",
-     .offset = offsetof(fracas_strength, covariance), .choices = covariances, .nchoices = FRACAS_COUNT(covariances), .optional = true},
-    {.name = "correlation_length", .type = FRACAS_REAL, .unit = "m", .doc = "length l of the covariance", .maximum = INFINITY,
-     .minimum_open = true, .offset = offsetof(fracas_strength, correlation_length), .optional = true},
-    {.name = "smoothness", .type = FRACAS_REAL, .unit = "1",
-     .doc = "nu of a matern covariance, 1.5 where it is not given: the field can be differentiated k times "
-            "for every k < nu", .minimum = 0.1, .maximum = 10, .offset = offsetof(fracas_strength, smoothness), .optional = true},
+    {.name = "factor",
+     .type = FRACAS_ATTACHMENT,
+     .unit = "1",
+     .doc = "text whose lines begin with a coordinate [m] and a factor by which strengths there "
+            "are multiplied, linear between two lines; coordinates increase, one that is given "
+            "twice is a jump",
+     .offset = offsetof(fracas_strength, factor),
+     .optional = true},
+    {.name = "factor_along",
+     .type = FRACAS_CHOICE,
+     .unit = "1",
+     .doc = "which coordinate those of the file `factor` are",
+     .choices = directions,
+     .nchoices = FRACAS_COUNT(directions),
+     .offset = offsetof(fracas_strength, factor_along),
+     .optional = true},
+    {"reference_volume", FRACAS_REAL, "m3",
+     "volume of a specimen that has the strengths that are given: an interface has those of the "
+     "weakest of as many specimens as fill its volume",
+     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, reference_volume),
+     .optional = true},
+    {"reference_area", FRACAS_REAL, "m2",
+     "area of a specimen, in place of its volume: an interface counts by its own area",
+     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, reference_area),
+     .optional = true},
+    {.name = "covariance",
+     .type = FRACAS_CHOICE,
+     .unit = "1",
+     .doc = "how strengths at a distance d are alike, through a Gaussian field of this covariance; "
+            "without it they are independent",
+     .offset = offsetof(fracas_strength, covariance),
+     .choices = covariances,
+     .nchoices = FRACAS_COUNT(covariances),
+     .optional = true},
+    {.name = "correlation_length",
+     .type = FRACAS_REAL,
+     .unit = "m",
+     .doc = "length l of the covariance",
+     .maximum = INFINITY,
+     .minimum_open = true,
+     .offset = offsetof(fracas_strength, correlation_length),
+     .optional = true},
+    {.name = "smoothness",
+     .type = FRACAS_REAL,
+     .unit = "1",
+     .doc = "nu of a matern covariance, 1.5 where it is not given: the field can be differentiated "
+            "k times for every k < nu",
+     .minimum = 0.1,
+     .maximum = 10,
+     .offset = offsetof(fracas_strength, smoothness),
+     .optional = true},
 };
 
 static fracas_err check_section(const void *section)
@@ -59,9 +98,16 @@ static fracas_err check_section(const void *section)
 }
 
 const fracas_section fracas_strength_section = {
-    .name = "strength", .doc = "How strong interfaces are", .selector = "distribution", .kinds = distributions,
-    .nkinds = FRACAS_COUNT(distributions), .kind_offset = offsetof(fracas_strength, distribution), .hashed = true,
-    .params = params, .nparams = FRACAS_COUNT(params), .check = check_section,
+    .name = "strength",
+    .doc = "How strong interfaces are",
+    .selector = "distribution",
+    .kinds = distributions,
+    .nkinds = FRACAS_COUNT(distributions),
+    .kind_offset = offsetof(fracas_strength, distribution),
+    .hashed = true,
+    .params = params,
+    .nparams = FRACAS_COUNT(params),
+    .check = check_section,
 };
 
 const fracas_distribution *fracas_distribution_of(const fracas_strength *strength)
@@ -79,11 +125,16 @@ static fracas_err check_reference(const fracas_strength *strength)
     const char *key = strength->reference_volume > 0.0 ? "reference_volume" : "reference_area";
     if (!has_reference(strength)) return FRACAS_OK;
     if (strength->reference_volume > 0.0 && strength->reference_area > 0.0)
-        return fracas_fail(FRACAS_USAGE, "`reference_volume` and `reference_area` are both given: take out one of them");
+        return fracas_fail(
+            FRACAS_USAGE,
+            "`reference_volume` and `reference_area` are both given: take out one of them");
     if (fracas_distribution_of(strength)->takes_reference) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "`%s` does not go with the distribution %s, whose strengths %s: take it out", key,
-                       strength->distribution->name, fracas_distribution_of(strength)->size_effect ? "depend on the volume by themselves"
-                       : "are the same whatever the extent of an interface");
+    return fracas_fail(FRACAS_USAGE,
+                       "`%s` does not go with the distribution %s, whose strengths %s: take it out",
+                       key, strength->distribution->name,
+                       fracas_distribution_of(strength)->size_effect
+                           ? "depend on the volume by themselves"
+                           : "are the same whatever the extent of an interface");
 }
 
 fracas_err fracas_strength_init(const fracas_strength *given, fracas_strength *ready)
@@ -106,8 +157,10 @@ fracas_err fracas_strength_check(const fracas_strength *strength)
 {
     fracas_strength ready;
     if (fracas_strength_is_given(strength) && fracas_strength_is_per_point(strength))
-        return fracas_fail(FRACAS_USAGE, "strength.per is gauss-point, but the distribution `%s` gives one strength to each interface: "
-                           "leave out `per`, or let strengths be drawn", strength->distribution->name);
+        return fracas_fail(FRACAS_USAGE,
+                           "strength.per is gauss-point, but the distribution `%s` gives one "
+                           "strength to each interface: leave out `per`, or let strengths be drawn",
+                           strength->distribution->name);
     TRY(fracas_covariance_check(strength));
     TRY(fracas_grading_check(strength));
     TRY(fracas_strength_init(strength, &ready));
@@ -121,7 +174,8 @@ static bool is_ready(const fracas_strength *strength)
     return strength->ready || fracas_strength_is_given(strength);
 }
 
-double fracas_strength_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
+double fracas_strength_quantile(const fracas_strength *strength, fracas_extent extent,
+                                fracas_probability p)
 {
     if (!is_ready(strength)) {
         fracas_strength ready;
@@ -130,7 +184,8 @@ double fracas_strength_quantile(const fracas_strength *strength, fracas_extent e
         fracas_strength_clear(&ready);
         return quantile;
     }
-    if (has_reference(strength)) return fracas_size_quantile(strength, fracas_size_of(strength, extent), p);
+    if (has_reference(strength))
+        return fracas_size_quantile(strength, fracas_size_of(strength, extent), p);
     return fracas_distribution_of(strength)->quantile(strength, extent, p);
 }
 
@@ -143,7 +198,8 @@ static fracas_moments moments_of(const fracas_strength *strength, fracas_extent 
         fracas_strength_clear(&ready);
         return moments;
     }
-    if (has_reference(strength)) return fracas_size_moments(strength, fracas_size_of(strength, extent));
+    if (has_reference(strength))
+        return fracas_size_moments(strength, fracas_size_of(strength, extent));
     return fracas_distribution_of(strength)->moments(strength, extent);
 }
 

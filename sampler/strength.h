@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Distributions of strengths. */
 #ifndef FRACAS_SAMPLER_STRENGTH_H
 #define FRACAS_SAMPLER_STRENGTH_H
@@ -10,33 +11,35 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* `strength` of the campaign file, resolved, in SI. A distribution uses the members its table names; optional ones are NaN, or
- * NULL, where none is given. */
+/* `strength` of the campaign file, resolved, in SI. A distribution uses the members its table
+ * names; optional ones are NaN, or NULL, where none is given. */
 typedef struct {
     const fracas_kind *distribution;
-    double value;   /* Pa, constant */
-    double minimum; /* Pa */
-    double maximum; /* Pa */
-    double scale;   /* Pa */
-    double shape;   /* 1 */
-    double median;  /* Pa, lognormal: exp(mu) */
-    double sigma;   /* 1, lognormal: standard deviation of the logarithm */
-    double mean;      /* Pa; normal: before it is cut off at 0 */
-    double deviation; /* Pa, standard deviation, as mean */
-    double density;   /* 1/m3, flaws: their mean number per volume */
-    double exponent;  /* 1, flaws: of the power law of their strengths */
+    double value;          /* Pa, constant */
+    double minimum;        /* Pa */
+    double maximum;        /* Pa */
+    double scale;          /* Pa */
+    double shape;          /* 1 */
+    double median;         /* Pa, lognormal: exp(mu) */
+    double sigma;          /* 1, lognormal: standard deviation of the logarithm */
+    double mean;           /* Pa; normal: before it is cut off at 0 */
+    double deviation;      /* Pa, standard deviation, as mean */
+    double density;        /* 1/m3, flaws: their mean number per volume */
+    double exponent;       /* 1, flaws: of the power law of their strengths */
     double kept_mean;      /* Pa, normal, after it is cut off at 0 */
     double kept_deviation; /* Pa, normal */
-    const fracas_attachment *file; /* file, positions: a strength for each interface; empirical: measured ones */
+    const fracas_attachment
+        *file; /* file, positions: a strength for each interface; empirical: measured ones */
     const fracas_kind *interpolation; /* empirical: between its strengths */
-    double reference_volume; /* m3, or */
-    double reference_area;   /* m2: of interfaces that have the strengths that are given */
-    const fracas_kind *covariance; /* of a correlated field; NULL: strengths are independent */
-    double correlation_length;     /* m */
-    double smoothness;             /* 1, matern: nu */
-    const fracas_kind *per;            /* interface, gauss-point; NULL: interface */
-    const fracas_attachment *factor;   /* profile of a factor of the strengths; NULL: 1 everywhere */
-    const fracas_kind *factor_along;   /* x, y, z, radius: the profile's coordinate; given along with it */
+    double reference_volume;          /* m3, or */
+    double reference_area;            /* m2: of interfaces that have the strengths that are given */
+    const fracas_kind *covariance;    /* of a correlated field; NULL: strengths are independent */
+    double correlation_length;        /* m */
+    double smoothness;                /* 1, matern: nu */
+    const fracas_kind *per;           /* interface, gauss-point; NULL: interface */
+    const fracas_attachment *factor;  /* profile of a factor of the strengths; NULL: 1 everywhere */
+    const fracas_kind
+        *factor_along;          /* x, y, z, radius: the profile's coordinate; given along with it */
     bool ready;                 /* made by fracas_strength_init */
     struct fracas_table *table; /* empirical, ready: owned */
 } fracas_strength;
@@ -46,15 +49,18 @@ extern const fracas_kind fracas_along_x, fracas_along_y, fracas_along_z, fracas_
 /* The section `strength`; its offset is 0: the owner says where the struct is. */
 extern const fracas_section fracas_strength_section;
 
-/* FRACAS_USAGE when values that are each in range do not go together (uniform: minimum < maximum), if the parameters are not exactly one
- * of the sets that the distribution can be given by, or if a file does not say what it should. */
+/* FRACAS_USAGE when values that are each in range do not go together (uniform: minimum < maximum),
+ * if the parameters are not exactly one of the sets that the distribution can be given by, or if a
+ * file does not say what it should. */
 FRACAS_MUST_USE fracas_err fracas_strength_check(const fracas_strength *strength);
 
-/* *ready = the same strengths, whatever they were given by, by the distribution's own parameters (from mean and deviation, say; a
- * table sorted): what is asked for below needs them. Of one that is not ready it finds them at each call, which takes longer and
- * gives the same bits, or NaN where this function fails. To be cleared; `given` must outlive it. FRACAS_USAGE as
+/* *ready = the same strengths, whatever they were given by, by the distribution's own parameters
+ * (from mean and deviation, say; a table sorted): what is asked for below needs them. Of one that
+ * is not ready it finds them at each call, which takes longer and gives the same bits, or NaN where
+ * this function fails. To be cleared; `given` must outlive it. FRACAS_USAGE as
  * fracas_strength_check, FRACAS_ENVIRONMENT without memory; then there is nothing to clear. */
-FRACAS_MUST_USE fracas_err fracas_strength_init(const fracas_strength *given, fracas_strength *ready);
+FRACAS_MUST_USE fracas_err fracas_strength_init(const fracas_strength *given,
+                                                fracas_strength *ready);
 void fracas_strength_clear(fracas_strength *ready);
 
 /* What an interface stands for. */
@@ -63,19 +69,21 @@ typedef struct {
     double area;   /* m2, of its own */
 } fracas_extent;
 
-/* F^-1 [Pa] of an interface of this extent; of a file, the smallest of its lines where p.below < 1/2, else the largest. Only
- * strengths with a size effect depend on the extent. */
-double fracas_strength_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p);
+/* F^-1 [Pa] of an interface of this extent; of a file, the smallest of its lines where p.below <
+ * 1/2, else the largest. Only strengths with a size effect depend on the extent. */
+double fracas_strength_quantile(const fracas_strength *strength, fracas_extent extent,
+                                fracas_probability p);
 
-/* Mean and standard deviation of the distribution of an interface of this extent [Pa], same bits on every CPU. */
+/* Mean and standard deviation of the distribution of an interface of this extent [Pa], same bits on
+ * every CPU. */
 double fracas_strength_mean(const fracas_strength *strength, fracas_extent extent);
 double fracas_strength_deviation(const fracas_strength *strength, fracas_extent extent);
 
 /* True if the strength of an interface depends on its extent. */
 bool fracas_strength_has_size_effect(const fracas_strength *strength);
 
-/* Number of strengths that there are, where they are given (distributions `file`, `positions`) and not drawn; 0: as many as one
- * likes. */
+/* Number of strengths that there are, where they are given (distributions `file`, `positions`) and
+ * not drawn; 0: as many as one likes. */
 size_t fracas_strength_count(const fracas_strength *strength);
 
 /* True if there is such a number: they are the same for every replica. */
@@ -84,7 +92,8 @@ bool fracas_strength_is_given(const fracas_strength *strength);
 /* True if each Gauss point of an interface has a strength of its own. */
 bool fracas_strength_is_per_point(const fracas_strength *strength);
 
-/* True if they are found by position (distribution `positions`): there may be more than interfaces. */
+/* True if they are found by position (distribution `positions`): there may be more than interfaces.
+ */
 bool fracas_strength_is_placed(const fracas_strength *strength);
 
 #endif

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/compare/compare.h"
 
 #include "analysis/compare/difference.h"
@@ -10,23 +11,31 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Cuts of the sizes: more than CUTS would not be seen, and each is a sum over realizations in every permutation, of which there are no more than
- * SUMS at a time. */
+/* Cuts of the sizes: more than CUTS would not be seen, and each is a sum over realizations in every
+ * permutation, of which there are no more than SUMS at a time. */
 enum { CUTS = 256, LEAST_CUTS = 16, SUMS = 200000 };
 
-#define QUANTITY(key, unit, doc, member) {key, unit, doc, offsetof(fracas_replica_values, member)}
+#define QUANTITY(key, unit, doc, member)                        \
+    {                                                           \
+        key, unit, doc, offsetof(fracas_replica_values, member) \
+    }
 const fracas_compared_quantity fracas_compared_quantities[FRACAS_COMPARED_VALUES] = {
     QUANTITY("count", "1", "number of fragments", count),
     QUANTITY("count_large", "1", "number of fragments without dust", count_large),
-    QUANTITY("size", "m", "mean fragment size (length / fragments; of a surface the mean of sqrt(area))", size),
+    QUANTITY("size", "m",
+             "mean fragment size (length / fragments; of a surface the mean of sqrt(area))", size),
     QUANTITY("dissipated", "J", "dissipated energy", dissipated),
     QUANTITY("dissipated_bending", "J", "part of bending in the dissipated energy", bending),
     QUANTITY("onset_time", "s", "time of first onset", onset_time),
-    QUANTITY("radial_velocity", "m/s", "mean velocity outward of a ring's fragments", motion.radial),
-    QUANTITY("radial_scatter", "m/s", "standard deviation over a ring's fragments of that velocity", motion.scatter),
-    QUANTITY("circumferential_velocity", "m/s", "rms velocity along the ring of its fragments", motion.circumferential),
+    QUANTITY("radial_velocity", "m/s", "mean velocity outward of a ring's fragments",
+             motion.radial),
+    QUANTITY("radial_scatter", "m/s", "standard deviation over a ring's fragments of that velocity",
+             motion.scatter),
+    QUANTITY("circumferential_velocity", "m/s", "rms velocity along the ring of its fragments",
+             motion.circumferential),
     QUANTITY("angular_velocity", "rad/s", "|angular velocity| of a ring's fragments", motion.spin),
-    QUANTITY("translation", "J", "kinetic energy of the centres of mass of a surface's fragments", translation),
+    QUANTITY("translation", "J", "kinetic energy of the centres of mass of a surface's fragments",
+             translation),
     QUANTITY("rotation", "J", "kinetic energy of the spins of a surface's fragments", rotation),
 };
 
@@ -34,10 +43,10 @@ const fracas_compared_quantity fracas_compared_quantities[FRACAS_COMPARED_VALUES
 typedef struct {
     size_t na, nb;
     const fracas_ensemble *a, *b;
-    size_t *index;  /* na + nb: which of the ensemble */
-    double *value;  /* (na + nb) x FRACAS_COMPARED_VALUES */
+    size_t *index;             /* na + nb: which of the ensemble */
+    double *value;             /* (na + nb) x FRACAS_COMPARED_VALUES */
     double *below, *fragments; /* as fracas_two_samples has them */
-    double *cut;    /* ascending */
+    double *cut;               /* ascending */
     size_t ncuts;
 } gathered;
 
@@ -50,7 +59,8 @@ static void clear_gathered(gathered *of)
     free(of->cut);
 }
 
-/* Both are ascending by replica in a study's order; a replica that is missing on one side is left out. */
+/* Both are ascending by replica in a study's order; a replica that is missing on one side is left
+ * out. */
 static void pair_up(gathered *of)
 {
     size_t pairs = 0;
@@ -70,7 +80,8 @@ static bool same_but_rounding(double a, double b)
     return fabs(a - b) <= 1e-12 * fmax(fabs(a), fabs(b));
 }
 
-/* Values that differ by rounding alone are equal: else an onset time that a parameter does not touch would differ, and surely. */
+/* Values that differ by rounding alone are equal: else an onset time that a parameter does not
+ * touch would differ, and surely. */
 static void forget_rounding(gathered *of, bool paired)
 {
     const size_t nv = FRACAS_COMPARED_VALUES, n = of->na + of->nb;
@@ -89,7 +100,8 @@ static void forget_rounding(gathered *of, bool paired)
     }
 }
 
-static fracas_err gather(const fracas_ensemble *a, const fracas_ensemble *b, bool paired, gathered *of)
+static fracas_err gather(const fracas_ensemble *a, const fracas_ensemble *b, bool paired,
+                         gathered *of)
 {
     *of = (gathered){.na = a->nrealizations, .nb = b->nrealizations, .a = a, .b = b};
     const size_t n = of->na + of->nb;
@@ -98,19 +110,22 @@ static fracas_err gather(const fracas_ensemble *a, const fracas_ensemble *b, boo
     of->below = calloc(n * CUTS + 1, sizeof *of->below);
     of->fragments = calloc(n + 1, sizeof *of->fragments);
     of->cut = calloc(CUTS, sizeof *of->cut);
-    if (!of->index || !of->value || !of->below || !of->fragments || !of->cut) return fracas_no_memory("the realizations of two points");
+    if (!of->index || !of->value || !of->below || !of->fragments || !of->cut)
+        return fracas_no_memory("the realizations of two points");
     for (size_t i = 0; i < n; i++) of->index[i] = i < of->na ? i : i - of->na;
     if (paired) pair_up(of);
     for (size_t i = 0; i < of->na + of->nb; i++) {
         const char *value = (const char *)&(i < of->na ? a : b)->value[of->index[i]];
         for (size_t v = 0; v < FRACAS_COMPARED_VALUES; v++)
-            memcpy(&of->value[i * FRACAS_COMPARED_VALUES + v], value + fracas_compared_quantities[v].offset, sizeof *of->value);
+            memcpy(&of->value[i * FRACAS_COMPARED_VALUES + v],
+                   value + fracas_compared_quantities[v].offset, sizeof *of->value);
     }
     forget_rounding(of, paired);
     return FRACAS_OK;
 }
 
-/* Where the distributions of sizes are compared: all sizes that occur if they are few, else even ones of them  (compare.9). */
+/* Where the distributions of sizes are compared: all sizes that occur if they are few, else even
+ * ones of them  (compare.9). */
 static fracas_err make_cuts(gathered *of)
 {
     size_t n = 0, distinct = 0;
@@ -118,14 +133,19 @@ static fracas_err make_cuts(gathered *of)
     if (!size) return fracas_no_memory("the fragments of two points");
     for (size_t i = 0; i < of->na + of->nb; i++) {
         const fracas_ensemble *from = i < of->na ? of->a : of->b;
-        for (size_t f = from->first[of->index[i]]; f < from->first[of->index[i] + 1]; f++) size[n++] = from->size[f];
+        for (size_t f = from->first[of->index[i]]; f < from->first[of->index[i] + 1]; f++)
+            size[n++] = from->size[f];
     }
     gsl_sort(size, 1, n);
     for (size_t i = 0; i < n; i++) /* sizes that differ by rounding alone are one */
         if (i == 0 || size[i] > size[distinct - 1] * (1 + 1e-9)) size[distinct++] = size[i];
-    const size_t affordable = SUMS / (of->na + of->nb + 1), most = affordable > CUTS ? CUTS : affordable < LEAST_CUTS ? LEAST_CUTS : affordable;
+    const size_t affordable = SUMS / (of->na + of->nb + 1), most = affordable > CUTS ? CUTS
+                                                                   : affordable < LEAST_CUTS
+                                                                       ? LEAST_CUTS
+                                                                       : affordable;
     of->ncuts = distinct < most ? distinct : most;
-    for (size_t c = 0; c < of->ncuts; c++) of->cut[c] = size[distinct <= most ? c : c * (distinct - 1) / (most - 1)] * (1 + 1e-9);
+    for (size_t c = 0; c < of->ncuts; c++)
+        of->cut[c] = size[distinct <= most ? c : c * (distinct - 1) / (most - 1)] * (1 + 1e-9);
     free(size);
     return FRACAS_OK;
 }
@@ -150,38 +170,51 @@ static void count_below(gathered *of)
     }
 }
 
-static fracas_err test(gathered *of, const fracas_compare_options *options, fracas_compared_point *point)
+static fracas_err test(gathered *of, const fracas_compare_options *options,
+                       fracas_compared_point *point)
 {
     fracas_permuted result[FRACAS_COMPARED_VALUES + 1];
     TRY(make_cuts(of));
     count_below(of);
-    const fracas_two_samples samples = {.na = of->na, .nb = of->nb, .paired = point->paired, .nvalues = FRACAS_COMPARED_VALUES,
-                                        .value = of->value, .ncuts = of->ncuts, .below = of->below, .fragments = of->fragments};
-    TRY(fracas_permutation_test(&samples, options->permutations > 0 ? options->permutations : FRACAS_COMPARE_PERMUTATIONS,
-                                options->seed + point->a + 1, result, &point->permutations, &point->exact));
+    const fracas_two_samples samples = {.na = of->na,
+                                        .nb = of->nb,
+                                        .paired = point->paired,
+                                        .nvalues = FRACAS_COMPARED_VALUES,
+                                        .value = of->value,
+                                        .ncuts = of->ncuts,
+                                        .below = of->below,
+                                        .fragments = of->fragments};
+    TRY(fracas_permutation_test(
+        &samples, options->permutations > 0 ? options->permutations : FRACAS_COMPARE_PERMUTATIONS,
+        options->seed + point->a + 1, result, &point->permutations, &point->exact));
     for (size_t v = 0; v < FRACAS_COMPARED_VALUES; v++) point->value[v].p = result[v].p;
-    point->p = of->na > 1 && of->nb > 1 ? result[FRACAS_COMPARED_VALUES].p : NAN; /* one realization tells nothing of its scatter */
+    point->p = of->na > 1 && of->nb > 1 ? result[FRACAS_COMPARED_VALUES].p
+                                        : NAN; /* one realization tells nothing of its scatter */
     point->distance = result[FRACAS_COMPARED_VALUES].distance;
     return FRACAS_OK;
 }
 
-static fracas_err compare_points(const fracas_analysis *a, const fracas_analysis *b, const fracas_compare_options *options,
+static fracas_err compare_points(const fracas_analysis *a, const fracas_analysis *b,
+                                 const fracas_compare_options *options,
                                  fracas_compared_point *point)
 {
     const fracas_point_row *row_a = &a->table->point[point->a], *row_b = &b->table->point[point->b];
     const bool same = !memcmp(&row_a->hash, &row_b->hash, sizeof row_a->hash);
     point->paired = a->header.seed == b->header.seed && (same || options->common);
     fracas_analysis_label(a, point->a, point->label, sizeof point->label);
-    fracas_match_differs(a->table, point->a, b->table, point->b, point->differs, sizeof point->differs);
+    fracas_match_differs(a->table, point->a, b->table, point->b, point->differs,
+                         sizeof point->differs);
     gathered of;
-    fracas_err err = gather(&a->point[point->a].ensemble, &b->point[point->b].ensemble, point->paired, &of);
+    fracas_err err = gather(&a->point[point->a].ensemble, &b->point[point->b].ensemble,
+                            point->paired, &of);
     if (!err) {
         const size_t nv = FRACAS_COMPARED_VALUES;
         point->used_a = (int64_t)of.na;
         point->used_b = (int64_t)of.nb;
         for (size_t v = 0; v < nv; v++) {
             const double *first = of.value + v, *second = of.value + of.na * nv + v;
-            if (point->paired) fracas_difference_of_pairs(first, second, of.na, nv, &point->value[v]);
+            if (point->paired)
+                fracas_difference_of_pairs(first, second, of.na, nv, &point->value[v]);
             else fracas_difference_of(first, of.na, second, of.nb, nv, &point->value[v]);
         }
         err = test(&of, options, point);
@@ -193,23 +226,31 @@ static fracas_err compare_points(const fracas_analysis *a, const fracas_analysis
 static fracas_err correct(fracas_comparison *comparison)
 {
     const size_t stride = sizeof *comparison->point / sizeof(double);
-    _Static_assert(sizeof *comparison->point % sizeof(double) == 0, "points are strided over as doubles");
+    _Static_assert(sizeof *comparison->point % sizeof(double) == 0,
+                   "points are strided over as doubles");
     for (size_t v = 0; v < FRACAS_COMPARED_VALUES && comparison->npoints; v++)
-        TRY(fracas_holm(&comparison->point->value[v].p, comparison->npoints, stride, &comparison->point->value[v].p_holm));
-    return comparison->npoints ? fracas_holm(&comparison->point->p, comparison->npoints, stride, &comparison->point->p_holm) : FRACAS_OK;
+        TRY(fracas_holm(&comparison->point->value[v].p, comparison->npoints, stride,
+                        &comparison->point->value[v].p_holm));
+    return comparison->npoints ? fracas_holm(&comparison->point->p, comparison->npoints, stride,
+                                             &comparison->point->p_holm)
+                               : FRACAS_OK;
 }
 
 /* The pairs of points, and those that have no partner. */
-static fracas_err list_points(const fracas_analysis *a, const fracas_analysis *b, const size_t *partner, fracas_comparison *comparison)
+static fracas_err list_points(const fracas_analysis *a, const fracas_analysis *b,
+                              const size_t *partner, fracas_comparison *comparison)
 {
     const size_t na = a->table->npoints, nb = b->table->npoints;
     comparison->point = calloc(na + 1, sizeof *comparison->point);
     comparison->only_a = malloc((na + 1) * sizeof *comparison->only_a);
     comparison->only_b = malloc((nb + 1) * sizeof *comparison->only_b);
-    if (!comparison->point || !comparison->only_a || !comparison->only_b) return fracas_no_memory("the points of two studies");
+    if (!comparison->point || !comparison->only_a || !comparison->only_b)
+        return fracas_no_memory("the points of two studies");
     for (size_t p = 0; p < na; p++) {
         if (partner[p] == SIZE_MAX) comparison->only_a[comparison->nonly_a++] = p;
-        else comparison->point[comparison->npoints].a = p, comparison->point[comparison->npoints++].b = partner[p];
+        else
+            comparison->point[comparison->npoints].a = p,
+            comparison->point[comparison->npoints++].b = partner[p];
     }
     for (size_t q = 0; q < nb; q++) {
         bool taken = false;
@@ -219,15 +260,17 @@ static fracas_err list_points(const fracas_analysis *a, const fracas_analysis *b
     return FRACAS_OK;
 }
 
-fracas_err fracas_compare(const fracas_analysis *a, const fracas_analysis *b, const fracas_compare_options *options,
-                          fracas_comparison *comparison)
+fracas_err fracas_compare(const fracas_analysis *a, const fracas_analysis *b,
+                          const fracas_compare_options *options, fracas_comparison *comparison)
 {
     *comparison = (fracas_comparison){0};
     size_t *partner = malloc((a->table->npoints + 1) * sizeof *partner);
     if (!partner) return fracas_no_memory("the points of two studies");
-    fracas_err err = fracas_match_points(a->table, b->table, options->by, partner, comparison->how, sizeof comparison->how);
+    fracas_err err = fracas_match_points(a->table, b->table, options->by, partner, comparison->how,
+                                         sizeof comparison->how);
     if (!err) err = list_points(a, b, partner, comparison);
-    for (size_t i = 0; i < comparison->npoints && !err; i++) err = compare_points(a, b, options, &comparison->point[i]);
+    for (size_t i = 0; i < comparison->npoints && !err; i++)
+        err = compare_points(a, b, options, &comparison->point[i]);
     if (!err) err = correct(comparison);
     free(partner);
     if (err) fracas_comparison_clear(comparison);

@@ -1,4 +1,6 @@
-/* Two studies, point by point: differences of means with intervals, and permutation tests over realizations (docs/theory/compare.md). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Two studies, point by point: differences of means with intervals, and permutation tests over
+ * realizations (docs/theory/compare.md). */
 #ifndef FRACAS_ANALYSIS_COMPARE_COMPARE_H
 #define FRACAS_ANALYSIS_COMPARE_COMPARE_H
 
@@ -8,7 +10,8 @@
 enum { FRACAS_COMPARED_VALUES = 12, FRACAS_COMPARE_PERMUTATIONS = 9999 };
 
 typedef struct {
-    const char *by;       /* columns to match by, "loading.rate,strength.shape"; NULL: see fracas_match_points */
+    const char
+        *by; /* columns to match by, "loading.rate,strength.shape"; NULL: see fracas_match_points */
     bool common;          /* both campaigns have random_numbers: common */
     int64_t permutations; /* 0: FRACAS_COMPARE_PERMUTATIONS */
     uint64_t seed;        /* equal seeds give equal p */
@@ -23,45 +26,53 @@ extern const fracas_compared_quantity fracas_compared_quantities[FRACAS_COMPARED
 
 /* B - A of one number at one pair of points. */
 typedef struct {
-    fracas_estimate a, b;   /* of pairs over the realizations that have a partner */
-    double difference, low, high;                   /* 95 % interval: Welch's, of pairs Student's; NaN if it has none */
-    double relative, relative_low, relative_high;   /* of the mean of A */
-    double freedom;         /* degrees of freedom of both intervals */
-    double p;               /* by permutation; NaN: no test */
-    double p_holm;          /* corrected over the points */
+    fracas_estimate a, b; /* of pairs over the realizations that have a partner */
+    double difference, low,
+        high; /* 95 % interval: Welch's, of pairs Student's; NaN if it has none */
+    double relative, relative_low, relative_high; /* of the mean of A */
+    double freedom;                               /* degrees of freedom of both intervals */
+    double p;                                     /* by permutation; NaN: no test */
+    double p_holm;                                /* corrected over the points */
 } fracas_compared_value;
 
 typedef struct {
-    size_t a, b;            /* the points */
-    char label[256];        /* of the point in A */
-    char differs[512];      /* "mesh.elements 2500 | 5000": the other parameters in which they differ; "": none */
-    bool paired;            /* realizations have the same random numbers, replica by replica */
+    size_t a, b;       /* the points */
+    char label[256];   /* of the point in A */
+    char differs[512]; /* "mesh.elements 2500 | 5000": the other parameters in which they differ;
+                          "": none */
+    bool paired;       /* realizations have the same random numbers, replica by replica */
     int64_t used_a, used_b; /* realizations compared */
-    fracas_compared_value value[FRACAS_COMPARED_VALUES]; /* a.n = b.n = 0 where the points have no such number */
-    double distance;        /* of the distributions of fragment sizes (Kolmogorov and Smirnov) */
-    double p, p_holm;       /* of that */
-    int64_t permutations;   /* assignments looked at, the observed one among them */
-    bool exact;             /* all there are */
+    fracas_compared_value
+        value[FRACAS_COMPARED_VALUES]; /* a.n = b.n = 0 where the points have no such number */
+    double distance;      /* of the distributions of fragment sizes (Kolmogorov and Smirnov) */
+    double p, p_holm;     /* of that */
+    int64_t permutations; /* assignments looked at, the observed one among them */
+    bool exact;           /* all there are */
 } fracas_compared_point;
 
 typedef struct {
-    char how[512];          /* columns that the points were matched by; "": equal hashes */
+    char how[512]; /* columns that the points were matched by; "": equal hashes */
     size_t npoints;
     fracas_compared_point *point;
     size_t nonly_a, nonly_b;
     size_t *only_a, *only_b; /* points without a partner */
 } fracas_comparison;
 
-/* Points matched by fracas_match_points; differences with their intervals (compare.1) to (compare.5); p (compare.6) to (compare.9),
- * corrected over the points for each number by itself (compare.10). Realizations are paired by their replica where seeds are equal, and
- * hashes are or both have common random numbers. FRACAS_USAGE if points cannot be matched. *comparison is cleared by the caller. */
-FRACAS_MUST_USE fracas_err fracas_compare(const fracas_analysis *a, const fracas_analysis *b, const fracas_compare_options *options,
+/* Points matched by fracas_match_points; differences with their intervals (compare.1) to
+ * (compare.5); p (compare.6) to (compare.9), corrected over the points for each number by itself
+ * (compare.10). Realizations are paired by their replica where seeds are equal, and hashes are or
+ * both have common random numbers. FRACAS_USAGE if points cannot be matched. *comparison is cleared
+ * by the caller. */
+FRACAS_MUST_USE fracas_err fracas_compare(const fracas_analysis *a, const fracas_analysis *b,
+                                          const fracas_compare_options *options,
                                           fracas_comparison *comparison);
 void fracas_comparison_clear(fracas_comparison *comparison);
 
 /* As a table for a terminal, and as one JSON document. */
-FRACAS_MUST_USE fracas_err fracas_comparison_print(const fracas_comparison *comparison, const fracas_analysis *a, const fracas_analysis *b,
-                                                   FILE *out);
-void fracas_comparison_write_json(const fracas_comparison *comparison, const fracas_analysis *a, const fracas_analysis *b, FILE *out);
+FRACAS_MUST_USE fracas_err fracas_comparison_print(const fracas_comparison *comparison,
+                                                   const fracas_analysis *a,
+                                                   const fracas_analysis *b, FILE *out);
+void fracas_comparison_write_json(const fracas_comparison *comparison, const fracas_analysis *a,
+                                  const fracas_analysis *b, FILE *out);
 
 #endif

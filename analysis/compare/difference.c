@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/compare/difference.h"
 
 #include <gsl/gsl_cdf.h>
@@ -17,12 +18,14 @@ static void put_intervals(double error, double relative_error, fracas_compared_v
 }
 
 /* (compare.1), (compare.2), (compare.3) */
-void fracas_difference_of(const double *a, size_t na, const double *b, size_t nb, size_t stride, fracas_compared_value *value)
+void fracas_difference_of(const double *a, size_t na, const double *b, size_t nb, size_t stride,
+                          fracas_compared_value *value)
 {
     value->a = fracas_estimate_of(a, stride, na);
     value->b = fracas_estimate_of(b, stride, nb);
     const double n = (double)value->a.n, m = (double)value->b.n;
-    const double u = value->a.deviation * value->a.deviation / n, v = value->b.deviation * value->b.deviation / m;
+    const double u = value->a.deviation * value->a.deviation / n,
+                 v = value->b.deviation * value->b.deviation / m;
     const double mean = value->a.mean, ratio = value->b.mean / mean;
     value->difference = value->b.mean - mean;
     value->relative = mean != 0 ? value->difference / fabs(mean) : NAN;
@@ -31,7 +34,8 @@ void fracas_difference_of(const double *a, size_t na, const double *b, size_t nb
 }
 
 /* (compare.4), (compare.5) */
-void fracas_difference_of_pairs(const double *a, const double *b, size_t n, size_t stride, fracas_compared_value *value)
+void fracas_difference_of_pairs(const double *a, const double *b, size_t n, size_t stride,
+                                fracas_compared_value *value)
 {
     double sum_a = 0, sum_b = 0, squares_a = 0, squares_b = 0, squares = 0, ratios = 0;
     int64_t pairs = 0;
@@ -41,7 +45,8 @@ void fracas_difference_of_pairs(const double *a, const double *b, size_t n, size
         sum_b += b[i * stride];
         pairs++;
     }
-    const double count = (double)pairs, mean_a = sum_a / count, mean_b = sum_b / count, ratio = mean_b / mean_a;
+    const double count = (double)pairs, mean_a = sum_a / count, mean_b = sum_b / count,
+                 ratio = mean_b / mean_a;
     for (size_t i = 0; i < n; i++) {
         if (!isfinite(a[i * stride]) || !isfinite(b[i * stride])) continue;
         const double x = a[i * stride] - mean_a, y = b[i * stride] - mean_b;
@@ -51,13 +56,15 @@ void fracas_difference_of_pairs(const double *a, const double *b, size_t n, size
         ratios += (y - ratio * x) * (y - ratio * x);
     }
     const double freedom = count - 1, t = pairs > 1 ? gsl_cdf_tdist_Pinv(0.975, freedom) : NAN;
-    const double deviation_a = pairs > 1 ? sqrt(squares_a / freedom) : NAN, deviation_b = pairs > 1 ? sqrt(squares_b / freedom) : NAN;
+    const double deviation_a = pairs > 1 ? sqrt(squares_a / freedom) : NAN,
+                 deviation_b = pairs > 1 ? sqrt(squares_b / freedom) : NAN;
     value->a = (fracas_estimate){pairs, mean_a, deviation_a, t * deviation_a / sqrt(count)};
     value->b = (fracas_estimate){pairs, mean_b, deviation_b, t * deviation_b / sqrt(count)};
     value->difference = mean_b - mean_a;
     value->relative = mean_a != 0 ? value->difference / fabs(mean_a) : NAN;
     value->freedom = freedom;
-    put_intervals(pairs > 1 ? sqrt(squares / freedom / count) : NAN, sqrt(ratios / freedom / count) / fabs(mean_a), value);
+    put_intervals(pairs > 1 ? sqrt(squares / freedom / count) : NAN,
+                  sqrt(ratios / freedom / count) / fabs(mean_a), value);
 }
 
 /* (compare.10) */

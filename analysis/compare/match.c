@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/compare/match.h"
 
 #include "analysis/tables/format.h"
@@ -12,7 +13,8 @@ static fracas_value value_of(const fracas_point_table *table, size_t point, cons
     return column == SIZE_MAX ? (fracas_value){NAN, ""} : table->point[point].value[column];
 }
 
-static bool alike(const fracas_point_table *a, size_t p, const fracas_point_table *b, size_t q, const char *const *path, size_t count)
+static bool alike(const fracas_point_table *a, size_t p, const fracas_point_table *b, size_t q,
+                  const char *const *path, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
         const fracas_value x = value_of(a, p, path[i]), y = value_of(b, q, path[i]);
@@ -27,36 +29,47 @@ static bool varies(const fracas_point_table *table, const char *path)
     return column != SIZE_MAX && fracas_point_table_varies(table, column);
 }
 
-static size_t columns_that_vary(const fracas_point_table *a, const fracas_point_table *b, const char **path)
+static size_t columns_that_vary(const fracas_point_table *a, const fracas_point_table *b,
+                                const char **path)
 {
     size_t count = 0;
     for (size_t c = 0; c < a->ncolumns; c++) {
         const char *name = a->column[c].path;
-        const bool here = varies(a, name), there = varies(b, name), both = fracas_point_table_find(b, name) != SIZE_MAX;
-        if (both && (here || a->npoints == 1) && (there || b->npoints == 1) && (here || there)) path[count++] = name;
+        const bool here = varies(a, name), there = varies(b, name),
+                   both = fracas_point_table_find(b, name) != SIZE_MAX;
+        if (both && (here || a->npoints == 1) && (there || b->npoints == 1) && (here || there))
+            path[count++] = name;
     }
     return count;
 }
 
 /* Cuts `by` at its commas. */
-static fracas_err columns_named(const fracas_point_table *a, const fracas_point_table *b, char *by, const char **path, size_t *count)
+static fracas_err columns_named(const fracas_point_table *a, const fracas_point_table *b, char *by,
+                                const char **path, size_t *count)
 {
     char *rest = by;
     for (char *name = strtok_r(rest, ", ", &rest); name; name = strtok_r(NULL, ", ", &rest)) {
         for (int which = 0; which < 2; which++)
             if (fracas_point_table_find(which ? b : a, name) == SIZE_MAX)
-                return fracas_fail(FRACAS_USAGE, "--by %s: the %s study has no such column; they are in points.csv of its report", name,
-                                   which ? "second" : "first");
+                return fracas_fail(FRACAS_USAGE,
+                                   "--by %s: the %s study has no such column; they are in "
+                                   "points.csv of its report",
+                                   name, which ? "second" : "first");
         path[(*count)++] = name;
     }
-    return *count > 0 ? FRACAS_OK : fracas_fail(FRACAS_USAGE, "--by: no column is named; give some, as loading.rate,strength.shape");
+    return *count > 0
+               ? FRACAS_OK
+               : fracas_fail(FRACAS_USAGE,
+                             "--by: no column is named; give some, as loading.rate,strength.shape");
 }
 
-static void match_hashes(const fracas_point_table *a, const fracas_point_table *b, size_t *partner, bool *taken)
+static void match_hashes(const fracas_point_table *a, const fracas_point_table *b, size_t *partner,
+                         bool *taken)
 {
     for (size_t p = 0; p < a->npoints; p++)
         for (size_t q = 0; q < b->npoints && partner[p] == SIZE_MAX; q++) {
-            if (taken[q] || memcmp(&a->point[p].hash, &b->point[q].hash, sizeof a->point[p].hash)) continue;
+            if (taken[q] || memcmp(&a->point[p].hash, &b->point[q].hash, sizeof a->point[p].hash))
+                continue;
             partner[p] = q;
             taken[q] = true;
         }
@@ -64,12 +77,15 @@ static void match_hashes(const fracas_point_table *a, const fracas_point_table *
 
 static fracas_err ambiguous(const char *which, size_t first, size_t second, const char *how)
 {
-    return fracas_fail(FRACAS_USAGE, "points %zu and %zu of the %s study are alike in %s: name by --by more columns, in which they differ",
+    return fracas_fail(FRACAS_USAGE,
+                       "points %zu and %zu of the %s study are alike in %s: name by --by more "
+                       "columns, in which they differ",
                        first, second, which, *how ? how : "all that varies");
 }
 
-static fracas_err match_values(const fracas_point_table *a, const fracas_point_table *b, const char *const *path, size_t count,
-                               const char *how, size_t *partner, const bool *taken)
+static fracas_err match_values(const fracas_point_table *a, const fracas_point_table *b,
+                               const char *const *path, size_t count, const char *how,
+                               size_t *partner, const bool *taken)
 {
     size_t *owner = malloc((b->npoints + 1) * sizeof *owner);
     if (!owner) return fracas_no_memory("the points");
@@ -97,8 +113,8 @@ static void join(const char *const *path, size_t count, char *text, size_t size)
         used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", path[i]);
 }
 
-static fracas_err match(const fracas_point_table *a, const fracas_point_table *b, char *by, const char **path, bool *taken, size_t *partner,
-                        char *how, size_t size)
+static fracas_err match(const fracas_point_table *a, const fracas_point_table *b, char *by,
+                        const char **path, bool *taken, size_t *partner, char *how, size_t size)
 {
     size_t count = 0, left = 0;
     if (by) TRY(columns_named(a, b, by, path, &count));
@@ -116,13 +132,15 @@ static fracas_err match(const fracas_point_table *a, const fracas_point_table *b
     return FRACAS_OK;
 }
 
-fracas_err fracas_match_points(const fracas_point_table *a, const fracas_point_table *b, const char *by, size_t *partner, char *how,
-                               size_t size)
+fracas_err fracas_match_points(const fracas_point_table *a, const fracas_point_table *b,
+                               const char *by, size_t *partner, char *how, size_t size)
 {
     char *names = by ? strdup(by) : NULL;
     const char **path = malloc((a->ncolumns + (by ? strlen(by) : 0) + 1) * sizeof *path);
     bool *taken = calloc(b->npoints + 1, sizeof *taken);
-    fracas_err err = path && taken && (names || !by) ? match(a, b, names, path, taken, partner, how, size) : fracas_no_memory("the points");
+    fracas_err err = path && taken && (names || !by)
+                         ? match(a, b, names, path, taken, partner, how, size)
+                         : fracas_no_memory("the points");
     free(names);
     free(path);
     free(taken);
@@ -136,24 +154,28 @@ static void show(const fracas_value *value, char text[64])
 }
 
 /* Columns of `from` that differ, or of those alone that `to` lacks. */
-static size_t add_differences(const fracas_point_table *a, size_t p, const fracas_point_table *b, size_t q, bool second, char *text,
-                              size_t size, size_t used)
+static size_t add_differences(const fracas_point_table *a, size_t p, const fracas_point_table *b,
+                              size_t q, bool second, char *text, size_t size, size_t used)
 {
     const fracas_point_table *from = second ? b : a;
     for (size_t c = 0; c < from->ncolumns && used < size; c++) {
         const char *path = from->column[c].path;
-        if (!strncmp(path, "derived.", 8) || (second && fracas_point_table_find(a, path) != SIZE_MAX)) continue;
+        if (!strncmp(path, "derived.", 8) ||
+            (second && fracas_point_table_find(a, path) != SIZE_MAX))
+            continue;
         const fracas_value x = value_of(a, p, path), y = value_of(b, q, path);
         if (fracas_value_same(&x, &y)) continue;
         char here[64], there[64];
         show(&x, here);
         show(&y, there);
-        used += (size_t)snprintf(text + used, size - used, "%s%s %s | %s", used ? ", " : "", path, here, there);
+        used += (size_t)snprintf(text + used, size - used, "%s%s %s | %s", used ? ", " : "", path,
+                                 here, there);
     }
     return used;
 }
 
-void fracas_match_differs(const fracas_point_table *a, size_t p, const fracas_point_table *b, size_t q, char *text, size_t size)
+void fracas_match_differs(const fracas_point_table *a, size_t p, const fracas_point_table *b,
+                          size_t q, char *text, size_t size)
 {
     text[0] = '\0';
     const size_t used = add_differences(a, p, b, q, false, text, size, 0);

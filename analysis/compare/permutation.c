@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/compare/permutation.h"
 
 #include <gsl/gsl_combination.h>
@@ -11,14 +12,15 @@ static const double hair = 1e-10; /* statistics that differ by rounding alone ar
 
 typedef struct {
     const fracas_two_samples *of;
-    size_t n;                     /* na + nb */
-    double *value;                /* as given, less their mean and over their deviation: equal in statistic, better in rounding */
-    bool *in_a;                   /* the assignment */
+    size_t n;      /* na + nb */
+    double *value; /* as given, less their mean and over their deviation: equal in statistic, better
+                      in rounding */
+    bool *in_a;    /* the assignment */
     double *sum, *square, *known; /* of side a: a value each */
     double *all_sum, *all_square, *all_known;
-    double *cut, *all_cut;        /* fragments up to each cut, of side a and of both */
-    double *statistic;            /* nvalues + 1 */
-    double *observed, *reached;   /* nvalues + 1 */
+    double *cut, *all_cut;      /* fragments up to each cut, of side a and of both */
+    double *statistic;          /* nvalues + 1 */
+    double *observed, *reached; /* nvalues + 1 */
 } permuter;
 
 static void standardise(permuter *p)
@@ -41,7 +43,8 @@ static void standardise(permuter *p)
     }
 }
 
-static void add_up(const permuter *p, bool all, double *sum, double *square, double *known, double *cut)
+static void add_up(const permuter *p, bool all, double *sum, double *square, double *known,
+                   double *cut)
 {
     const size_t nv = p->of->nvalues, nc = p->of->ncuts;
     memset(sum, 0, nv * sizeof *sum);
@@ -64,11 +67,13 @@ static void add_up(const permuter *p, bool all, double *sum, double *square, dou
 }
 
 /* |T| of one value  (compare.6) */
-static double welch(double sum, double square, double n, double all_sum, double all_square, double all_n)
+static double welch(double sum, double square, double n, double all_sum, double all_square,
+                    double all_n)
 {
     const double m = all_n - n, mean = sum / n, other = (all_sum - sum) / m;
     if (!(n >= 2 && m >= 2)) return NAN;
-    double a = (square - sum * mean) / (n - 1), b = (all_square - square - (all_sum - sum) * other) / (m - 1);
+    double a = (square - sum * mean) / (n - 1),
+           b = (all_square - square - (all_sum - sum) * other) / (m - 1);
     a = a > hair ? a : 0; /* of values with the deviation 1: all equal */
     b = b > hair ? b : 0;
     const double difference = fabs(mean - other);
@@ -96,7 +101,8 @@ static double distance(const permuter *p)
     const size_t nc = p->of->ncuts;
     const double a = p->cut[nc], b = p->all_cut[nc] - a;
     if (!(a > 0 && b > 0)) return NAN;
-    for (size_t c = 0; c < nc; c++) most = fmax(most, fabs(p->cut[c] / a - (p->all_cut[c] - p->cut[c]) / b));
+    for (size_t c = 0; c < nc; c++)
+        most = fmax(most, fabs(p->cut[c] / a - (p->all_cut[c] - p->cut[c]) / b));
     return most;
 }
 
@@ -105,7 +111,8 @@ static void evaluate(permuter *p)
     add_up(p, false, p->sum, p->square, p->known, p->cut);
     for (size_t v = 0; v < p->of->nvalues; v++)
         p->statistic[v] = p->of->paired ? paired(p, v)
-            : welch(p->sum[v], p->square[v], p->known[v], p->all_sum[v], p->all_square[v], p->all_known[v]);
+                                        : welch(p->sum[v], p->square[v], p->known[v], p->all_sum[v],
+                                                p->all_square[v], p->all_known[v]);
     p->statistic[p->of->nvalues] = distance(p);
 }
 
@@ -114,7 +121,8 @@ static void take(permuter *p)
 {
     evaluate(p);
     for (size_t v = 0; v <= p->of->nvalues; v++)
-        if (!(p->statistic[v] < p->observed[v] * (1 - hair) - (isinf(p->observed[v]) ? 0 : 1e-14))) p->reached[v]++;
+        if (!(p->statistic[v] < p->observed[v] * (1 - hair) - (isinf(p->observed[v]) ? 0 : 1e-14)))
+            p->reached[v]++;
 }
 
 static void flip(permuter *p, size_t pair, bool swapped)
@@ -167,10 +175,12 @@ static fracas_err draw(permuter *p, int64_t permutations, uint64_t seed)
 }
 
 /* (compare.7) */
-static fracas_err test(permuter *p, int64_t permutations, uint64_t seed, fracas_permuted *result, int64_t *count, bool *exact)
+static fracas_err test(permuter *p, int64_t permutations, uint64_t seed, fracas_permuted *result,
+                       int64_t *count, bool *exact)
 {
     const fracas_two_samples *of = p->of;
-    const double all = of->paired ? exp2((double)of->na) : exp(gsl_sf_lnchoose((unsigned)p->n, (unsigned)of->na));
+    const double all = of->paired ? exp2((double)of->na)
+                                  : exp(gsl_sf_lnchoose((unsigned)p->n, (unsigned)of->na));
     standardise(p);
     add_up(p, true, p->all_sum, p->all_square, p->all_known, p->all_cut);
     for (size_t i = 0; i < p->n; i++) p->in_a[i] = i < of->na;
@@ -192,8 +202,9 @@ static fracas_err test(permuter *p, int64_t permutations, uint64_t seed, fracas_
     return FRACAS_OK;
 }
 
-fracas_err fracas_permutation_test(const fracas_two_samples *samples, int64_t permutations, uint64_t seed, fracas_permuted *result,
-                                   int64_t *count, bool *exact)
+fracas_err fracas_permutation_test(const fracas_two_samples *samples, int64_t permutations,
+                                   uint64_t seed, fracas_permuted *result, int64_t *count,
+                                   bool *exact)
 {
     const size_t nv = samples->nvalues, nc = samples->ncuts, n = samples->na + samples->nb;
     for (size_t v = 0; v <= nv; v++) result[v] = (fracas_permuted){NAN, NAN};
@@ -205,8 +216,16 @@ fracas_err fracas_permutation_test(const fracas_two_samples *samples, int64_t pe
     fracas_err err = room && in_a ? FRACAS_OK : fracas_no_memory("a permutation test");
     if (!err) {
         double *at = room + n * nv;
-        permuter p = {.of = samples, .n = n, .value = room, .in_a = in_a, .sum = at, .square = at + nv, .known = at + 2 * nv,
-                      .all_sum = at + 3 * nv, .all_square = at + 4 * nv, .all_known = at + 5 * nv};
+        permuter p = {.of = samples,
+                      .n = n,
+                      .value = room,
+                      .in_a = in_a,
+                      .sum = at,
+                      .square = at + nv,
+                      .known = at + 2 * nv,
+                      .all_sum = at + 3 * nv,
+                      .all_square = at + 4 * nv,
+                      .all_known = at + 5 * nv};
         at += 6 * nv;
         p.cut = at;
         p.all_cut = at + nc + 1;

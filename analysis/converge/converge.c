@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/converge/rows.h"
 
 #include "analysis/compare/difference.h"
@@ -8,17 +9,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const fracas_number_verdict_name[FRACAS_NUMBER_VERDICTS] = {"moved", "shifted", "holds", "unclear", "unknown"};
+const char *const fracas_number_verdict_name[FRACAS_NUMBER_VERDICTS] = {"moved", "shifted", "holds",
+                                                                        "unclear", "unknown"};
 
 static fracas_err note_base(fracas_convergence *convergence, const char *study)
 {
     const fracas_analysis *base = convergence->study;
     for (size_t p = 0; p < base->table->npoints; p++)
-        TRY(fracas_convergence_note_point(convergence, "base", p, &base->point[p], base->point[p].ensemble.nrealizations));
+        TRY(fracas_convergence_note_point(convergence, "base", p, &base->point[p],
+                                          base->point[p].ensemble.nrealizations));
     return fracas_convergence_note_study(convergence, "base", base, study);
 }
 
-fracas_err fracas_convergence_create(const char *study, double tolerance, fracas_convergence **convergence)
+fracas_err fracas_convergence_create(const char *study, double tolerance,
+                                     fracas_convergence **convergence)
 {
     *convergence = NULL;
     fracas_convergence *made = calloc(1, sizeof *made);
@@ -42,61 +46,79 @@ void fracas_convergence_destroy(fracas_convergence *convergence)
 
 /* ---- rows ---- */
 
-/* What a table of results begins with; of the rest a campaign that does not converge moves some by chance of having many. */
+/* What a table of results begins with; of the rest a campaign that does not converge moves some by
+ * chance of having many. */
 static bool is_headline(const fracas_compared_quantity *number)
 {
-    static const size_t headline[] = {offsetof(fracas_replica_values, count), offsetof(fracas_replica_values, count_large),
-                                      offsetof(fracas_replica_values, size), offsetof(fracas_replica_values, dissipated),
-                                      offsetof(fracas_replica_values, bending), offsetof(fracas_replica_values, onset_time)};
+    static const size_t headline[] = {
+        offsetof(fracas_replica_values, count),   offsetof(fracas_replica_values, count_large),
+        offsetof(fracas_replica_values, size),    offsetof(fracas_replica_values, dissipated),
+        offsetof(fracas_replica_values, bending), offsetof(fracas_replica_values, onset_time)};
     for (size_t h = 0; h < FRACAS_COUNT(headline); h++)
         if (number->offset == headline[h]) return true;
     return false;
 }
 
-static double value_of(const fracas_ensemble *ensemble, size_t i, const fracas_compared_quantity *number)
+static double value_of(const fracas_ensemble *ensemble, size_t i,
+                       const fracas_compared_quantity *number)
 {
     return *(const double *)(const void *)((const char *)&ensemble->value[i] + number->offset);
 }
 
-/* The same number of two points, realization by realization: of pairs those that both have, else all. */
+/* The same number of two points, realization by realization: of pairs those that both have, else
+ * all. */
 typedef struct {
     size_t n[2];
     double *value[2];
 } two_samples;
 
-static void gather(const fracas_ensemble *before, const fracas_ensemble *after, const fracas_compared_quantity *number, bool paired, two_samples *to)
+static void gather(const fracas_ensemble *before, const fracas_ensemble *after,
+                   const fracas_compared_quantity *number, bool paired, two_samples *to)
 {
     to->n[0] = to->n[1] = 0;
-    for (size_t i = 0, k = 0; i < before->nrealizations; i++) { /* both in the order of their replicas */
+    for (size_t i = 0, k = 0; i < before->nrealizations;
+         i++) { /* both in the order of their replicas */
         while (paired && k < after->nrealizations && after->replica[k] < before->replica[i]) k++;
         const bool found = k < after->nrealizations && after->replica[k] == before->replica[i];
         if (paired && !found) continue;
         to->value[0][to->n[0]++] = value_of(before, i, number);
         if (paired) to->value[1][to->n[1]++] = value_of(after, k, number);
     }
-    for (size_t k = 0; !paired && k < after->nrealizations; k++) to->value[1][to->n[1]++] = value_of(after, k, number);
+    for (size_t k = 0; !paired && k < after->nrealizations; k++)
+        to->value[1][to->n[1]++] = value_of(after, k, number);
 }
 
-/* All realizations are alike: they do not say how far the difference scatters, and of few of them it may be chance. */
-static bool is_alike(const fracas_compared_value *value) { return !(value->high > value->low); }
+/* All realizations are alike: they do not say how far the difference scatters, and of few of them
+ * it may be chance. */
+static bool is_alike(const fracas_compared_value *value)
+{
+    return !(value->high > value->low);
+}
 
-/* The change in parts of the number as it is, and what is but rounding taken as none  (convergence.1), (convergence.2) */
+/* The change in parts of the number as it is, and what is but rounding taken as none
+ * (convergence.1), (convergence.2) */
 static void put_parts(fracas_compared_value *value)
 {
     const double base = fabs(value->a.mean);
-    if (fmax(fabs(value->low), fabs(value->high)) <= FRACAS_CONVERGENCE_ROUND_OFF * base) value->difference = value->low = value->high = 0; /* false of NaN */
+    if (fmax(fabs(value->low), fabs(value->high)) <= FRACAS_CONVERGENCE_ROUND_OFF * base)
+        value->difference = value->low = value->high = 0; /* false of NaN */
     if (base == 0) return;
     value->relative = value->difference / base;
     value->relative_low = value->low / base;
     value->relative_high = value->high / base;
 }
 
-enum { ALIKE_LEAST = 8 }; /* from so many on nobody takes that for chance: two values, each as likely, are alike once in 128 times */
+enum {
+    ALIKE_LEAST = 8
+}; /* from so many on nobody takes that for chance: two values, each as likely, are alike once in
+      128 times */
 
-/* Onset times and the part of bending are not alike by chance; the others may be multiples of one break. */
+/* Onset times and the part of bending are not alike by chance; the others may be multiples of one
+ * break. */
 static int64_t least_alike(const fracas_compared_quantity *number)
 {
-    const bool continuous = number->offset == offsetof(fracas_replica_values, onset_time) || number->offset == offsetof(fracas_replica_values, bending);
+    const bool continuous = number->offset == offsetof(fracas_replica_values, onset_time) ||
+                            number->offset == offsetof(fracas_replica_values, bending);
     return continuous ? 2 : ALIKE_LEAST;
 }
 
@@ -105,7 +127,8 @@ static double student(const fracas_compared_value *value)
 {
     if (!isfinite(value->low)) return NAN;
     if (is_alike(value)) return value->difference == 0 ? 1 : NAN; /* no scatter, no law */
-    const double error = 0.5 * (value->high - value->low) / gsl_cdf_tdist_Pinv(0.975, value->freedom);
+    const double error = 0.5 * (value->high - value->low) /
+                         gsl_cdf_tdist_Pinv(0.975, value->freedom);
     return 2 * gsl_cdf_tdist_Q(fabs(value->difference) / error, value->freedom);
 }
 
@@ -114,17 +137,24 @@ static bool is_zero(const fracas_estimate *estimate)
     return estimate->mean == 0 && !(estimate->deviation > 0);
 }
 
-/* True of a number that says nothing: that a study has not, or that is 0 in all realizations of both. Where a study has `lost` all realizations
- * of the point, what the other says is not idle but unknown; where both have, the count stands for all. */
+/* True of a number that says nothing: that a study has not, or that is 0 in all realizations of
+ * both. Where a study has `lost` all realizations of the point, what the other says is not idle but
+ * unknown; where both have, the count stands for all. */
 static bool is_idle(const fracas_convergence_row *row, bool lost)
 {
     const fracas_compared_value *value = &row->value;
-    const bool a = value->a.n > 0, b = value->b.n > 0, zero_a = is_zero(&value->a), zero_b = is_zero(&value->b);
-    if (lost) return (!a || zero_a) && (!b || zero_b) && row->number->offset != offsetof(fracas_replica_values, count);
+    const bool a = value->a.n > 0, b = value->b.n > 0, zero_a = is_zero(&value->a),
+               zero_b = is_zero(&value->b);
+    if (lost)
+        return (!a || zero_a) && (!b || zero_b) &&
+               row->number->offset != offsetof(fracas_replica_values, count);
     return !a || !b || (zero_a && zero_b);
 }
 
-static bool is_same(double x, double y) { return x == y || (isnan(x) && isnan(y)); }
+static bool is_same(double x, double y)
+{
+    return x == y || (isnan(x) && isnan(y));
+}
 
 static fracas_err add_row(fracas_convergence *convergence, const fracas_convergence_row *row)
 {
@@ -139,35 +169,49 @@ static fracas_err add_row(fracas_convergence *convergence, const fracas_converge
     return FRACAS_OK;
 }
 
-static fracas_err compare_point(fracas_convergence *convergence, size_t p, const fracas_ensemble *after, const fracas_refinement_map *map,
+static fracas_err compare_point(fracas_convergence *convergence, size_t p,
+                                const fracas_ensemble *after, const fracas_refinement_map *map,
                                 two_samples *samples)
 {
     const fracas_ensemble *before = &convergence->study->point[p].ensemble;
-    const bool lost = before->nrealizations == 0 || after->nrealizations == 0, paired = map->paired && !lost;
+    const bool lost = before->nrealizations == 0 || after->nrealizations == 0,
+               paired = map->paired && !lost;
     double count[2] = {NAN, NAN}; /* without dust it is the count again */
     for (size_t v = 0; v < FRACAS_COMPARED_VALUES; v++) {
-        fracas_convergence_row row = {.refinement = map->name, .point = p, .number = &fracas_compared_quantities[v], .paired = map->paired};
+        fracas_convergence_row row = {.refinement = map->name,
+                                      .point = p,
+                                      .number = &fracas_compared_quantities[v],
+                                      .paired = map->paired};
         if (!is_headline(row.number)) continue;
         gather(before, after, row.number, paired, samples);
-        if (paired) fracas_difference_of_pairs(samples->value[0], samples->value[1], samples->n[0], 1, &row.value);
-        else fracas_difference_of(samples->value[0], samples->n[0], samples->value[1], samples->n[1], 1, &row.value);
+        if (paired)
+            fracas_difference_of_pairs(samples->value[0], samples->value[1], samples->n[0], 1,
+                                       &row.value);
+        else
+            fracas_difference_of(samples->value[0], samples->n[0], samples->value[1], samples->n[1],
+                                 1, &row.value);
         put_parts(&row.value);
-        const bool counted = row.number->offset == offsetof(fracas_replica_values, count_large) && is_same(row.value.a.mean, count[0]) &&
+        const bool counted = row.number->offset == offsetof(fracas_replica_values, count_large) &&
+                             is_same(row.value.a.mean, count[0]) &&
                              is_same(row.value.b.mean, count[1]);
-        if (row.number->offset == offsetof(fracas_replica_values, count)) count[0] = row.value.a.mean, count[1] = row.value.b.mean;
+        if (row.number->offset == offsetof(fracas_replica_values, count))
+            count[0] = row.value.a.mean, count[1] = row.value.b.mean;
         row.value.p = student(&row.value);
         if (!counted && !is_idle(&row, lost)) TRY(add_row(convergence, &row));
     }
     return FRACAS_OK;
 }
 
-fracas_err fracas_convergence_compare(fracas_convergence *convergence, size_t before, const fracas_ensemble *b, const fracas_refinement_map *map)
+fracas_err fracas_convergence_compare(fracas_convergence *convergence, size_t before,
+                                      const fracas_ensemble *b, const fracas_refinement_map *map)
 {
     const fracas_ensemble *a = &convergence->study->point[before].ensemble;
-    two_samples samples = {.value = {malloc((a->nrealizations + 1) * sizeof(double)),
-                                     malloc((a->nrealizations + b->nrealizations + 1) * sizeof(double))}};
-    fracas_err err = samples.value[0] && samples.value[1] ? compare_point(convergence, before, b, map, &samples)
-                                                          : fracas_no_memory("the realizations of two points");
+    two_samples samples = {
+        .value = {malloc((a->nrealizations + 1) * sizeof(double)),
+                  malloc((a->nrealizations + b->nrealizations + 1) * sizeof(double))}};
+    fracas_err err = samples.value[0] && samples.value[1]
+                         ? compare_point(convergence, before, b, map, &samples)
+                         : fracas_no_memory("the realizations of two points");
     free(samples.value[0]);
     free(samples.value[1]);
     return err;
@@ -179,10 +223,15 @@ static fracas_err find_point(const fracas_analysis *study, const fracas_hash *ha
     for (*point = 0; *point < study->table->npoints; ++*point)
         if (fracas_hash_equal(&study->table->point[*point].hash, hash)) return FRACAS_OK;
     fracas_hash_hex(hash, hex);
-    return fracas_fail(FRACAS_DAMAGED, "the study %s has no point %s; it is of another campaign: remove it and run again", study->name, hex);
+    return fracas_fail(
+        FRACAS_DAMAGED,
+        "the study %s has no point %s; it is of another campaign: remove it and run again",
+        study->name, hex);
 }
 
-static fracas_err note_refined(fracas_convergence *convergence, size_t before, const fracas_point_statistics *after, const fracas_refinement_map *map)
+static fracas_err note_refined(fracas_convergence *convergence, size_t before,
+                               const fracas_point_statistics *after,
+                               const fracas_refinement_map *map)
 {
     const fracas_ensemble *a = &convergence->study->point[before].ensemble, *b = &after->ensemble;
     size_t judged = a->nrealizations > 0 && !map->paired ? b->nrealizations : 0;
@@ -193,7 +242,8 @@ static fracas_err note_refined(fracas_convergence *convergence, size_t before, c
     return fracas_convergence_note_point(convergence, map->name, before, after, judged);
 }
 
-fracas_err fracas_convergence_add(fracas_convergence *convergence, const char *study, const fracas_refinement_map *map)
+fracas_err fracas_convergence_add(fracas_convergence *convergence, const char *study,
+                                  const fracas_refinement_map *map)
 {
     fracas_analysis *refined;
     TRY(fracas_analysis_create(study, NULL, NULL, &refined));
@@ -202,7 +252,9 @@ fracas_err fracas_convergence_add(fracas_convergence *convergence, const char *s
         size_t before, after;
         err = find_point(convergence->study, &map->before[i], &before);
         if (!err) err = find_point(refined, &map->after[i], &after);
-        if (!err) err = fracas_convergence_compare(convergence, before, &refined->point[after].ensemble, map);
+        if (!err)
+            err = fracas_convergence_compare(convergence, before, &refined->point[after].ensemble,
+                                             map);
         if (!err) err = note_refined(convergence, before, &refined->point[after], map);
     }
     if (!err) err = fracas_convergence_note_study(convergence, map->name, refined, study);
@@ -210,7 +262,8 @@ fracas_err fracas_convergence_add(fracas_convergence *convergence, const char *s
     return err;
 }
 
-void fracas_convergence_leave(fracas_convergence *convergence, const char *refinement, size_t points, const char *why)
+void fracas_convergence_leave(fracas_convergence *convergence, const char *refinement,
+                              size_t points, const char *why)
 {
     if (convergence->nleft == FRACAS_MOST_LEFT) return;
     convergence->left[convergence->nleft].refinement = refinement;
@@ -244,7 +297,8 @@ static void find_levels(fracas_convergence *convergence)
 {
     convergence->nlevels = 0;
     for (size_t i = 0; i < convergence->nrows && convergence->nlevels < FRACAS_MOST_LEFT; i++)
-        if (i == 0 || strcmp(convergence->row[i].refinement, convergence->row[i - 1].refinement) != 0)
+        if (i == 0 ||
+            strcmp(convergence->row[i].refinement, convergence->row[i - 1].refinement) != 0)
             convergence->level[convergence->nlevels++] = convergence->row[i].refinement;
 }
 
@@ -265,11 +319,14 @@ fracas_err fracas_convergence_judge(fracas_convergence *convergence)
 }
 
 /* An interval falls as n^(-1/2), and its quantile to the normal one  (convergence.4) */
-double fracas_convergence_replicas(const fracas_convergence *convergence, const fracas_convergence_row *row)
+double fracas_convergence_replicas(const fracas_convergence *convergence,
+                                   const fracas_convergence_row *row)
 {
     const fracas_compared_value *value = &row->value;
-    const double n = fmin((double)value->a.n, (double)value->b.n), reach = 0.5 * (value->relative_high - value->relative_low);
-    const double t = value->freedom > 0 ? gsl_cdf_tdist_Pinv(0.975, value->freedom) : gsl_cdf_ugaussian_Pinv(0.975);
+    const double n = fmin((double)value->a.n, (double)value->b.n),
+                 reach = 0.5 * (value->relative_high - value->relative_low);
+    const double t = value->freedom > 0 ? gsl_cdf_tdist_Pinv(0.975, value->freedom)
+                                        : gsl_cdf_ugaussian_Pinv(0.975);
     const double part = reach / (0.5 * convergence->tolerance) * gsl_cdf_ugaussian_Pinv(0.975) / t;
     return fmax(ALIKE_LEAST, ceil(n * part * part));
 }

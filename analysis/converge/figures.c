@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a convergence looks like: a figure a headline number. */
 #include "analysis/converge/rows.h"
 
@@ -10,31 +11,40 @@
 enum { HEIGHT = 220, MARK_PIXELS = 22, MARGINS = 150, WIDEST = 940 };
 enum { BOX_LOOK = FRACAS_CHART_GREY, TOLERANCE_LOOK = FRACAS_CHART_GREY + 2 };
 
-/* False of a point without a usable realization: its number is unknown, and nothing is drawn of it. */
-static bool has_change(const fracas_convergence_row *row) { return isfinite(row->value.difference); }
+/* False of a point without a usable realization: its number is unknown, and nothing is drawn of it.
+ */
+static bool has_change(const fracas_convergence_row *row)
+{
+    return isfinite(row->value.difference);
+}
 
-size_t fracas_convergence_rows_of(const fracas_convergence *convergence, const fracas_compared_quantity *number)
+size_t fracas_convergence_rows_of(const fracas_convergence *convergence,
+                                  const fracas_compared_quantity *number)
 {
     size_t count = 0;
-    for (size_t i = 0; i < convergence->nrows; i++) count += convergence->row[i].number == number && has_change(&convergence->row[i]);
+    for (size_t i = 0; i < convergence->nrows; i++)
+        count += convergence->row[i].number == number && has_change(&convergence->row[i]);
     return count;
 }
 
 static size_t level_of(const fracas_convergence *convergence, const fracas_convergence_row *row)
 {
     size_t at = 0;
-    while (at + 1 < convergence->nlevels && strcmp(convergence->level[at], row->refinement) != 0) at++;
+    while (at + 1 < convergence->nlevels && strcmp(convergence->level[at], row->refinement) != 0)
+        at++;
     return at;
 }
 
 /* Beside each other at a level, in the order of the points. */
 static double place_of(const fracas_convergence *convergence, const fracas_convergence_row *row)
 {
-    const double points = (double)convergence->study->table->npoints, apart = fmin(0.2, 0.8 / points);
+    const double points = (double)convergence->study->table->npoints,
+                 apart = fmin(0.2, 0.8 / points);
     return (double)level_of(convergence, row) + 1 + apart * ((double)row->point - (points - 1) / 2);
 }
 
-/* What a figure is of. Changes are parts of the number as it is, in per cent; where that is 0 at some point, they are in its unit. */
+/* What a figure is of. Changes are parts of the number as it is, in per cent; where that is 0 at
+ * some point, they are in its unit. */
 typedef struct {
     const fracas_convergence *convergence;
     const fracas_compared_quantity *number;
@@ -42,7 +52,8 @@ typedef struct {
     fracas_prefix prefix;
 } subject;
 
-static subject subject_of(const fracas_convergence *convergence, const fracas_compared_quantity *number)
+static subject subject_of(const fracas_convergence *convergence,
+                          const fracas_compared_quantity *number)
 {
     subject of = {convergence, number, true, {1, "", ""}};
     double most = 0;
@@ -73,14 +84,17 @@ static fracas_err add_boxes(const subject *what, fracas_panel *panel)
     const fracas_convergence *convergence = what->convergence;
     fracas_series *series;
     size_t n = 0;
-    TRY(fracas_panel_add(panel, FRACAS_BOXES, BOX_LOOK, fracas_convergence_rows_of(convergence, what->number), &series));
+    TRY(fracas_panel_add(panel, FRACAS_BOXES, BOX_LOOK,
+                         fracas_convergence_rows_of(convergence, what->number), &series));
     snprintf(series->name, sizeof series->name, "95 %% as it is");
     for (size_t i = 0; i < convergence->nrows; i++) {
         const fracas_convergence_row *row = &convergence->row[i];
         const fracas_estimate *base = &row->value.a;
         if (row->number != what->number || !has_change(row)) continue;
         series->x[n] = place_of(convergence, row);
-        const double half_width = base->half_width > FRACAS_CONVERGENCE_ROUND_OFF * fabs(base->mean) ? base->half_width : 0;
+        const double half_width = base->half_width > FRACAS_CONVERGENCE_ROUND_OFF * fabs(base->mean)
+                                      ? base->half_width
+                                      : 0;
         series->high[n] = shown_as(what, half_width / fabs(base->mean), half_width);
         series->low[n] = 0 - series->high[n]; /* no -0 */
         n++;
@@ -100,7 +114,9 @@ static fracas_err add_point(const subject *what, size_t point, bool open, fracas
     for (size_t i = 0; i < convergence->nrows && n < convergence->nlevels; i++) {
         const fracas_convergence_row *row = &convergence->row[i];
         const fracas_compared_value *value = &row->value;
-        if (row->number != what->number || row->point != point || !has_change(row) || differs(row) == open) continue;
+        if (row->number != what->number || row->point != point || !has_change(row) ||
+            differs(row) == open)
+            continue;
         series->x[n] = place_of(convergence, row);
         series->y[n] = shown_as(what, value->relative, value->difference);
         series->low[n] = shown_as(what, value->relative_low, value->low);
@@ -111,14 +127,16 @@ static fracas_err add_point(const subject *what, size_t point, bool open, fracas
     return FRACAS_OK;
 }
 
-/* Lines at the tolerance, where the changes are not so small that these would hide them; false if they are, or if it is no number of this axis. */
+/* Lines at the tolerance, where the changes are not so small that these would hide them; false if
+ * they are, or if it is no number of this axis. */
 static fracas_err add_tolerance(const subject *what, fracas_panel *panel, bool *shown)
 {
     const double tolerance = 100 * what->convergence->tolerance, most = 4;
     double largest = 0;
     for (size_t s = 0; s < panel->nseries; s++)
         for (size_t i = 0; i < panel->series[s].n; i++)
-            largest = fmax(largest, fmax(fabs(panel->series[s].low[i]), fabs(panel->series[s].high[i])));
+            largest = fmax(largest,
+                           fmax(fabs(panel->series[s].low[i]), fabs(panel->series[s].high[i])));
     *shown = what->relative && tolerance <= most * largest;
     for (int side = -1; side <= 1 && *shown; side += 2) {
         fracas_series *series;
@@ -140,21 +158,32 @@ static void put_words(const subject *what, bool tolerance, fracas_chart *chart)
         if (convergence->row[i].number == what->number) of[convergence->row[i].verdict]++;
     snprintf(chart->file, sizeof chart->file, "converge-%s", what->number->key);
     snprintf(chart->title, sizeof chart->title, "What refinement changes: %s", what->number->key);
-    if (!what->relative) snprintf(beyond, sizeof beyond, " As it is the mean is 0 at some point: no parts of it are shown.");
-    else if (!tolerance) snprintf(beyond, sizeof beyond, " The tolerance of %g %% is far outside.", 100 * convergence->tolerance);
-    snprintf(chart->caption, sizeof chart->caption, "Change of the mean (%s) with half the element size (mesh), half the time step (step) and "
-             "interfaces twice as stiff (beta), bars: 95 %% interval of the change; boxes: that of the number as it is. Filled: it differs, by p corrected for all "
-             "numbers; open: it need not. Moved: %zu, shifted: %zu, hold: %zu, unclear: %zu.%s", what->number->doc, of[FRACAS_NUMBER_MOVED],
-             of[FRACAS_NUMBER_SHIFTED], of[FRACAS_NUMBER_HOLDS], of[FRACAS_NUMBER_UNCLEAR] + of[FRACAS_NUMBER_UNKNOWN], beyond);
+    if (!what->relative)
+        snprintf(beyond, sizeof beyond,
+                 " As it is the mean is 0 at some point: no parts of it are shown.");
+    else if (!tolerance)
+        snprintf(beyond, sizeof beyond, " The tolerance of %g %% is far outside.",
+                 100 * convergence->tolerance);
+    snprintf(chart->caption, sizeof chart->caption,
+             "Change of the mean (%s) with half the element size (mesh), half the time step (step) "
+             "and interfaces twice as stiff (beta), bars: 95 %% interval of the change; boxes: "
+             "that of the number as it is. Filled: it differs, by p corrected for all numbers; "
+             "open: it need not. Moved: %zu, shifted: %zu, hold: %zu, unclear: %zu.%s",
+             what->number->doc, of[FRACAS_NUMBER_MOVED], of[FRACAS_NUMBER_SHIFTED],
+             of[FRACAS_NUMBER_HOLDS], of[FRACAS_NUMBER_UNCLEAR] + of[FRACAS_NUMBER_UNKNOWN],
+             beyond);
 }
 
-fracas_err fracas_convergence_figure(const fracas_convergence *convergence, const fracas_compared_quantity *number, fracas_chart *chart)
+fracas_err fracas_convergence_figure(const fracas_convergence *convergence,
+                                     const fracas_compared_quantity *number, fracas_chart *chart)
 {
     const size_t npoints = convergence->study->table->npoints;
     const subject what = subject_of(convergence, number);
     bool tolerance = false;
     if (fracas_convergence_rows_of(convergence, number) == 0) return FRACAS_OK;
-    chart->width = (int)fmin(fmax(FRACAS_CHART_WIDE, MARGINS + MARK_PIXELS * (double)(convergence->nlevels * npoints)), WIDEST);
+    chart->width = (int)fmin(
+        fmax(FRACAS_CHART_WIDE, MARGINS + MARK_PIXELS * (double)(convergence->nlevels * npoints)),
+        WIDEST);
     fracas_panel *panel = fracas_chart_add(chart, HEIGHT);
     TRY(add_boxes(&what, panel));
     for (size_t p = 0; p < npoints; p++) {
@@ -165,8 +194,11 @@ fracas_err fracas_convergence_figure(const fracas_convergence *convergence, cons
     panel->x.name = convergence->level;
     panel->x.nnames = convergence->nlevels;
     snprintf(panel->x.label, sizeof panel->x.label, "refined");
-    if (what.relative) snprintf(panel->y.label, sizeof panel->y.label, "change of %s [%%]", number->key);
-    else snprintf(panel->y.label, sizeof panel->y.label, "change of %s [%s%s]", number->key, what.prefix.sign, number->unit);
+    if (what.relative)
+        snprintf(panel->y.label, sizeof panel->y.label, "change of %s [%%]", number->key);
+    else
+        snprintf(panel->y.label, sizeof panel->y.label, "change of %s [%s%s]", number->key,
+                 what.prefix.sign, number->unit);
     put_words(&what, tolerance, chart);
     return FRACAS_OK;
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a convergence says of the realizations that it was judged from. */
 #include "analysis/converge/rows.h"
 
@@ -6,7 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static fracas_err add_note(fracas_convergence *convergence, const char *refinement, size_t point, fracas_convergence_note **note)
+static fracas_err add_note(fracas_convergence *convergence, const char *refinement, size_t point,
+                           fracas_convergence_note **note)
 {
     if (convergence->nnotes == convergence->note_room) {
         const size_t room = 2 * convergence->note_room + 8;
@@ -27,15 +29,20 @@ static void write_lost(const fracas_point_statistics *of, size_t judged, char *t
     size_t used = 0;
     for (int o = FRACAS_NONFINITE; o <= FRACAS_FAILED && used < size; o++) {
         if (of->outcome[o] == 0) continue;
-        if (used > 0) used += (size_t)snprintf(text + used, size - used, ", %" PRId64 " %s", of->outcome[o], fracas_outcome_name(o));
-        else used = (size_t)snprintf(text, size, "%" PRId64 " of %" PRId64 " realizations ended %s", of->outcome[o], of->realizations, fracas_outcome_name(o));
+        if (used > 0)
+            used += (size_t)snprintf(text + used, size - used, ", %" PRId64 " %s", of->outcome[o],
+                                     fracas_outcome_name(o));
+        else
+            used = (size_t)snprintf(text, size, "%" PRId64 " of %" PRId64 " realizations ended %s",
+                                    of->outcome[o], of->realizations, fracas_outcome_name(o));
     }
     if (used >= size) return;
     if (judged > 0) snprintf(text + used, size - used, ": judged from %zu", judged);
     else snprintf(text + used, size - used, ": none is left, its numbers are unknown");
 }
 
-fracas_err fracas_convergence_note_point(fracas_convergence *convergence, const char *refinement, size_t point, const fracas_point_statistics *of,
+fracas_err fracas_convergence_note_point(fracas_convergence *convergence, const char *refinement,
+                                         size_t point, const fracas_point_statistics *of,
                                          size_t judged)
 {
     fracas_convergence_note *note;
@@ -45,11 +52,16 @@ fracas_err fracas_convergence_note_point(fracas_convergence *convergence, const 
     }
     if (of->usable == 0 || of->outcome[FRACAS_INTACT] != of->usable) return FRACAS_OK;
     TRY(add_note(convergence, refinement, point, &note));
-    snprintf(note->text, sizeof note->text, "all %" PRId64 " usable realizations end INTACT: nothing breaks, and nothing is judged of how it breaks", of->usable);
+    snprintf(
+        note->text, sizeof note->text,
+        "all %" PRId64
+        " usable realizations end INTACT: nothing breaks, and nothing is judged of how it breaks",
+        of->usable);
     return FRACAS_OK;
 }
 
-fracas_err fracas_convergence_note_study(fracas_convergence *convergence, const char *refinement, const fracas_analysis *analysis, const char *study)
+fracas_err fracas_convergence_note_study(fracas_convergence *convergence, const char *refinement,
+                                         const fracas_analysis *analysis, const char *study)
 {
     fracas_convergence_note *note;
     fracas_warning *warning;
@@ -58,13 +70,16 @@ fracas_err fracas_convergence_note_study(fracas_convergence *convergence, const 
     free(warning);
     if (count == 0) return FRACAS_OK;
     TRY(add_note(convergence, refinement, SIZE_MAX, &note));
-    snprintf(note->text, sizeof note->text, "its report has %zu warning%s: fracas report %s", count, count == 1 ? "" : "s", study);
+    snprintf(note->text, sizeof note->text, "its report has %zu warning%s: fracas report %s", count,
+             count == 1 ? "" : "s", study);
     return FRACAS_OK;
 }
 
-void fracas_convergence_note_line(const fracas_convergence *convergence, const fracas_convergence_note *note, char *text, size_t size)
+void fracas_convergence_note_line(const fracas_convergence *convergence,
+                                  const fracas_convergence_note *note, char *text, size_t size)
 {
     char label[256] = "";
-    if (note->point != SIZE_MAX) fracas_analysis_label(convergence->study, note->point, label, sizeof label);
+    if (note->point != SIZE_MAX)
+        fracas_analysis_label(convergence->study, note->point, label, sizeof label);
     snprintf(text, size, "%s%s%s: %s", note->refinement, *label ? ", " : "", label, note->text);
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A convergence as text, JSON and CSV. */
 #include "analysis/converge/rows.h"
 
@@ -18,17 +19,21 @@ static void print_table(const fracas_result_table *table, FILE *out)
 {
     int width[FRACAS_CONVERGENCE_COLUMNS] = {0};
     for (size_t r = 0; r < table->rows; r++)
-        for (size_t c = 0; c < table->columns; c++) width[c] = (int)fmax(width[c], (double)strlen(fracas_result_table_cell(table, r, c)));
+        for (size_t c = 0; c < table->columns; c++)
+            width[c] = (int)fmax(width[c], (double)strlen(fracas_result_table_cell(table, r, c)));
     for (size_t r = 0; r < table->rows; r++)
         for (size_t c = 0; c < table->columns; c++) {
-            if (r > 0 && r < FRACAS_RESULT_TABLE_HEAD) continue; /* units stand behind the numbers */
+            if (r > 0 && r < FRACAS_RESULT_TABLE_HEAD)
+                continue; /* units stand behind the numbers */
             const bool last = c + 1 == table->columns, text = c < 3 || last;
-            fprintf(out, text ? "%-*s%s" : "%*s%s", last ? 0 : width[c], fracas_result_table_cell(table, r, c), last ? "\n" : "  ");
+            fprintf(out, text ? "%-*s%s" : "%*s%s", last ? 0 : width[c],
+                    fracas_result_table_cell(table, r, c), last ? "\n" : "  ");
         }
 }
 
 /* "mesh: of 8 numbers 2 moved, ..." */
-static void format_counts(const fracas_convergence *convergence, const char *refinement, char *text, size_t size)
+static void format_counts(const fracas_convergence *convergence, const char *refinement, char *text,
+                          size_t size)
 {
     size_t all = 0, of[FRACAS_NUMBER_VERDICTS] = {0};
     for (size_t i = 0; i < convergence->nrows; i++) {
@@ -36,16 +41,21 @@ static void format_counts(const fracas_convergence *convergence, const char *ref
         all++;
         of[convergence->row[i].verdict]++;
     }
-    const int used = snprintf(text, size, "%s: of %zu numbers %zu moved, %zu shifted and %zu hold within %g %%, %zu unclear", refinement, all,
-                              of[FRACAS_NUMBER_MOVED], of[FRACAS_NUMBER_SHIFTED], of[FRACAS_NUMBER_HOLDS], 100 * convergence->tolerance,
-                              of[FRACAS_NUMBER_UNCLEAR]);
+    const int used = snprintf(
+        text, size,
+        "%s: of %zu numbers %zu moved, %zu shifted and %zu hold within %g %%, %zu unclear",
+        refinement, all, of[FRACAS_NUMBER_MOVED], of[FRACAS_NUMBER_SHIFTED],
+        of[FRACAS_NUMBER_HOLDS], 100 * convergence->tolerance, of[FRACAS_NUMBER_UNCLEAR]);
     if (of[FRACAS_NUMBER_UNKNOWN] && used < (int)size)
-        snprintf(text + used, size - (size_t)used, ", %zu without an interval (fewer than two usable realizations)", of[FRACAS_NUMBER_UNKNOWN]);
+        snprintf(text + used, size - (size_t)used,
+                 ", %zu without an interval (fewer than two usable realizations)",
+                 of[FRACAS_NUMBER_UNKNOWN]);
 }
 
-/* How many replicas would tell of what is unclear: of the numbers whose change is known to 50 % by now. Of the others that would be a guess at
- * what does not end. */
-static void conclude_replicas(const fracas_convergence *convergence, fracas_convergence_line *line, void *context)
+/* How many replicas would tell of what is unclear: of the numbers whose change is known to 50 % by
+ * now. Of the others that would be a guess at what does not end. */
+static void conclude_replicas(const fracas_convergence *convergence, fracas_convergence_line *line,
+                              void *context)
 {
     const double known = 0.5;
     double replicas = 0;
@@ -56,23 +66,31 @@ static void conclude_replicas(const fracas_convergence *convergence, fracas_conv
         if (row->verdict != FRACAS_NUMBER_UNCLEAR) continue;
         const double reach = 0.5 * (row->value.relative_high - row->value.relative_low);
         unclear++;
-        if (reach <= known) replicas = fmax(replicas, fracas_convergence_replicas(convergence, row));
+        if (reach <= known)
+            replicas = fmax(replicas, fracas_convergence_replicas(convergence, row));
         else vague++; /* or in parts of 0 */
     }
     if (unclear == 0) return;
     if (vague > 0)
-        snprintf(others, sizeof others, "%zu of the %zu unclear changes %s known no better than to 50 %% of the number", vague, unclear,
-                 vague == 1 ? "is" : "are");
+        snprintf(others, sizeof others,
+                 "%zu of the %zu unclear changes %s known no better than to 50 %% of the number",
+                 vague, unclear, vague == 1 ? "is" : "are");
     if (vague == unclear)
-        snprintf(text, sizeof text, "No change that is unclear is known better than to 50 %% of the number: how many replicas would tell cannot be said.");
+        snprintf(text, sizeof text,
+                 "No change that is unclear is known better than to 50 %% of the number: how many "
+                 "replicas would tell cannot be said.");
     else if (vague > 0)
-        snprintf(text, sizeof text, "About %.0f replicas of each point would tell of %zu that are unclear; %s.", replicas, unclear - vague, others);
+        snprintf(text, sizeof text,
+                 "About %.0f replicas of each point would tell of %zu that are unclear; %s.",
+                 replicas, unclear - vague, others);
     else
-        snprintf(text, sizeof text, "About %.0f replicas of each point would tell of all that are unclear.", replicas);
+        snprintf(text, sizeof text,
+                 "About %.0f replicas of each point would tell of all that are unclear.", replicas);
     line(context, text);
 }
 
-void fracas_convergence_conclude(const fracas_convergence *convergence, fracas_convergence_line *line, void *context)
+void fracas_convergence_conclude(const fracas_convergence *convergence,
+                                 fracas_convergence_line *line, void *context)
 {
     char text[800];
     for (size_t i = 0; i < convergence->nrows; i++) {
@@ -82,19 +100,24 @@ void fracas_convergence_conclude(const fracas_convergence *convergence, fracas_c
         line(context, text);
     }
     for (size_t i = 0; i < convergence->nleft; i++) {
-        snprintf(text, sizeof text, "%s: %zu point%s left out: %s", convergence->left[i].refinement, convergence->left[i].points,
-                 convergence->left[i].points == 1 ? "" : "s", convergence->left[i].why);
+        snprintf(text, sizeof text, "%s: %zu point%s left out: %s", convergence->left[i].refinement,
+                 convergence->left[i].points, convergence->left[i].points == 1 ? "" : "s",
+                 convergence->left[i].why);
         line(context, text);
     }
     for (size_t i = 0; i < convergence->nnotes; i++) {
         int used = snprintf(text, sizeof text, "warning: ");
-        fracas_convergence_note_line(convergence, &convergence->note[i], text + used, sizeof text - (size_t)used);
+        fracas_convergence_note_line(convergence, &convergence->note[i], text + used,
+                                     sizeof text - (size_t)used);
         line(context, text);
     }
     conclude_replicas(convergence, line, context);
 }
 
-static void print_line(void *out, const char *text) { fprintf(out, "%s\n", text); }
+static void print_line(void *out, const char *text)
+{
+    fprintf(out, "%s\n", text);
+}
 
 fracas_err fracas_convergence_print(const fracas_convergence *convergence, FILE *out)
 {
@@ -102,9 +125,13 @@ fracas_err fracas_convergence_print(const fracas_convergence *convergence, FILE 
     TRY(fracas_convergence_table_create(convergence, false, &table));
     print_table(&table, out);
     fracas_result_table_clear(&table);
-    fprintf(out, "\nchange: of the mean, with the half width of its 95 %% interval: of pairs with the same strengths for step and beta, by Welch\n"
-            "for mesh; half widths: in those of the number as it is. moved: Holm's p among all %zu numbers is below 0.05, and the interval is\n"
-            "not within %g %%; shifted: it is; holds: it is, and p is not; unclear: neither.\n\n", convergence->nrows, 100 * convergence->tolerance);
+    fprintf(out,
+            "\nchange: of the mean, with the half width of its 95 %% interval: of pairs with the "
+            "same strengths for step and beta, by Welch\n"
+            "for mesh; half widths: in those of the number as it is. moved: Holm's p among all %zu "
+            "numbers is below 0.05, and the interval is\n"
+            "not within %g %%; shifted: it is; holds: it is, and p is not; unclear: neither.\n\n",
+            convergence->nrows, 100 * convergence->tolerance);
     fracas_convergence_conclude(convergence, print_line, out);
     if (!ferror(out)) return FRACAS_OK;
     return fracas_fail_system(errno, "cannot write the table");
@@ -117,10 +144,14 @@ static const struct {
     const char *name;
     size_t offset;
 } columns[] = {
-    {"difference", offsetof(fracas_compared_value, difference)}, {"low", offsetof(fracas_compared_value, low)},
-    {"high", offsetof(fracas_compared_value, high)}, {"relative", offsetof(fracas_compared_value, relative)},
-    {"relative_low", offsetof(fracas_compared_value, relative_low)}, {"relative_high", offsetof(fracas_compared_value, relative_high)},
-    {"p", offsetof(fracas_compared_value, p)}, {"p_holm", offsetof(fracas_compared_value, p_holm)},
+    {"difference", offsetof(fracas_compared_value, difference)},
+    {"low", offsetof(fracas_compared_value, low)},
+    {"high", offsetof(fracas_compared_value, high)},
+    {"relative", offsetof(fracas_compared_value, relative)},
+    {"relative_low", offsetof(fracas_compared_value, relative_low)},
+    {"relative_high", offsetof(fracas_compared_value, relative_high)},
+    {"p", offsetof(fracas_compared_value, p)},
+    {"p_holm", offsetof(fracas_compared_value, p_holm)},
 };
 
 static const double *column_at(const fracas_convergence_row *row, size_t c)
@@ -137,7 +168,8 @@ static void write_estimate(fracas_json *json, const char *key, const fracas_esti
     fracas_json_close_object(json);
 }
 
-static void write_row(const fracas_convergence *convergence, const fracas_convergence_row *row, fracas_json *json)
+static void write_row(const fracas_convergence *convergence, const fracas_convergence_row *row,
+                      fracas_json *json)
 {
     char label[256], hash[FRACAS_HASH_HEX];
     fracas_analysis_label(convergence->study, row->point, label, sizeof label);
@@ -151,7 +183,8 @@ static void write_row(const fracas_convergence *convergence, const fracas_conver
     fracas_json_text(json, "unit", row->number->unit);
     write_estimate(json, "base", &row->value.a);
     write_estimate(json, "refined", &row->value.b);
-    for (size_t c = 0; c < FRACAS_COUNT(columns); c++) fracas_json_real(json, columns[c].name, *column_at(row, c));
+    for (size_t c = 0; c < FRACAS_COUNT(columns); c++)
+        fracas_json_real(json, columns[c].name, *column_at(row, c));
     fracas_json_real(json, "half_widths", row->value.difference / row->value.a.half_width);
     fracas_json_text(json, "method", row->paired ? "pairs" : "welch");
     fracas_json_text(json, "verdict", fracas_number_verdict_name[row->verdict]);
@@ -202,11 +235,13 @@ void fracas_convergence_write_json(const fracas_convergence *convergence, FILE *
     fracas_json_object(&json, NULL);
     fracas_json_real(&json, "tolerance", convergence->tolerance);
     for (int v = 0; v < FRACAS_NUMBER_VERDICTS; v++)
-        fracas_json_integer(&json, fracas_number_verdict_name[v], (int64_t)count_of(convergence, (fracas_number_verdict)v));
+        fracas_json_integer(&json, fracas_number_verdict_name[v],
+                            (int64_t)count_of(convergence, (fracas_number_verdict)v));
     write_left(convergence, &json);
     write_notes(convergence, &json);
     fracas_json_array(&json, "numbers");
-    for (size_t i = 0; i < convergence->nrows; i++) write_row(convergence, &convergence->row[i], &json);
+    for (size_t i = 0; i < convergence->nrows; i++)
+        write_row(convergence, &convergence->row[i], &json);
     fracas_json_close_array(&json);
     fracas_json_close_object(&json);
     fracas_json_end(&json);
@@ -221,25 +256,31 @@ static void csv_estimate(const fracas_estimate *estimate, FILE *out)
     fracas_csv_real(estimate->half_width, out);
 }
 
-static void csv_row(const fracas_convergence *convergence, const fracas_convergence_row *row, FILE *out)
+static void csv_row(const fracas_convergence *convergence, const fracas_convergence_row *row,
+                    FILE *out)
 {
     char hash[FRACAS_HASH_HEX];
     fracas_hash_hex(&convergence->study->table->point[row->point].hash, hash);
-    fprintf(out, "%s,%zu,%s,%s,%s", row->refinement, row->point, hash, row->number->key, row->number->unit);
+    fprintf(out, "%s,%zu,%s,%s,%s", row->refinement, row->point, hash, row->number->key,
+            row->number->unit);
     csv_estimate(&row->value.a, out);
     csv_estimate(&row->value.b, out);
     for (size_t c = 0; c < FRACAS_COUNT(columns); c++) fracas_csv_real(*column_at(row, c), out);
     fracas_csv_real(row->value.difference / row->value.a.half_width, out);
-    fprintf(out, ",%s,%s\n", row->paired ? "pairs" : "welch", fracas_number_verdict_name[row->verdict]);
+    fprintf(out, ",%s,%s\n", row->paired ? "pairs" : "welch",
+            fracas_number_verdict_name[row->verdict]);
 }
 
 fracas_err fracas_convergence_write_csv(const fracas_convergence *convergence, const char *folder)
 {
     fracas_output_file output;
     TRY(fracas_output_open(folder, "converge.csv", &output));
-    fputs("refinement,point,hash,number,unit,base_n,base_mean,base_half_width,refined_n,refined_mean,refined_half_width", output.file);
+    fputs("refinement,point,hash,number,unit,base_n,base_mean,base_half_width,refined_n,refined_"
+          "mean,refined_half_width",
+          output.file);
     for (size_t c = 0; c < FRACAS_COUNT(columns); c++) fprintf(output.file, ",%s", columns[c].name);
     fputs(",half_widths,method,verdict\n", output.file);
-    for (size_t i = 0; i < convergence->nrows; i++) csv_row(convergence, &convergence->row[i], output.file);
+    for (size_t i = 0; i < convergence->nrows; i++)
+        csv_row(convergence, &convergence->row[i], output.file);
     return fracas_output_close(&output, FRACAS_OK);
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The numbers of a convergence, a row each. */
 #ifndef FRACAS_ANALYSIS_CONVERGE_ROWS_H
 #define FRACAS_ANALYSIS_CONVERGE_ROWS_H
@@ -9,24 +10,32 @@
 #include "analysis/tables/table.h"
 
 typedef enum {
-    FRACAS_NUMBER_MOVED, FRACAS_NUMBER_SHIFTED, FRACAS_NUMBER_HOLDS, FRACAS_NUMBER_UNCLEAR, FRACAS_NUMBER_UNKNOWN, FRACAS_NUMBER_VERDICTS
+    FRACAS_NUMBER_MOVED,
+    FRACAS_NUMBER_SHIFTED,
+    FRACAS_NUMBER_HOLDS,
+    FRACAS_NUMBER_UNCLEAR,
+    FRACAS_NUMBER_UNKNOWN,
+    FRACAS_NUMBER_VERDICTS
 } fracas_number_verdict;
 extern const char *const fracas_number_verdict_name[FRACAS_NUMBER_VERDICTS]; /* "moved", ... */
 
 typedef struct {
     const char *refinement;
-    size_t point;    /* of the study as it is */
+    size_t point; /* of the study as it is */
     const fracas_compared_quantity *number;
     bool paired;
     fracas_compared_value value; /* its p: Student's, of the difference */
     fracas_number_verdict verdict;
 } fracas_convergence_row;
 
-#define FRACAS_CONVERGENCE_ROUND_OFF 1e-9 /* of a number: less is no change of it, and no scatter */
+#define FRACAS_CONVERGENCE_ROUND_OFF                             \
+    1e-9 /* of a number: less is no change of it, and no scatter \
+          */
 
 enum { FRACAS_MOST_LEFT = 3 }; /* refinements */
 
-/* What a reader must know of the realizations of a study, or of one point of it, before trusting its verdicts. */
+/* What a reader must know of the realizations of a study, or of one point of it, before trusting
+ * its verdicts. */
 typedef struct {
     const char *refinement; /* "base" of the study as it is */
     size_t point;           /* of the study as it is; SIZE_MAX: the study as a whole */
@@ -38,7 +47,8 @@ struct fracas_convergence {
     double tolerance;
     size_t nrows, room;
     fracas_convergence_row *row;
-    size_t nlevels; /* refinements that there are rows of, in their order: fracas_convergence_judge finds them */
+    size_t nlevels; /* refinements that there are rows of, in their order: fracas_convergence_judge
+                       finds them */
     const char *level[FRACAS_MOST_LEFT];
     size_t nnotes, note_room;
     fracas_convergence_note *note;
@@ -49,38 +59,57 @@ struct fracas_convergence {
     } left[FRACAS_MOST_LEFT];
 };
 
-/* Notes of one point (`point` in the study as it is) of a study, from its statistics: how its unusable realizations ended, if there are any, and
- * that its numbers are judged from `judged` of them (0: unknown); and if every usable one stays whole. */
-FRACAS_MUST_USE fracas_err fracas_convergence_note_point(fracas_convergence *convergence, const char *refinement, size_t point,
-                                                         const fracas_point_statistics *of, size_t judged);
-/* Notes how many warnings the report of a study has, if any, and the command that shows them; `study`: its folder. */
-FRACAS_MUST_USE fracas_err fracas_convergence_note_study(fracas_convergence *convergence, const char *refinement, const fracas_analysis *analysis,
+/* Notes of one point (`point` in the study as it is) of a study, from its statistics: how its
+ * unusable realizations ended, if there are any, and that its numbers are judged from `judged` of
+ * them (0: unknown); and if every usable one stays whole. */
+FRACAS_MUST_USE fracas_err fracas_convergence_note_point(fracas_convergence *convergence,
+                                                         const char *refinement, size_t point,
+                                                         const fracas_point_statistics *of,
+                                                         size_t judged);
+/* Notes how many warnings the report of a study has, if any, and the command that shows them;
+ * `study`: its folder. */
+FRACAS_MUST_USE fracas_err fracas_convergence_note_study(fracas_convergence *convergence,
+                                                         const char *refinement,
+                                                         const fracas_analysis *analysis,
                                                          const char *study);
 /* "mesh, radial 12 m/s: 7 of 10 realizations ..." */
-void fracas_convergence_note_line(const fracas_convergence *convergence, const fracas_convergence_note *note, char *text, size_t size);
+void fracas_convergence_note_line(const fracas_convergence *convergence,
+                                  const fracas_convergence_note *note, char *text, size_t size);
 
-/* Adds the rows of one point, `before` in the study as it is, from the realizations of its refined self. */
-FRACAS_MUST_USE fracas_err fracas_convergence_compare(fracas_convergence *convergence, size_t before, const fracas_ensemble *after,
+/* Adds the rows of one point, `before` in the study as it is, from the realizations of its refined
+ * self. */
+FRACAS_MUST_USE fracas_err fracas_convergence_compare(fracas_convergence *convergence,
+                                                      size_t before, const fracas_ensemble *after,
                                                       const fracas_refinement_map *map);
 
-/* Replicas n (h/(tolerance/2))^2 of every point with which the half width h of the row's relative change, of n replicas now, would be half
- * of the tolerance: what does not differ then holds in 19 of 20 cases (convergence.4). NaN without an interval. */
-double fracas_convergence_replicas(const fracas_convergence *convergence, const fracas_convergence_row *row);
+/* Replicas n (h/(tolerance/2))^2 of every point with which the half width h of the row's relative
+ * change, of n replicas now, would be half of the tolerance: what does not differ then holds in 19
+ * of 20 cases (convergence.4). NaN without an interval. */
+double fracas_convergence_replicas(const fracas_convergence *convergence,
+                                   const fracas_convergence_row *row);
 
 enum { FRACAS_CONVERGENCE_COLUMNS = 8 };
 
-/* A line a row: refinement, point, number, its mean as it is and refined, change in per cent, in half widths, verdict. */
-FRACAS_MUST_USE fracas_err fracas_convergence_table_create(const fracas_convergence *convergence, bool unicode, fracas_result_table *table);
+/* A line a row: refinement, point, number, its mean as it is and refined, change in per cent, in
+ * half widths, verdict. */
+FRACAS_MUST_USE fracas_err fracas_convergence_table_create(const fracas_convergence *convergence,
+                                                           bool unicode,
+                                                           fracas_result_table *table);
 
-/* Takes a line of what it comes to: of each refinement how many numbers moved, what was left out, the notes, how many replicas would tell more. */
+/* Takes a line of what it comes to: of each refinement how many numbers moved, what was left out,
+ * the notes, how many replicas would tell more. */
 typedef void fracas_convergence_line(void *context, const char *text);
-void fracas_convergence_conclude(const fracas_convergence *convergence, fracas_convergence_line *line, void *context);
+void fracas_convergence_conclude(const fracas_convergence *convergence,
+                                 fracas_convergence_line *line, void *context);
 
 /* Rows of this number that have a change: all but those of points without a usable realization. */
-size_t fracas_convergence_rows_of(const fracas_convergence *convergence, const fracas_compared_quantity *number);
-/* The figure of one number: its change at each refinement, a mark a row, filled if it differs, with its interval; behind it a box, the
- * interval of the number as it is. No panel if there is no row. */
-FRACAS_MUST_USE fracas_err fracas_convergence_figure(const fracas_convergence *convergence, const fracas_compared_quantity *number,
+size_t fracas_convergence_rows_of(const fracas_convergence *convergence,
+                                  const fracas_compared_quantity *number);
+/* The figure of one number: its change at each refinement, a mark a row, filled if it differs, with
+ * its interval; behind it a box, the interval of the number as it is. No panel if there is no row.
+ */
+FRACAS_MUST_USE fracas_err fracas_convergence_figure(const fracas_convergence *convergence,
+                                                     const fracas_compared_quantity *number,
                                                      fracas_chart *chart);
 
 #endif

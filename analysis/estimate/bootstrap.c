@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/estimate/bootstrap.h"
 
 #include <gsl/gsl_cdf.h>
@@ -13,9 +14,9 @@ typedef struct {
     size_t n, nvalues;
     fracas_resampled *statistic;
     void *context;
-    uint32_t *weight;  /* n */
-    double *found;     /* nvalues x most: of each resample, value by value */
-    double *left_out;  /* nvalues x groups: without each group of realizations */
+    uint32_t *weight; /* n */
+    double *found;    /* nvalues x most: of each resample, value by value */
+    double *left_out; /* nvalues x groups: without each group of realizations */
     size_t most, groups;
 } resampling;
 
@@ -25,7 +26,8 @@ static void draw(resampling *r, gsl_rng *random)
     for (size_t i = 0; i < r->n; i++) r->weight[gsl_rng_uniform_int(random, r->n)]++;
 }
 
-static void put(const resampling *r, const double *value, double *table, size_t columns, size_t column)
+static void put(const resampling *r, const double *value, double *table, size_t columns,
+                size_t column)
 {
     for (size_t v = 0; v < r->nvalues; v++) table[v * columns + column] = value[v];
 }
@@ -54,7 +56,8 @@ static double acceleration(const double *value, size_t count)
     return isfinite(a) ? a : 0;
 }
 
-/* Quantile p of ascending values, as the definition of a bootstrap interval has it: value number p (B + 1). */
+/* Quantile p of ascending values, as the definition of a bootstrap interval has it: value number p
+ * (B + 1). */
 static double quantile(const double *ascending, size_t count, double p)
 {
     const double at = p * (double)(count + 1) - 1;
@@ -77,7 +80,8 @@ static double upper(size_t n, const fracas_bootstrap_options *options)
     return sqrt((double)n / (double)(n - 1)) * gsl_cdf_tdist_Pinv(p, (double)(n - 1));
 }
 
-static void summarise(double *found, size_t most, const double *left_out, size_t groups, double quantile_up, fracas_interval *interval)
+static void summarise(double *found, size_t most, const double *left_out, size_t groups,
+                      double quantile_up, fracas_interval *interval)
 {
     size_t count = 0;
     double below = 0, sum = 0, squares = 0;
@@ -87,7 +91,9 @@ static void summarise(double *found, size_t most, const double *left_out, size_t
     if (count < 2 || !isfinite(interval->value)) return;
     for (size_t b = 0; b < count; b++) {
         sum += found[b] - interval->value;
-        below += found[b] < interval->value ? 1 : found[b] == interval->value ? 0.5 : 0; /* of lattice values half of the ties */
+        below += found[b] < interval->value    ? 1
+                 : found[b] == interval->value ? 0.5
+                                               : 0; /* of lattice values half of the ties */
     }
     interval->bias = sum / (double)count;
     for (size_t b = 0; b < count; b++) {
@@ -100,18 +106,20 @@ static void summarise(double *found, size_t most, const double *left_out, size_t
     const double z0 = gsl_cdf_ugaussian_Pinv(share), a = acceleration(left_out, groups);
     for (int side = 0; side < 2; side++) {
         const double z = z0 + (side ? quantile_up : -quantile_up);
-        const double p = gsl_cdf_ugaussian_P(a * z < 1 ? z0 + z / (1 - a * z) : copysign(INFINITY, z));
+        const double p = gsl_cdf_ugaussian_P(a * z < 1 ? z0 + z / (1 - a * z)
+                                                       : copysign(INFINITY, z));
         *(side ? &interval->high : &interval->low) = quantile(found, count, p);
     }
 }
 
-/* value[] of all realizations, then without each group; its standard error is of deviations from the value itself, not from the mean without groups:
- * where a value is biased, longer. */
+/* value[] of all realizations, then without each group; its standard error is of deviations from
+ * the value itself, not from the mean without groups: where a value is biased, longer. */
 static void jackknife(resampling *r, double *value, fracas_jackknifed *found)
 {
     for (size_t i = 0; i < r->n; i++) r->weight[i] = 1;
     r->statistic(r->context, r->weight, value);
-    for (size_t v = 0; v < r->nvalues; v++) found[v] = (fracas_jackknifed){value[v], NAN, NAN, r->groups};
+    for (size_t v = 0; v < r->nvalues; v++)
+        found[v] = (fracas_jackknifed){value[v], NAN, NAN, r->groups};
     if (r->n < 2) return;
     const double g = (double)r->groups;
     leave_out(r, value);
@@ -128,28 +136,34 @@ static void jackknife(resampling *r, double *value, fracas_jackknifed *found)
 }
 
 /* (estimators.18) */
-static void student(const resampling *r, const fracas_bootstrap_options *options, const fracas_jackknifed *found, fracas_interval *interval)
+static void student(const resampling *r, const fracas_bootstrap_options *options,
+                    const fracas_jackknifed *found, fracas_interval *interval)
 {
     const double t = r->n > 1 ? gsl_cdf_tdist_Pinv(upper_share(options), (double)(r->n - 1)) : NAN;
     for (size_t v = 0; v < r->nvalues; v++) {
         const double half = t * found[v].standard_error;
-        interval[v] = (fracas_interval){found[v].value, found[v].value - half, found[v].value + half, found[v].standard_error, found[v].bias,
-                                        isfinite(half) ? (int64_t)r->groups : 0};
+        interval[v] = (fracas_interval){
+            found[v].value,        found[v].value - half,
+            found[v].value + half, found[v].standard_error,
+            found[v].bias,         isfinite(half) ? (int64_t)r->groups : 0};
     }
 }
 
-static fracas_err resample(resampling *r, const fracas_bootstrap_options *options, fracas_interval *interval, double *value)
+static fracas_err resample(resampling *r, const fracas_bootstrap_options *options,
+                           fracas_interval *interval, double *value)
 {
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     if (!random) return fracas_no_memory("a bootstrap");
-    gsl_rng_set(random, (unsigned long)(options->seed ^ options->seed >> 32)); /* it takes 32 bits */
+    gsl_rng_set(random,
+                (unsigned long)(options->seed ^ options->seed >> 32)); /* it takes 32 bits */
     for (size_t b = 0; b < r->most; b++) {
         draw(r, random);
         r->statistic(r->context, r->weight, value);
         put(r, value, r->found, r->most, b);
     }
     for (size_t v = 0; v < r->nvalues; v++)
-        summarise(r->found + v * r->most, r->most, r->left_out + v * r->groups, r->groups, upper(r->n, options), &interval[v]);
+        summarise(r->found + v * r->most, r->most, r->left_out + v * r->groups, r->groups,
+                  upper(r->n, options), &interval[v]);
     gsl_rng_free(random);
     return FRACAS_OK;
 }
@@ -162,7 +176,9 @@ static fracas_err make_room(resampling *r, double **value, fracas_jackknifed **f
     r->left_out = malloc((r->nvalues * r->groups + 1) * sizeof *r->left_out);
     *value = malloc((r->nvalues + 1) * sizeof **value);
     if (found) *found = malloc((r->nvalues + 1) * sizeof **found);
-    return r->weight && r->found && r->left_out && *value && (!found || *found) ? FRACAS_OK : fracas_no_memory("a bootstrap");
+    return r->weight && r->found && r->left_out && *value && (!found || *found)
+               ? FRACAS_OK
+               : fracas_no_memory("a bootstrap");
 }
 
 static void clear(resampling *r, double *value)
@@ -173,14 +189,20 @@ static void clear(resampling *r, double *value)
     free(value);
 }
 
-fracas_err fracas_bootstrap(size_t n, size_t nvalues, fracas_resampled *statistic, void *context, const fracas_bootstrap_options *options,
-                            fracas_interval *interval)
+fracas_err fracas_bootstrap(size_t n, size_t nvalues, fracas_resampled *statistic, void *context,
+                            const fracas_bootstrap_options *options, fracas_interval *interval)
 {
-    resampling r = {.n = n, .nvalues = nvalues, .statistic = statistic, .context = context, .groups = n < GROUPS ? n : GROUPS};
+    resampling r = {.n = n,
+                    .nvalues = nvalues,
+                    .statistic = statistic,
+                    .context = context,
+                    .groups = n < GROUPS ? n : GROUPS};
     double *value = NULL;
     fracas_jackknifed *found = NULL;
-    if (n >= FRACAS_BOOTSTRAP_LEAST) r.most = options->resamples > 0 ? (size_t)options->resamples : RESAMPLES;
-    for (size_t v = 0; v < nvalues; v++) interval[v] = (fracas_interval){NAN, NAN, NAN, NAN, NAN, 0};
+    if (n >= FRACAS_BOOTSTRAP_LEAST)
+        r.most = options->resamples > 0 ? (size_t)options->resamples : RESAMPLES;
+    for (size_t v = 0; v < nvalues; v++)
+        interval[v] = (fracas_interval){NAN, NAN, NAN, NAN, NAN, 0};
     fracas_err err = make_room(&r, &value, &found);
     if (!err && n) {
         jackknife(&r, value, found);
@@ -194,9 +216,14 @@ fracas_err fracas_bootstrap(size_t n, size_t nvalues, fracas_resampled *statisti
     return err;
 }
 
-fracas_err fracas_jackknife(size_t n, size_t nvalues, fracas_resampled *statistic, void *context, fracas_jackknifed *found)
+fracas_err fracas_jackknife(size_t n, size_t nvalues, fracas_resampled *statistic, void *context,
+                            fracas_jackknifed *found)
 {
-    resampling r = {.n = n, .nvalues = nvalues, .statistic = statistic, .context = context, .groups = n < GROUPS ? n : GROUPS};
+    resampling r = {.n = n,
+                    .nvalues = nvalues,
+                    .statistic = statistic,
+                    .context = context,
+                    .groups = n < GROUPS ? n : GROUPS};
     double *value = NULL;
     for (size_t v = 0; v < nvalues; v++) found[v] = (fracas_jackknifed){NAN, NAN, NAN, 0};
     fracas_err err = make_room(&r, &value, NULL);

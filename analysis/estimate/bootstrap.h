@@ -1,4 +1,6 @@
-/* Intervals by resampling realizations: fragments of one realization are not independent, realizations are. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Intervals by resampling realizations: fragments of one realization are not independent,
+ * realizations are. */
 #ifndef FRACAS_ANALYSIS_ESTIMATE_BOOTSTRAP_H
 #define FRACAS_ANALYSIS_ESTIMATE_BOOTSTRAP_H
 
@@ -8,35 +10,40 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Values of a resample in which realization i was drawn weight[i] times (sum of weights n): `nvalues` of them into *value; NaN where the
- * resample gives none. */
+/* Values of a resample in which realization i was drawn weight[i] times (sum of weights n):
+ * `nvalues` of them into *value; NaN where the resample gives none. */
 typedef void fracas_resampled(void *context, const uint32_t *weight, double *value);
 
 typedef struct {
     double value;          /* of the realizations as they are */
     double low, high;      /* NaN where there is no interval */
-    double standard_error; /* standard deviation over resamples; of few realizations that of fracas_jackknife, and so its bias */
+    double standard_error; /* standard deviation over resamples; of few realizations that of
+                              fracas_jackknife, and so its bias */
     double bias;           /* mean over resamples - value */
     int64_t resamples;     /* that gave a value */
 } fracas_interval;
 
 typedef struct {
-    int64_t resamples;  /* B; 0: 2000 */
-    double confidence;  /* 0: 0.95 */
-    uint64_t seed;      /* equal seeds give equal intervals */
-    bool plain;         /* not expanded: as Efron has them */
+    int64_t resamples; /* B; 0: 2000 */
+    double confidence; /* 0: 0.95 */
+    uint64_t seed;     /* equal seeds give equal intervals */
+    bool plain;        /* not expanded: as Efron has them */
 } fracas_bootstrap_options;
 
-/* Bias-corrected and accelerated intervals (BCa; Efron 1987, Efron and Tibshirani 1993, chapter 14) of `nvalues` values of n realizations,
- * from B resamples of n realizations with replacement; the acceleration from the jackknife, over at most 200 groups of realizations where
- * there are more. Normal quantiles z in them are replaced by sqrt(n/(n - 1)) t_(n-1), as Hesterberg (The American Statistician 69, 371, 2015) expands
- * percentile intervals: resamples of n values vary less by (n - 1)/n, and what they vary by is itself an estimate (estimators.18). Of fewer than
- * FRACAS_BOOTSTRAP_LEAST realizations resamples do not go far enough: the interval is value -+ t_(n-1) e, e of fracas_jackknife (estimators.18), `resamples`
- * counts what was left out in turn, and `plain` is not heard. low and high are NaN for n < 2, and of a value that does not exist without one of
- * so few. interval[nvalues]. FRACAS_ENVIRONMENT without memory. */
+/* Bias-corrected and accelerated intervals (BCa; Efron 1987, Efron and Tibshirani 1993, chapter 14)
+ * of `nvalues` values of n realizations, from B resamples of n realizations with replacement; the
+ * acceleration from the jackknife, over at most 200 groups of realizations where there are more.
+ * Normal quantiles z in them are replaced by sqrt(n/(n - 1)) t_(n-1), as Hesterberg (The American
+ * Statistician 69, 371, 2015) expands percentile intervals: resamples of n values vary less by (n -
+ * 1)/n, and what they vary by is itself an estimate (estimators.18). Of fewer than
+ * FRACAS_BOOTSTRAP_LEAST realizations resamples do not go far enough: the interval is value -+
+ * t_(n-1) e, e of fracas_jackknife (estimators.18), `resamples` counts what was left out in turn,
+ * and `plain` is not heard. low and high are NaN for n < 2, and of a value that does not exist
+ * without one of so few. interval[nvalues]. FRACAS_ENVIRONMENT without memory. */
 enum { FRACAS_BOOTSTRAP_LEAST = 8 };
-FRACAS_MUST_USE fracas_err fracas_bootstrap(size_t n, size_t nvalues, fracas_resampled *statistic, void *context,
-                                            const fracas_bootstrap_options *options, fracas_interval *interval);
+FRACAS_MUST_USE fracas_err fracas_bootstrap(size_t n, size_t nvalues, fracas_resampled *statistic,
+                                            void *context, const fracas_bootstrap_options *options,
+                                            fracas_interval *interval);
 
 typedef struct {
     double value;          /* of the realizations as they are */
@@ -45,8 +52,9 @@ typedef struct {
     size_t groups;         /* g, that were left out in turn: n of them, 200 at most */
 } fracas_jackknifed;
 
-/* e^2 = (g - 1)/g sum over groups of (value without the group - value)^2: of a mean over realizations its variance/n. found[nvalues].
- * FRACAS_ENVIRONMENT without memory. */
-FRACAS_MUST_USE fracas_err fracas_jackknife(size_t n, size_t nvalues, fracas_resampled *statistic, void *context, fracas_jackknifed *found);
+/* e^2 = (g - 1)/g sum over groups of (value without the group - value)^2: of a mean over
+ * realizations its variance/n. found[nvalues]. FRACAS_ENVIRONMENT without memory. */
+FRACAS_MUST_USE fracas_err fracas_jackknife(size_t n, size_t nvalues, fracas_resampled *statistic,
+                                            void *context, fracas_jackknifed *found);
 
 #endif

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/estimate/convergence.h"
 
 #include "analysis/estimate/estimate.h"
@@ -7,7 +8,13 @@
 #include <stdlib.h>
 
 const char *const fracas_headline_key[FRACAS_NHEADLINES] = {
-    "count", "size", "dissipated", "largest_share", "fragment.mean", "fragment.mass_mean", "fragment.variation",
+    "count",
+    "size",
+    "dissipated",
+    "largest_share",
+    "fragment.mean",
+    "fragment.mass_mean",
+    "fragment.variation",
 };
 
 static void settle(const double *value, size_t n, fracas_settling *number)
@@ -17,7 +24,8 @@ static void settle(const double *value, size_t n, fracas_settling *number)
 }
 
 /* From the first n realizations, n > 0. */
-static fracas_err run(const fracas_ensemble *ensemble, size_t n, uint64_t seed, fracas_settling number[FRACAS_NHEADLINES])
+static fracas_err run(const fracas_ensemble *ensemble, size_t n, uint64_t seed,
+                      fracas_settling number[FRACAS_NHEADLINES])
 {
     fracas_interval pooled[FRACAS_NPOOLED];
     settle(&ensemble->value->count, n, &number[FRACAS_HEADLINE_COUNT]);
@@ -26,23 +34,27 @@ static fracas_err run(const fracas_ensemble *ensemble, size_t n, uint64_t seed, 
     settle(&ensemble->value->largest_share, n, &number[FRACAS_HEADLINE_LARGEST_SHARE]);
     TRY(fracas_pooled_first(ensemble, n, seed, pooled));
     for (int v = 0; v < FRACAS_NPOOLED; v++)
-        number[FRACAS_HEADLINE_MEAN + v] = (fracas_settling){pooled[v].value, pooled[v].low, pooled[v].high};
+        number[FRACAS_HEADLINE_MEAN + v] = (fracas_settling){pooled[v].value, pooled[v].low,
+                                                             pooled[v].high};
     return FRACAS_OK;
 }
 
 /* The same of realizations begin to end - 1 alone. */
-static fracas_err run_part(const fracas_ensemble *ensemble, size_t begin, size_t end, fracas_part part[FRACAS_NHEADLINES])
+static fracas_err run_part(const fracas_ensemble *ensemble, size_t begin, size_t end,
+                           fracas_part part[FRACAS_NHEADLINES])
 {
     const fracas_replica_values *of = ensemble->value + begin;
     const size_t n = end - begin;
     part[FRACAS_HEADLINE_COUNT] = fracas_part_of(&of->count, FRACAS_REPLICA_STRIDE, n);
     part[FRACAS_HEADLINE_SIZE] = fracas_part_of(&of->size, FRACAS_REPLICA_STRIDE, n);
     part[FRACAS_HEADLINE_DISSIPATED] = fracas_part_of(&of->dissipated, FRACAS_REPLICA_STRIDE, n);
-    part[FRACAS_HEADLINE_LARGEST_SHARE] = fracas_part_of(&of->largest_share, FRACAS_REPLICA_STRIDE, n);
+    part[FRACAS_HEADLINE_LARGEST_SHARE] = fracas_part_of(&of->largest_share, FRACAS_REPLICA_STRIDE,
+                                                         n);
     return fracas_pooled_part(ensemble, begin, end, part + FRACAS_HEADLINE_MEAN);
 }
 
-static fracas_err compare_halves(const fracas_ensemble *ensemble, fracas_replica_convergence *convergence)
+static fracas_err compare_halves(const fracas_ensemble *ensemble,
+                                 fracas_replica_convergence *convergence)
 {
     const size_t n = ensemble->nrealizations;
     fracas_part first[FRACAS_NHEADLINES], second[FRACAS_NHEADLINES];
@@ -56,7 +68,8 @@ static fracas_err compare_halves(const fracas_ensemble *ensemble, fracas_replica
     return FRACAS_OK;
 }
 
-bool fracas_replica_convergence_drifts(const fracas_replica_convergence *convergence, fracas_headline headline)
+bool fracas_replica_convergence_drifts(const fracas_replica_convergence *convergence,
+                                       fracas_headline headline)
 {
     return convergence->alike[headline] < FRACAS_CONVERGED_ALARM;
 }
@@ -73,11 +86,13 @@ static bool settled(const fracas_settling *number, size_t n)
            0.5 * (number->high - number->low) <= FRACAS_CONVERGED_WIDTH * fabs(number->value);
 }
 
-fracas_err fracas_replica_convergence_of(const fracas_ensemble *ensemble, uint64_t seed, fracas_replica_convergence *convergence)
+fracas_err fracas_replica_convergence_of(const fracas_ensemble *ensemble, uint64_t seed,
+                                         fracas_replica_convergence *convergence)
 {
     const size_t n = ensemble->nrealizations;
     *convergence = (fracas_replica_convergence){0};
-    for (int h = 0; h < FRACAS_NHEADLINES; h++) convergence->half[h] = convergence->rest[h] = convergence->alike[h] = NAN;
+    for (int h = 0; h < FRACAS_NHEADLINES; h++)
+        convergence->half[h] = convergence->rest[h] = convergence->alike[h] = NAN;
     if (n == 0) return FRACAS_OK;
     size_t rows = 1;
     for (size_t first = FRACAS_CONVERGENCE_FIRST; first < n; first *= 2) rows++;
@@ -92,7 +107,9 @@ fracas_err fracas_replica_convergence_of(const fracas_ensemble *ensemble, uint64
     for (int h = 0; h < FRACAS_NHEADLINES; h++) {
         const fracas_settling *number = &convergence->row[rows - 1].number[h];
         const bool has = isfinite(number->value);
-        convergence->converged[h] = has && settled(number, n) && !fracas_replica_convergence_drifts(convergence, (fracas_headline)h);
+        convergence->converged[h] = has && settled(number, n) &&
+                                    !fracas_replica_convergence_drifts(convergence,
+                                                                       (fracas_headline)h);
         convergence->unconverged += has && !convergence->converged[h];
     }
     return FRACAS_OK;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/estimate/halves.h"
 
 #include "analysis/estimate/estimate.h"
@@ -6,16 +7,19 @@
 #include <gsl/gsl_sf_gamma.h>
 #include <math.h>
 
-/* Two sums of the same numbers in other groups differ by roundings; physics does not repeat itself so well. */
+/* Two sums of the same numbers in other groups differ by roundings; physics does not repeat itself
+ * so well. */
 static const double rounding = 1e-12;
 
 fracas_part fracas_part_of(const double *value, size_t stride, size_t count)
 {
     const fracas_estimate of = fracas_estimate_of(value, stride, count);
-    return (fracas_part){of.mean, (double)of.n, of.deviation * of.deviation, of.n > 1 ? (double)(of.n - 1) : 0};
+    return (fracas_part){of.mean, (double)of.n, of.deviation * of.deviation,
+                         of.n > 1 ? (double)(of.n - 1) : 0};
 }
 
-/* Where nothing scatters within the parts, as counts of few fragments may: one of 2 in C(n, m) ways of dealing n realizations into m and n - m parts them so. */
+/* Where nothing scatters within the parts, as counts of few fragments may: one of 2 in C(n, m) ways
+ * of dealing n realizations into m and n - m parts them so. */
 static double dealt_so(double n, double m)
 {
     return fmin(1, exp(log(2) - gsl_sf_lnchoose((unsigned)n, (unsigned)m)));
@@ -24,10 +28,13 @@ static double dealt_so(double n, double m)
 /* (estimators.22) */
 double fracas_parts_alike(const fracas_part *a, const fracas_part *b)
 {
-    const double apart = fabs(a->value - b->value), freedom = a->freedom + b->freedom, hair = rounding * fmax(fabs(a->value), fabs(b->value));
+    const double apart = fabs(a->value - b->value), freedom = a->freedom + b->freedom,
+                 hair = rounding * fmax(fabs(a->value), fabs(b->value));
     if (!isfinite(apart) || !(freedom > 0)) return NAN;
     if (apart <= hair) return 1;
-    const double variance = ((a->freedom > 0 ? a->freedom * a->variance : 0) + (b->freedom > 0 ? b->freedom * b->variance : 0)) / freedom;
+    const double variance = ((a->freedom > 0 ? a->freedom * a->variance : 0) +
+                             (b->freedom > 0 ? b->freedom * b->variance : 0)) /
+                            freedom;
     if (sqrt(variance) <= hair) return dealt_so(a->n + b->n, a->n);
     return 2 * gsl_cdf_tdist_Q(apart / sqrt(variance * (1 / a->n + 1 / b->n)), freedom);
 }

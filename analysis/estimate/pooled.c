@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/estimate/pooled.h"
 
 #include "analysis/estimate/quantiles.h"
@@ -17,12 +18,14 @@ size_t fracas_pooled_unit(size_t i, size_t realizations)
     return i * fracas_pooled_units(realizations) / realizations;
 }
 
-/* Of one unit, or of a resample; sizes less `shift`, so that equal ones have a deviation of exactly 0. */
+/* Of one unit, or of a resample; sizes less `shift`, so that equal ones have a deviation of exactly
+ * 0. */
 typedef struct {
     double number, size, squares, mass, moment; /* of all fragments: 1, s, s^2, m, m s */
-    double resolved, resolved_size, resolved_squares, resolved_mass, resolved_moment; /* of those above the cut */
-    double between; /* (sum s)^2/number of each realization */
-    double group;   /* number^2 of each */
+    double resolved, resolved_size, resolved_squares, resolved_mass,
+        resolved_moment; /* of those above the cut */
+    double between;      /* (sum s)^2/number of each realization */
+    double group;        /* number^2 of each */
     double realizations;
 } sums;
 
@@ -34,10 +37,20 @@ typedef struct {
     double shift;
 } summed;
 
-enum { RESOLVED = FRACAS_NPOOLED, UNRESOLVED = 2 * FRACAS_NPOOLED, UNRESOLVED_MASS, WITHIN, BETWEEN, INTRACLASS, DESIGN_EFFECT, NVALUES };
+enum {
+    RESOLVED = FRACAS_NPOOLED,
+    UNRESOLVED = 2 * FRACAS_NPOOLED,
+    UNRESOLVED_MASS,
+    WITHIN,
+    BETWEEN,
+    INTRACLASS,
+    DESIGN_EFFECT,
+    NVALUES
+};
 
 /* (estimators.15) */
-static void means(double number, double size, double squares, double mass, double moment, double shift, double *value)
+static void means(double number, double size, double squares, double mass, double moment,
+                  double shift, double *value)
 {
     const double mean = size / number;
     value[FRACAS_POOLED_MEAN] = shift + mean;
@@ -77,7 +90,8 @@ static void of_sums(void *context, const uint32_t *weight, double *value)
     for (size_t u = 0; u < of->units; u++)
         if (weight[u]) add(&all, &of->of[u], weight[u]);
     means(all.number, all.size, all.squares, all.mass, all.moment, of->shift, value);
-    means(all.resolved, all.resolved_size, all.resolved_squares, all.resolved_mass, all.resolved_moment, of->shift, value + RESOLVED);
+    means(all.resolved, all.resolved_size, all.resolved_squares, all.resolved_mass,
+          all.resolved_moment, of->shift, value + RESOLVED);
     value[UNRESOLVED] = 1 - all.resolved / all.number; /* (estimators.17) */
     value[UNRESOLVED_MASS] = 1 - all.resolved_mass / all.mass;
     components(&all, value);
@@ -107,9 +121,11 @@ static sums sums_of(const fracas_ensemble *ensemble, size_t i, double shift, dou
 }
 
 /* Sums of each unit of realizations begin to begin + n - 1, freed by the caller. */
-static fracas_err sum_units(const fracas_ensemble *ensemble, size_t begin, size_t n, double cut, summed *context)
+static fracas_err sum_units(const fracas_ensemble *ensemble, size_t begin, size_t n, double cut,
+                            summed *context)
 {
-    *context = (summed){.units = fracas_pooled_units(n), .shift = ensemble->nfragments ? ensemble->size[0] : 0};
+    *context = (summed){.units = fracas_pooled_units(n),
+                        .shift = ensemble->nfragments ? ensemble->size[0] : 0};
     sums *of = calloc(context->units + 1, sizeof *of);
     if (!of) return fracas_no_memory("the sums of the realizations of a point");
     for (size_t i = 0; i < n; i++) {
@@ -121,13 +137,15 @@ static fracas_err sum_units(const fracas_ensemble *ensemble, size_t begin, size_
 }
 
 /* Of the first n realizations; `all` their sum. */
-static fracas_err resample_sums(const fracas_ensemble *ensemble, size_t n, double cut, uint64_t seed, fracas_interval *interval, sums *all)
+static fracas_err resample_sums(const fracas_ensemble *ensemble, size_t n, double cut,
+                                uint64_t seed, fracas_interval *interval, sums *all)
 {
     summed context;
     TRY(sum_units(ensemble, 0, n, cut, &context));
     *all = (sums){0};
     for (size_t u = 0; u < context.units; u++) add(all, &context.of[u], 1);
-    fracas_err err = fracas_bootstrap(context.units, NVALUES, of_sums, &context, &(fracas_bootstrap_options){.seed = seed}, interval);
+    fracas_err err = fracas_bootstrap(context.units, NVALUES, of_sums, &context,
+                                      &(fracas_bootstrap_options){.seed = seed}, interval);
     free(context.of);
     return err;
 }
@@ -152,14 +170,18 @@ fracas_err fracas_pooled_of(const fracas_ensemble *ensemble, uint64_t seed, frac
     pooled->unresolved = interval[UNRESOLVED];
     pooled->unresolved_mass = interval[UNRESOLVED_MASS];
     pooled->variance = (fracas_variance){
-        .within = interval[WITHIN], .between = interval[BETWEEN], .intraclass = interval[INTRACLASS],
-        .design_effect = interval[DESIGN_EFFECT], .group = typical_group(&all),
+        .within = interval[WITHIN],
+        .between = interval[BETWEEN],
+        .intraclass = interval[INTRACLASS],
+        .design_effect = interval[DESIGN_EFFECT],
+        .group = typical_group(&all),
         .effective = all.number / interval[DESIGN_EFFECT].value, /* (estimators.21) */
     };
     return fracas_quantiles_of(ensemble, pooled->cut, seed, pooled);
 }
 
-fracas_err fracas_pooled_first(const fracas_ensemble *ensemble, size_t realizations, uint64_t seed, fracas_interval interval[FRACAS_NPOOLED])
+fracas_err fracas_pooled_first(const fracas_ensemble *ensemble, size_t realizations, uint64_t seed,
+                               fracas_interval interval[FRACAS_NPOOLED])
 {
     fracas_interval found[NVALUES];
     sums all;
@@ -168,7 +190,8 @@ fracas_err fracas_pooled_first(const fracas_ensemble *ensemble, size_t realizati
     return FRACAS_OK;
 }
 
-fracas_err fracas_pooled_part(const fracas_ensemble *ensemble, size_t begin, size_t end, fracas_part part[FRACAS_NPOOLED])
+fracas_err fracas_pooled_part(const fracas_ensemble *ensemble, size_t begin, size_t end,
+                              fracas_part part[FRACAS_NPOOLED])
 {
     fracas_jackknifed found[NVALUES];
     summed context;
@@ -177,7 +200,8 @@ fracas_err fracas_pooled_part(const fracas_ensemble *ensemble, size_t begin, siz
     const double n = (double)(end - begin);
     for (int v = 0; v < FRACAS_NPOOLED && !err; v++) {
         const bool known = isfinite(found[v].standard_error);
-        part[v] = (fracas_part){found[v].value, n, known ? n * found[v].standard_error * found[v].standard_error : NAN,
+        part[v] = (fracas_part){found[v].value, n,
+                                known ? n * found[v].standard_error * found[v].standard_error : NAN,
                                 known ? (double)(found[v].groups - 1) : 0};
     }
     free(context.of);

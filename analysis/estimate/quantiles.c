@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/estimate/quantiles.h"
 
 #include <math.h>
@@ -19,15 +20,16 @@ typedef struct {
     size_t unit;
 } entry;
 
-/* A resample looks at the cells first, runs of entries, and at the entries of those alone in which a quantile lies: it costs units x cells, not
- * fragments. No size is in two cells, and none of them lies on both sides of the cut. */
+/* A resample looks at the cells first, runs of entries, and at the entries of those alone in which
+ * a quantile lies: it costs units x cells, not fragments. No size is in two cells, and none of them
+ * lies on both sides of the cut. */
 typedef struct {
     double lattice, cut;
     size_t units, count, cells;
-    entry *entry;   /* count of them, ascending in size, then in unit */
-    size_t *begin;  /* of each cell, and the end */
-    amount *part;   /* [unit][cell] */
-    amount *total;  /* of each cell in a resample */
+    entry *entry;  /* count of them, ascending in size, then in unit */
+    size_t *begin; /* of each cell, and the end */
+    amount *part;  /* [unit][cell] */
+    amount *total; /* of each cell in a resample */
 } merged;
 
 static int by_size(const void *a, const void *b)
@@ -43,20 +45,23 @@ static void add(amount *to, const amount *more, double times)
     to->mass += times * more->mass;
 }
 
-/* On a lattice sizes are whole numbers of steps until they are shown: equal sizes differ in their last digits. */
+/* On a lattice sizes are whole numbers of steps until they are shown: equal sizes differ in their
+ * last digits. */
 static void merge(const fracas_ensemble *ensemble, merged *all)
 {
     for (size_t i = 0; i < ensemble->nrealizations; i++)
         for (size_t f = ensemble->first[i]; f < ensemble->first[i + 1]; f++) {
-            const double size = all->lattice > 0 ? all->lattice * round(ensemble->size[f] / all->lattice) : ensemble->size[f];
-            all->entry[f] = (entry){size, {1, ensemble->mass[f]}, fracas_pooled_unit(i, ensemble->nrealizations)};
+            const double size = all->lattice > 0
+                                    ? all->lattice * round(ensemble->size[f] / all->lattice)
+                                    : ensemble->size[f];
+            all->entry[f] = (entry){
+                size, {1, ensemble->mass[f]}, fracas_pooled_unit(i, ensemble->nrealizations)};
         }
     qsort(all->entry, ensemble->nfragments, sizeof *all->entry, by_size);
     for (size_t f = 0; f < ensemble->nfragments; f++) {
         if (all->count > 0 && by_size(&all->entry[all->count - 1], &all->entry[f]) == 0)
             add(&all->entry[all->count - 1].of, &all->entry[f].of, 1);
-        else
-            all->entry[all->count++] = all->entry[f];
+        else all->entry[all->count++] = all->entry[f];
     }
 }
 
@@ -67,7 +72,8 @@ static void divide(merged *all)
         const entry *now = &all->entry[e];
         const bool another = e == 0 || now->size != now[-1].size;
         const bool crosses = e > 0 && now->size > all->cut && !(now[-1].size > all->cut);
-        if (e == 0 || crosses || (another && e - all->begin[all->cells - 1] >= least)) all->begin[all->cells++] = e;
+        if (e == 0 || crosses || (another && e - all->begin[all->cells - 1] >= least))
+            all->begin[all->cells++] = e;
     }
     all->begin[all->cells] = all->count;
 }
@@ -78,7 +84,8 @@ static fracas_err prepare(const fracas_ensemble *ensemble, merged *all)
     all->begin = malloc((CELLS + 3) * sizeof *all->begin);
     all->total = malloc((CELLS + 3) * sizeof *all->total);
     all->part = calloc(all->units * (CELLS + 3) + 1, sizeof *all->part);
-    if (!all->entry || !all->begin || !all->total || !all->part) return fracas_no_memory("the sizes of a point's fragments");
+    if (!all->entry || !all->begin || !all->total || !all->part)
+        return fracas_no_memory("the sizes of a point's fragments");
     merge(ensemble, all);
     divide(all);
     for (size_t c = 0; c < all->cells; c++)
@@ -99,14 +106,16 @@ static double wanted_by(const row *of)
     return of->floor + fracas_quantile_share[of->next] * (of->total - of->floor);
 }
 
-/* A sum that equals what is wanted but for rounding reaches it: equal elements make such ties, and beyond one a gap may be. */
+/* A sum that equals what is wanted but for rounding reaches it: equal elements make such ties, and
+ * beyond one a gap may be. */
 static bool reaches(const row *of, double sum)
 {
     return of->next < FRACAS_NQUANTILES && sum >= wanted_by(of) - 1e-12 * of->total;
 }
 
-/* What was summed goes from `before` to `after` at a size: the quantiles passed lie at it, on a lattice as if its fragments were spread evenly over half
- * a step to either side (estimators.16). */
+/* What was summed goes from `before` to `after` at a size: the quantiles passed lie at it, on a
+ * lattice as if its fragments were spread evenly over half a step to either side (estimators.16).
+ */
 static void pass(row *of, double before, double after, double size, double lattice)
 {
     while (after > before && reaches(of, after)) {
@@ -115,21 +124,30 @@ static void pass(row *of, double before, double after, double size, double latti
     }
 }
 
-enum { NUMBER, MASS, NROWS = 4, NVALUES = NROWS * FRACAS_NQUANTILES }; /* of all, then of those above the cut */
+enum {
+    NUMBER,
+    MASS,
+    NROWS = 4,
+    NVALUES = NROWS * FRACAS_NQUANTILES
+}; /* of all, then of those above the cut */
 
 static void begin(row of[2], const amount *floor, const amount *total, double *value)
 {
-    of[NUMBER] = (row){floor->number, total->number, total->number > floor->number ? 0 : FRACAS_NQUANTILES, value};
-    of[MASS] = (row){floor->mass, total->mass, total->mass > floor->mass ? 0 : FRACAS_NQUANTILES, value + FRACAS_NQUANTILES};
+    of[NUMBER] = (row){floor->number, total->number,
+                       total->number > floor->number ? 0 : FRACAS_NQUANTILES, value};
+    of[MASS] = (row){floor->mass, total->mass, total->mass > floor->mass ? 0 : FRACAS_NQUANTILES,
+                     value + FRACAS_NQUANTILES};
 }
 
 /* Through a cell, size by size; `sum` is what lies below it. */
-static void scan(const merged *all, size_t cell, const uint32_t *weight, amount sum, row *of, int rows)
+static void scan(const merged *all, size_t cell, const uint32_t *weight, amount sum, row *of,
+                 int rows)
 {
     for (size_t e = all->begin[cell]; e < all->begin[cell + 1];) {
         const double size = all->entry[e].size;
         const amount before = sum;
-        for (; e < all->begin[cell + 1] && all->entry[e].size == size; e++) add(&sum, &all->entry[e].of, weight[all->entry[e].unit]);
+        for (; e < all->begin[cell + 1] && all->entry[e].size == size; e++)
+            add(&sum, &all->entry[e].of, weight[all->entry[e].unit]);
         for (int r = 0; r < rows; r += 2) {
             pass(&of[r + NUMBER], before.number, sum.number, size, all->lattice);
             pass(&of[r + MASS], before.mass, sum.mass, size, all->lattice);
@@ -162,23 +180,33 @@ static void quantiles(void *context, const uint32_t *weight, double *value)
         amount after = sum;
         add(&after, &all->total[c], 1);
         bool here = false;
-        for (int r = 0; r < rows; r += 2) here = here || reaches(&of[r + NUMBER], after.number) || reaches(&of[r + MASS], after.mass);
+        for (int r = 0; r < rows; r += 2)
+            here = here || reaches(&of[r + NUMBER], after.number) ||
+                   reaches(&of[r + MASS], after.mass);
         if (here) scan(all, c, weight, sum, of, rows);
         sum = after;
     }
 }
 
-fracas_err fracas_quantiles_of(const fracas_ensemble *ensemble, double cut, uint64_t seed, fracas_pooled *pooled)
+fracas_err fracas_quantiles_of(const fracas_ensemble *ensemble, double cut, uint64_t seed,
+                               fracas_pooled *pooled)
 {
-    merged all = {.lattice = ensemble->lattice, .cut = cut, .units = fracas_pooled_units(ensemble->nrealizations)};
+    merged all = {.lattice = ensemble->lattice,
+                  .cut = cut,
+                  .units = fracas_pooled_units(ensemble->nrealizations)};
     fracas_interval interval[NVALUES];
     fracas_err err = prepare(ensemble, &all);
-    if (!err) err = fracas_bootstrap(all.units, NVALUES, quantiles, &all, &(fracas_bootstrap_options){.seed = seed}, interval);
+    if (!err)
+        err = fracas_bootstrap(all.units, NVALUES, quantiles, &all,
+                               &(fracas_bootstrap_options){.seed = seed}, interval);
     if (!err) {
         memcpy(pooled->all.quantile, interval, sizeof pooled->all.quantile);
-        memcpy(pooled->all.mass_quantile, interval + FRACAS_NQUANTILES, sizeof pooled->all.mass_quantile);
-        memcpy(pooled->above.quantile, interval + 2 * FRACAS_NQUANTILES, sizeof pooled->above.quantile);
-        memcpy(pooled->above.mass_quantile, interval + 3 * FRACAS_NQUANTILES, sizeof pooled->above.mass_quantile);
+        memcpy(pooled->all.mass_quantile, interval + FRACAS_NQUANTILES,
+               sizeof pooled->all.mass_quantile);
+        memcpy(pooled->above.quantile, interval + 2 * FRACAS_NQUANTILES,
+               sizeof pooled->above.quantile);
+        memcpy(pooled->above.mass_quantile, interval + 3 * FRACAS_NQUANTILES,
+               sizeof pooled->above.mass_quantile);
     }
     free(all.entry);
     free(all.begin);

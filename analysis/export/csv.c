@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/export/csv.h"
 
 #include "analysis/export/output.h"
@@ -9,7 +10,8 @@
 void fracas_csv_real(double value, FILE *out)
 {
     putc(',', out);
-    if (value == 0 && !signbit(value)) putc('0', out); /* most of a bar's columns: %g takes longer than all else of a report */
+    if (value == 0 && !signbit(value))
+        putc('0', out); /* most of a bar's columns: %g takes longer than all else of a report */
     else if (isfinite(value)) fprintf(out, "%.15g", value);
 }
 
@@ -37,7 +39,8 @@ static void put_name(void *context, const fracas_field *field)
     fracas_csv_text(field->name, of->out);
 }
 
-fracas_err fracas_csv_write(const fracas_csv_table *table, const fracas_analysis *analysis, FILE *out)
+fracas_err fracas_csv_write(const fracas_csv_table *table, const fracas_analysis *analysis,
+                            FILE *out)
 {
     head of = {out, true};
     table->fields(analysis, put_name, &of);
@@ -45,7 +48,8 @@ fracas_err fracas_csv_write(const fracas_csv_table *table, const fracas_analysis
     return table->rows(analysis, out);
 }
 
-fracas_err fracas_csv_file(const fracas_csv_table *table, const fracas_analysis *analysis, const char *folder)
+fracas_err fracas_csv_file(const fracas_csv_table *table, const fracas_analysis *analysis,
+                           const char *folder)
 {
     char name[64];
     fracas_output_file output;

@@ -1,4 +1,6 @@
-/* The tables of a study as CSV: names in the first line, numbers to 15 digits in SI, nothing for what does not exist. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The tables of a study as CSV: names in the first line, numbers to 15 digits in SI, nothing for
+ * what does not exist. */
 #ifndef FRACAS_ANALYSIS_EXPORT_CSV_H
 #define FRACAS_ANALYSIS_EXPORT_CSV_H
 
@@ -12,7 +14,7 @@ typedef struct {
     fracas_field_type type;
     const char *unit; /* SI, "1" of a pure number, "" of text */
     const char *doc;
-    bool outcome;     /* its text is one of fracas_outcome_name */
+    bool outcome; /* its text is one of fracas_outcome_name */
 } fracas_field;
 
 /* Takes the columns of a table, one after the other; `field` and its texts end with the call. */
@@ -21,28 +23,36 @@ typedef void fracas_field_sink(void *context, const fracas_field *field);
 enum { FRACAS_TABLE_KEY = 3 };
 
 typedef struct fracas_csv_table {
-    const char *name;                    /* of the file, before ".csv" */
-    const char *doc;                     /* what a line is */
-    const char *key[FRACAS_TABLE_KEY];   /* columns that name a line, the first NULL behind them */
-    const struct fracas_csv_table *parent; /* NULL, or the table that these point into, by its whole key */
+    const char *name;                  /* of the file, before ".csv" */
+    const char *doc;                   /* what a line is */
+    const char *key[FRACAS_TABLE_KEY]; /* columns that name a line, the first NULL behind them */
+    const struct fracas_csv_table
+        *parent; /* NULL, or the table that these point into, by its whole key */
     void (*fields)(const fracas_analysis *analysis, fracas_field_sink *sink, void *context);
-    fracas_err (*rows)(const fracas_analysis *analysis, FILE *out); /* reads the study again, in its order, where it must */
+    fracas_err (*rows)(const fracas_analysis *analysis,
+                       FILE *out); /* reads the study again, in its order, where it must */
 } fracas_csv_table;
 
-/* A line a point: index and hash, every parameter, every statistic (the keys of the JSON summary), outcomes; a line a realization, a
- * fragment, a moment of a history: what study.h5 has of it; a line a statistic of a point, with its unit. */
-extern const fracas_csv_table fracas_csv_table_points, fracas_csv_table_realizations, fracas_csv_table_fragments,
-    fracas_csv_table_histories, fracas_csv_table_statistics;
+/* A line a point: index and hash, every parameter, every statistic (the keys of the JSON summary),
+ * outcomes; a line a realization, a fragment, a moment of a history: what study.h5 has of it; a
+ * line a statistic of a point, with its unit. */
+extern const fracas_csv_table fracas_csv_table_points, fracas_csv_table_realizations,
+    fracas_csv_table_fragments, fracas_csv_table_histories, fracas_csv_table_statistics;
 
-/* A line a time of a point: its energies, mean and band; a number of replicas: the headline numbers from the first 4, 8, 16, ... and from all;
- * a slope of mean size against strain rate: `kind` line, through all points of a series, or window, between two rates. */
-extern const fracas_csv_table fracas_csv_table_energies, fracas_csv_table_convergence, fracas_csv_table_slopes;
+/* A line a time of a point: its energies, mean and band; a number of replicas: the headline numbers
+ * from the first 4, 8, 16, ... and from all; a slope of mean size against strain rate: `kind` line,
+ * through all points of a series, or window, between two rates. */
+extern const fracas_csv_table fracas_csv_table_energies, fracas_csv_table_convergence,
+    fracas_csv_table_slopes;
 
-/* The head and the lines of a table; equal bytes for equal study.h5. The error is of reading the study: the caller looks at `out`. */
-FRACAS_MUST_USE fracas_err fracas_csv_write(const fracas_csv_table *table, const fracas_analysis *analysis, FILE *out);
+/* The head and the lines of a table; equal bytes for equal study.h5. The error is of reading the
+ * study: the caller looks at `out`. */
+FRACAS_MUST_USE fracas_err fracas_csv_write(const fracas_csv_table *table,
+                                            const fracas_analysis *analysis, FILE *out);
 
 /* The same as folder/NAME.csv, whole or not there. */
-FRACAS_MUST_USE fracas_err fracas_csv_file(const fracas_csv_table *table, const fracas_analysis *analysis, const char *folder);
+FRACAS_MUST_USE fracas_err fracas_csv_file(const fracas_csv_table *table,
+                                           const fracas_analysis *analysis, const char *folder);
 
 /* A comma and the value. */
 void fracas_csv_real(double value, FILE *out);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Files of a report: whole or not there. */
 #ifndef FRACAS_ANALYSIS_EXPORT_OUTPUT_H
 #define FRACAS_ANALYSIS_EXPORT_OUTPUT_H
@@ -13,9 +14,10 @@ typedef struct {
 } fracas_output_file;
 
 /* Starts folder/name under a temporary name beside it. FRACAS_ENVIRONMENT if it cannot. */
-FRACAS_MUST_USE fracas_err fracas_output_open(const char *folder, const char *name, fracas_output_file *output);
-/* With `err` FRACAS_OK renames the file, once all of it is written, to its final name; else removes it and returns
- * `err`. Frees what `output` owns. */
+FRACAS_MUST_USE fracas_err fracas_output_open(const char *folder, const char *name,
+                                              fracas_output_file *output);
+/* With `err` FRACAS_OK renames the file, once all of it is written, to its final name; else removes
+ * it and returns `err`. Frees what `output` owns. */
 FRACAS_MUST_USE fracas_err fracas_output_close(fracas_output_file *output, fracas_err err);
 
 #endif

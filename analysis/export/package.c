@@ -1,4 +1,6 @@
-/* A study as a Frictionless Data Package: its tables as CSV, and datapackage.json, which says what is in them. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A study as a Frictionless Data Package: its tables as CSV, and datapackage.json, which says what
+ * is in them. */
 #include "analysis/export/csv.h"
 #include "analysis/export/output.h"
 #include "analysis/export/sha256.h"
@@ -17,7 +19,9 @@ static const char package_file[] = "datapackage.json";
 
 static void put_field(void *context, const fracas_field *field)
 {
-    static const char *const type[] = {[FRACAS_FIELD_INTEGER] = "integer", [FRACAS_FIELD_NUMBER] = "number", [FRACAS_FIELD_TEXT] = "string"};
+    static const char *const type[] = {[FRACAS_FIELD_INTEGER] = "integer",
+                                       [FRACAS_FIELD_NUMBER] = "number",
+                                       [FRACAS_FIELD_TEXT] = "string"};
     fracas_json *json = context;
     fracas_json_object(json, NULL);
     fracas_json_text(json, "name", field->name);
@@ -27,7 +31,8 @@ static void put_field(void *context, const fracas_field *field)
     if (field->outcome) {
         fracas_json_object(json, "constraints");
         fracas_json_array(json, "enum");
-        for (int o = 0; o < FRACAS_NOUTCOMES; o++) fracas_json_text(json, NULL, fracas_outcome_name(o));
+        for (int o = 0; o < FRACAS_NOUTCOMES; o++)
+            fracas_json_text(json, NULL, fracas_outcome_name(o));
         fracas_json_close_array(json);
         fracas_json_close_object(json);
     }
@@ -41,7 +46,8 @@ static void put_key(fracas_json *json, const char *name, const char *const *key)
     fracas_json_close_array(json);
 }
 
-static void put_schema(fracas_json *json, const fracas_csv_table *table, const fracas_analysis *analysis)
+static void put_schema(fracas_json *json, const fracas_csv_table *table,
+                       const fracas_analysis *analysis)
 {
     fracas_json_object(json, "schema");
     fracas_json_array(json, "fields");
@@ -66,7 +72,8 @@ static void put_schema(fracas_json *json, const fracas_csv_table *table, const f
 }
 
 /* A table that lies in the folder. */
-static fracas_err put_resource(fracas_json *json, const fracas_csv_table *table, const fracas_analysis *analysis, const char *folder)
+static fracas_err put_resource(fracas_json *json, const fracas_csv_table *table,
+                               const fracas_analysis *analysis, const char *folder)
 {
     char name[64], digest[FRACAS_SHA256_HEX], hash[FRACAS_SHA256_HEX + 8], *path;
     uint64_t bytes;
@@ -91,7 +98,8 @@ static fracas_err put_resource(fracas_json *json, const fracas_csv_table *table,
     return FRACAS_OK;
 }
 
-/* Where the numbers come from. Nothing of the folder, the host or the time of day: equal studies have equal packages. */
+/* Where the numbers come from. Nothing of the folder, the host or the time of day: equal studies
+ * have equal packages. */
 static void put_source(fracas_json *json, const fracas_analysis *analysis)
 {
     char hash[FRACAS_HASH_HEX], text[192], seed[24];
@@ -101,20 +109,25 @@ static void put_source(fracas_json *json, const fracas_analysis *analysis)
     fracas_json_text(json, "profile", "tabular-data-package");
     fracas_json_text(json, "name", text);
     fracas_json_text(json, "title", "Fragments of a campaign of fracas");
-    fracas_json_text(json, "description", "Numbers in SI units to 15 digits; an empty field is a number that does not exist.");
+    fracas_json_text(
+        json, "description",
+        "Numbers in SI units to 15 digits; an empty field is a number that does not exist.");
     fracas_json_array(json, "sources");
     fracas_json_object(json, NULL);
-    snprintf(text, sizeof text, "study.h5 of fracas %s: campaign %s, seed %s", analysis->header.version, hash, seed);
+    snprintf(text, sizeof text, "study.h5 of fracas %s: campaign %s, seed %s",
+             analysis->header.version, hash, seed);
     fracas_json_text(json, "title", text);
     fracas_json_close_object(json);
     fracas_json_close_array(json);
     fracas_json_text(json, "campaign", hash);
-    fracas_json_text(json, "seed", seed); /* text: a 64-bit number is more than every JSON reader keeps */
+    fracas_json_text(json, "seed",
+                     seed); /* text: a 64-bit number is more than every JSON reader keeps */
     fracas_json_text(json, "program_version", analysis->header.version);
     fracas_json_boolean(json, "complete", analysis->header.complete);
 }
 
-static fracas_err put_package(const fracas_analysis *analysis, const fracas_csv_table *const *table, const char *folder, FILE *out)
+static fracas_err put_package(const fracas_analysis *analysis, const fracas_csv_table *const *table,
+                              const char *folder, FILE *out)
 {
     fracas_json json;
     fracas_json_begin(&json, out);
@@ -128,15 +141,19 @@ static fracas_err put_package(const fracas_analysis *analysis, const fracas_csv_
     return FRACAS_OK;
 }
 
-/* Takes the package of before apart, so that none names files that are not its own; its histories are none of the new one. */
+/* Takes the package of before apart, so that none names files that are not its own; its histories
+ * are none of the new one. */
 static fracas_err remove_package(const char *folder)
 {
     const char *const name[] = {package_file, fracas_csv_table_histories.name};
     for (size_t i = 0; i < 2; i++) {
         char *path;
-        if (asprintf(&path, "%s/%s%s", folder, name[i], i ? ".csv" : "") < 0) return fracas_no_memory("a path");
+        if (asprintf(&path, "%s/%s%s", folder, name[i], i ? ".csv" : "") < 0)
+            return fracas_no_memory("a path");
         const int reason = unlink(path) ? errno : 0;
-        const fracas_err err = reason && reason != ENOENT ? fracas_fail_system(reason, "cannot replace %s", path) : FRACAS_OK;
+        const fracas_err err = reason && reason != ENOENT
+                                   ? fracas_fail_system(reason, "cannot replace %s", path)
+                                   : FRACAS_OK;
         free(path);
         TRY(err);
         if (reason) break; /* no package was there: a histories.csv would be somebody else's */
@@ -150,15 +167,22 @@ static fracas_err make_folder(const char *folder)
     if (!mkdir(folder, 0777)) return FRACAS_OK;
     const int reason = errno;
     if (reason == EEXIST && !stat(folder, &what) && S_ISDIR(what.st_mode)) return FRACAS_OK;
-    if (reason == EEXIST) return fracas_fail(FRACAS_USAGE, "%s is no folder; name one with --to DIR", folder);
+    if (reason == EEXIST)
+        return fracas_fail(FRACAS_USAGE, "%s is no folder; name one with --to DIR", folder);
     return fracas_fail_system(reason, "cannot make the folder %s", folder);
 }
 
 fracas_err fracas_export_write(const fracas_analysis *analysis, const char *folder, bool histories)
 {
     const fracas_csv_table *const table[] = {
-        &fracas_csv_table_points, &fracas_csv_table_realizations, &fracas_csv_table_fragments, &fracas_csv_table_statistics,
-        &fracas_csv_table_energies, &fracas_csv_table_convergence, histories ? &fracas_csv_table_histories : NULL, NULL,
+        &fracas_csv_table_points,
+        &fracas_csv_table_realizations,
+        &fracas_csv_table_fragments,
+        &fracas_csv_table_statistics,
+        &fracas_csv_table_energies,
+        &fracas_csv_table_convergence,
+        histories ? &fracas_csv_table_histories : NULL,
+        NULL,
     };
     fracas_output_file output;
     TRY(make_folder(folder));

@@ -1,4 +1,6 @@
-/* What is known of each point: points.csv, a column a number, and statistics.csv, a line a number. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is known of each point: points.csv, a column a number, and statistics.csv, a line a number.
+ */
 #include "analysis/export/csv.h"
 
 #include <inttypes.h>
@@ -13,7 +15,8 @@ static const char *outcome_key(int outcome, char key[32])
 
 static const char outcome_doc[] = "realizations of the point that ended so";
 
-static void put_statistic(const fracas_point_statistics *statistics, const fracas_statistic *what, FILE *out)
+static void put_statistic(const fracas_point_statistics *statistics, const fracas_statistic *what,
+                          FILE *out)
 {
     const void *value = (const char *)statistics + what->offset;
     if (what->integer) fprintf(out, ",%" PRId64, *(const int64_t *)value);
@@ -23,20 +26,30 @@ static void put_statistic(const fracas_point_statistics *statistics, const fraca
 static void point_fields(const fracas_analysis *analysis, fracas_field_sink *sink, void *context)
 {
     const fracas_point_table *table = analysis->table;
-    sink(context, &(fracas_field){"point", FRACAS_FIELD_INTEGER, "1", "number of the point, from 0: its row in /point of study.h5", false});
-    sink(context, &(fracas_field){"hash", FRACAS_FIELD_TEXT, "", "hash of the point's resolved values, 32 hexadecimal digits", false});
-    sink(context, &(fracas_field){"replicas", FRACAS_FIELD_INTEGER, "1", "replicas planned at the point", false});
+    sink(context,
+         &(fracas_field){"point", FRACAS_FIELD_INTEGER, "1",
+                         "number of the point, from 0: its row in /point of study.h5", false});
+    sink(context,
+         &(fracas_field){"hash", FRACAS_FIELD_TEXT, "",
+                         "hash of the point's resolved values, 32 hexadecimal digits", false});
+    sink(context, &(fracas_field){"replicas", FRACAS_FIELD_INTEGER, "1",
+                                  "replicas planned at the point", false});
     for (size_t c = 0; c < table->ncolumns; c++) {
         const fracas_column *column = &table->column[c];
-        sink(context, &(fracas_field){column->path, column->text ? FRACAS_FIELD_TEXT : FRACAS_FIELD_NUMBER, column->unit, column->doc, false});
+        sink(context,
+             &(fracas_field){column->path, column->text ? FRACAS_FIELD_TEXT : FRACAS_FIELD_NUMBER,
+                             column->unit, column->doc, false});
     }
     for (size_t i = 0; i < fracas_nstatistics; i++) {
         const fracas_statistic *what = &fracas_statistics[i];
-        sink(context, &(fracas_field){what->key, what->integer ? FRACAS_FIELD_INTEGER : FRACAS_FIELD_NUMBER, what->unit, what->doc, false});
+        sink(context,
+             &(fracas_field){what->key, what->integer ? FRACAS_FIELD_INTEGER : FRACAS_FIELD_NUMBER,
+                             what->unit, what->doc, false});
     }
     for (int o = 0; o < FRACAS_NOUTCOMES; o++) {
         char key[32];
-        sink(context, &(fracas_field){outcome_key(o, key), FRACAS_FIELD_INTEGER, "1", outcome_doc, false});
+        sink(context,
+             &(fracas_field){outcome_key(o, key), FRACAS_FIELD_INTEGER, "1", outcome_doc, false});
     }
 }
 
@@ -59,25 +72,36 @@ static fracas_err point_rows(const fracas_analysis *analysis, FILE *out)
         fracas_hash_hex(&table->point[p].hash, hash);
         fprintf(out, "%zu,%s,%" PRId64, p, hash, table->point[p].replicas);
         for (size_t c = 0; c < table->ncolumns; c++) put_parameter(table, p, c, out);
-        for (size_t i = 0; i < fracas_nstatistics; i++) put_statistic(statistics, &fracas_statistics[i], out);
-        for (int o = 0; o < FRACAS_NOUTCOMES; o++) fprintf(out, ",%" PRId64, statistics->outcome[o]);
+        for (size_t i = 0; i < fracas_nstatistics; i++)
+            put_statistic(statistics, &fracas_statistics[i], out);
+        for (int o = 0; o < FRACAS_NOUTCOMES; o++)
+            fprintf(out, ",%" PRId64, statistics->outcome[o]);
         putc('\n', out);
     }
     return FRACAS_OK;
 }
 
 const fracas_csv_table fracas_csv_table_points = {
-    .name = "points", .doc = "A line a point: its parameters as resolved, its statistics over realizations, and how many ended how",
-    .key = {"point"}, .fields = point_fields, .rows = point_rows,
+    .name = "points",
+    .doc = "A line a point: its parameters as resolved, its statistics over realizations, and how "
+           "many ended how",
+    .key = {"point"},
+    .fields = point_fields,
+    .rows = point_rows,
 };
 
-static void statistic_fields(const fracas_analysis *analysis, fracas_field_sink *sink, void *context)
+static void statistic_fields(const fracas_analysis *analysis, fracas_field_sink *sink,
+                             void *context)
 {
     (void)analysis;
-    sink(context, &(fracas_field){"point", FRACAS_FIELD_INTEGER, "1", "number of the point, from 0", false});
-    sink(context, &(fracas_field){"key", FRACAS_FIELD_TEXT, "", "which number: a column of points.csv", false});
-    sink(context, &(fracas_field){"value", FRACAS_FIELD_NUMBER, "", "its value, in the unit beside it", false});
-    sink(context, &(fracas_field){"unit", FRACAS_FIELD_TEXT, "", "its unit as UDUNITS-2 reads it, 1 of a pure number", false});
+    sink(context,
+         &(fracas_field){"point", FRACAS_FIELD_INTEGER, "1", "number of the point, from 0", false});
+    sink(context, &(fracas_field){"key", FRACAS_FIELD_TEXT, "",
+                                  "which number: a column of points.csv", false});
+    sink(context, &(fracas_field){"value", FRACAS_FIELD_NUMBER, "",
+                                  "its value, in the unit beside it", false});
+    sink(context, &(fracas_field){"unit", FRACAS_FIELD_TEXT, "",
+                                  "its unit as UDUNITS-2 reads it, 1 of a pure number", false});
 }
 
 static fracas_err statistic_rows(const fracas_analysis *analysis, FILE *out)
@@ -98,6 +122,10 @@ static fracas_err statistic_rows(const fracas_analysis *analysis, FILE *out)
 }
 
 const fracas_csv_table fracas_csv_table_statistics = {
-    .name = "statistics", .doc = "A line a statistic of a point: the same numbers as in points.csv, with their units",
-    .key = {"point", "key"}, .parent = &fracas_csv_table_points, .fields = statistic_fields, .rows = statistic_rows,
+    .name = "statistics",
+    .doc = "A line a statistic of a point: the same numbers as in points.csv, with their units",
+    .key = {"point", "key"},
+    .parent = &fracas_csv_table_points,
+    .fields = statistic_fields,
+    .rows = statistic_rows,
 };

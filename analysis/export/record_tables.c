@@ -1,4 +1,6 @@
-/* What the study has of each realization, fragment and moment: the datasets of study.h5 as columns, by the store's own table of them. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the study has of each realization, fragment and moment: the datasets of study.h5 as columns,
+ * by the store's own table of them. */
 #include "analysis/export/csv.h"
 
 #include "campaigns/store/file/schema.h"
@@ -18,10 +20,13 @@ static bool is_outcome(const fracas_store_column *column)
 }
 
 /* Of a dataset a column, or three: momentum_x, momentum_y, momentum_z. */
-static void dataset_fields(const fracas_store_column *column, fracas_field_sink *sink, void *context)
+static void dataset_fields(const fracas_store_column *column, fracas_field_sink *sink,
+                           void *context)
 {
-    fracas_field field = {last_part(column->path), column->type == FRACAS_FLOAT64 ? FRACAS_FIELD_NUMBER : FRACAS_FIELD_INTEGER, column->unit,
-                          column->description, false};
+    fracas_field field = {last_part(column->path),
+                          column->type == FRACAS_FLOAT64 ? FRACAS_FIELD_NUMBER
+                                                         : FRACAS_FIELD_INTEGER,
+                          column->unit, column->description, false};
     if (is_outcome(column)) {
         field.type = FRACAS_FIELD_TEXT;
         field.unit = "";
@@ -42,15 +47,18 @@ static void dataset_fields(const fracas_store_column *column, fracas_field_sink 
 /* A line begins with the first columns of /realization: of which one it is. */
 enum { PLACE = 3 }; /* point, replica, outcome */
 
-static void place_fields(const char *number, const char *doc, fracas_field_sink *sink, void *context)
+static void place_fields(const char *number, const char *doc, fracas_field_sink *sink,
+                         void *context)
 {
-    for (size_t c = 0; c < PLACE; c++) dataset_fields(&fracas_store_sets[FRACAS_SET_REALIZATION].column[c], sink, context);
+    for (size_t c = 0; c < PLACE; c++)
+        dataset_fields(&fracas_store_sets[FRACAS_SET_REALIZATION].column[c], sink, context);
     sink(context, &(fracas_field){number, FRACAS_FIELD_INTEGER, "1", doc, false});
 }
 
 static void put_place(const fracas_result *result, FILE *out)
 {
-    fprintf(out, "%zu,%" PRId64 ",%s", result->point, result->replica, fracas_outcome_name(result->record.outcome));
+    fprintf(out, "%zu,%" PRId64 ",%s", result->point, result->replica,
+            fracas_outcome_name(result->record.outcome));
 }
 
 /* The values of a row of a set from column `first` on, and the end of the line. */
@@ -59,8 +67,10 @@ static void put_values(fracas_set_name set, size_t first, const void *row, FILE 
     for (size_t c = first; c < fracas_store_sets[set].ncolumns; c++) {
         const fracas_store_column *column = &fracas_store_sets[set].column[c];
         const char *value = (const char *)row + column->offset;
-        for (size_t i = 0; i < column->width; i++, value += sizeof(int64_t)) { /* in memory integers are int64_t, reals double */
-            if (column->type == FRACAS_FLOAT64) fracas_csv_real(*(const double *)(const void *)value, out);
+        for (size_t i = 0; i < column->width;
+             i++, value += sizeof(int64_t)) { /* in memory integers are int64_t, reals double */
+            if (column->type == FRACAS_FLOAT64)
+                fracas_csv_real(*(const double *)(const void *)value, out);
             else fprintf(out, ",%" PRId64, *(const int64_t *)(const void *)value);
         }
     }
@@ -79,7 +89,8 @@ static fracas_err visit(void *context, fracas_result *result)
     return FRACAS_OK;
 }
 
-static fracas_err put_records(const fracas_analysis *analysis, unsigned parts, void (*put)(const fracas_result *result, FILE *out), FILE *out)
+static fracas_err put_records(const fracas_analysis *analysis, unsigned parts,
+                              void (*put)(const fracas_result *result, FILE *out), FILE *out)
 {
     record_printer printer = {put, out};
     return fracas_results_walk(analysis->results, parts, visit, &printer);
@@ -87,7 +98,8 @@ static fracas_err put_records(const fracas_analysis *analysis, unsigned parts, v
 
 /* ---- realizations ---- */
 
-static void realization_fields(const fracas_analysis *analysis, fracas_field_sink *sink, void *context)
+static void realization_fields(const fracas_analysis *analysis, fracas_field_sink *sink,
+                               void *context)
 {
     (void)analysis;
     for (size_t c = 0; c < fracas_store_sets[FRACAS_SET_REALIZATION].ncolumns; c++)
@@ -107,8 +119,12 @@ static fracas_err realization_rows(const fracas_analysis *analysis, FILE *out)
 }
 
 const fracas_csv_table fracas_csv_table_realizations = {
-    .name = "realizations", .doc = "A line a realization, whatever its outcome: how it ended, and its energies",
-    .key = {"point", "replica"}, .parent = &fracas_csv_table_points, .fields = realization_fields, .rows = realization_rows,
+    .name = "realizations",
+    .doc = "A line a realization, whatever its outcome: how it ended, and its energies",
+    .key = {"point", "replica"},
+    .parent = &fracas_csv_table_points,
+    .fields = realization_fields,
+    .rows = realization_rows,
 };
 
 /* ---- fragments ---- */
@@ -137,8 +153,12 @@ static fracas_err fragment_rows(const fracas_analysis *analysis, FILE *out)
 }
 
 const fracas_csv_table fracas_csv_table_fragments = {
-    .name = "fragments", .doc = "A line a fragment at the end of its realization, dust included",
-    .key = {"point", "replica", "fragment"}, .parent = &fracas_csv_table_realizations, .fields = fragment_fields, .rows = fragment_rows,
+    .name = "fragments",
+    .doc = "A line a fragment at the end of its realization, dust included",
+    .key = {"point", "replica", "fragment"},
+    .parent = &fracas_csv_table_realizations,
+    .fields = fragment_fields,
+    .rows = fragment_rows,
 };
 
 /* ---- histories ---- */
@@ -146,7 +166,8 @@ const fracas_csv_table fracas_csv_table_fragments = {
 static void history_fields(const fracas_analysis *analysis, fracas_field_sink *sink, void *context)
 {
     (void)analysis;
-    place_fields("row", "number of the moment in the history of its realization, from 0", sink, context);
+    place_fields("row", "number of the moment in the history of its realization, from 0", sink,
+                 context);
     for (size_t c = 0; c < fracas_store_sets[FRACAS_SET_HISTORY].ncolumns; c++)
         dataset_fields(&fracas_store_sets[FRACAS_SET_HISTORY].column[c], sink, context);
 }
@@ -167,6 +188,10 @@ static fracas_err history_rows(const fracas_analysis *analysis, FILE *out)
 }
 
 const fracas_csv_table fracas_csv_table_histories = {
-    .name = "histories", .doc = "A line a moment of a realization that its history keeps",
-    .key = {"point", "replica", "row"}, .parent = &fracas_csv_table_realizations, .fields = history_fields, .rows = history_rows,
+    .name = "histories",
+    .doc = "A line a moment of a realization that its history keeps",
+    .key = {"point", "replica", "row"},
+    .parent = &fracas_csv_table_realizations,
+    .fields = history_fields,
+    .rows = history_rows,
 };

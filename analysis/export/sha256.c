@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/export/sha256.h"
 
 #include <errno.h>
@@ -7,8 +8,10 @@
 
 enum { BLOCK = 1 << 16, DIGEST = (FRACAS_SHA256_HEX - 1) / 2 };
 
-/* Takes in the file; `reason`: why it cannot be read, as errno has it. False without memory, which is the one way libcrypto has to fail here. */
-static bool digest(FILE *file, EVP_MD_CTX *context, unsigned char result[DIGEST], uint64_t *bytes, int *reason)
+/* Takes in the file; `reason`: why it cannot be read, as errno has it. False without memory, which
+ * is the one way libcrypto has to fail here. */
+static bool digest(FILE *file, EVP_MD_CTX *context, unsigned char result[DIGEST], uint64_t *bytes,
+                   int *reason)
 {
     unsigned char block[BLOCK];
     size_t got;

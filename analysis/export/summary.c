@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The JSON summary. Its keys are those of fracas_statistics and of /point: they do not change. */
 #include "analysis/export/summary.h"
 
@@ -15,7 +16,8 @@ static void write_parameters(fracas_json *json, const fracas_point_table *table,
     fracas_json_object(json, "parameters");
     for (size_t c = 0; c < table->ncolumns; c++) {
         const fracas_value *value = &table->point[p].value[c];
-        if (table->column[c].text) fracas_json_text(json, table->column[c].path, *value->text ? value->text : NULL);
+        if (table->column[c].text)
+            fracas_json_text(json, table->column[c].path, *value->text ? value->text : NULL);
         else fracas_json_real(json, table->column[c].path, value->real);
     }
     fracas_json_close_object(json);
@@ -27,10 +29,12 @@ static void write_units(fracas_json *json, const fracas_point_table *table)
     fracas_json_object(json, "units");
     fracas_json_object(json, "parameters");
     for (size_t c = 0; c < table->ncolumns; c++)
-        if (!table->column[c].text) fracas_json_text(json, table->column[c].path, table->column[c].unit);
+        if (!table->column[c].text)
+            fracas_json_text(json, table->column[c].path, table->column[c].unit);
     fracas_json_close_object(json);
     fracas_json_object(json, "statistics");
-    for (size_t i = 0; i < fracas_nstatistics; i++) fracas_json_text(json, fracas_statistics[i].key, fracas_statistics[i].unit);
+    for (size_t i = 0; i < fracas_nstatistics; i++)
+        fracas_json_text(json, fracas_statistics[i].key, fracas_statistics[i].unit);
     fracas_json_close_object(json);
     fracas_json_close_object(json);
 }
@@ -40,7 +44,8 @@ static void write_statistics(fracas_json *json, const fracas_point_statistics *s
     fracas_json_object(json, "statistics");
     for (size_t i = 0; i < fracas_nstatistics; i++) {
         const void *value = (const char *)statistics + fracas_statistics[i].offset;
-        if (fracas_statistics[i].integer) fracas_json_integer(json, fracas_statistics[i].key, *(const int64_t *)value);
+        if (fracas_statistics[i].integer)
+            fracas_json_integer(json, fracas_statistics[i].key, *(const int64_t *)value);
         else fracas_json_real(json, fracas_statistics[i].key, *(const double *)value);
     }
     fracas_json_close_object(json);
@@ -84,7 +89,8 @@ static void write_progress(fracas_json *json, const fracas_progress *progress)
     fracas_json_close_object(json);
 }
 
-static void write_point(fracas_json *json, const fracas_analysis *analysis, size_t p, const fracas_fits *fits)
+static void write_point(fracas_json *json, const fracas_analysis *analysis, size_t p,
+                        const fracas_fits *fits)
 {
     char label[256], hash[FRACAS_HASH_HEX];
     fracas_analysis_label(analysis, p, label, sizeof label);
@@ -110,7 +116,8 @@ static void write_warnings(fracas_json *json, const fracas_analysis *analysis)
     fracas_warning *warning = NULL;
     size_t count = 0;
     fracas_json_array(json, "warnings");
-    if (fracas_analysis_warnings(analysis, &warning, &count)) fracas_json_text(json, NULL, fracas_message());
+    if (fracas_analysis_warnings(analysis, &warning, &count))
+        fracas_json_text(json, NULL, fracas_message());
     for (size_t i = 0; i < count; i++) {
         fracas_json_object(json, NULL);
         if (warning[i].point == SIZE_MAX) fracas_json_text(json, "point", NULL);
@@ -152,7 +159,8 @@ static void write_windows(fracas_json *json, const fracas_analysis *analysis)
     fracas_size_window *list = NULL;
     size_t count = 0;
     fracas_json_array(json, "windows");
-    if (fracas_size_windows(analysis, &list, &count)) fracas_json_text(json, NULL, fracas_message());
+    if (fracas_size_windows(analysis, &list, &count))
+        fracas_json_text(json, NULL, fracas_message());
     for (size_t i = 0; i < count; i++) {
         fracas_json_object(json, NULL);
         fracas_json_text(json, "series", list[i].name);
@@ -172,7 +180,8 @@ static void write_windows(fracas_json *json, const fracas_analysis *analysis)
     free(list);
 }
 
-static void write_interval(fracas_json *json, const char *key, const fracas_interval *interval, double factor)
+static void write_interval(fracas_json *json, const char *key, const fracas_interval *interval,
+                           double factor)
 {
     fracas_json_object(json, key);
     fracas_json_real(json, "value", interval->value * factor);
@@ -187,7 +196,8 @@ static void write_crossovers(fracas_json *json, const fracas_analysis *analysis)
     fracas_size_crossover *list = NULL;
     size_t count = 0;
     fracas_json_array(json, "crossovers");
-    if (fracas_size_crossovers(analysis, true, &list, &count)) fracas_json_text(json, NULL, fracas_message());
+    if (fracas_size_crossovers(analysis, true, &list, &count))
+        fracas_json_text(json, NULL, fracas_message());
     for (size_t i = 0; i < count; i++) {
         fracas_json_object(json, NULL);
         fracas_json_text(json, "series", list[i].name);
@@ -216,13 +226,16 @@ void fracas_analysis_reference(FILE *out)
     fputs("| key | type | unit | meaning |\n|---|---|---|---|\n", out);
     for (size_t i = 0; i < fracas_nstatistics; i++) {
         const fracas_statistic *what = &fracas_statistics[i];
-        fprintf(out, "| `%s` | %s | %s | ", what->key, what->integer ? "integer" : "number", what->unit);
-        for (const char *c = what->doc; *c; c++) fprintf(out, *c == '|' ? "\\%c" : "%c", *c); /* |residual| is no column */
+        fprintf(out, "| `%s` | %s | %s | ", what->key, what->integer ? "integer" : "number",
+                what->unit);
+        for (const char *c = what->doc; *c; c++)
+            fprintf(out, *c == '|' ? "\\%c" : "%c", *c); /* |residual| is no column */
         fputs(" |\n", out);
     }
 }
 
-void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fits, size_t stale, FILE *out)
+void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fits, size_t stale,
+                          FILE *out)
 {
     char hash[FRACAS_HASH_HEX], seed[24];
     fracas_hash_hex(&analysis->header.campaign, hash);
@@ -233,7 +246,8 @@ void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fi
     fracas_json_object(&json, NULL);
     fracas_json_text(&json, "name", analysis->name);
     fracas_json_text(&json, "campaign", hash);
-    fracas_json_text(&json, "seed", seed); /* text: a 64-bit number is more than every JSON reader keeps */
+    fracas_json_text(&json, "seed",
+                     seed); /* text: a 64-bit number is more than every JSON reader keeps */
     fracas_json_text(&json, "version", analysis->header.version);
     fracas_json_boolean(&json, "complete", analysis->header.complete);
     fracas_json_boolean(&json, "partial", fracas_results_partial(analysis->results));

@@ -1,4 +1,6 @@
-/* What the JSON summary has of a point beside its statistics: fits, convergence with replicas, energies over time. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the JSON summary has of a point beside its statistics: fits, convergence with replicas,
+ * energies over time. */
 #include "analysis/export/summary.h"
 
 #include "analysis/export/csv.h"
@@ -30,11 +32,13 @@ static point_rows rows_of(const fracas_fits *fits, size_t point)
 static const fracas_fits_row *find(const point_rows *of, const char *family, const char *quantity)
 {
     for (size_t i = 0; i < of->count; i++)
-        if (!strcmp(of->row[i].family, family) && !strcmp(of->row[i].quantity, quantity)) return &of->row[i];
+        if (!strcmp(of->row[i].family, family) && !strcmp(of->row[i].quantity, quantity))
+            return &of->row[i];
     return NULL;
 }
 
-static void put_value(fracas_json *json, const point_rows *of, const char *family, const char *quantity)
+static void put_value(fracas_json *json, const point_rows *of, const char *family,
+                      const char *quantity)
 {
     const fracas_fits_row *row = find(of, family, quantity);
     fracas_json_real(json, quantity, row ? row->value : NAN);
@@ -53,9 +57,12 @@ static void put_interval(fracas_json *json, const fracas_fits_row *row)
 
 static void put_data(fracas_json *json, const point_rows *of)
 {
-    static const char *const plain[] = {"realizations", "whole", "fragments", "above_cut", "cut", "lattice", "cells"}, *const ends[] = {"mean", "cv"};
+    static const char *const plain[] = {"realizations", "whole",   "fragments", "above_cut",
+                                        "cut",          "lattice", "cells"},
+                             *const ends[] = {"mean", "cv"};
     fracas_json_object(json, "data");
-    fracas_json_text(json, "fingerprint", find(of, "data", "fingerprint")->note); /* it was compared: fracas_fits_keep */
+    fracas_json_text(json, "fingerprint",
+                     find(of, "data", "fingerprint")->note); /* it was compared: fracas_fits_keep */
     for (size_t i = 0; i < FRACAS_COUNT(plain); i++) put_value(json, of, "data", plain[i]);
     for (size_t i = 0; i < FRACAS_COUNT(ends); i++) {
         const fracas_fits_row *row = find(of, "data", ends[i]);
@@ -69,13 +76,17 @@ static bool is_parameter(const fracas_family *family, const char *quantity)
 {
     const size_t length = strcspn(quantity, "/");
     for (size_t i = 0; i < family->nparameters; i++)
-        if (strlen(family->parameter[i].name) == length && !strncmp(family->parameter[i].name, quantity, length)) return true;
+        if (strlen(family->parameter[i].name) == length &&
+            !strncmp(family->parameter[i].name, quantity, length))
+            return true;
     return false;
 }
 
-static void put_family(fracas_json *json, const point_rows *of, const fracas_family *family, const fracas_fits_row *fitted)
+static void put_family(fracas_json *json, const point_rows *of, const fracas_family *family,
+                       const fracas_fits_row *fitted)
 {
-    static const char *const plain[] = {"rank", "log_likelihood", "aicc", "delta_aicc", "bic", "ks", "ks_p", "ad", "ad_p"};
+    static const char *const plain[] = {"rank", "log_likelihood", "aicc", "delta_aicc", "bic",
+                                        "ks",   "ks_p",           "ad",   "ad_p"};
     const fracas_fits_row *p = find(of, family->name, "ks_p");
     fracas_json_object(json, NULL);
     fracas_json_text(json, "family", family->name);
@@ -85,7 +96,8 @@ static void put_family(fracas_json *json, const point_rows *of, const fracas_fam
     fracas_json_integer(json, "resamples", p ? p->resamples : 0);
     fracas_json_object(json, "parameters");
     for (size_t i = 0; i < of->count; i++)
-        if (!strcmp(of->row[i].family, family->name) && is_parameter(family, of->row[i].quantity)) put_interval(json, &of->row[i]);
+        if (!strcmp(of->row[i].family, family->name) && is_parameter(family, of->row[i].quantity))
+            put_interval(json, &of->row[i]);
     fracas_json_close_object(json);
     fracas_json_close_object(json);
 }
@@ -132,7 +144,8 @@ void fracas_summary_put_fits(fracas_json *json, size_t point, const fracas_fits 
 
 /* ---- convergence ---- */
 
-static void put_ends(fracas_json *json, const char *key, const char *middle, double value, double low, double high)
+static void put_ends(fracas_json *json, const char *key, const char *middle, double value,
+                     double low, double high)
 {
     fracas_json_object(json, key);
     fracas_json_real(json, middle, value);
@@ -141,7 +154,8 @@ static void put_ends(fracas_json *json, const char *key, const char *middle, dou
     fracas_json_close_object(json);
 }
 
-void fracas_summary_put_convergence(fracas_json *json, const fracas_analysis *analysis, size_t point)
+void fracas_summary_put_convergence(fracas_json *json, const fracas_analysis *analysis,
+                                    size_t point)
 {
     const fracas_replica_convergence *of = &analysis->point[point].convergence;
     fracas_json_array(json, "convergence");
@@ -149,7 +163,8 @@ void fracas_summary_put_convergence(fracas_json *json, const fracas_analysis *an
         fracas_json_object(json, NULL);
         fracas_json_integer(json, "replicas", row->replicas);
         for (int h = 0; h < FRACAS_NHEADLINES; h++)
-            put_ends(json, fracas_headline_key[h], "value", row->number[h].value, row->number[h].low, row->number[h].high);
+            put_ends(json, fracas_headline_key[h], "value", row->number[h].value,
+                     row->number[h].low, row->number[h].high);
         fracas_json_close_object(json);
     }
     fracas_json_close_array(json);
@@ -157,7 +172,8 @@ void fracas_summary_put_convergence(fracas_json *json, const fracas_analysis *an
 
 /* ---- energies ---- */
 
-/* The bands themselves are a file of their own: with them a summary would be mostly energies, and as long as somebody asks histories to be. */
+/* The bands themselves are a file of their own: with them a summary would be mostly energies, and
+ * as long as somebody asks histories to be. */
 void fracas_summary_put_energies(fracas_json *json, const fracas_analysis *analysis, size_t point)
 {
     const fracas_bands *bands = &analysis->point[point].bands;
@@ -172,7 +188,8 @@ void fracas_summary_put_energies(fracas_json *json, const fracas_analysis *analy
     fracas_json_text(json, "file", file);
     fracas_json_integer(json, "times", (int64_t)bands->count);
     fracas_json_integer(json, "realizations", bands->realizations);
-    fracas_json_text(json, "band", bands->extremes ? "least to greatest" : "quantiles 0.05 to 0.95");
+    fracas_json_text(json, "band",
+                     bands->extremes ? "least to greatest" : "quantiles 0.05 to 0.95");
     fracas_json_object(json, "end");
     fracas_json_real(json, "time", bands->time[last]);
     fracas_json_integer(json, "running", bands->running[last]);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/fit/compare.h"
 
 #include "analysis/fit/draw.h"
@@ -9,15 +10,16 @@
 enum { LEAST = FRACAS_FIT_GOODNESS_LEAST };
 
 /* (fits.14): realization i gives the sum over its fragments of log p_1 - log p_2. */
-static void vuong(const fracas_fit_sample *sample, const fracas_family *const family[2], const double probability[2][FRACAS_FIT_CELLS],
-                  fracas_fit_comparison *comparison)
+static void vuong(const fracas_fit_sample *sample, const fracas_family *const family[2],
+                  const double probability[2][FRACAS_FIT_CELLS], fracas_fit_comparison *comparison)
 {
     const double n = (double)sample->nrealizations;
     double ratio = 0, squares = 0;
     for (size_t i = 0; i < sample->nrealizations; i++) {
         double sum = 0;
         for (size_t c = sample->first[i]; c < sample->first[i + 1]; c++)
-            sum += sample->times[c] * log(probability[0][sample->cell[c]] / probability[1][sample->cell[c]]);
+            sum += sample->times[c] *
+                   log(probability[0][sample->cell[c]] / probability[1][sample->cell[c]]);
         ratio += sum;
         squares += sum * sum;
     }
@@ -27,9 +29,10 @@ static void vuong(const fracas_fit_sample *sample, const fracas_family *const fa
     comparison->p = n < LEAST ? NAN : 2 * gsl_cdf_tdist_Q(fabs(comparison->statistic), n - 1);
 }
 
-/* What a resample under the special case gains by the general one; NaN where a refit does not arrive. */
-static double gain_of(const fracas_fit_sample *carried, const uint32_t *weight, const fracas_family *const family[2],
-                      const fracas_fit *const fit[2])
+/* What a resample under the special case gains by the general one; NaN where a refit does not
+ * arrive. */
+static double gain_of(const fracas_fit_sample *carried, const uint32_t *weight,
+                      const fracas_family *const family[2], const fracas_fit *const fit[2])
 {
     double parameter[2][FRACAS_FAMILY_PARAMETERS], count[FRACAS_FIT_CELLS];
     fracas_fit_sample_count(carried, weight, count);
@@ -40,8 +43,11 @@ static double gain_of(const fracas_fit_sample *carried, const uint32_t *weight, 
 }
 
 /* (fits.15): family and fit of the special case, then of the general one. */
-static fracas_err likelihood_ratio(const fracas_fit_sample *sample, const fracas_family *const family[2], const fracas_fit *const fit[2],
-                                   const double *probability, int64_t resamples, uint64_t seed, fracas_fit_comparison *comparison)
+static fracas_err likelihood_ratio(const fracas_fit_sample *sample,
+                                   const fracas_family *const family[2],
+                                   const fracas_fit *const fit[2], const double *probability,
+                                   int64_t resamples, uint64_t seed,
+                                   fracas_fit_comparison *comparison)
 {
     const size_t n = sample->nrealizations;
     const double widen = (double)n / (double)(n - 1);
@@ -59,23 +65,27 @@ static fracas_err likelihood_ratio(const fracas_fit_sample *sample, const fracas
     }
     fracas_fit_draw_clear(&draw);
     fracas_fit_sample_clear(&carried);
-    if (comparison->resamples > 0) comparison->p = (double)(1 + as_large) / (double)(1 + comparison->resamples);
+    if (comparison->resamples > 0)
+        comparison->p = (double)(1 + as_large) / (double)(1 + comparison->resamples);
     return err;
 }
 
-fracas_err fracas_fit_compare(const fracas_fit_sample *sample, const fracas_family *const family[2], const fracas_fit fit[2],
-                              int64_t resamples, uint64_t seed, fracas_fit_comparison *comparison)
+fracas_err fracas_fit_compare(const fracas_fit_sample *sample, const fracas_family *const family[2],
+                              const fracas_fit fit[2], int64_t resamples, uint64_t seed,
+                              fracas_fit_comparison *comparison)
 {
     double probability[2][FRACAS_FIT_CELLS];
     *comparison = (fracas_fit_comparison){.statistic = NAN, .p = NAN};
     for (int i = 0; i < 2; i++)
-        if (!fracas_fit_probabilities(family[i], sample, fit[i].parameter, probability[i])) return FRACAS_OK;
+        if (!fracas_fit_probabilities(family[i], sample, fit[i].parameter, probability[i]))
+            return FRACAS_OK;
     for (int special = 0; special < 2; special++) {
         const fracas_family *const ordered[2] = {family[special], family[!special]};
         const fracas_fit *const fitted[2] = {&fit[special], &fit[!special]};
         if (!fracas_family_within(ordered[0], ordered[1])) continue;
         comparison->nested = true;
-        return likelihood_ratio(sample, ordered, fitted, probability[special], resamples, seed, comparison);
+        return likelihood_ratio(sample, ordered, fitted, probability[special], resamples, seed,
+                                comparison);
     }
     vuong(sample, family, (const double(*)[FRACAS_FIT_CELLS])probability, comparison);
     return FRACAS_OK;

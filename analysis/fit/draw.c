@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/fit/draw.h"
 
 #include <stdlib.h>
@@ -5,7 +6,9 @@
 
 fracas_err fracas_fit_draw_create(size_t n, uint64_t seed, fracas_fit_draw *draw)
 {
-    *draw = (fracas_fit_draw){.n = n, .weight = malloc((n + 1) * sizeof *draw->weight), .random = gsl_rng_alloc(gsl_rng_mt19937)};
+    *draw = (fracas_fit_draw){.n = n,
+                              .weight = malloc((n + 1) * sizeof *draw->weight),
+                              .random = gsl_rng_alloc(gsl_rng_mt19937)};
     if (!draw->weight || !draw->random) return fracas_no_memory("a resample");
     gsl_rng_set(draw->random, (unsigned long)(seed ^ seed >> 32)); /* it takes 32 bits */
     return FRACAS_OK;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Realizations drawn with replacement. */
 #ifndef FRACAS_ANALYSIS_FIT_DRAW_H
 #define FRACAS_ANALYSIS_FIT_DRAW_H

@@ -1,10 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/fit/family.h"
 
 #include <string.h>
 
 const fracas_family *const fracas_families[FRACAS_NFAMILIES] = {
-    &fracas_family_exponential, &fracas_family_rayleigh, &fracas_family_shifted_rayleigh, &fracas_family_weibull,
-    &fracas_family_weibull3, &fracas_family_lognormal, &fracas_family_gamma, &fracas_family_generalised_gamma, &fracas_family_power_law,
+    &fracas_family_exponential, &fracas_family_rayleigh,          &fracas_family_shifted_rayleigh,
+    &fracas_family_weibull,     &fracas_family_weibull3,          &fracas_family_lognormal,
+    &fracas_family_gamma,       &fracas_family_generalised_gamma, &fracas_family_power_law,
     &fracas_family_mott,
 };
 

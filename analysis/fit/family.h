@@ -1,4 +1,6 @@
-/* Families of distributions of a fragment's size (docs/theory/fits.md). The table drives fits, files, tables and tests. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Families of distributions of a fragment's size (docs/theory/fits.md). The table drives fits,
+ * files, tables and tests. */
 #ifndef FRACAS_ANALYSIS_FIT_FAMILY_H
 #define FRACAS_ANALYSIS_FIT_FAMILY_H
 
@@ -22,31 +24,38 @@ typedef struct {
     double smallest; /* size/mean */
 } fracas_family_moments;
 
-/* Sizes and lengths in any one unit. `from` is the cut of the data: only a power law, which has no probability below, looks at it. */
+/* Sizes and lengths in any one unit. `from` is the cut of the data: only a power law, which has no
+ * probability below, looks at it. */
 typedef struct {
     const char *name;
     const char *survival; /* P(size > x), for a reader */
     size_t nparameters;
     fracas_family_parameter parameter[FRACAS_FAMILY_PARAMETERS];
-    /* P(size <= x) and P(size > x), each to full relative precision; NaN for parameters that are none. */
+    /* P(size <= x) and P(size > x), each to full relative precision; NaN for parameters that are
+     * none. */
     void (*tails)(const double *parameter, double from, double x, double *below, double *above);
-    double (*log_density)(const double *parameter, double from, double x); /* -INFINITY where there is none */
-    double (*quantile)(const double *parameter, double from, double above); /* x with P(size > x) = above, 0 < above < 1 */
+    double (*log_density)(const double *parameter, double from,
+                          double x); /* -INFINITY where there is none */
+    double (*quantile)(const double *parameter, double from,
+                       double above); /* x with P(size > x) = above, 0 < above < 1 */
     /* Where search number `which` of FRACAS_FAMILY_STARTS begins, lengths over the mean. */
     void (*start)(const fracas_family_moments *moments, int which, double *parameter);
-    const char *general; /* name of a family of which it is a special case, "" for none, more than one after spaces */
+    const char *general; /* name of a family of which it is a special case, "" for none, more than
+                            one after spaces */
 } fracas_family;
 
 enum { FRACAS_NFAMILIES = 10 };
-extern const fracas_family *const fracas_families[FRACAS_NFAMILIES]; /* Mott's, which is of masses, last */
+extern const fracas_family
+    *const fracas_families[FRACAS_NFAMILIES]; /* Mott's, which is of masses, last */
 
 /* NULL for a name that is none. */
 const fracas_family *fracas_family_find(const char *name);
 /* True if `special` is `general` with some parameters fixed. */
 bool fracas_family_within(const fracas_family *special, const fracas_family *general);
 
-extern const fracas_family fracas_family_exponential, fracas_family_mott, fracas_family_rayleigh, fracas_family_shifted_rayleigh,
-    fracas_family_weibull, fracas_family_weibull3, fracas_family_lognormal, fracas_family_gamma, fracas_family_generalised_gamma,
+extern const fracas_family fracas_family_exponential, fracas_family_mott, fracas_family_rayleigh,
+    fracas_family_shifted_rayleigh, fracas_family_weibull, fracas_family_weibull3,
+    fracas_family_lognormal, fracas_family_gamma, fracas_family_generalised_gamma,
     fracas_family_power_law;
 
 #endif

@@ -1,4 +1,6 @@
-/* Families with P(size > x) = exp(-((x - x0)/scale)^shape): exponential, Mott, Rayleigh, Weibull, with and without a shift. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Families with P(size > x) = exp(-((x - x0)/scale)^shape): exponential, Mott, Rayleigh, Weibull,
+ * with and without a shift. */
 #include "analysis/fit/family.h"
 
 #include <gsl/gsl_sf_gamma.h>
@@ -20,7 +22,8 @@ static double law_log_density(weibull law, double x)
 {
     if (x < law.shift) return -INFINITY;
     const double y = (x - law.shift) / law.scale;
-    return log(law.shape / law.scale) + (law.shape == 1 ? 0 : (law.shape - 1) * log(y)) - pow(y, law.shape);
+    return log(law.shape / law.scale) + (law.shape == 1 ? 0 : (law.shape - 1) * log(y)) -
+           pow(y, law.shape);
 }
 
 static double law_quantile(weibull law, double above)
@@ -43,28 +46,47 @@ static double start_shift(const fracas_family_moments *moments, int which)
     return share[which] * fmin(moments->smallest, 0.9);
 }
 
-static weibull as_exponential(const double *p) { return (weibull){0, p[0], 1}; }
-static weibull as_mott(const double *p) { return (weibull){0, p[0], 0.5}; }
-static weibull as_rayleigh(const double *p) { return (weibull){0, M_SQRT2 * p[0], 2}; }
-static weibull as_shifted_rayleigh(const double *p) { return (weibull){p[0], M_SQRT2 * p[1], 2}; }
-static weibull as_weibull(const double *p) { return (weibull){0, p[0], p[1]}; }
-static weibull as_weibull3(const double *p) { return (weibull){p[0], p[1], p[2]}; }
+static weibull as_exponential(const double *p)
+{
+    return (weibull){0, p[0], 1};
+}
+static weibull as_mott(const double *p)
+{
+    return (weibull){0, p[0], 0.5};
+}
+static weibull as_rayleigh(const double *p)
+{
+    return (weibull){0, M_SQRT2 * p[0], 2};
+}
+static weibull as_shifted_rayleigh(const double *p)
+{
+    return (weibull){p[0], M_SQRT2 * p[1], 2};
+}
+static weibull as_weibull(const double *p)
+{
+    return (weibull){0, p[0], p[1]};
+}
+static weibull as_weibull3(const double *p)
+{
+    return (weibull){p[0], p[1], p[2]};
+}
 
-#define MEMBER(member)                                                                                             \
-    static void member##_tails(const double *p, double from, double x, double *below, double *above)               \
-    {                                                                                                              \
-        (void)from;                                                                                                \
-        law_tails(as_##member(p), x, below, above);                                                            \
-    }                                                                                                              \
-    static double member##_log_density(const double *p, double from, double x)                                     \
-    {                                                                                                              \
-        (void)from;                                                                                                \
-        return law_log_density(as_##member(p), x);                                                             \
-    }                                                                                                              \
-    static double member##_quantile(const double *p, double from, double above)                                    \
-    {                                                                                                              \
-        (void)from;                                                                                                \
-        return law_quantile(as_##member(p), above);                                                            \
+#define MEMBER(member)                                                                \
+    static void member##_tails(const double *p, double from, double x, double *below, \
+                               double *above)                                         \
+    {                                                                                 \
+        (void)from;                                                                   \
+        law_tails(as_##member(p), x, below, above);                                   \
+    }                                                                                 \
+    static double member##_log_density(const double *p, double from, double x)        \
+    {                                                                                 \
+        (void)from;                                                                   \
+        return law_log_density(as_##member(p), x);                                    \
+    }                                                                                 \
+    static double member##_quantile(const double *p, double from, double above)       \
+    {                                                                                 \
+        (void)from;                                                                   \
+        return law_quantile(as_##member(p), above);                                   \
     }
 
 MEMBER(exponential)
@@ -74,11 +96,22 @@ MEMBER(shifted_rayleigh)
 MEMBER(weibull)
 MEMBER(weibull3)
 
-#define FUNCTIONS(member) \
-    .tails = member##_tails, .log_density = member##_log_density, .quantile = member##_quantile, .start = member##_start
-#define LENGTH(symbol, what) {.name = symbol, .length = true, .lower = 1e-4, .upper = 1e3, .doc = what}
-#define SHIFT {.name = "x0", .length = true, .shift = true, .linear = true, .lower = 0, .doc = "smallest size"}
-#define SHAPE(symbol, low, high, what) {.name = symbol, .lower = low, .upper = high, .doc = what}
+#define FUNCTIONS(member)                                                                        \
+    .tails = member##_tails, .log_density = member##_log_density, .quantile = member##_quantile, \
+    .start = member##_start
+#define LENGTH(symbol, what)                                                     \
+    {                                                                            \
+        .name = symbol, .length = true, .lower = 1e-4, .upper = 1e3, .doc = what \
+    }
+#define SHIFT                                                                    \
+    {                                                                            \
+        .name = "x0", .length = true, .shift = true, .linear = true, .lower = 0, \
+        .doc = "smallest size"                                                   \
+    }
+#define SHAPE(symbol, low, high, what)                           \
+    {                                                            \
+        .name = symbol, .lower = low, .upper = high, .doc = what \
+    }
 
 static void exponential_start(const fracas_family_moments *moments, int which, double *p)
 {
@@ -122,26 +155,50 @@ static void weibull3_start(const fracas_family_moments *moments, int which, doub
 }
 
 const fracas_family fracas_family_exponential = {
-    .name = "exponential", .survival = "exp(-x/mu)", .nparameters = 1, .parameter = {LENGTH("mu", "mean")},
-    .general = "weibull weibull-3 gamma generalised-gamma power-law", FUNCTIONS(exponential),
+    .name = "exponential",
+    .survival = "exp(-x/mu)",
+    .nparameters = 1,
+    .parameter = {LENGTH("mu", "mean")},
+    .general = "weibull weibull-3 gamma generalised-gamma power-law",
+    FUNCTIONS(exponential),
 };
 const fracas_family fracas_family_mott = {
-    .name = "mott", .survival = "exp(-sqrt(x/mu))", .nparameters = 1, .parameter = {LENGTH("mu", "half of the mean")},
-    .general = "weibull weibull-3 generalised-gamma", FUNCTIONS(mott),
+    .name = "mott",
+    .survival = "exp(-sqrt(x/mu))",
+    .nparameters = 1,
+    .parameter = {LENGTH("mu", "half of the mean")},
+    .general = "weibull weibull-3 generalised-gamma",
+    FUNCTIONS(mott),
 };
 const fracas_family fracas_family_rayleigh = {
-    .name = "rayleigh", .survival = "exp(-x^2/(2 sigma^2))", .nparameters = 1, .parameter = {LENGTH("sigma", "most frequent size")},
-    .general = "shifted-rayleigh weibull weibull-3 generalised-gamma", FUNCTIONS(rayleigh),
+    .name = "rayleigh",
+    .survival = "exp(-x^2/(2 sigma^2))",
+    .nparameters = 1,
+    .parameter = {LENGTH("sigma", "most frequent size")},
+    .general = "shifted-rayleigh weibull weibull-3 generalised-gamma",
+    FUNCTIONS(rayleigh),
 };
 const fracas_family fracas_family_shifted_rayleigh = {
-    .name = "shifted-rayleigh", .survival = "exp(-(x - x0)^2/(2 sigma^2))", .nparameters = 2,
-    .parameter = {SHIFT, LENGTH("sigma", "most frequent size - x0")}, .general = "weibull-3", FUNCTIONS(shifted_rayleigh),
+    .name = "shifted-rayleigh",
+    .survival = "exp(-(x - x0)^2/(2 sigma^2))",
+    .nparameters = 2,
+    .parameter = {SHIFT, LENGTH("sigma", "most frequent size - x0")},
+    .general = "weibull-3",
+    FUNCTIONS(shifted_rayleigh),
 };
 const fracas_family fracas_family_weibull = {
-    .name = "weibull", .survival = "exp(-(x/lambda)^k)", .nparameters = 2,
-    .parameter = {LENGTH("lambda", "scale"), SHAPE("k", 0.1, 50, "shape")}, .general = "weibull-3 generalised-gamma", FUNCTIONS(weibull),
+    .name = "weibull",
+    .survival = "exp(-(x/lambda)^k)",
+    .nparameters = 2,
+    .parameter = {LENGTH("lambda", "scale"), SHAPE("k", 0.1, 50, "shape")},
+    .general = "weibull-3 generalised-gamma",
+    FUNCTIONS(weibull),
 };
 const fracas_family fracas_family_weibull3 = {
-    .name = "weibull-3", .survival = "exp(-((x - x0)/lambda)^k)", .nparameters = 3,
-    .parameter = {SHIFT, LENGTH("lambda", "scale"), SHAPE("k", 0.1, 50, "shape")}, .general = "", FUNCTIONS(weibull3),
+    .name = "weibull-3",
+    .survival = "exp(-((x - x0)/lambda)^k)",
+    .nparameters = 3,
+    .parameter = {SHIFT, LENGTH("lambda", "scale"), SHAPE("k", 0.1, 50, "shape")},
+    .general = "",
+    FUNCTIONS(weibull3),
 };

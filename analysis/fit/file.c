@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* STUDY/fits.csv: a stamp in its first lines, then a line a number. */
 #include "analysis/export/output.h"
 #include "analysis/fit/fits.h"
@@ -25,7 +26,8 @@ static void write_all(const fracas_fits *fits, FILE *out)
     fprintf(out, ",,study,campaign,,,,,,%s\n", fits->campaign);
     fprintf(out, ",,study,realizations,1,%" PRId64 ",,,,it had then\n", fits->realizations);
     for (const fracas_fits_row *row = fits->row; row < fits->row + fits->n; row++) {
-        fprintf(out, "%" PRId64 ",%s,%s,%s,%s", row->point, row->hash, row->family, row->quantity, row->unit);
+        fprintf(out, "%" PRId64 ",%s,%s,%s,%s", row->point, row->hash, row->family, row->quantity,
+                row->unit);
         put_real(row->value, out);
         put_real(row->low, out);
         put_real(row->high, out);
@@ -95,10 +97,13 @@ static bool read_stamp(char *const field[FIELDS], fracas_fits *fits)
 
 static bool read_row(char *const field[FIELDS], fracas_fits_row *row)
 {
-    return *field[0] && read_integer(field[0], &row->point) && copy(field[1], row->hash, sizeof row->hash) &&
-           copy(field[2], row->family, sizeof row->family) && copy(field[3], row->quantity, sizeof row->quantity) &&
-           copy(field[4], row->unit, sizeof row->unit) && read_real(field[5], &row->value) && read_real(field[6], &row->low) &&
-           read_real(field[7], &row->high) && read_integer(field[8], &row->resamples) && copy(field[9], row->note, sizeof row->note);
+    return *field[0] && read_integer(field[0], &row->point) &&
+           copy(field[1], row->hash, sizeof row->hash) &&
+           copy(field[2], row->family, sizeof row->family) &&
+           copy(field[3], row->quantity, sizeof row->quantity) &&
+           copy(field[4], row->unit, sizeof row->unit) && read_real(field[5], &row->value) &&
+           read_real(field[6], &row->low) && read_real(field[7], &row->high) &&
+           read_integer(field[8], &row->resamples) && copy(field[9], row->note, sizeof row->note);
 }
 
 static fracas_err read_lines(FILE *in, const char *path, fracas_fits *fits)
@@ -106,12 +111,17 @@ static fracas_err read_lines(FILE *in, const char *path, fracas_fits *fits)
     char line[LINE], *field[FIELDS];
     size_t number = 1;
     if (!fgets(line, sizeof line, in) || strcmp(line, HEAD) != 0)
-        return fracas_fail(FRACAS_DAMAGED, "%s: line 1 is not that of a file of fits; `fracas fit` makes it again", path);
+        return fracas_fail(FRACAS_DAMAGED,
+                           "%s: line 1 is not that of a file of fits; `fracas fit` makes it again",
+                           path);
     for (; fgets(line, sizeof line, in); number++) {
         fracas_fits_row row = {0};
         const bool whole = split(line, field);
         if (!whole || !(*field[0] ? read_row(field, &row) : read_stamp(field, fits)))
-            return fracas_fail(FRACAS_DAMAGED, "%s: line %zu is none of ours; remove the file, `fracas fit` makes it again", path, number + 1);
+            return fracas_fail(
+                FRACAS_DAMAGED,
+                "%s: line %zu is none of ours; remove the file, `fracas fit` makes it again", path,
+                number + 1);
         if (!*field[0]) continue;
         if (fits->n == fits->room) {
             fracas_fits_row *grown = realloc(fits->row, (fits->room + 256) * sizeof *grown);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/fit/fits.h"
 
 #include "analysis/fit/point.h"
@@ -38,7 +39,8 @@ typedef struct {
     bool full; /* no memory for a row */
 } rows;
 
-static void put(rows *to, const char *quantity, const char *unit, const fracas_interval *value, const char *note)
+static void put(rows *to, const char *quantity, const char *unit, const fracas_interval *value,
+                const char *note)
 {
     fracas_fits_row *row = append(to->fits);
     to->full |= !row;
@@ -49,14 +51,16 @@ static void put(rows *to, const char *quantity, const char *unit, const fracas_i
     snprintf(row->quantity, sizeof row->quantity, "%s", quantity);
     snprintf(row->unit, sizeof row->unit, "%s", unit);
     snprintf(row->note, sizeof row->note, "%s", note);
-    for (char *at = row->note; (at = strchr(at, ',')); at++) *at = ';'; /* the file has commas between its fields alone */
+    for (char *at = row->note; (at = strchr(at, ',')); at++)
+        *at = ';'; /* the file has commas between its fields alone */
     row->value = value->value;
     row->low = value->low;
     row->high = value->high;
     row->resamples = value->resamples;
 }
 
-static void put_number(rows *to, const char *quantity, const char *unit, double value, int64_t resamples, const char *note)
+static void put_number(rows *to, const char *quantity, const char *unit, double value,
+                       int64_t resamples, const char *note)
 {
     const fracas_interval alone = {.value = value, .low = NAN, .high = NAN, .resamples = resamples};
     put(to, quantity, unit, &alone, note);
@@ -68,20 +72,26 @@ static fracas_hash fingerprint_of(const fracas_ensemble *ensemble)
     const uint64_t count[] = {ensemble->nrealizations, ensemble->nfragments, ensemble->surface};
     const size_t n = ensemble->nrealizations, fragments = ensemble->nfragments;
     const fracas_hash part[] = {
-        fracas_hash_of(count, sizeof count), fracas_hash_of(&ensemble->lattice, sizeof ensemble->lattice),
-        fracas_hash_of(ensemble->replica, n * sizeof *ensemble->replica), fracas_hash_of(ensemble->first, n ? (n + 1) * sizeof *ensemble->first : 0),
-        fracas_hash_of(ensemble->size, fragments * sizeof *ensemble->size), fracas_hash_of(ensemble->elements, fragments * sizeof *ensemble->elements),
+        fracas_hash_of(count, sizeof count),
+        fracas_hash_of(&ensemble->lattice, sizeof ensemble->lattice),
+        fracas_hash_of(ensemble->replica, n * sizeof *ensemble->replica),
+        fracas_hash_of(ensemble->first, n ? (n + 1) * sizeof *ensemble->first : 0),
+        fracas_hash_of(ensemble->size, fragments * sizeof *ensemble->size),
+        fracas_hash_of(ensemble->elements, fragments * sizeof *ensemble->elements),
     };
     return fracas_hash_of(part, sizeof part);
 }
 
-/* A body of one piece says that it did not break, not how sizes are where it does: with any, the sizes of the others are fitted and the number is told. */
+/* A body of one piece says that it did not break, not how sizes are where it does: with any, the
+ * sizes of the others are fitted and the number is told. */
 static void put_whole(rows *to, const fracas_fit_sample *sample)
 {
     char note[160] = "";
     if (sample->whole > 0)
-        snprintf(note, sizeof note, "of %zu realizations are of one piece: the body; left out of the fits, which are of bodies that break; give this share with "
-                 "them or load harder", sample->whole + sample->nrealizations);
+        snprintf(note, sizeof note,
+                 "of %zu realizations are of one piece: the body; left out of the fits, which are "
+                 "of bodies that break; give this share with them or load harder",
+                 sample->whole + sample->nrealizations);
     put_number(to, "whole", "1", (double)sample->whole, 0, note);
 }
 
@@ -99,12 +109,14 @@ static void put_data(rows *to, const fracas_ensemble *ensemble, const fracas_poi
     put_number(to, "above_cut", "1", sample->total, 0, "fragments that are fitted");
     put_number(to, "cut", "m", sample->cut, 0, "sizes above are fitted");
     put_number(to, "lattice", "m", sample->lattice, 0, "every size is a multiple; 0: they are not");
-    put_number(to, "cells", "1", (double)sample->ncells, 0, "of size; in which fragments are counted");
+    put_number(to, "cells", "1", (double)sample->ncells, 0,
+               "of size; in which fragments are counted");
     put(to, "mean", "m", &fits->mean, "of the sizes above the cut");
     put(to, "cv", "1", &fits->cv, "their deviation/mean");
 }
 
-static void put_parameters(rows *to, const fracas_family *family, const fracas_family_fit *fit, const fracas_fit_sample *sample)
+static void put_parameters(rows *to, const fracas_family *family, const fracas_family_fit *fit,
+                           const fracas_fit_sample *sample)
 {
     for (size_t i = 0; i < family->nparameters; i++) {
         const fracas_family_parameter *parameter = &family->parameter[i];
@@ -116,7 +128,8 @@ static void put_parameters(rows *to, const fracas_family *family, const fracas_f
         put(to, parameter->name, parameter->length ? "m" : "1", &value, parameter->doc);
         char name[24];
         snprintf(name, sizeof name, "%s/mean", parameter->name);
-        if (parameter->length) put(to, name, "1", &relative, "over the mean of the sizes above the cut");
+        if (parameter->length)
+            put(to, name, "1", &relative, "over the mean of the sizes above the cut");
     }
 }
 
@@ -133,10 +146,14 @@ static void put_family(rows *to, size_t f, const fracas_point_fits *fits)
     put_number(to, "delta_aicc", "1", fit->delta, 0, "above the least of those that are fitted");
     put_number(to, "bic", "1", fit->bic, 0, "");
     if (!*fit->fit.why) {
-        put_number(to, "ks", "1", goodness->distance.ks, 0, "largest distance of the distributions");
-        put_number(to, "ks_p", "1", goodness->ks_p, goodness->resamples, "share of resamples under the fit that are as far");
-        put_number(to, "ad", "1", goodness->distance.ad * fits->sample.total, 0, "Anderson-Darling");
-        put_number(to, "ad_p", "1", goodness->ad_p, goodness->resamples, "share of resamples under the fit that are as far");
+        put_number(to, "ks", "1", goodness->distance.ks, 0,
+                   "largest distance of the distributions");
+        put_number(to, "ks_p", "1", goodness->ks_p, goodness->resamples,
+                   "share of resamples under the fit that are as far");
+        put_number(to, "ad", "1", goodness->distance.ad * fits->sample.total, 0,
+                   "Anderson-Darling");
+        put_number(to, "ad_p", "1", goodness->ad_p, goodness->resamples,
+                   "share of resamples under the fit that are as far");
     }
     put_parameters(to, fits->families[f], fit, &fits->sample);
 }
@@ -145,22 +162,30 @@ static void put_comparison(rows *to, const fracas_point_fits *fits)
 {
     if (fits->nfits < 2) return;
     const fracas_fit_comparison *comparison = &fits->comparison;
-    const char *first = fits->families[fits->best[0]]->name, *second = fits->families[fits->best[1]]->name;
-    const bool told = comparison->p < 0.05, first_special = fracas_family_within(fits->families[fits->best[0]], fits->families[fits->best[1]]);
+    const char *first = fits->families[fits->best[0]]->name,
+               *second = fits->families[fits->best[1]]->name;
+    const bool told = comparison->p < 0.05,
+               first_special = fracas_family_within(fits->families[fits->best[0]],
+                                                    fits->families[fits->best[1]]);
     char note[160];
     if (!isfinite(comparison->p))
-        snprintf(note, sizeof note, "%s and %s cannot be compared: too few realizations or refits", first, second);
+        snprintf(note, sizeof note, "%s and %s cannot be compared: too few realizations or refits",
+                 first, second);
     else if (comparison->nested)
-        snprintf(note, sizeof note, "%s is a special case of %s and %s", first_special ? first : second, first_special ? second : first,
+        snprintf(note, sizeof note, "%s is a special case of %s and %s",
+                 first_special ? first : second, first_special ? second : first,
                  told ? "does not suffice" : "suffices");
     else
-        snprintf(note, sizeof note, told ? "%s is closer than %s" : "%s and %s cannot be told apart", first, second);
+        snprintf(note, sizeof note,
+                 told ? "%s is closer than %s" : "%s and %s cannot be told apart", first, second);
     to->family = "comparison";
-    put_number(to, comparison->nested ? "likelihood_ratio" : "vuong", "1", comparison->statistic, 0, note);
+    put_number(to, comparison->nested ? "likelihood_ratio" : "vuong", "1", comparison->statistic, 0,
+               note);
     put_number(to, "p", "1", comparison->p, comparison->resamples, note);
 }
 
-static fracas_err fit_point(const fracas_analysis *analysis, size_t p, int64_t resamples, fracas_fits *fits)
+static fracas_err fit_point(const fracas_analysis *analysis, size_t p, int64_t resamples,
+                            fracas_fits *fits)
 {
     fracas_point_fits found;
     uint64_t word[2];
@@ -168,8 +193,10 @@ static fracas_err fit_point(const fracas_analysis *analysis, size_t p, int64_t r
     fracas_hash_words(&analysis->table->point[p].hash, word);
     fracas_hash_hex(&analysis->table->point[p].hash, to.hash);
     size_t nfamilies;
-    const fracas_family *const *families = fracas_point_families(analysis->point[p].surface, &nfamilies);
-    TRY(fracas_point_fits_of(&analysis->point[p].ensemble, families, nfamilies, resamples, word[0], &found));
+    const fracas_family *const *families = fracas_point_families(analysis->point[p].surface,
+                                                                 &nfamilies);
+    TRY(fracas_point_fits_of(&analysis->point[p].ensemble, families, nfamilies, resamples, word[0],
+                             &found));
     put_data(&to, &analysis->point[p].ensemble, &found);
     for (size_t f = 0; f < nfamilies; f++) put_family(&to, f, &found);
     put_comparison(&to, &found);
@@ -177,11 +204,13 @@ static fracas_err fit_point(const fracas_analysis *analysis, size_t p, int64_t r
     return to.full ? fracas_no_memory("the fits of a study") : FRACAS_OK;
 }
 
-fracas_err fracas_fits_create(const fracas_analysis *analysis, size_t point, int64_t resamples, fracas_fits **fits)
+fracas_err fracas_fits_create(const fracas_analysis *analysis, size_t point, int64_t resamples,
+                              fracas_fits **fits)
 {
     const size_t npoints = analysis->table->npoints;
     if (point != SIZE_MAX && point >= npoints)
-        return fracas_fail(FRACAS_USAGE, "point %zu: the study has points 0 to %zu", point, npoints - 1);
+        return fracas_fail(FRACAS_USAGE, "point %zu: the study has points 0 to %zu", point,
+                           npoints - 1);
     fracas_fits *made = calloc(1, sizeof *made);
     if (!made) return fracas_no_memory("the fits of a study");
     fracas_hash_hex(&analysis->header.campaign, made->campaign);
@@ -208,8 +237,10 @@ static size_t point_of(const fracas_analysis *analysis, const char *hash, size_t
     return SIZE_MAX;
 }
 
-/* Whether rows `begin` to `end` - 1, of one point, are of the realizations that point p of the analysis has. */
-static bool is_of(const fracas_fits *fits, size_t begin, size_t end, const fracas_analysis *analysis, size_t p)
+/* Whether rows `begin` to `end` - 1, of one point, are of the realizations that point p of the
+ * analysis has. */
+static bool is_of(const fracas_fits *fits, size_t begin, size_t end,
+                  const fracas_analysis *analysis, size_t p)
 {
     char own[FRACAS_HASH_HEX];
     if (p == SIZE_MAX) return false;
@@ -245,7 +276,8 @@ fracas_err fracas_fits_complete(fracas_fits *fits, const fracas_fits *older)
     const size_t own = fits->n;
     for (size_t i = 0; i < older->n; i++) {
         bool known = false;
-        for (size_t k = 0; k < own && !known; k++) known = fits->row[k].point == older->row[i].point;
+        for (size_t k = 0; k < own && !known; k++)
+            known = fits->row[k].point == older->row[i].point;
         if (known) continue;
         fracas_fits_row *row = append(fits);
         if (!row) return fracas_no_memory("the fits of a study");
@@ -254,16 +286,19 @@ fracas_err fracas_fits_complete(fracas_fits *fits, const fracas_fits *older)
     return FRACAS_OK;
 }
 
-const fracas_fits_row *fracas_fits_find(const fracas_fits *fits, int64_t point, const char *family, const char *quantity)
+const fracas_fits_row *fracas_fits_find(const fracas_fits *fits, int64_t point, const char *family,
+                                        const char *quantity)
 {
     for (const fracas_fits_row *row = fits->row; row < fits->row + fits->n; row++)
-        if (row->point == point && !strcmp(row->family, family) && !strcmp(row->quantity, quantity)) return row;
+        if (row->point == point && !strcmp(row->family, family) && !strcmp(row->quantity, quantity))
+            return row;
     return NULL;
 }
 
 const char *fracas_fits_ranked(const fracas_fits *fits, int64_t point, int rank)
 {
     for (const fracas_fits_row *row = fits->row; row < fits->row + fits->n; row++)
-        if (row->point == point && !strcmp(row->quantity, "rank") && row->value == rank) return row->family;
+        if (row->point == point && !strcmp(row->quantity, "rank") && row->value == rank)
+            return row->family;
     return NULL;
 }

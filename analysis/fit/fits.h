@@ -1,4 +1,6 @@
-/* The fits of a study as rows: what STUDY/fits.csv keeps (docs/formats/study.md), what a terminal and a report show. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The fits of a study as rows: what STUDY/fits.csv keeps (docs/formats/study.md), what a terminal
+ * and a report show. */
 #ifndef FRACAS_ANALYSIS_FIT_FITS_H
 #define FRACAS_ANALYSIS_FIT_FITS_H
 
@@ -14,53 +16,62 @@
 
 /* One number. */
 typedef struct {
-    int64_t point;        /* in the study */
+    int64_t point;              /* in the study */
     char hash[FRACAS_HASH_HEX]; /* of the point */
-    char family[24];      /* or "data", "comparison" */
+    char family[24];            /* or "data", "comparison" */
     char quantity[24], unit[8];
     double value, low, high; /* NaN: none */
-    int64_t resamples;    /* that the interval or the p-value is from; 0: none */
-    char note[160];       /* no comma, no line feed */
+    int64_t resamples;       /* that the interval or the p-value is from; 0: none */
+    char note[160];          /* no comma, no line feed */
 } fracas_fits_row;
 
 typedef struct {
-    char campaign[FRACAS_HASH_HEX];       /* of the study that was fitted */
-    int64_t realizations;                 /* it had then */
+    char campaign[FRACAS_HASH_HEX]; /* of the study that was fitted */
+    int64_t realizations;           /* it had then */
     size_t n, room;
-    fracas_fits_row *row;                 /* point by point */
+    fracas_fits_row *row; /* point by point */
 } fracas_fits;
 
 enum { FRACAS_FITS_RESAMPLES = 999 };
 #define FRACAS_FITS_FILE "fits.csv"
 
-/* Fits every point of what the analysis sees, whole or partial, or `point` alone (else SIZE_MAX). Deterministic: seeds are of the points' hashes.
- * FRACAS_USAGE for a point that the study has not. */
-FRACAS_MUST_USE fracas_err fracas_fits_create(const fracas_analysis *analysis, size_t point, int64_t resamples, fracas_fits **fits);
+/* Fits every point of what the analysis sees, whole or partial, or `point` alone (else SIZE_MAX).
+ * Deterministic: seeds are of the points' hashes. FRACAS_USAGE for a point that the study has not.
+ */
+FRACAS_MUST_USE fracas_err fracas_fits_create(const fracas_analysis *analysis, size_t point,
+                                              int64_t resamples, fracas_fits **fits);
 void fracas_fits_destroy(fracas_fits *fits); /* NULL is allowed */
 
 /* STUDY/fits.csv, whole: temporary, synced, renamed. */
 FRACAS_MUST_USE fracas_err fracas_fits_write(const fracas_fits *fits, const char *study);
 /* *fits: NULL if there is no file. FRACAS_DAMAGED, saying which line, if it is none of ours. */
 FRACAS_MUST_USE fracas_err fracas_fits_read(const char *study, fracas_fits **fits);
-/* Keeps the rows of points of the analysis, by hash and under their numbers in it, whose usable realizations are the ones that were fitted; the others go.
- * *stale: fitted points that are gone. Whether the study is complete, where its realizations were read from and what other points have makes no difference. */
+/* Keeps the rows of points of the analysis, by hash and under their numbers in it, whose usable
+ * realizations are the ones that were fitted; the others go. *stale: fitted points that are gone.
+ * Whether the study is complete, where its realizations were read from and what other points have
+ * makes no difference. */
 void fracas_fits_keep(fracas_fits *fits, const fracas_analysis *analysis, size_t *stale);
-/* Takes over the rows of `older` for the points that `fits` has none of; both must be of the same analysis. */
+/* Takes over the rows of `older` for the points that `fits` has none of; both must be of the same
+ * analysis. */
 FRACAS_MUST_USE fracas_err fracas_fits_complete(fracas_fits *fits, const fracas_fits *older);
 
 /* NULL if there is no such row. */
-const fracas_fits_row *fracas_fits_find(const fracas_fits *fits, int64_t point, const char *family, const char *quantity);
+const fracas_fits_row *fracas_fits_find(const fracas_fits *fits, int64_t point, const char *family,
+                                        const char *quantity);
 /* The family of this rank by AICc, from 1, at the point; NULL for none. */
 const char *fracas_fits_ranked(const fracas_fits *fits, int64_t point, int rank);
 
 /* "0.401 [0.393, 0.409]", times `factor`: digits as the interval supports. */
-void fracas_fits_format_interval(const fracas_fits_row *row, double factor, char *text, size_t size);
+void fracas_fits_format_interval(const fracas_fits_row *row, double factor, char *text,
+                                 size_t size);
 /* A p-value, none less than its resamples can show; "-" for NULL and NaN. */
 void fracas_fits_format_p(const fracas_fits_row *row, char *text, size_t size);
-/* "x is a special case of y and suffices (p = 0.3)": the best two families; false, and no text, if they were not compared. */
+/* "x is a special case of y and suffices (p = 0.3)": the best two families; false, and no text, if
+ * they were not compared. */
 bool fracas_fits_format_comparison(const fracas_fits *fits, int64_t point, char *text, size_t size);
 /* Every parameter with its interval; lengths over the mean size. */
-void fracas_fits_format_parameters(const fracas_fits *fits, int64_t point, const fracas_family *family, char *text, size_t size);
+void fracas_fits_format_parameters(const fracas_fits *fits, int64_t point,
+                                   const fracas_family *family, char *text, size_t size);
 
 /* For a terminal: of each point its families by rank, then those that failed, and why. */
 void fracas_fits_print(const fracas_fits *fits, const fracas_analysis *analysis, FILE *out);

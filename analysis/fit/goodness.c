@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/fit/goodness.h"
 
 #include "analysis/fit/draw.h"
@@ -8,7 +9,8 @@
 #include <string.h>
 
 /* (fits.9), (fits.10) */
-fracas_fit_distance fracas_fit_distance_of(size_t ncells, const double *count, const double *probability)
+fracas_fit_distance fracas_fit_distance_of(size_t ncells, const double *count,
+                                           const double *probability)
 {
     fracas_fit_distance distance = {0, 0};
     double total = 0, observed = 0, expected = 0;
@@ -18,7 +20,8 @@ fracas_fit_distance fracas_fit_distance_of(size_t ncells, const double *count, c
         expected += probability[k];
         const double apart = observed - expected, spread = expected * (1 - expected);
         distance.ks = fmax(distance.ks, fabs(apart));
-        if (probability[k] > 0 && spread > 1e-12) distance.ad += probability[k] * apart * apart / spread;
+        if (probability[k] > 0 && spread > 1e-12)
+            distance.ad += probability[k] * apart * apart / spread;
     }
     return distance;
 }
@@ -33,21 +36,26 @@ static void order(const fracas_fit_sample *sample, gsl_rng *random, size_t *plac
     }
     for (size_t i = 0; i < sample->nrealizations; i++)
         for (size_t c = sample->first[i]; c < sample->first[i + 1]; c++)
-            for (double t = 0; t < sample->times[c]; t++) owner[place[sample->cell[c]]++] = (uint32_t)i;
+            for (double t = 0; t < sample->times[c]; t++)
+                owner[place[sample->cell[c]]++] = (uint32_t)i;
     for (size_t k = 0; k < sample->ncells; k++) {
         const size_t n = (size_t)sample->count[k];
         if (n > 1) gsl_ran_shuffle(random, owner + place[k] - n, n, sizeof *owner);
     }
 }
 
-/* Fragments in their order, each to the cell of its quantile; lists of realizations begin at first[i] and end at end[i]. */
-static void move(const fracas_fit_sample *sample, const double *probability, const uint32_t *owner, size_t *end, fracas_fit_sample *carried)
+/* Fragments in their order, each to the cell of its quantile; lists of realizations begin at
+ * first[i] and end at end[i]. */
+static void move(const fracas_fit_sample *sample, const double *probability, const uint32_t *owner,
+                 size_t *end, fracas_fit_sample *carried)
 {
     double below = 0;
     size_t to = 0;
     memcpy(end, carried->first, carried->nrealizations * sizeof *end);
     for (size_t r = 0; r < (size_t)sample->total; r++) {
-        while (to + 1 < sample->ncells && below + probability[to] < ((double)r + 0.5) / sample->total) below += probability[to++];
+        while (to + 1 < sample->ncells &&
+               below + probability[to] < ((double)r + 0.5) / sample->total)
+            below += probability[to++];
         const size_t i = owner[r], last = end[i];
         const bool again = last > carried->first[i] && carried->cell[last - 1] == to;
         if (!again) {
@@ -76,7 +84,8 @@ static void compact(const size_t *end, fracas_fit_sample *carried)
 }
 
 /* (fits.11) */
-fracas_err fracas_fit_carry(const fracas_fit_sample *sample, const double *probability, uint64_t seed, fracas_fit_sample *carried)
+fracas_err fracas_fit_carry(const fracas_fit_sample *sample, const double *probability,
+                            uint64_t seed, fracas_fit_sample *carried)
 {
     const size_t n = sample->nrealizations, fragments = (size_t)sample->total;
     size_t place[FRACAS_FIT_CELLS];
@@ -112,12 +121,14 @@ typedef struct {
     int64_t found, ks, ad; /* resamples, and those of them as far as the sample */
 } tally;
 
-/* One resample under the law. Distances of n realizations drawn from n are too small by sqrt((n - 1)/n), their squares by the square of
- * that. */
-static void resample(const fracas_family *family, const fracas_fit_sample *carried, const fracas_fit *fit, const uint32_t *weight,
+/* One resample under the law. Distances of n realizations drawn from n are too small by sqrt((n -
+ * 1)/n), their squares by the square of that. */
+static void resample(const fracas_family *family, const fracas_fit_sample *carried,
+                     const fracas_fit *fit, const uint32_t *weight,
                      const fracas_fit_distance *distance, tally *sum)
 {
-    double count[FRACAS_FIT_CELLS], probability[FRACAS_FIT_CELLS], parameter[FRACAS_FAMILY_PARAMETERS];
+    double count[FRACAS_FIT_CELLS], probability[FRACAS_FIT_CELLS],
+        parameter[FRACAS_FAMILY_PARAMETERS];
     fracas_fit_sample_count(carried, weight, count);
     if (!fracas_fit_again(family, carried, count, fit, parameter)) return;
     if (!fracas_fit_probabilities(family, carried, parameter, probability)) return;
@@ -129,8 +140,9 @@ static void resample(const fracas_family *family, const fracas_fit_sample *carri
 }
 
 /* (fits.12) */
-fracas_err fracas_fit_goodness_of(const fracas_family *family, const fracas_fit_sample *sample, const fracas_fit *fit, int64_t resamples,
-                                  uint64_t seed, fracas_fit_goodness *goodness)
+fracas_err fracas_fit_goodness_of(const fracas_family *family, const fracas_fit_sample *sample,
+                                  const fracas_fit *fit, int64_t resamples, uint64_t seed,
+                                  fracas_fit_goodness *goodness)
 {
     double probability[FRACAS_FIT_CELLS];
     *goodness = (fracas_fit_goodness){{NAN, NAN}, NAN, NAN, 0};

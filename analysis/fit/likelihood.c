@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/fit/likelihood.h"
 
 #include <gsl/gsl_multimin.h>
@@ -17,21 +18,27 @@ typedef struct {
     double lower[FRACAS_FAMILY_PARAMETERS], upper[FRACAS_FAMILY_PARAMETERS];
 } search;
 
-static double coordinate(const fracas_family_parameter *parameter, double value) { return parameter->linear ? value : log(value); }
+static double coordinate(const fracas_family_parameter *parameter, double value)
+{
+    return parameter->linear ? value : log(value);
+}
 
 static void to_parameters(const fracas_family *family, const double *x, double *parameter)
 {
-    for (size_t i = 0; i < family->nparameters; i++) parameter[i] = family->parameter[i].linear ? x[i] : exp(x[i]);
+    for (size_t i = 0; i < family->nparameters; i++)
+        parameter[i] = family->parameter[i].linear ? x[i] : exp(x[i]);
 }
 
 static void to_coordinates(const search *s, const double *parameter, double *x)
 {
     for (size_t i = 0; i < s->family->nparameters; i++)
-        x[i] = fmin(fmax(coordinate(&s->family->parameter[i], parameter[i]), s->lower[i]), s->upper[i]);
+        x[i] = fmin(fmax(coordinate(&s->family->parameter[i], parameter[i]), s->lower[i]),
+                    s->upper[i]);
 }
 
 /* A shift is below the upper edge of the first cell with something in it. */
-static search begin(const fracas_family *family, const fracas_fit_sample *sample, const double *count)
+static search begin(const fracas_family *family, const fracas_fit_sample *sample,
+                    const double *count)
 {
     search s = {.family = family, .sample = sample, .count = count};
     size_t first = sample->ncells;
@@ -42,13 +49,16 @@ static search begin(const fracas_family *family, const fracas_fit_sample *sample
     for (size_t i = 0; i < family->nparameters; i++) {
         const fracas_family_parameter *parameter = &family->parameter[i];
         s.lower[i] = coordinate(parameter, parameter->lower);
-        s.upper[i] = coordinate(parameter, parameter->shift ? (1 - 1e-9) * fmin(sample->edge[first + 1], 1e3) : parameter->upper);
+        s.upper[i] = coordinate(parameter, parameter->shift
+                                               ? (1 - 1e-9) * fmin(sample->edge[first + 1], 1e3)
+                                               : parameter->upper);
     }
     return s;
 }
 
 /* (fits.6): a difference of whichever tail is the smaller one. */
-bool fracas_fit_probabilities(const fracas_family *family, const fracas_fit_sample *sample, const double *parameter, double *probability)
+bool fracas_fit_probabilities(const fracas_family *family, const fracas_fit_sample *sample,
+                              const double *parameter, double *probability)
 {
     double below, above, whole, next_below, next_above;
     family->tails(parameter, sample->edge[0], sample->edge[0], &below, &above);
@@ -57,7 +67,9 @@ bool fracas_fit_probabilities(const fracas_family *family, const fracas_fit_samp
     for (size_t k = 0; k < sample->ncells; k++, below = next_below, above = next_above) {
         next_below = 1;
         next_above = 0;
-        if (k + 1 < sample->ncells) family->tails(parameter, sample->edge[0], sample->edge[k + 1], &next_below, &next_above);
+        if (k + 1 < sample->ncells)
+            family->tails(parameter, sample->edge[0], sample->edge[k + 1], &next_below,
+                          &next_above);
         probability[k] = (below > 0.5 ? above - next_above : next_below - below) / whole;
         if (!(probability[k] >= 0)) return false;
     }
@@ -80,18 +92,25 @@ static double likelihood_at(const search *s, const double *x, double *probabilit
 {
     double parameter[FRACAS_FAMILY_PARAMETERS];
     to_parameters(s->family, x, parameter);
-    return fracas_fit_probabilities(s->family, s->sample, parameter, probability) ? sum_log(s, probability) : -INFINITY;
+    return fracas_fit_probabilities(s->family, s->sample, parameter, probability)
+               ? sum_log(s, probability)
+               : -INFINITY;
 }
 
-double fracas_fit_log_likelihood(const fracas_family *family, const fracas_fit_sample *sample, const double *count, const double *parameter)
+double fracas_fit_log_likelihood(const fracas_family *family, const fracas_fit_sample *sample,
+                                 const double *count, const double *parameter)
 {
     double probability[FRACAS_FIT_CELLS];
     const search s = {.family = family, .sample = sample, .count = count};
-    return fracas_fit_probabilities(family, sample, parameter, probability) ? sum_log(&s, probability) : -INFINITY;
+    return fracas_fit_probabilities(family, sample, parameter, probability)
+               ? sum_log(&s, probability)
+               : -INFINITY;
 }
 
-/* Score and expected information at x, whose probabilities are given; differences towards the inside of the bounds. */
-static bool score(const search *s, const double *x, const double *probability, double *gradient, double information[][FRACAS_FAMILY_PARAMETERS])
+/* Score and expected information at x, whose probabilities are given; differences towards the
+ * inside of the bounds. */
+static bool score(const search *s, const double *x, const double *probability, double *gradient,
+                  double information[][FRACAS_FAMILY_PARAMETERS])
 {
     const size_t n = s->family->nparameters;
     double beside[FRACAS_FAMILY_PARAMETERS][FRACAS_FIT_CELLS];
@@ -104,20 +123,25 @@ static bool score(const search *s, const double *x, const double *probability, d
         if (!fracas_fit_probabilities(s->family, s->sample, parameter, beside[i])) return false;
         gradient[i] = 0;
         for (size_t k = 0; k < s->sample->ncells; k++) {
-            beside[i][k] = probability[k] > 0 ? (beside[i][k] - probability[k]) / (step * probability[k]) : 0;
+            beside[i][k] = probability[k] > 0
+                               ? (beside[i][k] - probability[k]) / (step * probability[k])
+                               : 0;
             gradient[i] += s->count[k] * beside[i][k];
         }
         for (size_t j = 0; j <= i; j++) {
             double sum = 0;
-            for (size_t k = 0; k < s->sample->ncells; k++) sum += probability[k] * beside[i][k] * beside[j][k];
+            for (size_t k = 0; k < s->sample->ncells; k++)
+                sum += probability[k] * beside[i][k] * beside[j][k];
             information[i][j] = information[j][i] = s->total * sum;
         }
     }
     return true;
 }
 
-/* information . step = gradient by elimination, with the parameters that a bound holds left where they are. */
-static void solve(size_t n, double information[][FRACAS_FAMILY_PARAMETERS], const double *gradient, const bool *held, double *step)
+/* information . step = gradient by elimination, with the parameters that a bound holds left where
+ * they are. */
+static void solve(size_t n, double information[][FRACAS_FAMILY_PARAMETERS], const double *gradient,
+                  const bool *held, double *step)
 {
     double a[FRACAS_FAMILY_PARAMETERS][FRACAS_FAMILY_PARAMETERS + 1];
     for (size_t i = 0; i < n; i++) {
@@ -137,23 +161,29 @@ static void solve(size_t n, double information[][FRACAS_FAMILY_PARAMETERS], cons
     }
 }
 
-/* One step of scoring (fits.8), halved until the likelihood grows. *gain: what the step promised; true if there was one. */
-static bool advance(const search *s, double *x, double *probability, double *likelihood, double *gain)
+/* One step of scoring (fits.8), halved until the likelihood grows. *gain: what the step promised;
+ * true if there was one. */
+static bool advance(const search *s, double *x, double *probability, double *likelihood,
+                    double *gain)
 {
     const size_t n = s->family->nparameters;
-    double gradient[FRACAS_FAMILY_PARAMETERS], information[FRACAS_FAMILY_PARAMETERS][FRACAS_FAMILY_PARAMETERS];
+    double gradient[FRACAS_FAMILY_PARAMETERS],
+        information[FRACAS_FAMILY_PARAMETERS][FRACAS_FAMILY_PARAMETERS];
     double step[FRACAS_FAMILY_PARAMETERS], tried[FRACAS_FIT_CELLS];
     bool held[FRACAS_FAMILY_PARAMETERS];
     *gain = INFINITY;
     if (!score(s, x, probability, gradient, information)) return false;
-    for (size_t i = 0; i < n; i++) held[i] = (x[i] <= s->lower[i] && gradient[i] < 0) || (x[i] >= s->upper[i] && gradient[i] > 0);
+    for (size_t i = 0; i < n; i++)
+        held[i] = (x[i] <= s->lower[i] && gradient[i] < 0) ||
+                  (x[i] >= s->upper[i] && gradient[i] > 0);
     solve(n, information, gradient, held, step);
     *gain = 0;
     for (size_t i = 0; i < n; i++) *gain += held[i] ? 0 : gradient[i] * step[i];
     double share = 1;
     for (int h = 0; h < HALVINGS && isfinite(*gain); h++, share *= 0.5) {
         double y[FRACAS_FAMILY_PARAMETERS];
-        for (size_t i = 0; i < n; i++) y[i] = fmin(fmax(x[i] + share * step[i], s->lower[i]), s->upper[i]);
+        for (size_t i = 0; i < n; i++)
+            y[i] = fmin(fmax(x[i] + share * step[i], s->lower[i]), s->upper[i]);
         const double found = likelihood_at(s, y, tried);
         if (!(found > *likelihood)) continue;
         *likelihood = found;
@@ -194,7 +224,8 @@ static double to_minimise(const gsl_vector *at, void *context)
 static bool simplex(search *s, double *x, double *likelihood)
 {
     const size_t n = s->family->nparameters;
-    gsl_multimin_fminimizer *minimiser = gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, n);
+    gsl_multimin_fminimizer *minimiser = gsl_multimin_fminimizer_alloc(
+        gsl_multimin_fminimizer_nmsimplex2, n);
     gsl_vector *at = gsl_vector_alloc(n), *size = gsl_vector_alloc(n);
     bool arrived = false;
     if (minimiser && at && size) {
@@ -219,25 +250,32 @@ static bool simplex(search *s, double *x, double *likelihood)
 }
 
 /* The number of fragments, and that of different cells they are in, against the parameters. */
-static bool enough(const fracas_family *family, const fracas_fit_sample *sample, char *why, size_t size)
+static bool enough(const fracas_family *family, const fracas_fit_sample *sample, char *why,
+                   size_t size)
 {
     size_t cells = 0;
     for (size_t k = 0; k < sample->ncells; k++) cells += sample->count[k] > 0;
     if (sample->total < FRACAS_FIT_LEAST)
-        snprintf(why, size, "%.0f fragments above the cut, %d are needed", sample->total, FRACAS_FIT_LEAST);
+        snprintf(why, size, "%.0f fragments above the cut, %d are needed", sample->total,
+                 FRACAS_FIT_LEAST);
     else if (cells < family->nparameters + 2)
-        snprintf(why, size, "fragments are of %zu different sizes, %zu are needed", cells, family->nparameters + 2);
+        snprintf(why, size, "fragments are of %zu different sizes, %zu are needed", cells,
+                 family->nparameters + 2);
     return !*why;
 }
 
 static void find_bounds(const search *s, const double *x, char *why, size_t size)
 {
     for (size_t i = 0; i < s->family->nparameters && !*why; i++) {
-        const bool low = x[i] - s->lower[i] < AT_BOUND, high = s->upper[i] - x[i] < AT_BOUND * (s->family->parameter[i].shift ? 1e-3 : 1);
+        const bool low = x[i] - s->lower[i] < AT_BOUND,
+                   high = s->upper[i] - x[i] <
+                          AT_BOUND * (s->family->parameter[i].shift ? 1e-3 : 1);
         const fracas_family_parameter *parameter = &s->family->parameter[i];
-        if (parameter->shift && high) snprintf(why, size, "%s goes to the smallest size", parameter->name);
+        if (parameter->shift && high)
+            snprintf(why, size, "%s goes to the smallest size", parameter->name);
         else if (low || high)
-            snprintf(why, size, "%s goes to its bound, %g%s", parameter->name, low ? parameter->lower : parameter->upper,
+            snprintf(why, size, "%s goes to its bound, %g%s", parameter->name,
+                     low ? parameter->lower : parameter->upper,
                      parameter->length && !(low && parameter->lower == 0) ? " of the mean" : "");
     }
 }
@@ -265,8 +303,8 @@ void fracas_fit_of(const fracas_family *family, const fracas_fit_sample *sample,
     find_bounds(&s, best, fit->why, sizeof fit->why);
 }
 
-bool fracas_fit_again(const fracas_family *family, const fracas_fit_sample *sample, const double *count, const fracas_fit *near,
-                      double *parameter)
+bool fracas_fit_again(const fracas_family *family, const fracas_fit_sample *sample,
+                      const double *count, const fracas_fit *near, double *parameter)
 {
     double x[FRACAS_FAMILY_PARAMETERS], likelihood;
     search s = begin(family, sample, count);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/fit/point.h"
 
 #include <gsl/gsl_cdf.h>
@@ -8,7 +9,8 @@
 static const fracas_interval NO_INTERVAL = {NAN, NAN, NAN, NAN, NAN, 0};
 
 /* (fits.13) */
-static void criteria(const fracas_family *family, const fracas_fit_sample *sample, fracas_family_fit *fit)
+static void criteria(const fracas_family *family, const fracas_fit_sample *sample,
+                     fracas_family_fit *fit)
 {
     const double k = (double)family->nparameters, n = sample->total;
     fit->aicc = 2 * k - 2 * fit->fit.log_likelihood + 2 * k * (k + 1) / (n - k - 1);
@@ -19,9 +21,13 @@ static void fit_all(fracas_point_fits *fits)
 {
     for (size_t f = 0; f < fits->nfamilies; f++) {
         fracas_family_fit *fit = &fits->family[f];
-        *fit = (fracas_family_fit){.fit = {.parameter = {NAN, NAN, NAN}, .log_likelihood = NAN}, .aicc = NAN, .bic = NAN, .delta = NAN,
+        *fit = (fracas_family_fit){.fit = {.parameter = {NAN, NAN, NAN}, .log_likelihood = NAN},
+                                   .aicc = NAN,
+                                   .bic = NAN,
+                                   .delta = NAN,
                                    .goodness = {{NAN, NAN}, NAN, NAN, 0}};
-        for (size_t i = 0; i < FRACAS_FAMILY_PARAMETERS; i++) fit->parameter[i] = fit->relative[i] = NO_INTERVAL;
+        for (size_t i = 0; i < FRACAS_FAMILY_PARAMETERS; i++)
+            fit->parameter[i] = fit->relative[i] = NO_INTERVAL;
         fracas_fit_of(fits->families[f], &fits->sample, &fit->fit);
         criteria(fits->families[f], &fits->sample, fit);
     }
@@ -47,17 +53,20 @@ static void rank_all(fracas_point_fits *fits)
     }
 }
 
-/* What fracas_bootstrap resamples: mean, cv, then of every fit its parameters, a length followed by itself over the mean. */
+/* What fracas_bootstrap resamples: mean, cv, then of every fit its parameters, a length followed by
+ * itself over the mean. */
 static void values_of(void *context, const uint32_t *weight, double *value)
 {
     const fracas_point_fits *fits = context;
-    double count[FRACAS_FIT_CELLS], parameter[FRACAS_FAMILY_PARAMETERS], *mean = value++, *cv = value++;
+    double count[FRACAS_FIT_CELLS], parameter[FRACAS_FAMILY_PARAMETERS], *mean = value++,
+                                                                         *cv = value++;
     fracas_fit_sample_moments(&fits->sample, weight, mean, cv);
     fracas_fit_sample_count(&fits->sample, weight, count);
     for (size_t f = 0; f < fits->nfamilies; f++) {
         if (*fits->family[f].fit.why) continue;
         const fracas_family *family = fits->families[f];
-        const bool found = fracas_fit_again(family, &fits->sample, count, &fits->family[f].fit, parameter);
+        const bool found = fracas_fit_again(family, &fits->sample, count, &fits->family[f].fit,
+                                            parameter);
         for (size_t i = 0; i < family->nparameters; i++) {
             const double unit = family->parameter[i].length ? fits->sample.mean : 1;
             *value++ = found ? parameter[i] * unit : NAN;
@@ -97,11 +106,14 @@ static fracas_err judge(fracas_point_fits *fits, int64_t resamples, uint64_t see
 {
     for (size_t f = 0; f < fits->nfamilies; f++) {
         if (*fits->family[f].fit.why) continue;
-        TRY(fracas_fit_goodness_of(fits->families[f], &fits->sample, &fits->family[f].fit, resamples, seed + 1, &fits->family[f].goodness));
+        TRY(fracas_fit_goodness_of(fits->families[f], &fits->sample, &fits->family[f].fit,
+                                   resamples, seed + 1, &fits->family[f].goodness));
     }
     if (fits->nfits >= 2) {
-        const fracas_family *const family[2] = {fits->families[fits->best[0]], fits->families[fits->best[1]]};
-        const fracas_fit fit[2] = {fits->family[fits->best[0]].fit, fits->family[fits->best[1]].fit};
+        const fracas_family *const family[2] = {fits->families[fits->best[0]],
+                                                fits->families[fits->best[1]]};
+        const fracas_fit fit[2] = {fits->family[fits->best[0]].fit,
+                                   fits->family[fits->best[1]].fit};
         TRY(fracas_fit_compare(&fits->sample, family, fit, resamples, seed + 2, &fits->comparison));
     }
     return intervals(fits, resamples, seed);
@@ -113,10 +125,15 @@ const fracas_family *const *fracas_point_families(bool surface, size_t *nfamilie
     return fracas_families;
 }
 
-fracas_err fracas_point_fits_of(const fracas_ensemble *ensemble, const fracas_family *const *families, size_t nfamilies, int64_t resamples,
-                                uint64_t seed, fracas_point_fits *fits)
+fracas_err fracas_point_fits_of(const fracas_ensemble *ensemble,
+                                const fracas_family *const *families, size_t nfamilies,
+                                int64_t resamples, uint64_t seed, fracas_point_fits *fits)
 {
-    *fits = (fracas_point_fits){.families = families, .nfamilies = nfamilies, .mean = NO_INTERVAL, .cv = NO_INTERVAL, .comparison = {.statistic = NAN, .p = NAN}};
+    *fits = (fracas_point_fits){.families = families,
+                                .nfamilies = nfamilies,
+                                .mean = NO_INTERVAL,
+                                .cv = NO_INTERVAL,
+                                .comparison = {.statistic = NAN, .p = NAN}};
     TRY(fracas_fit_sample_create(ensemble, &fits->sample));
     gsl_error_handler_t *before = gsl_set_error_handler_off(); /* what underflows is 0 */
     fit_all(fits);

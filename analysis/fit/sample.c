@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/fit/sample.h"
 
 #include <math.h>
@@ -6,7 +7,8 @@
 
 /* Grid of log sizes; the cell beyond the last is open. */
 enum { GRID = 300 };
-static const double BEYOND = 2; /* the grid ends at so many of the largest size: what is resampled under a law may be larger */
+static const double BEYOND = 2; /* the grid ends at so many of the largest size: what is resampled
+                                   under a law may be larger */
 
 static fracas_err make_room(const fracas_ensemble *ensemble, fracas_fit_sample *sample)
 {
@@ -17,7 +19,8 @@ static fracas_err make_room(const fracas_ensemble *ensemble, fracas_fit_sample *
     sample->squares = calloc(n, sizeof *sample->squares);
     sample->cell = calloc(most, sizeof *sample->cell);
     sample->times = calloc(most, sizeof *sample->times);
-    const bool all = sample->first && sample->kept && sample->sum && sample->squares && sample->cell && sample->times;
+    const bool all = sample->first && sample->kept && sample->sum && sample->squares &&
+                     sample->cell && sample->times;
     return all ? FRACAS_OK : fracas_no_memory("the fragments of a fit");
 }
 
@@ -39,7 +42,8 @@ static bool is_whole(const fracas_ensemble *ensemble, size_t i)
 }
 
 /* What is above the cut: numbers and mean; the smallest and the largest size. */
-static void count_up(const fracas_ensemble *ensemble, fracas_fit_sample *sample, double *smallest, double *largest)
+static void count_up(const fracas_ensemble *ensemble, fracas_fit_sample *sample, double *smallest,
+                     double *largest)
 {
     double sum = 0;
     *smallest = INFINITY;
@@ -92,7 +96,8 @@ static double on_lattice(const fracas_fit_sample *sample, double edge)
 
 static void make_cells(fracas_fit_sample *sample, double smallest, double largest)
 {
-    const double low = fmax(sample->cut, 0.99 * smallest) / sample->mean, high = BEYOND * largest / sample->mean;
+    const double low = fmax(sample->cut, 0.99 * smallest) / sample->mean,
+                 high = BEYOND * largest / sample->mean;
     size_t n = 0;
     sample->edge[n++] = sample->cut / sample->mean;
     for (int i = 0; i <= GRID; i++) {
@@ -121,7 +126,8 @@ static void sort_into_cells(const fracas_ensemble *ensemble, fracas_fit_sample *
     for (size_t i = 0, realization = 0; i < ensemble->nrealizations; i++) {
         if (is_whole(ensemble, i)) continue;
         for (size_t f = ensemble->first[i]; f < ensemble->first[i + 1]; f++)
-            if (ensemble->size[f] > sample->cut) of_one[cell_of(sample, ensemble->size[f] / sample->mean)] += 1;
+            if (ensemble->size[f] > sample->cut)
+                of_one[cell_of(sample, ensemble->size[f] / sample->mean)] += 1;
         for (size_t k = 0; k < sample->ncells; k++) {
             if (!(of_one[k] > 0)) continue;
             sample->cell[used] = (uint32_t)k;
@@ -136,7 +142,9 @@ static void sort_into_cells(const fracas_ensemble *ensemble, fracas_fit_sample *
 fracas_err fracas_fit_sample_create(const fracas_ensemble *ensemble, fracas_fit_sample *sample)
 {
     double smallest, largest;
-    *sample = (fracas_fit_sample){.fragments = ensemble->nfragments, .lattice = ensemble->lattice, .cut = fracas_ensemble_cut(ensemble)};
+    *sample = (fracas_fit_sample){.fragments = ensemble->nfragments,
+                                  .lattice = ensemble->lattice,
+                                  .cut = fracas_ensemble_cut(ensemble)};
     fracas_err err = make_room(ensemble, sample);
     if (!err) {
         count_up(ensemble, sample, &smallest, &largest);
@@ -154,10 +162,12 @@ void fracas_fit_sample_count(const fracas_fit_sample *sample, const uint32_t *we
 {
     memset(count, 0, sample->ncells * sizeof *count);
     for (size_t i = 0; i < sample->nrealizations; i++)
-        for (size_t c = sample->first[i]; weight[i] && c < sample->first[i + 1]; c++) count[sample->cell[c]] += weight[i] * sample->times[c];
+        for (size_t c = sample->first[i]; weight[i] && c < sample->first[i + 1]; c++)
+            count[sample->cell[c]] += weight[i] * sample->times[c];
 }
 
-void fracas_fit_sample_moments(const fracas_fit_sample *sample, const uint32_t *weight, double *mean, double *cv)
+void fracas_fit_sample_moments(const fracas_fit_sample *sample, const uint32_t *weight,
+                               double *mean, double *cv)
 {
     double total = 0, sum = 0, squares = 0;
     for (size_t i = 0; i < sample->nrealizations; i++) {

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/laws/crossover.h"
 
 #include <gsl/gsl_errno.h>
@@ -57,14 +58,16 @@ static int jacobian(const gsl_vector *parameter, void *context, gsl_matrix *J)
     return GSL_SUCCESS;
 }
 
-/* chi2 of the least squares that are found from *parameter, which becomes them; NaN if none are  (size-laws.15). */
+/* chi2 of the least squares that are found from *parameter, which becomes them; NaN if none are
+ * (size-laws.15). */
 static double descend(fitter *of, double parameter[NPARAMETERS])
 {
     gsl_vector_view start = gsl_vector_view_array(parameter, NPARAMETERS);
     int info;
     if (gsl_multifit_nlinear_init(&start.vector, &of->problem, of->solver)) return NAN;
     if (gsl_multifit_nlinear_driver(200, 1e-9, 1e-9, 0, NULL, NULL, &info, of->solver)) return NAN;
-    const gsl_vector *found = gsl_multifit_nlinear_position(of->solver), *f = gsl_multifit_nlinear_residual(of->solver);
+    const gsl_vector *found = gsl_multifit_nlinear_position(of->solver),
+                     *f = gsl_multifit_nlinear_residual(of->solver);
     double chi2 = 0;
     for (size_t i = 0; i < of->n; i++) chi2 += gsl_vector_get(f, i) * gsl_vector_get(f, i);
     for (size_t i = 0; i < NPARAMETERS; i++) parameter[i] = gsl_vector_get(found, i);
@@ -93,20 +96,25 @@ static double quantile(double *value, size_t count, double p)
 }
 
 /* Quantiles of `sign` exp(value): s_q and edot_c as they are, the exponent -k. */
-static void summarise(double *found, size_t count, double best, double sign, fracas_interval *interval)
+static void summarise(double *found, size_t count, double best, double sign,
+                      fracas_interval *interval)
 {
     *interval = (fracas_interval){sign * exp(best), NAN, NAN, NAN, NAN, (int64_t)count};
     if (count < 20) return;
     for (size_t b = 0; b < count; b++) found[b] = sign * exp(found[b]);
     gsl_sort(found, 1, count);
-    interval->bias = quantile(found, count, 0.5) - interval->value; /* some draws run away, and their moments with them */
-    interval->standard_error = (quantile(found, count, 0.8413) - quantile(found, count, 0.1587)) / 2;
+    interval->bias = quantile(found, count, 0.5) -
+                     interval->value; /* some draws run away, and their moments with them */
+    interval->standard_error = (quantile(found, count, 0.8413) - quantile(found, count, 0.1587)) /
+                               2;
     interval->low = quantile(found, count, 0.025);
     interval->high = quantile(found, count, 0.975);
 }
 
-/* Whether the means are on the curve `best`, of that chi2, and by how much their errors are too small if they are not. */
-static fracas_err judge(fitter *of, double best[NPARAMETERS], double chi2, fracas_size_crossover *crossover)
+/* Whether the means are on the curve `best`, of that chi2, and by how much their errors are too
+ * small if they are not. */
+static fracas_err judge(fitter *of, double best[NPARAMETERS], double chi2,
+                        fracas_size_crossover *crossover)
 {
     gsl_vector_view at = gsl_vector_view_array(best, NPARAMETERS);
     gsl_matrix *covariance = gsl_matrix_alloc(NPARAMETERS, NPARAMETERS);
@@ -121,7 +129,8 @@ static fracas_err judge(fitter *of, double best[NPARAMETERS], double chi2, fraca
         double leverage = 0; /* J_i (J^T J)^-1 J_i^T: rows are over their standard errors */
         for (size_t a = 0; a < NPARAMETERS; a++)
             for (size_t b = 0; b < NPARAMETERS; b++)
-                leverage += gsl_matrix_get(J, i, a) * gsl_matrix_get(covariance, a, b) * gsl_matrix_get(J, i, b);
+                leverage += gsl_matrix_get(J, i, a) * gsl_matrix_get(covariance, a, b) *
+                            gsl_matrix_get(J, i, b);
         fracas_misfit_add(&misfit, leverage, &of->known[i]);
     }
     gsl_matrix_free(covariance);
@@ -131,21 +140,27 @@ static fracas_err judge(fitter *of, double best[NPARAMETERS], double chi2, fraca
     return FRACAS_OK;
 }
 
-/* Means about the fitted ones, as far off as their errors are, and as uncertain as these  (size-laws.16). */
-static void draw(const fitter *of, const double best[NPARAMETERS], const fracas_size_crossover *crossover, gsl_rng *random)
+/* Means about the fitted ones, as far off as their errors are, and as uncertain as these
+ * (size-laws.16). */
+static void draw(const fitter *of, const double best[NPARAMETERS],
+                 const fracas_size_crossover *crossover, gsl_rng *random)
 {
-    const bool off = crossover->misfit < FRACAS_MISFIT_LIMIT; /* then the residuals tell how far off, for all alike */
+    const bool off = crossover->misfit <
+                     FRACAS_MISFIT_LIMIT; /* then the residuals tell how far off, for all alike */
     const double shared = off ? crossover->freedom : crossover->pooled;
-    const double factor = shared > 0 ? sqrt(shared / gsl_ran_chisq(random, shared)) : 1; /* an error that is shared is off for all alike */
+    const double factor = shared > 0 ? sqrt(shared / gsl_ran_chisq(random, shared))
+                                     : 1; /* an error that is shared is off for all alike */
     for (size_t i = 0; i < of->n; i++) {
         const bool alike = off || of->known[i].pooled;
-        const double z = alike ? factor * gsl_ran_ugaussian(random) : gsl_ran_tdist(random, of->known[i].freedom);
+        const double z = alike ? factor * gsl_ran_ugaussian(random)
+                               : gsl_ran_tdist(random, of->known[i].freedom);
         of->y[i] = model(best, of->x[i]) + crossover->inflation * sqrt(of->known[i].most) * z;
     }
 }
 
 /* The quantiles of constants fitted to drawn means  (size-laws.16). */
-static fracas_err resample(fitter *of, const double best[NPARAMETERS], int64_t resamples, uint64_t seed, fracas_size_crossover *crossover)
+static fracas_err resample(fitter *of, const double best[NPARAMETERS], int64_t resamples,
+                           uint64_t seed, fracas_size_crossover *crossover)
 {
     const size_t most = (size_t)resamples;
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
@@ -160,7 +175,8 @@ static fracas_err resample(fitter *of, const double best[NPARAMETERS], int64_t r
             for (size_t j = 0; j < NPARAMETERS; j++) found[j * most + count] = parameter[j];
             count++;
         }
-        if (count < most * 95 / 100) count = 0; /* those that did not fit are not missing at random */
+        if (count < most * 95 / 100)
+            count = 0; /* those that did not fit are not missing at random */
         summarise(found + SIZE * most, count, best[SIZE], 1, &crossover->size);
         summarise(found + RATE * most, count, best[RATE], 1, &crossover->rate);
         summarise(found + EXPONENT * most, count, best[EXPONENT], -1, &crossover->exponent);
@@ -171,7 +187,8 @@ static fracas_err resample(fitter *of, const double best[NPARAMETERS], int64_t r
     return room ? FRACAS_OK : fracas_no_memory("a crossover");
 }
 
-static fracas_err fit(fitter *of, int64_t resamples, uint64_t seed, fracas_size_crossover *crossover)
+static fracas_err fit(fitter *of, int64_t resamples, uint64_t seed,
+                      fracas_size_crossover *crossover)
 {
     double best[NPARAMETERS] = {0};
     const double chi2 = search(of, best);
@@ -180,7 +197,8 @@ static fracas_err fit(fitter *of, int64_t resamples, uint64_t seed, fracas_size_
         return FRACAS_OK;
     }
     if (!(best[RATE] > of->x[0] && best[RATE] < of->x[of->n - 1])) {
-        snprintf(crossover->reason, sizeof crossover->reason, "no bend: the fitted crossover is %s rates",
+        snprintf(crossover->reason, sizeof crossover->reason,
+                 "no bend: the fitted crossover is %s rates",
                  best[RATE] <= of->x[0] ? "below all" : "above all");
         return FRACAS_OK;
     }
@@ -188,7 +206,8 @@ static fracas_err fit(fitter *of, int64_t resamples, uint64_t seed, fracas_size_
     return resample(of, best, resamples, seed, crossover);
 }
 
-/* Takes the points that came apart and whose standard error is known; returns how many rates they are at. */
+/* Takes the points that came apart and whose standard error is known; returns how many rates they
+ * are at. */
 static size_t take(const fracas_size_series *series, fitter *of)
 {
     size_t rates = 0, n = 0;
@@ -197,7 +216,8 @@ static size_t take(const fracas_size_series *series, fitter *of)
         if (point->whole) continue;
         of->x[n] = log(point->rate);
         of->y[n] = log(point->size);
-        of->mean[n++] = (fracas_mean){point->replicas, sqrt((double)point->replicas) * point->error};
+        of->mean[n++] = (fracas_mean){point->replicas,
+                                      sqrt((double)point->replicas) * point->error};
     }
     fracas_mean_errors(of->mean, n, of->known);
     for (size_t i = 0; i < n; i++) {
@@ -212,17 +232,20 @@ static size_t take(const fracas_size_series *series, fitter *of)
     return rates;
 }
 
-static fracas_err fit_taken(const fracas_size_series *series, int64_t resamples, uint64_t seed, fitter *of, fracas_size_crossover *crossover)
+static fracas_err fit_taken(const fracas_size_series *series, int64_t resamples, uint64_t seed,
+                            fitter *of, fracas_size_crossover *crossover)
 {
     const size_t rates = take(series, of);
     crossover->n = (int64_t)of->n;
     if (rates < FRACAS_CROSSOVER_RATES) {
-        snprintf(crossover->reason, sizeof crossover->reason, "%zu rate%s with a known standard error, %d are needed", rates,
+        snprintf(crossover->reason, sizeof crossover->reason,
+                 "%zu rate%s with a known standard error, %d are needed", rates,
                  rates == 1 ? "" : "s", FRACAS_CROSSOVER_RATES);
         return FRACAS_OK;
     }
     const gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
-    of->problem = (gsl_multifit_nlinear_fdf){.f = residuals, .df = jacobian, .n = of->n, .p = NPARAMETERS, .params = of};
+    of->problem = (gsl_multifit_nlinear_fdf){
+        .f = residuals, .df = jacobian, .n = of->n, .p = NPARAMETERS, .params = of};
     of->solver = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, of->n, NPARAMETERS);
     if (!of->solver) return fracas_no_memory("a crossover");
     const fracas_err err = fit(of, resamples, seed, crossover);
@@ -230,14 +253,23 @@ static fracas_err fit_taken(const fracas_size_series *series, int64_t resamples,
     return err;
 }
 
-static fracas_err fit_series(const fracas_size_series *series, int64_t resamples, uint64_t seed, fracas_size_crossover *crossover)
+static fracas_err fit_series(const fracas_size_series *series, int64_t resamples, uint64_t seed,
+                             fracas_size_crossover *crossover)
 {
     const fracas_interval none = {NAN, NAN, NAN, NAN, NAN, 0};
-    *crossover = (fracas_size_crossover){.scales = series->scales, .size = none, .rate = none, .exponent = none, .chi2 = NAN,
-                                         .freedom = NAN, .misfit = NAN, .pooled = NAN, .inflation = NAN};
+    *crossover = (fracas_size_crossover){.scales = series->scales,
+                                         .size = none,
+                                         .rate = none,
+                                         .exponent = none,
+                                         .chi2 = NAN,
+                                         .freedom = NAN,
+                                         .misfit = NAN,
+                                         .pooled = NAN,
+                                         .inflation = NAN};
     snprintf(crossover->name, sizeof crossover->name, "%s", series->name);
     double *value = malloc((3 * series->n + 1) * sizeof *value);
-    fitter of = {.mean = malloc((series->n + 1) * sizeof *of.mean), .known = malloc((series->n + 1) * sizeof *of.known)};
+    fitter of = {.mean = malloc((series->n + 1) * sizeof *of.mean),
+                 .known = malloc((series->n + 1) * sizeof *of.known)};
     fracas_err err = value && of.mean && of.known ? FRACAS_OK : fracas_no_memory("a crossover");
     of.x = value;
     of.y = value ? value + series->n : NULL;
@@ -249,9 +281,11 @@ static fracas_err fit_series(const fracas_size_series *series, int64_t resamples
     return err;
 }
 
-fracas_err fracas_crossover_fit(const fracas_size_series *series, int64_t resamples, uint64_t seed, fracas_size_crossover *crossover)
+fracas_err fracas_crossover_fit(const fracas_size_series *series, int64_t resamples, uint64_t seed,
+                                fracas_size_crossover *crossover)
 {
-    gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* a fit that fails is a reason, no end of the program */
+    gsl_error_handler_t *handler =
+        gsl_set_error_handler_off(); /* a fit that fails is a reason, no end of the program */
     const fracas_err err = fit_series(series, resamples, seed, crossover);
     gsl_set_error_handler(handler);
     return err;
@@ -259,10 +293,12 @@ fracas_err fracas_crossover_fit(const fracas_size_series *series, int64_t resamp
 
 double fracas_crossover_at(const fracas_size_crossover *crossover, double rate)
 {
-    return crossover->size.value / (1 + pow(rate / crossover->rate.value, -crossover->exponent.value));
+    return crossover->size.value /
+           (1 + pow(rate / crossover->rate.value, -crossover->exponent.value));
 }
 
-fracas_err fracas_size_crossovers(const struct fracas_analysis *analysis, bool intervals, fracas_size_crossover **list, size_t *count)
+fracas_err fracas_size_crossovers(const struct fracas_analysis *analysis, bool intervals,
+                                  fracas_size_crossover **list, size_t *count)
 {
     fracas_size_series *series;
     size_t nseries;
@@ -272,7 +308,8 @@ fracas_err fracas_size_crossovers(const struct fracas_analysis *analysis, bool i
     fracas_size_crossover *made = calloc(nseries + 1, sizeof *made);
     fracas_err err = made ? FRACAS_OK : fracas_no_memory("the crossovers of the study");
     for (size_t i = 0; i < nseries && !err; i++)
-        err = fracas_crossover_fit(&series[i], intervals ? FRACAS_CROSSOVER_RESAMPLES : 0, i + 1, &made[i]);
+        err = fracas_crossover_fit(&series[i], intervals ? FRACAS_CROSSOVER_RESAMPLES : 0, i + 1,
+                                   &made[i]);
     fracas_size_series_free(series, nseries);
     if (err) free(made);
     else *list = made, *count = nseries;

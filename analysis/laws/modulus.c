@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/laws/modulus.h"
 
 #include "analysis/study/columns.h"
@@ -7,13 +8,15 @@
 #include <math.h>
 #include <string.h>
 
-/* ln(1 + variance/mean^2) of t^x, t exponential: ln Gamma(1 + 2x) - 2 ln Gamma(1 + x), less `context`. */
+/* ln(1 + variance/mean^2) of t^x, t exponential: ln Gamma(1 + 2x) - 2 ln Gamma(1 + x), less
+ * `context`. */
 static double excess(double x, void *context)
 {
     return gsl_sf_lngamma(1 + 2 * x) - 2 * gsl_sf_lngamma(1 + x) - *(double *)context;
 }
 
-/* The shape of Weibull strengths whose deviation/(mean - minimum) is `ratio`; NaN if it is not between 0.1 and 1000. */
+/* The shape of Weibull strengths whose deviation/(mean - minimum) is `ratio`; NaN if it is not
+ * between 0.1 and 1000. */
 static double shape_of(double ratio)
 {
     double wanted = log1p(ratio * ratio), low = 1e-3 * (1 - 1e-9), high = 10 * (1 + 1e-9);
@@ -36,13 +39,15 @@ static double weibull_shape(const fracas_point_table *table, size_t point, doubl
 {
     const double shape = fracas_columns_real(table, point, "strength.shape");
     if (isfinite(shape)) return shape;
-    return shape_of(fracas_columns_real(table, point, "strength.deviation") / (fracas_columns_real(table, point, "strength.mean") - minimum));
+    return shape_of(fracas_columns_real(table, point, "strength.deviation") /
+                    (fracas_columns_real(table, point, "strength.mean") - minimum));
 }
 
 /* P(no flaw in an interface) = exp(-density V) < 1/2. */
 static bool most_have_flaws(const fracas_point_table *table, size_t point, double length)
 {
-    const double volume = fracas_columns_real(table, point, "geometry.area") * length / fracas_columns_real(table, point, "mesh.elements");
+    const double volume = fracas_columns_real(table, point, "geometry.area") * length /
+                          fracas_columns_real(table, point, "mesh.elements");
     return fracas_columns_real(table, point, "strength.flaw_density") * volume > M_LN2;
 }
 
@@ -51,13 +56,17 @@ fracas_modulus fracas_modulus_of(const fracas_point_table *table, size_t point, 
 {
     const size_t column = fracas_point_table_find(table, "strength.distribution");
     const char *name = column == SIZE_MAX ? "" : table->point[point].value[column].text;
-    const double given = fracas_columns_real(table, point, "strength.minimum"), minimum = isfinite(given) ? given : 0;
+    const double given = fracas_columns_real(table, point, "strength.minimum"),
+                 minimum = isfinite(given) ? given : 0;
     const double mean = fracas_columns_real(table, point, "derived.strength_mean");
     const bool weibull = !strcmp(name, "weibull"), flaws = !strcmp(name, "flaws");
     if (!weibull && !flaws)
-        return (fracas_modulus){NAN, "its strengths have no Weibull modulus: they are neither weibull nor flaws"};
-    if (flaws && !most_have_flaws(table, point, length)) return (fracas_modulus){NAN, "most interfaces are without a flaw"};
-    const double exponent = weibull ? weibull_shape(table, point, minimum) : fracas_columns_real(table, point, "strength.exponent");
+        return (fracas_modulus){
+            NAN, "its strengths have no Weibull modulus: they are neither weibull nor flaws"};
+    if (flaws && !most_have_flaws(table, point, length))
+        return (fracas_modulus){NAN, "most interfaces are without a flaw"};
+    const double exponent = weibull ? weibull_shape(table, point, minimum)
+                                    : fracas_columns_real(table, point, "strength.exponent");
     const double modulus = exponent * mean / (mean - minimum);
     if (isfinite(modulus) && modulus > 0) return (fracas_modulus){modulus, NULL};
     return (fracas_modulus){NAN, "the parameters of its strengths are not in the study"};

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/laws/series.h"
 
 #include "analysis/study/study.h"
@@ -9,7 +10,8 @@
 bool fracas_size_counts(const fracas_analysis *analysis, size_t point)
 {
     const fracas_point_statistics *statistics = &analysis->point[point];
-    return statistics->rate > 0 && isfinite(statistics->rate) && statistics->size.mean > 0 && !statistics->surface;
+    return statistics->rate > 0 && isfinite(statistics->rate) && statistics->size.mean > 0 &&
+           !statistics->surface;
 }
 
 bool fracas_size_whole(const fracas_analysis *analysis, size_t point)
@@ -30,7 +32,8 @@ static bool same_scales(const fracas_scales *a, const fracas_scales *b)
 }
 
 /* The points that are of the series of point `first`. */
-static fracas_err gather(const fracas_analysis *analysis, const fracas_columns *others, size_t first, fracas_size_series *series)
+static fracas_err gather(const fracas_analysis *analysis, const fracas_columns *others,
+                         size_t first, fracas_size_series *series)
 {
     const fracas_scales none = {NAN, NAN, NAN, NAN};
     const size_t npoints = analysis->table->npoints;
@@ -39,12 +42,19 @@ static fracas_err gather(const fracas_analysis *analysis, const fracas_columns *
     if (!series->point) return fracas_no_memory("the series of the study");
     for (size_t p = first; p < npoints; p++) {
         const fracas_point_statistics *statistics = &analysis->point[p];
-        if (!fracas_size_counts(analysis, p) || !fracas_columns_same(analysis->table, others, p, first)) continue;
+        if (!fracas_size_counts(analysis, p) ||
+            !fracas_columns_same(analysis->table, others, p, first))
+            continue;
         const fracas_estimate *size = &statistics->size;
-        if (!same_scales(&statistics->scales, &analysis->point[first].scales)) series->scales = none;
+        if (!same_scales(&statistics->scales, &analysis->point[first].scales))
+            series->scales = none;
         series->point[series->n++] = (fracas_size_point){
-            .point = p, .replicas = size->n, .rate = statistics->rate, .size = size->mean,
-            .error = size->deviation / (sqrt((double)size->n) * size->mean), .whole = fracas_size_whole(analysis, p)};
+            .point = p,
+            .replicas = size->n,
+            .rate = statistics->rate,
+            .size = size->mean,
+            .error = size->deviation / (sqrt((double)size->n) * size->mean),
+            .whole = fracas_size_whole(analysis, p)};
     }
     qsort(series->point, series->n, sizeof *series->point, by_rate);
     return FRACAS_OK;
@@ -54,11 +64,13 @@ static bool begins_series(const fracas_analysis *analysis, const fracas_columns 
 {
     if (!fracas_size_counts(analysis, p)) return false;
     for (size_t q = 0; q < p; q++)
-        if (fracas_size_counts(analysis, q) && fracas_columns_same(analysis->table, others, p, q)) return false;
+        if (fracas_size_counts(analysis, q) && fracas_columns_same(analysis->table, others, p, q))
+            return false;
     return true;
 }
 
-static fracas_err gather_all(const fracas_analysis *analysis, const fracas_columns *others, fracas_size_series *list, size_t *count)
+static fracas_err gather_all(const fracas_analysis *analysis, const fracas_columns *others,
+                             fracas_size_series *list, size_t *count)
 {
     for (size_t p = 0; p < analysis->table->npoints; p++) {
         if (!begins_series(analysis, others, p)) continue;
@@ -70,14 +82,16 @@ static fracas_err gather_all(const fracas_analysis *analysis, const fracas_colum
     return FRACAS_OK;
 }
 
-fracas_err fracas_size_series_create(const fracas_analysis *analysis, fracas_size_series **list, size_t *count)
+fracas_err fracas_size_series_create(const fracas_analysis *analysis, fracas_size_series **list,
+                                     size_t *count)
 {
     fracas_columns others;
     *count = 0;
     *list = NULL;
     TRY(fracas_columns_without_rate(analysis->table, &analysis->shown, &others));
     fracas_size_series *made = calloc(analysis->table->npoints + 1, sizeof *made);
-    fracas_err err = made ? gather_all(analysis, &others, made, count) : fracas_no_memory("the series of the study");
+    fracas_err err = made ? gather_all(analysis, &others, made, count)
+                          : fracas_no_memory("the series of the study");
     fracas_columns_clear(&others);
     if (!err) *list = made;
     else fracas_size_series_free(made, *count);

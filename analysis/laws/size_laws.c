@@ -1,9 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/laws/size_laws.h"
 
 #include <math.h>
 
 /* (size-laws.1), (size-laws.2), (size-laws.3). */
-fracas_scales fracas_scales_of(double young, double density, double strength, double fracture_energy)
+fracas_scales fracas_scales_of(double young, double density, double strength,
+                               double fracture_energy)
 {
     double speed = sqrt(young / density);
     fracas_scales scales = {.modulus = NAN};

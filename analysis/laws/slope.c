@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/laws/slope.h"
 
 #include "analysis/laws/series.h"
@@ -13,7 +14,8 @@ static bool known(double variance)
     return isfinite(variance) && variance > 0;
 }
 
-static double weight_of(const double *x, const double *y, const fracas_mean_error *error, bool weighted, size_t i)
+static double weight_of(const double *x, const double *y, const fracas_mean_error *error,
+                        bool weighted, size_t i)
 {
     if (!isfinite(x[i]) || !isfinite(y[i])) return 0;
     if (!weighted) return 1;
@@ -21,11 +23,13 @@ static double weight_of(const double *x, const double *y, const fracas_mean_erro
 }
 
 typedef struct {
-    double weight, x, xx; /* sum w, weighted mean x, sum w (x - mean x)^2; xx is 0 if the x differ by rounding alone */
+    double weight, x, xx; /* sum w, weighted mean x, sum w (x - mean x)^2; xx is 0 if the x differ
+                             by rounding alone */
 } moments;
 
 /* Slope and intercept by (estimators.1). */
-static moments fit(const double *x, const double *y, const fracas_mean_error *error, bool weighted, size_t n, fracas_slope *line)
+static moments fit(const double *x, const double *y, const fracas_mean_error *error, bool weighted,
+                   size_t n, fracas_slope *line)
 {
     moments of = {0};
     double mean_y = 0, xy = 0;
@@ -34,7 +38,8 @@ static moments fit(const double *x, const double *y, const fracas_mean_error *er
         if (!(w > 0)) continue;
         line->n++;
         of.weight += w;
-        of.x += (x[i] - of.x) * w / of.weight; /* running means: no sum of values that are far from 0 */
+        of.x += (x[i] - of.x) * w /
+                of.weight; /* running means: no sum of values that are far from 0 */
         mean_y += (y[i] - mean_y) * w / of.weight;
     }
     for (size_t i = 0; i < n; i++) {
@@ -50,21 +55,25 @@ static moments fit(const double *x, const double *y, const fracas_mean_error *er
 }
 
 /* (estimators.2), (estimators.3). */
-fracas_slope fracas_slope_of(const double *x, const double *y, const fracas_mean_error *error, size_t n)
+fracas_slope fracas_slope_of(const double *x, const double *y, const fracas_mean_error *error,
+                             size_t n)
 {
     fracas_slope line = {.pooled = NAN}, none = {0, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     bool weighted = false;
-    for (size_t i = 0; i < n; i++) weighted = weighted || (known(error[i].variance) && isfinite(x[i]) && isfinite(y[i]));
+    for (size_t i = 0; i < n; i++)
+        weighted = weighted || (known(error[i].variance) && isfinite(x[i]) && isfinite(y[i]));
     const moments of = fit(x, y, error, weighted, n, &line);
     none.n = line.n;
     if (line.n < FRACAS_SLOPE_POINTS || !(of.xx > 0)) return none;
     double squares = 0, freedom = (double)(line.n - 2);
     fracas_misfit misfit = {0};
     for (size_t i = 0; i < n; i++) {
-        double w = weight_of(x, y, error, weighted, i), residual = y[i] - line.intercept - line.slope * x[i];
+        double w = weight_of(x, y, error, weighted, i),
+               residual = y[i] - line.intercept - line.slope * x[i];
         if (!(w > 0)) continue;
         squares += w * residual * residual;
-        fracas_misfit_add(&misfit, w * (1 / of.weight + (x[i] - of.x) * (x[i] - of.x) / of.xx), &error[i]);
+        fracas_misfit_add(&misfit, w * (1 / of.weight + (x[i] - of.x) * (x[i] - of.x) / of.xx),
+                          &error[i]);
     }
     double inflation = squares / freedom;
     if (weighted) inflation = fmax(1, inflation);
@@ -86,17 +95,20 @@ typedef struct {
     fracas_mean_error *error;
 } fitter;
 
-/* The line through the points that are of the series of `first`, all of them if that is SIZE_MAX. */
+/* The line through the points that are of the series of `first`, all of them if that is SIZE_MAX.
+ */
 static fracas_slope fit_series(const fitter *of, size_t first)
 {
     size_t n = 0;
     for (size_t p = 0; p < of->analysis->table->npoints; p++) {
-        if (first != SIZE_MAX && !fracas_columns_same(of->analysis->table, of->others, p, first)) continue;
+        if (first != SIZE_MAX && !fracas_columns_same(of->analysis->table, of->others, p, first))
+            continue;
         const fracas_point_statistics *statistics = &of->analysis->point[p];
         if (!fracas_size_counts(of->analysis, p) || fracas_size_whole(of->analysis, p)) continue;
         of->x[n] = log(statistics->rate);
         of->y[n] = log(statistics->size.mean);
-        of->mean[n++] = (fracas_mean){statistics->size.n, statistics->size.deviation / statistics->size.mean};
+        of->mean[n++] = (fracas_mean){statistics->size.n,
+                                      statistics->size.deviation / statistics->size.mean};
     }
     fracas_mean_errors(of->mean, n, of->error);
     return fracas_slope_of(of->x, of->y, of->error, n);
@@ -126,7 +138,8 @@ static void fit_all(const fitter *of, fracas_size_slope *list, size_t *count)
     }
 }
 
-fracas_err fracas_size_slopes(const fracas_analysis *analysis, fracas_size_slope **list, size_t *count)
+fracas_err fracas_size_slopes(const fracas_analysis *analysis, fracas_size_slope **list,
+                              size_t *count)
 {
     size_t npoints = analysis->table->npoints;
     *count = 0;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/report/chart.h"
 
 #include "analysis/export/csv.h"
@@ -74,7 +75,8 @@ void fracas_markup_text(const char *text, FILE *out)
 bool fracas_panel_shows(const fracas_panel *panel, const fracas_series *series, size_t i)
 {
     const double x = series->x[i], y = series->y[i];
-    if (!isfinite(x) || !isfinite(y) || (panel->x.log && x <= 0) || (panel->y.log && y <= 0)) return false;
+    if (!isfinite(x) || !isfinite(y) || (panel->x.log && x <= 0) || (panel->y.log && y <= 0))
+        return false;
     return !(panel->y_floor > 0) || y >= panel->y_floor;
 }
 
@@ -123,7 +125,8 @@ static void put_x(const fracas_axis *axis, double x, FILE *out)
     put_field(name, out);
 }
 
-static void put_series(const fracas_panel *panel, size_t number, const fracas_series *series, FILE *out)
+static void put_series(const fracas_panel *panel, size_t number, const fracas_series *series,
+                       FILE *out)
 {
     static const char *const kind[] = {"curve", "steps", "mark", "band", "box"};
     for (size_t i = 0; i < series->n; i++) {

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Charts as SVG. */
 #include "analysis/report/chart.h"
 
@@ -19,7 +20,7 @@ static const double character = 8.6; /* width of a mean character of 15 px sans 
 typedef struct {
     fracas_panel panel; /* with the axes of this drawing; its series are the chart's */
     size_t number;
-    bool page;   /* on a page, whose script wants to know what is what */
+    bool page; /* on a page, whose script wants to know what is what */
     FILE *out;
     fracas_scale x, y;
     double top;   /* of the legend */
@@ -43,7 +44,8 @@ static bool shown(double value, const fracas_axis *axis)
 
 static bool ranges(const fracas_series *series)
 {
-    return series->kind == FRACAS_MARKS || series->kind == FRACAS_BAND || series->kind == FRACAS_BOXES;
+    return series->kind == FRACAS_MARKS || series->kind == FRACAS_BAND ||
+           series->kind == FRACAS_BOXES;
 }
 
 static void widen(double value, const fracas_axis *axis, double *least, double *greatest)
@@ -72,7 +74,8 @@ static void fit(frame *f)
     for (size_t s = 0; s < f->panel.nseries; s++) {
         const fracas_series *series = &f->panel.series[s];
         for (size_t i = 0; i < series->n; i++) {
-            widen(series->x[i], &f->panel.x, &x[0], &x[1]); /* of all values: panels share their x axis */
+            widen(series->x[i], &f->panel.x, &x[0],
+                  &x[1]); /* of all values: panels share their x axis */
             if (!fracas_panel_shows(&f->panel, series, i)) continue;
             widen(series->y[i], &f->panel.y, &y[0], &y[1]);
             if (!ranges(series)) continue;
@@ -100,7 +103,8 @@ static void draw_axes(const frame *f, double bottom)
         bool major = *f->xtick[i].label;
         if (major)
             fprintf(f->out, "<path class=\"grid\" d=\"M%.1f %.1fV%.1f\"/>\n", x, f->y.to, bottom);
-        fprintf(f->out, "<path class=\"axis\" d=\"M%.1f %.1fv%d\"/>\n", x, bottom, major ? TICK : TICK / 2);
+        fprintf(f->out, "<path class=\"axis\" d=\"M%.1f %.1fv%d\"/>\n", x, bottom,
+                major ? TICK : TICK / 2);
         if (!major) continue;
         fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">", x, bottom + 20);
         fracas_markup_text(f->xtick[i].label, f->out);
@@ -110,19 +114,24 @@ static void draw_axes(const frame *f, double bottom)
         double y = fracas_scale_place(&f->y, f->ytick[i].value);
         bool major = *f->ytick[i].label;
         if (major)
-            fprintf(f->out, "<path class=\"grid\" d=\"M%.1f %.1fH%.1f\"/>\n", f->x.from, y, f->x.to);
-        fprintf(f->out, "<path class=\"axis\" d=\"M%.1f %.1fh%d\"/>\n", f->x.from, y, major ? -TICK : -TICK / 2);
+            fprintf(f->out, "<path class=\"grid\" d=\"M%.1f %.1fH%.1f\"/>\n", f->x.from, y,
+                    f->x.to);
+        fprintf(f->out, "<path class=\"axis\" d=\"M%.1f %.1fh%d\"/>\n", f->x.from, y,
+                major ? -TICK : -TICK / 2);
         if (major)
-            fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%s</text>\n", f->x.from - 7, y + 5.2,
-                    f->ytick[i].label);
+            fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%s</text>\n",
+                    f->x.from - 7, y + 5.2, f->ytick[i].label);
     }
-    fprintf(f->out, "<path class=\"axis\" d=\"M%.1f %.1fV%.1fH%.1f\"/>\n", f->x.from, f->y.to, bottom, f->x.to);
+    fprintf(f->out, "<path class=\"axis\" d=\"M%.1f %.1fV%.1fH%.1f\"/>\n", f->x.from, f->y.to,
+            bottom, f->x.to);
     if (*f->panel.x.label) {
-        fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">", (f->x.from + f->x.to) / 2, bottom + 43);
+        fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">",
+                (f->x.from + f->x.to) / 2, bottom + 43);
         fracas_markup_text(f->panel.x.label, f->out);
         fputs("</text>\n", f->out);
     }
-    fprintf(f->out, "<text transform=\"translate(16 %.1f) rotate(-90)\" text-anchor=\"middle\">", (f->y.from + f->y.to) / 2);
+    fprintf(f->out, "<text transform=\"translate(16 %.1f) rotate(-90)\" text-anchor=\"middle\">",
+            (f->y.from + f->y.to) / 2);
     fracas_markup_text(f->panel.y.label, f->out);
     fputs("</text>\n", f->out);
 }
@@ -174,13 +183,15 @@ static void draw_marks(const frame *f, const fracas_series *series)
 {
     for (size_t i = 0; i < series->n; i++) {
         if (!fracas_panel_shows(&f->panel, series, i)) continue;
-        double x = fracas_scale_place(&f->x, series->x[i]), y = fracas_scale_place(&f->y, series->y[i]);
+        double x = fracas_scale_place(&f->x, series->x[i]),
+               y = fracas_scale_place(&f->y, series->y[i]);
         if (isfinite(series->low[i]) && isfinite(series->high[i])) {
             bool open = !shown(series->low[i], &f->panel.y);
             double low = open ? f->y.from : fracas_scale_place(&f->y, series->low[i]);
             double high = fracas_scale_place(&f->y, series->high[i]);
             const char *foot = open ? "" : "m-4 0h8m-4 0";
-            fprintf(f->out, "<path class=\"bar\" d=\"M%.1f %.1f%sV%.1fm-4 0h8\"/>\n", x, low, foot, high);
+            fprintf(f->out, "<path class=\"bar\" d=\"M%.1f %.1f%sV%.1fm-4 0h8\"/>\n", x, low, foot,
+                    high);
         }
         fprintf(f->out, "<path class=\"mark%s\" d=\"", series->open ? " open" : "");
         draw_mark(series->look, x, y, f->out);
@@ -197,7 +208,8 @@ static void draw_line(const frame *f, const fracas_series *series)
     double last_x = 0, last_y = 0;
     for (size_t i = 0; i < series->n; i++) {
         if (!fracas_panel_shows(&f->panel, series, i)) continue;
-        double x = fracas_scale_place(&f->x, series->x[i]), y = fracas_scale_place(&f->y, series->y[i]);
+        double x = fracas_scale_place(&f->x, series->x[i]),
+               y = fracas_scale_place(&f->y, series->y[i]);
         bool near = begun && fabs(x - last_x) < 0.5 && fabs(y - last_y) < 0.5;
         if (near && i + 1 < series->n) continue;
         if (!begun) fprintf(f->out, LINE_START "M%.1f %.1f", dash_of(series->look), x, y);
@@ -213,8 +225,8 @@ static void draw_line(const frame *f, const fracas_series *series)
     fputs("</title></path>\n", f->out);
 }
 
-/* The areas of values begin to end - 1, all with a low and a high: along the lows, and back along the highs. What is off a log axis
- * below is at its foot. */
+/* The areas of values begin to end - 1, all with a low and a high: along the lows, and back along
+ * the highs. What is off a log axis below is at its foot. */
 static void draw_area(const frame *f, const fracas_series *series, size_t begin, size_t end)
 {
     fputs("<path class=\"area\" d=\"", f->out);
@@ -222,7 +234,8 @@ static void draw_area(const frame *f, const fracas_series *series, size_t begin,
         const size_t i = k < end - begin ? begin + k : end - 1 - (k - (end - begin));
         const double value = k < end - begin ? series->low[i] : series->high[i];
         const double y = shown(value, &f->panel.y) ? fracas_scale_place(&f->y, value) : f->y.from;
-        fprintf(f->out, "%c%.1f %.1f", k ? 'L' : 'M', fracas_scale_place(&f->x, series->x[i]), fmin(y, f->y.from));
+        fprintf(f->out, "%c%.1f %.1f", k ? 'L' : 'M', fracas_scale_place(&f->x, series->x[i]),
+                fmin(y, f->y.from));
     }
     fputs("z\"/>\n", f->out);
 }
@@ -230,7 +243,9 @@ static void draw_area(const frame *f, const fracas_series *series, size_t begin,
 static void draw_band(const frame *f, const fracas_series *series)
 {
     for (size_t i = 0, begin = 0; i <= series->n; i++) {
-        if (i < series->n && fracas_panel_shows(&f->panel, series, i) && isfinite(series->low[i]) && isfinite(series->high[i])) continue;
+        if (i < series->n && fracas_panel_shows(&f->panel, series, i) && isfinite(series->low[i]) &&
+            isfinite(series->high[i]))
+            continue;
         if (i > begin) draw_area(f, series, begin, i);
         begin = i + 1;
     }
@@ -240,22 +255,31 @@ static void draw_band(const frame *f, const fracas_series *series)
 static void draw_boxes(const frame *f, const fracas_series *series)
 {
     for (size_t i = 0; i < series->n; i++) {
-        if (!fracas_panel_shows(&f->panel, series, i) || !isfinite(series->low[i]) || !isfinite(series->high[i])) continue;
+        if (!fracas_panel_shows(&f->panel, series, i) || !isfinite(series->low[i]) ||
+            !isfinite(series->high[i]))
+            continue;
         const double top = fracas_scale_place(&f->y, series->high[i]);
-        const double bottom = shown(series->low[i], &f->panel.y) ? fracas_scale_place(&f->y, series->low[i]) : f->y.from;
-        fprintf(f->out, "<path class=\"area\" d=\"M%.1f %.1fh%dV%.1fh%dz\"/>\n", fracas_scale_place(&f->x, series->x[i]) - BOX, top, 2 * BOX,
-                bottom, -2 * BOX);
+        const double bottom = shown(series->low[i], &f->panel.y)
+                                  ? fracas_scale_place(&f->y, series->low[i])
+                                  : f->y.from;
+        fprintf(f->out, "<path class=\"area\" d=\"M%.1f %.1fh%dV%.1fh%dz\"/>\n",
+                fracas_scale_place(&f->x, series->x[i]) - BOX, top, 2 * BOX, bottom, -2 * BOX);
     }
 }
 
-static bool in_legend(const fracas_series *series) { return *series->name && !series->open; }
+static bool in_legend(const fracas_series *series)
+{
+    return *series->name && !series->open;
+}
 
-/* The series by whose legend entry series s is shown and hidden: one that has none goes with one of its look that has. */
+/* The series by whose legend entry series s is shown and hidden: one that has none goes with one of
+ * its look that has. */
 static size_t named_for(const fracas_panel *panel, size_t s)
 {
     if (in_legend(&panel->series[s])) return s;
     for (size_t other = 0; other < panel->nseries; other++)
-        if (in_legend(&panel->series[other]) && panel->series[other].look == panel->series[s].look) return other;
+        if (in_legend(&panel->series[other]) && panel->series[other].look == panel->series[s].look)
+            return other;
     return s;
 }
 
@@ -285,8 +309,9 @@ static void draw_entry(const frame *f, size_t s, double x, double y, double widt
     const fracas_series *series = &f->panel.series[s];
     open_group(f, "entry", s);
     if (f->page)
-        fprintf(f->out, "<rect class=\"hit\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%d\" rx=\"3\"/>", x - 3, y - LINE_HEIGHT / 2.0,
-                width - GAP + 6, LINE_HEIGHT);
+        fprintf(f->out,
+                "<rect class=\"hit\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%d\" rx=\"3\"/>",
+                x - 3, y - LINE_HEIGHT / 2.0, width - GAP + 6, LINE_HEIGHT);
     if (series->kind == FRACAS_BAND || series->kind == FRACAS_BOXES)
         fprintf(f->out, "<path class=\"area\" d=\"M%.1f %.1fh24v10h-24z\"/>", x, y - 5);
     if (series->kind == FRACAS_MARKS) {
@@ -307,7 +332,8 @@ static size_t legend_order(const fracas_panel *panel, size_t order[LEGEND_MOST])
     size_t named = 0;
     for (int lines = 0; lines < 2; lines++) {
         for (size_t s = 0; s < panel->nseries; s++) {
-            if (!in_legend(&panel->series[s]) || (panel->series[s].kind != FRACAS_MARKS) != lines) continue;
+            if (!in_legend(&panel->series[s]) || (panel->series[s].kind != FRACAS_MARKS) != lines)
+                continue;
             if (named < LEGEND_MOST) order[named] = s;
             named++;
         }
@@ -315,14 +341,16 @@ static size_t legend_order(const fracas_panel *panel, size_t order[LEGEND_MOST])
     return named;
 }
 
-/* Entries left to right, broken into lines; returns the height used. Draws nothing if `draw` is false. */
+/* Entries left to right, broken into lines; returns the height used. Draws nothing if `draw` is
+ * false. */
 static double legend(const frame *f, bool draw)
 {
     size_t order[LEGEND_MOST], named = legend_order(&f->panel, order);
     double x = f->x.from, y = f->top + LINE_HEIGHT / 2.0;
     if (named == 0) return 0;
     for (size_t entry = 0; entry < named && entry < LEGEND_MOST; entry++) {
-        double width = SWATCH + character * (double)characters(f->panel.series[order[entry]].name) + GAP;
+        double width = SWATCH + character * (double)characters(f->panel.series[order[entry]].name) +
+                       GAP;
         if (entry > 0 && x + width > f->width) {
             x = f->x.from;
             y += LINE_HEIGHT;
@@ -372,7 +400,8 @@ static double place(frame *f, double left, double top)
     f->top = top;
     fit(f);
     f->x.from = left;
-    const char *last = f->nxtick > 0 ? f->xtick[f->nxtick - 1].label : ""; /* in the middle of which the axis may end */
+    const char *last = f->nxtick > 0 ? f->xtick[f->nxtick - 1].label
+                                     : ""; /* in the middle of which the axis may end */
     f->x.to = f->width - fmax(RIGHT, 4 + character * (double)characters(last) / 2);
     f->y.to = top + legend(f, false) + 8;
     f->y.from = f->y.to + f->panel.height;
@@ -381,22 +410,28 @@ static double place(frame *f, double left, double top)
 
 void fracas_svg_begin(const char *title, int width, double height, bool standalone, FILE *out)
 {
-    fprintf(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" viewBox=\"0 0 %d %.0f\"", width,
-            height);
+    fprintf(out,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" viewBox=\"0 0 %d %.0f\"",
+            width, height);
     if (standalone) fprintf(out, " width=\"%d\" height=\"%.0f\"", width, height);
     fputs(" role=\"img\" aria-label=\"", out);
     fracas_markup_text(title, out);
     fputs("\">\n", out);
     if (standalone)
-        fprintf(out, "<style>\n%s</style>\n<rect class=\"paper\" width=\"%d\" height=\"%.0f\"/>\n", fracas_chart_style,
-                width, height);
+        fprintf(out, "<style>\n%s</style>\n<rect class=\"paper\" width=\"%d\" height=\"%.0f\"/>\n",
+                fracas_chart_style, width, height);
 }
 
-/* What the script of a page needs to read values off a drawing: ends of the axes, values and places. */
-static void put_axis(const frame *f, const char *name, const fracas_scale *scale, const fracas_axis *axis, const char *label)
+/* What the script of a page needs to read values off a drawing: ends of the axes, values and
+ * places. */
+static void put_axis(const frame *f, const char *name, const fracas_scale *scale,
+                     const fracas_axis *axis, const char *label)
 {
-    fprintf(f->out, " data-%s=\"%s %.9g %.9g %.1f %.1f\" data-%s-label=\"", name, axis->nnames ? "names" : scale->log ? "log" : "linear", scale->low,
-            scale->high, scale->from, scale->to, name);
+    fprintf(f->out, " data-%s=\"%s %.9g %.9g %.1f %.1f\" data-%s-label=\"", name,
+            axis->nnames ? "names"
+            : scale->log ? "log"
+                         : "linear",
+            scale->low, scale->high, scale->from, scale->to, name);
     fracas_markup_text(label, f->out);
     putc('"', f->out);
 }
@@ -428,7 +463,11 @@ static void draw_chart(const fracas_chart *chart, fracas_axes axes, bool page, F
     for (int draw = 0; draw < 2; draw++) {
         if (draw) fracas_svg_begin(chart->title, chart->width, height, !page, out);
         for (size_t p = 0; p < chart->npanels; p++) {
-            frame f = {.panel = panel_of(chart, p, axes), .number = p, .page = page, .out = out, .width = chart->width};
+            frame f = {.panel = panel_of(chart, p, axes),
+                       .number = p,
+                       .page = page,
+                       .out = out,
+                       .width = chart->width};
             const double end = place(&f, left, draw ? top : height);
             if (draw) draw_panel(chart, &f);
             if (draw) top = end;

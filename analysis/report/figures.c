@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/report/figures.h"
 
 #include "analysis/laws/crossover.h"
@@ -24,12 +25,14 @@ typedef struct {
 
 static bool has_mean(const fracas_point_statistics *statistics)
 {
-    return isfinite(statistics->rate) && statistics->rate > 0 && isfinite(statistics->size.mean); /* the axis is a log one */
+    return isfinite(statistics->rate) && statistics->rate > 0 &&
+           isfinite(statistics->size.mean); /* the axis is a log one */
 }
 
 static bool has_scales(const fracas_point_statistics *statistics)
 {
-    return has_mean(statistics) && !statistics->surface && isfinite(statistics->scales.size) && isfinite(statistics->scales.rate);
+    return has_mean(statistics) && !statistics->surface && isfinite(statistics->scales.size) &&
+           isfinite(statistics->scales.rate);
 }
 
 static bool drawn(const rate_plot *plot, const fracas_point_statistics *statistics)
@@ -41,7 +44,8 @@ static bool drawn(const rate_plot *plot, const fracas_point_statistics *statisti
 static size_t series_of(const rate_plot *plot, size_t p)
 {
     for (size_t q = 0; q < p; q++)
-        if (drawn(plot, &plot->analysis->point[q]) && fracas_columns_same(plot->analysis->table, plot->others, p, q))
+        if (drawn(plot, &plot->analysis->point[q]) &&
+            fracas_columns_same(plot->analysis->table, plot->others, p, q))
             return q;
     return p;
 }
@@ -52,9 +56,9 @@ static fracas_err add_means(const rate_plot *plot, size_t first, unsigned look, 
     fracas_series *series;
     TRY(fracas_panel_add(panel, FRACAS_MARKS, look, analysis->table->npoints, &series));
     if (plot->others->count > 0)
-        fracas_columns_label(analysis->table, plot->others, first, series->name, sizeof series->name);
-    else
-        snprintf(series->name, sizeof series->name, "mean, 95 %% interval");
+        fracas_columns_label(analysis->table, plot->others, first, series->name,
+                             sizeof series->name);
+    else snprintf(series->name, sizeof series->name, "mean, 95 %% interval");
     series->n = 0;
     for (size_t p = first; p < analysis->table->npoints; p++) {
         const fracas_point_statistics *statistics = &analysis->point[p];
@@ -71,8 +75,9 @@ static fracas_err add_means(const rate_plot *plot, size_t first, unsigned look, 
 }
 
 /* One law over the rates of all points and a factor of two beyond. */
-static fracas_err add_law(const rate_plot *plot, fracas_size_law_id law, const fracas_scales *scales,
-                          const double rate[2], unsigned look, fracas_panel *panel)
+static fracas_err add_law(const rate_plot *plot, fracas_size_law_id law,
+                          const fracas_scales *scales, const double rate[2], unsigned look,
+                          fracas_panel *panel)
 {
     fracas_series *series;
     TRY(fracas_panel_add(panel, FRACAS_CURVE, look, LAW_VALUES, &series));
@@ -101,26 +106,34 @@ static bool rate_range(const rate_plot *plot, double rate[2])
     return rate[1] > 0;
 }
 
-/* True if one curve of a law serves all points of the series that begins with `series`; of all of them, if it is ALL_SERIES. */
+/* True if one curve of a law serves all points of the series that begins with `series`; of all of
+ * them, if it is ALL_SERIES. */
 static bool same_scales(const rate_plot *plot, size_t series)
 {
     const fracas_scales *first = NULL;
     for (size_t p = 0; p < plot->analysis->table->npoints; p++) {
         const fracas_point_statistics *statistics = &plot->analysis->point[p];
         if (!has_scales(statistics)) continue;
-        if (series != ALL_SERIES && !fracas_columns_same(plot->analysis->table, plot->others, p, series)) continue;
-        if (first && (first->size != statistics->scales.size || first->rate != statistics->scales.rate)) return false;
+        if (series != ALL_SERIES &&
+            !fracas_columns_same(plot->analysis->table, plot->others, p, series))
+            continue;
+        if (first &&
+            (first->size != statistics->scales.size || first->rate != statistics->scales.rate))
+            return false;
         first = &statistics->scales;
     }
     return true;
 }
 
-/* True if the law is a number, and one curve of it serves all points: Mott's only where all strengths have one modulus. */
+/* True if the law is a number, and one curve of it serves all points: Mott's only where all
+ * strengths have one modulus. */
 static bool law_serves(const rate_plot *plot, fracas_size_law_id law, const fracas_scales *scales)
 {
     if (!isfinite(fracas_size_laws[law].normalised(1, scales->modulus))) return false;
     for (size_t p = 0; law == FRACAS_LAW_MOTT && p < plot->analysis->table->npoints; p++)
-        if (has_scales(&plot->analysis->point[p]) && plot->analysis->point[p].scales.modulus != scales->modulus) return false;
+        if (has_scales(&plot->analysis->point[p]) &&
+            plot->analysis->point[p].scales.modulus != scales->modulus)
+            return false;
     return true;
 }
 
@@ -132,9 +145,10 @@ static bool laws_are_drawn(const rate_plot *plot, size_t first)
     return false;
 }
 
-/* All laws where one curve each serves all points; else ZMR in the colour of each series that it serves. None of surfaces. */
-static fracas_err add_laws(const rate_plot *plot, const double rate[2], size_t first, unsigned looks, unsigned look,
-                           fracas_panel *panel)
+/* All laws where one curve each serves all points; else ZMR in the colour of each series that it
+ * serves. None of surfaces. */
+static fracas_err add_laws(const rate_plot *plot, const double rate[2], size_t first,
+                           unsigned looks, unsigned look, fracas_panel *panel)
 {
     const fracas_scales *scales = &plot->analysis->point[first].scales;
     if (!isfinite(scales->rate) || plot->analysis->point[first].surface) return FRACAS_OK;
@@ -160,12 +174,15 @@ static fracas_err add_crossovers(const rate_plot *plot, const double rate[2], fr
     fracas_err err = FRACAS_OK;
     for (size_t i = 0; i < count && !err; i++) {
         const fracas_scales *scales = &list[i].scales;
-        const double x_unit = plot->normalised ? scales->rate : 1, y_unit = plot->normalised ? scales->size : 1 / plot->size_factor;
+        const double x_unit = plot->normalised ? scales->rate : 1,
+                     y_unit = plot->normalised ? scales->size : 1 / plot->size_factor;
         if (*list[i].reason || !isfinite(x_unit) || !isfinite(y_unit)) continue;
         fracas_series *series;
         size_t marks = 0;
         while (marks < panel->nseries && strcmp(panel->series[marks].name, list[i].name)) marks++;
-        const unsigned look = marks < panel->nseries ? panel->series[marks].look + FRACAS_CHART_COLOURS : 0; /* ZMR has the other dashes */
+        const unsigned look = marks < panel->nseries
+                                  ? panel->series[marks].look + FRACAS_CHART_COLOURS
+                                  : 0; /* ZMR has the other dashes */
         err = fracas_panel_add(panel, FRACAS_CURVE, look, LAW_VALUES, &series);
         for (size_t v = 0; !err && v < LAW_VALUES; v++) {
             series->x[v] = rate[0] / 2 * pow(4 * rate[1] / rate[0], (double)v / (LAW_VALUES - 1));
@@ -202,7 +219,8 @@ static fracas_err draw_against_rate(const rate_plot *plot, fracas_chart *chart)
 static bool any_law(const rate_plot *plot)
 {
     for (size_t p = 0; p < plot->analysis->table->npoints; p++)
-        if (has_scales(&plot->analysis->point[p]) && same_scales(plot, series_of(plot, p))) return true;
+        if (has_scales(&plot->analysis->point[p]) && same_scales(plot, series_of(plot, p)))
+            return true;
     return false;
 }
 
@@ -220,26 +238,37 @@ static void replicas_text(const fracas_analysis *analysis, char *text, size_t si
     else snprintf(text, size, "n = %lld", (long long)most);
 }
 
-static void caption_of_rate(const fracas_analysis *analysis, bool normalised, bool one_law, bool some_law, fracas_chart *chart)
+static void caption_of_rate(const fracas_analysis *analysis, bool normalised, bool one_law,
+                            bool some_law, fracas_chart *chart)
 {
     char n[64];
     replicas_text(analysis, n, sizeof n);
     if (fracas_analysis_all_surfaces(analysis)) {
         snprintf(chart->caption, sizeof chart->caption,
-                 "Mean over replicas (%s) of the mean square root of a fragment\u2019s area, dust included; bars: 95 %% interval of the "
-                 "mean (Student\u2019s t over replicas).", n);
+                 "Mean over replicas (%s) of the mean square root of a fragment\u2019s area, dust "
+                 "included; bars: 95 %% interval of the mean (Student\u2019s t over replicas).",
+                 n);
         return;
     }
     snprintf(chart->caption, sizeof chart->caption,
-             "%sMean over replicas (%s) of body length / fragments%s; bars: 95 %% interval of the mean (Student\u2019s t over "
-             "replicas).%s A crossover fitted to the marks, where there is one, is a line in their colour, too.",
-             normalised ? "Sizes over s\u2080 = E G_c/\u03c3_c\u00b2, rates over "
-                          "\u03b5\u0307\u2080 = c \u03c3_c\u00b3/(E\u00b2 G_c), \u03c3_c the mean strength. " : "", n,
-             !normalised && fracas_analysis_any_surface(analysis) ? ", of surfaces of the mean square root of their areas" : "",
-             !one_law && !some_law ? " No size law serves all marks of one colour: their materials differ."
-             : normalised || one_law       ? " Lines: size laws of Zhou, Molinari and Ramesh (ZMR, ZMR-2), Grady, and Glenn "
-                                             "and Chudnovsky (GC); Mott\u2019s where all strengths have one Weibull modulus."
-                                           : " Lines: ZMR law with the material of the marks of the same colour, where these have one.");
+             "%sMean over replicas (%s) of body length / fragments%s; bars: 95 %% interval of the "
+             "mean (Student\u2019s t over replicas).%s A crossover fitted to the marks, where "
+             "there is one, is a line in their colour, too.",
+             normalised
+                 ? "Sizes over s\u2080 = E G_c/\u03c3_c\u00b2, rates over \u03b5\u0307\u2080 = c "
+                   "\u03c3_c\u00b3/(E\u00b2 G_c), \u03c3_c the mean strength. "
+                 : "",
+             n,
+             !normalised && fracas_analysis_any_surface(analysis)
+                 ? ", of surfaces of the mean square root of their areas"
+                 : "",
+             !one_law && !some_law
+                 ? " No size law serves all marks of one colour: their materials differ."
+             : normalised || one_law
+                 ? " Lines: size laws of Zhou, Molinari and Ramesh (ZMR, ZMR-2), Grady, and Glenn "
+                   "and Chudnovsky (GC); Mott\u2019s where all strengths have one Weibull modulus."
+                 : " Lines: ZMR law with the material of the marks of the same colour, where these "
+                   "have one.");
 }
 
 fracas_err fracas_figure_rate(const fracas_analysis *analysis, bool normalised, fracas_chart *chart)
@@ -253,20 +282,29 @@ fracas_err fracas_figure_rate(const fracas_analysis *analysis, bool normalised, 
     fracas_prefix prefix = fracas_prefix_for(extreme, 2);
     fracas_columns others;
     TRY(fracas_columns_without_rate(analysis->table, &analysis->shown, &others));
-    rate_plot plot = {.analysis = analysis, .others = &others, .normalised = normalised, .size_factor = prefix.factor};
+    rate_plot plot = {.analysis = analysis,
+                      .others = &others,
+                      .normalised = normalised,
+                      .size_factor = prefix.factor};
     fracas_err err = draw_against_rate(&plot, chart);
     bool one_law = same_scales(&plot, ALL_SERIES), some_law = any_law(&plot);
     fracas_columns_clear(&others);
     TRY(err);
-    snprintf(chart->file, sizeof chart->file, "size-against-rate%s", normalised ? "-normalised" : "");
-    snprintf(chart->title, sizeof chart->title, "%s", normalised ? "Normalised mean fragment size against strain rate"
-                                                                 : "Mean fragment size against strain rate");
+    snprintf(chart->file, sizeof chart->file, "size-against-rate%s",
+             normalised ? "-normalised" : "");
+    snprintf(chart->title, sizeof chart->title, "%s",
+             normalised ? "Normalised mean fragment size against strain rate"
+                        : "Mean fragment size against strain rate");
     caption_of_rate(analysis, normalised, one_law, some_law, chart);
     if (chart->npanels == 0) return FRACAS_OK;
     snprintf(chart->panel[0].x.label, sizeof chart->panel[0].x.label, "%s",
              normalised ? "strain rate \u03b5\u0307/\u03b5\u0307\u2080" : "strain rate [1/s]");
-    if (normalised) snprintf(chart->panel[0].y.label, sizeof chart->panel[0].y.label, "mean fragment size s/s\u2080");
-    else snprintf(chart->panel[0].y.label, sizeof chart->panel[0].y.label, "mean fragment size [%sm]", prefix.sign);
+    if (normalised)
+        snprintf(chart->panel[0].y.label, sizeof chart->panel[0].y.label,
+                 "mean fragment size s/s\u2080");
+    else
+        snprintf(chart->panel[0].y.label, sizeof chart->panel[0].y.label,
+                 "mean fragment size [%sm]", prefix.sign);
     return FRACAS_OK;
 }
 
@@ -279,9 +317,10 @@ static double mean_of(const double *value, size_t count)
     return sum / (double)count;
 }
 
-/* P(S >= s) at each size that occurs. Sizes that differ by rounding alone (1e-9) are one: they are the same number
- * of elements. */
-static fracas_err add_sizes(const fracas_point_statistics *statistics, double unit, unsigned look, fracas_panel *panel)
+/* P(S >= s) at each size that occurs. Sizes that differ by rounding alone (1e-9) are one: they are
+ * the same number of elements. */
+static fracas_err add_sizes(const fracas_point_statistics *statistics, double unit, unsigned look,
+                            fracas_panel *panel)
 {
     fracas_series *series;
     size_t n = statistics->nfragments, vertex = 0;
@@ -316,15 +355,20 @@ fracas_err fracas_figure_sizes_together(const fracas_analysis *analysis, fracas_
     if (least < most) snprintf(n, sizeof n, "%zu to %zu", least, most);
     else snprintf(n, sizeof n, "%zu", most);
     snprintf(chart->caption, sizeof chart->caption,
-             "Share of the fragments that are at least of size s, over s / mean size of the point\u2019s "
-             "fragments; n = %s fragments a point, of all usable replicas together, dust included.%s",
-             n, fracas_analysis_any_surface(analysis) ? " The size of a piece of a surface is the square root of its area." : "");
+             "Share of the fragments that are at least of size s, over s / mean size of the "
+             "point\u2019s fragments; n = %s fragments a point, of all usable replicas together, "
+             "dust included.%s",
+             n,
+             fracas_analysis_any_surface(analysis)
+                 ? " The size of a piece of a surface is the square root of its area."
+                 : "");
     fracas_panel *panel = NULL;
     for (size_t p = 0; p < analysis->table->npoints; p++) {
         const fracas_point_statistics *statistics = &analysis->point[p];
         if (statistics->nfragments == 0) continue;
         if (!panel) panel = fracas_chart_add(chart, TALL);
-        TRY(add_sizes(statistics, mean_of(statistics->fragment_size, statistics->nfragments), (unsigned)p, panel));
+        TRY(add_sizes(statistics, mean_of(statistics->fragment_size, statistics->nfragments),
+                      (unsigned)p, panel));
         fracas_series *series = &panel->series[panel->nseries - 1];
         fracas_analysis_label(analysis, p, series->name, sizeof series->name);
     }
@@ -335,7 +379,8 @@ fracas_err fracas_figure_sizes_together(const fracas_analysis *analysis, fracas_
     return FRACAS_OK;
 }
 
-void fracas_figure_name(const fracas_analysis *analysis, size_t point, const char *file, const char *title, fracas_chart *chart)
+void fracas_figure_name(const fracas_analysis *analysis, size_t point, const char *file,
+                        const char *title, fracas_chart *chart)
 {
     char label[160];
     fracas_analysis_label(analysis, point, label, sizeof label);
@@ -356,8 +401,10 @@ fracas_err fracas_figure_sizes(const fracas_analysis *analysis, size_t point, fr
     name_cumulative_axes(panel);
     snprintf(panel->x.label, sizeof panel->x.label, "fragment size s [%sm]", prefix.sign);
     chart->offers = FRACAS_AXES_SEMILOG | FRACAS_AXES_LINEAR;
-    snprintf(chart->caption, sizeof chart->caption, "Share of the fragments that are at least of size s: n = %zu fragments of %lld replicas "
-             "together, dust included.", statistics->nfragments, (long long)statistics->usable);
+    snprintf(chart->caption, sizeof chart->caption,
+             "Share of the fragments that are at least of size s: n = %zu fragments of %lld "
+             "replicas together, dust included.",
+             statistics->nfragments, (long long)statistics->usable);
     return FRACAS_OK;
 }
 
@@ -367,14 +414,23 @@ static const struct {
     const char *name;
     size_t offset;
 } energies[] = {
-    {"kinetic", offsetof(fracas_history_row, kinetic)},       {"elastic", offsetof(fracas_history_row, elastic)},
-    {"dissipated", offsetof(fracas_history_row, dissipated)}, {"cohesive", offsetof(fracas_history_row, cohesive)},
-    {"work", offsetof(fracas_history_row, work)},             {"|residual|", offsetof(fracas_history_row, residual)},
+    {"kinetic", offsetof(fracas_history_row, kinetic)},
+    {"elastic", offsetof(fracas_history_row, elastic)},
+    {"dissipated", offsetof(fracas_history_row, dissipated)},
+    {"cohesive", offsetof(fracas_history_row, cohesive)},
+    {"work", offsetof(fracas_history_row, work)},
+    {"|residual|", offsetof(fracas_history_row, residual)},
     {"dissipated, bending", offsetof(fracas_history_row, dissipated_bending)},
 };
-enum { KINETIC = 0, RESIDUAL = 5, BENDING = 6, LOOK_OF_BENDING = 8 }; /* the colour of dissipated, other dashes */
+enum {
+    KINETIC = 0,
+    RESIDUAL = 5,
+    BENDING = 6,
+    LOOK_OF_BENDING = 8
+}; /* the colour of dissipated, other dashes */
 
-/* Kinetic energy that a body starts with, a ring that flies: in the figure it would dwarf all the rest, and is left out [J]. */
+/* Kinetic energy that a body starts with, a ring that flies: in the figure it would dwarf all the
+ * rest, and is left out [J]. */
 static double kinetic_start(const fracas_point_statistics *statistics)
 {
     const fracas_history_row *first = statistics->history;
@@ -383,7 +439,8 @@ static double kinetic_start(const fracas_point_statistics *statistics)
 
 static double energy(const fracas_point_statistics *statistics, size_t row, size_t which)
 {
-    double value = *(const double *)((const char *)&statistics->history[row] + energies[which].offset);
+    double value = *(const double *)((const char *)&statistics->history[row] +
+                                     energies[which].offset);
     return which == KINETIC ? value - kinetic_start(statistics) : value;
 }
 
@@ -403,14 +460,15 @@ static bool has_bending(const fracas_point_statistics *statistics)
     return false;
 }
 
-static fracas_err add_energy(const fracas_point_statistics *statistics, size_t which, double time_factor,
-                             double energy_factor, fracas_panel *panel)
+static fracas_err add_energy(const fracas_point_statistics *statistics, size_t which,
+                             double time_factor, double energy_factor, fracas_panel *panel)
 {
     fracas_series *series;
     const unsigned look = which == BENDING ? LOOK_OF_BENDING : (unsigned)which;
     TRY(fracas_panel_add(panel, FRACAS_CURVE, look, statistics->nhistory, &series));
     const bool moving = which == KINETIC && kinetic_start(statistics) > 0;
-    snprintf(series->name, sizeof series->name, "%s%s", energies[which].name, moving ? " - start" : "");
+    snprintf(series->name, sizeof series->name, "%s%s", energies[which].name,
+             moving ? " - start" : "");
     for (size_t i = 0; i < statistics->nhistory; i++) {
         double value = energy(statistics, i, which) * energy_factor;
         series->x[i] = statistics->history[i].time * time_factor;
@@ -422,7 +480,8 @@ static fracas_err add_energy(const fracas_point_statistics *statistics, size_t w
 /* A residual so far below the largest energy is rounding; it would stretch the axis. */
 static const double residual_floor = 1e-12;
 
-fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point, fracas_chart *chart)
+fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point,
+                                  fracas_chart *chart)
 {
     const fracas_point_statistics *statistics = &analysis->point[point];
     fracas_figure_name(analysis, point, "energies", "Energies", chart);
@@ -431,24 +490,31 @@ fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point,
     fracas_prefix time = fracas_prefix_for(&statistics->history[statistics->nhistory - 1].time, 1);
     fracas_prefix joule = fracas_prefix_for(&largest, 1);
     fracas_panel *upper = fracas_chart_add(chart, LOW);
-    for (size_t e = 0; e < RESIDUAL; e++) TRY(add_energy(statistics, e, time.factor, joule.factor, upper));
-    if (has_bending(statistics)) TRY(add_energy(statistics, BENDING, time.factor, joule.factor, upper));
+    for (size_t e = 0; e < RESIDUAL; e++)
+        TRY(add_energy(statistics, e, time.factor, joule.factor, upper));
+    if (has_bending(statistics))
+        TRY(add_energy(statistics, BENDING, time.factor, joule.factor, upper));
     fracas_panel *lower = fracas_chart_add(chart, STRIP);
     TRY(add_energy(statistics, RESIDUAL, time.factor, joule.factor, lower));
     lower->y.log = true;
     lower->y_floor = residual_floor * largest * joule.factor;
     snprintf(lower->x.label, sizeof lower->x.label, "time [%ss]", time.sign);
     for (size_t p = 0; p < chart->npanels; p++)
-        snprintf(chart->panel[p].y.label, sizeof chart->panel[p].y.label, "energy [%sJ]", joule.sign);
-    char residual[32], motion[128] = "Kinetic energy is that of the motion beside the imposed stretching, work likewise.";
+        snprintf(chart->panel[p].y.label, sizeof chart->panel[p].y.label, "energy [%sJ]",
+                 joule.sign);
+    char residual[32],
+        motion[128] =
+            "Kinetic energy is that of the motion beside the imposed stretching, work likewise.";
     fracas_format_digits(statistics->residual, 2, residual, sizeof residual);
     if (kinetic_start(statistics) > 0)
-        snprintf(motion, sizeof motion, "Kinetic energy less the %.4g J that the %s starts with.", kinetic_start(statistics),
-                 statistics->surface ? "surface" : "ring");
+        snprintf(motion, sizeof motion, "Kinetic energy less the %.4g J that the %s starts with.",
+                 kinetic_start(statistics), statistics->surface ? "surface" : "ring");
     else if (statistics->surface) motion[0] = '\0';
     snprintf(chart->caption, sizeof chart->caption,
-             "Replica %lld of %lld, the one whose dissipated energy is the nearest to the mean. %s%sBelow: |residual| "
-             "of the energy balance; its largest value over all replicas is %s of the dissipated energy.",
-             (long long)statistics->typical_replica, (long long)statistics->usable, motion, *motion ? " " : "", residual);
+             "Replica %lld of %lld, the one whose dissipated energy is the nearest to the mean. "
+             "%s%sBelow: |residual| of the energy balance; its largest value over all replicas is "
+             "%s of the dissipated energy.",
+             (long long)statistics->typical_replica, (long long)statistics->usable, motion,
+             *motion ? " " : "", residual);
     return FRACAS_OK;
 }

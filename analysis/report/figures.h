@@ -1,4 +1,6 @@
-/* The figures of a report. Each fills a chart initialised by fracas_chart_init; one without data has no panel. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The figures of a report. Each fills a chart initialised by fracas_chart_init; one without data
+ * has no panel. */
 #ifndef FRACAS_ANALYSIS_REPORT_FIGURES_H
 #define FRACAS_ANALYSIS_REPORT_FIGURES_H
 
@@ -6,28 +8,39 @@
 #include "analysis/report/chart.h"
 #include "analysis/study/study.h"
 
-/* Mean fragment size against strain rate with the size laws: in metres, or s/s0 against edot/edot0. A series for
- * each combination of the other parameters that differ between points. */
-FRACAS_MUST_USE fracas_err fracas_figure_rate(const fracas_analysis *analysis, bool normalised, fracas_chart *chart);
+/* Mean fragment size against strain rate with the size laws: in metres, or s/s0 against edot/edot0.
+ * A series for each combination of the other parameters that differ between points. */
+FRACAS_MUST_USE fracas_err fracas_figure_rate(const fracas_analysis *analysis, bool normalised,
+                                              fracas_chart *chart);
 
 /* Complementary cumulative share of the fragments of all points, sizes over the point's mean. */
-FRACAS_MUST_USE fracas_err fracas_figure_sizes_together(const fracas_analysis *analysis, fracas_chart *chart);
+FRACAS_MUST_USE fracas_err fracas_figure_sizes_together(const fracas_analysis *analysis,
+                                                        fracas_chart *chart);
 /* The same of one point, sizes in metres. */
-FRACAS_MUST_USE fracas_err fracas_figure_sizes(const fracas_analysis *analysis, size_t point, fracas_chart *chart);
+FRACAS_MUST_USE fracas_err fracas_figure_sizes(const fracas_analysis *analysis, size_t point,
+                                               fracas_chart *chart);
 
-/* Energies of the point's typical replica over time, and below them the residual of their balance. */
-FRACAS_MUST_USE fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point, fracas_chart *chart);
+/* Energies of the point's typical replica over time, and below them the residual of their balance.
+ */
+FRACAS_MUST_USE fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point,
+                                                  fracas_chart *chart);
 
 /* Energies of all usable realizations over time: mean and band of each. */
-FRACAS_MUST_USE fracas_err fracas_figure_bands(const fracas_analysis *analysis, size_t point, fracas_chart *chart);
-/* The headline numbers of the point from its first 4, 8, 16, ... replicas, over what they are of all. */
-FRACAS_MUST_USE fracas_err fracas_figure_convergence(const fracas_analysis *analysis, size_t point, fracas_chart *chart);
+FRACAS_MUST_USE fracas_err fracas_figure_bands(const fracas_analysis *analysis, size_t point,
+                                               fracas_chart *chart);
+/* The headline numbers of the point from its first 4, 8, 16, ... replicas, over what they are of
+ * all. */
+FRACAS_MUST_USE fracas_err fracas_figure_convergence(const fracas_analysis *analysis, size_t point,
+                                                     fracas_chart *chart);
 /* Sizes above the cut and the families that fit them best. */
-FRACAS_MUST_USE fracas_err fracas_figure_fits(const fracas_analysis *analysis, const fracas_fits *fits, size_t point, fracas_chart *chart);
+FRACAS_MUST_USE fracas_err fracas_figure_fits(const fracas_analysis *analysis,
+                                              const fracas_fits *fits, size_t point,
+                                              fracas_chart *chart);
 
 enum { FRACAS_FIGURE_LOW = 200 }; /* pixels of a panel of one point */
 
 /* File name and title of a figure of one point. */
-void fracas_figure_name(const fracas_analysis *analysis, size_t point, const char *file, const char *title, fracas_chart *chart);
+void fracas_figure_name(const fracas_analysis *analysis, size_t point, const char *file,
+                        const char *title, fracas_chart *chart);
 
 #endif

@@ -1,4 +1,6 @@
-/* Figures of what all realizations of a point say together: bands of energies, convergence, fits. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Figures of what all realizations of a point say together: bands of energies, convergence, fits.
+ */
 #include "analysis/report/figures.h"
 
 #include "analysis/tables/format.h"
@@ -8,19 +10,22 @@
 
 /* ---- energies ---- */
 
-static const unsigned energy_look[FRACAS_NENERGIES] = {0, 1, 3, 2}; /* as in the figure of one realization */
+static const unsigned energy_look[FRACAS_NENERGIES] = {0, 1, 3,
+                                                       2}; /* as in the figure of one realization */
 
 /* What the kinetic energy begins with, a ring that flies: it would dwarf the rest [J]. */
 static double start_of(const fracas_bands *bands, size_t energy)
 {
-    return energy == FRACAS_ENERGY_KINETIC && bands->time[0] == 0 ? bands->energy[0][energy].mean : 0;
+    return energy == FRACAS_ENERGY_KINETIC && bands->time[0] == 0 ? bands->energy[0][energy].mean
+                                                                  : 0;
 }
 
 static double largest_of(const fracas_bands *bands)
 {
     double largest = 0;
     for (size_t j = 0; j < bands->count; j++)
-        for (size_t e = 0; e < FRACAS_NENERGIES; e++) largest = fmax(largest, fabs(bands->energy[j][e].high - start_of(bands, e)));
+        for (size_t e = 0; e < FRACAS_NENERGIES; e++)
+            largest = fmax(largest, fabs(bands->energy[j][e].high - start_of(bands, e)));
     return largest;
 }
 
@@ -30,14 +35,16 @@ fracas_err fracas_figure_bands(const fracas_analysis *analysis, size_t point, fr
     fracas_figure_name(analysis, point, "bands", "Energies of all realizations", chart);
     const double largest = bands->count ? largest_of(bands) : 0;
     if (bands->realizations < 2 || !(largest > 0)) return FRACAS_OK;
-    const fracas_prefix time = fracas_prefix_for(&bands->time[bands->count - 1], 1), joule = fracas_prefix_for(&largest, 1);
+    const fracas_prefix time = fracas_prefix_for(&bands->time[bands->count - 1], 1),
+                        joule = fracas_prefix_for(&largest, 1);
     fracas_panel *panel = fracas_chart_add(chart, FRACAS_FIGURE_LOW);
     panel->bars = bands->extremes ? "least to greatest" : "5 to 95 %";
     for (size_t e = 0; e < FRACAS_NENERGIES; e++) {
         fracas_series *series;
         const double start = start_of(bands, e);
         TRY(fracas_panel_add(panel, FRACAS_BAND, energy_look[e], bands->count, &series));
-        snprintf(series->name, sizeof series->name, "%s%s", fracas_energy_key[e], start > 0 ? " - start" : "");
+        snprintf(series->name, sizeof series->name, "%s%s", fracas_energy_key[e],
+                 start > 0 ? " - start" : "");
         for (size_t j = 0; j < bands->count; j++) {
             const fracas_band *band = &bands->energy[j][e];
             series->x[j] = bands->time[j] * time.factor;
@@ -48,16 +55,22 @@ fracas_err fracas_figure_bands(const fracas_analysis *analysis, size_t point, fr
     }
     snprintf(panel->x.label, sizeof panel->x.label, "time [%ss]", time.sign);
     snprintf(panel->y.label, sizeof panel->y.label, "energy [%sJ]", joule.sign);
-    snprintf(chart->caption, sizeof chart->caption, "Lines: means over n = %lld realizations; areas: %s. A realization that has ended counts with what it "
-             "had in the end%s.", (long long)bands->realizations,
-             bands->extremes ? "from the least to the greatest" : "between the quantiles 5 % and 95 %",
-             bands->running[bands->count - 1] < bands->realizations ? "; at the last times some are still running" : "");
+    snprintf(chart->caption, sizeof chart->caption,
+             "Lines: means over n = %lld realizations; areas: %s. A realization that has ended "
+             "counts with what it had in the end%s.",
+             (long long)bands->realizations,
+             bands->extremes ? "from the least to the greatest"
+                             : "between the quantiles 5 % and 95 %",
+             bands->running[bands->count - 1] < bands->realizations
+                 ? "; at the last times some are still running"
+                 : "");
     return FRACAS_OK;
 }
 
 /* ---- convergence ---- */
 
-fracas_err fracas_figure_convergence(const fracas_analysis *analysis, size_t point, fracas_chart *chart)
+fracas_err fracas_figure_convergence(const fracas_analysis *analysis, size_t point,
+                                     fracas_chart *chart)
 {
     const fracas_replica_convergence *of = &analysis->point[point].convergence;
     fracas_figure_name(analysis, point, "convergence", "Convergence with replicas", chart);
@@ -81,9 +94,13 @@ fracas_err fracas_figure_convergence(const fracas_analysis *analysis, size_t poi
     snprintf(panel->y.label, sizeof panel->y.label, "change to all replicas [%%]");
     const int64_t open = of->unconverged;
     char verdict[64] = "all are converged";
-    if (open > 0) snprintf(verdict, sizeof verdict, "%lld %s not converged", (long long)open, open > 1 ? "are" : "is");
-    snprintf(chart->caption, sizeof chart->caption, "Headline numbers from the first so many replicas, against those of all %lld: %s (half width at most "
-             "5 %%, and no drift between the halves).", (long long)all->replicas, verdict);
+    if (open > 0)
+        snprintf(verdict, sizeof verdict, "%lld %s not converged", (long long)open,
+                 open > 1 ? "are" : "is");
+    snprintf(chart->caption, sizeof chart->caption,
+             "Headline numbers from the first so many replicas, against those of all %lld: %s "
+             "(half width at most 5 %%, and no drift between the halves).",
+             (long long)all->replicas, verdict);
     return FRACAS_OK;
 }
 
@@ -91,20 +108,24 @@ fracas_err fracas_figure_convergence(const fracas_analysis *analysis, size_t poi
 
 enum { BEST = 3, CURVE_VALUES = 160 };
 
-/* The n sizes above the cut: P(size >= s | size > cut), each size of a lattice at the lower edge of its cell. */
-static fracas_err add_above(const fracas_point_statistics *statistics, size_t n, double cut, double factor, fracas_panel *panel, size_t *above)
+/* The n sizes above the cut: P(size >= s | size > cut), each size of a lattice at the lower edge of
+ * its cell. */
+static fracas_err add_above(const fracas_point_statistics *statistics, size_t n, double cut,
+                            double factor, fracas_panel *panel, size_t *above)
 {
     const double *size = statistics->fragment_size, half = statistics->ensemble.lattice / 2;
     size_t first = 0, vertex = 0;
     while (first < n && !(size[first] > cut)) first++;
     *above = n - first;
     fracas_series *series;
-    /* k elements count as spread over k -+ 1/2 of them, as in the likelihood: what is known are the shares at these ends */
+    /* k elements count as spread over k -+ 1/2 of them, as in the likelihood: what is known are the
+     * shares at these ends */
     const bool lattice = half > 0;
     TRY(fracas_panel_add(panel, lattice ? FRACAS_MARKS : FRACAS_STEPS, 0, *above, &series));
     snprintf(series->name, sizeof series->name, "fragments");
     for (size_t i = first; i < n; i++) {
-        if (i > first && size[i] <= size[i - 1] * (1 + 1e-9)) continue; /* the same number of elements */
+        if (i > first && size[i] <= size[i - 1] * (1 + 1e-9))
+            continue; /* the same number of elements */
         series->x[vertex] = (size[i] - half) * factor;
         series->y[vertex] = (double)(n - i) / (double)*above;
         if (lattice) series->low[vertex] = series->high[vertex] = NAN;
@@ -114,10 +135,12 @@ static fracas_err add_above(const fracas_point_statistics *statistics, size_t n,
     return FRACAS_OK;
 }
 
-static bool read_parameters(const fracas_fits *fits, size_t point, const fracas_family *family, double parameter[FRACAS_FAMILY_PARAMETERS])
+static bool read_parameters(const fracas_fits *fits, size_t point, const fracas_family *family,
+                            double parameter[FRACAS_FAMILY_PARAMETERS])
 {
     for (size_t i = 0; i < family->nparameters; i++) {
-        const fracas_fits_row *row = fracas_fits_find(fits, (int64_t)point, family->name, family->parameter[i].name);
+        const fracas_fits_row *row = fracas_fits_find(fits, (int64_t)point, family->name,
+                                                      family->parameter[i].name);
         if (!row) return false;
         parameter[i] = row->value;
     }
@@ -125,8 +148,9 @@ static bool read_parameters(const fracas_fits *fits, size_t point, const fracas_
 }
 
 /* From size range[0] to range[1]. */
-static fracas_err add_family(const fracas_family *family, const double *parameter, double cut, const double range[2], double factor,
-                             unsigned look, fracas_panel *panel)
+static fracas_err add_family(const fracas_family *family, const double *parameter, double cut,
+                             const double range[2], double factor, unsigned look,
+                             fracas_panel *panel)
 {
     double below, at_cut;
     fracas_series *series;
@@ -143,36 +167,48 @@ static fracas_err add_family(const fracas_family *family, const double *paramete
     return FRACAS_OK;
 }
 
-fracas_err fracas_figure_fits(const fracas_analysis *analysis, const fracas_fits *fits, size_t point, fracas_chart *chart)
+fracas_err fracas_figure_fits(const fracas_analysis *analysis, const fracas_fits *fits,
+                              size_t point, fracas_chart *chart)
 {
     const fracas_point_statistics *statistics = &analysis->point[point];
     fracas_figure_name(analysis, point, "fits", "Fits to fragment sizes", chart);
     if (!fits) return FRACAS_OK;
     const fracas_fits_row *mean = fracas_fits_find(fits, (int64_t)point, "data", "mean");
     const fracas_fits_row *cut = fracas_fits_find(fits, (int64_t)point, "data", "cut");
-    if (!mean || !cut || !(cut->value > 0) || !fracas_fits_ranked(fits, (int64_t)point, 1)) return FRACAS_OK;
+    if (!mean || !cut || !(cut->value > 0) || !fracas_fits_ranked(fits, (int64_t)point, 1))
+        return FRACAS_OK;
     const fracas_prefix prefix = fracas_prefix_for(&mean->value, 1);
     const fracas_fits_row *whole = fracas_fits_find(fits, (int64_t)point, "data", "whole");
-    const size_t n = statistics->nfragments - (whole ? (size_t)whole->value : 0); /* bodies of one piece: none is larger, and sizes ascend */
+    const size_t n = statistics->nfragments -
+                     (whole ? (size_t)whole->value
+                            : 0); /* bodies of one piece: none is larger, and sizes ascend */
     size_t above;
     fracas_panel *panel = fracas_chart_add(chart, FRACAS_FIGURE_LOW);
     TRY(add_above(statistics, n, cut->value, prefix.factor, panel, &above));
-    const double range[2] = {fmax(cut->value, 0.8 * statistics->fragment_size[n - above]), 1.1 * statistics->fragment_size[n - 1]};
+    const double range[2] = {fmax(cut->value, 0.8 * statistics->fragment_size[n - above]),
+                             1.1 * statistics->fragment_size[n - 1]};
     for (int rank = 1; rank <= BEST; rank++) {
         const char *name = fracas_fits_ranked(fits, (int64_t)point, rank);
         const fracas_family *family = name ? fracas_family_find(name) : NULL;
         double parameter[FRACAS_FAMILY_PARAMETERS];
         if (family && read_parameters(fits, point, family, parameter))
-            TRY(add_family(family, parameter, cut->value, range, prefix.factor, (unsigned)rank, panel));
+            TRY(add_family(family, parameter, cut->value, range, prefix.factor, (unsigned)rank,
+                           panel));
     }
     panel->x.log = panel->y.log = true;
     panel->y_floor = 0.3 / (double)above;
     chart->offers = FRACAS_AXES_SEMILOG | FRACAS_AXES_LINEAR;
     snprintf(panel->x.label, sizeof panel->x.label, "fragment size s [%sm]", prefix.sign);
     snprintf(panel->y.label, sizeof panel->y.label, "share of fragments \u2265 s");
-    snprintf(chart->caption, sizeof chart->caption, "Of the n = %zu fragments larger than %.4g %sm, below which the mesh decides, of %lld replicas together: the "
-             "share that is at least of size s%s. Lines: the %d families of least AICc, by maximum likelihood.", above,
-             cut->value * prefix.factor, prefix.sign, (long long)statistics->usable - (whole ? (long long)whole->value : 0),
-             statistics->ensemble.lattice > 0 ? ", at half an element from the sizes, which are whole numbers of elements" : "", BEST);
+    snprintf(chart->caption, sizeof chart->caption,
+             "Of the n = %zu fragments larger than %.4g %sm, below which the mesh decides, of %lld "
+             "replicas together: the share that is at least of size s%s. Lines: the %d families of "
+             "least AICc, by maximum likelihood.",
+             above, cut->value * prefix.factor, prefix.sign,
+             (long long)statistics->usable - (whole ? (long long)whole->value : 0),
+             statistics->ensemble.lattice > 0
+                 ? ", at half an element from the sizes, which are whole numbers of elements"
+                 : "",
+             BEST);
     return FRACAS_OK;
 }

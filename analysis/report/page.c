@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The frame of a page; fracas_report_write: the sections of a study, and the files beside them. */
 #include "analysis/report/page.h"
 
@@ -21,7 +22,8 @@ typedef struct {
     size_t size[FRACAS_PAGE_SECTIONS];
 } contents;
 
-static fracas_err write_section(fracas_page *page, const fracas_page_entry *section, char **text, size_t *size)
+static fracas_err write_section(fracas_page *page, const fracas_page_entry *section, char **text,
+                                size_t *size)
 {
     page->out = open_memstream(text, size);
     if (!page->out) return fracas_no_memory("a section of the report");
@@ -35,7 +37,8 @@ static void put_head(const fracas_page *page, const char *title, const char *lea
 {
     fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
           "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"/>\n"
-          "<link rel=\"icon\" href=\"data:,\"/>\n<title>", out);
+          "<link rel=\"icon\" href=\"data:,\"/>\n<title>",
+          out);
     fracas_markup_text(title, out);
     fprintf(out, " \u00b7 fracas</title>\n<style>\n%s%s", fracas_chart_style, fracas_page_style);
     if (page->surfaces) fracas_surface_style(out);
@@ -46,13 +49,14 @@ static void put_head(const fracas_page *page, const char *title, const char *lea
     fputs("</p>\n</header>\n", out);
 }
 
-static void put_page(const fracas_page *page, const char *title, const char *lead, const fracas_page_entry *section, size_t count,
-                     const contents *of, FILE *out)
+static void put_page(const fracas_page *page, const char *title, const char *lead,
+                     const fracas_page_entry *section, size_t count, const contents *of, FILE *out)
 {
     put_head(page, title, lead, out);
     fputs("<nav aria-label=\"Contents\"><ul>\n", out);
     for (size_t i = 0; i < count; i++)
-        if (of->size[i] > 0) fprintf(out, "<li><a href=\"#%s\">%s</a></li>\n", section[i].id, section[i].title);
+        if (of->size[i] > 0)
+            fprintf(out, "<li><a href=\"#%s\">%s</a></li>\n", section[i].id, section[i].title);
     fputs("</ul></nav>\n<main>\n", out);
     for (size_t i = 0; i < count; i++) {
         if (of->size[i] == 0) continue;
@@ -63,11 +67,13 @@ static void put_page(const fracas_page *page, const char *title, const char *lea
     fprintf(out, "</main>\n<script>\n%s</script>\n</body>\n</html>\n", fracas_page_script);
 }
 
-fracas_err fracas_page_write(fracas_page *page, const char *title, const char *lead, const fracas_page_entry *section, size_t count)
+fracas_err fracas_page_write(fracas_page *page, const char *title, const char *lead,
+                             const fracas_page_entry *section, size_t count)
 {
     contents of = {0};
     fracas_err err = FRACAS_OK;
-    for (size_t i = 0; i < count && !err; i++) err = write_section(page, &section[i], &of.text[i], &of.size[i]);
+    for (size_t i = 0; i < count && !err; i++)
+        err = write_section(page, &section[i], &of.text[i], &of.size[i]);
     if (!err) err = fracas_pdf_write(page->folder, page->drawing, page->ndrawings);
     fracas_output_file output;
     if (!err) err = fracas_output_open(page->folder, "index.html", &output);
@@ -98,7 +104,8 @@ static const fracas_page_entry sections[] = {
     {"table-of-motion", "Expansion", fracas_section_motion},
     {"files", "Files", fracas_section_files},
 };
-_Static_assert(FRACAS_COUNT(sections) <= FRACAS_PAGE_SECTIONS, "a page has no room for its sections");
+_Static_assert(FRACAS_COUNT(sections) <= FRACAS_PAGE_SECTIONS,
+               "a page has no room for its sections");
 
 /* "3 points, 96 realizations, none failed" */
 static void say_what(const fracas_analysis *analysis, char *text, size_t size)
@@ -109,15 +116,19 @@ static void say_what(const fracas_analysis *analysis, char *text, size_t size)
         unusable += analysis->point[p].unusable;
     }
     char failed[96] = ", none failed", partial[128] = "";
-    if (unusable > 0) snprintf(failed, sizeof failed, ", of these %" PRId64 " failed (not in any mean)", unusable);
+    if (unusable > 0)
+        snprintf(failed, sizeof failed, ", of these %" PRId64 " failed (not in any mean)",
+                 unusable);
     const bool is_partial = fracas_analysis_partial(analysis, partial, sizeof partial);
-    snprintf(text, size, "%zu point%s, %" PRId64 " realizations%s%s%s", analysis->table->npoints, analysis->table->npoints == 1 ? "" : "s",
-             realizations, failed, is_partial ? "; " : "", partial);
+    snprintf(text, size, "%zu point%s, %" PRId64 " realizations%s%s%s", analysis->table->npoints,
+             analysis->table->npoints == 1 ? "" : "s", realizations, failed, is_partial ? "; " : "",
+             partial);
 }
 
 /* ---- files ---- */
 
-static fracas_err write_tables(const fracas_analysis *analysis, const char *folder, const fracas_fits *fits, size_t stale)
+static fracas_err write_tables(const fracas_analysis *analysis, const char *folder,
+                               const fracas_fits *fits, size_t stale)
 {
     fracas_output_file output;
     TRY(fracas_csv_file(&fracas_csv_table_points, analysis, folder));
@@ -130,7 +141,8 @@ static fracas_err write_tables(const fracas_analysis *analysis, const char *fold
     return fracas_output_close(&output, FRACAS_OK);
 }
 
-static fracas_err write_page(const fracas_analysis *analysis, const char *folder, const fracas_fits *fits, size_t stale)
+static fracas_err write_page(const fracas_analysis *analysis, const char *folder,
+                             const fracas_fits *fits, size_t stale)
 {
     fracas_page page = {.analysis = analysis, .folder = folder, .fits = fits, .stale = stale};
     char lead[512];
@@ -145,7 +157,8 @@ fracas_err fracas_report_write(const fracas_analysis *analysis, const char *stud
     if (asprintf(&folder, "%s/report", study) < 0) return fracas_no_memory("a path");
     fracas_err err = FRACAS_OK;
     if (mkdir(folder, 0777) && errno != EEXIST)
-        err = fracas_fail(FRACAS_ENVIRONMENT, "cannot make the folder %s: %s", folder, strerror(errno));
+        err = fracas_fail(FRACAS_ENVIRONMENT, "cannot make the folder %s: %s", folder,
+                          strerror(errno));
     fracas_fits *fits = NULL;
     size_t stale = 0;
     if (!err) err = fracas_fits_read(study, &fits);

@@ -1,7 +1,9 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The page of a report while it is written, and what its sections are made of.
  *
- * A section is a function that writes to page->out, and a line in the table of page.c (of a convergence: of converge/page.c). One that
- * writes nothing is left out, heading and all. Figures and tables are numbered in the order of the page. */
+ * A section is a function that writes to page->out, and a line in the table of page.c (of a
+ * convergence: of converge/page.c). One that writes nothing is left out, heading and all. Figures
+ * and tables are numbered in the order of the page. */
 #ifndef FRACAS_ANALYSIS_REPORT_PAGE_H
 #define FRACAS_ANALYSIS_REPORT_PAGE_H
 
@@ -17,17 +19,21 @@ enum { FRACAS_DRAWING = 72 };
 
 typedef struct {
     const fracas_analysis *analysis;
-    const char *folder; /* of the report */
+    const char *folder;      /* of the report */
     const fracas_fits *fits; /* NULL: there are none */
-    size_t stale;            /* points whose fits were not of the results as these are now, and are not shown */
-    bool surfaces;           /* pictures of surfaces are on it */
-    const void *of;          /* what the sections of another page than a study's are about */
-    const char *source;      /* what its figures and tables are from; NULL: the study, by its name and campaign */
-    FILE *out;          /* of the section */
+    size_t
+        stale; /* points whose fits were not of the results as these are now, and are not shown */
+    bool surfaces;       /* pictures of surfaces are on it */
+    const void *of;      /* what the sections of another page than a study's are about */
+    const char *source;  /* what its figures and tables are from; NULL: the study, by its name and
+                            campaign */
+    FILE *out;           /* of the section */
     int figures, tables; /* numbered so far */
     size_t ndrawings, room;
-    char (*drawing)[FRACAS_DRAWING]; /* SVG files written to the folder, names without their ending: what becomes PDF */
-    const char *grid;   /* class of the grid of figures that the next figure opens; NULL: none, or it is open */
+    char (*drawing)[FRACAS_DRAWING]; /* SVG files written to the folder, names without their ending:
+                                        what becomes PDF */
+    const char *grid; /* class of the grid of figures that the next figure opens; NULL: none, or it
+                         is open */
     bool grid_open;
 } fracas_page;
 
@@ -40,38 +46,47 @@ typedef struct {
     fracas_page_section *put;
 } fracas_page_entry;
 
-/* The page as page->folder/index.html, with what its sections write, and the PDFs of their drawings. `lead`: a line below the title. */
-FRACAS_MUST_USE fracas_err fracas_page_write(fracas_page *page, const char *title, const char *lead, const fracas_page_entry *section,
-                                             size_t count);
+/* The page as page->folder/index.html, with what its sections write, and the PDFs of their
+ * drawings. `lead`: a line below the title. */
+FRACAS_MUST_USE fracas_err fracas_page_write(fracas_page *page, const char *title, const char *lead,
+                                             const fracas_page_entry *section, size_t count);
 
-/* Figures from here to fracas_page_grid_end stand side by side: "wide", "small". No figure, no grid. */
+/* Figures from here to fracas_page_grid_end stand side by side: "wide", "small". No figure, no
+ * grid. */
 void fracas_page_grid(fracas_page *page, const char *class);
 void fracas_page_grid_end(fracas_page *page);
 
-/* Puts the chart on the page with its other axes and its caption, writes it to FILE.svg and FILE.csv (and, at the end, FILE.pdf), and clears it.
- * Nothing if it has no panel. `built` is how its making ended: passed on. */
-FRACAS_MUST_USE fracas_err fracas_page_chart(fracas_page *page, fracas_chart *chart, fracas_err built);
+/* Puts the chart on the page with its other axes and its caption, writes it to FILE.svg and
+ * FILE.csv (and, at the end, FILE.pdf), and clears it. Nothing if it has no panel. `built` is how
+ * its making ended: passed on. */
+FRACAS_MUST_USE fracas_err fracas_page_chart(fracas_page *page, fracas_chart *chart,
+                                             fracas_err built);
 
-/* A figure that is no chart: what is written in between is what it shows. The end writes "Figure 3. title. caption" with links to FILE.svg,
- * .pdf and .csv, where those are `drawn` and there is a `csv`, and what it is from. */
+/* A figure that is no chart: what is written in between is what it shows. The end writes "Figure 3.
+ * title. caption" with links to FILE.svg, .pdf and .csv, where those are `drawn` and there is a
+ * `csv`, and what it is from. */
 void fracas_page_figure(fracas_page *page, const char *id, const char *class);
-void fracas_page_figure_end(fracas_page *page, const char *title, const char *caption, const char *file, bool drawn, bool csv);
+void fracas_page_figure_end(fracas_page *page, const char *title, const char *caption,
+                            const char *file, bool drawn, bool csv);
 
 /* " SVG PDF" of a drawing, as links. */
 void fracas_page_links(fracas_page *page, const char *file, bool drawn, bool csv);
 /* Says that the folder has FILE.svg. */
 FRACAS_MUST_USE fracas_err fracas_page_drew(fracas_page *page, const char *file);
 
-/* "Table 2. title": a table, and below it its legend (lines, then NULL; may be NULL); nothing if it has no row. `text`: the last column is
- * words. Clears the table; `built` as above. */
-FRACAS_MUST_USE fracas_err fracas_page_table(fracas_page *page, const char *id, const char *title, bool text, fracas_result_table *table,
+/* "Table 2. title": a table, and below it its legend (lines, then NULL; may be NULL); nothing if it
+ * has no row. `text`: the last column is words. Clears the table; `built` as above. */
+FRACAS_MUST_USE fracas_err fracas_page_table(fracas_page *page, const char *id, const char *title,
+                                             bool text, fracas_result_table *table,
                                              const char *const *legend, fracas_err built);
 
 /* ---- the sections ---- */
 
-fracas_page_section fracas_section_summary;  /* summary.c */
-fracas_page_section fracas_section_rate, fracas_section_sizes, fracas_section_patterns, fracas_section_surfaces,
-    fracas_section_energies, fracas_section_fits, fracas_section_convergence; /* sections.c */
-fracas_page_section fracas_section_results, fracas_section_slopes, fracas_section_motion, fracas_section_files; /* tables.c */
+fracas_page_section fracas_section_summary; /* summary.c */
+fracas_page_section fracas_section_rate, fracas_section_sizes, fracas_section_patterns,
+    fracas_section_surfaces, fracas_section_energies, fracas_section_fits,
+    fracas_section_convergence; /* sections.c */
+fracas_page_section fracas_section_results, fracas_section_slopes, fracas_section_motion,
+    fracas_section_files; /* tables.c */
 
 #endif

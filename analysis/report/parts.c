@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What sections of the page are made of: figures and tables. */
 #include "analysis/report/page.h"
 
@@ -27,7 +28,7 @@ fracas_err fracas_page_drew(fracas_page *page, const char *file)
 {
     if (page->ndrawings == page->room) {
         const size_t room = page->room ? 2 * page->room : 16;
-        char (*more)[FRACAS_DRAWING] = realloc(page->drawing, room * sizeof *more);
+        char(*more)[FRACAS_DRAWING] = realloc(page->drawing, room * sizeof *more);
         if (!more) return fracas_no_memory("the figures of a report");
         page->drawing = more;
         page->room = room;
@@ -72,13 +73,15 @@ static void put_source(fracas_page *page)
 static void put_words(const char *text, FILE *out)
 {
     for (const char *rest = text; *rest; rest++) {
-        const bool low = rest[0] == '_' && rest > text && isalpha((unsigned char)rest[1]) && !isalnum((unsigned char)rest[2]) && rest[2] != '_';
+        const bool low = rest[0] == '_' && rest > text && isalpha((unsigned char)rest[1]) &&
+                         !isalnum((unsigned char)rest[2]) && rest[2] != '_';
         if (low) fprintf(out, "<sub>%c</sub>", *++rest);
         else fracas_markup_text((const char[]){*rest, '\0'}, out);
     }
 }
 
-void fracas_page_figure_end(fracas_page *page, const char *title, const char *caption, const char *file, bool drawn, bool csv)
+void fracas_page_figure_end(fracas_page *page, const char *title, const char *caption,
+                            const char *file, bool drawn, bool csv)
 {
     fprintf(page->out, "<figcaption><b>Figure %d.</b> ", ++page->figures);
     fracas_markup_text(title, page->out);
@@ -113,9 +116,12 @@ static void put_drawings(fracas_page *page, const fracas_chart *chart)
     }
     for (int i = 0; i < DRAWINGS; i++)
         if (offered(chart, i))
-            fprintf(page->out, "<input type=\"radio\" class=\"axes %s\" name=\"axes-%s\" id=\"%s-%s\"%s/><label for=\"%s-%s\">%s</label>\n",
-                    drawings[i].class, chart->file, chart->file, drawings[i].class, i ? "" : " checked=\"checked\"", chart->file,
-                    drawings[i].class, drawings[i].label);
+            fprintf(page->out,
+                    "<input type=\"radio\" class=\"axes %s\" name=\"axes-%s\" "
+                    "id=\"%s-%s\"%s/><label for=\"%s-%s\">%s</label>\n",
+                    drawings[i].class, chart->file, chart->file, drawings[i].class,
+                    i ? "" : " checked=\"checked\"", chart->file, drawings[i].class,
+                    drawings[i].label);
     for (int i = 0; i < DRAWINGS; i++) {
         if (!offered(chart, i)) continue;
         fprintf(page->out, "<div class=\"drawing %s\">\n", drawings[i].class);
@@ -146,7 +152,8 @@ static void forget_files(const fracas_page *page, const char *name)
     static const char *const kind[] = {"svg", "pdf", "csv"};
     for (size_t k = 0; k < sizeof kind / sizeof *kind; k++) {
         char path[PATH_MAX];
-        if (snprintf(path, sizeof path, "%s/%s.%s", page->folder, name, kind[k]) < (int)sizeof path) unlink(path);
+        if (snprintf(path, sizeof path, "%s/%s.%s", page->folder, name, kind[k]) < (int)sizeof path)
+            unlink(path);
     }
 }
 
@@ -191,16 +198,19 @@ static void put_cells(const fracas_result_table *table, FILE *out)
     fputs("</tbody>\n", out);
 }
 
-fracas_err fracas_page_table(fracas_page *page, const char *id, const char *title, bool text, fracas_result_table *table,
-                             const char *const *legend, fracas_err built)
+fracas_err fracas_page_table(fracas_page *page, const char *id, const char *title, bool text,
+                             fracas_result_table *table, const char *const *legend,
+                             fracas_err built)
 {
     if (!built && table->rows > FRACAS_RESULT_TABLE_HEAD) {
         fprintf(page->out, "<p class=\"title\"><b>Table %d.</b> ", ++page->tables);
         fracas_markup_text(title, page->out);
         putc('.', page->out);
         put_source(page);
-        fprintf(page->out, "</p>\n<div class=\"scroll fit\" tabindex=\"0\" role=\"region\" aria-label=\"Table %d\"><table id=\"%s\"%s>\n", page->tables,
-                id, text ? " class=\"text\"" : "");
+        fprintf(page->out,
+                "</p>\n<div class=\"scroll fit\" tabindex=\"0\" role=\"region\" aria-label=\"Table "
+                "%d\"><table id=\"%s\"%s>\n",
+                page->tables, id, text ? " class=\"text\"" : "");
         put_cells(table, page->out);
         fputs("</table></div>\n", page->out);
         if (legend && legend[0]) {

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/report/pdf.h"
 
 #ifdef FRACAS_PDF
@@ -18,11 +19,23 @@ static const double points_a_pixel = 72.0 / 96;
 
 /* ---- the child ---- */
 
-/* librsvg brings some fifty libraries, 9 MB and 50 ms at each start of the program, which ranks and workers need not pay: it is loaded here. */
-#define FUNCTIONS(X)                                                                                                                     \
-    X(rsvg_handle_new_from_file) X(rsvg_handle_get_intrinsic_size_in_pixels) X(rsvg_handle_render_document) X(cairo_pdf_surface_create)  \
-    X(cairo_pdf_surface_set_metadata) X(cairo_create) X(cairo_destroy) X(cairo_surface_finish) X(cairo_surface_status)                   \
-    X(cairo_surface_destroy) X(cairo_status_to_string) X(g_object_unref)
+/* librsvg brings some fifty libraries, 9 MB and 50 ms at each start of the program, which ranks and
+ * workers need not pay: it is loaded here. */
+/* clang-format off */
+#define FUNCTIONS(X) \
+    X(rsvg_handle_new_from_file) \
+    X(rsvg_handle_get_intrinsic_size_in_pixels) \
+    X(rsvg_handle_render_document) \
+    X(cairo_pdf_surface_create) \
+    X(cairo_pdf_surface_set_metadata) \
+    X(cairo_create) \
+    X(cairo_destroy) \
+    X(cairo_surface_finish) \
+    X(cairo_surface_status) \
+    X(cairo_surface_destroy) \
+    X(cairo_status_to_string) \
+    X(g_object_unref)
+/* clang-format on */
 
 typedef struct {
 #define MEMBER(name) __typeof__(&name) name;
@@ -31,14 +44,21 @@ typedef struct {
 
 static fracas_err load(library *of)
 {
-    void *handle = dlopen("librsvg-2.so.2", RTLD_NOW | RTLD_LOCAL); /* and what it needs, cairo among it */
+    void *handle = dlopen("librsvg-2.so.2",
+                          RTLD_NOW | RTLD_LOCAL); /* and what it needs, cairo among it */
     if (!handle)
-        return fracas_fail(FRACAS_ENVIRONMENT, "no PDFs without the library they are drawn with, Debian's librsvg2-2: %s", dlerror());
+        return fracas_fail(
+            FRACAS_ENVIRONMENT,
+            "no PDFs without the library they are drawn with, Debian's librsvg2-2: %s", dlerror());
     void *found;
-#define LOAD(name)                                                                                                                       \
-    found = dlsym(handle, #name);                                                                                                        \
-    if (!found) return fracas_fail(FRACAS_ENVIRONMENT, "no PDFs: librsvg-2.so.2 is not the one fracas was built with: %s", dlerror());   \
-    memcpy(&of->name, &found, sizeof found); /* ISO C converts no object pointer to a function's */
+#define LOAD(name)                                                                               \
+    found = dlsym(handle, #name);                                                                \
+    if (!found)                                                                                  \
+        return fracas_fail(FRACAS_ENVIRONMENT,                                                   \
+                           "no PDFs: librsvg-2.so.2 is not the one fracas was built with: %s",   \
+                           dlerror());                                                           \
+    memcpy(&of->name, &found, sizeof found); /* ISO C converts no object pointer to a function's \
+                                              */
     FUNCTIONS(LOAD)
     return FRACAS_OK;
 }
@@ -51,7 +71,8 @@ static fracas_err draw(const library *lib, RsvgHandle *drawing, const char *to)
     width *= points_a_pixel;
     height *= points_a_pixel;
     cairo_surface_t *surface = lib->cairo_pdf_surface_create(to, width, height);
-    lib->cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, ""); /* equal studies, equal files */
+    lib->cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE,
+                                        ""); /* equal studies, equal files */
     cairo_t *cairo = lib->cairo_create(surface);
     GError *error = NULL;
     const RsvgRectangle page = {0, 0, width, height};
@@ -62,21 +83,27 @@ static fracas_err draw(const library *lib, RsvgHandle *drawing, const char *to)
     lib->cairo_surface_finish(surface);
     const cairo_status_t status = lib->cairo_surface_status(surface);
     lib->cairo_surface_destroy(surface);
-    if (!err && status) err = fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: %s", to, lib->cairo_status_to_string(status));
+    if (!err && status)
+        err = fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: %s", to,
+                          lib->cairo_status_to_string(status));
     return err;
 }
 
 static fracas_err convert(const library *lib, const char *folder, const char *name)
 {
     char *from, *to, *temporary;
-    if (asprintf(&from, "%s/%s.svg", folder, name) < 0 || asprintf(&to, "%s/%s.pdf", folder, name) < 0 ||
+    if (asprintf(&from, "%s/%s.svg", folder, name) < 0 ||
+        asprintf(&to, "%s/%s.pdf", folder, name) < 0 ||
         asprintf(&temporary, "%s/.%s.pdf.%ld", folder, name, (long)getpid()) < 0)
         return fracas_no_memory("a path"); /* the child ends here, and with it what it has */
     GError *error = NULL;
     RsvgHandle *drawing = lib->rsvg_handle_new_from_file(from, &error);
-    if (!drawing) return fracas_fail(FRACAS_ENVIRONMENT, "cannot read %s to make a PDF of it: %s", from, error->message);
+    if (!drawing)
+        return fracas_fail(FRACAS_ENVIRONMENT, "cannot read %s to make a PDF of it: %s", from,
+                           error->message);
     fracas_err err = draw(lib, drawing, temporary);
-    if (!err && rename(temporary, to)) err = fracas_fail_system(errno, "cannot rename %s to %s", temporary, to);
+    if (!err && rename(temporary, to))
+        err = fracas_fail_system(errno, "cannot rename %s to %s", temporary, to);
     if (err) unlink(temporary);
     lib->g_object_unref(drawing);
     free(from);
@@ -86,7 +113,8 @@ static fracas_err convert(const library *lib, const char *folder, const char *na
 }
 
 /* What went wrong goes down the pipe. */
-static _Noreturn void child(const char *folder, char (*name)[FRACAS_DRAWING], size_t count, int pipe_end)
+static _Noreturn void child(const char *folder, char (*name)[FRACAS_DRAWING], size_t count,
+                            int pipe_end)
 {
     library lib = {0};
     fracas_err err = load(&lib);
@@ -114,8 +142,11 @@ static fracas_err verdict(int status, const char *message, const char *folder)
 {
     if (WIFEXITED(status) && WEXITSTATUS(status) == FRACAS_OK) return FRACAS_OK;
     if (*message) return fracas_fail(FRACAS_ENVIRONMENT, "%s", message);
-    return fracas_fail(FRACAS_ENVIRONMENT, "the process that makes the PDFs of %s was lost (%s %d); is memory short? `fracas report` makes them again",
-                       folder, WIFSIGNALED(status) ? "signal" : "status", WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status));
+    return fracas_fail(FRACAS_ENVIRONMENT,
+                       "the process that makes the PDFs of %s was lost (%s %d); is memory short? "
+                       "`fracas report` makes them again",
+                       folder, WIFSIGNALED(status) ? "signal" : "status",
+                       WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status));
 }
 
 fracas_err fracas_pdf_write(const char *folder, char (*name)[FRACAS_DRAWING], size_t count)
@@ -123,7 +154,8 @@ fracas_err fracas_pdf_write(const char *folder, char (*name)[FRACAS_DRAWING], si
     int ends[2], status = 0;
     char message[1024];
     if (count == 0) return FRACAS_OK;
-    if (pipe(ends)) return fracas_fail_system(errno, "cannot make a pipe to the process that makes PDFs");
+    if (pipe(ends))
+        return fracas_fail_system(errno, "cannot make a pipe to the process that makes PDFs");
     fflush(NULL);
     const pid_t pid = fork();
     if (pid < 0) {
@@ -137,7 +169,8 @@ fracas_err fracas_pdf_write(const char *folder, char (*name)[FRACAS_DRAWING], si
     listen_to(ends[0], message, sizeof message);
     close(ends[0]);
     while (waitpid(pid, &status, 0) < 0)
-        if (errno != EINTR) return fracas_fail_system(errno, "cannot wait for the process that makes PDFs");
+        if (errno != EINTR)
+            return fracas_fail_system(errno, "cannot wait for the process that makes PDFs");
     return verdict(status, message, folder);
 }
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Drawings as PDF. */
 #ifndef FRACAS_ANALYSIS_REPORT_PDF_H
 #define FRACAS_ANALYSIS_REPORT_PDF_H
@@ -6,12 +7,15 @@
 
 #include <stdbool.h>
 
-/* False in a program built without librsvg: then there are no PDFs, and the page says nothing of them. */
+/* False in a program built without librsvg: then there are no PDFs, and the page says nothing of
+ * them. */
 extern const bool fracas_pdf_made;
 
-/* Every name[i].svg of the folder as name[i].pdf, vectors, one page of its size (96 pixels an inch), without a date. Drawn by a child process: a
- * library that ends its process where memory is short, and keeps what it allocates, is not let into ours. FRACAS_ENVIRONMENT, naming the
- * file, if it cannot. */
-FRACAS_MUST_USE fracas_err fracas_pdf_write(const char *folder, char (*name)[FRACAS_DRAWING], size_t count);
+/* Every name[i].svg of the folder as name[i].pdf, vectors, one page of its size (96 pixels an
+ * inch), without a date. Drawn by a child process: a library that ends its process where memory is
+ * short, and keeps what it allocates, is not let into ours. FRACAS_ENVIRONMENT, naming the file, if
+ * it cannot. */
+FRACAS_MUST_USE fracas_err fracas_pdf_write(const char *folder, char (*name)[FRACAS_DRAWING],
+                                            size_t count);
 
 #endif

@@ -1,10 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/report/scale.h"
 
 #include <math.h>
 #include <stdio.h>
 
-/* The smallest of 1, 2, 5, 10 times a power of ten that is at least `value` > 0 (up), or the greatest that is at
- * most (down); a hair's breadth beyond counts as on it. */
+/* The smallest of 1, 2, 5, 10 times a power of ten that is at least `value` > 0 (up), or the
+ * greatest that is at most (down); a hair's breadth beyond counts as on it. */
 static double nice(double value, bool up)
 {
     static const double series[] = {1, 2, 5, 10};
@@ -42,7 +43,8 @@ void fracas_scale_fit(fracas_scale *scale, bool log, double least, double greate
         greatest += apart;
     }
     double step = linear_step(least, greatest);
-    const double over = 0.02; /* of a step, about a pixel: the last time of a history is a little past its end */
+    const double over =
+        0.02; /* of a step, about a pixel: the last time of a history is a little past its end */
     scale->low = floor(least / step + over) * step;
     scale->high = ceil(greatest / step - over) * step;
 }
@@ -73,7 +75,8 @@ static void power_label(int mantissa, int exponent, char *text, size_t size)
     if (mantissa != 1) used += (size_t)snprintf(text, size, "%d\u00b7", mantissa);
     used += (size_t)snprintf(text + used, size - used, "10");
     for (const char *d = digits; *d && used < size; d++)
-        used += (size_t)snprintf(text + used, size - used, "%s", *d == '-' ? "\u207b" : raised[*d - '0']);
+        used += (size_t)snprintf(text + used, size - used, "%s",
+                                 *d == '-' ? "\u207b" : raised[*d - '0']);
 }
 
 static size_t log_ticks(const fracas_scale *scale, fracas_tick *tick)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The sections of figures. */
 #include "analysis/report/page.h"
 
@@ -12,7 +13,8 @@ static void say_no_rate(const fracas_page *page)
 {
     for (size_t p = 0; p < page->analysis->table->npoints; p++)
         if (page->analysis->point[p].rate > 0) return;
-    fputs("<p>No point begins with a strain rate above 0: nothing to draw against it.</p>\n", page->out);
+    fputs("<p>No point begins with a strain rate above 0: nothing to draw against it.</p>\n",
+          page->out);
 }
 
 fracas_err fracas_section_rate(fracas_page *page)
@@ -135,7 +137,8 @@ static void put_comparisons(const fracas_page *page)
 {
     char text[256];
     for (size_t p = 0; p < page->analysis->table->npoints; p++)
-        if (fracas_fits_format_comparison(page->fits, (int64_t)p, text, sizeof text)) put_of_point(page, p, text);
+        if (fracas_fits_format_comparison(page->fits, (int64_t)p, text, sizeof text))
+            put_of_point(page, p, text);
 }
 
 fracas_err fracas_section_fits(fracas_page *page)
@@ -143,8 +146,10 @@ fracas_err fracas_section_fits(fracas_page *page)
     fracas_chart chart;
     fracas_result_table table = {0};
     if (page->stale)
-        fprintf(page->out, "<p>What <code>fracas fit</code> kept of %zu point%s is not of these results: run it again.</p>\n", page->stale,
-                page->stale == 1 ? "" : "s");
+        fprintf(page->out,
+                "<p>What <code>fracas fit</code> kept of %zu point%s is not of these results: run "
+                "it again.</p>\n",
+                page->stale, page->stale == 1 ? "" : "s");
     const bool any = page->fits && page->fits->n > 0;
     if (any) {
         put_whole_bodies(page);
@@ -152,11 +157,13 @@ fracas_err fracas_section_fits(fracas_page *page)
     }
     fracas_chart_init(&chart);
     for (size_t p = 0; p < page->analysis->table->npoints; p++)
-        TRY(fracas_page_chart(page, &chart, fracas_figure_fits(page->analysis, page->fits, p, &chart)));
+        TRY(fracas_page_chart(page, &chart,
+                              fracas_figure_fits(page->analysis, page->fits, p, &chart)));
     if (!any) return FRACAS_OK;
     fracas_page_grid_end(page);
     const fracas_err built = fracas_fit_table_create(page->analysis, page->fits, true, &table);
-    TRY(fracas_page_table(page, "fits-table", "Families of distributions, by AICc", true, &table, fracas_fit_table_legend, built));
+    TRY(fracas_page_table(page, "fits-table", "Families of distributions, by AICc", true, &table,
+                          fracas_fit_table_legend, built));
     put_comparisons(page);
     return FRACAS_OK;
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The first section: what was run, what came out, what to beware of. */
 #include "analysis/report/page.h"
 
@@ -36,7 +37,8 @@ static void words_of(const fracas_point_table *table, size_t c, char *text, size
     text[0] = '\0';
     for (size_t p = 0; p < table->npoints && used < size; p++) {
         const char *word = table->point[p].value[c].text;
-        if (*word && !listed(text, word)) used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", word);
+        if (*word && !listed(text, word))
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", word);
     }
 }
 
@@ -53,13 +55,15 @@ static void numbers_of(const fracas_point_table *table, size_t c, char *text, si
     }
     text[0] = '\0';
     if (least > most) return;
-    const bool scales = !strcmp(unit, "m") || !strcmp(unit, "Pa") || !strcmp(unit, "s"), pure = !strcmp(unit, "1");
-    const fracas_prefix prefix = scales ? fracas_prefix_for((double[]){least, most}, 2) : (fracas_prefix){1, "", ""};
+    const bool scales = !strcmp(unit, "m") || !strcmp(unit, "Pa") || !strcmp(unit, "s"),
+               pure = !strcmp(unit, "1");
+    const fracas_prefix prefix = scales ? fracas_prefix_for((double[]){least, most}, 2)
+                                        : (fracas_prefix){1, "", ""};
     char from[32], to[32];
     fracas_format_short(least * prefix.factor, from, sizeof from);
     fracas_format_short(most * prefix.factor, to, sizeof to);
-    snprintf(text, size, "%s%s%s%s%s%s", from, least < most ? " to " : "", least < most ? to : "", pure ? "" : " ", prefix.sign,
-             pure ? "" : unit);
+    snprintf(text, size, "%s%s%s%s%s%s", from, least < most ? " to " : "", least < most ? to : "",
+             pure ? "" : " ", prefix.sign, pure ? "" : unit);
 }
 
 static void values_of(const fracas_point_table *table, size_t c, char *text, size_t size)
@@ -78,7 +82,9 @@ static void put_parameters(const fracas_page *page, const char *term, const char
         const size_t length = strlen(prefix), used = strlen(line);
         if (strncmp(table->column[c].path, prefix, length)) continue;
         values_of(table, c, text, sizeof text);
-        if (*text) snprintf(line + used, sizeof line - used, "%s%s %s", used ? ", " : "", table->column[c].path + length, text);
+        if (*text)
+            snprintf(line + used, sizeof line - used, "%s%s %s", used ? ", " : "",
+                     table->column[c].path + length, text);
     }
     if (*line) put_term(page->out, term, line);
 }
@@ -93,8 +99,12 @@ static void put_replicas(const fracas_page *page)
         if (n > most) most = n;
     }
     char text[96];
-    if (least >= most) snprintf(text, sizeof text, "%zu of %" PRId64 " replicas each", analysis->table->npoints, most);
-    else snprintf(text, sizeof text, "%zu of %" PRId64 " to %" PRId64 " replicas", analysis->table->npoints, least, most);
+    if (least >= most)
+        snprintf(text, sizeof text, "%zu of %" PRId64 " replicas each", analysis->table->npoints,
+                 most);
+    else
+        snprintf(text, sizeof text, "%zu of %" PRId64 " to %" PRId64 " replicas",
+                 analysis->table->npoints, least, most);
     put_term(page->out, "points", text);
 }
 
@@ -102,8 +112,9 @@ static void put_campaign(const fracas_page *page)
 {
     static const struct {
         const char *term, *prefix;
-    } group[] = {{"body", "geometry."}, {"mesh", "mesh."},         {"material", "material."}, {"cohesive", "cohesive."},
-                 {"strength", "strength."}, {"loading", "loading."}, {"time", "time."}};
+    } group[] = {{"body", "geometry."},     {"mesh", "mesh."},         {"material", "material."},
+                 {"cohesive", "cohesive."}, {"strength", "strength."}, {"loading", "loading."},
+                 {"time", "time."}};
     const fracas_file_header *header = &page->analysis->header;
     char text[128];
     fputs("<h3>What was run</h3>\n<dl>\n", page->out);
@@ -114,7 +125,8 @@ static void put_campaign(const fracas_page *page)
         values_of(table, model, text, sizeof text);
         put_term(page->out, "model", text);
     }
-    for (size_t g = 0; g < sizeof group / sizeof *group; g++) put_parameters(page, group[g].term, group[g].prefix);
+    for (size_t g = 0; g < sizeof group / sizeof *group; g++)
+        put_parameters(page, group[g].term, group[g].prefix);
     fracas_hash_hex(&header->campaign, text);
     put_term(page->out, "campaign", text);
     snprintf(text, sizeof text, "%" PRIu64, header->seed);
@@ -142,7 +154,8 @@ static fracas_prefix size_prefix(const fracas_analysis *analysis)
 
 enum { POINT, USED, COUNT, SIZE, RATIO, NHEADLINE };
 
-static void paint_headline(const fracas_analysis *analysis, size_t p, const fracas_prefix *unit, fracas_result_table *table, size_t row)
+static void paint_headline(const fracas_analysis *analysis, size_t p, const fracas_prefix *unit,
+                           fracas_result_table *table, size_t row)
 {
     const fracas_point_statistics *statistics = &analysis->point[p];
     char *cell[NHEADLINE];
@@ -153,22 +166,30 @@ static void paint_headline(const fracas_analysis *analysis, size_t p, const frac
     fracas_format_estimate(&statistics->count, 1, "\u00b1", cell[COUNT], FRACAS_CELL);
     fracas_format_estimate(&statistics->size, unit->factor, "\u00b1", cell[SIZE], FRACAS_CELL);
     if (table->columns == NHEADLINE)
-        fracas_format_estimate(&statistics->size, 1 / statistics->law[FRACAS_LAW_ZMR], "\u00b1", cell[RATIO], FRACAS_CELL);
+        fracas_format_estimate(&statistics->size, 1 / statistics->law[FRACAS_LAW_ZMR], "\u00b1",
+                               cell[RATIO], FRACAS_CELL);
 }
 
 static fracas_err make_headlines(const fracas_analysis *analysis, fracas_result_table *table)
 {
     static const char *const name[NHEADLINE] = {"point", "n", "fragments", "mean size", "size"};
-    const size_t npoints = analysis->table->npoints, rows = npoints < HEADLINES ? npoints : HEADLINES;
+    const size_t npoints = analysis->table->npoints,
+                 rows = npoints < HEADLINES ? npoints : HEADLINES;
     const fracas_prefix unit = size_prefix(analysis);
-    *table = (fracas_result_table){.rows = FRACAS_RESULT_TABLE_HEAD + rows, .columns = fracas_analysis_all_surfaces(analysis) ? RATIO : NHEADLINE};
+    *table = (fracas_result_table){.rows = FRACAS_RESULT_TABLE_HEAD + rows,
+                                   .columns = fracas_analysis_all_surfaces(analysis) ? RATIO
+                                                                                     : NHEADLINE};
     table->cell = calloc(table->rows * table->columns, sizeof *table->cell);
     if (!table->cell) return fracas_no_memory("the table of the summary");
-    for (size_t c = 0; c < table->columns; c++) snprintf(fracas_result_table_cell(table, 0, c), FRACAS_CELL, "%s", name[c]);
+    for (size_t c = 0; c < table->columns; c++)
+        snprintf(fracas_result_table_cell(table, 0, c), FRACAS_CELL, "%s", name[c]);
     snprintf(fracas_result_table_cell(table, 1, SIZE), FRACAS_CELL, "[%sm]", unit.sign);
-    if (table->columns == NHEADLINE) snprintf(fracas_result_table_cell(table, 1, RATIO), FRACAS_CELL, "/ZMR");
-    for (size_t i = 0; i < rows; i++) /* all of them, or so many evenly spread over them, the first and the last among them */
-        paint_headline(analysis, rows < 2 ? 0 : i * (npoints - 1) / (rows - 1), &unit, table, FRACAS_RESULT_TABLE_HEAD + i);
+    if (table->columns == NHEADLINE)
+        snprintf(fracas_result_table_cell(table, 1, RATIO), FRACAS_CELL, "/ZMR");
+    for (size_t i = 0; i < rows; i++) /* all of them, or so many evenly spread over them, the first
+                                         and the last among them */
+        paint_headline(analysis, rows < 2 ? 0 : i * (npoints - 1) / (rows - 1), &unit, table,
+                       FRACAS_RESULT_TABLE_HEAD + i);
     return FRACAS_OK;
 }
 
@@ -179,10 +200,16 @@ static fracas_err put_headlines(fracas_page *page)
     const bool all = analysis->table->npoints <= HEADLINES;
     fracas_result_table table = {0};
     const fracas_err built = make_headlines(analysis, &table);
-    snprintf(legend, sizeof legend, "Means over n realizations with the half widths of their 95 %% intervals (Student\u2019s t).%s%s%s",
-             fracas_analysis_any_surface(analysis) ? " Size of a piece of a surface: the square root of its area." : "",
-             table.columns == NHEADLINE ? " ZMR: the law of Zhou, Molinari and Ramesh." : "", all ? "" : " A selection of the points.");
-    return fracas_page_table(page, "headline", "Headline numbers", false, &table, (const char *const[]){legend, NULL}, built);
+    snprintf(legend, sizeof legend,
+             "Means over n realizations with the half widths of their 95 %% intervals "
+             "(Student\u2019s t).%s%s%s",
+             fracas_analysis_any_surface(analysis)
+                 ? " Size of a piece of a surface: the square root of its area."
+                 : "",
+             table.columns == NHEADLINE ? " ZMR: the law of Zhou, Molinari and Ramesh." : "",
+             all ? "" : " A selection of the points.");
+    return fracas_page_table(page, "headline", "Headline numbers", false, &table,
+                             (const char *const[]){legend, NULL}, built);
 }
 
 /* The slope of all points, and whether they are on one line at all. */
@@ -193,16 +220,21 @@ static fracas_err put_slope(const fracas_page *page)
     TRY(fracas_size_slopes(page->analysis, &list, &count));
     if (count > 0) {
         const fracas_slope *slope = &list->slope;
-        const fracas_estimate k = {.n = slope->n, .mean = slope->slope, .half_width = slope->half_width};
+        const fracas_estimate k = {
+            .n = slope->n, .mean = slope->slope, .half_width = slope->half_width};
         const double scatter = slope->chi2 / (double)(slope->n - 2);
         char value[64], times[32];
         fracas_format_estimate(&k, 1, "\u00b1", value, sizeof value);
         fracas_format_digits(sqrt(scatter), 2, times, sizeof times);
-        fprintf(page->out, "<p>Over %" PRId64 " points the mean size goes with the strain rate to the power %s (Mott: -1, Grady: -2/3)",
+        fprintf(page->out,
+                "<p>Over %" PRId64 " points the mean size goes with the strain rate to the power "
+                "%s (Mott: -1, Grady: -2/3)",
                 slope->n, value);
         if (slope->misfit < FRACAS_MISFIT_LIMIT)
-            fprintf(page->out, ", but they are not on one line: their scatter about it is %s times what their errors explain (<a "
-                    "href=\"#slopes\">slopes</a>)", times);
+            fprintf(page->out,
+                    ", but they are not on one line: their scatter about it is %s times what their "
+                    "errors explain (<a href=\"#slopes\">slopes</a>)",
+                    times);
         fputs(".</p>\n", page->out);
     }
     free(list);
@@ -217,9 +249,13 @@ static fracas_err put_crossover(const fracas_page *page)
     TRY(fracas_size_crossovers(page->analysis, true, &list, &count));
     if (count == 1 && !*list->reason && list->rate.low > 0) {
         char rate[96], exponent[96];
-        fracas_format_interval(list->rate.value, list->rate.low, list->rate.high, rate, sizeof rate);
-        fracas_format_interval(list->exponent.value, list->exponent.low, list->exponent.high, exponent, sizeof exponent);
-        fprintf(page->out, "<p>A curve that is level at low rates bends at %s /s, to the power %s at high ones (<a href=\"#crossovers\">crossover</a>).</p>\n",
+        fracas_format_interval(list->rate.value, list->rate.low, list->rate.high, rate,
+                               sizeof rate);
+        fracas_format_interval(list->exponent.value, list->exponent.low, list->exponent.high,
+                               exponent, sizeof exponent);
+        fprintf(page->out,
+                "<p>A curve that is level at low rates bends at %s /s, to the power %s at high "
+                "ones (<a href=\"#crossovers\">crossover</a>).</p>\n",
                 rate, exponent);
     }
     free(list);
@@ -262,9 +298,12 @@ static fracas_err put_warnings(const fracas_page *page)
     if (count > 1) fprintf(page->out, "<h3 id=\"warnings\">Warnings: %zu</h3>\n", count);
     else fputs("<h3 id=\"warnings\">Warnings</h3>\n", page->out);
     if (count == 0) {
-        fputs("<p class=\"fine\">None: no realization failed or was stopped by its time limit; ledger residuals are below 1e-3 and "
-              "created energy below 1e-2 of the dissipated energy, residuals below 1 % of the largest energy; mean "
-              "fragments have 10 elements or more; at most 5 % of the fragments are dust; headline numbers are converged with replicas.</p>\n", page->out);
+        fputs("<p class=\"fine\">None: no realization failed or was stopped by its time limit; "
+              "ledger residuals are below 1e-3 and created energy below 1e-2 of the dissipated "
+              "energy, residuals below 1 % of the largest energy; mean fragments have 10 elements "
+              "or more; at most 5 % of the fragments are dust; headline numbers are converged with "
+              "replicas.</p>\n",
+              page->out);
     } else {
         fputs("<ul class=\"warnings\" tabindex=\"0\">\n", page->out);
         for (size_t i = 0; i < count; i++) {

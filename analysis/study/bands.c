@@ -1,15 +1,18 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/study/bands.h"
 
 #include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdlib.h>
 
-const char *const fracas_energy_key[FRACAS_NENERGIES] = {"kinetic", "elastic", "cohesive", "dissipated"};
+const char *const fracas_energy_key[FRACAS_NENERGIES] = {"kinetic", "elastic", "cohesive",
+                                                         "dissipated"};
 
 static const double tail = 0.05;
 enum { ROOM = 1 << 24 }; /* bytes of the tails */
 
-/* Quantile p of n values is between numbers floor(p (n - 1)) and the next, from 0; only the first of few. */
+/* Quantile p of n values is between numbers floor(p (n - 1)) and the next, from 0; only the first
+ * of few. */
 static size_t kept(size_t n)
 {
     return n < FRACAS_BAND_LEAST ? 1 : (size_t)(tail * (double)(n - 1)) + 2;
@@ -49,7 +52,8 @@ static void keep(double *heap, size_t most, size_t count, double value)
     heap[at] = value;
 }
 
-/* One realization: of each time the first row at or after it, which is its own, and the last row beyond (estimators.23). */
+/* One realization: of each time the first row at or after it, which is its own, and the last row
+ * beyond (estimators.23). */
 static void take_in(const fracas_record *record, fracas_bands_collector *of)
 {
     fracas_bands *bands = of->bands;
@@ -57,7 +61,8 @@ static void take_in(const fracas_record *record, fracas_bands_collector *of)
     for (size_t j = 0; j < of->times; j++) {
         while (row + 1 < record->nhistory && record->history[row].time < bands->time[j]) row++;
         const fracas_history_row *now = &record->history[row];
-        const double energy[FRACAS_NENERGIES] = {now->kinetic, now->elastic, now->cohesive, now->dissipated};
+        const double energy[FRACAS_NENERGIES] = {now->kinetic, now->elastic, now->cohesive,
+                                                 now->dissipated};
         if (now->time >= bands->time[j]) bands->running[j]++;
         for (int e = 0; e < FRACAS_NENERGIES; e++) {
             const size_t heap = (j * FRACAS_NENERGIES + (size_t)e) * of->most;
@@ -98,7 +103,8 @@ static void finish(fracas_bands_collector *of)
     }
 }
 
-fracas_err fracas_bands_begin(int64_t intervals, double end, size_t realizations, fracas_bands *bands, fracas_bands_collector *of)
+fracas_err fracas_bands_begin(int64_t intervals, double end, size_t realizations,
+                              fracas_bands *bands, fracas_bands_collector *of)
 {
     *bands = (fracas_bands){0};
     *of = (fracas_bands_collector){.bands = bands, .all = realizations};
@@ -114,7 +120,8 @@ fracas_err fracas_bands_begin(int64_t intervals, double end, size_t realizations
     if (!bands->time || !bands->running || !bands->energy || !of->least || !of->negative)
         return fracas_no_memory("the energies over time of a point");
     of->times = times;
-    for (size_t j = 0; j < times; j++) bands->time[j] = (double)j * end / (double)(times - 1); /* rounded as the histories' are */
+    for (size_t j = 0; j < times; j++)
+        bands->time[j] = (double)j * end / (double)(times - 1); /* rounded as the histories' are */
     return FRACAS_OK;
 }
 

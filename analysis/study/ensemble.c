@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/study/ensemble.h"
 
 #include <math.h>
@@ -46,7 +47,8 @@ static fracas_err make_room(fracas_ensemble *ensemble, size_t more)
     }
     const size_t needed = ensemble->nfragments + more;
     if (needed > ensemble->fragment_room) {
-        const size_t room = needed > 2 * ensemble->fragment_room ? needed : 2 * ensemble->fragment_room;
+        const size_t room = needed > 2 * ensemble->fragment_room ? needed
+                                                                 : 2 * ensemble->fragment_room;
         TRY(grow(&ensemble->size, room, sizeof *ensemble->size));
         TRY(grow(&ensemble->mass, room, sizeof *ensemble->mass));
         TRY(grow(&ensemble->elements, room, sizeof *ensemble->elements));
@@ -56,15 +58,16 @@ static fracas_err make_room(fracas_ensemble *ensemble, size_t more)
     return FRACAS_OK;
 }
 
-fracas_err fracas_ensemble_add(fracas_ensemble *ensemble, size_t row, int64_t replica, const fracas_replica_values *value,
-                             const fracas_record *record)
+fracas_err fracas_ensemble_add(fracas_ensemble *ensemble, size_t row, int64_t replica,
+                               const fracas_replica_values *value, const fracas_record *record)
 {
     TRY(make_room(ensemble, record->nfragment));
     const size_t i = ensemble->nrealizations++;
     ensemble->value[i] = *value;
     ensemble->replica[i] = replica;
     ensemble->row[i] = row;
-    for (const fracas_fragment *f = record->fragment; f < record->fragment + record->nfragment; f++) {
+    for (const fracas_fragment *f = record->fragment; f < record->fragment + record->nfragment;
+         f++) {
         const size_t at = ensemble->nfragments++;
         ensemble->size[at] = f->size;
         ensemble->mass[at] = f->mass;

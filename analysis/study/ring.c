@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/study/ring.h"
 
 #include <math.h>
@@ -9,7 +10,8 @@ double fracas_arc_centre(double half_angle)
     return half_angle > 0 ? sin(half_angle) / half_angle : 1;
 }
 
-/* (estimators.5). For small angles its series, whose next term is below 1e-14 of it: the difference would cancel. */
+/* (estimators.5). For small angles its series, whose next term is below 1e-14 of it: the difference
+ * would cancel. */
 double fracas_arc_inertia(double half_angle)
 {
     double square = half_angle * half_angle, centre = fracas_arc_centre(half_angle);
@@ -17,7 +19,8 @@ double fracas_arc_inertia(double half_angle)
     return 1 - centre * centre;
 }
 
-/* Outward and counter-clockwise velocity of a fragment's centre of mass; its distance from the origin. */
+/* Outward and counter-clockwise velocity of a fragment's centre of mass; its distance from the
+ * origin. */
 static double resolve(const fracas_fragment *fragment, double velocity[2])
 {
     const double *r = fragment->position, *v = fragment->velocity;
@@ -40,7 +43,8 @@ fracas_ring_motion fracas_ring_motion_of(const fracas_record *record, double rad
         mass += fragment->mass;
         radial += fragment->mass * v[0];
         circumferential += fragment->mass * v[1] * v[1];
-        spin += fabs(fragment->angular_momentum[2]) / inertia; /* mass * (angular momentum/(mass * inertia)) */
+        spin += fabs(fragment->angular_momentum[2]) /
+                inertia; /* mass * (angular momentum/(mass * inertia)) */
     }
     motion.radial = radial / mass;
     for (size_t i = 0; i < record->nfragment; i++) {
@@ -60,7 +64,8 @@ static int by_angle(const void *a, const void *b)
     return (x->fragment > y->fragment) - (x->fragment < y->fragment);
 }
 
-/* (estimators.10), (estimators.11): the speed V leaves no momentum outward in the velocities relative to it. */
+/* (estimators.10), (estimators.11): the speed V leaves no momentum outward in the velocities
+ * relative to it. */
 static void place_pieces(const fracas_record *record, fracas_ring_pattern *pattern)
 {
     double momentum = 0, carried = 0;
@@ -69,10 +74,13 @@ static void place_pieces(const fracas_record *record, fracas_ring_pattern *patte
         fracas_ring_piece *piece = &pattern->piece[i];
         double v[2], distance = resolve(fragment, v);
         *piece = (fracas_ring_piece){
-            .fragment = i, .dust = fragment->dust, .size = fragment->size,
+            .fragment = i,
+            .dust = fragment->dust,
+            .size = fragment->size,
             .half_angle = fragment->size / (2 * pattern->radius),
             .angle = atan2(fragment->position[1], fragment->position[0]),
-            .distance = distance, .velocity = {v[0], v[1]},
+            .distance = distance,
+            .velocity = {v[0], v[1]},
         };
         double centre = fracas_arc_centre(piece->half_angle);
         piece->displacement = distance - pattern->radius * centre;
@@ -83,14 +91,17 @@ static void place_pieces(const fracas_record *record, fracas_ring_pattern *patte
     pattern->expansion = momentum / carried;
     for (size_t i = 0; i < pattern->n; i++) {
         fracas_ring_piece *piece = &pattern->piece[i];
-        piece->relative[0] = piece->velocity[0] - pattern->expansion * fracas_arc_centre(piece->half_angle);
+        piece->relative[0] = piece->velocity[0] -
+                             pattern->expansion * fracas_arc_centre(piece->half_angle);
         piece->relative[1] = piece->velocity[1];
     }
 }
 
-fracas_err fracas_ring_pattern_create(const fracas_record *record, double radius, fracas_ring_pattern *pattern)
+fracas_err fracas_ring_pattern_create(const fracas_record *record, double radius,
+                                      fracas_ring_pattern *pattern)
 {
-    *pattern = (fracas_ring_pattern){.radius = radius, .time = record->end_time, .n = record->nfragment};
+    *pattern = (fracas_ring_pattern){
+        .radius = radius, .time = record->end_time, .n = record->nfragment};
     pattern->piece = calloc(pattern->n + 1, sizeof *pattern->piece);
     if (!pattern->piece) return fracas_no_memory("the fragments of a ring");
     place_pieces(record, pattern);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is known of one point from its realizations. */
 #ifndef FRACAS_ANALYSIS_STUDY_STATISTICS_H
 #define FRACAS_ANALYSIS_STUDY_STATISTICS_H
@@ -17,7 +18,7 @@
 /* Sizes over s0, rates over edot0: the scales are of the mean strength and taken as known. */
 typedef struct {
     double rate;
-    double size, size_half_width;           /* mean over replicas; Student's interval */
+    double size, size_half_width;            /* mean over replicas; Student's interval */
     fracas_interval mean, mass_mean, median; /* of all fragments together */
 } fracas_normalised;
 
@@ -26,21 +27,26 @@ typedef struct {
     double rate;   /* 1/s, NaN where the point has none */
     double length; /* m, of a ring its circumference */
     double radius; /* m, of a ring; NaN of anything else */
-    bool surface;  /* a size is the square root of an area, and the size laws, of one dimension, say nothing */
+    bool surface;  /* a size is the square root of an area, and the size laws, of one dimension, say
+                      nothing */
     fracas_scales scales;
     double law[FRACAS_NLAWS]; /* m, mean size by each law; NaN of surfaces */
     const char *without_mott; /* why the size by Mott's law is NaN; NULL: it is not */
 
-    /* Over its realizations. Usable are FRAGMENTED, INTACT and TIME_LIMIT: their fragments mean something. */
+    /* Over its realizations. Usable are FRAGMENTED, INTACT and TIME_LIMIT: their fragments mean
+     * something. */
     int64_t realizations, usable, unusable;
     int64_t outcome[FRACAS_NOUTCOMES];
     fracas_estimate count, count_large, size, dissipated, bending, onset_time;
     fracas_estimate translation, rotation; /* of a surface's fragments */
-    fracas_estimate largest_size, largest_share; /* of the fragment of most mass: m, and its share of the mass */
-    fracas_estimate radial_velocity, radial_scatter, circumferential_velocity, angular_velocity; /* of a ring's fragments */
+    fracas_estimate largest_size,
+        largest_share; /* of the fragment of most mass: m, and its share of the mass */
+    fracas_estimate radial_velocity, radial_scatter, circumferential_velocity,
+        angular_velocity; /* of a ring's fragments */
     double residual; /* largest over replicas of (largest |residual| over the run)/dissipated */
     double created;  /* largest over replicas of created/dissipated */
-    double drift;    /* largest over replicas of (largest |residual| over the run)/(largest energy at its end) */
+    double drift; /* largest over replicas of (largest |residual| over the run)/(largest energy at
+                     its end) */
     int64_t drifted; /* usable realizations of which that is above FRACAS_DRIFT_LIMIT */
 
     fracas_ensemble ensemble; /* the usable realizations */
@@ -54,7 +60,7 @@ typedef struct {
     fracas_pooled pooled;
     fracas_replica_convergence convergence; /* of the headline numbers */
     fracas_normalised normalised;
-    fracas_bands bands;    /* of the energies; made by a fracas_bands_collector */
+    fracas_bands bands; /* of the energies; made by a fracas_bands_collector */
 
     /* The replica whose dissipated energy is the nearest to the mean, the first of several. */
     int64_t typical_replica; /* -1 without a usable realization */
@@ -65,13 +71,16 @@ typedef struct {
     fracas_history_row *history; /* of that replica; NULL until someone reads it */
 } fracas_point_statistics;
 
-/* A realization whose residual is a larger part of its largest energy is warned of; ENERGY_DRIFT begins at 0.05. */
+/* A realization whose residual is a larger part of its largest energy is warned of; ENERGY_DRIFT
+ * begins at 0.05. */
 #define FRACAS_DRIFT_LIMIT 0.01
 
 /* Of point `point` of the table, without realizations. */
-void fracas_point_statistics_init(const fracas_point_table *table, size_t point, fracas_point_statistics *statistics);
+void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
+                                  fracas_point_statistics *statistics);
 /* Takes in the realization in row `row` of the study; `record` with its fragments. */
-FRACAS_MUST_USE fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size_t row, int64_t replica,
+FRACAS_MUST_USE fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics,
+                                                       size_t row, int64_t replica,
                                                        const fracas_record *record);
 /* Computes the estimates from all that was added. */
 FRACAS_MUST_USE fracas_err fracas_point_statistics_finish(fracas_point_statistics *statistics);
@@ -86,8 +95,8 @@ typedef struct {
     const char *key;
     const char *unit; /* SI */
     const char *doc;
-    size_t offset;    /* in fracas_point_statistics */
-    bool integer;     /* int64_t, else double */
+    size_t offset; /* in fracas_point_statistics */
+    bool integer;  /* int64_t, else double */
 } fracas_statistic;
 
 extern const fracas_statistic fracas_statistics[];

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/study/surface.h"
 
 #include "base/partition.h"
@@ -9,8 +10,10 @@
 static fracas_err check(const fracas_stored_mesh *mesh, const fracas_record *record)
 {
     if (record->ninterface == mesh->ninterfaces) return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED, "a realization has %zu interfaces, the mesh of its point %zu; `fracas verify` checks the "
-                       "study", record->ninterface, mesh->ninterfaces);
+    return fracas_fail(FRACAS_DAMAGED,
+                       "a realization has %zu interfaces, the mesh of its point %zu; `fracas "
+                       "verify` checks the study",
+                       record->ninterface, mesh->ninterfaces);
 }
 
 /* ---- at one time ---- */
@@ -36,12 +39,13 @@ static fracas_err find_fragments(const fracas_stored_mesh *mesh, fracas_surface_
     state->elements = calloc(state->nfragments + 1, sizeof *state->elements);
     if (!state->elements) return fracas_no_memory("the fragments of a surface");
     for (size_t e = 0; e < mesh->nelements; e++) state->elements[state->fragment[e]]++;
-    for (size_t f = 0; f < state->nfragments; f++) state->ndust += state->elements[f] <= FRACAS_SURFACE_DUST;
+    for (size_t f = 0; f < state->nfragments; f++)
+        state->ndust += state->elements[f] <= FRACAS_SURFACE_DUST;
     return FRACAS_OK;
 }
 
-fracas_err fracas_surface_state_create(const fracas_stored_mesh *mesh, const fracas_record *record, double time,
-                                       fracas_surface_state *state)
+fracas_err fracas_surface_state_create(const fracas_stored_mesh *mesh, const fracas_record *record,
+                                       double time, fracas_surface_state *state)
 {
     *state = (fracas_surface_state){.time = time};
     TRY(check(mesh, record));
@@ -90,8 +94,8 @@ static fracas_err sort_breaks(const fracas_record *record, breaking **sorted, si
     return FRACAS_OK;
 }
 
-/* Which of the two sides a vertex, or the crack with that root, touches: bits 1 and 2. False if a side is empty or they
- * touch each other. */
+/* Which of the two sides a vertex, or the crack with that root, touches: bits 1 and 2. False if a
+ * side is empty or they touch each other. */
 static bool mark_sides(const fracas_stored_mesh *mesh, const int64_t tag[2], uint8_t *touches)
 {
     bool apart = true;
@@ -110,8 +114,8 @@ static bool mark_sides(const fracas_stored_mesh *mesh, const int64_t tag[2], uin
 }
 
 /* Lets the interfaces break one after the other until a crack touches both sides. */
-static double break_through(const fracas_stored_mesh *mesh, const breaking *sorted, size_t count, fracas_partition *cracks,
-                            uint8_t *touches)
+static double break_through(const fracas_stored_mesh *mesh, const breaking *sorted, size_t count,
+                            fracas_partition *cracks, uint8_t *touches)
 {
     for (size_t i = 0; i < count; i++) {
         const int64_t *node = mesh->interface[sorted[i].interface].node;
@@ -125,8 +129,8 @@ static double break_through(const fracas_stored_mesh *mesh, const breaking *sort
     return NAN;
 }
 
-fracas_err fracas_surface_through(const fracas_stored_mesh *mesh, const fracas_record *record, const int64_t tag[2],
-                                  double *time)
+fracas_err fracas_surface_through(const fracas_stored_mesh *mesh, const fracas_record *record,
+                                  const int64_t tag[2], double *time)
 {
     fracas_partition cracks = {0};
     breaking *sorted = NULL;
@@ -152,11 +156,13 @@ fracas_err fracas_surface_times_of(const fracas_stored_mesh *mesh, const fracas_
     static const int64_t pair[2][2] = {{1, 2}, {3, 4}};
     *times = (fracas_surface_times){NAN, NAN, {NAN, NAN}};
     TRY(check(mesh, record));
-    for (size_t i = 0; i < record->ninterface; i++) { /* fmin gives the number where the other is NaN */
+    for (size_t i = 0; i < record->ninterface;
+         i++) { /* fmin gives the number where the other is NaN */
         times->onset = fmin(times->onset, record->interface[i].onset_time);
         times->broken = fmin(times->broken, record->interface[i].break_time);
     }
-    for (int k = 0; k < 2; k++) TRY(fracas_surface_through(mesh, record, pair[k], &times->through[k]));
+    for (int k = 0; k < 2; k++)
+        TRY(fracas_surface_through(mesh, record, pair[k], &times->through[k]));
     return FRACAS_OK;
 }
 
@@ -167,7 +173,8 @@ size_t fracas_surface_moments(const fracas_record *record, size_t count, double 
         time[0] = end;
         return count > 0;
     }
-    for (size_t k = 0; k < count; k++) time[k] = onset + (end - onset) * ((double)(k + 1) / (double)count);
+    for (size_t k = 0; k < count; k++)
+        time[k] = onset + (end - onset) * ((double)(k + 1) / (double)count);
     if (count > 0) time[count - 1] = end; /* whatever rounding made of it */
     return count;
 }

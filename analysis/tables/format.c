@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/tables/format.h"
 
 #include <math.h>
@@ -77,17 +78,19 @@ void fracas_format_beside(double value, double limit, char *text, size_t size)
     }
 }
 
-enum { UNKNOWN = 3 }; /* digits of what has no interval beside others that do */
+enum { UNKNOWN = 3 };                  /* digits of what has no interval beside others that do */
 static const double round_off = 1e-12; /* values that are equal but for it have no interval */
 
 void fracas_format_mean(const fracas_estimate *estimate, double factor, char *text, size_t size)
 {
     const double mean = estimate->mean * factor, half_width = estimate->half_width * factor;
-    if (isfinite(mean) && half_width > round_off * fabs(mean)) snprintf(text, size, "%.*f", decimals_for(half_width, 2), mean);
+    if (isfinite(mean) && half_width > round_off * fabs(mean))
+        snprintf(text, size, "%.*f", decimals_for(half_width, 2), mean);
     else fracas_format_digits(mean, UNKNOWN, text, size);
 }
 
-/* The number to a power of ten that is not its own, "12.4e5"; without one where the exponent is 0. */
+/* The number to a power of ten that is not its own, "12.4e5"; without one where the exponent is 0.
+ */
 static void format_power(double value, int exponent, int decimals, char *text, size_t size)
 {
     if (exponent == 0) snprintf(text, size, "%.*f", decimals, value);
@@ -109,20 +112,24 @@ void fracas_format_interval(double value, double low, double high, char *text, s
     }
     char rounded[64];
     snprintf(rounded, sizeof rounded, "%.1e", half_width);
-    const int place = exponent_of(strtod(rounded, NULL)) - 1; /* of the last digit that the interval supports */
+    const int place = exponent_of(strtod(rounded, NULL)) -
+                      1; /* of the last digit that the interval supports */
     const bool large = place > 0, small = value != 0 && fabs(value) < 1e-2;
     const int exponent = large || small ? exponent_of(value) : 0;
     const double ends[3] = {value, low, high};
     for (int i = 0; i < 3; i++) {
-        const bool vanishes = ends[i] > 0 && ends[i] < 0.5 * pow(10, place); /* what is above 0 is not shown as 0 */
+        const bool vanishes = ends[i] > 0 &&
+                              ends[i] <
+                                  0.5 * pow(10, place); /* what is above 0 is not shown as 0 */
         const int last = vanishes ? exponent_of(ends[i]) : place;
-        format_power(ends[i], exponent, exponent > last ? exponent - last : 0, part[i], sizeof part[i]);
+        format_power(ends[i], exponent, exponent > last ? exponent - last : 0, part[i],
+                     sizeof part[i]);
     }
     snprintf(text, size, "%s [%s, %s]", part[0], part[1], part[2]);
 }
 
-void fracas_format_estimate(const fracas_estimate *estimate, double factor, const char *plus_minus, char *text,
-                            size_t size)
+void fracas_format_estimate(const fracas_estimate *estimate, double factor, const char *plus_minus,
+                            char *text, size_t size)
 {
     double mean = estimate->mean * factor, half_width = estimate->half_width * factor;
     if (half_width <= round_off * fabs(mean)) half_width = 0;
@@ -141,8 +148,8 @@ void fracas_format_estimate(const fracas_estimate *estimate, double factor, cons
 fracas_prefix fracas_prefix_for(const double *value, size_t count)
 {
     static const fracas_prefix prefix[] = {
-        {1e9, "n", "n"}, {1e6, "u", "\u00b5"}, {1e3, "m", "m"}, {1, "", ""},
-        {1e-3, "k", "k"}, {1e-6, "M", "M"}, {1e-9, "G", "G"},
+        {1e9, "n", "n"},  {1e6, "u", "\u00b5"}, {1e3, "m", "m"},  {1, "", ""},
+        {1e-3, "k", "k"}, {1e-6, "M", "M"},     {1e-9, "G", "G"},
     };
     const int last = (int)(sizeof prefix / sizeof *prefix) - 1, none = 3;
     double least = INFINITY, greatest = 0;
@@ -153,7 +160,8 @@ fracas_prefix fracas_prefix_for(const double *value, size_t count)
     }
     if (greatest <= 0) return prefix[none];
     double middle = (log10(least) + log10(greatest)) / 2;
-    int thousands = (int)floor(middle / 3 + 1e-9); /* 1 itself is 1, whatever the rounding of log10 */
+    int thousands = (int)floor(middle / 3 +
+                               1e-9); /* 1 itself is 1, whatever the rounding of log10 */
     int i = none + thousands;
     return prefix[i < 0 ? 0 : i > last ? last : i];
 }

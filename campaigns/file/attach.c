@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/attach.h"
 
 #include "campaigns/file/say.h"
@@ -10,11 +11,13 @@
 
 enum { MOST_MIB = 256 };
 
-/* The path as the system needs it: what is relative is so to the folder of the campaign file. NULL without memory. */
+/* The path as the system needs it: what is relative is so to the folder of the campaign file. NULL
+ * without memory. */
 static const char *locate(const fracas_file *file, const char *named)
 {
     const char *slash = strrchr(file->name, '/');
-    const size_t folder = *named != '/' && slash ? (size_t)(slash - file->name) + 1 : 0, size = folder + strlen(named) + 1;
+    const size_t folder = *named != '/' && slash ? (size_t)(slash - file->name) + 1 : 0,
+                 size = folder + strlen(named) + 1;
     char *made = fracas_memory_take(file->memory, size, 1);
     if (made) snprintf(made, size, "%.*s%s", (int)folder, file->name, named);
     return made;
@@ -26,22 +29,31 @@ static fracas_err check_copy(const fracas_attachment *read, const char *path)
     static const char folder[] = FRACAS_ATTACHMENTS "/";
     const size_t length = strlen(read->path), above = sizeof folder - 1;
     fracas_hash named;
-    if (length != above + FRACAS_HASH_HEX - 1 || strncmp(read->path, folder, above) != 0) return FRACAS_OK;
-    if (!fracas_hash_parse(read->path + above, &named) || strcmp(read->digest, read->path + above) == 0) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "%s is damaged: its content has the digest %s, its name says another; put back the file "
-                                     "that it is a copy of", path, read->digest);
+    if (length != above + FRACAS_HASH_HEX - 1 || strncmp(read->path, folder, above) != 0)
+        return FRACAS_OK;
+    if (!fracas_hash_parse(read->path + above, &named) ||
+        strcmp(read->digest, read->path + above) == 0)
+        return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE,
+                       "%s is damaged: its content has the digest %s, its name says another; put "
+                       "back the file that it is a copy of",
+                       path, read->digest);
 }
 
-/* A name that leads nowhere is a slip in the campaign file; any other reason is not of its making. */
+/* A name that leads nowhere is a slip in the campaign file; any other reason is not of its making.
+ */
 static fracas_err cannot(const char *verb, const char *path)
 {
     const int reason = errno;
-    const bool absent = reason == ENOENT || reason == ENOTDIR || reason == ENAMETOOLONG || reason == ELOOP;
-    return fracas_fail(absent ? FRACAS_USAGE : FRACAS_ENVIRONMENT, "cannot %s %s: %s", verb, path, strerror(reason));
+    const bool absent = reason == ENOENT || reason == ENOTDIR || reason == ENAMETOOLONG ||
+                        reason == ELOOP;
+    return fracas_fail(absent ? FRACAS_USAGE : FRACAS_ENVIRONMENT, "cannot %s %s: %s", verb, path,
+                       strerror(reason));
 }
 
 /* The content, which belongs to the campaign's memory, and an end. */
-static fracas_err load_open(const fracas_file *file, const char *path, FILE *in, fracas_attachment *made)
+static fracas_err load_open(const fracas_file *file, const char *path, FILE *in,
+                            fracas_attachment *made)
 {
     struct stat info;
     if (fstat(fileno(in), &info)) return cannot("read", path);
@@ -54,7 +66,9 @@ static fracas_err load_open(const fracas_file *file, const char *path, FILE *in,
     if (!text) return fracas_no_memory("a file that the campaign names");
     const size_t got = fread(text, 1, size, in);
     if (ferror(in)) return cannot("read", path);
-    if (got < size) return fracas_fail(FRACAS_ENVIRONMENT, "%s has become shorter while it was read; try again", path);
+    if (got < size)
+        return fracas_fail(FRACAS_ENVIRONMENT, "%s has become shorter while it was read; try again",
+                           path);
     made->text = text;
     made->size = size;
     const fracas_hash digest = fracas_hash_of(text, size);
@@ -66,7 +80,8 @@ static fracas_err load(const fracas_file *file, const char *path, fracas_attachm
 {
     struct stat info;
     if (stat(path, &info)) return cannot("open", path);
-    if (!S_ISREG(info.st_mode)) return fracas_fail(FRACAS_USAGE, "%s is not a file", path); /* opening a pipe would wait */
+    if (!S_ISREG(info.st_mode))
+        return fracas_fail(FRACAS_USAGE, "%s is not a file", path); /* opening a pipe would wait */
     FILE *in = fopen(path, "rb");
     if (!in) return cannot("open", path);
     fracas_err err = load_open(file, path, in, made);

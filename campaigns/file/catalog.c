@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/catalog.h"
 
 #include "base/units.h"
@@ -8,13 +9,17 @@
 
 static const fracas_param output_params[] = {
     {"history", FRACAS_INTEGER, "1",
-     "equal intervals of time.end at which energies are kept; 0: only at onset, energy peak and end", 100, 0, 1e6,
-     false, offsetof(fracas_output, history)},
-    {"interfaces", FRACAS_BOOLEAN, "1", "keep strength, damage, onset and break time of every interface", 0, 0, 1,
-     false, offsetof(fracas_output, interfaces)},
+     "equal intervals of time.end at which energies are kept; 0: only at onset, energy peak and "
+     "end",
+     100, 0, 1e6, false, offsetof(fracas_output, history)},
+    {"interfaces", FRACAS_BOOLEAN, "1",
+     "keep strength, damage, onset and break time of every interface", 0, 0, 1, false,
+     offsetof(fracas_output, interfaces)},
 };
 static const fracas_section output_section = {
-    .name = "output", .doc = "What is kept beside the results of every realization", .params = output_params,
+    .name = "output",
+    .doc = "What is kept beside the results of every realization",
+    .params = output_params,
     .nparams = FRACAS_COUNT(output_params),
 };
 
@@ -26,9 +31,11 @@ static fracas_err make_sections(fracas_campaign_memory *memory, fracas_catalog *
     fracas_file_section *section = fracas_memory_take(memory, count, sizeof *section);
     if (!section) return fracas_no_memory("the list of sections");
     for (size_t i = 0; i < fracas_engine_nsections; i++)
-        section[i] = (fracas_file_section){fracas_engine_sections[i],
-                                           offsetof(fracas_point, spec) + fracas_engine_sections[i]->offset};
-    section[count - 2] = (fracas_file_section){&fracas_strength_section, offsetof(fracas_point, strength)};
+        section[i] = (fracas_file_section){
+            fracas_engine_sections[i],
+            offsetof(fracas_point, spec) + fracas_engine_sections[i]->offset};
+    section[count - 2] = (fracas_file_section){&fracas_strength_section,
+                                               offsetof(fracas_point, strength)};
     section[count - 1] = (fracas_file_section){&output_section, 0};
     catalog->section = section;
     catalog->nsections = count;
@@ -53,7 +60,8 @@ static fracas_err add_leaf(leaf_list *list, const fracas_file_section *section, 
                            const fracas_param *param)
 {
     for (size_t i = 0; i < list->count; i++)
-        if (list->leaf[i].section == section && strcmp(list->leaf[i].key, key) == 0) return FRACAS_OK;
+        if (list->leaf[i].section == section && strcmp(list->leaf[i].key, key) == 0)
+            return FRACAS_OK;
     const char *name = section->table->name;
     size_t size = strlen(name) + 1 + strlen(key) + 1;
     char *path = fracas_memory_take(list->memory, size, 1);
@@ -64,8 +72,8 @@ static fracas_err add_leaf(leaf_list *list, const fracas_file_section *section, 
     return FRACAS_OK;
 }
 
-static fracas_err add_params(leaf_list *list, const fracas_file_section *section, const fracas_param *params,
-                             size_t count)
+static fracas_err add_params(leaf_list *list, const fracas_file_section *section,
+                             const fracas_param *params, size_t count)
 {
     for (size_t p = 0; p < count; p++) TRY(add_leaf(list, section, params[p].name, &params[p]));
     return FRACAS_OK;
@@ -74,7 +82,8 @@ static fracas_err add_params(leaf_list *list, const fracas_file_section *section
 static fracas_err add_leaves(leaf_list *list, const fracas_file_section *section)
 {
     const fracas_section *table = section->table;
-    if (table->nkinds > 0) TRY(add_leaf(list, section, table->selector ? table->selector : table->name, NULL));
+    if (table->nkinds > 0)
+        TRY(add_leaf(list, section, table->selector ? table->selector : table->name, NULL));
     TRY(add_params(list, section, table->params, table->nparams));
     for (size_t k = 0; k < table->nkinds; k++)
         TRY(add_params(list, section, table->kinds[k]->params, table->kinds[k]->nparams));
@@ -93,7 +102,8 @@ fracas_err fracas_catalog_make(fracas_campaign_memory *memory, const fracas_cata
     TRY(make_sections(memory, made));
     size_t most = 0;
     for (size_t s = 0; s < made->nsections; s++) most += most_leaves(made->section[s].table);
-    leaf_list list = {.memory = memory, .leaf = fracas_memory_take(memory, most, sizeof *list.leaf)};
+    leaf_list list = {.memory = memory,
+                      .leaf = fracas_memory_take(memory, most, sizeof *list.leaf)};
     if (!list.leaf) return fracas_no_memory("the list of keys");
     for (size_t s = 0; s < made->nsections; s++) TRY(add_leaves(&list, &made->section[s]));
     qsort(list.leaf, list.count, sizeof *list.leaf, by_path);
@@ -119,31 +129,36 @@ const fracas_leaf *fracas_catalog_leaf(const fracas_catalog *catalog, const char
     return NULL;
 }
 
-const fracas_leaf *fracas_catalog_key(const fracas_catalog *catalog, const fracas_file_section *section,
-                                      const char *key)
+const fracas_leaf *fracas_catalog_key(const fracas_catalog *catalog,
+                                      const fracas_file_section *section, const char *key)
 {
     for (size_t i = 0; i < catalog->nleaves; i++)
-        if (catalog->leaf[i].section == section && strcmp(catalog->leaf[i].key, key) == 0) return &catalog->leaf[i];
+        if (catalog->leaf[i].section == section && strcmp(catalog->leaf[i].key, key) == 0)
+            return &catalog->leaf[i];
     return NULL;
 }
 
-const fracas_leaf *fracas_catalog_selector(const fracas_catalog *catalog, const fracas_file_section *section)
+const fracas_leaf *fracas_catalog_selector(const fracas_catalog *catalog,
+                                           const fracas_file_section *section)
 {
     for (size_t i = 0; i < catalog->nleaves; i++)
-        if (catalog->leaf[i].section == section && !catalog->leaf[i].param) return &catalog->leaf[i];
+        if (catalog->leaf[i].section == section && !catalog->leaf[i].param)
+            return &catalog->leaf[i];
     return NULL;
 }
 
 /* The parameter of that name that points of `model` have (NULL: any model). */
-static const fracas_param *find_param(const fracas_param *params, size_t count, const fracas_kind *model, const char *key)
+static const fracas_param *find_param(const fracas_param *params, size_t count,
+                                      const fracas_kind *model, const char *key)
 {
     for (size_t p = 0; p < count; p++)
-        if (strcmp(params[p].name, key) == 0 && (!model || fracas_param_is_of(&params[p], model))) return &params[p];
+        if (strcmp(params[p].name, key) == 0 && (!model || fracas_param_is_of(&params[p], model)))
+            return &params[p];
     return NULL;
 }
 
-const fracas_param *fracas_section_param(const fracas_section *section, const fracas_kind *kind, const fracas_kind *model,
-                                         const char *key)
+const fracas_param *fracas_section_param(const fracas_section *section, const fracas_kind *kind,
+                                         const fracas_kind *model, const char *key)
 {
     const fracas_param *param = find_param(section->params, section->nparams, model, key);
     return param || !kind ? param : find_param(kind->params, kind->nparams, model, key);
@@ -153,8 +168,10 @@ bool fracas_section_common(const fracas_section *section, const fracas_kind *mod
 {
     if (fracas_section_param(section, NULL, model, key)) return true;
     const bool restricts = fracas_kind_partner(model, section, 0) != NULL;
-    for (size_t k = 0; restricts ? fracas_kind_partner(model, section, k) != NULL : k < section->nkinds; k++) {
-        const fracas_kind *kind = restricts ? fracas_kind_partner(model, section, k) : section->kinds[k];
+    for (size_t k = 0;
+         restricts ? fracas_kind_partner(model, section, k) != NULL : k < section->nkinds; k++) {
+        const fracas_kind *kind = restricts ? fracas_kind_partner(model, section, k)
+                                            : section->kinds[k];
         if (!fracas_section_param(section, kind, model, key)) return false;
     }
     return section->nkinds > 0;
@@ -207,7 +224,8 @@ bool fracas_leaf_is_text(const fracas_leaf *leaf)
     return !leaf->param || fracas_param_is_text(leaf->param);
 }
 
-void fracas_leaf_write(const fracas_leaf *leaf, const fracas_value *value, char text[FRACAS_LEAF_TEXT])
+void fracas_leaf_write(const fracas_leaf *leaf, const fracas_value *value,
+                       char text[FRACAS_LEAF_TEXT])
 {
     if (fracas_leaf_is_text(leaf)) snprintf(text, FRACAS_LEAF_TEXT, "%s", value->text);
     else if (leaf->param->type == FRACAS_BOOLEAN)

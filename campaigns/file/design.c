@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/design.h"
 
 #include "campaigns/file/say.h"
@@ -21,8 +22,8 @@ typedef struct {
 } reading;
 
 /* The one of `count` kinds that the entry `key` of `map` names. */
-static fracas_err read_kind(const fracas_file *file, const fracas_node *map, const char *key, const fracas_kind *const *kinds, size_t count,
-                            const fracas_kind **kind)
+static fracas_err read_kind(const fracas_file *file, const fracas_node *map, const char *key,
+                            const fracas_kind *const *kinds, size_t count, const fracas_kind **kind)
 {
     const fracas_node *node = fracas_node_find(map, key);
     char found[256], hint[600], label[80];
@@ -36,27 +37,38 @@ static fracas_err read_kind(const fracas_file *file, const fracas_node *map, con
     snprintf(label, sizeof label, "%s can be", key);
     fracas_words_hint(&words, label, hint);
     if (!node) return fracas_say(file->name, map, "no `%s` is given%s", key, hint);
-    return fracas_say(file->name, node, "unknown %s %s%s", key, fracas_say_found(node, found), hint);
+    return fracas_say(file->name, node, "unknown %s %s%s", key, fracas_say_found(node, found),
+                      hint);
 }
 
 /* ---- parameters ---- */
 
 /* Only numbers can be drawn. */
-static fracas_err check_number(const fracas_file *file, const fracas_node *key, const fracas_target *target)
+static fracas_err check_number(const fracas_file *file, const fracas_node *key,
+                               const fracas_target *target)
 {
     const fracas_leaf *leaf = target->leaf;
     if (leaf && !fracas_leaf_is_text(leaf) && leaf->param->type != FRACAS_BOOLEAN) return FRACAS_OK;
-    return fracas_say(file->name, key, "`%s` is %s, which cannot be drawn; give it an axis of its own beside the design, as `- %s: [...]`",
-                      key->text, !leaf ? "a section" : leaf->param ? "no number" : "a kind", key->text);
+    return fracas_say(file->name, key,
+                      "`%s` is %s, which cannot be drawn; give it an axis of its own beside the "
+                      "design, as `- %s: [...]`",
+                      key->text,
+                      !leaf         ? "a section"
+                      : leaf->param ? "no number"
+                                    : "a kind",
+                      key->text);
 }
 
-/* One number of a law, "mean: 370 GPa", in the unit of the parameter where it has none of its own. */
-static fracas_err read_law_number(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node, const fracas_param *param,
+/* One number of a law, "mean: 370 GPa", in the unit of the parameter where it has none of its own.
+ */
+static fracas_err read_law_number(const fracas_file *file, const fracas_leaf *leaf,
+                                  const fracas_node *node, const fracas_param *param,
                                   fracas_uncertain *uncertain)
 {
     fracas_param own = *param;
     if (strcmp(own.unit, FRACAS_OWN_UNIT) == 0) own.unit = leaf->param->unit;
-    const fracas_leaf number = {.section = leaf->section, .path = leaf->path, .key = own.name, .param = &own};
+    const fracas_leaf number = {
+        .section = leaf->section, .path = leaf->path, .key = own.name, .param = &own};
     fracas_setting setting;
     TRY(fracas_setting_read(file, &number, node, &setting));
     TRY(fracas_setting_check(file, &setting, &own));
@@ -64,7 +76,8 @@ static fracas_err read_law_number(const fracas_file *file, const fracas_leaf *le
     return FRACAS_OK;
 }
 
-static fracas_err check_law_keys(const fracas_file *file, const fracas_node *node, const fracas_kind *law)
+static fracas_err check_law_keys(const fracas_file *file, const fracas_node *node,
+                                 const fracas_kind *law)
 {
     const char *keys[8] = {"distribution"};
     char what[80];
@@ -73,13 +86,16 @@ static fracas_err check_law_keys(const fracas_file *file, const fracas_node *nod
     return fracas_say_unknown(file->name, node, keys, what);
 }
 
-static fracas_err read_law(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node, fracas_uncertain *uncertain)
+static fracas_err read_law(const fracas_file *file, const fracas_leaf *leaf,
+                           const fracas_node *node, fracas_uncertain *uncertain)
 {
     const fracas_section *laws = &fracas_uncertain_section;
     char found[256];
     if (node->type != FRACAS_MAP)
-        return fracas_say(file->name, node, "`%s`: found %s; expected a distribution, as {distribution: uniform, minimum: ..., "
-                          "maximum: ...}", leaf->path, fracas_say_found(node, found));
+        return fracas_say(file->name, node,
+                          "`%s`: found %s; expected a distribution, as {distribution: uniform, "
+                          "minimum: ..., maximum: ...}",
+                          leaf->path, fracas_say_found(node, found));
     TRY(read_kind(file, node, laws->selector, laws->kinds, laws->nkinds, &uncertain->law));
     TRY(check_law_keys(file, node, uncertain->law));
     for (size_t i = 0; i < uncertain->law->nparams; i++) {
@@ -89,10 +105,11 @@ static fracas_err read_law(const fracas_file *file, const fracas_leaf *leaf, con
         else if (param->optional) fracas_param_clear(param, uncertain);
         else if (!isnan(param->fallback)) fracas_param_set(param, uncertain, param->fallback);
         else
-            return fracas_say(file->name, node, "`%s` with distribution %s needs `%s` (%s)", leaf->path, uncertain->law->name, param->name,
-                              param->doc);
+            return fracas_say(file->name, node, "`%s` with distribution %s needs `%s` (%s)",
+                              leaf->path, uncertain->law->name, param->name, param->doc);
     }
-    return fracas_uncertain_check(uncertain) ? fracas_say_within(file->name, node, leaf->path) : FRACAS_OK;
+    return fracas_uncertain_check(uncertain) ? fracas_say_within(file->name, node, leaf->path)
+                                             : FRACAS_OK;
 }
 
 static fracas_err read_parameters(const fracas_file *file, const fracas_node *map, reading *read)
@@ -100,17 +117,21 @@ static fracas_err read_parameters(const fracas_file *file, const fracas_node *ma
     static const char *const none[] = {NULL};
     char found[256];
     if (map->type != FRACAS_MAP || map->count == 0)
-        return fracas_say(file->name, map, "`parameters`: found %s; expected paths with their distributions, below it and indented",
+        return fracas_say(file->name, map,
+                          "`parameters`: found %s; expected paths with their distributions, below "
+                          "it and indented",
                           map->type == FRACAS_MAP ? "nothing" : fracas_say_found(map, found));
     const size_t d = map->count, most = fracas_design_most_parameters(read->design.type);
     if (d > most)
-        return fracas_say(file->name, map->key, "%zu parameters; %s has at most %zu: use another type, or two designs", d,
+        return fracas_say(file->name, map->key,
+                          "%zu parameters; %s has at most %zu: use another type, or two designs", d,
                           read->design.type->name, most);
     read->leaf = fracas_memory_take(file->memory, d, sizeof *read->leaf);
     read->node = fracas_memory_take(file->memory, d, sizeof *read->node);
     read->uncertain = fracas_memory_take(file->memory, d, sizeof *read->uncertain);
     read->name = fracas_memory_take(file->memory, d, sizeof *read->name);
-    if (!read->leaf || !read->node || !read->uncertain || !read->name) return fracas_no_memory("a design");
+    if (!read->leaf || !read->node || !read->uncertain || !read->name)
+        return fracas_no_memory("a design");
     for (const fracas_node *node = map->first; node; node = node->next) {
         const size_t j = read->design.parameters++;
         uint64_t word[2];
@@ -130,7 +151,8 @@ static fracas_err read_parameters(const fracas_file *file, const fracas_node *ma
 
 /* ---- correlation ---- */
 
-static fracas_err find_parameter(const fracas_file *file, const reading *read, const fracas_node *node, size_t *j)
+static fracas_err find_parameter(const fracas_file *file, const reading *read,
+                                 const fracas_node *node, size_t *j)
 {
     fracas_words words;
     char found[256], hint[600];
@@ -139,40 +161,59 @@ static fracas_err find_parameter(const fracas_file *file, const reading *read, c
         if (strcmp(words.found, read->leaf[*j]->path) == 0) return FRACAS_OK;
         fracas_words_add(&words, read->leaf[*j]->path);
     }
-    return fracas_say(file->name, node, "%s is no parameter of this design%s", fracas_say_found(node, found),
-                      fracas_words_hint(&words, "parameters", hint));
+    return fracas_say(file->name, node, "%s is no parameter of this design%s",
+                      fracas_say_found(node, found), fracas_words_hint(&words, "parameters", hint));
 }
 
 static fracas_err read_pair(const fracas_file *file, const fracas_node *node, reading *read)
 {
     static const char *const keys[] = {"between", "coefficient", NULL};
-    static const fracas_param coefficient = {"coefficient", FRACAS_REAL, "1", .minimum = -1, .maximum = 1};
-    const fracas_leaf number = {.section = read->leaf[0]->section, .path = "coefficient", .key = "coefficient", .param = &coefficient};
-    const fracas_node *between = node->type == FRACAS_MAP ? fracas_node_find(node, "between") : NULL;
-    const fracas_node *value = node->type == FRACAS_MAP ? fracas_node_find(node, "coefficient") : NULL;
+    static const fracas_param coefficient = {"coefficient", FRACAS_REAL, "1", .minimum = -1,
+                                             .maximum = 1};
+    const fracas_leaf number = {.section = read->leaf[0]->section,
+                                .path = "coefficient",
+                                .key = "coefficient",
+                                .param = &coefficient};
+    const fracas_node *between = node->type == FRACAS_MAP ? fracas_node_find(node, "between")
+                                                          : NULL;
+    const fracas_node *value = node->type == FRACAS_MAP ? fracas_node_find(node, "coefficient")
+                                                        : NULL;
     fracas_setting setting;
     size_t j, k;
     if (!between || !value || between->type != FRACAS_LIST || between->count != 2)
-        return fracas_say(file->name, node, "a correlation is {between: [PARAMETER, PARAMETER], coefficient: NUMBER}");
+        return fracas_say(
+            file->name, node,
+            "a correlation is {between: [PARAMETER, PARAMETER], coefficient: NUMBER}");
     TRY(fracas_say_unknown(file->name, node, keys, "a correlation"));
     TRY(find_parameter(file, read, between->first, &j));
     TRY(find_parameter(file, read, between->first->next, &k));
     TRY(fracas_setting_read(file, &number, value, &setting));
     TRY(fracas_setting_check(file, &setting, &coefficient));
-    double *pair[2] = {&read->correlation[j * read->design.parameters + k], &read->correlation[k * read->design.parameters + j]};
-    if (j == k) return fracas_say(file->name, between, "`%s` twice; a correlation is between two parameters", read->leaf[j]->path);
+    double *pair[2] = {&read->correlation[j * read->design.parameters + k],
+                       &read->correlation[k * read->design.parameters + j]};
+    if (j == k)
+        return fracas_say(file->name, between,
+                          "`%s` twice; a correlation is between two parameters",
+                          read->leaf[j]->path);
     if (!isnan(*pair[0]))
-        return fracas_say(file->name, between, "the correlation between `%s` and `%s` is given twice; keep one of the two",
-                          read->leaf[j]->path, read->leaf[k]->path);
+        return fracas_say(
+            file->name, between,
+            "the correlation between `%s` and `%s` is given twice; keep one of the two",
+            read->leaf[j]->path, read->leaf[k]->path);
     if (fabs(setting.value) == 1)
-        return fracas_say(file->name, value, "`coefficient`: %.15g is out of range; allowed is more than -1 and less than 1: of two "
-                          "parameters that go together exactly, one is not uncertain", setting.value);
+        return fracas_say(
+            file->name, value,
+            "`coefficient`: %.15g is out of range; allowed is more than -1 and less than 1: of two "
+            "parameters that go together exactly, one is not uncertain",
+            setting.value);
     *pair[0] = *pair[1] = setting.value;
     return FRACAS_OK;
 }
 
-/* Names the first parameter that contradicts those before it, and the one of them that it is tied to most. */
-static fracas_err check_correlation(const fracas_file *file, const fracas_node *list, const reading *read)
+/* Names the first parameter that contradicts those before it, and the one of them that it is tied
+ * to most. */
+static fracas_err check_correlation(const fracas_file *file, const fracas_node *list,
+                                    const reading *read)
 {
     const size_t d = read->design.parameters;
     double *factor = fracas_memory_take(file->memory, d * d, sizeof *factor), rest;
@@ -181,9 +222,12 @@ static fracas_err check_correlation(const fracas_file *file, const fracas_node *
     if (fracas_correlation_factor(d, read->correlation, factor, &j, &rest)) return FRACAS_OK;
     for (size_t k = 1; k < j; k++)
         if (fabs(read->correlation[j * d + k]) > fabs(read->correlation[j * d + most])) most = k;
-    return fracas_say(file->name, list, "these coefficients contradict each other: those of `%s` with the parameters before it leave it "
-                      "%.3g of its variance, which must be more than 0; bring them nearer to 0, that with `%s` first (%.15g)",
-                      read->leaf[j]->path, rest, read->leaf[most]->path, read->correlation[j * d + most]);
+    return fracas_say(file->name, list,
+                      "these coefficients contradict each other: those of `%s` with the parameters "
+                      "before it leave it %.3g of its variance, which must be more than 0; bring "
+                      "them nearer to 0, that with `%s` first (%.15g)",
+                      read->leaf[j]->path, rest, read->leaf[most]->path,
+                      read->correlation[j * d + most]);
 }
 
 static fracas_err read_correlation(const fracas_file *file, const fracas_node *list, reading *read)
@@ -192,12 +236,15 @@ static fracas_err read_correlation(const fracas_file *file, const fracas_node *l
     char found[256];
     if (!list) return FRACAS_OK;
     if (list->type != FRACAS_LIST || list->count == 0)
-        return fracas_say(file->name, list, "`correlation`: found %s; expected a list, as `- {between: [PARAMETER, PARAMETER], "
-                          "coefficient: 0.5}`", list->type == FRACAS_LIST ? "nothing" : fracas_say_found(list, found));
+        return fracas_say(file->name, list,
+                          "`correlation`: found %s; expected a list, as `- {between: [PARAMETER, "
+                          "PARAMETER], coefficient: 0.5}`",
+                          list->type == FRACAS_LIST ? "nothing" : fracas_say_found(list, found));
     read->correlation = fracas_memory_take(file->memory, d * d, sizeof *read->correlation);
     if (!read->correlation) return fracas_no_memory("a design");
     for (size_t i = 0; i < d * d; i++) read->correlation[i] = i % (d + 1) == 0 ? 1.0 : NAN;
-    for (const fracas_node *node = list->first; node; node = node->next) TRY(read_pair(file, node, read));
+    for (const fracas_node *node = list->first; node; node = node->next)
+        TRY(read_pair(file, node, read));
     for (size_t i = 0; i < d * d; i++)
         if (isnan(read->correlation[i])) read->correlation[i] = 0.0;
     read->design.correlation = read->correlation;
@@ -216,9 +263,12 @@ static fracas_err draw(const fracas_file *file, const reading *read, double *val
         const size_t j = i % d;
         const double drawn = fracas_uncertain_quantile(&read->uncertain[j], p[i]);
         if (!isfinite(drawn))
-            return fracas_say(file->name, read->node[j], "`%s`: point %zu of the design is beyond all numbers; narrow its distribution",
-                              read->leaf[j]->path, i / d + 1);
-        value[i] = read->leaf[j]->param->type == FRACAS_INTEGER ? floor(drawn + 0.5) : fracas_number_round(drawn);
+            return fracas_say(
+                file->name, read->node[j],
+                "`%s`: point %zu of the design is beyond all numbers; narrow its distribution",
+                read->leaf[j]->path, i / d + 1);
+        value[i] = read->leaf[j]->param->type == FRACAS_INTEGER ? floor(drawn + 0.5)
+                                                                : fracas_number_round(drawn);
     }
     return FRACAS_OK;
 }
@@ -230,20 +280,30 @@ fracas_err fracas_drawn_read(const fracas_file *file, const fracas_node *node, f
     char found[256];
     int64_t points;
     if (node->type != FRACAS_MAP)
-        return fracas_say(file->name, node, "`design`: found %s; expected `type:`, `points:` and `parameters:`, below it and indented",
+        return fracas_say(file->name, node,
+                          "`design`: found %s; expected `type:`, `points:` and `parameters:`, "
+                          "below it and indented",
                           fracas_say_found(node, found));
     TRY(fracas_say_unknown(file->name, node, keys, "a design"));
-    TRY(read_kind(file, node, "type", fracas_design_types, FRACAS_COUNT(fracas_design_types), &read.design.type));
-    const fracas_node *count = fracas_node_find(node, "points"), *parameters = fracas_node_find(node, "parameters");
-    if (!count) return fracas_say(file->name, node, "a design without `points`; say how many it has, as `points: 64`");
+    TRY(read_kind(file, node, "type", fracas_design_types, FRACAS_COUNT(fracas_design_types),
+                  &read.design.type));
+    const fracas_node *count = fracas_node_find(node, "points"),
+                      *parameters = fracas_node_find(node, "parameters");
+    if (!count)
+        return fracas_say(file->name, node,
+                          "a design without `points`; say how many it has, as `points: 64`");
     TRY(fracas_setting_integer(file, "points", count, 1, FRACAS_MAX_POINTS, &points));
     read.design.points = (size_t)points;
     if (!parameters)
-        return fracas_say(file->name, node, "a design without `parameters`; say what is uncertain, each path with its distribution");
+        return fracas_say(file->name, node,
+                          "a design without `parameters`; say what is uncertain, each path with "
+                          "its distribution");
     TRY(read_parameters(file, parameters, &read));
     TRY(read_correlation(file, fracas_node_find(node, "correlation"), &read));
-    double *value = fracas_memory_take(file->memory, read.design.points * read.design.parameters, sizeof *value);
+    double *value = fracas_memory_take(file->memory, read.design.points * read.design.parameters,
+                                       sizeof *value);
     if (!value) return fracas_no_memory("a design");
-    *drawn = (fracas_drawn){read.design.points, read.design.parameters, read.leaf, read.node, value};
+    *drawn = (fracas_drawn){read.design.points, read.design.parameters, read.leaf, read.node,
+                            value};
     return draw(file, &read, value);
 }

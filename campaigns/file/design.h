@@ -1,4 +1,6 @@
-/* `design: {type, points, parameters, correlation}`: an axis of the sweep whose values are drawn. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* `design: {type, points, parameters, correlation}`: an axis of the sweep whose values are drawn.
+ */
 #ifndef FRACAS_CAMPAIGNS_FILE_DESIGN_H
 #define FRACAS_CAMPAIGNS_FILE_DESIGN_H
 
@@ -8,11 +10,14 @@ typedef struct {
     size_t points, parameters;
     const fracas_leaf *const *leaf; /* [parameters] */
     const fracas_node *const *node; /* [parameters], where each is written */
-    const double *value;            /* [points][parameters], SI, rounded to 15 digits; a whole number where the leaf has one */
+    const double *value; /* [points][parameters], SI, rounded to 15 digits; a whole number where the
+                            leaf has one */
 } fracas_drawn;
 
-/* Reads the map `node` and draws its values, which belong to the file's memory. Random numbers are named by the campaign's seed and
- * the paths of the parameters. That the values lie in the parameters' ranges, which may depend on the kind, is not checked here. */
-FRACAS_MUST_USE fracas_err fracas_drawn_read(const fracas_file *file, const fracas_node *node, fracas_drawn *drawn);
+/* Reads the map `node` and draws its values, which belong to the file's memory. Random numbers are
+ * named by the campaign's seed and the paths of the parameters. That the values lie in the
+ * parameters' ranges, which may depend on the kind, is not checked here. */
+FRACAS_MUST_USE fracas_err fracas_drawn_read(const fracas_file *file, const fracas_node *node,
+                                             fracas_drawn *drawn);
 
 #endif

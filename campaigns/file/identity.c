@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/identity.h"
 
 #include "campaigns/file/replicas.h"
@@ -21,14 +22,16 @@ void fracas_point_write(const fracas_catalog *catalog, const fracas_point *point
     }
 }
 
-static void write_campaign(const fracas_catalog *catalog, const fracas_campaign *campaign, FILE *out)
+static void write_campaign(const fracas_catalog *catalog, const fracas_campaign *campaign,
+                           FILE *out)
 {
     fprintf(out, "seed=%" PRIu64 "\n", campaign->seed);
     if (campaign->common_random_numbers) fprintf(out, "random_numbers=common\n");
     for (size_t i = 0; i < catalog->nleaves; i++) {
         const fracas_leaf *leaf = &catalog->leaf[i];
         fracas_value value;
-        if (leaf->section->table->hashed || !fracas_leaf_get(leaf, &campaign->output, &value)) continue;
+        if (leaf->section->table->hashed || !fracas_leaf_get(leaf, &campaign->output, &value))
+            continue;
         char text[FRACAS_LEAF_TEXT];
         fracas_leaf_write(leaf, &value, text);
         fprintf(out, "%s=%s\n", leaf->path, text);
@@ -101,7 +104,8 @@ fracas_err fracas_points_repeated(const fracas_campaign *campaign, size_t *earli
 {
     numbered_hash *sorted = malloc(campaign->npoints * sizeof *sorted);
     if (!sorted) return fracas_no_memory("the points of the campaign");
-    for (size_t p = 0; p < campaign->npoints; p++) sorted[p] = (numbered_hash){campaign->point[p].hash, p};
+    for (size_t p = 0; p < campaign->npoints; p++)
+        sorted[p] = (numbered_hash){campaign->point[p].hash, p};
     qsort(sorted, campaign->npoints, sizeof *sorted, by_hash);
     *earlier = *later = 0;
     for (size_t i = 1; i < campaign->npoints; i++) {
@@ -116,7 +120,8 @@ fracas_err fracas_points_repeated(const fracas_campaign *campaign, size_t *earli
 
 /* ---- columns ---- */
 
-static const char derived_strain_rate[] = "derived.strain_rate", derived_strength_mean[] = "derived.strength_mean";
+static const char derived_strain_rate[] = "derived.strain_rate",
+                  derived_strength_mean[] = "derived.strength_mean";
 
 /* Where a column's values come from: a leaf, or (NULL) what its path says. */
 typedef struct {
@@ -137,7 +142,8 @@ static int by_path(const void *a, const void *b)
     return strcmp(((const source *)a)->column.path, ((const source *)b)->column.path);
 }
 
-static size_t list_sources(const fracas_catalog *catalog, const fracas_campaign *campaign, bool named, source *sources)
+static size_t list_sources(const fracas_catalog *catalog, const fracas_campaign *campaign,
+                           bool named, source *sources)
 {
     size_t count = 0;
     for (size_t i = 0; i < catalog->nleaves; i++) {
@@ -145,11 +151,14 @@ static size_t list_sources(const fracas_catalog *catalog, const fracas_campaign 
         const fracas_section *table = leaf->section->table;
         if (!table->hashed || !any_point_has(campaign, leaf)) continue;
         const bool text = fracas_leaf_is_text(leaf);
-        fracas_column column = {leaf->path, text ? "" : leaf->param->unit, leaf->param ? leaf->param->doc : table->doc, text};
+        fracas_column column = {leaf->path, text ? "" : leaf->param->unit,
+                                leaf->param ? leaf->param->doc : table->doc, text};
         sources[count++] = (source){column, leaf};
     }
-    sources[count++] = (source){{derived_strain_rate, "1/s", "strain rate that the loading begins with", false}, NULL};
-    sources[count++] = (source){{derived_strength_mean, "Pa", "mean of the distribution of strengths", false}, NULL};
+    sources[count++] = (source){
+        {derived_strain_rate, "1/s", "strain rate that the loading begins with", false}, NULL};
+    sources[count++] = (source){
+        {derived_strength_mean, "Pa", "mean of the distribution of strengths", false}, NULL};
     if (named) sources[count++] = (source){{"case", "", "name of the case", true}, NULL};
     qsort(sources, count, sizeof *sources, by_path);
     return count;
@@ -163,16 +172,19 @@ typedef struct {
 
 static bool is_same_mesh(const fracas_spec *a, const fracas_spec *b)
 {
-    return memcmp(&a->geometry, &b->geometry, sizeof a->geometry) == 0 && memcmp(&a->mesh, &b->mesh, sizeof a->mesh) == 0;
+    return memcmp(&a->geometry, &b->geometry, sizeof a->geometry) == 0 &&
+           memcmp(&a->mesh, &b->mesh, sizeof a->mesh) == 0;
 }
 
 /* Few strengths need the mesh, which takes time; neighbours in a plan often have the same. */
-static fracas_err mean_strength(const fracas_campaign *campaign, size_t p, known_mesh *mesh, double *mean)
+static fracas_err mean_strength(const fracas_campaign *campaign, size_t p, known_mesh *mesh,
+                                double *mean)
 {
     const fracas_point *point = &campaign->point[p];
     const bool needed = fracas_strength_has_size_effect(&point->strength);
     if (needed && !(mesh->spec && is_same_mesh(mesh->spec, &point->spec))) {
-        fracas_err err = fracas_mesh_interface_extent(&point->spec, &mesh->extent.volume, &mesh->extent.area);
+        fracas_err err = fracas_mesh_interface_extent(&point->spec, &mesh->extent.volume,
+                                                      &mesh->extent.area);
         if (err) return fracas_fail_within(err, "point %zu", p);
         mesh->spec = &point->spec;
     }
@@ -180,17 +192,20 @@ static fracas_err mean_strength(const fracas_campaign *campaign, size_t p, known
     return FRACAS_OK;
 }
 
-static fracas_value value_of(const source *from, const fracas_point *point, const char *name, double mean)
+static fracas_value value_of(const source *from, const fracas_point *point, const char *name,
+                             double mean)
 {
     fracas_value value = {.real = NAN, .text = ""};
     if (from->leaf) fracas_leaf_get(from->leaf, point, &value);
     else if (from->column.path == derived_strength_mean) value.real = mean;
-    else if (from->column.path == derived_strain_rate) value.real = fracas_spec_strain_rate(&point->spec);
+    else if (from->column.path == derived_strain_rate)
+        value.real = fracas_spec_strain_rate(&point->spec);
     else value.text = name;
     return value;
 }
 
-fracas_err fracas_campaign_tabulate(const fracas_catalog *catalog, const char *const *name, fracas_campaign *campaign)
+fracas_err fracas_campaign_tabulate(const fracas_catalog *catalog, const char *const *name,
+                                    fracas_campaign *campaign)
 {
     bool named = false;
     for (size_t p = 0; p < campaign->npoints; p++) named = named || *name[p];
@@ -199,7 +214,8 @@ fracas_err fracas_campaign_tabulate(const fracas_catalog *catalog, const char *c
     size_t ncolumns = list_sources(catalog, campaign, named, from);
     fracas_column *column = fracas_memory_take(campaign->memory, ncolumns, sizeof *column);
     fracas_point_row *row = fracas_memory_take(campaign->memory, campaign->npoints, sizeof *row);
-    fracas_value *value = fracas_memory_take(campaign->memory, campaign->npoints * ncolumns, sizeof *value);
+    fracas_value *value = fracas_memory_take(campaign->memory, campaign->npoints * ncolumns,
+                                             sizeof *value);
     if (!column || !row || !value) return fracas_no_memory("the table of points");
     for (size_t c = 0; c < ncolumns; c++) column[c] = from[c].column;
     known_mesh mesh = {0};
@@ -207,8 +223,10 @@ fracas_err fracas_campaign_tabulate(const fracas_catalog *catalog, const char *c
         const fracas_point *point = &campaign->point[p];
         double mean = NAN;
         TRY(mean_strength(campaign, p, &mesh, &mean));
-        for (size_t c = 0; c < ncolumns; c++) value[p * ncolumns + c] = value_of(&from[c], point, name[p], mean);
-        row[p] = (fracas_point_row){point->hash, point->replicas, value + p * ncolumns, point->rule.maximum};
+        for (size_t c = 0; c < ncolumns; c++)
+            value[p * ncolumns + c] = value_of(&from[c], point, name[p], mean);
+        row[p] = (fracas_point_row){point->hash, point->replicas, value + p * ncolumns,
+                                    point->rule.maximum};
     }
     campaign->table = (fracas_point_table){ncolumns, column, campaign->npoints, row};
     return FRACAS_OK;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/memory.h"
 
 #include <stdint.h>
@@ -14,7 +15,8 @@ struct fracas_campaign_memory {
     block *first; /* the one in use */
 };
 
-/* Bytes. Builds with a sanitizer set it to 1: a block for each piece, so that they see where one ends. */
+/* Bytes. Builds with a sanitizer set it to 1: a block for each piece, so that they see where one
+ * ends. */
 #ifndef FRACAS_CAMPAIGN_BLOCK
 #define FRACAS_CAMPAIGN_BLOCK 65536
 #endif

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Memory that lives as long as a campaign: taken piece by piece, freed all at once. */
 #ifndef FRACAS_CAMPAIGNS_FILE_MEMORY_H
 #define FRACAS_CAMPAIGNS_FILE_MEMORY_H
@@ -10,8 +11,8 @@ typedef struct fracas_campaign_memory fracas_campaign_memory;
 fracas_campaign_memory *fracas_memory_create(void);
 void fracas_memory_destroy(fracas_campaign_memory *memory); /* NULL is allowed */
 
-/* `count` objects of `size` bytes, all zero, aligned for any object; NULL without memory (or if the product
- * overflows). Freed with `memory`. */
+/* `count` objects of `size` bytes, all zero, aligned for any object; NULL without memory (or if the
+ * product overflows). Freed with `memory`. */
 void *fracas_memory_take(fracas_campaign_memory *memory, size_t count, size_t size);
 
 /* A copy of `length` bytes of `text`, with an end. NULL without memory. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* `{from, to, points, spacing}`: values at equal differences or equal ratios. */
 #ifndef FRACAS_CAMPAIGNS_FILE_RANGE_H
 #define FRACAS_CAMPAIGNS_FILE_RANGE_H
@@ -6,16 +7,17 @@
 
 typedef struct {
     double from, to;
-    size_t points;  /* at least 2 */
+    size_t points; /* at least 2 */
     bool logarithmic, whole;
 } fracas_range;
 
 /* Reads the map `node` as a range of the leaf, which must be a number. */
-FRACAS_MUST_USE fracas_err fracas_range_read(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node,
-                                             fracas_range *range);
+FRACAS_MUST_USE fracas_err fracas_range_read(const fracas_file *file, const fracas_leaf *leaf,
+                                             const fracas_node *node, fracas_range *range);
 
-/* Value i of 0 .. n-1, p = i/(n-1): from (1-p) + to p, or from^(1-p) to^p, rounded to 15 digits, for a whole number
- * to the nearest one; exactly `from` and `to` at the ends; the same on every CPU. */
+/* Value i of 0 .. n-1, p = i/(n-1): from (1-p) + to p, or from^(1-p) to^p, rounded to 15 digits,
+ * for a whole number to the nearest one; exactly `from` and `to` at the ends; the same on every
+ * CPU. */
 double fracas_range_value(const fracas_range *range, size_t i);
 
 #endif

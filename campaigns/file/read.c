@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From a file to a campaign. */
 #include "campaigns/file/read.h"
 
@@ -35,17 +36,20 @@ static fracas_err unknown_section(const fracas_file *file, const fracas_node *ke
     fracas_words words;
     fracas_words_init(&words, key->text);
     for (size_t k = 0; k < FRACAS_COUNT(own_keys); k++) fracas_words_add(&words, own_keys[k]);
-    for (size_t s = 0; s < catalog->nsections; s++) fracas_words_add(&words, catalog->section[s].table->name);
+    for (size_t s = 0; s < catalog->nsections; s++)
+        fracas_words_add(&words, catalog->section[s].table->name);
     char hint[600];
     fracas_words_hint(&words, "known are", hint);
     for (size_t i = 0; i < catalog->nleaves; i++) {
         const fracas_leaf *leaf = &catalog->leaf[i];
         if (strcmp(leaf->key, key->text) == 0 || strcmp(leaf->path, key->text) == 0)
-            return fracas_say(file->name, key,
-                              "unknown key `%s` at the top of the file; write `%s:` indented below `%s:`", key->text,
-                              leaf->key, leaf->section->table->name);
+            return fracas_say(
+                file->name, key,
+                "unknown key `%s` at the top of the file; write `%s:` indented below `%s:`",
+                key->text, leaf->key, leaf->section->table->name);
     }
-    return fracas_say(file->name, key, "unknown key `%s` at the top of the file%s", key->text, hint);
+    return fracas_say(file->name, key, "unknown key `%s` at the top of the file%s", key->text,
+                      hint);
 }
 
 static fracas_err read_seed(const fracas_file *file, const fracas_node *node, uint64_t *seed)
@@ -55,26 +59,31 @@ static fracas_err read_seed(const fracas_file *file, const fracas_node *node, ui
     errno = 0;
     unsigned long long value = strtoull(text, NULL, 10);
     if (!*text || strspn(text, "0123456789") != strlen(text) || errno == ERANGE)
-        return fracas_say(file->name, node,
-                          "`seed`: found %s; expected a whole number from 0 to 18446744073709551615, in digits",
-                          fracas_say_found(node, found));
+        return fracas_say(
+            file->name, node,
+            "`seed`: found %s; expected a whole number from 0 to 18446744073709551615, in digits",
+            fracas_say_found(node, found));
     *seed = value;
     return FRACAS_OK;
 }
 
 /* `independent` or `common`. */
-static fracas_err read_random_numbers(const fracas_file *file, const fracas_node *node, bool *common)
+static fracas_err read_random_numbers(const fracas_file *file, const fracas_node *node,
+                                      bool *common)
 {
     char found[256];
     const char *text = node->type == FRACAS_SCALAR ? node->text : "";
     *common = strcmp(text, "common") == 0;
     if (*common || strcmp(text, "independent") == 0) return FRACAS_OK;
-    return fracas_say(file->name, node, "`random_numbers`: found %s; expected independent (each point draws its own) or common (replica r "
-                      "draws the same at every point)", fracas_say_found(node, found));
+    return fracas_say(file->name, node,
+                      "`random_numbers`: found %s; expected independent (each point draws its own) "
+                      "or common (replica r draws the same at every point)",
+                      fracas_say_found(node, found));
 }
 
 /* The entry `key`, which must be there. */
-static fracas_err need(const fracas_file *file, const char *key, const char *what, const fracas_node **node)
+static fracas_err need(const fracas_file *file, const char *key, const char *what,
+                       const fracas_node **node)
 {
     *node = fracas_node_find(file->root, key);
     if (*node) return FRACAS_OK;
@@ -89,11 +98,13 @@ static fracas_err read_heading(reading *read, fracas_campaign *campaign)
         if (!is_own_key(node->key->text) && !fracas_catalog_section(file->catalog, node->key->text))
             return unknown_section(file, node->key);
     const char *name;
-    TRY(need(file, "name", "give the campaign a name, which becomes its folder, as `name: bar-rates`", &node));
+    TRY(need(file, "name",
+             "give the campaign a name, which becomes its folder, as `name: bar-rates`", &node));
     TRY(fracas_setting_name(file, node, &name));
     campaign->name = fracas_memory_copy(file->memory, name, strlen(name));
     if (!campaign->name) return fracas_no_memory("the campaign's name");
-    TRY(need(file, "seed", "give the seed of its random numbers, a whole number, as `seed: 1`", &node));
+    TRY(need(file, "seed", "give the seed of its random numbers, a whole number, as `seed: 1`",
+             &node));
     TRY(read_seed(file, node, &campaign->seed));
     node = fracas_node_find(file->root, "random_numbers");
     if (node) TRY(read_random_numbers(file, node, &campaign->common_random_numbers));
@@ -122,9 +133,11 @@ static fracas_err read_sections(reading *read)
 
 /* ---- points ---- */
 
-static void lay_over(const fracas_file *file, const fracas_settings *settings, const fracas_setting **slots)
+static void lay_over(const fracas_file *file, const fracas_settings *settings,
+                     const fracas_setting **slots)
 {
-    for (const fracas_setting *s = settings->first; s; s = s->next) slots[s->leaf - file->catalog->leaf] = s;
+    for (const fracas_setting *s = settings->first; s; s = s->next)
+        slots[s->leaf - file->catalog->leaf] = s;
 }
 
 /* Replicas of a point: of its case, else of the campaign. */
@@ -143,12 +156,13 @@ static fracas_err count_replicas(const reading *read, size_t index, fracas_point
     point->replicas = replicas.count;
     point->rule = replicas.rule;
     if (point->replicas > 0) return FRACAS_OK;
-    return fracas_say(read->file.name, read->file.root,
-                      "the file has no `replicas`; say how many realizations each point gets, "
-                      "as `replicas: 32`");
+    return fracas_say(
+        read->file.name, read->file.root,
+        "the file has no `replicas`; say how many realizations each point gets, as `replicas: 32`");
 }
 
-static fracas_err make_point(const reading *read, fracas_draft *draft, size_t index, fracas_point *point)
+static fracas_err make_point(const reading *read, fracas_draft *draft, size_t index,
+                             fracas_point *point)
 {
     const fracas_catalog *catalog = read->file.catalog;
     for (size_t i = 0; i < catalog->nleaves; i++) draft->swept[i] = NULL;
@@ -168,13 +182,15 @@ static fracas_err make_points(reading *read, fracas_campaign *campaign)
                           fracas_memory_take(file->memory, catalog->nleaves, sizeof *draft.swept)};
     campaign->npoints = read->sweep.npoints;
     campaign->point = fracas_memory_take(file->memory, campaign->npoints, sizeof *campaign->point);
-    if (!draft.base || !draft.swept || !campaign->point) return fracas_no_memory("the points of the campaign");
+    if (!draft.base || !draft.swept || !campaign->point)
+        return fracas_no_memory("the points of the campaign");
     lay_over(file, &read->base, draft.base);
     TRY(fracas_draft_check_base(file, &draft));
     for (size_t s = 0; s < catalog->nsections; s++)
         if (!catalog->section[s].table->hashed)
             TRY(fracas_draft_resolve(file, &draft, &catalog->section[s], &campaign->output));
-    for (size_t p = 0; p < campaign->npoints; p++) TRY(make_point(read, &draft, p, &campaign->point[p]));
+    for (size_t p = 0; p < campaign->npoints; p++)
+        TRY(make_point(read, &draft, p, &campaign->point[p]));
     return fracas_draft_check_models(file, &draft, campaign);
 }
 
@@ -207,11 +223,14 @@ static fracas_err say_repeated(const reading *read, size_t earlier, size_t later
         there = before->node;
     }
     if (here == there)
-        return fracas_say(read->file.name, here, "points %zu and %zu of the sweep have the same values, as a design of whole numbers has "
-                          "few to choose from; give it fewer points, or a parameter that is not a whole number", earlier + 1, later + 1);
+        return fracas_say(read->file.name, here,
+                          "points %zu and %zu of the sweep have the same values, as a design of "
+                          "whole numbers has few to choose from; give it fewer points, or a "
+                          "parameter that is not a whole number",
+                          earlier + 1, later + 1);
     return fracas_say(read->file.name, here,
-                      "points %zu and %zu of the sweep have the same values (compare line %d, column "
-                      "%d); remove one, and raise `replicas` for more realizations",
+                      "points %zu and %zu of the sweep have the same values (compare line %d, "
+                      "column %d); remove one, and raise `replicas` for more realizations",
                       earlier + 1, later + 1, there->line, there->column);
 }
 
@@ -220,12 +239,15 @@ static fracas_err identify(reading *read, fracas_campaign *campaign)
     const char **name = fracas_memory_take(read->file.memory, campaign->npoints, sizeof *name);
     if (!name) return fracas_no_memory("the names of the cases");
     for (size_t p = 0; p < campaign->npoints; p++) TRY(name_case(read, p, &name[p]));
-    for (size_t p = 0; p < campaign->npoints; p++) TRY(fracas_point_identify(read->file.catalog, &campaign->point[p]));
+    for (size_t p = 0; p < campaign->npoints; p++)
+        TRY(fracas_point_identify(read->file.catalog, &campaign->point[p]));
     size_t earlier, later;
     TRY(fracas_points_repeated(campaign, &earlier, &later));
     if (later > 0) return say_repeated(read, earlier, later);
     fracas_err err = fracas_campaign_tabulate(read->file.catalog, name, campaign);
-    if (err) return err == FRACAS_USAGE ? fracas_say_within(read->file.name, read->file.root, "mesh") : err;
+    if (err)
+        return err == FRACAS_USAGE ? fracas_say_within(read->file.name, read->file.root, "mesh")
+                                   : err;
     return fracas_campaign_identify(read->file.catalog, campaign);
 }
 
@@ -245,12 +267,14 @@ static fracas_err read_file(reading *read, fracas_campaign *campaign)
     return identify(read, campaign);
 }
 
-fracas_err fracas_campaign_read_with(const fracas_units *units, const char *path, fracas_campaign **campaign)
+fracas_err fracas_campaign_read_with(const fracas_units *units, const char *path,
+                                     fracas_campaign **campaign)
 {
     fracas_campaign *made = calloc(1, sizeof *made);
     if (!made) return fracas_no_memory("the campaign");
     made->memory = fracas_memory_create();
-    reading read = {.file = {.name = path, .memory = made->memory, .units = units, .campaign = made}};
+    reading read = {
+        .file = {.name = path, .memory = made->memory, .units = units, .campaign = made}};
     fracas_err err = made->memory ? read_file(&read, made) : fracas_no_memory("the campaign");
     if (err) fracas_campaign_destroy(made);
     else *campaign = made;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reading many campaign files with one unit database. */
 #ifndef FRACAS_CAMPAIGNS_FILE_READ_H
 #define FRACAS_CAMPAIGNS_FILE_READ_H
@@ -5,7 +6,8 @@
 #include "base/units.h"
 #include "campaigns/campaign.h"
 
-/* fracas_campaign_read with a unit database that is loaded already: loading it takes longer than reading a file. */
+/* fracas_campaign_read with a unit database that is loaded already: loading it takes longer than
+ * reading a file. */
 FRACAS_MUST_USE fracas_err fracas_campaign_read_with(const fracas_units *units, const char *path,
                                                      fracas_campaign **campaign);
 

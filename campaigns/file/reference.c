@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The reference page of the campaign file, from the parameter tables. */
 #include "campaigns/campaign.h"
 
@@ -17,7 +18,8 @@ static void write_limits(const fracas_param *param, FILE *out)
     const char *above = param->minimum_open ? "> " : "≥ ";
     if (param->type == FRACAS_BOOLEAN) fprintf(out, "true, false");
     else if (param->type == FRACAS_CHOICE)
-        for (size_t c = 0; c < param->nchoices; c++) fprintf(out, "%s`%s`", c ? ", " : "", param->choices[c]->name);
+        for (size_t c = 0; c < param->nchoices; c++)
+            fprintf(out, "%s`%s`", c ? ", " : "", param->choices[c]->name);
     else if (param->type == FRACAS_ATTACHMENT) fprintf(out, "any file");
     else if (isinf(param->minimum) && isinf(param->maximum)) fprintf(out, "any number");
     else if (isinf(param->maximum)) fprintf(out, "%s%s", above, minimum);
@@ -27,19 +29,24 @@ static void write_limits(const fracas_param *param, FILE *out)
 
 static void write_param(const fracas_param *param, FILE *out)
 {
-    static const char *const types[] = {"number", "whole number", "true or false", "name", "path of a file"};
+    static const char *const types[] = {"number", "whole number", "true or false", "name",
+                                        "path of a file"};
     char fallback[FRACAS_NUMBER_TEXT];
     fracas_number_write(param->fallback, fallback);
-    const char *given = param->optional ? "none" : isnan(param->fallback) ? "**required**" : fallback;
+    const char *given = param->optional          ? "none"
+                        : isnan(param->fallback) ? "**required**"
+                                                 : fallback;
     if (param->type == FRACAS_BOOLEAN) given = param->fallback != 0.0 ? "true" : "false";
-    if (param->type == FRACAS_CHOICE && !param->optional) given = param->choices[(size_t)param->fallback]->name;
+    if (param->type == FRACAS_CHOICE && !param->optional)
+        given = param->choices[(size_t)param->fallback]->name;
     if (param->type == FRACAS_ATTACHMENT && !isnan(param->fallback)) given = "none";
     fprintf(out, "| `%s` | %s | %s | %s | ", param->name, types[param->type],
             strcmp(param->unit, "1") ? param->unit : "", given);
     write_limits(param, out);
     fprintf(out, " | %s", param->doc);
     for (size_t c = 0; c < param->nchoices; c++)
-        fprintf(out, "%s`%s`: %s", c ? "; " : ". ", param->choices[c]->name, param->choices[c]->doc);
+        fprintf(out, "%s`%s`: %s", c ? "; " : ". ", param->choices[c]->name,
+                param->choices[c]->doc);
     for (const fracas_kind *const *only = param->only; only && *only; only++)
         fprintf(out, "%s`%s`", only == param->only ? ". Only with model " : " or ", (*only)->name);
     fprintf(out, " |\n");
@@ -48,7 +55,8 @@ static void write_param(const fracas_param *param, FILE *out)
 static void write_params(const fracas_param *params, size_t count, FILE *out)
 {
     if (count == 0) return;
-    fprintf(out, "\n| key | type | SI unit | default | range | meaning |\n|---|---|---|---|---|---|\n");
+    fprintf(out,
+            "\n| key | type | SI unit | default | range | meaning |\n|---|---|---|---|---|---|\n");
     for (size_t p = 0; p < count; p++) write_param(&params[p], out);
 }
 
@@ -58,7 +66,8 @@ static const char *selector_of(const fracas_section *section)
 }
 
 /* " (default)", or which models it is the default with. */
-static void write_default(const fracas_section *model, const fracas_section *section, const fracas_kind *kind, FILE *out)
+static void write_default(const fracas_section *model, const fracas_section *section,
+                          const fracas_kind *kind, FILE *out)
 {
     size_t count = 0, restricting = 0;
     const fracas_kind *partner;
@@ -69,7 +78,8 @@ static void write_default(const fracas_section *model, const fracas_section *sec
     }
     if (count == 0) return;
     fprintf(out, " (default");
-    for (size_t m = 0, written = 0; m < model->nkinds && count < model->nkinds && restricting; m++) {
+    for (size_t m = 0, written = 0; m < model->nkinds && count < model->nkinds && restricting;
+         m++) {
         partner = fracas_kind_partner(model->kinds[m], section, 0);
         if ((partner ? partner : section->kinds[0]) != kind) continue;
         fprintf(out, "%s `%s`", written++ ? " and" : " with model", model->kinds[m]->name);
@@ -87,7 +97,8 @@ static void write_partners(const fracas_catalog *catalog, const fracas_kind *mod
         const fracas_section *section = catalog->section[s].table;
         const fracas_kind *partner;
         for (size_t i = 0; (partner = fracas_kind_partner(model, section, i)); i++) {
-            if (i == 0) fprintf(out, "- `%s.%s`: `%s`", section->name, selector_of(section), partner->name);
+            if (i == 0)
+                fprintf(out, "- `%s.%s`: `%s`", section->name, selector_of(section), partner->name);
             else fprintf(out, ", `%s`", partner->name);
         }
         if (fracas_kind_partner(model, section, 0)) fprintf(out, "\n");
@@ -100,7 +111,9 @@ static void write_section(const fracas_catalog *catalog, const fracas_section *s
     const char *selector = selector_of(section);
     fprintf(out, "\n## `%s`\n\n%s.\n", section->name, section->doc);
     if (!section->hashed)
-        fprintf(out, "One for the whole campaign: it cannot be swept and is not part of a point's hash.\n");
+        fprintf(
+            out,
+            "One for the whole campaign: it cannot be swept and is not part of a point's hash.\n");
     write_params(section->params, section->nparams, out);
     if (section->nkinds == 0) return;
     fprintf(out, "\n| `%s:` | meaning |\n|---|---|\n", selector);
@@ -122,12 +135,14 @@ static void write_section(const fracas_catalog *catalog, const fracas_section *s
 static void write_designs(FILE *out)
 {
     const fracas_section *laws = &fracas_uncertain_section;
-    fprintf(out, "\n## Designs of the sweep\n\nAxes whose values are drawn: [campaign-file.md](campaign-file.md#designs). A number whose "
-                 "unit is called its own has that of its parameter.\n\n| `type:` | meaning |\n|---|---|\n");
+    fprintf(out, "\n## Designs of the sweep\n\nAxes whose values are drawn: "
+                 "[campaign-file.md](campaign-file.md#designs). A number whose unit is called its "
+                 "own has that of its parameter.\n\n| `type:` | meaning |\n|---|---|\n");
     for (size_t t = 0; t < FRACAS_COUNT(fracas_design_types); t++)
         fprintf(out, "| `%s` | %s |\n", fracas_design_types[t]->name, fracas_design_types[t]->doc);
     fprintf(out, "\n| `%s:` | meaning |\n|---|---|\n", laws->selector);
-    for (size_t k = 0; k < laws->nkinds; k++) fprintf(out, "| `%s` | %s |\n", laws->kinds[k]->name, laws->kinds[k]->doc);
+    for (size_t k = 0; k < laws->nkinds; k++)
+        fprintf(out, "| `%s` | %s |\n", laws->kinds[k]->name, laws->kinds[k]->doc);
     for (size_t k = 0; k < laws->nkinds; k++) {
         fprintf(out, "\nWith `%s: %s`:\n", laws->selector, laws->kinds[k]->name);
         write_params(laws->kinds[k]->params, laws->kinds[k]->nparams, out);
@@ -136,15 +151,15 @@ static void write_designs(FILE *out)
 
 void fracas_campaign_reference(FILE *out)
 {
-    fprintf(out,
-            "# Keys of a campaign file\n\n"
-            "Written by `fracas reference` from the tables that read the file; how a file is built: "
-            "[campaign-file.md](campaign-file.md).\nA bare number is in the SI unit given here; any other unit of the "
-            "same dimension may follow it after a space.\n");
+    fprintf(out, "# Keys of a campaign file\n\n"
+                 "Written by `fracas reference` from the tables that read the file; how a file is "
+                 "built: [campaign-file.md](campaign-file.md).\nA bare number is in the SI unit "
+                 "given here; any other unit of the same dimension may follow it after a space.\n");
     fracas_campaign_memory *memory = fracas_memory_create();
     const fracas_catalog *catalog;
     if (memory && fracas_catalog_make(memory, &catalog) == FRACAS_OK)
-        for (size_t s = 0; s < catalog->nsections; s++) write_section(catalog, catalog->section[s].table, out);
+        for (size_t s = 0; s < catalog->nsections; s++)
+            write_section(catalog, catalog->section[s].table, out);
     write_designs(out);
     fracas_memory_destroy(memory);
 }

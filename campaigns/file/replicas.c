@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/replicas.h"
 
 #include "campaigns/file/identity.h"
@@ -8,19 +9,21 @@
 
 enum { MOST = 1000000000 };
 
-static const char form[] = "{minimum: 16, maximum: 256, until: {quantity: mean-count, relative-half-width: 0.02, confidence: 0.95}}";
+static const char form[] = "{minimum: 16, maximum: 256, until: {quantity: mean-count, "
+                           "relative-half-width: 0.02, confidence: 0.95}}";
 
 /* ---- reading ---- */
 
-static fracas_err need(const fracas_file *file, const fracas_node *node, const char *name, const char *key,
-                       const fracas_node **found)
+static fracas_err need(const fracas_file *file, const fracas_node *node, const char *name,
+                       const char *key, const fracas_node **found)
 {
     *found = fracas_node_find(node, key);
     if (*found) return FRACAS_OK;
     return fracas_say(file->name, node, "`%s` has no `%s`; expected %s", name, key, form);
 }
 
-static fracas_err read_quantity(const fracas_file *file, const fracas_node *node, fracas_quantity *quantity)
+static fracas_err read_quantity(const fracas_file *file, const fracas_node *node,
+                                fracas_quantity *quantity)
 {
     char found[256];
     for (int q = 0; q < FRACAS_NQUANTITIES; q++)
@@ -28,32 +31,37 @@ static fracas_err read_quantity(const fracas_file *file, const fracas_node *node
             *quantity = (fracas_quantity)q;
             return FRACAS_OK;
         }
-    return fracas_say(file->name, node, "`quantity`: found %s; expected mean-count (of fragments), mean-size (of fragments) or "
-                      "dissipated (energy)", fracas_say_found(node, found));
+    return fracas_say(file->name, node,
+                      "`quantity`: found %s; expected mean-count (of fragments), mean-size (of "
+                      "fragments) or dissipated (energy)",
+                      fracas_say_found(node, found));
 }
 
 /* A pure number from `minimum` (itself out if `open`) to `maximum`. */
-static fracas_err read_share(const fracas_file *file, const fracas_node *node, double minimum, bool open, double maximum,
-                             double *value)
+static fracas_err read_share(const fracas_file *file, const fracas_node *node, double minimum,
+                             bool open, double maximum, double *value)
 {
     char found[256];
     const char *key = node->key->text;
     if (node->type != FRACAS_SCALAR)
-        return fracas_say(file->name, node, "`%s`: found %s; expected a number, as 0.02 or 2 %%", key, fracas_say_found(node, found));
+        return fracas_say(file->name, node, "`%s`: found %s; expected a number, as 0.02 or 2 %%",
+                          key, fracas_say_found(node, found));
     fracas_err err = fracas_units_read(file->units, node->text, "1", value);
     if (err) return err == FRACAS_USAGE ? fracas_say_within(file->name, node, key) : err;
     if ((open ? *value > minimum : *value >= minimum) && *value <= maximum) return FRACAS_OK;
-    return fracas_say(file->name, node, "`%s`: %s is out of range; allowed is %s %g to %g", key, node->text,
-                      open ? "more than" : "from", minimum, maximum);
+    return fracas_say(file->name, node, "`%s`: %s is out of range; allowed is %s %g to %g", key,
+                      node->text, open ? "more than" : "from", minimum, maximum);
 }
 
-static fracas_err read_until(const fracas_file *file, const fracas_node *node, fracas_sequential_rule *rule)
+static fracas_err read_until(const fracas_file *file, const fracas_node *node,
+                             fracas_sequential_rule *rule)
 {
     static const char *const keys[] = {"quantity", "relative-half-width", "confidence", NULL};
     const fracas_node *found;
     char text[256];
     if (node->type != FRACAS_MAP)
-        return fracas_say(file->name, node, "`until`: found %s; expected %s", fracas_say_found(node, text), form);
+        return fracas_say(file->name, node, "`until`: found %s; expected %s",
+                          fracas_say_found(node, text), form);
     TRY(fracas_say_unknown(file->name, node, keys, "`until`"));
     TRY(need(file, node, "until", "quantity", &found));
     TRY(read_quantity(file, found, &rule->quantity));
@@ -64,7 +72,8 @@ static fracas_err read_until(const fracas_file *file, const fracas_node *node, f
     return found ? read_share(file, found, 0.5, false, 0.999, &rule->confidence) : FRACAS_OK;
 }
 
-static fracas_err read_rule(const fracas_file *file, const fracas_node *node, fracas_sequential_rule *rule)
+static fracas_err read_rule(const fracas_file *file, const fracas_node *node,
+                            fracas_sequential_rule *rule)
 {
     static const char *const keys[] = {"minimum", "maximum", "until", NULL};
     const fracas_node *found;
@@ -74,19 +83,23 @@ static fracas_err read_rule(const fracas_file *file, const fracas_node *node, fr
     TRY(need(file, node, "replicas", "maximum", &found));
     TRY(fracas_setting_integer(file, "maximum", found, FRACAS_ROUND_FIRST, MOST, &rule->maximum));
     if (rule->maximum < rule->minimum)
-        return fracas_say(file->name, found, "`maximum`: %" PRId64 " is less than `minimum`, %" PRId64 "; raise it", rule->maximum,
-                          rule->minimum);
+        return fracas_say(file->name, found,
+                          "`maximum`: %" PRId64 " is less than `minimum`, %" PRId64 "; raise it",
+                          rule->maximum, rule->minimum);
     TRY(need(file, node, "replicas", "until", &found));
     return read_until(file, found, rule);
 }
 
-fracas_err fracas_replicas_read(const fracas_file *file, const fracas_node *node, fracas_replicas *replicas)
+fracas_err fracas_replicas_read(const fracas_file *file, const fracas_node *node,
+                                fracas_replicas *replicas)
 {
     char found[256];
     *replicas = (fracas_replicas){0};
     if (node->type == FRACAS_LIST)
-        return fracas_say(file->name, node, "`replicas`: found %s; expected a whole number or %s", fracas_say_found(node, found), form);
-    if (node->type == FRACAS_SCALAR) return fracas_setting_integer(file, "replicas", node, 1, MOST, &replicas->count);
+        return fracas_say(file->name, node, "`replicas`: found %s; expected a whole number or %s",
+                          fracas_say_found(node, found), form);
+    if (node->type == FRACAS_SCALAR)
+        return fracas_setting_integer(file, "replicas", node, 1, MOST, &replicas->count);
     TRY(read_rule(file, node, &replicas->rule));
     replicas->count = replicas->rule.minimum;
     return FRACAS_OK;
@@ -104,14 +117,18 @@ void fracas_replicas_write(const fracas_point *point, FILE *out)
     }
     fracas_number_write(rule->relative_half_width, width);
     fracas_number_write(rule->confidence, confidence);
-    fprintf(out, "{minimum: %" PRId64 ", maximum: %" PRId64 ", until: {quantity: %s, relative-half-width: %s, confidence: %s}}",
+    fprintf(out,
+            "{minimum: %" PRId64 ", maximum: %" PRId64
+            ", until: {quantity: %s, relative-half-width: %s, confidence: %s}}",
             rule->minimum, rule->maximum, fracas_quantity_name[rule->quantity], width, confidence);
 }
 
 bool fracas_replicas_same(const fracas_point *a, const fracas_point *b)
 {
-    return a->replicas == b->replicas && a->rule.maximum == b->rule.maximum && a->rule.quantity == b->rule.quantity &&
-           a->rule.relative_half_width == b->rule.relative_half_width && a->rule.confidence == b->rule.confidence;
+    return a->replicas == b->replicas && a->rule.maximum == b->rule.maximum &&
+           a->rule.quantity == b->rule.quantity &&
+           a->rule.relative_half_width == b->rule.relative_half_width &&
+           a->rule.confidence == b->rule.confidence;
 }
 
 /* ---- given beside the file ---- */
@@ -119,46 +136,66 @@ bool fracas_replicas_same(const fracas_point *a, const fracas_point *b)
 fracas_err fracas_campaign_replicas(fracas_campaign *campaign, int64_t replicas)
 {
     const fracas_catalog *catalog;
-    fracas_point_row *row = (fracas_point_row *)campaign->table.point; /* of the campaign's own memory */
+    fracas_point_row *row =
+        (fracas_point_row *)campaign->table.point; /* of the campaign's own memory */
     if (replicas < 1 || replicas > MOST)
-        return fracas_fail(FRACAS_USAGE, "--replicas is %" PRId64 "; allowed is 1 to %d", replicas, MOST);
+        return fracas_fail(FRACAS_USAGE, "--replicas is %" PRId64 "; allowed is 1 to %d", replicas,
+                           MOST);
     for (size_t p = 0; p < campaign->npoints; p++)
         if (campaign->point[p].rule.maximum > 0)
-            return fracas_fail(FRACAS_USAGE, "--replicas %" PRId64 ": a rule decides the replicas of point %zu (`replicas: {minimum: %" PRId64
-                               ", maximum: %" PRId64 ", until: ...}`); change the rule in the file, or leave --replicas out", replicas, p,
-                               campaign->point[p].rule.minimum, campaign->point[p].rule.maximum);
+            return fracas_fail(
+                FRACAS_USAGE,
+                "--replicas %" PRId64
+                ": a rule decides the replicas of point %zu (`replicas: {minimum: %" PRId64
+                ", maximum: %" PRId64
+                ", until: ...}`); change the rule in the file, or leave --replicas out",
+                replicas, p, campaign->point[p].rule.minimum, campaign->point[p].rule.maximum);
     TRY(fracas_catalog_make(campaign->memory, &catalog));
-    for (size_t p = 0; p < campaign->npoints; p++) campaign->point[p].replicas = row[p].replicas = replicas;
+    for (size_t p = 0; p < campaign->npoints; p++)
+        campaign->point[p].replicas = row[p].replicas = replicas;
     return fracas_campaign_identify(catalog, campaign);
 }
 
 /* ---- extending ---- */
 
-static fracas_err whole_differs(const char *what, int64_t was, int64_t is, size_t b, const char *remedy)
+static fracas_err whole_differs(const char *what, int64_t was, int64_t is, size_t b,
+                                const char *remedy)
 {
-    return fracas_fail(FRACAS_DAMAGED, "%s is %" PRId64 " in the study (its point %zu), but %" PRId64 " in this campaign file; %s", what,
-                       was, b, is, remedy);
+    return fracas_fail(FRACAS_DAMAGED,
+                       "%s is %" PRId64 " in the study (its point %zu), but %" PRId64
+                       " in this campaign file; %s",
+                       what, was, b, is, remedy);
 }
 
-static fracas_err share_differs(const char *what, double was, double is, size_t b, const char *remedy)
+static fracas_err share_differs(const char *what, double was, double is, size_t b,
+                                const char *remedy)
 {
-    return fracas_fail(FRACAS_DAMAGED, "%s is %.15g in the study (its point %zu), but %.15g in this campaign file; %s", what, was, b, is,
-                       remedy);
+    return fracas_fail(
+        FRACAS_DAMAGED,
+        "%s is %.15g in the study (its point %zu), but %.15g in this campaign file; %s", what, was,
+        b, is, remedy);
 }
 
 /* Between two rules. */
-static fracas_err extend_rule(const fracas_sequential_rule *now, const fracas_sequential_rule *was, size_t b)
+static fracas_err extend_rule(const fracas_sequential_rule *now, const fracas_sequential_rule *was,
+                              size_t b)
 {
     if (now->quantity != was->quantity)
-        return fracas_fail(FRACAS_DAMAGED, "replicas.until.quantity is %s in the study (its point %zu), but %s in this campaign file; it "
-                           "must stay", fracas_quantity_name[was->quantity], b, fracas_quantity_name[now->quantity]);
-    if (now->minimum != was->minimum) return whole_differs("replicas.minimum", was->minimum, now->minimum, b, "it must stay");
-    if (now->maximum < was->maximum) return whole_differs("replicas.maximum", was->maximum, now->maximum, b, "it can only grow");
+        return fracas_fail(FRACAS_DAMAGED,
+                           "replicas.until.quantity is %s in the study (its point %zu), but %s in "
+                           "this campaign file; it must stay",
+                           fracas_quantity_name[was->quantity], b,
+                           fracas_quantity_name[now->quantity]);
+    if (now->minimum != was->minimum)
+        return whole_differs("replicas.minimum", was->minimum, now->minimum, b, "it must stay");
+    if (now->maximum < was->maximum)
+        return whole_differs("replicas.maximum", was->maximum, now->maximum, b, "it can only grow");
     if (now->relative_half_width > was->relative_half_width)
-        return share_differs("replicas.until.relative-half-width", was->relative_half_width, now->relative_half_width, b,
-                             "it can only shrink");
+        return share_differs("replicas.until.relative-half-width", was->relative_half_width,
+                             now->relative_half_width, b, "it can only shrink");
     if (now->confidence < was->confidence)
-        return share_differs("replicas.until.confidence", was->confidence, now->confidence, b, "it can only grow");
+        return share_differs("replicas.until.confidence", was->confidence, now->confidence, b,
+                             "it can only grow");
     return FRACAS_OK;
 }
 
@@ -167,9 +204,11 @@ fracas_err fracas_replicas_extend(const fracas_point *now, const fracas_point *b
     const bool decides = now->rule.maximum > 0, decided = before->rule.maximum > 0;
     if (decides && decided) return extend_rule(&now->rule, &before->rule, b);
     if (decided && now->replicas < before->rule.maximum)
-        return whole_differs("replicas.maximum", before->rule.maximum, now->replicas, b, "it can only grow");
+        return whole_differs("replicas.maximum", before->rule.maximum, now->replicas, b,
+                             "it can only grow");
     if (now->replicas >= before->replicas) return FRACAS_OK;
     if (decides)
-        return whole_differs("replicas", before->replicas, now->replicas, b, "replicas.minimum can only be as many or more");
+        return whole_differs("replicas", before->replicas, now->replicas, b,
+                             "replicas.minimum can only be as many or more");
     return whole_differs("replicas", before->replicas, now->replicas, b, "it can only grow");
 }

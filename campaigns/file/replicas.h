@@ -1,4 +1,6 @@
-/* `replicas` of a campaign file or of a case: a whole number, or a rule that decides while the campaign runs. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* `replicas` of a campaign file or of a case: a whole number, or a rule that decides while the
+ * campaign runs. */
 #ifndef FRACAS_CAMPAIGNS_FILE_REPLICAS_H
 #define FRACAS_CAMPAIGNS_FILE_REPLICAS_H
 
@@ -16,15 +18,18 @@ typedef struct {
 /* FRACAS_USAGE, naming the place, for anything but a whole number from 1 to 1e9 or
  *   {minimum: N, maximum: M, until: {quantity: Q, relative-half-width: W, confidence: C}}
  * with 8 <= N <= M <= 1e9, 0 < W < 1, 0.5 <= C <= 0.999 (0.95 if it is not given). */
-FRACAS_MUST_USE fracas_err fracas_replicas_read(const fracas_file *file, const fracas_node *node, fracas_replicas *replicas);
+FRACAS_MUST_USE fracas_err fracas_replicas_read(const fracas_file *file, const fracas_node *node,
+                                                fracas_replicas *replicas);
 
 /* The same as text, on one line without its end; what a campaign's hash is taken of. */
 void fracas_replicas_write(const fracas_point *point, FILE *out);
 
 bool fracas_replicas_same(const fracas_point *a, const fracas_point *b);
 
-/* FRACAS_OK if a study of `before` goes on as one of `now`: at least as many replicas, and by a rule that
- * says "go on" wherever the one before did; else FRACAS_DAMAGED naming the first difference. `b`: number of the point in `before`. */
-FRACAS_MUST_USE fracas_err fracas_replicas_extend(const fracas_point *now, const fracas_point *before, size_t b);
+/* FRACAS_OK if a study of `before` goes on as one of `now`: at least as many replicas, and by a
+ * rule that says "go on" wherever the one before did; else FRACAS_DAMAGED naming the first
+ * difference. `b`: number of the point in `before`. */
+FRACAS_MUST_USE fracas_err fracas_replicas_extend(const fracas_point *now,
+                                                  const fracas_point *before, size_t b);
 
 #endif

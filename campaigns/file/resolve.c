@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/resolve.h"
 
 #include "campaigns/file/say.h"
@@ -26,7 +27,8 @@ static const fracas_kind *model_of(const fracas_file *file, const fracas_draft *
     return *chosen ? (*chosen)->kind : section->table->kinds[0];
 }
 
-/* The kind of a section, and the setting that names it (NULL: it is the default, which goes by the model). */
+/* The kind of a section, and the setting that names it (NULL: it is the default, which goes by the
+ * model). */
 static const fracas_kind *kind_of(const fracas_file *file, const fracas_draft *draft, view of,
                                   const fracas_file_section *section, const fracas_setting **chosen)
 {
@@ -34,11 +36,13 @@ static const fracas_kind *kind_of(const fracas_file *file, const fracas_draft *d
     *chosen = selected(file, draft, of, section);
     if (*chosen) return (*chosen)->kind;
     if (section->table->nkinds == 0) return NULL;
-    const fracas_kind *partner = fracas_kind_partner(model_of(file, draft, of, &by), section->table, 0);
+    const fracas_kind *partner = fracas_kind_partner(model_of(file, draft, of, &by), section->table,
+                                                     0);
     return partner ? partner : section->table->kinds[0];
 }
 
-/* Refuses a kind that the model cannot be combined with; `chosen` names it (NULL: the default, which fits). */
+/* Refuses a kind that the model cannot be combined with; `chosen` names it (NULL: the default,
+ * which fits). */
 static fracas_err check_partner(const fracas_file *file, const fracas_draft *draft, view of,
                                 const fracas_setting *chosen)
 {
@@ -51,12 +55,17 @@ static fracas_err check_partner(const fracas_file *file, const fracas_draft *dra
     for (; (partner = fracas_kind_partner(model, table, i)); i++) {
         if (partner == chosen->kind) return FRACAS_OK;
         const bool last = !fracas_kind_partner(model, table, i + 1);
-        int added = snprintf(takes + used, sizeof takes - used, "%s%s", i == 0 ? "" : last ? " or " : ", ", partner->name);
+        int added = snprintf(takes + used, sizeof takes - used, "%s%s",
+                             i == 0 ? ""
+                             : last ? " or "
+                                    : ", ",
+                             partner->name);
         if (added > 0 && used + (size_t)added < sizeof takes) used += (size_t)added;
     }
     if (i == 0) return FRACAS_OK;
     if (by) snprintf(line, sizeof line, "; the model is chosen at line %d", by->node->line);
-    return fracas_say(file->name, chosen->node, "`%s`: %s cannot be combined with model %s, which takes %s%s",
+    return fracas_say(file->name, chosen->node,
+                      "`%s`: %s cannot be combined with model %s, which takes %s%s",
                       chosen->leaf->key, chosen->kind->name, model->name, takes, line);
 }
 
@@ -80,21 +89,25 @@ fracas_err fracas_draft_check_base(const fracas_file *file, const fracas_draft *
         const fracas_kind *kind = kind_of(file, draft, BASE, leaf->section, &chosen);
         const fracas_setting *model = selected(file, draft, BASE, file->catalog->section);
         const fracas_param *any = fracas_section_param(leaf->section->table, kind, NULL, leaf->key);
-        const fracas_param *param = model ? fracas_section_param(leaf->section->table, kind, model->kind, leaf->key) : any;
+        const fracas_param *param =
+            model ? fracas_section_param(leaf->section->table, kind, model->kind, leaf->key) : any;
         if (!any) return fracas_setting_misplaced(file, setting, kind, chosen);
         TRY(fracas_setting_check(file, setting, param ? param : any));
     }
     return FRACAS_OK;
 }
 
-static bool any_point_has(const fracas_campaign *campaign, const fracas_section *table, const fracas_kind *kind, const char *key)
+static bool any_point_has(const fracas_campaign *campaign, const fracas_section *table,
+                          const fracas_kind *kind, const char *key)
 {
     for (size_t p = 0; p < campaign->npoints; p++)
-        if (fracas_section_param(table, kind, campaign->point[p].spec.formulation, key)) return true;
+        if (fracas_section_param(table, kind, campaign->point[p].spec.formulation, key))
+            return true;
     return false;
 }
 
-fracas_err fracas_draft_check_models(const fracas_file *file, const fracas_draft *draft, const fracas_campaign *campaign)
+fracas_err fracas_draft_check_models(const fracas_file *file, const fracas_draft *draft,
+                                     const fracas_campaign *campaign)
 {
     for (size_t i = 0; i < file->catalog->nleaves; i++) {
         const fracas_leaf *leaf = &file->catalog->leaf[i];
@@ -102,7 +115,8 @@ fracas_err fracas_draft_check_models(const fracas_file *file, const fracas_draft
         if (!draft->base[i] || !leaf->param) continue;
         const fracas_kind *kind = kind_of(file, draft, BASE, leaf->section, &chosen);
         if (any_point_has(campaign, leaf->section->table, kind, leaf->key)) continue;
-        const fracas_param *param = fracas_section_param(leaf->section->table, kind, NULL, leaf->key);
+        const fracas_param *param = fracas_section_param(leaf->section->table, kind, NULL,
+                                                         leaf->key);
         const fracas_kind *model = model_of(file, draft, POINT, &by);
         return fracas_setting_of_others(file, draft->base[i], param, model, by);
     }
@@ -110,28 +124,34 @@ fracas_err fracas_draft_check_models(const fracas_file *file, const fracas_draft
 }
 
 /* The swept key of `setting` is for another kind, or for another model. */
-static fracas_err refuse_swept(const fracas_file *file, const fracas_draft *draft, const fracas_setting *setting,
-                               const fracas_kind *kind, const fracas_setting *chosen)
+static fracas_err refuse_swept(const fracas_file *file, const fracas_draft *draft,
+                               const fracas_setting *setting, const fracas_kind *kind,
+                               const fracas_setting *chosen)
 {
     const fracas_setting *by;
     const fracas_kind *model = model_of(file, draft, POINT, &by);
-    const fracas_param *others = fracas_section_param(setting->leaf->section->table, kind, NULL, setting->leaf->key);
+    const fracas_param *others = fracas_section_param(setting->leaf->section->table, kind, NULL,
+                                                      setting->leaf->key);
     return others ? fracas_setting_of_others(file, setting, others, model, by)
                   : fracas_setting_misplaced(file, setting, kind, chosen);
 }
 
-/* True if a value of the base holds at points of this model, which have the key, even if their kind is not the base's. */
-static bool is_inherited(const fracas_file *file, const fracas_draft *draft, const fracas_section *table,
-                         const fracas_kind *model, const char *key)
+/* True if a value of the base holds at points of this model, which have the key, even if their kind
+ * is not the base's. */
+static bool is_inherited(const fracas_file *file, const fracas_draft *draft,
+                         const fracas_section *table, const fracas_kind *model, const char *key)
 {
     const fracas_setting *before = selected(file, draft, BASE, file->catalog->section);
     if (fracas_section_param(table, NULL, NULL, key)) return true; /* of the section itself */
-    return fracas_section_common(table, model, key) && (!before || fracas_section_common(table, before->kind, key));
+    return fracas_section_common(table, model, key) &&
+           (!before || fracas_section_common(table, before->kind, key));
 }
 
-/* A value that the point needs and nothing gives; its place is where the kind was chosen, the section, or the file. */
-static fracas_err missing(const fracas_file *file, const fracas_leaf *leaf, const fracas_param *param, bool common,
-                          const fracas_kind *kind, const fracas_setting *chosen)
+/* A value that the point needs and nothing gives; its place is where the kind was chosen, the
+ * section, or the file. */
+static fracas_err missing(const fracas_file *file, const fracas_leaf *leaf,
+                          const fracas_param *param, bool common, const fracas_kind *kind,
+                          const fracas_setting *chosen)
 {
     const fracas_section *table = leaf->section->table;
     const fracas_node *section = fracas_node_find(file->root, table->name);
@@ -144,15 +164,15 @@ static fracas_err missing(const fracas_file *file, const fracas_leaf *leaf, cons
     if (!*unit) write_in = "";
     const fracas_node *at = !common && chosen ? chosen->node : section ? section->key : file->root;
     if (common || !kind)
-        return fracas_say(file->name, at, "%s needs `%s` (%s): %s%s%s", table->name, leaf->key, param->doc, what, unit,
-                          write_in);
+        return fracas_say(file->name, at, "%s needs `%s` (%s): %s%s%s", table->name, leaf->key,
+                          param->doc, what, unit, write_in);
     return fracas_say(file->name, at, "%s with %s %s%s needs `%s` (%s): %s%s%s", table->name,
-                      table->selector ? table->selector : table->name, kind->name, chosen ? "" : " (the default)",
-                      leaf->key, param->doc, what, unit, write_in);
+                      table->selector ? table->selector : table->name, kind->name,
+                      chosen ? "" : " (the default)", leaf->key, param->doc, what, unit, write_in);
 }
 
-fracas_err fracas_draft_resolve(const fracas_file *file, const fracas_draft *draft, const fracas_file_section *section,
-                                void *owner)
+fracas_err fracas_draft_resolve(const fracas_file *file, const fracas_draft *draft,
+                                const fracas_file_section *section, void *owner)
 {
     const fracas_catalog *catalog = file->catalog;
     const fracas_section *table = section->table;
@@ -162,13 +182,15 @@ fracas_err fracas_draft_resolve(const fracas_file *file, const fracas_draft *dra
     const fracas_kind *base_kind = kind_of(file, draft, BASE, section, &before);
     TRY(check_partner(file, draft, POINT, chosen));
     char *values = fracas_section_at(section, owner);
-    const fracas_node *last = chosen ? chosen->node : file->root; /* the value that a contradiction is told at */
+    const fracas_node *last = chosen ? chosen->node
+                                     : file->root; /* the value that a contradiction is told at */
     if (kind) memcpy(values + table->kind_offset, &kind, sizeof kind);
     for (size_t i = 0; i < catalog->nleaves; i++) {
         const fracas_leaf *leaf = &catalog->leaf[i];
         if (leaf->section != section || !leaf->param) continue;
         const fracas_param *param = fracas_section_param(table, kind, model, leaf->key);
-        if (!param && draft->swept[i]) return refuse_swept(file, draft, draft->swept[i], kind, chosen);
+        if (!param && draft->swept[i])
+            return refuse_swept(file, draft, draft->swept[i], kind, chosen);
         if (!param) continue;
         const bool common = is_inherited(file, draft, table, model, leaf->key);
         const fracas_setting *setting = draft->swept[i];
@@ -178,9 +200,13 @@ fracas_err fracas_draft_resolve(const fracas_file *file, const fracas_draft *dra
         else if (param->optional) fracas_param_clear(param, values);
         else if (isnan(param->fallback)) return missing(file, leaf, param, common, kind, chosen);
         if (!setting && param->optional) continue;
-        if (param->type == FRACAS_ATTACHMENT) fracas_param_attach(param, values, setting ? setting->attachment : NULL);
-        else fracas_param_set(param, values, setting ? setting->value : fracas_number_round(param->fallback));
+        if (param->type == FRACAS_ATTACHMENT)
+            fracas_param_attach(param, values, setting ? setting->attachment : NULL);
+        else
+            fracas_param_set(param, values,
+                             setting ? setting->value : fracas_number_round(param->fallback));
     }
-    if (table->check && table->check(values)) return fracas_say_within(file->name, last, table->name);
+    if (table->check && table->check(values))
+        return fracas_say_within(file->name, last, table->name);
     return FRACAS_OK;
 }

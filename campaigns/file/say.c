@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/say.h"
 
 #include <stdarg.h>
@@ -44,8 +45,8 @@ void fracas_words_add(fracas_words *words, const char *word)
         words->nearest = word;
         words->distance = distance;
     }
-    int added =
-        snprintf(words->list + words->used, sizeof words->list - words->used, "%s%s", words->used ? ", " : "", word);
+    int added = snprintf(words->list + words->used, sizeof words->list - words->used, "%s%s",
+                         words->used ? ", " : "", word);
     if (added > 0 && words->used + (size_t)added < sizeof words->list) words->used += (size_t)added;
     else words->list[words->used] = '\0';
 }
@@ -64,7 +65,8 @@ size_t fracas_word_distance(const char *a, const char *b)
 {
     size_t na = strlen(a), nb = strlen(b);
     if (na > LONGEST || nb > LONGEST) return na > nb ? na : nb;
-    size_t row[3][LONGEST + 1]; /* of the table of distances between beginnings, for i-2, i-1 and i letters of a */
+    size_t row[3][LONGEST + 1]; /* of the table of distances between beginnings, for i-2, i-1 and i
+                                   letters of a */
     for (size_t j = 0; j <= nb; j++) row[0][j] = j;
     for (size_t i = 1; i <= na; i++) {
         size_t *now = row[i % 3];
@@ -74,7 +76,8 @@ size_t fracas_word_distance(const char *a, const char *b)
             size_t least = last[j - 1] + (a[i - 1] != b[j - 1]);
             if (last[j] + 1 < least) least = last[j] + 1;
             if (now[j - 1] + 1 < least) least = now[j - 1] + 1;
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] && before[j - 2] + 1 < least)
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] &&
+                before[j - 2] + 1 < least)
                 least = before[j - 2] + 1;
             now[j] = least;
         }
@@ -82,7 +85,8 @@ size_t fracas_word_distance(const char *a, const char *b)
     return row[na % 3][nb];
 }
 
-fracas_err fracas_say_unknown(const char *name, const fracas_node *map, const char *const *keys, const char *what)
+fracas_err fracas_say_unknown(const char *name, const fracas_node *map, const char *const *keys,
+                              const char *what)
 {
     for (const fracas_node *entry = map->first; entry; entry = entry->next) {
         fracas_words words;

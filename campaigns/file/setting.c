@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/setting.h"
 
 #include "campaigns/file/attach.h"
@@ -9,16 +10,19 @@
 
 /* ---- one value ---- */
 
-static fracas_err want_scalar(const fracas_file *file, const char *key, const fracas_node *node, const char *expected)
+static fracas_err want_scalar(const fracas_file *file, const char *key, const fracas_node *node,
+                              const char *expected)
 {
     char found[256];
     if (node->type == FRACAS_SCALAR && *node->text) return FRACAS_OK;
-    return fracas_say(file->name, node, "`%s`: found %s; expected %s", key, fracas_say_found(node, found), expected);
+    return fracas_say(file->name, node, "`%s`: found %s; expected %s", key,
+                      fracas_say_found(node, found), expected);
 }
 
 /* The one of `count` kinds that the node names. */
-static fracas_err read_name(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node,
-                            const fracas_kind *const *kinds, size_t count, size_t *which)
+static fracas_err read_name(const fracas_file *file, const fracas_leaf *leaf,
+                            const fracas_node *node, const fracas_kind *const *kinds, size_t count,
+                            size_t *which)
 {
     TRY(want_scalar(file, leaf->key, node, "a name"));
     fracas_words words;
@@ -33,8 +37,8 @@ static fracas_err read_name(const fracas_file *file, const fracas_leaf *leaf, co
                       fracas_words_hint(&words, label, hint));
 }
 
-static fracas_err read_kind(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node,
-                            const fracas_kind **kind)
+static fracas_err read_kind(const fracas_file *file, const fracas_leaf *leaf,
+                            const fracas_node *node, const fracas_kind **kind)
 {
     const fracas_section *table = leaf->section->table;
     size_t which;
@@ -43,7 +47,8 @@ static fracas_err read_kind(const fracas_file *file, const fracas_leaf *leaf, co
     return FRACAS_OK;
 }
 
-static fracas_err read_choice(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node, double *value)
+static fracas_err read_choice(const fracas_file *file, const fracas_leaf *leaf,
+                              const fracas_node *node, double *value)
 {
     size_t which;
     TRY(read_name(file, leaf, node, leaf->param->choices, leaf->param->nchoices, &which));
@@ -51,22 +56,25 @@ static fracas_err read_choice(const fracas_file *file, const fracas_leaf *leaf, 
     return FRACAS_OK;
 }
 
-static fracas_err read_attachment(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node,
-                                  const fracas_attachment **attachment)
+static fracas_err read_attachment(const fracas_file *file, const fracas_leaf *leaf,
+                                  const fracas_node *node, const fracas_attachment **attachment)
 {
     TRY(want_scalar(file, leaf->key, node, "the path of a file"));
     return fracas_attachment_read(file, leaf->key, node, attachment);
 }
 
-static fracas_err read_boolean(const fracas_file *file, const char *key, const fracas_node *node, double *value)
+static fracas_err read_boolean(const fracas_file *file, const char *key, const fracas_node *node,
+                               double *value)
 {
     TRY(want_scalar(file, key, node, "true or false"));
     *value = strcmp(node->text, "true") == 0;
     if (*value != 0.0 || strcmp(node->text, "false") == 0) return FRACAS_OK;
-    return fracas_say(file->name, node, "`%s`: found `%s`; expected true or false", key, node->text);
+    return fracas_say(file->name, node, "`%s`: found `%s`; expected true or false", key,
+                      node->text);
 }
 
-static fracas_err read_integer(const fracas_file *file, const char *key, const fracas_node *node, double *value)
+static fracas_err read_integer(const fracas_file *file, const char *key, const fracas_node *node,
+                               double *value)
 {
     TRY(want_scalar(file, key, node, "a whole number"));
     if (fracas_number_read(node->text, value)) return fracas_say_within(file->name, node, key);
@@ -75,7 +83,8 @@ static fracas_err read_integer(const fracas_file *file, const char *key, const f
                       fabs(*value) > 1e15 ? " of at most 15 digits" : "");
 }
 
-static fracas_err read_real(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node, double *value)
+static fracas_err read_real(const fracas_file *file, const fracas_leaf *leaf,
+                            const fracas_node *node, double *value)
 {
     const char *what, *write_in;
     char expected[160];
@@ -86,14 +95,14 @@ static fracas_err read_real(const fracas_file *file, const fracas_leaf *leaf, co
     return err == FRACAS_USAGE ? fracas_say_within(file->name, node, leaf->key) : err;
 }
 
-fracas_err fracas_setting_read(const fracas_file *file, const fracas_leaf *leaf, const fracas_node *node,
-                               fracas_setting *setting)
+fracas_err fracas_setting_read(const fracas_file *file, const fracas_leaf *leaf,
+                               const fracas_node *node, fracas_setting *setting)
 {
     *setting = (fracas_setting){.leaf = leaf, .node = node};
     if (node->type == FRACAS_LIST && leaf->section->table->hashed)
         return fracas_say(file->name, node,
-                          "`%s`: found a list; one value is expected here, several go under `sweep`, as "
-                          "`- %s: [...]`",
+                          "`%s`: found a list; one value is expected here, several go under "
+                          "`sweep`, as `- %s: [...]`",
                           leaf->key, leaf->path);
     if (!leaf->param) return read_kind(file, leaf, node, &setting->kind);
     switch (leaf->param->type) {
@@ -106,26 +115,29 @@ fracas_err fracas_setting_read(const fracas_file *file, const fracas_leaf *leaf,
     return read_real(file, leaf, node, &setting->value);
 }
 
-fracas_err fracas_setting_integer(const fracas_file *file, const char *key, const fracas_node *node, int64_t minimum,
-                                  int64_t maximum, int64_t *value)
+fracas_err fracas_setting_integer(const fracas_file *file, const char *key, const fracas_node *node,
+                                  int64_t minimum, int64_t maximum, int64_t *value)
 {
     double real;
     TRY(read_integer(file, key, node, &real));
     *value = (int64_t)real;
     if (*value >= minimum && *value <= maximum) return FRACAS_OK;
-    return fracas_say(file->name, node, "`%s`: %s is out of range; allowed is %" PRId64 " to %" PRId64, key, node->text,
-                      minimum, maximum);
+    return fracas_say(file->name, node,
+                      "`%s`: %s is out of range; allowed is %" PRId64 " to %" PRId64, key,
+                      node->text, minimum, maximum);
 }
 
 fracas_err fracas_setting_name(const fracas_file *file, const fracas_node *node, const char **name)
 {
-    static const char *const allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
+    static const char *const allowed =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
     TRY(want_scalar(file, "name", node, "a word"));
     *name = node->text;
-    if (strlen(*name) <= 100 && strspn(*name, allowed) == strlen(*name) && !strchr("._-", **name)) return FRACAS_OK;
+    if (strlen(*name) <= 100 && strspn(*name, allowed) == strlen(*name) && !strchr("._-", **name))
+        return FRACAS_OK;
     return fracas_say(file->name, node,
-                      "`name`: found `%s`; a name is made of up to 100 letters a-z A-Z, digits, `.`, `_` "
-                      "and `-`, and starts with a letter or digit",
+                      "`name`: found `%s`; a name is made of up to 100 letters a-z A-Z, digits, "
+                      "`.`, `_` and `-`, and starts with a letter or digit",
                       *name);
 }
 
@@ -138,13 +150,14 @@ const fracas_setting *fracas_settings_find(const fracas_settings *settings, cons
     return NULL;
 }
 
-fracas_err fracas_settings_add(const fracas_file *file, const fracas_setting *setting, fracas_settings *settings)
+fracas_err fracas_settings_add(const fracas_file *file, const fracas_setting *setting,
+                               fracas_settings *settings)
 {
     const fracas_setting *earlier = fracas_settings_find(settings, setting->leaf);
     if (earlier)
         return fracas_say(file->name, setting->node,
-                          "`%s` is given twice; it is already at line %d, keep one of the two", setting->leaf->path,
-                          earlier->node->line);
+                          "`%s` is given twice; it is already at line %d, keep one of the two",
+                          setting->leaf->path, earlier->node->line);
     fracas_setting *copy = fracas_memory_take(file->memory, 1, sizeof *copy);
     if (!copy) return fracas_no_memory("the campaign's values");
     *copy = *setting;
@@ -153,7 +166,8 @@ fracas_err fracas_settings_add(const fracas_file *file, const fracas_setting *se
     return FRACAS_OK;
 }
 
-static fracas_err unknown_key(const fracas_file *file, const fracas_file_section *section, const fracas_node *key)
+static fracas_err unknown_key(const fracas_file *file, const fracas_file_section *section,
+                              const fracas_node *key)
 {
     const fracas_catalog *catalog = file->catalog;
     fracas_words words;
@@ -161,14 +175,15 @@ static fracas_err unknown_key(const fracas_file *file, const fracas_file_section
     const char *home = NULL; /* another section that has this key */
     for (size_t i = 0; i < catalog->nleaves; i++) {
         if (catalog->leaf[i].section == section) fracas_words_add(&words, catalog->leaf[i].key);
-        else if (strcmp(catalog->leaf[i].key, key->text) == 0) home = catalog->leaf[i].section->table->name;
+        else if (strcmp(catalog->leaf[i].key, key->text) == 0)
+            home = catalog->leaf[i].section->table->name;
     }
     char hint[600], label[80];
     snprintf(label, sizeof label, "keys of %s", section->table->name);
     if (home) words.nearest = NULL;
-    return fracas_say(file->name, key, "unknown key `%s` in %s%s%s%s", key->text, section->table->name,
-                      home ? "; it belongs to the section " : "", home ? home : "",
-                      fracas_words_hint(&words, label, hint));
+    return fracas_say(file->name, key, "unknown key `%s` in %s%s%s%s", key->text,
+                      section->table->name, home ? "; it belongs to the section " : "",
+                      home ? home : "", fracas_words_hint(&words, label, hint));
 }
 
 fracas_err fracas_settings_add_section(const fracas_file *file, const fracas_file_section *section,
@@ -179,9 +194,10 @@ fracas_err fracas_settings_add_section(const fracas_file *file, const fracas_fil
         fracas_words words;
         fracas_words_init(&words, "");
         for (size_t i = 0; i < file->catalog->nleaves; i++)
-            if (file->catalog->leaf[i].section == section) fracas_words_add(&words, file->catalog->leaf[i].key);
-        return fracas_say(file->name, node, "`%s` is a section, but found %s%s", section->table->name,
-                          fracas_say_found(node, found),
+            if (file->catalog->leaf[i].section == section)
+                fracas_words_add(&words, file->catalog->leaf[i].key);
+        return fracas_say(file->name, node, "`%s` is a section, but found %s%s",
+                          section->table->name, fracas_say_found(node, found),
                           fracas_words_hint(&words, "write its keys below it, indented", hint));
     }
     for (const fracas_node *entry = node->first; entry; entry = entry->next) {
@@ -205,30 +221,35 @@ static void write_range(const fracas_param *param, char *text, size_t size)
     fracas_number_write(param->minimum, minimum);
     fracas_number_write(param->maximum, maximum);
     const bool low = isfinite(param->minimum), high = isfinite(param->maximum);
-    int used =
-        low ? snprintf(text, size, "%s %s%s%s", param->minimum_open ? "more than" : "at least", minimum, blank, unit)
-            : snprintf(text, size, "any number");
+    int used = low ? snprintf(text, size, "%s %s%s%s",
+                              param->minimum_open ? "more than" : "at least", minimum, blank, unit)
+                   : snprintf(text, size, "any number");
     if (high && used > 0 && (size_t)used < size)
-        snprintf(text + used, size - (size_t)used, "%s at most %s%s%s", low ? "," : "", maximum, blank, unit);
+        snprintf(text + used, size - (size_t)used, "%s at most %s%s%s", low ? "," : "", maximum,
+                 blank, unit);
 }
 
-fracas_err fracas_setting_check(const fracas_file *file, const fracas_setting *setting, const fracas_param *param)
+fracas_err fracas_setting_check(const fracas_file *file, const fracas_setting *setting,
+                                const fracas_param *param)
 {
     double value = setting->value;
     if (fracas_param_is_text(param)) return FRACAS_OK;
-    if ((param->minimum_open ? value > param->minimum : value >= param->minimum) && value <= param->maximum)
+    if ((param->minimum_open ? value > param->minimum : value >= param->minimum) &&
+        value <= param->maximum)
         return FRACAS_OK;
     char range[160], number[FRACAS_NUMBER_TEXT];
     const bool pure = strcmp(param->unit, "1") == 0;
     write_range(param, range, sizeof range);
     fracas_number_write(value, number);
     if (setting->drawn)
-        return fracas_say(file->name, setting->node, "`%s`: point %zu of the design draws %s%s%s, which is out of range; allowed is %s; "
-                          "choose a distribution that stays within", setting->leaf->path, setting->drawn, number,
-                          pure ? "" : " ", pure ? "" : param->unit, range);
+        return fracas_say(file->name, setting->node,
+                          "`%s`: point %zu of the design draws %s%s%s, which is out of range; "
+                          "allowed is %s; choose a distribution that stays within",
+                          setting->leaf->path, setting->drawn, number, pure ? "" : " ",
+                          pure ? "" : param->unit, range);
     const char *written = setting->node->type == FRACAS_SCALAR ? setting->node->text : number;
-    return fracas_say(file->name, setting->node, "`%s`: %s is out of range; allowed is %s", setting->leaf->key, written,
-                      range);
+    return fracas_say(file->name, setting->node, "`%s`: %s is out of range; allowed is %s",
+                      setting->leaf->key, written, range);
 }
 
 /* Names of kinds, "a or b". */
@@ -240,34 +261,40 @@ typedef struct {
 static void add_home(homes *names, const fracas_kind *kind)
 {
     const size_t room = sizeof names->text - names->used;
-    int added = snprintf(names->text + names->used, room, "%s%s", names->used ? " or " : "", kind->name);
+    int added = snprintf(names->text + names->used, room, "%s%s", names->used ? " or " : "",
+                         kind->name);
     if (added > 0 && (size_t)added < room) names->used += (size_t)added;
 }
 
 /* `kind` is what it has instead, of the section in which `selector` names it. */
-static fracas_err say_misplaced(const fracas_file *file, const fracas_setting *setting, const char *selector,
-                                const homes *names, const fracas_kind *kind, const fracas_setting *chosen)
+static fracas_err say_misplaced(const fracas_file *file, const fracas_setting *setting,
+                                const char *selector, const homes *names, const fracas_kind *kind,
+                                const fracas_setting *chosen)
 {
     const fracas_node *at = setting->node->key ? setting->node->key : setting->node;
     if (!chosen)
-        return fracas_say(file->name, at, "`%s` belongs to %s %s; this is %s, the default, as no `%s` is given",
+        return fracas_say(file->name, at,
+                          "`%s` belongs to %s %s; this is %s, the default, as no `%s` is given",
                           setting->leaf->key, selector, names->text, kind->name, selector);
-    return fracas_say(file->name, at, "`%s` belongs to %s %s; this is %s (line %d)", setting->leaf->key, selector,
-                      names->text, kind->name, chosen->node->line);
+    return fracas_say(file->name, at, "`%s` belongs to %s %s; this is %s (line %d)",
+                      setting->leaf->key, selector, names->text, kind->name, chosen->node->line);
 }
 
-fracas_err fracas_setting_misplaced(const fracas_file *file, const fracas_setting *setting, const fracas_kind *kind,
-                                    const fracas_setting *chosen)
+fracas_err fracas_setting_misplaced(const fracas_file *file, const fracas_setting *setting,
+                                    const fracas_kind *kind, const fracas_setting *chosen)
 {
     const fracas_section *table = setting->leaf->section->table;
     homes names = {.used = 0};
     for (size_t k = 0; k < table->nkinds; k++)
-        if (fracas_section_param(table, table->kinds[k], NULL, setting->leaf->key)) add_home(&names, table->kinds[k]);
-    return say_misplaced(file, setting, table->selector ? table->selector : table->name, &names, kind, chosen);
+        if (fracas_section_param(table, table->kinds[k], NULL, setting->leaf->key))
+            add_home(&names, table->kinds[k]);
+    return say_misplaced(file, setting, table->selector ? table->selector : table->name, &names,
+                         kind, chosen);
 }
 
-fracas_err fracas_setting_of_others(const fracas_file *file, const fracas_setting *setting, const fracas_param *param,
-                                    const fracas_kind *model, const fracas_setting *chosen)
+fracas_err fracas_setting_of_others(const fracas_file *file, const fracas_setting *setting,
+                                    const fracas_param *param, const fracas_kind *model,
+                                    const fracas_setting *chosen)
 {
     homes names = {.used = 0};
     for (const fracas_kind *const *only = param->only; *only; only++) add_home(&names, *only);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/sweep.h"
 
 #include "campaigns/file/design.h"
@@ -7,8 +8,8 @@
 
 #include <string.h>
 
-static fracas_err add_target(const fracas_file *file, const fracas_target *set, const fracas_node *value,
-                             fracas_settings *settings)
+static fracas_err add_target(const fracas_file *file, const fracas_target *set,
+                             const fracas_node *value, fracas_settings *settings)
 {
     if (set->section) return fracas_settings_add_section(file, set->section, value, settings);
     fracas_setting setting;
@@ -18,22 +19,28 @@ static fracas_err add_target(const fracas_file *file, const fracas_target *set, 
 
 /* ---- axes ---- */
 
-static fracas_err make_choices(const fracas_file *file, const fracas_node *node, size_t count, fracas_axis *axis)
+static fracas_err make_choices(const fracas_file *file, const fracas_node *node, size_t count,
+                               fracas_axis *axis)
 {
     if (count == 0)
-        return fracas_say(file->name, node, "found no values to sweep; give at least one, or remove the axis");
+        return fracas_say(file->name, node,
+                          "found no values to sweep; give at least one, or remove the axis");
     if (count > FRACAS_MAX_POINTS)
-        return fracas_say(file->name, node, "%zu values; a campaign has at most %d points", count, FRACAS_MAX_POINTS);
+        return fracas_say(file->name, node, "%zu values; a campaign has at most %d points", count,
+                          FRACAS_MAX_POINTS);
     axis->nchoices = count;
     axis->choice = fracas_memory_take(file->memory, count, sizeof *axis->choice);
     return axis->choice ? FRACAS_OK : fracas_no_memory("the sweep");
 }
 
-/* Adds the values of `path: values` to the choices, which are made for the first path of an axis. */
-static fracas_err add_range(const fracas_file *file, const fracas_target *set, const fracas_node *values, fracas_axis *axis)
+/* Adds the values of `path: values` to the choices, which are made for the first path of an axis.
+ */
+static fracas_err add_range(const fracas_file *file, const fracas_target *set,
+                            const fracas_node *values, fracas_axis *axis)
 {
     if (!set->leaf)
-        return fracas_say(file->name, values, "`%s` is a section; expected a list of sections, [{...}, {...}]",
+        return fracas_say(file->name, values,
+                          "`%s` is a section; expected a list of sections, [{...}, {...}]",
                           values->key->text);
     fracas_range range;
     TRY(fracas_range_read(file, set->leaf, values, &range));
@@ -45,14 +52,16 @@ static fracas_err add_range(const fracas_file *file, const fracas_target *set, c
                           values->key->text, range.points, axis->nchoices);
     for (size_t i = 0; i < range.points; i++) {
         fracas_choice *choice = &axis->choice[i];
-        fracas_setting setting = {.leaf = set->leaf, .node = values, .value = fracas_range_value(&range, i)};
+        fracas_setting setting = {
+            .leaf = set->leaf, .node = values, .value = fracas_range_value(&range, i)};
         if (!choice->node) choice->node = values;
         TRY(fracas_settings_add(file, &setting, &choice->settings));
     }
     return FRACAS_OK;
 }
 
-static fracas_err add_list(const fracas_file *file, const fracas_target *set, const fracas_node *values, fracas_axis *axis)
+static fracas_err add_list(const fracas_file *file, const fracas_target *set,
+                           const fracas_node *values, fracas_axis *axis)
 {
     if (axis->nchoices == 0) TRY(make_choices(file, values, values->count, axis));
     if (axis->nchoices != values->count)
@@ -77,8 +86,8 @@ static fracas_err add_path(const fracas_file *file, const fracas_node *values, f
     if (values->type == FRACAS_LIST) return add_list(file, &set, values, axis);
     if (values->type == FRACAS_MAP) return add_range(file, &set, values, axis);
     return fracas_say(file->name, values,
-                      "`%s`: found %s; expected a list of values, [...], or a range, {from: ..., to: "
-                      "..., points: ...}",
+                      "`%s`: found %s; expected a list of values, [...], or a range, {from: ..., "
+                      "to: ..., points: ...}",
                       values->key->text, fracas_say_found(values, found));
 }
 
@@ -86,9 +95,12 @@ static fracas_err read_zip(const fracas_file *file, const fracas_node *zip, frac
 {
     char found[256];
     if (zip->type != FRACAS_MAP || zip->count == 0)
-        return fracas_say(file->name, zip, "`zip`: found %s; expected paths with their values, below it and indented",
-                          zip->type == FRACAS_MAP ? "nothing" : fracas_say_found(zip, found));
-    for (const fracas_node *values = zip->first; values; values = values->next) TRY(add_path(file, values, axis));
+        return fracas_say(
+            file->name, zip,
+            "`zip`: found %s; expected paths with their values, below it and indented",
+            zip->type == FRACAS_MAP ? "nothing" : fracas_say_found(zip, found));
+    for (const fracas_node *values = zip->first; values; values = values->next)
+        TRY(add_path(file, values, axis));
     return FRACAS_OK;
 }
 
@@ -101,7 +113,8 @@ static fracas_err read_design(const fracas_file *file, const fracas_node *node, 
         axis->choice[i].node = node;
         for (size_t j = 0; j < drawn.parameters; j++) {
             const double value = drawn.value[i * drawn.parameters + j];
-            const fracas_setting setting = {.leaf = drawn.leaf[j], .node = drawn.node[j], .value = value, .drawn = i + 1};
+            const fracas_setting setting = {
+                .leaf = drawn.leaf[j], .node = drawn.node[j], .value = value, .drawn = i + 1};
             TRY(fracas_settings_add(file, &setting, &axis->choice[i].settings));
         }
     }
@@ -114,7 +127,8 @@ static fracas_err read_case(const fracas_file *file, const fracas_node *node, fr
     char found[256];
     *choice = (fracas_choice){.node = node};
     if (node->type != FRACAS_MAP || node->count == 0)
-        return fracas_say(file->name, node, "a case: found %s; expected `name:`, `replicas:` or sections",
+        return fracas_say(file->name, node,
+                          "a case: found %s; expected `name:`, `replicas:` or sections",
                           node->type == FRACAS_MAP ? "nothing" : fracas_say_found(node, found));
     for (const fracas_node *entry = node->first; entry; entry = entry->next) {
         fracas_target set;
@@ -134,11 +148,13 @@ static fracas_err read_cases(const fracas_file *file, const fracas_node *cases, 
 {
     char found[256];
     if (cases->type != FRACAS_LIST)
-        return fracas_say(file->name, cases, "`cases`: found %s; expected a list, each case after `- `",
+        return fracas_say(file->name, cases,
+                          "`cases`: found %s; expected a list, each case after `- `",
                           fracas_say_found(cases, found));
     TRY(make_choices(file, cases, cases->count, axis));
     fracas_choice *choice = axis->choice;
-    for (const fracas_node *node = cases->first; node; node = node->next) TRY(read_case(file, node, choice++));
+    for (const fracas_node *node = cases->first; node; node = node->next)
+        TRY(read_case(file, node, choice++));
     return FRACAS_OK;
 }
 
@@ -147,12 +163,15 @@ static fracas_err read_axis(const fracas_file *file, const fracas_node *node, fr
     char found[256];
     if (node->type != FRACAS_MAP || node->count == 0)
         return fracas_say(file->name, node,
-                          "an axis of the sweep: found %s; expected `path: [values]`, `zip:`, `cases:` or `design:`",
+                          "an axis of the sweep: found %s; expected `path: [values]`, `zip:`, "
+                          "`cases:` or `design:`",
                           node->type == FRACAS_MAP ? "nothing" : fracas_say_found(node, found));
     if (node->count > 1)
-        return fracas_say(file->name, node->first->next->key, "a second path, `%s`, in one axis; put `- ` before it to "
-                          "combine every value with every other, or both under `zip:` to go through them together",
-                          node->first->next->key->text);
+        return fracas_say(
+            file->name, node->first->next->key,
+            "a second path, `%s`, in one axis; put `- ` before it to combine every value with "
+            "every other, or both under `zip:` to go through them together",
+            node->first->next->key->text);
     if (strcmp(node->first->key->text, "zip") == 0) return read_zip(file, node->first, axis);
     if (strcmp(node->first->key->text, "cases") == 0) return read_cases(file, node->first, axis);
     if (strcmp(node->first->key->text, "design") == 0) return read_design(file, node->first, axis);
@@ -162,15 +181,17 @@ static fracas_err read_axis(const fracas_file *file, const fracas_node *node, fr
 /* ---- the sweep ---- */
 
 /* Every leaf is set by one axis only, or the order of the axes would decide. */
-static fracas_err check_axes_apart(const fracas_file *file, const fracas_sweep *sweep, const fracas_setting **owner,
-                                   size_t *owner_axis)
+static fracas_err check_axes_apart(const fracas_file *file, const fracas_sweep *sweep,
+                                   const fracas_setting **owner, size_t *owner_axis)
 {
     for (size_t a = 0; a < sweep->naxes; a++)
         for (size_t c = 0; c < sweep->axis[a].nchoices; c++)
-            for (const fracas_setting *s = sweep->axis[a].choice[c].settings.first; s; s = s->next) {
+            for (const fracas_setting *s = sweep->axis[a].choice[c].settings.first; s;
+                 s = s->next) {
                 size_t leaf = (size_t)(s->leaf - file->catalog->leaf);
                 if (owner[leaf] && owner_axis[leaf] != a)
-                    return fracas_say(file->name, s->node, "`%s` is swept by two axes, here and at line %d; keep one",
+                    return fracas_say(file->name, s->node,
+                                      "`%s` is swept by two axes, here and at line %d; keep one",
                                       s->leaf->path, owner[leaf]->node->line);
                 owner[leaf] = s;
                 owner_axis[leaf] = a;
@@ -184,10 +205,13 @@ fracas_err fracas_sweep_read(const fracas_file *file, const fracas_node *node, f
     if (!node) return FRACAS_OK;
     char found[256];
     if (node->type != FRACAS_LIST)
-        return fracas_say(file->name, node, "`sweep`: found %s; expected a list of axes, each after `- `, as "
-                                            "`- loading.rate: [1e3 1/s, 1e4 1/s]`", fracas_say_found(node, found));
+        return fracas_say(file->name, node,
+                          "`sweep`: found %s; expected a list of axes, each after `- `, as `- "
+                          "loading.rate: [1e3 1/s, 1e4 1/s]`",
+                          fracas_say_found(node, found));
     if (node->count == 0)
-        return fracas_say(file->name, node, "`sweep`: found no axis; give at least one, or remove `sweep`");
+        return fracas_say(file->name, node,
+                          "`sweep`: found no axis; give at least one, or remove `sweep`");
     sweep->axis = fracas_memory_take(file->memory, node->count, sizeof *sweep->axis);
     if (!sweep->axis) return fracas_no_memory("the sweep");
     for (const fracas_node *axis = node->first; axis; axis = axis->next) {
@@ -196,12 +220,14 @@ fracas_err fracas_sweep_read(const fracas_file *file, const fracas_node *node, f
         sweep->npoints *= read->nchoices;
         if (sweep->npoints > FRACAS_MAX_POINTS)
             return fracas_say(file->name, axis,
-                              "the sweep makes more than %d points, the product of its axes; sweep fewer "
-                              "values, or several together with `zip:`",
+                              "the sweep makes more than %d points, the product of its axes; sweep "
+                              "fewer values, or several together with `zip:`",
                               FRACAS_MAX_POINTS);
     }
-    const fracas_setting **owner = fracas_memory_take(file->memory, file->catalog->nleaves, sizeof *owner);
-    size_t *owner_axis = fracas_memory_take(file->memory, file->catalog->nleaves, sizeof *owner_axis);
+    const fracas_setting **owner = fracas_memory_take(file->memory, file->catalog->nleaves,
+                                                      sizeof *owner);
+    size_t *owner_axis = fracas_memory_take(file->memory, file->catalog->nleaves,
+                                            sizeof *owner_axis);
     if (!owner || !owner_axis) return fracas_no_memory("the sweep");
     return check_axes_apart(file, sweep, owner, owner_axis);
 }

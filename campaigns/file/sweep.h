@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The sweep of a campaign file: axes of choices, whose product is the points. */
 #ifndef FRACAS_CAMPAIGNS_FILE_SWEEP_H
 #define FRACAS_CAMPAIGNS_FILE_SWEEP_H
@@ -12,7 +13,7 @@
 typedef struct {
     const fracas_node *node;
     fracas_settings settings;
-    const char *name;  /* NULL: none */
+    const char *name;         /* NULL: none */
     fracas_replicas replicas; /* count 0: those of the campaign */
 } fracas_choice;
 
@@ -23,12 +24,13 @@ typedef struct {
 
 typedef struct {
     size_t naxes;
-    fracas_axis *axis;  /* in file order: the last runs fastest */
-    size_t npoints;     /* product of the numbers of choices, 1 without axes */
+    fracas_axis *axis; /* in file order: the last runs fastest */
+    size_t npoints;    /* product of the numbers of choices, 1 without axes */
 } fracas_sweep;
 
 /* Reads the list `node` (NULL: no sweep). No leaf is in two axes; every value is converted. */
-FRACAS_MUST_USE fracas_err fracas_sweep_read(const fracas_file *file, const fracas_node *node, fracas_sweep *sweep);
+FRACAS_MUST_USE fracas_err fracas_sweep_read(const fracas_file *file, const fracas_node *node,
+                                             fracas_sweep *sweep);
 
 /* The choice of point `point` in axis `axis`. */
 const fracas_choice *fracas_sweep_choice(const fracas_sweep *sweep, size_t point, size_t axis);

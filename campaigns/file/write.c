@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From a campaign back to a file: SI, every default spelled out. */
 #include "campaigns/campaign.h"
 
@@ -34,9 +35,10 @@ static bool kind_varies(const fracas_file_section *section, const fracas_campaig
     return false;
 }
 
-/* True if the leaf's value is inherited where its section's kind changes: at points of every model that there is, and of
- * that of a file which names none. */
-static bool is_common(const fracas_leaf *leaf, const fracas_kind *unnamed, const fracas_campaign *campaign)
+/* True if the leaf's value is inherited where its section's kind changes: at points of every model
+ * that there is, and of that of a file which names none. */
+static bool is_common(const fracas_leaf *leaf, const fracas_kind *unnamed,
+                      const fracas_campaign *campaign)
 {
     if (!leaf->param) return false;
     const fracas_kind *first = campaign->point[0].spec.formulation;
@@ -50,9 +52,11 @@ static bool is_common(const fracas_leaf *leaf, const fracas_kind *unnamed, const
     return common;
 }
 
-/* True if the leaf is written once, in its section: it is the same in all points. What belongs to a kind stays together
- * with the kind's name, as a sweep that changes the kind drops the base's keys of the old one. */
-static bool is_base(const fracas_leaf *leaf, const fracas_kind *unnamed, const fracas_campaign *campaign)
+/* True if the leaf is written once, in its section: it is the same in all points. What belongs to a
+ * kind stays together with the kind's name, as a sweep that changes the kind drops the base's keys
+ * of the old one. */
+static bool is_base(const fracas_leaf *leaf, const fracas_kind *unnamed,
+                    const fracas_campaign *campaign)
 {
     if (kind_varies(leaf->section, campaign) && !is_common(leaf, unnamed, campaign)) return false;
     char first[FRACAS_LEAF_TEXT], other[FRACAS_LEAF_TEXT];
@@ -64,11 +68,13 @@ static bool is_base(const fracas_leaf *leaf, const fracas_kind *unnamed, const f
 
 /* ---- the sections ---- */
 
-/* The leaf to write after `leaf` (NULL: the first): the kind's name, then the values; NULL at the end. */
-static const fracas_leaf *next_leaf(const fracas_catalog *catalog, const fracas_file_section *section,
-                                    const fracas_leaf *leaf)
+/* The leaf to write after `leaf` (NULL: the first): the kind's name, then the values; NULL at the
+ * end. */
+static const fracas_leaf *next_leaf(const fracas_catalog *catalog,
+                                    const fracas_file_section *section, const fracas_leaf *leaf)
 {
-    const fracas_leaf *selector = fracas_catalog_selector(catalog, section), *end = catalog->leaf + catalog->nleaves;
+    const fracas_leaf *selector = fracas_catalog_selector(catalog, section),
+                      *end = catalog->leaf + catalog->nleaves;
     if (!leaf && selector) return selector;
     for (leaf = leaf && leaf != selector ? leaf + 1 : catalog->leaf; leaf < end; leaf++)
         if (leaf->section == section && leaf != selector) return leaf;
@@ -81,8 +87,9 @@ static void write_unit(const fracas_leaf *leaf, FILE *out)
     fprintf(out, "%s%s\n", pure ? "" : " # ", pure ? "" : leaf->param->unit);
 }
 
-static void write_section(const fracas_catalog *catalog, const bool *base, const fracas_file_section *section,
-                          const fracas_campaign *campaign, FILE *out)
+static void write_section(const fracas_catalog *catalog, const bool *base,
+                          const fracas_file_section *section, const fracas_campaign *campaign,
+                          FILE *out)
 {
     bool begun = false;
     for (const fracas_leaf *leaf = NULL; (leaf = next_leaf(catalog, section, leaf));) {
@@ -106,8 +113,9 @@ static void begin_entry(bool *first, const char *key, FILE *out)
 }
 
 /* Writes what the section has in this point and not in the base, as "section: {key: value}". */
-static void write_case_section(const fracas_catalog *catalog, const bool *base, const fracas_file_section *section,
-                               const fracas_campaign *campaign, size_t point, bool *first, FILE *out)
+static void write_case_section(const fracas_catalog *catalog, const bool *base,
+                               const fracas_file_section *section, const fracas_campaign *campaign,
+                               size_t point, bool *first, FILE *out)
 {
     bool begun = false;
     for (const fracas_leaf *leaf = NULL; (leaf = next_leaf(catalog, section, leaf));) {
@@ -124,8 +132,8 @@ static void write_case_section(const fracas_catalog *catalog, const bool *base, 
     if (begun) fprintf(out, "}\n");
 }
 
-static void write_cases(const fracas_catalog *catalog, const bool *base, const fracas_campaign *campaign,
-                        bool own_replicas, FILE *out)
+static void write_cases(const fracas_catalog *catalog, const bool *base,
+                        const fracas_campaign *campaign, bool own_replicas, FILE *out)
 {
     size_t named = fracas_point_table_find(&campaign->table, "case");
     if (campaign->npoints == 1 && named == SIZE_MAX) return;
@@ -150,16 +158,19 @@ static void write_cases(const fracas_catalog *catalog, const bool *base, const f
 
 /* ---- the file ---- */
 
-static void write_file(const fracas_catalog *catalog, const bool *base, const fracas_campaign *campaign, FILE *out)
+static void write_file(const fracas_catalog *catalog, const bool *base,
+                       const fracas_campaign *campaign, FILE *out)
 {
     bool own_replicas = false;
     for (size_t p = 1; p < campaign->npoints; p++)
-        own_replicas = own_replicas || !fracas_replicas_same(&campaign->point[p], &campaign->point[0]);
+        own_replicas = own_replicas ||
+                       !fracas_replicas_same(&campaign->point[p], &campaign->point[0]);
     fprintf(out, "# A campaign as resolved by fracas: SI units, every default spelled out.\n");
     fprintf(out, "name: %s\nseed: %" PRIu64 "\n", campaign->name, campaign->seed);
     if (campaign->common_random_numbers) fprintf(out, "random_numbers: common\n");
     for (size_t s = 0; s < catalog->nsections; s++)
-        if (catalog->section[s].table->hashed) write_section(catalog, base, &catalog->section[s], campaign, out);
+        if (catalog->section[s].table->hashed)
+            write_section(catalog, base, &catalog->section[s], campaign, out);
     write_cases(catalog, base, campaign, own_replicas, out);
     if (!own_replicas) {
         fprintf(out, "replicas: ");
@@ -167,10 +178,12 @@ static void write_file(const fracas_catalog *catalog, const bool *base, const fr
         putc('\n', out);
     }
     for (size_t s = 0; s < catalog->nsections; s++)
-        if (!catalog->section[s].table->hashed) write_section(catalog, base, &catalog->section[s], campaign, out);
+        if (!catalog->section[s].table->hashed)
+            write_section(catalog, base, &catalog->section[s], campaign, out);
 }
 
-static fracas_err write_with(fracas_campaign_memory *memory, const fracas_campaign *campaign, FILE *out)
+static fracas_err write_with(fracas_campaign_memory *memory, const fracas_campaign *campaign,
+                             FILE *out)
 {
     const fracas_catalog *catalog;
     TRY(fracas_catalog_make(memory, &catalog));

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The only file that knows libyaml. */
 #include "campaigns/file/node.h"
 
@@ -9,7 +10,8 @@
 #include <string.h>
 #include <yaml.h>
 
-/* Enough for the resolved file of a campaign with as many points as there may be, each with every value of its own. */
+/* Enough for the resolved file of a campaign with as many points as there may be, each with every
+ * value of its own. */
 enum { MAX_BYTES = 16 << 20, MAX_NODES = 1000000, MAX_DEPTH = 16, MAX_TEXT = 200, MAX_KEYS = 500 };
 
 typedef struct {
@@ -23,7 +25,8 @@ typedef struct {
 
 #define FAIL_AT(reader, mark, ...) fail_at((reader)->name, (mark), __VA_ARGS__)
 
-static FRACAS_PRINTF(3, 4) fracas_err fail_at(const char *name, yaml_mark_t mark, const char *format, ...)
+static FRACAS_PRINTF(3, 4) fracas_err
+    fail_at(const char *name, yaml_mark_t mark, const char *format, ...)
 {
     char what[600];
     va_list arguments;
@@ -45,12 +48,15 @@ static fracas_err load_open(const char *name, FILE *in, unsigned char **bytes, s
         *bytes = grown;
         *size += fread(grown + *size, 1, room - *size, in);
         if (ferror(in))
-            return fracas_fail(FRACAS_ENVIRONMENT, "cannot read the campaign file %s: %s", name, strerror(errno));
+            return fracas_fail(FRACAS_ENVIRONMENT, "cannot read the campaign file %s: %s", name,
+                               strerror(errno));
         if (*size < room) break;
     }
     if (*size <= MAX_BYTES) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "%s:1:1: the file is larger than %d MiB; write long lists of values as ranges, "
-                                     "{from: ..., to: ..., points: ...}", name, MAX_BYTES >> 20);
+    return fracas_fail(FRACAS_USAGE,
+                       "%s:1:1: the file is larger than %d MiB; write long lists of values as "
+                       "ranges, {from: ..., to: ..., points: ...}",
+                       name, MAX_BYTES >> 20);
 }
 
 static fracas_err load(const char *name, unsigned char **bytes, size_t *size)
@@ -58,7 +64,9 @@ static fracas_err load(const char *name, unsigned char **bytes, size_t *size)
     FILE *in = fopen(name, "rb");
     if (!in && errno == ENOENT)
         return fracas_fail(FRACAS_USAGE, "there is no campaign file %s", name);
-    if (!in) return fracas_fail(FRACAS_ENVIRONMENT, "cannot open the campaign file %s: %s", name, strerror(errno));
+    if (!in)
+        return fracas_fail(FRACAS_ENVIRONMENT, "cannot open the campaign file %s: %s", name,
+                           strerror(errno));
     fracas_err err = load_open(name, in, bytes, size);
     fclose(in);
     return err;
@@ -102,15 +110,20 @@ static fracas_err fail_parser(const reading *reader)
     if (parser->error == YAML_READER_ERROR)
         return FAIL_AT(reader, mark_of_byte(reader, parser->problem_offset),
                        "the file is not plain UTF-8 text (%s); save it as UTF-8", problem);
-    const char found = parser->buffer.pointer && parser->unread > 0 ? (char)*parser->buffer.pointer : ' ';
+    const char found = parser->buffer.pointer && parser->unread > 0 ? (char)*parser->buffer.pointer
+                                                                    : ' ';
     const bool no_token = strstr(problem, "cannot start any token") != NULL;
     if (strstr(problem, "tab character") || (no_token && found == '\t'))
-        return FAIL_AT(reader, parser->problem_mark, "found a tab; indent with spaces, YAML does not allow tabs there");
+        return FAIL_AT(reader, parser->problem_mark,
+                       "found a tab; indent with spaces, YAML does not allow tabs there");
     if (no_token)
-        return FAIL_AT(reader, parser->problem_mark, "a value cannot start with `%c`; put it in quotes", found);
+        return FAIL_AT(reader, parser->problem_mark,
+                       "a value cannot start with `%c`; put it in quotes", found);
     if (!parser->context) return FAIL_AT(reader, parser->problem_mark, "not YAML: %s", problem);
-    return FAIL_AT(reader, parser->problem_mark, "not YAML: %s, in %s that begins at line %zu, column %zu", problem,
-                   context_words(parser->context), parser->context_mark.line + 1, parser->context_mark.column + 1);
+    return FAIL_AT(reader, parser->problem_mark,
+                   "not YAML: %s, in %s that begins at line %zu, column %zu", problem,
+                   context_words(parser->context), parser->context_mark.line + 1,
+                   parser->context_mark.column + 1);
 }
 
 static fracas_err next_event(reading *reader, yaml_event_t *event)
@@ -120,7 +133,8 @@ static fracas_err next_event(reading *reader, yaml_event_t *event)
 
 /* ---- from events to nodes ---- */
 
-static fracas_err make_node(reading *reader, yaml_mark_t mark, fracas_node_type type, fracas_node **node)
+static fracas_err make_node(reading *reader, yaml_mark_t mark, fracas_node_type type,
+                            fracas_node **node)
 {
     if (++reader->nodes > MAX_NODES)
         return FAIL_AT(reader, mark, "more than %d values; write long lists as ranges", MAX_NODES);
@@ -138,17 +152,19 @@ static fracas_err read_scalar(reading *reader, const yaml_event_t *event, fracas
     const unsigned char *text = event->data.scalar.value;
     size_t length = event->data.scalar.length;
     if (length > MAX_TEXT)
-        return FAIL_AT(reader, event->start_mark, "a text of %zu bytes; at most %d are allowed", length, MAX_TEXT);
+        return FAIL_AT(reader, event->start_mark, "a text of %zu bytes; at most %d are allowed",
+                       length, MAX_TEXT);
     for (size_t i = 0; i < length; i++)
         if (text[i] < 0x20 || text[i] == 0x7f)
-            return FAIL_AT(reader, event->start_mark, "a text with a line break or control character; write it on one "
-                                                      "line");
+            return FAIL_AT(reader, event->start_mark,
+                           "a text with a line break or control character; write it on one line");
     TRY(make_node(reader, event->start_mark, FRACAS_SCALAR, node));
     (*node)->text = fracas_memory_copy(reader->memory, (const char *)text, length);
     return (*node)->text ? FRACAS_OK : fracas_no_memory("the campaign file");
 }
 
-/* Anchors, aliases and tags would let a small file stand for a huge one, or change what a value is. */
+/* Anchors, aliases and tags would let a small file stand for a huge one, or change what a value is.
+ */
 static fracas_err check_plain(const reading *reader, const yaml_event_t *event)
 {
     const yaml_char_t *anchor = NULL, *tag = NULL;
@@ -171,25 +187,30 @@ static fracas_err check_plain(const reading *reader, const yaml_event_t *event)
     if (anchor)
         return FAIL_AT(reader, event->start_mark,
                        "anchors and aliases (`&`, `*`) are not allowed; write the value out");
-    if (tag) return FAIL_AT(reader, event->start_mark, "tags (`!`) are not allowed; write the value alone");
+    if (tag)
+        return FAIL_AT(reader, event->start_mark,
+                       "tags (`!`) are not allowed; write the value alone");
     return FRACAS_OK;
 }
 
-static fracas_err read_value(reading *reader, const yaml_event_t *event, int depth, fracas_node **node);
+static fracas_err read_value(reading *reader, const yaml_event_t *event, int depth,
+                             fracas_node **node);
 
-static fracas_err read_key(reading *reader, const yaml_event_t *event, const fracas_node *map, fracas_node **key)
+static fracas_err read_key(reading *reader, const yaml_event_t *event, const fracas_node *map,
+                           fracas_node **key)
 {
     TRY(check_plain(reader, event));
     if (event->type != YAML_SCALAR_EVENT)
-        return FAIL_AT(reader, event->start_mark, "a list or map where a key is expected; write `key: value`");
+        return FAIL_AT(reader, event->start_mark,
+                       "a list or map where a key is expected; write `key: value`");
     TRY(read_scalar(reader, event, key));
     if (map->count == MAX_KEYS)
         return FAIL_AT(reader, event->start_mark, "more than %d keys in one place", MAX_KEYS);
     const fracas_node *earlier = fracas_node_find(map, (*key)->text);
     if (earlier)
         return FAIL_AT(reader, event->start_mark,
-                       "key `%s` is given twice; it is already at line %d, keep one of the two", (*key)->text,
-                       earlier->key->line);
+                       "key `%s` is given twice; it is already at line %d, keep one of the two",
+                       (*key)->text, earlier->key->line);
     return FRACAS_OK;
 }
 
@@ -219,14 +240,16 @@ static fracas_err read_entries(reading *reader, int depth, fracas_node *parent)
     }
 }
 
-static fracas_err read_value(reading *reader, const yaml_event_t *event, int depth, fracas_node **node)
+static fracas_err read_value(reading *reader, const yaml_event_t *event, int depth,
+                             fracas_node **node)
 {
     TRY(check_plain(reader, event));
     if (event->type == YAML_SCALAR_EVENT) return read_scalar(reader, event, node);
     if (depth == MAX_DEPTH)
-        return FAIL_AT(reader, event->start_mark, "nested deeper than %d levels; a campaign file needs four",
-                       MAX_DEPTH);
-    TRY(make_node(reader, event->start_mark, event->type == YAML_MAPPING_START_EVENT ? FRACAS_MAP : FRACAS_LIST, node));
+        return FAIL_AT(reader, event->start_mark,
+                       "nested deeper than %d levels; a campaign file needs four", MAX_DEPTH);
+    TRY(make_node(reader, event->start_mark,
+                  event->type == YAML_MAPPING_START_EVENT ? FRACAS_MAP : FRACAS_LIST, node));
     return read_entries(reader, depth + 1, *node);
 }
 
@@ -237,7 +260,8 @@ static fracas_err skip_event(reading *reader, yaml_event_type_t type, const char
 {
     yaml_event_t event;
     TRY(next_event(reader, &event));
-    fracas_err err = event.type == type ? FRACAS_OK : FAIL_AT(reader, event.start_mark, "%s", otherwise);
+    fracas_err err = event.type == type ? FRACAS_OK
+                                        : FAIL_AT(reader, event.start_mark, "%s", otherwise);
     yaml_event_delete(&event);
     return err;
 }
@@ -254,11 +278,14 @@ static fracas_err read_document(reading *reader, fracas_node **root)
     yaml_event_delete(&event);
     TRY(err);
     TRY(skip_event(reader, YAML_DOCUMENT_END_EVENT, "more after the end"));
-    TRY(skip_event(reader, YAML_STREAM_END_EVENT, "a second document; a campaign file is one document, remove `---`"));
+    TRY(skip_event(reader, YAML_STREAM_END_EVENT,
+                   "a second document; a campaign file is one document, remove `---`"));
     if ((*root)->type != FRACAS_MAP)
-        return fracas_fail(FRACAS_USAGE, "%s:%d:%d: found %s; a campaign file is made of lines `key: value` and of "
-                                         "sections", reader->name, (*root)->line, (*root)->column,
-                           (*root)->type == FRACAS_LIST ? "a list" : "a single value");
+        return fracas_fail(
+            FRACAS_USAGE,
+            "%s:%d:%d: found %s; a campaign file is made of lines `key: value` and of sections",
+            reader->name, (*root)->line, (*root)->column,
+            (*root)->type == FRACAS_LIST ? "a list" : "a single value");
     return FRACAS_OK;
 }
 
@@ -266,8 +293,13 @@ static fracas_err parse(reading *reader, fracas_node **root)
 {
     if (!yaml_parser_initialize(&reader->parser)) return fracas_no_memory("the campaign file");
     yaml_parser_set_encoding(&reader->parser, YAML_UTF8_ENCODING);
-    static const unsigned char mark[] = {0xEF, 0xBB, 0xBF}; /* editors on Windows begin a file with it; libyaml, once told the encoding, knows none */
-    const size_t skipped = reader->size >= sizeof mark && memcmp(reader->bytes, mark, sizeof mark) == 0 ? sizeof mark : 0;
+    static const unsigned char mark[] = {0xEF, 0xBB,
+                                         0xBF}; /* editors on Windows begin a file with it; libyaml,
+                                                   once told the encoding, knows none */
+    const size_t skipped = reader->size >= sizeof mark &&
+                                   memcmp(reader->bytes, mark, sizeof mark) == 0
+                               ? sizeof mark
+                               : 0;
     yaml_parser_set_input_string(&reader->parser, reader->bytes + skipped, reader->size - skipped);
     fracas_err err = read_document(reader, root);
     yaml_parser_delete(&reader->parser);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/plan/forecast.h"
 
 #include "campaigns/plan/plan.h"
@@ -28,7 +29,8 @@ static extents extents_of(const fracas_model *model)
         const fracas_extent one = fracas_model_extent(model, i);
         of.mean.volume += one.volume;
         of.mean.area += one.area;
-        of.least = (fracas_extent){fmin(of.least.volume, one.volume), fmin(of.least.area, one.area)};
+        of.least = (fracas_extent){fmin(of.least.volume, one.volume),
+                                   fmin(of.least.area, one.area)};
     }
     of.mean.volume /= (double)count;
     of.mean.area /= (double)count;
@@ -41,36 +43,46 @@ static double strength_at(const fracas_point *point, fracas_extent extent, doubl
     return fracas_strength_quantile(&point->strength, extent, fracas_probability_of(u));
 }
 
-/* `most`: the largest factor; of the law's strongest of all, were it where the material is strongest. */
-static fracas_err check_strongest(const fracas_model *model, const fracas_point *point, fracas_extent extent, double most)
+/* `most`: the largest factor; of the law's strongest of all, were it where the material is
+ * strongest. */
+static fracas_err check_strongest(const fracas_model *model, const fracas_point *point,
+                                  fracas_extent extent, double most)
 {
     if (fracas_model_interfaces(model) == 0) return FRACAS_OK; /* a single triangle */
-    const double strengths = (double)(fracas_model_interfaces(model) * fracas_model_strengths_per_interface(model));
+    const double strengths = (double)(fracas_model_interfaces(model) *
+                                      fracas_model_strengths_per_interface(model));
     const double drawn = strengths * (double)fracas_point_most(point);
     const double u = fmin(1.0 - 0.01 / drawn, 1.0 - 0x1p-53);
     fracas_err err = fracas_model_check_strength(model, most * strength_at(point, extent, u));
-    const char *what = fracas_model_strengths_per_interface(model) > 1 ? "Gauss points" : "interfaces";
-    return err ? fracas_fail_within(err, "the strongest of %.3g %s (all replicas together)", drawn, what) : FRACAS_OK;
+    const char *what = fracas_model_strengths_per_interface(model) > 1 ? "Gauss points"
+                                                                       : "interfaces";
+    return err ? fracas_fail_within(err, "the strongest of %.3g %s (all replicas together)", drawn,
+                                    what)
+               : FRACAS_OK;
 }
 
 static fracas_err check_count(const fracas_model *model, const fracas_strength *strength)
 {
-    const size_t given = fracas_strength_count(strength), interfaces = fracas_model_interfaces(model);
+    const size_t given = fracas_strength_count(strength),
+                 interfaces = fracas_model_interfaces(model);
     if (given == 0 || given == interfaces) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "%s has %zu strengths, but the mesh has %zu interfaces; each needs one line of the file",
-                       strength->file->path, given, interfaces);
+    return fracas_fail(
+        FRACAS_USAGE,
+        "%s has %zu strengths, but the mesh has %zu interfaces; each needs one line of the file",
+        strength->file->path, given, interfaces);
 }
 
 /* Gives each interface its strength, as a run would, and checks it. */
-static fracas_err try_places(const fracas_model *model, const fracas_strength *strength, const fracas_field *field,
-                             double (*position)[3], double *sigma_c)
+static fracas_err try_places(const fracas_model *model, const fracas_strength *strength,
+                             const fracas_field *field, double (*position)[3], double *sigma_c)
 {
     fracas_model_interface_positions(model, position);
     TRY(fracas_field_sample(field, &(fracas_stream){0}, 1, sigma_c));
     for (size_t i = 0; i < fracas_model_interfaces(model); i++) {
         fracas_err err = fracas_model_check_strength(model, sigma_c[i]);
-        if (err) return fracas_fail_within(err, "%s, interface %zu at x = %.9g m, y = %.9g m", strength->file->path, i, position[i][0],
-                                           position[i][1]);
+        if (err)
+            return fracas_fail_within(err, "%s, interface %zu at x = %.9g m, y = %.9g m",
+                                      strength->file->path, i, position[i][0], position[i][1]);
     }
     return FRACAS_OK;
 }
@@ -81,37 +93,44 @@ static fracas_err check_places(const fracas_model *model, const fracas_strength 
     fracas_field *field;
     TRY(fracas_model_field(model, strength, &field));
     double(*position)[3] = malloc(n * sizeof *position), *sigma_c = malloc(n * sizeof *sigma_c);
-    fracas_err err = n > 0 && (!position || !sigma_c) ? fracas_no_memory("the strengths of a mesh")
-                                                      : try_places(model, strength, field, position, sigma_c);
+    fracas_err err = n > 0 && (!position || !sigma_c)
+                         ? fracas_no_memory("the strengths of a mesh")
+                         : try_places(model, strength, field, position, sigma_c);
     free(position);
     free(sigma_c);
     fracas_field_destroy(field);
     return err;
 }
 
-static fracas_err check_strengths(const fracas_model *model, const fracas_point *point, fracas_extent extent, double most)
+static fracas_err check_strengths(const fracas_model *model, const fracas_point *point,
+                                  fracas_extent extent, double most)
 {
     if (fracas_strength_is_placed(&point->strength)) return check_places(model, &point->strength);
     TRY(check_count(model, &point->strength));
     return check_strongest(model, point, extent, most);
 }
 
-/* A stress that an uncracked ring with this load stays below until t [Pa]. Radially it is u'' + w^2 u = a, w = c/R, sigma = E u/R:
- * - a radial velocity v takes a free ring to E v/c and no further, then it swings back (docs/theory/ring.md);
+/* A stress that an uncracked ring with this load stays below until t [Pa]. Radially it is u'' + w^2
+ * u = a, w = c/R, sigma = E u/R:
+ * - a radial velocity v takes a free ring to E v/c and no further, then it swings back
+ * (docs/theory/ring.md);
  * - a radial acceleration of at most a takes it to E a t^2/(2 R), and to 2 R rho a and no further;
  * - so does a circumferential velocity v by a = v^2/R. */
 static double ring_stress_bound(const fracas_spec *spec, double t)
 {
     const fracas_loading *loading = &spec->loading;
-    const double young = spec->material.young, rho = spec->material.density, radius = spec->geometry.radius;
+    const double young = spec->material.young, rho = spec->material.density,
+                 radius = spec->geometry.radius;
     const double mass = rho * spec->geometry.area; /* per length */
     const bool radial = loading->direction == &fracas_axis_radial;
-    double stress = 0, outward = 0, along = 0; /* acceleration [m/s2], velocity [m/s]: the largest until t */
+    double stress = 0, outward = 0,
+           along = 0; /* acceleration [m/s2], velocity [m/s]: the largest until t */
     if (loading->type == &fracas_loading_initial_velocity) {
         stress = young * fabs(loading->radial) / radius * fmin(t, radius / sqrt(young / rho));
         along = loading->circumferential;
     } else if (loading->type == &fracas_loading_held_velocity && radial) {
-        stress = young * t / radius * (loading->velocity + 0.5 * t * fmax(0, loading->acceleration));
+        stress = young * t / radius *
+                 (loading->velocity + 0.5 * t * fmax(0, loading->acceleration));
     } else if (loading->type == &fracas_loading_held_velocity) {
         along = fmax(fabs(loading->velocity), fabs(loading->velocity + loading->acceleration * t));
     } else if (radial) {
@@ -123,13 +142,16 @@ static double ring_stress_bound(const fracas_spec *spec, double t)
     return stress + fmin(young * t * t / (2 * radius), 2 * radius * rho) * outward;
 }
 
-/* True if a plate stretches evenly until waves from its free edges arrive, which relieve it: it is not held where it should
- * move, nor is an edge free to shrink beside one that is not (its corner concentrates stress). */
+/* True if a plate stretches evenly until waves from its free edges arrive, which relieve it: it is
+ * not held where it should move, nor is an edge free to shrink beside one that is not (its corner
+ * concentrates stress). */
 static bool is_even(const fracas_spec *spec)
 {
     const bool moving = spec->loading.type == &fracas_loading_expansion;
     bool held = false, released = false;
-    if (spec->geometry.shape != &fracas_shape_plate || (moving && spec->loading.start != &fracas_start_moving)) return false;
+    if (spec->geometry.shape != &fracas_shape_plate ||
+        (moving && spec->loading.start != &fracas_start_moving))
+        return false;
     for (int tag = 1; tag <= 4; tag++) {
         const fracas_kind *edge = spec->geometry.edge[tag];
         if (edge == &fracas_edge_fixed || (edge != &fracas_edge_free && !moving)) return false;
@@ -139,19 +161,23 @@ static bool is_even(const fracas_spec *spec)
     return !(held && released);
 }
 
-/* A stress that an uncracked plate stays below until t [Pa]: as it stretches by (1, ratio) a, a = rate t or w^2 t^2/2, the larger
- * of both stresses along its sides, E a/(1 - nu) for ratio 1. A free edge takes the stress across it away, by a wave that brings
- * as much of compression and no tension. In any direction, traction and shear/beta_c together are at most max(1, 1/beta_c) of
+/* A stress that an uncracked plate stays below until t [Pa]: as it stretches by (1, ratio) a, a =
+ * rate t or w^2 t^2/2, the larger of both stresses along its sides, E a/(1 - nu) for ratio 1. A
+ * free edge takes the stress across it away, by a wave that brings as much of compression and no
+ * tension. In any direction, traction and shear/beta_c together are at most max(1, 1/beta_c) of
  * that. Holes and notches, held corners and shocks concentrate stress: none is known for these. */
 static double surface_stress_bound(const fracas_spec *spec, double t)
 {
     const fracas_loading *loading = &spec->loading;
     const bool moving = loading->type == &fracas_loading_expansion;
     const double nu = spec->material.poisson, ratio = moving ? loading->ratio : 1.0;
-    const double strain = moving ? fabs(loading->rate) * t : 0.5 * loading->speed * loading->speed * t * t;
+    const double strain = moving ? fabs(loading->rate) * t
+                                 : 0.5 * loading->speed * loading->speed * t * t;
     if (!is_even(spec)) return INFINITY;
-    const double largest = fmax(fabs(1 + nu * ratio), fmax(fabs(nu + ratio), fmax(1.0, fabs(ratio)) * (1 - nu * nu)));
-    return spec->material.young * strain * largest / (1 - nu * nu) * fmax(1.0, 1.0 / spec->cohesive.coupling);
+    const double largest = fmax(fabs(1 + nu * ratio),
+                                fmax(fabs(nu + ratio), fmax(1.0, fabs(ratio)) * (1 - nu * nu)));
+    return spec->material.young * strain * largest / (1 - nu * nu) *
+           fmax(1.0, 1.0 / spec->cohesive.coupling);
 }
 
 /* A stress that the uncracked body stays below until time.end [Pa]. */
@@ -168,16 +194,18 @@ static bool is_ring(const fracas_spec *spec)
     return spec->geometry.shape == &fracas_shape_ring;
 }
 
-/* True if the whole ring is compressed before time.end: a chain without bending stiffness then folds, from round-off on. Held
- * radial velocities keep it round. */
+/* True if the whole ring is compressed before time.end: a chain without bending stiffness then
+ * folds, from round-off on. Held radial velocities keep it round. */
 static bool is_folded(const fracas_spec *spec, const fracas_forecast *forecast)
 {
     const fracas_loading *loading = &spec->loading;
     const double last = loading->force + loading->force_rate * spec->time.end;
     if (loading->type == &fracas_loading_force && loading->direction == &fracas_axis_radial)
         return fmin(loading->force, last) < 0;
-    if (loading->type != &fracas_loading_initial_velocity || loading->circumferential != 0) return false;
-    return loading->radial < 0 || (forecast->bound < forecast->mean && loading->radial > 0 && spec->time.end > 2 * forecast->turn);
+    if (loading->type != &fracas_loading_initial_velocity || loading->circumferential != 0)
+        return false;
+    return loading->radial < 0 || (forecast->bound < forecast->mean && loading->radial > 0 &&
+                                   spec->time.end > 2 * forecast->turn);
 }
 
 /* Angle that a load along the ring turns it by until time.end [rad]. */
@@ -188,8 +216,10 @@ static double turned_angle(const fracas_spec *spec)
     double way = 0;
     if (loading->type == &fracas_loading_initial_velocity) way = loading->circumferential * t;
     else if (loading->direction != &fracas_axis_circumferential) return 0;
-    else if (loading->type == &fracas_loading_held_velocity) way = (loading->velocity + 0.5 * loading->acceleration * t) * t;
-    else if (loading->type == &fracas_loading_force) way = (0.5 * loading->force + loading->force_rate * t / 6) * t * t / mass;
+    else if (loading->type == &fracas_loading_held_velocity)
+        way = (loading->velocity + 0.5 * loading->acceleration * t) * t;
+    else if (loading->type == &fracas_loading_force)
+        way = (0.5 * loading->force + loading->force_rate * t / 6) * t * t / mass;
     return fabs(way) / spec->geometry.radius;
 }
 
@@ -213,7 +243,8 @@ static fracas_err extent_of_body(const fracas_model *model, double *diagonal)
     return FRACAS_OK;
 }
 
-static fracas_err describe(const fracas_point *point, const fracas_model *model, fracas_forecast *forecast)
+static fracas_err describe(const fracas_point *point, const fracas_model *model,
+                           fracas_forecast *forecast)
 {
     *forecast = (fracas_forecast){
         .elements = (int64_t)fracas_model_elements(model),
@@ -226,23 +257,30 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     fracas_factor_range factor;
     TRY(fracas_model_factors(model, &point->strength, &factor));
     const double mean = factor.mean * fracas_strength_mean(&point->strength, extent.mean);
-    const double softening = spec->material.young * fracas_spec_fracture_energy(spec, mean) / (mean * mean);
+    const double softening = spec->material.young * fracas_spec_fracture_energy(spec, mean) /
+                             (mean * mean);
     forecast->element = fracas_model_element_size(model);
     forecast->coarseness = forecast->element / softening;
     if (point->strength.covariance) TRY(extent_of_body(model, &forecast->extent));
     forecast->flat = point->strength.factor && factor.least == factor.most;
-    forecast->uniform = factor.least == factor.most && strength_at(point, extent.mean, 0.25) == strength_at(point, extent.mean, 0.75);
-    forecast->lines = forecast->uniform && spec->mesh.spacing == &fracas_spacing_triangles && spec->mesh.amplitude == 0;
+    forecast->uniform = factor.least == factor.most && strength_at(point, extent.mean, 0.25) ==
+                                                           strength_at(point, extent.mean, 0.75);
+    forecast->lines = forecast->uniform && spec->mesh.spacing == &fracas_spacing_triangles &&
+                      spec->mesh.amplitude == 0;
     forecast->mean = mean;
     forecast->bound = stress_bound(spec);
     forecast->spread = fracas_model_surface(model) && spec->cohesive.law != &fracas_law_nitsche
-                           ? factor.most * strength_at(point, extent.mean, 0.99) - factor.least * strength_at(point, extent.mean, 0.01)
+                           ? factor.most * strength_at(point, extent.mean, 0.99) -
+                                 factor.least * strength_at(point, extent.mean, 0.01)
                            : NAN;
-    forecast->step_stress = spec->material.young * fabs(fracas_spec_strain_rate(spec)) * forecast->time_step;
+    forecast->step_stress = spec->material.young * fabs(fracas_spec_strain_rate(spec)) *
+                            forecast->time_step;
     if (is_ring(spec)) {
-        forecast->turn = M_PI_2 * spec->geometry.radius / sqrt(spec->material.young / spec->material.density);
+        forecast->turn = M_PI_2 * spec->geometry.radius /
+                         sqrt(spec->material.young / spec->material.density);
         forecast->folds = is_folded(spec, forecast);
-        if (spec->geometry.direction == &fracas_direction_initial) forecast->turned = turned_angle(spec);
+        if (spec->geometry.direction == &fracas_direction_initial)
+            forecast->turned = turned_angle(spec);
         forecast->lonely = spec->cohesive.zone > 0.5 * fracas_spec_length(spec);
     }
     forecast->repeated = fracas_strength_is_given(&point->strength) && point->replicas > 1;
@@ -250,7 +288,8 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
 }
 
 /* The forecast, and the model that it was made from, or NULL after an error. */
-static fracas_err forecast_with(const fracas_campaign *campaign, size_t point, fracas_forecast *forecast, fracas_model **model)
+static fracas_err forecast_with(const fracas_campaign *campaign, size_t point,
+                                fracas_forecast *forecast, fracas_model **model)
 {
     *model = NULL;
     fracas_err err = fracas_point_model_create(campaign, point, model);
@@ -261,7 +300,8 @@ static fracas_err forecast_with(const fracas_campaign *campaign, size_t point, f
     return fracas_fail_within(err, "point %zu", point);
 }
 
-fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point, fracas_forecast *forecast)
+fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point,
+                                fracas_forecast *forecast)
 {
     fracas_model *model;
     fracas_err err = forecast_with(campaign, point, forecast, &model);
@@ -274,14 +314,19 @@ fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point, f
 /* Bytes of one realization in study.h5, its values counted in the widths of a record. */
 static double realization_bytes(const fracas_output *output, const fracas_forecast *forecast)
 {
-    const double fragments = fmax(1.0, (double)forecast->elements / FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
+    const double fragments = fmax(1.0,
+                                  (double)forecast->elements / FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
     const double scalars = offsetof(fracas_record, nfragment);
-    const double history = ((double)output->history + 4.0) * sizeof(fracas_history_row); /* start and three events */
-    const double interfaces = output->interfaces ? (double)forecast->interfaces * sizeof(fracas_interface_row) : 0.0;
+    const double history = ((double)output->history + 4.0) *
+                           sizeof(fracas_history_row); /* start and three events */
+    const double interfaces = output->interfaces
+                                  ? (double)forecast->interfaces * sizeof(fracas_interface_row)
+                                  : 0.0;
     return scalars + fragments * sizeof(fracas_fragment) + history + interfaces;
 }
 
-fracas_err fracas_plan_cost(const fracas_campaign *campaign, size_t point, double *cost, double *bytes)
+fracas_err fracas_plan_cost(const fracas_campaign *campaign, size_t point, double *cost,
+                            double *bytes)
 {
     fracas_forecast forecast;
     TRY(fracas_forecast_make(campaign, point, &forecast));
@@ -311,13 +356,14 @@ typedef struct {
 } effort;
 
 /* A batch of `lanes` realizations in which all strengths are this one. */
-static fracas_err make_batch(const fracas_model *model, double strength, size_t lanes, fracas_record *record,
-                             fracas_batch **batch)
+static fracas_err make_batch(const fracas_model *model, double strength, size_t lanes,
+                             fracas_record *record, fracas_batch **batch)
 {
     const fracas_batch_options options = {.isa = FRACAS_ISA_BEST};
     TRY(fracas_batch_create(model, lanes, &options, batch));
     for (size_t l = 0; l < lanes; l++) {
-        size_t stride, strengths = fracas_model_interfaces(model) * fracas_model_strengths_per_interface(model);
+        size_t stride, strengths = fracas_model_interfaces(model) *
+                                   fracas_model_strengths_per_interface(model);
         double *sigma_c = fracas_batch_strength(*batch, l, &stride);
         for (size_t k = 0; k < strengths; k++) sigma_c[k * stride] = strength;
         fracas_record_init(&record[l]);
@@ -342,7 +388,8 @@ static fracas_err run_batch(const fracas_model *model, double strength, size_t l
     return err;
 }
 
-static fracas_err time_steps(const fracas_campaign *campaign, size_t index, double end, effort *spent)
+static fracas_err time_steps(const fracas_campaign *campaign, size_t index, double end,
+                             effort *spent)
 {
     enum { TIMED = 100000 }; /* elements: beyond them speed is that of memory */
     const fracas_point *point = &campaign->point[index];
@@ -354,7 +401,8 @@ static fracas_err time_steps(const fracas_campaign *campaign, size_t index, doub
         spec.mesh.elements = TIMED;
     }
     spec.time.end = fmin(spec.time.end, end);
-    spec.cohesive.refinement = 1.0; /* a step takes the same time however short it is, and so there are as many as asked for */
+    spec.cohesive.refinement = 1.0; /* a step takes the same time however short it is, and so there
+                                       are as many as asked for */
     TRY(fracas_point_model_like(campaign, index, &spec, &model));
     const double strength = fracas_strength_mean(&point->strength, extents_of(model).mean);
     fracas_err err = run_batch(model, strength, lanes_of(point), spent);
@@ -362,10 +410,12 @@ static fracas_err time_steps(const fracas_campaign *campaign, size_t index, doub
     return err;
 }
 
-/* Steps of a surface, on the model that is there: making one takes as long as many of its steps, which are long. Interfaces are so
- * weak that they crack at once: what is broken takes twice the time of what is whole. The first two steps, which find nothing in a
- * cache and book every onset, do not count unless they are the last. */
-static fracas_err time_surface(const fracas_model *model, double mean, size_t lanes, fracas_forecast *forecast)
+/* Steps of a surface, on the model that is there: making one takes as long as many of its steps,
+ * which are long. Interfaces are so weak that they crack at once: what is broken takes twice the
+ * time of what is whole. The first two steps, which find nothing in a cache and book every onset,
+ * do not count unless they are the last. */
+static fracas_err time_surface(const fracas_model *model, double mean, size_t lanes,
+                               fracas_forecast *forecast)
 {
     const double strength = 1e-12 * mean;
     fracas_batch *batch;
@@ -388,14 +438,16 @@ static fracas_err time_surface(const fracas_model *model, double mean, size_t la
     return err;
 }
 
-/* Times about 2e7 element-steps, a twentieth of a second, less the time that a batch of one step takes: what a batch
- * does once counts little in a full run. A batch that is too short for the clock is repeated, and taken as it is if
- * even many are. */
-static fracas_err time_point(const fracas_campaign *campaign, size_t index, fracas_forecast *forecast)
+/* Times about 2e7 element-steps, a twentieth of a second, less the time that a batch of one step
+ * takes: what a batch does once counts little in a full run. A batch that is too short for the
+ * clock is repeated, and taken as it is if even many are. */
+static fracas_err time_point(const fracas_campaign *campaign, size_t index,
+                             fracas_forecast *forecast)
 {
     const fracas_point *point = &campaign->point[index];
     const double step = forecast->time_step;
-    const double steps = fmax(20.0, ceil(2e7 / ((double)forecast->elements * (double)lanes_of(point))));
+    const double steps = fmax(20.0,
+                              ceil(2e7 / ((double)forecast->elements * (double)lanes_of(point))));
     effort sum = {0}, whole = {0};
     for (int i = 0; i < 50 && sum.seconds < 0.01; i++) {
         effort brief, full;
@@ -411,18 +463,22 @@ static fracas_err time_point(const fracas_campaign *campaign, size_t index, frac
     return FRACAS_OK;
 }
 
-/* True if an element of a step costs both the same: what counts for surfaces only is the same for all others. */
+/* True if an element of a step costs both the same: what counts for surfaces only is the same for
+ * all others. */
 static bool is_alike(const fracas_spec *a, const fracas_spec *b)
 {
     if (a->formulation != b->formulation) return false;
     if (!fracas_spec_is_surface(a)) return true;
-    return a->mesh.order == b->mesh.order && a->geometry.file == b->geometry.file && a->cohesive.law == b->cohesive.law &&
-           (a->cohesive.friction > 0) == (b->cohesive.friction > 0) && a->time.integrator == b->time.integrator &&
-           a->time.mass == b->time.mass;
+    return a->mesh.order == b->mesh.order && a->geometry.file == b->geometry.file &&
+           a->cohesive.law == b->cohesive.law &&
+           (a->cohesive.friction > 0) == (b->cohesive.friction > 0) &&
+           a->time.integrator == b->time.integrator && a->time.mass == b->time.mass;
 }
 
-/* The speed of an earlier point of the same lanes and of half to twice the elements; 0 if there is none. */
-static double speed_of_like(const fracas_campaign *campaign, const fracas_forecast *forecast, size_t point)
+/* The speed of an earlier point of the same lanes and of half to twice the elements; 0 if there is
+ * none. */
+static double speed_of_like(const fracas_campaign *campaign, const fracas_forecast *forecast,
+                            size_t point)
 {
     for (size_t p = point; p-- > 0;)
         if (is_alike(&campaign->point[p].spec, &campaign->point[point].spec) &&
@@ -436,7 +492,8 @@ static double speed_of_like(const fracas_campaign *campaign, const fracas_foreca
 /* ---- all of it ---- */
 
 /* Forecast p, with its speed; those before it are there. */
-static fracas_err forecast_timed(const fracas_campaign *campaign, size_t p, fracas_forecast *forecast)
+static fracas_err forecast_timed(const fracas_campaign *campaign, size_t p,
+                                 fracas_forecast *forecast)
 {
     const fracas_point *point = &campaign->point[p];
     fracas_model *model;
@@ -444,7 +501,8 @@ static fracas_err forecast_timed(const fracas_campaign *campaign, size_t p, frac
     TRY(forecast_with(campaign, p, &forecast[p], &model));
     forecast[p].speed = speed_of_like(campaign, forecast, p);
     if (forecast[p].speed > 0.0) err = FRACAS_OK;
-    else if (fracas_model_surface(model)) err = time_surface(model, forecast[p].mean, lanes_of(point), &forecast[p]);
+    else if (fracas_model_surface(model))
+        err = time_surface(model, forecast[p].mean, lanes_of(point), &forecast[p]);
     else err = time_point(campaign, p, &forecast[p]);
     fracas_model_destroy(model);
     return err ? fracas_fail_within(err, "point %zu", p) : FRACAS_OK;
@@ -455,9 +513,11 @@ fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs, fracas
     for (size_t p = 0; p < campaign->npoints; p++) {
         const fracas_point *point = &campaign->point[p];
         TRY(forecast_timed(campaign, p, forecast));
-        const double work = (double)forecast[p].elements * (double)forecast[p].steps * (double)fracas_point_most(point);
+        const double work = (double)forecast[p].elements * (double)forecast[p].steps *
+                            (double)fracas_point_most(point);
         forecast[p].time = work / (forecast[p].speed * jobs);
-        forecast[p].bytes = realization_bytes(&campaign->output, &forecast[p]) * (double)fracas_point_most(point);
+        forecast[p].bytes = realization_bytes(&campaign->output, &forecast[p]) *
+                            (double)fracas_point_most(point);
     }
     return FRACAS_OK;
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/plan/plan.h"
 
 #include "base/json.h"
@@ -19,11 +20,12 @@ typedef struct {
     const fracas_campaign *campaign;
     const fracas_point_table *table; /* of the campaign */
     int jobs;
-    fracas_forecast *forecast;       /* of each point */
-    size_t nvaried, *varied;         /* columns that tell points apart */
-    int64_t realizations, most;      /* totals: as asked for, or at first and at most where rules decide */
+    fracas_forecast *forecast; /* of each point */
+    size_t nvaried, *varied;   /* columns that tell points apart */
+    int64_t realizations,
+        most; /* totals: as asked for, or at first and at most where rules decide */
     double least_time, time, least_bytes, bytes; /* of these */
-    double slowest;                  /* element-steps per second */
+    double slowest;                              /* element-steps per second */
 } campaign_plan;
 
 static void plan_clear(campaign_plan *plan)
@@ -42,7 +44,8 @@ static double least_share(const fracas_point *point)
 static fracas_err plan_init(const fracas_campaign *campaign, int jobs, campaign_plan *made)
 {
     const fracas_point_table *table = &campaign->table;
-    *made = (campaign_plan){.campaign = campaign, .table = table, .jobs = jobs, .slowest = INFINITY};
+    *made = (campaign_plan){
+        .campaign = campaign, .table = table, .jobs = jobs, .slowest = INFINITY};
     made->forecast = malloc(table->npoints * sizeof *made->forecast);
     made->varied = malloc(table->ncolumns * sizeof *made->varied);
     if (!made->forecast || !made->varied) return fracas_no_memory("the plan");
@@ -75,7 +78,8 @@ typedef struct {
 
 static fracas_err sheet_init(size_t rows, size_t columns, text_sheet *sheet)
 {
-    *sheet = (text_sheet){rows, columns, calloc(rows * columns, CELL), calloc(columns, sizeof *sheet->width)};
+    *sheet = (text_sheet){rows, columns, calloc(rows * columns, CELL),
+                          calloc(columns, sizeof *sheet->width)};
     return sheet->cell && sheet->width ? FRACAS_OK : fracas_no_memory("the plan");
 }
 
@@ -85,7 +89,8 @@ static void sheet_clear(text_sheet *sheet)
     free(sheet->width);
 }
 
-static FRACAS_PRINTF(4, 5) void sheet_put(text_sheet *sheet, size_t row, size_t column, const char *format, ...)
+static FRACAS_PRINTF(4, 5) void sheet_put(text_sheet *sheet, size_t row, size_t column,
+                                          const char *format, ...)
 {
     char *cell = sheet->cell[row * sheet->columns + column];
     va_list arguments;
@@ -144,12 +149,14 @@ static void put_range(text_sheet *sheet, size_t row, size_t column, double least
 static bool warning_of(const campaign_plan *plan, size_t p, int which, char *text, size_t size)
 {
     int begin = snprintf(text, size, "point %zu: ", p);
-    return fracas_plan_warnings[which](&plan->campaign->point[p], &plan->forecast[p], text + begin, size - (size_t)begin);
+    return fracas_plan_warnings[which](&plan->campaign->point[p], &plan->forecast[p], text + begin,
+                                       size - (size_t)begin);
 }
 
 /* ---- the plan as text ---- */
 
-static const char *const own_heads[][2] = {{"replicas", ""}, {"elements", ""}, {"time step", "s"}, {"steps", "at most"},
+static const char *const own_heads[][2] = {{"replicas", ""},    {"elements", ""},
+                                           {"time step", "s"},  {"steps", "at most"},
                                            {"time", "at most"}, {"size", "about"}};
 enum { OWN_COLUMNS = sizeof own_heads / sizeof *own_heads };
 
@@ -162,7 +169,8 @@ static void put_heads(const campaign_plan *plan, text_sheet *sheet)
         sheet_put(sheet, 1, 1 + v, "%s", strcmp(column->unit, "1") ? column->unit : "");
     }
     for (size_t c = 0; c < OWN_COLUMNS; c++)
-        for (size_t r = 0; r < 2; r++) sheet_put(sheet, r, 1 + plan->nvaried + c, "%s", own_heads[c][r]);
+        for (size_t r = 0; r < 2; r++)
+            sheet_put(sheet, r, 1 + plan->nvaried + c, "%s", own_heads[c][r]);
 }
 
 enum { LONG = 9 }; /* characters of a number that is written as it is */
@@ -177,7 +185,8 @@ static void put_point(const campaign_plan *plan, size_t p, text_sheet *sheet)
         const fracas_value *value = &point->value[plan->varied[v]];
         char number[FRACAS_NUMBER_TEXT];
         fracas_number_write(value->real, number);
-        if (strlen(number) > LONG) snprintf(number, sizeof number, "%.6g", value->real); /* drawn; --json has all digits */
+        if (strlen(number) > LONG)
+            snprintf(number, sizeof number, "%.6g", value->real); /* drawn; --json has all digits */
         const bool text = plan->table->column[plan->varied[v]].text;
         sheet_put(sheet, row, 1 + v, "%s", text ? value->text : isnan(value->real) ? "-" : number);
     }
@@ -193,11 +202,14 @@ static void put_point(const campaign_plan *plan, size_t p, text_sheet *sheet)
 static bool any_surface_field(const campaign_plan *plan)
 {
     for (size_t p = 0; p < plan->table->npoints; p++)
-        if (plan->campaign->point[p].strength.covariance && fracas_spec_is_surface(&plan->campaign->point[p].spec)) return true;
+        if (plan->campaign->point[p].strength.covariance &&
+            fracas_spec_is_surface(&plan->campaign->point[p].spec))
+            return true;
     return false;
 }
 
-/* The first few of each kind, and of the others how many there are: a design would have the same for most of its points. */
+/* The first few of each kind, and of the others how many there are: a design would have the same
+ * for most of its points. */
 static void print_warnings(const campaign_plan *plan, FILE *out)
 {
     enum { SHOWN = 4 };
@@ -212,7 +224,8 @@ static void print_warnings(const campaign_plan *plan, FILE *out)
     for (int w = 0; w < FRACAS_PLAN_WARNINGS; w++) {
         if (said[w] <= SHOWN) continue;
         warning_of(plan, last[w], w, text, sizeof text);
-        fprintf(out, "warning: the same at %zu more, which --json lists, the last being %s\n", said[w] - SHOWN, text);
+        fprintf(out, "warning: the same at %zu more, which --json lists, the last being %s\n",
+                said[w] - SHOWN, text);
     }
 }
 
@@ -228,19 +241,23 @@ static fracas_err print_text(const campaign_plan *plan, FILE *out)
         put_count(&sheet, last, own, plan->realizations, plan->most);
         put_range(&sheet, last, own + 4, plan->least_time, plan->time, write_duration);
         put_range(&sheet, last, own + 5, plan->least_bytes, plan->bytes, write_size);
-        fprintf(out, "Campaign %s: %zu point%s, %" PRId64, plan->campaign->name, points, points == 1 ? "" : "s", plan->realizations);
+        fprintf(out, "Campaign %s: %zu point%s, %" PRId64, plan->campaign->name, points,
+                points == 1 ? "" : "s", plan->realizations);
         if (plan->most > plan->realizations) fprintf(out, " to %" PRId64, plan->most);
         fprintf(out, " realization%s\n\n", plan->most == 1 ? "" : "s");
         sheet_print(&sheet, out);
         fprintf(out,
-            "\nTimes are for %d process%s at %.2g element-steps per second each, timed just now, and for running to "
-            "time.end;\na stop rule may end realizations earlier. Sizes count one fragment for every %d elements.\n",
-            plan->jobs, plan->jobs == 1 ? "" : "es", plan->slowest, FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
+                "\nTimes are for %d process%s at %.2g element-steps per second each, timed just "
+                "now, and for running to time.end;\na stop rule may end realizations earlier. "
+                "Sizes count one fragment for every %d elements.\n",
+                plan->jobs, plan->jobs == 1 ? "" : "es", plan->slowest,
+                FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
         if (plan->most > plan->realizations)
-            fprintf(out, "Replicas are added until replicas.until holds: from the least to the most, with their times and sizes.\n");
+            fprintf(out, "Replicas are added until replicas.until holds: from the least to the "
+                         "most, with their times and sizes.\n");
         if (any_surface_field(plan))
-            fprintf(out, "Correlated fields of surfaces are made once a point by each process, which is not in these times: some seconds "
-                         "for 10 000 interfaces.\n");
+            fprintf(out, "Correlated fields of surfaces are made once a point by each process, "
+                         "which is not in these times: some seconds for 10 000 interfaces.\n");
         print_warnings(plan, out);
     }
     sheet_clear(&sheet);

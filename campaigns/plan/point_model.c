@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/plan/point_model.h"
 
 #include "engine/mesh/make.h"
@@ -6,21 +7,24 @@
 #include <math.h>
 #include <stdlib.h>
 
-fracas_stream fracas_point_stream(const fracas_campaign *campaign, size_t point, uint64_t purpose, uint64_t replica)
+fracas_stream fracas_point_stream(const fracas_campaign *campaign, size_t point, uint64_t purpose,
+                                  uint64_t replica)
 {
     fracas_stream stream = {.seed = campaign->seed, .purpose = purpose, .replica = replica};
-    if (!campaign->common_random_numbers) fracas_hash_words(&campaign->point[point].hash, stream.point);
+    if (!campaign->common_random_numbers)
+        fracas_hash_words(&campaign->point[point].hash, stream.point);
     return stream;
 }
 
-void fracas_point_mesh_noise(const fracas_campaign *campaign, size_t point, size_t count, double *noise)
+void fracas_point_mesh_noise(const fracas_campaign *campaign, size_t point, size_t count,
+                             double *noise)
 {
     const fracas_stream stream = fracas_point_stream(campaign, point, FRACAS_PURPOSE_MESH, 0);
     for (size_t i = 0; i < count; i++) noise[i] = 2.0 * fracas_stream_uniform(&stream, i) - 1.0;
 }
 
-fracas_err fracas_point_model_like(const fracas_campaign *campaign, size_t point, const fracas_spec *spec,
-                                   fracas_model **model)
+fracas_err fracas_point_model_like(const fracas_campaign *campaign, size_t point,
+                                   const fracas_spec *spec, fracas_model **model)
 {
     fracas_spec drawn = *spec;
     double *noise = NULL;
@@ -39,7 +43,8 @@ fracas_err fracas_point_model_like(const fracas_campaign *campaign, size_t point
     return err;
 }
 
-fracas_err fracas_point_model_create(const fracas_campaign *campaign, size_t point, fracas_model **model)
+fracas_err fracas_point_model_create(const fracas_campaign *campaign, size_t point,
+                                     fracas_model **model)
 {
     return fracas_point_model_like(campaign, point, &campaign->point[point].spec, model);
 }
@@ -48,7 +53,8 @@ fracas_err fracas_point_model_create(const fracas_campaign *campaign, size_t poi
 fracas_extent fracas_model_extent(const fracas_model *model, size_t interface)
 {
     const double share = (double)fracas_model_strengths_per_interface(model);
-    return (fracas_extent){fracas_model_interface_volume(model, interface) / share, fracas_model_interface_area(model, interface) / share};
+    return (fracas_extent){fracas_model_interface_volume(model, interface) / share,
+                           fracas_model_interface_area(model, interface) / share};
 }
 
 static size_t strengths_of(const fracas_model *model)
@@ -56,19 +62,23 @@ static size_t strengths_of(const fracas_model *model)
     return fracas_model_interfaces(model) * fracas_model_strengths_per_interface(model);
 }
 
-static fracas_err field_over(const fracas_model *model, const fracas_strength *strength, fracas_extent *extent, double (*position)[3],
-                             fracas_field **field)
+static fracas_err field_over(const fracas_model *model, const fracas_strength *strength,
+                             fracas_extent *extent, double (*position)[3], fracas_field **field)
 {
     const size_t n = fracas_model_interfaces(model);
     if (n > 0 && (!extent || !position)) return fracas_no_memory("the interfaces of a mesh");
     for (size_t i = 0; i < n; i++) extent[i] = fracas_model_extent(model, i);
     fracas_model_interface_positions(model, position);
-    const fracas_sites sites = {.n = n, .points = fracas_model_strengths_per_interface(model), .extent = extent,
-                                .position = (const double(*)[3])position, .period = fracas_model_period(model)};
+    const fracas_sites sites = {.n = n,
+                                .points = fracas_model_strengths_per_interface(model),
+                                .extent = extent,
+                                .position = (const double(*)[3])position,
+                                .period = fracas_model_period(model)};
     return fracas_field_create(strength, &sites, field);
 }
 
-fracas_err fracas_model_field(const fracas_model *model, const fracas_strength *strength, fracas_field **field)
+fracas_err fracas_model_field(const fracas_model *model, const fracas_strength *strength,
+                              fracas_field **field)
 {
     fracas_extent *extent = malloc(fracas_model_interfaces(model) * sizeof *extent);
     double(*position)[3] = malloc(strengths_of(model) * sizeof *position);
@@ -78,7 +88,8 @@ fracas_err fracas_model_field(const fracas_model *model, const fracas_strength *
     return err;
 }
 
-fracas_err fracas_model_factors(const fracas_model *model, const fracas_strength *strength, fracas_factor_range *range)
+fracas_err fracas_model_factors(const fracas_model *model, const fracas_strength *strength,
+                                fracas_factor_range *range)
 {
     const size_t n = strengths_of(model);
     *range = (fracas_factor_range){1, 1, 1};

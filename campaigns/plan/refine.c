@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/plan/refine.h"
 
 #include "base/units.h"
@@ -10,57 +11,73 @@
 
 const char *const fracas_refinement_name[FRACAS_NREFINEMENTS] = {"base", "mesh", "step", "beta"};
 const char *const fracas_refinement_doc[FRACAS_NREFINEMENTS] = {
-    "as it is", "half the element size", "half the time step", "interfaces twice as stiff",
+    "as it is",
+    "half the element size",
+    "half the time step",
+    "interfaces twice as stiff",
 };
 
-/* Of points that have several of them, all that are not 0 (which is "not given" of mesh.size and mesh.divisions). */
+/* Of points that have several of them, all that are not 0 (which is "not given" of mesh.size and
+ * mesh.divisions). */
 static const struct {
     fracas_refinement by;
     const char *path;
     double factor;
 } values[] = {
-    {FRACAS_REFINE_MESH, "mesh.elements", 2},      {FRACAS_REFINE_MESH, "mesh.size", 0.5}, {FRACAS_REFINE_MESH, "mesh.divisions", 2},
-    {FRACAS_REFINE_STEP, "time.safety", 0.5},      {FRACAS_REFINE_BETA, "cohesive.beta", 2},
-    {FRACAS_REFINE_BETA, "cohesive.beta_shear", 2},
+    {FRACAS_REFINE_MESH, "mesh.elements", 2},  {FRACAS_REFINE_MESH, "mesh.size", 0.5},
+    {FRACAS_REFINE_MESH, "mesh.divisions", 2}, {FRACAS_REFINE_STEP, "time.safety", 0.5},
+    {FRACAS_REFINE_BETA, "cohesive.beta", 2},  {FRACAS_REFINE_BETA, "cohesive.beta_shear", 2},
 };
 
-/* A mesh of half the size has other interfaces: were its numbers those of the seed, some of them would be shared without meaning. */
+/* A mesh of half the size has other interfaces: were its numbers those of the seed, some of them
+ * would be shared without meaning. */
 static const uint64_t mesh_seed = 0x6d657368; /* "mesh" */
 
 /* The parameter of a leaf at a point. */
 static const fracas_param *param_of(const fracas_leaf *leaf, const fracas_point *point)
 {
     const fracas_file_section *section = leaf->section;
-    return fracas_section_param(section->table, fracas_section_kind(section, point), point->spec.formulation, leaf->key);
+    return fracas_section_param(section->table, fracas_section_kind(section, point),
+                                point->spec.formulation, leaf->key);
 }
 
-/* Refines one value; *done if the point has it. FRACAS_USAGE where the refined one is out of its range. */
-static fracas_err refine_value(const fracas_leaf *leaf, double factor, fracas_point *point, bool *done)
+/* Refines one value; *done if the point has it. FRACAS_USAGE where the refined one is out of its
+ * range. */
+static fracas_err refine_value(const fracas_leaf *leaf, double factor, fracas_point *point,
+                               bool *done)
 {
     fracas_value value;
     if (!fracas_leaf_get(leaf, point, &value) || value.real == 0) return FRACAS_OK;
     const fracas_param *param = param_of(leaf, point);
     const double fine = fracas_number_round(factor * value.real);
     if (fine < param->minimum || fine > param->maximum)
-        return fracas_fail(FRACAS_USAGE, "%s is %g already, and its range ends at %g", leaf->path, value.real,
-                           factor < 1 ? param->minimum : param->maximum);
+        return fracas_fail(FRACAS_USAGE, "%s is %g already, and its range ends at %g", leaf->path,
+                           value.real, factor < 1 ? param->minimum : param->maximum);
     fracas_param_set(param, fracas_section_at(leaf->section, point), fine);
     *done = true;
     return FRACAS_OK;
 }
 
-static fracas_err refine_point(const fracas_catalog *catalog, fracas_refinement what, fracas_point *point)
+static fracas_err refine_point(const fracas_catalog *catalog, fracas_refinement what,
+                               fracas_point *point)
 {
     bool done = what == FRACAS_REFINE_NOTHING;
     for (size_t v = 0; v < FRACAS_COUNT(values); v++)
-        if (values[v].by == what) TRY(refine_value(fracas_catalog_leaf(catalog, values[v].path), values[v].factor, point, &done));
+        if (values[v].by == what)
+            TRY(refine_value(fracas_catalog_leaf(catalog, values[v].path), values[v].factor, point,
+                             &done));
     if (done) return FRACAS_OK;
-    if (what == FRACAS_REFINE_MESH) return fracas_fail(FRACAS_USAGE, "its mesh is from a file: give the campaign one with half the element size");
+    if (what == FRACAS_REFINE_MESH)
+        return fracas_fail(
+            FRACAS_USAGE,
+            "its mesh is from a file: give the campaign one with half the element size");
     return fracas_fail(FRACAS_USAGE, "its interfaces have no cohesive.beta");
 }
 
-/* Refines point p, as number `next` of the campaign to be, unless that cannot be: then it is left out, the first one with why. */
-static fracas_err take_point(const fracas_catalog *catalog, fracas_refinement what, size_t p, size_t *next, fracas_refined *refined)
+/* Refines point p, as number `next` of the campaign to be, unless that cannot be: then it is left
+ * out, the first one with why. */
+static fracas_err take_point(const fracas_catalog *catalog, fracas_refinement what, size_t p,
+                             size_t *next, fracas_refined *refined)
 {
     fracas_campaign *campaign = refined->campaign;
     fracas_point *point = &campaign->point[p];
@@ -71,7 +88,8 @@ static fracas_err take_point(const fracas_catalog *catalog, fracas_refinement wh
     if (!err) err = fracas_plan_cost(campaign, p, &cost, NULL);
     if (err && (err != FRACAS_USAGE || what == FRACAS_REFINE_NOTHING)) return err;
     if (err) {
-        if (refined->left++ == 0) snprintf(refined->why, sizeof refined->why, "%s", fracas_message());
+        if (refined->left++ == 0)
+            snprintf(refined->why, sizeof refined->why, "%s", fracas_message());
         return FRACAS_OK;
     }
     refined->from[*next] = p;
@@ -80,7 +98,8 @@ static fracas_err take_point(const fracas_catalog *catalog, fracas_refinement wh
     return FRACAS_OK;
 }
 
-static fracas_err refine_points(const fracas_catalog *catalog, fracas_refinement what, fracas_refined *refined)
+static fracas_err refine_points(const fracas_catalog *catalog, fracas_refinement what,
+                                fracas_refined *refined)
 {
     fracas_campaign *campaign = refined->campaign;
     const fracas_point_table before = campaign->table;
@@ -109,12 +128,14 @@ static fracas_err rename_campaign(fracas_refinement what, fracas_campaign *campa
     enum { MOST = 100 };
     char *name = fracas_memory_take(campaign->memory, MOST + 1, 1);
     if (!name) return fracas_no_memory("the campaign's name");
-    snprintf(name, MOST + 1, "%.*s-%s", MOST - 1 - (int)strlen(fracas_refinement_name[what]), campaign->name, fracas_refinement_name[what]);
+    snprintf(name, MOST + 1, "%.*s-%s", MOST - 1 - (int)strlen(fracas_refinement_name[what]),
+             campaign->name, fracas_refinement_name[what]);
     campaign->name = name;
     return FRACAS_OK;
 }
 
-fracas_err fracas_refined_create(const char *path, int64_t replicas, fracas_refinement what, fracas_refined *refined)
+fracas_err fracas_refined_create(const char *path, int64_t replicas, fracas_refinement what,
+                                 fracas_refined *refined)
 {
     const fracas_catalog *catalog;
     *refined = (fracas_refined){0};

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/sample/sample.h"
 
 #include "campaigns/plan/point_model.h"
@@ -14,7 +15,8 @@ static fracas_err fill(const fracas_field *field, fracas_sample *sample)
     sample->points = interfaces > 0 ? sample->n / interfaces : 1;
     sample->strength = malloc((sample->n + 1) * sizeof *sample->strength);
     sample->position = malloc((sample->n + 1) * sizeof *sample->position);
-    if (!sample->strength || !sample->position) return fracas_no_memory("the strengths of a realization");
+    if (!sample->strength || !sample->position)
+        return fracas_no_memory("the strengths of a realization");
     for (size_t i = 0; i < interfaces; i++) {
         const fracas_extent one = fracas_model_extent(sample->model, i);
         sample->extent.volume += one.volume / (double)interfaces;
@@ -22,16 +24,19 @@ static fracas_err fill(const fracas_field *field, fracas_sample *sample)
     }
     fracas_model_interface_positions(sample->model, sample->position);
     sample->error = fracas_field_error(field);
-    const fracas_stream stream =
-        fracas_point_stream(sample->campaign, sample->point, FRACAS_PURPOSE_STRENGTH, (uint64_t)sample->replica);
+    const fracas_stream stream = fracas_point_stream(
+        sample->campaign, sample->point, FRACAS_PURPOSE_STRENGTH, (uint64_t)sample->replica);
     return fracas_field_sample(field, &stream, 1, sample->strength);
 }
 
-fracas_err fracas_sample_draw(const fracas_campaign *campaign, size_t point, int64_t replica, fracas_sample *sample)
+fracas_err fracas_sample_draw(const fracas_campaign *campaign, size_t point, int64_t replica,
+                              fracas_sample *sample)
 {
     *sample = (fracas_sample){.campaign = campaign, .point = point, .replica = replica};
     if (point >= campaign->npoints)
-        return fracas_fail(FRACAS_USAGE, "there is no point %zu in campaign %s; it has %zu, from 0 on (fracas plan FILE lists them)",
+        return fracas_fail(FRACAS_USAGE,
+                           "there is no point %zu in campaign %s; it has %zu, from 0 on (fracas "
+                           "plan FILE lists them)",
                            point, campaign->name, campaign->npoints);
     fracas_field *field = NULL;
     fracas_err err = fracas_point_model_create(campaign, point, &sample->model);
@@ -57,8 +62,8 @@ void fracas_sample_write_csv(const fracas_sample *sample, FILE *out)
     fprintf(out, "interface,gauss_point,x_m,y_m,z_m,strength_Pa\n");
     for (size_t k = 0; k < sample->n; k++) {
         const double *x = sample->position[k];
-        fprintf(out, "%zu,%zu,%.12g,%.12g,%.12g,%.17g\n", k / sample->points, k % sample->points, x[0], x[1], x[2],
-                sample->strength[k]);
+        fprintf(out, "%zu,%zu,%.12g,%.12g,%.12g,%.17g\n", k / sample->points, k % sample->points,
+                x[0], x[1], x[2], sample->strength[k]);
     }
 }
 
@@ -68,7 +73,8 @@ enum { VTK_VERTEX = 1, VTK_LINE = 3 };
 static void write_points(const double (*position)[3], size_t n, FILE *out)
 {
     fprintf(out, "POINTS %zu double\n", n);
-    for (size_t i = 0; i < n; i++) fprintf(out, "%.12g %.12g %.12g\n", position[i][0], position[i][1], position[i][2]);
+    for (size_t i = 0; i < n; i++)
+        fprintf(out, "%.12g %.12g %.12g\n", position[i][0], position[i][1], position[i][2]);
 }
 
 static void write_types(size_t n, int type, FILE *out)
@@ -84,7 +90,8 @@ static void write_edges(const fracas_surface *surface, FILE *out)
     for (size_t i = 0; i < surface->ninterfaces; i++) {
         const fracas_surface_interface *interface = &surface->interface[i];
         const uint32_t *vertex = &surface->element[interface->element[0] * surface->corners];
-        fprintf(out, "2 %" PRIu32 " %" PRIu32 "\n", vertex[interface->edge[0]], vertex[(interface->edge[0] + 1) % 3]);
+        fprintf(out, "2 %" PRIu32 " %" PRIu32 "\n", vertex[interface->edge[0]],
+                vertex[(interface->edge[0] + 1) % 3]);
     }
     write_types(surface->ninterfaces, VTK_LINE, out);
 }
@@ -100,7 +107,9 @@ static void write_vertices(const fracas_sample *sample, FILE *out)
 void fracas_sample_write_vtk(const fracas_sample *sample, FILE *out)
 {
     const fracas_surface *surface = fracas_model_surface(sample->model);
-    fprintf(out, "# vtk DataFile Version 3.0\nfracas: strengths of %s, point %zu, replica %" PRId64 "\nASCII\nDATASET UNSTRUCTURED_GRID\n",
+    fprintf(out,
+            "# vtk DataFile Version 3.0\nfracas: strengths of %s, point %zu, replica %" PRId64
+            "\nASCII\nDATASET UNSTRUCTURED_GRID\n",
             sample->campaign->name, sample->point, sample->replica);
     if (surface && sample->points == 1) write_edges(surface, out);
     else write_vertices(sample, out);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a realization's strengths are like, in a few numbers. */
 #include "campaigns/sample/sample.h"
 
@@ -55,7 +56,8 @@ static fracas_err summarize(const fracas_sample *sample, summary *of)
 static void print_extreme(const fracas_sample *sample, const char *name, size_t k, FILE *out)
 {
     const double *x = sample->position[k];
-    fprintf(out, "  %-20s %.6g MPa, interface %zu", name, 1e-6 * sample->strength[k], k / sample->points);
+    fprintf(out, "  %-20s %.6g MPa, interface %zu", name, 1e-6 * sample->strength[k],
+            k / sample->points);
     if (sample->points > 1) fprintf(out, ", Gauss point %zu", k % sample->points);
     fprintf(out, ", at (%.6g, %.6g, %.6g) m\n", x[0], x[1], x[2]);
 }
@@ -63,14 +65,20 @@ static void print_extreme(const fracas_sample *sample, const char *name, size_t 
 static void print_text(const fracas_sample *sample, const summary *of, double law, FILE *out)
 {
     const fracas_strength *strength = &sample->campaign->point[sample->point].strength;
-    fprintf(out, "Strengths of %s, point %zu, replica %" PRId64 "\n", sample->campaign->name, sample->point, sample->replica);
-    fprintf(out, "  %-20s %s, mean %.6g MPa\n", "distribution", strength->distribution->name, 1e-6 * law);
-    fprintf(out, "  %-20s %zu%s\n", "strengths", sample->n, sample->points > 1 ? ", one a Gauss point" : ", one an interface");
+    fprintf(out, "Strengths of %s, point %zu, replica %" PRId64 "\n", sample->campaign->name,
+            sample->point, sample->replica);
+    fprintf(out, "  %-20s %s, mean %.6g MPa\n", "distribution", strength->distribution->name,
+            1e-6 * law);
+    fprintf(out, "  %-20s %zu%s\n", "strengths", sample->n,
+            sample->points > 1 ? ", one a Gauss point" : ", one an interface");
     if (strength->covariance)
-        fprintf(out, "  %-20s %s, length %.6g m; right to %.1e\n", "covariance", strength->covariance->name, strength->correlation_length,
-                sample->error);
-    if (strength->factor) fprintf(out, "  %-20s along %s, %s\n", "factor", strength->factor_along->name, strength->factor->path);
-    fprintf(out, "  %-20s %.6g MPa\n  %-20s %.6g MPa\n", "mean", 1e-6 * of->mean, "standard deviation", 1e-6 * of->deviation);
+        fprintf(out, "  %-20s %s, length %.6g m; right to %.1e\n", "covariance",
+                strength->covariance->name, strength->correlation_length, sample->error);
+    if (strength->factor)
+        fprintf(out, "  %-20s along %s, %s\n", "factor", strength->factor_along->name,
+                strength->factor->path);
+    fprintf(out, "  %-20s %.6g MPa\n  %-20s %.6g MPa\n", "mean", 1e-6 * of->mean,
+            "standard deviation", 1e-6 * of->deviation);
     print_extreme(sample, "weakest", of->weakest, out);
     for (int q = 0; q < SHARES; q++) {
         char name[32];
@@ -80,7 +88,8 @@ static void print_text(const fracas_sample *sample, const summary *of, double la
     print_extreme(sample, "strongest", of->strongest, out);
 }
 
-static void print_extreme_json(fracas_json *json, const fracas_sample *sample, const char *key, size_t k)
+static void print_extreme_json(fracas_json *json, const fracas_sample *sample, const char *key,
+                               size_t k)
 {
     fracas_json_object(json, key);
     fracas_json_real(json, "strength", sample->strength[k]);
@@ -106,7 +115,8 @@ static void print_json(const fracas_sample *sample, const summary *of, double la
     fracas_json_integer(&json, "replica", sample->replica);
     fracas_json_text(&json, "distribution", point->strength.distribution->name);
     fracas_json_real(&json, "distribution_mean", law);
-    fracas_json_text(&json, "covariance", point->strength.covariance ? point->strength.covariance->name : NULL);
+    fracas_json_text(&json, "covariance",
+                     point->strength.covariance ? point->strength.covariance->name : NULL);
     fracas_json_real(&json, "covariance_error", sample->error);
     fracas_json_integer(&json, "strengths", (int64_t)sample->n);
     fracas_json_integer(&json, "gauss_points", (int64_t)sample->points);
@@ -123,9 +133,12 @@ fracas_err fracas_sample_summarize(const fracas_sample *sample, bool json, FILE 
 {
     summary of;
     if (sample->n == 0)
-        return fracas_fail(FRACAS_USAGE, "the body is one element: it has no interface, and so no strength; refine the mesh");
+        return fracas_fail(
+            FRACAS_USAGE,
+            "the body is one element: it has no interface, and so no strength; refine the mesh");
     TRY(summarize(sample, &of));
-    const double law = fracas_strength_mean(&sample->campaign->point[sample->point].strength, sample->extent);
+    const double law = fracas_strength_mean(&sample->campaign->point[sample->point].strength,
+                                            sample->extent);
     if (json) print_json(sample, &of, law, out);
     else print_text(sample, &of, law, out);
     return FRACAS_OK;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Seconds of the monotonic clock: for ages, rates and waits. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_CLOCK_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_CLOCK_H

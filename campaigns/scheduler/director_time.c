@@ -1,17 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/director_state.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 
-static const double TICK = 0.25;     /* s between two looks at the time */
-static const double PATIENCE = 10;   /* s that a worker has to answer STOP when nothing of it is needed */
-static const double MARGIN = 2;      /* s before the deadline to write segments in */
+static const double TICK = 0.25; /* s between two looks at the time */
+static const double PATIENCE =
+    10; /* s that a worker has to answer STOP when nothing of it is needed */
+static const double MARGIN = 2; /* s before the deadline to write segments in */
 
 /* s that the end takes: workers write what they have in memory, and each segment is committed. */
 static double margin(const fracas_director *director)
 {
-    const double commit = director->tally.commits > 0 ? director->tally.committing / (double)director->tally.commits : 0;
+    const double commit = director->tally.commits > 0
+                              ? director->tally.committing / (double)director->tally.commits
+                              : 0;
     return MARGIN + commit * (double)director->setup.workers;
 }
 
@@ -22,23 +26,31 @@ bool fracas_director_too_late(const fracas_director *director, size_t worker, do
     return time + (isnan(seconds) ? 0 : seconds) + margin(director) > director->setup.deadline;
 }
 
-/* Leases that take far longer than predicted are computed by those who have nothing else to do, too. */
+/* Leases that take far longer than predicted are computed by those who have nothing else to do,
+ * too. */
 static fracas_err offer_overdue(fracas_director *director, double time)
 {
     fracas_lease lease;
-    int refused = 0; /* once it may have been the worker's own that is overdue; twice there is nothing */
+    int refused =
+        0; /* once it may have been the worker's own that is overdue; twice there is nothing */
     for (size_t worker = 0; refused < 2 && worker < director->setup.workers; worker++) {
         size_t late;
         bool given;
-        if (director->phase[worker] != WORKING || !fracas_scheduler_idles(director->scheduler, worker)) continue;
+        if (director->phase[worker] != WORKING ||
+            !fracas_scheduler_idles(director->scheduler, worker))
+            continue;
         fracas_scheduler_overdue(director->scheduler, worker, time, &lease, &late, &given);
         refused += !given;
         if (!given) continue;
         char text[200];
-        snprintf(text, sizeof text, "%" PRIu64 " realizations of point %" PRIu64 ", replica %" PRId64 " the first, take rank %zu far longer "
-                 "than predicted to compute or write: rank %zu computes them as well", lease.count, lease.point, lease.replica[0], late, worker);
+        snprintf(text, sizeof text,
+                 "%" PRIu64 " realizations of point %" PRIu64 ", replica %" PRId64
+                 " the first, take rank %zu far longer than predicted to compute or write: rank "
+                 "%zu computes them as well",
+                 lease.count, lease.point, lease.replica[0], late, worker);
         TRY(fracas_index_event(director->index, "overdue", text));
-        TRY(fracas_director_tell(director, worker, FRACAS_PACKET_LEASE, &lease, fracas_lease_bytes(&lease)));
+        TRY(fracas_director_tell(director, worker, FRACAS_PACKET_LEASE, &lease,
+                                 fracas_lease_bytes(&lease)));
     }
     return FRACAS_OK;
 }
@@ -65,7 +77,8 @@ static void mind_deadline(fracas_director *director, double time)
     if (!director->stopping) fracas_director_drain(director);
     else if (over)
         for (size_t worker = 0; worker < director->setup.workers; worker++)
-            if (director->phase[worker] == STOPPING) fracas_director_stop_worker(director, worker); /* this time at once */
+            if (director->phase[worker] == STOPPING)
+                fracas_director_stop_worker(director, worker); /* this time at once */
 }
 
 /* Workers that do not answer any more, when everything is durable or there is no time left. */
@@ -77,7 +90,8 @@ static fracas_err give_up(fracas_director *director, double time)
     for (size_t worker = 0; worker < director->setup.workers; worker++) {
         if (director->phase[worker] == ENDED) continue;
         char text[128];
-        snprintf(text, sizeof text, "rank %zu did not stop within %.0f s; the run ends without it", worker, time - director->told);
+        snprintf(text, sizeof text, "rank %zu did not stop within %.0f s; the run ends without it",
+                 worker, time - director->told);
         fracas_director_end_worker(director, worker);
         fracas_voice_say(director->setup.voice, "%s", text);
         TRY(fracas_index_event(director->index, "worker silent", text));
@@ -91,5 +105,6 @@ void fracas_director_tick(fracas_director *director)
     if (time < director->ticked + TICK) return;
     director->ticked = time;
     mind_deadline(director, time);
-    fracas_director_check(director, director->stopping ? give_up(director, time) : offer_overdue(director, time));
+    fracas_director_check(director, director->stopping ? give_up(director, time)
+                                                       : offer_overdue(director, time));
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/packet.h"
 
 #include <errno.h>
@@ -5,11 +6,14 @@
 #include <string.h>
 #include <unistd.h>
 
-fracas_err fracas_packet_create(fracas_packet_kind kind, const void *body, size_t size, fracas_packet **message)
+fracas_err fracas_packet_create(fracas_packet_kind kind, const void *body, size_t size,
+                                fracas_packet **message)
 {
     if (size > INT32_MAX - sizeof(fracas_packet)) /* MPI counts in int */
-        return fracas_fail(FRACAS_ENVIRONMENT, "a message of %zu bytes is above the limit of %d; use a smaller "
-                           "--segment-bytes, or fewer output.history rows", size, INT32_MAX);
+        return fracas_fail(FRACAS_ENVIRONMENT,
+                           "a message of %zu bytes is above the limit of %d; use a smaller "
+                           "--segment-bytes, or fewer output.history rows",
+                           size, INT32_MAX);
     fracas_packet *m = malloc(sizeof *m + size);
     if (!m) return fracas_no_memory("a message");
     *m = (fracas_packet){.kind = kind, .size = (uint32_t)size};
@@ -26,8 +30,8 @@ size_t fracas_packet_bytes(const fracas_packet *message)
 fracas_err fracas_packet_expect(const fracas_packet *message, size_t size)
 {
     if (message->size >= size) return FRACAS_OK;
-    return fracas_fail(FRACAS_BUG, "message of kind %u has %u bytes, it must have %zu", message->kind, message->size,
-                       size);
+    return fracas_fail(FRACAS_BUG, "message of kind %u has %u bytes, it must have %zu",
+                       message->kind, message->size, size);
 }
 
 void fracas_trouble_take(fracas_err code, fracas_trouble *trouble)
@@ -43,7 +47,9 @@ fracas_err fracas_packet_write(int fd, const fracas_packet *message)
     for (size_t left = fracas_packet_bytes(message); left > 0;) {
         ssize_t n = write(fd, from, left);
         if (n < 0 && errno == EINTR) continue;
-        if (n < 0) return fracas_fail(FRACAS_ENVIRONMENT, "cannot write to a process of this run: %s", strerror(errno));
+        if (n < 0)
+            return fracas_fail(FRACAS_ENVIRONMENT, "cannot write to a process of this run: %s",
+                               strerror(errno));
         from += n;
         left -= (size_t)n;
     }
@@ -68,7 +74,8 @@ static fracas_err read_whole(int fd, void *to, size_t size, size_t *got)
         if (n < 0 && errno == EINTR) continue;
         if (n == 0 || (n < 0 && errno == ECONNRESET)) break;
         if (n < 0)
-            return fracas_fail(FRACAS_ENVIRONMENT, "cannot read from a process of this run: %s", strerror(errno));
+            return fracas_fail(FRACAS_ENVIRONMENT, "cannot read from a process of this run: %s",
+                               strerror(errno));
         *got += (size_t)n;
     }
     return FRACAS_OK;
@@ -80,7 +87,8 @@ fracas_err fracas_packet_read(int fd, fracas_packet **message)
     fracas_packet head;
     size_t got;
     TRY(read_whole(fd, &head, sizeof head, &got));
-    if (got < sizeof head) return FRACAS_OK; /* a process killed in the middle of a message is gone all the same */
+    if (got < sizeof head)
+        return FRACAS_OK; /* a process killed in the middle of a message is gone all the same */
     fracas_packet *m = malloc(sizeof *m + head.size);
     if (!m) return fracas_no_memory("a message");
     *m = head;

@@ -1,20 +1,19 @@
-/* Messages between the processes of a run: the same bytes go through pipes and through MPI, so that a rank only
- * forwards between its compute server and rank 0.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Messages between the processes of a run: the same bytes go through pipes and through MPI, so that
+ * a rank only forwards between its compute server and rank 0.
  *
  *   rank 0 -> server   LEASE                         a lease to compute
  *                      FLUSH                         write the segment now
- *                      STOP                          drop what waits, finish (or kill) what runs, write the segment, end
- *   rank 0 -> rank     QUIT                          the run is over
- *                      FRESH                         the answer to REPLACED: what follows is for the new server
- *   server -> rank 0   READY                         up, with the hash of the campaign that it read
- *                      COMPUTED, FAILED, SEGMENT     what became of leases
- *                      FLUSHED                       the answer to FLUSH where everything is in segments already
- *                      TROUBLE                       this server or rank cannot go on, and why
- *                      ENDED                         the answer to STOP: nothing comes any more
- *   rank -> rank 0     REPLACED                      its server died, of a new one READY will come
- *                      LOST                          its server died and there will be no other
- *                      DRAIN                         the rank was signalled
- *   child -> server    RECORD, FAULT                 a packed record for each realization, or why there is none */
+ *                      STOP                          drop what waits, finish (or kill) what runs,
+ * write the segment, end rank 0 -> rank     QUIT                          the run is over FRESH the
+ * answer to REPLACED: what follows is for the new server server -> rank 0   READY up, with the hash
+ * of the campaign that it read COMPUTED, FAILED, SEGMENT     what became of leases FLUSHED the
+ * answer to FLUSH where everything is in segments already TROUBLE                       this server
+ * or rank cannot go on, and why ENDED                         the answer to STOP: nothing comes any
+ * more rank -> rank 0     REPLACED                      its server died, of a new one READY will
+ * come LOST                          its server died and there will be no other DRAIN the rank was
+ * signalled child -> server    RECORD, FAULT                 a packed record for each realization,
+ * or why there is none */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_PACKET_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_PACKET_H
 
@@ -41,8 +40,8 @@ typedef enum {
     FRACAS_PACKET_FAULT,     /* fracas_trouble */
     FRACAS_PACKET_FLUSH,     /* empty */
     FRACAS_PACKET_REPLACED,  /* fracas_trouble */
-    FRACAS_PACKET_FRESH,      /* empty */
-    FRACAS_PACKET_FLUSHED   /* empty */
+    FRACAS_PACKET_FRESH,     /* empty */
+    FRACAS_PACKET_FLUSHED    /* empty */
 } fracas_packet_kind;
 
 /* One block of memory: its first fracas_packet_bytes are what travels. Freed with free(). */
@@ -65,7 +64,8 @@ typedef struct {
 typedef struct {
     uint64_t lease;
     uint64_t kept;  /* realizations that were computed before, whose records the server has */
-    uint64_t count; /* of those after them that were computed together when it happened, 1 to FRACAS_BATCH_MAX */
+    uint64_t count; /* of those after them that were computed together when it happened, 1 to
+                       FRACAS_BATCH_MAX */
     char reason[1024];
 } fracas_lease_failure;
 
@@ -76,8 +76,8 @@ typedef struct {
 } fracas_segment_note;
 
 /* A message with a copy of `size` bytes of `body`; FRACAS_ENVIRONMENT without memory. */
-FRACAS_MUST_USE fracas_err fracas_packet_create(fracas_packet_kind kind, const void *body, size_t size,
-                                                 fracas_packet **message);
+FRACAS_MUST_USE fracas_err fracas_packet_create(fracas_packet_kind kind, const void *body,
+                                                size_t size, fracas_packet **message);
 
 /* Bytes of the whole message. */
 size_t fracas_packet_bytes(const fracas_packet *message);
@@ -90,7 +90,8 @@ void fracas_trouble_take(fracas_err code, fracas_trouble *trouble);
 
 /* Writes one message whole, blocking. FRACAS_ENVIRONMENT if the other end is gone. */
 FRACAS_MUST_USE fracas_err fracas_packet_write(int fd, const fracas_packet *message);
-FRACAS_MUST_USE fracas_err fracas_packet_send(int fd, fracas_packet_kind kind, const void *body, size_t size);
+FRACAS_MUST_USE fracas_err fracas_packet_send(int fd, fracas_packet_kind kind, const void *body,
+                                              size_t size);
 
 /* Reads one message whole, blocking; *message is NULL when the other end is gone. */
 FRACAS_MUST_USE fracas_err fracas_packet_read(int fd, fracas_packet **message);

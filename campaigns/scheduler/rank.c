@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/rank.h"
 
 #include "campaigns/campaign.h"
@@ -25,7 +26,8 @@ enum {
     DEATHS_MAX = 5 /* of servers, one after another, that have settled nothing in between */
 };
 
-/* Set by SIGUSR1 (the parent, by way of mpirun), SIGUSR2, SIGTERM and SIGINT (mpirun, srun, a batch system). */
+/* Set by SIGUSR1 (the parent, by way of mpirun), SIGUSR2, SIGTERM and SIGINT (mpirun, srun, a batch
+ * system). */
 static volatile sig_atomic_t drain_asked;
 
 static void ask_drain(int signal_number)
@@ -48,10 +50,11 @@ typedef struct {
     double began; /* fracas_now at the start of this process */
     int rank, size;
     fracas_keeper keeper; /* of the compute server, and the connection to that */
-    bool ended;  /* the server has said its last word: ENDED or TROUBLE */
-    bool fresh;  /* the server is a new one of which rank 0 has not heard: what comes is still for the one before */
-    int deaths;  /* of servers since one has written a segment or told of a failure */
-    int wait;    /* ms to sleep when nothing comes */
+    bool ended;           /* the server has said its last word: ENDED or TROUBLE */
+    bool fresh; /* the server is a new one of which rank 0 has not heard: what comes is still for
+                   the one before */
+    int deaths; /* of servers since one has written a segment or told of a failure */
+    int wait;   /* ms to sleep when nothing comes */
     posted *outbox; /* of rank 0 */
 } rank_state;
 
@@ -67,7 +70,8 @@ static fracas_err mpi_failed(const char *what, int code)
 
 static fracas_err mpi_send(int to, const fracas_packet *message)
 {
-    int code = MPI_Send(message, (int)fracas_packet_bytes(message), MPI_BYTE, to, TAG, MPI_COMM_WORLD);
+    int code = MPI_Send(message, (int)fracas_packet_bytes(message), MPI_BYTE, to, TAG,
+                        MPI_COMM_WORLD);
     return code == MPI_SUCCESS ? FRACAS_OK : mpi_failed("send", code);
 }
 
@@ -95,7 +99,8 @@ static fracas_err mpi_receive(int *from, fracas_packet **message)
 
 /* ---- the server ---- */
 
-/* The message for rank 0 when the server is gone without a last word: there is a new one, or there is none any more. */
+/* The message for rank 0 when the server is gone without a last word: there is a new one, or there
+ * is none any more. */
 static fracas_err tell_death(rank_state *rank, fracas_packet **message)
 {
     char how[512];
@@ -103,16 +108,21 @@ static fracas_err tell_death(rank_state *rank, fracas_packet **message)
     fracas_packet_kind kind = FRACAS_PACKET_LOST;
     fracas_err gone = fracas_keeper_bury(&rank->keeper, how, sizeof how);
     if (gone) {
-        snprintf(trouble.text, sizeof trouble.text, "the compute server of rank %d %s", rank->rank, fracas_message());
+        snprintf(trouble.text, sizeof trouble.text, "the compute server of rank %d %s", rank->rank,
+                 fracas_message());
     } else if (++rank->deaths >= DEATHS_MAX) {
-        snprintf(trouble.text, sizeof trouble.text, "the compute server of rank %d %s, and %d died before it with no segment in "
-                 "between; it is not started again", rank->rank, how, rank->deaths - 1);
+        snprintf(trouble.text, sizeof trouble.text,
+                 "the compute server of rank %d %s, and %d died before it with no segment in "
+                 "between; it is not started again",
+                 rank->rank, how, rank->deaths - 1);
         fracas_keeper_end(&rank->keeper);
     } else if (fracas_keeper_renew(&rank->keeper)) {
-        snprintf(trouble.text, sizeof trouble.text, "the compute server of rank %d %s, and there is no new one: %.400s", rank->rank, how,
-                 fracas_message());
+        snprintf(trouble.text, sizeof trouble.text,
+                 "the compute server of rank %d %s, and there is no new one: %.400s", rank->rank,
+                 how, fracas_message());
     } else {
-        snprintf(trouble.text, sizeof trouble.text, "the compute server of rank %d %s; a new one goes on", rank->rank, how);
+        snprintf(trouble.text, sizeof trouble.text,
+                 "the compute server of rank %d %s; a new one goes on", rank->rank, how);
         kind = FRACAS_PACKET_REPLACED;
     }
     rank->ended = kind == FRACAS_PACKET_LOST;
@@ -127,12 +137,15 @@ static void note(rank_state *rank, const fracas_packet *message)
     case FRACAS_PACKET_ENDED:
     case FRACAS_PACKET_TROUBLE: rank->ended = true; break;
     case FRACAS_PACKET_FAILED:
-    case FRACAS_PACKET_SEGMENT: rank->deaths = 0; break; /* something is settled: what is only computed dies with the server */
+    case FRACAS_PACKET_SEGMENT:
+        rank->deaths = 0;
+        break; /* something is settled: what is only computed dies with the server */
     default: break;
     }
 }
 
-/* Sleeps until the server says something, but `wait` ms at most; *message is NULL when it says nothing. */
+/* Sleeps until the server says something, but `wait` ms at most; *message is NULL when it says
+ * nothing. */
 static fracas_err server_receive(rank_state *rank, fracas_packet **message)
 {
     *message = NULL;
@@ -149,7 +162,9 @@ static fracas_err server_receive(rank_state *rank, fracas_packet **message)
 static void server_send(rank_state *rank, const fracas_packet *message)
 {
     if (message->kind == FRACAS_PACKET_FRESH) rank->fresh = false;
-    else if (!rank->fresh && rank->keeper.server >= 0 && fracas_packet_write(rank->keeper.server, message)) return;
+    else if (!rank->fresh && rank->keeper.server >= 0 &&
+             fracas_packet_write(rank->keeper.server, message))
+        return;
 }
 
 /* Sleeps longer the longer nothing happens: MPI is polled, and leases are given one ahead. */
@@ -177,21 +192,21 @@ static fracas_err hear_lead(rank_state *rank, bool *come, bool *quit)
     int from;
     TRY(mpi_receive(&from, &message));
     *come = message != NULL;
-    if (message && message->kind == FRACAS_PACKET_QUIT)
-        *quit = true;
-    else if (message)
-        server_send(rank, message);
+    if (message && message->kind == FRACAS_PACKET_QUIT) *quit = true;
+    else if (message) server_send(rank, message);
     free(message);
     return FRACAS_OK;
 }
 
-/* Sends to rank 0, and hears it meanwhile: it may be sending to this rank, and a long message waits until the other side receives. */
+/* Sends to rank 0, and hears it meanwhile: it may be sending to this rank, and a long message waits
+ * until the other side receives. */
 static fracas_err send_lead(rank_state *rank, const fracas_packet *message, bool *quit)
 {
     const struct timespec rest = {.tv_nsec = 200000};
     MPI_Request request;
     int sent = 0;
-    int code = MPI_Isend(message, (int)fracas_packet_bytes(message), MPI_BYTE, 0, TAG, MPI_COMM_WORLD, &request);
+    int code = MPI_Isend(message, (int)fracas_packet_bytes(message), MPI_BYTE, 0, TAG,
+                         MPI_COMM_WORLD, &request);
     while (code == MPI_SUCCESS) {
         bool come;
         code = MPI_Test(&request, &sent, MPI_STATUS_IGNORE);
@@ -256,7 +271,8 @@ static fracas_err clear_outbox(rank_state *rank)
     return FRACAS_OK;
 }
 
-/* Sends without waiting until the rank takes it: one that stands still must not hold up the others. */
+/* Sends without waiting until the rank takes it: one that stands still must not hold up the others.
+ */
 static fracas_err post(rank_state *rank, int to, const fracas_packet *message)
 {
     posted *p = malloc(sizeof *p);
@@ -267,7 +283,8 @@ static fracas_err post(rank_state *rank, int to, const fracas_packet *message)
         return fracas_no_memory("a message");
     }
     memcpy(p->message, message, fracas_packet_bytes(message));
-    int code = MPI_Isend(p->message, (int)fracas_packet_bytes(message), MPI_BYTE, to, TAG, MPI_COMM_WORLD, &p->request);
+    int code = MPI_Isend(p->message, (int)fracas_packet_bytes(message), MPI_BYTE, to, TAG,
+                         MPI_COMM_WORLD, &p->request);
     if (code != MPI_SUCCESS) {
         free(p->message);
         free(p);
@@ -310,14 +327,15 @@ static fracas_err direct(rank_state *rank, fracas_director *director)
     return FRACAS_OK;
 }
 
-/* When the run must have ended, by fracas_now; 0: any time. A parent counts the walltime from its own start; started by the user's own
- * launcher this process is where the run begins. */
+/* When the run must have ended, by fracas_now; 0: any time. A parent counts the walltime from its
+ * own start; started by the user's own launcher this process is where the run begins. */
 static double deadline_of(const rank_state *rank)
 {
     const char *text = getenv(FRACAS_DEADLINE);
     struct timespec day;
     clock_gettime(CLOCK_REALTIME, &day);
-    if (text) return fracas_now() + strtod(text, NULL) - (double)day.tv_sec - 1e-9 * (double)day.tv_nsec;
+    if (text)
+        return fracas_now() + strtod(text, NULL) - (double)day.tv_sec - 1e-9 * (double)day.tv_nsec;
     return rank->options->walltime > 0 ? rank->began + rank->options->walltime : 0;
 }
 
@@ -345,8 +363,8 @@ static fracas_err lead(rank_state *rank, fracas_voice *voice, bool *ran)
     return verdict;
 }
 
-/* Takes what the others still send, up to their answers to QUIT, or one that sends a long message would never end; not for long, for one
- * may hang. */
+/* Takes what the others still send, up to their answers to QUIT, or one that sends a long message
+ * would never end; not for long, for one may hang. */
 static void hear_last_words(rank_state *rank)
 {
     enum { PATIENCE = 5 /* s */ };
@@ -374,7 +392,8 @@ static fracas_err lead_to_end(rank_state *rank, fracas_err set_up, bool *ran)
     fracas_trouble_take(verdict, &kept); /* what follows may overwrite the message */
     const fracas_packet quit = {.kind = FRACAS_PACKET_QUIT};
     for (int other = 1; other < rank->size; other++)
-        if (mpi_send(other, &quit)) MPI_Abort(MPI_COMM_WORLD, FRACAS_ENVIRONMENT); /* no rank may be left waiting */
+        if (mpi_send(other, &quit))
+            MPI_Abort(MPI_COMM_WORLD, FRACAS_ENVIRONMENT); /* no rank may be left waiting */
     hear_last_words(rank);
     if (!voice.parent) return verdict ? fracas_fail(verdict, "%s", kept.text) : FRACAS_OK;
     *ran = false;
@@ -406,24 +425,27 @@ static fracas_err set_up(rank_state *rank)
 fracas_err fracas_rank_run(const fracas_run_options *options, bool *ran)
 {
     *ran = false;
-    /* No rank outlives the parent's mpirun. (The signal follows the thread that started this process: what other
-     * launchers do with their threads is not known.) */
+    /* No rank outlives the parent's mpirun. (The signal follows the thread that started this
+     * process: what other launchers do with their threads is not known.) */
     if (getenv(FRACAS_PARENT_MARK)) prctl(PR_SET_PDEATHSIG, SIGKILL);
     catch_signals();
-    rank_state rank = {.options = options, .began = fracas_now(), .keeper = {.control = -1, .server = -1}};
+    rank_state rank = {
+        .options = options, .began = fracas_now(), .keeper = {.control = -1, .server = -1}};
     fracas_err err = set_up(&rank);
     fracas_trouble trouble;
     fracas_trouble_take(err, &trouble);
     if (MPI_Init(NULL, NULL) || MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN) ||
         MPI_Comm_rank(MPI_COMM_WORLD, &rank.rank) || MPI_Comm_size(MPI_COMM_WORLD, &rank.size)) {
         fputs("fracas: MPI does not start\n", stderr);
-        _exit(FRACAS_ENVIRONMENT); /* a rank that ended with 0 under a parent would leave the others waiting for it */
+        _exit(FRACAS_ENVIRONMENT); /* a rank that ended with 0 under a parent would leave the others
+                                      waiting for it */
     }
     if (err) err = fracas_fail(err, "%s", trouble.text);
     if (rank.rank == 0) {
         err = lead_to_end(&rank, err, ran);
     } else if (follow(&rank, err)) {
-        MPI_Abort(MPI_COMM_WORLD, FRACAS_ENVIRONMENT); /* rank 0 cannot be told: it must not wait for this rank */
+        MPI_Abort(MPI_COMM_WORLD,
+                  FRACAS_ENVIRONMENT); /* rank 0 cannot be told: it must not wait for this rank */
     } else {
         err = FRACAS_OK;
     }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/run.h"
 
 #include "base/param.h"
@@ -20,7 +21,10 @@ const char *const fracas_isolation_name[2] = {"lease", "none"};
 
 void fracas_run_options_init(fracas_run_options *options)
 {
-    *options = (fracas_run_options){.isa = FRACAS_ISA_BEST, .segment_age = 5, .segment_bytes = 64.0 * 1024 * 1024, .lease_seconds = 1};
+    *options = (fracas_run_options){.isa = FRACAS_ISA_BEST,
+                                    .segment_age = 5,
+                                    .segment_bytes = 64.0 * 1024 * 1024,
+                                    .lease_seconds = 1};
 }
 
 /* Rank that a launcher gave to this process; -1 if none did. */
@@ -43,7 +47,8 @@ bool fracas_run_speaks(void)
     return rank < 0 || (rank == 0 && !getenv(FRACAS_PARENT_MARK));
 }
 
-static fracas_err examine_needs(const char *study, const fracas_campaign *campaign, const fracas_run_options *options)
+static fracas_err examine_needs(const char *study, const fracas_campaign *campaign,
+                                const fracas_run_options *options)
 {
     double *cost, *bytes;
     TRY(fracas_costs_create(campaign, options, &cost, &bytes));
@@ -53,7 +58,8 @@ static fracas_err examine_needs(const char *study, const fracas_campaign *campai
     return err;
 }
 
-/* What is wrong with the campaign or the study is found here, before anything is written or started. */
+/* What is wrong with the campaign or the study is found here, before anything is written or
+ * started. */
 static fracas_err examine(const fracas_run_options *options, bool *settled, fracas_err *verdict)
 {
     fracas_campaign *campaign;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/tally.h"
 
 #include "base/param.h"
@@ -14,15 +15,20 @@ static const struct {
     const char *name;
     size_t at;
 } number[] = {
-#define NUMBER(name) {#name, offsetof(fracas_tally, name)}
-    NUMBER(workers), NUMBER(seconds), NUMBER(planned), NUMBER(computed), NUMBER(merging), NUMBER(giving), NUMBER(committing),
-    NUMBER(cpu), NUMBER(memory), NUMBER(messages), NUMBER(leases), NUMBER(commits), NUMBER(rows),
+#define NUMBER(name)                        \
+    {                                       \
+#name, offsetof(fracas_tally, name) \
+    }
+    NUMBER(workers), NUMBER(seconds),    NUMBER(planned), NUMBER(computed), NUMBER(merging),
+    NUMBER(giving),  NUMBER(committing), NUMBER(cpu),     NUMBER(memory),   NUMBER(messages),
+    NUMBER(leases),  NUMBER(commits),    NUMBER(rows),
 };
 
 static double cpu_seconds(struct rusage *used)
 {
     getrusage(RUSAGE_SELF, used);
-    return (double)(used->ru_utime.tv_sec + used->ru_stime.tv_sec) + 1e-6 * (double)(used->ru_utime.tv_usec + used->ru_stime.tv_usec);
+    return (double)(used->ru_utime.tv_sec + used->ru_stime.tv_sec) +
+           1e-6 * (double)(used->ru_utime.tv_usec + used->ru_stime.tv_usec);
 }
 
 void fracas_tally_begin(fracas_tally *tally)
@@ -31,7 +37,10 @@ void fracas_tally_begin(fracas_tally *tally)
     *tally = (fracas_tally){.seconds = fracas_now(), .cpu = cpu_seconds(&used)};
 }
 
-double fracas_tally_time(const fracas_tally *tally) { return fracas_now() - tally->seconds; }
+double fracas_tally_time(const fracas_tally *tally)
+{
+    return fracas_now() - tally->seconds;
+}
 
 void fracas_tally_end(fracas_tally *tally)
 {
@@ -48,7 +57,8 @@ fracas_err fracas_tally_note(const fracas_tally *tally, fracas_index *index)
     for (size_t i = 0; i < FRACAS_COUNT(number); i++) {
         double value;
         memcpy(&value, (const char *)tally + number[i].at, sizeof value);
-        n += (size_t)snprintf(text + n, sizeof text - n, "%s%s %.9g", i ? ", " : "", number[i].name, value);
+        n += (size_t)snprintf(text + n, sizeof text - n, "%s%s %.9g", i ? ", " : "", number[i].name,
+                              value);
     }
     return fracas_index_event(index, event, text);
 }

@@ -1,5 +1,6 @@
-/* What a run costs rank 0: how busy it is, with what, and how long the parts of a run take. The index keeps it as the event
- * `measured`. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a run costs rank 0: how busy it is, with what, and how long the parts of a run take. The
+ * index keeps it as the event `measured`. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_TALLY_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_TALLY_H
 

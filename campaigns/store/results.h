@@ -1,4 +1,6 @@
-/* The results of a study, complete or not: study.h5 where it is of everything, else what the segments hold by now. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The results of a study, complete or not: study.h5 where it is of everything, else what the
+ * segments hold by now. */
 #ifndef FRACAS_CAMPAIGNS_STORE_RESULTS_H
 #define FRACAS_CAMPAIGNS_STORE_RESULTS_H
 
@@ -6,31 +8,38 @@
 
 typedef struct fracas_results fracas_results;
 
-/* Opens the results of STUDY, whose campaign (STUDY/campaign.yaml) has this hash and this table, which must outlive them; nothing is
- * written, and a run may be computing the study. In this order:
- *   study.h5, if it is of this campaign, has the size that its merge left, and the index has every realization done or failed for good;
- *   the segments that the index names: the realizations that are done by now, as one look at the index has them;
- *   study.h5, if it is of this campaign and the index is lost or damaged: fracas_results_note says so.
- * FRACAS_INTERRUPTED if no realization is done yet. FRACAS_IN_USE if the index cannot be read while a run has it (network filesystems).
- * FRACAS_DAMAGED, saying how to go on, if there is neither a study.h5 of this campaign nor an index.
- * Both NULL: study.h5 as it is, whatever the index says; FRACAS_DAMAGED if it is not there. */
-FRACAS_MUST_USE fracas_err fracas_results_open(const char *study, const fracas_hash *campaign, const fracas_point_table *table,
+/* Opens the results of STUDY, whose campaign (STUDY/campaign.yaml) has this hash and this table,
+ * which must outlive them; nothing is written, and a run may be computing the study. In this order:
+ *   study.h5, if it is of this campaign, has the size that its merge left, and the index has every
+ * realization done or failed for good; the segments that the index names: the realizations that are
+ * done by now, as one look at the index has them; study.h5, if it is of this campaign and the index
+ * is lost or damaged: fracas_results_note says so. FRACAS_INTERRUPTED if no realization is done
+ * yet. FRACAS_IN_USE if the index cannot be read while a run has it (network filesystems).
+ * FRACAS_DAMAGED, saying how to go on, if there is neither a study.h5 of this campaign nor an
+ * index. Both NULL: study.h5 as it is, whatever the index says; FRACAS_DAMAGED if it is not there.
+ */
+FRACAS_MUST_USE fracas_err fracas_results_open(const char *study, const fracas_hash *campaign,
+                                               const fracas_point_table *table,
                                                fracas_results **results);
 void fracas_results_close(fracas_results *results); /* NULL is allowed */
 
-/* True if they are from segments: realizations may be missing, and there are no meshes. Of NULL, no results at all, this and the three
- * below with a count of what is amiss say that nothing is. */
+/* True if they are from segments: realizations may be missing, and there are no meshes. Of NULL, no
+ * results at all, this and the three below with a count of what is amiss say that nothing is. */
 bool fracas_results_partial(const fracas_results *results);
-/* Of partial ones: the campaign's, with seed, history, interfaces and program version of the index; not complete. */
+/* Of partial ones: the campaign's, with seed, history, interfaces and program version of the index;
+ * not complete. */
 const fracas_file_header *fracas_results_header(const fracas_results *results);
-/* Of partial ones: the campaign's table, with the replicas that each point has been given by now where a rule decides. */
+/* Of partial ones: the campaign's table, with the replicas that each point has been given by now
+ * where a rule decides. */
 const fracas_point_table *fracas_results_points(const fracas_results *results);
 /* Realizations that are there, rows 0 to this - 1: those done and those FAILED, in plan order. */
 size_t fracas_results_realizations(const fracas_results *results);
 
-/* Realization in a row, as fracas_reader_record has it; one that failed is an empty record of outcome FAILED. FRACAS_DAMAGED if its
- * segment is missing or damaged. Of partial ones dear where the row before was of another segment. */
-FRACAS_MUST_USE fracas_err fracas_results_record(fracas_results *results, size_t row, unsigned parts, size_t *point, int64_t *replica,
+/* Realization in a row, as fracas_reader_record has it; one that failed is an empty record of
+ * outcome FAILED. FRACAS_DAMAGED if its segment is missing or damaged. Of partial ones dear where
+ * the row before was of another segment. */
+FRACAS_MUST_USE fracas_err fracas_results_record(fracas_results *results, size_t row,
+                                                 unsigned parts, size_t *point, int64_t *replica,
                                                  fracas_record *record);
 
 typedef struct {
@@ -39,25 +48,31 @@ typedef struct {
     fracas_record record; /* the visitor may take parts out of it and leave NULL */
 } fracas_result;
 
-/* Calls `visit` with every realization in the order of its row, whatever the segments. Partial ones are read by segment, as many
- * ahead as fit some 192 MiB; one whose segment is missing or damaged is left out, counted by fracas_results_missing, and the segment
- * is named in a note. */
+/* Calls `visit` with every realization in the order of its row, whatever the segments. Partial ones
+ * are read by segment, as many ahead as fit some 192 MiB; one whose segment is missing or damaged
+ * is left out, counted by fracas_results_missing, and the segment is named in a note. */
 FRACAS_MUST_USE fracas_err fracas_results_walk(fracas_results *results, unsigned parts,
-                                               fracas_err (*visit)(void *context, fracas_result *result), void *context);
+                                               fracas_err (*visit)(void *context,
+                                                                   fracas_result *result),
+                                               void *context);
 
 /* Realizations of a point that are done but could not be read so far. */
 int64_t fracas_results_missing(const fracas_results *results, size_t point);
 /* False if a rule decides the replicas of the point and has not stopped. */
 bool fracas_results_decided(const fracas_results *results, size_t point);
 
-/* What a reader must know of how the results were read: damaged segments met so far, a lost index. Text of note 0 to count - 1. */
+/* What a reader must know of how the results were read: damaged segments met so far, a lost index.
+ * Text of note 0 to count - 1. */
 size_t fracas_results_notes(const fracas_results *results);
 const char *fracas_results_note(const fracas_results *results, size_t note);
 
 /* As fracas_reader_decisions; those on points of the table. */
-FRACAS_MUST_USE fracas_err fracas_results_decisions(fracas_results *results, fracas_decision **decision, size_t *count);
+FRACAS_MUST_USE fracas_err fracas_results_decisions(fracas_results *results,
+                                                    fracas_decision **decision, size_t *count);
 /* As fracas_reader_mesh_interfaces and fracas_reader_mesh; partial ones have none. */
-FRACAS_MUST_USE fracas_err fracas_results_mesh_interfaces(fracas_results *results, size_t point, size_t *interfaces);
-FRACAS_MUST_USE fracas_err fracas_results_mesh(fracas_results *results, size_t point, fracas_stored_mesh *mesh);
+FRACAS_MUST_USE fracas_err fracas_results_mesh_interfaces(fracas_results *results, size_t point,
+                                                          size_t *interfaces);
+FRACAS_MUST_USE fracas_err fracas_results_mesh(fracas_results *results, size_t point,
+                                               fracas_stored_mesh *mesh);
 
 #endif

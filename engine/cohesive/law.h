@@ -1,4 +1,6 @@
-/* Cohesive laws: what an interface does once its stress has reached its strength (theory/cohesive.md). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cohesive laws: what an interface does once its stress has reached its strength
+ * (theory/cohesive.md). */
 #ifndef FRACAS_ENGINE_COHESIVE_LAW_H
 #define FRACAS_ENGINE_COHESIVE_LAW_H
 

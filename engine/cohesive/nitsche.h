@@ -1,13 +1,14 @@
-/* Law `nitsche` over lanes: the crack's opening delta in series with the discontinuous-Galerkin flux
- * (docs/theory/cohesive.md). Include after base/lanes.h.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Law `nitsche` over lanes: the crack's opening delta in series with the discontinuous-Galerkin
+ * flux (docs/theory/cohesive.md). Include after base/lanes.h.
  *
- * With mean stress m = <sigma>, jump q, stiffness K, strength sigma_c, delta_c = 2 G_c/sigma_c, D = delta_max/delta_c:
- *   trial traction        S = m + K q (unbroken), K q (broken)                        (cohesive.1)
- *   loading, S - sigma_c > D x, x = K delta_c - sigma_c:  D = min(1, (S - sigma_c)/x)   (cohesive.2)
- *   traction              T = sigma_c (1 - D) loading, S sigma_c (1 - D)/(sigma_c + D x) on the secant (cohesive.3)
- *                         T = S where S <= 0: contact by the flux itself
- *   q - delta = (T - m)/K (unbroken), 0 (broken)                                     (cohesive.4)
- * At D = 0 the secant is exactly T = S, plain interior penalty. */
+ * With mean stress m = <sigma>, jump q, stiffness K, strength sigma_c, delta_c = 2 G_c/sigma_c, D =
+ * delta_max/delta_c: trial traction        S = m + K q (unbroken), K q (broken) (cohesive.1)
+ *   loading, S - sigma_c > D x, x = K delta_c - sigma_c:  D = min(1, (S - sigma_c)/x) (cohesive.2)
+ *   traction              T = sigma_c (1 - D) loading, S sigma_c (1 - D)/(sigma_c + D x) on the
+ * secant (cohesive.3) T = S where S <= 0: contact by the flux itself q - delta = (T - m)/K
+ * (unbroken), 0 (broken)                                     (cohesive.4) At D = 0 the secant is
+ * exactly T = S, plain interior penalty. */
 #define nitsche_interface LANES_NAME(fracas_nitsche_interface)
 #define nitsche_law LANES_NAME(fracas_nitsche_law)
 
@@ -18,7 +19,8 @@ typedef struct {
     vd trial;    /* S [Pa] */
 } nitsche_interface;
 
-LANES_FUNCTION nitsche_interface nitsche_law(vd mean, vd q, vd damage, vd sigma_c, vd x, vd spring, vd compliance)
+LANES_FUNCTION nitsche_interface nitsche_law(vd mean, vd q, vd damage, vd sigma_c, vd x, vd spring,
+                                             vd compliance)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0);
     vmask broken = lanes_le(one, damage);

@@ -1,12 +1,13 @@
-/* Cohesive laws at a point of an interface that opens (n) and slides (t), over lanes (docs/theory/cohesive.md). Include after
- * base/lanes.h.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cohesive laws at a point of an interface that opens (n) and slides (t), over lanes
+ * (docs/theory/cohesive.md). Include after base/lanes.h.
  *
- * Common: strength sigma_c, peak p (the effective traction at onset, 0 before), delta_c = 2 G_c/p, or delta_c the same
- * everywhere and G_c = p delta_c/2; D = delta_max/delta_c,
- * beta_c = shear strength/normal strength, stiffnesses k_n and k_t = beta_c^2 k_n of the flux, mean tractions m, jumps q.
- * Effective traction  S = sqrt(max(0, T_n)^2 + (T_t/beta_c)^2)                                       (cohesive.10)
- * Onset               S > sigma_c for T_n >= 0, max(0, |T_t| - mu_c |T_n|)/beta_c > sigma_c for T_n < 0, of the flux
- *                     T = m + k q, or of the mean T = m                                             (cohesive.11) */
+ * Common: strength sigma_c, peak p (the effective traction at onset, 0 before), delta_c = 2 G_c/p,
+ * or delta_c the same everywhere and G_c = p delta_c/2; D = delta_max/delta_c, beta_c = shear
+ * strength/normal strength, stiffnesses k_n and k_t = beta_c^2 k_n of the flux, mean tractions m,
+ * jumps q. Effective traction  S = sqrt(max(0, T_n)^2 + (T_t/beta_c)^2) (cohesive.10) Onset S >
+ * sigma_c for T_n >= 0, max(0, |T_t| - mu_c |T_n|)/beta_c > sigma_c for T_n < 0, of the flux T = m
+ * + k q, or of the mean T = m                                             (cohesive.11) */
 #define plane_interface LANES_NAME(fracas_plane_interface)
 #define plane_input LANES_NAME(fracas_plane_input)
 #define plane_result LANES_NAME(fracas_plane_result)
@@ -18,37 +19,48 @@
 #define plane_energy LANES_NAME(fracas_plane_energy)
 
 typedef struct {
-    vd k_n, k_t;     /* Pa/m */
-    vd sigma_c;      /* Pa */
+    vd k_n, k_t;               /* Pa/m */
+    vd sigma_c;                /* Pa */
     vd softness_n, softness_t; /* 1/k_n, 1/k_t [m/Pa] */
     vd beta_c, per_beta_c;     /* 1: beta_c, 1/beta_c */
-    vd mu_c;         /* 1 */
-    vd energy;       /* G_c [J/m2] ... */
-    vd opening;      /* ... or delta_c [m]: the one that is not 0 */
-    int onset_mean;  /* onset of the mean; else of the flux */
+    vd mu_c;                   /* 1 */
+    vd energy;                 /* G_c [J/m2] ... */
+    vd opening;                /* ... or delta_c [m]: the one that is not 0 */
+    int onset_mean;            /* onset of the mean; else of the flux */
 } plane_interface;
 
 typedef struct {
-    vd m_n, m_t; /* Pa */
-    vd q_n, q_t; /* m */
+    vd m_n, m_t;  /* Pa */
+    vd q_n, q_t;  /* m */
     vmask opened; /* nitsche: the flux is held against the strength even where the mean is to be */
 } plane_input;
 
 typedef struct {
-    vd t_n, t_t;      /* traction T [Pa] */
-    vd s_n, s_t;      /* what the flux carries of the jump [m]; 0 once it is left */
-    vd flux, stored;  /* energies of the flux, and in openings and contact [J/m2] */
-    vd dissipated;    /* G_c D [J/m2] */
-    vd created, rubbed; /* in this step: energy put in by an onset or break, energy dissipated by friction [J/m2] */
-    vmask cracked;    /* past onset: the above holds; elsewhere the flux's own T = m + k q, s = q */
+    vd t_n, t_t;        /* traction T [Pa] */
+    vd s_n, s_t;        /* what the flux carries of the jump [m]; 0 once it is left */
+    vd flux, stored;    /* energies of the flux, and in openings and contact [J/m2] */
+    vd dissipated;      /* G_c D [J/m2] */
+    vd created, rubbed; /* in this step: energy put in by an onset or break, energy dissipated by
+                           friction [J/m2] */
+    vmask cracked; /* past onset: the above holds; elsewhere the flux's own T = m + k q, s = q */
     vmask cracks, breaks; /* in this step */
-    /* of nitsche: G_c D of this step alone [J/m2], and the traction at the D halfway through it [Pa] */
+    /* of nitsche: G_c D of this step alone [J/m2], and the traction at the D halfway through it
+     * [Pa] */
     vd spent, midway_n, midway_t;
 } plane_result;
 
-LANES_FUNCTION vd plane_max(vd a, vd b) { return lanes_select(lanes_lt(a, b), b, a); }
-LANES_FUNCTION vd plane_min(vd a, vd b) { return lanes_select(lanes_lt(b, a), b, a); }
-LANES_FUNCTION vd plane_abs(vd a) { return plane_max(a, lanes_set(0.0) - a); }
+LANES_FUNCTION vd plane_max(vd a, vd b)
+{
+    return lanes_select(lanes_lt(a, b), b, a);
+}
+LANES_FUNCTION vd plane_min(vd a, vd b)
+{
+    return lanes_select(lanes_lt(b, a), b, a);
+}
+LANES_FUNCTION vd plane_abs(vd a)
+{
+    return plane_max(a, lanes_set(0.0) - a);
+}
 
 /* S^2  (cohesive.10) */
 LANES_FUNCTION vd plane_effective(const plane_interface *at, vd t_n, vd t_t)
@@ -61,7 +73,8 @@ LANES_FUNCTION vd plane_effective(const plane_interface *at, vd t_n, vd t_t)
 LANES_FUNCTION vd plane_onset(const plane_interface *at, vd t_n, vd t_t)
 {
     const vd zero = lanes_set(0.0);
-    return plane_effective(at, t_n, plane_max(zero, plane_abs(t_t) + at->mu_c * plane_min(t_n, zero)));
+    return plane_effective(at, t_n,
+                           plane_max(zero, plane_abs(t_t) + at->mu_c * plane_min(t_n, zero)));
 }
 
 /* G_c of a point with this peak [J/m2]. */
@@ -69,4 +82,3 @@ LANES_FUNCTION vd plane_energy(const plane_interface *at, vd peak)
 {
     return at->energy + lanes_set(0.5) * (at->opening * peak);
 }
-

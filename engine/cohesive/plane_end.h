@@ -1,4 +1,6 @@
-/* Undefines the names of cohesive/plane.h, plane_nitsche.h and plane_extrinsic.h, so that they can be included for another width. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Undefines the names of cohesive/plane.h, plane_nitsche.h and plane_extrinsic.h, so that they can
+ * be included for another width. */
 #undef plane_interface
 #undef plane_input
 #undef plane_result

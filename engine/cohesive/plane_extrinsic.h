@@ -1,14 +1,17 @@
-/* Laws `camacho-ortiz-standard` and `camacho-ortiz` over lanes: an interface that leaves the flux at its onset. Include after
- * cohesive/plane.h.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Laws `camacho-ortiz-standard` and `camacho-ortiz` over lanes: an interface that leaves the flux
+ * at its onset. Include after cohesive/plane.h.
  *
- * At onset T_0 is the traction that was held against the strength, p its effective value, q_0 the jump; then with the opening
- * d = q - q_0, d_e = sqrt(max(0, d_n)^2 + (beta_c d_t)^2), delta_c = 2 G_c/p, D the largest d_e/delta_c so far, at most 1
- *   f = (1 - D)/d_e loading, (1 - D)/(D delta_c) on the secant                                          (cohesive.18)
- *   standard:  T_n = p f d_n,            T_t = p f beta_c^2 d_t                                        (cohesive.19)
- *   paper's:   T_n = max(0, T_0n) f d_n, T_t = |T_0t| f beta_c d_t                                     (cohesive.20)
- *   closed, d_n < 0:  T_n = k_n d_n, broken or not; an interface that shears under pressure starts from d_n = T_0n/k_n
- * T = T_0 while nothing has opened. Energies: stored T.d/2, dissipated G_c D (of the paper's law on mixed paths less: its
- * residual shows it). Friction as that of `nitsche`, beside the law, on d_t; T_0 is then less what friction carries at onset. */
+ * At onset T_0 is the traction that was held against the strength, p its effective value, q_0 the
+ * jump; then with the opening d = q - q_0, d_e = sqrt(max(0, d_n)^2 + (beta_c d_t)^2), delta_c = 2
+ * G_c/p, D the largest d_e/delta_c so far, at most 1 f = (1 - D)/d_e loading, (1 - D)/(D delta_c)
+ * on the secant                                          (cohesive.18) standard:  T_n = p f d_n,
+ * T_t = p f beta_c^2 d_t                                        (cohesive.19) paper's:   T_n =
+ * max(0, T_0n) f d_n, T_t = |T_0t| f beta_c d_t                                     (cohesive.20)
+ *   closed, d_n < 0:  T_n = k_n d_n, broken or not; an interface that shears under pressure starts
+ * from d_n = T_0n/k_n T = T_0 while nothing has opened. Energies: stored T.d/2, dissipated G_c D
+ * (of the paper's law on mixed paths less: its residual shows it). Friction as that of `nitsche`,
+ * beside the law, on d_t; T_0 is then less what friction carries at onset. */
 #define plane_extrinsic LANES_NAME(fracas_plane_extrinsic)
 #define plane_extrinsic_state LANES_NAME(fracas_plane_extrinsic_state)
 
@@ -20,7 +23,8 @@ typedef struct {
 } plane_extrinsic_state;
 
 /* `standard`: which of the two. */
-LANES_FUNCTION plane_result plane_extrinsic(const plane_interface *at, const plane_input *in, int standard, int friction,
+LANES_FUNCTION plane_result plane_extrinsic(const plane_interface *at, const plane_input *in,
+                                            int standard, int friction,
                                             plane_extrinsic_state *state)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5);
@@ -35,7 +39,8 @@ LANES_FUNCTION plane_result plane_extrinsic(const plane_interface *at, const pla
     r.cracks = lanes_and(lanes_lt(at->sigma_c * at->sigma_c, judged), lanes_le(state->peak, zero));
     r.cracked = lanes_or(was_cracked, r.cracks);
     state->peak = lanes_select(r.cracks, lanes_sqrt(judged), state->peak);
-    state->q_n = lanes_select(r.cracks, in->q_n - plane_min(judged_n, zero) * at->softness_n, state->q_n);
+    state->q_n = lanes_select(r.cracks, in->q_n - plane_min(judged_n, zero) * at->softness_n,
+                              state->q_n);
     state->q_t = lanes_select(r.cracks, in->q_t, state->q_t);
     state->t_n = lanes_select(r.cracks, plane_max(judged_n, zero), state->t_n);
     /* an onset under pressure has friction at its limit; the law starts with the rest, beta_c p */
@@ -52,7 +57,9 @@ LANES_FUNCTION plane_result plane_extrinsic(const plane_interface *at, const pla
     vd reached = state->damage * delta_c;
     vmask loading = lanes_lt(reached, opening), opened = lanes_or(loading, lanes_lt(zero, reached));
     vd damage = lanes_select(loading, plane_min(opening / delta_c, one), state->damage);
-    vd factor = (one - damage) / lanes_select(loading, opening, lanes_select(opened, reached, one)); /* (cohesive.18) */
+    vd factor = (one - damage) /
+                lanes_select(loading, opening,
+                             lanes_select(opened, reached, one)); /* (cohesive.18) */
     vd amplitude_n = standard ? p : state->t_n;
     vd amplitude_t = at->beta_c * (standard ? p * at->beta_c : plane_abs(state->t_t));
     vd open_n = lanes_select(opened, amplitude_n * factor * pull, state->t_n);
@@ -64,7 +71,8 @@ LANES_FUNCTION plane_result plane_extrinsic(const plane_interface *at, const pla
         vd limit = at->mu_c * (zero - at->k_n * push);
         rub = plane_max(zero - limit, plane_min(limit, at->k_t * (d_t - state->slip)));
         vd slip = d_t - rub * at->softness_t;
-        r.rubbed = lanes_select(was_cracked, half * (state->rub + rub) * (slip - state->slip), zero);
+        r.rubbed = lanes_select(was_cracked, half * (state->rub + rub) * (slip - state->slip),
+                                zero);
         state->slip = lanes_select(r.cracked, slip, zero);
         state->rub = lanes_select(r.cracked, rub, zero);
     }
@@ -74,7 +82,8 @@ LANES_FUNCTION plane_result plane_extrinsic(const plane_interface *at, const pla
     vmask broken = lanes_and(r.cracked, lanes_le(one, damage));
     r.breaks = lanes_and(broken, lanes_lt(state->damage, one));
     /* the flux is left with the energy it had */
-    vd left = in->q_n * (in->m_n + half * at->k_n * in->q_n) + in->q_t * (in->m_t + half * at->k_t * in->q_t);
+    vd left = in->q_n * (in->m_n + half * at->k_n * in->q_n) +
+              in->q_t * (in->m_t + half * at->k_t * in->q_t);
     r.created = lanes_select(r.cracks, r.stored - left, zero);
     state->damage = lanes_select(r.cracked, damage, state->damage);
     r.dissipated = energy * state->damage;

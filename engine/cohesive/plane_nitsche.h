@@ -1,16 +1,18 @@
-/* Law `nitsche` for opening and sliding: the crack's opening in series with the flux. Include after cohesive/plane.h.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Law `nitsche` for opening and sliding: the crack's opening in series with the flux. Include after
+ * cohesive/plane.h.
  *
- *   trial T' = m + k q (unbroken), k q (broken); S' its effective traction                            (cohesive.12)
- *   at onset p = sigma_c (by the flux), max(sigma_c, S' - (S_m - sigma_c)) (by the mean, effective value S_m),
- *   p <= sqrt(k_n G_c)                                                                                  (cohesive.13)
- *   loading, S' - p > D x, x = k_n delta_c - p:  D = min(1, (S' - p)/x), T = T' p (1 - D)/S'            (cohesive.14)
- *   else on the secant                           T = T' p (1 - D)/(p + D x)
+ *   trial T' = m + k q (unbroken), k q (broken); S' its effective traction (cohesive.12) at onset p
+ * = sigma_c (by the flux), max(sigma_c, S' - (S_m - sigma_c)) (by the mean, effective value S_m),
+ *   p <= sqrt(k_n G_c) (cohesive.13) loading, S' - p > D x, x = k_n delta_c - p:  D = min(1, (S' -
+ * p)/x), T = T' p (1 - D)/S'            (cohesive.14) else on the secant T = T' p (1 - D)/(p + D x)
  *   a pressure T'_n < 0 is kept whole; once broken T_n = k_n min(0, q_n), T_t = 0
- *   s = q - delta = (T - m)/k (unbroken), 0 (broken)                                                    (cohesive.15)
- *   energies of the flux s (m + T)/2, stored T (q - s)/2, dissipated G_c D                              (cohesive.16)
- * Where the peak is cut, k_n delta_c = 2 p, the traction falls at the onset: what energy goes with it counts as created.
- * With mu_c > 0 faces that press on each other carry friction F beside: |F| <= mu_c |T_n|, T_t = T_cohesive + F, where the
- * opening delta_t moves only while |F| is at its limit                                                 (cohesive.17) */
+ *   s = q - delta = (T - m)/k (unbroken), 0 (broken) (cohesive.15) energies of the flux s (m +
+ * T)/2, stored T (q - s)/2, dissipated G_c D                              (cohesive.16) Where the
+ * peak is cut, k_n delta_c = 2 p, the traction falls at the onset: what energy goes with it counts
+ * as created. With mu_c > 0 faces that press on each other carry friction F beside: |F| <= mu_c
+ * |T_n|, T_t = T_cohesive + F, where the opening delta_t moves only while |F| is at its limit
+ * (cohesive.17) */
 #define plane_nitsche LANES_NAME(fracas_plane_nitsche)
 #define plane_nitsche_state LANES_NAME(fracas_plane_nitsche_state)
 #define plane_friction LANES_NAME(fracas_plane_friction)
@@ -31,39 +33,50 @@ typedef struct {
 } plane_friction;
 
 /* (cohesive.17) */
-LANES_FUNCTION plane_friction plane_rub(const plane_interface *at, vd trial_n, vd trial_t, const plane_nitsche_state *state)
+LANES_FUNCTION plane_friction plane_rub(const plane_interface *at, vd trial_n, vd trial_t,
+                                        const plane_nitsche_state *state)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0);
-    vd energy = plane_energy(at, state->peak), span = state->damage * (energy + energy); /* D delta_c p */
+    vd energy = plane_energy(at, state->peak),
+       span = state->damage * (energy + energy); /* D delta_c p */
     vmask softened = lanes_lt(zero, span);
     vd held = trial_t - at->k_t * state->slip;
-    vd secant = at->beta_c * at->beta_c * state->peak * state->peak * (one - state->damage) / lanes_select(softened, span, one);
+    vd secant = at->beta_c * at->beta_c * state->peak * state->peak * (one - state->damage) /
+                lanes_select(softened, span, one);
     vd reach = at->beta_c * state->peak; /* a rigid law carries up to this */
-    vd carried = lanes_select(softened, secant * state->slip, plane_max(zero - reach, plane_min(reach, held)));
+    vd carried = lanes_select(softened, secant * state->slip,
+                              plane_max(zero - reach, plane_min(reach, held)));
     vd limit = at->mu_c * plane_max(zero, zero - trial_n), rest = held - carried;
     vmask sticks = lanes_and(lanes_lt(trial_n, zero), lanes_le(plane_abs(rest), limit));
     vd rub = lanes_select(lanes_lt(rest, zero), zero - limit, limit);
-    return (plane_friction){.shear = trial_t - rub, .rub = rub, .sticks = sticks, .held = held, .carried = carried};
+    return (plane_friction){
+        .shear = trial_t - rub, .rub = rub, .sticks = sticks, .held = held, .carried = carried};
 }
 
-LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane_input *in, int friction,
-                                          plane_nitsche_state *state)
+LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane_input *in,
+                                          int friction, plane_nitsche_state *state)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5);
-    const vmask was_broken = lanes_le(one, state->damage), was_cracked = lanes_lt(zero, state->peak);
-    const vd m_n = lanes_select(was_broken, zero, in->m_n), m_t = lanes_select(was_broken, zero, in->m_t);
-    const vd trial_n = m_n + at->k_n * in->q_n, trial_t = m_t + at->k_t * in->q_t; /* (cohesive.12) */
+    const vmask was_broken = lanes_le(one, state->damage),
+                was_cracked = lanes_lt(zero, state->peak);
+    const vd m_n = lanes_select(was_broken, zero, in->m_n),
+             m_t = lanes_select(was_broken, zero, in->m_t);
+    const vd trial_n = m_n + at->k_n * in->q_n,
+             trial_t = m_t + at->k_t * in->q_t; /* (cohesive.12) */
 
     plane_result r;
-    vd judged = at->onset_mean ? lanes_select(in->opened, plane_onset(at, trial_n, trial_t), plane_onset(at, in->m_n, in->m_t))
+    vd judged = at->onset_mean ? lanes_select(in->opened, plane_onset(at, trial_n, trial_t),
+                                              plane_onset(at, in->m_n, in->m_t))
                                : plane_onset(at, trial_n, trial_t);
     r.cracks = lanes_and(lanes_lt(at->sigma_c * at->sigma_c, judged), lanes_le(state->peak, zero));
     r.cracked = lanes_or(was_cracked, r.cracks);
     vd peak = state->peak, fresh = at->sigma_c, most = at->sigma_c;
     if (lanes_any(r.cracks)) { /* (cohesive.13) */
-        /* S_m - sigma_c: the step is late by that; beside an open layer the flux may have been above for long: all of it is the peak */
+        /* S_m - sigma_c: the step is late by that; beside an open layer the flux may have been
+         * above for long: all of it is the peak */
         const vd passed = lanes_select(in->opened, zero, lanes_sqrt(judged) - at->sigma_c);
-        if (at->onset_mean) fresh = plane_max(lanes_sqrt(plane_onset(at, trial_n, trial_t)) - passed, fresh);
+        if (at->onset_mean)
+            fresh = plane_max(lanes_sqrt(plane_onset(at, trial_n, trial_t)) - passed, fresh);
         most = lanes_sqrt(at->k_n * at->energy) + half * (at->k_n * at->opening);
         peak = lanes_select(r.cracks, plane_min(fresh, most), peak);
     }
@@ -75,13 +88,15 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
     vd x = (energy + energy) * at->k_n / p - p;
     vd excess = effective - p, reached = state->damage * x;
     vmask loading = lanes_lt(reached, excess);
-    vd ratio = lanes_select(loading, excess, p * (one - state->damage)) / lanes_select(loading, x, p + reached);
+    vd ratio = lanes_select(loading, excess, p * (one - state->damage)) /
+               lanes_select(loading, x, p + reached);
     vd damage = lanes_select(loading, plane_min(ratio, one), state->damage);
     if (friction) damage = lanes_select(rub.sticks, state->damage, damage);
     vd factor = lanes_select(loading, p * (one - damage) / effective, ratio); /* (cohesive.14) */
     r.t_n = lanes_select(lanes_lt(zero, trial_n), trial_n * factor, trial_n);
     r.t_t = rub.shear * factor + rub.rub;
-    vd midway = lanes_select(loading, p * (one - half * (state->damage + damage)) / effective, ratio);
+    vd midway = lanes_select(loading, p * (one - half * (state->damage + damage)) / effective,
+                             ratio);
     r.midway_n = lanes_select(lanes_lt(zero, trial_n), trial_n * midway, trial_n);
     r.midway_t = rub.shear * midway + rub.rub;
     r.spent = energy * (damage - state->damage);
@@ -97,7 +112,9 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
     r.flux = half * (r.s_n * (m_n + r.t_n) + r.s_t * (m_t + r.t_t));
     r.stored = half * (r.t_n * (in->q_n - r.s_n) + (r.t_t - rub.rub) * slip);
     /* at its onset friction acts in full already */
-    r.rubbed = friction ? half * (lanes_select(r.cracks, rub.rub, state->rub) + rub.rub) * (slip - state->slip) : zero;
+    r.rubbed = friction ? half * (lanes_select(r.cracks, rub.rub, state->rub) + rub.rub) *
+                              (slip - state->slip)
+                        : zero;
     /* a peak that is cut: the traction falls at the onset, and with it the energy */
     vd whole = half * (in->q_n * (m_n + trial_n) + in->q_t * (m_t + trial_t));
     vd fallen = r.flux + r.stored + energy * damage + r.rubbed - whole;

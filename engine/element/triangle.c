@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/element/triangle.h"
 
 /* (membrane.1) */
@@ -11,7 +12,8 @@ void fracas_triangle_shape(int order, double xi, double eta, double *value, doub
         if (order == 2) value[3 + k] = 4 * l[k] * l[next];
         for (int i = 0; i < 2; i++) {
             derivative[k][i] = order == 1 ? slope[k][i] : (4 * l[k] - 1) * slope[k][i];
-            if (order == 2) derivative[3 + k][i] = 4 * (l[k] * slope[next][i] + l[next] * slope[k][i]);
+            if (order == 2)
+                derivative[3 + k][i] = 4 * (l[k] * slope[next][i] + l[next] * slope[k][i]);
         }
     }
 }

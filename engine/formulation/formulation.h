@@ -1,7 +1,8 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A formulation: bulk and interface kernels of one kind of body, behind one table of functions.
  *
- * The solver owns clocks, ledger, stop rules and histories; a formulation owns the state of its degrees of
- * freedom and advances it by one step of central difference for all lanes. */
+ * The solver owns clocks, ledger, stop rules and histories; a formulation owns the state of its
+ * degrees of freedom and advances it by one step of central difference for all lanes. */
 #ifndef FRACAS_ENGINE_FORMULATION_FORMULATION_H
 #define FRACAS_ENGINE_FORMULATION_FORMULATION_H
 
@@ -16,38 +17,46 @@ struct fracas_model {
     const fracas_formulation *formulation;
     fracas_spec spec;
     size_t elements, interfaces;
-    size_t strengths;     /* of an interface: 1 unless model_init says more */
-    double mass;          /* kg */
+    size_t strengths;             /* of an interface: 1 unless model_init says more */
+    double mass;                  /* kg */
     double element_size, longest; /* m: mean and largest length h of an element */
-    double *table;        /* of the formulation's own: what its mesh is at; freed with the model */
-    const struct fracas_surface *surface; /* mesh of a surface; NULL of a chain; destroyed with the model */
-    void *plan;           /* of the formulation's own, freed by plan_destroy */
-    double critical_closed, critical_cracked; /* s: all interfaces uncracked; all broken and in contact */
+    double *table; /* of the formulation's own: what its mesh is at; freed with the model */
+    const struct fracas_surface
+        *surface; /* mesh of a surface; NULL of a chain; destroyed with the model */
+    void *plan;   /* of the formulation's own, freed by plan_destroy */
+    double critical_closed,
+        critical_cracked; /* s: all interfaces uncracked; all broken and in contact */
     double critical_step; /* s, the smaller of the two */
     double time_step;     /* s */
 };
 
 /* One step of a batch, and what the lanes have accumulated. Arrays are [lane]. */
 typedef struct {
-    int width;           /* lanes of the batch: 1, 4, 8 */
-    int lanes;           /* lanes of one kernel: what a register holds; the batch is width/lanes such groups */
+    int width; /* lanes of the batch: 1, 4, 8 */
+    int lanes; /* lanes of one kernel: what a register holds; the batch is width/lanes such groups
+                */
     fracas_isa isa;
-    double *state;       /* owned by the batch, laid out by the formulation, group after group */
+    double *state; /* owned by the batch, laid out by the formulation, group after group */
     fracas_partition partition; /* room for it: of one lane at a time, found anew for each use */
-    double *onset_time;  /* [interface][lane], s; NULL unless interfaces are kept */
-    double *break_time;  /* the same */
-    /* in: time of the step, the time step that led to it (0 in the first), and the one that velocities are advanced by */
+    double *onset_time;         /* [interface][lane], s; NULL unless interfaces are kept */
+    double *break_time;         /* the same */
+    /* in: time of the step, the time step that led to it (0 in the first), and the one that
+     * velocities are advanced by */
     _Alignas(64) double time[FRACAS_MAX_LANES], drift[FRACAS_MAX_LANES], kick[FRACAS_MAX_LANES];
     /* in, out: the time step that will follow: the model's, unless the formulation refines it */
     double next[FRACAS_MAX_LANES];
-    /* out: energies [J] at that time; what the load does: as power then [W], or as work since the step before [J] */
+    /* out: energies [J] at that time; what the load does: as power then [W], or as work since the
+     * step before [J] */
     double kinetic[FRACAS_MAX_LANES], elastic[FRACAS_MAX_LANES], cohesive[FRACAS_MAX_LANES];
     double dissipated[FRACAS_MAX_LANES], power[FRACAS_MAX_LANES], work[FRACAS_MAX_LANES];
-    /* out: part of dissipated that went into opening by bending [J]; a body without bending leaves it 0 */
+    /* out: part of dissipated that went into opening by bending [J]; a body without bending leaves
+     * it 0 */
     double dissipated_bending[FRACAS_MAX_LANES];
-    /* of the formulation's own: power of the drive at the step before, at the velocities after it [W] */
+    /* of the formulation's own: power of the drive at the step before, at the velocities after it
+     * [W] */
     double driven[FRACAS_MAX_LANES];
-    /* accumulated: energy that friction dissipates, and that a break creates [J], counts of interfaces, time of the first onset [s, NaN] */
+    /* accumulated: energy that friction dissipates, and that a break creates [J], counts of
+     * interfaces, time of the first onset [s, NaN] */
     double rubbed[FRACAS_MAX_LANES], created[FRACAS_MAX_LANES], first_onset[FRACAS_MAX_LANES];
     int64_t cracked[FRACAS_MAX_LANES], broken[FRACAS_MAX_LANES];
 } fracas_step;
@@ -66,19 +75,25 @@ struct fracas_formulation {
     /* Doubles that a lane's state takes. */
     size_t (*state_size)(const fracas_model *model);
     /* Where the first strength of a lane is in the state, and the distance to the next. */
-    double *(*strength)(const fracas_model *model, const fracas_step *step, int lane, size_t *stride);
+    double *(*strength)(const fracas_model *model, const fracas_step *step, int lane,
+                        size_t *stride);
     /* Prepares the state of one lane for the first step, its strengths being there. */
     void (*lane_init)(const fracas_model *model, const fracas_step *step, int lane);
     /* Drift, forces, energies, events, kick of all lanes. */
     void (*advance)(const fracas_model *model, fracas_step *step);
     /* Number of fragments of a lane after a step. */
     int64_t (*fragment_count)(const fracas_model *model, fracas_step *step, int lane);
-    /* Fragments, momentum and (if kept) interface rows of one lane after a step, into the record. */
-    fracas_err (*harvest)(const fracas_model *model, fracas_step *step, int lane, fracas_record *record);
+    /* Fragments, momentum and (if kept) interface rows of one lane after a step, into the record.
+     */
+    fracas_err (*harvest)(const fracas_model *model, fracas_step *step, int lane,
+                          fracas_record *record);
 };
 
-extern const fracas_formulation fracas_formulation_bar, fracas_formulation_ring, fracas_formulation_membrane, fracas_formulation_shell;
-extern const fracas_kind *const fracas_chain_models[], *const fracas_surface_models[]; /* of such bodies; then NULL */
-extern const fracas_kind *const fracas_membrane_models[], *const fracas_shell_models[]; /* of surfaces, those; then NULL */
+extern const fracas_formulation fracas_formulation_bar, fracas_formulation_ring,
+    fracas_formulation_membrane, fracas_formulation_shell;
+extern const fracas_kind *const fracas_chain_models[],
+    *const fracas_surface_models[]; /* of such bodies; then NULL */
+extern const fracas_kind *const fracas_membrane_models[],
+    *const fracas_shell_models[]; /* of surfaces, those; then NULL */
 
 #endif

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/fragments/fragments.h"
 
 #include <math.h>
@@ -13,7 +14,8 @@ static double cross(const double a[3], const double b[3], int i)
 static const int row_of[6] = {0, 1, 2, 1, 2, 0}, column_of[6] = {0, 1, 2, 2, 0, 1};
 
 /* Moments of mass. `carried` is sum of M_kl (x_l - origin). */
-static void add_mass(fracas_fragment_sums *sums, double mass, const double x[3], const double carried[3])
+static void add_mass(fracas_fragment_sums *sums, double mass, const double x[3],
+                     const double carried[3])
 {
     double y[3];
     for (int i = 0; i < 3; i++) {
@@ -34,7 +36,8 @@ static void begin_node(fracas_fragment_sums *sums, const double x[3])
 }
 
 /* (fragments.1) */
-void fracas_fragment_sums_add(fracas_fragment_sums *sums, double mass, const double x[3], const double v[3])
+void fracas_fragment_sums_add(fracas_fragment_sums *sums, double mass, const double x[3],
+                              const double v[3])
 {
     double carried[3];
     begin_node(sums, x);
@@ -47,8 +50,8 @@ void fracas_fragment_sums_add(fracas_fragment_sums *sums, double mass, const dou
 }
 
 /* (fragments.1) */
-void fracas_fragment_sums_add_coupled(fracas_fragment_sums *sums, double mass, const double x[3], const double carried[3],
-                                      const double momentum[3])
+void fracas_fragment_sums_add_coupled(fracas_fragment_sums *sums, double mass, const double x[3],
+                                      const double carried[3], const double momentum[3])
 {
     double from_origin[3];
     begin_node(sums, x);
@@ -64,7 +67,8 @@ void fracas_fragment_sums_add_coupled(fracas_fragment_sums *sums, double mass, c
 
 enum { SWEEPS = 10 }; /* each squares what is left beside the diagonal: six are enough for 3 x 3 */
 
-/* Jacobi's rotations: leaves the eigenvalues of the symmetric matrix a on its diagonal, their directions in the columns of axis. */
+/* Jacobi's rotations: leaves the eigenvalues of the symmetric matrix a on its diagonal, their
+ * directions in the columns of axis. */
 static void find_axes(double a[3][3], double axis[3][3])
 {
     for (int i = 0; i < 9; i++) axis[i / 3][i % 3] = i % 4 == 0;
@@ -91,19 +95,22 @@ static void find_axes(double a[3][3], double axis[3][3])
 }
 
 /* Inertia about the centre of mass [kg m2]  (fragments.3) */
-static void inertia_of(const fracas_fragment_sums *sums, const double centre[3], double inertia[3][3])
+static void inertia_of(const fracas_fragment_sums *sums, const double centre[3],
+                       double inertia[3][3])
 {
     double second[6], arm[3];
     for (int i = 0; i < 3; i++) arm[i] = centre[i] - sums->origin[i];
-    for (int s = 0; s < 6; s++) second[s] = sums->second[s] - sums->mass * arm[row_of[s]] * arm[column_of[s]];
+    for (int s = 0; s < 6; s++)
+        second[s] = sums->second[s] - sums->mass * arm[row_of[s]] * arm[column_of[s]];
     for (int s = 0; s < 6; s++) {
         const int i = row_of[s], j = column_of[s];
-        inertia[i][j] = inertia[j][i] = i == j ? second[(i + 1) % 3] + second[(i + 2) % 3] : -second[s];
+        inertia[i][j] = inertia[j][i] = i == j ? second[(i + 1) % 3] + second[(i + 2) % 3]
+                                               : -second[s];
     }
 }
 
-/* Of an inertia that is 0, sums leave some 1e-16 of the largest, times the root of the number of nodes, and places rounded to
- * 1e-16 |X| leave 1e-32 m X.X. */
+/* Of an inertia that is 0, sums leave some 1e-16 of the largest, times the root of the number of
+ * nodes, and places rounded to 1e-16 |X| leave 1e-32 m X.X. */
 static const double no_inertia = 1e-12;
 
 /* (fragments.4) */
@@ -128,17 +135,22 @@ static void find_spin(const fracas_fragment_sums *sums, fracas_fragment *f)
 /* (fragments.2) */
 static fracas_fragment fragment_of(const fracas_fragment_sums *sums, int64_t dust)
 {
-    fracas_fragment f = {.mass = sums->mass, .size = sums->size, .elements = sums->elements, .dust = sums->elements <= dust};
+    fracas_fragment f = {.mass = sums->mass,
+                         .size = sums->size,
+                         .elements = sums->elements,
+                         .dust = sums->elements <= dust};
     for (int i = 0; i < 3; i++) {
         f.position[i] = sums->first[i] / sums->mass;
         f.velocity[i] = sums->momentum[i] / sums->mass;
     }
-    for (int i = 0; i < 3; i++) f.angular_momentum[i] = sums->moment[i] - f.mass * cross(f.position, f.velocity, i);
+    for (int i = 0; i < 3; i++)
+        f.angular_momentum[i] = sums->moment[i] - f.mass * cross(f.position, f.velocity, i);
     find_spin(sums, &f);
     return f;
 }
 
-fracas_err fracas_fragments_take(const fracas_fragment_sums *sums, size_t count, int64_t dust, fracas_record *record)
+fracas_err fracas_fragments_take(const fracas_fragment_sums *sums, size_t count, int64_t dust,
+                                 fracas_record *record)
 {
     record->fragment = malloc((count ? count : 1) * sizeof *record->fragment);
     if (!record->fragment) return fracas_no_memory("the fragments of a realization");

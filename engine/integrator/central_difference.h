@@ -1,4 +1,6 @@
-/* Central difference (Newmark beta = 0, gamma = 1/2) in leapfrog form, over lanes. Include after base/lanes.h.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Central difference (Newmark beta = 0, gamma = 1/2) in leapfrog form, over lanes. Include after
+ * base/lanes.h.
  *
  *   w_n = w_{n-1} + dt v_{n-1/2}                   (bar.9)
  *   v_{n+1/2} = v_{n-1/2} + dt f(w_n)/m            (bar.10)
@@ -7,6 +9,12 @@
 #define central_drift LANES_NAME(fracas_central_drift)
 #define central_kick LANES_NAME(fracas_central_kick)
 
-LANES_FUNCTION vd central_drift(vd w, vd v, vd dt) { return w + dt * v; }
+LANES_FUNCTION vd central_drift(vd w, vd v, vd dt)
+{
+    return w + dt * v;
+}
 /* `dt_over_m` = dt/m. */
-LANES_FUNCTION vd central_kick(vd v, vd force, vd dt_over_m) { return v + dt_over_m * force; }
+LANES_FUNCTION vd central_kick(vd v, vd force, vd dt_over_m)
+{
+    return v + dt_over_m * force;
+}

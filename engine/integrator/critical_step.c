@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/integrator/critical_step.h"
 
 #include <math.h>
@@ -5,8 +6,8 @@
 #include <string.h>
 
 /* (bar.16) */
-fracas_err fracas_power_iteration(fracas_operator *apply, const void *context, size_t n, double *start,
-                                  double *omega_squared)
+fracas_err fracas_power_iteration(fracas_operator *apply, const void *context, size_t n,
+                                  double *start, double *omega_squared)
 {
     enum { LIMIT = 2000, CALM = 20 };
     double *image = malloc(n * sizeof *image);

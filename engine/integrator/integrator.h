@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Schemes of time integration and mass matrices that a campaign file can name. */
 #ifndef FRACAS_ENGINE_INTEGRATOR_INTEGRATOR_H
 #define FRACAS_ENGINE_INTEGRATOR_INTEGRATOR_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/integrator/lanczos.h"
 
 #include <math.h>
@@ -15,7 +16,8 @@ typedef struct {
 static int all_below(const tridiagonal *t, double x)
 {
     double pivot = t->diagonal[0] - x;
-    for (int j = 1; j < t->size && pivot < 0; j++) pivot = t->diagonal[j] - x - t->off[j - 1] * t->off[j - 1] / pivot;
+    for (int j = 1; j < t->size && pivot < 0; j++)
+        pivot = t->diagonal[j] - x - t->off[j - 1] * t->off[j - 1] / pivot;
     return pivot < 0;
 }
 
@@ -41,7 +43,9 @@ static double last_component(const tridiagonal *t, double x)
 {
     double after = 0, here = 1, sum = 1;
     for (int j = t->size - 1; j > 0; j--) {
-        const double before = -((t->diagonal[j] - x) * here + (j + 1 < t->size ? t->off[j] : 0) * after) / t->off[j - 1];
+        const double before = -((t->diagonal[j] - x) * here +
+                                (j + 1 < t->size ? t->off[j] : 0) * after) /
+                              t->off[j - 1];
         after = here;
         here = before;
         sum += here * here;
@@ -57,8 +61,10 @@ static double dot(const double *a, const double *b, size_t n)
     return sum;
 }
 
-/* One step: v (unit) and the one before to the next, w in place of the one before. Returns the norm of the next. */
-static double advance(const fracas_lanczos_problem *p, const double *v, double *w, double *scratch, double before, double *diagonal)
+/* One step: v (unit) and the one before to the next, w in place of the one before. Returns the norm
+ * of the next. */
+static double advance(const fracas_lanczos_problem *p, const double *v, double *w, double *scratch,
+                      double before, double *diagonal)
 {
     const size_t n = p->n;
     p->apply(p->context, v, scratch);

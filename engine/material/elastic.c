@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/material/elastic.h"
 
 #include "engine/formulation/formulation.h"
@@ -7,10 +8,14 @@ static const fracas_param elastic[] = {
      offsetof(fracas_material, young)},
     {"density", FRACAS_REAL, "kg/m3", "mass density rho", FRACAS_REQUIRED, 0, INFINITY, true,
      offsetof(fracas_material, density)},
-    {"poisson", FRACAS_REAL, "1", "Poisson's ratio nu", FRACAS_REQUIRED, 0, 0.49, false, offsetof(fracas_material, poisson),
-     .only = fracas_surface_models},
+    {"poisson", FRACAS_REAL, "1", "Poisson's ratio nu", FRACAS_REQUIRED, 0, 0.49, false,
+     offsetof(fracas_material, poisson), .only = fracas_surface_models},
 };
 const fracas_section fracas_material_section = {
-    .name = "material", .doc = "Linear elastic material", .params = elastic, .nparams = FRACAS_COUNT(elastic),
-    .offset = offsetof(fracas_spec, material), .hashed = true,
+    .name = "material",
+    .doc = "Linear elastic material",
+    .params = elastic,
+    .nparams = FRACAS_COUNT(elastic),
+    .offset = offsetof(fracas_spec, material),
+    .hashed = true,
 };

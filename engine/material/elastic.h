@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Linear elastic material. */
 #ifndef FRACAS_ENGINE_MATERIAL_ELASTIC_H
 #define FRACAS_ENGINE_MATERIAL_ELASTIC_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/mesh/make.h"
 
 #include "engine/mesh/body.h"
@@ -6,16 +7,16 @@
 bool fracas_spec_is_surface(const fracas_spec *spec)
 {
     const fracas_kind *shape = spec->geometry.shape;
-    return shape == &fracas_shape_plate || shape == &fracas_shape_annulus || shape == &fracas_shape_sphere ||
-           shape == &fracas_shape_file;
+    return shape == &fracas_shape_plate || shape == &fracas_shape_annulus ||
+           shape == &fracas_shape_sphere || shape == &fracas_shape_file;
 }
 
 static fracas_err check_spacing(const fracas_spec *spec)
 {
     const bool from_file = spec->geometry.shape == &fracas_shape_file;
     if (from_file == (spec->mesh.spacing == &fracas_spacing_given)) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "geometry.shape is %s, and mesh.spacing %s: %s", spec->geometry.shape->name,
-                       spec->mesh.spacing->name,
+    return fracas_fail(FRACAS_USAGE, "geometry.shape is %s, and mesh.spacing %s: %s",
+                       spec->geometry.shape->name, spec->mesh.spacing->name,
                        from_file ? "write `spacing: given`, as the file has the elements"
                                  : "write `spacing: triangles` with size or divisions");
 }
@@ -26,24 +27,32 @@ fracas_err fracas_mesh_make(const fracas_spec *spec, const fracas_surface **surf
     const fracas_mesh *mesh = &spec->mesh;
     TRY(check_spacing(spec));
     if (geometry->shape == &fracas_shape_file) {
-        fracas_err err = fracas_surface_read_gmsh(geometry->file->text, geometry->file->size, surface);
+        fracas_err err = fracas_surface_read_gmsh(geometry->file->text, geometry->file->size,
+                                                  surface);
         return err ? fracas_fail_within(err, "mesh file %s", geometry->file->path) : FRACAS_OK;
     }
     const fracas_surface_fineness fineness = {
-        .size = mesh->size, .divisions = (size_t)mesh->divisions, .order = (int)mesh->order,
-        .amplitude = mesh->noise ? mesh->amplitude : 0.0, .shift = (const double(*)[2])(const void *)mesh->noise,
+        .size = mesh->size,
+        .divisions = (size_t)mesh->divisions,
+        .order = (int)mesh->order,
+        .amplitude = mesh->noise ? mesh->amplitude : 0.0,
+        .shift = (const double(*)[2])(const void *)mesh->noise,
         .nshifts = mesh->nnoise / 2};
-    if (geometry->shape == &fracas_shape_plate) return fracas_surface_rectangle(geometry->width, geometry->height, &fineness, surface);
-    if (geometry->shape == &fracas_shape_annulus) return fracas_surface_annulus(geometry->inner, geometry->outer, &fineness, surface);
-    return geometry->part == &fracas_part_octant ? fracas_surface_octant(geometry->radius, &fineness, surface)
-                                                 : fracas_surface_sphere(geometry->radius, &fineness, surface);
+    if (geometry->shape == &fracas_shape_plate)
+        return fracas_surface_rectangle(geometry->width, geometry->height, &fineness, surface);
+    if (geometry->shape == &fracas_shape_annulus)
+        return fracas_surface_annulus(geometry->inner, geometry->outer, &fineness, surface);
+    return geometry->part == &fracas_part_octant
+               ? fracas_surface_octant(geometry->radius, &fineness, surface)
+               : fracas_surface_sphere(geometry->radius, &fineness, surface);
 }
 
 fracas_err fracas_mesh_noise_count(const fracas_spec *spec, size_t *count)
 {
     *count = 0;
     if (spec->mesh.spacing == &fracas_spacing_perturbed) *count = (size_t)spec->mesh.elements + 1;
-    if (spec->mesh.spacing != &fracas_spacing_triangles || !(spec->mesh.amplitude > 0)) return FRACAS_OK;
+    if (spec->mesh.spacing != &fracas_spacing_triangles || !(spec->mesh.amplitude > 0))
+        return FRACAS_OK;
     fracas_spec regular = *spec;
     const fracas_surface *surface;
     regular.mesh.noise = NULL;
@@ -57,15 +66,18 @@ static double mean_area(const fracas_surface *surface)
 {
     double area = 0;
     for (size_t i = 0; i < surface->ninterfaces; i++)
-        for (int side = 0; side < 2; side++) area += fracas_surface_area(surface, surface->interface[i].element[side]);
-    return surface->ninterfaces ? area / 3 / (double)surface->ninterfaces : fracas_surface_area(surface, 0);
+        for (int side = 0; side < 2; side++)
+            area += fracas_surface_area(surface, surface->interface[i].element[side]);
+    return surface->ninterfaces ? area / 3 / (double)surface->ninterfaces
+                                : fracas_surface_area(surface, 0);
 }
 
 static double mean_length(const fracas_surface *surface)
 {
     double length = 0;
     for (size_t i = 0; i < surface->ninterfaces; i++)
-        length += fracas_surface_length(surface, surface->interface[i].element[0], surface->interface[i].edge[0]);
+        length += fracas_surface_length(surface, surface->interface[i].element[0],
+                                        surface->interface[i].edge[0]);
     return surface->ninterfaces ? length / (double)surface->ninterfaces : 0;
 }
 

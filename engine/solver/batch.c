@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/solver/batch.h"
 
 #include <math.h>
@@ -6,10 +7,13 @@
 static fracas_err choose_width(size_t count, int wanted, int *width)
 {
     if (count < 1 || count > FRACAS_MAX_LANES)
-        return fracas_fail(FRACAS_USAGE, "a batch of %zu realizations; 1 to %d fit", count, FRACAS_MAX_LANES);
+        return fracas_fail(FRACAS_USAGE, "a batch of %zu realizations; 1 to %d fit", count,
+                           FRACAS_MAX_LANES);
     *width = wanted ? wanted : count > 4 ? 8 : count > 1 ? 4 : 1;
     if ((*width != 1 && *width != 4 && *width != 8) || (size_t)*width < count)
-        return fracas_fail(FRACAS_USAGE, "%d lanes for %zu realizations; lanes are 1, 4 or 8 and no fewer", *width, count);
+        return fracas_fail(FRACAS_USAGE,
+                           "%d lanes for %zu realizations; lanes are 1, 4 or 8 and no fewer",
+                           *width, count);
     return FRACAS_OK;
 }
 
@@ -27,8 +31,8 @@ static void *allocate(size_t doubles)
     return aligned_alloc(64, bytes ? bytes : 64);
 }
 
-fracas_err fracas_batch_create(const fracas_model *model, size_t count, const fracas_batch_options *options,
-                               fracas_batch **out)
+fracas_err fracas_batch_create(const fracas_model *model, size_t count,
+                               const fracas_batch_options *options, fracas_batch **out)
 {
     int width = 0;
     fracas_isa isa;
@@ -36,16 +40,21 @@ fracas_err fracas_batch_create(const fracas_model *model, size_t count, const fr
     TRY(fracas_isa_choose(options->isa, &isa));
     fracas_batch *batch = aligned_alloc(64, (sizeof *batch + 63) / 64 * 64);
     if (!batch) return fracas_no_memory("a batch");
-    *batch = (fracas_batch){.model = model, .count = count, .step = {.width = width, .lanes = lanes_of(isa, width), .isa = isa}};
+    *batch = (fracas_batch){.model = model,
+                            .count = count,
+                            .step = {.width = width, .lanes = lanes_of(isa, width), .isa = isa}};
     const size_t lanes = (size_t)width;
-    bool enough = (batch->step.state = allocate(model->formulation->state_size(model) * lanes)) != NULL;
+    bool enough = (batch->step.state = allocate(model->formulation->state_size(model) * lanes)) !=
+                  NULL;
     if (options->interfaces) {
         enough = (batch->step.onset_time = allocate(model->interfaces * lanes)) != NULL && enough;
         enough = (batch->step.break_time = allocate(model->interfaces * lanes)) != NULL && enough;
     }
     enough = !fracas_partition_init(&batch->step.partition, model->elements) && enough;
     for (size_t l = 0; l < lanes; l++)
-        enough = !fracas_history_init(&batch->lane[l].history, options->history, model->spec.time.end) && enough;
+        enough = !fracas_history_init(&batch->lane[l].history, options->history,
+                                      model->spec.time.end) &&
+                 enough;
     if (!enough) {
         fracas_batch_destroy(batch);
         return fracas_no_memory("a batch");
@@ -82,7 +91,9 @@ fracas_err fracas_batch_begin(fracas_batch *batch)
         for (size_t k = 0; k < strengths; k++) {
             if (l >= batch->count) strength[k * stride] = first[k * stride];
             fracas_err code = fracas_model_check_strength(model, strength[k * stride]);
-            if (code) return fracas_fail_within(code, "realization %zu of the batch, interface %zu", l, k / model->strengths);
+            if (code)
+                return fracas_fail_within(code, "realization %zu of the batch, interface %zu", l,
+                                          k / model->strengths);
         }
         model->formulation->lane_init(model, step, (int)l);
         step->first_onset[l] = NAN;
@@ -95,16 +106,28 @@ fracas_err fracas_batch_begin(fracas_batch *batch)
 }
 
 /* The record of a lane that is over. */
-static fracas_err finish_lane(fracas_batch *batch, size_t l, fracas_outcome outcome, fracas_record *record)
+static fracas_err finish_lane(fracas_batch *batch, size_t l, fracas_outcome outcome,
+                              fracas_record *record)
 {
     const fracas_lane *lane = &batch->lane[l];
     const fracas_ledger *ledger = &lane->ledger;
-    *record = (fracas_record){
-        .outcome = outcome, .broken = batch->step.broken[l], .cracked = batch->step.cracked[l], .steps = batch->steps,
-        .onset_time = batch->step.first_onset[l], .end_time = batch->step.time[l], .time_step = batch->model->time_step,
-        .mass = batch->model->mass, .kinetic = ledger->kinetic, .elastic = ledger->elastic, .cohesive = ledger->cohesive,
-        .dissipated = ledger->dissipated, .dissipated_bending = ledger->dissipated_bending, .created = ledger->created,
-        .work = ledger->work, .residual = ledger->largest_residual, .residual_end = ledger->residual};
+    *record = (fracas_record){.outcome = outcome,
+                              .broken = batch->step.broken[l],
+                              .cracked = batch->step.cracked[l],
+                              .steps = batch->steps,
+                              .onset_time = batch->step.first_onset[l],
+                              .end_time = batch->step.time[l],
+                              .time_step = batch->model->time_step,
+                              .mass = batch->model->mass,
+                              .kinetic = ledger->kinetic,
+                              .elastic = ledger->elastic,
+                              .cohesive = ledger->cohesive,
+                              .dissipated = ledger->dissipated,
+                              .dissipated_bending = ledger->dissipated_bending,
+                              .created = ledger->created,
+                              .work = ledger->work,
+                              .residual = ledger->largest_residual,
+                              .residual_end = ledger->residual};
     TRY(fracas_history_harvest(&lane->history, record));
     return batch->model->formulation->harvest(batch->model, &batch->step, (int)l, record);
 }
@@ -115,7 +138,8 @@ static int64_t count_fragments(fracas_batch *batch, size_t l)
     fracas_lane *lane = &batch->lane[l];
     if (lane->counted == batch->step.broken[l]) return lane->fragments;
     lane->counted = batch->step.broken[l];
-    return lane->fragments = batch->model->formulation->fragment_count(batch->model, &batch->step, (int)l);
+    return lane->fragments = batch->model->formulation->fragment_count(batch->model, &batch->step,
+                                                                       (int)l);
 }
 
 /* True when the lane is over. */
@@ -124,8 +148,11 @@ static bool is_over(fracas_batch *batch, size_t l, fracas_outcome *outcome)
     fracas_lane *lane = &batch->lane[l];
     const fracas_step *step = &batch->step;
     const fracas_ledger *ledger = &lane->ledger;
-    const fracas_progress progress = {.time = step->time[l], .elastic = ledger->elastic,
-                                      .dissipated = ledger->dissipated, .cracked = step->cracked[l], .broken = step->broken[l]};
+    const fracas_progress progress = {.time = step->time[l],
+                                      .elastic = ledger->elastic,
+                                      .dissipated = ledger->dissipated,
+                                      .cracked = step->cracked[l],
+                                      .broken = step->broken[l]};
     *outcome = isfinite(ledger->residual) ? FRACAS_ENERGY_DRIFT : FRACAS_NONFINITE;
     return !isfinite(ledger->residual) || fracas_ledger_drifts(ledger, batch->steps) ||
            fracas_stop_check(&lane->stop, &batch->model->spec.time, &progress, outcome);
@@ -140,12 +167,19 @@ static fracas_err observe_lane(fracas_batch *batch, size_t l, fracas_record *rec
     const bool cracked = step->cracked[l] > 0;
     fracas_outcome outcome;
     fracas_ledger_update(ledger, step, (int)l, batch->steps == 0);
-    fracas_history_row row = {
-        .time = step->time[l], .kinetic = ledger->kinetic, .elastic = ledger->elastic, .cohesive = ledger->cohesive,
-        .dissipated = ledger->dissipated, .dissipated_bending = ledger->dissipated_bending, .created = ledger->created,
-        .work = ledger->work, .residual = ledger->residual, .broken = step->broken[l]};
+    fracas_history_row row = {.time = step->time[l],
+                              .kinetic = ledger->kinetic,
+                              .elastic = ledger->elastic,
+                              .cohesive = ledger->cohesive,
+                              .dissipated = ledger->dissipated,
+                              .dissipated_bending = ledger->dissipated_bending,
+                              .created = ledger->created,
+                              .work = ledger->work,
+                              .residual = ledger->residual,
+                              .broken = step->broken[l]};
     lane->running = !is_over(batch, l, &outcome);
-    if (!lane->running || fracas_history_keeps(&lane->history, &row, cracked)) row.fragments = count_fragments(batch, l);
+    if (!lane->running || fracas_history_keeps(&lane->history, &row, cracked))
+        row.fragments = count_fragments(batch, l);
     fracas_history_observe(&lane->history, batch->steps, &row, cracked);
     return lane->running ? FRACAS_OK : finish_lane(batch, l, outcome, record);
 }

@@ -1,5 +1,6 @@
-/* A batch step by step: what fracas_batch_run is made of, for the verification tests and benchmarks, which look at the
- * state between steps. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A batch step by step: what fracas_batch_run is made of, for the verification tests and
+ * benchmarks, which look at the state between steps. */
 #ifndef FRACAS_ENGINE_SOLVER_BATCH_H
 #define FRACAS_ENGINE_SOLVER_BATCH_H
 
@@ -12,10 +13,11 @@ typedef struct {
     fracas_ledger ledger;
     fracas_history history;
     fracas_stop stop;
-    double pace;         /* s, time step of the last steps ... */
-    double since;        /* s, ... since this time ... */
-    int64_t paces;       /* ... and how many: time = since + paces pace, without the round-off of a sum */
-    int64_t counted, fragments; /* number of fragments when `counted` interfaces were broken; -1: not counted yet */
+    double pace;   /* s, time step of the last steps ... */
+    double since;  /* s, ... since this time ... */
+    int64_t paces; /* ... and how many: time = since + paces pace, without the round-off of a sum */
+    int64_t counted, fragments; /* number of fragments when `counted` interfaces were broken; -1:
+                                   not counted yet */
     bool running;
 } fracas_lane;
 
@@ -27,11 +29,13 @@ struct fracas_batch {
     fracas_lane lane[FRACAS_MAX_LANES];
 };
 
-/* Checks the strengths and prepares every lane; then the state may be changed, before the first step. */
+/* Checks the strengths and prepares every lane; then the state may be changed, before the first
+ * step. */
 FRACAS_MUST_USE fracas_err fracas_batch_begin(fracas_batch *batch);
 
-/* Advances all lanes by one step and brings ledgers, histories and stop rules up to date; a lane that is over leaves its
- * record and runs no further. *running: lanes left. */
-FRACAS_MUST_USE fracas_err fracas_batch_step(fracas_batch *batch, fracas_record *record, size_t *running);
+/* Advances all lanes by one step and brings ledgers, histories and stop rules up to date; a lane
+ * that is over leaves its record and runs no further. *running: lanes left. */
+FRACAS_MUST_USE fracas_err fracas_batch_step(fracas_batch *batch, fracas_record *record,
+                                             size_t *running);
 
 #endif

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/solver/history.h"
 
 #include <math.h>
@@ -6,8 +7,12 @@
 
 fracas_err fracas_history_init(fracas_history *history, int64_t intervals, double end)
 {
-    *history = (fracas_history){.intervals = intervals, .end = end, .peak = -INFINITY,
-                                .onset.step = -1, .highest.step = -1, .last.step = -1};
+    *history = (fracas_history){.intervals = intervals,
+                                .end = end,
+                                .peak = -INFINITY,
+                                .onset.step = -1,
+                                .highest.step = -1,
+                                .last.step = -1};
     history->entry = malloc(((size_t)intervals + 1) * sizeof *history->entry);
     return history->entry ? FRACAS_OK : fracas_no_memory("the history of a realization");
 }
@@ -24,12 +29,15 @@ static bool is_due(const fracas_history *history, double time)
            time >= (double)history->next * history->end / (double)history->intervals;
 }
 
-bool fracas_history_keeps(const fracas_history *history, const fracas_history_row *row, bool cracked)
+bool fracas_history_keeps(const fracas_history *history, const fracas_history_row *row,
+                          bool cracked)
 {
-    return (cracked && !history->cracked) || row->elastic + row->cohesive > history->peak || is_due(history, row->time);
+    return (cracked && !history->cracked) || row->elastic + row->cohesive > history->peak ||
+           is_due(history, row->time);
 }
 
-void fracas_history_observe(fracas_history *history, int64_t step, const fracas_history_row *row, bool cracked)
+void fracas_history_observe(fracas_history *history, int64_t step, const fracas_history_row *row,
+                            bool cracked)
 {
     const fracas_history_entry entry = {step, *row};
     if (cracked && !history->cracked) {
@@ -51,7 +59,8 @@ void fracas_history_observe(fracas_history *history, int64_t step, const fracas_
 
 static int by_step(const void *a, const void *b)
 {
-    int64_t left = ((const fracas_history_entry *)a)->step, right = ((const fracas_history_entry *)b)->step;
+    int64_t left = ((const fracas_history_entry *)a)->step,
+            right = ((const fracas_history_entry *)b)->step;
     return (left > right) - (left < right);
 }
 
@@ -71,7 +80,8 @@ fracas_err fracas_history_harvest(const fracas_history *history, fracas_record *
     qsort(all, count, sizeof *all, by_step); /* equal steps hold equal rows */
     record->nhistory = 0;
     for (size_t i = 0; i < count; i++)
-        if (i == 0 || all[i].step != all[i - 1].step) record->history[record->nhistory++] = all[i].row;
+        if (i == 0 || all[i].step != all[i - 1].step)
+            record->history[record->nhistory++] = all[i].row;
     free(all);
     return FRACAS_OK;
 }

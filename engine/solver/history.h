@@ -1,4 +1,6 @@
-/* The history of one lane: rows at equal intervals of time.end and at first onset, energy peak and end. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The history of one lane: rows at equal intervals of time.end and at first onset, energy peak and
+ * end. */
 #ifndef FRACAS_ENGINE_SOLVER_HISTORY_H
 #define FRACAS_ENGINE_SOLVER_HISTORY_H
 
@@ -14,27 +16,33 @@ typedef struct {
 } fracas_history_entry;
 
 typedef struct {
-    int64_t intervals; /* of time.end; 0: events only */
-    double end;        /* s */
-    int64_t next;      /* interval whose end is waited for */
+    int64_t intervals;           /* of time.end; 0: events only */
+    double end;                  /* s */
+    int64_t next;                /* interval whose end is waited for */
     fracas_history_entry *entry; /* at equal intervals, in order */
     size_t count;
     bool cracked;
-    double peak;       /* J, largest elastic + cohesive so far */
+    double peak; /* J, largest elastic + cohesive so far */
     fracas_history_entry onset, highest, last;
 } fracas_history;
 
-FRACAS_MUST_USE fracas_err fracas_history_init(fracas_history *history, int64_t intervals, double end);
+FRACAS_MUST_USE fracas_err fracas_history_init(fracas_history *history, int64_t intervals,
+                                               double end);
 void fracas_history_clear(fracas_history *history);
 
 /* True if observing this row would keep it for more than the last one. */
-bool fracas_history_keeps(const fracas_history *history, const fracas_history_row *row, bool cracked);
+bool fracas_history_keeps(const fracas_history *history, const fracas_history_row *row,
+                          bool cracked);
 
-/* Shows one step to the history: it is kept if it is the first at or after an interval's end, the first with a crack,
- * or the highest in potential energy so far. `cracked`: some interface has cracked. */
-void fracas_history_observe(fracas_history *history, int64_t step, const fracas_history_row *row, bool cracked);
+/* Shows one step to the history: it is kept if it is the first at or after an interval's end, the
+ * first with a crack, or the highest in potential energy so far. `cracked`: some interface has
+ * cracked. */
+void fracas_history_observe(fracas_history *history, int64_t step, const fracas_history_row *row,
+                            bool cracked);
 
-/* Rows in order of time, each step once, into the record (which owns them); the last step observed is the end. */
-FRACAS_MUST_USE fracas_err fracas_history_harvest(const fracas_history *history, fracas_record *record);
+/* Rows in order of time, each step once, into the record (which owns them); the last step observed
+ * is the end. */
+FRACAS_MUST_USE fracas_err fracas_history_harvest(const fracas_history *history,
+                                                  fracas_record *record);
 
 #endif

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/solver/ledger.h"
 
 #include <math.h>
@@ -17,10 +18,12 @@ void fracas_ledger_update(fracas_ledger *ledger, const fracas_step *step, int la
         ledger->initial = held;
         ledger->work = ledger->largest_residual = 0;
     } else {
-        ledger->work += step->drift[lane] * (0.5 * (before + ledger->power)) + step->work[lane]; /* (bar.13) */
+        ledger->work += step->drift[lane] * (0.5 * (before + ledger->power)) +
+                        step->work[lane]; /* (bar.13) */
     }
     ledger->residual = held - ledger->created - ledger->work - ledger->initial; /* (bar.14) */
-    if (!(fabs(ledger->residual) <= ledger->largest_residual)) ledger->largest_residual = fabs(ledger->residual);
+    if (!(fabs(ledger->residual) <= ledger->largest_residual))
+        ledger->largest_residual = fabs(ledger->residual);
 }
 
 /* (bar.15) */

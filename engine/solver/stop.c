@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/solver/stop.h"
 
 #include "engine/formulation/formulation.h"
@@ -6,61 +7,96 @@
 const fracas_kind fracas_stop_time = {.name = "time", .doc = "at the set time `end`"};
 
 static const fracas_param settled[] = {
-    {"quiet", FRACAS_REAL, "s", "how long nothing may crack or break, and little dissipate, for the body to be settled",
+    {"quiet", FRACAS_REAL, "s",
+     "how long nothing may crack or break, and little dissipate, for the body to be settled",
      FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_time, quiet)},
-    {"quiet_fraction", FRACAS_REAL, "1", "largest share of the dissipated energy that may be added in that time", 1e-3, 0,
-     1, true, offsetof(fracas_time, quiet_fraction)},
+    {"quiet_fraction", FRACAS_REAL, "1",
+     "largest share of the dissipated energy that may be added in that time", 1e-3, 0, 1, true,
+     offsetof(fracas_time, quiet_fraction)},
 };
 const fracas_kind fracas_stop_settled = {
-    .name = "settled", .doc = "once the cracks have settled (armed by the first onset), at `end` at the latest",
-    .params = settled, .nparams = FRACAS_COUNT(settled)};
+    .name = "settled",
+    .doc = "once the cracks have settled (armed by the first onset), at `end` at the latest",
+    .params = settled,
+    .nparams = FRACAS_COUNT(settled)};
 
 static const fracas_param peak_multiple[] = {
-    {"multiple", FRACAS_REAL, "1", "end by the time of the first peak of the elastic energy", 2, 1, INFINITY,
-     false, offsetof(fracas_time, multiple)},
-    {"drop", FRACAS_REAL, "1", "share of its largest value that the elastic energy must have lost for that to be a peak", 0.05, 0, 1,
-     true, offsetof(fracas_time, drop)},
+    {"multiple", FRACAS_REAL, "1", "end by the time of the first peak of the elastic energy", 2, 1,
+     INFINITY, false, offsetof(fracas_time, multiple)},
+    {"drop", FRACAS_REAL, "1",
+     "share of its largest value that the elastic energy must have lost for that to be a peak",
+     0.05, 0, 1, true, offsetof(fracas_time, drop)},
 };
 const fracas_kind fracas_stop_peak_multiple = {
-    .name = "peak-multiple", .doc = "at a multiple of the time of the first peak of the elastic energy, at `end` at the latest",
-    .params = peak_multiple, .nparams = FRACAS_COUNT(peak_multiple)};
+    .name = "peak-multiple",
+    .doc =
+        "at a multiple of the time of the first peak of the elastic energy, at `end` at the latest",
+    .params = peak_multiple,
+    .nparams = FRACAS_COUNT(peak_multiple)};
 
-static const fracas_kind *const stops[] = {&fracas_stop_time, &fracas_stop_settled, &fracas_stop_peak_multiple};
+static const fracas_kind *const stops[] = {&fracas_stop_time, &fracas_stop_settled,
+                                           &fracas_stop_peak_multiple};
 
-static const fracas_kind *const integrators[] = {&fracas_integrator_central_difference, &fracas_integrator_hulbert_chung};
+static const fracas_kind *const integrators[] = {&fracas_integrator_central_difference,
+                                                 &fracas_integrator_hulbert_chung};
 static const fracas_kind *const masses[] = {&fracas_mass_lumped, &fracas_mass_consistent};
 
 static const fracas_param time_params[] = {
-    {"end", FRACAS_REAL, "s", "set time, or the cap of other stop rules", FRACAS_REQUIRED, 0, INFINITY, true,
-     offsetof(fracas_time, end)},
+    {"end", FRACAS_REAL, "s", "set time, or the cap of other stop rules", FRACAS_REQUIRED, 0,
+     INFINITY, true, offsetof(fracas_time, end)},
     {"safety", FRACAS_REAL, "1", "time step as a fraction of the critical one", 0.25, 0, 1, true,
      offsetof(fracas_time, safety)},
-    {.name = "integrator", .type = FRACAS_CHOICE, .unit = "1", .doc = "scheme of time integration", .choices = integrators,
-     .nchoices = FRACAS_COUNT(integrators), .offset = offsetof(fracas_time, integrator), .only = fracas_surface_models},
-    {"spectral_radius", FRACAS_REAL, "1", "of hulbert-chung, at its bifurcation: the less, the more it damps high frequencies; "
-     "central-difference damps nothing", 0.95, 0, 1, false, offsetof(fracas_time, spectral_radius), .only = fracas_surface_models},
-    {.name = "mass", .type = FRACAS_CHOICE, .unit = "1", .doc = "mass matrix of an element", .choices = masses,
-     .nchoices = FRACAS_COUNT(masses), .offset = offsetof(fracas_time, mass), .only = fracas_membrane_models},
+    {.name = "integrator",
+     .type = FRACAS_CHOICE,
+     .unit = "1",
+     .doc = "scheme of time integration",
+     .choices = integrators,
+     .nchoices = FRACAS_COUNT(integrators),
+     .offset = offsetof(fracas_time, integrator),
+     .only = fracas_surface_models},
+    {"spectral_radius", FRACAS_REAL, "1",
+     "of hulbert-chung, at its bifurcation: the less, the more it damps high frequencies; "
+     "central-difference damps nothing",
+     0.95, 0, 1, false, offsetof(fracas_time, spectral_radius), .only = fracas_surface_models},
+    {.name = "mass",
+     .type = FRACAS_CHOICE,
+     .unit = "1",
+     .doc = "mass matrix of an element",
+     .choices = masses,
+     .nchoices = FRACAS_COUNT(masses),
+     .offset = offsetof(fracas_time, mass),
+     .only = fracas_membrane_models},
 };
 static fracas_err check_time(const void *section)
 {
     const fracas_time *time = section;
     if (time->stop == &fracas_stop_settled && time->quiet > time->end)
-        return fracas_fail(FRACAS_USAGE, "quiet is %g s, but end is %g s already: nothing could settle; let quiet be a fraction "
-                           "of end", time->quiet, time->end);
+        return fracas_fail(FRACAS_USAGE,
+                           "quiet is %g s, but end is %g s already: nothing could settle; let "
+                           "quiet be a fraction of end",
+                           time->quiet, time->end);
     return FRACAS_OK;
 }
 
 const fracas_section fracas_time_section = {
-    .name = "time", .doc = "Time integration and its end", .selector = "stop", .kinds = stops,
-    .nkinds = FRACAS_COUNT(stops), .kind_offset = offsetof(fracas_time, stop), .params = time_params,
-    .nparams = FRACAS_COUNT(time_params), .offset = offsetof(fracas_spec, time), .hashed = true, .check = check_time,
+    .name = "time",
+    .doc = "Time integration and its end",
+    .selector = "stop",
+    .kinds = stops,
+    .nkinds = FRACAS_COUNT(stops),
+    .kind_offset = offsetof(fracas_time, stop),
+    .params = time_params,
+    .nparams = FRACAS_COUNT(time_params),
+    .offset = offsetof(fracas_spec, time),
+    .hashed = true,
+    .check = check_time,
 };
 
 static bool is_settled(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now)
 {
     const int64_t events = now->cracked + now->broken;
-    if (events > stop->events || now->dissipated - stop->dissipated > rule->quiet_fraction * now->dissipated) {
+    if (events > stop->events ||
+        now->dissipated - stop->dissipated > rule->quiet_fraction * now->dissipated) {
         stop->time = now->time;
         stop->dissipated = now->dissipated;
         stop->events = events;
@@ -78,7 +114,8 @@ static bool is_past_peak(fracas_stop *stop, const fracas_time *rule, const fraca
     return stop->peaked && now->time >= rule->multiple * stop->peak_time;
 }
 
-bool fracas_stop_check(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now, fracas_outcome *outcome)
+bool fracas_stop_check(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now,
+                       fracas_outcome *outcome)
 {
     *outcome = now->broken > 0 ? FRACAS_FRAGMENTED : FRACAS_INTACT;
     if (rule->stop == &fracas_stop_time) return now->time >= rule->end;

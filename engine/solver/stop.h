@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Stop rules: when a realization is over. */
 #ifndef FRACAS_ENGINE_SOLVER_STOP_H
 #define FRACAS_ENGINE_SOLVER_STOP_H
@@ -26,10 +27,12 @@ typedef struct {
 
 /* Shows one step to the rule. True when the realization is over, then *outcome says how it ended.
  * `time`: over at the first step at or after `end`.
- * `settled`: armed by the first onset; over when for `quiet` seconds no interface cracked or broke and the dissipated
- * energy D grew by at most quiet_fraction D; at `end` at the latest, with TIME_LIMIT if armed.
- * `peak-multiple`: over at `multiple` times the time of the first peak of the elastic energy: a maximum that it has fallen
- * from by more than `drop` of it; at `end` at the latest, with TIME_LIMIT if something has cracked. */
-bool fracas_stop_check(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now, fracas_outcome *outcome);
+ * `settled`: armed by the first onset; over when for `quiet` seconds no interface cracked or broke
+ * and the dissipated energy D grew by at most quiet_fraction D; at `end` at the latest, with
+ * TIME_LIMIT if armed. `peak-multiple`: over at `multiple` times the time of the first peak of the
+ * elastic energy: a maximum that it has fallen from by more than `drop` of it; at `end` at the
+ * latest, with TIME_LIMIT if something has cracked. */
+bool fracas_stop_check(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now,
+                       fracas_outcome *outcome);
 
 #endif

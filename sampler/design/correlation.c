@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sampler/design/correlation.h"
 
 #include "sampler/special/normal.h"
@@ -5,7 +6,8 @@
 #include <math.h>
 
 /* (designs.4) */
-bool fracas_correlation_factor(size_t n, const double *correlation, double *factor, size_t *at, double *rest)
+bool fracas_correlation_factor(size_t n, const double *correlation, double *factor, size_t *at,
+                               double *rest)
 {
     const double least = 1e-9; /* of the variance: less is rounding */
     for (size_t j = 0; j < n; j++) {
@@ -38,6 +40,7 @@ void fracas_correlate(size_t n, const double *factor, double *z, fracas_probabil
             score += factor[j * n + k] * z[k];
             tied = tied || factor[j * n + k] != 0.0;
         }
-        if (tied) p[j] = (fracas_probability){fracas_normal_upper(-score), fracas_normal_upper(score)};
+        if (tied)
+            p[j] = (fracas_probability){fracas_normal_upper(-score), fracas_normal_upper(score)};
     }
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sampler/design/design.h"
 
 #include "sampler/design/correlation.h"
@@ -9,7 +10,8 @@
 
 typedef struct {
     fracas_kind kind; /* first: a design names its type by this */
-    fracas_err (*fill)(const fracas_design *design, fracas_probability *p); /* independent coordinates */
+    fracas_err (*fill)(const fracas_design *design,
+                       fracas_probability *p); /* independent coordinates */
     bool stratified; /* they only give the order of the points in each parameter */
 } design_type;
 
@@ -19,7 +21,10 @@ enum { PLACE, JITTER, SHIFT };
 /* (designs.1) */
 static fracas_stream stream_of(const fracas_design *design, size_t parameter, uint64_t use)
 {
-    return (fracas_stream){.seed = design->seed, .purpose = FRACAS_PURPOSE_DESIGN, .point = {use}, .replica = design->name[parameter]};
+    return (fracas_stream){.seed = design->seed,
+                           .purpose = FRACAS_PURPOSE_DESIGN,
+                           .point = {use},
+                           .replica = design->name[parameter]};
 }
 
 /* ---- random ---- */
@@ -29,17 +34,20 @@ FRACAS_MUST_USE static fracas_err random_fill(const fracas_design *design, fraca
     for (size_t j = 0; j < design->parameters; j++) {
         const fracas_stream stream = stream_of(design, j, PLACE);
         for (size_t i = 0; i < design->points; i++)
-            p[i * design->parameters + j] = fracas_probability_of(fracas_stream_uniform(&stream, i));
+            p[i * design->parameters + j] = fracas_probability_of(
+                fracas_stream_uniform(&stream, i));
     }
     return FRACAS_OK;
 }
 
 static const design_type random_type = {
-    .kind = {.name = "random", .doc = "points at random, each on its own; can be extended by more of them"},
+    .kind = {.name = "random",
+             .doc = "points at random, each on its own; can be extended by more of them"},
     .fill = random_fill,
 };
 
-/* ---- Latin hypercube: a random design whose points are moved, in each parameter, to the stratum of their rank ---- */
+/* ---- Latin hypercube: a random design whose points are moved, in each parameter, to the stratum
+ * of their rank ---- */
 
 typedef struct {
     double u;
@@ -53,7 +61,8 @@ static int by_u(const void *a, const void *b)
     return order ? order : (x->point > y->point) - (x->point < y->point);
 }
 
-/* (designs.2) Both tails by themselves: u may round to 1 in the last stratum, 1 - u is then still right. */
+/* (designs.2) Both tails by themselves: u may round to 1 in the last stratum, 1 - u is then still
+ * right. */
 FRACAS_MUST_USE static fracas_err stratify(const fracas_design *design, fracas_probability *p)
 {
     const size_t n = design->points;
@@ -66,8 +75,8 @@ FRACAS_MUST_USE static fracas_err stratify(const fracas_design *design, fracas_p
         for (size_t rank = 0; rank < n; rank++) {
             const size_t i = order[rank].point;
             const double v = fracas_stream_uniform(&stream, i);
-            p[i * design->parameters + j] =
-                (fracas_probability){((double)rank + v) / (double)n, ((double)(n - 1 - rank) + (1.0 - v)) / (double)n};
+            p[i * design->parameters + j] = (fracas_probability){
+                ((double)rank + v) / (double)n, ((double)(n - 1 - rank) + (1.0 - v)) / (double)n};
         }
     }
     free(order);
@@ -75,14 +84,16 @@ FRACAS_MUST_USE static fracas_err stratify(const fracas_design *design, fracas_p
 }
 
 static const design_type latin_hypercube = {
-    .kind = {.name = "latin-hypercube", .doc = "one point in each of n equally likely strata of every parameter"},
-    .fill = random_fill, .stratified = true,
+    .kind = {.name = "latin-hypercube",
+             .doc = "one point in each of n equally likely strata of every parameter"},
+    .fill = random_fill,
+    .stratified = true,
 };
 
 /* ---- Sobol sequence ---- */
 
-/* (designs.3) The sequence begins with the origin, which GSL leaves out. x is a multiple of 2^-30 and s an odd one of 2^-53, so that
- * u is exact, and neither 0 nor 1. */
+/* (designs.3) The sequence begins with the origin, which GSL leaves out. x is a multiple of 2^-30
+ * and s an odd one of 2^-53, so that u is exact, and neither 0 nor 1. */
 static void shift(const double *x, const double *s, size_t parameters, fracas_probability *p)
 {
     for (size_t j = 0; j < parameters; j++)
@@ -110,13 +121,16 @@ FRACAS_MUST_USE static fracas_err sobol_fill(const fracas_design *design, fracas
 }
 
 static const design_type sobol = {
-    .kind = {.name = "sobol", .doc = "points of a Sobol sequence, shifted at random; even, and can be extended by more of them"},
+    .kind = {.name = "sobol",
+             .doc = "points of a Sobol sequence, shifted at random; even, and can be extended by "
+                    "more of them"},
     .fill = sobol_fill,
 };
 
 /* ---- any ---- */
 
-const fracas_kind *const fracas_design_types[3] = {&latin_hypercube.kind, &sobol.kind, &random_type.kind};
+const fracas_kind *const fracas_design_types[3] = {&latin_hypercube.kind, &sobol.kind,
+                                                   &random_type.kind};
 
 size_t fracas_design_most_parameters(const fracas_kind *type)
 {
@@ -130,9 +144,13 @@ FRACAS_MUST_USE static fracas_err correlate(const fracas_design *design, fracas_
     size_t at;
     if (!room) return fracas_no_memory("the correlation of a design");
     const bool good = fracas_correlation_factor(d, design->correlation, factor, &at, &rest);
-    for (size_t i = 0; i < design->points && good; i++) fracas_correlate(d, factor, room, p + i * d);
+    for (size_t i = 0; i < design->points && good; i++)
+        fracas_correlate(d, factor, room, p + i * d);
     free(room);
-    return good ? FRACAS_OK : fracas_fail(FRACAS_BUG, "a design whose correlation is not positive definite at parameter %zu", at);
+    return good ? FRACAS_OK
+                : fracas_fail(
+                      FRACAS_BUG,
+                      "a design whose correlation is not positive definite at parameter %zu", at);
 }
 
 fracas_err fracas_design_fill(const fracas_design *design, fracas_probability *p)

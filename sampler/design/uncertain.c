@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sampler/design/uncertain.h"
 
 #include "base/elementary.h"
@@ -20,8 +21,10 @@ static void set_defaults(const fracas_param *params, size_t nparams, fracas_stre
             fracas_param_set(&params[i], strength, params[i].fallback);
 }
 
-/* The quantile of a distribution of strengths; what it may have beside these numbers is as where nothing gives it. */
-static double strength_quantile(const fracas_distribution *distribution, const fracas_uncertain *uncertain, fracas_probability p)
+/* The quantile of a distribution of strengths; what it may have beside these numbers is as where
+ * nothing gives it. */
+static double strength_quantile(const fracas_distribution *distribution,
+                                const fracas_uncertain *uncertain, fracas_probability p)
 {
     fracas_strength strength = {.distribution = &distribution->kind};
     set_defaults(fracas_strength_section.params, fracas_strength_section.nparams, &strength);
@@ -54,8 +57,10 @@ static double gamma_quantile(const fracas_uncertain *uncertain, fracas_probabili
 FRACAS_MUST_USE static fracas_err check_bounds(const fracas_uncertain *uncertain)
 {
     if (!(uncertain->minimum >= uncertain->maximum)) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "its minimum is %.15g and its maximum %.15g; the maximum must be the larger: swap them, or give "
-                       "the one value in the section", uncertain->minimum, uncertain->maximum);
+    return fracas_fail(FRACAS_USAGE,
+                       "its minimum is %.15g and its maximum %.15g; the maximum must be the "
+                       "larger: swap them, or give the one value in the section",
+                       uncertain->minimum, uncertain->maximum);
 }
 
 /* (designs.6) */
@@ -73,16 +78,18 @@ static double log_uniform_quantile(const fracas_uncertain *uncertain, fracas_pro
 /* ---- normal, cut where there are bounds ---- */
 
 typedef struct {
-    double below, above, kept; /* probabilities of the law that is not cut: under both bounds, over both, between them */
+    double below, above, kept; /* probabilities of the law that is not cut: under both bounds, over
+                                  both, between them */
 } cut;
 
 static cut cut_of(const fracas_uncertain *uncertain)
 {
     const double a = (uncertain->minimum - uncertain->mean) / uncertain->deviation;
     const double b = (uncertain->maximum - uncertain->mean) / uncertain->deviation;
-    const cut out = {isnan(a) ? 0.0 : fracas_normal_upper(-a), isnan(b) ? 0.0 : fracas_normal_upper(b), 0.0};
+    const cut out = {isnan(a) ? 0.0 : fracas_normal_upper(-a),
+                     isnan(b) ? 0.0 : fracas_normal_upper(b), 0.0};
     /* of the differences that give what lies between, the one that does not cancel */
-    const double kept = a > 0.0 ? fracas_normal_upper(a) - out.above
+    const double kept = a > 0.0   ? fracas_normal_upper(a) - out.above
                         : b < 0.0 ? fracas_normal_upper(-b) - out.below
                                   : 1.0 - out.below - out.above;
     return (cut){out.below, out.above, kept};
@@ -93,25 +100,35 @@ FRACAS_MUST_USE static fracas_err normal_check(const fracas_uncertain *uncertain
     TRY(check_bounds(uncertain));
     const double kept = cut_of(uncertain).kept;
     if (kept >= 1e-9) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "its bounds leave %.3g of the normal distribution; set them nearer to the mean, or use the "
-                       "distribution uniform", kept);
+    return fracas_fail(FRACAS_USAGE,
+                       "its bounds leave %.3g of the normal distribution; set them nearer to the "
+                       "mean, or use the distribution uniform",
+                       kept);
 }
 
 /* (designs.8) */
 static double normal_quantile(const fracas_uncertain *uncertain, fracas_probability p)
 {
     const cut out = cut_of(uncertain);
-    const fracas_probability whole = {out.below + p.below * out.kept, out.above + p.above * out.kept};
+    const fracas_probability whole = {out.below + p.below * out.kept,
+                                      out.above + p.above * out.kept};
     const double value = uncertain->mean + uncertain->deviation * fracas_normal_quantile(whole);
-    return fmin(fmax(value, uncertain->minimum), uncertain->maximum); /* which a bound of NaN leaves as it is */
+    return fmin(fmax(value, uncertain->minimum),
+                uncertain->maximum); /* which a bound of NaN leaves as it is */
 }
 
 /* ---- the tables ---- */
 
-#define NUMBER(key, unit, doc, fallback, minimum, maximum, open) \
-    {#key, FRACAS_REAL, unit, doc, fallback, minimum, maximum, open, offsetof(fracas_uncertain, key)}
-#define BOUND(key, doc) \
-    {#key, FRACAS_REAL, FRACAS_OWN_UNIT, doc, NAN, -INFINITY, INFINITY, false, offsetof(fracas_uncertain, key), .optional = true}
+#define NUMBER(key, unit, doc, fallback, minimum, maximum, open)        \
+    {                                                                   \
+#key, FRACAS_REAL, unit, doc, fallback, minimum, maximum, open, \
+            offsetof(fracas_uncertain, key)                             \
+    }
+#define BOUND(key, doc)                                                           \
+    {                                                                             \
+#key, FRACAS_REAL, FRACAS_OWN_UNIT, doc, NAN, -INFINITY, INFINITY, false, \
+            offsetof(fracas_uncertain, key), .optional = true                     \
+    }
 
 static const fracas_param between[] = {
     NUMBER(minimum, FRACAS_OWN_UNIT, "smallest value", FRACAS_REQUIRED, -INFINITY, INFINITY, false),
@@ -122,8 +139,10 @@ static const fracas_param log_between[] = {
     NUMBER(maximum, FRACAS_OWN_UNIT, "largest value", FRACAS_REQUIRED, 0, INFINITY, true),
 };
 static const fracas_param normal_params[] = {
-    NUMBER(mean, FRACAS_OWN_UNIT, "mean, before it is cut", FRACAS_REQUIRED, -INFINITY, INFINITY, false),
-    NUMBER(deviation, FRACAS_OWN_UNIT, "standard deviation, before it is cut", FRACAS_REQUIRED, 0, INFINITY, true),
+    NUMBER(mean, FRACAS_OWN_UNIT, "mean, before it is cut", FRACAS_REQUIRED, -INFINITY, INFINITY,
+           false),
+    NUMBER(deviation, FRACAS_OWN_UNIT, "standard deviation, before it is cut", FRACAS_REQUIRED, 0,
+           INFINITY, true),
     BOUND(minimum, "values below are cut off"),
     BOUND(maximum, "values above are cut off"),
 };
@@ -137,24 +156,36 @@ static const fracas_param weibull_params[] = {
     NUMBER(shape, "1", "Weibull modulus", FRACAS_REQUIRED, 0.1, 1000, false),
 };
 static const fracas_param gamma_params[] = {
-    NUMBER(scale, FRACAS_OWN_UNIT, "scale: the mean is shape scale", FRACAS_REQUIRED, 0, INFINITY, true),
-    NUMBER(shape, "1", "shape: the coefficient of variation is 1/sqrt(shape)", FRACAS_REQUIRED, 0.1, 1e6, false),
+    NUMBER(scale, FRACAS_OWN_UNIT, "scale: the mean is shape scale", FRACAS_REQUIRED, 0, INFINITY,
+           true),
+    NUMBER(shape, "1", "shape: the coefficient of variation is 1/sqrt(shape)", FRACAS_REQUIRED, 0.1,
+           1e6, false),
 };
 
 #define LAW(name, text, doc, params, quantile, check) \
     static const law name = {{text, doc, params, FRACAS_COUNT(params), NULL, 0}, quantile, check}
-LAW(uniform, "uniform", "all values between two bounds equally likely", between, uniform_quantile, check_bounds);
-LAW(log_uniform, "log-uniform", "logarithm uniform between two bounds", log_between, log_uniform_quantile, check_bounds);
-LAW(normal, "normal", "normal; of both signs, unless it is cut", normal_params, normal_quantile, normal_check);
-LAW(lognormal, "lognormal", "logarithm normal: median exp(sigma z)", lognormal_params, lognormal_quantile, NULL);
-LAW(weibull, "weibull", "Weibull, with two or three parameters", weibull_params, weibull_quantile, NULL);
-LAW(gamma_law, "gamma", "gamma: mean shape scale, variance shape scale^2", gamma_params, gamma_quantile, NULL);
+LAW(uniform, "uniform", "all values between two bounds equally likely", between, uniform_quantile,
+    check_bounds);
+LAW(log_uniform, "log-uniform", "logarithm uniform between two bounds", log_between,
+    log_uniform_quantile, check_bounds);
+LAW(normal, "normal", "normal; of both signs, unless it is cut", normal_params, normal_quantile,
+    normal_check);
+LAW(lognormal, "lognormal", "logarithm normal: median exp(sigma z)", lognormal_params,
+    lognormal_quantile, NULL);
+LAW(weibull, "weibull", "Weibull, with two or three parameters", weibull_params, weibull_quantile,
+    NULL);
+LAW(gamma_law, "gamma", "gamma: mean shape scale, variance shape scale^2", gamma_params,
+    gamma_quantile, NULL);
 
-static const fracas_kind *const laws[] = {&uniform.kind, &log_uniform.kind, &normal.kind, &lognormal.kind, &weibull.kind,
-                                          &gamma_law.kind};
+static const fracas_kind *const laws[] = {&uniform.kind,   &log_uniform.kind, &normal.kind,
+                                          &lognormal.kind, &weibull.kind,     &gamma_law.kind};
 
 const fracas_section fracas_uncertain_section = {
-    .name = "parameters", .doc = "What is not known exactly", .selector = "distribution", .kinds = laws, .nkinds = FRACAS_COUNT(laws),
+    .name = "parameters",
+    .doc = "What is not known exactly",
+    .selector = "distribution",
+    .kinds = laws,
+    .nkinds = FRACAS_COUNT(laws),
     .kind_offset = offsetof(fracas_uncertain, law),
 };
 

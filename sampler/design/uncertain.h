@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parameters that are not known exactly: the laws of their values. */
 #ifndef FRACAS_SAMPLER_UNCERTAIN_H
 #define FRACAS_SAMPLER_UNCERTAIN_H
@@ -8,7 +9,8 @@
 
 #define FRACAS_OWN_UNIT "its own" /* in the tables of laws: the unit of the parameter */
 
-/* A law uses the members that its table names; `minimum` and `maximum` are NaN where a normal law is not cut. */
+/* A law uses the members that its table names; `minimum` and `maximum` are NaN where a normal law
+ * is not cut. */
 typedef struct {
     const fracas_kind *law;
     double minimum, maximum;

@@ -1,4 +1,6 @@
-/* The quantiles of blocks. Include with LANES and ISA, the last word of the functions' names, defined. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The quantiles of blocks. Include with LANES and ISA, the last word of the functions' names,
+ * defined. */
 #include "sampler/distribution/blocks.h"
 
 #include "base/lanes.h"
@@ -12,10 +14,12 @@
 #define BLOCK(name) BLOCK_JOIN(name, ISA)
 
 /* (sampling.4) */
-void BLOCK(fracas_uniform)(const fracas_strength *strength, size_t n, const double *u, double *sigma_c)
+void BLOCK(fracas_uniform)(const fracas_strength *strength, size_t n, const double *u,
+                           double *sigma_c)
 {
     const double minimum = strength->minimum, range = strength->maximum - strength->minimum;
-    for (size_t i = 0; i < n; i += LANES) lanes_store(sigma_c + i, minimum + range * lanes_load(u + i));
+    for (size_t i = 0; i < n; i += LANES)
+        lanes_store(sigma_c + i, minimum + range * lanes_load(u + i));
 }
 
 /* (lanes.3) 1 - u is exact for a number of a stream. */
@@ -25,7 +29,8 @@ LANES_FUNCTION vd exponential_quantile(vd u)
 }
 
 /* (sampling.5) */
-void BLOCK(fracas_weibull)(const fracas_strength *strength, size_t n, const double *u, double *sigma_c)
+void BLOCK(fracas_weibull)(const fracas_strength *strength, size_t n, const double *u,
+                           double *sigma_c)
 {
     const double minimum = strength->minimum, scale = strength->scale, shape = strength->shape;
     for (size_t i = 0; i < n; i += LANES) {
@@ -49,7 +54,8 @@ static double normal_quantile_of(double u)
     return fracas_normal_quantile(fracas_probability_of(u));
 }
 
-/* (lanes.4) The tails are worked out only where one of the lanes is in them, far tails (r > 5) one lane after the other. */
+/* (lanes.4) The tails are worked out only where one of the lanes is in them, far tails (r > 5) one
+ * lane after the other. */
 LANES_FUNCTION vd normal_quantile(vd u)
 {
     const vd half = lanes_set(0.5), middle = lanes_set(0.425);
@@ -65,7 +71,8 @@ LANES_FUNCTION vd normal_quantile(vd u)
 }
 
 /* (sampling.7) */
-void BLOCK(fracas_lognormal)(const fracas_strength *strength, size_t n, const double *u, double *sigma_c)
+void BLOCK(fracas_lognormal)(const fracas_strength *strength, size_t n, const double *u,
+                             double *sigma_c)
 {
     const double median = strength->median, sigma = strength->sigma;
     for (size_t i = 0; i < n; i += LANES)

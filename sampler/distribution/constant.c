@@ -1,7 +1,9 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One strength for every interface. */
 #include "sampler/distribution/distribution.h"
 
-static double constant_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
+static double constant_quantile(const fracas_strength *strength, fracas_extent extent,
+                                fracas_probability p)
 {
     (void)extent;
     (void)p;
@@ -19,7 +21,10 @@ static const fracas_param params[] = {
      offsetof(fracas_strength, value)},
 };
 const fracas_distribution fracas_constant = {
-    .kind = {.name = "constant", .doc = "the same strength for every interface", .params = params,
+    .kind = {.name = "constant",
+             .doc = "the same strength for every interface",
+             .params = params,
              .nparams = FRACAS_COUNT(params)},
-    .quantile = constant_quantile, .moments = constant_moments,
+    .quantile = constant_quantile,
+    .moments = constant_moments,
 };

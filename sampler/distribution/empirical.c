@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Measured strengths, or a table of their distribution function, from a file. */
 #include "sampler/distribution/distribution.h"
 
@@ -16,7 +17,8 @@ struct fracas_table {
     double *below;    /* [n] in 0 ... 1; the last is 1 */
 };
 
-static const fracas_kind linear = {.name = "linear", .doc = "distribution function linear between the strengths"};
+static const fracas_kind linear = {.name = "linear",
+                                   .doc = "distribution function linear between the strengths"};
 static const fracas_kind steps = {.name = "steps", .doc = "only the strengths of the file occur"};
 static const fracas_kind *const interpolations[] = {&linear, &steps};
 
@@ -29,8 +31,9 @@ typedef struct {
 
 static fracas_err refuse(const fracas_lines *lines, const char *found, const char *expected)
 {
-    return fracas_fail(FRACAS_USAGE, "%s:%" PRId64 ": found %s%s%s; expected %s", lines->file->path, lines->line,
-                       *found ? "`" : "no text there", found, *found ? "`" : "", expected);
+    return fracas_fail(FRACAS_USAGE, "%s:%" PRId64 ": found %s%s%s; expected %s", lines->file->path,
+                       lines->line, *found ? "`" : "no text there", found, *found ? "`" : "",
+                       expected);
 }
 
 /* The next line; *found is false at the end of the file. */
@@ -45,13 +48,16 @@ FRACAS_MUST_USE static fracas_err next_row(fracas_lines *lines, row *next, bool 
         if (!*found) return FRACAS_OK;
         fracas_lines_field(lines, field);
     }
-    if (fracas_number_read(field, &next->strength) || !(next->strength > 0.0 && next->strength < INFINITY))
+    if (fracas_number_read(field, &next->strength) ||
+        !(next->strength > 0.0 && next->strength < INFINITY))
         return refuse(lines, field, "a strength in Pa, a number greater than 0, without a unit");
     next->below = NAN;
     if (lines->start == lines->stop) return FRACAS_OK;
     fracas_lines_field(lines, field);
     if (fracas_number_read(field, &next->below) || !(next->below >= 0.0 && next->below <= 1.0))
-        return refuse(lines, field, "a probability from 0 to 1, of strengths up to the one before it, or a strength in Pa alone, without a unit");
+        return refuse(lines, field,
+                      "a probability from 0 to 1, of strengths up to the one before it, or a "
+                      "strength in Pa alone, without a unit");
     if (lines->start == lines->stop) return FRACAS_OK;
     fracas_lines_field(lines, field);
     return refuse(lines, field, "the end of the line: a strength, or a strength and a probability");
@@ -68,34 +74,45 @@ static fracas_err spread(const fracas_strength *strength, struct fracas_table *t
 {
     const bool is_linear = strength->interpolation != &steps;
     if (is_linear && table->n < 2)
-        return fracas_fail(FRACAS_USAGE, "%s has one strength; a linear distribution function needs two: give more, or take interpolation: "
-                                         "steps", strength->file->path);
+        return fracas_fail(FRACAS_USAGE,
+                           "%s has one strength; a linear distribution function needs two: give "
+                           "more, or take interpolation: steps",
+                           strength->file->path);
     qsort(table->strength, table->n, sizeof *table->strength, ascending);
     for (size_t k = 0; k < table->n; k++)
-        table->below[k] = is_linear ? (double)k / (double)(table->n - 1) : (double)(k + 1) / (double)table->n;
+        table->below[k] = is_linear ? (double)k / (double)(table->n - 1)
+                                    : (double)(k + 1) / (double)table->n;
     return FRACAS_OK;
 }
 
 /* A row of a table must go on from the one before it. */
-static fracas_err check_row(const fracas_strength *strength, const struct fracas_table *table, const fracas_lines *lines, const row *next)
+static fracas_err check_row(const fracas_strength *strength, const struct fracas_table *table,
+                            const fracas_lines *lines, const row *next)
 {
     char found[FRACAS_FIELD];
     const size_t k = table->n;
     const bool is_pair = !isnan(next->below);
     if (k == 0 && is_pair && strength->interpolation != &steps && next->below > 0.0) {
         snprintf(found, sizeof found, "%.15g", next->below);
-        return refuse(lines, found, "the probability 0: the table begins with the strength that nothing is below");
+        return refuse(
+            lines, found,
+            "the probability 0: the table begins with the strength that nothing is below");
     }
     if (k == 0) return FRACAS_OK;
     if (isnan(table->below[k - 1]) != !is_pair)
-        return refuse(lines, is_pair ? "two numbers" : "one number", "as many as on the lines before");
-    if (!is_pair || (next->strength > table->strength[k - 1] && next->below >= table->below[k - 1])) return FRACAS_OK;
+        return refuse(lines, is_pair ? "two numbers" : "one number",
+                      "as many as on the lines before");
+    if (!is_pair || (next->strength > table->strength[k - 1] && next->below >= table->below[k - 1]))
+        return FRACAS_OK;
     const bool weaker = !(next->strength > table->strength[k - 1]);
     snprintf(found, sizeof found, "%.15g", weaker ? next->strength : next->below);
-    return refuse(lines, found, weaker ? "a strength above that of the line before" : "a probability not below that of the line before");
+    return refuse(lines, found,
+                  weaker ? "a strength above that of the line before"
+                         : "a probability not below that of the line before");
 }
 
-FRACAS_MUST_USE static fracas_err read_rows(const fracas_strength *strength, struct fracas_table *table)
+FRACAS_MUST_USE static fracas_err read_rows(const fracas_strength *strength,
+                                            struct fracas_table *table)
 {
     fracas_lines lines = fracas_lines_begin(strength->file);
     row next;
@@ -107,12 +124,15 @@ FRACAS_MUST_USE static fracas_err read_rows(const fracas_strength *strength, str
         table->below[table->n] = next.below;
     }
     if (table->n == 0)
-        return fracas_fail(FRACAS_USAGE, "%s has no strength; expected one in Pa on each line", strength->file->path);
+        return fracas_fail(FRACAS_USAGE, "%s has no strength; expected one in Pa on each line",
+                           strength->file->path);
     const double last = table->below[table->n - 1];
     if (isnan(last)) return spread(strength, table);
     if (last == 1.0) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "%s ends with the probability %.15g; expected 1 on the last line: the table ends with the strength "
-                                     "that nothing is above", strength->file->path, last);
+    return fracas_fail(FRACAS_USAGE,
+                       "%s ends with the probability %.15g; expected 1 on the last line: the table "
+                       "ends with the strength that nothing is above",
+                       strength->file->path, last);
 }
 
 static void table_free(struct fracas_table *table)
@@ -130,7 +150,8 @@ FRACAS_MUST_USE static fracas_err empirical_init(fracas_strength *strength)
     if (!table) return fracas_no_memory("the strengths of a file");
     table->strength = malloc(most * sizeof *table->strength);
     table->below = malloc(most * sizeof *table->below);
-    fracas_err err = table->strength && table->below ? read_rows(strength, table) : fracas_no_memory("the strengths of a file");
+    fracas_err err = table->strength && table->below ? read_rows(strength, table)
+                                                     : fracas_no_memory("the strengths of a file");
     if (err) table_free(table);
     else strength->table = table;
     return err;
@@ -144,7 +165,8 @@ static void empirical_clear(fracas_strength *strength)
 /* ---- the law ---- */
 
 /* (laws.17) From the nearer end, so that both tails are exact. */
-static double empirical_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
+static double empirical_quantile(const fracas_strength *strength, fracas_extent extent,
+                                 fracas_probability p)
 {
     (void)extent;
     const struct fracas_table *table = strength->table;
@@ -163,19 +185,22 @@ static double empirical_quantile(const fracas_strength *strength, fracas_extent 
     return x[after] - range * ((p.above - (1.0 - f[after])) / width);
 }
 
-/* (1 - x)^power, 0 <= x <= 1 and power > 0: a body of many specimens raises what 1 - x loses to a high power. */
+/* (1 - x)^power, 0 <= x <= 1 and power > 0: a body of many specimens raises what 1 - x loses to a
+ * high power. */
 static double survival(double x, double power)
 {
     return x < 1.0 ? fracas_exp(power * fracas_log1p(-x)) : 0.0;
 }
 
-/* (laws.18) integral_0^1 (1 - delta y)^power dy and the same of y (1 - delta y)^power, 0 <= delta <= 1. */
+/* (laws.18) integral_0^1 (1 - delta y)^power dy and the same of y (1 - delta y)^power, 0 <= delta
+ * <= 1. */
 static void decay(double delta, double power, double *plain, double *first)
 {
     if (delta * fmax(power, 1.0) >= 0.5) {
         const double end = survival(delta, power + 1.0);
         *plain = (1.0 - end) / ((power + 1.0) * delta);
-        *first = ((1.0 - end * (1.0 - delta)) / ((power + 2.0) * delta) - end) / ((power + 1.0) * delta);
+        *first = ((1.0 - end * (1.0 - delta)) / ((power + 2.0) * delta) - end) /
+                 ((power + 1.0) * delta);
         return;
     }
     double term = 1.0;
@@ -188,7 +213,8 @@ static void decay(double delta, double power, double *plain, double *first)
     }
 }
 
-/* (laws.18) mean = x_1 + sum of range integral S^size, variance = (x_1 - mean)^2 + 2 sum of integral (s - mean) S^size ds. */
+/* (laws.18) mean = x_1 + sum of range integral S^size, variance = (x_1 - mean)^2 + 2 sum of
+ * integral (s - mean) S^size ds. */
 static fracas_moments linear_moments(const struct fracas_table *table, double size)
 {
     const double *x = table->strength;
@@ -228,7 +254,8 @@ static fracas_moments steps_moments(const struct fracas_table *table, double siz
 
 static fracas_moments empirical_weakest(const fracas_strength *strength, double size)
 {
-    return strength->interpolation == &steps ? steps_moments(strength->table, size) : linear_moments(strength->table, size);
+    return strength->interpolation == &steps ? steps_moments(strength->table, size)
+                                             : linear_moments(strength->table, size);
 }
 
 static fracas_moments empirical_moments(const fracas_strength *strength, fracas_extent extent)
@@ -238,16 +265,31 @@ static fracas_moments empirical_moments(const fracas_strength *strength, fracas_
 }
 
 static const fracas_param params[] = {
-    {.name = "file", .type = FRACAS_ATTACHMENT, .unit = "1",
-     .doc = "text with one number a line, measured strengths in Pa in any order, or two, a strength in Pa and the probability of strengths "
-            "up to it; headings in the first line, empty lines and lines that start with # are skipped",
-     .fallback = FRACAS_REQUIRED, .offset = offsetof(fracas_strength, file)},
-    {.name = "interpolation", .type = FRACAS_CHOICE, .unit = "1", .doc = "what lies between two strengths of the file",
-     .choices = interpolations, .nchoices = FRACAS_COUNT(interpolations), .offset = offsetof(fracas_strength, interpolation)},
+    {.name = "file",
+     .type = FRACAS_ATTACHMENT,
+     .unit = "1",
+     .doc = "text with one number a line, measured strengths in Pa in any order, or two, a "
+            "strength in Pa and the probability of strengths up to it; headings in the first line, "
+            "empty lines and lines that start with # are skipped",
+     .fallback = FRACAS_REQUIRED,
+     .offset = offsetof(fracas_strength, file)},
+    {.name = "interpolation",
+     .type = FRACAS_CHOICE,
+     .unit = "1",
+     .doc = "what lies between two strengths of the file",
+     .choices = interpolations,
+     .nchoices = FRACAS_COUNT(interpolations),
+     .offset = offsetof(fracas_strength, interpolation)},
 };
 const fracas_distribution fracas_empirical = {
-    .kind = {.name = "empirical", .doc = "drawn from measured strengths, or from a table of their distribution function", .params = params,
+    .kind = {.name = "empirical",
+             .doc = "drawn from measured strengths, or from a table of their distribution function",
+             .params = params,
              .nparams = FRACAS_COUNT(params)},
-    .quantile = empirical_quantile, .moments = empirical_moments, .init = empirical_init, .clear = empirical_clear, .takes_reference = true,
+    .quantile = empirical_quantile,
+    .moments = empirical_moments,
+    .init = empirical_init,
+    .clear = empirical_clear,
+    .takes_reference = true,
     .weakest = empirical_weakest,
 };

@@ -1,13 +1,17 @@
-/* Flaws scattered in the body at random; an interface is as strong as the weakest of them in its volume. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Flaws scattered in the body at random; an interface is as strong as the weakest of them in its
+ * volume. */
 #include "sampler/distribution/distribution.h"
 
 #include "base/elementary.h"
 #include "sampler/special/exponential.h"
 #include "sampler/special/incomplete_gamma.h"
 
-/* (sampling.21) The share of flaws that is weaker, -ln(1 - u)/(mean number of flaws), and the strength it has; a share
- * of 1 or more means that there is no flaw. As a power of the share, so that the minimum is added last. */
-static double flaws_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
+/* (sampling.21) The share of flaws that is weaker, -ln(1 - u)/(mean number of flaws), and the
+ * strength it has; a share of 1 or more means that there is no flaw. As a power of the share, so
+ * that the minimum is added last. */
+static double flaws_quantile(const fracas_strength *strength, fracas_extent extent,
+                             fracas_probability p)
 {
     double share = fracas_exponential_quantile(p) / (strength->density * extent.volume);
     if (share >= 1.0) return strength->maximum;
@@ -18,33 +22,45 @@ static double flaws_quantile(const fracas_strength *strength, fracas_extent exte
 /* (sampling.22), (laws.8) */
 static fracas_moments flaws_moments(const fracas_strength *strength, fracas_extent extent)
 {
-    const double range = strength->maximum - strength->minimum, mu = strength->density * extent.volume;
+    const double range = strength->maximum - strength->minimum,
+                 mu = strength->density * extent.volume;
     const double first = fracas_stretched_exponential(mu, strength->exponent);
     const double second = fracas_stretched_exponential(mu, 0.5 * strength->exponent);
-    return (fracas_moments){strength->minimum + range * first, range * sqrt(fmax(second - first * first, 0.0))};
+    return (fracas_moments){strength->minimum + range * first,
+                            range * sqrt(fmax(second - first * first, 0.0))};
 }
 
 FRACAS_MUST_USE static fracas_err flaws_init(fracas_strength *strength)
 {
     if (strength->minimum < strength->maximum) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE,
-                       "strength.minimum is %.15g Pa and strength.maximum %.15g Pa; the maximum, the strength without "
-                       "a flaw, must be the larger: swap them, or use the distribution constant",
-                       strength->minimum, strength->maximum);
+    return fracas_fail(
+        FRACAS_USAGE,
+        "strength.minimum is %.15g Pa and strength.maximum %.15g Pa; the maximum, the strength "
+        "without a flaw, must be the larger: swap them, or use the distribution constant",
+        strength->minimum, strength->maximum);
 }
 
 static const fracas_param params[] = {
-    {"flaw_density", FRACAS_REAL, "1/m3", "mean number of flaws per volume of the body", FRACAS_REQUIRED, 0, INFINITY, true,
-     offsetof(fracas_strength, density)},
+    {"flaw_density", FRACAS_REAL, "1/m3", "mean number of flaws per volume of the body",
+     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, density)},
     {"minimum", FRACAS_REAL, "Pa", "strength of the largest flaws", 0, 0, INFINITY, false,
      offsetof(fracas_strength, minimum)},
-    {"maximum", FRACAS_REAL, "Pa", "strength of the smallest flaws, and of an interface without a flaw",
-     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, maximum)},
-    {"exponent", FRACAS_REAL, "1", "power law of the flaws: ((s - minimum)/(maximum - minimum))^exponent of them are "
-     "weaker than s", FRACAS_REQUIRED, 0.5, 1000, false, offsetof(fracas_strength, exponent)},
+    {"maximum", FRACAS_REAL, "Pa",
+     "strength of the smallest flaws, and of an interface without a flaw", FRACAS_REQUIRED, 0,
+     INFINITY, true, offsetof(fracas_strength, maximum)},
+    {"exponent", FRACAS_REAL, "1",
+     "power law of the flaws: ((s - minimum)/(maximum - minimum))^exponent of them are weaker than "
+     "s",
+     FRACAS_REQUIRED, 0.5, 1000, false, offsetof(fracas_strength, exponent)},
 };
 const fracas_distribution fracas_flaws = {
-    .kind = {.name = "flaws", .doc = "weakest flaw in the volume of an interface; flaws at random in the body, their "
-             "strengths by a power law", .params = params, .nparams = FRACAS_COUNT(params)},
-    .quantile = flaws_quantile, .moments = flaws_moments, .init = flaws_init, .size_effect = true,
+    .kind = {.name = "flaws",
+             .doc = "weakest flaw in the volume of an interface; flaws at random in the body, "
+                    "their strengths by a power law",
+             .params = params,
+             .nparams = FRACAS_COUNT(params)},
+    .quantile = flaws_quantile,
+    .moments = flaws_moments,
+    .init = flaws_init,
+    .size_effect = true,
 };

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sampler/distribution/given.h"
 
 fracas_err fracas_given_init(fracas_strength *strength)
@@ -10,11 +11,13 @@ fracas_err fracas_given_init(fracas_strength *strength)
 static fracas_lines_summary summary_of(const fracas_strength *strength)
 {
     fracas_lines_summary of;
-    const fracas_err err = fracas_lines_summarize(strength->file, fracas_distribution_of(strength)->read, &of);
+    const fracas_err err = fracas_lines_summarize(strength->file,
+                                                  fracas_distribution_of(strength)->read, &of);
     return err ? (fracas_lines_summary){.sum = NAN} : of;
 }
 
-double fracas_given_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
+double fracas_given_quantile(const fracas_strength *strength, fracas_extent extent,
+                             fracas_probability p)
 {
     (void)extent;
     const fracas_lines_summary of = summary_of(strength);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sampler/distribution/lines.h"
 
 #include <string.h>
@@ -36,7 +37,8 @@ bool fracas_lines_next(fracas_lines *lines)
 
 static void take(const char *start, const char *stop, char field[FRACAS_FIELD])
 {
-    const size_t length = (size_t)(stop - start), kept = length < FRACAS_FIELD ? length : FRACAS_FIELD - 1;
+    const size_t length = (size_t)(stop - start),
+                 kept = length < FRACAS_FIELD ? length : FRACAS_FIELD - 1;
     memcpy(field, start, kept);
     field[kept] = '\0';
     if (strlen(field) != kept) field[0] = '\0';
@@ -68,7 +70,8 @@ bool fracas_lines_is_heading(const char *field)
     return *field && !strchr("0123456789+-.", *field);
 }
 
-fracas_err fracas_lines_summarize(const fracas_attachment *file, fracas_lines_reader *read, fracas_lines_summary *summary)
+fracas_err fracas_lines_summarize(const fracas_attachment *file, fracas_lines_reader *read,
+                                  fracas_lines_summary *summary)
 {
     fracas_lines lines = fracas_lines_begin(file);
     *summary = (fracas_lines_summary){.smallest = INFINITY};
@@ -77,7 +80,8 @@ fracas_err fracas_lines_summarize(const fracas_attachment *file, fracas_lines_re
         double strength;
         TRY(read(&lines, &strength, &found));
         if (!found) break;
-        const double before = summary->count > 0 ? strength - summary->sum / (double)summary->count : 0.0;
+        const double before = summary->count > 0 ? strength - summary->sum / (double)summary->count
+                                                 : 0.0;
         summary->count++;
         summary->sum += strength;
         summary->squares += before * (strength - summary->sum / (double)summary->count);
@@ -85,5 +89,6 @@ fracas_err fracas_lines_summarize(const fracas_attachment *file, fracas_lines_re
         summary->largest = fmax(summary->largest, strength);
     }
     if (summary->count > 0) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "%s has no strength; expected one in Pa on each line", file->path);
+    return fracas_fail(FRACAS_USAGE, "%s has no strength; expected one in Pa on each line",
+                       file->path);
 }

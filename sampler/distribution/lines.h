@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A walk through the lines of a text file that are neither empty nor a remark. */
 #ifndef FRACAS_SAMPLER_LINES_H
 #define FRACAS_SAMPLER_LINES_H
@@ -12,10 +13,11 @@
 
 typedef struct {
     const fracas_attachment *file;
-    const char *at, *end;      /* of what is left of the file */
-    const char *start, *stop;  /* the line, without blanks at its ends; fracas_lines_field takes fields off its start */
-    int64_t line;              /* its number, from 1 */
-    bool first;                /* it is the first one: it may be a line of headings */
+    const char *at, *end;     /* of what is left of the file */
+    const char *start, *stop; /* the line, without blanks at its ends; fracas_lines_field takes
+                                 fields off its start */
+    int64_t line;             /* its number, from 1 */
+    bool first;               /* it is the first one: it may be a line of headings */
 } fracas_lines;
 
 fracas_lines fracas_lines_begin(const fracas_attachment *file);
@@ -23,12 +25,13 @@ fracas_lines fracas_lines_begin(const fracas_attachment *file);
 /* False at the end of the file. */
 bool fracas_lines_next(fracas_lines *lines);
 
-/* The line's last field; the next from its start. Fields end at a comma or a blank. "" if there is none, or if it holds what
- * no text has. */
+/* The line's last field; the next from its start. Fields end at a comma or a blank. "" if there is
+ * none, or if it holds what no text has. */
 void fracas_lines_last_field(const fracas_lines *lines, char field[FRACAS_FIELD]);
 void fracas_lines_field(fracas_lines *lines, char field[FRACAS_FIELD]);
 
-/* Headings are words. A number with a slip in it is none, nor are the numbers that C calls by words. */
+/* Headings are words. A number with a slip in it is none, nor are the numbers that C calls by
+ * words. */
 bool fracas_lines_is_heading(const char *field);
 
 /* The strengths of a file, once read. */
@@ -42,7 +45,8 @@ typedef struct {
 typedef fracas_err fracas_lines_reader(fracas_lines *lines, double *strength, bool *found);
 
 /* FRACAS_USAGE for a line that `read` refuses, or if there is none. */
-FRACAS_MUST_USE fracas_err fracas_lines_summarize(const fracas_attachment *file, fracas_lines_reader *read,
+FRACAS_MUST_USE fracas_err fracas_lines_summarize(const fracas_attachment *file,
+                                                  fracas_lines_reader *read,
                                                   fracas_lines_summary *summary);
 
 #endif

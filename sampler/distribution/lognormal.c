@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lognormal distribution. */
 #include "sampler/distribution/distribution.h"
 
@@ -6,7 +7,8 @@
 #include "sampler/special/normal.h"
 
 /* (sampling.7) */
-static double lognormal_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
+static double lognormal_quantile(const fracas_strength *strength, fracas_extent extent,
+                                 fracas_probability p)
 {
     (void)extent;
     return strength->median * fracas_exp(strength->sigma * fracas_normal_quantile(p));
@@ -30,8 +32,10 @@ FRACAS_MUST_USE static fracas_err lognormal_init(fracas_strength *strength)
 {
     bool by_moments;
     const char *name = strength->distribution->name;
-    TRY(fracas_pairs_choose(name, (fracas_pair_key[]){{"median", strength->median}, {"sigma", strength->sigma}},
-                         (fracas_pair_key[]){{"mean", strength->mean}, {"deviation", strength->deviation}}, &by_moments));
+    TRY(fracas_pairs_choose(
+        name, (fracas_pair_key[]){{"median", strength->median}, {"sigma", strength->sigma}},
+        (fracas_pair_key[]){{"mean", strength->mean}, {"deviation", strength->deviation}},
+        &by_moments));
     if (!by_moments) return FRACAS_OK;
     const double ratio = strength->deviation / strength->mean;
     TRY(fracas_pairs_check(name, "deviation/mean", ratio, 1e-9, 1e9));
@@ -43,14 +47,20 @@ FRACAS_MUST_USE static fracas_err lognormal_init(fracas_strength *strength)
 static const fracas_param params[] = {
     {"median", FRACAS_REAL, "Pa", "median strength", FRACAS_REQUIRED, 0, INFINITY, true,
      offsetof(fracas_strength, median), .optional = true},
-    {"sigma", FRACAS_REAL, "1", "standard deviation of the logarithm of the strength", FRACAS_REQUIRED, 0, 10, true,
-     offsetof(fracas_strength, sigma), .optional = true},
+    {"sigma", FRACAS_REAL, "1", "standard deviation of the logarithm of the strength",
+     FRACAS_REQUIRED, 0, 10, true, offsetof(fracas_strength, sigma), .optional = true},
     FRACAS_STRENGTH_MOMENTS("median and sigma"),
 };
 const fracas_distribution fracas_lognormal = {
-    .kind = {.name = "lognormal", .doc = "logarithm normally distributed: median exp(sigma z)", .params = params,
+    .kind = {.name = "lognormal",
+             .doc = "logarithm normally distributed: median exp(sigma z)",
+             .params = params,
              .nparams = FRACAS_COUNT(params)},
-    .quantile = lognormal_quantile, .moments = lognormal_moments, .init = lognormal_init,
-    .takes_reference = true, .far = lognormal_far, .far_from = 700.0,
+    .quantile = lognormal_quantile,
+    .moments = lognormal_moments,
+    .init = lognormal_init,
+    .takes_reference = true,
+    .far = lognormal_far,
+    .far_from = 700.0,
     .block = FRACAS_BLOCKS(fracas_lognormal),
 };

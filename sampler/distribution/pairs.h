@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A law by its own parameters, or by mean and standard deviation. */
 #ifndef FRACAS_SAMPLER_PAIRS_H
 #define FRACAS_SAMPLER_PAIRS_H
@@ -9,13 +10,22 @@
 #include <stdbool.h>
 
 /* Parameters `mean` and `deviation`, given instead of `others`. */
-#define FRACAS_STRENGTH_MOMENTS(others)                                                                                        \
-    {.name = "mean", .type = FRACAS_REAL, .unit = "Pa", .doc = "mean strength, given with deviation instead of " others,       \
-     .fallback = FRACAS_REQUIRED, .maximum = INFINITY, .minimum_open = true, .offset = offsetof(fracas_strength, mean),        \
-     .optional = true},                                                                                                        \
-    {.name = "deviation", .type = FRACAS_REAL, .unit = "Pa",                                                                   \
-     .doc = "standard deviation of the strength, given with mean instead of " others, .fallback = FRACAS_REQUIRED,             \
-     .maximum = INFINITY, .minimum_open = true, .offset = offsetof(fracas_strength, deviation), .optional = true}
+#define FRACAS_STRENGTH_MOMENTS(others)                                                  \
+    {.name = "mean",                                                                     \
+     .type = FRACAS_REAL,                                                                \
+     .unit = "Pa",                                                                       \
+     .doc = "mean strength, given with deviation instead of " others,                    \
+     .fallback = FRACAS_REQUIRED,                                                        \
+     .maximum = INFINITY,                                                                \
+     .minimum_open = true,                                                               \
+     .offset = offsetof(fracas_strength, mean),                                          \
+     .optional = true},                                                                  \
+    {                                                                                    \
+        .name = "deviation", .type = FRACAS_REAL, .unit = "Pa",                          \
+        .doc = "standard deviation of the strength, given with mean instead of " others, \
+        .fallback = FRACAS_REQUIRED, .maximum = INFINITY, .minimum_open = true,          \
+        .offset = offsetof(fracas_strength, deviation), .optional = true                 \
+    }
 
 /* A key of `strength` that is positive where it is given. */
 typedef struct {
@@ -23,10 +33,13 @@ typedef struct {
     double value; /* 0 or NaN where it is not given */
 } fracas_pair_key;
 
-/* *by_moments = whether the second pair is given and not the first. FRACAS_USAGE unless exactly one pair is given whole. */
-FRACAS_MUST_USE fracas_err fracas_pairs_choose(const char *law, const fracas_pair_key own[2], const fracas_pair_key moments[2], bool *by_moments);
+/* *by_moments = whether the second pair is given and not the first. FRACAS_USAGE unless exactly one
+ * pair is given whole. */
+FRACAS_MUST_USE fracas_err fracas_pairs_choose(const char *law, const fracas_pair_key own[2],
+                                               const fracas_pair_key moments[2], bool *by_moments);
 
 /* FRACAS_USAGE unless least <= ratio <= most, the ratio of `what` (as "deviation/mean"). */
-FRACAS_MUST_USE fracas_err fracas_pairs_check(const char *law, const char *what, double ratio, double least, double most);
+FRACAS_MUST_USE fracas_err fracas_pairs_check(const char *law, const char *what, double ratio,
+                                              double least, double most);
 
 #endif

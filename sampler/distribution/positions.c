@@ -1,7 +1,8 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Strengths that are given by position: each interface takes the line of a file that lies on it.
  *
- * Lines are sorted into the cells of a grid that has about as many cells as there are interfaces, so that each interface looks at
- * a few lines. Nothing depends on the order of the lines. */
+ * Lines are sorted into the cells of a grid that has about as many cells as there are interfaces,
+ * so that each interface looks at a few lines. Nothing depends on the order of the lines. */
 #include "base/units.h"
 #include "sampler/distribution/distribution.h"
 #include "sampler/distribution/given.h"
@@ -9,7 +10,8 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
-#define NEAR 1e-3 /* of the interfaces' spacing: a line within this distance of an interface lies on it */
+#define NEAR \
+    1e-3 /* of the interfaces' spacing: a line within this distance of an interface lies on it */
 #define NONE UINT32_MAX
 
 /* A line of the file. */
@@ -17,18 +19,21 @@ typedef struct {
     double x[2];     /* m */
     double strength; /* Pa */
     int64_t line;
-    uint32_t next;     /* of its cell, or NONE */
+    uint32_t next;      /* of its cell, or NONE */
     uint32_t interface; /* that it lies on, or NONE */
 } place;
 
-FRACAS_MUST_USE static fracas_err read_number(fracas_lines *lines, const char *what, double *value, bool *heading)
+FRACAS_MUST_USE static fracas_err read_number(fracas_lines *lines, const char *what, double *value,
+                                              bool *heading)
 {
     char field[FRACAS_FIELD];
     fracas_lines_field(lines, field);
     if (heading && (*heading = lines->first && fracas_lines_is_heading(field))) return FRACAS_OK;
     if (!fracas_number_read(field, value)) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "%s:%" PRId64 ": found %s%s%s as %s; a line begins with x [m], y [m], strength [Pa], numbers without "
-                                     "units after commas or blanks", lines->file->path, lines->line, *field ? "`" : "nothing", field,
+    return fracas_fail(FRACAS_USAGE,
+                       "%s:%" PRId64 ": found %s%s%s as %s; a line begins with x [m], y [m], "
+                       "strength [Pa], numbers without units after commas or blanks",
+                       lines->file->path, lines->line, *field ? "`" : "nothing", field,
                        *field ? "`" : "", what);
 }
 
@@ -46,8 +51,9 @@ FRACAS_MUST_USE static fracas_err next_place(fracas_lines *lines, place *p, bool
     p->line = lines->line;
     p->next = p->interface = NONE;
     if (p->strength > 0) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "%s:%" PRId64 ": a strength of %g Pa; it must be greater than 0", lines->file->path, p->line,
-                       p->strength);
+    return fracas_fail(FRACAS_USAGE,
+                       "%s:%" PRId64 ": a strength of %g Pa; it must be greater than 0",
+                       lines->file->path, p->line, p->strength);
 }
 
 FRACAS_MUST_USE static fracas_err next_strength(fracas_lines *lines, double *value, bool *found)
@@ -76,12 +82,15 @@ static void grid_clear(grid *g)
     free(g->head);
 }
 
-/* Spacing s of a regular grid of n points over the rectangle, n = (w/s + 1)(h/s + 1); of a single point, how far out it is. */
+/* Spacing s of a regular grid of n points over the rectangle, n = (w/s + 1)(h/s + 1); of a single
+ * point, how far out it is. */
 static double spacing_of(size_t n, const double least[2], const double most[2])
 {
     const double w = most[0] - least[0], h = most[1] - least[1], rest = (double)(n - 1);
-    const double out = fmax(fmax(fabs(least[0]), fabs(least[1])), fmax(fabs(most[0]), fabs(most[1])));
-    if (n > 1 && w + h > 0) return (w + h + sqrt((w + h) * (w + h) + 4 * rest * w * h)) / (2 * rest);
+    const double out = fmax(fmax(fabs(least[0]), fabs(least[1])),
+                            fmax(fabs(most[0]), fabs(most[1])));
+    if (n > 1 && w + h > 0)
+        return (w + h + sqrt((w + h) * (w + h) + 4 * rest * w * h)) / (2 * rest);
     return out > 0 ? out : 1;
 }
 
@@ -90,14 +99,16 @@ FRACAS_MUST_USE static fracas_err read_places(grid *g)
     fracas_lines_summary of;
     bool found;
     TRY(fracas_lines_summarize(g->file, next_strength, &of));
-    if (!(g->place = malloc(of.count * sizeof *g->place))) return fracas_no_memory("the strengths of a file");
+    if (!(g->place = malloc(of.count * sizeof *g->place)))
+        return fracas_no_memory("the strengths of a file");
     g->nplaces = of.count;
     fracas_lines lines = fracas_lines_begin(g->file);
     for (size_t k = 0; k < of.count; k++) TRY(next_place(&lines, &g->place[k], &found));
     return FRACAS_OK;
 }
 
-/* The cell that x [m], moved by `by` near-distances, is in along an axis; cells[axis] if it is outside. */
+/* The cell that x [m], moved by `by` near-distances, is in along an axis; cells[axis] if it is
+ * outside. */
 static size_t cell_of(const grid *g, int axis, double x, double by)
 {
     const double cell = floor((x - g->origin[axis] + by * g->near) / g->spacing);
@@ -120,10 +131,12 @@ FRACAS_MUST_USE static fracas_err grid_init(grid *g, size_t n, const double (*po
         g->cells[a] = (size_t)((most[a] - least[a]) / g->spacing + 4 * NEAR) + 1;
     }
     const size_t cells = g->cells[0] * g->cells[1];
-    if (!(g->head = malloc(cells * sizeof *g->head))) return fracas_no_memory("the strengths of a file");
+    if (!(g->head = malloc(cells * sizeof *g->head)))
+        return fracas_no_memory("the strengths of a file");
     for (size_t c = 0; c < cells; c++) g->head[c] = NONE;
     for (size_t k = 0; k < g->nplaces; k++) {
-        const size_t cx = cell_of(g, 0, g->place[k].x[0], 0), cy = cell_of(g, 1, g->place[k].x[1], 0);
+        const size_t cx = cell_of(g, 0, g->place[k].x[0], 0),
+                     cy = cell_of(g, 1, g->place[k].x[1], 0);
         if (cx == g->cells[0] || cy == g->cells[1]) continue; /* no interface is near */
         uint32_t *head = &g->head[cy * g->cells[0] + cx];
         g->place[k].next = *head;
@@ -156,19 +169,24 @@ static void find(const grid *g, const double x[3], uint32_t found[2])
             }
 }
 
-FRACAS_MUST_USE static fracas_err no_line(const grid *g, size_t i, const double x[3], size_t missing, size_t n)
+FRACAS_MUST_USE static fracas_err no_line(const grid *g, size_t i, const double x[3],
+                                          size_t missing, size_t n)
 {
     size_t nearest = 0;
     for (size_t k = 1; k < g->nplaces; k++)
         if (distance2(&g->place[k], x) < distance2(&g->place[nearest], x)) nearest = k;
-    return fracas_fail(FRACAS_USAGE, "%s has no line for %zu of %zu interfaces; interface %zu is at x = %.9g m, y = %.9g m, and the nearest "
-                       "line, %" PRId64 ", is %.3g m away, more than %.3g m, a thousandth of the interfaces' spacing: the file must have the "
-                       "positions of this mesh, in m", g->file->path, missing, n, i, x[0], x[1], g->place[nearest].line,
+    return fracas_fail(FRACAS_USAGE,
+                       "%s has no line for %zu of %zu interfaces; interface %zu is at x = %.9g m, "
+                       "y = %.9g m, and the nearest line, %" PRId64
+                       ", is %.3g m away, more than %.3g m, a thousandth of the interfaces' "
+                       "spacing: the file must have the positions of this mesh, in m",
+                       g->file->path, missing, n, i, x[0], x[1], g->place[nearest].line,
                        sqrt(distance2(&g->place[nearest], x)), g->near);
 }
 
 /* Finds the line of interface i; counts it as missing where there is none. */
-FRACAS_MUST_USE static fracas_err match(grid *g, size_t i, const double x[3], double *strength, size_t *missing)
+FRACAS_MUST_USE static fracas_err match(grid *g, size_t i, const double x[3], double *strength,
+                                        size_t *missing)
 {
     uint32_t found[2];
     find(g, x, found);
@@ -178,19 +196,24 @@ FRACAS_MUST_USE static fracas_err match(grid *g, size_t i, const double x[3], do
     }
     place *p = &g->place[found[0]];
     if (found[1] != NONE)
-        return fracas_fail(FRACAS_USAGE, "%s: lines %" PRId64 " and %" PRId64 " are both at interface %zu, x = %.9g m, y = %.9g m (within "
-                           "%.3g m, a thousandth of the interfaces' spacing): leave one out", g->file->path, p->line,
-                           g->place[found[1]].line, i, x[0], x[1], g->near);
+        return fracas_fail(FRACAS_USAGE,
+                           "%s: lines %" PRId64 " and %" PRId64
+                           " are both at interface %zu, x = %.9g m, y = %.9g m (within %.3g m, a "
+                           "thousandth of the interfaces' spacing): leave one out",
+                           g->file->path, p->line, g->place[found[1]].line, i, x[0], x[1], g->near);
     if (p->interface != NONE)
-        return fracas_fail(FRACAS_USAGE, "%s:%" PRId64 ": x = %.9g m, y = %.9g m is at two interfaces, %" PRIu32 " and %zu, which positions do "
-                           "not tell apart: give strengths by number (distribution: file)", g->file->path, p->line, p->x[0], p->x[1],
-                           p->interface, i);
+        return fracas_fail(FRACAS_USAGE,
+                           "%s:%" PRId64 ": x = %.9g m, y = %.9g m is at two interfaces, %" PRIu32
+                           " and %zu, which positions do not tell apart: give strengths by number "
+                           "(distribution: file)",
+                           g->file->path, p->line, p->x[0], p->x[1], p->interface, i);
     p->interface = (uint32_t)i;
     *strength = p->strength;
     return FRACAS_OK;
 }
 
-FRACAS_MUST_USE static fracas_err match_all(grid *g, size_t n, const double (*position)[3], size_t stride, double *sigma_c)
+FRACAS_MUST_USE static fracas_err match_all(grid *g, size_t n, const double (*position)[3],
+                                            size_t stride, double *sigma_c)
 {
     size_t missing = 0, first = 0;
     TRY(grid_init(g, n, position));
@@ -202,7 +225,8 @@ FRACAS_MUST_USE static fracas_err match_all(grid *g, size_t n, const double (*po
     return missing ? no_line(g, first, position[first], missing, n) : FRACAS_OK;
 }
 
-FRACAS_MUST_USE static fracas_err positions_fill(const fracas_strength *strength, size_t n, const double (*position)[3], size_t stride,
+FRACAS_MUST_USE static fracas_err positions_fill(const fracas_strength *strength, size_t n,
+                                                 const double (*position)[3], size_t stride,
                                                  double *sigma_c)
 {
     grid g = {.file = strength->file};
@@ -213,15 +237,26 @@ FRACAS_MUST_USE static fracas_err positions_fill(const fracas_strength *strength
 }
 
 static const fracas_param params[] = {
-    {.name = "file", .type = FRACAS_ATTACHMENT, .unit = "1",
-     .doc = "text whose lines begin with x [m], y [m] and a strength [Pa], in any order, one at each interface: at the middle between "
-            "the ends of its edge; lines at no interface, what follows on a line, headings in the first line, empty lines and "
-            "lines that start with # are skipped",
-     .fallback = FRACAS_REQUIRED, .offset = offsetof(fracas_strength, file)},
+    {.name = "file",
+     .type = FRACAS_ATTACHMENT,
+     .unit = "1",
+     .doc = "text whose lines begin with x [m], y [m] and a strength [Pa], in any order, one at "
+            "each interface: at the middle between the ends of its edge; lines at no interface, "
+            "what follows on a line, headings in the first line, empty lines and lines that start "
+            "with # are skipped",
+     .fallback = FRACAS_REQUIRED,
+     .offset = offsetof(fracas_strength, file)},
 };
 const fracas_distribution fracas_positions = {
-    .kind = {.name = "positions", .doc = "strengths of all interfaces from a file, found by where they are, the same for every replica",
-             .params = params, .nparams = FRACAS_COUNT(params)},
-    .quantile = fracas_given_quantile, .moments = fracas_given_moments, .init = fracas_given_init, .read = next_strength, .fill = positions_fill,
+    .kind = {.name = "positions",
+             .doc = "strengths of all interfaces from a file, found by where they are, the same "
+                    "for every replica",
+             .params = params,
+             .nparams = FRACAS_COUNT(params)},
+    .quantile = fracas_given_quantile,
+    .moments = fracas_given_moments,
+    .init = fracas_given_init,
+    .read = next_strength,
+    .fill = positions_fill,
     .placed = true,
 };

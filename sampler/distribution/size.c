@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sampler/distribution/size.h"
 
 #include "base/elementary.h"
@@ -15,7 +16,8 @@ static double strength_at(const fracas_strength *strength, double t)
 {
     const fracas_distribution *distribution = fracas_distribution_of(strength);
     if (distribution->far && t >= distribution->far_from) return distribution->far(strength, t);
-    return distribution->quantile(strength, (fracas_extent){0}, (fracas_probability){-fracas_expm1(-t), fracas_exp(-t)});
+    return distribution->quantile(strength, (fracas_extent){0},
+                                  (fracas_probability){-fracas_expm1(-t), fracas_exp(-t)});
 }
 
 /* (laws.10) */
@@ -24,8 +26,9 @@ double fracas_size_quantile(const fracas_strength *strength, double size, fracas
     return strength_at(strength, fracas_exponential_quantile(p) / size);
 }
 
-/* (laws.13) integral_0^infinity F^-1(t/size) e^-t dt with t = exp(x - e^-x), whose ends fall off doubly exponentially, so that the
- * sum over x = -4, -4 + 1/16, ... 6.75 is the integral; divided by its own sum of weights. */
+/* (laws.13) integral_0^infinity F^-1(t/size) e^-t dt with t = exp(x - e^-x), whose ends fall off
+ * doubly exponentially, so that the sum over x = -4, -4 + 1/16, ... 6.75 is the integral; divided
+ * by its own sum of weights. */
 fracas_moments fracas_size_moments(const fracas_strength *strength, double size)
 {
     enum { NODES = 173 };

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Normal distribution, cut off at strength 0. */
 #include "sampler/distribution/distribution.h"
 
@@ -12,8 +13,9 @@ static double normal_density(double z)
     return one_over_sqrt_two_pi * fracas_exp(-0.5 * z * z);
 }
 
-/* H(y) = integral_0^y exp(k t - t^2/2) dt, 0 <= y <= 1, k >= 0, by its Taylor series: the derivatives of the integrand
- * at 0 are Hermite polynomials in k, g_(n+1) = k g_n - n g_(n-1). Here as h_n = g_n y^n/n!. */
+/* H(y) = integral_0^y exp(k t - t^2/2) dt, 0 <= y <= 1, k >= 0, by its Taylor series: the
+ * derivatives of the integrand at 0 are Hermite polynomials in k, g_(n+1) = k g_n - n g_(n-1). Here
+ * as h_n = g_n y^n/n!. */
 static double area_from_zero(double k, double y)
 {
     double before = 0.0, term = 1.0, sum = 1.0;
@@ -27,8 +29,8 @@ static double area_from_zero(double k, double y)
     return y * sum;
 }
 
-/* (sampling.18) The y = strength/deviation with H(y) = c, for small y, where mean + deviation z would cancel: Newton on
- * ln H in y, concave, from the solution without t^2. */
+/* (sampling.18) The y = strength/deviation with H(y) = c, for small y, where mean + deviation z
+ * would cancel: Newton on ln H in y, concave, from the solution without t^2. */
 static double solve_near_zero(double k, double c)
 {
     double y = k * c < 1e-3 ? c : fracas_log(1.0 + k * c) / k;
@@ -41,15 +43,18 @@ static double solve_near_zero(double k, double c)
     return y;
 }
 
-/* (sampling.16) The upper half of the untruncated law from 1 - u, the lower one from u, so that both tails are exact. */
-static double normal_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
+/* (sampling.16) The upper half of the untruncated law from 1 - u, the lower one from u, so that
+ * both tails are exact. */
+static double normal_quantile(const fracas_strength *strength, fracas_extent extent,
+                              fracas_probability p)
 {
     (void)extent;
     const double near_zero = 0.5;
     double k = strength->mean / strength->deviation;
     double kept = fracas_normal_upper(-k);
     double above = p.above * kept, below = fracas_normal_upper(k) + p.below * kept;
-    double z = above < 0.5 ? -fracas_normal_quantile(fracas_probability_of(above)) : fracas_normal_quantile(fracas_probability_of(below));
+    double z = above < 0.5 ? -fracas_normal_quantile(fracas_probability_of(above))
+                           : fracas_normal_quantile(fracas_probability_of(below));
     if (k + z > near_zero) return strength->mean + strength->deviation * z;
     return strength->deviation * solve_near_zero(k, p.below * kept / normal_density(k));
 }
@@ -73,7 +78,8 @@ static fracas_moments normal_moments(const fracas_strength *strength, fracas_ext
 {
     (void)extent;
     double k = strength->mean / strength->deviation;
-    const double mean = strength->mean + strength->deviation * (normal_density(k) / fracas_normal_upper(-k));
+    const double mean = strength->mean +
+                        strength->deviation * (normal_density(k) / fracas_normal_upper(-k));
     return (fracas_moments){mean, strength->deviation * kept_deviation(k)};
 }
 
@@ -82,14 +88,18 @@ FRACAS_MUST_USE static fracas_err normal_init(fracas_strength *strength)
 {
     bool by_moments;
     const char *name = strength->distribution->name;
-    TRY(fracas_pairs_choose(name, (fracas_pair_key[]){{"mean", strength->mean}, {"deviation", strength->deviation}},
-                         (fracas_pair_key[]){{"kept_mean", strength->kept_mean}, {"kept_deviation", strength->kept_deviation}}, &by_moments));
+    TRY(fracas_pairs_choose(
+        name, (fracas_pair_key[]){{"mean", strength->mean}, {"deviation", strength->deviation}},
+        (fracas_pair_key[]){{"kept_mean", strength->kept_mean},
+                            {"kept_deviation", strength->kept_deviation}},
+        &by_moments));
     if (!by_moments) return FRACAS_OK;
     const double ratio = strength->kept_deviation / strength->kept_mean;
     TRY(fracas_pairs_check(name, "kept_deviation/kept_mean", ratio, 1e-9, 0.7555));
     double least = 0.0, most = 1.0 / ratio, k;
     while ((k = 0.5 * (least + most)) > least && k < most) {
-        if (kept_deviation(k) > ratio * (k + normal_density(k) / fracas_normal_upper(-k))) least = k;
+        if (kept_deviation(k) > ratio * (k + normal_density(k) / fracas_normal_upper(-k)))
+            least = k;
         else most = k;
     }
     strength->deviation = strength->kept_deviation / kept_deviation(k);
@@ -98,18 +108,28 @@ FRACAS_MUST_USE static fracas_err normal_init(fracas_strength *strength)
 }
 
 static const fracas_param params[] = {
-    {"mean", FRACAS_REAL, "Pa", "mean before strengths below 0 are cut off", FRACAS_REQUIRED, 0, INFINITY, true,
-     offsetof(fracas_strength, mean), .optional = true},
-    {"deviation", FRACAS_REAL, "Pa", "standard deviation before strengths below 0 are cut off", FRACAS_REQUIRED, 0,
-     INFINITY, true, offsetof(fracas_strength, deviation), .optional = true},
-    {"kept_mean", FRACAS_REAL, "Pa", "mean of the strengths above 0 that are kept, given with kept_deviation instead of mean and deviation",
+    {"mean", FRACAS_REAL, "Pa", "mean before strengths below 0 are cut off", FRACAS_REQUIRED, 0,
+     INFINITY, true, offsetof(fracas_strength, mean), .optional = true},
+    {"deviation", FRACAS_REAL, "Pa", "standard deviation before strengths below 0 are cut off",
+     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, deviation), .optional = true},
+    {"kept_mean", FRACAS_REAL, "Pa",
+     "mean of the strengths above 0 that are kept, given with kept_deviation instead of mean and "
+     "deviation",
      FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, kept_mean), .optional = true},
-    {"kept_deviation", FRACAS_REAL, "Pa", "standard deviation of the strengths above 0 that are kept, given with kept_mean",
-     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, kept_deviation), .optional = true},
+    {"kept_deviation", FRACAS_REAL, "Pa",
+     "standard deviation of the strengths above 0 that are kept, given with kept_mean",
+     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, kept_deviation),
+     .optional = true},
 };
 const fracas_distribution fracas_normal = {
-    .kind = {.name = "normal", .doc = "normal, cut off at 0: strengths are positive", .params = params,
+    .kind = {.name = "normal",
+             .doc = "normal, cut off at 0: strengths are positive",
+             .params = params,
              .nparams = FRACAS_COUNT(params)},
-    .quantile = normal_quantile, .moments = normal_moments, .init = normal_init,
-    .takes_reference = true, .far = normal_far, .far_from = 700.0,
+    .quantile = normal_quantile,
+    .moments = normal_moments,
+    .init = normal_init,
+    .takes_reference = true,
+    .far = normal_far,
+    .far_from = 700.0,
 };

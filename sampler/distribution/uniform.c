@@ -1,10 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Uniform distribution between two strengths. */
 #include "sampler/distribution/distribution.h"
 
 #include "sampler/distribution/pairs.h"
 
 /* (sampling.4) */
-static double uniform_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
+static double uniform_quantile(const fracas_strength *strength, fracas_extent extent,
+                               fracas_probability p)
 {
     (void)extent;
     return strength->minimum + (strength->maximum - strength->minimum) * p.below;
@@ -30,18 +32,22 @@ FRACAS_MUST_USE static fracas_err uniform_init(fracas_strength *strength)
 {
     bool by_moments;
     const char *name = strength->distribution->name;
-    TRY(fracas_pairs_choose(name, (fracas_pair_key[]){{"minimum", strength->minimum}, {"maximum", strength->maximum}},
-                         (fracas_pair_key[]){{"mean", strength->mean}, {"deviation", strength->deviation}}, &by_moments));
+    TRY(fracas_pairs_choose(
+        name, (fracas_pair_key[]){{"minimum", strength->minimum}, {"maximum", strength->maximum}},
+        (fracas_pair_key[]){{"mean", strength->mean}, {"deviation", strength->deviation}},
+        &by_moments));
     if (by_moments) {
-        TRY(fracas_pairs_check(name, "deviation/mean", strength->deviation / strength->mean, 1e-9, 0.5773));
+        TRY(fracas_pairs_check(name, "deviation/mean", strength->deviation / strength->mean, 1e-9,
+                               0.5773));
         strength->minimum = strength->mean - sqrt(3.0) * strength->deviation;
         strength->maximum = strength->mean + sqrt(3.0) * strength->deviation;
     }
     if (strength->minimum < strength->maximum) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE,
-                       "strength.minimum is %.15g Pa and strength.maximum %.15g Pa; the maximum of a uniform "
-                       "distribution must be the larger: swap them, or use the distribution constant",
-                       strength->minimum, strength->maximum);
+    return fracas_fail(
+        FRACAS_USAGE,
+        "strength.minimum is %.15g Pa and strength.maximum %.15g Pa; the maximum of a uniform "
+        "distribution must be the larger: swap them, or use the distribution constant",
+        strength->minimum, strength->maximum);
 }
 
 static const fracas_param params[] = {
@@ -52,8 +58,14 @@ static const fracas_param params[] = {
     FRACAS_STRENGTH_MOMENTS("minimum and maximum"),
 };
 const fracas_distribution fracas_uniform = {
-    .kind = {.name = "uniform", .doc = "every strength between two bounds equally likely", .params = params,
+    .kind = {.name = "uniform",
+             .doc = "every strength between two bounds equally likely",
+             .params = params,
              .nparams = FRACAS_COUNT(params)},
-    .quantile = uniform_quantile, .moments = uniform_moments, .init = uniform_init, .takes_reference = true, .weakest = uniform_weakest,
+    .quantile = uniform_quantile,
+    .moments = uniform_moments,
+    .init = uniform_init,
+    .takes_reference = true,
+    .weakest = uniform_weakest,
     .block = FRACAS_BLOCKS(fracas_uniform),
 };

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Weibull distribution with two or three parameters. */
 #include "sampler/distribution/distribution.h"
 
@@ -8,14 +9,16 @@
 
 static const double smallest_shape = 0.1, largest_shape = 1000.0;
 
-/* (laws.11) Any t. As exp(ln(t)/shape): a power with the rounded exponent 1/shape would be no more accurate. */
+/* (laws.11) Any t. As exp(ln(t)/shape): a power with the rounded exponent 1/shape would be no more
+ * accurate. */
 static double weibull_far(const fracas_strength *strength, double t)
 {
     return strength->minimum + strength->scale * fracas_exp(fracas_log(t) / strength->shape);
 }
 
 /* (sampling.5) */
-static double weibull_quantile(const fracas_strength *strength, fracas_extent extent, fracas_probability p)
+static double weibull_quantile(const fracas_strength *strength, fracas_extent extent,
+                               fracas_probability p)
 {
     (void)extent;
     return weibull_far(strength, fracas_exponential_quantile(p));
@@ -42,16 +45,22 @@ FRACAS_MUST_USE static fracas_err weibull_init(fracas_strength *strength)
 {
     bool by_moments;
     const char *name = strength->distribution->name;
-    TRY(fracas_pairs_choose(name, (fracas_pair_key[]){{"scale", strength->scale}, {"shape", strength->shape}},
-                         (fracas_pair_key[]){{"mean", strength->mean}, {"deviation", strength->deviation}}, &by_moments));
+    TRY(fracas_pairs_choose(
+        name, (fracas_pair_key[]){{"scale", strength->scale}, {"shape", strength->shape}},
+        (fracas_pair_key[]){{"mean", strength->mean}, {"deviation", strength->deviation}},
+        &by_moments));
     if (!by_moments) return FRACAS_OK;
     const double above = strength->mean - strength->minimum;
     if (!(above > 0.0))
-        return fracas_fail(FRACAS_USAGE, "strength.mean is %.15g Pa and strength.minimum %.15g Pa; the mean is above the minimum: raise "
-                                         "it, or lower the minimum", strength->mean, strength->minimum);
-    const double least = 1.0 / largest_shape, most = 1.0 / smallest_shape, ratio = strength->deviation / above;
-    TRY(fracas_pairs_check(name, "deviation/(mean - minimum)", ratio, sqrt(fracas_weibull_variation(least)),
-                            sqrt(fracas_weibull_variation(most))));
+        return fracas_fail(FRACAS_USAGE,
+                           "strength.mean is %.15g Pa and strength.minimum %.15g Pa; the mean is "
+                           "above the minimum: raise it, or lower the minimum",
+                           strength->mean, strength->minimum);
+    const double least = 1.0 / largest_shape, most = 1.0 / smallest_shape,
+                 ratio = strength->deviation / above;
+    TRY(fracas_pairs_check(name, "deviation/(mean - minimum)", ratio,
+                           sqrt(fracas_weibull_variation(least)),
+                           sqrt(fracas_weibull_variation(most))));
     const double x = fracas_weibull_shape_inverse(ratio * ratio, least, most);
     strength->shape = 1.0 / x;
     strength->scale = above / fracas_gamma(1.0 + x);
@@ -59,18 +68,26 @@ FRACAS_MUST_USE static fracas_err weibull_init(fracas_strength *strength)
 }
 
 static const fracas_param params[] = {
-    {"minimum", FRACAS_REAL, "Pa", "strength that every interface has at least", 0, 0, INFINITY, false,
-     offsetof(fracas_strength, minimum)},
-    {"scale", FRACAS_REAL, "Pa", "scale above the minimum: 63.2 % of all strengths are below their sum",
-     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, scale), .optional = true},
-    {"shape", FRACAS_REAL, "1", "Weibull modulus m; the larger, the narrower", FRACAS_REQUIRED, 0.1, 1000, false,
-     offsetof(fracas_strength, shape), .optional = true},
+    {"minimum", FRACAS_REAL, "Pa", "strength that every interface has at least", 0, 0, INFINITY,
+     false, offsetof(fracas_strength, minimum)},
+    {"scale", FRACAS_REAL, "Pa",
+     "scale above the minimum: 63.2 % of all strengths are below their sum", FRACAS_REQUIRED, 0,
+     INFINITY, true, offsetof(fracas_strength, scale), .optional = true},
+    {"shape", FRACAS_REAL, "1", "Weibull modulus m; the larger, the narrower", FRACAS_REQUIRED, 0.1,
+     1000, false, offsetof(fracas_strength, shape), .optional = true},
     FRACAS_STRENGTH_MOMENTS("scale and shape"),
 };
 const fracas_distribution fracas_weibull = {
-    .kind = {.name = "weibull", .doc = "weakest of many flaws: minimum + scale (-ln(1 - u))^(1/shape)",
-             .params = params, .nparams = FRACAS_COUNT(params)},
-    .quantile = weibull_quantile, .moments = weibull_moments, .init = weibull_init,
-    .takes_reference = true, .far = weibull_far, .far_from = 0.0, .weakest = weibull_weakest,
+    .kind = {.name = "weibull",
+             .doc = "weakest of many flaws: minimum + scale (-ln(1 - u))^(1/shape)",
+             .params = params,
+             .nparams = FRACAS_COUNT(params)},
+    .quantile = weibull_quantile,
+    .moments = weibull_moments,
+    .init = weibull_init,
+    .takes_reference = true,
+    .far = weibull_far,
+    .far_from = 0.0,
+    .weakest = weibull_weakest,
     .block = FRACAS_BLOCKS(fracas_weibull),
 };

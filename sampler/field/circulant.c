@@ -1,5 +1,6 @@
-/* Circulant embedding: C. R. Dietrich, G. N. Newsam, SIAM J. Sci. Comput. 18, 1088-1107 (1997); A. T. A. Wood, G. Chan,
- * J. Comput. Graph. Stat. 3, 409-432 (1994). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Circulant embedding: C. R. Dietrich, G. N. Newsam, SIAM J. Sci. Comput. 18, 1088-1107 (1997); A.
+ * T. A. Wood, G. Chan, J. Comput. Graph. Stat. 3, 409-432 (1994). */
 #include "sampler/field/circulant.h"
 
 #include "base/elementary.h"
@@ -8,12 +9,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define NEGATIVE 1e-12  /* variance that clipped eigenvalues may take away before a larger circle is tried */
-enum { LARGEST = 1 << 17 }; /* circle that is tried for few sites; for many, 4 times the smallest that will do */
+#define NEGATIVE \
+    1e-12 /* variance that clipped eigenvalues may take away before a larger circle is tried */
+enum {
+    LARGEST = 1 << 17
+}; /* circle that is tried for few sites; for many, 4 times the smallest that will do */
 
 struct fracas_circulant {
-    size_t n;     /* sites */
-    size_t size;  /* of the circle */
+    size_t n;    /* sites */
+    size_t size; /* of the circle */
     fracas_fft *fft;
     double *root; /* [size] of the eigenvalues, by size */
     double error;
@@ -24,7 +28,8 @@ static fracas_err create(size_t n, size_t size, fracas_circulant **circulant)
     fracas_circulant *made = calloc(1, sizeof *made);
     if (!made) return fracas_no_memory("a correlated field");
     *made = (fracas_circulant){.n = n, .size = size, .root = malloc(size * sizeof *made->root)};
-    fracas_err err = made->root ? fracas_fft_create(size, &made->fft) : fracas_no_memory("a correlated field");
+    fracas_err err = made->root ? fracas_fft_create(size, &made->fft)
+                                : fracas_no_memory("a correlated field");
     if (err) fracas_circulant_destroy(made);
     else *circulant = made;
     return err;
@@ -38,8 +43,10 @@ void fracas_circulant_destroy(fracas_circulant *circulant)
     free(circulant);
 }
 
-/* (fields.9) x: row[i], a row of the covariance, and room for `size`; *lost: variance of the eigenvalues below 0, which become 0. */
-static fracas_err factorise(fracas_circulant *circulant, const double *row, double (*x)[2], double *lost)
+/* (fields.9) x: row[i], a row of the covariance, and room for `size`; *lost: variance of the
+ * eigenvalues below 0, which become 0. */
+static fracas_err factorise(fracas_circulant *circulant, const double *row, double (*x)[2],
+                            double *lost)
 {
     const size_t size = circulant->size;
     double sum = 0.0;
@@ -58,9 +65,11 @@ static fracas_err factorise(fracas_circulant *circulant, const double *row, doub
         x[k][1] = 0.0;
         circulant->root[k] = sqrt(x[k][0] / (double)size);
     }
-    TRY(fracas_fft_transform(circulant->fft, x)); /* eigenvalues are even in k: the inverse is the same */
+    TRY(fracas_fft_transform(circulant->fft,
+                             x)); /* eigenvalues are even in k: the inverse is the same */
     circulant->error = 0.0;
-    for (size_t i = 0; i < circulant->n; i++) circulant->error = fmax(circulant->error, fabs(x[i][0] - row[i]));
+    for (size_t i = 0; i < circulant->n; i++)
+        circulant->error = fmax(circulant->error, fabs(x[i][0] - row[i]));
     return FRACAS_OK;
 }
 
@@ -73,7 +82,8 @@ static fracas_err factorise_with_room(fracas_circulant *circulant, const double 
     return err;
 }
 
-static fracas_err from_row(const double *row, size_t n, size_t size, fracas_circulant **circulant, double *lost)
+static fracas_err from_row(const double *row, size_t n, size_t size, fracas_circulant **circulant,
+                           double *lost)
 {
     fracas_circulant *made = NULL;
     TRY(create(n, size, &made));
@@ -84,31 +94,35 @@ static fracas_err from_row(const double *row, size_t n, size_t size, fracas_circ
 }
 
 /* (fields.8) */
-fracas_err fracas_circulant_circle(const fracas_covariance *covariance, size_t n, double radius, fracas_circulant **circulant)
+fracas_err fracas_circulant_circle(const fracas_covariance *covariance, size_t n, double radius,
+                                   fracas_circulant **circulant)
 {
     double lost, *row = malloc(n * sizeof *row);
     if (!row) return fracas_no_memory("a correlated field");
     for (size_t i = 0; i < n; i++)
-        row[i] = fracas_covariance_at(covariance, 2.0 * radius * fracas_sinpi((double)(i < n - i ? i : n - i) / (double)n));
+        row[i] = fracas_covariance_at(
+            covariance, 2.0 * radius * fracas_sinpi((double)(i < n - i ? i : n - i) / (double)n));
     fracas_err err = from_row(row, n, n, circulant, &lost);
     free(row);
     return err;
 }
 
 /* The line on a circle of `size` sites. */
-static fracas_err embed(const fracas_covariance *covariance, size_t n, double spacing, size_t size, fracas_circulant **circulant,
-                        double *lost)
+static fracas_err embed(const fracas_covariance *covariance, size_t n, double spacing, size_t size,
+                        fracas_circulant **circulant, double *lost)
 {
     double *row = malloc(size * sizeof *row);
     if (!row) return fracas_no_memory("a correlated field");
-    for (size_t i = 0; i < size; i++) row[i] = fracas_covariance_at(covariance, spacing * (double)(i < size - i ? i : size - i));
+    for (size_t i = 0; i < size; i++)
+        row[i] = fracas_covariance_at(covariance, spacing * (double)(i < size - i ? i : size - i));
     fracas_err err = from_row(row, n, size, circulant, lost);
     free(row);
     return err;
 }
 
 /* (fields.10) */
-fracas_err fracas_circulant_line(const fracas_covariance *covariance, size_t n, double spacing, fracas_circulant **circulant)
+fracas_err fracas_circulant_line(const fracas_covariance *covariance, size_t n, double spacing,
+                                 fracas_circulant **circulant)
 {
     const size_t smallest = fracas_fft_power_of_two(2 * (n - 1));
     const size_t largest = 4 * smallest > LARGEST ? 4 * smallest : LARGEST;
@@ -135,7 +149,8 @@ double fracas_circulant_error(const fracas_circulant *circulant)
     return circulant->error;
 }
 
-static fracas_err apply(const fracas_circulant *circulant, const double *w, double (*x)[2], double *z)
+static fracas_err apply(const fracas_circulant *circulant, const double *w, double (*x)[2],
+                        double *z)
 {
     for (size_t i = 0; i < circulant->size; i++) {
         x[i][0] = w[i];

@@ -1,4 +1,6 @@
-/* Gaussian fields on equally spaced sites: the square root of a circulant matrix, by Fourier transforms. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Gaussian fields on equally spaced sites: the square root of a circulant matrix, by Fourier
+ * transforms. */
 #ifndef FRACAS_SAMPLER_CIRCULANT_H
 #define FRACAS_SAMPLER_CIRCULANT_H
 
@@ -6,23 +8,28 @@
 
 typedef struct fracas_circulant fracas_circulant;
 
-/* Of n >= 3 sites on a circle of this radius, at equal angles; d is the chord. FRACAS_ENVIRONMENT without memory. */
-FRACAS_MUST_USE fracas_err fracas_circulant_circle(const fracas_covariance *covariance, size_t n, double radius,
-                                                   fracas_circulant **circulant);
+/* Of n >= 3 sites on a circle of this radius, at equal angles; d is the chord. FRACAS_ENVIRONMENT
+ * without memory. */
+FRACAS_MUST_USE fracas_err fracas_circulant_circle(const fracas_covariance *covariance, size_t n,
+                                                   double radius, fracas_circulant **circulant);
 
-/* Of n >= 3 sites on a line, `spacing` [m] apart: a part of a circle of more sites. Where no circle in reach has a covariance
- * that is one, the nearest is taken, of variance 1. FRACAS_ENVIRONMENT without memory. */
-FRACAS_MUST_USE fracas_err fracas_circulant_line(const fracas_covariance *covariance, size_t n, double spacing,
-                                                 fracas_circulant **circulant);
+/* Of n >= 3 sites on a line, `spacing` [m] apart: a part of a circle of more sites. Where no circle
+ * in reach has a covariance that is one, the nearest is taken, of variance 1. FRACAS_ENVIRONMENT
+ * without memory. */
+FRACAS_MUST_USE fracas_err fracas_circulant_line(const fracas_covariance *covariance, size_t n,
+                                                 double spacing, fracas_circulant **circulant);
 void fracas_circulant_destroy(fracas_circulant *circulant); /* NULL is allowed */
 
 /* Number of sites of the circle: of independent normals that a realization takes. */
 size_t fracas_circulant_normals(const fracas_circulant *circulant);
 
-/* The largest difference between the field's correlation and the covariance, at any distance of two sites. */
+/* The largest difference between the field's correlation and the covariance, at any distance of two
+ * sites. */
 double fracas_circulant_error(const fracas_circulant *circulant);
 
-/* z[0 ... n-1] = A w, A A^T the covariance of the circle, w[fracas_circulant_normals]. FRACAS_ENVIRONMENT without memory. */
-FRACAS_MUST_USE fracas_err fracas_circulant_apply(const fracas_circulant *circulant, const double *w, double *z);
+/* z[0 ... n-1] = A w, A A^T the covariance of the circle, w[fracas_circulant_normals].
+ * FRACAS_ENVIRONMENT without memory. */
+FRACAS_MUST_USE fracas_err fracas_circulant_apply(const fracas_circulant *circulant,
+                                                  const double *w, double *z);
 
 #endif

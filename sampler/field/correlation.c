@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sampler/field/correlation.h"
 
 #include "base/elementary.h"
@@ -30,19 +31,21 @@ static bool is_line(size_t n, const double (*x)[3], double *spacing)
     *spacing = fracas_distance(first, last) / (double)(n - 1);
     for (size_t i = 0; i < n; i++) {
         const double s = (double)i / (double)(n - 1);
-        if (!is_at(x[i], first[0] + s * (last[0] - first[0]), first[1] + s * (last[1] - first[1]), first[2] + s * (last[2] - first[2]),
-                   NEAR * *spacing)) return false;
+        if (!is_at(x[i], first[0] + s * (last[0] - first[0]), first[1] + s * (last[1] - first[1]),
+                   first[2] + s * (last[2] - first[2]), NEAR * *spacing))
+            return false;
     }
     return *spacing > 0.0;
 }
 
-/* True if site i is at c + r (cos(2 pi i/n) a + sin(2 pi i/n) b), with c the mean of all, r a from there to site 0 and b from a site a
- * quarter of the circle on; the radius. */
+/* True if site i is at c + r (cos(2 pi i/n) a + sin(2 pi i/n) b), with c the mean of all, r a from
+ * there to site 0 and b from a site a quarter of the circle on; the radius. */
 static bool is_circle(size_t n, const double (*x)[3], double *radius)
 {
     double c[3] = {0}, a[3], b[3];
     const size_t quarter = (n + 1) / 4;
-    const double along = fracas_cospi(2.0 * (double)quarter / (double)n), across = fracas_sinpi(2.0 * (double)quarter / (double)n);
+    const double along = fracas_cospi(2.0 * (double)quarter / (double)n),
+                 across = fracas_sinpi(2.0 * (double)quarter / (double)n);
     for (size_t i = 0; i < n; i++)
         for (int k = 0; k < 3; k++) c[k] += x[i][k] / (double)n;
     *radius = fracas_distance(x[0], c);
@@ -51,32 +54,42 @@ static bool is_circle(size_t n, const double (*x)[3], double *radius)
         b[k] = (x[quarter][k] - c[k] - along * a[k]) / across;
     }
     const double tolerance = NEAR * 2.0 * *radius * fracas_sinpi(1.0 / (double)n);
-    const double skew = a[0] * b[0] + a[1] * b[1] + a[2] * b[2], length = sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
-    if (!(*radius > 0.0) || fabs(length - *radius) > tolerance || fabs(skew) > tolerance * *radius) return false;
+    const double skew = a[0] * b[0] + a[1] * b[1] + a[2] * b[2],
+                 length = sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
+    if (!(*radius > 0.0) || fabs(length - *radius) > tolerance || fabs(skew) > tolerance * *radius)
+        return false;
     for (size_t i = 0; i < n; i++) {
-        const double s = fracas_cospi(2.0 * (double)i / (double)n), t = fracas_sinpi(2.0 * (double)i / (double)n);
-        if (!is_at(x[i], c[0] + s * a[0] + t * b[0], c[1] + s * a[1] + t * b[1], c[2] + s * a[2] + t * b[2], tolerance)) return false;
+        const double s = fracas_cospi(2.0 * (double)i / (double)n),
+                     t = fracas_sinpi(2.0 * (double)i / (double)n);
+        if (!is_at(x[i], c[0] + s * a[0] + t * b[0], c[1] + s * a[1] + t * b[1],
+                   c[2] + s * a[2] + t * b[2], tolerance))
+            return false;
     }
     return true;
 }
 
-static fracas_err choose_factor(fracas_correlation *correlation, const fracas_covariance *covariance, const double (*x)[3])
+static fracas_err choose_factor(fracas_correlation *correlation,
+                                const fracas_covariance *covariance, const double (*x)[3])
 {
     const size_t n = correlation->n;
     double size;
-    if (n >= 3 && is_circle(n, x, &size)) return fracas_circulant_circle(covariance, n, size, &correlation->circulant);
+    if (n >= 3 && is_circle(n, x, &size))
+        return fracas_circulant_circle(covariance, n, size, &correlation->circulant);
     if (n >= 3 && is_line(n, x, &size)) {
         TRY(fracas_circulant_line(covariance, n, size, &correlation->circulant));
-        if (n > FRACAS_DENSE_SITES || fracas_circulant_error(correlation->circulant) < 1e-12) return FRACAS_OK;
-        fracas_circulant_destroy(correlation->circulant); /* no circle has this covariance: few sites do without */
+        if (n > FRACAS_DENSE_SITES || fracas_circulant_error(correlation->circulant) < 1e-12)
+            return FRACAS_OK;
+        fracas_circulant_destroy(
+            correlation->circulant); /* no circle has this covariance: few sites do without */
         correlation->circulant = NULL;
     }
     return fracas_sparse_factor_create(covariance, n, x, &correlation->sparse);
 }
 
 /* (fields.5) x [m] along a circle of this circumference. */
-static fracas_err closed_factor(fracas_correlation *correlation, const fracas_covariance *covariance, const double (*position)[3],
-                                   double period)
+static fracas_err closed_factor(fracas_correlation *correlation,
+                                const fracas_covariance *covariance, const double (*position)[3],
+                                double period)
 {
     double(*x)[3] = malloc((correlation->n + 1) * sizeof *x);
     if (!x) return fracas_no_memory("a correlated field");
@@ -91,7 +104,8 @@ static fracas_err closed_factor(fracas_correlation *correlation, const fracas_co
     return err;
 }
 
-fracas_err fracas_correlation_create(const fracas_strength *strength, size_t n, const double (*position)[3], double period,
+fracas_err fracas_correlation_create(const fracas_strength *strength, size_t n,
+                                     const double (*position)[3], double period,
                                      fracas_correlation **correlation)
 {
     fracas_covariance *covariance;
@@ -100,7 +114,8 @@ fracas_err fracas_correlation_create(const fracas_strength *strength, size_t n, 
     made->n = n;
     fracas_err err = fracas_covariance_create(strength, &covariance);
     if (!err) {
-        err = period > 0.0 ? closed_factor(made, covariance, position, period) : choose_factor(made, covariance, position);
+        err = period > 0.0 ? closed_factor(made, covariance, position, period)
+                           : choose_factor(made, covariance, position);
         fracas_covariance_destroy(covariance);
     }
     if (err) fracas_correlation_destroy(made);
@@ -118,10 +133,12 @@ void fracas_correlation_destroy(fracas_correlation *correlation)
 
 size_t fracas_correlation_normals(const fracas_correlation *correlation)
 {
-    return correlation->circulant ? fracas_circulant_normals(correlation->circulant) : correlation->n;
+    return correlation->circulant ? fracas_circulant_normals(correlation->circulant)
+                                  : correlation->n;
 }
 
-fracas_err fracas_correlation_apply(const fracas_correlation *correlation, const double *w, double *z)
+fracas_err fracas_correlation_apply(const fracas_correlation *correlation, const double *w,
+                                    double *z)
 {
     if (correlation->circulant) return fracas_circulant_apply(correlation->circulant, w, z);
     return fracas_sparse_factor_apply(correlation->sparse, w, z);
@@ -129,5 +146,6 @@ fracas_err fracas_correlation_apply(const fracas_correlation *correlation, const
 
 double fracas_correlation_error(const fracas_correlation *correlation)
 {
-    return correlation->circulant ? fracas_circulant_error(correlation->circulant) : fracas_sparse_factor_error(correlation->sparse);
+    return correlation->circulant ? fracas_circulant_error(correlation->circulant)
+                                  : fracas_sparse_factor_error(correlation->sparse);
 }

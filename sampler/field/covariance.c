@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sampler/field/covariance.h"
 
 #include "base/elementary.h"
@@ -9,9 +10,11 @@
 
 #define USUAL_SMOOTHNESS 1.5
 
-const fracas_kind fracas_covariance_exponential = {.name = "exponential", .doc = "exp(-d/l): rough, as matern of smoothness 1/2"};
+const fracas_kind fracas_covariance_exponential = {
+    .name = "exponential", .doc = "exp(-d/l): rough, as matern of smoothness 1/2"};
 const fracas_kind fracas_covariance_matern = {.name = "matern", .doc = "of any smoothness nu"};
-const fracas_kind fracas_covariance_gaussian = {.name = "gaussian", .doc = "exp(-d^2/(2 l^2)): smoother than anything real"};
+const fracas_kind fracas_covariance_gaussian = {
+    .name = "gaussian", .doc = "exp(-d^2/(2 l^2)): smoother than anything real"};
 
 /* Pieces of a table in x = sqrt(2 nu) d/l: four in each octave from 2^LOWEST to 2^HIGHEST. */
 enum { LOWEST = -40, HIGHEST = 10, PIECES = 4 * (HIGHEST - LOWEST), TERMS = 14 };
@@ -23,24 +26,32 @@ struct fracas_covariance {
     double factor;     /* 2^(1 - nu)/Gamma(nu) */
     int degree;        /* of the polynomial; -1: nu is no half-integer */
     double polynomial[10];
-    double (*table)[TERMS]; /* [PIECES] Chebyshev coefficients of e^x rho; NULL where there is a polynomial */
+    double (*table)[TERMS]; /* [PIECES] Chebyshev coefficients of e^x rho; NULL where there is a
+                               polynomial */
 };
 
 fracas_err fracas_covariance_check(const fracas_strength *strength)
 {
     if (!strength->covariance && strength->correlation_length > 0)
-        return fracas_fail(FRACAS_USAGE, "`correlation_length` without a `covariance`: say which, exponential, matern or gaussian");
+        return fracas_fail(FRACAS_USAGE, "`correlation_length` without a `covariance`: say which, "
+                                         "exponential, matern or gaussian");
     if (strength->covariance != &fracas_covariance_matern && strength->smoothness > 0)
-        return fracas_fail(FRACAS_USAGE, "`smoothness` is that of a matern covariance alone: leave it out, or say `covariance: matern`");
+        return fracas_fail(FRACAS_USAGE, "`smoothness` is that of a matern covariance alone: leave "
+                                         "it out, or say `covariance: matern`");
     if (!strength->covariance) return FRACAS_OK;
     if (!(strength->correlation_length > 0))
-        return fracas_fail(FRACAS_USAGE, "`covariance` without a `correlation_length`: give it, a length");
+        return fracas_fail(FRACAS_USAGE,
+                           "`covariance` without a `correlation_length`: give it, a length");
     if (fracas_strength_is_given(strength))
-        return fracas_fail(FRACAS_USAGE, "`covariance` is of strengths that are drawn, and those of distribution `%s` are given: leave it out",
+        return fracas_fail(FRACAS_USAGE,
+                           "`covariance` is of strengths that are drawn, and those of distribution "
+                           "`%s` are given: leave it out",
                            strength->distribution->name);
     if (strength->distribution == &fracas_constant.kind)
-        return fracas_fail(FRACAS_USAGE, "`covariance` changes nothing where all strengths are the same, as those of distribution `constant`: "
-                           "leave it out, or choose another distribution");
+        return fracas_fail(
+            FRACAS_USAGE,
+            "`covariance` changes nothing where all strengths are the same, as those of "
+            "distribution `constant`: leave it out, or choose another distribution");
     return FRACAS_OK;
 }
 
@@ -64,7 +75,9 @@ static void interpolate(const fracas_covariance *covariance, int piece, double c
     for (int i = 0; i < TERMS; i++) {
         const double t = fracas_cospi((i + 0.5) / TERMS);
         const double value = matern_scaled(covariance, 0.5 * (low + high) + 0.5 * (high - low) * t);
-        for (int k = 0; k < TERMS; k++) coefficient[k] += (k > 0 ? 2.0 : 1.0) / TERMS * value * fracas_cospi(k * (i + 0.5) / TERMS);
+        for (int k = 0; k < TERMS; k++)
+            coefficient[k] += (k > 0 ? 2.0 : 1.0) / TERMS * value *
+                              fracas_cospi(k * (i + 0.5) / TERMS);
     }
 }
 
@@ -73,7 +86,8 @@ static double from_table(const fracas_covariance *covariance, double x)
     int exponent;
     const double mantissa = frexp(x, &exponent); /* [1/2, 1) */
     const int piece = 4 * (exponent - 1 - LOWEST) + (int)(8.0 * mantissa) - 4;
-    const double low = piece_start(piece), high = piece_start(piece + 1), t = (2.0 * x - low - high) / (high - low);
+    const double low = piece_start(piece), high = piece_start(piece + 1),
+                 t = (2.0 * x - low - high) / (high - low);
     const double *c = covariance->table[piece];
     double next = 0.0, after = 0.0;
     for (int k = TERMS - 1; k > 0; k--) {
@@ -101,9 +115,10 @@ double fracas_covariance_at(const fracas_covariance *covariance, double distance
     if (covariance->kind == &fracas_covariance_gaussian) return fracas_exp(-0.5 * y * y);
     const double x = sqrt(2.0 * covariance->smoothness) * y;
     if (x > 1000.0) return 0.0; /* below the smallest double */
-    const double scaled = covariance->degree >= 0 ? half_integer(covariance, x)
+    const double scaled = covariance->degree >= 0   ? half_integer(covariance, x)
                           : x >= ldexp(1.0, LOWEST) ? from_table(covariance, x)
-                          : x >= 1e-20 ? matern_scaled(covariance, x) : 1.0;
+                          : x >= 1e-20              ? matern_scaled(covariance, x)
+                                                    : 1.0;
     return fmin(1.0, scaled * fracas_exp(-x));
 }
 
@@ -112,7 +127,8 @@ static void make_polynomial(fracas_covariance *covariance, int degree)
     covariance->degree = degree;
     covariance->polynomial[0] = 1.0;
     for (int j = 0; j < degree; j++)
-        covariance->polynomial[j + 1] = covariance->polynomial[j] * (2.0 * (degree - j)) / ((2.0 * degree - j) * (j + 1.0));
+        covariance->polynomial[j + 1] = covariance->polynomial[j] * (2.0 * (degree - j)) /
+                                        ((2.0 * degree - j) * (j + 1.0));
 }
 
 fracas_err fracas_covariance_create(const fracas_strength *strength, fracas_covariance **covariance)
@@ -120,7 +136,10 @@ fracas_err fracas_covariance_create(const fracas_strength *strength, fracas_cova
     fracas_covariance *made = calloc(1, sizeof *made);
     if (!made) return fracas_no_memory("a covariance");
     const double nu = strength->smoothness > 0 ? strength->smoothness : USUAL_SMOOTHNESS;
-    *made = (fracas_covariance){.kind = strength->covariance, .length = strength->correlation_length, .smoothness = nu, .degree = -1};
+    *made = (fracas_covariance){.kind = strength->covariance,
+                                .length = strength->correlation_length,
+                                .smoothness = nu,
+                                .degree = -1};
     if (nu - 0.5 == floor(nu)) {
         make_polynomial(made, (int)nu);
     } else {

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How alike strengths are at a distance. */
 #ifndef FRACAS_SAMPLER_COVARIANCE_H
 #define FRACAS_SAMPLER_COVARIANCE_H
@@ -8,13 +9,15 @@ extern const fracas_kind fracas_covariance_exponential;
 extern const fracas_kind fracas_covariance_matern;
 extern const fracas_kind fracas_covariance_gaussian;
 
-/* FRACAS_USAGE when the keys of a correlation do not go together, or are given for strengths that are not drawn: of a file, or constant. */
+/* FRACAS_USAGE when the keys of a correlation do not go together, or are given for strengths that
+ * are not drawn: of a file, or constant. */
 FRACAS_MUST_USE fracas_err fracas_covariance_check(const fracas_strength *strength);
 
 typedef struct fracas_covariance fracas_covariance;
 
 /* The covariance that the strength names; it must name one. FRACAS_ENVIRONMENT without memory. */
-FRACAS_MUST_USE fracas_err fracas_covariance_create(const fracas_strength *strength, fracas_covariance **covariance);
+FRACAS_MUST_USE fracas_err fracas_covariance_create(const fracas_strength *strength,
+                                                    fracas_covariance **covariance);
 void fracas_covariance_destroy(fracas_covariance *covariance); /* NULL is allowed */
 
 /* rho(d), d >= 0 [m]: 1 at 0, and falling; to 3e-14, same bits on every CPU. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sampler/field/dense_factor.h"
 
 #include "sampler/field/distance.h"
@@ -61,17 +62,23 @@ static void eliminate(elimination *e)
         for (size_t i = k + 1; i < n; i++) {
             double *row = &factor->row[i * n];
             const double d = fracas_distance(e->position[e->order[i]], e->position[e->order[k]]);
-            row[k] = (fracas_covariance_at(e->covariance, d) - fracas_dot(k, row, &factor->row[k * n])) / diagonal;
+            row[k] = (fracas_covariance_at(e->covariance, d) -
+                      fracas_dot(k, row, &factor->row[k * n])) /
+                     diagonal;
             e->left[i] -= row[k] * row[k];
         }
         factor->rank = k + 1;
     }
 }
 
-fracas_err fracas_dense_factor_init(const fracas_covariance *covariance, const double (*position)[3], size_t n, uint32_t *order,
+fracas_err fracas_dense_factor_init(const fracas_covariance *covariance,
+                                    const double (*position)[3], size_t n, uint32_t *order,
                                     fracas_dense_factor *factor)
 {
-    elimination e = {.covariance = covariance, .position = position, .order = order, .factor = factor,
+    elimination e = {.covariance = covariance,
+                     .position = position,
+                     .order = order,
+                     .factor = factor,
                      .left = malloc((n + 1) * sizeof *e.left)};
     *factor = (fracas_dense_factor){.n = n, .row = calloc(n * n + 1, sizeof *factor->row)};
     const bool ready = e.left && factor->row;
@@ -96,5 +103,6 @@ void fracas_dense_factor_clear(fracas_dense_factor *factor)
 double fracas_dense_factor_product(const fracas_dense_factor *factor, size_t i, size_t j)
 {
     const size_t shorter = (i < j ? i : j) + 1;
-    return fracas_dot(shorter < factor->rank ? shorter : factor->rank, &factor->row[i * factor->rank], &factor->row[j * factor->rank]);
+    return fracas_dot(shorter < factor->rank ? shorter : factor->rank,
+                      &factor->row[i * factor->rank], &factor->row[j * factor->rank]);
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cholesky's factor of a covariance that may be singular. */
 #ifndef FRACAS_SAMPLER_DENSE_FACTOR_H
 #define FRACAS_SAMPLER_DENSE_FACTOR_H
@@ -11,9 +12,11 @@ typedef struct {
     double *row; /* [n*rank] L, 0 above its diagonal */
 } fracas_dense_factor;
 
-/* L L^T = the correlations of the sites order[0 ... n-1] at these positions, which are put in the order of their pivots; each row of L
- * has the norm 1. FRACAS_ENVIRONMENT without memory; the factor is to be cleared whatever is returned. */
-FRACAS_MUST_USE fracas_err fracas_dense_factor_init(const fracas_covariance *covariance, const double (*position)[3], size_t n,
+/* L L^T = the correlations of the sites order[0 ... n-1] at these positions, which are put in the
+ * order of their pivots; each row of L has the norm 1. FRACAS_ENVIRONMENT without memory; the
+ * factor is to be cleared whatever is returned. */
+FRACAS_MUST_USE fracas_err fracas_dense_factor_init(const fracas_covariance *covariance,
+                                                    const double (*position)[3], size_t n,
                                                     uint32_t *order, fracas_dense_factor *factor);
 void fracas_dense_factor_clear(fracas_dense_factor *factor);
 

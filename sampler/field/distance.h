@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Distances of sites. */
 #ifndef FRACAS_SAMPLER_DISTANCE_H
 #define FRACAS_SAMPLER_DISTANCE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sampler/field/field.h"
 
 #include "sampler/distribution/distribution.h"
@@ -9,13 +10,14 @@
 #include <string.h>
 
 struct fracas_field {
-    const fracas_strength *strength; /* ready: the field's own `drawn`, or as it was, where strengths are given */
+    const fracas_strength
+        *strength; /* ready: the field's own `drawn`, or as it was, where strengths are given */
     fracas_strength drawn;
     size_t n, points;
-    fracas_extent *extent; /* [n] */
-    double *given;         /* [n*points], where strengths are given; else NULL */
+    fracas_extent *extent;           /* [n] */
+    double *given;                   /* [n*points], where strengths are given; else NULL */
     fracas_correlation *correlation; /* NULL where strengths are independent */
-    double *factor;        /* [n*points], where the material is graded; else NULL */
+    double *factor;                  /* [n*points], where the material is graded; else NULL */
     fracas_isa isa;
 };
 
@@ -31,10 +33,12 @@ static fracas_err read_given(fracas_field *field, const fracas_sites *sites)
 {
     field->given = malloc((field->n * field->points + 1) * sizeof *field->given);
     if (!field->given) return fracas_no_memory("the strengths of a file");
-    return fracas_distribution_of(field->strength)->fill(field->strength, field->n * field->points, sites->position, 1, field->given);
+    return fracas_distribution_of(field->strength)
+        ->fill(field->strength, field->n * field->points, sites->position, 1, field->given);
 }
 
-fracas_err fracas_field_create(const fracas_strength *strength, const fracas_sites *sites, fracas_field **field)
+fracas_err fracas_field_create(const fracas_strength *strength, const fracas_sites *sites,
+                               fracas_field **field)
 {
     fracas_field *made = calloc(1, sizeof *made);
     if (!made) return fracas_no_memory("a strength field");
@@ -43,10 +47,14 @@ fracas_err fracas_field_create(const fracas_strength *strength, const fracas_sit
     fracas_err err = made->extent ? FRACAS_OK : fracas_no_memory("a strength field");
     if (!err) err = fracas_isa_choose(FRACAS_ISA_BEST, &made->isa);
     if (!err && fracas_strength_is_given(strength)) err = read_given(made, sites);
-    else if (!err && !(err = fracas_strength_init(strength, &made->drawn))) made->strength = &made->drawn;
+    else if (!err && !(err = fracas_strength_init(strength, &made->drawn)))
+        made->strength = &made->drawn;
     if (!err && strength->covariance)
-        err = fracas_correlation_create(strength, made->n * made->points, sites->position, sites->period, &made->correlation);
-    if (!err) err = fracas_grading_create(strength, sites->n * sites->points, sites->position, &made->factor);
+        err = fracas_correlation_create(strength, made->n * made->points, sites->position,
+                                        sites->period, &made->correlation);
+    if (!err)
+        err = fracas_grading_create(strength, sites->n * sites->points, sites->position,
+                                    &made->factor);
     if (err) fracas_field_destroy(made);
     else *field = made;
     return err;
@@ -80,9 +88,10 @@ fracas_err fracas_field_use(fracas_field *field, fracas_isa isa)
 
 /* ---- a realization ---- */
 
-/* (sampling.3) over lanes: the sites of a Gauss point are successive. Lanes beyond the last interface draw numbers of no use. */
-static void sample_blocks(const fracas_field *field, fracas_block_quantile *quantile, const fracas_stream *stream, size_t stride,
-                          double *sigma_c)
+/* (sampling.3) over lanes: the sites of a Gauss point are successive. Lanes beyond the last
+ * interface draw numbers of no use. */
+static void sample_blocks(const fracas_field *field, fracas_block_quantile *quantile,
+                          const fracas_stream *stream, size_t stride, double *sigma_c)
 {
     enum { BLOCK = 32 * FRACAS_BLOCK_LANES };
     double u[BLOCK] __attribute__((aligned(64))), x[BLOCK] __attribute__((aligned(64)));
@@ -90,7 +99,8 @@ static void sample_blocks(const fracas_field *field, fracas_block_quantile *quan
     for (size_t g = 0; g < field->points; g++)
         for (size_t i = 0; i < field->n; i += BLOCK) {
             const size_t left = field->n - i, count = left < BLOCK ? left : BLOCK;
-            const size_t whole = (count + FRACAS_BLOCK_LANES - 1) / FRACAS_BLOCK_LANES * FRACAS_BLOCK_LANES;
+            const size_t whole = (count + FRACAS_BLOCK_LANES - 1) / FRACAS_BLOCK_LANES *
+                                 FRACAS_BLOCK_LANES;
             fracas_stream_fill(stream, fracas_stream_site(i, g), whole, u);
             quantile(field->strength, whole, u, x);
             for (size_t j = 0; j < count; j++) sigma_c[g * stride + (i + j) * next] = x[j];
@@ -98,23 +108,27 @@ static void sample_blocks(const fracas_field *field, fracas_block_quantile *quan
 }
 
 /* (sampling.3) */
-static void sample_each(const fracas_field *field, const fracas_stream *stream, size_t stride, double *sigma_c)
+static void sample_each(const fracas_field *field, const fracas_stream *stream, size_t stride,
+                        double *sigma_c)
 {
     for (size_t i = 0, k = 0; i < field->n; i++)
         for (size_t g = 0; g < field->points; g++, k++) {
             const double u = fracas_stream_uniform(stream, fracas_stream_site(i, g));
-            sigma_c[k * stride] = fracas_strength_quantile(field->strength, field->extent[i], fracas_probability_of(u));
+            sigma_c[k * stride] = fracas_strength_quantile(field->strength, field->extent[i],
+                                                           fracas_probability_of(u));
         }
 }
 
 /* (fields.17) z[k] of the normal field */
-static fracas_err draw_normal_field(const fracas_field *field, const fracas_stream *stream, double *z)
+static fracas_err draw_normal_field(const fracas_field *field, const fracas_stream *stream,
+                                    double *z)
 {
     const size_t count = fracas_correlation_normals(field->correlation);
     double *w = malloc((count + 1) * sizeof *w);
     if (!w) return fracas_no_memory("a correlated field");
     for (size_t k = 0; k < count; k++) {
-        const double u = fracas_stream_uniform(stream, fracas_stream_site(k / field->points, k % field->points));
+        const double u = fracas_stream_uniform(
+            stream, fracas_stream_site(k / field->points, k % field->points));
         w[k] = fracas_normal_quantile(fracas_probability_of(u));
     }
     fracas_err err = fracas_correlation_apply(field->correlation, w, z);
@@ -123,28 +137,34 @@ static fracas_err draw_normal_field(const fracas_field *field, const fracas_stre
 }
 
 /* (fields.18) */
-static fracas_err sample_correlated(const fracas_field *field, const fracas_stream *stream, size_t stride, double *sigma_c)
+static fracas_err sample_correlated(const fracas_field *field, const fracas_stream *stream,
+                                    size_t stride, double *sigma_c)
 {
     const size_t count = fracas_field_size(field);
     double *z = malloc((count + 1) * sizeof *z);
     if (!z) return fracas_no_memory("a correlated field");
     fracas_err err = draw_normal_field(field, stream, z);
     for (size_t k = 0; k < count && !err; k++) {
-        const fracas_probability p = {.below = fracas_normal_upper(-z[k]), .above = fracas_normal_upper(z[k])};
-        sigma_c[k * stride] = fracas_strength_quantile(field->strength, field->extent[k / field->points], p);
+        const fracas_probability p = {.below = fracas_normal_upper(-z[k]),
+                                      .above = fracas_normal_upper(z[k])};
+        sigma_c[k * stride] = fracas_strength_quantile(field->strength,
+                                                       field->extent[k / field->points], p);
     }
     free(z);
     return err;
 }
 
-fracas_err fracas_field_sample(const fracas_field *field, const fracas_stream *stream, size_t stride, double *sigma_c)
+fracas_err fracas_field_sample(const fracas_field *field, const fracas_stream *stream,
+                               size_t stride, double *sigma_c)
 {
     fracas_block_quantile *block = fracas_distribution_of(field->strength)->block[field->isa];
     if (fracas_strength_has_size_effect(field->strength)) block = NULL; /* blocks know no extents */
     if (field->correlation) TRY(sample_correlated(field, stream, stride, sigma_c));
     else if (block) sample_blocks(field, block, stream, stride, sigma_c);
     else if (!field->given) sample_each(field, stream, stride, sigma_c);
-    for (size_t k = 0; field->given && k < fracas_field_size(field); k++) sigma_c[k * stride] = field->given[k];
-    for (size_t k = 0; field->factor && k < fracas_field_size(field); k++) sigma_c[k * stride] *= field->factor[k]; /* (grading.3) */
+    for (size_t k = 0; field->given && k < fracas_field_size(field); k++)
+        sigma_c[k * stride] = field->given[k];
+    for (size_t k = 0; field->factor && k < fracas_field_size(field); k++)
+        sigma_c[k * stride] *= field->factor[k]; /* (grading.3) */
     return FRACAS_OK;
 }

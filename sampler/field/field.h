@@ -1,4 +1,6 @@
-/* Strength fields: what all replicas of a point share, made once, and the strengths of each replica. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Strength fields: what all replicas of a point share, made once, and the strengths of each
+ * replica. */
 #ifndef FRACAS_SAMPLER_FIELD_FIELD_H
 #define FRACAS_SAMPLER_FIELD_FIELD_H
 
@@ -6,7 +8,8 @@
 #include "sampler/strength.h"
 #include "sampler/stream.h"
 
-/* Where strengths are: a mesh as the sampler sees it. Strength k = i*points + g is that of Gauss point g of interface i. */
+/* Where strengths are: a mesh as the sampler sees it. Strength k = i*points + g is that of Gauss
+ * point g of interface i. */
 typedef struct {
     size_t n;                    /* interfaces */
     size_t points;               /* strengths of each: 1, or one for each of its Gauss points */
@@ -17,27 +20,33 @@ typedef struct {
 
 typedef struct fracas_field fracas_field;
 
-/* The field of these strengths over these sites, which are copied as far as they are needed; `strength` must outlive it.
- * FRACAS_USAGE where they do not go together (a file with other places than these), FRACAS_ENVIRONMENT without memory. */
-FRACAS_MUST_USE fracas_err fracas_field_create(const fracas_strength *strength, const fracas_sites *sites, fracas_field **field);
+/* The field of these strengths over these sites, which are copied as far as they are needed;
+ * `strength` must outlive it. FRACAS_USAGE where they do not go together (a file with other places
+ * than these), FRACAS_ENVIRONMENT without memory. */
+FRACAS_MUST_USE fracas_err fracas_field_create(const fracas_strength *strength,
+                                               const fracas_sites *sites, fracas_field **field);
 void fracas_field_destroy(fracas_field *field); /* NULL is allowed */
 
-/* Draws with this instruction set instead of the best of this CPU; all give the same bits. FRACAS_USAGE if the CPU lacks it. */
+/* Draws with this instruction set instead of the best of this CPU; all give the same bits.
+ * FRACAS_USAGE if the CPU lacks it. */
 FRACAS_MUST_USE fracas_err fracas_field_use(fracas_field *field, fracas_isa isa);
 
 /* Number of strengths of a realization, n*points. */
 size_t fracas_field_size(const fracas_field *field);
 
-/* How far the field's correlation is from the covariance it was asked for: the largest difference that was found, of all pairs of
- * sites that are equally spaced or no more than FRACAS_DENSE_SITES, else of those of 128 sites with all. Its marginals are exact.
- * 0 where strengths are independent or given. */
+/* How far the field's correlation is from the covariance it was asked for: the largest difference
+ * that was found, of all pairs of sites that are equally spaced or no more than FRACAS_DENSE_SITES,
+ * else of those of 128 sites with all. Its marginals are exact. 0 where strengths are independent
+ * or given. */
 double fracas_field_error(const fracas_field *field);
 
-/* sigma_c[k*stride] = strength k [Pa] of the realization that the stream names; `stride` lets a lane of a batch be filled in
- * place. Where the material is graded (sampler/field/grading.h), after the factor. Each value depends on the field and the name of
- * the stream alone. Of strengths that are given they are those of the file, whatever the stream; NaN beyond its end.
- * FRACAS_ENVIRONMENT without memory. */
-FRACAS_MUST_USE fracas_err fracas_field_sample(const fracas_field *field, const fracas_stream *stream, size_t stride,
+/* sigma_c[k*stride] = strength k [Pa] of the realization that the stream names; `stride` lets a
+ * lane of a batch be filled in place. Where the material is graded (sampler/field/grading.h), after
+ * the factor. Each value depends on the field and the name of the stream alone. Of strengths that
+ * are given they are those of the file, whatever the stream; NaN beyond its end. FRACAS_ENVIRONMENT
+ * without memory. */
+FRACAS_MUST_USE fracas_err fracas_field_sample(const fracas_field *field,
+                                               const fracas_stream *stream, size_t stride,
                                                double *sigma_c);
 
 #endif

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sampler/field/grading.h"
 
 #include "base/units.h"
@@ -23,8 +24,10 @@ FRACAS_MUST_USE static fracas_err read_number(fracas_lines *lines, const char *w
     char field[FRACAS_FIELD];
     fracas_lines_field(lines, field);
     if (!fracas_number_read(field, value)) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "%s:%" PRId64 ": found %s%s%s as %s; a line begins with a coordinate [m] and a factor, numbers without "
-                                     "units after commas or blanks", lines->file->path, lines->line, *field ? "`" : "nothing", field,
+    return fracas_fail(FRACAS_USAGE,
+                       "%s:%" PRId64 ": found %s%s%s as %s; a line begins with a coordinate [m] "
+                       "and a factor, numbers without units after commas or blanks",
+                       lines->file->path, lines->line, *field ? "`" : "nothing", field,
                        *field ? "`" : "", what);
 }
 
@@ -42,19 +45,27 @@ FRACAS_MUST_USE static fracas_err next_place(fracas_lines *lines, place *p, bool
     TRY(read_number(lines, "coordinate", &p->at));
     TRY(read_number(lines, "factor", &p->factor));
     if (p->factor > 0) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "%s:%" PRId64 ": a factor of %g; it must be greater than 0", lines->file->path, lines->line, p->factor);
+    return fracas_fail(FRACAS_USAGE, "%s:%" PRId64 ": a factor of %g; it must be greater than 0",
+                       lines->file->path, lines->line, p->factor);
 }
 
 /* Coordinates increase; at a jump there are two places. */
-FRACAS_MUST_USE static fracas_err check_order(const fracas_lines *lines, const profile *of, double at)
+FRACAS_MUST_USE static fracas_err check_order(const fracas_lines *lines, const profile *of,
+                                              double at)
 {
     const size_t n = of->count;
     if (n > 0 && at < of->place[n - 1].at)
-        return fracas_fail(FRACAS_USAGE, "%s:%" PRId64 ": the coordinate %.9g m comes after %.9g m; sort the lines by their coordinate",
-                           lines->file->path, lines->line, at, of->place[n - 1].at);
+        return fracas_fail(
+            FRACAS_USAGE,
+            "%s:%" PRId64
+            ": the coordinate %.9g m comes after %.9g m; sort the lines by their coordinate",
+            lines->file->path, lines->line, at, of->place[n - 1].at);
     if (n > 1 && at == of->place[n - 2].at)
-        return fracas_fail(FRACAS_USAGE, "%s:%" PRId64 ": the coordinate %.9g m is given a third time; at a jump there are two lines, with the "
-                           "factors before and after it", lines->file->path, lines->line, at);
+        return fracas_fail(FRACAS_USAGE,
+                           "%s:%" PRId64
+                           ": the coordinate %.9g m is given a third time; at a jump there are two "
+                           "lines, with the factors before and after it",
+                           lines->file->path, lines->line, at);
     return FRACAS_OK;
 }
 
@@ -78,7 +89,9 @@ FRACAS_MUST_USE static fracas_err read_profile(const fracas_attachment *file, pr
         of->place[of->count++] = p;
     }
     if (of->count > 0) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "%s has no factor; expected lines of a coordinate [m] and a factor", file->path);
+    return fracas_fail(FRACAS_USAGE,
+                       "%s has no factor; expected lines of a coordinate [m] and a factor",
+                       file->path);
 }
 
 fracas_err fracas_grading_check(const fracas_strength *strength)
@@ -86,9 +99,12 @@ fracas_err fracas_grading_check(const fracas_strength *strength)
     profile of = {0};
     if (!strength->factor && !strength->factor_along) return FRACAS_OK;
     if (!strength->factor)
-        return fracas_fail(FRACAS_USAGE, "strength.factor_along is given without a file `factor`: name its file, or leave out both");
+        return fracas_fail(FRACAS_USAGE, "strength.factor_along is given without a file `factor`: "
+                                         "name its file, or leave out both");
     if (!strength->factor_along)
-        return fracas_fail(FRACAS_USAGE, "strength.factor needs `factor_along`: x, y, z or radius, what the coordinates of %s are",
+        return fracas_fail(FRACAS_USAGE,
+                           "strength.factor needs `factor_along`: x, y, z or radius, what the "
+                           "coordinates of %s are",
                            strength->factor->path);
     fracas_err err = read_profile(strength->factor, &of);
     free(of.place);
@@ -98,7 +114,8 @@ fracas_err fracas_grading_check(const fracas_strength *strength)
 /* (grading.1) */
 static double coordinate_of(const fracas_kind *along, const double position[3])
 {
-    if (along == &fracas_along_radius) return sqrt(position[0] * position[0] + position[1] * position[1]);
+    if (along == &fracas_along_radius)
+        return sqrt(position[0] * position[0] + position[1] * position[1]);
     return position[along == &fracas_along_x ? 0 : along == &fracas_along_y ? 1 : 2];
 }
 
@@ -114,18 +131,22 @@ static double factor_at(const profile *of, double s)
         else high = middle;
     }
     if (high == of->count) return p[low].factor;
-    return p[low].factor + (p[high].factor - p[low].factor) * ((s - p[low].at) / (p[high].at - p[low].at));
+    return p[low].factor +
+           (p[high].factor - p[low].factor) * ((s - p[low].at) / (p[high].at - p[low].at));
 }
 
-fracas_err fracas_grading_create(const fracas_strength *strength, size_t n, const double (*position)[3], double **factor)
+fracas_err fracas_grading_create(const fracas_strength *strength, size_t n,
+                                 const double (*position)[3], double **factor)
 {
     profile of = {0};
     *factor = NULL;
     TRY(fracas_grading_check(strength));
     if (!strength->factor || n == 0) return FRACAS_OK;
     fracas_err err = read_profile(strength->factor, &of);
-    if (!err && !(*factor = malloc(n * sizeof **factor))) err = fracas_no_memory("the factors of a strength field");
-    for (size_t k = 0; !err && k < n; k++) (*factor)[k] = factor_at(&of, coordinate_of(strength->factor_along, position[k]));
+    if (!err && !(*factor = malloc(n * sizeof **factor)))
+        err = fracas_no_memory("the factors of a strength field");
+    for (size_t k = 0; !err && k < n; k++)
+        (*factor)[k] = factor_at(&of, coordinate_of(strength->factor_along, position[k]));
     free(of.place);
     return err;
 }

@@ -1,5 +1,7 @@
-/* Sites are taken level by level: of a level of spacing r, all that are r away from every site taken before. The sites taken are kept
- * in the cells of a grid as wide as r is, found by a hash, since surfaces fill few of the cells around them. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sites are taken level by level: of a level of spacing r, all that are r away from every site
+ * taken before. The sites taken are kept in the cells of a grid as wide as r is, found by a hash,
+ * since surfaces fill few of the cells around them. */
 #include "sampler/field/order.h"
 
 #include <math.h>
@@ -26,7 +28,8 @@ typedef struct {
 
 static size_t bucket(const hierarchy *h, const int32_t cell[3])
 {
-    const uint64_t key = (uint64_t)(uint32_t)cell[0] * 0x9e3779b97f4a7c15u ^ (uint64_t)(uint32_t)cell[1] * 0xc2b2ae3d27d4eb4fu ^
+    const uint64_t key = (uint64_t)(uint32_t)cell[0] * 0x9e3779b97f4a7c15u ^
+                         (uint64_t)(uint32_t)cell[1] * 0xc2b2ae3d27d4eb4fu ^
                          (uint64_t)(uint32_t)cell[2] * 0x165667b19e3779f9u;
     return (size_t)(key >> 20) & h->mask;
 }
@@ -58,7 +61,8 @@ static double distance2(const double a[3], const double b[3])
     return x * x + y * y + z * z;
 }
 
-/* The nearest sites so far, the nearest first; of two that are as far, the one that was taken first. */
+/* The nearest sites so far, the nearest first; of two that are as far, the one that was taken
+ * first. */
 typedef struct {
     size_t count, wanted;
     double *distance2;
@@ -68,7 +72,9 @@ typedef struct {
 static void offer(nearest *found, double d2, uint32_t place)
 {
     size_t at = found->count;
-    while (at > 0 && (d2 < found->distance2[at - 1] || (d2 == found->distance2[at - 1] && place < found->place[at - 1]))) at--;
+    while (at > 0 && (d2 < found->distance2[at - 1] ||
+                      (d2 == found->distance2[at - 1] && place < found->place[at - 1])))
+        at--;
     if (at == found->wanted) return;
     if (found->count < found->wanted) found->count++;
     for (size_t k = found->count - 1; k > at; k--) {
@@ -82,7 +88,8 @@ static void offer(nearest *found, double d2, uint32_t place)
 static void look_into(const hierarchy *h, const double x[3], const int32_t cell[3], nearest *found)
 {
     for (uint32_t k = h->head[bucket(h, cell)]; k != NONE; k = h->next[k])
-        if (h->cell_of[k][0] == cell[0] && h->cell_of[k][1] == cell[1] && h->cell_of[k][2] == cell[2])
+        if (h->cell_of[k][0] == cell[0] && h->cell_of[k][1] == cell[1] &&
+            h->cell_of[k][2] == cell[2])
             offer(found, distance2(h->position[h->order[k]], x), k);
 }
 
@@ -95,21 +102,25 @@ static void look_around(const hierarchy *h, const double x[3], int32_t ring, nea
         for (int32_t j = -ring; j <= ring; j++) {
             const bool face = i == -ring || i == ring || j == -ring || j == ring;
             for (int32_t k = -ring; k <= ring; k += face || ring == 0 ? 1 : 2 * ring)
-                look_into(h, x, (const int32_t[3]){middle[0] + i, middle[1] + j, middle[2] + k}, found);
+                look_into(h, x, (const int32_t[3]){middle[0] + i, middle[1] + j, middle[2] + k},
+                          found);
         }
 }
 
-/* Sites that no cell within `ring` holds are further away than ring*cell. Once there are more cells to look into than sites, sites
- * are looked at one by one. */
+/* Sites that no cell within `ring` holds are further away than ring*cell. Once there are more cells
+ * to look into than sites, sites are looked at one by one. */
 static void find_nearest(const hierarchy *h, const double x[3], nearest *found)
 {
-    for (int32_t ring = 0; ring < 2 || (size_t)ring * (size_t)ring * (size_t)ring < h->taken / 8; ring++) {
+    for (int32_t ring = 0; ring < 2 || (size_t)ring * (size_t)ring * (size_t)ring < h->taken / 8;
+         ring++) {
         look_around(h, x, ring, found);
         const double seen = ring * h->cell;
-        if (found->count == found->wanted && found->distance2[found->wanted - 1] <= seen * seen) return;
+        if (found->count == found->wanted && found->distance2[found->wanted - 1] <= seen * seen)
+            return;
     }
     found->count = 0;
-    for (size_t k = 0; k < h->taken; k++) offer(found, distance2(h->position[h->order[k]], x), (uint32_t)k);
+    for (size_t k = 0; k < h->taken; k++)
+        offer(found, distance2(h->position[h->order[k]], x), (uint32_t)k);
 }
 
 static bool is_free(const hierarchy *h, const double x[3], double r)
@@ -127,14 +138,16 @@ static bool is_free(const hierarchy *h, const double x[3], double r)
 static void take(hierarchy *h, uint32_t site, double *room)
 {
     if (h->taken >= h->first) {
-        nearest found = {.wanted = h->m, .distance2 = room, .place = &h->near[(h->taken - h->first) * h->m]};
+        nearest found = {
+            .wanted = h->m, .distance2 = room, .place = &h->near[(h->taken - h->first) * h->m]};
         find_nearest(h, h->position[site], &found);
     }
     h->order[h->taken] = site;
     insert(h, h->taken++);
 }
 
-/* A level of spacing r; r = 0 takes all that are left. Cells are twice as wide as r: few hold the m nearest sites. */
+/* A level of spacing r; r = 0 takes all that are left. Cells are twice as wide as r: few hold the m
+ * nearest sites. */
 static void take_level(hierarchy *h, double r, double *room)
 {
     size_t left = 0;
@@ -151,7 +164,8 @@ static size_t common_divisor(size_t a, size_t b)
     return b == 0 ? a : common_divisor(b, a % b);
 }
 
-/* All sites in steps of about 0.618 n, so that neighbours are far apart; that nearest to the middle of the box is taken. */
+/* All sites in steps of about 0.618 n, so that neighbours are far apart; that nearest to the middle
+ * of the box is taken. */
 static void begin(hierarchy *h, size_t n, double *room)
 {
     double low[3], high[3], size2 = 0.0;
@@ -168,7 +182,8 @@ static void begin(hierarchy *h, size_t n, double *room)
     size_t step = (size_t)(0.6180339887 * (double)n) + 1, start = 0;
     while (common_divisor(step, n) > 1) step++;
     for (size_t i = 1; i < n; i++)
-        if (distance2(h->position[i], h->middle) < distance2(h->position[start], h->middle)) start = i;
+        if (distance2(h->position[i], h->middle) < distance2(h->position[start], h->middle))
+            start = i;
     for (size_t k = 1, i = start; k < n; k++) {
         i = (i + step) % n;
         h->waiting[h->nwaiting++] = (uint32_t)i;
@@ -177,11 +192,17 @@ static void begin(hierarchy *h, size_t n, double *room)
     take(h, (uint32_t)start, room);
 }
 
-fracas_err fracas_order_sites(size_t n, const double (*position)[3], size_t first, size_t m, uint32_t *order, uint32_t *near)
+fracas_err fracas_order_sites(size_t n, const double (*position)[3], size_t first, size_t m,
+                              uint32_t *order, uint32_t *near)
 {
     size_t buckets = 1;
     while (buckets < 2 * n) buckets *= 2;
-    hierarchy h = {.position = position, .first = first, .m = m, .order = order, .near = near, .mask = buckets - 1};
+    hierarchy h = {.position = position,
+                   .first = first,
+                   .m = m,
+                   .order = order,
+                   .near = near,
+                   .mask = buckets - 1};
     if (n == 0) return FRACAS_OK;
     h.head = malloc(buckets * sizeof *h.head);
     h.next = malloc(n * sizeof *h.next);
@@ -192,7 +213,8 @@ fracas_err fracas_order_sites(size_t n, const double (*position)[3], size_t firs
     if (ready) {
         begin(&h, n, room);
         /* Sites closer than 1e-3 of what is usual are left to the end. */
-        for (double r = h.size * RATIO; h.nwaiting > 0 && r > 1e-3 * h.size / (double)n; r *= RATIO) {
+        for (double r = h.size * RATIO; h.nwaiting > 0 && r > 1e-3 * h.size / (double)n;
+             r *= RATIO) {
             lay_grid(&h, 2.0 * r);
             take_level(&h, r, room);
         }

@@ -1,6 +1,8 @@
-/* Vecchia's approximation in an order from coarse to fine: F. Schaefer, M. Katzfuss, H. Owhadi, SIAM J. Sci. Comput. 43, A2019-A2046
- * (2021). In that order the value at a site is its mean given those at the nearest sites before it, and an independent rest; the
- * coarsest sites are drawn together. All members are in that order, by place. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Vecchia's approximation in an order from coarse to fine: F. Schaefer, M. Katzfuss, H. Owhadi,
+ * SIAM J. Sci. Comput. 43, A2019-A2046 (2021). In that order the value at a site is its mean given
+ * those at the nearest sites before it, and an independent rest; the coarsest sites are drawn
+ * together. All members are in that order, by place. */
 #include "sampler/field/sparse_factor.h"
 
 #include "sampler/field/dense_factor.h"
@@ -12,7 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SMALLEST 1e-7 /* variance that must be left of a near site given those that are nearer: others add rounding alone */
+#define SMALLEST                                                                              \
+    1e-7 /* variance that must be left of a near site given those that are nearer: others add \
+            rounding alone */
 enum { STARTS = 32, STEPS = 4, M = FRACAS_NEAR_SITES };
 
 struct fracas_sparse_factor {
@@ -22,7 +26,8 @@ struct fracas_sparse_factor {
     double error;
 };
 
-/* Cholesky's factor of the correlations of the near sites that are kept, and of the site itself below them. */
+/* Cholesky's factor of the correlations of the near sites that are kept, and of the site itself
+ * below them. */
 typedef struct {
     size_t kept;
     double row[M + 1][M];
@@ -30,7 +35,8 @@ typedef struct {
 } local_factor;
 
 /* The row of L of the site at x, given the rows before; the variance that is left. */
-static double next_row(const fracas_covariance *covariance, const double (*near)[3], const double x[3], local_factor *l)
+static double next_row(const fracas_covariance *covariance, const double (*near)[3],
+                       const double x[3], local_factor *l)
 {
     double *row = l->row[l->kept], left = 1.0;
     for (size_t q = 0; q < l->kept; q++) {
@@ -42,7 +48,8 @@ static double next_row(const fracas_covariance *covariance, const double (*near)
 }
 
 /* (fields.13) weight[a] of the near sites, and the standard deviation of the rest. */
-static double condition(const fracas_covariance *covariance, const double (*near)[3], const double x[3], double weight[M])
+static double condition(const fracas_covariance *covariance, const double (*near)[3],
+                        const double x[3], double weight[M])
 {
     local_factor l = {.kept = 0};
     for (size_t a = 0; a < M; a++) {
@@ -63,14 +70,17 @@ static double condition(const fracas_covariance *covariance, const double (*near
 }
 
 /* The dense factor has put the coarsest sites into another order. */
-static fracas_err factorise_coarse(fracas_sparse_factor *factor, const fracas_covariance *covariance, const double (*position)[3])
+static fracas_err factorise_coarse(fracas_sparse_factor *factor,
+                                   const fracas_covariance *covariance, const double (*position)[3])
 {
     fracas_unscaled_factor *field = &factor->field;
-    uint32_t *before = malloc((field->coarse + 1) * sizeof *before), *place = malloc((field->n + 1) * sizeof *place);
+    uint32_t *before = malloc((field->coarse + 1) * sizeof *before),
+             *place = malloc((field->n + 1) * sizeof *place);
     fracas_err err = before && place ? FRACAS_OK : fracas_no_memory("a correlated field");
     if (!err) {
         memcpy(before, factor->order, field->coarse * sizeof *before);
-        err = fracas_dense_factor_init(covariance, position, field->coarse, factor->order, &field->dense);
+        err = fracas_dense_factor_init(covariance, position, field->coarse, factor->order,
+                                       &field->dense);
     }
     if (!err) {
         for (size_t k = 0; k < field->coarse; k++) place[factor->order[k]] = (uint32_t)k;
@@ -82,26 +92,32 @@ static fracas_err factorise_coarse(fracas_sparse_factor *factor, const fracas_co
     return err;
 }
 
-static void factorise_fine(fracas_sparse_factor *factor, const fracas_covariance *covariance, const double (*position)[3])
+static void factorise_fine(fracas_sparse_factor *factor, const fracas_covariance *covariance,
+                           const double (*position)[3])
 {
     const fracas_unscaled_factor *field = &factor->field;
     for (size_t k = field->coarse; k < field->n; k++) {
         const size_t fine = k - field->coarse;
         double near[M][3];
-        for (size_t a = 0; a < M; a++) memcpy(near[a], position[factor->order[field->near[fine * M + a]]], sizeof near[a]);
-        field->rest[fine] = condition(covariance, (const double(*)[3])near, position[factor->order[k]], &field->weight[fine * M]);
+        for (size_t a = 0; a < M; a++)
+            memcpy(near[a], position[factor->order[field->near[fine * M + a]]], sizeof near[a]);
+        field->rest[fine] = condition(covariance, (const double(*)[3])near,
+                                      position[factor->order[k]], &field->weight[fine * M]);
     }
 }
 
 /* The largest error of the pairs of a site with all, and the other site of that pair. */
-static fracas_err probe(fracas_sparse_factor *factor, const fracas_covariance *covariance, const double (*position)[3], size_t site,
-                        double *correlation, size_t *worst)
+static fracas_err probe(fracas_sparse_factor *factor, const fracas_covariance *covariance,
+                        const double (*position)[3], size_t site, double *correlation,
+                        size_t *worst)
 {
     double largest = 0.0;
     *worst = site;
     TRY(fracas_sparse_factor_correlation(factor, site, correlation));
     for (size_t i = 0; i < factor->field.n; i++) {
-        const double wrong = fabs(correlation[i] - fracas_covariance_at(covariance, fracas_distance(position[site], position[i])));
+        const double wrong = fabs(
+            correlation[i] -
+            fracas_covariance_at(covariance, fracas_distance(position[site], position[i])));
         if (wrong <= largest) continue;
         largest = wrong;
         *worst = i;
@@ -110,21 +126,25 @@ static fracas_err probe(fracas_sparse_factor *factor, const fracas_covariance *c
     return FRACAS_OK;
 }
 
-/* Of few sites all are looked at. Of many, some from the coarsest to the finest; from each it goes on to where it is worst. */
-static fracas_err measure_error(fracas_sparse_factor *factor, const fracas_covariance *covariance, const double (*position)[3])
+/* Of few sites all are looked at. Of many, some from the coarsest to the finest; from each it goes
+ * on to where it is worst. */
+static fracas_err measure_error(fracas_sparse_factor *factor, const fracas_covariance *covariance,
+                                const double (*position)[3])
 {
     const size_t n = factor->field.n;
     double *correlation = malloc((n + 1) * sizeof *correlation);
     fracas_err err = correlation ? FRACAS_OK : fracas_no_memory("a correlated field");
     for (size_t k = 0, starts = n <= FRACAS_DENSE_SITES ? n : STARTS; k < starts && !err; k++) {
         size_t site = factor->order[(k + 1) * n / starts - 1];
-        for (size_t step = 0; step < (starts < n ? STEPS : 1) && !err; step++) err = probe(factor, covariance, position, site, correlation, &site);
+        for (size_t step = 0; step < (starts < n ? STEPS : 1) && !err; step++)
+            err = probe(factor, covariance, position, site, correlation, &site);
     }
     free(correlation);
     return err;
 }
 
-static fracas_err fill(fracas_sparse_factor *factor, const fracas_covariance *covariance, const double (*position)[3])
+static fracas_err fill(fracas_sparse_factor *factor, const fracas_covariance *covariance,
+                       const double (*position)[3])
 {
     fracas_unscaled_factor *field = &factor->field;
     TRY(fracas_order_sites(field->n, position, field->coarse, M, factor->order, field->near));
@@ -135,20 +155,24 @@ static fracas_err fill(fracas_sparse_factor *factor, const fracas_covariance *co
     return measure_error(factor, covariance, position);
 }
 
-fracas_err fracas_sparse_factor_create(const fracas_covariance *covariance, size_t n, const double (*position)[3],
-                                       fracas_sparse_factor **factor)
+fracas_err fracas_sparse_factor_create(const fracas_covariance *covariance, size_t n,
+                                       const double (*position)[3], fracas_sparse_factor **factor)
 {
     const size_t coarse = n < FRACAS_DENSE_SITES ? n : FRACAS_DENSE_SITES, fine = n - coarse;
     fracas_sparse_factor *made = calloc(1, sizeof *made);
     if (!made) return fracas_no_memory("a correlated field");
-    made->field = (fracas_unscaled_factor){.n = n, .coarse = coarse, .near = malloc((fine * M + 1) * sizeof *made->field.near),
-                                           .weight = malloc((fine * M + 1) * sizeof *made->field.weight),
-                                           .rest = malloc((fine + 1) * sizeof *made->field.rest)};
+    made->field = (fracas_unscaled_factor){
+        .n = n,
+        .coarse = coarse,
+        .near = malloc((fine * M + 1) * sizeof *made->field.near),
+        .weight = malloc((fine * M + 1) * sizeof *made->field.weight),
+        .rest = malloc((fine + 1) * sizeof *made->field.rest)};
     made->order = malloc((n + 1) * sizeof *made->order);
     made->norm = malloc((n + 1) * sizeof *made->norm);
     const fracas_unscaled_factor *field = &made->field;
     const bool ready = field->near && field->weight && field->rest && made->order && made->norm;
-    fracas_err err = ready ? fill(made, covariance, position) : fracas_no_memory("a correlated field");
+    fracas_err err = ready ? fill(made, covariance, position)
+                           : fracas_no_memory("a correlated field");
     if (err) fracas_sparse_factor_destroy(made);
     else *factor = made;
     return err;
@@ -186,15 +210,18 @@ static void draw_fine(const fracas_unscaled_factor *field, const double *rest, d
     }
 }
 
-fracas_err fracas_sparse_factor_apply(const fracas_sparse_factor *factor, const double *w, double *z)
+fracas_err fracas_sparse_factor_apply(const fracas_sparse_factor *factor, const double *w,
+                                      double *z)
 {
     const fracas_unscaled_factor *field = &factor->field;
     const fracas_dense_factor *dense = &field->dense;
-    double *normal = malloc((field->n + 1) * sizeof *normal), *value = malloc((field->n + 1) * sizeof *value);
+    double *normal = malloc((field->n + 1) * sizeof *normal),
+           *value = malloc((field->n + 1) * sizeof *value);
     if (normal && value) {
         for (size_t k = 0; k < field->n; k++) normal[k] = w[factor->order[k]];
         for (size_t k = 0; k < field->coarse; k++)
-            value[k] = fracas_dot(k < dense->rank ? k + 1 : dense->rank, &dense->row[k * dense->rank], normal);
+            value[k] = fracas_dot(k < dense->rank ? k + 1 : dense->rank,
+                                  &dense->row[k * dense->rank], normal);
         draw_fine(field, normal, value);
         for (size_t k = 0; k < field->n; k++) z[factor->order[k]] = value[k] / factor->norm[k];
     }
@@ -203,7 +230,8 @@ fracas_err fracas_sparse_factor_apply(const fracas_sparse_factor *factor, const 
     return normal && value ? FRACAS_OK : fracas_no_memory("a correlated field");
 }
 
-/* (fields.15) A^T e of a site, by place: from the finest place to the coarsest. x, row: room for n. */
+/* (fields.15) A^T e of a site, by place: from the finest place to the coarsest. x, row: room for n.
+ */
 static void find_row(const fracas_sparse_factor *factor, size_t site, double *x, double *row)
 {
     const fracas_unscaled_factor *field = &factor->field;
@@ -215,13 +243,16 @@ static void find_row(const fracas_sparse_factor *factor, size_t site, double *x,
     for (size_t k = field->n; k-- > field->coarse;) {
         const size_t fine = k - field->coarse;
         row[k] = field->rest[fine] * x[k];
-        for (size_t a = 0; a < M; a++) x[field->near[fine * M + a]] += field->weight[fine * M + a] * x[k];
+        for (size_t a = 0; a < M; a++)
+            x[field->near[fine * M + a]] += field->weight[fine * M + a] * x[k];
     }
     for (size_t k = 0; k < field->coarse; k++)
-        for (size_t q = 0; q <= k && q < dense->rank; q++) row[q] += dense->row[k * dense->rank + q] * x[k];
+        for (size_t q = 0; q <= k && q < dense->rank; q++)
+            row[q] += dense->row[k * dense->rank + q] * x[k];
 }
 
-fracas_err fracas_sparse_factor_correlation(const fracas_sparse_factor *factor, size_t site, double *correlation)
+fracas_err fracas_sparse_factor_correlation(const fracas_sparse_factor *factor, size_t site,
+                                            double *correlation)
 {
     const size_t n = factor->field.n;
     double *row = malloc((n + 1) * sizeof *row), *w = malloc((n + 1) * sizeof *w);

@@ -1,13 +1,16 @@
-/* value = A w: the variance at a place is the square of the norm of its row of A. A row is found from its end to the coarse places,
- * and only at those that it reaches: they are few, since a value depends on coarser ones that are further away the coarser they
- * are. Eight rows are found at once, of sites close to each other, which reach about the same places. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* value = A w: the variance at a place is the square of the norm of its row of A. A row is found
+ * from its end to the coarse places, and only at those that it reaches: they are few, since a value
+ * depends on coarser ones that are further away the coarser they are. Eight rows are found at once,
+ * of sites close to each other, which reach about the same places. */
 #include "sampler/field/variance.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Of a value, what is less than this at a place is left out there: s_k of the place's own standard deviation, 1 or less. Without the
- * terms e_k s_k the variance is wrong by less than 2 sum |e_k|, below 2e-15 times the places that are left out. */
+/* Of a value, what is less than this at a place is left out there: s_k of the place's own standard
+ * deviation, 1 or less. Without the terms e_k s_k the variance is wrong by less than 2 sum |e_k|,
+ * below 2e-15 times the places that are left out. */
 #define NOTHING 1e-15
 enum { ROWS = 8, M = FRACAS_NEAR_SITES };
 typedef double rows __attribute__((vector_size(ROWS * sizeof(double))));
@@ -19,10 +22,10 @@ typedef union {
 
 typedef struct {
     const fracas_unscaled_factor *field;
-    double *product;    /* [coarse*coarse] L L^T */
-    split_rows *reach;        /* [n] what a place adds to each of the values, by its own */
-    uint64_t *reached;  /* [n/64 + 1] bits: the places */
-    uint32_t *support;  /* [coarse] those of them that are coarse */
+    double *product;   /* [coarse*coarse] L L^T */
+    split_rows *reach; /* [n] what a place adds to each of the values, by its own */
+    uint64_t *reached; /* [n/64 + 1] bits: the places */
+    uint32_t *support; /* [coarse] those of them that are coarse */
 } sweep;
 
 static void mark(sweep *s, size_t k)
@@ -49,7 +52,8 @@ static bool is_nothing(const sweep *s, size_t k)
     return largest < NOTHING;
 }
 
-/* sum product[k] reach[k] of k = support[0 ... count-1]. Pairs stay in registers; of whole rows compilers keep the sum in memory. */
+/* sum product[k] reach[k] of k = support[0 ... count-1]. Pairs stay in registers; of whole rows
+ * compilers keep the sum in memory. */
 static rows coarse_sum(const sweep *s, size_t count, const double *product)
 {
     pair a = {0}, b = {0}, c = {0}, d = {0};
@@ -123,7 +127,8 @@ static int by_spot(const void *a, const void *b)
 }
 
 /* The places with the sites of neighbours next to each other. */
-static void find_spots(const fracas_unscaled_factor *field, const uint32_t *order, const double (*position)[3], spot *spots)
+static void find_spots(const fracas_unscaled_factor *field, const uint32_t *order,
+                       const double (*position)[3], spot *spots)
 {
     double low[3] = {INFINITY, INFINITY, INFINITY}, size = 0.0;
     for (int a = 0; a < 3; a++) {
@@ -133,7 +138,9 @@ static void find_spots(const fracas_unscaled_factor *field, const uint32_t *orde
     for (size_t k = 0; k < field->n; k++) {
         spots[k] = (spot){0, (uint32_t)k};
         for (int a = 0; a < 3; a++) {
-            const uint64_t x = size > 0.0 ? (uint64_t)((position[order[k]][a] - low[a]) / size * 65535.0) : 0;
+            const uint64_t x = size > 0.0
+                                   ? (uint64_t)((position[order[k]][a] - low[a]) / size * 65535.0)
+                                   : 0;
             for (int bit = 0; bit < 16; bit++) spots[k].along |= (x >> bit & 1) << (3 * bit + a);
         }
     }
@@ -145,7 +152,8 @@ static void sweep_all(sweep *s, const spot *spots, double *variance)
     const fracas_unscaled_factor *field = s->field;
     for (size_t p = 0; p < field->coarse; p++)
         for (size_t q = 0; q <= p; q++)
-            s->product[p * field->coarse + q] = s->product[q * field->coarse + p] = fracas_dense_factor_product(&field->dense, p, q);
+            s->product[p * field->coarse + q] = s->product[q * field->coarse + p] =
+                fracas_dense_factor_product(&field->dense, p, q);
     for (size_t from = 0; from < field->n; from += ROWS) {
         const size_t count = field->n - from < ROWS ? field->n - from : ROWS;
         uint32_t place[ROWS];
@@ -155,12 +163,14 @@ static void sweep_all(sweep *s, const spot *spots, double *variance)
     }
 }
 
-fracas_err fracas_unscaled_variances(const fracas_unscaled_factor *field, const uint32_t *order, const double (*position)[3],
-                                     double *variance)
+fracas_err fracas_unscaled_variances(const fracas_unscaled_factor *field, const uint32_t *order,
+                                     const double (*position)[3], double *variance)
 {
     const size_t n = field->n;
-    sweep s = {.field = field, .product = malloc((field->coarse * field->coarse + 1) * sizeof *s.product),
-               .reach = aligned_alloc(sizeof(rows), (n + 1) * sizeof *s.reach), .reached = calloc(n / 64 + 1, sizeof *s.reached),
+    sweep s = {.field = field,
+               .product = malloc((field->coarse * field->coarse + 1) * sizeof *s.product),
+               .reach = aligned_alloc(sizeof(rows), (n + 1) * sizeof *s.reach),
+               .reached = calloc(n / 64 + 1, sizeof *s.reached),
                .support = malloc((field->coarse + 1) * sizeof *s.support)};
     spot *spots = malloc((n + 1) * sizeof *spots);
     const bool ready = s.product && s.reach && s.reached && s.support && spots;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sampler/sequential/sequential.h"
 
 #include "sampler/special/student.h"
@@ -5,8 +6,9 @@
 #include <math.h>
 #include <stdbool.h>
 
-const char *const fracas_quantity_name[FRACAS_NQUANTITIES] = {
-    [FRACAS_MEAN_COUNT] = "mean-count", [FRACAS_MEAN_SIZE] = "mean-size", [FRACAS_DISSIPATED] = "dissipated"};
+const char *const fracas_quantity_name[FRACAS_NQUANTITIES] = {[FRACAS_MEAN_COUNT] = "mean-count",
+                                                              [FRACAS_MEAN_SIZE] = "mean-size",
+                                                              [FRACAS_DISSIPATED] = "dissipated"};
 const char *const fracas_sequential_stop_name[3] = {
     [FRACAS_GO_ON] = "goes on", [FRACAS_PRECISE] = "precise", [FRACAS_AT_MAXIMUM] = "maximum"};
 
@@ -20,8 +22,10 @@ int64_t fracas_sequential_next(const fracas_sequential_rule *rule, int64_t repli
     return more < rule->maximum - replicas ? replicas + more : rule->maximum;
 }
 
-/* Mean and half width of the t interval, in the order of the values  (sequential.2), (sequential.3) */
-static fracas_sequential_decision estimate(const fracas_sequential_rule *rule, const double *value, int64_t replicas)
+/* Mean and half width of the t interval, in the order of the values  (sequential.2), (sequential.3)
+ */
+static fracas_sequential_decision estimate(const fracas_sequential_rule *rule, const double *value,
+                                           int64_t replicas)
 {
     fracas_sequential_decision made = {.used = 0, .mean = NAN, .half_width = NAN};
     double sum = 0, squares = 0;
@@ -35,7 +39,9 @@ static fracas_sequential_decision estimate(const fracas_sequential_rule *rule, c
     made.mean = sum / n;
     for (int64_t r = 0; r < replicas; r++)
         if (!isnan(value[r])) squares += (value[r] - made.mean) * (value[r] - made.mean);
-    if (made.used > 1) made.half_width = fracas_student_quantile(rule->confidence, made.used - 1) * sqrt(squares / (n - 1)) / sqrt(n);
+    if (made.used > 1)
+        made.half_width = fracas_student_quantile(rule->confidence, made.used - 1) *
+                          sqrt(squares / (n - 1)) / sqrt(n);
     return made;
 }
 
@@ -45,7 +51,8 @@ static bool is_narrow(const fracas_sequential_rule *rule, const fracas_sequentia
     return made->half_width <= rule->relative_half_width * fabs(made->mean); /* false with NaN */
 }
 
-fracas_sequential_decision fracas_sequential_decide(const fracas_sequential_rule *rule, const double *value, int64_t replicas)
+fracas_sequential_decision fracas_sequential_decide(const fracas_sequential_rule *rule,
+                                                    const double *value, int64_t replicas)
 {
     fracas_sequential_decision made = estimate(rule, value, replicas);
     if (is_narrow(rule, &made)) made.stop = FRACAS_PRECISE;

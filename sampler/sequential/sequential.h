@@ -1,5 +1,7 @@
-/* Sequential sampling: how many replicas a point gets is decided from the values of those that it has, in fixed rounds
- * (docs/theory/sequential.md). Pure functions: equal values give equal decisions, bit for bit. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sequential sampling: how many replicas a point gets is decided from the values of those that it
+ * has, in fixed rounds (docs/theory/sequential.md). Pure functions: equal values give equal
+ * decisions, bit for bit. */
 #ifndef FRACAS_SAMPLER_SEQUENTIAL_H
 #define FRACAS_SAMPLER_SEQUENTIAL_H
 
@@ -16,31 +18,36 @@ typedef enum {
 
 extern const char *const fracas_quantity_name[FRACAS_NQUANTITIES]; /* as a campaign file has them */
 
-/* Replicas are added until the interval of the mean at `confidence` is as narrow as asked for, or at `maximum`. */
+/* Replicas are added until the interval of the mean at `confidence` is as narrow as asked for, or
+ * at `maximum`. */
 typedef struct {
-    int64_t minimum, maximum;   /* FRACAS_ROUND_FIRST <= minimum <= maximum */
+    int64_t minimum, maximum; /* FRACAS_ROUND_FIRST <= minimum <= maximum */
     fracas_quantity quantity;
     double relative_half_width; /* > 0: of the mean's absolute value */
     double confidence;          /* of the interval, between 0 and 1 */
 } fracas_sequential_rule;
 
-enum { FRACAS_ROUND_FIRST = 8 }; /* replicas of a first round, at least: fewer say nothing about a deviation */
+enum {
+    FRACAS_ROUND_FIRST = 8
+}; /* replicas of a first round, at least: fewer say nothing about a deviation */
 
 typedef enum { FRACAS_GO_ON, FRACAS_PRECISE, FRACAS_AT_MAXIMUM } fracas_sequential_stop;
 
 extern const char *const fracas_sequential_stop_name[3];
 
 typedef struct {
-    int64_t used;      /* values in the mean */
+    int64_t used;            /* values in the mean */
     double mean, half_width; /* NaN with fewer than one value, or two */
     fracas_sequential_stop stop;
 } fracas_sequential_decision;
 
-/* Replicas of the round after the one of `replicas` (0: of the first one); never above rule->maximum. */
+/* Replicas of the round after the one of `replicas` (0: of the first one); never above
+ * rule->maximum. */
 int64_t fracas_sequential_next(const fracas_sequential_rule *rule, int64_t replicas);
 
-/* The decision of the round of `replicas` replicas, one of fracas_sequential_next: value[r] is that of replica r, NaN if it
- * does not count. */
-fracas_sequential_decision fracas_sequential_decide(const fracas_sequential_rule *rule, const double *value, int64_t replicas);
+/* The decision of the round of `replicas` replicas, one of fracas_sequential_next: value[r] is that
+ * of replica r, NaN if it does not count. */
+fracas_sequential_decision fracas_sequential_decide(const fracas_sequential_rule *rule,
+                                                    const double *value, int64_t replicas);
 
 #endif

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The modified Bessel function of the second kind, same bits on every CPU. */
 #ifndef FRACAS_SAMPLER_BESSEL_H
 #define FRACAS_SAMPLER_BESSEL_H

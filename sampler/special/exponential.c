@@ -1,8 +1,10 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sampler/special/exponential.h"
 
 #include "base/elementary.h"
 
-/* (sampling.10) `lost` is what p.above, near 1, has lost to rounding: nothing for the u of a stream. */
+/* (sampling.10) `lost` is what p.above, near 1, has lost to rounding: nothing for the u of a
+ * stream. */
 double fracas_exponential_quantile(fracas_probability p)
 {
     if (p.below > 0.5) return -fracas_log(p.above);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The exponential distribution, same bits on every CPU. */
 #ifndef FRACAS_SAMPLER_EXPONENTIAL_H
 #define FRACAS_SAMPLER_EXPONENTIAL_H

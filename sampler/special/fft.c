@@ -1,5 +1,6 @@
-/* Powers of two by Cooley's and Tukey's algorithm, radix 2; other lengths as a convolution (Bluestein, IEEE Trans. Audio
- * Electroacoustics 18, 451-455, 1970). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Powers of two by Cooley's and Tukey's algorithm, radix 2; other lengths as a convolution
+ * (Bluestein, IEEE Trans. Audio Electroacoustics 18, 451-455, 1970). */
 #include "sampler/special/fft.h"
 
 #include "base/elementary.h"
@@ -62,7 +63,8 @@ static void power_of_two(const fracas_fft *fft, double (*x)[2])
             }
 }
 
-/* (fields.7) j k = (j^2 + k^2 - (j - k)^2)/2; the inverse transform of the product is a transform of its conjugate. */
+/* (fields.7) j k = (j^2 + k^2 - (j - k)^2)/2; the inverse transform of the product is a transform
+ * of its conjugate. */
 static void convolve(const fracas_fft *fft, double (*x)[2], double (*y)[2])
 {
     for (size_t k = 0; k < fft->n; k++) {

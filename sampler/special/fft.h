@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Discrete Fourier transforms of any length, same bits on every CPU. */
 #ifndef FRACAS_SAMPLER_FFT_H
 #define FRACAS_SAMPLER_FFT_H
@@ -12,8 +13,9 @@ typedef struct fracas_fft fracas_fft;
 FRACAS_MUST_USE fracas_err fracas_fft_create(size_t n, fracas_fft **fft);
 void fracas_fft_destroy(fracas_fft *fft); /* NULL is allowed */
 
-/* x[j] <- sum_k x[k] e^(-2 pi i j k/n), x[k] = {real, imaginary part}; to some 1e-16 log2(n) of the norm of x. The inverse is the
- * transform with the parts exchanged before and after, by n. FRACAS_ENVIRONMENT without memory. */
+/* x[j] <- sum_k x[k] e^(-2 pi i j k/n), x[k] = {real, imaginary part}; to some 1e-16 log2(n) of the
+ * norm of x. The inverse is the transform with the parts exchanged before and after, by n.
+ * FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_fft_transform(const fracas_fft *fft, double (*x)[2]);
 
 /* The smallest power of two that is at least n. */

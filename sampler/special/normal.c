@@ -1,5 +1,7 @@
-/* The normal quantile by rational approximation: AS 241, PPND16 (Wichura 1988); the normal tail by a Chebyshev series
- * in (z - 7)/(z + 7), after Shepherd and Laframboise (Math. Comp. 36, 249-253, 1981). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The normal quantile by rational approximation: AS 241, PPND16 (Wichura 1988); the normal tail by
+ * a Chebyshev series in (z - 7)/(z + 7), after Shepherd and Laframboise (Math. Comp. 36, 249-253,
+ * 1981). */
 #include "sampler/special/normal.h"
 
 #include "base/elementary.h"
@@ -50,13 +52,16 @@ static double bell(double z)
 /* (sampling.17) */
 double fracas_normal_upper(double z)
 {
-    static const double c[25] = {/* (1 + z) e^(z^2/2) P(Z > z) in z >= 0: 2^-58 */
-        0x1.d36deea4cdb3ap-1, -0x1.0bc4418d1b038p-4, 0x1.7c0238fbf603bp-9, 0x1.48c7bf2e330fbp-7,
-        -0x1.05865b53da31bp-7, 0x1.10421b3f77222p-8, -0x1.c4b5596594d1ep-10, 0x1.3dceb05f4176dp-11,
-        -0x1.801a5ebde5c1ep-13, 0x1.90bbc2cd1df84p-15, -0x1.655ecff672d18p-17, 0x1.0944533351bfap-19,
-        -0x1.33e822d9ab7eep-22, 0x1.cd1e1ffa7b2d9p-26, 0x1.112080ca7e8fep-33, -0x1.40c0faf572e1dp-31,
-        0x1.c02c0eee4906fp-34, -0x1.044e9576dd1a2p-38, -0x1.039ff560a7a2ep-39, 0x1.922c2afe8449ap-42,
-        -0x1.95e171c73080fp-51, -0x1.509b32d805146p-47, 0x1.3a5472cc91c1dp-50, 0x1.52b9c4b656065p-53,
+    static const double c[25] = {
+        /* (1 + z) e^(z^2/2) P(Z > z) in z >= 0: 2^-58 */
+        0x1.d36deea4cdb3ap-1,   -0x1.0bc4418d1b038p-4,  0x1.7c0238fbf603bp-9,
+        0x1.48c7bf2e330fbp-7,   -0x1.05865b53da31bp-7,  0x1.10421b3f77222p-8,
+        -0x1.c4b5596594d1ep-10, 0x1.3dceb05f4176dp-11,  -0x1.801a5ebde5c1ep-13,
+        0x1.90bbc2cd1df84p-15,  -0x1.655ecff672d18p-17, 0x1.0944533351bfap-19,
+        -0x1.33e822d9ab7eep-22, 0x1.cd1e1ffa7b2d9p-26,  0x1.112080ca7e8fep-33,
+        -0x1.40c0faf572e1dp-31, 0x1.c02c0eee4906fp-34,  -0x1.044e9576dd1a2p-38,
+        -0x1.039ff560a7a2ep-39, 0x1.922c2afe8449ap-42,  -0x1.95e171c73080fp-51,
+        -0x1.509b32d805146p-47, 0x1.3a5472cc91c1dp-50,  0x1.52b9c4b656065p-53,
         -0x1.a636d34e0e5d9p-55,
     };
     double size = fabs(z);
@@ -65,13 +70,14 @@ double fracas_normal_upper(double z)
     return z < 0.0 ? 1.0 - tail : tail;
 }
 
-/* (laws.14) P(Z > z) = density(z)/hazard(z), the hazard a continued fraction: z + 1/(z + 2/(z + 3/(z + ...))), z > 34. Newton on
- * ln P, whose slope is minus the hazard. */
+/* (laws.14) P(Z > z) = density(z)/hazard(z), the hazard a continued fraction: z + 1/(z + 2/(z +
+ * 3/(z + ...))), z > 34. Newton on ln P, whose slope is minus the hazard. */
 double fracas_normal_far(double t)
 {
     const double ln_sqrt_two_pi = 0x1.d67f1c864beb4p-1;
     double z = sqrt(2.0 * t);
-    for (int i = 0; i < 4; i++) { /* from an error below 0.2 at z > 34: squared, over z, at each step */
+    for (int i = 0; i < 4;
+         i++) { /* from an error below 0.2 at z > 34: squared, over z, at each step */
         double hazard = z;
         for (double n = 8.0; n > 0.0; n -= 1.0) hazard = z + n / hazard;
         z -= (0.5 * z * z + ln_sqrt_two_pi + fracas_log(hazard) - t) / hazard;

@@ -1,5 +1,7 @@
-/* Reading, writing and planning a campaign when the k-th allocation fails, for every k: an error, never a crash. The
- * file has no units: the scanner inside UDUNITS-2 ends the program when memory is short. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reading, writing and planning a campaign when the k-th allocation fails, for every k: an error,
+ * never a crash. The file has no units: the scanner inside UDUNITS-2 ends the program when memory
+ * is short. */
 #include "campaigns/file/read.h"
 #include "campaigns/plan/plan.h"
 #include "tests/support/campaign_text.h"
@@ -16,15 +18,18 @@ int main(void)
 
 #include "tests/support/failing_malloc.h"
 
-static const char sweep[] = "sweep:\n  - cases: [{name: a}, {name: b, strength.minimum: 1 MPa}]\n"
-                            "  - loading.rate: {from: 1, to: 2, points: 3}\n"
-                            "  - design: {type: latin-hypercube, points: 2, parameters: {material.young: {distribution: uniform, minimum: 2e11, "
-                            "maximum: 3e11}}}\n"
-                            "  - design: {type: sobol, points: 2, parameters: {material.density: {distribution: uniform, minimum: 2e3, maximum: 3e3},"
-                            " cohesive.fracture_energy: {distribution: uniform, minimum: 90, maximum: 100}}, correlation: [{between: "
-                            "[material.density, cohesive.fracture_energy], coefficient: 0.5}]}\n";
+static const char sweep[] =
+    "sweep:\n  - cases: [{name: a}, {name: b, strength.minimum: 1 MPa}]\n"
+    "  - loading.rate: {from: 1, to: 2, points: 3}\n"
+    "  - design: {type: latin-hypercube, points: 2, parameters: {material.young: {distribution: "
+    "uniform, minimum: 2e11, maximum: 3e11}}}\n"
+    "  - design: {type: sobol, points: 2, parameters: {material.density: {distribution: uniform, "
+    "minimum: 2e3, maximum: 3e3}, cohesive.fracture_energy: {distribution: uniform, minimum: 90, "
+    "maximum: 100}}, correlation: [{between: [material.density, cohesive.fracture_energy], "
+    "coefficient: 0.5}]}\n";
 
-/* Calls `work` with the first, second, ... allocation failing, until it succeeds without or `most` have failed. */
+/* Calls `work` with the first, second, ... allocation failing, until it succeeds without or `most`
+ * have failed. */
 static void fail_each(fracas_err (*work)(void *context), void *context, long most)
 {
     for (long k = 1; k <= most; k++) {
@@ -37,7 +42,8 @@ static void fail_each(fracas_err (*work)(void *context), void *context, long mos
             assert_true(k > 3); /* it did allocate */
             return;
         }
-        if (err != FRACAS_ENVIRONMENT && err != FRACAS_OK) fail_msg("allocation %ld: %d %s", k, err, fracas_message());
+        if (err != FRACAS_ENVIRONMENT && err != FRACAS_OK)
+            fail_msg("allocation %ld: %d %s", k, err, fracas_message());
         if (err && !strstr(fracas_message(), "memory"))
             fail_msg("allocation %ld: %s", k, fracas_message());
     }
@@ -84,7 +90,8 @@ static void test_read_file(void **state)
     make_path(strengths);
     write_bytes(strengths, "3e8\n4e8\n", 8);
     assert_int_equal(fracas_units_create(&from.units), FRACAS_OK);
-    snprintf(named, sizeof named, "sweep:\n  - strength: [{distribution: file, file: %s}]\n", strengths);
+    snprintf(named, sizeof named, "sweep:\n  - strength: [{distribution: file, file: %s}]\n",
+             strengths);
     fracas_campaign *campaign = read_replaced("", named);
     char *text = NULL;
     size_t size = 0;
@@ -129,7 +136,8 @@ static void test_use(void **state)
     (void)state;
     fracas_campaign *campaign = read_replaced("", sweep);
     fail_each(write_and_compare, campaign, LONG_MAX);
-    /* The plan repeats short batches until the clock has seen enough: all of it would take a minute. */
+    /* The plan repeats short batches until the clock has seen enough: all of it would take a
+     * minute. */
     fail_each(print_plan, campaign, 40);
     fracas_campaign_destroy(campaign);
 }
@@ -140,15 +148,19 @@ static fracas_err count_cost(void *context)
     return fracas_plan_cost(context, 0, &cost, NULL);
 }
 
-/* Strengths of flaws need the mesh when the file is read; a perturbed one is made twice, then planned, and timed. */
+/* Strengths of flaws need the mesh when the file is read; a perturbed one is made twice, then
+ * planned, and timed. */
 static void test_surface(void **state)
 {
     (void)state;
     static const char text[] =
-        "name: test\nseed: 7\nmodel: membrane\ngeometry: {width: 0.01, height: 0.005, thickness: 1e-4}\n"
-        "mesh: {divisions: 2, amplitude: 0.2}\nmaterial: {young: 370e9, poisson: 0.25, density: 3900}\n"
+        "name: test\nseed: 7\nmodel: membrane\ngeometry: {width: 0.01, height: 0.005, thickness: "
+        "1e-4}\n"
+        "mesh: {divisions: 2, amplitude: 0.2}\nmaterial: {young: 370e9, poisson: 0.25, density: "
+        "3900}\n"
         "cohesive: {fracture_energy: 5000}\nloading: {rate: 1e4}\ntime: {end: 1e-7}\nreplicas: 2\n"
-        "strength: {distribution: flaws, flaw_density: 1e11, minimum: 1e8, maximum: 4e8, exponent: 2}\n";
+        "strength: {distribution: flaws, flaw_density: 1e11, minimum: 1e8, maximum: 4e8, exponent: "
+        "2}\n";
     source from;
     make_path(from.path);
     write_bytes(from.path, text, strlen(text));
@@ -164,7 +176,8 @@ static void test_surface(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_read), cmocka_unit_test(test_read_file), cmocka_unit_test(test_use),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_read),
+                                       cmocka_unit_test(test_read_file), cmocka_unit_test(test_use),
                                        cmocka_unit_test(test_surface)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,6 @@
-/* Making a strength field and drawing from it when the k-th allocation fails, for every k: an error, never a crash, and nothing left. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Making a strength field and drawing from it when the k-th allocation fails, for every k: an
+ * error, never a crash, and nothing left. */
 #include "sampler/field/sparse_factor.h"
 #include "sampler/sampler.h"
 #include "tests/support/sites.h"
@@ -27,7 +29,8 @@ typedef struct {
 static fracas_err make_and_draw(const void *context)
 {
     const body *b = context;
-    const fracas_sites sites = {.n = b->n, .points = 1, .extent = extent, .position = (const double(*)[3])position};
+    const fracas_sites sites = {
+        .n = b->n, .points = 1, .extent = extent, .position = (const double(*)[3])position};
     fracas_field *field;
     TRY(fracas_field_create(&b->strength, &sites, &field));
     fracas_err err = fracas_field_sample(field, &(fracas_stream){.seed = 1}, 1, sigma_c);
@@ -55,7 +58,8 @@ static void test_circle(void **state)
 {
     (void)state;
     sites_on_circle(20, 1.0, position);
-    fail_each(correlated(&fracas_covariance_matern, 0.3, 0.8), 20, LONG_MAX); /* with a table of the covariance */
+    fail_each(correlated(&fracas_covariance_matern, 0.3, 0.8), 20,
+              LONG_MAX); /* with a table of the covariance */
 }
 
 /* Larger circles are tried, and for the second covariance none will do. */
@@ -67,7 +71,8 @@ static void test_line(void **state)
     fail_each(correlated(&fracas_covariance_gaussian, 100.0, NAN), 20, LONG_MAX);
 }
 
-/* Up to FRACAS_DENSE_SITES are factorised as a whole. Of more, all that makes the factor is tried, and some of what measures its error. */
+/* Up to FRACAS_DENSE_SITES are factorised as a whole. Of more, all that makes the factor is tried,
+ * and some of what measures its error. */
 static void test_scattered(void **state)
 {
     (void)state;
@@ -99,7 +104,8 @@ static void test_tables(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_circle), cmocka_unit_test(test_line), cmocka_unit_test(test_scattered),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_circle), cmocka_unit_test(test_line),
+                                       cmocka_unit_test(test_scattered),
                                        cmocka_unit_test(test_tables)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

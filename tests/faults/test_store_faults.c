@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Damage and death: flipped bytes, truncated files, a full disk, kill -9. */
 #include "tests/support/store_sample.h"
 
@@ -16,11 +17,15 @@ enum { REPLICAS = 4, ALL = SAMPLE_POINTS * REPLICAS, MOST = 12 };
 
 /* HDF5 1.10 forgets an object header whose checksum is wrong; it is no leak of ours. */
 const char *__lsan_default_suppressions(void);
-const char *__lsan_default_suppressions(void) { return "leak:libhdf5"; }
+const char *__lsan_default_suppressions(void)
+{
+    return "leak:libhdf5";
+}
 
-/* The calls that make a segment durable, seen and failed at will: these stand before those of the C library. */
-static char calls[64];  /* f: fsync of a file, d: of a folder, r: rename */
-static int fail_at = -1; /* number of the call that fails ... */
+/* The calls that make a segment durable, seen and failed at will: these stand before those of the C
+ * library. */
+static char calls[64];      /* f: fsync of a file, d: of a folder, r: rename */
+static int fail_at = -1;    /* number of the call that fails ... */
 static int fail_with = EIO; /* ... with this */
 
 static bool call_fails(char name)
@@ -66,7 +71,8 @@ static int tear_down(void **state)
 static void write_segment(fracas_file_seal *seal, fracas_segment_row row[ALL])
 {
     sample_realization what[ALL];
-    for (size_t i = 0; i < ALL; i++) what[i] = (sample_realization){i / REPLICAS, (int64_t)(i % REPLICAS)};
+    for (size_t i = 0; i < ALL; i++)
+        what[i] = (sample_realization){i / REPLICAS, (int64_t)(i % REPLICAS)};
     sample_segment(study, "a.h5", &table, what, ALL, MOST, seal, row);
 }
 
@@ -78,12 +84,14 @@ static bool same_points(const fracas_point_table *found)
 {
     bool same = found->npoints == SAMPLE_POINTS && found->ncolumns == 3;
     for (size_t p = 0; same && p < SAMPLE_POINTS; p++) {
-        same = fracas_hash_equal(&found->point[p].hash, &point_row[p].hash) && found->point[p].replicas == REPLICAS;
+        same = fracas_hash_equal(&found->point[p].hash, &point_row[p].hash) &&
+               found->point[p].replicas == REPLICAS;
         for (size_t c = 0; same && c < 3; c++)
             same = !strcmp(found->column[c].path, sample_column[c].path) &&
                    !strcmp(found->column[c].unit, sample_column[c].unit) &&
                    !strcmp(found->point[p].value[c].text, sample_value[p][c].text) &&
-                   (isnan(sample_value[p][c].real) || found->point[p].value[c].real == sample_value[p][c].real);
+                   (isnan(sample_value[p][c].real) ||
+                    found->point[p].value[c].real == sample_value[p][c].real);
     }
     return same;
 }
@@ -114,7 +122,8 @@ static reading read_all(const char *path)
     fracas_err err = fracas_reader_open(path, &reader);
     bool same = true;
     if (!err) {
-        same = fracas_reader_realizations(reader) == ALL && same_points(fracas_reader_points(reader)) &&
+        same = fracas_reader_realizations(reader) == ALL &&
+               same_points(fracas_reader_points(reader)) &&
                same_header(fracas_reader_header(reader));
         for (size_t i = 0; !err && same && i < ALL; i++) {
             fracas_record wanted, found;
@@ -125,14 +134,16 @@ static reading read_all(const char *path)
             sample_make_canonical(&wanted);
             err = fracas_reader_record(reader, i, FRACAS_READ_ALL, &point, &replica, &found);
             if (!err)
-                same = point == i / REPLICAS && replica == (int64_t)(i % REPLICAS) && sample_equal(&wanted, &found);
+                same = point == i / REPLICAS && replica == (int64_t)(i % REPLICAS) &&
+                       sample_equal(&wanted, &found);
             fracas_record_clear(&wanted);
             fracas_record_clear(&found);
         }
     }
     fracas_reader_close(reader);
     if (!err) return same ? SAME : WRONG;
-    if (err != FRACAS_DAMAGED || !strstr(fracas_message(), path)) print_error("code %d: %s\n", err, fracas_message());
+    if (err != FRACAS_DAMAGED || !strstr(fracas_message(), path))
+        print_error("code %d: %s\n", err, fracas_message());
     assert_int_equal(err, FRACAS_DAMAGED);
     assert_non_null(strstr(fracas_message(), path));
     return REPORTED;
@@ -153,11 +164,13 @@ static void flipped_bytes_are_found(void **state)
     int fd = open(path, O_WRONLY), reported = 0;
     enum { FLIPS = 600 };
     for (int i = 0; i < FLIPS; i++) {
-        size_t at = i < 200 ? (size_t)i : sample_bits(&random) % size; /* the superblock, then anywhere */
+        size_t at = i < 200 ? (size_t)i
+                            : sample_bits(&random) % size; /* the superblock, then anywhere */
         unsigned char damaged = bytes[at] ^ (unsigned char)(1 + sample_bits(&random) % 255);
         assert_int_equal(pwrite(fd, &damaged, 1, (off_t)at), 1);
         reading result = read_all(path);
-        if (result == WRONG) print_error("byte %zu of %zu: %02x as %02x\n", at, size, bytes[at], damaged);
+        if (result == WRONG)
+            print_error("byte %zu of %zu: %02x as %02x\n", at, size, bytes[at], damaged);
         assert_int_not_equal(result, WRONG);
         reported += result == REPORTED;
         assert_int_equal(read_seal(path), REPORTED);
@@ -181,8 +194,13 @@ static void truncated_files_are_found(void **state)
     unsigned char *bytes = sample_slurp(path, &size);
     uint64_t random = 3;
     for (int i = 0; i < 100; i++) {
-        sample_spill(path, bytes, i < 10 ? (size_t)i : i < 20 ? size - (size_t)(i - 9) : sample_bits(&random) % size);
-        assert_int_equal(read_all(path), i >= 10 && i < 20 ? SAME : REPORTED); /* in the seal, which HDF5 does not see */
+        sample_spill(path, bytes,
+                     i < 10   ? (size_t)i
+                     : i < 20 ? size - (size_t)(i - 9)
+                              : sample_bits(&random) % size);
+        assert_int_equal(read_all(path), i >= 10 && i < 20
+                                             ? SAME
+                                             : REPORTED); /* in the seal, which HDF5 does not see */
         assert_int_equal(read_seal(path), REPORTED);
     }
     /* Cut off as a whole the seal is missed no more than in a segment of before there were any. */
@@ -197,7 +215,8 @@ static void truncated_files_are_found(void **state)
     free(bytes);
 }
 
-/* HDF5 1.10 can go on without the links in a damaged part of a group's header: no column may be missed. */
+/* HDF5 1.10 can go on without the links in a damaged part of a group's header: no column may be
+ * missed. */
 static void lost_columns_are_found(void **state)
 {
     (void)state;
@@ -232,7 +251,8 @@ static void overwritten_stretches_are_found(void **state)
     uint64_t random = 4;
     for (int i = 0; i < 60; i++) {
         memcpy(damaged, bytes, size);
-        size_t first = i < 20 ? (size_t)i * 100 : sample_bits(&random) % size, length = 1 + sample_bits(&random) % 4096;
+        size_t first = i < 20 ? (size_t)i * 100 : sample_bits(&random) % size,
+               length = 1 + sample_bits(&random) % 4096;
         for (size_t at = first; at < size && at < first + length; at++)
             damaged[at] = (unsigned char)sample_bits(&random);
         sample_spill(path, damaged, size);
@@ -247,7 +267,8 @@ static void overwritten_stretches_are_found(void **state)
 static void damaged_rows_of_the_index_are_found(void **state)
 {
     (void)state;
-    static const char *const damage[] = {"checksum = '00000000000zzzzz'", "checksum = ''", "name = 'a/b'", "rows = -1"};
+    static const char *const damage[] = {"checksum = '00000000000zzzzz'", "checksum = ''",
+                                         "name = 'a/b'", "rows = -1"};
     fracas_file_seal seal;
     fracas_segment_row row[ALL];
     fracas_index *index;
@@ -265,7 +286,8 @@ static void damaged_rows_of_the_index_are_found(void **state)
         sample_fails(fracas_index_segments(index, &segment, &count), FRACAS_DAMAGED, "segment");
         assert_null(segment);
         assert_int_equal(count, 0);
-        snprintf(text, sizeof text, "UPDATE segment SET name = 'b.h5', rows = 0, checksum = '%016llx' WHERE id = 2",
+        snprintf(text, sizeof text,
+                 "UPDATE segment SET name = 'b.h5', rows = 0, checksum = '%016llx' WHERE id = 2",
                  (unsigned long long)seal.checksum);
         assert_int_equal(sqlite3_exec(index->db, text, NULL, NULL, NULL), SQLITE_OK);
     }
@@ -326,7 +348,8 @@ static void full_disk_is_said_and_leaves_nothing(void **state)
     fracas_reader_close(reader);
     sample_fails(write_some("/nowhere/at/all/a.h5", 1), FRACAS_ENVIRONMENT, strerror(ENOENT));
     assert_int_equal(mkdir(sample_path(study, "segments/taken.h5"), 0777), 0);
-    sample_fails(write_some(sample_path(study, "segments/taken.h5"), 1), FRACAS_ENVIRONMENT, "taken.h5");
+    sample_fails(write_some(sample_path(study, "segments/taken.h5"), 1), FRACAS_ENVIRONMENT,
+                 "taken.h5");
     assert_int_equal(sample_files(folder, "tmp"), 0);
     assert_int_equal(H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL), 0);
 }
@@ -343,7 +366,8 @@ static void bytes_are_durable_before_their_name(void **state)
         memset(calls, 0, sizeof calls);
         sample_fails(write_some(path, 10), FRACAS_ENVIRONMENT, strerror(EIO));
         assert_int_equal(sample_files(folder, "tmp"), 0);
-        /* When only the folder could not be synced the whole segment may be there, for recover to adopt. */
+        /* When only the folder could not be synced the whole segment may be there, for recover to
+         * adopt. */
         assert_int_equal(access(path, F_OK), fail_at < 2 ? -1 : 0);
     }
     fail_at = -1;
@@ -356,7 +380,11 @@ static void limits_are_said_with_their_remedy(void **state)
     static const struct {
         int reason;
         const char *remedy;
-    } limit[] = {{ENOSPC, "free some space"}, {EDQUOT, "quota"}, {EIO, "dmesg"}, {EROFS, "mount it to be written"}, {EFBIG, "ulimit -f"}};
+    } limit[] = {{ENOSPC, "free some space"},
+                 {EDQUOT, "quota"},
+                 {EIO, "dmesg"},
+                 {EROFS, "mount it to be written"},
+                 {EFBIG, "ulimit -f"}};
     char *folder = sample_path(study, "segments"), *path = sample_path(study, "segments/a.h5");
     for (size_t l = 0; l < sizeof limit / sizeof *limit; l++) {
         for (fail_at = 0; fail_at < 2; fail_at++) {
@@ -383,7 +411,8 @@ static void too_many_open_files_are_said(void **state)
     OK(fracas_index_open(study, true, &index));
     fracas_index_close(index);
     assert_int_equal(setrlimit(RLIMIT_NOFILE, &none), 0);
-    sample_fails(write_some(sample_path(study, "segments/a.h5"), 10), FRACAS_ENVIRONMENT, "ulimit -n");
+    sample_fails(write_some(sample_path(study, "segments/a.h5"), 10), FRACAS_ENVIRONMENT,
+                 "ulimit -n");
     sample_fails(fracas_study_lock(study, false, &lock), FRACAS_ENVIRONMENT, "ulimit -n");
     sample_fails(fracas_index_open(study, false, &index), FRACAS_ENVIRONMENT, "ulimit -n");
     assert_int_equal(setrlimit(RLIMIT_NOFILE, &before), 0);
@@ -400,7 +429,8 @@ static void setting_aside_can_fail_anywhere(void **state)
     fracas_file_seal seal;
     fracas_segment_row row[ALL];
     fracas_file_header header = sample_header();
-    char *report = NULL, *path = sample_path(study, "segments/a.h5"), *aside = sample_path(study, "segments/a.damaged");
+    char *report = NULL, *path = sample_path(study, "segments/a.h5"),
+         *aside = sample_path(study, "segments/a.damaged");
     write_segment(&seal, row);
     OK(fracas_index_open(study, true, &index));
     OK(fracas_index_plan(index, &table));
@@ -411,7 +441,8 @@ static void setting_aside_can_fail_anywhere(void **state)
     for (const char *call = "rd"; *call; call++) {
         fail_at = (int)(call - "rd");
         memset(calls, 0, sizeof calls);
-        sample_fails(fracas_study_recover(study, index, &header, &table, &report), FRACAS_ENVIRONMENT, strerror(EIO));
+        sample_fails(fracas_study_recover(study, index, &header, &table, &report),
+                     FRACAS_ENVIRONMENT, strerror(EIO));
         assert_int_equal(calls[fail_at], *call);
         assert_int_equal(access(path, F_OK), *call == 'r' ? 0 : -1);
         assert_int_equal(access(aside, F_OK), *call == 'r' ? -1 : 0);
@@ -427,7 +458,8 @@ static void setting_aside_can_fail_anywhere(void **state)
     fracas_index_close(index);
 }
 
-/* A merge that ends between the new study.h5 and its seal leaves none, so that it is merged again. */
+/* A merge that ends between the new study.h5 and its seal leaves none, so that it is merged again.
+ */
 static void an_interrupted_merge_leaves_no_seal(void **state)
 {
     (void)state;
@@ -443,13 +475,15 @@ static void an_interrupted_merge_leaves_no_seal(void **state)
     for (const char *call = "rd"; *call; call++) {
         OK(fracas_study_merge(study, index, &header, &table, NULL));
         memset(calls, 0, sizeof calls);
-        OK(fracas_study_merge(study, index, &header, &table, NULL)); /* its calls are those of the next one */
+        OK(fracas_study_merge(study, index, &header, &table,
+                              NULL)); /* its calls are those of the next one */
         OK(fracas_study_sealed(study, index, &sealed));
         assert_true(sealed);
         assert_non_null(strchr(calls, *call));
         fail_at = (int)(strchr(calls, *call) - calls);
         memset(calls, 0, sizeof calls);
-        sample_fails(fracas_study_merge(study, index, &header, &table, NULL), FRACAS_ENVIRONMENT, strerror(EIO));
+        sample_fails(fracas_study_merge(study, index, &header, &table, NULL), FRACAS_ENVIRONMENT,
+                     strerror(EIO));
         fail_at = -1;
         OK(fracas_study_sealed(study, index, &sealed));
         assert_false(sealed);
@@ -470,7 +504,8 @@ static void full_disk_leaves_the_index_as_it_was(void **state)
     OK(fracas_index_plan(index, &table));
     OK(fracas_index_count(index, &before));
     limit_files(8192); /* less than the write-ahead log has already */
-    sample_fails(fracas_index_commit(index, "a.h5", &seal, row, ALL, "{}"), FRACAS_ENVIRONMENT, "index.sqlite");
+    sample_fails(fracas_index_commit(index, "a.h5", &seal, row, ALL, "{}"), FRACAS_ENVIRONMENT,
+                 "index.sqlite");
     assert_non_null(strstr(fracas_message(), "ulimit -f"));
     limit_files(RLIM_INFINITY);
     OK(fracas_index_count(index, &after));
@@ -483,7 +518,8 @@ static void full_disk_leaves_the_index_as_it_was(void **state)
 
 /* ---- kill -9 ---- */
 
-/* Commits segments of one realization until it is killed; says each commit into the pipe after it is done. */
+/* Commits segments of one realization until it is killed; says each commit into the pipe after it
+ * is done. */
 static void commit_until_killed(int out)
 {
     fracas_index *index;
@@ -526,7 +562,8 @@ static void commits_survive_the_death_of_the_process(void **state)
         assert_int_equal(counts.done, counts.segments); /* and each whole */
         committed = counts.done;
         sqlite3_stmt *check;
-        assert_int_equal(sqlite3_prepare_v2(index->db, "PRAGMA integrity_check", -1, &check, NULL), SQLITE_OK);
+        assert_int_equal(sqlite3_prepare_v2(index->db, "PRAGMA integrity_check", -1, &check, NULL),
+                         SQLITE_OK);
         assert_int_equal(sqlite3_step(check), SQLITE_ROW);
         assert_string_equal((const char *)sqlite3_column_text(check, 0), "ok");
         sqlite3_finalize(check);

@@ -1,4 +1,6 @@
-/* Making and reading a surface when the k-th allocation fails, for every k: an error, never a crash. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Making and reading a surface when the k-th allocation fails, for every k: an error, never a
+ * crash. */
 #include "tests/support/gmsh.h"
 
 #ifdef __SANITIZE_ADDRESS__
@@ -19,7 +21,8 @@ static size_t nshifts;
 static fracas_err make_octant(const void *context)
 {
     (void)context;
-    const fracas_surface_fineness fineness = {.divisions = 3, .order = 2, .amplitude = 0.2, .shift = shift, .nshifts = nshifts};
+    const fracas_surface_fineness fineness = {
+        .divisions = 3, .order = 2, .amplitude = 0.2, .shift = shift, .nshifts = nshifts};
     const fracas_surface *s = NULL;
     const fracas_err err = fracas_surface_octant(1.0, &fineness, &s);
     fracas_surface_destroy(s);

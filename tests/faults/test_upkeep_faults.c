@@ -1,9 +1,8 @@
-/* The commands for studies, with every call that changes the disk failing, and killed at every one of them: the study is sound after
- * each, and the same command completes.
- *
- * ctest-labels: storm
- * ctest-timeout: 1800
- */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: storm */
+/* ctest-timeout: 1800 */
+/* The commands for studies, with every call that changes the disk failing, and killed at every one
+ * of them: the study is sound after each, and the same command completes. */
 #include "tests/support/study_fixture.h"
 
 #include "base/param.h"
@@ -16,7 +15,10 @@
 
 /* HDF5 1.10 forgets an object header whose checksum is wrong; it is no leak of ours. */
 const char *__lsan_default_suppressions(void);
-const char *__lsan_default_suppressions(void) { return "leak:libhdf5"; }
+const char *__lsan_default_suppressions(void)
+{
+    return "leak:libhdf5";
+}
 
 /* ---- calls that fail, or end the process; these stand before those of the C library ---- */
 
@@ -35,23 +37,57 @@ static bool stops(void)
     return true;
 }
 
-int fsync(int fd) { return stops() ? -1 : (int)syscall(SYS_fsync, fd); }
-int fdatasync(int fd) { return stops() ? -1 : (int)syscall(SYS_fdatasync, fd); }
-int rename(const char *from, const char *to) { return stops() ? -1 : (int)syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to); }
-int unlink(const char *path) { return stops() ? -1 : (int)syscall(SYS_unlinkat, AT_FDCWD, path, 0); }
-int rmdir(const char *path) { return stops() ? -1 : (int)syscall(SYS_unlinkat, AT_FDCWD, path, AT_REMOVEDIR); }
-int mkdir(const char *path, mode_t mode) { return stops() ? -1 : (int)syscall(SYS_mkdirat, AT_FDCWD, path, mode); }
-int ftruncate(int fd, off_t size) { return stops() ? -1 : (int)syscall(SYS_ftruncate, fd, size); }
-int ftruncate64(int fd, off64_t size) { return stops() ? -1 : (int)syscall(SYS_ftruncate, fd, size); }
-ssize_t pwrite(int fd, const void *bytes, size_t size, off_t at) { return stops() ? -1 : syscall(SYS_pwrite64, fd, bytes, size, at); }
-ssize_t pwrite64(int fd, const void *bytes, size_t size, off64_t at) { return stops() ? -1 : syscall(SYS_pwrite64, fd, bytes, size, at); }
-ssize_t write(int fd, const void *bytes, size_t size) { return stops() ? -1 : syscall(SYS_write, fd, bytes, size); }
+int fsync(int fd)
+{
+    return stops() ? -1 : (int)syscall(SYS_fsync, fd);
+}
+int fdatasync(int fd)
+{
+    return stops() ? -1 : (int)syscall(SYS_fdatasync, fd);
+}
+int rename(const char *from, const char *to)
+{
+    return stops() ? -1 : (int)syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to);
+}
+int unlink(const char *path)
+{
+    return stops() ? -1 : (int)syscall(SYS_unlinkat, AT_FDCWD, path, 0);
+}
+int rmdir(const char *path)
+{
+    return stops() ? -1 : (int)syscall(SYS_unlinkat, AT_FDCWD, path, AT_REMOVEDIR);
+}
+int mkdir(const char *path, mode_t mode)
+{
+    return stops() ? -1 : (int)syscall(SYS_mkdirat, AT_FDCWD, path, mode);
+}
+int ftruncate(int fd, off_t size)
+{
+    return stops() ? -1 : (int)syscall(SYS_ftruncate, fd, size);
+}
+int ftruncate64(int fd, off64_t size)
+{
+    return stops() ? -1 : (int)syscall(SYS_ftruncate, fd, size);
+}
+ssize_t pwrite(int fd, const void *bytes, size_t size, off_t at)
+{
+    return stops() ? -1 : syscall(SYS_pwrite64, fd, bytes, size, at);
+}
+ssize_t pwrite64(int fd, const void *bytes, size_t size, off64_t at)
+{
+    return stops() ? -1 : syscall(SYS_pwrite64, fd, bytes, size, at);
+}
+ssize_t write(int fd, const void *bytes, size_t size)
+{
+    return stops() ? -1 : syscall(SYS_write, fd, bytes, size);
+}
 
 int remove(const char *path)
 {
     if (stops()) return -1;
     const int code = (int)syscall(SYS_unlinkat, AT_FDCWD, path, 0);
-    return code < 0 && errno == EISDIR ? (int)syscall(SYS_unlinkat, AT_FDCWD, path, AT_REMOVEDIR) : code;
+    return code < 0 && errno == EISDIR ? (int)syscall(SYS_unlinkat, AT_FDCWD, path, AT_REMOVEDIR)
+                                       : code;
 }
 
 int link(const char *from, const char *to)
@@ -64,7 +100,10 @@ int link(const char *from, const char *to)
 
 /* ---- the commands, on a study `study` and another one within it ---- */
 
-static void ignore_line(void *context, const char *text) { (void)context, (void)text; }
+static void ignore_line(void *context, const char *text)
+{
+    (void)context, (void)text;
+}
 
 static fracas_err reindex(void)
 {
@@ -82,15 +121,22 @@ static fracas_err with_index(fracas_err (*work)(fracas_index *index))
     return err;
 }
 
-static void ignore_item(void *context, const fracas_collected *item) { (void)context, (void)item; }
+static void ignore_item(void *context, const fracas_collected *item)
+{
+    (void)context, (void)item;
+}
 
 static fracas_err collect_index(fracas_index *index)
 {
     uint64_t freed;
-    return fracas_study_collect(study, index, &(fracas_collect_options){.found = ignore_item}, &freed);
+    return fracas_study_collect(study, index, &(fracas_collect_options){.found = ignore_item},
+                                &freed);
 }
 
-static fracas_err collect(void) { return with_index(collect_index); }
+static fracas_err collect(void)
+{
+    return with_index(collect_index);
+}
 
 static fracas_err retry_index(fracas_index *index)
 {
@@ -98,7 +144,10 @@ static fracas_err retry_index(fracas_index *index)
     return fracas_index_retry(index, NULL, &rows);
 }
 
-static fracas_err retry(void) { return with_index(retry_index); }
+static fracas_err retry(void)
+{
+    return with_index(retry_index);
+}
 
 /* As a command does it: after the sweep, and compared. */
 static fracas_err join_index(fracas_index *index)
@@ -117,7 +166,10 @@ static fracas_err join_index(fracas_index *index)
     return err;
 }
 
-static fracas_err join(void) { return with_index(join_index); }
+static fracas_err join(void)
+{
+    return with_index(join_index);
+}
 
 static fracas_err merge_index(fracas_index *index)
 {
@@ -125,7 +177,10 @@ static fracas_err merge_index(fracas_index *index)
     return fracas_study_merge(study, index, &header, &table, NULL);
 }
 
-static fracas_err merge_all(void) { return with_index(merge_index); }
+static fracas_err merge_all(void)
+{
+    return with_index(merge_index);
+}
 
 /* ---- the studies that they are tried on ---- */
 
@@ -149,18 +204,25 @@ static void make_damaged(void)
     make_incomplete();
     fracas_index_close(index_);
     index_ = NULL;
-    sample_spill(sample_path(study, "index.sqlite"), "no database, but long enough to be looked at", 44);
+    sample_spill(sample_path(study, "index.sqlite"), "no database, but long enough to be looked at",
+                 44);
 }
 
 static void make_garbage(void)
 {
     make_incomplete();
-    assert_int_equal(sqlite3_exec(index_->db, "UPDATE realization SET status = 'planned', outcome = NULL, segment = NULL, row = NULL,"
-                                  " fragments = NULL, fragments_dust = NULL, steps = NULL, dissipated = NULL, residual = NULL, size = NULL"
-                                  " WHERE segment = 2", NULL, NULL, NULL), SQLITE_OK);
+    assert_int_equal(
+        sqlite3_exec(index_->db,
+                     "UPDATE realization SET status = 'planned', outcome = NULL, segment = NULL, "
+                     "row = NULL, fragments = NULL, fragments_dust = NULL, steps = NULL, "
+                     "dissipated = NULL, residual = NULL, size = NULL WHERE segment = 2",
+                     NULL, NULL, NULL),
+        SQLITE_OK);
     sample_spill(sample_path(study, "segments/.x.h5.tmp-12"), "abc", 3);
     sample_spill(sample_path(study, "index.sqlite.before-1"), "abc", 3);
-    assert_int_equal(mkdir(sample_path(study, ".reindex"), 0777) | mkdir(sample_path(study, "attachments"), 0777), 0);
+    assert_int_equal(mkdir(sample_path(study, ".reindex"), 0777) |
+                         mkdir(sample_path(study, "attachments"), 0777),
+                     0);
     sample_spill(sample_path(study, ".reindex/index.sqlite"), "abc", 3);
     sample_spill(sample_path(study, "attachments/00000000000000000000000000000002"), "abc", 3);
 }
@@ -184,7 +246,10 @@ static void make_two(void)
     free(other);
 }
 
-static void make_whole(void) { commit_everything(0); }
+static void make_whole(void)
+{
+    commit_everything(0);
+}
 
 /* ---- one command ---- */
 
@@ -192,10 +257,10 @@ typedef struct {
     const char *name;
     void (*make)(void);
     fracas_err (*run)(void);
-    bool copies;       /* links do not work */
-    bool damaged;      /* the study is not sound before, so it may not be after a failure */
-    bool pending;      /* study.h5 may be missing or without its seal after one */
-    long each;         /* of more calls than these only some are tried; 0: all */
+    bool copies;  /* links do not work */
+    bool damaged; /* the study is not sound before, so it may not be after a failure */
+    bool pending; /* study.h5 may be missing or without its seal after one */
+    long each;    /* of more calls than these only some are tried; 0: all */
     int64_t done, failed, planned; /* of the study at the end */
 } trial;
 
@@ -233,15 +298,19 @@ static void is_sound(const trial *t, long k)
     char text[8192] = "";
     int64_t problems;
     if (t->damaged) return;
-    const fracas_verify_options how_to = {.full = true, .say = t->pending ? keep_unless_pending : keep_problem, .context = text};
+    const fracas_verify_options how_to = {
+        .full = true, .say = t->pending ? keep_unless_pending : keep_problem, .context = text};
     OK(fracas_study_verify(study, &how_to, &problems));
-    if (*text) fail_msg("%s, %s at call %ld: %s", t->name, how == DIE ? "killed" : "failing", k, text);
+    if (*text)
+        fail_msg("%s, %s at call %ld: %s", t->name, how == DIE ? "killed" : "failing", k, text);
 }
 
 static void completes(const trial *t, long k)
 {
     fracas_err err = t->run();
-    if (err) fail_msg("%s after %s at call %ld: %d %s", t->name, how == DIE ? "a death" : "a failure", k, err, fracas_message());
+    if (err)
+        fail_msg("%s after %s at call %ld: %d %s", t->name, how == DIE ? "a death" : "a failure", k,
+                 err, fracas_message());
     OK(fracas_index_open(study, true, &index_));
     const fracas_index_counts counts = count_all();
     char text[8192];
@@ -249,8 +318,9 @@ static void completes(const trial *t, long k)
     fracas_index_close(index_);
     index_ = NULL;
     if (counts.done != t->done || counts.failed != t->failed || counts.planned != t->planned)
-        fail_msg("%s, %s at call %ld: %d done, %d failed, %d planned", t->name, how == DIE ? "killed" : "failing", k, (int)counts.done,
-                 (int)counts.failed, (int)counts.planned);
+        fail_msg("%s, %s at call %ld: %d done, %d failed, %d planned", t->name,
+                 how == DIE ? "killed" : "failing", k, (int)counts.done, (int)counts.failed,
+                 (int)counts.planned);
     assert_int_equal(sample_files(study, ".reindex"), 0);
     assert_int_equal(sample_files(sample_path(study, "segments"), "tmp"), 0);
 }
@@ -264,8 +334,10 @@ static bool runs_into(const trial *t, long k)
         stop_at = k;
         fracas_err err = t->run();
         stop_at = -1;
-        /* What fails may not matter (a log that is not removed), but if it does it is the disk's fault. */
-        if (err && err != FRACAS_ENVIRONMENT) fail_msg("%s, call %ld: %d %s", t->name, k, err, fracas_message());
+        /* What fails may not matter (a log that is not removed), but if it does it is the disk's
+         * fault. */
+        if (err && err != FRACAS_ENVIRONMENT)
+            fail_msg("%s, call %ld: %d %s", t->name, k, err, fracas_message());
         return calls > k;
     }
     pid_t child = fork();
@@ -301,7 +373,8 @@ static void try_every_call(const trial *t)
     shell("rm -rf %s", template_folder);
 }
 
-/* Of the twelve records of replicas 0 to 3, and of those that `done` takes in, some have the outcome FAILED. */
+/* Of the twelve records of replicas 0 to 3, and of those that `done` takes in, some have the
+ * outcome FAILED. */
 static void count_outcomes(size_t point, int64_t first, int64_t end, trial *t)
 {
     for (int64_t r = first; r < end; r++) {
@@ -326,7 +399,8 @@ static void the_index_anew(void **state)
 static void the_index_anew_from_a_damaged_one(void **state)
 {
     (void)state;
-    trial t = {.name = "reindex of a damaged one", .make = make_damaged, .run = reindex, .damaged = true};
+    trial t = {
+        .name = "reindex of a damaged one", .make = make_damaged, .run = reindex, .damaged = true};
     count_outcomes(0, 0, 4, &t);
     count_outcomes(1, 0, 4, &t);
     try_every_call(&t);
@@ -355,7 +429,10 @@ static void failures_again(void **state)
 
 static void one_of_two(bool copies)
 {
-    trial t = {.name = copies ? "merge-studies by copies" : "merge-studies by links", .make = make_two, .run = join, .copies = copies,
+    trial t = {.name = copies ? "merge-studies by copies" : "merge-studies by links",
+               .make = make_two,
+               .run = join,
+               .copies = copies,
                .failed = 1};
     count_outcomes(0, 0, 8, &t);
     count_outcomes(1, 0, 4, &t);
@@ -386,7 +463,8 @@ static void study_h5(void **state)
 
 int main(void)
 {
-    if (access("/dev/shm", W_OK) == 0) setenv("TMPDIR", "/dev/shm", 0); /* syncing to a disk would take minutes */
+    if (access("/dev/shm", W_OK) == 0)
+        setenv("TMPDIR", "/dev/shm", 0); /* syncing to a disk would take minutes */
     const struct CMUnitTest tests[] = {
         TEST(the_index_anew),
         TEST(the_index_anew_from_a_damaged_one),

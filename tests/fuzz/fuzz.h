@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the fuzz targets share. */
 #ifndef FRACAS_TESTS_FUZZ_H
 #define FRACAS_TESTS_FUZZ_H
@@ -31,7 +32,8 @@ static inline void fuzz_too_long(int signal_number)
     abort();
 }
 
-/* Five seconds of processor time for each input from here on: other processes do not count, as they do in libFuzzer's own limit. */
+/* Five seconds of processor time for each input from here on: other processes do not count, as they
+ * do in libFuzzer's own limit. */
 static inline void fuzz_limit(void)
 {
     static const struct itimerval most = {.it_value = {.tv_sec = 5}};
@@ -51,7 +53,8 @@ static inline void fuzz_remove(void)
 /* A folder of this process, in memory where there is such a place, removed at its end. */
 static inline void fuzz_folder(char path[64])
 {
-    snprintf(path, 64, "%s/fracas-fuzz-XXXXXX", access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp");
+    snprintf(path, 64, "%s/fracas-fuzz-XXXXXX",
+             access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp");
     FUZZ_DEMAND(mkdtemp(path) != NULL, "a folder");
     snprintf(fuzz_made, sizeof fuzz_made, "%s", path);
     atexit(fuzz_remove);

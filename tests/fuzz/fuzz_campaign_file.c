@@ -1,6 +1,9 @@
-/* Any bytes as a campaign file, with the files beside it that it may name: read, or refused with a message that has a place; what is
- * read survives writing and reading back, and makes a plan. The input: the campaign file, then, where a line
- * "%%% strengths.csv" or "%%% mesh.msh" stands, what those files hold. For libFuzzer (tools/fuzz), and the corpus as a test. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Any bytes as a campaign file, with the files beside it that it may name: read, or refused with a
+ * message that has a place; what is read survives writing and reading back, and makes a plan. The
+ * input: the campaign file, then, where a line
+ * "%%% strengths.csv" or "%%% mesh.msh" stands, what those files hold. For libFuzzer (tools/fuzz),
+ * and the corpus as a test. */
 #include "tests/fuzz/fuzz.h"
 
 #include "campaigns/campaign.h"
@@ -18,7 +21,10 @@ static const char *const beside[] = {"strengths.csv", "mesh.msh"};
 static fracas_units *units;
 static char folder[64], campaign_path[80], place[84];
 
-static void in_folder(const char *name, char path[160]) { snprintf(path, 160, "%s/%s", folder, name); }
+static void in_folder(const char *name, char path[160])
+{
+    snprintf(path, 160, "%s/%s", folder, name);
+}
 
 static void write_named(const char *name, const void *bytes, size_t size)
 {
@@ -45,7 +51,8 @@ static void check_round_trip(const fracas_campaign *campaign)
     char *text = NULL, path[160];
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
-    FUZZ_DEMAND(out && fracas_campaign_write(campaign, out) == FRACAS_OK && fclose(out) == 0, "writing");
+    FUZZ_DEMAND(out && fracas_campaign_write(campaign, out) == FRACAS_OK && fclose(out) == 0,
+                "writing");
     fuzz_write(campaign_path, text, size);
     for (const fracas_attached *a = campaign->attached; a; a = a->next) {
         snprintf(path, sizeof path, "%s/" FRACAS_ATTACHMENTS "/%s", folder, a->attachment.digest);
@@ -80,10 +87,12 @@ static void lay_out(const char *text, size_t size)
     write_named(beside[1], "", 0);
     for (int f = 0; f < 2; f++) {
         size_t length, other;
-        const char *mark = find_mark(text, size, beside[f], &length), *next = find_mark(text, size, beside[1 - f], &other);
+        const char *mark = find_mark(text, size, beside[f], &length),
+                   *next = find_mark(text, size, beside[1 - f], &other);
         if (!mark) continue;
         const char *end = next > mark ? next : text + size;
-        write_named(beside[f], mark + length, end > mark + length ? (size_t)(end - mark - length) : 0);
+        write_named(beside[f], mark + length,
+                    end > mark + length ? (size_t)(end - mark - length) : 0);
         if ((size_t)(mark - text) < first) first = (size_t)(mark - text);
     }
     write_named("c.yaml", text, first < size ? first + 1 : size);
@@ -97,7 +106,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     fracas_campaign *campaign = NULL;
     fracas_err err = fracas_campaign_read_with(units, campaign_path, &campaign);
     if (err) {
-        FUZZ_DEMAND(err == FRACAS_USAGE && !campaign && strncmp(fracas_message(), place, strlen(place)) == 0, fracas_message());
+        FUZZ_DEMAND(err == FRACAS_USAGE && !campaign &&
+                        strncmp(fracas_message(), place, strlen(place)) == 0,
+                    fracas_message());
         return 0;
     }
     check_round_trip(campaign);

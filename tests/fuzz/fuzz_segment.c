@@ -1,10 +1,13 @@
-/* Segments and studies that were not written by fracas, or not like this: everything in them is read, or refused as damaged with a
- * message that names the file. The input is a script: its first byte chooses a sound file, the rest changes it, by the HDF5 library
- * itself (so that every checksum fits: values, sizes, types, attributes, links) and then in its bytes. What is read can be
- * written again. For libFuzzer (tools/fuzz), and the corpus as a test.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Segments and studies that were not written by fracas, or not like this: everything in them is
+ * read, or refused as damaged with a message that names the file. The input is a script: its first
+ * byte chooses a sound file, the rest changes it, by the HDF5 library itself (so that every
+ * checksum fits: values, sizes, types, attributes, links) and then in its bytes. What is read can
+ * be written again. For libFuzzer (tools/fuzz), and the corpus as a test.
  *
- * Bytes are changed without making the checksums of HDF5 fit again: HDF5 1.10 can be crashed that way, and fracas lets it see a
- * segment only after a checksum over all of it (campaigns/store/file/disk.h). */
+ * Bytes are changed without making the checksums of HDF5 fit again: HDF5 1.10 can be crashed that
+ * way, and fracas lets it see a segment only after a checksum over all of it
+ * (campaigns/store/file/disk.h). */
 #include "tests/fuzz/fuzz.h"
 
 #include "campaigns/store/file/h5.h"
@@ -15,7 +18,10 @@
 
 /* HDF5 1.10 forgets an object header whose checksum is wrong; it is no leak of ours. */
 const char *__lsan_default_suppressions(void);
-const char *__lsan_default_suppressions(void) { return "leak:libhdf5"; }
+const char *__lsan_default_suppressions(void)
+{
+    return "leak:libhdf5";
+}
 
 enum { NBASES = 4, REPLICAS = 2, MOST = 5, MOST_OPERATIONS = 24, MOST_DATASETS = 256 };
 
@@ -32,10 +38,26 @@ static size_t ndatasets;
 /* ---- sound files ---- */
 
 static const fracas_decision decision[2] = {
-    {.point = 0, .replicas = 2, .used = 2, .mean = 3, .half_width = 1, .minimum = 2, .maximum = 8, .relative_half_width = 0.1,
+    {.point = 0,
+     .replicas = 2,
+     .used = 2,
+     .mean = 3,
+     .half_width = 1,
+     .minimum = 2,
+     .maximum = 8,
+     .relative_half_width = 0.1,
      .confidence = 0.95},
-    {.point = 0, .round = 1, .replicas = 4, .used = 3, .mean = 3, .half_width = 0.1, .stop = 1, .minimum = 2, .maximum = 8,
-     .relative_half_width = 0.1, .confidence = 0.95},
+    {.point = 0,
+     .round = 1,
+     .replicas = 4,
+     .used = 3,
+     .mean = 3,
+     .half_width = 0.1,
+     .stop = 1,
+     .minimum = 2,
+     .maximum = 8,
+     .relative_half_width = 0.1,
+     .confidence = 0.95},
 };
 
 static void write_meshes(fracas_writer *writer)
@@ -58,11 +80,14 @@ static void write_base(int which)
     fracas_writer *writer;
     fracas_file_seal seal;
     header.interfaces = which != 1;
-    FUZZ_DEMAND(fracas_writer_create(path, &header, &table, &writer) == FRACAS_OK, fracas_message());
+    FUZZ_DEMAND(fracas_writer_create(path, &header, &table, &writer) == FRACAS_OK,
+                fracas_message());
     for (size_t i = 0; which != 3 && i < SAMPLE_POINTS * REPLICAS; i++) {
         fracas_record record;
         sample_record(i / REPLICAS, (int64_t)(i % REPLICAS), MOST, &record);
-        FUZZ_DEMAND(fracas_writer_append(writer, i / REPLICAS, (int64_t)(i % REPLICAS), &record) == FRACAS_OK, fracas_message());
+        FUZZ_DEMAND(fracas_writer_append(writer, i / REPLICAS, (int64_t)(i % REPLICAS), &record) ==
+                        FRACAS_OK,
+                    fracas_message());
         fracas_record_clear(&record);
     }
     if (which == 2) {
@@ -80,11 +105,12 @@ static void start(void)
     snprintf(path, sizeof path, "%s/a.h5", folder);
     snprintf(other, sizeof other, "%s/b.h5", folder);
     for (int which = 0; which < NBASES; which++) write_base(which);
-    static const char *const points[] = {"/point/hash", "/point/replicas", "/point/cohesive.law", "/point/material.young",
-                                         "/point/strength.shape"};
+    static const char *const points[] = {"/point/hash", "/point/replicas", "/point/cohesive.law",
+                                         "/point/material.young", "/point/strength.shape"};
     for (size_t p = 0; p < sizeof points / sizeof *points; p++) dataset[ndatasets++] = points[p];
     for (int s = 0; s < FRACAS_NSETS; s++)
-        for (size_t c = 0; c < fracas_store_sets[s].ncolumns; c++) dataset[ndatasets++] = fracas_store_sets[s].column[c].path;
+        for (size_t c = 0; c < fracas_store_sets[s].ncolumns; c++)
+            dataset[ndatasets++] = fracas_store_sets[s].column[c].path;
     FUZZ_DEMAND(ndatasets <= MOST_DATASETS, "room for the names of datasets");
 }
 
@@ -98,13 +124,15 @@ typedef struct {
 static uint64_t take(script *s, size_t bytes) /* little-endian; zeros after its end */
 {
     uint64_t value = 0;
-    for (size_t b = 0; b < bytes && s->left > 0; b++, s->at++, s->left--) value |= (uint64_t)*s->at << 8 * b;
+    for (size_t b = 0; b < bytes && s->left > 0; b++, s->at++, s->left--)
+        value |= (uint64_t)*s->at << 8 * b;
     return value;
 }
 
 static const char *take_object(script *s)
 {
-    static const char *const group[] = {"/", "/point", "/realization", "/fragment", "/history", "/interface", "/decision", "/mesh"};
+    static const char *const group[] = {"/",        "/point",     "/realization", "/fragment",
+                                        "/history", "/interface", "/decision",    "/mesh"};
     const size_t ngroups = sizeof group / sizeof *group, n = take(s, 1) % (ndatasets + ngroups);
     return n < ndatasets ? dataset[n] : group[n - ndatasets];
 }
@@ -112,20 +140,23 @@ static const char *take_object(script *s)
 /* Attributes that a file has, and one that it has not. */
 static const char *take_attribute(script *s)
 {
-    static const char *const name[] = {"format_version", "campaign", "seed", "history", "interfaces", "program_version", "complete",
-                                       "columns", "unit", "description", "of no meaning"};
+    static const char *const name[] = {
+        "format_version", "campaign", "seed", "history",     "interfaces",   "program_version",
+        "complete",       "columns",  "unit", "description", "of no meaning"};
     return name[take(s, 1) % (sizeof name / sizeof *name)];
 }
 
 static hid_t take_type(script *s, bool *text)
 {
     const uint64_t which = take(s, 1) % 9;
-    const hid_t type[] = {H5T_STD_I8LE, H5T_STD_I32LE, H5T_STD_I64LE, H5T_STD_U64LE, H5T_IEEE_F64LE, H5T_IEEE_F32LE, H5T_STD_I64BE};
+    const hid_t type[] = {H5T_STD_I8LE,   H5T_STD_I32LE,  H5T_STD_I64LE, H5T_STD_U64LE,
+                          H5T_IEEE_F64LE, H5T_IEEE_F32LE, H5T_STD_I64BE};
     *text = which >= 7;
     if (which < 7) return H5Tcopy(type[which]);
     hid_t made = H5Tcopy(H5T_C_S1);
     (void)H5Tset_size(made, which == 7 ? 1 + (size_t)take(s, 2) % 5000 : H5T_VARIABLE);
-    if (take(s, 1) & 1) (void)H5Tset_strpad(made, H5T_STR_NULLPAD), (void)H5Tset_cset(made, H5T_CSET_UTF8);
+    if (take(s, 1) & 1)
+        (void)H5Tset_strpad(made, H5T_STR_NULLPAD), (void)H5Tset_cset(made, H5T_CSET_UTF8);
     return made;
 }
 
@@ -137,12 +168,14 @@ static void set_value(hid_t file, script *s)
     const char *name = dataset[take(s, 1) % ndatasets];
     hsize_t row[2] = {take(s, 2), 0}, count[2] = {1, 1}, shape[2] = {0, 1}, one = 1;
     const uint64_t value = take(s, 1 + take(s, 1) % 8);
-    hid_t set = H5Dopen2(file, name, H5P_DEFAULT), type = H5Dget_type(set), space = H5Dget_space(set);
+    hid_t set = H5Dopen2(file, name, H5P_DEFAULT), type = H5Dget_type(set),
+          space = H5Dget_space(set);
     char bytes[5000] = "";
     memcpy(bytes, &value, sizeof value);
     const int rank = H5Sget_simple_extent_ndims(space);
-    if (rank >= 1 && rank <= 2 && H5Sget_simple_extent_dims(space, shape, NULL) == rank && shape[0] > 0 && shape[1] > 0 &&
-        H5Tget_size(type) <= sizeof bytes && H5Tis_variable_str(type) <= 0) {
+    if (rank >= 1 && rank <= 2 && H5Sget_simple_extent_dims(space, shape, NULL) == rank &&
+        shape[0] > 0 && shape[1] > 0 && H5Tget_size(type) <= sizeof bytes &&
+        H5Tis_variable_str(type) <= 0) {
         row[1] = row[0] / shape[0] % shape[1];
         row[0] %= shape[0];
         hid_t memory = H5Screate_simple(1, &one, NULL);
@@ -162,7 +195,8 @@ static void set_rows(hid_t file, script *s)
     hid_t set = H5Dopen2(file, name, H5P_DEFAULT), space = H5Dget_space(set);
     if (H5Sget_simple_extent_ndims(space) <= 2) (void)H5Sget_simple_extent_dims(space, shape, NULL);
     const uint64_t rows = take(s, 2);
-    shape[0] = rows & 0x8000 ? UINT64_C(256) << (rows & 15) : rows & 0xfff; /* a chunk that was never written takes no room */
+    shape[0] = rows & 0x8000 ? UINT64_C(256) << (rows & 15)
+                             : rows & 0xfff; /* a chunk that was never written takes no room */
     (void)H5Dset_extent(set, shape);
     H5Sclose(space);
     H5Dclose(set);
@@ -176,7 +210,8 @@ static void set_attribute(hid_t file, script *s)
     hsize_t two = 2;
     hid_t space = take(s, 1) & 1 ? H5Screate_simple(1, &two, NULL) : H5Screate(H5S_SCALAR);
     (void)H5Adelete_by_name(file, object, name, H5P_DEFAULT);
-    hid_t attribute = H5Acreate_by_name(file, object, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t attribute = H5Acreate_by_name(file, object, name, type, space, H5P_DEFAULT, H5P_DEFAULT,
+                                        H5P_DEFAULT);
     char value[2 * 5008] = "";
     for (size_t b = 0; b < 40 && s->left > 0; b++) value[b] = (char)take(s, 1);
     if (attribute >= 0 && H5Tis_variable_str(type) <= 0) (void)H5Awrite(attribute, type, value);
@@ -185,17 +220,24 @@ static void set_attribute(hid_t file, script *s)
     H5Tclose(type);
 }
 
-/* A dataset in the place of an old one, or beside it: type, shape, chunks and filters by the script. */
+/* A dataset in the place of an old one, or beside it: type, shape, chunks and filters by the
+ * script. */
 static void make_dataset(hid_t file, script *s)
 {
     static const char *const fresh[] = {"/point/a", "/point/0", "/mesh", "/decision", "/interface"};
     const uint64_t which = take(s, 1), how = take(s, 2);
     const char *name = which % 2 ? fresh[which / 2 % 5] : dataset[which % ndatasets];
     bool text;
-    hsize_t shape[3] = {take(s, 2) & 0xfff, 1 + (how & 3), 1}, most[3] = {H5S_UNLIMITED, shape[1], 1};
-    const hsize_t chunk[3] = {how & 4 ? 256 : how & 8 ? 64 : how & 16 ? 1024 : 1 + (how >> 8), shape[1], 1};
+    hsize_t shape[3] = {take(s, 2) & 0xfff, 1 + (how & 3), 1},
+            most[3] = {H5S_UNLIMITED, shape[1], 1};
+    const hsize_t chunk[3] = {how & 4    ? 256
+                              : how & 8  ? 64
+                              : how & 16 ? 1024
+                                         : 1 + (how >> 8),
+                              shape[1], 1};
     const int rank = how & 32 ? 2 : how & 64 ? 3 : 1;
-    hid_t type = take_type(s, &text), space = H5Screate_simple(rank, shape, most), list = H5Pcreate(H5P_DATASET_CREATE);
+    hid_t type = take_type(s, &text), space = H5Screate_simple(rank, shape, most),
+          list = H5Pcreate(H5P_DATASET_CREATE);
     hid_t links = H5Pcreate(H5P_LINK_CREATE);
     (void)H5Pset_create_intermediate_group(links, 1);
     (void)H5Pset_chunk(list, rank, chunk);
@@ -220,9 +262,15 @@ static void move_link(hid_t file, script *s)
     const char *from = take_object(s), *to = take_object(s);
     const uint64_t how = take(s, 1);
     if (how % 4 == 0) (void)H5Ldelete(file, from, H5P_DEFAULT);
-    if (how % 4 == 1) (void)H5Ldelete(file, to, H5P_DEFAULT), (void)H5Lcreate_hard(file, from, file, to, H5P_DEFAULT, H5P_DEFAULT);
-    if (how % 4 == 2) (void)H5Ldelete(file, to, H5P_DEFAULT), (void)H5Lcreate_soft(from, file, to, H5P_DEFAULT, H5P_DEFAULT);
-    if (how % 4 == 3) (void)H5Ldelete(file, to, H5P_DEFAULT), (void)H5Lmove(file, from, file, to, H5P_DEFAULT, H5P_DEFAULT);
+    if (how % 4 == 1)
+        (void)H5Ldelete(file, to, H5P_DEFAULT),
+            (void)H5Lcreate_hard(file, from, file, to, H5P_DEFAULT, H5P_DEFAULT);
+    if (how % 4 == 2)
+        (void)H5Ldelete(file, to, H5P_DEFAULT),
+            (void)H5Lcreate_soft(from, file, to, H5P_DEFAULT, H5P_DEFAULT);
+    if (how % 4 == 3)
+        (void)H5Ldelete(file, to, H5P_DEFAULT),
+            (void)H5Lmove(file, from, file, to, H5P_DEFAULT, H5P_DEFAULT);
 }
 
 static void by_hdf5(script *s, uint64_t operations)
@@ -232,8 +280,8 @@ static void by_hdf5(script *s, uint64_t operations)
     (void)H5Pset_fclose_degree(list, H5F_CLOSE_STRONG);
     hid_t file = H5Fopen(path, H5F_ACC_RDWR, list);
     FUZZ_DEMAND(file >= 0, "a sound file opens");
-    static void (*const operation[])(hid_t file, script *s) = {set_value, set_value, set_value, set_rows, set_attribute, make_dataset,
-                                                               move_link};
+    static void (*const operation[])(hid_t file, script * s) = {
+        set_value, set_value, set_value, set_rows, set_attribute, make_dataset, move_link};
     while (operations-- > 0 && s->left > 0) operation[take(s, 1) % 7](file, s);
     H5Fclose(file);
     H5Pclose(list);
@@ -248,7 +296,8 @@ static void by_bytes(script *s)
     for (int n = 0; n < MOST_OPERATIONS && s->left > 0 && size > 0; n++) {
         const uint64_t at = take(s, 3) % size, length = take(s, 1);
         if (length == 0) size = at; /* cut short */
-        for (uint64_t b = at; b < at + length % 64 && b < size && s->left > 0; b++) bytes[b] = (unsigned char)take(s, 1);
+        for (uint64_t b = at; b < at + length % 64 && b < size && s->left > 0; b++)
+            bytes[b] = (unsigned char)take(s, 1);
     }
     fuzz_write(path, bytes, size);
     free(bytes);
@@ -272,11 +321,14 @@ static fracas_err read_records(fracas_reader *reader, fracas_writer *writer)
         int64_t replica;
         err = fracas_reader_record(reader, row, FRACAS_READ_ALL, &point, &replica, &record);
         if (err) break;
-        FUZZ_DEMAND(point < fracas_reader_points(reader)->npoints && replica >= 0, "a realization of no point");
+        FUZZ_DEMAND(point < fracas_reader_points(reader)->npoints && replica >= 0,
+                    "a realization of no point");
         void *packed = malloc(fracas_record_packed_size(&record));
         fracas_record_pack(&record, packed); /* touches every row */
         free(packed);
-        if (writer) FUZZ_DEMAND(fracas_writer_append(writer, point, replica, &record) == FRACAS_OK, fracas_message());
+        if (writer)
+            FUZZ_DEMAND(fracas_writer_append(writer, point, replica, &record) == FRACAS_OK,
+                        fracas_message());
     }
     fracas_record_clear(&record);
     return err;
@@ -319,7 +371,9 @@ static void read_all(bool again)
         demand_damaged(err);
         return;
     }
-    if (again) err = fracas_writer_create(other, fracas_reader_header(reader), fracas_reader_points(reader), &writer);
+    if (again)
+        err = fracas_writer_create(other, fracas_reader_header(reader),
+                                   fracas_reader_points(reader), &writer);
     FUZZ_DEMAND(!err, fracas_message());
     err = read_parts(reader, writer);
     if (err) demand_damaged(err);
@@ -338,6 +392,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (how & 0x80) by_bytes(&s);
     else by_hdf5(&s, 1 + (how >> 2) % MOST_OPERATIONS);
     read_all(how & 0x40);
-    FUZZ_DEMAND(H5Fget_obj_count((hid_t)H5F_OBJ_ALL, H5F_OBJ_ALL) == 0, "what was opened is closed");
+    FUZZ_DEMAND(H5Fget_obj_count((hid_t)H5F_OBJ_ALL, H5F_OBJ_ALL) == 0,
+                "what was opened is closed");
     return 0;
 }

@@ -1,5 +1,7 @@
-/* Every file of the folders and files named in the arguments as an input of the fuzz target that this is linked with: the corpus as a
- * test, without libFuzzer. Says how many there were; none is a failure. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every file of the folders and files named in the arguments as an input of the fuzz target that
+ * this is linked with: the corpus as a test, without libFuzzer. Says how many there were; none is a
+ * failure. */
 #include "tests/fuzz/fuzz.h"
 
 #include <dirent.h>
@@ -19,7 +21,10 @@ static size_t replay_file(const char *path)
     return 1;
 }
 
-static int no_dots(const struct dirent *entry) { return entry->d_name[0] != '.'; }
+static int no_dots(const struct dirent *entry)
+{
+    return entry->d_name[0] != '.';
+}
 
 static size_t replay(const char *path)
 {

@@ -1,6 +1,8 @@
-/* Damaged campaign files: thousands of deterministic mutations of examples (a sweep of bars; a ring with choices, names of kinds that
- * go with each other and files) are either read or refused with a message
- * that has a place; never a crash or a hang. What is read must survive writing and reading back. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Damaged campaign files: thousands of deterministic mutations of examples (a sweep of bars; a ring
+ * with choices, names of kinds that go with each other and files) are either read or refused with a
+ * message that has a place; never a crash or a hang. What is read must survive writing and reading
+ * back. */
 #define FOLDER "fracas-fuzz"
 #include "tests/support/folder.h"
 
@@ -27,28 +29,95 @@ static uint64_t next_random(uint64_t *x)
 
 /* Pieces that mean something to YAML, to numbers, to units or to a sweep. */
 static const char *const pieces[] = {
-    "[", "]", "{", "}", ": ", "- ", "\n", "  ", "\t", "#", "&a ", "*a", "!!", "\"", "'", "|\n", ">", "---\n", "...",
-    "%", "@", "?", "1e", "1e308", "-", "0", "nan", "1e-400", "99999999999999999999", " MPa", " s since 1", " (((",
-    "^", "\xff", "\xc2", "\xe2\x82", "sweep:\n", "zip:", "cases:", "from: 1", "points: 50", "name: a", "strength",
-    "shape: 1", ".", "..", ",", "<<: ", "\\x00", "\r", "model: bar", "model: ring", "law: stershic", "law: nitsche", "shape: ring",
-    "spacing: perturbed", "direction: radial", "ends: held", "critical_zone: steep", "zone: 1e300", "distribution: file",
-    ("file: " STRENGTHS), "file: /dev/zero", "file: attachments/5fca4fc001bc57a73d51c9e49f315ad3", "file: ../../", "-0",
+    "[",
+    "]",
+    "{",
+    "}",
+    ": ",
+    "- ",
+    "\n",
+    "  ",
+    "\t",
+    "#",
+    "&a ",
+    "*a",
+    "!!",
+    "\"",
+    "'",
+    "|\n",
+    ">",
+    "---\n",
+    "...",
+    "%",
+    "@",
+    "?",
+    "1e",
+    "1e308",
+    "-",
+    "0",
+    "nan",
+    "1e-400",
+    "99999999999999999999",
+    " MPa",
+    " s since 1",
+    " (((",
+    "^",
+    "\xff",
+    "\xc2",
+    "\xe2\x82",
+    "sweep:\n",
+    "zip:",
+    "cases:",
+    "from: 1",
+    "points: 50",
+    "name: a",
+    "strength",
+    "shape: 1",
+    ".",
+    "..",
+    ",",
+    "<<: ",
+    "\\x00",
+    "\r",
+    "model: bar",
+    "model: ring",
+    "law: stershic",
+    "law: nitsche",
+    "shape: ring",
+    "spacing: perturbed",
+    "direction: radial",
+    "ends: held",
+    "critical_zone: steep",
+    "zone: 1e300",
+    "distribution: file",
+    ("file: " STRENGTHS),
+    "file: /dev/zero",
+    "file: attachments/5fca4fc001bc57a73d51c9e49f315ad3",
+    "file: ../../",
+    "-0",
 };
 
-static const char ring[] =
-    "name: ring\nseed: 3\nmodel: ring\ngeometry: {radius: 1 mm, area: 1 mm2, direction: initial}\nmesh: {elements: 100}\n"
-    "material: {young: 275 GPa, density: 2750 kg/m3}\n"
-    "strength:\n  distribution: file\n  file: " STRENGTHS "\n"
-    "loading: {type: held-velocity, direction: circumferential, velocity: 100 m/s, acceleration: 0}\n"
-    "time: {stop: settled, end: 150 ns, quiet: 20 ns, safety: 0.5}\nreplicas: 2\noutput: {history: 20, interfaces: true}\n"
-    "sweep:\n  - cases:\n      - {name: zone, cohesive: {law: stershic, fracture_energy: 100 J/m2, zone: 100 um, refinement: 0.1}}\n"
-    "      - {name: steep, cohesive: {law: stershic, critical_opening: 0.6 um, critical_zone: steep}}\n"
-    "      - name: bar\n        model: bar\n        geometry: {shape: bar, length: 6 mm, ends: periodic}\n"
-    "        mesh: {elements: 100, spacing: perturbed, amplitude: 0.3}\n"
-    "        cohesive: {law: rigid-link, fracture_energy: 100 J/m2}\n        loading: {type: imposed-rate, rate: 1e5 1/s}\n"
-    "  - strength.file: [" STRENGTHS ", ./" STRENGTHS "2]\n";
+static const char ring[] = "name: ring\nseed: 3\nmodel: ring\ngeometry: {radius: 1 mm, area: 1 "
+                           "mm2, direction: initial}\nmesh: {elements: 100}\n"
+                           "material: {young: 275 GPa, density: 2750 kg/m3}\n"
+                           "strength:\n  distribution: file\n  file: " STRENGTHS "\n"
+                           "loading: {type: held-velocity, direction: circumferential, velocity: "
+                           "100 m/s, acceleration: 0}\n"
+                           "time: {stop: settled, end: 150 ns, quiet: 20 ns, safety: "
+                           "0.5}\nreplicas: 2\noutput: {history: 20, interfaces: true}\n"
+                           "sweep:\n  - cases:\n      - {name: zone, cohesive: {law: stershic, "
+                           "fracture_energy: 100 J/m2, zone: 100 um, refinement: 0.1}}\n"
+                           "      - {name: steep, cohesive: {law: stershic, critical_opening: 0.6 "
+                           "um, critical_zone: steep}}\n"
+                           "      - name: bar\n        model: bar\n        geometry: {shape: bar, "
+                           "length: 6 mm, ends: periodic}\n"
+                           "        mesh: {elements: 100, spacing: perturbed, amplitude: 0.3}\n"
+                           "        cohesive: {law: rigid-link, fracture_energy: 100 J/m2}\n       "
+                           " loading: {type: imposed-rate, rate: 1e5 1/s}\n"
+                           "  - strength.file: [" STRENGTHS ", ./" STRENGTHS "2]\n";
 
-static size_t replace_bytes(unsigned char *text, size_t size, size_t at, size_t cut, const void *put, size_t length)
+static size_t replace_bytes(unsigned char *text, size_t size, size_t at, size_t cut,
+                            const void *put, size_t length)
 {
     if (at + cut > size) cut = size - at;
     if (size - cut + length > LARGEST) return size;
@@ -76,7 +145,8 @@ static size_t mutate(unsigned char *text, size_t size, uint64_t *x)
     return replace_bytes(text, size, at, 0, copy, length);
 }
 
-static void check_round_trip(const fracas_units *units, const fracas_campaign *campaign, const char *path)
+static void check_round_trip(const fracas_units *units, const fracas_campaign *campaign,
+                             const char *path)
 {
     char *text = NULL;
     size_t size = 0;
@@ -118,8 +188,8 @@ typedef struct {
 } tally;
 
 /* One mutation of a campaign file, or of the file of strengths beside it. */
-static void try_mutation(const fracas_units *units, const unsigned char *example, size_t example_size, bool of_strengths, uint64_t *x,
-                         tally *count)
+static void try_mutation(const fracas_units *units, const unsigned char *example,
+                         size_t example_size, bool of_strengths, uint64_t *x, tally *count)
 {
     static unsigned char text[LARGEST];
     char path[80], place[84];
@@ -135,7 +205,8 @@ static void try_mutation(const fracas_units *units, const unsigned char *example
     fracas_err err = fracas_campaign_read_with(units, path, &campaign);
     count->slowest = fmax(count->slowest, seconds() - before);
     count->tried++;
-    if (err && (err != FRACAS_USAGE || campaign || strncmp(fracas_message(), place, strlen(place)) != 0))
+    if (err &&
+        (err != FRACAS_USAGE || campaign || strncmp(fracas_message(), place, strlen(place)) != 0))
         fail_msg("mutation %zu: %d %s", count->tried, err, fracas_message());
     if (err) return;
     count->accepted++;
@@ -152,9 +223,11 @@ static void test_mutations_of(const unsigned char *example, size_t size, bool of
     const double start = seconds(), most = longer ? strtod(longer, NULL) : 2.0;
     uint64_t x = longer ? (uint64_t)time(NULL) : 20261121;
     tally count = {0};
-    while ((longer || count.tried < 6000) && seconds() - start < most) try_mutation(units, example, size, of_strengths, &x, &count);
+    while ((longer || count.tried < 6000) && seconds() - start < most)
+        try_mutation(units, example, size, of_strengths, &x, &count);
     fracas_units_destroy(units);
-    print_message("%zu mutations, %zu still a campaign, slowest %.1f ms\n", count.tried, count.accepted, 1e3 * count.slowest);
+    print_message("%zu mutations, %zu still a campaign, slowest %.1f ms\n", count.tried,
+                  count.accepted, 1e3 * count.slowest);
     /* Fewer would mean that reading had become a hundred times slower than it is (0.2 ms). */
     assert_true(count.tried > 100 && count.accepted > 0);
 }
@@ -170,7 +243,8 @@ static void test_bars(void **state)
     test_mutations_of(example, size, false);
 }
 
-static const char strengths[] = "# interface, strength\ni, sigma_c (Pa)\n0, 299e6\n1,3.01e8\n\n2\t300000000.5\r\n";
+static const char strengths[] =
+    "# interface, strength\ni, sigma_c (Pa)\n0, 299e6\n1,3.01e8\n\n2\t300000000.5\r\n";
 
 static void test_rings(void **state)
 {
@@ -194,7 +268,7 @@ static int make_files(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bars), cmocka_unit_test(test_rings), cmocka_unit_test(test_strengths)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_bars), cmocka_unit_test(test_rings),
+                                       cmocka_unit_test(test_strengths)};
     return cmocka_run_group_tests(tests, make_files, remove_folder);
 }

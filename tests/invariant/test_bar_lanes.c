@@ -1,4 +1,6 @@
-/* A lane's record depends on its own strengths alone: not on its slot, its neighbours, the width or the instruction set. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A lane's record depends on its own strengths alone: not on its slot, its neighbours, the width or
+ * the instruction set. */
 #include "tests/support/bar.h"
 
 #include <math.h>
@@ -19,11 +21,13 @@ static fracas_model *model_of(const fracas_kind *law, const fracas_kind *stop, d
     return model;
 }
 
-/* Runs `count` replicas from `first` on; replica r is in slot r - first, and slot `poisoned` (if any) goes NaN. */
-static void run(const fracas_model *model, uint64_t first, size_t count, int width, fracas_isa isa, size_t poisoned,
-                fracas_record *record)
+/* Runs `count` replicas from `first` on; replica r is in slot r - first, and slot `poisoned` (if
+ * any) goes NaN. */
+static void run(const fracas_model *model, uint64_t first, size_t count, int width, fracas_isa isa,
+                size_t poisoned, fracas_record *record)
 {
-    const fracas_batch_options options = {.history = 20, .interfaces = true, .width = width, .isa = isa};
+    const fracas_batch_options options = {
+        .history = 20, .interfaces = true, .width = width, .isa = isa};
     fracas_batch *batch;
     assert_ok(fracas_batch_create(model, count, &options, &batch));
     for (size_t l = 0; l < count; l++) bar_draw(batch, l, 0.05, first + l);
@@ -32,9 +36,11 @@ static void run(const fracas_model *model, uint64_t first, size_t count, int wid
         assert_ok(fracas_batch_begin(batch));
         size_t stride;
         double *strength = fracas_batch_strength(batch, poisoned, &stride);
-        strength[17 * stride] = NAN; /* trial > NaN is false: poison a velocity too (field 3 of the record, before strength) */
+        strength[17 * stride] = NAN; /* trial > NaN is false: poison a velocity too (field 3 of the
+                                        record, before strength) */
         strength[17 * stride - (size_t)(2 * batch->step.lanes)] = NAN;
-        for (size_t running = count; running > 0;) assert_ok(fracas_batch_step(batch, record, &running));
+        for (size_t running = count; running > 0;)
+            assert_ok(fracas_batch_step(batch, record, &running));
         assert_int_equal(record[poisoned].outcome, FRACAS_NONFINITE);
     } else {
         assert_ok(fracas_batch_run(batch, record));
@@ -54,17 +60,21 @@ static void assert_same(const fracas_record *a, const fracas_record *b)
 static void a_lane_is_its_run_alone(void **unused)
 {
     (void)unused;
-    const fracas_kind *laws[] = {&fracas_law_nitsche, &fracas_law_rigid_link}, *stops[] = {&fracas_stop_time, &fracas_stop_settled};
+    const fracas_kind *laws[] = {&fracas_law_nitsche, &fracas_law_rigid_link},
+                      *stops[] = {&fracas_stop_time, &fracas_stop_settled};
     const int widths[] = {1, 4, 8};
     for (int k = 0; k < 5; k++) { /* the last two on elements of different lengths */
         fracas_model *model = model_of(laws[k % 3 == 1], stops[k == 2], k < 3 ? 0 : 0.2);
         fracas_record alone[8], together[8];
-        for (size_t r = 0; r < 8; r++) run(model, r, 1, 1, FRACAS_ISA_BASELINE, SIZE_MAX, &alone[r]);
-        assert_int_not_equal(alone[0].fragments, alone[1].fragments + alone[2].fragments); /* they are different */
+        for (size_t r = 0; r < 8; r++)
+            run(model, r, 1, 1, FRACAS_ISA_BASELINE, SIZE_MAX, &alone[r]);
+        assert_int_not_equal(alone[0].fragments,
+                             alone[1].fragments + alone[2].fragments); /* they are different */
         assert_true(alone[0].fragments > 5);
         for (fracas_isa isa = FRACAS_ISA_BASELINE; isa <= FRACAS_ISA_AVX512; isa++)
             for (int w = 0; w < 3; w++)
-                for (size_t poisoned = 0; poisoned <= (size_t)widths[w]; poisoned += 1 + (isa == FRACAS_ISA_BASELINE) * 3) {
+                for (size_t poisoned = 0; poisoned <= (size_t)widths[w];
+                     poisoned += 1 + (isa == FRACAS_ISA_BASELINE) * 3) {
                     fracas_batch_options probe = {.width = widths[w], .isa = isa};
                     fracas_batch *batch;
                     if (fracas_batch_create(model, 1, &probe, &batch)) {

@@ -1,4 +1,6 @@
-/* The ledger of the bar: constant before onset, closed after it, momentum zero, forces the gradient of the energy. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The ledger of the bar: constant before onset, closed after it, momentum zero, forces the gradient
+ * of the energy. */
 #include "tests/support/bar.h"
 
 #include <math.h>
@@ -44,13 +46,15 @@ static double size_of(const fracas_model *model, size_t e)
     return model->table ? model->table[e] : model->element_size;
 }
 
-/* Random velocities under load, nothing cracks: with leapfrog's kinetic energy the ledger of a linear system is constant
- * up to round-off. Each of 2000 steps adds roundings of some 1e-16 (work, and sums over 200 elements); even if all had one
- * sign they would add to 2e-13: 1e-12 of the larger of kinetic and elastic energy, the figure promised. */
+/* Random velocities under load, nothing cracks: with leapfrog's kinetic energy the ledger of a
+ * linear system is constant up to round-off. Each of 2000 steps adds roundings of some 1e-16 (work,
+ * and sums over 200 elements); even if all had one sign they would add to 2e-13: 1e-12 of the
+ * larger of kinetic and elastic energy, the figure promised. */
 static void linear_ledger_is_constant_to_round_off(void **unused)
 {
     (void)unused;
-    const fracas_kind *laws[] = {&fracas_law_nitsche, &fracas_law_rigid_link}, *ends[] = {&fracas_ends_periodic, &fracas_ends_held};
+    const fracas_kind *laws[] = {&fracas_law_nitsche, &fracas_law_rigid_link},
+                      *ends[] = {&fracas_ends_periodic, &fracas_ends_held};
     for (int i = 0; i < 4 * MESHES; i++) {
         fracas_spec spec = bar_reference(200, 100, 1);
         spec.cohesive.law = laws[i % 2];
@@ -61,12 +65,14 @@ static void linear_ledger_is_constant_to_round_off(void **unused)
         for (size_t k = 0; k < model->interfaces; k++) bar_set_strength(batch, 0, k, 450e6);
         assert_ok(fracas_batch_begin(batch));
         uint64_t seed = 7;
-        for (size_t e = 0; e < 200; e++) { /* equal on both sides of an interface: rigid links move as one */
+        for (size_t e = 0; e < 200;
+             e++) { /* equal on both sides of an interface: rigid links move as one */
             double v = 2 * noise(&seed);
             size_t left = e > 0 ? e - 1 : 199;
             if (e == 0 && ends[i / 2 % 2] == &fracas_ends_held) continue;
             *field(batch, e, V_LEFT) = v;
-            *field(batch, left, V_RIGHT) = v + (laws[i % 2] == &fracas_law_nitsche ? 0.5 * noise(&seed) : 0);
+            *field(batch, left,
+                   V_RIGHT) = v + (laws[i % 2] == &fracas_law_nitsche ? 0.5 * noise(&seed) : 0);
         }
         fracas_record record;
         fracas_record_init(&record);
@@ -79,10 +85,11 @@ static void linear_ledger_is_constant_to_round_off(void **unused)
             if (s == 0) kinetic_first = l->kinetic;
             kinetic_last = l->kinetic;
         }
-        print_message("[  figures ] %s %s %s: largest residual %.2e\n", laws[i % 2]->name, ends[i / 2 % 2]->name,
-                      mesh_name[i / 4], worst);
+        print_message("[  figures ] %s %s %s: largest residual %.2e\n", laws[i % 2]->name,
+                      ends[i / 2 % 2]->name, mesh_name[i / 4], worst);
         assert_int_equal(batch->step.cracked[0], 0);
-        assert_true(kinetic_first > 0 && fabs(kinetic_last / kinetic_first - 1) > 1e-3); /* energy did move */
+        assert_true(kinetic_first > 0 &&
+                    fabs(kinetic_last / kinetic_first - 1) > 1e-3); /* energy did move */
         assert_true(batch->lane[0].ledger.work > 0);
         assert_true(worst < 1e-12);
         fracas_batch_destroy(batch);
@@ -90,16 +97,18 @@ static void linear_ledger_is_constant_to_round_off(void **unused)
     }
 }
 
-/* Through fragmentation at every rate, default step: |residual| < 1e-3 and created < 1e-2 of dissipated (issue's figures),
- * momentum zero: at most the rounding of as many additions as there are nodes and steps, 1e-16 each, of the sum of
- * |m v|; and halving the step quarters the residual (second order), so it is the step's, not a missing term. */
+/* Through fragmentation at every rate, default step: |residual| < 1e-3 and created < 1e-2 of
+ * dissipated (issue's figures), momentum zero: at most the rounding of as many additions as there
+ * are nodes and steps, 1e-16 each, of the sum of |m v|; and halving the step quarters the residual
+ * (second order), so it is the step's, not a missing term. */
 static void residual_stays_small_and_is_second_order(void **unused)
 {
     (void)unused;
     static const struct {
         double rate, end;
         int64_t elements;
-    } point[] = {{1e3, 2.5e-6, 1250}, {1e4, 0.6e-6, 2500}, {1e5, 0.2e-6, 8000}, {1e6, 0.06e-6, 32000}};
+    } point[] = {
+        {1e3, 2.5e-6, 1250}, {1e4, 0.6e-6, 2500}, {1e5, 0.2e-6, 8000}, {1e6, 0.06e-6, 32000}};
     for (int p = 0; p < 4; p++) {
         double residual[2] = {0, 0};
         for (int half = 0; half < 2; half++) {
@@ -123,12 +132,14 @@ static void residual_stays_small_and_is_second_order(void **unused)
                 assert_true(fabs(r->momentum[0]) < momentum_scale);
                 double mass = 0;
                 for (size_t f = 0; f < r->nfragment; f++) mass += r->fragment[f].mass;
-                assert_true(fabs(mass / r->mass - 1) < 1e-12); /* 32 000 roundings of 1e-16 at most */
+                assert_true(fabs(mass / r->mass - 1) <
+                            1e-12); /* 32 000 roundings of 1e-16 at most */
                 fracas_record_clear(&record[l]);
             }
             if (!half) {
-                print_message("[  figures ] rate %.0e: residual/dissipated %.2e, created/dissipated %.2e\n", point[p].rate,
-                              residual[0], created);
+                print_message(
+                    "[  figures ] rate %.0e: residual/dissipated %.2e, created/dissipated %.2e\n",
+                    point[p].rate, residual[0], created);
                 assert_true(residual[0] < 1e-3);
                 assert_true(created < 1e-2);
                 assert_true(created > 0);
@@ -136,7 +147,9 @@ static void residual_stays_small_and_is_second_order(void **unused)
             fracas_batch_destroy(batch);
             fracas_model_destroy(model);
         }
-        if (p < 3) assert_true(residual[1] < residual[0] / 2.5); /* 4, less what breaks at other instants change */
+        if (p < 3)
+            assert_true(residual[1] <
+                        residual[0] / 2.5); /* 4, less what breaks at other instants change */
     }
 }
 
@@ -148,11 +161,12 @@ static double potential_of(fracas_batch *batch)
     return batch->step.elastic[0] + batch->step.cohesive[0] + batch->step.dissipated[0];
 }
 
-/* f = -dPi/dw at random states: uncracked, loading, unloading, contact, broken. The kick of a unit step reads the force,
- * centred differences of the potential the derivative; energies are piecewise quadratic in w (and smooth across loading),
- * so that the
- * difference is exact up to round-off of Pi, some 1e-16 * 1e-2 J over 2e-12 m = 1e-6 N beside forces of 1e2 N and more, and
- * to the curvature where a difference straddles a kink (eps over 3e-7 m): 2e-5 of the largest force covers both. */
+/* f = -dPi/dw at random states: uncracked, loading, unloading, contact, broken. The kick of a unit
+ * step reads the force, centred differences of the potential the derivative; energies are piecewise
+ * quadratic in w (and smooth across loading), so that the difference is exact up to round-off of
+ * Pi, some 1e-16 * 1e-2 J over 2e-12 m = 1e-6 N beside forces of 1e2 N and more, and to the
+ * curvature where a difference straddles a kink (eps over 3e-7 m): 2e-5 of the largest force covers
+ * both. */
 static void check_forces(int mesh)
 {
     enum { N = 12 };
@@ -217,8 +231,9 @@ static void forces_are_the_gradient_of_the_potential(void **unused)
     for (int mesh = 0; mesh < MESHES; mesh++) check_forces(mesh);
 }
 
-/* A break drops the flux energy -A <sigma>^2/(2K): the potential just after less that just before is what is booked as
- * created. Between the two states the potential itself moves by 1e-9 of G_c at most: 1e-6 of created, which is 1e-3 G_c. */
+/* A break drops the flux energy -A <sigma>^2/(2K): the potential just after less that just before
+ * is what is booked as created. Between the two states the potential itself moves by 1e-9 of G_c at
+ * most: 1e-6 of created, which is 1e-3 G_c. */
 static void a_break_creates_what_the_flux_drops(void **unused)
 {
     (void)unused;
@@ -234,8 +249,10 @@ static void a_break_creates_what_the_flux_drops(void **unused)
         for (size_t i = 0; i < N; i++) bar_set_strength(batch, 0, i, 300e6);
         assert_ok(fracas_batch_begin(batch));
         batch->step.time[0] = 1e-7; /* background stress 275 MPa */
-        for (size_t e = 2; e < N; e++) /* jump of interface 1 at which S = K delta_c, then of interface 3 back */
-            *field(batch, e, W_LEFT) = *field(batch, e, W_RIGHT) = (delta_c - mean / spring) * (after ? 1 + 1e-12 : 1 - 1e-12);
+        for (size_t e = 2; e < N;
+             e++) /* jump of interface 1 at which S = K delta_c, then of interface 3 back */
+            *field(batch, e, W_LEFT) = *field(batch, e, W_RIGHT) = (delta_c - mean / spring) *
+                                                                   (after ? 1 + 1e-12 : 1 - 1e-12);
         potential[after] = potential_of(batch);
         created[after] = batch->step.created[0];
         assert_int_equal(batch->step.broken[0], after);

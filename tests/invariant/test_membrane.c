@@ -1,5 +1,6 @@
-/* Membranes that break: lanes do not depend on each other, momenta are kept, ledgers close, and the numbers of nodes and
- * elements and the directions of axes do not matter. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Membranes that break: lanes do not depend on each other, momenta are kept, ledgers close, and the
+ * numbers of nodes and elements and the directions of axes do not matter. */
 #include "tests/support/gmsh.h"
 #include "tests/support/same_record.h"
 #include "tests/support/membrane_cracks.h"
@@ -22,12 +23,13 @@ typedef struct {
 #define HC &fracas_integrator_hulbert_chung
 #define L &fracas_mass_lumped
 #define C &fracas_mass_consistent
-/* Every order with every law with and without friction; onsets, schemes and masses in all pairs. Every second pair has a strength for
- * each Gauss point. */
+/* Every order with every law with and without friction; onsets, schemes and masses in all pairs.
+ * Every second pair has a strength for each Gauss point. */
 static const variant variants[] = {
-    {1, N, 0, MEAN, CD, L}, {2, N, 0, FLUX, HC, C}, {1, S, 0, FLUX, CD, C}, {2, S, 0, MEAN, HC, L},
-    {1, P, 0, MEAN, HC, C}, {2, P, 0, FLUX, CD, L}, {1, N, 0.3, FLUX, HC, L}, {2, N, 0.3, MEAN, CD, C},
-    {1, S, 0.3, MEAN, HC, C}, {2, S, 0.3, FLUX, CD, L}, {1, P, 0.3, FLUX, CD, L}, {2, P, 0.3, MEAN, HC, C}};
+    {1, N, 0, MEAN, CD, L},   {2, N, 0, FLUX, HC, C},   {1, S, 0, FLUX, CD, C},
+    {2, S, 0, MEAN, HC, L},   {1, P, 0, MEAN, HC, C},   {2, P, 0, FLUX, CD, L},
+    {1, N, 0.3, FLUX, HC, L}, {2, N, 0.3, MEAN, CD, C}, {1, S, 0.3, MEAN, HC, C},
+    {2, S, 0.3, FLUX, CD, L}, {1, P, 0.3, FLUX, CD, L}, {2, P, 0.3, MEAN, HC, C}};
 enum { VARIANTS = sizeof variants / sizeof *variants };
 #undef N
 #undef S
@@ -53,9 +55,12 @@ static fracas_spec spec_of(const variant *v, int64_t divisions, double rate, dou
 }
 
 /* Replicas first, first + 1, ...; replica r is in place r - first. */
-static void run(const fracas_model *model, uint64_t first, size_t count, int width, fracas_isa isa, fracas_record *record)
+static void run(const fracas_model *model, uint64_t first, size_t count, int width, fracas_isa isa,
+                fracas_record *record)
 {
-    fracas_batch *batch = batch_with(model, count, (fracas_batch_options){.history = 20, .interfaces = true, .width = width, .isa = isa});
+    fracas_batch *batch = batch_with(
+        model, count,
+        (fracas_batch_options){.history = 20, .interfaces = true, .width = width, .isa = isa});
     for (size_t l = 0; l < count; l++) bar_draw(batch, l, 0.3, first + l);
     for (size_t l = 0; l < count; l++) fracas_record_init(&record[l]);
     assert_ok(fracas_batch_run(batch, record));
@@ -63,7 +68,8 @@ static void run(const fracas_model *model, uint64_t first, size_t count, int wid
 }
 
 /* Replicas first to first + count - 1 in every place they can have in such a batch. */
-static void check_batch(const fracas_model *model, const fracas_record alone[8], uint64_t first, size_t count, int width, fracas_isa isa)
+static void check_batch(const fracas_model *model, const fracas_record alone[8], uint64_t first,
+                        size_t count, int width, fracas_isa isa)
 {
     fracas_record together[8];
     run(model, first, count, width, isa, together);
@@ -77,7 +83,8 @@ static void a_lane_is_its_run_alone(void **unused)
 {
     (void)unused;
     for (int v = 0; v < VARIANTS; v++) {
-        fracas_model *model = distorted_model(spec_of(&variants[v], variants[v].order == 1 ? 10 : 6, 3e4, 4e-7), DISTORTION, 3);
+        fracas_model *model = distorted_model(
+            spec_of(&variants[v], variants[v].order == 1 ? 10 : 6, 3e4, 4e-7), DISTORTION, 3);
         fracas_record alone[8];
         int64_t fewest = INT64_MAX, most = 0, cracked = 0;
         for (size_t r = 0; r < 8; r++) {
@@ -86,20 +93,23 @@ static void a_lane_is_its_run_alone(void **unused)
             most = alone[r].fragments > most ? alone[r].fragments : most;
             cracked += alone[r].cracked;
         }
-        print_message("variant %2d: %zu elements, %lld to %lld fragments, %lld cracked interfaces a lane\n", v, model->elements,
-                      (long long)fewest, (long long)most, (long long)cracked / 8);
+        print_message(
+            "variant %2d: %zu elements, %lld to %lld fragments, %lld cracked interfaces a lane\n",
+            v, model->elements, (long long)fewest, (long long)most, (long long)cracked / 8);
         assert_true(fewest > 1 && most > fewest); /* they break, and are different */
         for (fracas_isa isa = FRACAS_ISA_BASELINE; isa <= FRACAS_ISA_AVX512; isa++) {
             fracas_isa had;
             if (fracas_isa_choose(isa, &had)) {
-                if (v == 0) print_message("[  skipped ] this CPU has no %s\n", fracas_isa_name[isa]);
+                if (v == 0)
+                    print_message("[  skipped ] this CPU has no %s\n", fracas_isa_name[isa]);
                 continue;
             }
             check_batch(model, alone, 7, 1, 1, isa);
             check_batch(model, alone, 2, 4, 4, isa);
             check_batch(model, alone, 0, 8, 8, isa);
         }
-        check_batch(model, alone, 5, 3, 8, FRACAS_ISA_BEST); /* another place, and lanes that repeat the first */
+        check_batch(model, alone, 5, 3, 8,
+                    FRACAS_ISA_BEST); /* another place, and lanes that repeat the first */
         for (size_t r = 0; r < 8; r++) fracas_record_clear(&alone[r]);
         fracas_model_destroy(model);
     }
@@ -107,12 +117,13 @@ static void a_lane_is_its_run_alone(void **unused)
 
 /* ---- momenta ---- */
 
-/* Every force is a derivative by the displacements of an expression in strains and jumps, whose traction and carried opening may be
- * anything: a translation or a small rotation of the body as it was at the start changes neither, so that sums of M v and X x M v do
- * not change, in each law, cracked or not. The sum of x x M v with x = X + u differs from that of X by u x M v: not kept, the
- * formulation is linear.
- * Round-off: in each step each velocity is rounded, 1.1e-16 of it, and gets the rounded sum of some 20 forces that cancel in part, of
- * which none kicks by more than the velocity itself; the steps are independent of each other, but were they not, 20 x 1.1e-16 of the
+/* Every force is a derivative by the displacements of an expression in strains and jumps, whose
+ * traction and carried opening may be anything: a translation or a small rotation of the body as it
+ * was at the start changes neither, so that sums of M v and X x M v do not change, in each law,
+ * cracked or not. The sum of x x M v with x = X + u differs from that of X by u x M v: not kept,
+ * the formulation is linear. Round-off: in each step each velocity is rounded, 1.1e-16 of it, and
+ * gets the rounded sum of some 20 forces that cancel in part, of which none kicks by more than the
+ * velocity itself; the steps are independent of each other, but were they not, 20 x 1.1e-16 of the
  * sum of |M v| in each of some 500 steps would be 1e-12: the bound. */
 static void momenta_are_kept_to_round_off(void **unused)
 {
@@ -123,7 +134,9 @@ static void momenta_are_kept_to_round_off(void **unused)
         fracas_record record;
         fracas_record_init(&record);
         assert_ok(fracas_batch_begin(batch));
-        const double spin = 2e4, drift[2] = {20, -35}; /* 1/s, m/s: velocities as large as those of the expansion */
+        const double spin = 2e4,
+                     drift[2] = {20,
+                                 -35}; /* 1/s, m/s: velocities as large as those of the expansion */
         for (size_t e = 0; e < model->elements; e++)
             for (size_t k = 0; k < model->surface->corners; k++) {
                 const double *x = node_at(model, e, k);
@@ -136,12 +149,14 @@ static void momenta_are_kept_to_round_off(void **unused)
         for (size_t running = 1; running > 0;) {
             assert_ok(fracas_batch_step(batch, &record, &running));
             const membrane_sums now = sums_of(batch);
-            for (int i = 0; i < 2; i++) worst = fmax(worst, fabs(now.momentum[i] - before.momentum[i]) / before.scale);
+            for (int i = 0; i < 2; i++)
+                worst = fmax(worst, fabs(now.momentum[i] - before.momentum[i]) / before.scale);
             turn = fmax(turn, fabs(now.moment_at - before.moment_at) / (arm * before.scale));
         }
         const membrane_sums after = sums_of(batch);
-        print_message("variant %2d: %lld fragments, momentum within %.1e, moment of momentum within %.1e\n", v, (long long)record.fragments,
-                      worst, turn);
+        print_message(
+            "variant %2d: %lld fragments, momentum within %.1e, moment of momentum within %.1e\n",
+            v, (long long)record.fragments, worst, turn);
         assert_true(record.fragments > 3);
         assert_true(worst < 1e-12 && turn < 1e-12);
         assert_true(fabs(after.moment_at) > 1e-3 * arm * after.scale); /* there is one */
@@ -149,7 +164,9 @@ static void momenta_are_kept_to_round_off(void **unused)
         for (size_t f = 0; f < record.nfragment; f++) {
             const fracas_fragment *part = &record.fragment[f];
             for (int i = 0; i < 2; i++) sum[i] += part->mass * part->velocity[i];
-            moment += part->angular_momentum[2] + part->mass * (part->position[0] * part->velocity[1] - part->position[1] * part->velocity[0]);
+            moment += part->angular_momentum[2] +
+                      part->mass * (part->position[0] * part->velocity[1] -
+                                    part->position[1] * part->velocity[0]);
         }
         for (int i = 0; i < 2; i++) {
             assert_true(fabs(sum[i] - before.momentum[i]) < 1e-12 * before.scale);
@@ -162,8 +179,9 @@ static void momenta_are_kept_to_round_off(void **unused)
     }
 }
 
-/* A plate whose nodes are anywhere near their places, and fly and turn as one body: its spin is how it turns, by whatever masses
- * it moves. Places and velocities are rounded to 1.1e-16 of 3 mm and 200 m/s, sums are of some 400 nodes: 1e-12. */
+/* A plate whose nodes are anywhere near their places, and fly and turn as one body: its spin is how
+ * it turns, by whatever masses it moves. Places and velocities are rounded to 1.1e-16 of 3 mm and
+ * 200 m/s, sums are of some 400 nodes: 1e-12. */
 static void a_body_that_turns_has_that_spin(void **unused)
 {
     (void)unused;
@@ -180,7 +198,8 @@ static void a_body_that_turns_has_that_spin(void **unused)
                 double x[2];
                 for (int i = 0; i < 2; i++) {
                     state = state * 6364136223846793005u + 1442695040888963407u;
-                    *membrane_state(batch, e, k, SURFACE_U, i) = 3e-4 * ((double)(state >> 11) * 0x1p-53 - 0.5);
+                    *membrane_state(batch, e, k, SURFACE_U,
+                                    i) = 3e-4 * ((double)(state >> 11) * 0x1p-53 - 0.5);
                     x[i] = node_at(model, e, k)[i] + *membrane_state(batch, e, k, SURFACE_U, i);
                 }
                 *membrane_state(batch, e, k, SURFACE_V, 0) = drift[0] - spin * x[1];
@@ -189,7 +208,8 @@ static void a_body_that_turns_has_that_spin(void **unused)
         assert_ok(model->formulation->harvest(model, &batch->step, 0, &record));
         assert_int_equal(record.nfragment, 1);
         const fracas_fragment *whole = &record.fragment[0];
-        assert_true(fabs(whole->spin[2] / spin - 1) < 1e-12 && whole->spin[0] == 0 && whole->spin[1] == 0);
+        assert_true(fabs(whole->spin[2] / spin - 1) < 1e-12 && whole->spin[0] == 0 &&
+                    whole->spin[1] == 0);
         fracas_record_clear(&record);
         fracas_batch_destroy(batch);
         fracas_model_destroy(model);
@@ -199,13 +219,30 @@ static void a_body_that_turns_has_that_spin(void **unused)
 /* ---- the ledger ---- */
 
 /* Loads and edges of which each puts work into the ledger in its own way. */
-enum { FREE, FREE_FRICTION, FREE_CONSISTENT, HELD_MOVING, HELD_REST, SLIDING, RUBBING, SPINNING, LEDGERS };
-static const char *const ledger_name[LEDGERS] = {"free", "free, friction", "free, consistent, quadratic", "held, moving", "held, from rest",
-                                                 "sliding, friction", "sheared, extrinsic", "turned"};
+enum {
+    FREE,
+    FREE_FRICTION,
+    FREE_CONSISTENT,
+    HELD_MOVING,
+    HELD_REST,
+    SLIDING,
+    RUBBING,
+    SPINNING,
+    LEDGERS
+};
+static const char *const ledger_name[LEDGERS] = {"free",
+                                                 "free, friction",
+                                                 "free, consistent, quadratic",
+                                                 "held, moving",
+                                                 "held, from rest",
+                                                 "sliding, friction",
+                                                 "sheared, extrinsic",
+                                                 "turned"};
 
 static fracas_spec ledger_spec(int which)
 {
-    fracas_spec spec = brittle_plate(which == FREE_CONSISTENT ? 2 : 1, which == FREE_CONSISTENT ? 4 : 8, 2e4, 6e-7);
+    fracas_spec spec = brittle_plate(which == FREE_CONSISTENT ? 2 : 1,
+                                     which == FREE_CONSISTENT ? 4 : 8, 2e4, 6e-7);
     if (which == FREE_FRICTION || which == SLIDING) spec.cohesive.friction = 0.4;
     if (which == SLIDING) spec.cohesive.coupling = 0.7;
     if (which == FREE_CONSISTENT) spec.time.mass = &fracas_mass_consistent;
@@ -219,7 +256,8 @@ static fracas_spec ledger_spec(int which)
         spec.loading.ratio = -1;
     }
     if (which == SPINNING) {
-        spec.loading = (fracas_loading){.type = &fracas_loading_centrifugal, .speed = 3e5, .ramp = 2e-7};
+        spec.loading = (fracas_loading){
+            .type = &fracas_loading_centrifugal, .speed = 3e5, .ramp = 2e-7};
         spec.cohesive.onset = &fracas_onset_flux;
     }
     return spec;
@@ -248,27 +286,39 @@ static double residual_of(int which, double safety, double *created, double *wor
     return residual;
 }
 
-/* Between events the residual is that of central difference with forces that bend (onsets, unloading, contact): dt^2 each, 4 by a
- * halving, and 2.5 because they fall on other instants. A break takes the mean stress m away with it: the forces jump, and half a step
- * of the power of that jump, dt/2 d(m^2/2K)/dt, is missed. With waves as short as the mesh, up to w_max, m^2/2K changes by w_max of
- * itself, and dt/2 w_max = safety: at most safety times what is created, of the first order in dt. It shows where edges start with a
- * jolt, in quadratic elements, which have the higher frequencies, and where the load does not let go. */
+/* Between events the residual is that of central difference with forces that bend (onsets,
+ * unloading, contact): dt^2 each, 4 by a halving, and 2.5 because they fall on other instants. A
+ * break takes the mean stress m away with it: the forces jump, and half a step of the power of that
+ * jump, dt/2 d(m^2/2K)/dt, is missed. With waves as short as the mesh, up to w_max, m^2/2K changes
+ * by w_max of itself, and dt/2 w_max = safety: at most safety times what is created, of the first
+ * order in dt. It shows where edges start with a jolt, in quadratic elements, which have the higher
+ * frequencies, and where the load does not let go. */
 static void ledgers_close_to_second_order(void **unused)
 {
     (void)unused;
     for (int which = 0; which < LEDGERS; which++) {
         double residual[3], created, work;
         int64_t broken;
-        for (int half = 0; half < 3; half++) residual[half] = residual_of(which, 0.5 / (1 << half), &created, &work, &broken);
-        print_message("%-28s %lld broken, residual/dissipated %.2e %.2e %.2e, created %.2e, work %.2f\n", ledger_name[which], (long long)broken,
-                      residual[0], residual[1], residual[2], created, work);
+        for (int half = 0; half < 3; half++)
+            residual[half] = residual_of(which, 0.5 / (1 << half), &created, &work, &broken);
+        print_message(
+            "%-28s %lld broken, residual/dissipated %.2e %.2e %.2e, created %.2e, work %.2f\n",
+            ledger_name[which], (long long)broken, residual[0], residual[1], residual[2], created,
+            work);
         assert_true(broken > 100);
-        assert_true((which >= HELD_MOVING) == (work > 1)); /* what holds the edges, or turns the plate, does work */
-        const bool smooth = which == FREE || which == FREE_FRICTION || which == HELD_MOVING || which == SLIDING || which == RUBBING;
+        assert_true((which >= HELD_MOVING) ==
+                    (work > 1)); /* what holds the edges, or turns the plate, does work */
+        const bool smooth = which == FREE || which == FREE_FRICTION || which == HELD_MOVING ||
+                            which == SLIDING || which == RUBBING;
         for (int half = 0; half < 3; half++) {
             const double safety = 0.5 / (1 << half);
-            if (smooth) assert_true(residual[half] < 1e-3 * (safety / 0.25) * (safety / 0.25)); /* 1e-3 at the step of campaigns */
-            else assert_true(residual[half] < 1e-3 * (safety / 0.25) * (safety / 0.25) + safety * created);
+            if (smooth)
+                assert_true(residual[half] <
+                            1e-3 * (safety / 0.25) *
+                                (safety / 0.25)); /* 1e-3 at the step of campaigns */
+            else
+                assert_true(residual[half] <
+                            1e-3 * (safety / 0.25) * (safety / 0.25) + safety * created);
         }
         if (smooth) assert_true(residual[2] < residual[0] / (2.5 * 2.5));
     }
@@ -276,7 +326,8 @@ static void ledgers_close_to_second_order(void **unused)
 
 /* ---- numbers and axes ---- */
 
-/* The same plate turned by a quarter (x, y) -> (-y, x), or mirrored (x, y) -> (-x, y): exact in floating point. */
+/* The same plate turned by a quarter (x, y) -> (-y, x), or mirrored (x, y) -> (-x, y): exact in
+ * floating point. */
 static void move(bool mirrored, const double x[3], double to[3])
 {
     to[0] = mirrored ? -x[0] : -x[1];
@@ -284,23 +335,26 @@ static void move(bool mirrored, const double x[3], double to[3])
     to[2] = x[2];
 }
 
-/* Elements of a mirrored mesh go round from vertex 0 the other way: their edge k is 2 - k, their vertices and middles swap. */
+/* Elements of a mirrored mesh go round from vertex 0 the other way: their edge k is 2 - k, their
+ * vertices and middles swap. */
 static fracas_model *moved_model(const fracas_model *model, bool mirrored)
 {
     static const size_t turned_round[6] = {0, 2, 1, 5, 4, 3};
     fracas_surface s = *model->surface;
-    double (*node)[3] = malloc(s.nnodes * sizeof *node);
+    double(*node)[3] = malloc(s.nnodes * sizeof *node);
     uint32_t *element = malloc(s.nelements * s.corners * sizeof *element);
     fracas_surface_border *border = malloc(s.nborders * sizeof *border);
     assert_true(node && element && border);
     for (size_t n = 0; n < s.nnodes; n++) move(mirrored, s.node[n], node[n]);
     for (size_t e = 0; e < s.nelements; e++)
-        for (size_t k = 0; k < s.corners; k++) element[e * s.corners + k] = s.element[e * s.corners + (mirrored ? turned_round[k] : k)];
+        for (size_t k = 0; k < s.corners; k++)
+            element[e * s.corners + k] =
+                s.element[e * s.corners + (mirrored ? turned_round[k] : k)];
     for (size_t b = 0; b < s.nborders; b++) {
         border[b] = s.border[b];
         if (mirrored) border[b].edge = 2 - border[b].edge;
     }
-    s.node = (const double (*)[3])node;
+    s.node = (const double(*)[3])node;
     s.element = element;
     s.border = border;
     gmsh_file file = gmsh_write(&s, false, true, false);
@@ -325,7 +379,7 @@ static fracas_model *moved_model(const fracas_model *model, bool mirrored)
 static size_t *images_of(const fracas_model *model, const fracas_model *moved, bool mirrored)
 {
     const size_t n = strengths_of(model);
-    double (*from)[3] = malloc(n * sizeof *from), (*to)[3] = malloc(n * sizeof *to);
+    double(*from)[3] = malloc(n * sizeof *from), (*to)[3] = malloc(n * sizeof *to);
     size_t *image = malloc(n * sizeof *image);
     assert_true(from && to && image && strengths_of(moved) == n);
     fracas_model_interface_positions(model, from);
@@ -344,16 +398,19 @@ static size_t *images_of(const fracas_model *model, const fracas_model *moved, b
     return image;
 }
 
-/* Turned round, sums have their terms in another order: energies differ by the round-off of some 100 steps, 1e-14 of the whole, as
- * long as nothing has broken: 1e-13. Later they may part as trajectories do that meet at events, 1e-10 is what a mistake of the
- * direction in one of 200 interfaces would exceed a million times. The extrinsic laws' stiffness has no bound as a crack begins to
- * open; at half the critical step they make 1e-4 of round-off within these times, at a tenth they do not. */
+/* Turned round, sums have their terms in another order: energies differ by the round-off of some
+ * 100 steps, 1e-14 of the whole, as long as nothing has broken: 1e-13. Later they may part as
+ * trajectories do that meet at events, 1e-10 is what a mistake of the direction in one of 200
+ * interfaces would exceed a million times. The extrinsic laws' stiffness has no bound as a crack
+ * begins to open; at half the critical step they make 1e-4 of round-off within these times, at a
+ * tenth they do not. */
 static void check_moved(const variant *v, bool mirrored)
 {
     fracas_spec spec = spec_of(v, v->order == 1 ? 8 : 5, 4e4, 4e-7);
     spec.loading.ratio = 0.5;
     if (v->law != &fracas_law_nitsche) spec.time.safety = 0.1;
-    fracas_model *model = distorted_model(spec, DISTORTION, 3), *moved = moved_model(model, mirrored);
+    fracas_model *model = distorted_model(spec, DISTORTION, 3),
+                 *moved = moved_model(model, mirrored);
     size_t *image = images_of(model, moved, mirrored), stride;
     moved->time_step = model->time_step; /* Lanczos' iteration starts from numbers of unknowns */
     fracas_batch *a = lane_of(model, 0.3, 2, 0), *b = lane_of(moved, 0.3, 2, 0);
@@ -370,7 +427,8 @@ static void check_moved(const variant *v, bool mirrored)
         assert_ok(fracas_batch_step(b, &record[1], &running[1]));
         assert_true(running[0] == running[1]);
         const fracas_step *s = &a->step, *t = &b->step;
-        const double differences[] = {s->kinetic[0] - t->kinetic[0], s->elastic[0] - t->elastic[0], s->cohesive[0] - t->cohesive[0],
+        const double differences[] = {s->kinetic[0] - t->kinetic[0], s->elastic[0] - t->elastic[0],
+                                      s->cohesive[0] - t->cohesive[0],
                                       s->dissipated[0] - t->dissipated[0]};
         const double worst = largest_of(differences, 4) / a->lane[0].ledger.initial;
         if (s->broken[0] == 0) early = fmax(early, worst);
@@ -378,14 +436,19 @@ static void check_moved(const variant *v, bool mirrored)
     }
     double times = 0;
     for (size_t i = 0; i < model->interfaces; i++) {
-        const fracas_interface_row *p = &record[0].interface[i], *q = &record[1].interface[image[i * model->strengths] / model->strengths];
+        const fracas_interface_row
+            *p = &record[0].interface[i],
+            *q = &record[1].interface[image[i * model->strengths] / model->strengths];
         assert_true(p->strength == q->strength);
         assert_int_equal(isnan(p->onset_time), isnan(q->onset_time));
         assert_int_equal(isnan(p->break_time), isnan(q->break_time));
-        if (!isnan(p->onset_time)) times = fmax(times, fabs(p->onset_time - q->onset_time) / record[0].end_time);
+        if (!isnan(p->onset_time))
+            times = fmax(times, fabs(p->onset_time - q->onset_time) / record[0].end_time);
     }
-    print_message("order %d, %s, %s: %lld steps, %lld cracked, %lld fragments; energies within %.1e, %.1e at last, onsets %.1e\n", (int)v->order,
-                  v->law->name, mirrored ? "mirrored" : "turned", (long long)record[0].steps, (long long)record[0].cracked,
+    print_message("order %d, %s, %s: %lld steps, %lld cracked, %lld fragments; energies within "
+                  "%.1e, %.1e at last, onsets %.1e\n",
+                  (int)v->order, v->law->name, mirrored ? "mirrored" : "turned",
+                  (long long)record[0].steps, (long long)record[0].cracked,
                   (long long)record[0].fragments, early, late, times);
     assert_true(record[0].fragments == record[1].fragments && record[0].broken > 10);
     assert_true(early < 1e-13 && late < 1e-10 && times < 1e-10);
@@ -408,8 +471,10 @@ static void numbers_and_axes_do_not_matter(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_lane_is_its_run_alone), cmocka_unit_test(momenta_are_kept_to_round_off),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_lane_is_its_run_alone),
+                                       cmocka_unit_test(momenta_are_kept_to_round_off),
                                        cmocka_unit_test(a_body_that_turns_has_that_spin),
-                                       cmocka_unit_test(ledgers_close_to_second_order), cmocka_unit_test(numbers_and_axes_do_not_matter)};
+                                       cmocka_unit_test(ledgers_close_to_second_order),
+                                       cmocka_unit_test(numbers_and_axes_do_not_matter)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

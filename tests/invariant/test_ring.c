@@ -1,5 +1,6 @@
-/* The ring's energy: forces are its gradient, it does not see where the ring is, the ledger closes with it, and the critical step is
- * that of its curvature. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The ring's energy: forces are its gradient, it does not see where the ring is, the ledger closes
+ * with it, and the critical step is that of its curvature. */
 #include "tests/support/ring_sample.h"
 
 #include <gsl/gsl_eigen.h>
@@ -29,7 +30,8 @@ static ring_run small_ring(size_t n, double beta, const fracas_kind *direction)
     return begin(&spec, BAR_STRENGTH_MEAN);
 }
 
-/* What the engine makes of a state that it does not move: energies, and forces from the kick of velocities that are 0. */
+/* What the engine makes of a state that it does not move: energies, and forces from the kick of
+ * velocities that are 0. */
 static ring_answer answer(ring_run *s, const ring_state *state)
 {
     fracas_step *step = &s->batch->step;
@@ -47,7 +49,8 @@ static ring_answer answer(ring_run *s, const ring_state *state)
     a.dissipated = step->dissipated[0];
     for (size_t e = 0; e < s->model->elements; e++)
         for (size_t side = 0; side < 2; side++) {
-            a.force[e][side] = ring_plus((ring_point){0, 0}, ring_nodal_mass(s) / 1e-9, ring_velocity(s, e, side));
+            a.force[e][side] = ring_plus((ring_point){0, 0}, ring_nodal_mass(s) / 1e-9,
+                                         ring_velocity(s, e, side));
             a.largest = fmax(a.largest, fmax(fabs(a.force[e][side].x), fabs(a.force[e][side].y)));
         }
     return a;
@@ -59,12 +62,16 @@ static double potential(ring_run *s, const ring_state *state)
     return a.elastic + a.cohesive + a.dissipated;
 }
 
-/* A trial traction S, damage and jump across the interface for each kind; x = K delta_c - sigma_c. The jump across is so large that
- * couples are 1e-3 (whole) to 5e-2 of the forces. */
-static void draw_joint(joint_kind kind, double x, uint64_t *seed, double *trial, double *damage, double *across)
+/* A trial traction S, damage and jump across the interface for each kind; x = K delta_c - sigma_c.
+ * The jump across is so large that couples are 1e-3 (whole) to 5e-2 of the forces. */
+static void draw_joint(joint_kind kind, double x, uint64_t *seed, double *trial, double *damage,
+                       double *across)
 {
-    const double r = 0.5 + 0.5 * ring_noise(seed), z = 0.5 + 0.5 * ring_noise(seed), sigma_c = BAR_STRENGTH_MEAN;
-    *damage = kind == WHOLE || kind == CRACKS ? 0 : kind == GAPES || kind == TOUCHES ? 1 : 0.05 + 0.9 * r;
+    const double r = 0.5 + 0.5 * ring_noise(seed), z = 0.5 + 0.5 * ring_noise(seed),
+                 sigma_c = BAR_STRENGTH_MEAN;
+    *damage = kind == WHOLE || kind == CRACKS    ? 0
+              : kind == GAPES || kind == TOUCHES ? 1
+                                                 : 0.05 + 0.9 * r;
     *across = (kind == WHOLE ? 2e-8 : 2e-6) * ring_noise(seed);
     switch (kind) {
     case WHOLE: *trial = 0.95 * sigma_c * (2 * z - 1); break;
@@ -77,82 +84,106 @@ static void draw_joint(joint_kind kind, double x, uint64_t *seed, double *trial,
     }
 }
 
-static ring_point at_angle(double angle) { return (ring_point){cos(angle), sin(angle)}; }
+static ring_point at_angle(double angle)
+{
+    return (ring_point){cos(angle), sin(angle)};
+}
 
 /* The direction of interface e when its elements lie along a and b. */
 static ring_point normal_of(const ring_run *s, size_t e, ring_point a, ring_point b)
 {
     const size_t n = s->model->elements;
-    if (s->model->spec.geometry.direction == &fracas_direction_initial) return at_angle(RING_PI * (0.5 + 2.0 * (double)(e + 1) / (double)n));
+    if (s->model->spec.geometry.direction == &fracas_direction_initial)
+        return at_angle(RING_PI * (0.5 + 2.0 * (double)(e + 1) / (double)n));
     const ring_point sum = ring_plus(a, 1, b);
     return ring_plus((ring_point){0, 0}, 1 / sqrt(ring_inner(sum, sum)), sum);
 }
 
-/* A random state: the whole ring turned by `whole`, every element by up to `each` from there and strained by up to 2e-3, every
- * interface of a random kind. Laid out from element `first` on; where the ends meet the interface is broken and open, whatever is
- * between them: false if they overlap, which would press with forces beside which all others vanish. */
-static bool draw_state(const ring_run *s, size_t first, double whole, double each, uint64_t *seed, ring_state *state, int *seen)
+/* A random state: the whole ring turned by `whole`, every element by up to `each` from there and
+ * strained by up to 2e-3, every interface of a random kind. Laid out from element `first` on; where
+ * the ends meet the interface is broken and open, whatever is between them: false if they overlap,
+ * which would press with forces beside which all others vanish. */
+static bool draw_state(const ring_run *s, size_t first, double whole, double each, uint64_t *seed,
+                       ring_state *state, int *seen)
 {
     const size_t n = s->model->elements;
-    const double h = s->model->element_size, young = 275e9, spring = 4 * young / h, delta_c = 2 * 100 / BAR_STRENGTH_MEAN;
+    const double h = s->model->element_size, young = 275e9, spring = 4 * young / h,
+                 delta_c = 2 * 100 / BAR_STRENGTH_MEAN;
     ring_point chord[MOST], left = {1e-5, 2e-5};
     double stress[MOST];
     for (size_t e = 0; e < n; e++) {
         const double strain = 2e-3 * ring_noise(seed);
         stress[e] = young * strain;
         chord[e] = ring_plus((ring_point){0, 0}, h * (1 + strain),
-                             at_angle(RING_PI * (0.5 + (2.0 * (double)e + 1) / (double)n) + whole + each * ring_noise(seed)));
+                             at_angle(RING_PI * (0.5 + (2.0 * (double)e + 1) / (double)n) + whole +
+                                      each * ring_noise(seed)));
     }
     for (size_t i = 0; i < n; i++) {
         const size_t e = (first + i) % n, next = (e + 1) % n;
-        const ring_point right = ring_plus(left, 1, chord[e]), n_of_e = normal_of(s, e, chord[e], chord[next]);
+        const ring_point right = ring_plus(left, 1, chord[e]),
+                         n_of_e = normal_of(s, e, chord[e], chord[next]);
         ring_put(s, e, 0, left);
         ring_put(s, e, 1, right);
         if (i == n - 1) break;
         const joint_kind kind = (joint_kind)((ring_noise(seed) + 1) * 0.5 * NKINDS);
         double trial, across;
-        draw_joint(kind, spring * delta_c - BAR_STRENGTH_MEAN, seed, &trial, &state->damage[e], &across);
-        const double q = (trial - (kind == GAPES || kind == TOUCHES ? 0 : 0.5 * (stress[e] + stress[next]))) / spring;
+        draw_joint(kind, spring * delta_c - BAR_STRENGTH_MEAN, seed, &trial, &state->damage[e],
+                   &across);
+        const double q =
+            (trial - (kind == GAPES || kind == TOUCHES ? 0 : 0.5 * (stress[e] + stress[next]))) /
+            spring;
         left = ring_plus(ring_plus(right, q, n_of_e), across, (ring_point){n_of_e.y, -n_of_e.x});
         seen[kind]++;
     }
     const size_t end = (first + n - 1) % n;
     state->damage[end] = 1;
-    for (size_t e = 0; e < n; e++) memcpy(state->u[e], ring_field(s, e, RING_U_LEFT), sizeof state->u[e]);
+    for (size_t e = 0; e < n; e++)
+        memcpy(state->u[e], ring_field(s, e, RING_U_LEFT), sizeof state->u[e]);
     return ring_jump(s, end).x > 0;
 }
 
-/* Directions, sizes and turns of the states that are looked at: elements turned by up to a radian each, the ring by as much as one
- * likes, where the energy allows. */
+/* Directions, sizes and turns of the states that are looked at: elements turned by up to a radian
+ * each, the ring by as much as one likes, where the energy allows. */
 static const struct {
     size_t elements;
     bool current;
     double whole, each; /* radians */
-} kind_of_state[] = {{12, true, 0, 0.05}, {12, true, 2.2, 1.0}, {12, false, 0, 0.05}, {12, false, 0, 0.6},
-                     {3, true, 1.5707963267948966, 0.4}, {3, false, 0, 0.4}, {4, true, -3, 1.0}};
+} kind_of_state[] = {{12, true, 0, 0.05},
+                     {12, true, 2.2, 1.0},
+                     {12, false, 0, 0.05},
+                     {12, false, 0, 0.6},
+                     {3, true, 1.5707963267948966, 0.4},
+                     {3, false, 0, 0.4},
+                     {4, true, -3, 1.0}};
 enum { NSTATES = sizeof kind_of_state / sizeof *kind_of_state };
 
-static void next_state(const ring_run *s, int kind, size_t trial, uint64_t *seed, ring_state *state, int *seen)
+static void next_state(const ring_run *s, int kind, size_t trial, uint64_t *seed, ring_state *state,
+                       int *seen)
 {
     for (int attempt = 0; attempt < 1000; attempt++) {
         int here[NKINDS] = {0};
-        if (!draw_state(s, trial % s->model->elements, kind_of_state[kind].whole, kind_of_state[kind].each, seed, state, here)) continue;
+        if (!draw_state(s, trial % s->model->elements, kind_of_state[kind].whole,
+                        kind_of_state[kind].each, seed, state, here))
+            continue;
         for (int k = 0; k < NKINDS; k++) seen[k] += here[k];
         return;
     }
     fail_msg("no state whose ends do not overlap");
 }
 
-/* f = -dU/du by centred differences. Round-off: U of 1e-3 J is a sum of some 30 terms, 1e-18 J, over 2e-12 m: 1e-6 N beside the
- * largest forces of 3e2 N and more. Truncation: (1e-12 m/20 um)^2. In no state does the difference straddle an onset or a break, where
- * U jumps, or a change of branch, where its curvature does. 2e-8 of the largest force covers both. */
+/* f = -dU/du by centred differences. Round-off: U of 1e-3 J is a sum of some 30 terms, 1e-18 J,
+ * over 2e-12 m: 1e-6 N beside the largest forces of 3e2 N and more. Truncation: (1e-12 m/20 um)^2.
+ * In no state does the difference straddle an onset or a break, where U jumps, or a change of
+ * branch, where its curvature does. 2e-8 of the largest force covers both. */
 static void forces_are_the_gradient_of_the_energy(void **unused)
 {
     (void)unused;
     uint64_t seed = 11;
     int seen[NKINDS] = {0};
     for (int k = 0; k < NSTATES; k++) {
-        ring_run s = small_ring(kind_of_state[k].elements, 4, kind_of_state[k].current ? &fracas_direction_current : &fracas_direction_initial);
+        ring_run s = small_ring(kind_of_state[k].elements, 4,
+                                kind_of_state[k].current ? &fracas_direction_current
+                                                         : &fracas_direction_initial);
         double worst = 0;
         for (size_t trial = 0; trial < 60; trial++) {
             ring_state state;
@@ -169,8 +200,10 @@ static void forces_are_the_gradient_of_the_energy(void **unused)
                 worst = fmax(worst, fabs(slope + (i % 2 ? f->y : f->x)) / a.largest);
             }
         }
-        print_message("[  figures ] %2zu elements, %s, turned by %g and %g: force and gradient differ by %.1e of the largest force\n",
-                      s.model->elements, kind_of_state[k].current ? "current" : "initial", kind_of_state[k].whole, kind_of_state[k].each, worst);
+        print_message("[  figures ] %2zu elements, %s, turned by %g and %g: force and gradient "
+                      "differ by %.1e of the largest force\n",
+                      s.model->elements, kind_of_state[k].current ? "current" : "initial",
+                      kind_of_state[k].whole, kind_of_state[k].each, worst);
         assert_true(worst < 2e-8);
         clear(&s);
     }
@@ -182,17 +215,20 @@ static ring_state moved(const ring_run *s, const ring_state *state, double angle
 {
     ring_state to = *state;
     for (size_t i = 0; i < 2 * s->model->elements; i++) {
-        const ring_point start = ring_origin(s, i / 2, i % 2), u = {state->u[i / 2][i % 2 * 2], state->u[i / 2][i % 2 * 2 + 1]};
-        const ring_point at = ring_minus(ring_plus(ring_turned(ring_plus(start, 1, u), angle), 1, by), start);
+        const ring_point start = ring_origin(s, i / 2, i % 2),
+                         u = {state->u[i / 2][i % 2 * 2], state->u[i / 2][i % 2 * 2 + 1]};
+        const ring_point at = ring_minus(
+            ring_plus(ring_turned(ring_plus(start, 1, u), angle), 1, by), start);
         to.u[i / 2][i % 2 * 2] = at.x;
         to.u[i / 2][i % 2 * 2 + 1] = at.y;
     }
     return to;
 }
 
-/* Turning and moving the ring changes neither energy, and turns the forces. Displacements of up to 2e-4 m are rounded by 2.7e-20 m,
- * some four times an interface: 5.5e16 Pa/m x 1e-19 m = 6e-3 Pa of tractions of 3e8 Pa and more, 2e-11 of them, and of the energies
- * less. With `initial` a ring may be moved, not turned: a tenth of a radian must show. */
+/* Turning and moving the ring changes neither energy, and turns the forces. Displacements of up to
+ * 2e-4 m are rounded by 2.7e-20 m, some four times an interface: 5.5e16 Pa/m x 1e-19 m = 6e-3 Pa of
+ * tractions of 3e8 Pa and more, 2e-11 of them, and of the energies less. With `initial` a ring may
+ * be moved, not turned: a tenth of a radian must show. */
 static void the_energy_does_not_see_where_the_ring_is(void **unused)
 {
     (void)unused;
@@ -201,17 +237,24 @@ static void the_energy_does_not_see_where_the_ring_is(void **unused)
     double worst = 0, turned = 0;
     for (int k = 0; k < NSTATES; k++) {
         const bool current = kind_of_state[k].current;
-        ring_run s = small_ring(kind_of_state[k].elements, 4, current ? &fracas_direction_current : &fracas_direction_initial);
+        ring_run s = small_ring(kind_of_state[k].elements, 4,
+                                current ? &fracas_direction_current : &fracas_direction_initial);
         for (size_t trial = 0; trial < 60; trial++) {
             ring_state state;
             next_state(&s, k, trial, &seed, &state, seen);
             const double angle = trial % 3 == 0 ? 0.5 * RING_PI : RING_PI * ring_noise(&seed);
-            const ring_state there = moved(&s, &state, current ? angle : 0, (ring_point){1e-4 * ring_noise(&seed), 1e-4 * ring_noise(&seed)});
+            const ring_state there = moved(
+                &s, &state, current ? angle : 0,
+                (ring_point){1e-4 * ring_noise(&seed), 1e-4 * ring_noise(&seed)});
             const ring_answer a = answer(&s, &state), b = answer(&s, &there);
             const double held = fabs(a.elastic) + fabs(a.cohesive) + a.dissipated;
-            worst = fmax(worst, fmax(fabs(b.elastic - a.elastic), fmax(fabs(b.cohesive - a.cohesive), fabs(b.dissipated - a.dissipated))) / held);
+            worst = fmax(
+                worst, fmax(fabs(b.elastic - a.elastic), fmax(fabs(b.cohesive - a.cohesive),
+                                                              fabs(b.dissipated - a.dissipated))) /
+                           held);
             for (size_t i = 0; i < 2 * s.model->elements; i++) {
-                const ring_point f = ring_turned(a.force[i / 2][i % 2], current ? angle : 0), g = b.force[i / 2][i % 2];
+                const ring_point f = ring_turned(a.force[i / 2][i % 2], current ? angle : 0),
+                                 g = b.force[i / 2][i % 2];
                 worst = fmax(worst, fmax(fabs(f.x - g.x), fabs(f.y - g.y)) / a.largest);
             }
             if (current) continue;
@@ -220,29 +263,39 @@ static void the_energy_does_not_see_where_the_ring_is(void **unused)
         }
         clear(&s);
     }
-    print_message("[  figures ] energies and forces differ by %.1e; initial, turned by 0.1: by %.1e\n", worst, turned);
+    print_message(
+        "[  figures ] energies and forces differ by %.1e; initial, turned by 0.1: by %.1e\n", worst,
+        turned);
     assert_true(worst < 2e-11);
     assert_true(turned > 1e-3);
 }
 
-/* One interface alone: elements 0 and 1 as they start, all others moved out by 0.1 mm, broken off and out of reach. Interface 0 has
- * this damage, both elements this strain, the jump is such that the trial traction is `trial` at t = 1 us, after a step of 1 ns in
- * which it grows at 1 m/s, and the elements' lengths at 0.5 m/s; across it is `across` [m]. Takes that step. */
+/* One interface alone: elements 0 and 1 as they start, all others moved out by 0.1 mm, broken off
+ * and out of reach. Interface 0 has this damage, both elements this strain, the jump is such that
+ * the trial traction is `trial` at t = 1 us, after a step of 1 ns in which it grows at 1 m/s, and
+ * the elements' lengths at 0.5 m/s; across it is `across` [m]. Takes that step. */
 static ring_answer one_event(ring_run *s, double damage, double strain, double trial, double across)
 {
     const double h = s->model->element_size, young = 275e9, spring = 4 * young / h, dt = 1e-9;
     const ring_point zero = {0, 0}, n = at_angle(RING_PI * (0.5 + 2.0 / 12)), m = {n.y, -n.x};
-    const ring_point jump = ring_plus(ring_plus(zero, (trial - young * strain) / spring, n), across, m);
+    const ring_point jump = ring_plus(ring_plus(zero, (trial - young * strain) / spring, n), across,
+                                      m);
     fracas_step *step = &s->batch->step;
     for (size_t e = 0; e < 12; e++) {
-        const ring_point along = at_angle(RING_PI * (0.5 + (double)(2 * e + 1) / 12)), out = {along.y, -along.x};
+        const ring_point along = at_angle(RING_PI * (0.5 + (double)(2 * e + 1) / 12)),
+                         out = {along.y, -along.x};
         *ring_field(s, e, RING_DAMAGE) = e ? 1 : damage;
         for (size_t side = 0; side < 2; side++) {
-            ring_point u = e > 1 ? ring_plus(zero, 1e-4, out) : e == 1 ? jump : zero, v = e == 1 ? n : zero;
-            if (e < 2 && side == e) u = ring_plus(u, (e ? 1 : -1) * strain * h, along); /* their outer ends */
+            ring_point u = e > 1    ? ring_plus(zero, 1e-4, out)
+                           : e == 1 ? jump
+                                    : zero,
+                       v = e == 1 ? n : zero;
+            if (e < 2 && side == e)
+                u = ring_plus(u, (e ? 1 : -1) * strain * h, along); /* their outer ends */
             if (e < 2 && side == e) v = ring_plus(v, e ? 0.5 : -0.5, along);
             ring_put(s, e, side, ring_plus(ring_plus(ring_origin(s, e, side), 1, u), -dt, v));
-            memcpy(ring_field(s, e, side ? RING_V_RIGHT : RING_V_LEFT), (double[]){v.x, v.y}, 2 * sizeof(double));
+            memcpy(ring_field(s, e, side ? RING_V_RIGHT : RING_V_LEFT), (double[]){v.x, v.y},
+                   2 * sizeof(double));
         }
     }
     step->time[0] = 1e-6;
@@ -250,30 +303,38 @@ static ring_answer one_event(ring_run *s, double damage, double strain, double t
     step->kick[0] = step->created[0] = 0;
     step->cracked[0] = step->broken[0] = 0;
     s->model->formulation->advance(s->model, step);
-    return (ring_answer){.elastic = step->elastic[0], .cohesive = step->cohesive[0], .dissipated = step->dissipated[0] - 11e-4};
+    return (ring_answer){.elastic = step->elastic[0],
+                         .cohesive = step->cohesive[0],
+                         .dissipated = step->dissipated[0] - 11e-4};
 }
 
-/* An uncracked interface resists a jump across it by K p^2/2, which its onset drops and books; a break drops -m^2/(2K). Between just
- * before and just after, 1e-10 of the trial traction apart, nothing else changes: 1e-10 G_c of some 0.1 J/m2. The trial traction of
- * such elements is linear in time, and so the times of both are exact, but for positions of 4e-5 m that are rounded by 7e-21 m, some of
- * them, at 1 m/s. */
+/* An uncracked interface resists a jump across it by K p^2/2, which its onset drops and books; a
+ * break drops -m^2/(2K). Between just before and just after, 1e-10 of the trial traction apart,
+ * nothing else changes: 1e-10 G_c of some 0.1 J/m2. The trial traction of such elements is linear
+ * in time, and so the times of both are exact, but for positions of 4e-5 m that are rounded by
+ * 7e-21 m, some of them, at 1 m/s. */
 static void events_book_what_they_drop_at_the_time_they_happen(void **unused)
 {
     (void)unused;
     for (int i = 0; i < 2; i++) {
         ring_run s = small_ring(12, 4, i ? &fracas_direction_initial : &fracas_direction_current);
-        const double young = 275e9, spring = 4 * young / s.model->element_size, p = 1e-8, x = spring * 200 / BAR_STRENGTH_MEAN - BAR_STRENGTH_MEAN;
-        const double strain = 1e-3, mean = young * strain, rate = spring + 0.5 * young / s.model->element_size;
+        const double young = 275e9, spring = 4 * young / s.model->element_size, p = 1e-8,
+                     x = spring * 200 / BAR_STRENGTH_MEAN - BAR_STRENGTH_MEAN;
+        const double strain = 1e-3, mean = young * strain,
+                     rate = spring + 0.5 * young / s.model->element_size;
         const fracas_step *step = &s.batch->step;
-        const double restraint = 1e-6 * 0.5 * spring * p * p, flux = 1e-6 * 0.5 * mean * mean / spring;
+        const double restraint = 1e-6 * 0.5 * spring * p * p,
+                     flux = 1e-6 * 0.5 * mean * mean / spring;
         for (int breaks = 0; breaks < 2; breaks++) {
-            const double level = BAR_STRENGTH_MEAN + (breaks ? x : 0), damage = breaks ? 0.9 : 0, late = 4e-10;
+            const double level = BAR_STRENGTH_MEAN + (breaks ? x : 0), damage = breaks ? 0.9 : 0,
+                         late = 4e-10;
             const ring_answer a = one_event(&s, damage, strain, level * (1 - 1e-10), p);
             assert_int_equal(step->cracked[0] + step->broken[0], 0);
             const ring_answer b = one_event(&s, damage, strain, level * (1 + 1e-10), p);
             assert_int_equal(step->cracked[0], !breaks);
             assert_int_equal(step->broken[0], breaks);
-            const double change = b.elastic + b.cohesive + b.dissipated - (a.elastic + a.cohesive + a.dissipated);
+            const double change = b.elastic + b.cohesive + b.dissipated -
+                                  (a.elastic + a.cohesive + a.dissipated);
             assert_true(fabs(step->created[0] / (breaks ? flux : -restraint) - 1) < 1e-9);
             assert_true(fabs(change / step->created[0] - 1) < 1e-6);
             one_event(&s, damage, strain, level + rate * late, p);
@@ -281,14 +342,16 @@ static void events_book_what_they_drop_at_the_time_they_happen(void **unused)
             assert_true(fabs(when[0] - (1e-6 - late)) < 3e-20);
         }
         const ring_answer with = one_event(&s, 0, 0, 0, p), without = one_event(&s, 0, 0, 0, 0);
-        assert_true(fabs((with.elastic - without.elastic) / restraint - 1) < 1e-6); /* of differences of 1e-6 J by 1e-4 J */
+        assert_true(fabs((with.elastic - without.elastic) / restraint - 1) <
+                    1e-6); /* of differences of 1e-6 J by 1e-4 J */
         clear(&s);
     }
 }
 
 /* ---- ledger ---- */
 
-/* Rings that break up: free, free and spinning, pulled, pulled ever faster, pushed outward, pushed harder and harder. */
+/* Rings that break up: free, free and spinning, pulled, pulled ever faster, pushed outward, pushed
+ * harder and harder. */
 static fracas_spec broken_up(int load, bool current, double safety)
 {
     fracas_spec spec = ring_reference(1250, 1e4, 4e-7);
@@ -297,10 +360,23 @@ static fracas_spec broken_up(int load, bool current, double safety)
     const fracas_kind *out = &fracas_axis_radial;
     switch (load) {
     case 1: spec.loading.circumferential = 300; break;
-    case 2: spec.loading = (fracas_loading){.type = &fracas_loading_imposed_rate, .rate = 1e4}; break;
-    case 3: spec.loading = (fracas_loading){.type = &fracas_loading_held_velocity, .direction = out, .velocity = 50, .acceleration = 3e8}; break;
-    case 4: spec.loading = (fracas_loading){.type = &fracas_loading_force, .direction = out, .force = 1e6}; break;
-    case 5: spec.loading = (fracas_loading){.type = &fracas_loading_force, .direction = out, .force = 4e5, .force_rate = 5e12}; break;
+    case 2:
+        spec.loading = (fracas_loading){.type = &fracas_loading_imposed_rate, .rate = 1e4};
+        break;
+    case 3:
+        spec.loading = (fracas_loading){.type = &fracas_loading_held_velocity,
+                                        .direction = out,
+                                        .velocity = 50,
+                                        .acceleration = 3e8};
+        break;
+    case 4:
+        spec.loading = (fracas_loading){
+            .type = &fracas_loading_force, .direction = out, .force = 1e6};
+        break;
+    case 5:
+        spec.loading = (fracas_loading){
+            .type = &fracas_loading_force, .direction = out, .force = 4e5, .force_rate = 5e12};
+        break;
     default: break;
     }
     return spec;
@@ -318,7 +394,8 @@ static ledger_figures broken_up_ledger(const fracas_spec *spec)
     fracas_record record[8];
     ledger_figures f = {0, 0, 0, 0};
     assert_ok(fracas_model_create(spec, &model));
-    assert_ok(fracas_batch_create(model, 8, &(fracas_batch_options){.width = 8, .isa = FRACAS_ISA_BEST}, &batch));
+    assert_ok(fracas_batch_create(
+        model, 8, &(fracas_batch_options){.width = 8, .isa = FRACAS_ISA_BEST}, &batch));
     for (size_t l = 0; l < 8; l++) {
         bar_draw(batch, l, 1.0 / 300, l);
         fracas_record_init(&record[l]);
@@ -337,18 +414,23 @@ static ledger_figures broken_up_ledger(const fracas_spec *spec)
     return f;
 }
 
-/* Through break-up, default step: |residual| < 1e-3, created < 1e-2 of dissipated, the bar's figures; halving the step divides the
- * residual by 4, less what breaks at other instants changes, and so it is the step's, not a missing term. */
+/* Through break-up, default step: |residual| < 1e-3, created < 1e-2 of dissipated, the bar's
+ * figures; halving the step divides the residual by 4, less what breaks at other instants changes,
+ * and so it is the step's, not a missing term. */
 static void the_ledger_closes_to_second_order(void **unused)
 {
     (void)unused;
-    static const char *const load[] = {"free", "free, spinning", "imposed rate", "held velocity", "force", "growing force"};
+    static const char *const load[] = {"free",          "free, spinning", "imposed rate",
+                                       "held velocity", "force",          "growing force"};
     for (int i = 0; i < 7; i++) {
         const bool current = i < 6;
-        const fracas_spec whole = broken_up(i % 6, current, 0.25), half = broken_up(i % 6, current, 0.125);
+        const fracas_spec whole = broken_up(i % 6, current, 0.25),
+                          half = broken_up(i % 6, current, 0.125);
         const ledger_figures a = broken_up_ledger(&whole), b = broken_up_ledger(&half);
-        print_message("[  figures ] %-14s %s: %5.1f fragments, work %.3e J; residual/dissipated %.1e, at half the step %.1e; created %.1e\n",
-                      load[i % 6], current ? "current" : "initial", a.fragments, a.work, a.residual, b.residual, a.created);
+        print_message("[  figures ] %-14s %s: %5.1f fragments, work %.3e J; residual/dissipated "
+                      "%.1e, at half the step %.1e; created %.1e\n",
+                      load[i % 6], current ? "current" : "initial", a.fragments, a.work, a.residual,
+                      b.residual, a.created);
         assert_true(a.fragments > 20);
         assert_true((i % 6 < 2) == (a.work == 0));
         assert_true(a.residual < 1e-3);
@@ -357,9 +439,11 @@ static void the_ledger_closes_to_second_order(void **unused)
     }
 }
 
-/* Circumferential drives turn with the ring, which swells: their direction at the end of a step is not that at its start. With the work
- * of the force before and after, each along its own, the kinetic energy v_{n-1/2} v_{n+1/2} gains just that work, and what is left in
- * an uncracked ring is what elements' forces, nearly linear in the displacements, miss by: at half the step a quarter. */
+/* Circumferential drives turn with the ring, which swells: their direction at the end of a step is
+ * not that at its start. With the work of the force before and after, each along its own, the
+ * kinetic energy v_{n-1/2} v_{n+1/2} gains just that work, and what is left in an uncracked ring is
+ * what elements' forces, nearly linear in the displacements, miss by: at half the step a quarter.
+ */
 static void the_work_of_turning_drives_is_of_second_order(void **unused)
 {
     (void)unused;
@@ -367,14 +451,20 @@ static void the_work_of_turning_drives_is_of_second_order(void **unused)
         double residual[2], work[2];
         for (int half = 0; half < 2; half++) {
             fracas_spec spec = ring_reference(300, 1e4, 3e-6);
-            spec.loading = (fracas_loading){.type = i ? &fracas_loading_force : &fracas_loading_held_velocity, .direction = &fracas_axis_circumferential,
-                                            .velocity = 100, .acceleration = 1e8, .force = i == 1 ? 3e5 : 1e5, .force_rate = i == 1 ? 0 : 1e11};
+            spec.loading = (fracas_loading){.type = i ? &fracas_loading_force
+                                                      : &fracas_loading_held_velocity,
+                                            .direction = &fracas_axis_circumferential,
+                                            .velocity = 100,
+                                            .acceleration = 1e8,
+                                            .force = i == 1 ? 3e5 : 1e5,
+                                            .force_rate = i == 1 ? 0 : 1e11};
             spec.time.safety = half ? 0.2 : 0.4;
             spec.cohesive.fracture_energy = 1e4; /* strong interfaces need it of these elements */
             ring_run s = begin(&spec, BAR_STRENGTH_MEAN);
             for (size_t e = 0; e < 300; e++) {
                 *ring_field(&s, e, RING_STRENGTH) = 2e9;
-                *ring_field(&s, e, RING_LAW) = 2 * (4 * 275e9 / s.model->element_size) * 1e4 / 2e9 - 2e9;
+                *ring_field(&s, e, RING_LAW) = 2 * (4 * 275e9 / s.model->element_size) * 1e4 / 2e9 -
+                                               2e9;
             }
             while (s.running) step(&s);
             assert_int_equal(s.record.outcome, FRACAS_INTACT);
@@ -382,8 +472,12 @@ static void the_work_of_turning_drives_is_of_second_order(void **unused)
             work[half] = s.record.work;
             clear(&s);
         }
-        print_message("[  figures ] circumferential %s: work %.3e J, residual %.1e of it, at half the step %.1e\n",
-                      i == 0 ? "velocity" : i == 1 ? "force" : "growing force", work[0], residual[0] / work[0], residual[1] / work[1]);
+        print_message("[  figures ] circumferential %s: work %.3e J, residual %.1e of it, at half "
+                      "the step %.1e\n",
+                      i == 0   ? "velocity"
+                      : i == 1 ? "force"
+                               : "growing force",
+                      work[0], residual[0] / work[0], residual[1] / work[1]);
         assert_true(residual[0] < 1e-7 * work[0]);
         assert_true(residual[1] < residual[0] / 3.5);
     }
@@ -391,13 +485,15 @@ static void the_work_of_turning_drives_is_of_second_order(void **unused)
 
 /* ---- critical step ---- */
 
-/* A ring that all its interfaces press together: of a shrinkage by 1e-6 elements and contacts share beta and 1 parts. */
+/* A ring that all its interfaces press together: of a shrinkage by 1e-6 elements and contacts share
+ * beta and 1 parts. */
 static void press(const ring_run *s)
 {
     const double share = s->model->spec.cohesive.beta / (1 + s->model->spec.cohesive.beta);
     for (size_t e = 0; e < s->model->elements; e++) {
         const ring_point left = ring_origin(s, e, 0), right = ring_origin(s, e, 1), zero = {0, 0};
-        const ring_point middle = ring_plus(ring_plus(zero, 0.5, left), 0.5, right), half = ring_minus(right, middle);
+        const ring_point middle = ring_plus(ring_plus(zero, 0.5, left), 0.5, right),
+                         half = ring_minus(right, middle);
         ring_put(s, e, 0, ring_plus(ring_plus(zero, 1 - 1e-6, middle), -(1 - 1e-6 * share), half));
         ring_put(s, e, 1, ring_plus(ring_plus(zero, 1 - 1e-6, middle), 1 - 1e-6 * share, half));
     }
@@ -424,8 +520,10 @@ static double limit_of(ring_run *s, const double *damage)
         *u = here - 1e-13;
         const ring_answer down = answer(s, &state);
         for (size_t j = 0; j < 4 * n; j++) {
-            const ring_point change = ring_minus(down.force[j / 4][j % 4 / 2], up.force[j / 4][j % 4 / 2]);
-            gsl_matrix_set(hessian, i, j, (j % 2 ? change.y : change.x) / (far - *u) / ring_nodal_mass(s));
+            const ring_point change = ring_minus(down.force[j / 4][j % 4 / 2],
+                                                 up.force[j / 4][j % 4 / 2]);
+            gsl_matrix_set(hessian, i, j,
+                           (j % 2 ? change.y : change.x) / (far - *u) / ring_nodal_mass(s));
         }
         *u = here;
     }
@@ -437,10 +535,12 @@ static double limit_of(ring_run *s, const double *damage)
     return limit;
 }
 
-/* The critical step is the chain's. In a ring of few elements chords meet at angles; then, and in any mixture of uncracked, closed and
- * broken interfaces, the forces' own limit must not be smaller: but for the pressing, 1e-6, differences, and the iteration's 1e-9. Nor
- * is it much larger when all are broken: elements that all shorten and lengthen at once are a trial mode, for which contacts have
- * cos(pi/n)^2 of their stiffness. Uncracked the chain has its own, longer step, and the ring less of it (bar.16). */
+/* The critical step is the chain's. In a ring of few elements chords meet at angles; then, and in
+ * any mixture of uncracked, closed and broken interfaces, the forces' own limit must not be
+ * smaller: but for the pressing, 1e-6, differences, and the iteration's 1e-9. Nor is it much larger
+ * when all are broken: elements that all shorten and lengthen at once are a trial mode, for which
+ * contacts have cos(pi/n)^2 of their stiffness. Uncracked the chain has its own, longer step, and
+ * the ring less of it (bar.16). */
 static void no_state_of_a_small_ring_has_a_smaller_limit(void **unused)
 {
     (void)unused;
@@ -450,24 +550,31 @@ static void no_state_of_a_small_ring_has_a_smaller_limit(void **unused)
     for (int i = 0; i < 30; i++) {
         const size_t n = elements[i % 5];
         const double beta = betas[i / 5 % 3], tilt = sin(RING_PI / (double)n);
-        ring_run s = small_ring(n, beta, i < 15 ? &fracas_direction_current : &fracas_direction_initial);
+        ring_run s = small_ring(n, beta,
+                                i < 15 ? &fracas_direction_current : &fracas_direction_initial);
         double damage[MOST], least = INFINITY, whole = 0, broken = 0;
         for (int draw = 0; draw < 40; draw++) {
-            for (size_t e = 0; e < n; e++) damage[e] = draw == 0 ? 0 : draw == 1 ? 1 : 0.5 * floor(1.5 * (1 + ring_noise(&seed)));
+            for (size_t e = 0; e < n; e++)
+                damage[e] = draw == 0   ? 0
+                            : draw == 1 ? 1
+                                        : 0.5 * floor(1.5 * (1 + ring_noise(&seed)));
             const double limit = limit_of(&s, damage) / s.model->critical_step;
             least = fmin(least, limit);
             if (draw == 0) whole = limit;
             if (draw == 1) broken = limit;
         }
-        print_message("[  figures ] %2zu elements, beta %4.1f: limit over critical step uncracked %.4f (chain %.4f), broken %.4f, least %.4f\n", n,
-                      beta, whole, s.model->critical_closed / s.model->critical_step, broken, least);
+        print_message("[  figures ] %2zu elements, beta %4.1f: limit over critical step uncracked "
+                      "%.4f (chain %.4f), broken %.4f, least %.4f\n",
+                      n, beta, whole, s.model->critical_closed / s.model->critical_step, broken,
+                      least);
         assert_true(least > 1 - 2e-6);
         assert_true(broken < (1 + 2e-6) / sqrt(1 - beta / (1 + beta) * tilt * tilt));
         clear(&s);
     }
 }
 
-/* Root of the sum of all squared velocities, less what is the same in all elements: the ring's own breathing and turning. */
+/* Root of the sum of all squared velocities, less what is the same in all elements: the ring's own
+ * breathing and turning. */
 static double shaking(const ring_run *s)
 {
     double sum = 0;
@@ -476,11 +583,13 @@ static double shaking(const ring_run *s)
         ring_point mean = {0, 0};
         double squares = 0;
         for (size_t e = 0; e < n; e++) {
-            const ring_point v = ring_turned(ring_velocity(s, e, side), -2 * RING_PI * (double)e / (double)n);
+            const ring_point v = ring_turned(ring_velocity(s, e, side),
+                                             -2 * RING_PI * (double)e / (double)n);
             mean = ring_plus(mean, 1 / (double)n, v);
         }
         for (size_t e = 0; e < n; e++) {
-            const ring_point v = ring_turned(ring_velocity(s, e, side), -2 * RING_PI * (double)e / (double)n);
+            const ring_point v = ring_turned(ring_velocity(s, e, side),
+                                             -2 * RING_PI * (double)e / (double)n);
             squares += ring_inner(ring_minus(v, mean), ring_minus(v, mean));
         }
         sum += squares;
@@ -488,8 +597,9 @@ static double shaking(const ring_run *s)
     return sqrt(sum);
 }
 
-/* By how much 200 steps of `part` of the critical step raise velocities that start at random in both directions. Broken rings start
- * pressed together and stay so: they swing back after a quarter of a period, n/4 h/c = 223 steps. */
+/* By how much 200 steps of `part` of the critical step raise velocities that start at random in
+ * both directions. Broken rings start pressed together and stay so: they swing back after a quarter
+ * of a period, n/4 h/c = 223 steps. */
 static double growth(size_t n, double part, bool broken, bool current)
 {
     fracas_spec spec = ring_reference((int64_t)n, 0, 1);
@@ -516,18 +626,23 @@ static double growth(size_t n, double part, bool broken, bool current)
     return largest / start;
 }
 
-/* Below the critical step a mode that starts with a velocity only swings as cos((i + 1/2) a)/cos(a/2), sin(a/2) = 0.99: up to
- * 1/sqrt(1 - 0.99^2) = 7.09 times its start, and so does the root of the sum of all squares. Above it grows by exp(g) a step,
- * cosh g = 2 1.01^2 - 1, g = 0.283: e^56 in 200 steps from the 1e-2 or so that the extreme modes have of the noise. Of
- * hundreds of elements the extreme modes are those of the chain: 1e-4 is what the angle between chords changes. */
+/* Below the critical step a mode that starts with a velocity only swings as cos((i + 1/2)
+ * a)/cos(a/2), sin(a/2) = 0.99: up to 1/sqrt(1 - 0.99^2) = 7.09 times its start, and so does the
+ * root of the sum of all squares. Above it grows by exp(g) a step, cosh g = 2 1.01^2 - 1, g =
+ * 0.283: e^56 in 200 steps from the 1e-2 or so that the extreme modes have of the noise. Of
+ * hundreds of elements the extreme modes are those of the chain: 1e-4 is what the angle between
+ * chords changes. */
 static void the_critical_step_is_the_limit(void **unused)
 {
     (void)unused;
     for (int i = 0; i < 4; i++) {
         const bool broken = i & 1, current = i & 2;
-        const double below = growth(400, 0.99, broken, current), above = growth(400, 1.01, broken, current);
-        print_message("[  figures ] %s, %s: velocities grow by %.2f at 0.99 of the critical step, by %.1e at 1.01\n",
-                      broken ? "broken and pressed together" : "uncracked", current ? "current" : "initial", below, above);
+        const double below = growth(400, 0.99, broken, current),
+                     above = growth(400, 1.01, broken, current);
+        print_message("[  figures ] %s, %s: velocities grow by %.2f at 0.99 of the critical step, "
+                      "by %.1e at 1.01\n",
+                      broken ? "broken and pressed together" : "uncracked",
+                      current ? "current" : "initial", below, above);
         assert_true(below < 7.1);
         assert_true(above > 1e6);
     }
@@ -535,11 +650,13 @@ static void the_critical_step_is_the_limit(void **unused)
 
 /* ---- spin ---- */
 
-/* A ring that starts to turn with speed V, unstressed, swings about its steady rotation: sigma = rho V^2 (1 - cos w t), w = c/R. V is
- * 10 m/s: strains, and corrections of w^2 by 3 V^2/R^2, are of the size of (V/c)^2 = 1e-6. Of a polygon of 400 w is c/R_n, 1.0e-5
- * lower: in three periods 1.9e-4 of the swing; its speed R_n/R times V, and its interfaces play: 2.1e-5 and 1.0e-5 of the stress, at
- * the crest of 2: 2.5e-4 together. The mean of some 1e4 steps counts the end of the period twice, another 1e-4. Angular momentum is
- * m V R, the polygon's (R_n/R)^2 = 1 + (pi/n)^2/3 times that, + (pi/n)^4/15 = 2.5e-10. */
+/* A ring that starts to turn with speed V, unstressed, swings about its steady rotation: sigma =
+ * rho V^2 (1 - cos w t), w = c/R. V is 10 m/s: strains, and corrections of w^2 by 3 V^2/R^2, are of
+ * the size of (V/c)^2 = 1e-6. Of a polygon of 400 w is c/R_n, 1.0e-5 lower: in three periods 1.9e-4
+ * of the swing; its speed R_n/R times V, and its interfaces play: 2.1e-5 and 1.0e-5 of the stress,
+ * at the crest of 2: 2.5e-4 together. The mean of some 1e4 steps counts the end of the period
+ * twice, another 1e-4. Angular momentum is m V R, the polygon's (R_n/R)^2 = 1 + (pi/n)^2/3 times
+ * that, + (pi/n)^4/15 = 2.5e-10. */
 static void a_spinning_ring_swings_about_its_hoop_stress(void **unused)
 {
     (void)unused;
@@ -552,28 +669,34 @@ static void a_spinning_ring_swings_about_its_hoop_stress(void **unused)
     while (s.running) {
         step(&s);
         const ring_point chord = ring_chord(&s, 37);
-        const double found = 275e9 * (sqrt(ring_inner(chord, chord)) / h - 1), t = s.batch->step.time[0];
+        const double found = 275e9 * (sqrt(ring_inner(chord, chord)) / h - 1),
+                     t = s.batch->step.time[0];
         worst = fmax(worst, fabs(found - stress * (1 - cos(w * t))) / stress);
         sum += found;
         steps++;
     }
     const fracas_fragment *ring = s.record.fragment;
     const double angular = ring->angular_momentum[2];
-    print_message("[  figures ] hoop stress within %.1e of rho V^2, its mean %.6f of it; angular momentum %.8f m V R\n", worst, sum / steps / stress,
-                  angular / (s.model->mass * speed * RING_RADIUS));
+    print_message("[  figures ] hoop stress within %.1e of rho V^2, its mean %.6f of it; angular "
+                  "momentum %.8f m V R\n",
+                  worst, sum / steps / stress, angular / (s.model->mass * speed * RING_RADIUS));
     assert_int_equal(s.record.fragments, 1);
     assert_true(worst < 2.6e-4);
     assert_true(fabs(sum / steps / stress - 1) < 3.5e-4);
-    assert_true(fabs(angular / (s.model->mass * speed * RING_RADIUS) - 1 - RING_PI * RING_PI / 3 / 160000) < 1e-9);
+    assert_true(fabs(angular / (s.model->mass * speed * RING_RADIUS) - 1 -
+                     RING_PI * RING_PI / 3 / 160000) < 1e-9);
     clear(&s);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(forces_are_the_gradient_of_the_energy), cmocka_unit_test(the_energy_does_not_see_where_the_ring_is),
-        cmocka_unit_test(events_book_what_they_drop_at_the_time_they_happen), cmocka_unit_test(the_ledger_closes_to_second_order),
-        cmocka_unit_test(the_work_of_turning_drives_is_of_second_order), cmocka_unit_test(the_critical_step_is_the_limit),
+        cmocka_unit_test(forces_are_the_gradient_of_the_energy),
+        cmocka_unit_test(the_energy_does_not_see_where_the_ring_is),
+        cmocka_unit_test(events_book_what_they_drop_at_the_time_they_happen),
+        cmocka_unit_test(the_ledger_closes_to_second_order),
+        cmocka_unit_test(the_work_of_turning_drives_is_of_second_order),
+        cmocka_unit_test(the_critical_step_is_the_limit),
         cmocka_unit_test(no_state_of_a_small_ring_has_a_smaller_limit),
         cmocka_unit_test(a_spinning_ring_swings_about_its_hoop_stress)};
     return cmocka_run_group_tests(tests, NULL, NULL);

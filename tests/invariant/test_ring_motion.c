@@ -1,21 +1,27 @@
-/* The motion of the ring and of its fragments: momenta, symmetries, and lanes that do not see each other.
- * ctest-labels: slow-sanitize
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: slow-sanitize */
+/* The motion of the ring and of its fragments: momenta, symmetries, and lanes that do not see each
+ * other.
  */
 #include "tests/support/ring_sample.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Strengths uniform in 300 MPa +- 0.33 %, of replica `replica`, interface i having that of i + shift, or backwards. */
+/* Strengths uniform in 300 MPa +- 0.33 %, of replica `replica`, interface i having that of i +
+ * shift, or backwards. */
 static void draw(ring_run *s, uint64_t replica, size_t shift, bool mirrored)
 {
-    const fracas_stream stream = {.seed = 1, .purpose = FRACAS_PURPOSE_STRENGTH, .point = {2, 3}, .replica = replica};
+    const fracas_stream stream = {
+        .seed = 1, .purpose = FRACAS_PURPOSE_STRENGTH, .point = {2, 3}, .replica = replica};
     const size_t n = s->model->interfaces;
     for (size_t i = 0; i < n; i++) {
         const size_t from = (mirrored ? 2 * n - 2 - i : i + shift) % n;
-        const double strength = BAR_STRENGTH_MEAN * (1 + (2 * fracas_stream_uniform(&stream, from) - 1) / 300);
+        const double strength = BAR_STRENGTH_MEAN *
+                                (1 + (2 * fracas_stream_uniform(&stream, from) - 1) / 300);
         *ring_field(s, i, RING_STRENGTH) = strength;
-        *ring_field(s, i, RING_LAW) = 2 * (4 * 275e9 / s->model->element_size) * 100 / strength - strength; /* K delta_c - sigma_c */
+        *ring_field(s, i, RING_LAW) = 2 * (4 * 275e9 / s->model->element_size) * 100 / strength -
+                                      strength; /* K delta_c - sigma_c */
     }
 }
 
@@ -40,16 +46,19 @@ static double motion_of(const ring_run *s)
     return sum;
 }
 
-/* Forces between nodes are equal and opposite, couples too: what is left of all momentum and all angular momentum is the rounding of
- * each velocity at each step, 1.1e-16 of it, and of as many sums. If all had one sign: 1.1e-16 a step of the sum of |m v|, or of that times
- * the radius R (1 + 1e4/s x t). Directions that stay as they were pass on couples T p - K p q while p is not 0: 1e-7 of momentum x R is
- * what was measured (docs/theory/ring.md); with a spin of 300 m/s elements leave their directions, and it is a hundred times that. */
+/* Forces between nodes are equal and opposite, couples too: what is left of all momentum and all
+ * angular momentum is the rounding of each velocity at each step, 1.1e-16 of it, and of as many
+ * sums. If all had one sign: 1.1e-16 a step of the sum of |m v|, or of that times the radius R (1 +
+ * 1e4/s x t). Directions that stay as they were pass on couples T p - K p q while p is not 0: 1e-7
+ * of momentum x R is what was measured (docs/theory/ring.md); with a spin of 300 m/s elements leave
+ * their directions, and it is a hundred times that. */
 static void a_free_ring_keeps_its_momenta(void **unused)
 {
     (void)unused;
     for (int i = 0; i < 4; i++) {
         const bool current = i < 2;
-        ring_run s = fragmenting(current ? &fracas_direction_current : &fracas_direction_initial, i & 1 ? 300.0 : 0.0, 2e-6);
+        ring_run s = fragmenting(current ? &fracas_direction_current : &fracas_direction_initial,
+                                 i & 1 ? 300.0 : 0.0, 2e-6);
         double angular, angular_end = 0, scale = 0, drift = 0, slide = 0;
         ring_point linear;
         draw(&s, 0, 0, false);
@@ -62,13 +71,17 @@ static void a_free_ring_keeps_its_momenta(void **unused)
             drift = fmax(drift, fabs(angular_end - angular));
             slide = fmax(slide, sqrt(ring_inner(linear, linear)));
         }
-        const double rounding = 1.1e-16 * (double)s.record.steps * scale, radius = RING_RADIUS * (1 + 1e4 * 2e-6);
-        print_message("[  figures ] %s, spin %g m/s: %ld fragments, linear momentum %.1e of the sum of |m v|, angular off by %.1e of that x R\n", current ? "current" : "initial", i & 1 ? 300.0 : 0.0, (long)s.record.fragments, slide / scale,
-                      drift / scale / RING_RADIUS);
+        const double rounding = 1.1e-16 * (double)s.record.steps * scale,
+                     radius = RING_RADIUS * (1 + 1e4 * 2e-6);
+        print_message("[  figures ] %s, spin %g m/s: %ld fragments, linear momentum %.1e of the "
+                      "sum of |m v|, angular off by %.1e of that x R\n",
+                      current ? "current" : "initial", i & 1 ? 300.0 : 0.0,
+                      (long)s.record.fragments, slide / scale, drift / scale / RING_RADIUS);
         assert_true(s.record.fragments > 90);
         assert_true(slide < rounding);
         if (current) assert_true(drift < rounding * radius);
-        if (i == 3) assert_true(drift > 1e-6 * scale * RING_RADIUS); /* why `current` is the default */
+        if (i == 3)
+            assert_true(drift > 1e-6 * scale * RING_RADIUS); /* why `current` is the default */
         if (i == 2) assert_true(drift < 3e-7 * scale * RING_RADIUS && drift > rounding * radius);
         /* what the harvest makes of it */
         double whole[3] = {0, 0, 0};
@@ -76,7 +89,8 @@ static void a_free_ring_keeps_its_momenta(void **unused)
             const fracas_fragment *f = &s.record.fragment[k];
             whole[0] += f->mass * f->velocity[0];
             whole[1] += f->mass * f->velocity[1];
-            whole[2] += f->angular_momentum[2] + f->mass * (f->position[0] * f->velocity[1] - f->position[1] * f->velocity[0]);
+            whole[2] += f->angular_momentum[2] + f->mass * (f->position[0] * f->velocity[1] -
+                                                            f->position[1] * f->velocity[0]);
         }
         for (int k = 0; k < 2; k++) {
             assert_true(fabs(s.record.momentum[k] - (k ? linear.y : linear.x)) < 1e-13 * scale);
@@ -107,7 +121,8 @@ static size_t pieces_of(const ring_run *s, piece *into)
         if (*ring_field(s, before, RING_DAMAGE) >= 1) into[count++] = (piece){.first = e};
         into[count - 1].count++;
     }
-    for (size_t k = 0; k < count; k++) ring_momenta(s, into[k].first, into[k].count, &into[k].linear, &into[k].angular);
+    for (size_t k = 0; k < count; k++)
+        ring_momenta(s, into[k].first, into[k].count, &into[k].linear, &into[k].angular);
     return count;
 }
 
@@ -121,38 +136,49 @@ static void mark_contacts(const ring_run *s, piece *of, size_t count)
     }
 }
 
-/* What the record says of every fragment is what its nodes say: sums of some 50 products, 1e-14 of their scales. The inertia of
- * an element, 20 um about a centre 8 mm away, has a rounding of 400 times as much, some 50 times over: 1e-11. */
+/* What the record says of every fragment is what its nodes say: sums of some 50 products, 1e-14 of
+ * their scales. The inertia of an element, 20 um about a centre 8 mm away, has a rounding of 400
+ * times as much, some 50 times over: 1e-11. */
 static void compare_records(const ring_run *s, const piece *of, size_t count)
 {
-    size_t zero = 0; /* records go by the smallest element: the fragment with element 0 comes first */
+    size_t zero =
+        0; /* records go by the smallest element: the fragment with element 0 comes first */
     while (of[zero].first != 0 && of[zero].first + of[zero].count <= s->model->elements) zero++;
     assert_int_equal(s->record.nfragment, count);
     for (size_t k = 0; k < count; k++) {
         const piece *p = &of[(zero + k) % count];
         const fracas_fragment *f = &s->record.fragment[k];
-        const double mass = 2 * ring_nodal_mass(s) * (double)p->count, scale = sqrt(ring_inner(p->linear, p->linear));
+        const double mass = 2 * ring_nodal_mass(s) * (double)p->count,
+                     scale = sqrt(ring_inner(p->linear, p->linear));
         ring_point middle = {0, 0};
         for (size_t i = 0; i < 2 * p->count; i++)
-            middle = ring_plus(middle, 0.5 / (double)p->count, ring_node(s, (p->first + i / 2) % s->model->elements, i % 2));
+            middle = ring_plus(middle, 0.5 / (double)p->count,
+                               ring_node(s, (p->first + i / 2) % s->model->elements, i % 2));
         assert_int_equal(f->elements, p->count);
         assert_int_equal(f->dust, p->count == 1);
         assert_true(fabs(f->mass / mass - 1) < 1e-14);
         assert_true(fabs(f->size / s->model->element_size / (double)p->count - 1) < 1e-14);
-        assert_true(fabs(f->position[0] - middle.x) + fabs(f->position[1] - middle.y) < 1e-14 * RING_RADIUS);
-        assert_true(fabs(mass * f->velocity[0] - p->linear.x) + fabs(mass * f->velocity[1] - p->linear.y) < 2e-14 * scale);
-        assert_true(fabs(f->angular_momentum[2] - (p->angular - ring_cross(middle, p->linear))) < 1e-14 * scale * RING_RADIUS);
+        assert_true(fabs(f->position[0] - middle.x) + fabs(f->position[1] - middle.y) <
+                    1e-14 * RING_RADIUS);
+        assert_true(fabs(mass * f->velocity[0] - p->linear.x) +
+                        fabs(mass * f->velocity[1] - p->linear.y) <
+                    2e-14 * scale);
+        assert_true(fabs(f->angular_momentum[2] - (p->angular - ring_cross(middle, p->linear))) <
+                    1e-14 * scale * RING_RADIUS);
         double inertia = 0;
         for (size_t i = 0; i < 2 * p->count; i++) {
-            const ring_point at = ring_node(s, (p->first + i / 2) % s->model->elements, i % 2), arm = {at.x - middle.x, at.y - middle.y};
+            const ring_point at = ring_node(s, (p->first + i / 2) % s->model->elements, i % 2),
+                             arm = {at.x - middle.x, at.y - middle.y};
             inertia += ring_nodal_mass(s) * ring_inner(arm, arm);
         }
-        assert_true(fabs(f->spin[2] * inertia - f->angular_momentum[2]) < 1e-11 * fabs(f->angular_momentum[2]));
+        assert_true(fabs(f->spin[2] * inertia - f->angular_momentum[2]) <
+                    1e-11 * fabs(f->angular_momentum[2]));
         assert_true(f->spin[0] == 0 && f->spin[1] == 0 && f->spin[2] != 0);
     }
 }
 
-/* Runs until `cut`, marks the pieces there, and on to the end; the same pieces then. Returns how many. */
+/* Runs until `cut`, marks the pieces there, and on to the end; the same pieces then. Returns how
+ * many. */
 static size_t fly(ring_run *s, double cut, piece *then, piece *now)
 {
     while (s->batch->step.time[0] < cut) step(s);
@@ -166,31 +192,37 @@ static size_t fly(ring_run *s, double cut, piece *then, piece *now)
     return count;
 }
 
-/* A broken interface passes on nothing until its faces meet again: from after the last break (0.785 us) to twice that time every
- * fragment keeps its momentum and, where couples make up for the turning (`current`), its angular momentum about the origin. Rounding:
- * 1.1e-16 a step of m v of its nodes, which move with nearly the same speed: 2.5e-13 in 2240 steps, if all had one sign. */
+/* A broken interface passes on nothing until its faces meet again: from after the last break (0.785
+ * us) to twice that time every fragment keeps its momentum and, where couples make up for the
+ * turning (`current`), its angular momentum about the origin. Rounding: 1.1e-16 a step of m v of
+ * its nodes, which move with nearly the same speed: 2.5e-13 in 2240 steps, if all had one sign. */
 static void fragments_fly_on(void **unused)
 {
     (void)unused;
     static piece then[1250], now[1250];
     for (int i = 0; i < 2; i++) {
         const bool current = !i;
-        ring_run s = fragmenting(current ? &fracas_direction_current : &fracas_direction_initial, 0, 2e-6);
+        ring_run s = fragmenting(current ? &fracas_direction_current : &fracas_direction_initial, 0,
+                                 2e-6);
         draw(&s, 2, 0, false);
         const size_t count = fly(&s, 1e-6, then, now);
         size_t free = 0;
         double worst = 0, turned = 0, pushed = 0;
         for (size_t k = 0; k < count; k++) {
             const ring_point change = ring_minus(now[k].linear, then[k].linear);
-            const double scale = sqrt(ring_inner(then[k].linear, then[k].linear)), off = sqrt(ring_inner(change, change)) / scale;
+            const double scale = sqrt(ring_inner(then[k].linear, then[k].linear)),
+                         off = sqrt(ring_inner(change, change)) / scale;
             assert_int_equal(now[k].first, then[k].first);
             free += !then[k].touched;
             if (then[k].touched) pushed = fmax(pushed, off);
             else worst = fmax(worst, off);
-            if (!then[k].touched) turned = fmax(turned, fabs(now[k].angular - then[k].angular) / scale / RING_RADIUS);
+            if (!then[k].touched)
+                turned = fmax(turned, fabs(now[k].angular - then[k].angular) / scale / RING_RADIUS);
         }
-        print_message("[  figures ] %s: %zu fragments, %zu of them touched no other from 1 to 2 us: momentum off by %.1e, angular by %.1e of"
-                      " m v R; the others' momentum by up to %.1e\n", current ? "current" : "initial", count, free, worst, turned, pushed);
+        print_message(
+            "[  figures ] %s: %zu fragments, %zu of them touched no other from 1 to 2 us: momentum "
+            "off by %.1e, angular by %.1e of m v R; the others' momentum by up to %.1e\n",
+            current ? "current" : "initial", count, free, worst, turned, pushed);
         assert_true(count > 100 && free > count - 20 && free < count);
         assert_true(worst < 2.5e-13);
         if (current) assert_true(turned < 2.5e-13);
@@ -202,7 +234,8 @@ static void fragments_fly_on(void **unused)
 
 /* ---- symmetries ---- */
 
-/* What a run left: damage of each interface, velocities of each element outward and along, its energies. */
+/* What a run left: damage of each interface, velocities of each element outward and along, its
+ * energies. */
 typedef struct {
     double damage[1250], velocity[1250][4], dissipated, elastic;
     size_t broken;
@@ -211,36 +244,44 @@ typedef struct {
 static void run_to(ring_run *s, outcome *o)
 {
     while (s->running) step(s);
-    *o = (outcome){.dissipated = s->record.dissipated, .elastic = s->record.elastic, .broken = (size_t)s->record.broken};
+    *o = (outcome){.dissipated = s->record.dissipated,
+                   .elastic = s->record.elastic,
+                   .broken = (size_t)s->record.broken};
     for (size_t e = 0; e < 1250; e++) {
         o->damage[e] = *ring_field(s, e, RING_DAMAGE);
         for (size_t side = 0; side < 2; side++) {
-            const ring_point v = ring_turned(ring_velocity(s, e, side), -2 * RING_PI * (double)(e + side) / 1250);
+            const ring_point v = ring_turned(ring_velocity(s, e, side),
+                                             -2 * RING_PI * (double)(e + side) / 1250);
             o->velocity[e][2 * side] = v.x;
             o->velocity[e][2 * side + 1] = v.y;
         }
     }
 }
 
-/* The largest difference of b from a seen from `shift` interfaces further on, or in the mirror: of damage, energies, velocities. */
+/* The largest difference of b from a seen from `shift` interfaces further on, or in the mirror: of
+ * damage, energies, velocities. */
 static double difference(const outcome *a, const outcome *b, size_t shift, bool mirrored)
 {
     double worst = fmax(fabs(b->dissipated / a->dissipated - 1), fabs(b->elastic / a->elastic - 1));
     for (size_t i = 0; i < 1250; i++) {
-        const size_t there = (mirrored ? 2498 - i : i + shift) % 1250, element = mirrored ? 1249 - i : there;
+        const size_t there = (mirrored ? 2498 - i : i + shift) % 1250,
+                     element = mirrored ? 1249 - i : there;
         worst = fmax(worst, fabs(b->damage[i] - a->damage[there]));
-        assert_int_equal(b->damage[i] >= 1, a->damage[there] >= 1); /* the same fragments, in the same order */
+        assert_int_equal(b->damage[i] >= 1,
+                         a->damage[there] >= 1); /* the same fragments, in the same order */
         for (size_t k = 0; k < 4; k++) {
-            const double expected = mirrored ? a->velocity[element][(k + 2) % 4] * (k % 2 ? -1 : 1) : a->velocity[element][k];
+            const double expected = mirrored ? a->velocity[element][(k + 2) % 4] * (k % 2 ? -1 : 1)
+                                             : a->velocity[element][k];
             worst = fmax(worst, fabs(b->velocity[i][k] - expected) / (1e4 * RING_RADIUS));
         }
     }
     return worst;
 }
 
-/* Strengths moved on by k interfaces, or in reverse order, give the same fragments moved on, or in the mirror. Round-off is not the
- * same and grows as cracks compete, so they may grow apart as far as a ring whose strengths are off by 1e-12 does: displacements of
- * 3e-5 m are rounded by 3e-21 m, 1e-16 of an element, 1e-13 of its strain, and that in each of 900 steps. */
+/* Strengths moved on by k interfaces, or in reverse order, give the same fragments moved on, or in
+ * the mirror. Round-off is not the same and grows as cracks compete, so they may grow apart as far
+ * as a ring whose strengths are off by 1e-12 does: displacements of 3e-5 m are rounded by 3e-21 m,
+ * 1e-16 of an element, 1e-13 of its strain, and that in each of 900 steps. */
 static void strengths_moved_on_or_mirrored_give_the_same_ring(void **unused)
 {
     (void)unused;
@@ -252,12 +293,14 @@ static void strengths_moved_on_or_mirrored_give_the_same_ring(void **unused)
             static const size_t shifts[] = {0, 1, 777};
             ring_run s = fragmenting(direction, 0, 4e-7);
             draw(&s, 0, j < 3 ? shifts[j] : 0, j == 3);
-            for (size_t e = 0; j == 4 && e < 1250; e++) *ring_field(&s, e, RING_STRENGTH) *= 1 + (e % 2 ? 1e-12 : -1e-12);
+            for (size_t e = 0; j == 4 && e < 1250; e++)
+                *ring_field(&s, e, RING_STRENGTH) *= 1 + (e % 2 ? 1e-12 : -1e-12);
             run_to(&s, j ? &other : &plain);
             if (j) off[j - 1] = difference(&plain, &other, j < 3 ? shifts[j] : 0, j == 3);
             clear(&s);
         }
-        print_message("[  figures ] %s: %zu broken; moved on by 1: off by %.1e, by 777: %.1e; mirrored: %.1e; strengths off by 1e-12: %.1e\n",
+        print_message("[  figures ] %s: %zu broken; moved on by 1: off by %.1e, by 777: %.1e; "
+                      "mirrored: %.1e; strengths off by 1e-12: %.1e\n",
                       direction->name, plain.broken, off[0], off[1], off[2], off[3]);
         assert_true(plain.broken > 90);
         for (int j = 0; j < 3; j++) assert_true(off[j] < off[3]);
@@ -272,10 +315,14 @@ static fracas_model *lane_model(int kind)
     fracas_spec spec = ring_reference(300, 1e5, 1.5e-7);
     spec.geometry.radius = 3e-3 / (2 * RING_PI);
     spec.geometry.direction = kind % 2 ? &fracas_direction_initial : &fracas_direction_current;
-    spec.loading = (fracas_loading){.type = &fracas_loading_initial_velocity, .radial = 1e5 * spec.geometry.radius, .circumferential = 10};
-    if (kind / 2 == 1) spec.loading = (fracas_loading){.type = &fracas_loading_imposed_rate, .rate = 1e5};
+    spec.loading = (fracas_loading){.type = &fracas_loading_initial_velocity,
+                                    .radial = 1e5 * spec.geometry.radius,
+                                    .circumferential = 10};
+    if (kind / 2 == 1)
+        spec.loading = (fracas_loading){.type = &fracas_loading_imposed_rate, .rate = 1e5};
     if (kind / 2 == 2) {
-        spec.loading = (fracas_loading){.type = &fracas_loading_force, .direction = &fracas_axis_radial, .force = 1e7};
+        spec.loading = (fracas_loading){
+            .type = &fracas_loading_force, .direction = &fracas_axis_radial, .force = 1e7};
         spec.time.stop = &fracas_stop_settled;
         spec.time.quiet = 1e-8;
         spec.time.quiet_fraction = 0.05;
@@ -285,9 +332,10 @@ static fracas_model *lane_model(int kind)
     return model;
 }
 
-/* Runs `count` replicas from `first` on; replica r is in slot r - first, and slot `poisoned` (if any) goes NaN. */
-static void run_lanes(const fracas_model *model, uint64_t first, size_t count, const fracas_batch_options *options, size_t poisoned,
-                      fracas_record *record)
+/* Runs `count` replicas from `first` on; replica r is in slot r - first, and slot `poisoned` (if
+ * any) goes NaN. */
+static void run_lanes(const fracas_model *model, uint64_t first, size_t count,
+                      const fracas_batch_options *options, size_t poisoned, fracas_record *record)
 {
     fracas_batch *batch;
     assert_ok(fracas_batch_create(model, count, options, &batch));
@@ -301,23 +349,30 @@ static void run_lanes(const fracas_model *model, uint64_t first, size_t count, c
         double *strength = fracas_batch_strength(batch, poisoned, &stride);
         strength[17 * stride - (size_t)((RING_STRENGTH - RING_V_LEFT) * batch->step.lanes)] = NAN;
     }
-    for (size_t running = count; running > 0;) assert_ok(fracas_batch_step(batch, record, &running));
+    for (size_t running = count; running > 0;)
+        assert_ok(fracas_batch_step(batch, record, &running));
     if (poisoned < count) assert_int_equal(record[poisoned].outcome, FRACAS_NONFINITE);
     fracas_batch_destroy(batch);
 }
 
 static void assert_same(const fracas_record *a, const fracas_record *b)
 {
-    assert_memory_equal(a, b, offsetof(fracas_record, fragment)); /* every scalar, then every row, byte by byte; pointers apart */
+    assert_memory_equal(
+        a, b,
+        offsetof(fracas_record,
+                 fragment)); /* every scalar, then every row, byte by byte; pointers apart */
     assert_memory_equal(a->fragment, b->fragment, a->nfragment * sizeof *a->fragment);
     assert_memory_equal(a->history, b->history, a->nhistory * sizeof *a->history);
     assert_memory_equal(a->interface, b->interface, a->ninterface * sizeof *a->interface);
 }
 
-/* Replicas 0 .. width - 1 of one batch against the runs alone, with no slot poisoned, the first, or one in the middle. */
-static void compare_lanes(const fracas_model *model, int width, fracas_isa isa, const fracas_record *alone)
+/* Replicas 0 .. width - 1 of one batch against the runs alone, with no slot poisoned, the first, or
+ * one in the middle. */
+static void compare_lanes(const fracas_model *model, int width, fracas_isa isa,
+                          const fracas_record *alone)
 {
-    const fracas_batch_options options = {.history = 20, .interfaces = true, .width = width, .isa = isa};
+    const fracas_batch_options options = {
+        .history = 20, .interfaces = true, .width = width, .isa = isa};
     fracas_record together[8];
     fracas_batch *batch;
     if (fracas_batch_create(model, 1, &options, &batch)) {
@@ -335,19 +390,24 @@ static void compare_lanes(const fracas_model *model, int width, fracas_isa isa, 
     }
 }
 
-/* A lane's record depends on its own strengths alone: not on its slot, its neighbours, the width or the instruction set. */
+/* A lane's record depends on its own strengths alone: not on its slot, its neighbours, the width or
+ * the instruction set. */
 static void a_lane_is_its_run_alone(void **unused)
 {
     (void)unused;
-    const fracas_batch_options single = {.history = 20, .interfaces = true, .width = 1, .isa = FRACAS_ISA_BASELINE};
-    const fracas_batch_options widest = {.history = 20, .interfaces = true, .width = 8, .isa = FRACAS_ISA_BEST};
+    const fracas_batch_options single = {
+        .history = 20, .interfaces = true, .width = 1, .isa = FRACAS_ISA_BASELINE};
+    const fracas_batch_options widest = {
+        .history = 20, .interfaces = true, .width = 8, .isa = FRACAS_ISA_BEST};
     for (int kind = 0; kind < 6; kind++) { /* free, pulled, pushed outward; current, initial */
         fracas_model *model = lane_model(kind);
         fracas_record alone[8], elsewhere[5];
         for (size_t r = 0; r < 8; r++) run_lanes(model, r, 1, &single, SIZE_MAX, &alone[r]);
-        assert_true(alone[0].fragments > 5 && alone[0].dissipated != alone[1].dissipated); /* they are different */
+        assert_true(alone[0].fragments > 5 &&
+                    alone[0].dissipated != alone[1].dissipated); /* they are different */
         for (fracas_isa isa = FRACAS_ISA_BASELINE; isa <= FRACAS_ISA_AVX512; isa++)
-            for (int width = 1; width <= 8; width += width == 1 ? 3 : 4) compare_lanes(model, width, isa, alone);
+            for (int width = 1; width <= 8; width += width == 1 ? 3 : 4)
+                compare_lanes(model, width, isa, alone);
         run_lanes(model, 3, 5, &widest, SIZE_MAX, elsewhere); /* replica r in slot r - 3 */
         for (size_t l = 0; l < 5; l++) {
             assert_same(&alone[l + 3], &elsewhere[l]);
@@ -360,8 +420,9 @@ static void a_lane_is_its_run_alone(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_free_ring_keeps_its_momenta), cmocka_unit_test(fragments_fly_on),
-                                       cmocka_unit_test(strengths_moved_on_or_mirrored_give_the_same_ring),
-                                       cmocka_unit_test(a_lane_is_its_run_alone)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_free_ring_keeps_its_momenta), cmocka_unit_test(fragments_fly_on),
+        cmocka_unit_test(strengths_moved_on_or_mirrored_give_the_same_ring),
+        cmocka_unit_test(a_lane_is_its_run_alone)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
-/* Stershic's algorithm: a lane's record depends on its own strengths alone, though each lane has a time step of its own and opens its
- * links one by one. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Stershic's algorithm: a lane's record depends on its own strengths alone, though each lane has a
+ * time step of its own and opens its links one by one. */
 #include "tests/support/ring.h"
 
 #include "engine/formulation/chain/ring_sweep.h"
@@ -10,11 +11,12 @@ enum { ELEMENTS = 200, POISONED_LINK = 17 };
 
 typedef struct {
     const char *what;
-    double zone;  /* in elements */
+    double zone; /* in elements */
     int driven, settled;
 } ring_case;
 
-static const ring_case cases[] = {{"free, zone", 3.5, 0, 0}, {"driven, zone, until settled", 2, 1, 1}, {"free", 0, 0, 0}};
+static const ring_case cases[] = {
+    {"free, zone", 3.5, 0, 0}, {"driven, zone, until settled", 2, 1, 1}, {"free", 0, 0, 0}};
 
 static fracas_model *model_of(const ring_case *it)
 {
@@ -26,7 +28,8 @@ static fracas_model *model_of(const ring_case *it)
     spec.cohesive.refinement = 0.3;
     spec.time.safety = 0.3;
     spec.cohesive.zone = it->zone * 6e-3 / ELEMENTS;
-    if (it->driven) spec.loading = (fracas_loading){.type = &fracas_loading_imposed_rate, .rate = 2e4};
+    if (it->driven)
+        spec.loading = (fracas_loading){.type = &fracas_loading_imposed_rate, .rate = 2e4};
     if (it->settled) spec.time.stop = &fracas_stop_settled;
     spec.time.quiet = 4e-8;
     spec.time.quiet_fraction = 0.02;
@@ -39,7 +42,7 @@ typedef struct {
     size_t first, count; /* replicas first .. first + count - 1, in slots 0 .. count - 1 */
     int width;
     fracas_isa isa;
-    size_t poisoned;     /* slot that goes NaN in its 40th step, or SIZE_MAX */
+    size_t poisoned; /* slot that goes NaN in its 40th step, or SIZE_MAX */
 } batch_plan;
 
 /* A number of one lane's state. */
@@ -53,7 +56,8 @@ static double *value(const fracas_batch *batch, size_t lane, size_t element, int
 /* Steps in which two lanes had different time steps. */
 static int64_t run(const fracas_model *model, const batch_plan *plan, fracas_record *record)
 {
-    const fracas_batch_options options = {.history = 20, .interfaces = true, .width = plan->width, .isa = plan->isa};
+    const fracas_batch_options options = {
+        .history = 20, .interfaces = true, .width = plan->width, .isa = plan->isa};
     fracas_batch *batch;
     assert_ok(fracas_batch_create(model, plan->count, &options, &batch));
     for (size_t l = 0; l < plan->count; l++) {
@@ -64,11 +68,14 @@ static int64_t run(const fracas_model *model, const batch_plan *plan, fracas_rec
     int64_t different = 0;
     for (size_t running = plan->count; running > 0;) {
         if (batch->steps == 40 && plan->poisoned < plan->count)
-            *value(batch, plan->poisoned, POISONED_LINK, RING_V_LEFT) = *value(batch, plan->poisoned, POISONED_LINK, RING_STRENGTH) = NAN;
+            *value(batch, plan->poisoned, POISONED_LINK,
+                   RING_V_LEFT) = *value(batch, plan->poisoned, POISONED_LINK, RING_STRENGTH) = NAN;
         assert_ok(fracas_batch_step(batch, record, &running));
-        for (size_t l = 1; l < plan->count; l++) different += batch->step.next[l] != batch->step.next[0];
+        for (size_t l = 1; l < plan->count; l++)
+            different += batch->step.next[l] != batch->step.next[0];
     }
-    if (plan->poisoned < plan->count) assert_int_equal(record[plan->poisoned].outcome, FRACAS_NONFINITE);
+    if (plan->poisoned < plan->count)
+        assert_int_equal(record[plan->poisoned].outcome, FRACAS_NONFINITE);
     fracas_batch_destroy(batch);
     return different;
 }
@@ -83,7 +90,8 @@ static void assert_same(const fracas_record *a, const fracas_record *b)
 }
 
 /* All batches of one width and instruction set: none poisoned, the first, the last. */
-static void compare_batches(const fracas_model *model, int width, fracas_isa isa, const fracas_record *alone)
+static void compare_batches(const fracas_model *model, int width, fracas_isa isa,
+                            const fracas_record *alone)
 {
     fracas_record together[8];
     const size_t count = (size_t)width, poisoned[] = {SIZE_MAX, 0, count - 1};
@@ -105,9 +113,12 @@ static void a_lane_is_its_run_alone(void **unused)
     for (size_t k = 0; k < FRACAS_COUNT(cases); k++) {
         fracas_model *model = model_of(&cases[k]);
         fracas_record alone[8], other[8];
-        for (size_t r = 0; r < 8; r++) run(model, &(batch_plan){r, 1, 1, FRACAS_ISA_BASELINE, SIZE_MAX}, &alone[r]);
-        print_message("[  figures ] %s: %ld, %ld, %ld fragments in %ld, %ld, %ld steps\n", cases[k].what, (long)alone[0].fragments,
-                      (long)alone[1].fragments, (long)alone[2].fragments, (long)alone[0].steps, (long)alone[1].steps, (long)alone[2].steps);
+        for (size_t r = 0; r < 8; r++)
+            run(model, &(batch_plan){r, 1, 1, FRACAS_ISA_BASELINE, SIZE_MAX}, &alone[r]);
+        print_message("[  figures ] %s: %ld, %ld, %ld fragments in %ld, %ld, %ld steps\n",
+                      cases[k].what, (long)alone[0].fragments, (long)alone[1].fragments,
+                      (long)alone[2].fragments, (long)alone[0].steps, (long)alone[1].steps,
+                      (long)alone[2].steps);
         assert_true(alone[0].broken > 5 && alone[0].steps != alone[1].steps);
         for (fracas_isa isa = FRACAS_ISA_BASELINE; isa <= FRACAS_ISA_AVX512; isa++) {
             fracas_isa has;

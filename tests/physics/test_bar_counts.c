@@ -1,5 +1,7 @@
-/* Published and independently computed fragment counts of the periodic bar, reference set, strength +- 0.33 %.
- * ctest-labels: slow-sanitize
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: slow-sanitize */
+/* Published and independently computed fragment counts of the periodic bar, reference set, strength
+ * +- 0.33 %.
  */
 #include "tests/support/bar.h"
 
@@ -52,8 +54,8 @@ static double zmr_size(double rate)
     return BAR_S0 * 4.5 / (1 + 4.5 * pow(rate / rate0, 2.0 / 3.0));
 }
 
-/* The intervals hold the counts of three independent codes (theory: 57-66, 110-118, 356-386, 1560-1641), the size law's
- * tolerance is its own scatter against simulations. */
+/* The intervals hold the counts of three independent codes (theory: 57-66, 110-118, 356-386,
+ * 1560-1641), the size law's tolerance is its own scatter against simulations. */
 static void mean_counts_are_those_of_independent_codes(void **unused)
 {
     (void)unused;
@@ -61,34 +63,41 @@ static void mean_counts_are_those_of_independent_codes(void **unused)
         double rate, end, low, high, zmr;
         int64_t elements;
         size_t replicas;
-    } point[] = {{1e3, 2.5e-6, 55, 63, 0.25, 1250, 16}, {1e4, 0.6e-6, 105, 120, 0.15, 2500, 16},
-                 {1e5, 0.3e-6, 360, 390, 0.15, 8000, 8}, {1e6, 0.06e-6, 1500, 1680, 0.15, 32000, 8}};
+    } point[] = {{1e3, 2.5e-6, 55, 63, 0.25, 1250, 16},
+                 {1e4, 0.6e-6, 105, 120, 0.15, 2500, 16},
+                 {1e5, 0.3e-6, 360, 390, 0.15, 8000, 8},
+                 {1e6, 0.06e-6, 1500, 1680, 0.15, 32000, 8}};
     for (int p = 0; p < 4; p++) {
-        double count = mean_count(point[p].elements, point[p].rate, point[p].end, 1.0 / 300, point[p].replicas);
+        double count = mean_count(point[p].elements, point[p].rate, point[p].end, 1.0 / 300,
+                                  point[p].replicas);
         double ratio = 0.05 / count / zmr_size(point[p].rate);
-        print_message("[  figures ] rate %.0e: mean count %.1f, mean size / ZMR %.3f\n", point[p].rate, count, ratio);
+        print_message("[  figures ] rate %.0e: mean count %.1f, mean size / ZMR %.3f\n",
+                      point[p].rate, count, ratio);
         assert_true(count > point[p].low && count < point[p].high);
         assert_true(fabs(ratio - 1) < point[p].zmr);
     }
 }
 
-/* Wider scatter, fewer fragments: 374, 319, 282 for 0.33, 10, 30 % at 1e5 /s by an independent code; within 8 %, the
- * difference between its mesh and end time and ours. */
+/* Wider scatter, fewer fragments: 374, 319, 282 for 0.33, 10, 30 % at 1e5 /s by an independent
+ * code; within 8 %, the difference between its mesh and end time and ours. */
 static void wider_scatter_gives_fewer_fragments(void **unused)
 {
     (void)unused;
     const double scatter[] = {1.0 / 300, 0.10, 0.30}, theirs[] = {374, 319, 282};
     for (int i = 0; i < 3; i++) {
         double count = mean_count(5000, 1e5, 3e-7, scatter[i], 8);
-        print_message("[  figures ] scatter %.2f %%: mean count %.1f (%.0f)\n", 100 * scatter[i], count, theirs[i]);
+        print_message("[  figures ] scatter %.2f %%: mean count %.1f (%.0f)\n", 100 * scatter[i],
+                      count, theirs[i]);
         assert_true(fabs(count / theirs[i] - 1) < 0.08);
     }
 }
 
-/* Where the interfaces are does not bias how many fragments there are: 1e4 /s, +- 0.33 %, 1250 elements, the same strengths of 8
- * replicas on the uniform mesh and on meshes whose nodes are moved. The difference of two means has the standard error
- * sqrt((s1^2 + s2^2)/8), some 2 fragments of 111; each of four meshes must be within 3 of them, where an unbiased one is in 99 %
- * of all cases (Student, 14 degrees of freedom), and the mean of all four, 32 runs, within 3 of its own. */
+/* Where the interfaces are does not bias how many fragments there are: 1e4 /s, +- 0.33 %, 1250
+ * elements, the same strengths of 8 replicas on the uniform mesh and on meshes whose nodes are
+ * moved. The difference of two means has the standard error sqrt((s1^2 + s2^2)/8), some 2 fragments
+ * of 111; each of four meshes must be within 3 of them, where an unbiased one is in 99 % of all
+ * cases (Student, 14 degrees of freedom), and the mean of all four, 32 runs, within 3 of its own.
+ */
 static void moved_nodes_do_not_bias_the_count(void **unused)
 {
     (void)unused;
@@ -102,14 +111,17 @@ static void moved_nodes_do_not_bias_the_count(void **unused)
         bar_perturb(&spec, amplitude, (uint64_t)m, noise);
         const counts moved = count_fragments(&spec, 1.0 / 300, 8);
         const double error = sqrt((uniform.variance + moved.variance) / 8);
-        print_message("[  figures ] nodes moved by %.1f h: mean count %.2f (uniform %.2f), difference %+.2f standard errors of %.2f\n",
-                      amplitude, moved.mean, uniform.mean, (moved.mean - uniform.mean) / error, error);
+        print_message("[  figures ] nodes moved by %.1f h: mean count %.2f (uniform %.2f), "
+                      "difference %+.2f standard errors of %.2f\n",
+                      amplitude, moved.mean, uniform.mean, (moved.mean - uniform.mean) / error,
+                      error);
         assert_true(fabs(moved.mean - uniform.mean) < 3 * error);
         all += moved.mean / MESHES;
         spread += moved.variance / (MESHES * MESHES * 8);
     }
     const double error = sqrt(uniform.variance / 8 + spread);
-    print_message("[  figures ] all: mean count %.2f, difference %+.2f standard errors of %.2f\n", all, (all - uniform.mean) / error, error);
+    print_message("[  figures ] all: mean count %.2f, difference %+.2f standard errors of %.2f\n",
+                  all, (all - uniform.mean) / error, error);
     assert_true(fabs(all - uniform.mean) < 3 * error);
     assert_true(error < 0.02 * uniform.mean); /* it could have been seen */
 }

@@ -1,6 +1,9 @@
-/* How often the intervals of a point's estimates hold the truth, where fragments of one realization are alike. docs/theory/estimators.md states it from 1000
- * repetitions, which tests/statistical/coverage.sh repeats (FRACAS_REPETITIONS=1000, minutes); the ordinary run has fewer.
- * ctest-labels: slow-sanitize
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: slow-sanitize */
+/* How often the intervals of a point's estimates hold the truth, where fragments of one realization
+ * are alike. docs/theory/estimators.md states it from 1000 repetitions, which
+ * tests/statistical/coverage.sh repeats (FRACAS_REPETITIONS=1000, minutes); the ordinary run has
+ * fewer.
  */
 #include "analysis/estimate/estimate.h"
 #include "analysis/estimate/pooled.h"
@@ -18,17 +21,30 @@
 
 #include <cmocka.h>
 
-/* Realization i has a scale A_i, lognormal of deviation SIGMA, and 10 + Poisson(30/A_i) fragments of size A_i x, x gamma of shape 3 and mean 1: the
- * larger the fragments, the fewer. Masses are as sizes. */
+/* Realization i has a scale A_i, lognormal of deviation SIGMA, and 10 + Poisson(30/A_i) fragments
+ * of size A_i x, x gamma of shape 3 and mean 1: the larger the fragments, the fewer. Masses are as
+ * sizes. */
 #define SIGMA 0.2
 enum { SHAPE = 3, LEAST = 10, REST = 30, ORDINARY = 100, STATED = 1000 };
 
-typedef enum { COUNT, MEAN, MASS_MEAN, VARIATION, MEDIAN, UPPER, MASS_MEDIAN, INTRACLASS, NNUMBERS } number;
-static const char *const name[NNUMBERS] = {"mean count", "mean size", "mass mean", "variation", "median", "quantile 0.95", "mass median",
-                                           "intraclass correlation"};
+typedef enum {
+    COUNT,
+    MEAN,
+    MASS_MEAN,
+    VARIATION,
+    MEDIAN,
+    UPPER,
+    MASS_MEDIAN,
+    INTRACLASS,
+    NNUMBERS
+} number;
+static const char *const name[NNUMBERS] = {
+    "mean count", "mean size",     "mass mean",   "variation",
+    "median",     "quantile 0.95", "mass median", "intraclass correlation"};
 
-/* E f(A) g(x) over scales and fragments, weighed by their mean number: sums over realizations are ratios of those. Trapezia over a normal density, of
- * which every derivative vanishes at the ends, err by less than rounding. */
+/* E f(A) g(x) over scales and fragments, weighed by their mean number: sums over realizations are
+ * ratios of those. Trapezia over a normal density, of which every derivative vanishes at the ends,
+ * err by less than rounding. */
 static double over_scales(double (*of)(double scale, double argument), double argument)
 {
     double sum = 0;
@@ -39,10 +55,19 @@ static double over_scales(double (*of)(double scale, double argument), double ar
     return sum;
 }
 
-static double power(double scale, double exponent) { return pow(scale, exponent); }
-static double below(double scale, double size) { return gsl_cdf_gamma_P(size / scale, SHAPE, 1.0 / SHAPE); }
+static double power(double scale, double exponent)
+{
+    return pow(scale, exponent);
+}
+static double below(double scale, double size)
+{
+    return gsl_cdf_gamma_P(size / scale, SHAPE, 1.0 / SHAPE);
+}
 /* By mass: x f(x) of a gamma density is that of shape + 1. */
-static double mass_below(double scale, double size) { return scale * gsl_cdf_gamma_P(size / scale, SHAPE + 1, 1.0 / SHAPE); }
+static double mass_below(double scale, double size)
+{
+    return scale * gsl_cdf_gamma_P(size / scale, SHAPE + 1, 1.0 / SHAPE);
+}
 
 static double quantile(double (*of)(double, double), double total, double share)
 {
@@ -54,11 +79,13 @@ static double quantile(double (*of)(double, double), double total, double share)
     return low;
 }
 
-/* E x^2 = (shape + 1)/shape, var x = 1/shape. The intraclass correlation is that of very many realizations: mean squares among them
- * E A^2 var x + E N (A - mean)^2, within them E (N - 1) A^2 var x/E (N - 1), and groups of E N. */
+/* E x^2 = (shape + 1)/shape, var x = 1/shape. The intraclass correlation is that of very many
+ * realizations: mean squares among them E A^2 var x + E N (A - mean)^2, within them E (N - 1) A^2
+ * var x/E (N - 1), and groups of E N. */
 static void truths(double truth[NNUMBERS])
 {
-    const double n = over_scales(power, 0), size = over_scales(power, 1), squares = over_scales(power, 2) * (SHAPE + 1) / SHAPE;
+    const double n = over_scales(power, 0), size = over_scales(power, 1),
+                 squares = over_scales(power, 2) * (SHAPE + 1) / SHAPE;
     truth[COUNT] = n;
     truth[MEAN] = size / n;
     truth[MASS_MEAN] = squares / size;
@@ -67,7 +94,8 @@ static void truths(double truth[NNUMBERS])
     truth[UPPER] = quantile(below, n, 0.95);
     truth[MASS_MEDIAN] = quantile(mass_below, size, 0.5);
     const double mean = size / n, square = exp(2 * SIGMA * SIGMA), variance = 1.0 / SHAPE;
-    const double among = square * variance + over_scales(power, 2) - 2 * mean * size + mean * mean * n;
+    const double among = square * variance + over_scales(power, 2) - 2 * mean * size +
+                         mean * mean * n;
     const double within = (over_scales(power, 2) - square) * variance / (n - 1);
     truth[INTRACLASS] = (among - within) / (among + (n - 1) * within);
 }
@@ -92,7 +120,8 @@ static void draw(gsl_rng *random, size_t n, bool apart, fracas_ensemble *ensembl
         for (size_t f = 0; f < count; f += record.nfragment) {
             record.fragment = fragment + f;
             record.nfragment = apart ? 1 : count;
-            assert_int_equal(fracas_ensemble_add(ensemble, i, (int64_t)i, &value, &record), FRACAS_OK);
+            assert_int_equal(fracas_ensemble_add(ensemble, i, (int64_t)i, &value, &record),
+                             FRACAS_OK);
         }
     }
 }
@@ -120,22 +149,30 @@ static void repeat(size_t n, bool apart, int repetitions, const double truth[NNU
     for (int r = 0; r < repetitions; r++) {
         fracas_pooled pooled;
         draw(random, n, apart, &ensemble);
-        const fracas_estimate count = fracas_estimate_of(&ensemble.value->count, FRACAS_REPLICA_STRIDE, ensemble.nrealizations);
+        const fracas_estimate count = fracas_estimate_of(
+            &ensemble.value->count, FRACAS_REPLICA_STRIDE, ensemble.nrealizations);
         assert_int_equal(fracas_pooled_of(&ensemble, (uint64_t)r, &pooled), FRACAS_OK);
         const fracas_interval *interval[NNUMBERS] = {
-            [MEAN] = &pooled.all.mean, [MASS_MEAN] = &pooled.all.mass_mean, [VARIATION] = &pooled.all.variation,
-            [MEDIAN] = &pooled.all.quantile[2], [UPPER] = &pooled.all.quantile[4], [MASS_MEDIAN] = &pooled.all.mass_quantile[2],
+            [MEAN] = &pooled.all.mean,
+            [MASS_MEAN] = &pooled.all.mass_mean,
+            [VARIATION] = &pooled.all.variation,
+            [MEDIAN] = &pooled.all.quantile[2],
+            [UPPER] = &pooled.all.quantile[4],
+            [MASS_MEDIAN] = &pooled.all.mass_quantile[2],
             [INTRACLASS] = &pooled.variance.intraclass,
         };
-        count_one(of, COUNT, truth[COUNT], count.mean, count.mean - count.half_width, count.mean + count.half_width);
+        count_one(of, COUNT, truth[COUNT], count.mean, count.mean - count.half_width,
+                  count.mean + count.half_width);
         for (int v = MEAN; v < NNUMBERS; v++)
-            count_one(of, (number)v, truth[v], interval[v]->value, interval[v]->low, interval[v]->high);
+            count_one(of, (number)v, truth[v], interval[v]->value, interval[v]->low,
+                      interval[v]->high);
     }
     fracas_ensemble_clear(&ensemble);
     gsl_rng_free(random);
 }
 
-/* Of 16 realizations and more, whose intervals are BCa; and of a few, whose intervals are Student's and cost so little that every run has all repetitions. */
+/* Of 16 realizations and more, whose intervals are BCa; and of a few, whose intervals are Student's
+ * and cost so little that every run has all repetitions. */
 enum { CASES = 4, APART = CASES - 1, FEWS = 6, COLUMNS = FEWS };
 static const struct {
     size_t n;
@@ -143,7 +180,8 @@ static const struct {
 } make[CASES] = {{16, false}, {50, false}, {100, false}, {16, true}};
 static const size_t few[FEWS] = {2, 3, 4, 5, 6, 7};
 
-/* What the theory page states of a number in the table of this head, "| mean size | 0.94 | 0.95 | 0.95 | 0.6 |", NaN for what is no number there. */
+/* What the theory page states of a number in the table of this head, "| mean size | 0.94 | 0.95 |
+ * 0.95 | 0.6 |", NaN for what is no number there. */
 static void read_stated(const char *head, const char *what, size_t columns, double stated[COLUMNS])
 {
     static char page[1 << 16];
@@ -168,13 +206,16 @@ static void read_stated(const char *head, const char *what, size_t columns, doub
 static void print_row(number v, size_t realizations, bool apart, double truth, const tally *of)
 {
     const double n = of->repetitions;
-    printf("%-22s n %3zu%s: truth %.4f, bias %+.4f, rms error %.4f, half width %.4f, held %.3f\n", name[v], realizations, apart ? " apart" : "",
-           truth, of->value[v] / n - truth, sqrt(of->squares[v] / n), of->width[v] / n, of->held[v] / n);
+    printf("%-22s n %3zu%s: truth %.4f, bias %+.4f, rms error %.4f, half width %.4f, held %.3f\n",
+           name[v], realizations, apart ? " apart" : "", truth, of->value[v] / n - truth,
+           sqrt(of->squares[v] / n), of->width[v] / n, of->held[v] / n);
 }
 
-/* Coverage c of R repetitions is known to e = sqrt(c (1 - c)/R). In 1000 it is within 93 to 97 % from 50 realizations on, and what the page states, but for
- * its three digits and a few repetitions of other roundings: 0.004. In fewer it is that within 4.9 e (alpha 1e-6), of c = 0.9 at the least. The bias is below
- * a tenth of the half width, beside 4.9 of its own errors. Fragment by fragment, intervals of mean sizes hold the truth in less than 0.8. */
+/* Coverage c of R repetitions is known to e = sqrt(c (1 - c)/R). In 1000 it is within 93 to 97 %
+ * from 50 realizations on, and what the page states, but for its three digits and a few repetitions
+ * of other roundings: 0.004. In fewer it is that within 4.9 e (alpha 1e-6), of c = 0.9 at the
+ * least. The bias is below a tenth of the half width, beside 4.9 of its own errors. Fragment by
+ * fragment, intervals of mean sizes hold the truth in less than 0.8. */
 static void check(number v, int c, double truth, double stated, const tally *of)
 {
     const bool all = of->repetitions >= STATED;
@@ -197,20 +238,25 @@ static void intervals_hold_the_truth_as_often_as_stated(void **state)
     tally of[CASES] = {{.repetitions = 0}};
     truths(truth);
     for (int c = 0; c < CASES; c++)
-        if (repetitions >= STATED || make[c].n <= 50) repeat(make[c].n, make[c].apart, make[c].apart ? (repetitions >= STATED ? ORDINARY : ORDINARY / 4) : repetitions, truth, &of[c]);
+        if (repetitions >= STATED || make[c].n <= 50)
+            repeat(make[c].n, make[c].apart,
+                   make[c].apart ? (repetitions >= STATED ? ORDINARY : ORDINARY / 4) : repetitions,
+                   truth, &of[c]);
     for (int v = 0; v < NNUMBERS; v++)
         for (int c = 0; c < CASES; c++)
             if (of[c].repetitions) print_row((number)v, make[c].n, make[c].apart, truth[v], &of[c]);
     for (int v = 0; v < NNUMBERS; v++) {
-        read_stated("\n| number | n = 16 |", name[v], v == INTRACLASS ? APART : CASES, stated); /* of groups of one there is no correlation */
+        read_stated("\n| number | n = 16 |", name[v], v == INTRACLASS ? APART : CASES,
+                    stated); /* of groups of one there is no correlation */
         for (int c = 0; c < CASES; c++)
             if (of[c].repetitions) check((number)v, c, truth[v], stated[c], &of[c]);
     }
 }
 
-/* With two realizations and more: what the page states, to its three digits and a few repetitions of other roundings; and of the mean size and the median,
- * whose intervals are the ones that are read most, 93 % but for 4.9 errors of a share of 0.93 in 1000 repetitions, 0.040, where resampling held 83 to 91 %
- * of means of four and five, and less of the others. */
+/* With two realizations and more: what the page states, to its three digits and a few repetitions
+ * of other roundings; and of the mean size and the median, whose intervals are the ones that are
+ * read most, 93 % but for 4.9 errors of a share of 0.93 in 1000 repetitions, 0.040, where
+ * resampling held 83 to 91 % of means of four and five, and less of the others. */
 static void intervals_of_few_realizations(void **state)
 {
     (void)state;
@@ -224,7 +270,8 @@ static void intervals_of_few_realizations(void **state)
         read_stated("\n| number | n = 2 |", name[v], FEWS, stated);
         for (int c = 0; c < FEWS; c++) {
             const double held = of[c].held[v] / STATED;
-            if (v == INTRACLASS && few[c] == 2) assert_true(held == 0 && isnan(stated[c])); /* there is none without one of two */
+            if (v == INTRACLASS && few[c] == 2)
+                assert_true(held == 0 && isnan(stated[c])); /* there is none without one of two */
             else assert_true(fabs(held - stated[c]) <= 0.004);
             if (v == MEAN || v == MEDIAN) assert_true(held >= 0.93 - 0.040);
         }
@@ -233,6 +280,8 @@ static void intervals_of_few_realizations(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(intervals_hold_the_truth_as_often_as_stated), cmocka_unit_test(intervals_of_few_realizations)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(intervals_hold_the_truth_as_often_as_stated),
+        cmocka_unit_test(intervals_of_few_realizations)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: storm */
+/* ctest-timeout: 3600 */
 /* Crossovers from few replicas, of 3000 repetitions each: the table of docs/theory/size-laws.md.
- * ctest-labels: storm
- * ctest-timeout: 3600
  */
 #include "tests/support/few_replicas.h"
 

@@ -1,6 +1,8 @@
-/* Intervals of fitted parameters hold the truth as often as they say, and p-values are uniform, whether the fragments of a realization
- * depend on each other or not; a few repetitions of what test_fits_storm.c has a thousand of.
- * ctest-labels: slow-sanitize
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: slow-sanitize */
+/* Intervals of fitted parameters hold the truth as often as they say, and p-values are uniform,
+ * whether the fragments of a realization depend on each other or not; a few repetitions of what
+ * test_fits_storm.c has a thousand of.
  */
 #include "tests/support/fit_checks.h"
 
@@ -9,13 +11,22 @@
 enum { REPETITIONS = 80, RESAMPLES = 199 };
 
 static const synthetic truth[] = {
-    {.family = &fracas_family_exponential, .parameter = {20}, .lattice = 1, .realizations = 50, .fragments = 40},
-    {.family = &fracas_family_shifted_rayleigh, .parameter = {8, 9.6}, .lattice = 1, .realizations = 50, .fragments = 40},
+    {.family = &fracas_family_exponential,
+     .parameter = {20},
+     .lattice = 1,
+     .realizations = 50,
+     .fragments = 40},
+    {.family = &fracas_family_shifted_rayleigh,
+     .parameter = {8, 9.6},
+     .lattice = 1,
+     .realizations = 50,
+     .fragments = 40},
 };
 
-/* Coverage is between 93 and 97 %: fewer, or more, than a coverage of 93 %, or 97 %, gives once in a million are too few, or too many.
- * An error in the mean of five standard deviations (alpha 1e-6) over sqrt(80), beside a bias of 0.1 of them, which moves the coverage of an
- * interval by less than 0.3 %. */
+/* Coverage is between 93 and 97 %: fewer, or more, than a coverage of 93 %, or 97 %, gives once in
+ * a million are too few, or too many. An error in the mean of five standard deviations (alpha 1e-6)
+ * over sqrt(80), beside a bias of 0.1 of them, which moves the coverage of an interval by less than
+ * 0.3 %. */
 static void of(const synthetic *what, unsigned long seed)
 {
     const fit_check found = fit_check_of(what, REPETITIONS, RESAMPLES, seed);
@@ -51,13 +62,15 @@ static void a_wrong_law_is_found(void **state)
     fracas_point_fits fits;
     OK(synthetic_ensemble(&truth[1], random, &ensemble));
     OK(fracas_point_fits_of(&ensemble, &family, 1, RESAMPLES, 1, &fits));
-    assert_true(fits.family[0].goodness.ks_p == 1.0 / (RESAMPLES + 1) && fits.family[0].goodness.ad_p == 1.0 / (RESAMPLES + 1));
+    assert_true(fits.family[0].goodness.ks_p == 1.0 / (RESAMPLES + 1) &&
+                fits.family[0].goodness.ad_p == 1.0 / (RESAMPLES + 1));
     fracas_point_fits_clear(&fits);
     fracas_ensemble_clear(&ensemble);
     gsl_rng_free(random);
 }
 
-/* p of the likelihood ratio of a Weibull to the exponential that holds: uniform, whatever the dependence. */
+/* p of the likelihood ratio of a Weibull to the exponential that holds: uniform, whatever the
+ * dependence. */
 static void nested_families(void **state)
 {
     (void)state;
@@ -82,19 +95,24 @@ static void nested_families(void **state)
             fracas_ensemble_clear(&ensemble);
         }
         const double distance = fit_distance(p, REPETITIONS);
-        print_message("likelihood ratio, dependence %d: distance from uniform * sqrt(n) %.2f\n", how, distance);
+        print_message("likelihood ratio, dependence %d: distance from uniform * sqrt(n) %.2f\n",
+                      how, distance);
         assert_true(distance < FIT_KOLMOGOROV);
     }
     gsl_rng_free(random);
 }
 
-/* Vuong's z grows with the root of the realizations where one of two families is the truth: with 200 it is far beyond chance. Turned
- * round it changes its sign, to rounding. */
+/* Vuong's z grows with the root of the realizations where one of two families is the truth: with
+ * 200 it is far beyond chance. Turned round it changes its sign, to rounding. */
 static void not_nested_families(void **state)
 {
     (void)state;
     const fracas_family *const family[2] = {&fracas_family_lognormal, &fracas_family_weibull};
-    synthetic what = {.family = &fracas_family_weibull, .parameter = {20, 1.5}, .lattice = 1, .realizations = 200, .fragments = 40};
+    synthetic what = {.family = &fracas_family_weibull,
+                      .parameter = {20, 1.5},
+                      .lattice = 1,
+                      .realizations = 200,
+                      .fragments = 40};
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     fracas_ensemble ensemble;
     fracas_fit_sample sample;
@@ -108,9 +126,11 @@ static void not_nested_families(void **state)
     swapped[0] = fit[1];
     swapped[1] = fit[0];
     OK(fracas_fit_compare(&sample, turned, swapped, RESAMPLES, 1, &other));
-    print_message("lognormal against Weibull: z %.2f, p %.2g\n", comparison.statistic, comparison.p);
+    print_message("lognormal against Weibull: z %.2f, p %.2g\n", comparison.statistic,
+                  comparison.p);
     assert_true(!comparison.nested && comparison.statistic < -5 && comparison.p < 1e-6);
-    assert_true(fabs(other.statistic + comparison.statistic) < 1e-9 * fabs(other.statistic) && other.p > 0);
+    assert_true(fabs(other.statistic + comparison.statistic) < 1e-9 * fabs(other.statistic) &&
+                other.p > 0);
     fracas_fit_sample_clear(&sample);
     fracas_ensemble_clear(&ensemble);
     gsl_rng_free(random);

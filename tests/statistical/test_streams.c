@@ -1,6 +1,7 @@
-/* Streams of random numbers: even, uncorrelated, independent of streams of neighbouring names. The long batteries are in
- * docs/results/random-numbers.md. Names are fixed, so a result is the same in every run; a right generator fails any one of the
- * checks with probability ALPHA. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Streams of random numbers: even, uncorrelated, independent of streams of neighbouring names. The
+ * long batteries are in docs/results/random-numbers.md. Names are fixed, so a result is the same in
+ * every run; a right generator fails any one of the checks with probability ALPHA. */
 #include "base/param.h"
 #include "sampler/stream.h"
 
@@ -21,7 +22,8 @@ enum { N = 1 << 19, CELLS = 4096, BITS = 52 };
 static double u[N], v[N];
 
 /* The hash of a point is as good as random, the rest of a name is small numbers. */
-static const fracas_stream here = {1, FRACAS_PURPOSE_STRENGTH, {0x243f6a8885a308d3, 0x13198a2e03707344}, 0};
+static const fracas_stream here = {
+    1, FRACAS_PURPOSE_STRENGTH, {0x243f6a8885a308d3, 0x13198a2e03707344}, 0};
 
 /* The 52 bits that u is made of. */
 static uint64_t bits_of(double number)
@@ -41,7 +43,8 @@ static void assert_chi_square(const char *what, double sum, double freedom)
 static void assert_even(const char *what, const uint32_t count[CELLS])
 {
     double sum = 0.0, expected = (double)N / CELLS;
-    for (size_t c = 0; c < CELLS; c++) sum += ((double)count[c] - expected) * ((double)count[c] - expected) / expected;
+    for (size_t c = 0; c < CELLS; c++)
+        sum += ((double)count[c] - expected) * ((double)count[c] - expected) / expected;
     assert_chi_square(what, sum, CELLS - 1);
 }
 
@@ -50,7 +53,10 @@ static void numbers_are_even(void **state)
 {
     (void)state;
     fracas_stream_fill(&here, 0, N, u);
-    static const struct { const char *what; unsigned shift; } part[] = {{"highest bits", 40}, {"middle bits", 20}, {"lowest bits", 0}};
+    static const struct {
+        const char *what;
+        unsigned shift;
+    } part[] = {{"highest bits", 40}, {"middle bits", 20}, {"lowest bits", 0}};
     for (size_t k = 0; k < FRACAS_COUNT(part); k++) {
         uint32_t count[CELLS] = {0};
         for (size_t i = 0; i < N; i++) count[bits_of(u[i]) >> part[k].shift & (CELLS - 1)]++;
@@ -58,7 +64,8 @@ static void numbers_are_even(void **state)
     }
 }
 
-/* The correlations at lags 1 ... LAGS of independent numbers are, times sqrt(N), independent and normal, but for O(LAGS/N). */
+/* The correlations at lags 1 ... LAGS of independent numbers are, times sqrt(N), independent and
+ * normal, but for O(LAGS/N). */
 static void numbers_are_uncorrelated(void **state)
 {
     (void)state;
@@ -79,7 +86,8 @@ static void assert_independent(const char *what)
     static const unsigned shifts[] = {46, 0};
     for (size_t k = 0; k < FRACAS_COUNT(shifts); k++) {
         uint32_t count[CELLS] = {0};
-        for (size_t i = 0; i < N; i++) count[(bits_of(u[i]) >> shifts[k] & 63) * 64 + (bits_of(v[i]) >> shifts[k] & 63)]++;
+        for (size_t i = 0; i < N; i++)
+            count[(bits_of(u[i]) >> shifts[k] & 63) * 64 + (bits_of(v[i]) >> shifts[k] & 63)]++;
         assert_even(what, count);
     }
 }
@@ -90,9 +98,16 @@ static void neighbouring_streams_are_independent(void **state)
     enum { NEXT = 10 };
     fracas_stream next[NEXT];
     for (size_t k = 0; k < NEXT; k++) next[k] = here;
-    static const char *const what[NEXT] = {"next replica", "replica 2^32", "next seed", "other half of seeds", "next purpose",
-                                           "next point, first word", "next point, second word", "other half of points, first word",
-                                           "other half of points, second word", "words of the point swapped"};
+    static const char *const what[NEXT] = {"next replica",
+                                           "replica 2^32",
+                                           "next seed",
+                                           "other half of seeds",
+                                           "next purpose",
+                                           "next point, first word",
+                                           "next point, second word",
+                                           "other half of points, first word",
+                                           "other half of points, second word",
+                                           "words of the point swapped"};
     next[0].replica++;
     next[1].replica += (uint64_t)1 << 32;
     next[2].seed++;
@@ -117,7 +132,8 @@ static void neighbouring_streams_are_independent(void **state)
     fracas_stream turned = here;
     for (size_t i = 0; i < N; i++) {
         turned.replica = i;
-        v[i] = fracas_stream_uniform(&turned, i > 0 ? 0 : N); /* site 0 of replica 0 is u[0] itself */
+        v[i] = fracas_stream_uniform(&turned,
+                                     i > 0 ? 0 : N); /* site 0 of replica 0 is u[0] itself */
     }
     assert_independent("site and replica exchanged");
     for (size_t i = 0; i < N; i++) { /* each site in one pair */
@@ -134,27 +150,34 @@ static uint64_t bits_of_name(const uint64_t name[6])
     return bits_of(fracas_stream_uniform(&stream, name[0]));
 }
 
-/* Every bit of a name turns over every bit of the number in half of all names: with n names, the flips of each of the 64 x 52 pairs
- * are binomial, (flips - n/2)^2/(n/4) has mean 1, and they are independent. */
+/* Every bit of a name turns over every bit of the number in half of all names: with n names, the
+ * flips of each of the 64 x 52 pairs are binomial, (flips - n/2)^2/(n/4) has mean 1, and they are
+ * independent. */
 static void every_bit_of_a_name_counts(void **state)
 {
     (void)state;
     enum { NAMES = 4096 };
-    static const char *const what[6] = {"bits of the site", "bits of the seed", "bits of the purpose", "bits of the point, first word",
-                                        "bits of the point, second word", "bits of the replica"};
+    static const char *const what[6] = {"bits of the site",
+                                        "bits of the seed",
+                                        "bits of the purpose",
+                                        "bits of the point, first word",
+                                        "bits of the point, second word",
+                                        "bits of the replica"};
     for (size_t w = 0; w < 6; w++) {
         double sum = 0.0;
         for (unsigned bit = 0; bit < 64; bit++) {
             uint32_t flips[BITS] = {0};
             for (uint64_t i = 0; i < NAMES; i++) {
-                uint64_t name[6] = {64 * w + bit, here.seed, here.purpose, here.point[0], here.point[1], 0};
+                uint64_t name[6] = {64 * w + bit,  here.seed,     here.purpose,
+                                    here.point[0], here.point[1], 0};
                 name[w == 5 ? 0 : 5] += 512 * i; /* no name twice */
                 uint64_t turned = bits_of_name(name);
                 name[w] ^= (uint64_t)1 << bit;
                 turned ^= bits_of_name(name);
                 for (unsigned b = 0; b < BITS; b++) flips[b] += turned >> b & 1;
             }
-            for (unsigned b = 0; b < BITS; b++) sum += (flips[b] - 0.5 * NAMES) * (flips[b] - 0.5 * NAMES) / (0.25 * NAMES);
+            for (unsigned b = 0; b < BITS; b++)
+                sum += (flips[b] - 0.5 * NAMES) * (flips[b] - 0.5 * NAMES) / (0.25 * NAMES);
         }
         assert_chi_square(what[w], sum, 64 * BITS);
     }

@@ -1,6 +1,7 @@
-/* Strength fields against their exact laws: moments, Kolmogorov-Smirnov, minima, independence of streams.
- * Seeds are fixed, so a result is the same in every run; every bound is the one that a right sampler
- * exceeds with probability ALPHA or less. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Strength fields against their exact laws: moments, Kolmogorov-Smirnov, minima, independence of
+ * streams. Seeds are fixed, so a result is the same in every run; every bound is the one that a
+ * right sampler exceeds with probability ALPHA or less. */
 #include "tests/support/strengths.h"
 
 #include <gsl/gsl_cdf.h>
@@ -24,34 +25,39 @@ static double sample[N], other[N], volume[N];
 static const fracas_kind *kind(const char *name)
 {
     for (size_t i = 0; i < fracas_strength_section.nkinds; i++)
-        if (strcmp(fracas_strength_section.kinds[i]->name, name) == 0) return fracas_strength_section.kinds[i];
+        if (strcmp(fracas_strength_section.kinds[i]->name, name) == 0)
+            return fracas_strength_section.kinds[i];
     fail_msg("no distribution %s", name);
     return NULL;
 }
 
 static fracas_strength weibull(double minimum, double scale, double shape)
 {
-    return (fracas_strength){.distribution = kind("weibull"), .minimum = minimum, .scale = scale, .shape = shape};
+    return (fracas_strength){
+        .distribution = kind("weibull"), .minimum = minimum, .scale = scale, .shape = shape};
 }
 
 /* `number` flaws in each interface, on average. */
 static fracas_strength flaws(double number)
 {
-    return (fracas_strength){.distribution = kind("flaws"), .density = number / 2e-9, .minimum = 100e6,
-                             .maximum = 400e6, .exponent = 4.0};
+    return (fracas_strength){.distribution = kind("flaws"),
+                             .density = number / 2e-9,
+                             .minimum = 100e6,
+                             .maximum = 400e6,
+                             .exponent = 4.0};
 }
 
 static fracas_stream stream(uint64_t seed)
 {
-    return (fracas_stream){.seed = seed, .purpose = FRACAS_PURPOSE_STRENGTH, .point = {11, 22}, .replica = 3};
+    return (fracas_stream){
+        .seed = seed, .purpose = FRACAS_PURPOSE_STRENGTH, .point = {11, 22}, .replica = 3};
 }
 
 static const double body = 2e-9; /* m3, of one interface, or of a chain of them */
 
 static void fill_volumes(double each)
 {
-    for (size_t i = 0; i < N; i++)
-        volume[i] = each;
+    for (size_t i = 0; i < N; i++) volume[i] = each;
 }
 
 /* P(strength <= sigma_c), of an interface of volume `body`. */
@@ -60,15 +66,18 @@ static double cdf(const fracas_strength *strength, double sigma_c)
     const char *name = strength->distribution->name;
     if (strcmp(name, "weibull") == 0)
         return gsl_cdf_weibull_P(sigma_c - strength->minimum, strength->scale, strength->shape);
-    if (strcmp(name, "lognormal") == 0) return gsl_cdf_lognormal_P(sigma_c, log(strength->median), strength->sigma);
+    if (strcmp(name, "lognormal") == 0)
+        return gsl_cdf_lognormal_P(sigma_c, log(strength->median), strength->sigma);
     if (strcmp(name, "normal") == 0) {
         double kept = gsl_cdf_ugaussian_P(strength->mean / strength->deviation);
         return 1.0 - gsl_cdf_gaussian_Q(sigma_c - strength->mean, strength->deviation) / kept;
     }
-    if (strcmp(name, "gamma") == 0) return gsl_cdf_gamma_P(sigma_c, strength->shape, strength->scale);
+    if (strcmp(name, "gamma") == 0)
+        return gsl_cdf_gamma_P(sigma_c, strength->shape, strength->scale);
     if (strcmp(name, "flaws") == 0) {
         double place = (sigma_c - strength->minimum) / (strength->maximum - strength->minimum);
-        return -expm1(-strength->density * body * pow(place, strength->exponent)); /* at the maximum: just below it */
+        return -expm1(-strength->density * body *
+                      pow(place, strength->exponent)); /* at the maximum: just below it */
     }
     return gsl_cdf_flat_P(sigma_c, strength->minimum, strength->maximum);
 }
@@ -79,8 +88,9 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* D = sup |F_n - F|. P(D > d) <= 2 exp(-2 n d^2) for every n (Massart 1990): d = sqrt(ln(2/alpha)/(2 n)). That holds
- * with an atom at the maximum, too: F is then `cdf` just below the maximum and 1, as F_n, at it. */
+/* D = sup |F_n - F|. P(D > d) <= 2 exp(-2 n d^2) for every n (Massart 1990): d =
+ * sqrt(ln(2/alpha)/(2 n)). That holds with an atom at the maximum, too: F is then `cdf` just below
+ * the maximum and 1, as F_n, at it. */
 static void assert_follows(const fracas_strength *law, double *value, size_t n)
 {
     qsort(value, n, sizeof *value, ascending);
@@ -110,7 +120,9 @@ static void distributions_follow_their_laws(void **state)
         {.distribution = kind("gamma"), .shape = 0.3, .scale = 300e6},
         {.distribution = kind("gamma"), .shape = 12.0, .scale = 25e6},
         {.distribution = kind("gamma"), .shape = 2e4, .scale = 15e3},
-        flaws(0.7), flaws(3.0), flaws(40.0),
+        flaws(0.7),
+        flaws(3.0),
+        flaws(40.0),
     };
     fill_volumes(body);
     for (size_t k = 0; k < FRACAS_COUNT(laws); k++) {
@@ -120,23 +132,27 @@ static void distributions_follow_their_laws(void **state)
     }
 }
 
-/* docs/theory/sampling.md: 308.31 +- 23.16, 413.18 +- 94.64, 443.78 +- 13.98 MPa. The closed forms give these to the last digit;
- * the sample's mean has the standard error s/sqrt(n), its standard deviation
- * s sqrt((kurtosis - 1)/(4 n)), kurtosis from the central moments of (sigma - minimum)/scale. */
+/* docs/theory/sampling.md: 308.31 +- 23.16, 413.18 +- 94.64, 443.78 +- 13.98 MPa. The closed forms
+ * give these to the last digit; the sample's mean has the standard error s/sqrt(n), its standard
+ * deviation s sqrt((kurtosis - 1)/(4 n)), kurtosis from the central moments of (sigma -
+ * minimum)/scale. */
 static void weibull_moments(void **state)
 {
     (void)state;
-    static const struct { double minimum, scale, shape, mean, deviation; } published[] = {
+    static const struct {
+        double minimum, scale, shape, mean, deviation;
+    } published[] = {
         {264e6, 50e6, 2.0, 308.31e6, 23.16e6},
         {0.0, 450e6, 5.0, 413.18e6, 94.64e6},
         {0.0, 450e6, 40.0, 443.78e6, 13.98e6},
     };
     for (size_t k = 0; k < FRACAS_COUNT(published); k++) {
         double m = published[k].shape;
-        double g1 = gsl_sf_gamma(1 + 1 / m), g2 = gsl_sf_gamma(1 + 2 / m), g3 = gsl_sf_gamma(1 + 3 / m),
-               g4 = gsl_sf_gamma(1 + 4 / m);
+        double g1 = gsl_sf_gamma(1 + 1 / m), g2 = gsl_sf_gamma(1 + 2 / m),
+               g3 = gsl_sf_gamma(1 + 3 / m), g4 = gsl_sf_gamma(1 + 4 / m);
         double variance = g2 - g1 * g1;
-        double kurtosis = (g4 - 4 * g1 * g3 + 6 * g1 * g1 * g2 - 3 * g1 * g1 * g1 * g1) / (variance * variance);
+        double kurtosis = (g4 - 4 * g1 * g3 + 6 * g1 * g1 * g2 - 3 * g1 * g1 * g1 * g1) /
+                          (variance * variance);
         double deviation = published[k].scale * sqrt(variance);
         fracas_strength law = weibull(published[k].minimum, published[k].scale, m);
         double mean = mean_of_strength(&law, volume[0]);
@@ -146,14 +162,15 @@ static void weibull_moments(void **state)
         fracas_stream named = stream(200 + k);
         assert_int_equal(sample_strengths(&law, &named, N, volume, NULL, 1, sample), FRACAS_OK);
         double sum = 0.0, squares = 0.0;
-        for (size_t i = 0; i < N; i++)
-            sum += sample[i] - mean;
+        for (size_t i = 0; i < N; i++) sum += sample[i] - mean;
         for (size_t i = 0; i < N; i++)
             squares += (sample[i] - mean - sum / N) * (sample[i] - mean - sum / N);
         double sample_deviation = sqrt(squares / (N - 1));
-        print_message("m = %g: %.2f +- %.2f MPa\n", m, (mean + sum / N) * 1e-6, sample_deviation * 1e-6);
+        print_message("m = %g: %.2f +- %.2f MPa\n", m, (mean + sum / N) * 1e-6,
+                      sample_deviation * 1e-6);
         assert_true(fabs(sum / N) < normal_bound * deviation / sqrt(N));
-        assert_true(fabs(sample_deviation - deviation) < normal_bound * deviation * sqrt((kurtosis - 1) / (4.0 * N)));
+        assert_true(fabs(sample_deviation - deviation) <
+                    normal_bound * deviation * sqrt((kurtosis - 1) / (4.0 * N)));
     }
 }
 
@@ -167,22 +184,24 @@ static void assert_moments(const fracas_strength *law, uint64_t seed, const doub
     /* GSL's functions are good to 1e-13 here, and the first moment is one or two of them */
     assert_true(fabs(mean_of_strength(law, body) - mean) <= 1e-12 * mean);
     /* the variance is the difference of two that are 100 times larger at most */
-    assert_true(fabs(fracas_strength_deviation(law, (fracas_extent){body, 1.0}) - deviation) <= 1e-10 * deviation);
+    assert_true(fabs(fracas_strength_deviation(law, (fracas_extent){body, 1.0}) - deviation) <=
+                1e-10 * deviation);
     fracas_stream named = stream(seed);
     assert_int_equal(sample_strengths(law, &named, N, volume, NULL, 1, sample), FRACAS_OK);
     double sum = 0.0, squares = 0.0;
-    for (size_t i = 0; i < N; i++)
-        sum += sample[i] - mean;
+    for (size_t i = 0; i < N; i++) sum += sample[i] - mean;
     for (size_t i = 0; i < N; i++)
         squares += (sample[i] - mean - sum / N) * (sample[i] - mean - sum / N);
     double sample_deviation = sqrt(squares / (N - 1));
-    print_message("%s: %.2f +- %.2f MPa, exactly %.2f +- %.2f\n", law->distribution->name, (mean + sum / N) * 1e-6,
-                  sample_deviation * 1e-6, mean * 1e-6, deviation * 1e-6);
+    print_message("%s: %.2f +- %.2f MPa, exactly %.2f +- %.2f\n", law->distribution->name,
+                  (mean + sum / N) * 1e-6, sample_deviation * 1e-6, mean * 1e-6, deviation * 1e-6);
     assert_true(fabs(sum / N) < normal_bound * deviation / sqrt(N));
-    assert_true(fabs(sample_deviation - deviation) < normal_bound * deviation * sqrt((kurtosis - 1) / (4.0 * N)));
+    assert_true(fabs(sample_deviation - deviation) <
+                normal_bound * deviation * sqrt((kurtosis - 1) / (4.0 * N)));
 }
 
-/* Moments of a normal law cut off at 0: M_n = mean M_(n-1) + (n - 1) deviation^2 M_(n-2) for n >= 2, by parts. */
+/* Moments of a normal law cut off at 0: M_n = mean M_(n-1) + (n - 1) deviation^2 M_(n-2) for n >=
+ * 2, by parts. */
 static void normal_moments(void **state)
 {
     (void)state;
@@ -214,7 +233,8 @@ static void gamma_moments(void **state)
     }
 }
 
-/* M_n = range^n integral_0^1 n x^(n-1) exp(-mu x^p) dx = range^n Gamma(1 + n/p) mu^(-n/p) P(n/p, mu). */
+/* M_n = range^n integral_0^1 n x^(n-1) exp(-mu x^p) dx = range^n Gamma(1 + n/p) mu^(-n/p) P(n/p,
+ * mu). */
 static void flaws_moments(void **state)
 {
     (void)state;
@@ -224,7 +244,8 @@ static void flaws_moments(void **state)
         fracas_strength law = flaws(numbers[k]);
         double raw[4], p = law.exponent, mu = law.density * body, range = law.maximum - law.minimum;
         for (int n = 1; n <= 4; n++)
-            raw[n - 1] = pow(range, n) * gsl_sf_gamma(1 + n / p) * pow(mu, -n / p) * gsl_sf_gamma_inc_P(n / p, mu);
+            raw[n - 1] = pow(range, n) * gsl_sf_gamma(1 + n / p) * pow(mu, -n / p) *
+                         gsl_sf_gamma_inc_P(n / p, mu);
         assert_moments(&law, 540 + k, raw);
     }
 }
@@ -241,16 +262,17 @@ static void flaws_do_not_see_the_mesh(void **state)
         for (size_t chain = 0; chain < CHAINS; chain++) {
             double strength[LONGEST];
             named.replica = chain;
-            assert_int_equal(sample_strengths(&law, &named, n, volume, NULL, 1, strength), FRACAS_OK);
+            assert_int_equal(sample_strengths(&law, &named, n, volume, NULL, 1, strength),
+                             FRACAS_OK);
             other[chain] = INFINITY;
-            for (size_t i = 0; i < n; i++)
-                other[chain] = fmin(other[chain], strength[i]);
+            for (size_t i = 0; i < n; i++) other[chain] = fmin(other[chain], strength[i]);
         }
         assert_follows(&law, other, CHAINS);
     }
 }
 
-/* The weakest of n has the same law with scale n^(-1/m): each replica is a chain of n interfaces. */
+/* The weakest of n has the same law with scale n^(-1/m): each replica is a chain of n interfaces.
+ */
 static void the_weakest_of_n_scales(void **state)
 {
     (void)state;
@@ -263,10 +285,10 @@ static void the_weakest_of_n_scales(void **state)
             for (size_t chain = 0; chain < CHAINS; chain++) {
                 double strength[LONGEST];
                 named.replica = chain;
-                assert_int_equal(sample_strengths(&law, &named, n, volume, NULL, 1, strength), FRACAS_OK);
+                assert_int_equal(sample_strengths(&law, &named, n, volume, NULL, 1, strength),
+                                 FRACAS_OK);
                 other[chain] = INFINITY;
-                for (size_t i = 0; i < n; i++)
-                    other[chain] = fmin(other[chain], strength[i]);
+                for (size_t i = 0; i < n; i++) other[chain] = fmin(other[chain], strength[i]);
             }
             fracas_strength weakest = law;
             weakest.scale = law.scale * pow((double)n, -1.0 / law.shape);
@@ -275,13 +297,12 @@ static void the_weakest_of_n_scales(void **state)
     }
 }
 
-/* Mean of 12 (u - 1/2)(v - 1/2): mean 0 and variance 1/N when u and v are independent; the products of
- * neighbours of one sequence are uncorrelated too. */
+/* Mean of 12 (u - 1/2)(v - 1/2): mean 0 and variance 1/N when u and v are independent; the products
+ * of neighbours of one sequence are uncorrelated too. */
 static void assert_uncorrelated(const char *what, const double *u, const double *v, size_t n)
 {
     double sum = 0.0;
-    for (size_t i = 0; i < n; i++)
-        sum += 12.0 * (u[i] - 0.5) * (v[i] - 0.5);
+    for (size_t i = 0; i < n; i++) sum += 12.0 * (u[i] - 0.5) * (v[i] - 0.5);
     double r = sum / (double)n, bound = normal_bound / sqrt((double)n);
     print_message("%s: correlation %.1e, bound %.1e\n", what, r, bound);
     assert_true(fabs(r) < bound);
@@ -289,8 +310,7 @@ static void assert_uncorrelated(const char *what, const double *u, const double 
 
 static void fill(fracas_stream named, double *u)
 {
-    for (size_t i = 0; i < N; i++)
-        u[i] = fracas_stream_uniform(&named, i);
+    for (size_t i = 0; i < N; i++) u[i] = fracas_stream_uniform(&named, i);
 }
 
 static void neighbouring_streams_are_independent(void **state)
@@ -301,16 +321,16 @@ static void neighbouring_streams_are_independent(void **state)
     for (size_t lag = 1; lag <= 4; lag++)
         assert_uncorrelated("interface and a neighbour", sample, sample + lag, N - lag);
     fracas_stream next[6];
-    for (size_t k = 0; k < FRACAS_COUNT(next); k++)
-        next[k] = first;
+    for (size_t k = 0; k < FRACAS_COUNT(next); k++) next[k] = first;
     next[0].replica++;
     next[1].point[0]++;
     next[2].point[1]++;
     next[3].seed++;
     next[4].purpose++;
     next[5].point[0] = first.point[1], next[5].point[1] = first.point[0];
-    static const char *const what[] = {"next replica", "next point, first word", "next point, second word",
-                                       "next seed", "next purpose", "words of the point swapped"};
+    static const char *const what[] = {
+        "next replica", "next point, first word", "next point, second word",
+        "next seed",    "next purpose",           "words of the point swapped"};
     for (size_t k = 0; k < FRACAS_COUNT(next); k++) {
         fill(next[k], other);
         assert_uncorrelated(what[k], sample, other, N);

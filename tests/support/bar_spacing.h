@@ -1,11 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Bars on elements of different lengths, for tests that look at their state. */
 #ifndef FRACAS_TESTS_SUPPORT_BAR_SPACING_H
 #define FRACAS_TESTS_SUPPORT_BAR_SPACING_H
 
 #include "tests/support/bar.h"
 
-enum { W_LEFT, W_RIGHT, V_LEFT, V_RIGHT, DAMAGE, STRENGTH, LAW, FIELDS }; /* as in engine/formulation/chain/bar_sweep.h */
-enum { MOST = 2000 };                                                     /* elements */
+enum {
+    W_LEFT,
+    W_RIGHT,
+    V_LEFT,
+    V_RIGHT,
+    DAMAGE,
+    STRENGTH,
+    LAW,
+    FIELDS
+};                    /* as in engine/formulation/chain/bar_sweep.h */
+enum { MOST = 2000 }; /* elements */
 
 static const fracas_kind *const laws[] = {&fracas_law_nitsche, &fracas_law_rigid_link};
 static const fracas_kind *const ends[] = {&fracas_ends_periodic, &fracas_ends_held};
@@ -33,7 +43,8 @@ static inline fracas_batch *batch_of(const fracas_model *model, double sigma_c)
     fracas_batch *batch;
     const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
     assert_ok(fracas_batch_create(model, 1, &options, &batch));
-    for (size_t i = 0; i < fracas_model_interfaces(model); i++) bar_set_strength(batch, 0, i, sigma_c);
+    for (size_t i = 0; i < fracas_model_interfaces(model); i++)
+        bar_set_strength(batch, 0, i, sigma_c);
     assert_ok(fracas_batch_begin(batch));
     return batch;
 }

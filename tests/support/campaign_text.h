@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Campaigns from strings, for tests. */
 #ifndef FRACAS_TESTS_UNIT_CAMPAIGN_TEXT_H
 #define FRACAS_TESTS_UNIT_CAMPAIGN_TEXT_H
@@ -14,41 +15,41 @@
 #include <cmocka.h>
 
 /* A complete campaign without a sweep; tests replace parts of it. */
-static const char plain_campaign[] =
-    "name: test\n"                     /* 1 */
-    "seed: 7\n"                        /* 2 */
-    "model: bar\n"                     /* 3 */
-    "geometry:\n"                      /* 4 */
-    "  ends: periodic\n"               /* 5 */
-    "  length: 50 mm\n"                /* 6 */
-    "mesh:\n"                          /* 7 */
-    "  elements: 100\n"                /* 8 */
-    "material:\n"                      /* 9 */
-    "  young: 275 GPa\n"               /* 10 */
-    "  density: 2750 kg/m3\n"          /* 11 */
-    "cohesive:\n"                      /* 12 */
-    "  law: nitsche\n"                 /* 13 */
-    "  fracture_energy: 100 J/m2\n"    /* 14 */
-    "strength:\n"                      /* 15 */
-    "  distribution: uniform\n"        /* 16 */
-    "  minimum: 299 MPa\n"             /* 17 */
-    "  maximum: 301 MPa\n"             /* 18 */
-    "loading:\n"                       /* 19 */
-    "  rate: 1e4 1/s\n"                /* 20 */
-    "time:\n"                          /* 21 */
-    "  stop: settled\n"                /* 22 */
-    "  end: 500 ns\n"                  /* 23 */
-    "  quiet: 100 ns\n"                /* 24 */
-    "replicas: 3\n"                    /* 25 */
-    "output:\n"                        /* 26 */
-    "  history: 10\n"                  /* 27 */
-    "";                                /* 28: where `sweep:` is appended */
+static const char plain_campaign[] = "name: test\n"                  /* 1 */
+                                     "seed: 7\n"                     /* 2 */
+                                     "model: bar\n"                  /* 3 */
+                                     "geometry:\n"                   /* 4 */
+                                     "  ends: periodic\n"            /* 5 */
+                                     "  length: 50 mm\n"             /* 6 */
+                                     "mesh:\n"                       /* 7 */
+                                     "  elements: 100\n"             /* 8 */
+                                     "material:\n"                   /* 9 */
+                                     "  young: 275 GPa\n"            /* 10 */
+                                     "  density: 2750 kg/m3\n"       /* 11 */
+                                     "cohesive:\n"                   /* 12 */
+                                     "  law: nitsche\n"              /* 13 */
+                                     "  fracture_energy: 100 J/m2\n" /* 14 */
+                                     "strength:\n"                   /* 15 */
+                                     "  distribution: uniform\n"     /* 16 */
+                                     "  minimum: 299 MPa\n"          /* 17 */
+                                     "  maximum: 301 MPa\n"          /* 18 */
+                                     "loading:\n"                    /* 19 */
+                                     "  rate: 1e4 1/s\n"             /* 20 */
+                                     "time:\n"                       /* 21 */
+                                     "  stop: settled\n"             /* 22 */
+                                     "  end: 500 ns\n"               /* 23 */
+                                     "  quiet: 100 ns\n"             /* 24 */
+                                     "replicas: 3\n"                 /* 25 */
+                                     "output:\n"                     /* 26 */
+                                     "  history: 10\n"               /* 27 */
+                                     ""; /* 28: where `sweep:` is appended */
 
 /* `text` with its one `find` replaced by `put`; an empty `find` appends. Freed by the caller. */
 static inline char *replace(const char *text, const char *find, const char *put)
 {
     const char *at = *find ? strstr(text, find) : text + strlen(text);
-    if (!at || (*find && strstr(at + 1, find))) fail_msg("the text has not exactly one \"%s\"", find);
+    if (!at || (*find && strstr(at + 1, find)))
+        fail_msg("the text has not exactly one \"%s\"", find);
     size_t before = (size_t)(at - text), size = strlen(text) + strlen(put) + 1;
     char *made = malloc(size);
     if (!made) abort();
@@ -68,8 +69,10 @@ static inline char *write_text(const fracas_campaign *campaign)
     return text;
 }
 
-/* What `fracas plan` prints for so many processes. Freed by the caller. (Inlined, gcc takes what it returns for the address of a local.) */
-__attribute__((noinline, unused)) static char *plan_text(const fracas_campaign *campaign, int jobs, bool json)
+/* What `fracas plan` prints for so many processes. Freed by the caller. (Inlined, gcc takes what it
+ * returns for the address of a local.) */
+__attribute__((noinline, unused)) static char *plan_text(const fracas_campaign *campaign, int jobs,
+                                                         bool json)
 {
     char *text = NULL;
     size_t size = 0;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Vectors and small dense matrices. */
 #ifndef FRACAS_TESTS_SUPPORT_DENSE_H
 #define FRACAS_TESTS_SUPPORT_DENSE_H
@@ -27,7 +28,8 @@ static inline double *eigenvalues_of(const double *matrix, size_t n)
     gsl_eigen_symm_workspace *work = gsl_eigen_symm_alloc(n);
     assert_true(copy && values && work);
     for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < n; j++) gsl_matrix_set(copy, i, j, 0.5 * (matrix[i * n + j] + matrix[j * n + i]));
+        for (size_t j = 0; j < n; j++)
+            gsl_matrix_set(copy, i, j, 0.5 * (matrix[i * n + j] + matrix[j * n + i]));
     gsl_eigen_symm(copy, values, work);
     double *sorted = vector_of(n);
     for (size_t i = 0; i < n; i++) {

@@ -1,4 +1,6 @@
-/* Runs of the public code DynFrag1D (tests/data/dynfrag1d), and the same bars in this engine, step by step. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Runs of the public code DynFrag1D (tests/data/dynfrag1d), and the same bars in this engine, step
+ * by step. */
 #ifndef FRACAS_TESTS_SUPPORT_DYNFRAG1D_H
 #define FRACAS_TESTS_SUPPORT_DYNFRAG1D_H
 
@@ -12,8 +14,8 @@
 typedef struct {
     const char *name;
     int elements, steps;
-    int every;        /* steps from one kept row of its history to the next; the last step is kept too */
-    double rate;      /* 1/s */
+    int every;   /* steps from one kept row of its history to the next; the last step is kept too */
+    double rate; /* 1/s */
     double time_step; /* s, 0.1 h/c as that code rounds it */
 } dynfrag1d_run;
 
@@ -24,26 +26,35 @@ static const dynfrag1d_run dynfrag1d_runs[] = {
 };
 
 enum { DYNFRAG1D_RUNS = 3, DYNFRAG1D_MOST_ROWS = 512 };
-enum { DYNFRAG1D_W_LEFT, DYNFRAG1D_W_RIGHT, DYNFRAG1D_V_LEFT, DYNFRAG1D_V_RIGHT, DYNFRAG1D_DAMAGE, DYNFRAG1D_STRENGTH,
-       DYNFRAG1D_FIELDS = 7 }; /* of the bar's state */
+enum {
+    DYNFRAG1D_W_LEFT,
+    DYNFRAG1D_W_RIGHT,
+    DYNFRAG1D_V_LEFT,
+    DYNFRAG1D_V_RIGHT,
+    DYNFRAG1D_DAMAGE,
+    DYNFRAG1D_STRENGTH,
+    DYNFRAG1D_FIELDS = 7
+}; /* of the bar's state */
 
-#define DYNFRAG1D_LENGTH 0.05  /* m */
+#define DYNFRAG1D_LENGTH 0.05   /* m */
 #define DYNFRAG1D_NOMINAL 300e6 /* Pa */
 
 /* One time, as that code writes it: energies in the laboratory's frame. */
 typedef struct {
     double time, potential, kinetic;
-    double nominal;    /* J: its column of dissipated energy, every interface at the nominal strength */
+    double
+        nominal; /* J: its column of dissipated energy, every interface at the nominal strength */
     double dissipated; /* J, every interface at its own strength */
     double stored;     /* J, in openings and in contact */
     double work;
-    long fragments;    /* 1 + interfaces with D > 0.99 */
+    long fragments; /* 1 + interfaces with D > 0.99 */
 } dynfrag1d_row;
 
 static inline FILE *dynfrag1d_open(const dynfrag1d_run *run, const char *end)
 {
     char path[512];
-    snprintf(path, sizeof path, "%s/tests/data/dynfrag1d/%s_diag%s", FRACAS_SOURCE_DIR, run->name, end);
+    snprintf(path, sizeof path, "%s/tests/data/dynfrag1d/%s_diag%s", FRACAS_SOURCE_DIR, run->name,
+             end);
     FILE *file = fopen(path, "r");
     if (!file) fail_msg("cannot open %s", path);
     return file;
@@ -75,8 +86,9 @@ static inline int dynfrag1d_history(const dynfrag1d_run *run, dynfrag1d_row *row
     int n = 0;
     double reversible, contact;
     while (n < DYNFRAG1D_MOST_ROWS &&
-           fscanf(file, "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%ld,%*d,%*f", &row[n].time, &row[n].potential, &row[n].kinetic,
-                  &row[n].nominal, &reversible, &contact, &row[n].work, &row[n].fragments) == 8) {
+           fscanf(file, "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%ld,%*d,%*f", &row[n].time, &row[n].potential,
+                  &row[n].kinetic, &row[n].nominal, &reversible, &contact, &row[n].work,
+                  &row[n].fragments) == 8) {
         row[n].stored = reversible + contact;
         n++;
     }
@@ -112,12 +124,14 @@ typedef struct {
     int steps;
 } dynfrag1d_replay;
 
-#define DYNFRAG1D_UNBREAKABLE 2e9 /* Pa: below what either law refuses at 2500 elements, never reached */
+#define DYNFRAG1D_UNBREAKABLE \
+    2e9 /* Pa: below what either law refuses at 2500 elements, never reached */
 
-/* Its bar by `law`, every element cut into `refine`: the interfaces in between do not break. `courant`: c dt/h of the finer
- * mesh; 0 takes its own time step, to the bit. */
-static inline void dynfrag1d_begin(dynfrag1d_replay *replay, const dynfrag1d_run *run, const fracas_kind *law, int refine,
-                                   double courant, const double *strength)
+/* Its bar by `law`, every element cut into `refine`: the interfaces in between do not break.
+ * `courant`: c dt/h of the finer mesh; 0 takes its own time step, to the bit. */
+static inline void dynfrag1d_begin(dynfrag1d_replay *replay, const dynfrag1d_run *run,
+                                   const fracas_kind *law, int refine, double courant,
+                                   const double *strength)
 {
     fracas_spec spec = bar_reference(run->elements * refine, run->rate, 1);
     spec.geometry.ends = &fracas_ends_held;
@@ -125,12 +139,14 @@ static inline void dynfrag1d_begin(dynfrag1d_replay *replay, const dynfrag1d_run
     spec.cohesive.law = law;
     *replay = (dynfrag1d_replay){.run = run};
     assert_ok(fracas_model_create(&spec, &replay->model));
-    replay->model->time_step = courant > 0 ? courant * replay->model->element_size / BAR_WAVE_SPEED : run->time_step;
+    replay->model->time_step = courant > 0 ? courant * replay->model->element_size / BAR_WAVE_SPEED
+                                           : run->time_step;
     assert_true(replay->model->time_step < replay->model->critical_step);
     const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
     assert_ok(fracas_batch_create(replay->model, 1, &options, &replay->batch));
     for (size_t i = 1, m = (size_t)refine; i < replay->model->elements; i++)
-        bar_set_strength(replay->batch, 0, i - 1, i % m ? DYNFRAG1D_UNBREAKABLE : strength[i / m - 1]);
+        bar_set_strength(replay->batch, 0, i - 1,
+                         i % m ? DYNFRAG1D_UNBREAKABLE : strength[i / m - 1]);
     assert_ok(fracas_batch_begin(replay->batch));
     fracas_record_init(&replay->record);
     replay->before = calloc(2 * replay->model->elements, sizeof *replay->before);
@@ -151,7 +167,8 @@ static inline double dynfrag1d_field(const dynfrag1d_replay *replay, size_t elem
 
 static inline double dynfrag1d_stress(const dynfrag1d_replay *replay, size_t e)
 {
-    double strain = (dynfrag1d_field(replay, e, DYNFRAG1D_W_RIGHT) - dynfrag1d_field(replay, e, DYNFRAG1D_W_LEFT)) /
+    double strain = (dynfrag1d_field(replay, e, DYNFRAG1D_W_RIGHT) -
+                     dynfrag1d_field(replay, e, DYNFRAG1D_W_LEFT)) /
                     replay->model->element_size;
     return 275e9 * (replay->run->rate * replay->batch->step.time[0] + strain);
 }
@@ -166,13 +183,17 @@ static inline int dynfrag1d_onsets_between(const dynfrag1d_replay *replay)
     return count;
 }
 
-/* The quantities that the other code writes, from our state: its frame is the laboratory's, and a fragment ends where damage
- * exceeds 0.99. */
+/* The quantities that the other code writes, from our state: its frame is the laboratory's, and a
+ * fragment ends where damage exceeds 0.99. */
 static inline dynfrag1d_row dynfrag1d_observe(const dynfrag1d_replay *replay)
 {
     const fracas_step *step = &replay->batch->step;
-    dynfrag1d_row now = {.time = step->time[0], .potential = step->elastic[0], .dissipated = step->dissipated[0],
-                         .stored = step->cohesive[0], .work = replay->work, .fragments = 1};
+    dynfrag1d_row now = {.time = step->time[0],
+                         .potential = step->elastic[0],
+                         .dissipated = step->dissipated[0],
+                         .stored = step->cohesive[0],
+                         .work = replay->work,
+                         .fragments = 1};
     const double h = replay->model->element_size, nodal = 0.5 * 2750 * h;
     for (size_t e = 0; e < replay->model->elements; e++) {
         for (size_t side = 0; side < 2; side++) {
@@ -183,7 +204,8 @@ static inline dynfrag1d_row dynfrag1d_observe(const dynfrag1d_replay *replay)
         }
         if (e + 1 == replay->model->elements) break;
         double damage = dynfrag1d_field(replay, e, DYNFRAG1D_DAMAGE);
-        now.nominal += 0.5 * DYNFRAG1D_NOMINAL * damage * 2 * 100 / dynfrag1d_field(replay, e, DYNFRAG1D_STRENGTH);
+        now.nominal += 0.5 * DYNFRAG1D_NOMINAL * damage * 2 * 100 /
+                       dynfrag1d_field(replay, e, DYNFRAG1D_STRENGTH);
         now.fragments += damage > 0.99;
     }
     return now;
@@ -199,14 +221,18 @@ static inline void dynfrag1d_step(dynfrag1d_replay *replay, dynfrag1d_row *now)
     assert_ok(fracas_batch_step(replay->batch, &replay->record, &running));
     assert_int_equal(running, 1);
     double power = 0.5 * replay->run->rate * DYNFRAG1D_LENGTH *
-                   (dynfrag1d_stress(replay, 0) + dynfrag1d_stress(replay, replay->model->elements - 1));
-    if (replay->steps++ > 0) replay->work += 0.5 * replay->model->time_step * (replay->power + power);
+                   (dynfrag1d_stress(replay, 0) +
+                    dynfrag1d_stress(replay, replay->model->elements - 1));
+    if (replay->steps++ > 0)
+        replay->work += 0.5 * replay->model->time_step * (replay->power + power);
     replay->power = power;
     if (now) *now = dynfrag1d_observe(replay);
 }
 
-/* What the bar is at every kept row of the other code's history, for a time step that divides its. */
-static inline void dynfrag1d_follow(dynfrag1d_replay *replay, const dynfrag1d_row *reference, int rows, dynfrag1d_row *now)
+/* What the bar is at every kept row of the other code's history, for a time step that divides its.
+ */
+static inline void dynfrag1d_follow(dynfrag1d_replay *replay, const dynfrag1d_row *reference,
+                                    int rows, dynfrag1d_row *now)
 {
     for (int n = 0; n < rows; n++) {
         int target = (int)lround(reference[n].time / replay->model->time_step);
@@ -215,13 +241,15 @@ static inline void dynfrag1d_follow(dynfrag1d_replay *replay, const dynfrag1d_ro
     }
 }
 
-/* Its own-strength dissipated energy, which it wrote for the end only: its column at the nominal strength times the ratio of
- * the two in the replay `replayed`, which hardly depends on which interfaces broke: strengths are within 1/300. */
+/* Its own-strength dissipated energy, which it wrote for the end only: its column at the nominal
+ * strength times the ratio of the two in the replay `replayed`, which hardly depends on which
+ * interfaces broke: strengths are within 1/300. */
 static inline void dynfrag1d_own(dynfrag1d_row *reference, const dynfrag1d_row *replayed, int rows)
 {
     for (int n = 0; n < rows; n++)
-        reference[n].dissipated = reference[n].nominal *
-                                  (replayed[n].nominal > 0 ? replayed[n].dissipated / replayed[n].nominal : 1.0);
+        reference[n].dissipated =
+            reference[n].nominal *
+            (replayed[n].nominal > 0 ? replayed[n].dissipated / replayed[n].nominal : 1.0);
 }
 
 #endif

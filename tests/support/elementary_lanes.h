@@ -1,5 +1,6 @@
-/* The functions of base/elementary_lanes.h on arrays, one source for each instruction set. n is a multiple of 8; arrays are aligned
- * to 64 bytes. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The functions of base/elementary_lanes.h on arrays, one source for each instruction set. n is a
+ * multiple of 8; arrays are aligned to 64 bytes. */
 #ifndef FRACAS_TESTS_SUPPORT_ELEMENTARY_LANES_H
 #define FRACAS_TESTS_SUPPORT_ELEMENTARY_LANES_H
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Include with LANES and ISA, the last word of the functions' names, defined. */
 #include "tests/support/elementary_lanes.h"
 

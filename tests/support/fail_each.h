@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Work whose k-th allocation fails, for every k. Not under AddressSanitizer, which owns malloc. */
 #ifndef FRACAS_TESTS_SUPPORT_FAIL_EACH_H
 #define FRACAS_TESTS_SUPPORT_FAIL_EACH_H
@@ -12,8 +13,8 @@
 
 #include <cmocka.h>
 
-/* Calls `work` with the first, second, ... allocation failing, until it succeeds without; nothing stays behind. Of more than `each` of
- * them only some are tried, a quarter further on each time. */
+/* Calls `work` with the first, second, ... allocation failing, until it succeeds without; nothing
+ * stays behind. Of more than `each` of them only some are tried, a quarter further on each time. */
 static void fail_each_of(fracas_err (*work)(const void *context), const void *context, long each)
 {
     for (long k = 1;; k += k < each ? 1 : k / 4) {
@@ -29,8 +30,10 @@ static void fail_each_of(fracas_err (*work)(const void *context), const void *co
             return;
         }
         /* glibc's qsort does without memory of its own when there is none. */
-        if (err != FRACAS_ENVIRONMENT && err != FRACAS_OK) fail_msg("allocation %ld: %d %s", k, err, fracas_message());
-        if (err && !strstr(fracas_message(), "no memory for")) fail_msg("allocation %ld: %s", k, fracas_message());
+        if (err != FRACAS_ENVIRONMENT && err != FRACAS_OK)
+            fail_msg("allocation %ld: %d %s", k, err, fracas_message());
+        if (err && !strstr(fracas_message(), "no memory for"))
+            fail_msg("allocation %ld: %s", k, fracas_message());
     }
 }
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* System calls, allocations, processes and MPI; failing_libraries.c has SQLite and HDF5. */
 #include "tests/support/failing_calls.h"
 
@@ -20,11 +21,13 @@
 #include <ucontext.h>
 #include <unistd.h>
 
-static const char *const class_name[FAILING_NCLASSES] = {"disk", "read", "sqlite", "hdf5", "mpi", "memory", "process"};
+static const char *const class_name[FAILING_NCLASSES] = {"disk", "read",   "sqlite", "hdf5",
+                                                         "mpi",  "memory", "process"};
 static const struct {
     const char *name;
     int code;
-} errors[] = {{"EIO", EIO}, {"ENOSPC", ENOSPC}, {"EDQUOT", EDQUOT}, {"ENOMEM", ENOMEM}, {"EAGAIN", EAGAIN}, {"EMFILE", EMFILE}};
+} errors[] = {{"EIO", EIO},       {"ENOSPC", ENOSPC}, {"EDQUOT", EDQUOT},
+              {"ENOMEM", ENOMEM}, {"EAGAIN", EAGAIN}, {"EMFILE", EMFILE}};
 
 static failing_state *state; /* NULL: nothing is counted */
 static failing_class wanted;
@@ -42,7 +45,10 @@ static long really(long number, long a, long b, long c, long d, long e)
     register long r10 __asm__("r10") = d;
     register long r8 __asm__("r8") = e;
     register long r9 __asm__("r9") = (long)OURS;
-    __asm__ volatile("syscall" : "=a"(result) : "a"(number), "D"(a), "S"(b), "d"(c), "r"(r10), "r"(r8), "r"(r9) : "rcx", "r11", "memory");
+    __asm__ volatile("syscall"
+                     : "=a"(result)
+                     : "a"(number), "D"(a), "S"(b), "d"(c), "r"(r10), "r"(r8), "r"(r9)
+                     : "rcx", "r11", "memory");
     return result;
 }
 
@@ -52,13 +58,15 @@ static void die(void)
     for (;;) pause();
 }
 
-/* "what on", cut to fit; without allocating, for this is called from malloc and from a signal handler. */
+/* "what on", cut to fit; without allocating, for this is called from malloc and from a signal
+ * handler. */
 static void note(const char *what, const char *on)
 {
     size_t at = 0;
     for (const char *c = what; *c && at < sizeof state->failed - 2; c++) state->failed[at++] = *c;
     if (on) state->failed[at++] = ' ';
-    for (const char *c = on; c && *c && at < sizeof state->failed - 1; c++) state->failed[at++] = *c;
+    for (const char *c = on; c && *c && at < sizeof state->failed - 1; c++)
+        state->failed[at++] = *c;
     state->failed[at] = '\0';
 }
 
@@ -88,12 +96,15 @@ static const struct {
     const char *name;
     about about;
     bool takes_space;
-} calls[] = {{SYS_open, "open", PATH0, true},          {SYS_openat, "open", PATH1, true},       {SYS_creat, "open", PATH0, true},
-             {SYS_write, "write", FD, true},           {SYS_pwrite64, "write", FD, true},       {SYS_ftruncate, "ftruncate", FD, true},
-             {SYS_fallocate, "fallocate", FD, true},   {SYS_mkdir, "mkdir", PATH0, true},       {SYS_mkdirat, "mkdir", PATH1, true},
-             {SYS_fsync, "fsync", FD, false},          {SYS_fdatasync, "fdatasync", FD, false}, {SYS_close, "close", FD, false},
-             {SYS_rename, "rename", PATH1, false},     {SYS_renameat, "rename", PATH3, false},  {SYS_renameat2, "rename", PATH3, false},
-             {SYS_unlink, "unlink", PATH0, false},     {SYS_unlinkat, "unlink", PATH1, false},  {SYS_read, "read", FD, false},
+} calls[] = {{SYS_open, "open", PATH0, true},         {SYS_openat, "open", PATH1, true},
+             {SYS_creat, "open", PATH0, true},        {SYS_write, "write", FD, true},
+             {SYS_pwrite64, "write", FD, true},       {SYS_ftruncate, "ftruncate", FD, true},
+             {SYS_fallocate, "fallocate", FD, true},  {SYS_mkdir, "mkdir", PATH0, true},
+             {SYS_mkdirat, "mkdir", PATH1, true},     {SYS_fsync, "fsync", FD, false},
+             {SYS_fdatasync, "fdatasync", FD, false}, {SYS_close, "close", FD, false},
+             {SYS_rename, "rename", PATH1, false},    {SYS_renameat, "rename", PATH3, false},
+             {SYS_renameat2, "rename", PATH3, false}, {SYS_unlink, "unlink", PATH0, false},
+             {SYS_unlinkat, "unlink", PATH1, false},  {SYS_read, "read", FD, false},
              {SYS_pread64, "read", FD, false}};
 enum { NCALLS = sizeof calls / sizeof *calls };
 
@@ -140,10 +151,12 @@ static long answer(size_t c, const long argument[6])
     const bool takes_space = calls[c].takes_space && class == FAILING_DISK;
     if (is_it(class, calls[c].name, path)) {
         const bool writes = number == SYS_write || number == SYS_pwrite64;
-        if (tears && writes) really(number, argument[0], argument[1], argument[2] / 2, argument[3], argument[4]);
+        if (tears && writes)
+            really(number, argument[0], argument[1], argument[2] / 2, argument[3], argument[4]);
         if (kills || tears) die();
         if (error == ENOSPC && takes_space) state->full = 1;
-        if (number == SYS_close || is_late) really(number, argument[0], argument[1], argument[2], argument[3], argument[4]);
+        if (number == SYS_close || is_late)
+            really(number, argument[0], argument[1], argument[2], argument[3], argument[4]);
         return -error;
     }
     if (state->full && takes_space) return -ENOSPC;
@@ -167,21 +180,26 @@ static void watch_calls(void)
     enum { HEAD = 1, TAIL = 7, SIXTH = offsetof(struct seccomp_data, args[5]) };
     struct sock_filter filter[HEAD + NCALLS + TAIL];
     size_t n = 0;
-    filter[n++] = (struct sock_filter)BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, nr));
+    filter[n++] = (struct sock_filter)BPF_STMT(BPF_LD | BPF_W | BPF_ABS,
+                                               offsetof(struct seccomp_data, nr));
     for (size_t c = 0; c < NCALLS; c++) /* to the second line of the tail */
-        filter[n++] = (struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, (uint32_t)calls[c].number, (uint8_t)(NCALLS - c), 0);
+        filter[n++] = (struct sock_filter)BPF_JUMP(
+            BPF_JMP | BPF_JEQ | BPF_K, (uint32_t)calls[c].number, (uint8_t)(NCALLS - c), 0);
     filter[n++] = (struct sock_filter)BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW);
     filter[n++] = (struct sock_filter)BPF_STMT(BPF_LD | BPF_W | BPF_ABS, SIXTH);
     filter[n++] = (struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, (uint32_t)OURS, 0, 2);
     filter[n++] = (struct sock_filter)BPF_STMT(BPF_LD | BPF_W | BPF_ABS, SIXTH + 4);
-    filter[n++] = (struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, (uint32_t)(OURS >> 32), 1, 0);
+    filter[n++] = (struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, (uint32_t)(OURS >> 32), 1,
+                                               0);
     filter[n++] = (struct sock_filter)BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_TRAP);
     filter[n++] = (struct sock_filter)BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW);
     struct sock_fprog program = {(unsigned short)n, filter};
-    struct sigaction action = {.sa_sigaction = on_call, .sa_flags = SA_SIGINFO | SA_NODEFER | SA_RESTART};
+    struct sigaction action = {.sa_sigaction = on_call,
+                               .sa_flags = SA_SIGINFO | SA_NODEFER | SA_RESTART};
     sigemptyset(&action.sa_mask);
     sigaction(SIGSYS, &action, NULL);
-    if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) || prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program)) {
+    if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) ||
+        prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program)) {
         perror("failing_calls: no seccomp filter");
         _exit(77);
     }
@@ -193,8 +211,9 @@ void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t count, size_t size);
 void *__libc_realloc(void *old, size_t size);
 
-/* Code whose allocations are ours to survive. Those of Open MPI and UDUNITS-2 are not: they crash by themselves without memory.
- * So does HDF5 1.10 at times: a parent tells of it, but nobody would of a crash of the parent. */
+/* Code whose allocations are ours to survive. Those of Open MPI and UDUNITS-2 are not: they crash
+ * by themselves without memory. So does HDF5 1.10 at times: a parent tells of it, but nobody would
+ * of a crash of the parent. */
 static struct {
     uintptr_t from, to;
 } code[32]; /* the program's first: it is mapped lowest */
@@ -202,7 +221,8 @@ static size_t ncode;
 
 static void find_code(void)
 {
-    static const char *const owner[] = {"/fracas", "/libhdf5", "/libsqlite3", "/libyaml", "/libxxhash", "/libgsl."};
+    static const char *const owner[] = {"/fracas",  "/libhdf5",   "/libsqlite3",
+                                        "/libyaml", "/libxxhash", "/libgsl."};
     char line[1024];
     FILE *maps = fopen("/proc/self/maps", "r");
     while (maps && fgets(line, sizeof line, maps)) {
@@ -211,7 +231,8 @@ static void find_code(void)
         if (sscanf(line, "%lx-%lx %7s", &from, &to, rights) != 3 || rights[2] != 'x') continue;
         for (size_t o = 0; o < sizeof owner / sizeof *owner; o++) {
             const bool left_out = where == 0 && strcmp(owner[o], "/libhdf5") == 0;
-            if (ncode == sizeof code / sizeof *code || left_out || !strstr(line, owner[o])) continue;
+            if (ncode == sizeof code / sizeof *code || left_out || !strstr(line, owner[o]))
+                continue;
             code[ncode].from = from;
             code[ncode++].to = to;
             break;
@@ -239,13 +260,22 @@ static bool no_memory(const char *what, const void *caller)
     return true;
 }
 
-void *malloc(size_t size) { return no_memory("malloc", __builtin_return_address(0)) ? NULL : __libc_malloc(size); }
-void *calloc(size_t count, size_t size) { return no_memory("calloc", __builtin_return_address(0)) ? NULL : __libc_calloc(count, size); }
-void *realloc(void *old, size_t size) { return no_memory("realloc", __builtin_return_address(0)) ? NULL : __libc_realloc(old, size); }
+void *malloc(size_t size)
+{
+    return no_memory("malloc", __builtin_return_address(0)) ? NULL : __libc_malloc(size);
+}
+void *calloc(size_t count, size_t size)
+{
+    return no_memory("calloc", __builtin_return_address(0)) ? NULL : __libc_calloc(count, size);
+}
+void *realloc(void *old, size_t size)
+{
+    return no_memory("realloc", __builtin_return_address(0)) ? NULL : __libc_realloc(old, size);
+}
 
 /* Those of the C library that allocate for their caller. */
-#define REAL(type, name, ...)                                                                                                            \
-    static type (*real)(__VA_ARGS__);                                                                                                    \
+#define REAL(type, name, ...)         \
+    static type (*real)(__VA_ARGS__); \
     if (!real) real = (type(*)(__VA_ARGS__))dlsym(RTLD_NEXT, #name)
 
 #undef strdup
@@ -299,22 +329,26 @@ int socketpair(int domain, int type, int protocol, int fd[2])
 
 /* ---- MPI ---- */
 
-#define MPI(name, parameters, arguments)                                                                                                 \
-    int MPI_##name parameters                                                                                                            \
-    {                                                                                                                                    \
-        const failing_verdict verdict = failing_call(FAILING_MPI, "MPI_" #name, NULL);                                                   \
-        if (verdict == FAILING_NOW) return MPI_ERR_OTHER;                                                                                \
-        const int result = PMPI_##name arguments;                                                                                        \
-        return verdict == FAILING_LATE ? MPI_ERR_OTHER : result;                                                                         \
+#define MPI(name, parameters, arguments)                                               \
+    int MPI_##name parameters                                                          \
+    {                                                                                  \
+        const failing_verdict verdict = failing_call(FAILING_MPI, "MPI_" #name, NULL); \
+        if (verdict == FAILING_NOW) return MPI_ERR_OTHER;                              \
+        const int result = PMPI_##name arguments;                                      \
+        return verdict == FAILING_LATE ? MPI_ERR_OTHER : result;                       \
     }
 MPI(Init, (int *argc, char ***argv), (argc, argv))
 MPI(Comm_set_errhandler, (MPI_Comm comm, MPI_Errhandler handler), (comm, handler))
 MPI(Comm_rank, (MPI_Comm comm, int *rank), (comm, rank))
 MPI(Comm_size, (MPI_Comm comm, int *size), (comm, size))
-MPI(Iprobe, (int source, int tag, MPI_Comm comm, int *flag, MPI_Status *status), (source, tag, comm, flag, status))
+MPI(Iprobe, (int source, int tag, MPI_Comm comm, int *flag, MPI_Status *status),
+    (source, tag, comm, flag, status))
 MPI(Get_count, (const MPI_Status *status, MPI_Datatype type, int *count), (status, type, count))
-MPI(Send, (const void *buffer, int count, MPI_Datatype type, int to, int tag, MPI_Comm comm), (buffer, count, type, to, tag, comm))
-MPI(Recv, (void *buffer, int count, MPI_Datatype type, int from, int tag, MPI_Comm comm, MPI_Status *status),
+MPI(Send, (const void *buffer, int count, MPI_Datatype type, int to, int tag, MPI_Comm comm),
+    (buffer, count, type, to, tag, comm))
+MPI(Recv,
+    (void *buffer, int count, MPI_Datatype type, int from, int tag, MPI_Comm comm,
+     MPI_Status *status),
     (buffer, count, type, from, tag, comm, status))
 MPI(Finalize, (void), ())
 
@@ -338,7 +372,8 @@ static int where_of(const char *text)
 
 __attribute__((constructor)) static void start(void)
 {
-    const char *what = getenv("FAILING_CALLS"), *file = getenv("FAILING_STATE"), *rank = getenv("OMPI_COMM_WORLD_RANK");
+    const char *what = getenv("FAILING_CALLS"), *file = getenv("FAILING_STATE"),
+               *rank = getenv("OMPI_COMM_WORLD_RANK");
     char class[16], place[16], how[16];
     unsigned long long at;
     under = getenv("FAILING_UNDER");
@@ -353,7 +388,8 @@ __attribute__((constructor)) static void start(void)
     where = rank ? 1 + atoi(rank) * FAILING_DEPTHS : 0;
     find_code();
     int fd = open(file, O_RDWR | O_CLOEXEC);
-    void *mapped = fd < 0 ? MAP_FAILED : mmap(NULL, sizeof *state, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+    void *mapped = fd < 0 ? MAP_FAILED
+                          : mmap(NULL, sizeof *state, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
     if (mapped == MAP_FAILED) _exit(77);
     close(fd);
     state = mapped;

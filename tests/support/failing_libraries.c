@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Calls of SQLite and HDF5 that fail as these libraries fail. */
 #include "tests/support/failing_calls.h"
 
@@ -7,48 +8,59 @@
 #include <stddef.h>
 
 /* Only of the program's own calls, which alone can be expected to look at what they give. */
-#define FAILS(class, what, on) (failing_by_program(__builtin_return_address(0)) ? failing_call(class, what, on) : FAILING_NOT)
+#define FAILS(class, what, on) \
+    (failing_by_program(__builtin_return_address(0)) ? failing_call(class, what, on) : FAILING_NOT)
 
-#define REAL(type, name, parameters)                                                                                                     \
-    static type(*real) parameters;                                                                                                       \
+#define REAL(type, name, parameters) \
+    static type(*real) parameters;   \
     if (!real) real = (type(*) parameters)dlsym(RTLD_NEXT, #name)
 
 /* ---- SQLite ---- */
 
 static int injected; /* what sqlite3_errcode says until the next call that does not fail */
 
-#define SQLITE(name, code, parameters, arguments)                                                                                        \
-    int sqlite3_##name parameters                                                                                                        \
-    {                                                                                                                                    \
-        REAL(int, sqlite3_##name, parameters);                                                                                           \
-        const failing_verdict verdict = FAILS(FAILING_SQLITE, "sqlite3_" #name, NULL);                                            \
-        injected = verdict ? code : 0;                                                                                                   \
-        if (verdict == FAILING_NOW) return code;                                                                                         \
-        const int result = real arguments;                                                                                               \
-        return verdict ? code : result;                                                                                                  \
+#define SQLITE(name, code, parameters, arguments)                                      \
+    int sqlite3_##name parameters                                                      \
+    {                                                                                  \
+        REAL(int, sqlite3_##name, parameters);                                         \
+        const failing_verdict verdict = FAILS(FAILING_SQLITE, "sqlite3_" #name, NULL); \
+        injected = verdict ? code : 0;                                                 \
+        if (verdict == FAILING_NOW) return code;                                       \
+        const int result = real arguments;                                             \
+        return verdict ? code : result;                                                \
     }
 SQLITE(step, SQLITE_IOERR, (sqlite3_stmt * statement), (statement))
-SQLITE(exec, SQLITE_IOERR, (sqlite3 * db, const char *sql, int (*row)(void *, int, char **, char **), void *context, char **message),
+SQLITE(exec, SQLITE_IOERR,
+       (sqlite3 * db, const char *sql, int (*row)(void *, int, char **, char **), void *context,
+        char **message),
        (db, sql, row, context, message))
-SQLITE(bind_int64, SQLITE_NOMEM, (sqlite3_stmt * statement, int n, sqlite3_int64 value), (statement, n, value))
-SQLITE(bind_double, SQLITE_NOMEM, (sqlite3_stmt * statement, int n, double value), (statement, n, value))
+SQLITE(bind_int64, SQLITE_NOMEM, (sqlite3_stmt * statement, int n, sqlite3_int64 value),
+       (statement, n, value))
+SQLITE(bind_double, SQLITE_NOMEM, (sqlite3_stmt * statement, int n, double value),
+       (statement, n, value))
 SQLITE(bind_null, SQLITE_NOMEM, (sqlite3_stmt * statement, int n), (statement, n))
-SQLITE(bind_text, SQLITE_NOMEM, (sqlite3_stmt * statement, int n, const char *text, int size, void (*destroy)(void *)),
+SQLITE(bind_text, SQLITE_NOMEM,
+       (sqlite3_stmt * statement, int n, const char *text, int size, void (*destroy)(void *)),
        (statement, n, text, size, destroy))
 
 /* On failure they give nothing, as the real ones do. */
-int sqlite3_prepare_v2(sqlite3 *db, const char *sql, int size, sqlite3_stmt **statement, const char **tail)
+int sqlite3_prepare_v2(sqlite3 *db, const char *sql, int size, sqlite3_stmt **statement,
+                       const char **tail)
 {
     REAL(int, sqlite3_prepare_v2, (sqlite3 *, const char *, int, sqlite3_stmt **, const char **));
-    if (!FAILS(FAILING_SQLITE, "sqlite3_prepare_v2", NULL)) return injected = 0, real(db, sql, size, statement, tail);
+    if (!FAILS(FAILING_SQLITE, "sqlite3_prepare_v2", NULL))
+        return injected = 0, real(db, sql, size, statement, tail);
     *statement = NULL;
     return injected = SQLITE_NOMEM;
 }
 
-int sqlite3_prepare_v3(sqlite3 *db, const char *sql, int size, unsigned flags, sqlite3_stmt **statement, const char **tail)
+int sqlite3_prepare_v3(sqlite3 *db, const char *sql, int size, unsigned flags,
+                       sqlite3_stmt **statement, const char **tail)
 {
-    REAL(int, sqlite3_prepare_v3, (sqlite3 *, const char *, int, unsigned, sqlite3_stmt **, const char **));
-    if (!FAILS(FAILING_SQLITE, "sqlite3_prepare_v3", NULL)) return injected = 0, real(db, sql, size, flags, statement, tail);
+    REAL(int, sqlite3_prepare_v3,
+         (sqlite3 *, const char *, int, unsigned, sqlite3_stmt **, const char **));
+    if (!FAILS(FAILING_SQLITE, "sqlite3_prepare_v3", NULL))
+        return injected = 0, real(db, sql, size, flags, statement, tail);
     *statement = NULL;
     return injected = SQLITE_NOMEM;
 }
@@ -56,7 +68,8 @@ int sqlite3_prepare_v3(sqlite3 *db, const char *sql, int size, unsigned flags, s
 int sqlite3_open_v2(const char *path, sqlite3 **db, int flags, const char *vfs)
 {
     REAL(int, sqlite3_open_v2, (const char *, sqlite3 **, int, const char *));
-    if (!FAILS(FAILING_SQLITE, "sqlite3_open_v2", path)) return injected = 0, real(path, db, flags, vfs);
+    if (!FAILS(FAILING_SQLITE, "sqlite3_open_v2", path))
+        return injected = 0, real(path, db, flags, vfs);
     *db = NULL; /* no memory even for that */
     return injected = SQLITE_NOMEM;
 }
@@ -78,10 +91,12 @@ const char *sqlite3_errmsg(sqlite3 *db)
 /* Any call of HDF5 can fail for want of memory: as it would say so. */
 static void no_room(const char *function)
 {
-    (void)H5Epush2(H5E_DEFAULT, __FILE__, function, __LINE__, H5E_ERR_CLS, H5E_RESOURCE, H5E_NOSPACE, "no memory, by a test");
+    (void)H5Epush2(H5E_DEFAULT, __FILE__, function, __LINE__, H5E_ERR_CLS, H5E_RESOURCE,
+                   H5E_NOSPACE, "no memory, by a test");
 }
 
-/* It closes the file and then says that it has not: a file that stays open would be a fault of this test. */
+/* It closes the file and then says that it has not: a file that stays open would be a fault of this
+ * test. */
 herr_t H5Fclose(hid_t id)
 {
     REAL(herr_t, H5Fclose, (hid_t));
@@ -91,47 +106,63 @@ herr_t H5Fclose(hid_t id)
     return verdict ? -1 : result;
 }
 
-#define HDF5(type, name, parameters, arguments)                                                                                          \
-    type name parameters                                                                                                                 \
-    {                                                                                                                                    \
-        REAL(type, name, parameters);                                                                                                    \
-        const failing_verdict verdict = FAILS(FAILING_HDF5, #name, NULL);                                                         \
-        if (!verdict) return real arguments;                                                                                             \
-        if (verdict == FAILING_LATE) (void)real arguments;                                                                               \
-        no_room(#name);                                                                                                                  \
-        return (type)-1;                                                                                                                 \
+#define HDF5(type, name, parameters, arguments)                           \
+    type name parameters                                                  \
+    {                                                                     \
+        REAL(type, name, parameters);                                     \
+        const failing_verdict verdict = FAILS(FAILING_HDF5, #name, NULL); \
+        if (!verdict) return real arguments;                              \
+        if (verdict == FAILING_LATE) (void)real arguments;                \
+        no_room(#name);                                                   \
+        return (type)-1;                                                  \
     }
-HDF5(hid_t, H5Fcreate, (const char *name, unsigned flags, hid_t creation, hid_t access), (name, flags, creation, access))
+HDF5(hid_t, H5Fcreate, (const char *name, unsigned flags, hid_t creation, hid_t access),
+     (name, flags, creation, access))
 HDF5(hid_t, H5Fopen, (const char *name, unsigned flags, hid_t access), (name, flags, access))
 HDF5(herr_t, H5Fflush, (hid_t id, H5F_scope_t scope), (id, scope))
-HDF5(hid_t, H5Dcreate2, (hid_t at, const char *name, hid_t type, hid_t space, hid_t link, hid_t creation, hid_t access),
+HDF5(hid_t, H5Dcreate2,
+     (hid_t at, const char *name, hid_t type, hid_t space, hid_t link, hid_t creation,
+      hid_t access),
      (at, name, type, space, link, creation, access))
 HDF5(hid_t, H5Dopen2, (hid_t at, const char *name, hid_t access), (at, name, access))
 HDF5(herr_t, H5Dset_extent, (hid_t id, const hsize_t *size), (id, size))
-HDF5(herr_t, H5Dwrite, (hid_t id, hid_t memory, hid_t mspace, hid_t fspace, hid_t list, const void *buffer),
+HDF5(herr_t, H5Dwrite,
+     (hid_t id, hid_t memory, hid_t mspace, hid_t fspace, hid_t list, const void *buffer),
      (id, memory, mspace, fspace, list, buffer))
-HDF5(herr_t, H5Dread, (hid_t id, hid_t memory, hid_t mspace, hid_t fspace, hid_t list, void *buffer), (id, memory, mspace, fspace, list, buffer))
+HDF5(herr_t, H5Dread,
+     (hid_t id, hid_t memory, hid_t mspace, hid_t fspace, hid_t list, void *buffer),
+     (id, memory, mspace, fspace, list, buffer))
 HDF5(hid_t, H5Dget_type, (hid_t id), (id))
 HDF5(hid_t, H5Dget_space, (hid_t id), (id))
 HDF5(hid_t, H5Dget_create_plist, (hid_t id), (id))
-HDF5(hid_t, H5Acreate_by_name, (hid_t at, const char *object, const char *name, hid_t type, hid_t space, hid_t acpl, hid_t aapl, hid_t lapl),
+HDF5(hid_t, H5Acreate_by_name,
+     (hid_t at, const char *object, const char *name, hid_t type, hid_t space, hid_t acpl,
+      hid_t aapl, hid_t lapl),
      (at, object, name, type, space, acpl, aapl, lapl))
-HDF5(hid_t, H5Aopen_by_name, (hid_t at, const char *object, const char *name, hid_t aapl, hid_t lapl), (at, object, name, aapl, lapl))
+HDF5(hid_t, H5Aopen_by_name,
+     (hid_t at, const char *object, const char *name, hid_t aapl, hid_t lapl),
+     (at, object, name, aapl, lapl))
 HDF5(herr_t, H5Awrite, (hid_t id, hid_t type, const void *buffer), (id, type, buffer))
 HDF5(herr_t, H5Aread, (hid_t id, hid_t type, void *buffer), (id, type, buffer))
 HDF5(hid_t, H5Aget_space, (hid_t id), (id))
 HDF5(hid_t, H5Aget_type, (hid_t id), (id))
-HDF5(hid_t, H5Gcreate2, (hid_t at, const char *name, hid_t link, hid_t creation, hid_t access), (at, name, link, creation, access))
+HDF5(hid_t, H5Gcreate2, (hid_t at, const char *name, hid_t link, hid_t creation, hid_t access),
+     (at, name, link, creation, access))
 HDF5(hid_t, H5Screate, (H5S_class_t kind), (kind))
-HDF5(hid_t, H5Screate_simple, (int rank, const hsize_t *size, const hsize_t *most), (rank, size, most))
+HDF5(hid_t, H5Screate_simple, (int rank, const hsize_t *size, const hsize_t *most),
+     (rank, size, most))
 HDF5(herr_t, H5Sselect_hyperslab,
-     (hid_t id, H5S_seloper_t how, const hsize_t *from, const hsize_t *stride, const hsize_t *count, const hsize_t *block),
+     (hid_t id, H5S_seloper_t how, const hsize_t *from, const hsize_t *stride, const hsize_t *count,
+      const hsize_t *block),
      (id, how, from, stride, count, block))
 HDF5(hid_t, H5Tcopy, (hid_t id), (id))
 HDF5(herr_t, H5Tset_size, (hid_t id, size_t size), (id, size))
 HDF5(hid_t, H5Pcreate, (hid_t class), (class))
 HDF5(herr_t, H5Pset_chunk, (hid_t id, int rank, const hsize_t *size), (id, rank, size))
-HDF5(herr_t, H5Pset_filter, (hid_t id, H5Z_filter_t filter, unsigned flags, size_t n, const unsigned *values), (id, filter, flags, n, values))
+HDF5(herr_t, H5Pset_filter,
+     (hid_t id, H5Z_filter_t filter, unsigned flags, size_t n, const unsigned *values),
+     (id, filter, flags, n, values))
 HDF5(herr_t, H5Pset_fletcher32, (hid_t id), (id))
 HDF5(herr_t, H5Pset_driver, (hid_t id, hid_t driver, const void *info), (id, driver, info))
-HDF5(herr_t, H5Pset_chunk_cache, (hid_t id, size_t slots, size_t bytes, double w0), (id, slots, bytes, w0))
+HDF5(herr_t, H5Pset_chunk_cache, (hid_t id, size_t slots, size_t bytes, double w0),
+     (id, slots, bytes, w0))

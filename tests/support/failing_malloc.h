@@ -1,4 +1,6 @@
-/* malloc and its like, of which the k-th can be made to fail. Not under AddressSanitizer, which owns malloc. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* malloc and its like, of which the k-th can be made to fail. Not under AddressSanitizer, which
+ * owns malloc. */
 #ifndef FRACAS_TESTS_SUPPORT_FAILING_MALLOC_H
 #define FRACAS_TESTS_SUPPORT_FAILING_MALLOC_H
 

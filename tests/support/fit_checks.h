@@ -1,4 +1,6 @@
-/* Fits of many samples of a known law: how often an interval holds the truth, whether p-values are uniform, bias. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fits of many samples of a known law: how often an interval holds the truth, whether p-values are
+ * uniform, bias. */
 #ifndef FRACAS_TESTS_SUPPORT_FIT_CHECKS_H
 #define FRACAS_TESTS_SUPPORT_FIT_CHECKS_H
 
@@ -19,13 +21,14 @@
 
 #define OK(call) assert_int_equal(call, FRACAS_OK)
 
-/* Kolmogorov's distance of n uniform numbers is above 2.69/sqrt(n) once in 1e6: sqrt(-log(0.5e-6)/2). */
+/* Kolmogorov's distance of n uniform numbers is above 2.69/sqrt(n) once in 1e6:
+ * sqrt(-log(0.5e-6)/2). */
 #define FIT_KOLMOGOROV 2.69
 
 typedef struct {
-    size_t n, failed;   /* samples that were fitted, and others */
-    double ks, ad;      /* Kolmogorov's distance of the p-values from uniform, times sqrt(n) */
-    double rejected;    /* share of the p-values of KS at 0.05 or below */
+    size_t n, failed; /* samples that were fitted, and others */
+    double ks, ad;    /* Kolmogorov's distance of the p-values from uniform, times sqrt(n) */
+    double rejected;  /* share of the p-values of KS at 0.05 or below */
     double held[FRACAS_FAMILY_PARAMETERS]; /* share of the intervals that hold the truth */
     double bias[FRACAS_FAMILY_PARAMETERS]; /* mean error over its own standard deviation */
 } fit_check;
@@ -35,16 +38,20 @@ static inline double fit_distance(double *p, size_t n)
     double distance = 0;
     gsl_sort(p, 1, n);
     for (size_t i = 0; i < n; i++)
-        distance = fmax(distance, fmax(fabs(p[i] - (double)i / (double)n), fabs(p[i] - (double)(i + 1) / (double)n)));
+        distance = fmax(distance, fmax(fabs(p[i] - (double)i / (double)n),
+                                       fabs(p[i] - (double)(i + 1) / (double)n)));
     return distance * sqrt((double)n);
 }
 
-/* The intervals and p-values that fracas fit gives, of one family alone: it is all that the point's fits are made to look at. */
-static inline fit_check fit_check_of(const synthetic *what, size_t repetitions, int64_t resamples, unsigned long seed)
+/* The intervals and p-values that fracas fit gives, of one family alone: it is all that the point's
+ * fits are made to look at. */
+static inline fit_check fit_check_of(const synthetic *what, size_t repetitions, int64_t resamples,
+                                     unsigned long seed)
 {
     const size_t np = what->family->nparameters;
     fit_check found = {0};
-    double *p = malloc(2 * repetitions * sizeof *p), sum[FRACAS_FAMILY_PARAMETERS] = {0}, squares[FRACAS_FAMILY_PARAMETERS] = {0};
+    double *p = malloc(2 * repetitions * sizeof *p), sum[FRACAS_FAMILY_PARAMETERS] = {0},
+           squares[FRACAS_FAMILY_PARAMETERS] = {0};
     assert_non_null(p);
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(random, seed);
@@ -57,7 +64,8 @@ static inline fit_check fit_check_of(const synthetic *what, size_t repetitions, 
         found.failed += *fit->fit.why != '\0';
         for (size_t i = 0; !*fit->fit.why && i < np; i++) {
             const double error = fit->parameter[i].value - what->parameter[i];
-            found.held[i] += fit->parameter[i].low <= what->parameter[i] && what->parameter[i] <= fit->parameter[i].high;
+            found.held[i] += fit->parameter[i].low <= what->parameter[i] &&
+                             what->parameter[i] <= fit->parameter[i].high;
             sum[i] += error;
             squares[i] += error * error;
         }
@@ -86,11 +94,12 @@ static inline fit_check fit_check_of(const synthetic *what, size_t repetitions, 
 static inline void fit_check_print(const synthetic *what, const fit_check *found)
 {
     static const char *const how[NDEPENDENCES] = {"independent", "ring", "shared", "strong"};
-    print_message("| %s | %zu | %s | %zu, %zu | %.2f, %.2f | %.3f |", what->family->name, what->realizations, how[what->how], found->n,
-                  found->failed, found->ks, found->ad, found->rejected);
+    print_message("| %s | %zu | %s | %zu, %zu | %.2f, %.2f | %.3f |", what->family->name,
+                  what->realizations, how[what->how], found->n, found->failed, found->ks, found->ad,
+                  found->rejected);
     for (size_t i = 0; i < what->family->nparameters; i++)
-        print_message(" %s %.3f (%+.2f)%s", what->family->parameter[i].name, found->held[i], found->bias[i],
-                      i + 1 < what->family->nparameters ? "," : " |\n");
+        print_message(" %s %.3f (%+.2f)%s", what->family->parameter[i].name, found->held[i],
+                      found->bias[i], i + 1 < what->family->nparameters ? "," : " |\n");
 }
 
 #endif

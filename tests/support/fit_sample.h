@@ -1,4 +1,6 @@
-/* Realizations whose fragments are of a known law, and depend on each other within a realization. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Realizations whose fragments are of a known law, and depend on each other within a realization.
+ */
 #ifndef FRACAS_TESTS_SUPPORT_FIT_SAMPLE_H
 #define FRACAS_TESTS_SUPPORT_FIT_SAMPLE_H
 
@@ -11,16 +13,17 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* How the fragments of a realization depend on each other. Every one has the law's distribution exactly: its normal score is standard.
- * RING: neighbours of score (e_j - e_(j+1))/sqrt(2), correlation -1/2, which sum to 0 round the ring, as sizes do that fill a length.
- * SHARED: a tenth of the variance is the realization's own; STRONG: half of it. */
+/* How the fragments of a realization depend on each other. Every one has the law's distribution
+ * exactly: its normal score is standard. RING: neighbours of score (e_j - e_(j+1))/sqrt(2),
+ * correlation -1/2, which sum to 0 round the ring, as sizes do that fill a length. SHARED: a tenth
+ * of the variance is the realization's own; STRONG: half of it. */
 typedef enum { INDEPENDENT, RING_SCORES, SHARED, STRONG, NDEPENDENCES } dependence;
 
 typedef struct {
     const fracas_family *family;
     double parameter[FRACAS_FAMILY_PARAMETERS]; /* lengths in m */
-    double from;     /* m, sizes up to it do not occur; of a power law */
-    double lattice;  /* m, sizes are rounded to its multiples; 0: they are not */
+    double from;                                /* m, sizes up to it do not occur; of a power law */
+    double lattice; /* m, sizes are rounded to its multiples; 0: they are not */
     size_t realizations;
     double fragments; /* of a realization, in the mean: Poisson, at least 2 */
     dependence how;
@@ -28,12 +31,14 @@ typedef struct {
 
 static inline double synthetic_size(const synthetic *what, double score)
 {
-    const double size = what->family->quantile(what->parameter, what->from, gsl_cdf_ugaussian_Q(score));
+    const double size = what->family->quantile(what->parameter, what->from,
+                                               gsl_cdf_ugaussian_Q(score));
     return what->lattice > 0 ? what->lattice * ceil(size / what->lattice - 0.5) : size;
 }
 
 /* One realization; sizes of less than half an element are no fragments. */
-static inline void synthetic_realization(const synthetic *what, gsl_rng *random, fracas_record *record)
+static inline void synthetic_realization(const synthetic *what, gsl_rng *random,
+                                         fracas_record *record)
 {
     const size_t n = 2 + gsl_ran_poisson(random, what->fragments - 2);
     const double part = what->how == SHARED ? 0.1 : what->how == STRONG ? 0.5 : 0;
@@ -42,21 +47,26 @@ static inline void synthetic_realization(const synthetic *what, gsl_rng *random,
     fracas_record_init(record);
     record->fragment = calloc(n, sizeof *record->fragment);
     for (size_t j = 0; record->fragment && j < n; j++) {
-        const double next = what->how == RING_SCORES && j + 1 == n ? first : gsl_ran_ugaussian(random);
+        const double next = what->how == RING_SCORES && j + 1 == n ? first
+                                                                   : gsl_ran_ugaussian(random);
         const double score = what->how == RING_SCORES ? (last - next) / M_SQRT2
-            : sqrt(part) * shared + sqrt(1 - part) * next;
+                                                      : sqrt(part) * shared + sqrt(1 - part) * next;
         const double size = synthetic_size(what, score);
         last = next;
         if (!(size > 0)) continue;
         const int64_t elements = what->lattice > 0 ? (int64_t)(size / what->lattice + 0.5) : 100;
-        record->fragment[record->nfragment++] =
-            (fracas_fragment){.size = size, .mass = size, .elements = elements, .dust = what->lattice > 0 && elements == 1};
+        record->fragment[record->nfragment++] = (fracas_fragment){.size = size,
+                                                                  .mass = size,
+                                                                  .elements = elements,
+                                                                  .dust = what->lattice > 0 &&
+                                                                          elements == 1};
     }
     record->fragments = (int64_t)record->nfragment;
 }
 
 /* Cleared by the caller. */
-static inline fracas_err synthetic_ensemble(const synthetic *what, gsl_rng *random, fracas_ensemble *ensemble)
+static inline fracas_err synthetic_ensemble(const synthetic *what, gsl_rng *random,
+                                            fracas_ensemble *ensemble)
 {
     const fracas_replica_values value = {0};
     fracas_ensemble_init(ensemble, what->lattice);

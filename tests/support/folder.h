@@ -1,5 +1,6 @@
-/* A folder of a test program's own, made before its tests and removed after them: group fixtures of cmocka. Define FOLDER, its name
- * before the random part, first. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A folder of a test program's own, made before its tests and removed after them: group fixtures of
+ * cmocka. Define FOLDER, its name before the random part, first. */
 #ifndef FRACAS_TESTS_SUPPORT_FOLDER_H
 #define FRACAS_TESTS_SUPPORT_FOLDER_H
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Writes meshes as Gmsh does: MSH 2.2 and 4.1, text and binary of either byte order. */
 #ifndef FRACAS_TESTS_SUPPORT_GMSH_H
 #define FRACAS_TESTS_SUPPORT_GMSH_H
@@ -30,7 +31,8 @@ static inline void gmsh_text(gmsh_file *f, const char *text)
 static inline void gmsh_number(gmsh_file *f, const void *value, size_t size)
 {
     unsigned char bytes[8];
-    for (size_t i = 0; i < size; i++) bytes[i] = ((const unsigned char *)value)[f->is_swapped ? size - 1 - i : i];
+    for (size_t i = 0; i < size; i++)
+        bytes[i] = ((const unsigned char *)value)[f->is_swapped ? size - 1 - i : i];
     gmsh_put(f, bytes, size);
 }
 
@@ -99,7 +101,8 @@ static inline void gmsh_head(gmsh_file *f)
     gmsh_text(f, "$PhysicalNames\n1\n1 3 \"a name\"\n$EndPhysicalNames\n");
 }
 
-/* A point, curves 1 to 4 in the physical groups 1 to 4 (the second turned round), curve 5 in none. */
+/* A point, curves 1 to 4 in the physical groups 1 to 4 (the second turned round), curve 5 in none.
+ */
 static inline void gmsh_entities(gmsh_file *f)
 {
     gmsh_text(f, "$Entities\n");
@@ -153,7 +156,8 @@ static inline void gmsh_nodes(gmsh_file *f, const fracas_surface *s)
 static inline void gmsh_block(gmsh_file *f, int dimension, int entity, int type, size_t count)
 {
     if (f->is_4) {
-        gmsh_int(f, dimension), gmsh_int(f, entity), gmsh_int(f, type), gmsh_long(f, (int64_t)count);
+        gmsh_int(f, dimension), gmsh_int(f, entity), gmsh_int(f, type),
+            gmsh_long(f, (int64_t)count);
         gmsh_line_end(f);
     } else if (f->is_binary) {
         gmsh_int(f, type), gmsh_int(f, (int32_t)count), gmsh_int(f, 2);
@@ -167,7 +171,8 @@ static inline void gmsh_one(gmsh_file *f, int64_t number, int type, int group, i
     if (!f->is_4) gmsh_int(f, group), gmsh_int(f, entity);
 }
 
-/* A point, a line of no group on the first border, each border as a line of the group of its tag, all triangles. */
+/* A point, a line of no group on the first border, each border as a line of the group of its tag,
+ * all triangles. */
 static inline void gmsh_elements(gmsh_file *f, const fracas_surface *s)
 {
     const int line = s->order == 1 ? 1 : 8, triangle = s->order == 1 ? 2 : 9;
@@ -175,7 +180,8 @@ static inline void gmsh_elements(gmsh_file *f, const fracas_surface *s)
     const size_t lines = s->nborders ? s->nborders + 1 : 0, all = s->nelements + lines + 1;
     if (!f->is_4) gmsh_count(f, all);
     if (f->is_4) {
-        gmsh_long(f, (int64_t)lines + 2), gmsh_long(f, (int64_t)all), gmsh_long(f, 1), gmsh_long(f, 99999);
+        gmsh_long(f, (int64_t)lines + 2), gmsh_long(f, (int64_t)all), gmsh_long(f, 1),
+            gmsh_long(f, 99999);
         gmsh_line_end(f);
     }
     gmsh_block(f, 0, 1, 15, 1);
@@ -187,7 +193,8 @@ static inline void gmsh_elements(gmsh_file *f, const fracas_surface *s)
         const int group = i ? b->tag : 0, curve = i ? b->tag : 5;
         gmsh_block(f, 1, curve, line, 1);
         gmsh_one(f, 2 + (int64_t)i, line, group == 2 && f->is_4 ? -2 : group, curve);
-        for (uint32_t k = 0; k < 2; k++) gmsh_name(f, gmsh_node(s, corner_of(s, b->element, (b->edge + k) % 3)));
+        for (uint32_t k = 0; k < 2; k++)
+            gmsh_name(f, gmsh_node(s, corner_of(s, b->element, (b->edge + k) % 3)));
         if (s->order == 2) gmsh_name(f, gmsh_node(s, corner_of(s, b->element, 3 + b->edge)));
         gmsh_line_end(f);
     }
@@ -201,7 +208,8 @@ static inline void gmsh_elements(gmsh_file *f, const fracas_surface *s)
 }
 
 /* The caller frees `bytes`. */
-static inline gmsh_file gmsh_write(const fracas_surface *s, bool is_4, bool is_binary, bool is_swapped)
+static inline gmsh_file gmsh_write(const fracas_surface *s, bool is_4, bool is_binary,
+                                   bool is_swapped)
 {
     gmsh_file f = {.is_4 = is_4, .is_binary = is_binary, .is_swapped = is_swapped};
     gmsh_head(&f);

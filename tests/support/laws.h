@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Strengths by hand, for tests of their laws. */
 #ifndef FRACAS_TESTS_SUPPORT_LAWS_H
 #define FRACAS_TESTS_SUPPORT_LAWS_H
@@ -10,7 +11,8 @@
 static inline const fracas_kind *law_named(const char *name)
 {
     for (size_t i = 0; i < fracas_strength_section.nkinds; i++)
-        if (strcmp(fracas_strength_section.kinds[i]->name, name) == 0) return fracas_strength_section.kinds[i];
+        if (strcmp(fracas_strength_section.kinds[i]->name, name) == 0)
+            return fracas_strength_section.kinds[i];
     abort();
 }
 
@@ -29,14 +31,18 @@ static inline fracas_strength law_blank(const char *name)
     for (size_t p = 0; p < strength.distribution->nparams; p++) {
         const fracas_param *param = &strength.distribution->params[p];
         if (param->optional) fracas_param_clear(param, &strength);
-        else if (param->type != FRACAS_ATTACHMENT) fracas_param_set(param, &strength, param->fallback);
+        else if (param->type != FRACAS_ATTACHMENT)
+            fracas_param_set(param, &strength, param->fallback);
     }
-    for (size_t p = 0; p < section->nparams; p++) fracas_param_clear(&section->params[p], &strength);
+    for (size_t p = 0; p < section->nparams; p++)
+        fracas_param_clear(&section->params[p], &strength);
     return strength;
 }
 
-/* Its mean and standard deviation given, above `minimum` for a Weibull law; of a normal law, of what is kept. */
-static inline fracas_strength law_by_moments(const char *name, double minimum, double mean, double deviation)
+/* Its mean and standard deviation given, above `minimum` for a Weibull law; of a normal law, of
+ * what is kept. */
+static inline fracas_strength law_by_moments(const char *name, double minimum, double mean,
+                                             double deviation)
 {
     fracas_strength strength = law_blank(name);
     if (strcmp(name, "weibull") == 0) strength.minimum = minimum;
@@ -59,6 +65,9 @@ static inline fracas_strength law_of_file(const fracas_attachment *file, bool st
     return strength;
 }
 
-#define FILE_OF(name, content) {.path = name, .text = content, .size = sizeof(content) - 1, .digest = "0"}
+#define FILE_OF(name, content)                                                    \
+    {                                                                             \
+        .path = name, .text = content, .size = sizeof(content) - 1, .digest = "0" \
+    }
 
 #endif

@@ -1,4 +1,6 @@
-/* Membranes that break: a small plate, its strengths, and what can be read off its state without the harvest. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Membranes that break: a small plate, its strengths, and what can be read off its state without
+ * the harvest. */
 #ifndef FRACAS_TESTS_SUPPORT_MEMBRANE_CRACKS_H
 #define FRACAS_TESTS_SUPPORT_MEMBRANE_CRACKS_H
 
@@ -6,7 +8,8 @@
 
 #include "base/partition.h"
 
-/* A free plate of 6 mm x 5 mm that expands: E 320 GPa, nu 0.3, rho 3300, G_c 200 J/m2, half the critical step. */
+/* A free plate of 6 mm x 5 mm that expands: E 320 GPa, nu 0.3, rho 3300, G_c 200 J/m2, half the
+ * critical step. */
 static inline fracas_spec brittle_plate(int64_t order, int64_t divisions, double rate, double end)
 {
     fracas_spec spec = membrane_spec(&fracas_shape_plate, order, divisions);
@@ -23,7 +26,8 @@ static inline void hold_edges(fracas_spec *spec, const fracas_kind *kind)
     for (int i = 0; i < FRACAS_EDGES; i++) spec->geometry.edge[i] = kind;
 }
 
-static inline fracas_batch *batch_with(const fracas_model *model, size_t count, fracas_batch_options options)
+static inline fracas_batch *batch_with(const fracas_model *model, size_t count,
+                                       fracas_batch_options options)
 {
     fracas_batch *batch = NULL;
     assert_ok(fracas_batch_create(model, count, &options, &batch));
@@ -31,9 +35,13 @@ static inline fracas_batch *batch_with(const fracas_model *model, size_t count, 
 }
 
 /* One lane that keeps its interfaces; strengths of 300 MPa (1 +- scatter). */
-static inline fracas_batch *lane_of(const fracas_model *model, double scatter, uint64_t replica, int64_t history)
+static inline fracas_batch *lane_of(const fracas_model *model, double scatter, uint64_t replica,
+                                    int64_t history)
 {
-    fracas_batch *batch = batch_with(model, 1, (fracas_batch_options){.history = history, .interfaces = true, .width = 1, .isa = FRACAS_ISA_BEST});
+    fracas_batch *batch = batch_with(
+        model, 1,
+        (fracas_batch_options){
+            .history = history, .interfaces = true, .width = 1, .isa = FRACAS_ISA_BEST});
     bar_draw(batch, 0, scatter, replica);
     return batch;
 }
@@ -45,7 +53,8 @@ static inline void run_to_end(fracas_batch *batch, fracas_record *record)
 }
 
 /* Displacement or velocity component of node k of element e, lane 0. */
-static inline double *membrane_state(const fracas_batch *batch, size_t e, size_t k, int field, int i)
+static inline double *membrane_state(const fracas_batch *batch, size_t e, size_t k, int field,
+                                     int i)
 {
     return fracas_membrane_value(batch->model, &batch->step, e, field, 2 * (int)k + i, 0);
 }
@@ -59,8 +68,8 @@ static inline double mass_of(const fracas_model *model, size_t e, size_t k, size
     return k == l ? t->lumped[(2 * e + 1) * nodes + k] : 0;
 }
 
-/* Sums of some elements over nodes k, l, without the harvest: mass, M_kl x_l, M_kl v_l, x_k x M_kl v_l, with x at the start (at)
- * or displaced (moved); sum of |M_kl v_l|. */
+/* Sums of some elements over nodes k, l, without the harvest: mass, M_kl x_l, M_kl v_l, x_k x M_kl
+ * v_l, with x at the start (at) or displaced (moved); sum of |M_kl v_l|. */
 typedef struct {
     double mass, centre[2], momentum[2], moment_at, moment_moved, scale;
     int64_t elements;
@@ -76,7 +85,9 @@ static inline void add_sums(const fracas_batch *batch, size_t e, membrane_sums *
             moved[i] = x[i] + *membrane_state(batch, e, k, SURFACE_U, i);
             for (size_t l = 0; l < model->surface->corners; l++) {
                 p[i] += mass_of(model, e, k, l) * *membrane_state(batch, e, l, SURFACE_V, i);
-                sums->centre[i] += mass_of(model, e, k, l) * (node_at(model, e, l)[i] + *membrane_state(batch, e, l, SURFACE_U, i));
+                sums->centre[i] += mass_of(model, e, k, l) *
+                                   (node_at(model, e, l)[i] +
+                                    *membrane_state(batch, e, l, SURFACE_U, i));
             }
             sums->momentum[i] += p[i];
             sums->scale += fabs(p[i]);
@@ -95,11 +106,12 @@ static inline membrane_sums sums_of(const fracas_batch *batch)
     return sums;
 }
 
-/* Labels the elements by the interfaces that `joins` says hold; returns how many sets. `label` [elements]. Not by union-find: labels
- * are passed on until nothing changes. */
+/* Labels the elements by the interfaces that `joins` says hold; returns how many sets. `label`
+ * [elements]. Not by union-find: labels are passed on until nothing changes. */
 typedef bool interface_joins(const fracas_interface_row *row, double time);
 
-static inline int64_t label_fragments(const fracas_model *model, const fracas_interface_row *row, interface_joins *joins, double time, size_t *label)
+static inline int64_t label_fragments(const fracas_model *model, const fracas_interface_row *row,
+                                      interface_joins *joins, double time, size_t *label)
 {
     for (size_t e = 0; e < model->elements; e++) label[e] = e;
     for (bool changed = true; changed;) {
@@ -123,6 +135,9 @@ static inline bool is_not_broken(const fracas_interface_row *row, double unused)
     return row->damage < 1;
 }
 
-static inline bool is_not_broken_by(const fracas_interface_row *row, double time) { return !(row->break_time <= time); }
+static inline bool is_not_broken_by(const fracas_interface_row *row, double time)
+{
+    return !(row->break_time <= time);
+}
 
 #endif

@@ -1,4 +1,6 @@
-/* Uncracked membranes: their meshes, fields on them, and K as a matrix (docs/theory/membrane.md). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Uncracked membranes: their meshes, fields on them, and K as a matrix (docs/theory/membrane.md).
+ */
 #ifndef FRACAS_TESTS_SUPPORT_MEMBRANE_ELASTIC_H
 #define FRACAS_TESTS_SUPPORT_MEMBRANE_ELASTIC_H
 
@@ -19,7 +21,8 @@
 
 #define PI 3.14159265358979323846
 
-/* A free plate or annulus of order `order`, `divisions` of its shorter side or between its circles; lumped masses, beta 4. */
+/* A free plate or annulus of order `order`, `divisions` of its shorter side or between its circles;
+ * lumped masses, beta 4. */
 static inline fracas_spec membrane_spec(const fracas_kind *shape, int64_t order, int64_t divisions)
 {
     fracas_spec spec = {
@@ -27,10 +30,21 @@ static inline fracas_spec membrane_spec(const fracas_kind *shape, int64_t order,
         .geometry = {.shape = shape, .thickness = 1e-3},
         .mesh = {.spacing = &fracas_spacing_triangles, .divisions = divisions, .order = order},
         .material = {.young = 320e9, .density = 3300, .poisson = 0.3},
-        .cohesive = {.law = &fracas_law_nitsche, .fracture_energy = 200, .beta = 4, .onset = &fracas_onset_mean, .coupling = 1},
-        .loading = {.type = &fracas_loading_expansion, .rate = 1e4, .ratio = 1, .start = &fracas_start_moving},
-        .time = {.stop = &fracas_stop_time, .end = 1e-6, .safety = 0.9, .integrator = &fracas_integrator_central_difference,
-                 .spectral_radius = 0.8, .mass = &fracas_mass_lumped}};
+        .cohesive = {.law = &fracas_law_nitsche,
+                     .fracture_energy = 200,
+                     .beta = 4,
+                     .onset = &fracas_onset_mean,
+                     .coupling = 1},
+        .loading = {.type = &fracas_loading_expansion,
+                    .rate = 1e4,
+                    .ratio = 1,
+                    .start = &fracas_start_moving},
+        .time = {.stop = &fracas_stop_time,
+                 .end = 1e-6,
+                 .safety = 0.9,
+                 .integrator = &fracas_integrator_central_difference,
+                 .spectral_radius = 0.8,
+                 .mass = &fracas_mass_lumped}};
     if (shape == &fracas_shape_plate) {
         spec.geometry.width = 12e-3;
         spec.geometry.height = 10e-3;
@@ -47,12 +61,19 @@ static inline fracas_spec membrane_spec(const fracas_kind *shape, int64_t order,
 enum { BODIES = 4 };
 static inline fracas_spec body_of(int which, int64_t divisions)
 {
-    return membrane_spec(which < 2 ? &fracas_shape_plate : &fracas_shape_annulus, which % 2 + 1, divisions);
+    return membrane_spec(which < 2 ? &fracas_shape_plate : &fracas_shape_annulus, which % 2 + 1,
+                         divisions);
 }
 
-static inline const fracas_membrane_tables *tables_of(const fracas_model *model) { return model->plan; }
+static inline const fracas_membrane_tables *tables_of(const fracas_model *model)
+{
+    return model->plan;
+}
 
-static inline size_t unknowns_of(const fracas_model *model) { return 2 * model->surface->corners * model->elements; }
+static inline size_t unknowns_of(const fracas_model *model)
+{
+    return 2 * model->surface->corners * model->elements;
+}
 
 static inline const double *node_at(const fracas_model *model, size_t element, size_t k)
 {
@@ -69,7 +90,8 @@ static inline bool is_held(const fracas_model *model, size_t unknown)
 /* Displacements at a place. */
 typedef void membrane_field(const void *how, const double x[2], double u[2]);
 
-static inline void interpolate(const fracas_model *model, membrane_field *field, const void *how, double *u)
+static inline void interpolate(const fracas_model *model, membrane_field *field, const void *how,
+                               double *u)
 {
     for (size_t e = 0; e < model->elements; e++)
         for (size_t k = 0; k < model->surface->corners; k++)
@@ -91,15 +113,19 @@ static inline void multiply_mass(const fracas_model *model, const double *a, dou
     for (size_t e = 0; e < model->elements; e++)
         for (size_t k = 0; k < nodes; k++)
             for (size_t i = 0; i < 2; i++) {
-                double sum = t->consistent ? 0 : t->lumped[(2 * e + 1) * nodes + k] * a[2 * (nodes * e + k) + i];
+                double sum = t->consistent
+                                 ? 0
+                                 : t->lumped[(2 * e + 1) * nodes + k] * a[2 * (nodes * e + k) + i];
                 for (size_t l = 0; t->consistent && l < nodes; l++)
-                    sum += t->consistent[((3 * e + 2) * nodes + k) * nodes + l] * a[2 * (nodes * e + l) + i];
+                    sum += t->consistent[((3 * e + 2) * nodes + k) * nodes + l] *
+                           a[2 * (nodes * e + l) + i];
                 result[2 * (nodes * e + k) + i] = sum;
             }
 }
 
 /* f = K u [N], 0 where nodes are held. */
-static inline void apply_stiffness(const fracas_model *model, fracas_membrane_operator *op, const double *u, double *f)
+static inline void apply_stiffness(const fracas_model *model, fracas_membrane_operator *op,
+                                   const double *u, double *f)
 {
     const size_t n = unknowns_of(model);
     double *a = vector_of(n);
@@ -126,7 +152,8 @@ static inline double *stiffness_matrix(const fracas_model *model, size_t n)
     return matrix;
 }
 
-/* Shape functions and their derivatives by xi, eta, from the Lagrange polynomials in the barycentric coordinates. */
+/* Shape functions and their derivatives by xi, eta, from the Lagrange polynomials in the
+ * barycentric coordinates. */
 static inline void lagrange(size_t nodes, double xi, double eta, double *value, double (*slope)[2])
 {
     const double l[3] = {1 - xi - eta, xi, eta}, grad[3][2] = {{-1, -1}, {1, 0}, {0, 1}};
@@ -143,7 +170,8 @@ static inline void lagrange(size_t nodes, double xi, double eta, double *value, 
         }
 }
 
-/* A place in an element: its coordinates, shape functions, their derivatives by x, y, the Jacobian's determinant. */
+/* A place in an element: its coordinates, shape functions, their derivatives by x, y, the
+ * Jacobian's determinant. */
 typedef struct {
     double x[2], shape[6], by[6][2], det;
 } membrane_place;
@@ -175,12 +203,14 @@ static inline void on_edge(size_t edge, double s, double at[2])
 }
 
 /* Outward normal by |dx/ds| at s along an edge, by differences: exact for the quadratic. */
-static inline void edge_normal(const fracas_model *model, size_t e, size_t edge, double s, double normal[2])
+static inline void edge_normal(const fracas_model *model, size_t e, size_t edge, double s,
+                               double normal[2])
 {
     double from[2], to[2];
     on_edge(edge, s - 0.25, from);
     on_edge(edge, s + 0.25, to);
-    const membrane_place a = place_at(model, e, from[0], from[1]), b = place_at(model, e, to[0], to[1]);
+    const membrane_place a = place_at(model, e, from[0], from[1]),
+                         b = place_at(model, e, to[0], to[1]);
     normal[0] = 2 * (b.x[1] - a.x[1]);
     normal[1] = -2 * (b.x[0] - a.x[0]);
 }
@@ -194,7 +224,8 @@ static inline void hooke(const fracas_material *m, double by[2][2], double stres
     stress[2] = c * (1 - m->poisson) / 2 * (by[0][1] + by[1][0]);
 }
 
-static inline void stress_at(const fracas_model *model, const membrane_place *p, const double *u, double stress[3])
+static inline void stress_at(const fracas_model *model, const membrane_place *p, const double *u,
+                             double stress[3])
 {
     double by[2][2] = {{0}};
     for (size_t k = 0; k < model->surface->corners; k++)

@@ -1,22 +1,26 @@
-/* The cohesive laws of a point that opens and slides, called with plain numbers: PLANE_CALL, for LANES lanes. A template as the
- * kernels are: include with LANES defined, after tests/support/plane.h; undefines what the kernels' headers define. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The cohesive laws of a point that opens and slides, called with plain numbers: PLANE_CALL, for
+ * LANES lanes. A template as the kernels are: include with LANES defined, after
+ * tests/support/plane.h; undefines what the kernels' headers define. */
 #include "base/lanes.h"
 #include "engine/cohesive/plane.h"
 #include "engine/cohesive/plane_extrinsic.h"
 #include "engine/cohesive/plane_nitsche.h"
 
 /* All lanes are of one kind of law; `state` is [lane]. */
-__attribute__((unused)) static void LANES_NAME(plane_call)(const plane_case *const *kind, const plane_at *in, plane_memory *state, plane_out *out)
+__attribute__((unused)) static void LANES_NAME(plane_call)(const plane_case *const *kind,
+                                                           const plane_at *in, plane_memory *state,
+                                                           plane_out *out)
 {
-#define GATHER(name, from)                                                     \
-    _Alignas(64) double name##_lanes[LANES];                                   \
-    for (int l = 0; l < LANES; l++) name##_lanes[l] = from;                    \
+#define GATHER(name, from)                                  \
+    _Alignas(64) double name##_lanes[LANES];                \
+    for (int l = 0; l < LANES; l++) name##_lanes[l] = from; \
     const vd name = lanes_load(name##_lanes)
-#define SCATTER(to, from)                                                      \
-    do {                                                                       \
-        _Alignas(64) double lanes_[LANES];                                     \
-        lanes_store(lanes_, from);                                             \
-        for (int l = 0; l < LANES; l++) to = lanes_[l];                        \
+#define SCATTER(to, from)                               \
+    do {                                                \
+        _Alignas(64) double lanes_[LANES];              \
+        lanes_store(lanes_, from);                      \
+        for (int l = 0; l < LANES; l++) to = lanes_[l]; \
     } while (0)
     GATHER(k_n, kind[l]->k_n);
     GATHER(k_t, kind[l]->k_t);
@@ -37,11 +41,20 @@ __attribute__((unused)) static void LANES_NAME(plane_call)(const plane_case *con
     GATHER(start_q_t, state[l].q_t);
     GATHER(start_t_n, state[l].t_n);
     GATHER(start_t_t, state[l].t_t);
-    const plane_interface at = {.k_n = k_n, .k_t = k_t, .sigma_c = sigma_c, .beta_c = beta_c, .mu_c = mu_c, .energy = energy, .opening = opening,
-                                .softness_n = lanes_set(1.0) / k_n, .softness_t = lanes_set(1.0) / k_t, .per_beta_c = lanes_set(1.0) / beta_c,
+    const plane_interface at = {.k_n = k_n,
+                                .k_t = k_t,
+                                .sigma_c = sigma_c,
+                                .beta_c = beta_c,
+                                .mu_c = mu_c,
+                                .energy = energy,
+                                .opening = opening,
+                                .softness_n = lanes_set(1.0) / k_n,
+                                .softness_t = lanes_set(1.0) / k_t,
+                                .per_beta_c = lanes_set(1.0) / beta_c,
                                 .onset_mean = kind[0]->onset_mean};
     GATHER(opened, in[l].opened);
-    const plane_input input = {.m_n = m_n, .m_t = m_t, .q_n = q_n, .q_t = q_t, .opened = lanes_lt(lanes_set(0.0), opened)};
+    const plane_input input = {
+        .m_n = m_n, .m_t = m_t, .q_n = q_n, .q_t = q_t, .opened = lanes_lt(lanes_set(0.0), opened)};
     const int friction = kind[0]->mu_c > 0;
     plane_result r;
     if (kind[0]->law == PLANE_NITSCHE) {
@@ -52,8 +65,14 @@ __attribute__((unused)) static void LANES_NAME(plane_call)(const plane_case *con
         SCATTER(state[l].slip, s.slip);
         SCATTER(state[l].rub, s.rub);
     } else {
-        plane_extrinsic_state s = {.damage = damage, .peak = peak, .q_n = start_q_n, .q_t = start_q_t, .t_n = start_t_n,
-                                   .t_t = start_t_t, .slip = slip, .rub = rub};
+        plane_extrinsic_state s = {.damage = damage,
+                                   .peak = peak,
+                                   .q_n = start_q_n,
+                                   .q_t = start_q_t,
+                                   .t_n = start_t_n,
+                                   .t_t = start_t_t,
+                                   .slip = slip,
+                                   .rub = rub};
         r = plane_extrinsic(&at, &input, kind[0]->law == PLANE_STANDARD, friction, &s);
         SCATTER(state[l].damage, s.damage);
         SCATTER(state[l].peak, s.peak);
@@ -78,7 +97,8 @@ __attribute__((unused)) static void LANES_NAME(plane_call)(const plane_case *con
         out[l].cracks = lanes_get(r.cracks, l) != 0;
         out[l].breaks = lanes_get(r.breaks, l) != 0;
         if (out[l].cracked) continue; /* as the sweep: the flux's own */
-        const double t_n = in[l].m_n + kind[l]->k_n * in[l].q_n, t_t = in[l].m_t + kind[l]->k_t * in[l].q_t;
+        const double t_n = in[l].m_n + kind[l]->k_n * in[l].q_n,
+                     t_t = in[l].m_t + kind[l]->k_t * in[l].q_t;
         out[l].t_n = t_n;
         out[l].t_t = t_t;
         out[l].s_n = in[l].q_n;

@@ -1,4 +1,6 @@
-/* Studies of known truth, written through the store, analysed, and checked by a script that shares no code with us. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Studies of known truth, written through the store, analysed, and checked by a script that shares
+ * no code with us. */
 #ifndef FRACAS_TESTS_SUPPORT_REPORT_H
 #define FRACAS_TESTS_SUPPORT_REPORT_H
 
@@ -19,11 +21,14 @@
 #include <unistd.h>
 
 /* The record of a realization, a function of these alone. */
-typedef void report_record(const void *context, size_t point, int64_t replica, fracas_record *record);
+typedef void report_record(const void *context, size_t point, int64_t replica,
+                           fracas_record *record);
 
-/* index.sqlite as a run leaves it, for docs/examples/table_from_index.sql: everything done in one segment. */
-static inline void report_write_index(const char *folder, const fracas_point_table *table, const fracas_file_seal *seal,
-                                      report_record *make, const void *context)
+/* index.sqlite as a run leaves it, for docs/examples/table_from_index.sql: everything done in one
+ * segment. */
+static inline void report_write_index(const char *folder, const fracas_point_table *table,
+                                      const fracas_file_seal *seal, report_record *make,
+                                      const void *context)
 {
     fracas_index *index;
     assert_int_equal(fracas_index_open(folder, true, &index), FRACAS_OK);
@@ -36,10 +41,15 @@ static inline void report_write_index(const char *folder, const fracas_point_tab
         for (int64_t replica = 0; replica < table->point[p].replicas; replica++) {
             fracas_record record;
             make(context, p, replica, &record);
-            row[count] = (fracas_segment_row){
-                .point = table->point[p].hash, .replica = replica, .row = (int64_t)count, .outcome = record.outcome,
-                .fragments = record.fragments, .fragments_dust = record.fragments_dust, .steps = record.steps,
-                .dissipated = record.dissipated, .residual = record.residual};
+            row[count] = (fracas_segment_row){.point = table->point[p].hash,
+                                              .replica = replica,
+                                              .row = (int64_t)count,
+                                              .outcome = record.outcome,
+                                              .fragments = record.fragments,
+                                              .fragments_dust = record.fragments_dust,
+                                              .steps = record.steps,
+                                              .dissipated = record.dissipated,
+                                              .residual = record.residual};
             count++;
             fracas_record_clear(&record);
         }
@@ -49,9 +59,11 @@ static inline void report_write_index(const char *folder, const fracas_point_tab
     free(row);
 }
 
-/* Makes the folder and writes study.h5 and index.sqlite of every realization of the table into it. */
+/* Makes the folder and writes study.h5 and index.sqlite of every realization of the table into it.
+ */
 static inline void report_write_study(const char *folder, const fracas_file_header *header,
-                                      const fracas_point_table *table, report_record *make, const void *context)
+                                      const fracas_point_table *table, report_record *make,
+                                      const void *context)
 {
     char path[640];
     snprintf(path, sizeof path, "%s/study.h5", folder);
@@ -93,7 +105,8 @@ static inline void report_analyse(const char *folder)
     fracas_analysis_destroy(analysis);
 }
 
-/* The temporary folder of the test. With FRACAS_KEEP set in the environment it is kept, for a look at the page. */
+/* The temporary folder of the test. With FRACAS_KEEP set in the environment it is kept, for a look
+ * at the page. */
 static char report_root[256];
 
 static inline int report_make_root(void **state)
@@ -115,9 +128,11 @@ static inline int report_remove_root(void **state)
 static inline void report_check(const char *folder)
 {
     char command[2048];
-    snprintf(command, sizeof command, "/usr/bin/python3 -c 'import h5py' 2>/dev/null || exit 77; "
-             "/usr/bin/python3 '" FRACAS_SOURCE_DIR "/tests/support/check_export.py' '%s' && "
-             "exec /usr/bin/python3 '" FRACAS_SOURCE_DIR "/tests/support/check_report.py' '%s' '" FRACAS_SOURCE_DIR "'",
+    snprintf(command, sizeof command,
+             "/usr/bin/python3 -c 'import h5py' 2>/dev/null || exit 77; /usr/bin/python3 "
+             "'" FRACAS_SOURCE_DIR
+             "/tests/support/check_export.py' '%s' && exec /usr/bin/python3 '" FRACAS_SOURCE_DIR
+             "/tests/support/check_report.py' '%s' '" FRACAS_SOURCE_DIR "'",
              folder, folder);
     int status = system(command);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 77) {

@@ -1,4 +1,6 @@
-/* The reference ring of the tests (docs/results/ring.md): the material of tests/support/bar.h, circumference 50 mm. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The reference ring of the tests (docs/results/ring.md): the material of tests/support/bar.h,
+ * circumference 50 mm. */
 #ifndef FRACAS_TESTS_SUPPORT_RING_H
 #define FRACAS_TESTS_SUPPORT_RING_H
 
@@ -6,17 +8,21 @@
 
 #include <math.h>
 
-#define RING_CIRCUMFERENCE 0.05                               /* m */
+#define RING_CIRCUMFERENCE 0.05 /* m */
 #define RING_RADIUS (RING_CIRCUMFERENCE / (2 * 3.14159265358979323846))
 
-/* Free, starting with the radial velocity that stretches at `rate`; law nitsche, beta 4, a quarter of the critical step. */
+/* Free, starting with the radial velocity that stretches at `rate`; law nitsche, beta 4, a quarter
+ * of the critical step. */
 static inline fracas_spec ring_reference(int64_t elements, double rate, double end)
 {
     fracas_spec spec = bar_reference(elements, rate, end);
     spec.formulation = &fracas_formulation_ring.kind;
-    spec.geometry = (fracas_geometry){.shape = &fracas_shape_ring, .direction = &fracas_direction_current,
-                                      .radius = RING_RADIUS, .area = 1e-6};
-    spec.loading = (fracas_loading){.type = &fracas_loading_initial_velocity, .radial = rate * RING_RADIUS};
+    spec.geometry = (fracas_geometry){.shape = &fracas_shape_ring,
+                                      .direction = &fracas_direction_current,
+                                      .radius = RING_RADIUS,
+                                      .area = 1e-6};
+    spec.loading = (fracas_loading){.type = &fracas_loading_initial_velocity,
+                                    .radial = rate * RING_RADIUS};
     return spec;
 }
 
@@ -24,7 +30,8 @@ static inline fracas_spec ring_reference(int64_t elements, double rate, double e
 static inline fracas_spec ring_stershic(int64_t elements, double rate, double end)
 {
     fracas_spec spec = ring_reference(elements, rate, end);
-    spec.cohesive = (fracas_cohesive){.law = &fracas_law_stershic, .fracture_energy = 100, .penalty = 1, .refinement = 0.25};
+    spec.cohesive = (fracas_cohesive){
+        .law = &fracas_law_stershic, .fracture_energy = 100, .penalty = 1, .refinement = 0.25};
     spec.time.safety = 0.8;
     return spec;
 }
@@ -35,7 +42,7 @@ typedef struct {
     fracas_batch *batch;
     fracas_record record;
     size_t n, running; /* elements; 1 until it is over */
-    double h; /* m */
+    double h;          /* m */
 } ring_run;
 
 /* Strengths all `strength`, to be changed before begin(). */

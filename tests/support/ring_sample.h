@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One ring with the law nitsche in one lane, whose nodes and interfaces a test sets and reads. */
 #ifndef FRACAS_TESTS_SUPPORT_RING_SAMPLE_H
 #define FRACAS_TESTS_SUPPORT_RING_SAMPLE_H
@@ -12,10 +13,22 @@ typedef struct {
     double x, y;
 } ring_point;
 
-static inline ring_point ring_plus(ring_point a, double s, ring_point b) { return (ring_point){a.x + s * b.x, a.y + s * b.y}; }
-static inline ring_point ring_minus(ring_point a, ring_point b) { return ring_plus(a, -1, b); }
-static inline double ring_inner(ring_point a, ring_point b) { return a.x * b.x + a.y * b.y; }
-static inline double ring_cross(ring_point a, ring_point b) { return a.x * b.y - a.y * b.x; }
+static inline ring_point ring_plus(ring_point a, double s, ring_point b)
+{
+    return (ring_point){a.x + s * b.x, a.y + s * b.y};
+}
+static inline ring_point ring_minus(ring_point a, ring_point b)
+{
+    return ring_plus(a, -1, b);
+}
+static inline double ring_inner(ring_point a, ring_point b)
+{
+    return a.x * b.x + a.y * b.y;
+}
+static inline double ring_cross(ring_point a, ring_point b)
+{
+    return a.x * b.y - a.y * b.x;
+}
 static inline ring_point ring_turned(ring_point a, double angle)
 {
     return (ring_point){a.x * cos(angle) - a.y * sin(angle), a.x * sin(angle) + a.y * cos(angle)};
@@ -30,7 +43,8 @@ static inline double *ring_field(const ring_run *s, size_t element, int field)
 static inline ring_point ring_origin(const ring_run *s, size_t element, size_t side)
 {
     const size_t n = s->model->elements;
-    const double radius = s->model->element_size / (2 * sin(RING_PI / (double)n)), angle = 2 * RING_PI * (double)((element + side) % n) / (double)n;
+    const double radius = s->model->element_size / (2 * sin(RING_PI / (double)n)),
+                 angle = 2 * RING_PI * (double)((element + side) % n) / (double)n;
     return (ring_point){radius * cos(angle), radius * sin(angle)};
 }
 
@@ -64,7 +78,8 @@ static inline ring_point ring_normal(const ring_run *s, size_t e)
 {
     const size_t n = s->model->elements, next = (e + 1) % n;
     const double angle = 2 * RING_PI * (double)next / (double)n;
-    if (s->model->spec.geometry.direction == &fracas_direction_initial) return (ring_point){-sin(angle), cos(angle)};
+    if (s->model->spec.geometry.direction == &fracas_direction_initial)
+        return (ring_point){-sin(angle), cos(angle)};
     const ring_point sum = ring_plus(ring_chord(s, e), 1, ring_chord(s, next));
     return ring_plus((ring_point){0, 0}, 1 / sqrt(ring_inner(sum, sum)), sum);
 }
@@ -73,7 +88,8 @@ static inline ring_point ring_normal(const ring_run *s, size_t e)
 static inline ring_point ring_jump(const ring_run *s, size_t e)
 {
     const ring_point n = ring_normal(s, e), outward = {n.y, -n.x};
-    const ring_point jump = ring_minus(ring_node(s, (e + 1) % s->model->elements, 0), ring_node(s, e, 1));
+    const ring_point jump = ring_minus(ring_node(s, (e + 1) % s->model->elements, 0),
+                                       ring_node(s, e, 1));
     return (ring_point){ring_inner(jump, n), ring_inner(jump, outward)};
 }
 
@@ -83,8 +99,10 @@ static inline double ring_nodal_mass(const ring_run *s)
     return s->model->mass / (2 * (double)s->model->elements);
 }
 
-/* Linear and angular momentum about the origin of elements first .. first + count - 1, round the ring. */
-static inline void ring_momenta(const ring_run *s, size_t first, size_t count, ring_point *linear, double *angular)
+/* Linear and angular momentum about the origin of elements first .. first + count - 1, round the
+ * ring. */
+static inline void ring_momenta(const ring_run *s, size_t first, size_t count, ring_point *linear,
+                                double *angular)
 {
     const double mass = ring_nodal_mass(s);
     *linear = (ring_point){0, 0};

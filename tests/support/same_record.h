@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Records bit for bit. */
 #ifndef FRACAS_TESTS_SUPPORT_SAME_RECORD_H
 #define FRACAS_TESTS_SUPPORT_SAME_RECORD_H

@@ -1,5 +1,6 @@
-/* Uncracked shells: their models, on meshes that a map bends or from the engine's makers, and K as an operator
- * (docs/theory/shell.md). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Uncracked shells: their models, on meshes that a map bends or from the engine's makers, and K as
+ * an operator (docs/theory/shell.md). */
 #ifndef FRACAS_TESTS_SUPPORT_SHELL_H
 #define FRACAS_TESTS_SUPPORT_SHELL_H
 
@@ -21,15 +22,31 @@
 /* Steel-like in units of its own, thickness 0.1; beta 5, beta_shear 1; never cracks. */
 static inline fracas_spec shell_spec(const fracas_kind *shape)
 {
-    return (fracas_spec){
-        .formulation = &fracas_formulation_shell.kind,
-        .geometry = {.shape = shape, .part = &fracas_part_whole, .thickness = 0.1, .radius = 1, .width = 1, .height = 1},
-        .mesh = {.spacing = &fracas_spacing_triangles, .order = 2},
-        .material = {.young = 200, .density = 2, .poisson = 0.3},
-        .cohesive = {.law = &fracas_law_nitsche, .fracture_energy = 1e12, .beta = 5, .beta_shear = 1, .onset = &fracas_onset_mean, .coupling = 1},
-        .loading = {.type = &fracas_loading_expansion, .rate = 0, .ratio = 1, .start = &fracas_start_moving},
-        .time = {.stop = &fracas_stop_time, .end = 1, .safety = 0.5, .integrator = &fracas_integrator_central_difference,
-                 .spectral_radius = 0.8, .mass = &fracas_mass_lumped}};
+    return (fracas_spec){.formulation = &fracas_formulation_shell.kind,
+                         .geometry = {.shape = shape,
+                                      .part = &fracas_part_whole,
+                                      .thickness = 0.1,
+                                      .radius = 1,
+                                      .width = 1,
+                                      .height = 1},
+                         .mesh = {.spacing = &fracas_spacing_triangles, .order = 2},
+                         .material = {.young = 200, .density = 2, .poisson = 0.3},
+                         .cohesive = {.law = &fracas_law_nitsche,
+                                      .fracture_energy = 1e12,
+                                      .beta = 5,
+                                      .beta_shear = 1,
+                                      .onset = &fracas_onset_mean,
+                                      .coupling = 1},
+                         .loading = {.type = &fracas_loading_expansion,
+                                     .rate = 0,
+                                     .ratio = 1,
+                                     .start = &fracas_start_moving},
+                         .time = {.stop = &fracas_stop_time,
+                                  .end = 1,
+                                  .safety = 0.5,
+                                  .integrator = &fracas_integrator_central_difference,
+                                  .spectral_radius = 0.8,
+                                  .mass = &fracas_mass_lumped}};
 }
 
 /* The model of a surface as a mesh file. */
@@ -46,7 +63,8 @@ static inline fracas_model *shell_of(fracas_spec spec, const fracas_surface *sur
     return model;
 }
 
-/* ---- a rectangle of nx x ny cells, two triangles each, that a map of [0, 1]^2 puts in space ---- */
+/* ---- a rectangle of nx x ny cells, two triangles each, that a map of [0, 1]^2 puts in space ----
+ */
 
 typedef void shell_map(const void *how, double s, double t, double x[3]);
 
@@ -54,12 +72,16 @@ typedef struct {
     size_t nx, ny;
     shell_map *map;
     const void *how;
-    double distortion; /* of inner vertices, in cells; middles of edges stay in the middle, before the map */
+    double distortion; /* of inner vertices, in cells; middles of edges stay in the middle, before
+                          the map */
     uint64_t seed;
     int diagonals; /* 0: alternate, 1: all along s = t, 2: all across */
 } shell_grid;
 
-static inline size_t grid_node(const shell_grid *g, size_t i, size_t j) { return j * (2 * g->nx + 1) + i; }
+static inline size_t grid_node(const shell_grid *g, size_t i, size_t j)
+{
+    return j * (2 * g->nx + 1) + i;
+}
 
 static inline void grid_places(const shell_grid *g, double (*at)[2])
 {
@@ -70,11 +92,13 @@ static inline void grid_places(const shell_grid *g, double (*at)[2])
             for (int c = 0; c < 2; c++) {
                 const bool inner = i > 0 && j > 0 && i < nx && j < ny;
                 const double move = inner ? g->distortion * (2 * next_share(&noise) - 1) : 0;
-                at[grid_node(g, i, j)][c] = c ? ((double)j / 2 + move) / (double)g->ny : ((double)i / 2 + move) / (double)g->nx;
+                at[grid_node(g, i, j)][c] = c ? ((double)j / 2 + move) / (double)g->ny
+                                              : ((double)i / 2 + move) / (double)g->nx;
             }
 }
 
-/* Which way the cell's diagonal goes: from its corner of the smallest s, t to that of the largest. */
+/* Which way the cell's diagonal goes: from its corner of the smallest s, t to that of the largest.
+ */
 static inline bool goes_up(const shell_grid *g, size_t i, size_t j)
 {
     return g->diagonals == 1 || (g->diagonals == 0 && (i + j) % 2 == 0);
@@ -88,12 +112,14 @@ static inline fracas_surface_tag *grid_tags(const shell_grid *g, size_t *count)
     for (size_t j = 0; j < g->ny; j++)
         for (int side = 0; side < 2; side++) {
             const size_t i = side ? 2 * g->nx : 0;
-            *put++ = (fracas_surface_tag){{(uint32_t)grid_node(g, i, 2 * j), (uint32_t)grid_node(g, i, 2 * j + 2)}, 1 + side};
+            *put++ = (fracas_surface_tag){
+                {(uint32_t)grid_node(g, i, 2 * j), (uint32_t)grid_node(g, i, 2 * j + 2)}, 1 + side};
         }
     for (size_t i = 0; i < g->nx; i++)
         for (int side = 0; side < 2; side++) {
             const size_t j = side ? 2 * g->ny : 0;
-            *put++ = (fracas_surface_tag){{(uint32_t)grid_node(g, 2 * i, j), (uint32_t)grid_node(g, 2 * i + 2, j)}, 3 + side};
+            *put++ = (fracas_surface_tag){
+                {(uint32_t)grid_node(g, 2 * i, j), (uint32_t)grid_node(g, 2 * i + 2, j)}, 3 + side};
         }
     *count = (size_t)(put - tag);
     return tag;
@@ -105,7 +131,8 @@ static inline uint32_t *grid_elements(const shell_grid *g, double (*at)[2])
     assert_non_null(element);
     for (size_t j = 0; j < g->ny; j++)
         for (size_t i = 0; i < g->nx; i++) {
-            const size_t corner[4][2] = {{2 * i, 2 * j}, {2 * i + 2, 2 * j}, {2 * i + 2, 2 * j + 2}, {2 * i, 2 * j + 2}};
+            const size_t corner[4][2] = {
+                {2 * i, 2 * j}, {2 * i + 2, 2 * j}, {2 * i + 2, 2 * j + 2}, {2 * i, 2 * j + 2}};
             const int up[2][3] = {{0, 1, 2}, {0, 2, 3}}, down[2][3] = {{0, 1, 3}, {1, 2, 3}};
             for (int half = 0; half < 2; half++) {
                 const int *c = goes_up(g, i, j) ? up[half] : down[half];
@@ -113,7 +140,8 @@ static inline uint32_t *grid_elements(const shell_grid *g, double (*at)[2])
                     const size_t *a = corner[c[k % 3]], *b = corner[c[(k + (k > 2)) % 3]];
                     const size_t n = grid_node(g, (a[0] + b[0]) / 2, (a[1] + b[1]) / 2);
                     for (int x = 0; x < 2 && k > 2; x++)
-                        at[n][x] = 0.5 * (at[grid_node(g, a[0], a[1])][x] + at[grid_node(g, b[0], b[1])][x]);
+                        at[n][x] = 0.5 * (at[grid_node(g, a[0], a[1])][x] +
+                                          at[grid_node(g, b[0], b[1])][x]);
                     *put++ = (uint32_t)n;
                 }
             }
@@ -124,7 +152,7 @@ static inline uint32_t *grid_elements(const shell_grid *g, double (*at)[2])
 static inline fracas_model *grid_model(const fracas_spec *spec, const shell_grid *g)
 {
     const size_t nodes = (2 * g->nx + 1) * (2 * g->ny + 1);
-    double (*at)[2] = calloc(nodes, sizeof *at), (*node)[3] = calloc(nodes, sizeof *node);
+    double(*at)[2] = calloc(nodes, sizeof *at), (*node)[3] = calloc(nodes, sizeof *node);
     assert_non_null(at);
     assert_non_null(node);
     grid_places(g, at);
@@ -132,8 +160,13 @@ static inline fracas_model *grid_model(const fracas_spec *spec, const shell_grid
     size_t ntags;
     fracas_surface_tag *tag = grid_tags(g, &ntags);
     for (size_t n = 0; n < nodes; n++) g->map(g->how, at[n][0], at[n][1], node[n]);
-    const fracas_surface_arrays arrays = {.order = 2, .nnodes = nodes, .nelements = 2 * g->nx * g->ny, .ntags = ntags,
-                                          .node = (const double (*)[3])node, .element = element, .tag = tag};
+    const fracas_surface_arrays arrays = {.order = 2,
+                                          .nnodes = nodes,
+                                          .nelements = 2 * g->nx * g->ny,
+                                          .ntags = ntags,
+                                          .node = (const double(*)[3])node,
+                                          .element = element,
+                                          .tag = tag};
     const fracas_surface *surface;
     assert_ok(fracas_surface_assemble(&arrays, &surface));
     fracas_model *model = shell_of(*spec, surface);
@@ -165,8 +198,14 @@ static inline void roof_map(const void *how, double s, double t, double x[3])
 
 /* ---- unknowns ---- */
 
-static inline const fracas_shell_tables *tables_of(const fracas_model *model) { return model->plan; }
-static inline size_t unknowns_of(const fracas_model *model) { return SHELL_UNKNOWNS * model->elements; }
+static inline const fracas_shell_tables *tables_of(const fracas_model *model)
+{
+    return model->plan;
+}
+static inline size_t unknowns_of(const fracas_model *model)
+{
+    return SHELL_UNKNOWNS * model->elements;
+}
 
 static inline const double *node_at(const fracas_model *model, size_t element, size_t k)
 {
@@ -186,13 +225,15 @@ static inline bool is_held(const fracas_model *model, size_t unknown)
 
 static inline double mass_of(const fracas_model *model, size_t unknown)
 {
-    return tables_of(model)->mass[unknown / SHELL_UNKNOWNS * 2 * SHELL_NODES + SHELL_NODES + unknown % SHELL_UNKNOWNS / 3];
+    return tables_of(model)->mass[unknown / SHELL_UNKNOWNS * 2 * SHELL_NODES + SHELL_NODES +
+                                  unknown % SHELL_UNKNOWNS / 3];
 }
 
 /* Displacements at a place. */
 typedef void shell_field(const void *how, const double x[3], double u[3]);
 
-static inline void interpolate(const fracas_model *model, shell_field *field, const void *how, double *u)
+static inline void interpolate(const fracas_model *model, shell_field *field, const void *how,
+                               double *u)
 {
     for (size_t i = 0; i < unknowns_of(model); i += 3) field(how, place_of(model, i), u + i);
 }
@@ -205,10 +246,12 @@ static inline fracas_shell_operator *open_operator(const fracas_model *model)
 }
 
 /* f = K u [N], 0 where nodes are held. */
-static inline void apply_stiffness(const fracas_model *model, fracas_shell_operator *op, const double *u, double *f)
+static inline void apply_stiffness(const fracas_model *model, fracas_shell_operator *op,
+                                   const double *u, double *f)
 {
     fracas_shell_operator_apply(op, u, f);
-    for (size_t i = 0; i < unknowns_of(model); i++) f[i] = is_held(model, i) ? 0 : -mass_of(model, i) * f[i];
+    for (size_t i = 0; i < unknowns_of(model); i++)
+        f[i] = is_held(model, i) ? 0 : -mass_of(model, i) * f[i];
 }
 
 static inline double dot_of(const double *a, const double *b, size_t n)

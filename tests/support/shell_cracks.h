@@ -1,5 +1,6 @@
-/* Shells that break: small bodies, a way to put them into any state and read all forces, and the kinematics of their interfaces
- * written once more, from the nodes alone (docs/theory/shell.md). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Shells that break: small bodies, a way to put them into any state and read all forces, and the
+ * kinematics of their interfaces written once more, from the nodes alone (docs/theory/shell.md). */
 #ifndef FRACAS_TESTS_SUPPORT_SHELL_CRACKS_H
 #define FRACAS_TESTS_SUPPORT_SHELL_CRACKS_H
 
@@ -17,8 +18,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* E 320 GPa, nu 0.3, rho 3300, G_c 200 J/m2, 0.3 mm thick; law nitsche, beta 5; half the critical step. A plate has 1 mm x 1 mm, an
- * annulus 1 to 3 mm, a sphere 1.5 mm. */
+/* E 320 GPa, nu 0.3, rho 3300, G_c 200 J/m2, 0.3 mm thick; law nitsche, beta 5; half the critical
+ * step. A plate has 1 mm x 1 mm, an annulus 1 to 3 mm, a sphere 1.5 mm. */
 static inline fracas_spec brittle_shell(const fracas_kind *shape, int64_t divisions)
 {
     fracas_spec spec = {
@@ -26,10 +27,22 @@ static inline fracas_spec brittle_shell(const fracas_kind *shape, int64_t divisi
         .geometry = {.shape = shape, .part = &fracas_part_whole, .thickness = 3e-4},
         .mesh = {.spacing = &fracas_spacing_triangles, .divisions = divisions, .order = 2},
         .material = {.young = 320e9, .density = 3300, .poisson = 0.3},
-        .cohesive = {.law = &fracas_law_nitsche, .fracture_energy = 200, .beta = 5, .beta_shear = 1, .onset = &fracas_onset_mean, .coupling = 1},
-        .loading = {.type = &fracas_loading_expansion, .rate = 0, .ratio = 1, .start = &fracas_start_moving},
-        .time = {.stop = &fracas_stop_time, .end = 1, .safety = 0.5, .integrator = &fracas_integrator_central_difference,
-                 .spectral_radius = 0.8, .mass = &fracas_mass_lumped}};
+        .cohesive = {.law = &fracas_law_nitsche,
+                     .fracture_energy = 200,
+                     .beta = 5,
+                     .beta_shear = 1,
+                     .onset = &fracas_onset_mean,
+                     .coupling = 1},
+        .loading = {.type = &fracas_loading_expansion,
+                    .rate = 0,
+                    .ratio = 1,
+                    .start = &fracas_start_moving},
+        .time = {.stop = &fracas_stop_time,
+                 .end = 1,
+                 .safety = 0.5,
+                 .integrator = &fracas_integrator_central_difference,
+                 .spectral_radius = 0.8,
+                 .mass = &fracas_mass_lumped}};
     for (int i = 0; i < FRACAS_EDGES; i++) spec.geometry.edge[i] = &fracas_edge_free;
     if (shape == &fracas_shape_plate) spec.geometry.width = spec.geometry.height = 1e-3;
     else if (shape == &fracas_shape_annulus) spec.geometry.inner = 1e-3, spec.geometry.outer = 3e-3;
@@ -37,8 +50,14 @@ static inline fracas_spec brittle_shell(const fracas_kind *shape, int64_t divisi
     return spec;
 }
 
-static inline fracas_shell_tables *shell_tables(const fracas_model *model) { return model->plan; }
-static inline size_t unknowns_of(const fracas_model *model) { return SHELL_UNKNOWNS * model->elements; }
+static inline fracas_shell_tables *shell_tables(const fracas_model *model)
+{
+    return model->plan;
+}
+static inline size_t unknowns_of(const fracas_model *model)
+{
+    return SHELL_UNKNOWNS * model->elements;
+}
 
 static inline const double *node_at(const fracas_model *model, size_t element, size_t k)
 {
@@ -50,7 +69,8 @@ static inline double node_mass(const fracas_model *model, size_t e, size_t k)
     return shell_tables(model)->mass[e * 2 * SHELL_NODES + SHELL_NODES + k];
 }
 
-static inline fracas_batch *batch_with(const fracas_model *model, size_t count, fracas_batch_options options)
+static inline fracas_batch *batch_with(const fracas_model *model, size_t count,
+                                       fracas_batch_options options)
 {
     fracas_batch *batch = NULL;
     assert_ok(fracas_batch_create(model, count, &options, &batch));
@@ -60,7 +80,8 @@ static inline fracas_batch *batch_with(const fracas_model *model, size_t count, 
 /* One lane that keeps its interfaces; strengths of 300 MPa (1 +- scatter). */
 static inline fracas_batch *lane_of(const fracas_model *model, double scatter, uint64_t replica)
 {
-    fracas_batch *batch = batch_with(model, 1, (fracas_batch_options){.interfaces = true, .width = 1, .isa = FRACAS_ISA_BEST});
+    fracas_batch *batch = batch_with(
+        model, 1, (fracas_batch_options){.interfaces = true, .width = 1, .isa = FRACAS_ISA_BEST});
     bar_draw(batch, 0, scatter, replica);
     return batch;
 }
@@ -78,13 +99,15 @@ static inline double *shell_state(const fracas_batch *batch, size_t e, int field
 
 /* ---- a body in any state ---- */
 
-/* What one evaluation at given displacements says: forces -dPi/du [N], energies [J], and what was added to the sums. */
+/* What one evaluation at given displacements says: forces -dPi/du [N], energies [J], and what was
+ * added to the sums. */
 typedef struct {
     double *force;
     double elastic, cohesive, dissipated, created, bending, rubbed;
 } shell_answer;
 
-/* A step of no length from rest at u, that kicks for 1 s: the velocities after it are the accelerations. Damage advances. */
+/* A step of no length from rest at u, that kicks for 1 s: the velocities after it are the
+ * accelerations. Damage advances. */
 static inline void evaluate(fracas_batch *batch, const double *u, shell_answer *answer)
 {
     const fracas_model *model = batch->model;
@@ -95,7 +118,8 @@ static inline void evaluate(fracas_batch *batch, const double *u, shell_answer *
     }
     step->drift[0] = 0;
     step->kick[0] = 1;
-    const double created = step->created[0], bending = step->dissipated_bending[0], rubbed = step->rubbed[0];
+    const double created = step->created[0], bending = step->dissipated_bending[0],
+                 rubbed = step->rubbed[0];
     model->formulation->advance(model, step);
     for (size_t i = 0; i < unknowns_of(model); i++)
         answer->force[i] = node_mass(model, i / SHELL_UNKNOWNS, i % SHELL_UNKNOWNS / 3) *
@@ -124,11 +148,15 @@ static inline void look_at(fracas_batch *batch, const double *u, shell_answer *a
 
 /* ---- kinematics, from the nodes ---- */
 
-static inline double dot3(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static inline double dot3(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 static inline void cross3(const double a[3], const double b[3], double c[3])
 {
-    const double r[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    const double r[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                         a[0] * b[1] - a[1] * b[0]};
     memcpy(c, r, sizeof r);
 }
 
@@ -139,7 +167,8 @@ static inline double unit3(double a[3])
     return length;
 }
 
-/* N_k, their first and second derivatives by xi, eta (xi xi, eta eta, xi eta), from products of barycentric coordinates. */
+/* N_k, their first and second derivatives by xi, eta (xi xi, eta eta, xi eta), from products of
+ * barycentric coordinates. */
 typedef struct {
     double value[6], first[6][2], second[6][3];
 } shell_shape;
@@ -152,7 +181,8 @@ static inline shell_shape shape_at(double xi, double eta)
         const int a = k % 3, b = k < 3 ? k : (k + 1) % 3;
         const double c = k < 3 ? 2 : 4, e = k < 3 ? -1 : 0;
         s.value[k] = c * l[a] * l[b] + e * l[a];
-        for (int i = 0; i < 2; i++) s.first[k][i] = c * (d[a][i] * l[b] + l[a] * d[b][i]) + e * d[a][i];
+        for (int i = 0; i < 2; i++)
+            s.first[k][i] = c * (d[a][i] * l[b] + l[a] * d[b][i]) + e * d[a][i];
         for (int i = 0; i < 3; i++) {
             const int p = i == 1, q = i != 0;
             s.second[k][i] = c * (d[a][p] * d[b][q] + d[a][q] * d[b][p]);
@@ -161,7 +191,8 @@ static inline shell_shape shape_at(double xi, double eta)
     return s;
 }
 
-/* A point of the mid-surface: base phi_a, dual phi^a, phi_ab, unit normal t, and the frame x (edge 0 in the surface), y. */
+/* A point of the mid-surface: base phi_a, dual phi^a, phi_ab, unit normal t, and the frame x (edge
+ * 0 in the surface), y. */
 typedef struct {
     shell_shape shape;
     double base[2][3], dual[2][3], second[3][3], t[3], x[3], y[3], area;
@@ -179,7 +210,9 @@ static inline shell_place place_at(const fracas_model *model, size_t e, double x
     cross3(p.base[0], p.base[1], p.t);
     p.area = unit3(p.t);
     /* phi^a from the inverse of the metric */
-    const double g[3] = {dot3(p.base[0], p.base[0]), dot3(p.base[1], p.base[1]), dot3(p.base[0], p.base[1])}, det = g[0] * g[1] - g[2] * g[2];
+    const double g[3] = {dot3(p.base[0], p.base[0]), dot3(p.base[1], p.base[1]),
+                         dot3(p.base[0], p.base[1])},
+                 det = g[0] * g[1] - g[2] * g[2];
     for (int i = 0; i < 3; i++) {
         p.dual[0][i] = (g[1] * p.base[0][i] - g[2] * p.base[1][i]) / det;
         p.dual[1][i] = (g[0] * p.base[1][i] - g[2] * p.base[0][i]) / det;
@@ -193,25 +226,32 @@ static inline shell_place place_at(const fracas_model *model, size_t e, double x
 }
 
 /* sum_ab (a . phi^a)(b . phi^b) f_ab, f = {xixi, etaeta, xieta} */
-static inline double second_along(const shell_place *p, const double a[3], const double b[3], const double f[3])
+static inline double second_along(const shell_place *p, const double a[3], const double b[3],
+                                  const double f[3])
 {
-    const double a0 = dot3(a, p->dual[0]), a1 = dot3(a, p->dual[1]), b0 = dot3(b, p->dual[0]), b1 = dot3(b, p->dual[1]);
+    const double a0 = dot3(a, p->dual[0]), a1 = dot3(a, p->dual[1]), b0 = dot3(b, p->dual[0]),
+                 b1 = dot3(b, p->dual[1]);
     return a0 * b0 * f[0] + a1 * b1 * f[1] + (a0 * b1 + a1 * b0) * f[2];
 }
 
 /* d u/d direction */
-static inline void slope_along(const shell_place *p, const double a[3], const double *u, double by[3])
+static inline void slope_along(const shell_place *p, const double a[3], const double *u,
+                               double by[3])
 {
     const double a0 = dot3(a, p->dual[0]), a1 = dot3(a, p->dual[1]);
     by[0] = by[1] = by[2] = 0;
     for (int k = 0; k < 6; k++)
-        for (int i = 0; i < 3; i++) by[i] += (a0 * p->shape.first[k][0] + a1 * p->shape.first[k][1]) * u[3 * k + i];
+        for (int i = 0; i < 3; i++)
+            by[i] += (a0 * p->shape.first[k][0] + a1 * p->shape.first[k][1]) * u[3 * k + i];
 }
 
-/* Resultants n_xx, n_yy, n_xy, m_xx, m_yy, m_xy, and energy by area, of displacements u[18] of the element. */
-static inline double resultants_at(const fracas_model *model, const shell_place *p, const double *u, double r[6])
+/* Resultants n_xx, n_yy, n_xy, m_xx, m_yy, m_xy, and energy by area, of displacements u[18] of the
+ * element. */
+static inline double resultants_at(const fracas_model *model, const shell_place *p, const double *u,
+                                   double r[6])
 {
-    const double nu = model->spec.material.poisson, h = model->spec.geometry.thickness, c = h * model->spec.material.young / (1 - nu * nu);
+    const double nu = model->spec.material.poisson, h = model->spec.geometry.thickness,
+                 c = h * model->spec.material.young / (1 - nu * nu);
     const double *frame[2] = {p->x, p->y};
     double by[2][3], strain[2][3], h_ab[3] = {0};
     for (int a = 0; a < 2; a++) slope_along(p, frame[a], u, by[a]);
@@ -221,7 +261,8 @@ static inline double resultants_at(const fracas_model *model, const shell_place 
     for (int ab = 0; ab < 3; ab++) /* t . (u,ab - G^c_ab u,c) */
         for (int k = 0; k < 6; k++) {
             double second = p->shape.second[k][ab];
-            for (int d = 0; d < 2; d++) second -= dot3(p->second[ab], p->dual[d]) * p->shape.first[k][d];
+            for (int d = 0; d < 2; d++)
+                second -= dot3(p->second[ab], p->dual[d]) * p->shape.first[k][d];
             h_ab[ab] += second * dot3(p->t, u + 3 * k);
         }
     strain[1][0] = -second_along(p, p->x, p->x, h_ab);
@@ -242,15 +283,16 @@ static inline double bulk_energy(const fracas_model *model, size_t e, const doub
 {
     double energy = 0, r[6];
     for (int g = 0; g < 3; g++) {
-        const shell_place p = place_at(model, e, g == 1 ? 2.0 / 3 : 1.0 / 6, g == 2 ? 2.0 / 3 : 1.0 / 6);
+        const shell_place p = place_at(model, e, g == 1 ? 2.0 / 3 : 1.0 / 6,
+                                       g == 2 ? 2.0 / 3 : 1.0 / 6);
         energy += p.area / 6 * resultants_at(model, &p, u, r);
     }
     return energy;
 }
 
-/* Means of N, M, jumps [u], [Dt] along the normal and the edge, [u] . t, and the weight [m], at Gauss point g of an interface, of the
- * displacements of its elements. All but the weight is linear in them. Resultants are linear over an element, by their components in
- * its frame. */
+/* Means of N, M, jumps [u], [Dt] along the normal and the edge, [u] . t, and the weight [m], at
+ * Gauss point g of an interface, of the displacements of its elements. All but the weight is linear
+ * in them. Resultants are linear over an element, by their components in its frame. */
 typedef struct {
     double n[2], m[2], jump[2], turn[2], lift, length;
 } shell_sight;
@@ -261,12 +303,15 @@ static inline void edge_place(size_t edge, double s, double at[2])
     for (int i = 0; i < 2; i++) at[i] = (1 - s) * corner[edge][i] + s * corner[(edge + 1) % 3][i];
 }
 
-static inline shell_sight sight_at(const fracas_model *model, size_t interface, int g, const double *const u[2])
+static inline shell_sight sight_at(const fracas_model *model, size_t interface, int g,
+                                   const double *const u[2])
 {
-    const double root = sqrt(0.15), point[3] = {0.5 - root, 0.5, 0.5 + root}, weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+    const double root = sqrt(0.15), point[3] = {0.5 - root, 0.5, 0.5 + root},
+                 weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
     const fracas_surface_interface *joint = &model->surface->interface[interface];
     shell_place p[2];
-    double tangent[3] = {0}, speed = 0, normal[3], mean_t[3], mean[4] = {0}, curved[3] = {0}, jump[3] = {0}, along[3] = {0}, turn = 0;
+    double tangent[3] = {0}, speed = 0, normal[3], mean_t[3], mean[4] = {0}, curved[3] = {0},
+           jump[3] = {0}, along[3] = {0}, turn = 0;
     for (int side = 0; side < 2; side++) {
         double at[2], from[2], to[2];
         const double s = side ? 1 - point[g] : point[g];
@@ -275,7 +320,9 @@ static inline shell_sight sight_at(const fracas_model *model, size_t interface, 
         if (side == 0) {
             edge_place(joint->edge[0], 0, from);
             edge_place(joint->edge[0], 1, to);
-            for (int i = 0; i < 3; i++) tangent[i] = (to[0] - from[0]) * p[0].base[0][i] + (to[1] - from[1]) * p[0].base[1][i];
+            for (int i = 0; i < 3; i++)
+                tangent[i] = (to[0] - from[0]) * p[0].base[0][i] +
+                             (to[1] - from[1]) * p[0].base[1][i];
             speed = unit3(tangent);
         }
     }
@@ -290,30 +337,40 @@ static inline shell_sight sight_at(const fracas_model *model, size_t interface, 
         const double l[3] = {1 - at[0] - at[1], at[0], at[1]};
         for (int b = 0; b < 3; b++) {
             double there[6];
-            const shell_place bulk = place_at(model, joint->element[side], b == 1 ? 2.0 / 3 : 1.0 / 6, b == 2 ? 2.0 / 3 : 1.0 / 6);
+            const shell_place bulk = place_at(model, joint->element[side],
+                                              b == 1 ? 2.0 / 3 : 1.0 / 6,
+                                              b == 2 ? 2.0 / 3 : 1.0 / 6);
             resultants_at(model, &bulk, u[side], there);
             for (int j = 0; j < 6; j++) r[j] += (2 * l[b] - 1.0 / 3) * there[j];
         }
-        const double nx = dot3(own, p[side].x), ny = dot3(own, p[side].y), sx = dot3(tangent, p[side].x), sy = dot3(tangent, p[side].y);
+        const double nx = dot3(own, p[side].x), ny = dot3(own, p[side].y),
+                     sx = dot3(tangent, p[side].x), sy = dot3(tangent, p[side].y);
         for (int part = 0; part < 2; part++) {
             const double *q = r + 3 * part;
             mean[2 * part] += 0.5 * (nx * (q[0] * nx + q[2] * ny) + ny * (q[2] * nx + q[1] * ny));
-            mean[2 * part + 1] += 0.5 * (sx * (q[0] * nx + q[2] * ny) + sy * (q[2] * nx + q[1] * ny));
+            mean[2 * part + 1] += 0.5 *
+                                  (sx * (q[0] * nx + q[2] * ny) + sy * (q[2] * nx + q[1] * ny));
         }
-        const double f[3] = {dot3(p[side].t, p[side].second[0]), dot3(p[side].t, p[side].second[1]), dot3(p[side].t, p[side].second[2])};
+        const double f[3] = {dot3(p[side].t, p[side].second[0]), dot3(p[side].t, p[side].second[1]),
+                             dot3(p[side].t, p[side].second[2])};
         curved[0] -= 0.5 * second_along(&p[side], own, own, f);
         curved[1] -= 0.5 * second_along(&p[side], own, tangent, f);
         curved[2] -= 0.5 * second_along(&p[side], tangent, tangent, f);
         for (int k = 0; k < 6; k++)
-            for (int i = 0; i < 3; i++) jump[i] += sign * p[side].shape.value[k] * u[side][3 * k + i];
+            for (int i = 0; i < 3; i++)
+                jump[i] += sign * p[side].shape.value[k] * u[side][3 * k + i];
         slope_along(&p[side], own, u[side], by);
         turn -= sign * dot3(p[side].t, by); /* [Dt_n], Dt_n = -t . d_n u */
         slope_along(&p[side], tangent, u[side], by);
         for (int i = 0; i < 3; i++) along[i] += sign * by[i];
     }
-    return (shell_sight){.n = {mean[0] + curved[0] * mean[2] + curved[1] * mean[3], mean[1] + curved[1] * mean[2] + curved[2] * mean[3]},
-                         .m = {mean[2], mean[3]}, .jump = {dot3(normal, jump), dot3(tangent, jump)}, .turn = {turn, -dot3(mean_t, along)},
-                         .lift = dot3(mean_t, jump), .length = weight[g] * speed};
+    return (shell_sight){.n = {mean[0] + curved[0] * mean[2] + curved[1] * mean[3],
+                               mean[1] + curved[1] * mean[2] + curved[2] * mean[3]},
+                         .m = {mean[2], mean[3]},
+                         .jump = {dot3(normal, jump), dot3(tangent, jump)},
+                         .turn = {turn, -dot3(mean_t, along)},
+                         .lift = dot3(mean_t, jump),
+                         .length = weight[g] * speed};
 }
 
 /* K of an interface [Pa/m], and of the shear [Pa]  (membrane.5) */
@@ -323,8 +380,10 @@ static inline double spring_of(const fracas_model *model, size_t interface, doub
     const fracas_material *m = &model->spec.material;
     double inverse = 0;
     for (int side = 0; side < 2; side++)
-        inverse += 0.5 * fracas_surface_length(model->surface, joint->element[0], joint->edge[0]) / fracas_surface_area(model->surface, joint->element[side]);
-    *shearing = model->spec.cohesive.beta_shear * inverse * m->young / (2 * (1 + m->poisson)) * model->spec.geometry.thickness;
+        inverse += 0.5 * fracas_surface_length(model->surface, joint->element[0], joint->edge[0]) /
+                   fracas_surface_area(model->surface, joint->element[side]);
+    *shearing = model->spec.cohesive.beta_shear * inverse * m->young / (2 * (1 + m->poisson)) *
+                model->spec.geometry.thickness;
     return model->spec.cohesive.beta * m->young / (1 - m->poisson * m->poisson) * inverse;
 }
 

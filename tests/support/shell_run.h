@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One realization of a shell that never cracks, step by step. */
 #ifndef FRACAS_TESTS_SUPPORT_SHELL_RUN_H
 #define FRACAS_TESTS_SUPPORT_SHELL_RUN_H
@@ -11,7 +12,8 @@ typedef struct {
     size_t running;
 } shell_run;
 
-/* Before its first step, in a batch of this width, all strengths as given [Pa]; the model goes with the run. */
+/* Before its first step, in a batch of this width, all strengths as given [Pa]; the model goes with
+ * the run. */
 static inline shell_run shell_begin(fracas_model *model, int width, double strength_value)
 {
     shell_run run = {.model = model, .running = 1};
@@ -25,7 +27,10 @@ static inline shell_run shell_begin(fracas_model *model, int width, double stren
     return run;
 }
 
-static inline void shell_step(shell_run *run) { assert_ok(fracas_batch_step(run->batch, &run->record, &run->running)); }
+static inline void shell_step(shell_run *run)
+{
+    assert_ok(fracas_batch_step(run->batch, &run->record, &run->running));
+}
 
 static inline void shell_clear(shell_run *run)
 {

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* K of a shell as a sparse matrix, K u = f, and its lowest frequencies: by CHOLMOD. */
 #ifndef FRACAS_TESTS_SUPPORT_SHELL_STATICS_H
 #define FRACAS_TESTS_SUPPORT_SHELL_STATICS_H
@@ -9,8 +10,8 @@
 typedef struct {
     const fracas_model *model;
     size_t n, nfree;
-    int *row;         /* of each unknown; -1: held */
-    size_t *unknown;  /* of each row */
+    int *row;        /* of each unknown; -1: held */
+    size_t *unknown; /* of each row */
     cholmod_common common;
     cholmod_sparse *matrix;
     cholmod_factor *factor;
@@ -18,7 +19,8 @@ typedef struct {
 } shell_statics;
 
 /* The elements that an element has edges with, and itself: [element][4], count. */
-static inline void list_neighbours(const fracas_surface *surface, uint32_t (*next)[4], uint8_t *count)
+static inline void list_neighbours(const fracas_surface *surface, uint32_t (*next)[4],
+                                   uint8_t *count)
 {
     for (size_t e = 0; e < surface->nelements; e++) {
         next[e][0] = (uint32_t)e;
@@ -31,9 +33,11 @@ static inline void list_neighbours(const fracas_surface *surface, uint32_t (*nex
         }
 }
 
-/* Elements of one colour have no neighbour in common, so that the forces of unit displacements of all of them can be told apart:
- * K couples an element to its neighbours alone. Returns the number of colours. */
-static inline int colour(const fracas_surface *surface, uint32_t (*next)[4], const uint8_t *count, int *of)
+/* Elements of one colour have no neighbour in common, so that the forces of unit displacements of
+ * all of them can be told apart: K couples an element to its neighbours alone. Returns the number
+ * of colours. */
+static inline int colour(const fracas_surface *surface, uint32_t (*next)[4], const uint8_t *count,
+                         int *of)
 {
     int colours = 0;
     for (size_t e = 0; e < surface->nelements; e++) of[e] = -1;
@@ -50,7 +54,8 @@ static inline int colour(const fracas_surface *surface, uint32_t (*next)[4], con
     return colours;
 }
 
-/* `pin`: an unknown that is held as well, against a rigid motion that no load drives; SIZE_MAX: none. */
+/* `pin`: an unknown that is held as well, against a rigid motion that no load drives; SIZE_MAX:
+ * none. */
 static inline void number_free(shell_statics *s, size_t pin)
 {
     s->row = malloc(s->n * sizeof *s->row);
@@ -67,19 +72,23 @@ static inline void number_free(shell_statics *s, size_t pin)
 static inline double *stiffness_blocks(shell_statics *s, uint32_t (*next)[4], const uint8_t *count)
 {
     const size_t size = SHELL_UNKNOWNS, elements = s->model->elements;
-    double *block = vector_of(elements * 4 * size * size), *u = vector_of(s->n), *f = vector_of(s->n);
+    double *block = vector_of(elements * 4 * size * size), *u = vector_of(s->n),
+           *f = vector_of(s->n);
     int *of = malloc(elements * sizeof *of);
     assert_non_null(of);
     fracas_shell_operator *op = open_operator(s->model);
     const int colours = colour(s->model->surface, next, count, of);
     for (int c = 0; c < colours; c++)
         for (size_t j = 0; j < size; j++) {
-            for (size_t e = 0; e < elements; e++) u[e * size + j] = of[e] == c && !is_held(s->model, e * size + j);
+            for (size_t e = 0; e < elements; e++)
+                u[e * size + j] = of[e] == c && !is_held(s->model, e * size + j);
             apply_stiffness(s->model, op, u, f);
             for (size_t e = 0; e < elements; e++) {
                 u[e * size + j] = 0;
                 for (int a = 0; a < count[e] && of[e] == c; a++)
-                    for (size_t i = 0; i < size; i++) block[((4 * e + (size_t)a) * size + i) * size + j] = f[next[e][a] * size + i];
+                    for (size_t i = 0; i < size; i++)
+                        block[((4 * e + (size_t)a) * size + i) * size + j] =
+                            f[next[e][a] * size + i];
             }
         }
     fracas_shell_operator_close(op);
@@ -101,20 +110,22 @@ static inline double entry_of(const double *block, const uint32_t (*next)[4], si
 static inline void fill_matrix(shell_statics *s)
 {
     const size_t elements = s->model->elements, size = SHELL_UNKNOWNS;
-    uint32_t (*next)[4] = malloc(elements * sizeof *next);
+    uint32_t(*next)[4] = malloc(elements * sizeof *next);
     uint8_t *count = malloc(elements);
     assert_non_null(next);
     assert_non_null(count);
     list_neighbours(s->model->surface, next, count);
     double *block = stiffness_blocks(s, next, count), largest = 0, difference = 0;
-    cholmod_triplet *t = cholmod_allocate_triplet(s->nfree, s->nfree, elements * 4 * size * size, 1, CHOLMOD_REAL, &s->common);
+    cholmod_triplet *t = cholmod_allocate_triplet(s->nfree, s->nfree, elements * 4 * size * size, 1,
+                                                  CHOLMOD_REAL, &s->common);
     assert_non_null(t);
     for (size_t j = 0; j < s->n; j++)
         for (size_t a = 0; a < count[j / size] && s->row[j] >= 0; a++)
             for (size_t k = 0; k < size; k++) {
                 const size_t i = next[j / size][a] * size + k;
                 if (s->row[i] < 0 || s->row[i] > s->row[j]) continue;
-                const double ij = entry_of(block, (const uint32_t (*)[4])next, i, j), ji = entry_of(block, (const uint32_t (*)[4])next, j, i);
+                const double ij = entry_of(block, (const uint32_t(*)[4])next, i, j),
+                             ji = entry_of(block, (const uint32_t(*)[4])next, j, i);
                 largest = fmax(largest, fabs(ij));
                 difference = fmax(difference, fabs(ij - ji));
                 ((int *)t->i)[t->nnz] = s->row[i];
@@ -146,7 +157,10 @@ static inline shell_statics *statics_open_pinned(const fracas_model *model, size
     return s;
 }
 
-static inline shell_statics *statics_open(const fracas_model *model) { return statics_open_pinned(model, SIZE_MAX); }
+static inline shell_statics *statics_open(const fracas_model *model)
+{
+    return statics_open_pinned(model, SIZE_MAX);
+}
 
 static inline void statics_close(shell_statics *s)
 {
@@ -178,9 +192,11 @@ static inline double mass_product(const fracas_model *model, const double *a, co
     return sum;
 }
 
-/* The `count` lowest omega [rad/s] of K u = omega^2 M u: orthogonal iteration with K^-1 M, `more` vectors, until those change by less
- * than 1e-7. `mode` [more][unknowns] has the start, and the modes of u.M u = 1 after. */
-static inline void lowest_frequencies(shell_statics *s, int count, int more, double *mode, double *omega)
+/* The `count` lowest omega [rad/s] of K u = omega^2 M u: orthogonal iteration with K^-1 M, `more`
+ * vectors, until those change by less than 1e-7. `mode` [more][unknowns] has the start, and the
+ * modes of u.M u = 1 after. */
+static inline void lowest_frequencies(shell_statics *s, int count, int more, double *mode,
+                                      double *omega)
 {
     double *f = vector_of(s->n), change = 1;
     for (int k = 0; k < more; k++) omega[k] = 0;
@@ -192,7 +208,8 @@ static inline void lowest_frequencies(shell_statics *s, int count, int more, dou
             statics_solve(s, f, u);
             for (int twice = 0; twice < 2; twice++)
                 for (int l = 0; l < k; l++) {
-                    const double *other = mode + (size_t)l * s->n, part = mass_product(s->model, u, other);
+                    const double *other = mode + (size_t)l * s->n,
+                                 part = mass_product(s->model, u, other);
                     for (size_t i = 0; i < s->n; i++) u[i] -= part * other[i];
                 }
             /* |K^-1 M u| comes to 1/omega^2 */
@@ -210,7 +227,8 @@ static inline double *random_start(const shell_statics *s, int count)
 {
     double *mode = vector_of((size_t)count * s->n);
     uint64_t noise = 17;
-    for (size_t i = 0; i < (size_t)count * s->n; i++) mode[i] = is_held(s->model, i % s->n) ? 0 : next_share(&noise) - 0.5;
+    for (size_t i = 0; i < (size_t)count * s->n; i++)
+        mode[i] = is_held(s->model, i % s->n) ? 0 : next_share(&noise) - 0.5;
     return mode;
 }
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sites of correlated fields, for tests. */
 #ifndef FRACAS_TESTS_SUPPORT_SITES_H
 #define FRACAS_TESTS_SUPPORT_SITES_H
@@ -7,11 +8,17 @@
 #include <math.h>
 
 /* Lognormal strengths of sigma 1 and median 1 Pa: their logarithms are the normal field. */
-static inline fracas_strength correlated(const fracas_kind *covariance, double length, double smoothness)
+static inline fracas_strength correlated(const fracas_kind *covariance, double length,
+                                         double smoothness)
 {
-    fracas_strength strength = {.median = 1, .sigma = 1, .covariance = covariance, .correlation_length = length, .smoothness = smoothness};
+    fracas_strength strength = {.median = 1,
+                                .sigma = 1,
+                                .covariance = covariance,
+                                .correlation_length = length,
+                                .smoothness = smoothness};
     for (size_t k = 0; k < fracas_strength_section.nkinds; k++)
-        if (fracas_strength_section.kinds[k]->name[0] == 'l') strength.distribution = fracas_strength_section.kinds[k];
+        if (fracas_strength_section.kinds[k]->name[0] == 'l')
+            strength.distribution = fracas_strength_section.kinds[k];
     return strength;
 }
 
@@ -19,7 +26,8 @@ static inline fracas_strength correlated(const fracas_kind *covariance, double l
 static inline void sites_on_circle(size_t n, double radius, double (*x)[3])
 {
     for (size_t i = 0; i < n; i++) {
-        const double angle = 2 * M_PI * (double)i / (double)n + 0.3, u = radius * cos(angle), v = radius * sin(angle);
+        const double angle = 2 * M_PI * (double)i / (double)n + 0.3, u = radius * cos(angle),
+                     v = radius * sin(angle);
         x[i][0] = 1 + 0.6 * u;
         x[i][1] = 2 + 0.8 * u;
         x[i][2] = v;

@@ -1,5 +1,6 @@
-/* Rings with Stershic's algorithm whose state is set between fracas_batch_begin and the first step, which does not drift: what the
- * state says is what that step sees. One lane. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rings with Stershic's algorithm whose state is set between fracas_batch_begin and the first step,
+ * which does not drift: what the state says is what that step sees. One lane. */
 #ifndef FRACAS_TESTS_SUPPORT_STERSHIC_H
 #define FRACAS_TESTS_SUPPORT_STERSHIC_H
 
@@ -41,8 +42,8 @@ static inline void normal_of(const ring_run *run, size_t e, double n[2])
     n[1] = cos(angle);
 }
 
-/* Gives element e this stress [Pa], by moving its nodes apart along its chord: nodes of closed links are no longer at one place,
- * which the first step does not look at. */
+/* Gives element e this stress [Pa], by moving its nodes apart along its chord: nodes of closed
+ * links are no longer at one place, which the first step does not look at. */
 static inline void set_stress(const ring_run *run, size_t e, double stress)
 {
     double t[2];
@@ -61,16 +62,19 @@ static inline void expand(const ring_run *run, double stress)
         for (size_t side = 0; side < 2; side++) {
             const double theta = 2 * pi * (double)((e + side) % run->n) / (double)run->n;
             *at(run, e, side ? RING_U_RIGHT : RING_U_LEFT) = stress / YOUNG * radius * cos(theta);
-            *at(run, e, side ? RING_U_RIGHT + 1 : RING_U_LEFT + 1) = stress / YOUNG * radius * sin(theta);
+            *at(run, e, side ? RING_U_RIGHT + 1 : RING_U_LEFT + 1) = stress / YOUNG * radius *
+                                                                     sin(theta);
         }
 }
 
-/* Opens the jump of interface e by moving element e + 1 along the interface's normal, unstrained. */
+/* Opens the jump of interface e by moving element e + 1 along the interface's normal, unstrained.
+ */
 static inline void set_jump(const ring_run *run, size_t e, double q)
 {
     double n[2];
     normal_of(run, e, n);
-    for (int field = RING_U_LEFT; field < RING_V_LEFT; field++) *at(run, e + 1, field) += q * n[field & 1];
+    for (int field = RING_U_LEFT; field < RING_V_LEFT; field++)
+        *at(run, e + 1, field) += q * n[field & 1];
 }
 
 static inline double *link_of(const ring_run *run, size_t e)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the tests of the store share: a point table, random records, folders, comparing files. */
 #ifndef FRACAS_TESTS_STORE_SAMPLE_H
 #define FRACAS_TESTS_STORE_SAMPLE_H
@@ -30,7 +31,8 @@ static inline void sample_ok(fracas_err err, const char *file, int line)
 /* A call that must fail with this code and with `text` in its message. */
 static inline void sample_fails(fracas_err err, fracas_err wanted, const char *text)
 {
-    if (err != wanted || !strstr(fracas_message(), text)) print_error("code %d: %s\n", err, fracas_message());
+    if (err != wanted || !strstr(fracas_message(), text))
+        print_error("code %d: %s\n", err, fracas_message());
     assert_int_equal(err, wanted);
     assert_non_null(strstr(fracas_message(), text));
 }
@@ -61,8 +63,11 @@ static inline fracas_point_table sample_table(fracas_point_row row[SAMPLE_POINTS
 
 static inline fracas_file_header sample_header(void)
 {
-    return (fracas_file_header){.campaign = fracas_hash_of("campaign", 8), .seed = UINT64_MAX - 4, .history = 100,
-                                .interfaces = true, .version = "0.1.0"};
+    return (fracas_file_header){.campaign = fracas_hash_of("campaign", 8),
+                                .seed = UINT64_MAX - 4,
+                                .history = 100,
+                                .interfaces = true,
+                                .version = "0.1.0"};
 }
 
 /* ---- random records ---- */
@@ -92,14 +97,18 @@ static inline double sample_real(uint64_t *state)
     return value;
 }
 
-static inline int64_t sample_count(uint64_t *state, uint64_t below) { return (int64_t)(sample_bits(state) % below); }
+static inline int64_t sample_count(uint64_t *state, uint64_t below)
+{
+    return (int64_t)(sample_bits(state) % below);
+}
 
 static inline void sample_reals(uint64_t *state, double *value, size_t count)
 {
     for (size_t i = 0; i < count; i++) value[i] = sample_real(state);
 }
 
-/* The record of a realization, a function of (point, replica) alone. At most `most` rows in a part. */
+/* The record of a realization, a function of (point, replica) alone. At most `most` rows in a part.
+ */
 static inline void sample_record(size_t point, int64_t replica, size_t most, fracas_record *record)
 {
     uint64_t state = point * 1000003u + (uint64_t)replica;
@@ -121,7 +130,8 @@ static inline void sample_record(size_t point, int64_t replica, size_t most, fra
     record->interface = calloc(record->ninterface + 1, sizeof *record->interface);
     for (size_t i = 0; i < record->nfragment; i++) {
         fracas_fragment *f = &record->fragment[i];
-        *f = (fracas_fragment){.elements = sample_count(&state, UINT64_C(1) << 33), .dust = sample_count(&state, 2)};
+        *f = (fracas_fragment){.elements = sample_count(&state, UINT64_C(1) << 33),
+                               .dust = sample_count(&state, 2)};
         f->mass = sample_real(&state);
         f->size = sample_real(&state);
         sample_reals(&state, f->position, 3);
@@ -134,7 +144,8 @@ static inline void sample_record(size_t point, int64_t replica, size_t most, fra
         record->history[i].fragments = sample_count(&state, 1000);
         record->history[i].broken = sample_count(&state, 1000);
     }
-    for (size_t i = 0; i < record->ninterface; i++) sample_reals(&state, &record->interface[i].strength, 4);
+    for (size_t i = 0; i < record->ninterface; i++)
+        sample_reals(&state, &record->interface[i].strength, 4);
 }
 
 /* ---- comparing ---- */
@@ -156,7 +167,8 @@ static inline void sample_make_canonical(fracas_record *record)
         sample_canonical(record->fragment[i].position, 12); /* to spin they lie in a row */
     }
     for (size_t i = 0; i < record->nhistory; i++) sample_canonical(&record->history[i].time, 9);
-    for (size_t i = 0; i < record->ninterface; i++) sample_canonical(&record->interface[i].strength, 4);
+    for (size_t i = 0; i < record->ninterface; i++)
+        sample_canonical(&record->interface[i].strength, 4);
 }
 
 /* True if every bit is the same. */
@@ -255,7 +267,8 @@ static inline int sample_files(const char *folder, const char *part)
     int count = 0;
     DIR *open_folder = opendir(folder);
     assert_non_null(open_folder);
-    for (struct dirent *entry; (entry = readdir(open_folder));) count += strstr(entry->d_name, part) != NULL;
+    for (struct dirent *entry; (entry = readdir(open_folder));)
+        count += strstr(entry->d_name, part) != NULL;
     closedir(open_folder);
     return count;
 }
@@ -269,10 +282,12 @@ typedef struct {
 
 #define SAMPLE_PROVENANCE "{\"host\": \"a\"}"
 
-/* Writes these realizations to a segment of STUDY (which must have a folder `segments`); row: one a realization. */
-static inline void sample_segment(const char *study, const char *name, const fracas_point_table *table,
-                                  const sample_realization *what, size_t count, size_t most,
-                                  fracas_file_seal *seal, fracas_segment_row *row)
+/* Writes these realizations to a segment of STUDY (which must have a folder `segments`); row: one a
+ * realization. */
+static inline void sample_segment(const char *study, const char *name,
+                                  const fracas_point_table *table, const sample_realization *what,
+                                  size_t count, size_t most, fracas_file_seal *seal,
+                                  fracas_segment_row *row)
 {
     fracas_file_header header = sample_header();
     fracas_writer *writer;
@@ -284,9 +299,16 @@ static inline void sample_segment(const char *study, const char *name, const fra
     for (size_t i = 0; i < count; i++) {
         fracas_record record;
         sample_record(what[i].point, what[i].replica, most, &record);
-        row[i] = (fracas_segment_row){table->point[what[i].point].hash, what[i].replica, (int64_t)i, record.outcome,
-                                      record.fragments, record.fragments_dust, record.steps, record.dissipated,
-                                      record.residual, fracas_record_mean_size(&record)};
+        row[i] = (fracas_segment_row){table->point[what[i].point].hash,
+                                      what[i].replica,
+                                      (int64_t)i,
+                                      record.outcome,
+                                      record.fragments,
+                                      record.fragments_dust,
+                                      record.steps,
+                                      record.dissipated,
+                                      record.residual,
+                                      fracas_record_mean_size(&record)};
         OK(fracas_writer_append(writer, what[i].point, what[i].replica, &record));
         fracas_record_clear(&record);
     }

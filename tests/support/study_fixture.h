@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A study in a folder of its own, planned, and what tests do with it. */
 #ifndef FRACAS_TESTS_SUPPORT_STUDY_FIXTURE_H
 #define FRACAS_TESTS_SUPPORT_STUDY_FIXTURE_H
@@ -50,7 +51,8 @@ static inline void commit_segment(const char *name, const sample_realization *wh
 static inline void commit_everything(uint64_t seed)
 {
     sample_realization what[ALL];
-    for (size_t i = 0; i < ALL; i++) what[i] = (sample_realization){i / REPLICAS, (int64_t)(i % REPLICAS)};
+    for (size_t i = 0; i < ALL; i++)
+        what[i] = (sample_realization){i / REPLICAS, (int64_t)(i % REPLICAS)};
     for (size_t i = ALL; seed && i > 1; i--) {
         size_t j = sample_bits(&seed) % i;
         sample_realization other = what[j];
@@ -75,7 +77,8 @@ static inline void compute_planned(const char *name)
     sample_realization what[ALL];
     OK(fracas_index_rows(index_, &table, &row, &count));
     for (size_t i = 0; i < count; i++)
-        if (row[i].status == FRACAS_PLANNED) what[missing++] = (sample_realization){row[i].point, row[i].replica};
+        if (row[i].status == FRACAS_PLANNED)
+            what[missing++] = (sample_realization){row[i].point, row[i].replica};
     free(row);
     if (missing) commit_segment(name, what, missing);
 }
@@ -99,11 +102,13 @@ static inline void keep_problem(void *context, const char *problem)
     snprintf(text + strlen(text), 8192 - strlen(text), "%s\n", problem);
 }
 
-/* The index is closed meanwhile, as for `fracas verify`. *text: the problems, one a line, and after them the notes if they are wanted. */
+/* The index is closed meanwhile, as for `fracas verify`. *text: the problems, one a line, and after
+ * them the notes if they are wanted. */
 static inline int64_t verify_as(bool full, bool notes, char text[8192])
 {
     int64_t problems;
-    const fracas_verify_options how = {.full = full, .say = keep_problem, .note = notes ? keep_problem : NULL, .context = text};
+    const fracas_verify_options how = {
+        .full = full, .say = keep_problem, .note = notes ? keep_problem : NULL, .context = text};
     text[0] = '\0';
     fracas_index_close(index_);
     OK(fracas_study_verify(study, &how, &problems));
@@ -111,18 +116,25 @@ static inline int64_t verify_as(bool full, bool notes, char text[8192])
     return problems;
 }
 
-static inline int64_t verify(char text[8192]) { return verify_as(true, false, text); }
+static inline int64_t verify(char text[8192])
+{
+    return verify_as(true, false, text);
+}
 
 static inline void verify_finds_as(bool full, int64_t wanted, const char *part)
 {
     char text[8192];
     int64_t problems = verify_as(full, false, text);
-    if (problems != wanted || !strstr(text, part)) print_error("%lld problems:\n%s", (long long)problems, text);
+    if (problems != wanted || !strstr(text, part))
+        print_error("%lld problems:\n%s", (long long)problems, text);
     assert_int_equal(problems, wanted);
     assert_non_null(strstr(text, part));
 }
 
-static inline void verify_finds(int64_t wanted, const char *part) { verify_finds_as(true, wanted, part); }
+static inline void verify_finds(int64_t wanted, const char *part)
+{
+    verify_finds_as(true, wanted, part);
+}
 
 /* Its report must contain `part`. */
 static inline void recover_says(const char *part)
@@ -130,7 +142,8 @@ static inline void recover_says(const char *part)
     char *report = NULL;
     fracas_file_header header = sample_header();
     OK(fracas_study_recover(study, index_, &header, &table, &report));
-    if (!report || !strstr(report, part)) fail_msg("no \"%s\" in the report:\n%s", part, report ? report : "");
+    if (!report || !strstr(report, part))
+        fail_msg("no \"%s\" in the report:\n%s", part, report ? report : "");
     if (!*part) assert_string_equal(report, "");
     free(report);
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Small meshes, and what is true of every surface. */
 #ifndef FRACAS_TESTS_SUPPORT_SURFACE_H
 #define FRACAS_TESTS_SUPPORT_SURFACE_H
@@ -36,24 +37,29 @@ static inline uint32_t corner_of(const fracas_surface *s, size_t element, size_t
     return s->element[element * s->corners + corner];
 }
 
-/* Interfaces and borders hold each edge of each element once, in order, and join sides that have the same nodes. */
+/* Interfaces and borders hold each edge of each element once, in order, and join sides that have
+ * the same nodes. */
 static inline void check_edges(const fracas_surface *s)
 {
     uint8_t *seen = calloc(3 * s->nelements, 1);
     assert_non_null(seen);
     for (size_t i = 0; i < s->ninterfaces; i++) {
         const fracas_surface_interface *f = &s->interface[i];
-        assert_true(f->element[0] < f->element[1] && f->element[1] < s->nelements && f->edge[0] < 3 && f->edge[1] < 3);
+        assert_true(f->element[0] < f->element[1] && f->element[1] < s->nelements &&
+                    f->edge[0] < 3 && f->edge[1] < 3);
         if (i > 0) {
             const fracas_surface_interface *before = f - 1;
-            assert_true(before->element[0] < f->element[0] ||
-                        (before->element[0] == f->element[0] && before->element[1] < f->element[1]));
+            assert_true(
+                before->element[0] < f->element[0] ||
+                (before->element[0] == f->element[0] && before->element[1] < f->element[1]));
         }
         for (int k = 0; k < 2; k++) assert_int_equal(seen[3 * f->element[k] + f->edge[k]]++, 0);
         const uint32_t a = f->edge[0], b = f->edge[1];
         assert_int_equal(corner_of(s, f->element[0], a), corner_of(s, f->element[1], (b + 1) % 3));
         assert_int_equal(corner_of(s, f->element[0], (a + 1) % 3), corner_of(s, f->element[1], b));
-        if (s->order == 2) assert_int_equal(corner_of(s, f->element[0], 3 + a), corner_of(s, f->element[1], 3 + b));
+        if (s->order == 2)
+            assert_int_equal(corner_of(s, f->element[0], 3 + a),
+                             corner_of(s, f->element[1], 3 + b));
     }
     for (size_t i = 0; i < s->nborders; i++) {
         const fracas_surface_border *f = &s->border[i];

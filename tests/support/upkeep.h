@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What tests of looking after a study share. */
 #ifndef FRACAS_TESTS_SUPPORT_UPKEEP_H
 #define FRACAS_TESTS_SUPPORT_UPKEEP_H
@@ -12,7 +13,10 @@
 
 static char said_text[8192];
 
-static inline void keep_line(void *context, const char *text) { keep_problem(context, text); }
+static inline void keep_line(void *context, const char *text)
+{
+    keep_problem(context, text);
+}
 
 static const fracas_said said = {keep_line, said_text};
 
@@ -24,7 +28,8 @@ static inline void says(const char *part)
 static inline void sql(const char *text)
 {
     char *message = NULL;
-    if (sqlite3_exec(index_->db, text, NULL, NULL, &message) != SQLITE_OK) fail_msg("%s: %s", text, message);
+    if (sqlite3_exec(index_->db, text, NULL, NULL, &message) != SQLITE_OK)
+        fail_msg("%s: %s", text, message);
 }
 
 static inline int64_t number(const char *query)
@@ -63,7 +68,9 @@ static inline void commit_all_but(const sample_realization *left, size_t nleft)
     size_t n = 0;
     for (size_t i = 0; i < ALL; i++) {
         bool skip = false;
-        for (size_t l = 0; l < nleft; l++) skip = skip || (left[l].point == i / REPLICAS && left[l].replica == (int64_t)(i % REPLICAS));
+        for (size_t l = 0; l < nleft; l++)
+            skip = skip ||
+                   (left[l].point == i / REPLICAS && left[l].replica == (int64_t)(i % REPLICAS));
         if (!skip) what[n++] = (sample_realization){i / REPLICAS, (int64_t)(i % REPLICAS)};
     }
     commit_segment("a.h5", what, 30);
@@ -74,7 +81,8 @@ static inline void commit_all_but(const sample_realization *left, size_t nleft)
 static inline void note_failure(void *text, const fracas_index_row *row, const char *reason)
 {
     if (*reason) /* those of the sample that have a record have none */
-        sprintf((char *)text + strlen(text), "%zu:%d %d %s;", row->point, (int)row->replica, (int)row->attempts, reason);
+        sprintf((char *)text + strlen(text), "%zu:%d %d %s;", row->point, (int)row->replica,
+                (int)row->attempts, reason);
 }
 
 static inline void failures_are(const char *wanted)
@@ -97,8 +105,15 @@ static inline void fail_some(void)
 
 static inline void decide(int p, int64_t round, int64_t replicas)
 {
-    const fracas_decision decision = {.round = round, .replicas = replicas, .used = replicas, .mean = 1, .half_width = 0.5,
-                                      .minimum = 8, .maximum = 100, .relative_half_width = 0.1, .confidence = 0.95};
+    const fracas_decision decision = {.round = round,
+                                      .replicas = replicas,
+                                      .used = replicas,
+                                      .mean = 1,
+                                      .half_width = 0.5,
+                                      .minimum = 8,
+                                      .maximum = 100,
+                                      .relative_half_width = 0.1,
+                                      .confidence = 0.95};
     OK(fracas_index_begin(index_));
     OK(fracas_index_end(index_, fracas_index_decide(index_, &point_row[p], &decision, "reason")));
 }

@@ -1,4 +1,6 @@
-/* What the parent takes from its surroundings: the size of a Slurm job, and why mpirun says that it ended. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the parent takes from its surroundings: the size of a Slurm job, and why mpirun says that it
+ * ended. */
 #include "campaigns/scheduler/launch/allocation.h"
 #include "campaigns/scheduler/launch/mpirun.h"
 
@@ -15,8 +17,10 @@ static void lists_of_slurm(void **state)
     assert_int_equal(fracas_allocation_sum("4"), 4);
     assert_int_equal(fracas_allocation_sum("16(x2)"), 32);
     assert_int_equal(fracas_allocation_sum("72(x2),36,8(x10)"), 260);
-    static const char *const wrong[] = {"", "x", "4,", "4(2)", "4(x", "4(x2", "-1", "4 5", "99999999999", "2000000000(x4)"};
-    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) assert_int_equal(fracas_allocation_sum(wrong[i]), 0);
+    static const char *const wrong[] = {"",     "x",  "4,",  "4(2)",        "4(x",
+                                        "4(x2", "-1", "4 5", "99999999999", "2000000000(x4)"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        assert_int_equal(fracas_allocation_sum(wrong[i]), 0);
 }
 
 static void jobs_of_an_allocation(void **state)
@@ -31,7 +35,8 @@ static void jobs_of_an_allocation(void **state)
     setenv("SLURM_NTASKS", "96", 1);
     assert_int_equal(fracas_allocation_jobs(0, &jobs), FRACAS_OK);
     assert_int_equal(jobs, 96);
-    assert_int_equal(fracas_allocation_jobs(100000, &jobs), FRACAS_OK); /* the bound is that of one machine */
+    assert_int_equal(fracas_allocation_jobs(100000, &jobs),
+                     FRACAS_OK); /* the bound is that of one machine */
     assert_int_equal(jobs, 100000);
     unsetenv("SLURM_JOB_ID"); /* left over from a job: no allocation */
     assert_int_equal(fracas_allocation_jobs(0, &jobs), FRACAS_OK);
@@ -64,14 +69,19 @@ static void the_line_that_tells(void **state)
     } known[] = {
         {"[vm:1] *** Process received signal ***\n[vm:1] Signal: Segmentation fault (11)\n"
          "--------------------------------------------------------------------------\n"
-         "Primary job  terminated normally, but 1 process returned\na non-zero exit code. Per user-direction, the job has been aborted.\n"
+         "Primary job  terminated normally, but 1 process returned\na non-zero exit code. Per "
+         "user-direction, the job has been aborted.\n"
          "--------------------------------------------------------------------------\n"
-         "mpirun noticed that process rank 1 with PID 15149 on node node1 exited on signal 11 (Segmentation fault).\n",
-         "mpirun noticed that process rank 1 with PID 15149 on node node1 exited on signal 11 (Segmentation fault)"},
-        {"--------------------------------------------------------------------------\nORTE has lost communication with a remote daemon.\n\n"
+         "mpirun noticed that process rank 1 with PID 15149 on node node1 exited on signal 11 "
+         "(Segmentation fault).\n",
+         "mpirun noticed that process rank 1 with PID 15149 on node node1 exited on signal 11 "
+         "(Segmentation fault)"},
+        {"--------------------------------------------------------------------------\nORTE has "
+         "lost communication with a remote daemon.\n\n"
          "  HNP daemon   : [[1,0],0] on node vm\n",
          "ORTE has lost communication with a remote daemon"},
-        {"-----\nThere are not enough slots available in the system to satisfy the 9\nslots that were requested by the application:\n",
+        {"-----\nThere are not enough slots available in the system to satisfy the 9\nslots that "
+         "were requested by the application:\n",
          "There are not enough slots available in the system to satisfy the 9"},
         {"-----\n  [a line]\nanother\n", "[a line]"},
         {"", ""},
@@ -89,7 +99,8 @@ static void the_line_that_tells(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lists_of_slurm), cmocka_unit_test(jobs_of_an_allocation),
-                                       cmocka_unit_test(a_task_of_srun_without_mpi), cmocka_unit_test(the_line_that_tells)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lists_of_slurm), cmocka_unit_test(jobs_of_an_allocation),
+        cmocka_unit_test(a_task_of_srun_without_mpi), cmocka_unit_test(the_line_that_tells)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,7 @@
-/* What exports are made of: the digest that packages name, and the page of the summary's keys. Packages as a whole: tests/unit/export.sh,
- * and tests/support/check_export.py on the studies of tests/unit/test_analysis_*.c. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What exports are made of: the digest that packages name, and the page of the summary's keys.
+ * Packages as a whole: tests/unit/export.sh, and tests/support/check_export.py on the studies of
+ * tests/unit/test_analysis_*.c. */
 #include "tests/support/report.h"
 
 #include "analysis/export/sha256.h"
@@ -39,7 +41,8 @@ static void file_that_is_not_there(void **state)
     uint64_t size;
     assert_int_equal(fracas_sha256_of_file("/nonexistent", hex, &size), FRACAS_ENVIRONMENT);
     assert_non_null(strstr(fracas_message(), "/nonexistent"));
-    assert_int_equal(fracas_sha256_of_file("/", hex, &size), FRACAS_ENVIRONMENT); /* opens, and cannot be read */
+    assert_int_equal(fracas_sha256_of_file("/", hex, &size),
+                     FRACAS_ENVIRONMENT); /* opens, and cannot be read */
 }
 
 static void page_shows_every_key(void **state)
@@ -52,7 +55,10 @@ static void page_shows_every_key(void **state)
     fclose(out);
     char *page = report_contents(FRACAS_SOURCE_DIR, "docs/formats/summary.md");
     if (!strstr(page, wanted))
-        fprintf(stderr, "docs/formats/summary.md must end with what `fracas reference --statistics` prints:\n%s", wanted);
+        fprintf(stderr,
+                "docs/formats/summary.md must end with what `fracas reference --statistics` "
+                "prints:\n%s",
+                wanted);
     assert_non_null(strstr(page, wanted));
     free(page);
     free(wanted);

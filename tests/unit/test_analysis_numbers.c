@@ -1,4 +1,6 @@
-/* Estimates, numbers as text, the columns that tell points apart, warnings, and what a figure shows. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Estimates, numbers as text, the columns that tell points apart, warnings, and what a figure
+ * shows. */
 #include "analysis/study/columns.h"
 #include "analysis/estimate/estimate.h"
 #include "analysis/tables/format.h"
@@ -16,7 +18,8 @@
 
 #include <cmocka.h>
 
-/* 2, 4, 4, 4, 5, 5, 7, 9: mean 5, squares 32, deviation sqrt(32/7); tabulated t_(0.975, 7) = 2.364624 to 1e-6. */
+/* 2, 4, 4, 4, 5, 5, 7, 9: mean 5, squares 32, deviation sqrt(32/7); tabulated t_(0.975, 7)
+ * = 2.364624 to 1e-6. */
 static void estimate_of_eight(void **state)
 {
     (void)state;
@@ -37,7 +40,8 @@ static void estimate_of_few(void **state)
     assert_true(isnan(fracas_estimate_of(value, 1, 1).half_width));
     assert_true(fracas_estimate_of(value + 1, 7, 1).mean == 8);
     const double equal[] = {0.1, 0.1, 0.1}; /* their plain sum is not three times 0.1 */
-    assert_true(fracas_estimate_of(equal, 1, 3).mean == 0.1 && fracas_estimate_of(equal, 1, 3).half_width == 0);
+    assert_true(fracas_estimate_of(equal, 1, 3).mean == 0.1 &&
+                fracas_estimate_of(equal, 1, 3).half_width == 0);
 }
 
 static void assert_estimate(double mean, double half_width, double factor, const char *expected)
@@ -151,21 +155,25 @@ static void prefixes(void **state)
     assert_string_equal(fracas_prefix_for(NULL, 0).symbol, "");
 }
 
-/* rate x young, with mesh.elements zipped to the rate and density to young; derived.* never tells points apart. */
+/* rate x young, with mesh.elements zipped to the rate and density to young; derived.* never tells
+ * points apart. */
 static void columns_that_tell_points_apart(void **state)
 {
     (void)state;
     static const fracas_column column[] = {
-        {"derived.strength_mean", "Pa", "", false}, {"loading.rate", "1/s", "", false}, {"loading.type", "", "", true},
-        {"material.density", "kg/m3", "", false},   {"material.young", "Pa", "", false},
+        {"derived.strength_mean", "Pa", "", false},
+        {"loading.rate", "1/s", "", false},
+        {"loading.type", "", "", true},
+        {"material.density", "kg/m3", "", false},
+        {"material.young", "Pa", "", false},
         {"mesh.elements", "1", "", false},
     };
     enum { N = 6, P = 4 };
     fracas_value value[P][N];
     fracas_point_row point[P];
     for (size_t p = 0; p < P; p++) {
-        double real[N] = {(double)p, p % 2 ? 1e4 : 1e3, NAN, p < 2 ? 2700 : 7800, p < 2 ? 70e9 : 210e9,
-                          p % 2 ? 20 : 10};
+        double real[N] = {(double)p,           p % 2 ? 1e4 : 1e3,    NAN,
+                          p < 2 ? 2700 : 7800, p < 2 ? 70e9 : 210e9, p % 2 ? 20 : 10};
         for (size_t c = 0; c < N; c++) value[p][c] = (fracas_value){.real = real[c], .text = ""};
         value[p][2].text = "imposed-rate";
         point[p] = (fracas_point_row){.value = value[p]};
@@ -181,7 +189,7 @@ static void columns_that_tell_points_apart(void **state)
     assert_string_equal(label, "rate 1e4 1/s, density 7800 kg/m3");
     char beside[64];
     fracas_columns_beside(&table, &columns, beside, sizeof beside);
-    assert_string_equal(beside, "material.young"); /* not the mesh */
+    assert_string_equal(beside, "material.young");        /* not the mesh */
     fracas_columns_label(&table, &columns, 3, label, 12); /* cut, not overrun */
     assert_string_equal(label, "rate 1e4 1/");
     assert_int_equal(fracas_columns_without_rate(&table, &columns, &others), FRACAS_OK);
@@ -197,13 +205,15 @@ static void columns_that_tell_points_apart(void **state)
     fracas_columns_clear(&columns);
 }
 
-/* What only a list of records shows: unusable outcomes are counted and left out; NaN onset; the typical replica. */
+/* What only a list of records shows: unusable outcomes are counted and left out; NaN onset; the
+ * typical replica. */
 
 /* Two laws of which one has a beta: the law names the points. */
 static void names_come_before_their_numbers(void **state)
 {
     (void)state;
-    static const fracas_column column[] = {{"cohesive.beta", "1", "", false}, {"cohesive.law", "", "", true}};
+    static const fracas_column column[] = {{"cohesive.beta", "1", "", false},
+                                           {"cohesive.law", "", "", true}};
     fracas_value value[2][2] = {{{.real = 4, .text = ""}, {.real = NAN, .text = "nitsche"}},
                                 {{.real = NAN, .text = ""}, {.real = NAN, .text = "rigid-link"}}};
     fracas_point_row point[] = {{.value = value[0]}, {.value = value[1]}};
@@ -217,15 +227,18 @@ static void names_come_before_their_numbers(void **state)
     fracas_columns_clear(&columns);
 }
 
-/* A point is called by what it has: what only other loads have is left out, with its unit and its comma. */
+/* A point is called by what it has: what only other loads have is left out, with its unit and its
+ * comma. */
 static void labels_leave_out_what_a_point_lacks(void **state)
 {
     (void)state;
-    static const fracas_column column[] = {{"loading.acceleration", "m/s2", "", false}, {"loading.force", "N/m", "", false},
+    static const fracas_column column[] = {{"loading.acceleration", "m/s2", "", false},
+                                           {"loading.force", "N/m", "", false},
                                            {"loading.direction", "", "", true}};
-    fracas_value value[3][3] = {{{.real = NAN, .text = ""}, {.real = 1e6, .text = ""}, {.real = NAN, .text = "radial"}},
-                                {{.real = 3, .text = ""}, {.real = NAN, .text = ""}, {.real = NAN, .text = ""}},
-                                {{.real = NAN, .text = ""}, {.real = NAN, .text = ""}, {.real = NAN, .text = ""}}};
+    fracas_value value[3][3] = {
+        {{.real = NAN, .text = ""}, {.real = 1e6, .text = ""}, {.real = NAN, .text = "radial"}},
+        {{.real = 3, .text = ""}, {.real = NAN, .text = ""}, {.real = NAN, .text = ""}},
+        {{.real = NAN, .text = ""}, {.real = NAN, .text = ""}, {.real = NAN, .text = ""}}};
     fracas_point_row point[] = {{.value = value[0]}, {.value = value[1]}, {.value = value[2]}};
     fracas_point_table table = {.ncolumns = 3, .column = column, .npoints = 3, .point = point};
     fracas_columns columns = {.count = 3, .column = (size_t[]){0, 1, 2}};
@@ -238,19 +251,23 @@ static void labels_leave_out_what_a_point_lacks(void **state)
     }
 }
 
-/* Where delta_c is given, G_c = sigma_c delta_c/2 of the mean strength makes the scales: 1 um at 300 MPa is 150 J/m2, and
- * s0 = E G_c/sigma_c^2 = 275e9 150/9e16 m, each of a few roundings. No law at rate 0. */
+/* Where delta_c is given, G_c = sigma_c delta_c/2 of the mean strength makes the scales: 1 um at
+ * 300 MPa is 150 J/m2, and s0 = E G_c/sigma_c^2 = 275e9 150/9e16 m, each of a few roundings. No law
+ * at rate 0. */
 static void laws_of_a_given_opening(void **state)
 {
     (void)state;
-    static const fracas_column column[] = {
-        {"cohesive.critical_opening", "m", "", false}, {"cohesive.fracture_energy", "J/m2", "", false},
-        {"derived.strain_rate", "1/s", "", false},     {"derived.strength_mean", "Pa", "", false},
-        {"material.density", "kg/m3", "", false},      {"material.young", "Pa", "", false}};
+    static const fracas_column column[] = {{"cohesive.critical_opening", "m", "", false},
+                                           {"cohesive.fracture_energy", "J/m2", "", false},
+                                           {"derived.strain_rate", "1/s", "", false},
+                                           {"derived.strength_mean", "Pa", "", false},
+                                           {"material.density", "kg/m3", "", false},
+                                           {"material.young", "Pa", "", false}};
     fracas_value value[3][6];
     fracas_point_row point[3];
     for (size_t p = 0; p < 3; p++) {
-        const double real[] = {p == 1 ? 0 : 1e-6, p == 1 ? 150 : 0, p == 2 ? 0 : 1e4, 300e6, 2750, 275e9};
+        const double real[] = {
+            p == 1 ? 0 : 1e-6, p == 1 ? 150 : 0, p == 2 ? 0 : 1e4, 300e6, 2750, 275e9};
         for (size_t c = 0; c < 6; c++) value[p][c] = (fracas_value){.real = real[c], .text = ""};
         point[p] = (fracas_point_row){.value = value[p]};
     }
@@ -262,7 +279,8 @@ static void laws_of_a_given_opening(void **state)
     assert_true(fabs(given.scales.size / (275e9 * 150 / 9e16) - 1) < 1e-14);
     for (int law = 0; law < FRACAS_NLAWS; law++) {
         assert_true(isnan(still.law[law]));
-        if (law == FRACAS_LAW_MOTT) continue; /* the table does not say how strengths are distributed */
+        if (law == FRACAS_LAW_MOTT)
+            continue; /* the table does not say how strengths are distributed */
         assert_true(given.law[law] > 0 && fabs(given.law[law] / energy.law[law] - 1) < 1e-13);
     }
 }
@@ -277,10 +295,13 @@ static void statistics_of_records(void **state)
     fracas_point_statistics statistics;
     fracas_point_statistics_init(&table, 0, &statistics);
     assert_true(isnan(statistics.law[FRACAS_LAW_ZMR])); /* no material in the table */
-    const int64_t outcome[] = {FRACAS_FRAGMENTED, FRACAS_NONFINITE, FRACAS_INTACT, FRACAS_TIME_LIMIT};
+    const int64_t outcome[] = {FRACAS_FRAGMENTED, FRACAS_NONFINITE, FRACAS_INTACT,
+                               FRACAS_TIME_LIMIT};
     const double dissipated[] = {5, 100, 0, 4};
-    fracas_fragment fragment[4] = {{.size = 0.03, .elements = 3}, {.size = 0.01, .elements = 1, .dust = 1},
-                                   {.size = 0.02, .elements = 2}, {.size = 0.06, .elements = 6}};
+    fracas_fragment fragment[4] = {{.size = 0.03, .elements = 3},
+                                   {.size = 0.01, .elements = 1, .dust = 1},
+                                   {.size = 0.02, .elements = 2},
+                                   {.size = 0.06, .elements = 6}};
     const size_t first[] = {0, 0, 3, 0}, count[] = {3, 3, 1, 3};
     for (size_t i = 0; i < 4; i++) {
         fracas_record record;
@@ -289,7 +310,8 @@ static void statistics_of_records(void **state)
         record.dissipated = dissipated[i];
         record.residual = 0.5;
         record.created = 0.1;
-        record.kinetic = 4; /* largest energies: 5 dissipated, work 60, and kinetic, stored and dissipated 40 */
+        record.kinetic =
+            4; /* largest energies: 5 dissipated, work 60, and kinetic, stored and dissipated 40 */
         record.elastic = i == 3 ? 36 : 0;
         record.cohesive = 0;
         record.work = i == 2 ? -60 : 0;
@@ -298,7 +320,8 @@ static void statistics_of_records(void **state)
         record.onset_time = outcome[i] == FRACAS_INTACT ? NAN : 1e-7;
         record.fragment = fragment + first[i];
         record.nfragment = count[i];
-        assert_int_equal(fracas_point_statistics_add(&statistics, 10 + i, (int64_t)i, &record), FRACAS_OK);
+        assert_int_equal(fracas_point_statistics_add(&statistics, 10 + i, (int64_t)i, &record),
+                         FRACAS_OK);
     }
     assert_int_equal(fracas_point_statistics_finish(&statistics), FRACAS_OK);
     assert_int_equal(statistics.realizations, 4);
@@ -320,7 +343,8 @@ static void statistics_of_records(void **state)
     fracas_point_statistics_clear(&statistics);
 }
 
-/* Just within every limit: no warning; just beyond every limit, and with every unusable outcome: one each. */
+/* Just within every limit: no warning; just beyond every limit, and with every unusable outcome:
+ * one each. */
 static void warnings_at_their_limits(void **state)
 {
     (void)state;
@@ -329,23 +353,42 @@ static void warnings_at_their_limits(void **state)
     fracas_point_row row[] = {{.value = &zone[0]}, {.value = &zone[1]}};
     fracas_point_table table = {.ncolumns = 1, .column = column, .npoints = 2, .point = row};
     fracas_point_statistics point[] = {
-        {.size.mean = 1e-4, .realizations = 9, .usable = 9, .outcome = {9}, .residual = 0.99e-3, .created = 0.99e-2, .elements = 10,
-         .dust_share = 0.05, .drift = 0.01},
-        {.size.mean = 1e-4, .realizations = 9, .usable = 5, .outcome = {3, 1, 1, 2, 1, 1}, .residual = 1.01e-3, .created = 1.01e-2,
-         .elements = 9.9, .dust_share = 0.051, .drift = 0.0213, .drifted = 2},
+        {.size.mean = 1e-4,
+         .realizations = 9,
+         .usable = 9,
+         .outcome = {9},
+         .residual = 0.99e-3,
+         .created = 0.99e-2,
+         .elements = 10,
+         .dust_share = 0.05,
+         .drift = 0.01},
+        {.size.mean = 1e-4,
+         .realizations = 9,
+         .usable = 5,
+         .outcome = {3, 1, 1, 2, 1, 1},
+         .residual = 1.01e-3,
+         .created = 1.01e-2,
+         .elements = 9.9,
+         .dust_share = 0.051,
+         .drift = 0.0213,
+         .drifted = 2},
     };
     fracas_analysis analysis = {.table = &table, .point = point, .header.complete = true};
     fracas_warning *warning;
     size_t count;
     assert_int_equal(fracas_analysis_warnings(&analysis, &warning, &count), FRACAS_OK);
-    const char *const expected[] = {"2 of 9 realizations ended NONFINITE", "1 of 9 realizations ended ENERGY_DRIFT",
-                                    "1 of 9 realizations ended FAILED", "1 of 9 realizations ended INTACT",
-                                    "1 of 9 realizations were stopped",
-                                    "ledger residual up to 1.0e-3",
-                                    "energy drift above 1 %: 2 of 5 usable realizations, their |residual| up to 2.1 %",
-                                    "energy created at breaks up to 0.010",
-                                    "a mean fragment has 9.9 elements", "5.1 % of the fragments are dust",
-                                    "cohesive.zone is 0.26 of a mean fragment"};
+    const char *const expected[] = {
+        "2 of 9 realizations ended NONFINITE",
+        "1 of 9 realizations ended ENERGY_DRIFT",
+        "1 of 9 realizations ended FAILED",
+        "1 of 9 realizations ended INTACT",
+        "1 of 9 realizations were stopped",
+        "ledger residual up to 1.0e-3",
+        "energy drift above 1 %: 2 of 5 usable realizations, their |residual| up to 2.1 %",
+        "energy created at breaks up to 0.010",
+        "a mean fragment has 9.9 elements",
+        "5.1 % of the fragments are dust",
+        "cohesive.zone is 0.26 of a mean fragment"};
     assert_int_equal(count, FRACAS_COUNT(expected));
     for (size_t i = 0; i < count; i++) {
         assert_int_equal(warning[i].point, 1);
@@ -359,7 +402,8 @@ static void warnings_at_their_limits(void **state)
     free(warning);
 }
 
-/* Sizes 1, 1, 2, 4 mm, of which the ones differ by rounding: all are >= 1 mm, half >= 2 mm, a quarter >= 4 mm. */
+/* Sizes 1, 1, 2, 4 mm, of which the ones differ by rounding: all are >= 1 mm, half >= 2 mm, a
+ * quarter >= 4 mm. */
 static void figure_of_sizes(void **state)
 {
     (void)state;
@@ -407,7 +451,8 @@ static void ticks(void **state)
     assert_labels(true, 0.013, 60, "0.01 0.1 1 10 100 ");
     assert_labels(true, 30, 180, "20 50 100 200 ");
     assert_labels(true, 1e4, 1e5, "10\u2074 2\u00b710\u2074 5\u00b710\u2074 10\u2075 ");
-    assert_labels(true, 1e-12, 1, "10\u207b\u00b9\u00b2 10\u207b\u00b9\u2070 10\u207b\u2078 10\u207b\u2076 "
+    assert_labels(true, 1e-12, 1,
+                  "10\u207b\u00b9\u00b2 10\u207b\u00b9\u2070 10\u207b\u2078 10\u207b\u2076 "
                   "10\u207b\u2074 10\u207b\u00b2 10\u2070 ");
     assert_labels(true, 3, 3, "2 5 ");
     assert_labels(true, 2, 2, "1 10 ");
@@ -416,14 +461,20 @@ static void ticks(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(estimate_of_eight), cmocka_unit_test(estimate_of_few), cmocka_unit_test(estimates_as_text),
+        cmocka_unit_test(estimate_of_eight),
+        cmocka_unit_test(estimate_of_few),
+        cmocka_unit_test(estimates_as_text),
         cmocka_unit_test(digits_as_the_interval_supports),
-        cmocka_unit_test(numbers_as_text), cmocka_unit_test(prefixes), cmocka_unit_test(columns_that_tell_points_apart),
+        cmocka_unit_test(numbers_as_text),
+        cmocka_unit_test(prefixes),
+        cmocka_unit_test(columns_that_tell_points_apart),
         cmocka_unit_test(names_come_before_their_numbers),
         cmocka_unit_test(labels_leave_out_what_a_point_lacks),
         cmocka_unit_test(laws_of_a_given_opening),
-        cmocka_unit_test(statistics_of_records), cmocka_unit_test(warnings_at_their_limits),
-        cmocka_unit_test(figure_of_sizes), cmocka_unit_test(ticks),
+        cmocka_unit_test(statistics_of_records),
+        cmocka_unit_test(warnings_at_their_limits),
+        cmocka_unit_test(figure_of_sizes),
+        cmocka_unit_test(ticks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

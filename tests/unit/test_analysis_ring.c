@@ -1,4 +1,6 @@
-/* Rings: arcs, the motion of fragments, where they are drawn, series by radius, and the report of a study of rings. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rings: arcs, the motion of fragments, where they are drawn, series by radius, and the report of a
+ * study of rings. */
 #include "tests/support/campaign_text.h"
 #include "tests/support/report.h"
 
@@ -22,15 +24,16 @@ static void arcs(void **state)
         double x = 0, inertia = 0;
         for (int k = 0; k < PARTS; k++) x += cos(half[i] * (2 * (k + 0.5) / PARTS - 1)) / PARTS;
         for (int k = 0; k < PARTS; k++) {
-            double angle = half[i] * (2 * (k + 0.5) / PARTS - 1), dx = cos(angle) - x, dy = sin(angle);
+            double angle = half[i] * (2 * (k + 0.5) / PARTS - 1), dx = cos(angle) - x,
+                   dy = sin(angle);
             inertia += (dx * dx + dy * dy) / PARTS;
         }
         assert_true(fabs(fracas_arc_centre(half[i]) - x) < 1e-9);
         assert_true(fabs(fracas_arc_inertia(half[i]) - inertia) < 1e-9);
     }
     assert_true(fracas_arc_centre(0) == 1 && fracas_arc_inertia(0) == 0);
-    /* A straight rod of length 2a has a^2/3; at both sides of the switch to the series the two agree: 1 - c^2 rounds to
-     * 2e-16/3e-5. */
+    /* A straight rod of length 2a has a^2/3; at both sides of the switch to the series the two
+     * agree: 1 - c^2 rounds to 2e-16/3e-5. */
     assert_true(fabs(fracas_arc_inertia(1e-6) / (1e-12 / 3) - 1) < 1e-12);
     double below = nextafter(1e-2, 0), centre = sin(below) / below;
     assert_true(fabs(fracas_arc_inertia(below) / (1 - centre * centre) - 1) < 1e-10);
@@ -38,8 +41,8 @@ static void arcs(void **state)
 
 /* ---- motion ---- */
 
-/* Fragments of a ring of radius R in which everything moves by `push` and at `speed` along its own radius: their centres
- * of mass do so by sin(a)/a of that. size: share of the circumference. */
+/* Fragments of a ring of radius R in which everything moves by `push` and at `speed` along its own
+ * radius: their centres of mass do so by sin(a)/a of that. size: share of the circumference. */
 static void expanded_ring(double radius, double push, double speed, const double *share, size_t n,
                           fracas_fragment *fragment)
 {
@@ -47,7 +50,9 @@ static void expanded_ring(double radius, double push, double speed, const double
     for (size_t i = 0; i < n; i++) {
         double half = M_PI * share[i], angle = begin + half, out = sin(half) / half;
         fragment[i] = (fracas_fragment){
-            .mass = share[i], .size = 2 * M_PI * radius * share[i], .elements = 2,
+            .mass = share[i],
+            .size = 2 * M_PI * radius * share[i],
+            .elements = 2,
             .position = {(radius + push) * out * cos(angle), (radius + push) * out * sin(angle), 0},
             .velocity = {speed * out * cos(angle), speed * out * sin(angle), 0}};
         begin += 2 * half;
@@ -68,9 +73,11 @@ static void motion_of_fragments(void **state)
     assert_true(fabs(motion.radial - 80 * out) < 1e-12);
     assert_true(motion.scatter < 1e-12 && motion.circumferential < 1e-12 && motion.spin == 0);
     double angle = atan2(fragment[2].position[1], fragment[2].position[0]);
-    fragment[2].velocity[0] += 3 * cos(angle) - 8 * sin(angle); /* 3 m/s outward and 8 m/s along the ring */
+    fragment[2].velocity[0] += 3 * cos(angle) -
+                               8 * sin(angle); /* 3 m/s outward and 8 m/s along the ring */
     fragment[2].velocity[1] += 3 * sin(angle) + 8 * cos(angle);
-    fragment[2].angular_momentum[2] = -0.25 * radius * radius * (1 - out * out) * 5e3; /* at 5000 rad/s */
+    fragment[2].angular_momentum[2] = -0.25 * radius * radius * (1 - out * out) *
+                                      5e3; /* at 5000 rad/s */
     motion = fracas_ring_motion_of(&record, radius);
     assert_true(fabs(motion.radial - 80 * out - 0.75) < 1e-12);
     assert_true(fabs(motion.scatter - sqrt((3 * 0.75 * 0.75 + 2.25 * 2.25) / 4)) < 1e-12);
@@ -101,13 +108,16 @@ static void pattern_of_uniform_expansion(void **state)
         const fracas_ring_piece *piece = &pattern.piece[i];
         double half = M_PI * share[piece->fragment], out = sin(half) / half;
         assert_true(fabs(piece->half_angle - half) < 1e-14);
-        assert_true(fabs(piece->displacement - push * out) < 1e-16); /* radius times 1e-16, and some */
-        assert_true(fabs(piece->velocity[0] - 120 * out) < 1e-11 && fabs(piece->velocity[1]) < 1e-11);
+        assert_true(fabs(piece->displacement - push * out) <
+                    1e-16); /* radius times 1e-16, and some */
+        assert_true(fabs(piece->velocity[0] - 120 * out) < 1e-11 &&
+                    fabs(piece->velocity[1]) < 1e-11);
         assert_true(fabs(piece->relative[0]) < 1e-11 && fabs(piece->relative[1]) < 1e-11);
         assert_true(i == 0 || piece->angle > pattern.piece[i - 1].angle);
         assert_int_equal(piece->dust, piece->fragment == 3);
     }
-    /* Mean displacement push sum(share sin(a)/a) = 0.84 push, 4.2e-5 of 6.4e-3: 152 times, so 100. */
+    /* Mean displacement push sum(share sin(a)/a) = 0.84 push, 4.2e-5 of 6.4e-3: 152 times, so 100.
+     */
     assert_true(fracas_picture_exaggeration(&pattern) == 100);
     for (size_t i = 0; i < N; i++) pattern.piece[i].displacement = 0.08 * radius; /* 5 exactly */
     assert_true(fracas_picture_exaggeration(&pattern) == 5);
@@ -145,21 +155,37 @@ typedef struct {
     fracas_point_table table;
 } made_table;
 
-static double radius_of(size_t p) { return p % 2 ? 16e-3 : 8e-3; }
-static double speed_of(size_t p) { return (p % 2 ? 50 : 25) * pow(2.2, (double)(p / 2)); }
-static int64_t fragments_of(size_t p) { return (int64_t)((p % 2 ? 16 : 8) * pow(2.2, (double)(p / 2))); }
+static double radius_of(size_t p)
+{
+    return p % 2 ? 16e-3 : 8e-3;
+}
+static double speed_of(size_t p)
+{
+    return (p % 2 ? 50 : 25) * pow(2.2, (double)(p / 2));
+}
+static int64_t fragments_of(size_t p)
+{
+    return (int64_t)((p % 2 ? 16 : 8) * pow(2.2, (double)(p / 2)));
+}
 
 static void make_table(made_table *made)
 {
     for (size_t p = 0; p < NPOINTS; p++) {
-        double real[NCOLUMNS] = {100, speed_of(p) / radius_of(p), 300e6, 1e-6, radius_of(p), speed_of(p), NAN, 2750, 275e9,
-                                 ELEMENTS, NAN};
+        double real[NCOLUMNS] = {100,          speed_of(p) / radius_of(p),
+                                 300e6,        1e-6,
+                                 radius_of(p), speed_of(p),
+                                 NAN,          2750,
+                                 275e9,        ELEMENTS,
+                                 NAN};
         for (size_t c = 0; c < NCOLUMNS; c++)
-            made->value[p][c] = (fracas_value){.real = real[c], .text = column[c].text ? "initial-velocity" : ""};
+            made->value[p][c] = (fracas_value){.real = real[c],
+                                               .text = column[c].text ? "initial-velocity" : ""};
         made->value[p][NCOLUMNS - 1].text = "ring";
-        made->row[p] = (fracas_point_row){.hash = fracas_hash_of(&p, sizeof p), .replicas = REPLICAS, .value = made->value[p]};
+        made->row[p] = (fracas_point_row){
+            .hash = fracas_hash_of(&p, sizeof p), .replicas = REPLICAS, .value = made->value[p]};
     }
-    made->table = (fracas_point_table){.ncolumns = NCOLUMNS, .column = column, .npoints = NPOINTS, .point = made->row};
+    made->table = (fracas_point_table){
+        .ncolumns = NCOLUMNS, .column = column, .npoints = NPOINTS, .point = made->row};
 }
 
 static double next(uint64_t *state) /* in [0, 1), by Knuth's MMIX generator */
@@ -181,9 +207,11 @@ static void make_fragments(size_t p, uint64_t *state, fracas_record *record)
         if (k == 2) cut = last + 1;
         if (k + 1 == n) cut = ELEMENTS;
         fracas_fragment *fragment = &record->fragment[k];
-        double turn = 2 * M_PI / ELEMENTS, half = turn * (double)(cut - last) / 2, out = sin(half) / half;
+        double turn = 2 * M_PI / ELEMENTS, half = turn * (double)(cut - last) / 2,
+               out = sin(half) / half;
         double angle = turn * (double)(cut + last) / 2 + 2e-3 * (next(state) - 0.5);
-        double scatter = 0.06 * speed * (next(state) - 0.5), along = 0.06 * speed * (next(state) - 0.5);
+        double scatter = 0.06 * speed * (next(state) - 0.5),
+               along = 0.06 * speed * (next(state) - 0.5);
         double distance = (radius + (speed + scatter) * record->end_time / 2) * out;
         fragment->elements = cut - last;
         fragment->dust = cut - last == 1;
@@ -193,24 +221,27 @@ static void make_fragments(size_t p, uint64_t *state, fracas_record *record)
         fragment->position[1] = distance * sin(angle);
         fragment->velocity[0] = (speed * out + scatter) * cos(angle) - along * sin(angle);
         fragment->velocity[1] = (speed * out + scatter) * sin(angle) + along * cos(angle);
-        fragment->angular_momentum[2] = fragment->mass * radius * radius * half * half / 3 * 2e4 * (next(state) - 0.5);
+        fragment->angular_momentum[2] = fragment->mass * radius * radius * half * half / 3 * 2e4 *
+                                        (next(state) - 0.5);
         for (int i = 0; i < 3; i++) fragment->spin[i] = 1e4 * (next(state) - 0.5);
         record->fragments_dust += fragment->dust;
         last = cut;
     }
 }
 
-/* Point 0: INTACT but for its last replica, which is TIME_LIMIT; point 1: its first replica is not FRAGMENTED. Replicas
- * 3 and 4 of point 2 drift. */
+/* Point 0: INTACT but for its last replica, which is TIME_LIMIT; point 1: its first replica is not
+ * FRAGMENTED. Replicas 3 and 4 of point 2 drift. */
 static void make_record(const void *context, size_t p, int64_t replica, fracas_record *record)
 {
     (void)context;
     fracas_record_init(record);
     uint64_t state = 1000 * p + (uint64_t)replica + 77;
     record->outcome = p == 0 ? (replica == REPLICAS - 1 ? FRACAS_TIME_LIMIT : FRACAS_INTACT)
-                             : p == 1 && replica == 0 ? FRACAS_TIME_LIMIT : FRACAS_FRAGMENTED;
+                      : p == 1 && replica == 0 ? FRACAS_TIME_LIMIT
+                                               : FRACAS_FRAGMENTED;
     bool intact = record->outcome == FRACAS_INTACT;
-    record->fragments = intact ? 1 : fragments_of(p) + (replica % 3 - 1) * (1 + fragments_of(p) / 20);
+    record->fragments = intact ? 1
+                               : fragments_of(p) + (replica % 3 - 1) * (1 + fragments_of(p) / 20);
     record->fragments_dust = 0;
     record->broken = record->fragments;
     record->cracked = 2 * record->fragments;
@@ -221,7 +252,8 @@ static void make_record(const void *context, size_t p, int64_t replica, fracas_r
     record->mass = 2750e-6 * 2 * M_PI * radius_of(p);
     record->dissipated = intact ? 0 : 1.2e-4 * (double)record->fragments;
     record->kinetic = record->mass * speed_of(p) * speed_of(p) / 2;
-    record->elastic = record->cohesive = record->created = record->work = record->dissipated_bending = 0;
+    record->elastic = record->cohesive = record->created = record->work =
+        record->dissipated_bending = 0;
     double largest = fmax(record->kinetic, record->dissipated);
     record->residual = (p == 2 && (replica == 3 || replica == 4) ? 0.012 : 0.9e-4) * largest;
     record->residual_end = record->residual;
@@ -231,7 +263,8 @@ static void make_record(const void *context, size_t p, int64_t replica, fracas_r
     record->history = calloc(2, sizeof *record->history);
     assert_non_null(record->history);
     for (size_t i = 0; i < 2; i++)
-        record->history[i] = (fracas_history_row){.time = (double)i * record->end_time, .kinetic = record->kinetic,
+        record->history[i] = (fracas_history_row){.time = (double)i * record->end_time,
+                                                  .kinetic = record->kinetic,
                                                   .elastic = (double)i * 1e-3 * record->kinetic,
                                                   .residual = (double)i * record->residual};
 }
@@ -243,15 +276,19 @@ static void report_of_rings(void **state)
     make_table(&made);
     char folder[512];
     snprintf(folder, sizeof folder, "%s/rings", report_root);
-    fracas_file_header header = {.campaign = fracas_hash_of("rings", 5), .seed = 1, .version = FRACAS_VERSION,
+    fracas_file_header header = {.campaign = fracas_hash_of("rings", 5),
+                                 .seed = 1,
+                                 .version = FRACAS_VERSION,
                                  .complete = true};
     report_write_study(folder, &header, &made.table, make_record, NULL);
     report_analyse(folder);
-    char *table = report_contents(folder, "table.txt"), *page = report_contents(folder, "report/index.html");
+    char *table = report_contents(folder, "table.txt"),
+         *page = report_contents(folder, "report/index.html");
     assert_non_null(strstr(table, "radius  radial  strain rate"));
     assert_non_null(strstr(table, "  [mm]   [m/s]        [1/s]"));
     assert_non_null(strstr(table, "     8      25         3125"));
-    assert_non_null(strstr(table, "energy drift above 1 %: 2 of 6 usable realizations, their |residual| up to 1.2 %"));
+    assert_non_null(strstr(
+        table, "energy drift above 1 %: 2 of 6 usable realizations, their |residual| up to 1.2 %"));
     assert_non_null(strstr(page, "Replica 1, the first that ended FRAGMENTED"));
     assert_null(strstr(page, "pattern-point-0.svg"));
     assert_non_null(strstr(page, "radius 8 mm"));
@@ -271,22 +308,25 @@ static double rate_of(const fracas_column *columns, const double *real, size_t n
     return fracas_columns_rate(&table, 0);
 }
 
-/* The derived rate where there is one, NaN or not; the imposed one in a study that has no such column. */
+/* The derived rate where there is one, NaN or not; the imposed one in a study that has no such
+ * column. */
 static void strain_rate_of_a_point(void **state)
 {
     (void)state;
-    static const fracas_column both[] = {{"derived.strain_rate", "1/s", "", false}, {"loading.rate", "1/s", "", false}};
+    static const fracas_column both[] = {{"derived.strain_rate", "1/s", "", false},
+                                         {"loading.rate", "1/s", "", false}};
     assert_true(rate_of(both, (double[]){2e3, 1e3}, 2) == 2e3);
     assert_true(isnan(rate_of(both, (double[]){NAN, 1e3}, 2)));
     assert_true(rate_of(both + 1, (double[]){1e3}, 1) == 1e3);
     assert_true(isnan(rate_of(both, NULL, 0)));
 }
 
-/* The columns that tell points apart and those of them that make series, as "radius,radial|radius". Each point: radius,
- * radial, elements. */
+/* The columns that tell points apart and those of them that make series, as "radius,radial|radius".
+ * Each point: radius, radial, elements. */
 static void assert_columns(const double real[][3], size_t npoints, const char *expected)
 {
-    static const fracas_column columns[] = {{"geometry.radius", "m", "", false}, {"loading.radial", "m/s", "", false},
+    static const fracas_column columns[] = {{"geometry.radius", "m", "", false},
+                                            {"loading.radial", "m/s", "", false},
                                             {"mesh.elements", "1", "", false}};
     fracas_value value[6][3];
     fracas_point_row row[6];
@@ -299,9 +339,11 @@ static void assert_columns(const double real[][3], size_t npoints, const char *e
     char text[128] = "";
     assert_int_equal(fracas_columns_create(&table, &shown), FRACAS_OK);
     assert_int_equal(fracas_columns_without_rate(&table, &shown, &others), FRACAS_OK);
-    for (size_t i = 0; i < shown.count; i++) strcat(strcat(text, fracas_columns_name(&table, &shown, i)), ",");
+    for (size_t i = 0; i < shown.count; i++)
+        strcat(strcat(text, fracas_columns_name(&table, &shown, i)), ",");
     strcat(text, "|");
-    for (size_t i = 0; i < others.count; i++) strcat(strcat(text, fracas_columns_name(&table, &others, i)), ",");
+    for (size_t i = 0; i < others.count; i++)
+        strcat(strcat(text, fracas_columns_name(&table, &others, i)), ",");
     fracas_columns_clear(&shown);
     fracas_columns_clear(&others);
     assert_string_equal(text, expected);
@@ -310,11 +352,15 @@ static void assert_columns(const double real[][3], size_t npoints, const char *e
 static void columns_of_rings(void **state)
 {
     (void)state;
-    assert_columns((double[][3]){{8, 80, 100}, {8, 160, 100}, {16, 80, 100}, {16, 160, 100}}, 4, "radius,radial,|radius,");
+    assert_columns((double[][3]){{8, 80, 100}, {8, 160, 100}, {16, 80, 100}, {16, 160, 100}}, 4,
+                   "radius,radial,|radius,");
     /* Velocities that no two radii share: the radius still makes series. */
-    assert_columns((double[][3]){{8, 80, 100}, {8, 90, 100}, {16, 100, 200}, {16, 120, 200}}, 4, "radius,radial,|radius,");
-    assert_columns((double[][3]){{8, 80, 100}, {8, 160, 200}}, 2, "radial,|"); /* elements zipped to the velocity */
-    assert_columns((double[][3]){{8, 80, 100}, {8, 80, 200}, {8, 90, 100}, {8, 90, 200}}, 4, "radial,elements,|elements,");
+    assert_columns((double[][3]){{8, 80, 100}, {8, 90, 100}, {16, 100, 200}, {16, 120, 200}}, 4,
+                   "radius,radial,|radius,");
+    assert_columns((double[][3]){{8, 80, 100}, {8, 160, 200}}, 2,
+                   "radial,|"); /* elements zipped to the velocity */
+    assert_columns((double[][3]){{8, 80, 100}, {8, 80, 200}, {8, 90, 100}, {8, 90, 200}}, 4,
+                   "radial,elements,|elements,");
     assert_columns((double[][3]){{8, 80, 100}}, 1, "radial,|");
 }
 
@@ -328,7 +374,8 @@ static void figure_of_rings(void **state)
     for (size_t p = 0; p < NPOINTS; p++) {
         fracas_point_statistics_init(&made.table, p, &point[p]);
         assert_true(fabs(point[p].length - 2 * M_PI * radius_of(p)) < 1e-15);
-        point[p].size = (fracas_estimate){.n = 4, .mean = 1e-3, .deviation = 1e-4, .half_width = 1e-4};
+        point[p].size = (fracas_estimate){
+            .n = 4, .mean = 1e-3, .deviation = 1e-4, .half_width = 1e-4};
     }
     fracas_analysis analysis = {.table = &made.table, .point = point};
     assert_int_equal(fracas_columns_create(&made.table, &analysis.shown), FRACAS_OK);
@@ -350,11 +397,13 @@ static void figure_of_rings(void **state)
     }
     assert_int_equal(marks, 2);
     fracas_chart_clear(&chart);
-    for (size_t p = 0; p < NPOINTS; p++) point[p].rate = p == 1 ? 1e4 : 0; /* a ring that only spins is none for a log axis */
+    for (size_t p = 0; p < NPOINTS; p++)
+        point[p].rate = p == 1 ? 1e4 : 0; /* a ring that only spins is none for a log axis */
     fracas_chart_init(&chart);
     assert_int_equal(fracas_figure_rate(&analysis, false, &chart), FRACAS_OK);
     for (size_t s = 0; s < chart.panel[0].nseries; s++)
-        for (size_t i = 0; i < chart.panel[0].series[s].n; i++) assert_true(chart.panel[0].series[s].x[i] > 0);
+        for (size_t i = 0; i < chart.panel[0].series[s].n; i++)
+            assert_true(chart.panel[0].series[s].x[i] > 0);
     fracas_chart_clear(&chart);
     fracas_columns_clear(&analysis.shown);
 }
@@ -383,7 +432,8 @@ static void laws_of_mixed_series(void **state)
     for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
         for (size_t p = 0; p < NPOINTS; p++) {
             fracas_point_statistics_init(&made.table, p, &point[p]);
-            point[p].size = (fracas_estimate){.n = 4, .mean = 1e-3, .deviation = 1e-4, .half_width = 1e-4};
+            point[p].size = (fracas_estimate){
+                .n = 4, .mean = 1e-3, .deviation = 1e-4, .half_width = 1e-4};
             point[p].scales.rate = 1e5;
             point[p].scales.modulus = p % 2 ? table[i].odd_modulus : table[i].even_modulus;
             point[p].scales.size = 1e-4 + (p % 2 ? table[i].odd : table[i].even) * (double)p;
@@ -392,7 +442,8 @@ static void laws_of_mixed_series(void **state)
         fracas_chart_init(&chart);
         assert_int_equal(fracas_figure_rate(&analysis, false, &chart), FRACAS_OK);
         size_t curves = 0;
-        for (size_t s = 0; s < chart.panel[0].nseries; s++) curves += chart.panel[0].series[s].kind == FRACAS_CURVE;
+        for (size_t s = 0; s < chart.panel[0].nseries; s++)
+            curves += chart.panel[0].series[s].kind == FRACAS_CURVE;
         assert_int_equal(curves, table[i].curves);
         assert_non_null(strstr(chart.caption, table[i].caption));
         fracas_chart_clear(&chart);
@@ -404,7 +455,8 @@ static void assert_pictures(size_t npoints, size_t without, const size_t *expect
 {
     fracas_point_statistics point[12];
     for (size_t p = 0; p < npoints; p++)
-        point[p] = (fracas_point_statistics){.radius = 8e-3, .broken_replica = p == without ? -1 : 3};
+        point[p] = (fracas_point_statistics){.radius = 8e-3,
+                                             .broken_replica = p == without ? -1 : 3};
     fracas_point_table table = {.npoints = npoints};
     fracas_analysis analysis = {.table = &table, .point = point};
     size_t chosen[FRACAS_MAX_PICTURES];
@@ -425,13 +477,16 @@ static void points_with_pictures(void **state)
     assert_pictures(12, 0, (size_t[]){1, 3, 5, 7, 9, 11}, 6);
 }
 
-/* A critical opening stands for the fracture energy that it makes with the mean strength: delta_c sigma_c/2. */
+/* A critical opening stands for the fracture energy that it makes with the mean strength: delta_c
+ * sigma_c/2. */
 static void scales_of_critical_opening(void **state)
 {
     (void)state;
     static const char text[] =
-        "name: r\nseed: 1\nmodel: ring\ngeometry: {radius: 8 mm}\nmesh: {elements: 100}\nmaterial: {young: 275 GPa, density: 2750 kg/m3}\n"
-        "cohesive: {law: stershic}\nstrength: {distribution: uniform, minimum: 290 MPa, maximum: 310 MPa}\n"
+        "name: r\nseed: 1\nmodel: ring\ngeometry: {radius: 8 mm}\nmesh: {elements: 100}\nmaterial: "
+        "{young: 275 GPa, density: 2750 kg/m3}\n"
+        "cohesive: {law: stershic}\nstrength: {distribution: uniform, minimum: 290 MPa, maximum: "
+        "310 MPa}\n"
         "loading: {type: initial-velocity, radial: 80 m/s}\ntime: {end: 100 ns}\nreplicas: 1\n"
         "sweep:\n  - cohesive: [{critical_opening: 0.6 um}, {fracture_energy: 90 J/m2}]\n";
     fracas_campaign *campaign = read_text(text);
@@ -440,8 +495,10 @@ static void scales_of_critical_opening(void **state)
     fracas_point_statistics_init(&campaign->table, 1, &energy);
     assert_true(fabs(opening.scales.size / energy.scales.size - 1) < 1e-14); /* a few roundings */
     for (int law = 0; law < FRACAS_NLAWS; law++)
-        if (law != FRACAS_LAW_MOTT) assert_true(fabs(opening.law[law] / energy.law[law] - 1) < 1e-13);
-    assert_true(isnan(opening.law[FRACAS_LAW_MOTT]) && opening.without_mott); /* of uniform strengths */
+        if (law != FRACAS_LAW_MOTT)
+            assert_true(fabs(opening.law[law] / energy.law[law] - 1) < 1e-13);
+    assert_true(isnan(opening.law[FRACAS_LAW_MOTT]) &&
+                opening.without_mott); /* of uniform strengths */
     assert_true(fabs(energy.scales.size / (275e9 * 90 / 9e16) - 1) < 1e-13);
     fracas_campaign_destroy(campaign);
 }
@@ -450,9 +507,15 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scales_of_critical_opening),
-        cmocka_unit_test(arcs), cmocka_unit_test(motion_of_fragments), cmocka_unit_test(pattern_of_uniform_expansion),
-        cmocka_unit_test(report_of_rings), cmocka_unit_test(strain_rate_of_a_point), cmocka_unit_test(columns_of_rings),
-        cmocka_unit_test(figure_of_rings), cmocka_unit_test(laws_of_mixed_series), cmocka_unit_test(points_with_pictures),
+        cmocka_unit_test(arcs),
+        cmocka_unit_test(motion_of_fragments),
+        cmocka_unit_test(pattern_of_uniform_expansion),
+        cmocka_unit_test(report_of_rings),
+        cmocka_unit_test(strain_rate_of_a_point),
+        cmocka_unit_test(columns_of_rings),
+        cmocka_unit_test(figure_of_rings),
+        cmocka_unit_test(laws_of_mixed_series),
+        cmocka_unit_test(points_with_pictures),
     };
     return cmocka_run_group_tests(tests, report_make_root, report_remove_root);
 }

@@ -1,4 +1,6 @@
-/* A study of known truth, written through the store, analysed, and checked by a script that shares no code with us. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A study of known truth, written through the store, analysed, and checked by a script that shares
+ * no code with us. */
 #include "tests/support/report.h"
 
 #include "base/version.h"
@@ -12,18 +14,26 @@ typedef struct {
     const char *name;
     int64_t replicas[NPOINTS];
     int64_t fragments[NPOINTS], elements[NPOINTS];
-    int64_t spread;  /* replicas alternate between fragments - spread and fragments + spread */
-    bool endings;    /* points 1 to 3 end in other outcomes too */
-    bool materials;  /* points 2 and 3 are of another material, at the rates of points 0 and 1 */
+    int64_t spread; /* replicas alternate between fragments - spread and fragments + spread */
+    bool endings;   /* points 1 to 3 end in other outcomes too */
+    bool materials; /* points 2 and 3 are of another material, at the rates of points 0 and 1 */
 } truth;
 
 static const truth sweep = {
-    .name = "sweep", .replicas = {32, 32, 32, 8}, .fragments = {58, 112, 378, 1600},
-    .elements = {1250, 2500, 8000, 32000}, .spread = 3,
+    .name = "sweep",
+    .replicas = {32, 32, 32, 8},
+    .fragments = {58, 112, 378, 1600},
+    .elements = {1250, 2500, 8000, 32000},
+    .spread = 3,
 };
 static const truth awkward = {
-    .name = "awkward <&\"", .replicas = {1, 4, 3, 2}, .fragments = {60, 300, 110, 350},
-    .elements = {1250, 2400, 2500, 8000}, .spread = 2, .endings = true, .materials = true,
+    .name = "awkward <&\"",
+    .replicas = {1, 4, 3, 2},
+    .fragments = {60, 300, 110, 350},
+    .elements = {1250, 2400, 2500, 8000},
+    .spread = 2,
+    .endings = true,
+    .materials = true,
 };
 
 static const fracas_column column[NCOLUMNS] = {
@@ -50,12 +60,22 @@ static void make_table(const truth *of, made_table *made)
     for (size_t p = 0; p < NPOINTS; p++) {
         bool other = of->materials && p >= 2;
         double rate = of->materials ? (p % 2 ? 1e5 : 1e4) : 1e3 * pow(10, (double)p);
-        double real[NCOLUMNS] = {100, NAN, 300e6, 1e-6, 50e-3, rate, 2750, other ? 70e9 : 275e9,
-                                 (double)of->elements[p], 5e-3 / rate};
+        double real[NCOLUMNS] = {100,
+                                 NAN,
+                                 300e6,
+                                 1e-6,
+                                 50e-3,
+                                 rate,
+                                 2750,
+                                 other ? 70e9 : 275e9,
+                                 (double)of->elements[p],
+                                 5e-3 / rate};
         for (size_t c = 0; c < NCOLUMNS; c++)
-            made->value[p][c] = (fracas_value){.real = real[c], .text = column[c].text ? "nitsche" : ""};
-        made->point[p] = (fracas_point_row){
-            .hash = fracas_hash_of(&p, sizeof p), .replicas = of->replicas[p], .value = made->value[p]};
+            made->value[p][c] = (fracas_value){.real = real[c],
+                                               .text = column[c].text ? "nitsche" : ""};
+        made->point[p] = (fracas_point_row){.hash = fracas_hash_of(&p, sizeof p),
+                                            .replicas = of->replicas[p],
+                                            .value = made->value[p]};
     }
     made->table = (fracas_point_table){
         .ncolumns = NCOLUMNS, .column = column, .npoints = NPOINTS, .point = made->point};
@@ -77,7 +97,8 @@ static double next(uint64_t *state)
     return (double)(*state >> 11) * 0x1p-53;
 }
 
-/* Fragments between cuts near every (elements/fragments)-th interface: their sizes add up to the length. */
+/* Fragments between cuts near every (elements/fragments)-th interface: their sizes add up to the
+ * length. */
 static void make_fragments(const truth *of, size_t p, uint64_t *state, fracas_record *record)
 {
     int64_t n = record->fragments, elements = of->elements[p], last = 0;
@@ -110,7 +131,8 @@ static void make_history(double end, fracas_record *record)
         row->time = part * end;
         row->dissipated = record->dissipated * (1 - exp(-5 * after));
         row->elastic = 2 * record->dissipated * (part < 0.4 ? part * part / 0.16 : exp(-8 * after));
-        row->kinetic = 0.6 * record->dissipated * (1 - exp(-4 * after)) * (1 + 0.2 * sin(30 * after));
+        row->kinetic = 0.6 * record->dissipated * (1 - exp(-4 * after)) *
+                       (1 + 0.2 * sin(30 * after));
         row->cohesive = 0.3 * record->dissipated * after * exp(-9 * after);
         row->work = row->dissipated + row->elastic + row->kinetic + row->cohesive;
         row->residual = record->residual * after * sin(40 * part);
@@ -135,10 +157,12 @@ static void make_record(const truth *of, size_t p, int64_t replica, fracas_recor
     record->end_time = end;
     record->time_step = end / 1000;
     record->mass = 2750 * 1e-6 * 50e-3;
-    record->dissipated = intact ? 0 : 1.7e-4 * (double)record->fragments * (1 + 0.02 * next(&state));
+    record->dissipated = intact ? 0
+                                : 1.7e-4 * (double)record->fragments * (1 + 0.02 * next(&state));
     record->dissipated_bending = 0;
     record->created = 1e-3 * (p == 2 ? 14 : 1) * record->dissipated;
-    record->residual = (p == 1 && of->endings ? 2e-3 : 2e-4) * record->dissipated * (1 + (double)replica / 100);
+    record->residual = (p == 1 && of->endings ? 2e-3 : 2e-4) * record->dissipated *
+                       (1 + (double)replica / 100);
     record->residual_end = record->residual / 2;
     record->kinetic = record->elastic = record->cohesive = 0;
     record->work = record->dissipated;
@@ -156,8 +180,10 @@ static void write_study(const truth *of, const char *folder)
 {
     made_table made;
     make_table(of, &made);
-    fracas_file_header header = {.campaign = fracas_hash_of(of->name, strlen(of->name)), .seed = UINT64_MAX,
-                                 .version = FRACAS_VERSION, .complete = !of->endings};
+    fracas_file_header header = {.campaign = fracas_hash_of(of->name, strlen(of->name)),
+                                 .seed = UINT64_MAX,
+                                 .version = FRACAS_VERSION,
+                                 .complete = !of->endings};
     report_write_study(folder, &header, &made.table, make_any_record, of);
 }
 
@@ -168,9 +194,10 @@ static void make_study(const truth *of, char *folder, size_t size)
     report_analyse(folder);
 }
 
-/* 32 replicas at n - 3 and n + 3: mean n, deviation 3 sqrt(32/31), half width t_(0.975, 31) 3/sqrt(31) with the
- * tabulated t = 2.0395: 1.0989, printed to two digits. Sizes: L/55 = 909.09 um and L/61 = 819.67 um have the mean
- * 864.38 um, and 2.0395 (909.09 - 819.67)/2/sqrt(31) = 16.38 um. */
+/* 32 replicas at n - 3 and n + 3: mean n, deviation 3 sqrt(32/31), half width t_(0.975, 31)
+ * 3/sqrt(31) with the tabulated t = 2.0395: 1.0989, printed to two digits. Sizes: L/55 = 909.09 um
+ * and L/61 = 819.67 um have the mean 864.38 um, and 2.0395 (909.09 - 819.67)/2/sqrt(31) = 16.38 um.
+ */
 static void table_of_a_sweep(void **state)
 {
     (void)state;
@@ -178,11 +205,13 @@ static void table_of_a_sweep(void **state)
     make_study(&sweep, folder, sizeof folder);
     char *table = report_contents(folder, "table.txt");
     assert_non_null(strstr(table, "58.0 +- 1.1"));
-    assert_non_null(strstr(table, "1600.0 +- 2.7")); /* 8 replicas: t = 2.3646, 2.3646 3/sqrt(7) = 2.681 */
+    assert_non_null(
+        strstr(table, "1600.0 +- 2.7")); /* 8 replicas: t = 2.3646, 2.3646 3/sqrt(7) = 2.681 */
     assert_non_null(strstr(table, " 864 +- 16 "));
     assert_non_null(strstr(table, "32 FRAGMENTED\n"));
     size_t lines = 0;
-    for (const char *line = table; *line != '\n'; line += strcspn(line, "\n") + 1) { /* up to the empty line */
+    for (const char *line = table; *line != '\n';
+         line += strcspn(line, "\n") + 1) { /* up to the empty line */
         assert_true(strcspn(line, "\n") <= 120);
         lines++;
     }
@@ -191,7 +220,8 @@ static void table_of_a_sweep(void **state)
     report_check(folder);
 }
 
-/* One replica; FAILED and TIME_LIMIT; INTACT; a point without any usable realization; two materials. */
+/* One replica; FAILED and TIME_LIMIT; INTACT; a point without any usable realization; two
+ * materials. */
 static void table_of_awkward_points(void **state)
 {
     (void)state;
@@ -203,7 +233,8 @@ static void table_of_awkward_points(void **state)
     assert_non_null(strstr(table, "2 FRAGMENTED, 1 INTACT"));
     assert_non_null(strstr(table, "1 NONFINITE, 1 ENERGY_DRIFT"));
     assert_non_null(strstr(table, "no usable realization"));
-    assert_non_null(strstr(table, "warning: rate 1e5 1/s, young 275 GPa: ledger residual up to 2.0e-3"));
+    assert_non_null(
+        strstr(table, "warning: rate 1e5 1/s, young 275 GPa: ledger residual up to 2.0e-3"));
     free(table);
     report_check(folder);
 }

@@ -1,5 +1,6 @@
-/* Broken surfaces: their state at a time, cracks through the width, their pictures, and what `fracas picture` refuses. Meshes are
- * made by hand: grids of squares of 1 m, cut in two. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Broken surfaces: their state at a time, cracks through the width, their pictures, and what
+ * `fracas picture` refuses. Meshes are made by hand: grids of squares of 1 m, cut in two. */
 #include "tests/support/store_sample.h"
 #include "tests/support/stored_mesh.h"
 
@@ -9,26 +10,27 @@
 
 static const grid_shape plate = {.nx = 6, .ny = 4}, ring = {.nx = 12, .ny = 3, .rolled = true};
 
-/* Breaks the vertical line at column `i` from row `from` to row `to`: the interface above row j at time start + j. */
-static void crack_up(const grid_shape *shape, const fracas_stored_mesh *mesh, fracas_record *record, size_t i, size_t from,
-                     size_t to, double start)
+/* Breaks the vertical line at column `i` from row `from` to row `to`: the interface above row j at
+ * time start + j. */
+static void crack_up(const grid_shape *shape, const fracas_stored_mesh *mesh, fracas_record *record,
+                     size_t i, size_t from, size_t to, double start)
 {
     for (size_t j = from; j < to; j++)
-        assert_true(grid_crack(mesh, record, grid_vertex(shape, i, j), grid_vertex(shape, i, j + 1), start + (double)j - 0.5,
-                               start + (double)j));
+        assert_true(grid_crack(mesh, record, grid_vertex(shape, i, j), grid_vertex(shape, i, j + 1),
+                               start + (double)j - 0.5, start + (double)j));
 }
 
 /* The horizontal line at row `j`, likewise. */
-static void crack_across(const grid_shape *shape, const fracas_stored_mesh *mesh, fracas_record *record, size_t j, size_t from,
-                         size_t to, double start)
+static void crack_across(const grid_shape *shape, const fracas_stored_mesh *mesh,
+                         fracas_record *record, size_t j, size_t from, size_t to, double start)
 {
     for (size_t i = from; i < to; i++)
-        assert_true(grid_crack(mesh, record, grid_vertex(shape, i, j), grid_vertex(shape, i + 1, j), start + (double)i - 0.5,
-                               start + (double)i));
+        assert_true(grid_crack(mesh, record, grid_vertex(shape, i, j), grid_vertex(shape, i + 1, j),
+                               start + (double)i - 0.5, start + (double)i));
 }
 
-static void assert_state(const fracas_stored_mesh *mesh, const fracas_record *record, double time, size_t fragments,
-                         size_t cracked, size_t broken)
+static void assert_state(const fracas_stored_mesh *mesh, const fracas_record *record, double time,
+                         size_t fragments, size_t cracked, size_t broken)
 {
     fracas_surface_state state;
     OK(fracas_surface_state_create(mesh, record, time, &state));
@@ -41,7 +43,8 @@ static void assert_state(const fracas_stored_mesh *mesh, const fracas_record *re
     fracas_surface_state_clear(&state);
 }
 
-/* A vertical cut at column 2 makes pieces of 2 by 4 and 4 by 4 squares; one along row 1 then 4 of them. */
+/* A vertical cut at column 2 makes pieces of 2 by 4 and 4 by 4 squares; one along row 1 then 4 of
+ * them. */
 static void a_plate_is_cut_in_two_and_in_four(void **state)
 {
     (void)state;
@@ -54,10 +57,11 @@ static void a_plate_is_cut_in_two_and_in_four(void **state)
     assert_int_equal(mesh.ninterfaces, 6 * 4 + 5 * 4 + 6 * 3);
     grid_record(&mesh, 100, &record);
     OK(fracas_surface_times_of(&mesh, &record, &times));
-    assert_true(isnan(times.onset) && isnan(times.broken) && isnan(times.through[0]) && isnan(times.through[1]));
+    assert_true(isnan(times.onset) && isnan(times.broken) && isnan(times.through[0]) &&
+                isnan(times.through[1]));
     assert_state(&mesh, &record, 100, 1, 0, 0);
-    crack_up(&plate, &mesh, &record, 2, 0, 4, 10);      /* breaks at 10, 11, 12, 13 */
-    crack_across(&plate, &mesh, &record, 1, 0, 6, 20);  /* at 20 to 25 */
+    crack_up(&plate, &mesh, &record, 2, 0, 4, 10);     /* breaks at 10, 11, 12, 13 */
+    crack_across(&plate, &mesh, &record, 1, 0, 6, 20); /* at 20 to 25 */
     assert_state(&mesh, &record, 9.4, 1, 0, 0);
     assert_state(&mesh, &record, 9.5, 1, 1, 0); /* cracked from the very time on */
     assert_state(&mesh, &record, 10, 1, 0, 1);
@@ -66,7 +70,8 @@ static void a_plate_is_cut_in_two_and_in_four(void **state)
     assert_state(&mesh, &record, 21, 3, 0, 6); /* the left half is cut through first */
     assert_state(&mesh, &record, 25, 4, 0, 10);
     OK(fracas_surface_state_create(&mesh, &record, 13, &now));
-    for (size_t e = 0; e < mesh.nelements; e++) assert_int_equal(now.fragment[e], e / 2 % plate.nx >= 2);
+    for (size_t e = 0; e < mesh.nelements; e++)
+        assert_int_equal(now.fragment[e], e / 2 % plate.nx >= 2);
     assert_int_equal(now.elements[0], 2 * 2 * 4);
     assert_int_equal(now.ndust, 0);
     fracas_surface_state_clear(&now);
@@ -78,15 +83,16 @@ static void a_plate_is_cut_in_two_and_in_four(void **state)
     fracas_stored_mesh_clear(&mesh);
 }
 
-/* One element cut out, or two that are neighbours: dust. Three are none. Elements 0 and 1 are a square, 3 is beside 0, and 2
- * beside 3. */
+/* One element cut out, or two that are neighbours: dust. Three are none. Elements 0 and 1 are a
+ * square, 3 is beside 0, and 2 beside 3. */
 static void small_pieces_are_dust(void **state)
 {
     (void)state;
     static const struct {
         unsigned cut; /* bit e: element e is cut out */
         size_t fragments, dust;
-    } expected[] = {{1, 2, 1}, {1 | 2, 2, 1}, {1 | 2 | 4, 3, 2}, {1 | 2 | 8, 2, 0}, {1 | 2 | 4 | 8, 2, 0}};
+    } expected[] = {
+        {1, 2, 1}, {1 | 2, 2, 1}, {1 | 2 | 4, 3, 2}, {1 | 2 | 8, 2, 0}, {1 | 2 | 4 | 8, 2, 0}};
     for (size_t k = 0; k < sizeof expected / sizeof *expected; k++) {
         fracas_stored_mesh mesh;
         fracas_record record;
@@ -96,7 +102,8 @@ static void small_pieces_are_dust(void **state)
         for (size_t i = 0; i < mesh.ninterfaces; i++) {
             const int64_t *element = mesh.interface[i].element;
             bool inside[2];
-            for (int side = 0; side < 2; side++) inside[side] = element[side] < 4 && expected[k].cut >> element[side] & 1;
+            for (int side = 0; side < 2; side++)
+                inside[side] = element[side] < 4 && expected[k].cut >> element[side] & 1;
             if (inside[0] != inside[1]) record.interface[i].break_time = 0.5;
         }
         OK(fracas_surface_state_create(&mesh, &record, 1, &now));
@@ -108,7 +115,8 @@ static void small_pieces_are_dust(void **state)
     }
 }
 
-/* Inner and outer edge are connected by the last of the broken interfaces, wherever it is and whatever breaks elsewhere. */
+/* Inner and outer edge are connected by the last of the broken interfaces, wherever it is and
+ * whatever breaks elsewhere. */
 static void a_ring_cracks_through(void **state)
 {
     (void)state;
@@ -119,22 +127,25 @@ static void a_ring_cracks_through(void **state)
     grid_make(&ring, &mesh);
     assert_null(fracas_stored_mesh_fault(&mesh));
     grid_record(&mesh, 100, &record);
-    crack_up(&ring, &mesh, &record, 3, 0, 2, 1);  /* from within, but not to the end */
-    crack_up(&ring, &mesh, &record, 7, 1, 3, 1);  /* from the outside, elsewhere */
+    crack_up(&ring, &mesh, &record, 3, 0, 2, 1); /* from within, but not to the end */
+    crack_up(&ring, &mesh, &record, 7, 1, 3, 1); /* from the outside, elsewhere */
     crack_across(&ring, &mesh, &record, 1, 8, 12, 5);
     OK(fracas_surface_through(&mesh, &record, width, &time));
     assert_true(isnan(time));
     crack_across(&ring, &mesh, &record, 2, 3, 7, 40); /* joins both: at 46 */
     OK(fracas_surface_through(&mesh, &record, width, &time));
     assert_true(time == 46);
-    assert_state(&mesh, &record, 46, 1, 0, 12); /* through, yet in one piece: a ring is cut by two such cracks */
-    assert_true(grid_crack(&mesh, &record, grid_vertex(&ring, 4, 2), grid_vertex(&ring, 5, 2), 2, NAN)); /* cracked, not broken */
+    assert_state(&mesh, &record, 46, 1, 0,
+                 12); /* through, yet in one piece: a ring is cut by two such cracks */
+    assert_true(grid_crack(&mesh, &record, grid_vertex(&ring, 4, 2), grid_vertex(&ring, 5, 2), 2,
+                           NAN)); /* cracked, not broken */
     OK(fracas_surface_through(&mesh, &record, width, &time));
     assert_true(isnan(time));
     OK(fracas_surface_through(&mesh, &record, nowhere, &time));
     assert_true(isnan(time));
     record.ninterface--;
-    sample_fails(fracas_surface_through(&mesh, &record, width, &time), FRACAS_DAMAGED, "has 95 interfaces, the mesh of its point 96");
+    sample_fails(fracas_surface_through(&mesh, &record, width, &time), FRACAS_DAMAGED,
+                 "has 95 interfaces, the mesh of its point 96");
     fracas_record_clear(&record);
     fracas_stored_mesh_clear(&mesh);
 }
@@ -157,7 +168,8 @@ static void edges_that_meet_have_no_width(void **state)
     fracas_stored_mesh_clear(&mesh);
 }
 
-/* Against a second algorithm: at every break time, walk from the inner edge over all interfaces broken by then. */
+/* Against a second algorithm: at every break time, walk from the inner edge over all interfaces
+ * broken by then. */
 static bool walk_through(const fracas_stored_mesh *mesh, const fracas_record *record, double time)
 {
     bool reached[512] = {false}, grown = true;
@@ -165,18 +177,22 @@ static bool walk_through(const fracas_stored_mesh *mesh, const fracas_record *re
     for (size_t i = 0; i < mesh->ninterfaces; i++)
         for (size_t b = 0; record->interface[i].break_time <= time && b < mesh->nborders; b++)
             for (int k = 0; k < 4; k++)
-                if (mesh->border[b].tag == 1 && mesh->border[b].node[k / 2] == mesh->interface[i].node[k % 2])
+                if (mesh->border[b].tag == 1 &&
+                    mesh->border[b].node[k / 2] == mesh->interface[i].node[k % 2])
                     reached[mesh->border[b].node[k / 2]] = true;
     while (grown) {
         grown = false;
         for (size_t i = 0; i < mesh->ninterfaces; i++) {
             const int64_t *node = mesh->interface[i].node;
-            if (!(record->interface[i].break_time <= time) || reached[node[0]] == reached[node[1]]) continue;
+            if (!(record->interface[i].break_time <= time) || reached[node[0]] == reached[node[1]])
+                continue;
             reached[node[0]] = reached[node[1]] = grown = true;
         }
     }
     for (size_t b = 0; b < mesh->nborders; b++)
-        if (mesh->border[b].tag == 2 && (reached[mesh->border[b].node[0]] || reached[mesh->border[b].node[1]])) return true;
+        if (mesh->border[b].tag == 2 &&
+            (reached[mesh->border[b].node[0]] || reached[mesh->border[b].node[1]]))
+            return true;
     return false;
 }
 
@@ -193,7 +209,8 @@ static void crack_through_against_a_walk(void **state)
         grid_make(round % 2 ? &plate : &ring, &mesh);
         grid_record(&mesh, 100, &record);
         for (size_t i = 0; i < mesh.ninterfaces; i++)
-            if (sample_bits(&random) % 100 < 35) record.interface[i].break_time = (double)(sample_bits(&random) % 50);
+            if (sample_bits(&random) % 100 < 35)
+                record.interface[i].break_time = (double)(sample_bits(&random) % 50);
         for (int time = 49; time >= 0; time--)
             if (walk_through(&mesh, &record, time)) least = time;
         OK(fracas_surface_through(&mesh, &record, width, &found));
@@ -214,7 +231,8 @@ static void moments_end_at_the_end(void **state)
     record.onset_time = 2;
     record.end_time = 14;
     assert_int_equal(fracas_surface_moments(&record, 6, time), 6);
-    for (int k = 0; k < 6; k++) assert_true(time[k] == 4 + 2 * k); /* multiples of 1/6 of 12 round to these */
+    for (int k = 0; k < 6; k++)
+        assert_true(time[k] == 4 + 2 * k); /* multiples of 1/6 of 12 round to these */
     record.onset_time = NAN;
     assert_int_equal(fracas_surface_moments(&record, 6, time), 1);
     assert_true(time[0] == 14);
@@ -223,13 +241,13 @@ static void moments_end_at_the_end(void **state)
 /* ---- pictures ---- */
 
 typedef struct {
-    double area; /* inside loops, square units */
+    double area;      /* inside loops, square units */
     double moment[2]; /* sum of the middles of edges */
     size_t lines, edges;
 } path_measures;
 
-/* Of a path of M, l, q and z, whole numbers. As y is down in a drawing, loops with the inside to the left are counted positive. A
- * parabola has 2/3 of its triangle beside its chord. */
+/* Of a path of M, l, q and z, whole numbers. As y is down in a drawing, loops with the inside to
+ * the left are counted positive. A parabola has 2/3 of its triangle beside its chord. */
 static path_measures measure_path(const char *d)
 {
     path_measures path = {0};
@@ -267,7 +285,8 @@ static path_measures measure_path(const char *d)
     return path;
 }
 
-static char *draw(const fracas_stored_mesh *mesh, const fracas_record *record, double time, fracas_surface_show show)
+static char *draw(const fracas_stored_mesh *mesh, const fracas_record *record, double time,
+                  fracas_surface_show show)
 {
     char *text;
     size_t size;
@@ -290,8 +309,9 @@ static path_measures measure(const char *svg, const char *class)
     return found ? measure_path(strstr(found, " d=\"") + 4) : (path_measures){0};
 }
 
-/* The plate is 784 pixels wide: a square has sides of 1306.67 units, and a corner is at most 0.71 of one from where it belongs:
- * areas are right to 0.71/1306 of a square for each side of the outline, of which there are 30 at most: 0.02. */
+/* The plate is 784 pixels wide: a square has sides of 1306.67 units, and a corner is at most 0.71
+ * of one from where it belongs: areas are right to 0.71/1306 of a square for each side of the
+ * outline, of which there are 30 at most: 0.02. */
 static void fragments_are_filled(void **state)
 {
     (void)state;
@@ -302,8 +322,10 @@ static void fragments_are_filled(void **state)
     grid_record(&mesh, 100, &record);
     crack_up(&plate, &mesh, &record, 2, 0, 4, 10);
     crack_across(&plate, &mesh, &record, 1, 0, 6, 20);
-    const int64_t a = grid_vertex(&plate, 5, 3), b = grid_vertex(&plate, 6, 3), c = grid_vertex(&plate, 5, 4);
-    assert_true(grid_crack(&mesh, &record, a, b, 29, 30) && grid_crack(&mesh, &record, a, c, 29, 30)); /* the upper right square */
+    const int64_t a = grid_vertex(&plate, 5, 3), b = grid_vertex(&plate, 6, 3),
+                  c = grid_vertex(&plate, 5, 4);
+    assert_true(grid_crack(&mesh, &record, a, b, 29, 30) &&
+                grid_crack(&mesh, &record, a, c, 29, 30)); /* the upper right square */
     char *svg = draw(&mesh, &record, 100, FRACAS_SHOW_FRAGMENTS);
     static const double area[] = {11, 6, 4, 2}; /* the largest first, and no two of one tint */
     for (int t = 0; t < 4; t++) {
@@ -327,21 +349,25 @@ static void fragments_are_filled(void **state)
     assert_int_equal(measure(svg, "cracked").edges, 1);
     assert_int_equal(measure(svg, "mesh").edges, mesh.ninterfaces - 1);
     assert_int_equal(measure(svg, "outline").edges, mesh.nborders);
-    double moment[2] = {0, 0}; /* of the interfaces that are not cracked yet, from the coordinates of the mesh */
+    double moment[2] = {
+        0, 0}; /* of the interfaces that are not cracked yet, from the coordinates of the mesh */
     for (size_t i = 0; i < mesh.ninterfaces; i++)
         for (int end = 0; end < 2 && !(record.interface[i].onset_time <= 9.7); end++) {
             moment[0] += (80 + 7840.0 / 6 * mesh.node[mesh.interface[i].node[end]].position[0]) / 2;
-            moment[1] += (80 + 7840.0 / 6 * (4 - mesh.node[mesh.interface[i].node[end]].position[1])) / 2;
+            moment[1] +=
+                (80 + 7840.0 / 6 * (4 - mesh.node[mesh.interface[i].node[end]].position[1])) / 2;
         }
     for (int i = 0; i < 2; i++) /* half a unit for each rounding at most */
-        assert_true(fabs(measure(svg, "mesh").moment[i] - moment[i]) < 0.5 * (double)mesh.ninterfaces);
+        assert_true(fabs(measure(svg, "mesh").moment[i] - moment[i]) <
+                    0.5 * (double)mesh.ninterfaces);
     free(svg);
     fracas_record_clear(&record);
     fracas_stored_mesh_clear(&mesh);
 }
 
-/* A polygon with 12 sides from radius 2 to 5, in 784 pixels from -5 to 5 both ways: area 12/2 sin(30 deg) (25 - 4) = 63. Its
- * coordinates are wrong by 0.71/784 m at most along outlines of 12 sides, 45 m long altogether. */
+/* A polygon with 12 sides from radius 2 to 5, in 784 pixels from -5 to 5 both ways: area 12/2
+ * sin(30 deg) (25 - 4) = 63. Its coordinates are wrong by 0.71/784 m at most along outlines of 12
+ * sides, 45 m long altogether. */
 static void holes_stay_holes(void **state)
 {
     (void)state;
@@ -358,8 +384,8 @@ static void holes_stay_holes(void **state)
     fracas_stored_mesh_clear(&mesh);
 }
 
-/* Middles that lie in the middle change nothing; one that is 0.1 m to the right makes its edge a parabola, in both fragments
- * beside it, and what is left of it by 2/3 of 0.1 squares larger. */
+/* Middles that lie in the middle change nothing; one that is 0.1 m to the right makes its edge a
+ * parabola, in both fragments beside it, and what is left of it by 2/3 of 0.1 squares larger. */
 static void curved_edges_are_curved(void **state)
 {
     (void)state;
@@ -372,19 +398,22 @@ static void curved_edges_are_curved(void **state)
     assert_null(fracas_stored_mesh_fault(&curved));
     grid_record(&straight, 100, &record);
     crack_up(&plate, &straight, &record, 2, 0, 4, 10);
-    char *a = draw(&straight, &record, 50, FRACAS_SHOW_MESH), *b = draw(&curved, &record, 50, FRACAS_SHOW_MESH);
+    char *a = draw(&straight, &record, 50, FRACAS_SHOW_MESH),
+         *b = draw(&curved, &record, 50, FRACAS_SHOW_MESH);
     assert_string_equal(a, b);
     free(b);
     for (size_t i = 0; i < curved.ninterfaces; i++) {
         const fracas_stored_interface *interface = &curved.interface[i];
-        if (record.interface[i].break_time == 11) curved.node[interface->node[2]].position[0] += 0.1;
+        if (record.interface[i].break_time == 11)
+            curved.node[interface->node[2]].position[0] += 0.1;
     }
     b = draw(&curved, &record, 50, FRACAS_SHOW_FRAGMENTS);
     size_t parabolas = 0;
     for (const char *at = strstr(b, "<path"); at && *at; at++) parabolas += *at == 'q';
     assert_int_equal(parabolas, 3); /* two fragments and the crack itself */
     const double square = 7840.0 / 6 * 7840.0 / 6;
-    assert_true(fabs(measure(b, "t0").area / square - (16 - 0.2 / 3)) < 0.01); /* roundings as above, 20 sides */
+    assert_true(fabs(measure(b, "t0").area / square - (16 - 0.2 / 3)) <
+                0.01); /* roundings as above, 20 sides */
     assert_true(fabs(measure(b, "t1").area / square - (8 + 0.2 / 3)) < 0.01);
     free(a);
     free(b);
@@ -393,7 +422,8 @@ static void curved_edges_are_curved(void **state)
     fracas_stored_mesh_clear(&curved);
 }
 
-/* The bytes of flat pictures, after their style, are those of the first ones: of whole numbers all but the words below. */
+/* The bytes of flat pictures, after their style, are those of the first ones: of whole numbers all
+ * but the words below. */
 static void flat_pictures_stay_as_they_are(void **state)
 {
     (void)state;
@@ -408,7 +438,8 @@ static void flat_pictures_stay_as_they_are(void **state)
         const int64_t *node = mesh.interface[i].node;
         if (node[2] >= 0) mesh.node[node[2]].position[0] += 0.05;
         record.interface[i].onset_time = (double)(sample_bits(&random) % 100);
-        if (sample_bits(&random) % 2) record.interface[i].break_time = record.interface[i].onset_time + 5;
+        if (sample_bits(&random) % 2)
+            record.interface[i].break_time = record.interface[i].onset_time + 5;
     }
     for (int show = FRACAS_SHOW_CRACKS; show <= FRACAS_SHOW_MESH; show++) {
         char *svg = draw(&mesh, &record, 60, (fracas_surface_show)show);
@@ -421,7 +452,8 @@ static void flat_pictures_stay_as_they_are(void **state)
     fracas_stored_mesh_clear(&mesh);
 }
 
-/* Neighbours differ, whatever breaks: planar graphs need no more than four tints, and there are seven. */
+/* Neighbours differ, whatever breaks: planar graphs need no more than four tints, and there are
+ * seven. */
 static void neighbours_have_different_tints(void **state)
 {
     (void)state;
@@ -439,9 +471,11 @@ static void neighbours_have_different_tints(void **state)
         OK(fracas_surface_state_create(&mesh, &record, 1, &now));
         assert_true(now.nfragments > 20);
         OK(fracas_tint_fragments(&mesh, &now, &tint));
-        for (size_t f = 0; f < now.nfragments; f++) assert_int_equal(tint[f] == FRACAS_TINT_DUST, now.elements[f] <= 2);
+        for (size_t f = 0; f < now.nfragments; f++)
+            assert_int_equal(tint[f] == FRACAS_TINT_DUST, now.elements[f] <= 2);
         for (size_t i = 0; i < mesh.ninterfaces; i++) {
-            const uint32_t a = now.fragment[mesh.interface[i].element[0]], b = now.fragment[mesh.interface[i].element[1]];
+            const uint32_t a = now.fragment[mesh.interface[i].element[0]],
+                           b = now.fragment[mesh.interface[i].element[1]];
             if (a != b && tint[a] != FRACAS_TINT_DUST) assert_int_not_equal(tint[a], tint[b]);
         }
         free(tint);
@@ -465,7 +499,8 @@ static void pictures_stay_small(void **state)
     char *svg = draw(&mesh, &record, 1, FRACAS_SHOW_FRAGMENTS);
     assert_true(strlen(svg) < 1000000);
     free(svg);
-    for (size_t i = 0; i < mesh.ninterfaces; i++) record.interface[i].break_time = sample_bits(&random) % 2 ? 0.1 : NAN;
+    for (size_t i = 0; i < mesh.ninterfaces; i++)
+        record.interface[i].break_time = sample_bits(&random) % 2 ? 0.1 : NAN;
     svg = draw(&mesh, &record, 1, FRACAS_SHOW_FRAGMENTS);
     assert_true(strlen(svg) < 1000000);
     free(svg);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the analysis says of surfaces in numbers: sizes of areas, no laws of one dimension. */
 #include "tests/support/store_sample.h"
 #include "tests/support/stored_mesh.h"
@@ -7,9 +8,12 @@
 
 enum { NPOINTS = 4 };
 
-/* `bars` bars of 10 mm, then plates, the first `bent` points with a part of bending of 2 J and 4 J in 8 J; rates 1e3, 2e3, ... Each point has two realizations of fragments of 1, 2 and 3 mm and of
- * 1 (dust) and 4 mm: mean sizes of a plate 2 and 2.5 mm. Cleared by fracas_point_statistics_clear and fracas_columns_clear. */
-static void make_analysis(size_t bars, size_t bent, fracas_point_statistics point[NPOINTS], fracas_analysis *analysis)
+/* `bars` bars of 10 mm, then plates, the first `bent` points with a part of bending of 2 J and 4 J
+ * in 8 J; rates 1e3, 2e3, ... Each point has two realizations of fragments of 1, 2 and 3 mm and of
+ * 1 (dust) and 4 mm: mean sizes of a plate 2 and 2.5 mm. Cleared by fracas_point_statistics_clear
+ * and fracas_columns_clear. */
+static void make_analysis(size_t bars, size_t bent, fracas_point_statistics point[NPOINTS],
+                          fracas_analysis *analysis)
 {
     static const fracas_column columns[] = {
         {"cohesive.fracture_energy", "J/m2", "", false}, {"derived.strain_rate", "1/s", "", false},
@@ -22,8 +26,9 @@ static void make_analysis(size_t bars, size_t bent, fracas_point_statistics poin
     static fracas_point_table points;
     static const double size[2][3] = {{1e-3, 2e-3, 3e-3}, {1e-3, 4e-3}};
     for (size_t p = 0; p < NPOINTS; p++) {
-        const double rate = 1e3 * (double)(p + 1), of[NCOLUMNS] = {100, rate, 3e8, p < bars ? 1e-2 : NAN, p < bars ? NAN : 1e-4,
-                                                                   rate, 2750, 275e9};
+        const double rate = 1e3 * (double)(p + 1),
+                     of[NCOLUMNS] = {100,  rate, 3e8,  p < bars ? 1e-2 : NAN, p < bars ? NAN : 1e-4,
+                                     rate, 2750, 275e9};
         for (size_t c = 0; c < NCOLUMNS; c++) value[p][c] = (fracas_value){of[c], ""};
         row[p] = (fracas_point_row){.replicas = 2, .value = value[p]};
     }
@@ -42,9 +47,15 @@ static void make_analysis(size_t bars, size_t bent, fracas_point_statistics poin
             record.fragment = fragment;
             record.dissipated = 8;
             record.dissipated_bending = p < bent ? 2 + 2 * (double)r : 0;
-            for (size_t i = 0; i < record.nfragment; i++) /* 2 (9 + 16 + 144)/2 = 169 J and (2 + 2 + 2)/2 = 3 J each */
-                fragment[i] = (fracas_fragment){.size = size[r][i], .elements = 20, .dust = fragment[i].dust, .mass = 2, .velocity = {3, -4, 12},
-                                                .angular_momentum = {1, 2, -1}, .spin = {2, 1, -2}};
+            for (size_t i = 0; i < record.nfragment;
+                 i++) /* 2 (9 + 16 + 144)/2 = 169 J and (2 + 2 + 2)/2 = 3 J each */
+                fragment[i] = (fracas_fragment){.size = size[r][i],
+                                                .elements = 20,
+                                                .dust = fragment[i].dust,
+                                                .mass = 2,
+                                                .velocity = {3, -4, 12},
+                                                .angular_momentum = {1, 2, -1},
+                                                .spin = {2, 1, -2}};
             OK(fracas_point_statistics_add(&point[p], 2 * p + r, (int64_t)r, &record));
         }
         OK(fracas_point_statistics_finish(&point[p]));
@@ -58,7 +69,8 @@ static void names_of(const fracas_analysis *analysis, char names[512])
     fracas_result_table table;
     OK(fracas_result_table_create(analysis, false, &table));
     names[0] = '\0';
-    for (size_t c = 0; c < table.columns; c++) strcat(strcat(names, fracas_result_table_cell(&table, 0, c)), " ");
+    for (size_t c = 0; c < table.columns; c++)
+        strcat(strcat(names, fracas_result_table_cell(&table, 0, c)), " ");
     fracas_result_table_clear(&table);
 }
 
@@ -78,8 +90,8 @@ static size_t curves_of(const fracas_analysis *analysis, bool normalised, size_t
     return curves;
 }
 
-/* Sizes of plates are means of their fragments' sizes, of bars 10 mm over their number; laws and slopes are those of bars alone, and
- * a study without a bar does not speak of them. */
+/* Sizes of plates are means of their fragments' sizes, of bars 10 mm over their number; laws and
+ * slopes are those of bars alone, and a study without a bar does not speak of them. */
 static void surfaces_have_no_laws_of_one_dimension(void **state)
 {
     (void)state;
@@ -88,8 +100,11 @@ static void surfaces_have_no_laws_of_one_dimension(void **state)
         const char *names;
     } expected[] = {
         {0, 0, 0, 0, "rate n fail count no dust size dissipated resid. created rotation outcomes "},
-        {3, 4, 1, 3, "rate n fail count no dust size dissipated ZMR Grady GC size resid. created rotation outcomes "},
-        {4, 4, 1, 4, "rate n fail count size dissipated ZMR Grady GC size resid. created outcomes "}};
+        {3, 4, 1, 3,
+         "rate n fail count no dust size dissipated ZMR Grady GC size resid. created rotation "
+         "outcomes "},
+        {4, 4, 1, 4,
+         "rate n fail count size dissipated ZMR Grady GC size resid. created outcomes "}};
     for (size_t k = 0; k < 3; k++) {
         fracas_point_statistics point[NPOINTS];
         fracas_analysis analysis;
@@ -100,10 +115,13 @@ static void surfaces_have_no_laws_of_one_dimension(void **state)
         for (size_t p = 0; p < NPOINTS; p++) {
             const bool bar = p < expected[k].bars;
             assert_int_equal(point[p].surface, !bar);
-            assert_true(fabs(point[p].size.mean - (bar ? (1e-2 / 3 + 1e-2 / 2) / 2 : 2.25e-3)) < 1e-15); /* a few roundings */
+            assert_true(fabs(point[p].size.mean - (bar ? (1e-2 / 3 + 1e-2 / 2) / 2 : 2.25e-3)) <
+                        1e-15); /* a few roundings */
             assert_true(point[p].count.mean == 2.5 && point[p].count_large.mean == 2);
             for (int law = 0; law < FRACAS_NLAWS; law++)
-                assert_int_equal(isfinite(point[p].law[law]) != 0, bar && law != FRACAS_LAW_MOTT); /* their strengths have no modulus */
+                assert_int_equal(isfinite(point[p].law[law]) != 0,
+                                 bar &&
+                                     law != FRACAS_LAW_MOTT); /* their strengths have no modulus */
             assert_non_null(point[p].without_mott);
         }
         assert_int_equal(curves_of(&analysis, false, &marks), expected[k].curves);
@@ -121,7 +139,8 @@ static void surfaces_have_no_laws_of_one_dimension(void **state)
     }
 }
 
-static void cell_says(const fracas_analysis *analysis, size_t row, const char *name, const char *wanted)
+static void cell_says(const fracas_analysis *analysis, size_t row, const char *name,
+                      const char *wanted)
 {
     fracas_result_table table;
     size_t c = 0;
@@ -131,8 +150,8 @@ static void cell_says(const fracas_analysis *analysis, size_t row, const char *n
     fracas_result_table_clear(&table);
 }
 
-/* Of three and of two fragments with 169 J and 3 J each: means 422.5 J and 7.5 J, a ratio of 0.01775. A bar has none, nor has a
- * body in one piece. */
+/* Of three and of two fragments with 169 J and 3 J each: means 422.5 J and 7.5 J, a ratio of
+ * 0.01775. A bar has none, nor has a body in one piece. */
 static void fragments_of_surfaces_fly_and_turn(void **state)
 {
     (void)state;
@@ -143,7 +162,8 @@ static void fragments_of_surfaces_fly_and_turn(void **state)
     assert_int_equal(point[0].rotation.n, 0);
     for (size_t p = 1; p < NPOINTS; p++) {
         assert_int_equal(point[p].translation.n, 2);
-        assert_true(point[p].translation.mean == 422.5 && point[p].rotation.mean == 7.5); /* whole numbers */
+        assert_true(point[p].translation.mean == 422.5 &&
+                    point[p].rotation.mean == 7.5); /* whole numbers */
     }
     cell_says(&analysis, FRACAS_RESULT_TABLE_HEAD, "rotation", "-");
     cell_says(&analysis, FRACAS_RESULT_TABLE_HEAD + 1, "rotation", "0.018");
@@ -173,7 +193,8 @@ static void bending_is_shown_where_it_is(void **state)
         fracas_analysis analysis;
         char names[512];
         make_analysis(0, bent, point, &analysis);
-        assert_true(point[0].bending.mean == (bent ? 3 : 0) && point[1].bending.mean == 0 && point[0].bending.n == 2);
+        assert_true(point[0].bending.mean == (bent ? 3 : 0) && point[1].bending.mean == 0 &&
+                    point[0].bending.n == 2);
         names_of(&analysis, names);
         assert_int_equal(strstr(names, " dissipated bending resid. ") != NULL, bent);
         if (bent) {
@@ -184,7 +205,8 @@ static void bending_is_shown_where_it_is(void **state)
         point[0].nhistory = 2;
         point[0].history = calloc(2, sizeof *point[0].history);
         assert_non_null(point[0].history);
-        point[0].history[1] = (fracas_history_row){.time = 1, .dissipated = 8, .dissipated_bending = bent ? 2 : 0};
+        point[0].history[1] = (fracas_history_row){
+            .time = 1, .dissipated = 8, .dissipated_bending = bent ? 2 : 0};
         fracas_chart chart;
         size_t curves = 0;
         fracas_chart_init(&chart);
@@ -205,7 +227,8 @@ static void bending_is_shown_where_it_is(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(surfaces_have_no_laws_of_one_dimension), cmocka_unit_test(fragments_of_surfaces_fly_and_turn),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(surfaces_have_no_laws_of_one_dimension),
+                                       cmocka_unit_test(fragments_of_surfaces_fly_and_turn),
                                        cmocka_unit_test(bending_is_shown_where_it_is)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
-/* Files that a campaign names: strengths given line by line, what is said of wrong ones, and what stands for a file in a
- * point. And what is drawn once a point: the moves of a mesh's nodes. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Files that a campaign names: strengths given line by line, what is said of wrong ones, and what
+ * stands for a file in a point. And what is drawn once a point: the moves of a mesh's nodes. */
 #define FOLDER "fracas-test"
 #include "tests/support/folder.h"
 
@@ -21,35 +22,56 @@
 static const fracas_kind *kind_named(const char *name)
 {
     for (size_t k = 0; k < fracas_strength_section.nkinds; k++)
-        if (strcmp(fracas_strength_section.kinds[k]->name, name) == 0) return fracas_strength_section.kinds[k];
+        if (strcmp(fracas_strength_section.kinds[k]->name, name) == 0)
+            return fracas_strength_section.kinds[k];
     fail_msg("no distribution %s", name);
     return NULL;
 }
 
-static const fracas_kind *file_kind(void) { return kind_named("file"); }
+static const fracas_kind *file_kind(void)
+{
+    return kind_named("file");
+}
 
 static void test_values(void **state)
 {
     (void)state;
     /* The same three strengths, 3, 1 and 8 Pa: sums and quotients of such numbers are exact. */
     static const char *const texts[] = {
-        "3\n1\n8\n", "3\n1\n8", "3\r\n1\r\n8\r\n", "\n\n3\n\n1\n8\n\n", "# about\n3\n  # more\n1\n8\n",
-        "strength\n3\n1\n8\n", "# about\nindex, strength (Pa)\n0, 3\n1, 1\n2, 8\n", "0,3\n1,1\n2,8\n", "0 3\n\t1\t1 \n2 ,8\n",
-        "a;b;sigma_c\n3e0\n+1.0\n.08E2\n", ("\xef\xbb\xbf" "3\n1\n8\n"), "\"strength\"\n3\n1\n8\n",
+        "3\n1\n8\n",
+        "3\n1\n8",
+        "3\r\n1\r\n8\r\n",
+        "\n\n3\n\n1\n8\n\n",
+        "# about\n3\n  # more\n1\n8\n",
+        "strength\n3\n1\n8\n",
+        "# about\nindex, strength (Pa)\n0, 3\n1, 1\n2, 8\n",
+        "0,3\n1,1\n2,8\n",
+        "0 3\n\t1\t1 \n2 ,8\n",
+        "a;b;sigma_c\n3e0\n+1.0\n.08E2\n",
+        ("\xef\xbb\xbf"
+         "3\n1\n8\n"),
+        "\"strength\"\n3\n1\n8\n",
     };
     static const double expected[3] = {3, 1, 8}, volume[4] = {1, 1, 1, 1};
     for (size_t t = 0; t < FRACAS_COUNT(texts); t++) {
-        const fracas_attachment file = {.path = "s.csv", .text = texts[t], .size = strlen(texts[t])};
+        const fracas_attachment file = {
+            .path = "s.csv", .text = texts[t], .size = strlen(texts[t])};
         const fracas_strength strength = {.distribution = file_kind(), .file = &file};
         if (fracas_strength_check(&strength)) fail_msg("%s\n%s", fracas_message(), texts[t]);
         assert_int_equal(fracas_strength_count(&strength), 3);
         assert_true(mean_of_strength(&strength, 1) == 4);
-        assert_true(quantile_of(&strength, 1, 1e-9) == 1 && quantile_of(&strength, 1, 1 - 1e-9) == 8);
-        for (uint64_t replica = 0; replica < 2; replica++) { /* whatever the stream, and the stride */
+        assert_true(quantile_of(&strength, 1, 1e-9) == 1 &&
+                    quantile_of(&strength, 1, 1 - 1e-9) == 8);
+        for (uint64_t replica = 0; replica < 2;
+             replica++) { /* whatever the stream, and the stride */
             double got[8] = {0};
-            assert_int_equal(sample_strengths(&strength, &(fracas_stream){.seed = 1, .replica = replica}, 4, volume, NULL, 2, got), FRACAS_OK);
+            assert_int_equal(
+                sample_strengths(&strength, &(fracas_stream){.seed = 1, .replica = replica}, 4,
+                                 volume, NULL, 2, got),
+                FRACAS_OK);
             for (int i = 0; i < 3; i++)
-                if (got[2 * i] != expected[i] || got[2 * i + 1] != 0) fail_msg("%g is not %g of:\n%s", got[2 * i], expected[i], texts[t]);
+                if (got[2 * i] != expected[i] || got[2 * i + 1] != 0)
+                    fail_msg("%g is not %g of:\n%s", got[2 * i], expected[i], texts[t]);
             assert_true(isnan(got[6]));
         }
     }
@@ -79,7 +101,8 @@ static void test_bad_values(void **state)
         {"\n", "s.csv has no strength"},
     };
     for (size_t t = 0; t < FRACAS_COUNT(table); t++) {
-        const fracas_attachment file = {.path = "s.csv", .text = table[t].text, .size = strlen(table[t].text)};
+        const fracas_attachment file = {
+            .path = "s.csv", .text = table[t].text, .size = strlen(table[t].text)};
         const fracas_strength strength = {.distribution = file_kind(), .file = &file};
         assert_int_equal(fracas_strength_check(&strength), FRACAS_USAGE);
         if (strncmp(fracas_message(), table[t].message, strlen(table[t].message)) != 0)
@@ -87,15 +110,19 @@ static void test_bad_values(void **state)
     }
     static const char with_nul[] = "3\n4\0junk\n";
     const fracas_attachment file = {.path = "s.csv", .text = with_nul, .size = sizeof with_nul - 1};
-    assert_int_equal(fracas_strength_check(&(fracas_strength){.distribution = file_kind(), .file = &file}), FRACAS_USAGE);
+    assert_int_equal(
+        fracas_strength_check(&(fracas_strength){.distribution = file_kind(), .file = &file}),
+        FRACAS_USAGE);
 }
 
 /* ---- strengths by position ---- */
 
-/* The corners of a unit square: the spacing is 1, so that a line lies on an interface up to 1e-3 away. */
+/* The corners of a unit square: the spacing is 1, so that a line lies on an interface up to 1e-3
+ * away. */
 static const double square[4][3] = {{0, 0, 7}, {1, 0, 7}, {0, 1, 7}, {1, 1, 7}};
 
-static fracas_err sample_places(const char *text, size_t n, const double (*position)[3], size_t stride, double *got)
+static fracas_err sample_places(const char *text, size_t n, const double (*position)[3],
+                                size_t stride, double *got)
 {
     const fracas_attachment file = {.path = "p.csv", .text = text, .size = strlen(text)};
     const fracas_strength strength = {.distribution = kind_named("positions"), .file = &file};
@@ -108,28 +135,38 @@ static void test_places(void **state)
 {
     (void)state;
     static const char *const texts[] = {
-        "0,0,1\n1,0,2\n0,1,3\n1,1,4\n",
-        "1 1 4\n0 1 3\n1 0 2\n0 0 1",                                            /* in any order */
-        "x,y,sigma_c,elements\n0 , 0,1,2\n1,0 2 5\n# away\n9,9,99\n-1e300,0,7,1\n0,1,3,2\n1,1,4,x\n", /* what else is there is skipped */
-        "-9.9e-4,0,1\n1,-9.9e-4,2\n9.9e-4,1,3\n1.0007,1.0007,4\n",              /* nearer than 1e-3, on every side */
+        "0,0,1\n1,0,2\n0,1,3\n1,1,4\n", "1 1 4\n0 1 3\n1 0 2\n0 0 1", /* in any order */
+        "x,y,sigma_c,elements\n0 , 0,1,2\n1,0 2 5\n# "
+        "away\n9,9,99\n-1e300,0,7,1\n0,1,3,2\n1,1,4,x\n", /* what else is there is skipped */
+        "-9.9e-4,0,1\n1,-9.9e-4,2\n9.9e-4,1,3\n1.0007,1.0007,4\n", /* nearer than 1e-3, on every
+                                                                      side */
     };
     for (size_t t = 0; t < FRACAS_COUNT(texts); t++) {
         double got[8] = {0};
-        if (sample_places(texts[t], 4, square, 2, got)) fail_msg("%s\n%s", fracas_message(), texts[t]);
+        if (sample_places(texts[t], 4, square, 2, got))
+            fail_msg("%s\n%s", fracas_message(), texts[t]);
         for (int i = 0; i < 4; i++)
-            if (got[2 * i] != i + 1 || got[2 * i + 1] != 0) fail_msg("%g at %d of:\n%s", got[2 * i], i, texts[t]);
+            if (got[2 * i] != i + 1 || got[2 * i + 1] != 0)
+                fail_msg("%g at %d of:\n%s", got[2 * i], i, texts[t]);
     }
-    double edge[3][3] = {{0, 0, 0}, {0, 0, 0}, {2, 0, 0}}; /* cells of 1 from -0.002 on: the second is beside the end of one */
+    double edge[3][3] = {
+        {0, 0, 0},
+        {0, 0, 0},
+        {2, 0, 0}}; /* cells of 1 from -0.002 on: the second is beside the end of one */
     double three[3];
     for (int side = -1; side <= 1; side += 2) {
         char text[100];
         edge[1][0] = 0.998 - 1e-4 * side;
-        snprintf(text, sizeof text, "0 0 1\n%g 0 2\n2 0 3\n", 0.998 + 5e-4 * side); /* in the other cell */
+        snprintf(text, sizeof text, "0 0 1\n%g 0 2\n2 0 3\n",
+                 0.998 + 5e-4 * side); /* in the other cell */
         assert_int_equal(sample_places(text, 3, (const double(*)[3])edge, 1, three), FRACAS_OK);
         assert_true(three[0] == 1 && three[1] == 2 && three[2] == 3);
     }
-    assert_int_equal(sample_places("0 0 1\n.9975 0 2\n.9985 0 2\n2 0 3\n", 3, (const double(*)[3])edge, 1, three), FRACAS_USAGE);
-    static const double one[1][3] = {{2, 3, 0}}, none[1][3] = {{0, 0, 0}}; /* without a spacing: 1e-3 of how far out it is */
+    assert_int_equal(sample_places("0 0 1\n.9975 0 2\n.9985 0 2\n2 0 3\n", 3,
+                                   (const double(*)[3])edge, 1, three),
+                     FRACAS_USAGE);
+    static const double one[1][3] = {{2, 3, 0}},
+                        none[1][3] = {{0, 0, 0}}; /* without a spacing: 1e-3 of how far out it is */
     double got;
     assert_int_equal(sample_places("2.001 3.001 5", 1, one, 1, &got), FRACAS_OK);
     assert_true(got == 5);
@@ -150,7 +187,8 @@ static void test_bad_places(void **state)
     static const struct {
         const char *text, *message;
     } table[] = {
-        {"x,y,s\n0,0,1\n1,0,2\n0,z,3\n", "p.csv:4: found `z` as y; a line begins with x [m], y [m], strength [Pa]"},
+        {"x,y,s\n0,0,1\n1,0,2\n0,z,3\n",
+         "p.csv:4: found `z` as y; a line begins with x [m], y [m], strength [Pa]"},
         {"0,0,1\n1,0\n", "p.csv:2: found nothing as strength"},
         {"0,0,1\n1,,3\n", "p.csv:2: found nothing as y"},
         {"0,0,1\nx,0,1\n", "p.csv:2: found `x` as x"},
@@ -159,10 +197,15 @@ static void test_bad_places(void **state)
         {"0,0,300 MPa\n1,0,0\n", "p.csv:2: a strength of 0 Pa"},
         {"0,0,-1\n", "p.csv:1: a strength of -1 Pa"},
         {"# none\n", "p.csv has no strength"},
-        {"0,0,1\n1,0,2\n1,1,4\n", "p.csv has no line for 1 of 4 interfaces; interface 2 is at x = 0 m, y = 1 m, and the nearest line, 1, is 1 m away"},
-        {"0,0,1\n1,0,2\n0,1.0011,3\n1,1,4\n", "p.csv has no line for 1 of 4 interfaces; interface 2 is at x = 0 m, y = 1 m, and the nearest line, 3, is 0.0011 m away"},
-        {"0,0,1\n1e3,0,2\n0,1e3,3\n1e3,1e3,4\n", "p.csv has no line for 3 of 4 interfaces; interface 1 is at x = 1 m"}, /* in mm */
-        {"0,0,1\n1,0,2\n0,1,3\n1,1,4\n1.0009,1,5\n", "p.csv: lines 4 and 5 are both at interface 3, x = 1 m, y = 1 m"},
+        {"0,0,1\n1,0,2\n1,1,4\n", "p.csv has no line for 1 of 4 interfaces; interface 2 is at x = "
+                                  "0 m, y = 1 m, and the nearest line, 1, is 1 m away"},
+        {"0,0,1\n1,0,2\n0,1.0011,3\n1,1,4\n",
+         "p.csv has no line for 1 of 4 interfaces; interface 2 is at x = 0 m, y = 1 m, and the "
+         "nearest line, 3, is 0.0011 m away"},
+        {"0,0,1\n1e3,0,2\n0,1e3,3\n1e3,1e3,4\n",
+         "p.csv has no line for 3 of 4 interfaces; interface 1 is at x = 1 m"}, /* in mm */
+        {"0,0,1\n1,0,2\n0,1,3\n1,1,4\n1.0009,1,5\n",
+         "p.csv: lines 4 and 5 are both at interface 3, x = 1 m, y = 1 m"},
         {"1,1,5\n1,0,2\n0,1,3\n0,0,1\n1,1,5\n", "p.csv: lines 1 and 5 are both at interface 3"},
     };
     double got[4];
@@ -172,10 +215,12 @@ static void test_bad_places(void **state)
             fail_msg("not \"%s\" but: %s", table[t].message, fracas_message());
     }
     assert_int_equal(sample_places("0,0,1\n1,0,2\n", 3, twice, 1, got), FRACAS_USAGE);
-    assert_non_null(strstr(fracas_message(), "p.csv:1: x = 0 m, y = 0 m is at two interfaces, 0 and 2"));
+    assert_non_null(
+        strstr(fracas_message(), "p.csv:1: x = 0 m, y = 0 m is at two interfaces, 0 and 2"));
 }
 
-/* A jittered grid of 200 by 200 and a ring of 40 000, lines in another order: each finds its own, and soon. */
+/* A jittered grid of 200 by 200 and a ring of 40 000, lines in another order: each finds its own,
+ * and soon. */
 static void test_many_places(void **state)
 {
     (void)state;
@@ -187,8 +232,12 @@ static void test_many_places(void **state)
         for (uint64_t i = 0; i < N; i++) {
             const fracas_stream stream = {.seed = 3};
             const double angle = 2 * M_PI * (double)i / N;
-            position[i][0] = body ? cos(angle) : (double)(i % SIDE) + 0.8 * fracas_stream_uniform(&stream, 2 * i);
-            position[i][1] = body ? sin(angle) : (double)(i / SIDE) + 0.8 * fracas_stream_uniform(&stream, 2 * i + 1);
+            position[i][0] = body
+                                 ? cos(angle)
+                                 : (double)(i % SIDE) + 0.8 * fracas_stream_uniform(&stream, 2 * i);
+            position[i][1] = body ? sin(angle)
+                                  : (double)(i / SIDE) +
+                                        0.8 * fracas_stream_uniform(&stream, 2 * i + 1);
         }
         char *at = text;
         for (size_t k = 0; k < N; k++) { /* 9973 is prime: every interface once */
@@ -196,8 +245,10 @@ static void test_many_places(void **state)
             at += sprintf(at, "%.9g,%.9g,%zu\n", position[i][0], position[i][1], i + 1);
         }
         const clock_t start = clock();
-        if (sample_places(text, N, (const double(*)[3])position, 1, got)) fail_msg("%s", fracas_message());
-        print_message("[  figures ] %d strengths by position: %.3f s\n", N, (double)(clock() - start) / CLOCKS_PER_SEC);
+        if (sample_places(text, N, (const double(*)[3])position, 1, got))
+            fail_msg("%s", fracas_message());
+        print_message("[  figures ] %d strengths by position: %.3f s\n", N,
+                      (double)(clock() - start) / CLOCKS_PER_SEC);
         for (size_t i = 0; i < N; i++) assert_true(got[i] == (double)(i + 1));
     }
     free(position);
@@ -223,7 +274,8 @@ static void put(const char *name, const char *text)
 
 static const char uniform[] = "  distribution: uniform\n  minimum: 299 MPa\n  maximum: 301 MPa\n";
 
-/* Reads FOLDER/c.yaml: the plain campaign, its lines 16 to 18 replaced, and something at its end (line 26 + new lines). */
+/* Reads FOLDER/c.yaml: the plain campaign, its lines 16 to 18 replaced, and something at its end
+ * (line 26 + new lines). */
 static fracas_err read_with(const char *strength, const char *end, fracas_campaign **campaign)
 {
     char *text = replace(plain_campaign, uniform, strength), *whole = replace(text, "", end);
@@ -247,7 +299,8 @@ static void bad(const char *strength, const char *end, int line, int column, con
     assert_int_equal(read_with(strength, end, &campaign), FRACAS_USAGE);
     assert_null(campaign);
     snprintf(place, sizeof place, "%s:%d:%d: ", in_folder("c.yaml"), line, column);
-    if (strncmp(fracas_message(), place, strlen(place)) != 0) fail_msg("not at %d:%d: %s", line, column, fracas_message());
+    if (strncmp(fracas_message(), place, strlen(place)) != 0)
+        fail_msg("not at %d:%d: %s", line, column, fracas_message());
     if (!strstr(fracas_message(), words)) fail_msg("no \"%s\" in: %s", words, fracas_message());
 }
 
@@ -274,10 +327,14 @@ static void test_errors(void **state)
     bad(FROM_FILE "[s.csv]\n", "", 17, 9, "- strength.file: [...]");
     bad(FROM_FILE "wrong.csv\n", "", 17, 9, "`strength`: wrong.csv:3: found `Pa`");
     bad("  distribution: file\n", "", 16, 17, "strength with distribution file needs `file` (");
-    bad("  distribution: constant\n  value: 1 MPa\n  file: s.csv\n", "", 18, 3, "`file` belongs to distribution empirical or file or positions");
-    bad(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: [s.csv, absent.csv]\n", 28, 28, "/absent.csv: No such file");
-    bad(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: {from: 1, to: 2, points: 2}\n", 28, 20, "is not a number");
-    bad(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: [s.csv, ./s.csv]\n", 28, 28, "the same values");
+    bad("  distribution: constant\n  value: 1 MPa\n  file: s.csv\n", "", 18, 3,
+        "`file` belongs to distribution empirical or file or positions");
+    bad(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: [s.csv, absent.csv]\n", 28, 28,
+        "/absent.csv: No such file");
+    bad(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: {from: 1, to: 2, points: 2}\n", 28, 20,
+        "is not a number");
+    bad(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: [s.csv, ./s.csv]\n", 28, 28,
+        "the same values");
 }
 
 static void test_empirical(void **state)
@@ -285,15 +342,20 @@ static void test_empirical(void **state)
     (void)state;
     put("m.csv", "strength\n3e8\n5e8\n4e8\n");
     put("bad.csv", "3e8\n5e8\n4e8;\n");
-    fracas_campaign *campaign = good("  distribution: empirical\n  file: m.csv\n", "sweep:\n  - strength.interpolation: [linear, steps]\n");
+    fracas_campaign *campaign = good("  distribution: empirical\n  file: m.csv\n",
+                                     "sweep:\n  - strength.interpolation: [linear, steps]\n");
     const size_t mean = fracas_point_table_find(&campaign->table, "derived.strength_mean");
-    assert_true(campaign->table.point[0].value[mean].real == 4e8 && campaign->table.point[1].value[mean].real == 4e8);
+    assert_true(campaign->table.point[0].value[mean].real == 4e8 &&
+                campaign->table.point[1].value[mean].real == 4e8);
     const double u = 0.25;
-    assert_true(quantile_of(&campaign->point[0].strength, 1.0, u) == 3.5e8 && quantile_of(&campaign->point[1].strength, 1.0, u) == 3e8);
+    assert_true(quantile_of(&campaign->point[0].strength, 1.0, u) == 3.5e8 &&
+                quantile_of(&campaign->point[1].strength, 1.0, u) == 3e8);
     assert_false(fracas_strength_is_given(&campaign->point[0].strength));
     fracas_campaign_destroy(campaign);
-    bad("  distribution: empirical\n  file: bad.csv\n", "", 17, 9, "`strength`: bad.csv:3: found `4e8;`");
-    bad("  distribution: empirical\n", "", 16, 17, "strength with distribution empirical needs `file` (");
+    bad("  distribution: empirical\n  file: bad.csv\n", "", 17, 9,
+        "`strength`: bad.csv:3: found `4e8;`");
+    bad("  distribution: empirical\n", "", 16, 17,
+        "strength with distribution empirical needs `file` (");
 }
 
 /* The digest was computed by xxhsum -H2. */
@@ -305,14 +367,17 @@ static void test_identity(void **state)
     put("t.csv", "strength\n300e6\n1,301e6\n");
     put("u.csv", "strength\n300e6\n1,302e6\n");
     fracas_campaign *one = good(FROM_FILE "s.csv\n", ""), *same = good(FROM_FILE "t.csv\n", "");
-    fracas_campaign *other = good(uniform, "sweep:\n  - strength: [{distribution: file, file: u.csv}, {distribution: file, file: t.csv}]\n"
-                                      "  - loading.rate: [1e4, 2e4]\n");
+    fracas_campaign *other = good(uniform, "sweep:\n  - strength: [{distribution: file, file: "
+                                           "u.csv}, {distribution: file, file: t.csv}]\n"
+                                           "  - loading.rate: [1e4, 2e4]\n");
     const size_t column = fracas_point_table_find(&one->table, "strength.file");
     assert_int_not_equal(column, SIZE_MAX);
     assert_true(one->table.column[column].text);
     assert_string_equal(one->table.column[column].unit, "");
     assert_string_equal(one->table.point[0].value[column].text, digest);
-    assert_true(one->table.point[0].value[fracas_point_table_find(&one->table, "derived.strength_mean")].real == 300.5e6);
+    assert_true(one->table.point[0]
+                    .value[fracas_point_table_find(&one->table, "derived.strength_mean")]
+                    .real == 300.5e6);
     assert_true(fracas_hash_equal(&one->hash, &same->hash));
     assert_false(fracas_hash_equal(&one->point[0].hash, &other->point[0].hash));
     assert_true(fracas_hash_equal(&one->point[0].hash, &other->point[2].hash));
@@ -333,15 +398,16 @@ static void write_campaign(const fracas_campaign *campaign, const char *path)
     assert_int_equal(fclose(out), 0);
 }
 
-/* What is written reads back to the same points where copies of the files are beside it; a copy that is not what its name
- * says is refused. */
+/* What is written reads back to the same points where copies of the files are beside it; a copy
+ * that is not what its name says is refused. */
 static void test_round_trip(void **state)
 {
     (void)state;
     put("s.csv", "300e6\n");
     put("t.csv", "301e6\n");
-    fracas_campaign *campaign = good(uniform, "sweep:\n  - strength: [{distribution: file, file: s.csv}, {distribution: file, file: t.csv},"
-                                         " {distribution: constant, value: 5}]\n");
+    fracas_campaign *campaign = good(
+        uniform, "sweep:\n  - strength: [{distribution: file, file: s.csv}, {distribution: file, "
+                 "file: t.csv}, {distribution: constant, value: 5}]\n");
     assert_int_equal(mkdir(in_folder("study"), 0777), 0);
     assert_int_equal(mkdir(in_folder("study/attachments"), 0777), 0);
     char name[80] = "";
@@ -353,7 +419,8 @@ static void test_round_trip(void **state)
     assert_int_equal(copies, 2);
     write_campaign(campaign, in_folder("study/campaign.yaml"));
     fracas_campaign *back = NULL;
-    if (fracas_campaign_read(in_folder("study/campaign.yaml"), &back)) fail_msg("%s", fracas_message());
+    if (fracas_campaign_read(in_folder("study/campaign.yaml"), &back))
+        fail_msg("%s", fracas_message());
     assert_true(fracas_hash_equal(&campaign->hash, &back->hash));
     write_campaign(back, in_folder("again.yaml"));
     char texts[2][4096] = {"", ""};
@@ -384,15 +451,17 @@ static void test_forecast(void **state)
     put("equal.csv", text);
     text[strlen(text) - strlen("300e6\n")] = '2';
     put("s.csv", text);
-    fracas_campaign *campaign = good(FROM_FILE "s.csv\n", "sweep:\n  - cases:\n      - {name: a}\n      - {replicas: 1, strength.file: equal.csv}\n"
-                                                          "      - strength.file: short.csv\n");
+    fracas_campaign *campaign = good(
+        FROM_FILE "s.csv\n",
+        "sweep:\n  - cases:\n      - {name: a}\n      - {replicas: 1, strength.file: equal.csv}\n"
+        "      - strength.file: short.csv\n");
     assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_OK);
     assert_true(forecast.repeated && !forecast.uniform);
     assert_int_equal(fracas_forecast_make(campaign, 1, &forecast), FRACAS_OK);
     assert_true(!forecast.repeated && forecast.uniform);
     assert_int_equal(fracas_forecast_make(campaign, 2, &forecast), FRACAS_USAGE);
-    assert_string_equal(fracas_message(),
-                        "point 2: short.csv has 99 strengths, but the mesh has 100 interfaces; each needs one line of the file");
+    assert_string_equal(fracas_message(), "point 2: short.csv has 99 strengths, but the mesh has "
+                                          "100 interfaces; each needs one line of the file");
     fracas_campaign_destroy(campaign);
     memcpy(text + 6, "9e20 \n", 6); /* one interface too strong for the mesh is enough */
     put("s.csv", text);
@@ -414,9 +483,11 @@ static fracas_model *model_of(const fracas_campaign *campaign, double (*position
 static const char ring[] =
     "name: ring\nseed: 1\nmodel: ring\ngeometry: {radius: 8 mm, area: 1 mm2}\nmesh: {elements: 8}\n"
     "material: {young: 275 GPa, density: 2750 kg/m3}\ncohesive: {fracture_energy: 100 J/m2}\n"
-    "strength: {distribution: constant, value: 1 MPa}\nloading: {type: initial-velocity, radial: 80 m/s}\ntime: {end: 1 us}\nreplicas: 1\n";
+    "strength: {distribution: constant, value: 1 MPa}\nloading: {type: initial-velocity, radial: "
+    "80 m/s}\ntime: {end: 1 us}\nreplicas: 1\n";
 
-/* The plain campaign, a periodic bar of 100 elements; a graded one; a ring, whose interfaces are on its circle, 2 pi/8 apart. */
+/* The plain campaign, a periodic bar of 100 elements; a graded one; a ring, whose interfaces are on
+ * its circle, 2 pi/8 apart. */
 static void test_positions(void **state)
 {
     (void)state;
@@ -424,14 +495,20 @@ static void test_positions(void **state)
     fracas_campaign *campaign = read_replaced("", "");
     fracas_model *model = model_of(campaign, x);
     const double length = campaign->point[0].spec.geometry.length;
-    for (int i = 0; i < 100; i++) assert_true(fabs(x[i][0] - length * (i + 1) / 100) < 1e-15 * length && x[i][1] == 0 && x[i][2] == 0);
+    for (int i = 0; i < 100; i++)
+        assert_true(fabs(x[i][0] - length * (i + 1) / 100) < 1e-15 * length && x[i][1] == 0 &&
+                    x[i][2] == 0);
     fracas_model_destroy(model);
     fracas_campaign_destroy(campaign);
-    campaign = read_replaced("", "sweep:\n  - mesh: [{elements: 100, spacing: graded, ratio: 4}]\n");
+    campaign = read_replaced("",
+                             "sweep:\n  - mesh: [{elements: 100, spacing: graded, ratio: 4}]\n");
     model = model_of(campaign, x);
-    assert_true(fabs(x[99][0] - length) < 1e-14 * length); /* elements in geometric progression: so are their ends' distances */
+    assert_true(fabs(x[99][0] - length) <
+                1e-14 *
+                    length); /* elements in geometric progression: so are their ends' distances */
     for (int i = 1; i < 99; i++)
-        assert_true(fabs((x[i + 1][0] - x[i][0]) / (x[i][0] - x[i - 1][0]) - pow(4, 1.0 / 99)) < 1e-11);
+        assert_true(fabs((x[i + 1][0] - x[i][0]) / (x[i][0] - x[i - 1][0]) - pow(4, 1.0 / 99)) <
+                    1e-11);
     fracas_model_destroy(model);
     fracas_campaign_destroy(campaign);
     campaign = read_text(ring);
@@ -445,13 +522,17 @@ static void test_positions(void **state)
 }
 
 static const char by_position[] =
-    "name: by-position\nseed: 1\nmodel: membrane\ngeometry: {shape: plate, width: 2 mm, height: 2 mm, thickness: 1 mm}\n"
-    "mesh: {spacing: triangles, divisions: 2}\nmaterial: {young: 370 GPa, density: 3900 kg/m3, poisson: 0.22}\n"
-    "cohesive: {law: nitsche, fracture_energy: 50 J/m2, beta: 10}\nstrength: {distribution: positions, file: p.csv}\n"
+    "name: by-position\nseed: 1\nmodel: membrane\ngeometry: {shape: plate, width: 2 mm, height: 2 "
+    "mm, thickness: 1 mm}\n"
+    "mesh: {spacing: triangles, divisions: 2}\nmaterial: {young: 370 GPa, density: 3900 kg/m3, "
+    "poisson: 0.22}\n"
+    "cohesive: {law: nitsche, fracture_energy: 50 J/m2, beta: 10}\nstrength: {distribution: "
+    "positions, file: p.csv}\n"
     "loading: {type: expansion, rate: 1e4 1/s}\ntime: {stop: time, end: 10 ns}\nreplicas: 1\n";
 
-/* Two by two squares of 1 mm, cut in two: eight interfaces, of which four are sides of squares and four diagonals. Written by
- * position with a strength that tells where each is, every interface has its own, drawn and in the plan's check. */
+/* Two by two squares of 1 mm, cut in two: eight interfaces, of which four are sides of squares and
+ * four diagonals. Written by position with a strength that tells where each is, every interface has
+ * its own, drawn and in the plan's check. */
 static void test_positions_of_a_surface(void **state)
 {
     (void)state;
@@ -464,11 +545,13 @@ static void test_positions_of_a_surface(void **state)
     fracas_model *model = model_of(campaign, x);
     assert_int_equal(fracas_model_interfaces(model), 8);
     int sides = 0, diagonals = 0;
-    for (int i = 7; i >= 0; i--) { /* middles of sides are at (0, +-0.5), (+-0.5, 0) mm, of diagonals at (+-0.5, +-0.5) mm */
+    for (int i = 7; i >= 0; i--) { /* middles of sides are at (0, +-0.5), (+-0.5, 0) mm, of
+                                      diagonals at (+-0.5, +-0.5) mm */
         const double a = fabs(x[i][0]), b = fabs(x[i][1]);
         sides += fabs(a + b - 0.5e-3) < 1e-15;
         diagonals += fabs(a - 0.5e-3) < 1e-15 && fabs(b - 0.5e-3) < 1e-15;
-        sprintf(text + strlen(text), "%.9g,%.9g,%.15g\n", x[i][0], x[i][1], 3e8 + 1e11 * x[i][0] + 1e10 * x[i][1]);
+        sprintf(text + strlen(text), "%.9g,%.9g,%.15g\n", x[i][0], x[i][1],
+                3e8 + 1e11 * x[i][0] + 1e10 * x[i][1]);
     }
     assert_true(sides == 4 && diagonals == 4);
     fracas_forecast forecast;
@@ -478,12 +561,15 @@ static void test_positions_of_a_surface(void **state)
     put("p.csv", text);
     if (fracas_campaign_read(in_folder("c.yaml"), &campaign)) fail_msg("%s", fracas_message());
     assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_OK);
-    assert_int_equal(sample_strengths(&campaign->point[0].strength, &(fracas_stream){0}, 8, NULL, (const double(*)[3])x, 1, got),
+    assert_int_equal(sample_strengths(&campaign->point[0].strength, &(fracas_stream){0}, 8, NULL,
+                                      (const double(*)[3])x, 1, got),
                      FRACAS_OK);
-    for (int i = 0; i < 8; i++) assert_true(fabs(got[i] - (3e8 + 1e11 * x[i][0] + 1e10 * x[i][1])) < 1e-6);
+    for (int i = 0; i < 8; i++)
+        assert_true(fabs(got[i] - (3e8 + 1e11 * x[i][0] + 1e10 * x[i][1])) < 1e-6);
     fracas_campaign_destroy(campaign);
     char *end = strrchr(text, ',');
-    strcpy(end, ",9e20\n"); /* one interface too strong for the mesh is enough, and is named: the first, whose line is the last */
+    strcpy(end, ",9e20\n"); /* one interface too strong for the mesh is enough, and is named: the
+                               first, whose line is the last */
     put("p.csv", text);
     if (fracas_campaign_read(in_folder("c.yaml"), &campaign)) fail_msg("%s", fracas_message());
     assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_USAGE);
@@ -498,23 +584,27 @@ static void test_noise(void **state)
 {
     (void)state;
     enum { N = 1000 };
-    fracas_campaign *campaign = read_replaced("", "sweep:\n  - mesh: [{elements: 50, spacing: perturbed, amplitude: 0.2},"
-                                                  " {elements: 200000, spacing: perturbed, amplitude: 0.2}]\n");
+    fracas_campaign *campaign = read_replaced(
+        "", "sweep:\n  - mesh: [{elements: 50, spacing: perturbed, amplitude: 0.2}, {elements: "
+            "200000, spacing: perturbed, amplitude: 0.2}]\n");
     double noise[N], begin[10], sum = 0;
     fracas_point_mesh_noise(campaign, 0, N, noise);
     fracas_point_mesh_noise(campaign, 0, 10, begin);
     fracas_stream stream = {.seed = 7, .purpose = 2};
     fracas_hash_words(&campaign->point[0].hash, stream.point);
     for (uint64_t i = 0; i < N; i++) {
-        assert_true(noise[i] == 2.0 * fracas_stream_uniform(&stream, i) - 1.0 && fabs(noise[i]) <= 1);
+        assert_true(noise[i] == 2.0 * fracas_stream_uniform(&stream, i) - 1.0 &&
+                    fabs(noise[i]) <= 1);
         if (i < 10) assert_true(begin[i] == noise[i]);
         sum += noise[i];
     }
-    assert_true(fabs(sum / N) < 5.0 / sqrt(3.0 * N)); /* five standard deviations of the mean, variance 1/3 */
+    assert_true(fabs(sum / N) <
+                5.0 / sqrt(3.0 * N)); /* five standard deviations of the mean, variance 1/3 */
     fracas_point_mesh_noise(campaign, 1, 10, begin);
     assert_true(begin[0] != noise[0]); /* of the point */
     fracas_forecast forecast[2];
-    assert_int_equal(fracas_forecast_all(campaign, 1, forecast), FRACAS_OK); /* which times a shorter mesh of the second */
+    assert_int_equal(fracas_forecast_all(campaign, 1, forecast),
+                     FRACAS_OK); /* which times a shorter mesh of the second */
     assert_int_equal(forecast[1].elements, 200000);
     assert_null(campaign->point[0].spec.mesh.noise);
     fracas_campaign_destroy(campaign);
@@ -523,10 +613,19 @@ static void test_noise(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values),     cmocka_unit_test(test_bad_values), cmocka_unit_test(test_errors), cmocka_unit_test(test_empirical),
-        cmocka_unit_test(test_identity),   cmocka_unit_test(test_round_trip), cmocka_unit_test(test_forecast),
-        cmocka_unit_test(test_noise),      cmocka_unit_test(test_places),     cmocka_unit_test(test_bad_places),
-        cmocka_unit_test(test_many_places), cmocka_unit_test(test_positions), cmocka_unit_test(test_positions_of_a_surface),
+        cmocka_unit_test(test_values),
+        cmocka_unit_test(test_bad_values),
+        cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_empirical),
+        cmocka_unit_test(test_identity),
+        cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_forecast),
+        cmocka_unit_test(test_noise),
+        cmocka_unit_test(test_places),
+        cmocka_unit_test(test_bad_places),
+        cmocka_unit_test(test_many_places),
+        cmocka_unit_test(test_positions),
+        cmocka_unit_test(test_positions_of_a_surface),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

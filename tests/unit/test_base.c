@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The small things of base: messages, hashes, JSON, parameter access. */
 #include "base/err.h"
 #include "base/hash.h"
@@ -82,7 +83,8 @@ static void json_is_well_formed(void **unused)
     fracas_json_close_object(&json);
     fracas_json_end(&json);
     fclose(out);
-    assert_string_equal(text, "{\n  \"a \\\"b\\\"\\u000a\": \"\\\\\",\n  \"list\": [\n    0.10000000000000001,\n    null,\n    -3\n  ],\n"
+    assert_string_equal(text, "{\n  \"a \\\"b\\\"\\u000a\": \"\\\\\",\n  \"list\": [\n    "
+                              "0.10000000000000001,\n    null,\n    -3\n  ],\n"
                               "  \"empty\": {},\n  \"yes\": true,\n  \"none\": null\n}\n");
     free(text);
 }
@@ -96,9 +98,15 @@ static void parameters_reach_their_place(void **unused)
         double x;
     } section = {0};
     const fracas_param params[] = {
-        {.name = "n", .type = FRACAS_INTEGER, .offset = (size_t)((char *)&section.n - (char *)&section)},
-        {.name = "b", .type = FRACAS_BOOLEAN, .offset = (size_t)((char *)&section.b - (char *)&section)},
-        {.name = "x", .type = FRACAS_REAL, .offset = (size_t)((char *)&section.x - (char *)&section)},
+        {.name = "n",
+         .type = FRACAS_INTEGER,
+         .offset = (size_t)((char *)&section.n - (char *)&section)},
+        {.name = "b",
+         .type = FRACAS_BOOLEAN,
+         .offset = (size_t)((char *)&section.b - (char *)&section)},
+        {.name = "x",
+         .type = FRACAS_REAL,
+         .offset = (size_t)((char *)&section.x - (char *)&section)},
     };
     const double values[] = {-5, 1, 0.25};
     for (int i = 0; i < 3; i++) {
@@ -118,7 +126,10 @@ static void names_and_files_reach_their_place(void **unused)
         const fracas_kind *side;
         const fracas_attachment *file;
     } section = {.before = 1};
-    const fracas_param side = {.type = FRACAS_CHOICE, .offset = offsetof(struct named, side), .choices = sides, .nchoices = 2};
+    const fracas_param side = {.type = FRACAS_CHOICE,
+                               .offset = offsetof(struct named, side),
+                               .choices = sides,
+                               .nchoices = 2};
     const fracas_param file = {.type = FRACAS_ATTACHMENT, .offset = offsetof(struct named, file)};
     const fracas_attachment attached = {.path = "a", .text = "b", .size = 1, .digest = "0123"};
     assert_true(isnan(fracas_param_get(&side, &section)));
@@ -138,11 +149,14 @@ static void names_and_files_reach_their_place(void **unused)
 static void kinds_know_their_partners(void **unused)
 {
     (void)unused;
-    static const fracas_kind a = {.name = "a"}, b = {.name = "b"}, c = {.name = "c"}, other = {.name = "other"};
+    static const fracas_kind a = {.name = "a"}, b = {.name = "b"}, c = {.name = "c"},
+                             other = {.name = "other"};
     static const fracas_kind *const kinds[] = {&a, &b, &c}, *const partners[] = {&c, &other, &a};
-    const fracas_section section = {.kinds = kinds, .nkinds = 3}, elsewhere = {.kinds = partners + 1, .nkinds = 1}, none = {0};
+    const fracas_section section = {.kinds = kinds, .nkinds = 3},
+                         elsewhere = {.kinds = partners + 1, .nkinds = 1}, none = {0};
     const fracas_kind picky = {.goes_with = partners, .ngoes_with = 3}, plain = {0};
-    assert_true(fracas_kind_partner(&picky, &section, 0) == &c); /* in the order of goes_with, not of the section */
+    assert_true(fracas_kind_partner(&picky, &section, 0) ==
+                &c); /* in the order of goes_with, not of the section */
     assert_true(fracas_kind_partner(&picky, &section, 1) == &a);
     assert_null(fracas_kind_partner(&picky, &section, 2));
     assert_true(fracas_kind_partner(&picky, &elsewhere, 0) == &other);
@@ -156,7 +170,8 @@ int main(void)
         cmocka_unit_test(an_error_carries_its_message_up),
         cmocka_unit_test(hashes_are_xxh3),
         cmocka_unit_test(json_is_well_formed),
-        cmocka_unit_test(parameters_reach_their_place), cmocka_unit_test(names_and_files_reach_their_place),
+        cmocka_unit_test(parameters_reach_their_place),
+        cmocka_unit_test(names_and_files_reach_their_place),
         cmocka_unit_test(kinds_know_their_partners),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

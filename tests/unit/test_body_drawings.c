@@ -1,11 +1,13 @@
-/* Drawings of surfaces in space, read again: what is painted last where, lengths of lines, areas, bytes. Spheres and octants of 1 m,
- * broken along the borders of Voronoi cells. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Drawings of surfaces in space, read again: what is painted last where, lengths of lines, areas,
+ * bytes. Spheres and octants of 1 m, broken along the borders of Voronoi cells. */
 #include "tests/support/body.h"
 
 #include "analysis/report/picture/frame.h"
 #include "analysis/report/picture/tint.h"
 
-static char *draw(const body *b, const fracas_view *view, double explode, double thickness, fracas_surface_show show)
+static char *draw(const body *b, const fracas_view *view, double explode, double thickness,
+                  fracas_surface_show show)
 {
     char *text;
     size_t size;
@@ -48,7 +50,7 @@ typedef struct {
 
 typedef struct {
     size_t npaths, count;
-    uint8_t tint[512];  /* of each path */
+    uint8_t tint[512]; /* of each path */
     stroke stroke[200000];
 } painting;
 
@@ -57,9 +59,11 @@ static painting *read_areas(const char *svg)
 {
     painting *all = calloc(1, sizeof *all);
     assert_non_null(all);
-    for (const char *found = strstr(svg, "<path class=\""); found; found = strstr(found + 1, "<path class=\"")) {
+    for (const char *found = strstr(svg, "<path class=\""); found;
+         found = strstr(found + 1, "<path class=\"")) {
         const char *class = found + strlen("<path class=\"");
-        const bool dust = !strncmp(class, "dust-fill", 9), tinted = class[0] == 't' && class[2] == '"';
+        const bool dust = !strncmp(class, "dust-fill", 9),
+                   tinted = class[0] == 't' && class[2] == '"';
         if (!dust && !tinted) continue;
         assert_true(all->npaths < 512);
         all->tint[all->npaths] = dust ? FRACAS_TINT_DUST : (uint8_t)(class[1] - '0');
@@ -86,16 +90,22 @@ static painting *read_areas(const char *svg)
     return all;
 }
 
-/* The tint of the last area around a point by the even-odd rule, 99 where there is none, 100 within 2 units of a line: rounding moves lines
- * by 0.71. */
+/* The tint of the last area around a point by the even-odd rule, 99 where there is none, 100 within
+ * 2 units of a line: rounding moves lines by 0.71. */
 static uint8_t tint_at(const painting *all, const double point[2])
 {
     bool inside[512] = {false};
     for (size_t s = 0; s < all->count; s++) {
-        const double *a = all->stroke[s].from, *b = all->stroke[s].to, square = pow(b[0] - a[0], 2) + pow(b[1] - a[1], 2);
-        double share = square > 0 ? ((point[0] - a[0]) * (b[0] - a[0]) + (point[1] - a[1]) * (b[1] - a[1])) / square : 0;
+        const double *a = all->stroke[s].from, *b = all->stroke[s].to,
+                     square = pow(b[0] - a[0], 2) + pow(b[1] - a[1], 2);
+        double share =
+            square > 0
+                ? ((point[0] - a[0]) * (b[0] - a[0]) + (point[1] - a[1]) * (b[1] - a[1])) / square
+                : 0;
         share = fmin(fmax(share, 0), 1);
-        if (hypot(a[0] + share * (b[0] - a[0]) - point[0], a[1] + share * (b[1] - a[1]) - point[1]) < 2) return 100;
+        if (hypot(a[0] + share * (b[0] - a[0]) - point[0],
+                  a[1] + share * (b[1] - a[1]) - point[1]) < 2)
+            return 100;
         if ((a[1] > point[1]) == (b[1] > point[1])) continue;
         if (a[0] + (point[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]) > point[0])
             inside[all->stroke[s].path] = !inside[all->stroke[s].path];
@@ -118,7 +128,8 @@ static uint8_t nearest_tint(const fracas_facets *facets, const uint8_t *tint, co
     return found;
 }
 
-/* The drawing itself, read again: at every point the fragment that is nearest there was painted last. */
+/* The drawing itself, read again: at every point the fragment that is nearest there was painted
+ * last. */
 static void drawings_show_the_nearest(void **state)
 {
     (void)state;
@@ -126,7 +137,10 @@ static void drawings_show_the_nearest(void **state)
         bool octant;
         fracas_view view;
         double explode, thickness;
-    } looks[] = {{false, {45, 35}, 0.15, 0.01}, {false, {200, -50}, 1, 0.1}, {true, {100, -10}, 0, 0.02}, {true, {-30, 10}, 0.15, 0.05}};
+    } looks[] = {{false, {45, 35}, 0.15, 0.01},
+                 {false, {200, -50}, 1, 0.1},
+                 {true, {100, -10}, 0, 0.02},
+                 {true, {-30, 10}, 0.15, 0.05}};
     for (size_t l = 0; l < sizeof looks / sizeof *looks; l++) {
         body b;
         uint8_t *tint;
@@ -134,15 +148,19 @@ static void drawings_show_the_nearest(void **state)
         size_t seen = 0;
         fracas_frame frame;
         make_body(looks[l].octant, looks[l].octant ? 16 : 8, 1, 25, false, &b);
-        fracas_facets facets = look(&b, looks[l].view.azimuth, looks[l].view.elevation, looks[l].explode, looks[l].thickness);
+        fracas_facets facets = look(&b, looks[l].view.azimuth, looks[l].view.elevation,
+                                    looks[l].explode, looks[l].thickness);
         OK(fracas_tint_fragments(&b.mesh, &b.now, &tint));
-        char *svg = draw(&b, &looks[l].view, looks[l].explode, looks[l].thickness, FRACAS_SHOW_FRAGMENTS);
+        char *svg = draw(&b, &looks[l].view, looks[l].explode, looks[l].thickness,
+                         FRACAS_SHOW_FRAGMENTS);
         painting *all = read_areas(svg);
         fracas_frame_fit(facets.least, facets.largest, 800, &frame);
         for (int p = 0; p < 1500; p++) {
-            const double pixel[2] = {800 * (double)(sample_bits(&x) >> 11) * 0x1p-53, frame.height * (double)(sample_bits(&x) >> 11) * 0x1p-53};
+            const double pixel[2] = {800 * (double)(sample_bits(&x) >> 11) * 0x1p-53,
+                                     frame.height * (double)(sample_bits(&x) >> 11) * 0x1p-53};
             const double unit[2] = {10 * pixel[0], 10 * pixel[1]};
-            const double point[2] = {frame.corner[0] + (pixel[0] - frame.left) / frame.scale, frame.corner[1] - (pixel[1] - 8) / frame.scale};
+            const double point[2] = {frame.corner[0] + (pixel[0] - frame.left) / frame.scale,
+                                     frame.corner[1] - (pixel[1] - 8) / frame.scale};
             const uint8_t painted = tint_at(all, unit);
             if (painted == 100) continue;
             assert_int_equal(painted, nearest_tint(&facets, tint, point));
@@ -157,8 +175,8 @@ static void drawings_show_the_nearest(void **state)
     }
 }
 
-/* Edges along which a sphere is cracked and whose two elements face (1, 1, 1): how many, and how long in the plane across, in m. On the
- * silhouette they are outlines. */
+/* Edges along which a sphere is cracked and whose two elements face (1, 1, 1): how many, and how
+ * long in the plane across, in m. On the silhouette they are outlines. */
 static size_t cracks_of(const body *b, fracas_interface_state state, double *length)
 {
     const double r = sqrt(1.0 / 3);
@@ -166,16 +184,21 @@ static size_t cracks_of(const body *b, fracas_interface_state state, double *len
     *length = 0;
     for (size_t i = 0; i < b->mesh.ninterfaces; i++) {
         const fracas_stored_interface *interface = &b->mesh.interface[i];
-        const double *p = b->mesh.node[interface->node[0]].position, *q = b->mesh.node[interface->node[1]].position;
+        const double *p = b->mesh.node[interface->node[0]].position,
+                     *q = b->mesh.node[interface->node[1]].position;
         bool both = b->now.interface[i] == state;
-        for (int side = 0; side < 2; side++) { /* an element of the sphere faces where its corners are */
+        for (int side = 0; side < 2;
+             side++) { /* an element of the sphere faces where its corners are */
             double toward = 0;
             for (int k = 0; k < 3; k++)
-                for (int c = 0; c < 3; c++) toward += b->mesh.node[b->mesh.element[interface->element[side]].node[k]].position[c];
+                for (int c = 0; c < 3; c++)
+                    toward +=
+                        b->mesh.node[b->mesh.element[interface->element[side]].node[k]].position[c];
             both = both && toward > 0;
         }
         double square = 0, along = 0;
-        for (int c = 0; c < 3; c++) square += (q[c] - p[c]) * (q[c] - p[c]), along += r * (q[c] - p[c]);
+        for (int c = 0; c < 3; c++)
+            square += (q[c] - p[c]) * (q[c] - p[c]), along += r * (q[c] - p[c]);
         if (both) *length += sqrt(square - along * along), count++;
     }
     return count;
@@ -188,7 +211,9 @@ static void cracks_have_their_length(void **state)
     static const struct {
         fracas_interface_state state;
         const char *class;
-    } kinds[] = {{FRACAS_INTERFACE_BROKEN, "broken"}, {FRACAS_INTERFACE_CRACKED, "cracked"}, {FRACAS_INTERFACE_CLOSED, "mesh"}};
+    } kinds[] = {{FRACAS_INTERFACE_BROKEN, "broken"},
+                 {FRACAS_INTERFACE_CRACKED, "cracked"},
+                 {FRACAS_INTERFACE_CLOSED, "mesh"}};
     body b;
     make_body(false, 8, 1, 30, true, &b);
     double least = INFINITY, largest = -INFINITY, exact, drawn[3];
@@ -210,7 +235,8 @@ static void cracks_have_their_length(void **state)
     assert_non_null(strstr(svg, "text-anchor=\"middle\">z</text>"));
     free(svg);
     svg = draw(&b, NULL, 0, 0, FRACAS_SHOW_CRACKS);
-    assert_true(length_of(svg, "broken", &edges) == drawn[0] && length_of(svg, "cracked", &edges) == drawn[1]);
+    assert_true(length_of(svg, "broken", &edges) == drawn[0] &&
+                length_of(svg, "cracked", &edges) == drawn[1]);
     assert_null(strstr(svg, "class=\"t0\""));
     assert_null(strstr(svg, "class=\"mesh\""));
     assert_non_null(strstr(svg, "class=\"body\""));
@@ -221,11 +247,13 @@ static void cracks_have_their_length(void **state)
     clear_body(&b);
 }
 
-/* Area inside the loops of all paths with these classes, in square units; a parabola has 2/3 of its triangle beside its chord. */
+/* Area inside the loops of all paths with these classes, in square units; a parabola has 2/3 of its
+ * triangle beside its chord. */
 static double filled(const char *svg, const char *classes)
 {
     double sum = 0;
-    for (const char *found = strstr(svg, "<path class=\""); found; found = strstr(found + 1, "<path class=\"")) {
+    for (const char *found = strstr(svg, "<path class=\""); found;
+         found = strstr(found + 1, "<path class=\"")) {
         if (!strchr(classes, found[13]) || found[14] < '0' || found[14] > '9') continue;
         double x = 0, y = 0, first[2] = {0, 0}, control[2], area = 0;
         char command = 0;
@@ -254,9 +282,10 @@ static double filled(const char *svg, const char *classes)
     return sum;
 }
 
-/* A coarse octant of quadratic triangles, from before and from behind: its parabolas make the area that its arcs have, 3 pi/4/sqrt(3),
- * to 0.01 %: of a parabola through the ends and the middle of an arc of h = pi/2/6, whose height above the chord is wrong by
- * h^2/16 of that, h^2/12 of the area: h^4/192. Rounding: 0.71 units along an outline of some 3 widths. */
+/* A coarse octant of quadratic triangles, from before and from behind: its parabolas make the area
+ * that its arcs have, 3 pi/4/sqrt(3), to 0.01 %: of a parabola through the ends and the middle of
+ * an arc of h = pi/2/6, whose height above the chord is wrong by h^2/16 of that, h^2/12 of the
+ * area: h^4/192. Rounding: 0.71 units along an outline of some 3 widths. */
 static void curved_edges_are_curved(void **state)
 {
     (void)state;
@@ -265,7 +294,8 @@ static void curved_edges_are_curved(void **state)
     make_body(true, 6, 2, 4, false, &b);
     for (int v = 0; v < 2; v++) {
         char *svg = draw(&b, &views[v], 0, 0, FRACAS_SHOW_FRAGMENTS);
-        const double scale = 7840 / sqrt(2), exact = 3 * M_PI / 4 / sqrt(3) * scale * scale; /* from x = 1 to y = 1 */
+        const double scale = 7840 / sqrt(2),
+                     exact = 3 * M_PI / 4 / sqrt(3) * scale * scale; /* from x = 1 to y = 1 */
         assert_true(fabs(filled(svg, "t") / exact - 1) < 1e-4 + 0.71 * 3 * 7840 / exact);
         free(svg);
     }
@@ -279,23 +309,26 @@ static size_t count_of(const char *svg, const char *part)
     return count;
 }
 
-/* From behind, each of the three planes in which an octant is cut has a shade of its own, at once. */
+/* From behind, each of the three planes in which an octant is cut has a shade of its own, at once.
+ */
 static void cuts_are_shaded(void **state)
 {
     (void)state;
     static const fracas_view behind = {225, -35.264389682754654};
     body b;
     make_body(true, 10, 1, 0, false, &b);
-    char *thin = draw(&b, &behind, 0, 0, FRACAS_SHOW_FRAGMENTS), *thick = draw(&b, &behind, 0, 0.02, FRACAS_SHOW_FRAGMENTS);
+    char *thin = draw(&b, &behind, 0, 0, FRACAS_SHOW_FRAGMENTS),
+         *thick = draw(&b, &behind, 0, 0.02, FRACAS_SHOW_FRAGMENTS);
     assert_true(count_of(thick, " fill-opacity=\"0.") >= count_of(thin, " fill-opacity=\"0.") + 3);
     free(thin);
     free(thick);
     clear_body(&b);
 }
 
-/* A plate that lies flat, seen from above by a view of its own, has its fragments where the flat picture has them; from below it
- * shows its other side, upside down. The lamp is 0.8 of its length toward the reader: the share 0.45 + 0.55 0.8 = 0.89 of the light comes
- * back from above, which is 6 shades of 0.98 (0.886), and 0.6 of that from the inner side, 31 shades (0.535). */
+/* A plate that lies flat, seen from above by a view of its own, has its fragments where the flat
+ * picture has them; from below it shows its other side, upside down. The lamp is 0.8 of its length
+ * toward the reader: the share 0.45 + 0.55 0.8 = 0.89 of the light comes back from above, which is
+ * 6 shades of 0.98 (0.886), and 0.6 of that from the inner side, 31 shades (0.535). */
 static void flat_surfaces_can_be_looked_at_too(void **state)
 {
     (void)state;
@@ -306,7 +339,8 @@ static void flat_surfaces_can_be_looked_at_too(void **state)
     grid_make(&plate, &b.mesh);
     grid_record(&b.mesh, 10, &b.record);
     for (size_t j = 0; j < 4; j++)
-        assert_true(grid_crack(&b.mesh, &b.record, grid_vertex(&plate, 2, j), grid_vertex(&plate, 2, j + 1), 1, 2));
+        assert_true(grid_crack(&b.mesh, &b.record, grid_vertex(&plate, 2, j),
+                               grid_vertex(&plate, 2, j + 1), 1, 2));
     OK(fracas_surface_state_create(&b.mesh, &b.record, 5, &b.now));
     char *flat = draw(&b, NULL, 0, 0, FRACAS_SHOW_FRAGMENTS);
     const double length = length_of(flat, "broken", &flat_edges);
@@ -323,7 +357,8 @@ static void flat_surfaces_can_be_looked_at_too(void **state)
     clear_body(&b);
 }
 
-/* 20 000 elements: in cells, broken at random, and all of them apart, with the thickness of the sphere that was broken first. */
+/* 20 000 elements: in cells, broken at random, and all of them apart, with the thickness of the
+ * sphere that was broken first. */
 static void pictures_of_bodies_stay_small(void **state)
 {
     (void)state;

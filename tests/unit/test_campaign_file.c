@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Good campaign files: values, sweeps, hashes, columns, the resolved file, extensions. */
 #include "tests/support/campaign_text.h"
 
@@ -31,7 +32,9 @@ static void test_example(void **state)
     (void)state;
     static const double rate[] = {1e3, 1e4, 1e5, 1e6};
     fracas_campaign *campaign;
-    assert_int_equal(fracas_campaign_read(FRACAS_SOURCE_DIR "/campaigns/examples/bar-rate-sweep.yaml", &campaign), 0);
+    assert_int_equal(fracas_campaign_read(
+                         FRACAS_SOURCE_DIR "/campaigns/examples/bar-rate-sweep.yaml", &campaign),
+                     0);
     assert_string_equal(campaign->name, "bar-rate-sweep");
     assert_int_equal(campaign->npoints, 4);
     for (size_t p = 0; p < 4; p++) {
@@ -57,11 +60,13 @@ static void test_plain(void **state)
     assert_false(campaign->output.interfaces);
     assert_int_equal(campaign->point[0].replicas, 3);
     assert_int_equal(spec->mesh.elements, 100);
-    assert_true(spec->geometry.length == 0.05 && spec->geometry.area == 1e-6); /* the second by default */
+    assert_true(spec->geometry.length == 0.05 &&
+                spec->geometry.area == 1e-6); /* the second by default */
     assert_true(spec->cohesive.fracture_energy == 100 && spec->cohesive.beta == 4);
     assert_true(spec->time.end == 500e-9 && spec->time.quiet == 1e-7 && spec->time.safety == 0.25);
     assert_string_equal(spec->loading.type->name, "imposed-rate");
-    assert_true(campaign->point[0].strength.minimum == 299e6 && campaign->point[0].strength.maximum == 301e6);
+    assert_true(campaign->point[0].strength.minimum == 299e6 &&
+                campaign->point[0].strength.maximum == 301e6);
     fracas_campaign_destroy(campaign);
 }
 
@@ -76,8 +81,10 @@ static char *read_whole(const char *path)
     return text;
 }
 
-/* The hashes were computed by xxhsum, not by this program, as docs/formats/campaign-file.md says. */
-/* Editors on Windows begin a file with a byte order mark and end lines with CR LF: the same campaign. */
+/* The hashes were computed by xxhsum, not by this program, as docs/formats/campaign-file.md says.
+ */
+/* Editors on Windows begin a file with a byte order mark and end lines with CR LF: the same
+ * campaign. */
 static void test_windows(void **state)
 {
     (void)state;
@@ -101,8 +108,10 @@ static void test_golden_hash(void **state)
     static const char text[] =
         "cohesive.beta=4\ncohesive.fracture_energy=100\ncohesive.law=nitsche\ngeometry.area=1e-06\n"
         "geometry.ends=periodic\n"
-        "geometry.length=0.05\ngeometry.shape=bar\nloading.rate=10000\nloading.type=imposed-rate\nmaterial.density=2750\n"
-        "material.young=275000000000\nmesh.elements=100\nmesh.spacing=uniform\nmodel=bar\nstrength.distribution=uniform\n"
+        "geometry.length=0.05\ngeometry.shape=bar\nloading.rate=10000\nloading.type=imposed-"
+        "rate\nmaterial.density=2750\n"
+        "material.young=275000000000\nmesh.elements=100\nmesh.spacing=uniform\nmodel=bar\nstrength."
+        "distribution=uniform\n"
         "strength.maximum=301000000\nstrength.minimum=299000000\ntime.end=5e-07\ntime.quiet=1e-07\n"
         "time.quiet_fraction=0.001\ntime.safety=0.25\ntime.stop=settled\n";
     fracas_campaign *campaign = read_text(plain_campaign);
@@ -132,7 +141,8 @@ static void test_hashes(void **state)
         {"length: 50 mm", "length: 50 mm\n  shape: bar", true, true},
         {"  ends: periodic\n", "", true, true},
         {"elements: 100", "elements: 100\n  spacing: uniform", true, true},
-        {"young: 275 GPa\n  density: 2750 kg/m3", "density: 2.75 g/cm3\n  young: 2.75e11", true, true},
+        {"young: 275 GPa\n  density: 2750 kg/m3", "density: 2.75 g/cm3\n  young: 2.75e11", true,
+         true},
         {"elements: 100", "elements: 1e2", true, true},
         {"seed: 7", "seed: 8", true, false},
         {"replicas: 3", "replicas: 4", true, false},
@@ -144,7 +154,8 @@ static void test_hashes(void **state)
         {"ends: periodic", "ends: held", false, false},
         {"law: nitsche", "law: nitsche\n  beta: 5", false, false},
         {"elements: 100", "elements: 100\n  spacing: graded\n  ratio: 1", false, false},
-        {"stop: settled\n  end: 500 ns\n  quiet: 100 ns", "stop: time\n  end: 500 ns", false, false},
+        {"stop: settled\n  end: 500 ns\n  quiet: 100 ns", "stop: time\n  end: 500 ns", false,
+         false},
     };
     fracas_campaign *plain = read_text(plain_campaign);
     for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
@@ -177,34 +188,43 @@ static void test_product(void **state)
 static void test_ranges(void **state)
 {
     (void)state;
-    fracas_campaign *campaign = read_replaced("", "sweep:\n  - loading.rate: {from: 0.1 1/s, to: 0.5, points: 5}\n");
+    fracas_campaign *campaign = read_replaced(
+        "", "sweep:\n  - loading.rate: {from: 0.1 1/s, to: 0.5, points: 5}\n");
     static const double lin[] = {0.1, 0.2, 0.3, 0.4, 0.5};
     for (size_t p = 0; p < 5; p++) assert_true(campaign->point[p].spec.loading.rate == lin[p]);
     fracas_campaign_destroy(campaign);
-    campaign = read_replaced("", "sweep:\n  - loading.rate: {from: 1e6, to: 1e3, points: 7, spacing: log}\n");
-    static const double log_down[] = {1e6, 316227.766016838, 1e5, 31622.7766016838, 1e4, 3162.27766016838, 1e3};
+    campaign = read_replaced(
+        "", "sweep:\n  - loading.rate: {from: 1e6, to: 1e3, points: 7, spacing: log}\n");
+    static const double log_down[] = {1e6, 316227.766016838, 1e5, 31622.7766016838,
+                                      1e4, 3162.27766016838, 1e3};
     for (size_t p = 0; p < 7; p++) assert_true(campaign->point[p].spec.loading.rate == log_down[p]);
     fracas_campaign_destroy(campaign);
-    campaign = read_replaced("", "sweep:\n  - mesh.elements: {from: 1000, to: 8000, points: 4, spacing: log}\n");
-    for (size_t p = 0; p < 4; p++) assert_int_equal(campaign->point[p].spec.mesh.elements, 1000 << p);
+    campaign = read_replaced(
+        "", "sweep:\n  - mesh.elements: {from: 1000, to: 8000, points: 4, spacing: log}\n");
+    for (size_t p = 0; p < 4; p++)
+        assert_int_equal(campaign->point[p].spec.mesh.elements, 1000 << p);
     fracas_campaign_destroy(campaign);
 }
 
 static void test_zip(void **state)
 {
     (void)state;
-    fracas_campaign *campaign = read_replaced(
-        "", "sweep:\n  - zip:\n      loading.rate: [1, 2, 3]\n      mesh.elements: {from: 10, to: 30, points: 3}\n"
-            "      strength: [{minimum: 1 MPa}, {distribution: constant, value: 5 MPa}, {maximum: 400 MPa}]\n");
+    fracas_campaign *campaign = read_replaced("",
+                                              "sweep:\n  - zip:\n      loading.rate: [1, 2, 3]\n   "
+                                              "   mesh.elements: {from: 10, to: 30, points: 3}\n"
+                                              "      strength: [{minimum: 1 MPa}, {distribution: "
+                                              "constant, value: 5 MPa}, {maximum: 400 MPa}]\n");
     assert_int_equal(campaign->npoints, 3);
     for (size_t p = 0; p < 3; p++) {
         assert_true(campaign->point[p].spec.loading.rate == (double)(p + 1));
         assert_int_equal(campaign->point[p].spec.mesh.elements, 10 * (p + 1));
     }
-    assert_true(campaign->point[0].strength.minimum == 1e6 && campaign->point[0].strength.maximum == 301e6);
+    assert_true(campaign->point[0].strength.minimum == 1e6 &&
+                campaign->point[0].strength.maximum == 301e6);
     assert_string_equal(campaign->point[1].strength.distribution->name, "constant");
     assert_true(campaign->point[1].strength.value == 5e6);
-    assert_true(campaign->point[2].strength.minimum == 299e6 && campaign->point[2].strength.maximum == 400e6);
+    assert_true(campaign->point[2].strength.minimum == 299e6 &&
+                campaign->point[2].strength.maximum == 400e6);
     fracas_campaign_destroy(campaign);
 }
 
@@ -212,9 +232,11 @@ static void test_cases(void **state)
 {
     (void)state;
     fracas_campaign *campaign = read_replaced(
-        "", "sweep:\n  - cases:\n      - name: soft\n        material: {young: 1 GPa}\n        loading.rate: 5\n"
-            "      - {name: hard, replicas: 9, geometry: {ends: held}}\n      - mesh: {elements: 7}\n"
-            "  - cases: [{name: a}, {name: b, time: {safety: 0.1}}]\n");
+        "",
+        "sweep:\n  - cases:\n      - name: soft\n        material: {young: 1 GPa}\n        "
+        "loading.rate: 5\n"
+        "      - {name: hard, replicas: 9, geometry: {ends: held}}\n      - mesh: {elements: 7}\n"
+        "  - cases: [{name: a}, {name: b, time: {safety: 0.1}}]\n");
     static const char *const names[] = {"soft/a", "soft/b", "hard/a", "hard/b", "a", "b"};
     assert_int_equal(campaign->npoints, 6);
     for (size_t p = 0; p < 6; p++) {
@@ -222,7 +244,8 @@ static void test_cases(void **state)
         assert_string_equal(at(campaign, p, "case")->text, names[p]);
         assert_int_equal(campaign->point[p].replicas, p / 2 == 1 ? 9 : 3);
         assert_int_equal(campaign->table.point[p].replicas, campaign->point[p].replicas);
-        assert_true(spec->material.young == (p / 2 == 0 ? 1e9 : 275e9) && spec->loading.rate == (p / 2 == 0 ? 5 : 1e4));
+        assert_true(spec->material.young == (p / 2 == 0 ? 1e9 : 275e9) &&
+                    spec->loading.rate == (p / 2 == 0 ? 5 : 1e4));
         assert_string_equal(spec->geometry.ends->name, p / 2 == 1 ? "held" : "periodic");
         assert_int_equal(spec->mesh.elements, p / 2 == 2 ? 7 : 100);
         assert_true(spec->time.safety == (p % 2 ? 0.1 : 0.25));
@@ -230,7 +253,8 @@ static void test_cases(void **state)
     fracas_campaign_destroy(campaign);
 }
 
-/* A swept kind drops the base's keys of the old kind, even one of the same name (`minimum`), and keeps common ones. */
+/* A swept kind drops the base's keys of the old kind, even one of the same name (`minimum`), and
+ * keeps common ones. */
 static void test_changed_kind(void **state)
 {
     (void)state;
@@ -240,7 +264,8 @@ static void test_changed_kind(void **state)
     assert_int_equal(campaign->npoints, 4);
     for (size_t p = 0; p < 4; p++) {
         assert_true(real(campaign, p, "strength.minimum") == (p < 2 ? 299e6 : 0));
-        const double shape = real(campaign, p, "strength.shape"), maximum = real(campaign, p, "strength.maximum");
+        const double shape = real(campaign, p, "strength.shape"),
+                     maximum = real(campaign, p, "strength.maximum");
         const double beta = real(campaign, p, "cohesive.beta");
         assert_true(p < 2 ? isnan(shape) && maximum == 301e6 : shape == 10 && isnan(maximum));
         assert_true(p % 2 == 0 ? beta == 4 : isnan(beta));
@@ -249,13 +274,17 @@ static void test_changed_kind(void **state)
     fracas_campaign_destroy(campaign);
 }
 
-/* A key that all kinds have stays when the kind is swept, though each has a range of its own for it. */
+/* A key that all kinds have stays when the kind is swept, though each has a range of its own for
+ * it. */
 static void test_key_of_all_kinds(void **state)
 {
     (void)state;
-    fracas_campaign *campaign = read_replaced("", "sweep:\n  - cohesive.law: [nitsche, rigid-link]\n");
-    for (size_t p = 0; p < 2; p++) assert_true(real(campaign, p, "cohesive.fracture_energy") == 100);
-    assert_true(real(campaign, 0, "cohesive.beta") == 4 && isnan(real(campaign, 1, "cohesive.beta")));
+    fracas_campaign *campaign = read_replaced("",
+                                              "sweep:\n  - cohesive.law: [nitsche, rigid-link]\n");
+    for (size_t p = 0; p < 2; p++)
+        assert_true(real(campaign, p, "cohesive.fracture_energy") == 100);
+    assert_true(real(campaign, 0, "cohesive.beta") == 4 &&
+                isnan(real(campaign, 1, "cohesive.beta")));
     fracas_campaign_destroy(campaign);
 }
 
@@ -263,12 +292,14 @@ static void test_key_of_all_kinds(void **state)
 static void test_choices(void **state)
 {
     (void)state;
-    fracas_campaign *campaign = read_replaced("", "sweep:\n  - geometry.ends: [held, periodic]\n"
-                                                  "  - geometry: [{}, {shape: bar, length: 1 m}]\n");
+    fracas_campaign *campaign = read_replaced("",
+                                              "sweep:\n  - geometry.ends: [held, periodic]\n"
+                                              "  - geometry: [{}, {shape: bar, length: 1 m}]\n");
     assert_int_equal(campaign->npoints, 4);
     for (size_t p = 0; p < 4; p++) {
         assert_string_equal(at(campaign, p, "geometry.ends")->text, p < 2 ? "held" : "periodic");
-        assert_string_equal(campaign->point[p].spec.geometry.ends->name, p < 2 ? "held" : "periodic");
+        assert_string_equal(campaign->point[p].spec.geometry.ends->name,
+                            p < 2 ? "held" : "periodic");
         assert_true(isnan(real(campaign, p, "geometry.ends")));
         assert_true(campaign->point[p].spec.geometry.length == (p % 2 ? 1 : 0.05));
     }
@@ -284,12 +315,15 @@ static void test_choices(void **state)
 static void test_supplied_by_sweep(void **state)
 {
     (void)state;
-    static const char strength[] = "strength:\n  distribution: uniform\n  minimum: 299 MPa\n  maximum: 301 MPa\n";
+    static const char strength[] =
+        "strength:\n  distribution: uniform\n  minimum: 299 MPa\n  maximum: 301 MPa\n";
     char *text = replace(plain_campaign, strength, "");
     char *bare = replace(text, "loading:\n  rate: 1e4 1/s\n", "");
     char *swept = replace(bare, "replicas: 3\n", "");
-    char *full = replace(swept, "", "sweep:\n  - loading.rate: [1e3, 1e4]\n"
-                                    "  - cases: [{replicas: 1, strength: {distribution: constant, value: 3 MPa}}]\n");
+    char *full = replace(
+        swept, "",
+        "sweep:\n  - loading.rate: [1e3, 1e4]\n"
+        "  - cases: [{replicas: 1, strength: {distribution: constant, value: 3 MPa}}]\n");
     fracas_campaign *campaign = read_text(full);
     assert_int_equal(campaign->npoints, 2);
     assert_int_equal(campaign->point[1].replicas, 1);
@@ -306,14 +340,35 @@ static void test_supplied_by_sweep(void **state)
 static void test_table(void **state)
 {
     (void)state;
-    static const char sweep[] = "sweep:\n  - strength: [{}, {distribution: constant, value: 5 MPa}]\n";
+    static const char sweep[] =
+        "sweep:\n  - strength: [{}, {distribution: constant, value: 5 MPa}]\n";
     fracas_campaign *campaign = read_replaced("", sweep);
     const fracas_point_table *table = &campaign->table;
-    static const char *const paths[] = {
-        "cohesive.beta", "cohesive.fracture_energy", "cohesive.law", "derived.strain_rate", "derived.strength_mean", "geometry.area",
-        "geometry.ends", "geometry.length", "geometry.shape", "loading.rate", "loading.type", "material.density",
-        "material.young", "mesh.elements", "mesh.spacing", "model", "strength.distribution", "strength.maximum", "strength.minimum", "strength.value",
-        "time.end", "time.quiet", "time.quiet_fraction", "time.safety", "time.stop"};
+    static const char *const paths[] = {"cohesive.beta",
+                                        "cohesive.fracture_energy",
+                                        "cohesive.law",
+                                        "derived.strain_rate",
+                                        "derived.strength_mean",
+                                        "geometry.area",
+                                        "geometry.ends",
+                                        "geometry.length",
+                                        "geometry.shape",
+                                        "loading.rate",
+                                        "loading.type",
+                                        "material.density",
+                                        "material.young",
+                                        "mesh.elements",
+                                        "mesh.spacing",
+                                        "model",
+                                        "strength.distribution",
+                                        "strength.maximum",
+                                        "strength.minimum",
+                                        "strength.value",
+                                        "time.end",
+                                        "time.quiet",
+                                        "time.quiet_fraction",
+                                        "time.safety",
+                                        "time.stop"};
     assert_int_equal(table->ncolumns, FRACAS_COUNT(paths));
     for (size_t c = 0; c < FRACAS_COUNT(paths); c++) {
         assert_string_equal(table->column[c].path, paths[c]);
@@ -329,10 +384,12 @@ static void test_table(void **state)
     assert_true(real(campaign, 0, "derived.strain_rate") == real(campaign, 0, "loading.rate"));
     assert_true(real(campaign, 0, "derived.strength_mean") == 300e6);
     assert_true(real(campaign, 1, "derived.strength_mean") == 5e6);
-    assert_true(isnan(real(campaign, 0, "strength.value")) && real(campaign, 1, "strength.value") == 5e6);
+    assert_true(isnan(real(campaign, 0, "strength.value")) &&
+                real(campaign, 1, "strength.value") == 5e6);
     assert_string_equal(at(campaign, 1, "strength.distribution")->text, "constant");
     assert_string_equal(table->column[fracas_point_table_find(table, "material.young")].unit, "Pa");
-    for (size_t p = 0; p < 2; p++) assert_true(fracas_hash_equal(&table->point[p].hash, &campaign->point[p].hash));
+    for (size_t p = 0; p < 2; p++)
+        assert_true(fracas_hash_equal(&table->point[p].hash, &campaign->point[p].hash));
     fracas_campaign_destroy(campaign);
 }
 
@@ -341,7 +398,10 @@ static void test_strain_rate(void **state)
 {
     (void)state;
     fracas_spec spec = {.geometry.radius = 0.0078125,
-                        .loading = {.type = &fracas_loading_imposed_rate, .rate = 3e3, .radial = 128, .velocity = 64,
+                        .loading = {.type = &fracas_loading_imposed_rate,
+                                    .rate = 3e3,
+                                    .radial = 128,
+                                    .velocity = 64,
                                     .direction = &fracas_axis_radial}};
     assert_true(fracas_spec_strain_rate(&spec) == 3e3);
     spec.loading.type = &fracas_loading_initial_velocity;
@@ -350,15 +410,18 @@ static void test_strain_rate(void **state)
     assert_true(fracas_spec_strain_rate(&spec) == 8192);
     spec.loading.direction = &fracas_axis_circumferential;
     assert_true(isnan(fracas_spec_strain_rate(&spec)));
-    spec.loading = (fracas_loading){.type = &fracas_loading_force, .direction = &fracas_axis_radial, .force = 5};
+    spec.loading = (fracas_loading){
+        .type = &fracas_loading_force, .direction = &fracas_axis_radial, .force = 5};
     assert_true(isnan(fracas_spec_strain_rate(&spec)));
 }
 
-/* Kinds of one section that have a key in common must give it one type, unit and list of choices: they share a leaf and a
- * column. */
-static void check_same_key(const fracas_section *section, const fracas_param *a, const fracas_param *b)
+/* Kinds of one section that have a key in common must give it one type, unit and list of choices:
+ * they share a leaf and a column. */
+static void check_same_key(const fracas_section *section, const fracas_param *a,
+                           const fracas_param *b)
 {
-    if (strcmp(a->name, b->name) == 0 && (a->type != b->type || strcmp(a->unit, b->unit) != 0 || a->choices != b->choices))
+    if (strcmp(a->name, b->name) == 0 &&
+        (a->type != b->type || strcmp(a->unit, b->unit) != 0 || a->choices != b->choices))
         fail_msg("%s.%s has two types or units, or choices", section->name, a->name);
 }
 
@@ -383,11 +446,13 @@ static void test_tables_agree(void **state)
     check_section(&fracas_strength_section);
 }
 
-/* The file and the sweep that docs/formats/campaign-file.md shows, first and last of three (test_campaign_membranes has the other). */
+/* The file and the sweep that docs/formats/campaign-file.md shows, first and last of three
+ * (test_campaign_membranes has the other). */
 static void test_page_examples(void **state)
 {
     (void)state;
-    char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md"), *block[4], *end = page;
+    char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md"), *block[4],
+         *end = page;
     for (int b = 0; b < 4; b++) {
         block[b] = strstr(end, "```yaml\n") + strlen("```yaml\n");
         end = strstr(block[b], "```");
@@ -414,20 +479,27 @@ static void test_round_trip(void **state)
     static const char *const sweeps[] = {
         "",
         "sweep:\n  - cases: [{name: alone, replicas: 5}]\n",
-        "sweep:\n  - loading.rate: {from: 1e3, to: 1e6, points: 4, spacing: log}\n  - mesh.elements: [10, 1e8]\n",
-        "sweep:\n  - cases:\n      - {name: a, replicas: 1000000000}\n      - {strength.minimum: 1 Pa, replicas: 1}\n",
-        ("sweep:\n  - strength: [{}, {distribution: weibull, scale: 3 MPa, shape: 10},"
-         " {distribution: constant, value: 1}]\n"
+        "sweep:\n  - loading.rate: {from: 1e3, to: 1e6, points: 4, spacing: log}\n  - "
+        "mesh.elements: [10, 1e8]\n",
+        "sweep:\n  - cases:\n      - {name: a, replicas: 1000000000}\n      - {strength.minimum: 1 "
+        "Pa, replicas: 1}\n",
+        ("sweep:\n  - strength: [{}, {distribution: weibull, scale: 3 MPa, shape: 10}, "
+         "{distribution: constant, value: 1}]\n"
          "  - cohesive.law: [nitsche, rigid-link]\n  - time: [{}, {stop: time}]\n"
          "  - geometry.ends: [periodic, held]\n"),
-        ("sweep:\n  - strength: [{}, {distribution: weibull, mean: 3 MPa, deviation: 1 MPa, reference_volume: 1 mm3},"
-         " {distribution: normal, kept_mean: 3 MPa, kept_deviation: 2 MPa}]\n"),
-        "sweep:\n  - geometry.ends: [periodic, held]\n  - mesh: [{}, {spacing: graded, ratio: 3}]\n",
-        "sweep:\n  - zip:\n      material.young: [0.1 GPa, 0.3 GPa]\n      time.stop: [settled, time]\n",
+        ("sweep:\n  - strength: [{}, {distribution: weibull, mean: 3 MPa, deviation: 1 MPa, "
+         "reference_volume: 1 mm3}, {distribution: normal, kept_mean: 3 MPa, kept_deviation: 2 "
+         "MPa}]\n"),
+        "sweep:\n  - geometry.ends: [periodic, held]\n  - mesh: [{}, {spacing: graded, ratio: "
+        "3}]\n",
+        "sweep:\n  - zip:\n      material.young: [0.1 GPa, 0.3 GPa]\n      time.stop: [settled, "
+        "time]\n",
         "random_numbers: common\nsweep:\n  - loading.rate: [1e3, 2e3]\n",
-        ("sweep:\n  - design: {type: latin-hypercube, points: 20, parameters: {mesh.elements: {distribution: lognormal, median: 1e4,"
-         " sigma: 1}, material.young: {distribution: normal, mean: 270 GPa, deviation: 10 GPa}}}\n  - strength.maximum: [301 MPa, 302 MPa]\n"
-         "  - design: {type: sobol, points: 3, parameters: {loading.rate: {distribution: log-uniform, minimum: 1e3, maximum: 1e5}}}\n"),
+        ("sweep:\n  - design: {type: latin-hypercube, points: 20, parameters: {mesh.elements: "
+         "{distribution: lognormal, median: 1e4, sigma: 1}, material.young: {distribution: normal, "
+         "mean: 270 GPa, deviation: 10 GPa}}}\n  - strength.maximum: [301 MPa, 302 MPa]\n"
+         "  - design: {type: sobol, points: 3, parameters: {loading.rate: {distribution: "
+         "log-uniform, minimum: 1e3, maximum: 1e5}}}\n"),
     };
     for (size_t i = 0; i < FRACAS_COUNT(sweeps); i++) {
         fracas_campaign *campaign = read_replaced("", sweeps[i]);
@@ -442,8 +514,10 @@ static void test_round_trip(void **state)
         for (size_t p = 0; p < campaign->npoints; p++) {
             assert_true(fracas_hash_equal(&campaign->point[p].hash, &back->point[p].hash));
             assert_int_equal(campaign->point[p].replicas, back->point[p].replicas);
-            assert_memory_equal(&campaign->point[p].spec, &back->point[p].spec, sizeof(fracas_spec));
-            assert_memory_equal(&campaign->point[p].strength, &back->point[p].strength, sizeof(fracas_strength));
+            assert_memory_equal(&campaign->point[p].spec, &back->point[p].spec,
+                                sizeof(fracas_spec));
+            assert_memory_equal(&campaign->point[p].strength, &back->point[p].strength,
+                                sizeof(fracas_strength));
         }
         assert_int_equal(fracas_campaign_extends(campaign, back), FRACAS_OK);
         fracas_campaign_destroy(campaign);
@@ -457,16 +531,20 @@ static void test_round_trip(void **state)
 static void test_largest_round_trip(void **state)
 {
     (void)state;
-    static const char *const paths[] = {
-        "geometry.length", "geometry.area", "mesh.elements", "material.young", "material.density",
-        "cohesive.fracture_energy", "cohesive.beta", "loading.rate", "time.end", "time.quiet"};
+    static const char *const paths[] = {"geometry.length",  "geometry.area",
+                                        "mesh.elements",    "material.young",
+                                        "material.density", "cohesive.fracture_energy",
+                                        "cohesive.beta",    "loading.rate",
+                                        "time.end",         "time.quiet"};
     char sweep[2000] = "sweep:\n  - zip:\n";
     for (size_t i = 0; i < FRACAS_COUNT(paths); i++) {
         size_t used = strlen(sweep);
-        snprintf(sweep + used, sizeof sweep - used, "      %s: {from: 17, to: 99000, points: 10000%s}\n", paths[i],
+        snprintf(sweep + used, sizeof sweep - used,
+                 "      %s: {from: 17, to: 99000, points: 10000%s}\n", paths[i],
                  i == 2 || i == 6 ? "" : ", spacing: log"); /* whole, or at most 1e4 */
     }
-    char *text = replace(sweep, "cohesive.beta: {from: 17, to: 99000", "cohesive.beta: {from: 17, to: 9900");
+    char *text = replace(sweep, "cohesive.beta: {from: 17, to: 99000",
+                         "cohesive.beta: {from: 17, to: 9900");
     fracas_campaign *campaign = read_replaced("", text);
     free(text);
     text = write_text(campaign);
@@ -505,15 +583,23 @@ static void test_extends(void **state)
         {"rate: [1e3, 1e4]", "rate: [1e4, 1e3]", {NULL}},
         {"replicas: 3", "replicas: 2", {"replicas is 3 in the study", "but 2", "only grow"}},
         {"seed: 7", "seed: 7\nrandom_numbers: independent", {NULL}},
-        {"seed: 7", "seed: 7\nrandom_numbers: common", {"random_numbers is independent in the study", "but common", "it must stay"}},
+        {"seed: 7",
+         "seed: 7\nrandom_numbers: common",
+         {"random_numbers is independent in the study", "but common", "it must stay"}},
         {"seed: 7", "seed: 8", {"seed is 7 in the study", "but 8"}},
         {"history: 10", "history: 20", {"output.history is 10 in the study", "but 20"}},
-        {"history: 10", "history: 10\n  interfaces: true", {"output.interfaces is false", "but true"}},
-        {"rate: [1e3, 1e4]", "rate: [1e3, 2e4]",
+        {"history: 10",
+         "history: 10\n  interfaces: true",
+         {"output.interfaces is false", "but true"}},
+        {"rate: [1e3, 1e4]",
+         "rate: [1e3, 2e4]",
          {"loading.rate is 10000 1/s in the study (its point 1)", "but 1000 1/s"}},
-        {"young: 275 GPa", "young: 276 GPa", {"material.young is 275000000000 Pa", "but 276000000000 Pa"}},
+        {"young: 275 GPa",
+         "young: 276 GPa",
+         {"material.young is 275000000000 Pa", "but 276000000000 Pa"}},
         {"ends: periodic", "ends: held", {"geometry.ends is periodic", "but held"}},
-        {"stop: settled\n  end: 500 ns\n  quiet: 100 ns", "stop: time\n  end: 500 ns",
+        {"stop: settled\n  end: 500 ns\n  quiet: 100 ns",
+         "stop: time\n  end: 500 ns",
          {"time.quiet is 1e-07 s", "but nothing"}},
     };
     char *text = replace(plain_campaign, "", "sweep:\n  - loading.rate: [1e3, 1e4]\n");
@@ -549,8 +635,9 @@ static void test_reference_page(void **state)
     if (keep) write_bytes(keep, text, size);
     char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file-keys.md");
     if (strcmp(page, text) != 0)
-        fail_msg("docs/formats/campaign-file-keys.md is not what the tables say; run this test with "
-                 "FRACAS_WRITE_REFERENCE=docs/formats/campaign-file-keys.md and commit the page");
+        fail_msg(
+            "docs/formats/campaign-file-keys.md is not what the tables say; run this test with "
+            "FRACAS_WRITE_REFERENCE=docs/formats/campaign-file-keys.md and commit the page");
     free(page);
     free(text);
 }
@@ -558,17 +645,28 @@ static void test_reference_page(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_example),      cmocka_unit_test(test_plain),
-        cmocka_unit_test(test_windows), cmocka_unit_test(test_golden_hash),  cmocka_unit_test(test_hashes),
-        cmocka_unit_test(test_product),      cmocka_unit_test(test_ranges),
-        cmocka_unit_test(test_zip),          cmocka_unit_test(test_cases),
-        cmocka_unit_test(test_changed_kind), cmocka_unit_test(test_supplied_by_sweep),
-        cmocka_unit_test(test_table),        cmocka_unit_test(test_tables_agree),
+        cmocka_unit_test(test_example),
+        cmocka_unit_test(test_plain),
+        cmocka_unit_test(test_windows),
+        cmocka_unit_test(test_golden_hash),
+        cmocka_unit_test(test_hashes),
+        cmocka_unit_test(test_product),
+        cmocka_unit_test(test_ranges),
+        cmocka_unit_test(test_zip),
+        cmocka_unit_test(test_cases),
+        cmocka_unit_test(test_changed_kind),
+        cmocka_unit_test(test_supplied_by_sweep),
+        cmocka_unit_test(test_table),
+        cmocka_unit_test(test_tables_agree),
         cmocka_unit_test(test_strain_rate),
-        cmocka_unit_test(test_round_trip),   cmocka_unit_test(test_write_fails),
-        cmocka_unit_test(test_extends),      cmocka_unit_test(test_reference_page),
-        cmocka_unit_test(test_choices),      cmocka_unit_test(test_key_of_all_kinds),
-        cmocka_unit_test(test_page_examples), cmocka_unit_test(test_largest_round_trip),
+        cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_write_fails),
+        cmocka_unit_test(test_extends),
+        cmocka_unit_test(test_reference_page),
+        cmocka_unit_test(test_choices),
+        cmocka_unit_test(test_key_of_all_kinds),
+        cmocka_unit_test(test_page_examples),
+        cmocka_unit_test(test_largest_round_trip),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

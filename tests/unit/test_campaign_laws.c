@@ -1,4 +1,6 @@
-/* Campaign files whose strengths are given by mean and deviation, or for a specimen of some size. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Campaign files whose strengths are given by mean and deviation, or for a specimen of some size.
+ */
 #include "tests/support/campaign_text.h"
 #include "tests/support/strengths.h"
 
@@ -25,24 +27,29 @@ static void test_what_is_given_counts(void **state)
 {
     (void)state;
     fracas_campaign *plain = read_text(plain_campaign);
-    fracas_campaign *moments = read_replaced(uniform, "  distribution: uniform\n  mean: 300 MPa\n  deviation: 0.5 MPa\n");
+    fracas_campaign *moments = read_replaced(
+        uniform, "  distribution: uniform\n  mean: 300 MPa\n  deviation: 0.5 MPa\n");
     assert_int_equal(column(plain, "strength.mean"), SIZE_MAX);
     assert_int_equal(column(plain, "strength.reference_volume"), SIZE_MAX);
     assert_int_equal(column(moments, "strength.minimum"), SIZE_MAX);
-    assert_true(real(moments, 0, "strength.mean") == 300e6 && real(moments, 0, "strength.deviation") == 0.5e6);
+    assert_true(real(moments, 0, "strength.mean") == 300e6 &&
+                real(moments, 0, "strength.deviation") == 0.5e6);
     assert_true(fabs(real(moments, 0, "derived.strength_mean") - 300e6) < 1e-6);
     assert_false(fracas_hash_equal(&plain->point[0].hash, &moments->point[0].hash));
     fracas_campaign_destroy(plain);
     fracas_campaign_destroy(moments);
 }
 
-/* Laws of one mean and deviation: each draws with its own, and a parameter of a sweep is put in the place of the section's. */
+/* Laws of one mean and deviation: each draws with its own, and a parameter of a sweep is put in the
+ * place of the section's. */
 static void test_sweeps_of_moments(void **state)
 {
     (void)state;
-    fracas_campaign *campaign = read_replaced("", "sweep:\n  - strength: [{distribution: weibull, mean: 300 MPa, deviation: 30 MPa},"
-                                 " {distribution: gamma, mean: 300 MPa, deviation: 30 MPa}, {distribution: lognormal, mean: 300 MPa,"
-                                 " deviation: 30 MPa}, {distribution: normal, kept_mean: 300 MPa, kept_deviation: 30 MPa}]\n");
+    fracas_campaign *campaign = read_replaced(
+        "", "sweep:\n  - strength: [{distribution: weibull, mean: 300 MPa, deviation: 30 MPa}, "
+            "{distribution: gamma, mean: 300 MPa, deviation: 30 MPa}, {distribution: lognormal, "
+            "mean: 300 MPa, deviation: 30 MPa}, {distribution: normal, kept_mean: 300 MPa, "
+            "kept_deviation: 30 MPa}]\n");
     for (size_t p = 0; p < campaign->npoints; p++) {
         const fracas_strength *strength = &campaign->point[p].strength;
         assert_true(fabs(real(campaign, p, "derived.strength_mean") - 300e6) < 1e-3);
@@ -50,39 +57,46 @@ static void test_sweeps_of_moments(void **state)
     }
     assert_int_equal(campaign->npoints, 4);
     fracas_campaign_destroy(campaign);
-    char *text = replace(plain_campaign, uniform, "  distribution: weibull\n  mean: 300 MPa\n  deviation: 30 MPa\n");
+    char *text = replace(plain_campaign, uniform,
+                         "  distribution: weibull\n  mean: 300 MPa\n  deviation: 30 MPa\n");
     char *whole = replace(text, "", "sweep:\n  - strength.deviation: [10 MPa, 20 MPa]\n");
     campaign = read_text(whole);
     free(text);
     free(whole);
     assert_int_equal(campaign->npoints, 2);
-    assert_true(campaign->point[0].strength.deviation == 10e6 && campaign->point[1].strength.deviation == 20e6);
+    assert_true(campaign->point[0].strength.deviation == 10e6 &&
+                campaign->point[1].strength.deviation == 20e6);
     fracas_campaign_destroy(campaign);
 }
 
-/* The field that a run draws from: interfaces of 0.05 m x 1 mm2 / 100 have the strengths of a specimen of 1 mm3 times (1/0.5)^(1/m).
- * 1e-13: two powers. */
+/* The field that a run draws from: interfaces of 0.05 m x 1 mm2 / 100 have the strengths of a
+ * specimen of 1 mm3 times (1/0.5)^(1/m). 1e-13: two powers. */
 static void test_field_has_the_size_effect(void **state)
 {
     (void)state;
-    static const char sweep[] = "sweep:\n  - strength: [{distribution: weibull, scale: 300 MPa, shape: 8},"
-                                " {distribution: weibull, scale: 300 MPa, shape: 8, reference_volume: 1 mm3}]\n";
+    static const char sweep[] =
+        "sweep:\n  - strength: [{distribution: weibull, scale: 300 MPa, shape: 8}, {distribution: "
+        "weibull, scale: 300 MPa, shape: 8, reference_volume: 1 mm3}]\n";
     fracas_campaign *campaign = read_replaced("", sweep);
     const double expected = pow(2.0, 1.0 / 8.0);
-    assert_true(fabs(real(campaign, 1, "derived.strength_mean") / real(campaign, 0, "derived.strength_mean") / expected - 1) < 1e-13);
+    assert_true(fabs(real(campaign, 1, "derived.strength_mean") /
+                         real(campaign, 0, "derived.strength_mean") / expected -
+                     1) < 1e-13);
     double drawn[2][100];
     for (size_t p = 0; p < 2; p++) {
         fracas_model *model;
         fracas_field *field;
         const fracas_stream stream = {.seed = 5, .purpose = FRACAS_PURPOSE_STRENGTH};
         assert_int_equal(fracas_model_create(&campaign->point[p].spec, &model), FRACAS_OK);
-        assert_int_equal(fracas_model_field(model, &campaign->point[p].strength, &field), FRACAS_OK);
+        assert_int_equal(fracas_model_field(model, &campaign->point[p].strength, &field),
+                         FRACAS_OK);
         assert_int_equal(fracas_field_size(field), 100);
         assert_int_equal(fracas_field_sample(field, &stream, 1, drawn[p]), FRACAS_OK);
         fracas_field_destroy(field);
         fracas_model_destroy(model);
     }
-    for (int i = 0; i < 100; i++) assert_true(fabs(drawn[1][i] / drawn[0][i] / expected - 1) < 1e-13);
+    for (int i = 0; i < 100; i++)
+        assert_true(fabs(drawn[1][i] / drawn[0][i] / expected - 1) < 1e-13);
     fracas_campaign_destroy(campaign);
 }
 

@@ -1,4 +1,6 @@
-/* Campaign files of membranes: shapes, keys that only this model has, meshes drawn from the seed, plans. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Campaign files of membranes: shapes, keys that only this model has, meshes drawn from the seed,
+ * plans. */
 #include "tests/support/strengths.h"
 #include "tests/support/campaign_text.h"
 
@@ -13,19 +15,19 @@
 #include <stdio.h>
 
 static const char membrane_campaign[] =
-    "name: test\n"                                                    /* 1 */
-    "seed: 7\n"                                                       /* 2 */
-    "model: membrane\n"                                               /* 3 */
-    "geometry: {width: 10 mm, height: 5 mm, thickness: 0.1 mm}\n"     /* 4 */
-    "mesh:\n"                                                         /* 5 */
-    "  divisions: 4\n"                                                /* 6 */
-    "material: {young: 370 GPa, poisson: 0.25, density: 3900}\n"      /* 7 */
-    "cohesive:\n"                                                     /* 8 */
-    "  fracture_energy: 150 J/m2\n"                                    /* 9 */
-    "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n"         /* 10 */
-    "loading: {rate: 1e4 1/s}\n"                                      /* 11 */
-    "time: {end: 0.1 us}\n"                                           /* 12 */
-    "replicas: 2\n";                                                  /* 13; 14: appended */
+    "name: test\n"                                                /* 1 */
+    "seed: 7\n"                                                   /* 2 */
+    "model: membrane\n"                                           /* 3 */
+    "geometry: {width: 10 mm, height: 5 mm, thickness: 0.1 mm}\n" /* 4 */
+    "mesh:\n"                                                     /* 5 */
+    "  divisions: 4\n"                                            /* 6 */
+    "material: {young: 370 GPa, poisson: 0.25, density: 3900}\n"  /* 7 */
+    "cohesive:\n"                                                 /* 8 */
+    "  fracture_energy: 150 J/m2\n"                               /* 9 */
+    "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n"     /* 10 */
+    "loading: {rate: 1e4 1/s}\n"                                  /* 11 */
+    "time: {end: 0.1 us}\n"                                       /* 12 */
+    "replicas: 2\n";                                              /* 13; 14: appended */
 
 static fracas_campaign *read_membrane(const char *find, const char *put)
 {
@@ -51,18 +53,26 @@ static fracas_model *model_of(const fracas_campaign *campaign, size_t point)
 
 /* ---- what a file says ---- */
 
-/* Every value of a plate, as it names the point; the same text gives the same name whatever the program. */
+/* Every value of a plate, as it names the point; the same text gives the same name whatever the
+ * program. */
 static void test_plate(void **state)
 {
     (void)state;
     static const char text[] =
-        "cohesive.beta=5\ncohesive.coupling=1\ncohesive.critical_opening=0\ncohesive.fracture_energy=150\ncohesive.friction=0\ncohesive.law=nitsche\n"
-        "cohesive.onset=mean\ngeometry.bottom=free\ngeometry.height=0.005\ngeometry.left=free\ngeometry.right=free\n"
-        "geometry.shape=plate\ngeometry.thickness=0.0001\ngeometry.top=free\ngeometry.width=0.01\nloading.rate=10000\n"
-        "loading.ratio=1\nloading.start=moving\nloading.type=expansion\nmaterial.density=3900\nmaterial.poisson=0.25\n"
-        "material.young=370000000000\nmesh.amplitude=0\nmesh.divisions=4\nmesh.order=1\nmesh.size=0\nmesh.spacing=triangles\n"
-        "model=membrane\nstrength.distribution=weibull\nstrength.minimum=264000000\nstrength.scale=50000000\nstrength.shape=2\n"
-        "time.end=1e-07\ntime.integrator=central-difference\ntime.mass=lumped\ntime.safety=0.25\ntime.spectral_radius=0.95\n"
+        "cohesive.beta=5\ncohesive.coupling=1\ncohesive.critical_opening=0\ncohesive.fracture_"
+        "energy=150\ncohesive.friction=0\ncohesive.law=nitsche\n"
+        "cohesive.onset=mean\ngeometry.bottom=free\ngeometry.height=0.005\ngeometry.left="
+        "free\ngeometry.right=free\n"
+        "geometry.shape=plate\ngeometry.thickness=0.0001\ngeometry.top=free\ngeometry.width=0."
+        "01\nloading.rate=10000\n"
+        "loading.ratio=1\nloading.start=moving\nloading.type=expansion\nmaterial.density="
+        "3900\nmaterial.poisson=0.25\n"
+        "material.young=370000000000\nmesh.amplitude=0\nmesh.divisions=4\nmesh.order=1\nmesh.size="
+        "0\nmesh.spacing=triangles\n"
+        "model=membrane\nstrength.distribution=weibull\nstrength.minimum=264000000\nstrength.scale="
+        "50000000\nstrength.shape=2\n"
+        "time.end=1e-07\ntime.integrator=central-difference\ntime.mass=lumped\ntime.safety=0."
+        "25\ntime.spectral_radius=0.95\n"
         "time.stop=time\n";
     fracas_campaign *campaign = read_membrane("", "");
     const fracas_hash hash = fracas_hash_of(text, strlen(text));
@@ -70,10 +80,12 @@ static void test_plate(void **state)
     assert_true(at(campaign, 0, "derived.strain_rate")->real == 1e4);
     fracas_model *model = model_of(campaign, 0);
     assert_int_equal(fracas_model_elements(model), 2 * 8 * 4);
-    assert_int_equal(fracas_model_interfaces(model), 8 * 3 + 4 * 7 + 8 * 4); /* lines between squares, diagonals */
+    assert_int_equal(fracas_model_interfaces(model),
+                     8 * 3 + 4 * 7 + 8 * 4); /* lines between squares, diagonals */
     fracas_model_destroy(model);
     fracas_campaign_destroy(campaign);
-    campaign = read_membrane("loading: {rate: 1e4 1/s}", "loading: {type: centrifugal, speed: 1e3 rad/s, ramp: 1 us}");
+    campaign = read_membrane("loading: {rate: 1e4 1/s}",
+                             "loading: {type: centrifugal, speed: 1e3 rad/s, ramp: 1 us}");
     assert_true(isnan(at(campaign, 0, "derived.strain_rate")->real));
     fracas_campaign_destroy(campaign);
 }
@@ -81,8 +93,9 @@ static void test_plate(void **state)
 static void test_annulus(void **state)
 {
     (void)state;
-    fracas_campaign *campaign = read_membrane("geometry: {width: 10 mm, height: 5 mm, ",
-                                              "geometry: {shape: annulus, inner: 5 mm, outer: 10 mm, outer_edge: held, ");
+    fracas_campaign *campaign = read_membrane(
+        "geometry: {width: 10 mm, height: 5 mm, ",
+        "geometry: {shape: annulus, inner: 5 mm, outer: 10 mm, outer_edge: held, ");
     const fracas_geometry *geometry = &campaign->point[0].spec.geometry;
     assert_true(geometry->inner == 0.005 && geometry->outer == 0.01 && geometry->thickness == 1e-4);
     assert_ptr_equal(geometry->edge[1], &fracas_edge_free);
@@ -90,22 +103,27 @@ static void test_annulus(void **state)
     fracas_model *model = model_of(campaign, 0);
     fracas_surface_measures all;
     fracas_surface_measure(fracas_model_surface(model), &all);
-    assert_true(fabs(all.area / (M_PI * 75e-6) - 1) < 0.02); /* of 4 layers: chords cut some 1 % off */
+    assert_true(fabs(all.area / (M_PI * 75e-6) - 1) <
+                0.02); /* of 4 layers: chords cut some 1 % off */
     fracas_model_destroy(model);
     fracas_campaign_destroy(campaign);
 }
 
 /* Two triangles, the lower of which has an edge in group 2. */
 static const char two_triangles[] =
-    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1e-3 0 0\n3 1e-3 1e-3 0\n4 0 1e-3 0\n$EndNodes\n"
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1e-3 0 0\n3 1e-3 1e-3 0\n4 0 1e-3 "
+    "0\n$EndNodes\n"
     "$Elements\n4\n1 1 2 2 1 1 2\n2 2 2 9 1 1 2 3\n3 2 2 9 1 1 3 4\n4 1 2 3 1 3 4\n$EndElements\n";
 
 /* Replaces what has another size than the mesh of `path`. */
 static char *file_campaign(const char *path, const char *strength)
 {
     char geometry[300];
-    snprintf(geometry, sizeof geometry, "geometry: {shape: file, file: %s, thickness: 1 mm, edge_2: held, edge_3: fixed}\n", path);
-    char *text = replace(membrane_campaign, "geometry: {width: 10 mm, height: 5 mm, thickness: 0.1 mm}\n", geometry);
+    snprintf(geometry, sizeof geometry,
+             "geometry: {shape: file, file: %s, thickness: 1 mm, edge_2: held, edge_3: fixed}\n",
+             path);
+    char *text = replace(membrane_campaign,
+                         "geometry: {width: 10 mm, height: 5 mm, thickness: 0.1 mm}\n", geometry);
     char *meshed = replace(text, "  divisions: 4\n", "  spacing: given\n");
     free(text);
     text = replace(meshed, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n", strength);
@@ -128,11 +146,13 @@ static void test_file(void **state)
     const fracas_hash digest = fracas_hash_of(two_triangles, strlen(two_triangles));
     char hex[FRACAS_HASH_HEX];
     fracas_hash_hex(&digest, hex);
-    assert_string_equal(at(campaign, 0, "geometry.file")->text, hex); /* its content names it, not its path */
+    assert_string_equal(at(campaign, 0, "geometry.file")->text,
+                        hex); /* its content names it, not its path */
     fracas_model *model = model_of(campaign, 0);
     assert_int_equal(fracas_model_elements(model), 2);
     assert_int_equal(fracas_model_interfaces(model), 1);
-    assert_true(fabs(fracas_model_interface_volume(model, 0) - 1e-9 / 3) < 1e-24); /* all of the square, 1 mm thick */
+    assert_true(fabs(fracas_model_interface_volume(model, 0) - 1e-9 / 3) <
+                1e-24); /* all of the square, 1 mm thick */
     fracas_model_destroy(model);
     fracas_campaign_destroy(campaign);
     free(text);
@@ -149,13 +169,19 @@ static void test_page_example(void **state)
     assert_non_null(page);
     assert_true(fread(page, 1, (1 << 16) - 1, in) > 0);
     fclose(in);
-    char *begin = strstr(page, "geometry: {shape: file, file: plate.msh"), *end = begin ? strstr(begin, "```") : NULL;
+    char *begin = strstr(page, "geometry: {shape: file, file: plate.msh"),
+         *end = begin ? strstr(begin, "```") : NULL;
     assert_non_null(end);
     *end = '\0';
-    char *found = replace(begin, "plate.msh", FRACAS_SOURCE_DIR "/tests/data/gmsh/plate-order2-msh41-text.msh");
-    char *shown = replace(found, "edge_1: held, edge_2: held", "edges: held"); /* that mesh has no such groups */
+    char *found = replace(begin, "plate.msh",
+                          FRACAS_SOURCE_DIR "/tests/data/gmsh/plate-order2-msh41-text.msh");
+    char *shown = replace(found, "edge_1: held, edge_2: held",
+                          "edges: held"); /* that mesh has no such groups */
     free(found);
-    char *text = replace(membrane_campaign, "geometry: {width: 10 mm, height: 5 mm, thickness: 0.1 mm}\nmesh:\n  divisions: 4\n", shown);
+    char *text = replace(
+        membrane_campaign,
+        "geometry: {width: 10 mm, height: 5 mm, thickness: 0.1 mm}\nmesh:\n  divisions: 4\n",
+        shown);
     fracas_campaign *campaign = read_text(text);
     fracas_model *model = model_of(campaign, 0);
     assert_int_equal(fracas_model_surface(model)->order, 2);
@@ -166,7 +192,8 @@ static void test_page_example(void **state)
     free(page);
 }
 
-/* A file that is no mesh is found out when it is used: by a plan, or where strengths depend on the volume of an interface. */
+/* A file that is no mesh is found out when it is used: by a plan, or where strengths depend on the
+ * volume of an interface. */
 static void test_no_mesh(void **state)
 {
     (void)state;
@@ -181,30 +208,36 @@ static void test_no_mesh(void **state)
     if (!strstr(fracas_message(), "point 0: mesh file /tmp/")) fail_msg("%s", fracas_message());
     fracas_campaign_destroy(campaign);
     free(text);
-    text = file_campaign(path, "strength: {distribution: flaws, flaw_density: 1e11 1/m3, minimum: 100 MPa, maximum: 400 MPa, "
-                               "exponent: 2}\n");
+    text = file_campaign(path, "strength: {distribution: flaws, flaw_density: 1e11 1/m3, minimum: "
+                               "100 MPa, maximum: 400 MPa, exponent: 2}\n");
     write_bytes(campaign_path, text, strlen(text));
     assert_int_equal(fracas_campaign_read(campaign_path, &campaign), FRACAS_USAGE);
-    if (!strstr(fracas_message(), ":1:1: `mesh`: point 0: mesh file /tmp/")) fail_msg("%s", fracas_message());
+    if (!strstr(fracas_message(), ":1:1: `mesh`: point 0: mesh file /tmp/"))
+        fail_msg("%s", fracas_message());
     free(text);
     unlink(path);
     unlink(campaign_path);
 }
 
-/* The mean strength of flaws is that of the mean volume: thickness (area)/(3 squares) on a plate of squares cut in two. */
+/* The mean strength of flaws is that of the mean volume: thickness (area)/(3 squares) on a plate of
+ * squares cut in two. */
 static void test_mean_strength(void **state)
 {
     (void)state;
-    fracas_campaign *campaign = read_membrane("strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}",
-        "strength: {distribution: flaws, flaw_density: 1e11 1/m3, minimum: 100 MPa, maximum: 400 MPa, exponent: 2}\n"
+    fracas_campaign *campaign = read_membrane(
+        "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}",
+        "strength: {distribution: flaws, flaw_density: 1e11 1/m3, minimum: 100 MPa, maximum: 400 "
+        "MPa, exponent: 2}\n"
         "sweep:\n  - mesh.divisions: [4, 2]\n  - loading.rate: [1, 2]");
     for (size_t p = 0; p < 4; p++) {
         const double squares = p < 2 ? 4 * 8 : 2 * 4, volume = 1e-4 * 50e-6 / (3 * squares);
         const double expected = mean_of_strength(&campaign->point[p].strength, volume);
         /* the mean moves by less than the volume does, which is within some 40 roundings */
-        assert_true(fabs(at(campaign, p, "derived.strength_mean")->real / expected - 1) < 40 * 0x1p-53);
+        assert_true(fabs(at(campaign, p, "derived.strength_mean")->real / expected - 1) <
+                    40 * 0x1p-53);
     }
-    assert_true(at(campaign, 0, "derived.strength_mean")->real > at(campaign, 2, "derived.strength_mean")->real);
+    assert_true(at(campaign, 0, "derived.strength_mean")->real >
+                at(campaign, 2, "derived.strength_mean")->real);
     fracas_campaign_destroy(campaign);
 }
 
@@ -228,30 +261,38 @@ static void check_round_trip(const fracas_campaign *campaign)
     free(again);
 }
 
-/* A bar and a membrane of one material: what only the membrane has is the membrane's, and the bar is the one of a campaign
- * of its own. The sections give poisson, coupling and integrator, for the points that have them. */
+/* A bar and a membrane of one material: what only the membrane has is the membrane's, and the bar
+ * is the one of a campaign of its own. The sections give poisson, coupling and integrator, for the
+ * points that have them. */
 static void test_swept_model(void **state)
 {
     (void)state;
-    char *text = replace(plain_campaign, "  density: 2750 kg/m3\n", "  density: 2750 kg/m3\n  poisson: 0.25\n");
+    char *text = replace(plain_campaign, "  density: 2750 kg/m3\n",
+                         "  density: 2750 kg/m3\n  poisson: 0.25\n");
     char *sliding = replace(text, "  law: nitsche\n", "  law: nitsche\n  coupling: 2\n");
     free(text);
     text = replace(sliding, "  quiet: 100 ns\n", "  quiet: 100 ns\n  integrator: hulbert-chung\n");
     free(sliding);
-    char *swept = replace(text, "", "sweep:\n  - cases:\n      - {name: bar}\n      - {name: plate, model: membrane, time: {stop: time}, "
-                                    "geometry: {shape: plate, width: 1, height: 1, thickness: 1}, mesh: {divisions: 2}, loading: {type: "
-                                    "expansion, rate: 1e4}}\n");
+    char *swept = replace(
+        text, "",
+        "sweep:\n  - cases:\n      - {name: bar}\n      - {name: plate, model: membrane, time: "
+        "{stop: time}, geometry: {shape: plate, width: 1, height: 1, thickness: 1}, mesh: "
+        "{divisions: 2}, loading: {type: expansion, rate: 1e4}}\n");
     free(text);
     /* `model: bar` in the file, or no model: the same points */
     char *unnamed = replace(swept, "model: bar\n", "");
-    fracas_campaign *campaign = read_text(swept), *same = read_text(unnamed), *alone = read_text(plain_campaign);
+    fracas_campaign *campaign = read_text(swept), *same = read_text(unnamed),
+                    *alone = read_text(plain_campaign);
     assert_true(fracas_hash_equal(&campaign->hash, &same->hash));
     assert_true(fracas_hash_equal(&campaign->point[0].hash, &alone->point[0].hash));
-    assert_true(isnan(at(campaign, 0, "material.poisson")->real) && at(campaign, 1, "material.poisson")->real == 0.25);
-    assert_true(isnan(at(campaign, 0, "cohesive.coupling")->real) && at(campaign, 1, "cohesive.coupling")->real == 2);
+    assert_true(isnan(at(campaign, 0, "material.poisson")->real) &&
+                at(campaign, 1, "material.poisson")->real == 0.25);
+    assert_true(isnan(at(campaign, 0, "cohesive.coupling")->real) &&
+                at(campaign, 1, "cohesive.coupling")->real == 2);
     assert_string_equal(at(campaign, 0, "time.integrator")->text, "");
     assert_string_equal(at(campaign, 1, "time.integrator")->text, "hulbert-chung");
-    assert_true(isnan(at(campaign, 1, "mesh.elements")->real) && isnan(at(campaign, 1, "geometry.area")->real));
+    assert_true(isnan(at(campaign, 1, "mesh.elements")->real) &&
+                isnan(at(campaign, 1, "geometry.area")->real));
     for (size_t c = 0; c < alone->table.ncolumns; c++) /* none of a bar's own is new */
         assert_null(strstr(alone->table.column[c].path, "poisson"));
     check_round_trip(campaign);
@@ -262,24 +303,30 @@ static void test_swept_model(void **state)
     free(unnamed);
 }
 
-/* Keys that all kinds of a membrane have stay when its kind changes: a law's beta and friction, a shape's thickness. */
+/* Keys that all kinds of a membrane have stay when its kind changes: a law's beta and friction, a
+ * shape's thickness. */
 static void test_inherited(void **state)
 {
     (void)state;
-    fracas_campaign *campaign = read_membrane("  fracture_energy: 150 J/m2\n",
-        "  fracture_energy: 150 J/m2\n  beta: 10\n  friction: 0.5\nsweep:\n  - cohesive.law: [nitsche, camacho-ortiz-standard, "
-        "camacho-ortiz]\n  - geometry: [{width: 20 mm}, {shape: annulus, inner: 1 mm, outer: 2 mm}]\n");
+    fracas_campaign *campaign = read_membrane(
+        "  fracture_energy: 150 J/m2\n",
+        "  fracture_energy: 150 J/m2\n  beta: 10\n  friction: 0.5\nsweep:\n  - cohesive.law: "
+        "[nitsche, camacho-ortiz-standard, camacho-ortiz]\n  - geometry: [{width: 20 mm}, {shape: "
+        "annulus, inner: 1 mm, outer: 2 mm}]\n");
     assert_int_equal(campaign->npoints, 6);
     for (size_t p = 0; p < 6; p++) {
         const fracas_spec *spec = &campaign->point[p].spec;
-        assert_true(spec->cohesive.beta == 10 && spec->cohesive.friction == 0.5 && spec->geometry.thickness == 1e-4);
+        assert_true(spec->cohesive.beta == 10 && spec->cohesive.friction == 0.5 &&
+                    spec->geometry.thickness == 1e-4);
         assert_true(p % 2 ? spec->geometry.outer == 2e-3 : spec->geometry.width == 0.02);
     }
     check_round_trip(campaign);
     fracas_campaign_destroy(campaign);
     /* a bar's area and number of elements are a ring's too, as they always were */
-    campaign = read_replaced("  length: 50 mm\n", "  length: 50 mm\n  area: 3 mm2\nsweep:\n  - cases:\n      - {name: bar}\n"
-                                                  "      - {model: ring, geometry: {shape: ring, radius: 1 cm}}\n");
+    campaign = read_replaced(
+        "  length: 50 mm\n",
+        "  length: 50 mm\n  area: 3 mm2\nsweep:\n  - cases:\n      - {name: bar}\n"
+        "      - {model: ring, geometry: {shape: ring, radius: 1 cm}}\n");
     for (size_t p = 0; p < 2; p++) {
         const fracas_spec *spec = &campaign->point[p].spec;
         assert_true(spec->geometry.area == 3e-6 && spec->mesh.elements == 100);
@@ -295,16 +342,23 @@ static void test_refused(void **state)
         const char *find, *put, *place, *words;
     } table[] = {
         {"  divisions: 4", "  elements: 4", ":6:3: ",
-         "`elements` belongs to spacing uniform or graded or perturbed; this is triangles, the default, as no `spacing` is given"},
-        {"  divisions: 4", "  spacing: uniform\n  elements: 4", ":6:12: ", "`spacing`: uniform cannot be combined with model membrane, "
-         "which takes triangles or given"},
-        {"  divisions: 4", "  divisions: 4\n  size: 1 mm", ":7:9: ", "`mesh`: triangles take either size or divisions, and both are given"},
-        {"mesh:\n  divisions: 4\n", "", ":1:1: ", "`mesh`: triangles take either size or divisions, and neither is given"},
-        {"poisson: 0.25, ", "", ":7:1: ", "material needs `poisson` (Poisson's ratio nu): a pure number"},
+         "`elements` belongs to spacing uniform or graded or perturbed; this is triangles, the "
+         "default, as no `spacing` is given"},
+        {"  divisions: 4", "  spacing: uniform\n  elements: 4", ":6:12: ",
+         "`spacing`: uniform cannot be combined with model membrane, which takes triangles or "
+         "given"},
+        {"  divisions: 4", "  divisions: 4\n  size: 1 mm",
+         ":7:9: ", "`mesh`: triangles take either size or divisions, and both are given"},
+        {"mesh:\n  divisions: 4\n", "",
+         ":1:1: ", "`mesh`: triangles take either size or divisions, and neither is given"},
+        {"poisson: 0.25, ", "",
+         ":7:1: ", "material needs `poisson` (Poisson's ratio nu): a pure number"},
         {"poisson: 0.25, ", "poisson: 0.5, ", ":7:37: ", "0.5 is out of range"},
-        {"thickness: 0.1 mm", "area: 1 mm2", ":4:40: ", "`area` belongs to shape bar or ring; this is plate, the default"},
+        {"thickness: 0.1 mm", "area: 1 mm2",
+         ":4:40: ", "`area` belongs to shape bar or ring; this is plate, the default"},
         {", thickness: 0.1 mm", "", ":4:1: ", "geometry needs `thickness`"},
-        {"cohesive:\n", "cohesive:\n  law: rigid-link\n", ":9:8: ", "`law`: rigid-link cannot be combined with model membrane"},
+        {"cohesive:\n", "cohesive:\n  law: rigid-link\n",
+         ":9:8: ", "`law`: rigid-link cannot be combined with model membrane"},
     };
     fracas_units *units;
     assert_int_equal(fracas_units_create(&units), FRACAS_OK);
@@ -316,7 +370,8 @@ static void test_refused(void **state)
         write_bytes(path, text, strlen(text));
         assert_int_equal(fracas_campaign_read_with(units, path, &campaign), FRACAS_USAGE);
         const char *message = fracas_message() + strlen(path);
-        if (strncmp(message, table[i].place, strlen(table[i].place)) != 0 || !strstr(message, table[i].words))
+        if (strncmp(message, table[i].place, strlen(table[i].place)) != 0 ||
+            !strstr(message, table[i].words))
             fail_msg("%s, not %s%s", message, table[i].place, table[i].words);
         unlink(path);
         free(text);
@@ -326,25 +381,32 @@ static void test_refused(void **state)
 
 /* ---- the mesh ---- */
 
-/* Sum of squares of the moves of nodes between the meshes of two models that are alike; how many have moved. */
+/* Sum of squares of the moves of nodes between the meshes of two models that are alike; how many
+ * have moved. */
 static size_t count_moved(const fracas_model *a, const fracas_model *b)
 {
     const fracas_surface *s = fracas_model_surface(a), *t = fracas_model_surface(b);
     size_t moved = 0;
     assert_int_equal(s->nnodes, t->nnodes);
-    for (size_t n = 0; n < s->nnodes; n++) moved += memcmp(s->node[n], t->node[n], sizeof s->node[n]) != 0;
+    for (size_t n = 0; n < s->nnodes; n++)
+        moved += memcmp(s->node[n], t->node[n], sizeof s->node[n]) != 0;
     return moved;
 }
 
-/* The seed and the point say where nodes are, for all realizations of the point. Of 9 x 5 vertices 7 x 3 are inside. */
+/* The seed and the point say where nodes are, for all realizations of the point. Of 9 x 5 vertices
+ * 7 x 3 are inside. */
 static void test_perturbed(void **state)
 {
     (void)state;
-    static const char mesh[] = "  divisions: 4\n  amplitude: 0.3\nsweep:\n  - loading.rate: [1e4, 2e4]\n";
+    static const char mesh[] =
+        "  divisions: 4\n  amplitude: 0.3\nsweep:\n  - loading.rate: [1e4, 2e4]\n";
     fracas_campaign *campaign = read_membrane("  divisions: 4\n", mesh);
-    char *text = replace(membrane_campaign, "  divisions: 4\n", mesh), *reseeded = replace(text, "seed: 7", "seed: 8");
-    fracas_campaign *again = read_text(text), *other = read_text(reseeded), *regular = read_membrane("", "");
-    fracas_model *first = model_of(campaign, 0), *same = model_of(again, 0), *second = model_of(campaign, 1), *seeded = model_of(other, 0),
+    char *text = replace(membrane_campaign, "  divisions: 4\n", mesh),
+         *reseeded = replace(text, "seed: 7", "seed: 8");
+    fracas_campaign *again = read_text(text), *other = read_text(reseeded),
+                    *regular = read_membrane("", "");
+    fracas_model *first = model_of(campaign, 0), *same = model_of(again, 0),
+                 *second = model_of(campaign, 1), *seeded = model_of(other, 0),
                  *plain = model_of(regular, 0);
     assert_int_equal(count_moved(first, plain), 7 * 3);
     assert_int_equal(count_moved(first, same), 0);
@@ -374,12 +436,15 @@ static void test_plan_of_fields(void **state)
         const char *length, *words; /* no words: no warning */
     } table[] = {
         {"2", "strength.correlation_length is 2 m, more than the 0.0"},
-        {"1e-6", "strength.correlation_length is 1e-06 m, less than a third of an element of 0.001"},
+        {"1e-6",
+         "strength.correlation_length is 1e-06 m, less than a third of an element of 0.001"},
         {"2e-3", NULL},
     };
     for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
         char section[200];
-        snprintf(section, sizeof section, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2, covariance: matern, correlation_length: %s}",
+        snprintf(section, sizeof section,
+                 "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2, covariance: matern, "
+                 "correlation_length: %s}",
                  table[i].length);
         fracas_campaign *campaign = read_membrane(strength, section);
         char *text = plan_text(campaign, 1, false);
@@ -389,40 +454,49 @@ static void test_plan_of_fields(void **state)
         free(text);
         fracas_campaign_destroy(campaign);
     }
-    fracas_campaign *campaign = read_membrane(strength, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2, covariance: matern, "
-                                              "correlation_length: 2e-3, reference_volume: 1e-3 mm3}");
+    fracas_campaign *campaign = read_membrane(
+        strength, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2, covariance: matern, "
+                  "correlation_length: 2e-3, reference_volume: 1e-3 mm3}");
     char *text = plan_text(campaign, 1, false);
-    assert_non_null(strstr(text, "strengths are correlated, and their size effect is that of independent flaws"));
+    assert_non_null(strstr(
+        text, "strengths are correlated, and their size effect is that of independent flaws"));
     free(text);
     fracas_campaign_destroy(campaign);
 }
 
-/* A regular plate of strength 300 MPa cracks along lines; with E rate t/(1 - nu) = 493 MPa it does crack. E G_c/sigma_c^2 is
- * 206 um, the mean edge of squares of 1.25 mm cut in two (24 + 28 sides and 32 diagonals of 84) 1.25 mm (52 + 32 sqrt 2)/84 =
- * 1.447 mm: 7.04 of it, 14.1 times too much. */
+/* A regular plate of strength 300 MPa cracks along lines; with E rate t/(1 - nu) = 493 MPa it does
+ * crack. E G_c/sigma_c^2 is 206 um, the mean edge of squares of 1.25 mm cut in two (24 + 28 sides
+ * and 32 diagonals of 84) 1.25 mm (52 + 32 sqrt 2)/84 = 1.447 mm: 7.04 of it, 14.1 times too much.
+ */
 static void test_plan(void **state)
 {
     (void)state;
-    static const char lines[] = "warning: point 0: interfaces are equally strong and the mesh is regular, so that cracks follow its lines";
+    static const char lines[] = "warning: point 0: interfaces are equally strong and the mesh is "
+                                "regular, so that cracks follow its lines";
     static const char strength[] = "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}";
-    fracas_campaign *campaign = read_membrane(strength, "strength: {distribution: constant, value: 300 MPa}");
+    fracas_campaign *campaign = read_membrane(strength,
+                                              "strength: {distribution: constant, value: 300 MPa}");
     fracas_forecast forecast;
     assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_OK);
     assert_int_equal(forecast.elements, 64);
     assert_int_equal(forecast.interfaces, 84);
-    assert_true(fabs(forecast.coarseness / (1.25e-3 * (52 + 32 * sqrt(2)) / 84 / (370e9 * 150 / 9e16)) - 1) < 1e-12);
+    assert_true(
+        fabs(forecast.coarseness / (1.25e-3 * (52 + 32 * sqrt(2)) / 84 / (370e9 * 150 / 9e16)) -
+             1) < 1e-12);
     assert_true(fabs(forecast.bound / (370e9 * 1e4 * 1e-7 / 0.75) - 1) < 1e-12);
     assert_true(fabs(forecast.step_stress / (370e9 * 1e4 * forecast.time_step) - 1) < 1e-12);
     char *text = plan_text(campaign, 1, false);
     assert_non_null(strstr(text, lines));
-    assert_non_null(strstr(text, "a crack's softening is not resolved: raise mesh.divisions to 19"));
+    assert_non_null(
+        strstr(text, "a crack's softening is not resolved: raise mesh.divisions to 19"));
     assert_null(strstr(text, "until time.end the stress stays"));
     free(text);
     text = plan_text(campaign, 1, true);
     assert_non_null(strstr(text, "\"elements\": 64"));
     free(text);
     fracas_campaign_destroy(campaign);
-    char *constant = replace(membrane_campaign, strength, "strength: {distribution: constant, value: 300 MPa}");
+    char *constant = replace(membrane_campaign, strength,
+                             "strength: {distribution: constant, value: 300 MPa}");
     char *moved = replace(constant, "  divisions: 4\n", "  size: 1 mm\n  amplitude: 0.2\n");
     campaign = read_text(moved);
     text = plan_text(campaign, 1, false);
@@ -444,7 +518,8 @@ static void test_plan(void **state)
 static void test_bytes(void **state)
 {
     (void)state;
-    fracas_campaign *without = read_membrane("", ""), *with = read_membrane("", "output: {interfaces: true}\n");
+    fracas_campaign *without = read_membrane("", ""),
+                    *with = read_membrane("", "output: {interfaces: true}\n");
     fracas_forecast a, b;
     assert_int_equal(fracas_forecast_all(without, 1, &a), FRACAS_OK);
     assert_int_equal(fracas_forecast_all(with, 1, &b), FRACAS_OK);
@@ -472,10 +547,11 @@ static bool cracks(const fracas_model *model, double strength)
     return cracked;
 }
 
-/* No stress exceeds the bound, and even stretching reaches it: plates of strength 1.05 bound stay whole until 0.5, 1 and 1.5 times
- * the time in which a wave passes half of them (0.5 us), and until the first crack with 0.9 bound. (Before a wave has passed three
- * elements, the mesh lets it overshoot by 10 %.) Shear counts by coupling 0.5 where it is largest, on the diagonals of ratio -1: as much as the
- * stress along the sides, E/(1 + nu), of a bound of E/0.5. */
+/* No stress exceeds the bound, and even stretching reaches it: plates of strength 1.05 bound stay
+ * whole until 0.5, 1 and 1.5 times the time in which a wave passes half of them (0.5 us), and until
+ * the first crack with 0.9 bound. (Before a wave has passed three elements, the mesh lets it
+ * overshoot by 10 %.) Shear counts by coupling 0.5 where it is largest, on the diagonals of ratio
+ * -1: as much as the stress along the sides, E/(1 + nu), of a bound of E/0.5. */
 static void test_bound(void **state)
 {
     (void)state;
@@ -494,18 +570,25 @@ static void test_bound(void **state)
     for (size_t i = 0; i < FRACAS_COUNT(table); i++)
         for (int t = 0; t < 3; t++) {
             char text[200], law[100];
-            snprintf(text, sizeof text, "loading: {%s}\ntime: {end: %.2g, safety: 0.5}\n", table[i].loading, times[t]);
-            snprintf(law, sizeof law, "  fracture_energy: 1e9\n  coupling: %s\n", table[i].coupling);
-            char *loaded = replace(membrane_campaign, "loading: {rate: 1e4 1/s}\ntime: {end: 0.1 us}\n", text);
-            char *lawful = replace(loaded, "  fracture_energy: 150 J/m2\n", law), *square = replace(lawful, "height: 5 mm", "height: 10 mm");
+            snprintf(text, sizeof text, "loading: {%s}\ntime: {end: %.2g, safety: 0.5}\n",
+                     table[i].loading, times[t]);
+            snprintf(law, sizeof law, "  fracture_energy: 1e9\n  coupling: %s\n",
+                     table[i].coupling);
+            char *loaded = replace(membrane_campaign,
+                                   "loading: {rate: 1e4 1/s}\ntime: {end: 0.1 us}\n", text);
+            char *lawful = replace(loaded, "  fracture_energy: 150 J/m2\n", law),
+                 *square = replace(lawful, "height: 5 mm", "height: 10 mm");
             char *fine = replace(square, "divisions: 4", "divisions: 12\n  amplitude: 0.2");
             fracas_campaign *campaign = read_text(fine);
             fracas_forecast forecast;
             assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_OK);
-            assert_true(fabs(forecast.bound / (370e9 * 1e4 * times[t] * table[i].stress) - 1) < 1e-12);
+            assert_true(fabs(forecast.bound / (370e9 * 1e4 * times[t] * table[i].stress) - 1) <
+                        1e-12);
             fracas_model *model = model_of(campaign, 0);
-            if (cracks(model, 1.05 * forecast.bound)) fail_msg("%s until %g: above", table[i].loading, times[t]);
-            if (t == 0 && i < 4 && !cracks(model, 0.9 * forecast.bound)) fail_msg("%s: below", table[i].loading);
+            if (cracks(model, 1.05 * forecast.bound))
+                fail_msg("%s until %g: above", table[i].loading, times[t]);
+            if (t == 0 && i < 4 && !cracks(model, 0.9 * forecast.bound))
+                fail_msg("%s: below", table[i].loading);
             fracas_model_destroy(model);
             fracas_campaign_destroy(campaign);
             free(loaded);
@@ -515,8 +598,9 @@ static void test_bound(void **state)
         }
 }
 
-/* A step adds E rate dt; of strengths uniform over w, 98 of 100 are within 0.98 w. The plan warns where the one is over a quarter of
- * the other, for laws that soften from the stress which a step has reached. */
+/* A step adds E rate dt; of strengths uniform over w, 98 of 100 are within 0.98 w. The plan warns
+ * where the one is over a quarter of the other, for laws that soften from the stress which a step
+ * has reached. */
 static void test_steps_that_pass_strengths(void **state)
 {
     (void)state;
@@ -524,7 +608,9 @@ static void test_steps_that_pass_strengths(void **state)
         double widths; /* w by what a step adds */
         bool warned;
         const char *law;
-    } table[] = {{3.9, true, "camacho-ortiz-standard"}, {4.3, false, "camacho-ortiz-standard"}, {3.9, false, "nitsche"}};
+    } table[] = {{3.9, true, "camacho-ortiz-standard"},
+                 {4.3, false, "camacho-ortiz-standard"},
+                 {3.9, false, "nitsche"}};
     fracas_campaign *campaign = read_membrane("", "");
     fracas_forecast forecast;
     assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_OK);
@@ -532,13 +618,16 @@ static void test_steps_that_pass_strengths(void **state)
     for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
         char law[100], strength[200];
         snprintf(law, sizeof law, "cohesive:\n  law: %s\n", table[i].law);
-        snprintf(strength, sizeof strength, "strength: {distribution: uniform, minimum: 300 MPa, maximum: %.17g}",
+        snprintf(strength, sizeof strength,
+                 "strength: {distribution: uniform, minimum: 300 MPa, maximum: %.17g}",
                  300e6 + table[i].widths * forecast.step_stress);
         char *lawful = replace(membrane_campaign, "cohesive:\n", law);
-        char *strong = replace(lawful, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}", strength);
+        char *strong = replace(lawful, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}",
+                               strength);
         campaign = read_text(strong);
         char *text = plan_text(campaign, 1, false);
-        assert_true((strstr(text, "interfaces that a step passes together") != NULL) == table[i].warned);
+        assert_true((strstr(text, "interfaces that a step passes together") != NULL) ==
+                    table[i].warned);
         free(text);
         free(strong);
         free(lawful);
@@ -546,7 +635,8 @@ static void test_steps_that_pass_strengths(void **state)
     }
 }
 
-/* Where stress concentrates, at holes, held corners and shocks, none is known; a centrifugal load stretches by w^2 t^2/2. */
+/* Where stress concentrates, at holes, held corners and shocks, none is known; a centrifugal load
+ * stretches by w^2 t^2/2. */
 static void test_bounds_of_others(void **state)
 {
     (void)state;
@@ -554,7 +644,9 @@ static void test_bounds_of_others(void **state)
         const char *find, *put;
         double bound;
     } table[] = {
-        {"thickness: 0.1 mm", "thickness: 0.1 mm, left: held, right: held, top: held, bottom: sliding", 370e9 * 1e-3 / 0.75},
+        {"thickness: 0.1 mm",
+         "thickness: 0.1 mm, left: held, right: held, top: held, bottom: sliding",
+         370e9 * 1e-3 / 0.75},
         {"thickness: 0.1 mm", "thickness: 0.1 mm, left: sliding", 370e9 * 1e-3 / 0.75},
         {"thickness: 0.1 mm", "thickness: 0.1 mm, left: held", INFINITY},
         {"thickness: 0.1 mm", "thickness: 0.1 mm, left: fixed", INFINITY},
@@ -565,7 +657,8 @@ static void test_bounds_of_others(void **state)
         fracas_campaign *campaign = read_membrane(table[i].find, table[i].put);
         fracas_forecast forecast;
         assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_OK);
-        if (!(forecast.bound == table[i].bound || fabs(forecast.bound / table[i].bound - 1) < 1e-12))
+        if (!(forecast.bound == table[i].bound ||
+              fabs(forecast.bound / table[i].bound - 1) < 1e-12))
             fail_msg("%s: %g", table[i].put, forecast.bound);
         fracas_campaign_destroy(campaign);
     }
@@ -579,11 +672,20 @@ static void test_bounds_of_others(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plate),     cmocka_unit_test(test_annulus),   cmocka_unit_test(test_file),
+        cmocka_unit_test(test_plate),
+        cmocka_unit_test(test_annulus),
+        cmocka_unit_test(test_file),
         cmocka_unit_test(test_page_example),
-        cmocka_unit_test(test_no_mesh),   cmocka_unit_test(test_mean_strength), cmocka_unit_test(test_swept_model),
-        cmocka_unit_test(test_inherited), cmocka_unit_test(test_refused),   cmocka_unit_test(test_perturbed),
-        cmocka_unit_test(test_plan), cmocka_unit_test(test_plan_of_fields),      cmocka_unit_test(test_bytes),     cmocka_unit_test(test_bound),
+        cmocka_unit_test(test_no_mesh),
+        cmocka_unit_test(test_mean_strength),
+        cmocka_unit_test(test_swept_model),
+        cmocka_unit_test(test_inherited),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_perturbed),
+        cmocka_unit_test(test_plan),
+        cmocka_unit_test(test_plan_of_fields),
+        cmocka_unit_test(test_bytes),
+        cmocka_unit_test(test_bound),
         cmocka_unit_test(test_steps_that_pass_strengths),
         cmocka_unit_test(test_bounds_of_others),
     };

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The plan: what is printed, and that it is what the engine says. */
 #include "tests/support/strengths.h"
 #include "campaigns/plan/forecast.h"
@@ -9,7 +10,8 @@
 #include <stdio.h>
 #include <time.h>
 
-static const char sweep[] = "sweep:\n  - loading.rate: [1e3, 1e4]\n  - strength.maximum: [300 MPa, 301 MPa]\n";
+static const char sweep[] =
+    "sweep:\n  - loading.rate: [1e3, 1e4]\n  - strength.maximum: [300 MPa, 301 MPa]\n";
 
 static void expect(const char *text, const char *part)
 {
@@ -38,11 +40,13 @@ static void test_text(void **state)
     char *text = plan_text(campaign, 2, false);
     expect(text, "Campaign test: 4 points, 12 realizations\n");
     expect(text, "for 2 processes");
-    const char *head = strstr(text, "point  loading.rate  strength.maximum  replicas  elements  time step");
+    const char *head = strstr(
+        text, "point  loading.rate  strength.maximum  replicas  elements  time step");
     if (!head) fail_msg("no head in:\n%s", text);
     size_t length = strcspn(head, "\n");
     for (int row = 0; row < 7; row++, head += length + 1) { /* head, units, four points, total */
-        if (strcspn(head, "\n") != length) fail_msg("row %d is not as long as the head:\n%s", row, text);
+        if (strcspn(head, "\n") != length)
+            fail_msg("row %d is not as long as the head:\n%s", row, text);
         if (row == 1) assert_memory_equal(head, "                1/s                Pa", 37);
         if (row == 6) assert_memory_equal(head, "total", 5);
     }
@@ -59,23 +63,28 @@ static void test_json(void **state)
     expect(text, "\"realizations\": 12");
     expect(text, "\"loading.rate\": 10000");
     expect(text, "\"elements\": 100");
-    /* Bytes: a record's scalars and, for each of 100/20 fragments and 10 + 4 history rows, its struct. */
+    /* Bytes: a record's scalars and, for each of 100/20 fragments and 10 + 4 history rows, its
+     * struct. */
     char bytes[64];
     snprintf(bytes, sizeof bytes, "\"bytes\": %zu",
-             3 * (offsetof(fracas_record, nfragment) + 5 * sizeof(fracas_fragment) + 14 * sizeof(fracas_history_row)));
+             3 * (offsetof(fracas_record, nfragment) + 5 * sizeof(fracas_fragment) +
+                  14 * sizeof(fracas_history_row)));
     expect(text, bytes);
     free(text);
     fracas_campaign_destroy(campaign);
 }
 
-/* Points that run, but tell little: elements longer than a softening zone, strengths without scatter. */
+/* Points that run, but tell little: elements longer than a softening zone, strengths without
+ * scatter. */
 static void test_warnings(void **state)
 {
     (void)state;
-    fracas_campaign *campaign = read_replaced("", "sweep:\n  - mesh.elements: [100, 1000]\n"
-                                                  "  - strength: [{distribution: constant, value: 300 MPa},"
-                                                  " {distribution: uniform, minimum: 299 MPa, maximum: 301 MPa}]\n");
-    double length = campaign->point[0].spec.geometry.length, softening = 275e9 * 100 / (300e6 * 300e6);
+    fracas_campaign *campaign = read_replaced(
+        "", "sweep:\n  - mesh.elements: [100, 1000]\n"
+            "  - strength: [{distribution: constant, value: 300 MPa}, {distribution: uniform, "
+            "minimum: 299 MPa, maximum: 301 MPa}]\n");
+    double length = campaign->point[0].spec.geometry.length,
+           softening = 275e9 * 100 / (300e6 * 300e6);
     bool coarse = length / 100 / softening > 0.5;
     char *text = plan_text(campaign, 2, false), *json = plan_text(campaign, 2, true);
     for (int p = 0; p < 4; p++) {
@@ -92,13 +101,15 @@ static void test_warnings(void **state)
     fracas_campaign_destroy(campaign);
 }
 
-/* A ring of 10 mm with this load, 1000 elements. `more`: further keys of the case, each after a comma; or "initial", for
- * interfaces that open along initial directions. */
+/* A ring of 10 mm with this load, 1000 elements. `more`: further keys of the case, each after a
+ * comma; or "initial", for interfaces that open along initial directions. */
 static fracas_campaign *read_ring(const char *loading, const char *more)
 {
     char sweep_of_ring[512];
-    snprintf(sweep_of_ring, sizeof sweep_of_ring, "sweep:\n  - cases:\n      - {name: ring, model: ring, mesh: {elements: "
-             "1000}, loading: {%s}, geometry: {radius: 10 mm, area: 1 mm2%s}%s}\n", loading, strstr(more, "initial") ? ", direction: initial" : "",
+    snprintf(sweep_of_ring, sizeof sweep_of_ring,
+             "sweep:\n  - cases:\n      - {name: ring, model: ring, mesh: {elements: 1000}, "
+             "loading: {%s}, geometry: {radius: 10 mm, area: 1 mm2%s}%s}\n",
+             loading, strstr(more, "initial") ? ", direction: initial" : "",
              strstr(more, "initial") ? "" : more);
     return read_replaced("", sweep_of_ring);
 }
@@ -113,9 +124,10 @@ static double bound_of(const char *loading)
     return forecast.bound;
 }
 
-/* The stress that a ring stays below: E 275 GPa, rho 2750 kg/m3, c 10 km/s, R 10 mm, until 0.5 us, half of R/c; each load from
- * its own closed form, none from none. E rate t; E t (v + a t/2)/R; E a t^2/(2 R) of an acceleration, of a spin v^2/R, of a force
- * per length f/(rho A). 1e-12: a few roundings. */
+/* The stress that a ring stays below: E 275 GPa, rho 2750 kg/m3, c 10 km/s, R 10 mm, until 0.5 us,
+ * half of R/c; each load from its own closed form, none from none. E rate t; E t (v + a t/2)/R; E a
+ * t^2/(2 R) of an acceleration, of a spin v^2/R, of a force per length f/(rho A). 1e-12: a few
+ * roundings. */
 static void test_bound_of_a_rings_stress(void **state)
 {
     (void)state;
@@ -127,27 +139,38 @@ static void test_bound_of_a_rings_stress(void **state)
         {"type: imposed-rate, rate: 1e4", E * 1e4 * t},
         {"type: initial-velocity, radial: 100", E * 1e4 * t},
         {"type: initial-velocity, radial: -100", E * 1e4 * t},
-        {"type: initial-velocity, radial: 100, circumferential: 300", E * 1e4 * t + E * t * t / 2 * 9e4 / (R * R)},
-        {"type: held-velocity, velocity: 100, acceleration: 1e8", E * t * (100 + 0.5 * 1e8 * t) / R},
-        {"type: held-velocity, direction: circumferential, velocity: 300", E * t * t / 2 * 9e4 / (R * R)},
+        {"type: initial-velocity, radial: 100, circumferential: 300",
+         E * 1e4 * t + E * t * t / 2 * 9e4 / (R * R)},
+        {"type: held-velocity, velocity: 100, acceleration: 1e8",
+         E * t * (100 + 0.5 * 1e8 * t) / R},
+        {"type: held-velocity, direction: circumferential, velocity: 300",
+         E * t * t / 2 * 9e4 / (R * R)},
         {"type: force, force: 1e6", E * t * t / 2 * 1e6 / (2750e-6 * R)},
         {"type: force, force: 0, force_rate: 2e12", E * t * t / 2 * 1e6 / (2750e-6 * R)},
-        {"type: force, direction: circumferential, force: 1e6", E * t * t / 2 * pow(1e6 * t / 2750e-6, 2) / (R * R)},
+        {"type: force, direction: circumferential, force: 1e6",
+         E * t * t / 2 * pow(1e6 * t / 2750e-6, 2) / (R * R)},
         {"type: force, force: 0", 0},
     };
     for (size_t i = 0; i < sizeof loads / sizeof *loads; i++)
         if (!(fabs(bound_of(loads[i].loading) - loads[i].bound) <= 1e-12 * loads[i].bound))
-            fail_msg("%s: %.15g, not %.15g", loads[i].loading, bound_of(loads[i].loading), loads[i].bound);
+            fail_msg("%s: %.15g, not %.15g", loads[i].loading, bound_of(loads[i].loading),
+                     loads[i].bound);
 }
 
-/* What a plan says of a ring before it is run. R/c is 1 us: the ring turns at 1.57 us and is compressed from 3.14 us on; it cracks
- * above 300 MPa, that is radial 10.9 m/s. Half of it are 31.4 mm. */
+/* What a plan says of a ring before it is run. R/c is 1 us: the ring turns at 1.57 us and is
+ * compressed from 3.14 us on; it cracks above 300 MPa, that is radial 10.9 m/s. Half of it are 31.4
+ * mm. */
 static void test_warnings_of_rings(void **state)
 {
     (void)state;
-    static const char *const says[] = {"swings back: raise its velocity", "raise its velocity or time.end", "load it harder, or longer",
-                                       "the whole ring comes under compression", "cohesive.zone is longer than half",
-                                       "are strength, material and loading in", "the ring turns by", "waves go at"};
+    static const char *const says[] = {"swings back: raise its velocity",
+                                       "raise its velocity or time.end",
+                                       "load it harder, or longer",
+                                       "the whole ring comes under compression",
+                                       "cohesive.zone is longer than half",
+                                       "are strength, material and loading in",
+                                       "the ring turns by",
+                                       "waves go at"};
     const struct {
         const char *loading, *more;
         unsigned expected; /* bit i: says[i] */
@@ -161,27 +184,38 @@ static void test_warnings_of_rings(void **state)
         {"type: force, force: -1e9", "", 8},
         {"type: force, force: 1e9", "", 0},
         {"type: initial-velocity, radial: 1000 m/s", ", cohesive: {law: stershic, zone: 31 mm}", 0},
-        {"type: initial-velocity, radial: 1000 m/s", ", cohesive: {law: stershic, zone: 32 mm}", 16},
+        {"type: initial-velocity, radial: 1000 m/s", ", cohesive: {law: stershic, zone: 32 mm}",
+         16},
         /* 275 GPa 1e5/s dt, dt = 62.8 um/(10 km/s) 0.25/f, f of a few units: 10 to 40 MPa */
-        {"type: initial-velocity, radial: 1000 m/s", ", strength: {distribution: uniform, minimum: 299, maximum: 301}", 32},
-        {"type: initial-velocity, radial: 1000 m/s", ", strength: {distribution: uniform, minimum: 45 MPa, maximum: 50 MPa}", 0},
-        {"type: initial-velocity, radial: 1000 m/s", ", material: {young: 275 GPa, density: 2.7}", 128}, /* 319 km/s */
-        {"type: initial-velocity, radial: 1000 m/s", ", material: {young: 60 GPa, density: 100}", 0},         /* 24.5 km/s */
-        {"type: initial-velocity, radial: 1000 m/s", ", material: {young: 65 GPa, density: 100}", 128},       /* 25.5 km/s */
-        /* turned until 0.5 us by V t/R, V t/R + a t^2/2R, f t^2/(2 rho A R) + f' t^3/(6 rho A R): 0.0075 or 0.0125 */
+        {"type: initial-velocity, radial: 1000 m/s",
+         ", strength: {distribution: uniform, minimum: 299, maximum: 301}", 32},
+        {"type: initial-velocity, radial: 1000 m/s",
+         ", strength: {distribution: uniform, minimum: 45 MPa, maximum: 50 MPa}", 0},
+        {"type: initial-velocity, radial: 1000 m/s", ", material: {young: 275 GPa, density: 2.7}",
+         128}, /* 319 km/s */
+        {"type: initial-velocity, radial: 1000 m/s", ", material: {young: 60 GPa, density: 100}",
+         0}, /* 24.5 km/s */
+        {"type: initial-velocity, radial: 1000 m/s", ", material: {young: 65 GPa, density: 100}",
+         128}, /* 25.5 km/s */
+        /* turned until 0.5 us by V t/R, V t/R + a t^2/2R, f t^2/(2 rho A R) + f' t^3/(6 rho A R):
+           0.0075 or 0.0125 */
         {"type: initial-velocity, radial: 1000 m/s, circumferential: 150 m/s", "initial", 0},
         {"type: initial-velocity, radial: 1000 m/s, circumferential: -250 m/s", "initial", 64},
         {"type: initial-velocity, radial: 1000 m/s, circumferential: 250 m/s", "", 0},
-        {"type: held-velocity, direction: circumferential, velocity: 50, acceleration: 4e8", "initial", 4},
-        {"type: held-velocity, direction: circumferential, velocity: 50, acceleration: 8e8", "initial", 4 | 64},
+        {"type: held-velocity, direction: circumferential, velocity: 50, acceleration: 4e8",
+         "initial", 4},
+        {"type: held-velocity, direction: circumferential, velocity: 50, acceleration: 8e8",
+         "initial", 4 | 64},
         {"type: force, direction: circumferential, force: 1e6, force_rate: 2e12", "initial", 4},
-        {"type: force, direction: circumferential, force: 1.65e6, force_rate: 8e12", "initial", 4 | 64},
+        {"type: force, direction: circumferential, force: 1.65e6, force_rate: 8e12", "initial",
+         4 | 64},
     };
     for (size_t i = 0; i < sizeof rings / sizeof *rings; i++) {
         fracas_campaign *campaign = read_ring(rings[i].loading, rings[i].more);
         char *text = plan_text(campaign, 2, false);
         for (unsigned w = 0; w < sizeof says / sizeof *says; w++)
-            if ((strstr(text, says[w]) != NULL) != (rings[i].expected >> w & 1)) fail_msg("ring %zu, \"%s\":\n%s", i, says[w], text);
+            if ((strstr(text, says[w]) != NULL) != (rings[i].expected >> w & 1))
+                fail_msg("ring %zu, \"%s\":\n%s", i, says[w], text);
         free(text);
         fracas_campaign_destroy(campaign);
     }
@@ -191,7 +225,8 @@ static void test_warnings_of_rings(void **state)
 static void test_heavy_tail(void **state)
 {
     (void)state;
-    fracas_campaign *campaign = read_replaced("", "sweep:\n  - strength: [{distribution: weibull, scale: 30 MPa, shape: 0.5}]\n");
+    fracas_campaign *campaign = read_replaced(
+        "", "sweep:\n  - strength: [{distribution: weibull, scale: 30 MPa, shape: 0.5}]\n");
     fracas_model *model;
     assert_int_equal(fracas_model_create(&campaign->point[0].spec, &model), FRACAS_OK);
     const fracas_point *point = &campaign->point[0];
@@ -205,14 +240,16 @@ static void test_heavy_tail(void **state)
     fracas_campaign_destroy(campaign);
 }
 
-/* Flaws are rarest in the smallest interface: on a graded mesh it is that one, here the last, whose strength counts. In 3.5 mm3
- * are 350 flaws, in 3.5e-3 mm3 a third of one; the longest elements bear 255 MPa. */
+/* Flaws are rarest in the smallest interface: on a graded mesh it is that one, here the last, whose
+ * strength counts. In 3.5 mm3 are 350 flaws, in 3.5e-3 mm3 a third of one; the longest elements
+ * bear 255 MPa. */
 static void test_flaws_of_small_elements(void **state)
 {
     (void)state;
-    fracas_campaign *campaign = read_replaced("", "sweep:\n  - cases:\n"
-        "      - {name: small, mesh: {spacing: graded, ratio: 0.001}, strength: {distribution: flaws, flaw_density: 1e11 1/m3, "
-        "minimum: 100 MPa, maximum: 400 MPa, exponent: 2}}\n");
+    fracas_campaign *campaign = read_replaced(
+        "", "sweep:\n  - cases:\n"
+            "      - {name: small, mesh: {spacing: graded, ratio: 0.001}, strength: {distribution: "
+            "flaws, flaw_density: 1e11 1/m3, minimum: 100 MPa, maximum: 400 MPa, exponent: 2}}\n");
     const fracas_point *point = &campaign->point[0];
     fracas_model *model;
     assert_int_equal(fracas_model_create(&point->spec, &model), FRACAS_OK);
@@ -229,7 +266,8 @@ static void test_flaws_of_small_elements(void **state)
 static void test_refused(void **state)
 {
     (void)state;
-    fracas_campaign *campaign = read_replaced("", "sweep:\n  - cohesive.fracture_energy: [100, 1e-9]\n");
+    fracas_campaign *campaign = read_replaced(
+        "", "sweep:\n  - cohesive.fracture_energy: [100, 1e-9]\n");
     FILE *out = fopen("/dev/null", "w");
     assert_non_null(out);
     assert_int_equal(fracas_plan_print(campaign, 1, out, false), FRACAS_USAGE);
@@ -241,17 +279,20 @@ static void test_refused(void **state)
 static fracas_campaign *refined_ring(const char *refinement)
 {
     char text[1024];
-    snprintf(text, sizeof text,
-             "name: refined\nseed: 1\nmodel: ring\ngeometry: {radius: 1 mm}\nmesh: {elements: 200}\n"
-             "material: {young: 275 GPa, density: 2750 kg/m3}\n"
-             "cohesive: {law: stershic, fracture_energy: 100 J/m2, refinement: %s}\n"
-             "strength: {distribution: uniform, minimum: 290 MPa, maximum: 310 MPa}\n"
-             "loading: {rate: 100 1/s}\ntime: {end: 15 us, safety: 0.5}\nreplicas: 1\n", refinement);
+    snprintf(
+        text, sizeof text,
+        "name: refined\nseed: 1\nmodel: ring\ngeometry: {radius: 1 mm}\nmesh: {elements: 200}\n"
+        "material: {young: 275 GPa, density: 2750 kg/m3}\n"
+        "cohesive: {law: stershic, fracture_energy: 100 J/m2, refinement: %s}\n"
+        "strength: {distribution: uniform, minimum: 290 MPa, maximum: 310 MPa}\n"
+        "loading: {rate: 100 1/s}\ntime: {end: 15 us, safety: 0.5}\nreplicas: 1\n",
+        refinement);
     return read_text(text);
 }
 
-/* However short steps may become, a plan is soon made. This ring's stress takes 0.55 us from 0.95 to all of its strength, 3.5
- * million steps of 1.57 ns 1e-4, ten seconds or more; what is timed of it takes a tenth of a second (a second with sanitizers). */
+/* However short steps may become, a plan is soon made. This ring's stress takes 0.55 us from 0.95
+ * to all of its strength, 3.5 million steps of 1.57 ns 1e-4, ten seconds or more; what is timed of
+ * it takes a tenth of a second (a second with sanitizers). */
 static void test_refined(void **state)
 {
     (void)state;
@@ -272,7 +313,8 @@ static void test_refined(void **state)
 static void test_refined_too_far(void **state)
 {
     (void)state;
-    static const char *const refinements[] = {"5e-5", "1e-10", "1e-154", "1e-300"}; /* 9.5e3/25e-10 = 3.8e12, ... infinity */
+    static const char *const refinements[] = {"5e-5", "1e-10", "1e-154",
+                                              "1e-300"}; /* 9.5e3/25e-10 = 3.8e12, ... infinity */
     for (size_t r = 0; r < FRACAS_COUNT(refinements); r++) {
         fracas_campaign *campaign = refined_ring(refinements[r]);
         fracas_model *model = NULL;
@@ -298,10 +340,17 @@ static void test_write_fails(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cost),    cmocka_unit_test(test_text),        cmocka_unit_test(test_json),
-        cmocka_unit_test(test_warnings), cmocka_unit_test(test_heavy_tail),
-        cmocka_unit_test(test_flaws_of_small_elements), cmocka_unit_test(test_bound_of_a_rings_stress), cmocka_unit_test(test_warnings_of_rings),
-        cmocka_unit_test(test_refused), cmocka_unit_test(test_refined), cmocka_unit_test(test_refined_too_far),
+        cmocka_unit_test(test_cost),
+        cmocka_unit_test(test_text),
+        cmocka_unit_test(test_json),
+        cmocka_unit_test(test_warnings),
+        cmocka_unit_test(test_heavy_tail),
+        cmocka_unit_test(test_flaws_of_small_elements),
+        cmocka_unit_test(test_bound_of_a_rings_stress),
+        cmocka_unit_test(test_warnings_of_rings),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_refined),
+        cmocka_unit_test(test_refined_too_far),
         cmocka_unit_test(test_write_fails),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Charts: what their CSV says, what their drawings have, and drawings as PDF. */
 #include "analysis/report/chart.h"
 #include "analysis/report/pdf.h"
@@ -14,7 +15,8 @@
 
 #include <cmocka.h>
 
-/* A mark without a bar and one that no log axis shows, a line without a name in the look of the marks, and a band with a gap. */
+/* A mark without a bar and one that no log axis shows, a line without a name in the look of the
+ * marks, and a band with a gap. */
 static void make_chart(fracas_chart *chart)
 {
     fracas_series *series;
@@ -59,7 +61,8 @@ static void make_names(fracas_chart *chart)
     panel->x.nnames = 2;
     strcpy(panel->x.label, "refined");
     strcpy(panel->y.label, "change [%]");
-    assert_int_equal(fracas_panel_add(panel, FRACAS_BOXES, FRACAS_CHART_GREY, 3, &series), FRACAS_OK);
+    assert_int_equal(fracas_panel_add(panel, FRACAS_BOXES, FRACAS_CHART_GREY, 3, &series),
+                     FRACAS_OK);
     strcpy(series->name, "as it is");
     for (size_t i = 0; i < 3; i++) {
         series->x[i] = i < 2 ? 0.8 + (double)i : 2;
@@ -75,11 +78,13 @@ static void make_names(fracas_chart *chart)
         series->low[0] = 0;
         series->high[0] = 3;
     }
-    assert_int_equal(fracas_panel_add(panel, FRACAS_CURVE, FRACAS_CHART_GREY + 2, 2, &series), FRACAS_OK);
+    assert_int_equal(fracas_panel_add(panel, FRACAS_CURVE, FRACAS_CHART_GREY + 2, 2, &series),
+                     FRACAS_OK);
     for (size_t i = 0; i < 2; i++) series->x[i] = i ? 2.5 : 0.5, series->y[i] = 2;
 }
 
-static char *written_of(void (*make)(fracas_chart *chart), void (*write)(const fracas_chart *chart, FILE *out))
+static char *written_of(void (*make)(fracas_chart *chart),
+                        void (*write)(const fracas_chart *chart, FILE *out))
 {
     char *text;
     size_t size;
@@ -102,16 +107,17 @@ static void the_csv_has_what_is_drawn(void **state)
 {
     (void)state;
     char *text = written(fracas_chart_csv);
-    assert_string_equal(text, "panel,series,kind,\"rate [1/s]\",\"size [mm] | energy [J]\",low,high\n"
-                              "1,\"\",curve,1,1,,\n"
-                              "1,\"\",curve,10,10,,\n"
-                              "1,\"a \"\"quoted\"\", <name>\",mark,1,2,-1,3\n"
-                              "1,\"a \"\"quoted\"\", <name>\",mark,2,2,,\n"
-                              "2,\"band\",band,0,2,1,4\n"
-                              "2,\"band\",band,1,2,1,4\n"
-                              "2,\"band\",band,2,2,,4\n"
-                              "2,\"band\",band,3,2,1,4\n"
-                              "2,\"band\",band,4,2,1,4\n");
+    assert_string_equal(text,
+                        "panel,series,kind,\"rate [1/s]\",\"size [mm] | energy [J]\",low,high\n"
+                        "1,\"\",curve,1,1,,\n"
+                        "1,\"\",curve,10,10,,\n"
+                        "1,\"a \"\"quoted\"\", <name>\",mark,1,2,-1,3\n"
+                        "1,\"a \"\"quoted\"\", <name>\",mark,2,2,,\n"
+                        "2,\"band\",band,0,2,1,4\n"
+                        "2,\"band\",band,1,2,1,4\n"
+                        "2,\"band\",band,2,2,,4\n"
+                        "2,\"band\",band,3,2,1,4\n"
+                        "2,\"band\",band,4,2,1,4\n");
     free(text);
 }
 
@@ -143,14 +149,17 @@ static void drawings_have_marks_bands_and_keys(void **state)
     char *page = written(write_page), *linear = written(write_linear), *file = written(write_file);
     assert_int_equal(count_of(page, "class=\"mark\""), 2);
     assert_int_equal(count_of(page, "class=\"bar\""), 1);
-    assert_int_equal(count_of(page, "class=\"area\""), 3); /* before the gap, after it, and in the legend */
-    assert_int_equal(count_of(page, "class=\"series c0\" data-key=\"0.1\""), 2); /* the line goes with the marks */
+    assert_int_equal(count_of(page, "class=\"area\""),
+                     3); /* before the gap, after it, and in the legend */
+    assert_int_equal(count_of(page, "class=\"series c0\" data-key=\"0.1\""),
+                     2); /* the line goes with the marks */
     assert_int_equal(count_of(page, "class=\"entry c0\" data-key=\"0.1\""), 1);
     assert_int_equal(count_of(page, "class=\"entry"), 2);
     assert_non_null(strstr(page, "data-x=\"log 1 10 "));
     assert_non_null(strstr(linear, "data-x=\"linear 0 10 "));
     assert_int_equal(count_of(linear, "class=\"mark\""), 3); /* where it can be below 0 */
-    assert_non_null(strstr(page, "a &quot;quoted&quot;, &lt;name&gt;; rate [1/s]: 1.000; size [mm]: 2.000 (95 %: -1.000 to 3.000)"));
+    assert_non_null(strstr(page, "a &quot;quoted&quot;, &lt;name&gt;; rate [1/s]: 1.000; size "
+                                 "[mm]: 2.000 (95 %: -1.000 to 3.000)"));
     assert_null(strstr(page, "<style>"));
     assert_non_null(strstr(file, ".c5{color:#56B4E9}"));
     assert_null(strstr(file, "data-"));
@@ -172,7 +181,8 @@ static double place_of(const char *drawing, const char *name)
 static void an_axis_may_have_names(void **state)
 {
     (void)state;
-    char *page = written_of(make_names, write_page), *table = written_of(make_names, fracas_chart_csv);
+    char *page = written_of(make_names, write_page),
+         *table = written_of(make_names, fracas_chart_csv);
     assert_string_equal(table, "panel,series,kind,\"refined\",\"change [%]\",low,high\n"
                                "1,\"as it is\",box,\"mesh\",0,-1,1\n"
                                "1,\"as it is\",box,\"<beta>\",0,,1\n"
@@ -183,16 +193,21 @@ static void an_axis_may_have_names(void **state)
                                "1,\"\",curve,\"<beta>\",2,,\n");
     assert_int_equal(count_of(page, "class=\"mark\""), 1);
     assert_int_equal(count_of(page, "class=\"mark open\""), 1);
-    assert_int_equal(count_of(page, "class=\"area\""), 3); /* two, for one has no low end, and in the legend */
-    assert_int_equal(count_of(page, "class=\"entry c2\" data-key=\"0.1\""), 1); /* both kinds of marks have one entry */
+    assert_int_equal(count_of(page, "class=\"area\""),
+                     3); /* two, for one has no low end, and in the legend */
+    assert_int_equal(count_of(page, "class=\"entry c2\" data-key=\"0.1\""),
+                     1); /* both kinds of marks have one entry */
     assert_int_equal(count_of(page, "class=\"series c2\" data-key=\"0.1\""), 2);
     assert_int_equal(count_of(page, "class=\"series cg\""), 2);
     assert_non_null(strstr(page, "data-x=\"names 0.5 2.5 "));
-    assert_non_null(strstr(page, "<title>a point; refined: mesh; change [%]: 2.000 (95 %: 0 to 3.000)</title>"));
+    assert_non_null(strstr(
+        page, "<title>a point; refined: mesh; change [%]: 2.000 (95 %: 0 to 3.000)</title>"));
     assert_non_null(strstr(page, "refined: &lt;beta&gt;; "));
-    const double mesh = place_of(page, ">mesh</text>"), beta = place_of(page, ">&lt;beta&gt;</text>");
+    const double mesh = place_of(page, ">mesh</text>"),
+                 beta = place_of(page, ">&lt;beta&gt;</text>");
     const char *mark = strstr(page, "class=\"mark open\" d=\"M");
-    assert_true(fabs(strtod(mark + strlen("class=\"mark open\" d=\"M"), NULL) - (beta + 0.2 * (beta - mesh))) < 0.2); /* each to 0.05 pixels */
+    assert_true(fabs(strtod(mark + strlen("class=\"mark open\" d=\"M"), NULL) -
+                     (beta + 0.2 * (beta - mesh))) < 0.2); /* each to 0.05 pixels */
     free(page);
     free(table);
 }
@@ -239,7 +254,8 @@ static void drawings_become_pdf(void **state)
         print_message("skipped: built without librsvg\n");
         skip();
     }
-    char names[2][FRACAS_DRAWING] = {"chart", "again"}, path[512], begin[6] = "", *svg = written(write_file);
+    char names[2][FRACAS_DRAWING] = {"chart", "again"}, path[512], begin[6] = "",
+         *svg = written(write_file);
     put_file("chart.svg", svg);
     put_file("again.svg", svg);
     free(svg);
@@ -252,9 +268,11 @@ static void drawings_become_pdf(void **state)
         assert_string_equal(begin, "%PDF-");
         fclose(file);
     }
-    char missing[1][FRACAS_DRAWING] = {"missing"}, torn[1][FRACAS_DRAWING] = {"torn"}, taken[1][FRACAS_DRAWING] = {"taken"};
+    char missing[1][FRACAS_DRAWING] = {"missing"}, torn[1][FRACAS_DRAWING] = {"torn"},
+         taken[1][FRACAS_DRAWING] = {"taken"};
     fails_with(missing, "missing.svg to make a PDF of it");
-    put_file("torn.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\"><path");
+    put_file("torn.svg",
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\"><path");
     fails_with(torn, "torn.svg");
     put_file("taken.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\"/>");
     snprintf(path, sizeof path, "%s/taken.pdf", folder);

@@ -1,5 +1,7 @@
-/* Covariances against GSL, and the covariances of normal fields, found from the factors and not by sampling, against them.
- * ctest-labels: slow-sanitize
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: slow-sanitize */
+/* Covariances against GSL, and the covariances of normal fields, found from the factors and not by
+ * sampling, against them.
  */
 #include "sampler/field/circulant.h"
 #include "sampler/field/correlation.h"
@@ -38,7 +40,9 @@ static fracas_covariance *covariance_of(const fracas_strength *strength)
 
 static double exact(const fracas_strength *strength, double d)
 {
-    const double l = strength->correlation_length, nu = strength->smoothness > 0 ? strength->smoothness : 1.5, x = sqrt(2 * nu) * d / l;
+    const double l = strength->correlation_length,
+                 nu = strength->smoothness > 0 ? strength->smoothness : 1.5,
+                 x = sqrt(2 * nu) * d / l;
     if (d == 0) return 1;
     if (strength->covariance == &fracas_covariance_exponential) return exp(-d / l);
     if (strength->covariance == &fracas_covariance_gaussian) return exp(-d * d / (2 * l * l));
@@ -50,7 +54,8 @@ static double exact(const fracas_strength *strength, double d)
 static void covariances_are_those_of_gsl(void **state)
 {
     (void)state;
-    static const double smoothness[] = {0.1, 0.3, 0.5, 0.50001, 0.8, 1, 1.5, 1.9, 2, 2.5, 3.3, 4.5, 6, 7.7, 9.5, 10, NAN};
+    static const double smoothness[] = {0.1, 0.3, 0.5, 0.50001, 0.8, 1,   1.5, 1.9, 2,
+                                        2.5, 3.3, 4.5, 6,       7.7, 9.5, 10,  NAN};
     double worst = 0;
     for (size_t s = 0; s < sizeof smoothness / sizeof *smoothness; s++) {
         const fracas_strength strength = correlated(&fracas_covariance_matern, 3e-3, smoothness[s]);
@@ -63,14 +68,17 @@ static void covariances_are_those_of_gsl(void **state)
             assert_true(rho <= before + 1e-15 && rho >= 0);
             before = rho;
         }
-        assert_true(fracas_covariance_at(covariance, 1e-40) > 1 - 1e-5 && fracas_covariance_at(covariance, 1e40) == 0);
+        assert_true(fracas_covariance_at(covariance, 1e-40) > 1 - 1e-5 &&
+                    fracas_covariance_at(covariance, 1e40) == 0);
         fracas_covariance_destroy(covariance);
     }
-    const fracas_kind *const others[] = {&fracas_covariance_exponential, &fracas_covariance_gaussian};
+    const fracas_kind *const others[] = {&fracas_covariance_exponential,
+                                         &fracas_covariance_gaussian};
     for (size_t k = 0; k < 2; k++) {
         const fracas_strength strength = correlated(others[k], 3e-3, NAN);
         fracas_covariance *covariance = covariance_of(&strength);
-        for (double d = 3e-9; d < 3; d *= 1.1) worst = fmax(worst, fabs(fracas_covariance_at(covariance, d) - exact(&strength, d)));
+        for (double d = 3e-9; d < 3; d *= 1.1)
+            worst = fmax(worst, fabs(fracas_covariance_at(covariance, d) - exact(&strength, d)));
         fracas_covariance_destroy(covariance);
     }
     print_message("covariances: %.2e\n", worst);
@@ -81,21 +89,27 @@ static void covariances_are_those_of_gsl(void **state)
 static void only_strengths_that_are_drawn_are_correlated(void **state)
 {
     (void)state;
-    static const struct { const char *distribution, *message; } table[] = {
-        {"file", "`covariance` is of strengths that are drawn, and those of distribution `file` are given: leave it out"},
-        {"positions", "`covariance` is of strengths that are drawn, and those of distribution `positions` are given: leave it out"},
+    static const struct {
+        const char *distribution, *message;
+    } table[] = {
+        {"file", "`covariance` is of strengths that are drawn, and those of distribution `file` "
+                 "are given: leave it out"},
+        {"positions", "`covariance` is of strengths that are drawn, and those of distribution "
+                      "`positions` are given: leave it out"},
         {"constant", "`covariance` changes nothing where all strengths are the same"},
     };
     const fracas_attachment file = {.path = "s.csv", .text = "0 0 3\n", .size = 6};
     for (size_t t = 0; t < FRACAS_COUNT(table); t++)
         for (size_t k = 0; k < fracas_strength_section.nkinds; k++) {
-            fracas_strength strength = {.distribution = fracas_strength_section.kinds[k], .file = &file, .value = 3e8};
+            fracas_strength strength = {
+                .distribution = fracas_strength_section.kinds[k], .file = &file, .value = 3e8};
             if (strcmp(strength.distribution->name, table[t].distribution) != 0) continue;
             assert_int_equal(fracas_strength_check(&strength), FRACAS_OK);
             strength.covariance = &fracas_covariance_exponential;
             strength.correlation_length = 1e-3;
             assert_int_equal(fracas_strength_check(&strength), FRACAS_USAGE);
-            if (!strstr(fracas_message(), table[t].message)) fail_msg("%s: %s", table[t].distribution, fracas_message());
+            if (!strstr(fracas_message(), table[t].message))
+                fail_msg("%s: %s", table[t].distribution, fracas_message());
         }
 }
 
@@ -105,7 +119,8 @@ static void only_strengths_that_are_drawn_are_correlated(void **state)
 static double *factor_of(const fracas_correlation *correlation, size_t n)
 {
     const size_t count = fracas_correlation_normals(correlation);
-    double *a = calloc(n * count + 1, sizeof *a), *w = calloc(count + 1, sizeof *w), *z = calloc(n + 1, sizeof *z);
+    double *a = calloc(n * count + 1, sizeof *a), *w = calloc(count + 1, sizeof *w),
+           *z = calloc(n + 1, sizeof *z);
     for (size_t k = 0; k < count; k++) {
         w[k] = 1;
         assert_int_equal(fracas_correlation_apply(correlation, w, z), FRACAS_OK);
@@ -121,7 +136,8 @@ static double *factor_of(const fracas_correlation *correlation, size_t n)
 static double error_of(const fracas_strength *strength, size_t n, double period, const char *what)
 {
     fracas_correlation *correlation;
-    assert_int_equal(fracas_correlation_create(strength, n, SITES, period, &correlation), FRACAS_OK);
+    assert_int_equal(fracas_correlation_create(strength, n, SITES, period, &correlation),
+                     FRACAS_OK);
     const size_t count = fracas_correlation_normals(correlation);
     double *a = factor_of(correlation, n), worst = 0;
     for (size_t i = 0; i < n; i++)
@@ -133,7 +149,8 @@ static double error_of(const fracas_strength *strength, size_t n, double period,
             if (period > 0) d = period / M_PI * fabs(sin(M_PI * d / period));
             worst = fmax(worst, fabs(product - exact(strength, d)));
         }
-    if (worst >= ROUNDED) print_message("%s, %zu sites, %zu normals: %.1e\n", what, n, count, worst);
+    if (worst >= ROUNDED)
+        print_message("%s, %zu sites, %zu normals: %.1e\n", what, n, count, worst);
     assert_true(fracas_correlation_error(correlation) < ROUNDED);
     fracas_correlation_destroy(correlation);
     free(a);
@@ -178,15 +195,18 @@ static void lines_are_told_from_others(void **state)
     (void)state;
     sites_on_line(100, 1.0, sites);
     assert_int_equal(normals_of(100, &fracas_covariance_exponential, 0.3), 256);
-    assert_true(normals_of(100, &fracas_covariance_matern, 0.3) >= 512); /* larger circles are tried */
-    assert_int_equal(normals_of(100, &fracas_covariance_gaussian, 400), 100); /* none does, and so few need none */
+    assert_true(normals_of(100, &fracas_covariance_matern, 0.3) >=
+                512); /* larger circles are tried */
+    assert_int_equal(normals_of(100, &fracas_covariance_gaussian, 400),
+                     100);      /* none does, and so few need none */
     sites[50][0] += 1e-7 / 100; /* of the spacing */
     assert_int_equal(normals_of(100, &fracas_covariance_exponential, 0.3), 100);
     for (size_t i = 0; i < 100; i++) sites[i][0] = sites[i][1] = sites[i][2] = 1;
     assert_int_equal(normals_of(100, &fracas_covariance_exponential, 0.3), 100);
 }
 
-/* Sites that move off a circle, or are visited in another order, are not one: the correlations stay right. */
+/* Sites that move off a circle, or are visited in another order, are not one: the correlations stay
+ * right. */
 static void broken_circles_are_scattered(void **state)
 {
     (void)state;
@@ -196,9 +216,11 @@ static void broken_circles_are_scattered(void **state)
         if (way == 0) sites[17][2] += 1e-3;
         for (size_t i = 0; i < 30 && way == 1; i++) sites[i][1] *= 1.01;
         for (size_t i = 0; i < 30 && way == 2; i++) sites[i][0] = sites[i * 7 % 30][0];
-        if (way == 3) for (int a = 0; a < 3; a++) sites[5][a] = sites[6][a]; /* two at one place */
-        for (size_t i = 0; i < 30 && way == 4; i++) sites[i][0] = sites[i][1] = sites[i][2] = 0.1; /* all are */
-        for (int a = 0; a < 3 && way == 5; a++) { /* two change places */
+        if (way == 3)
+            for (int a = 0; a < 3; a++) sites[5][a] = sites[6][a]; /* two at one place */
+        for (size_t i = 0; i < 30 && way == 4; i++)
+            sites[i][0] = sites[i][1] = sites[i][2] = 0.1; /* all are */
+        for (int a = 0; a < 3 && way == 5; a++) {          /* two change places */
             const double x = sites[11][a];
             sites[11][a] = sites[20][a];
             sites[20][a] = x;
@@ -207,14 +229,15 @@ static void broken_circles_are_scattered(void **state)
     }
 }
 
-/* A covariance that is singular takes as many normals as it has rank: all sites are at a few places, or a field is so smooth that few of
- * its eigenvalues are no rounding. */
+/* A covariance that is singular takes as many normals as it has rank: all sites are at a few
+ * places, or a field is so smooth that few of its eigenvalues are no rounding. */
 static void singular_covariances_are_factorised(void **state)
 {
     (void)state;
     enum { N = 120, PLACES = 7 };
     for (int way = 0; way < 2; way++) {
-        const fracas_strength strength = correlated(way ? &fracas_covariance_gaussian : &fracas_covariance_exponential, way ? 3 : 0.3, NAN);
+        const fracas_strength strength = correlated(
+            way ? &fracas_covariance_gaussian : &fracas_covariance_exponential, way ? 3 : 0.3, NAN);
         fracas_covariance *covariance = covariance_of(&strength);
         fracas_dense_factor factor;
         uint32_t order[N];
@@ -232,9 +255,10 @@ static void singular_covariances_are_factorised(void **state)
     }
 }
 
-/* A smooth covariance of a long length on many sites has no circle: the error is stated. A cosine is an eigenvector of the circle, so
- * what the factor makes of it at site 0 is the root of the eigenvalue. Those of more than 60 waves together are what
- * lacks in the variance, 1, and change no correlation by more. */
+/* A smooth covariance of a long length on many sites has no circle: the error is stated. A cosine
+ * is an eigenvector of the circle, so what the factor makes of it at site 0 is the root of the
+ * eigenvalue. Those of more than 60 waves together are what lacks in the variance, 1, and change no
+ * correlation by more. */
 static void no_circle_is_long_enough(void **state)
 {
     (void)state;
@@ -247,14 +271,19 @@ static void no_circle_is_long_enough(void **state)
     assert_int_equal(size, 1 << 17); /* no larger one is tried */
     double *w = malloc(size * sizeof *w), z[N], rho[N] = {0}, worst = 0;
     for (size_t m = 0; m <= WAVES; m++) {
-        for (size_t k = 0; k < size; k++) w[k] = cos(2 * M_PI * (double)(m * k % size) / (double)size);
+        for (size_t k = 0; k < size; k++)
+            w[k] = cos(2 * M_PI * (double)(m * k % size) / (double)size);
         assert_int_equal(fracas_circulant_apply(circulant, w, z), FRACAS_OK);
-        for (size_t i = 0; i < N; i++) rho[i] += (m ? 2 : 1) * z[0] * z[0] / (double)size * cos(2 * M_PI * (double)(m * i % size) / (double)size);
+        for (size_t i = 0; i < N; i++)
+            rho[i] += (m ? 2 : 1) * z[0] * z[0] / (double)size *
+                      cos(2 * M_PI * (double)(m * i % size) / (double)size);
     }
     for (size_t i = 0; i < N; i++) worst = fmax(worst, fabs(rho[i] - exact(&strength, (double)i)));
     const double lacks = 1 - rho[0], stated = fracas_circulant_error(circulant);
-    print_message("clipped: %zu normals, error %.3e, stated %.3e, %.1e is lacking\n", size, worst, stated, lacks);
-    assert_true(lacks > -ROUNDED && lacks < 0.25 * stated && fabs(worst - stated) < lacks + ROUNDED);
+    print_message("clipped: %zu normals, error %.3e, stated %.3e, %.1e is lacking\n", size, worst,
+                  stated, lacks);
+    assert_true(lacks > -ROUNDED && lacks < 0.25 * stated &&
+                fabs(worst - stated) < lacks + ROUNDED);
     free(w);
     fracas_circulant_destroy(circulant);
     fracas_covariance_destroy(covariance);
@@ -272,7 +301,8 @@ static fracas_sparse_factor *sparse_of(const fracas_strength *strength, size_t n
 }
 
 /* The largest error of the pairs of every `step`-th site with all, and that of its variance. */
-static double error_of_pairs(const fracas_strength *strength, const fracas_sparse_factor *factor, size_t n, size_t step, double *of_variance)
+static double error_of_pairs(const fracas_strength *strength, const fracas_sparse_factor *factor,
+                             size_t n, size_t step, double *of_variance)
 {
     double *rho = malloc(n * sizeof *rho), worst = 0;
     *of_variance = 0;
@@ -280,7 +310,8 @@ static double error_of_pairs(const fracas_strength *strength, const fracas_spars
         assert_int_equal(fracas_sparse_factor_correlation(factor, i, rho), FRACAS_OK);
         for (size_t j = 0; j < n; j++) {
             assert_true(isfinite(rho[j])); /* fmax leaves out NaN */
-            worst = fmax(worst, fabs(rho[j] - exact(strength, fracas_distance(sites[i], sites[j]))));
+            worst = fmax(worst,
+                         fabs(rho[j] - exact(strength, fracas_distance(sites[i], sites[j]))));
         }
         *of_variance = fmax(*of_variance, fabs(rho[i] - 1));
     }
@@ -293,19 +324,31 @@ static void errors_are_stated(void **state)
 {
     (void)state;
     enum { N = 1300 };
-    static const struct { const fracas_kind *kind; double length, smoothness, most; size_t step; } cases[] = {
-        {&fracas_covariance_exponential, 0.4, NAN, 5e-3, 1}, {&fracas_covariance_matern, 0.05, 1.5, 5e-3, 1},
-        {&fracas_covariance_matern, 0.4, 0.8, 5e-3, 1}, {&fracas_covariance_gaussian, 0.2, NAN, 1e-4, 10},
-        {&fracas_covariance_exponential, 1e-9, NAN, 0, 10}, {&fracas_covariance_exponential, 1e9, NAN, 1e-6, 10},
+    static const struct {
+        const fracas_kind *kind;
+        double length, smoothness, most;
+        size_t step;
+    } cases[] = {
+        {&fracas_covariance_exponential, 0.4, NAN, 5e-3, 1},
+        {&fracas_covariance_matern, 0.05, 1.5, 5e-3, 1},
+        {&fracas_covariance_matern, 0.4, 0.8, 5e-3, 1},
+        {&fracas_covariance_gaussian, 0.2, NAN, 1e-4, 10},
+        {&fracas_covariance_exponential, 1e-9, NAN, 0, 10},
+        {&fracas_covariance_exponential, 1e9, NAN, 1e-6, 10},
     };
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
-        const fracas_strength strength = correlated(cases[c].kind, cases[c].length, cases[c].smoothness);
+        const fracas_strength strength = correlated(cases[c].kind, cases[c].length,
+                                                    cases[c].smoothness);
         double of_variance;
         sites_scattered(N, sites);
         fracas_sparse_factor *factor = sparse_of(&strength, N);
-        const double stated = fracas_sparse_factor_error(factor), worst = error_of_pairs(&strength, factor, N, cases[c].step, &of_variance);
-        print_message("%s, length %g: error %.2e, stated %.2e, of a variance %.1e\n", cases[c].kind->name, cases[c].length, worst, stated, of_variance);
-        assert_true(worst <= 1.5 * stated + ROUNDED && (cases[c].step > 1 || stated <= worst + ROUNDED) && worst <= cases[c].most + ROUNDED);
+        const double stated = fracas_sparse_factor_error(factor),
+                     worst = error_of_pairs(&strength, factor, N, cases[c].step, &of_variance);
+        print_message("%s, length %g: error %.2e, stated %.2e, of a variance %.1e\n",
+                      cases[c].kind->name, cases[c].length, worst, stated, of_variance);
+        assert_true(worst <= 1.5 * stated + ROUNDED &&
+                    (cases[c].step > 1 || stated <= worst + ROUNDED) &&
+                    worst <= cases[c].most + ROUNDED);
         assert_true(of_variance < ROUNDED);
         fracas_sparse_factor_destroy(factor);
     }
@@ -334,8 +377,8 @@ static void correlations_are_those_of_the_factor(void **state)
     fracas_sparse_factor_destroy(factor);
 }
 
-/* On a line, values of an exponential covariance given those at the next site on either side depend on no other: the factor is exact
- * but for rounding. So it is for sites that are there twice. */
+/* On a line, values of an exponential covariance given those at the next site on either side depend
+ * on no other: the factor is exact but for rounding. So it is for sites that are there twice. */
 static void markov_fields_are_exact(void **state)
 {
     (void)state;
@@ -366,7 +409,8 @@ static void sites_may_be_at_one_place(void **state)
     for (size_t i = 0; i < N; i++) /* a cluster of COPIES, and the rest by twos */
         for (int a = 0; a < 3; a++) sites[i][a] = sites[i < COPIES ? 0 : i / 2 * 2][a];
     fracas_sparse_factor *factor = sparse_of(&strength, N);
-    const double stated = fracas_sparse_factor_error(factor), worst = error_of_pairs(&strength, factor, N, 10, &of_variance);
+    const double stated = fracas_sparse_factor_error(factor),
+                 worst = error_of_pairs(&strength, factor, N, 10, &of_variance);
     print_message("sites at one place: %.1e, stated %.1e\n", worst, stated);
     assert_true(worst <= 5e-3 && worst <= 1.5 * stated + ROUNDED && of_variance < ROUNDED);
     fracas_sparse_factor_destroy(factor);
@@ -388,8 +432,11 @@ static void orders_go_from_coarse_to_fine(void **state)
         assert_true(order[k] < N && !seen[order[k]]);
         seen[order[k]] = true;
         double nearest = INFINITY;
-        for (size_t j = 0; j < k; j++) nearest = fmin(nearest, d[j] = fracas_distance(sites[order[k]], sites[order[j]]));
-        if (k > 0) assert_true(nearest < spacing / 0.79); /* a level's spacing is 0.8 of that before, and its sites are further apart */
+        for (size_t j = 0; j < k; j++)
+            nearest = fmin(nearest, d[j] = fracas_distance(sites[order[k]], sites[order[j]]));
+        if (k > 0)
+            assert_true(nearest < spacing / 0.79); /* a level's spacing is 0.8 of that before, and
+                                                      its sites are further apart */
         spacing = fmin(spacing, nearest);
         if (k < FIRST) continue;
         for (size_t a = 0; a < M; a++) { /* as many are nearer as come before it, but for ties */

@@ -1,4 +1,6 @@
-/* Rank 0 without MPI and with a clock of the test's: what it tells workers to do, and how a run ends. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rank 0 without MPI and with a clock of the test's: what it tells workers to do, and how a run
+ * ends. */
 #include "tests/support/campaign_text.h"
 #include "tests/support/study_fixture.h"
 
@@ -9,7 +11,10 @@ enum { WORKERS = 2 };
 
 static double time_; /* s */
 static double step;  /* s that pass whenever somebody asks */
-static double now(void) { return time_ += step; }
+static double now(void)
+{
+    return time_ += step;
+}
 
 static struct {
     size_t nleases, flushes, stops;
@@ -47,10 +52,12 @@ static fracas_run_options options;
 static fracas_voice voice;
 static fracas_director *director;
 
-/* Of the plain campaign, in place of its three replicas and sweep: for `WORKERS` workers in a study of its own. */
+/* Of the plain campaign, in place of its three replicas and sweep: for `WORKERS` workers in a study
+ * of its own. */
 static void prepare(const char *replicas, const char *sweep)
 {
-    char *counted = replace(plain_campaign, "replicas: 3", replicas), *text = replace(counted, "", sweep);
+    char *counted = replace(plain_campaign, "replicas: 3", replicas),
+         *text = replace(counted, "", sweep);
     campaign = read_text(text);
     free(text);
     free(counted);
@@ -64,8 +71,14 @@ static void prepare(const char *replicas, const char *sweep)
 
 static void begin(double deadline)
 {
-    const fracas_director_setup setup = {.campaign = campaign, .options = &options, .study = study, .workers = WORKERS, .send = note,
-                                         .voice = &voice, .now = now, .deadline = deadline};
+    const fracas_director_setup setup = {.campaign = campaign,
+                                         .options = &options,
+                                         .study = study,
+                                         .workers = WORKERS,
+                                         .send = note,
+                                         .voice = &voice,
+                                         .now = now,
+                                         .deadline = deadline};
     fracas_err verdict;
     OK(fracas_director_create(&setup, &director, &verdict));
 }
@@ -87,7 +100,8 @@ static void hear(size_t from, fracas_packet_kind kind, const void *body, size_t 
 
 static void ready(void)
 {
-    for (size_t w = 0; w < WORKERS; w++) hear(w, FRACAS_PACKET_READY, &campaign->hash, sizeof campaign->hash);
+    for (size_t w = 0; w < WORKERS; w++)
+        hear(w, FRACAS_PACKET_READY, &campaign->hash, sizeof campaign->hash);
 }
 
 /* The worker has computed the lease that it was given as number `i`. */
@@ -109,8 +123,10 @@ static void segment(size_t from, size_t first, size_t last, uint64_t bytes)
     size_t rows = 0;
     for (size_t i = first; i <= last; i++)
         for (size_t k = 0; k < worker[from].lease[i].count; k++, rows++)
-            body.row[rows] = (fracas_segment_row){.point = campaign->point[worker[from].lease[i].point].hash,
-                                                  .replica = worker[from].lease[i].replica[k], .row = (int64_t)rows};
+            body.row[rows] = (fracas_segment_row){
+                .point = campaign->point[worker[from].lease[i].point].hash,
+                .replica = worker[from].lease[i].replica[k],
+                .row = (int64_t)rows};
     snprintf(body.note.name, sizeof body.note.name, "s%d.h5", number++);
     body.note.seal.bytes = bytes;
     body.note.rows = rows;
@@ -142,16 +158,21 @@ static void assert_merged(void)
     if (!strstr(fracas_message(), ".h5 is missing")) fail_msg("%s", fracas_message());
 }
 
-static void say_ended(size_t from) { hear(from, FRACAS_PACKET_ENDED, NULL, 0); }
+static void say_ended(size_t from)
+{
+    hear(from, FRACAS_PACKET_ENDED, NULL, 0);
+}
 
 /* ---- rounds ---- */
 
-/* Two points of 16 realizations each. When the second worker has nothing left to do, both are asked for what they have in memory,
- * though the first still computes: the round of the other point may be complete with it. */
+/* Two points of 16 realizations each. When the second worker has nothing left to do, both are asked
+ * for what they have in memory, though the first still computes: the round of the other point may
+ * be complete with it. */
 static void nobody_waits_for_records_of_one_that_computes(void **state)
 {
     (void)state;
-    prepare("replicas: {minimum: 16, maximum: 64, until: {quantity: dissipated, relative-half-width: 0.1}}",
+    prepare("replicas: {minimum: 16, maximum: 64, until: {quantity: dissipated, "
+            "relative-half-width: 0.1}}",
             "sweep:\n  - loading.rate: [1e3, 1e4]\n");
     begin(0);
     ready();
@@ -175,8 +196,9 @@ static void nobody_waits_for_records_of_one_that_computes(void **state)
 static void what_rounds_wait_for_goes_first(void **state)
 {
     (void)state;
-    prepare("replicas: 40", "sweep:\n  - cases:\n      - {name: long, time: {end: 900 ns}}\n      - {name: ruled, replicas: {minimum: 16, "
-            "maximum: 64, until: {quantity: dissipated, relative-half-width: 0.1}}}\n");
+    prepare("replicas: 40", "sweep:\n  - cases:\n      - {name: long, time: {end: 900 ns}}\n      "
+                            "- {name: ruled, replicas: {minimum: 16, maximum: 64, until: "
+                            "{quantity: dissipated, relative-half-width: 0.1}}}\n");
     begin(0);
     ready();
     for (size_t w = 0; w < WORKERS; w++) assert_int_equal(worker[w].lease[0].point, w == 0 ? 1 : 0);
@@ -238,7 +260,9 @@ static void a_worker_that_is_not_needed_is_given_up(void **state)
     half_done(0);
     pass(11);
     computed(1, 1, 1);
-    assert_int_equal(worker[1].flushes, 1); /* nobody stops before everything is durable: should this one die now ... */
+    assert_int_equal(
+        worker[1].flushes,
+        1); /* nobody stops before everything is durable: should this one die now ... */
     assert_int_equal(worker[0].stops + worker[1].stops, 0);
     segment(1, 1, 1, 1000);
     assert_int_equal(worker[0].stops, 1);
@@ -254,7 +278,8 @@ static void a_worker_that_is_not_needed_is_given_up(void **state)
     end();
 }
 
-/* Worker 0 has computed everything that is missing, and hangs before it is on disk: the other one computes it. */
+/* Worker 0 has computed everything that is missing, and hangs before it is on disk: the other one
+ * computes it. */
 static void what_stays_in_memory_is_computed_again(void **state)
 {
     (void)state;
@@ -288,7 +313,8 @@ static void a_worker_that_does_not_start_is_given_up(void **state)
 
 /* ---- the deadline ---- */
 
-/* Leases of 1 s until the next one would not end 2 s before the deadline; then nobody computes, and the run drains in order. */
+/* Leases of 1 s until the next one would not end 2 s before the deadline; then nobody computes, and
+ * the run drains in order. */
 static void no_lease_is_given_that_does_not_end_in_time(void **state)
 {
     (void)state;
@@ -310,11 +336,13 @@ static void no_lease_is_given_that_does_not_end_in_time(void **state)
         segment(w, 0, 3, 1000);
         say_ended(w);
     }
-    assert_verdict(FRACAS_INTERRUPTED, "the walltime is nearly over: 64 of 160 realizations are done");
+    assert_verdict(FRACAS_INTERRUPTED,
+                   "the walltime is nearly over: 64 of 160 realizations are done");
     end();
 }
 
-/* A segment took 0.5 s to be committed, so two workers need 1 s more than the 2 s before the deadline. */
+/* A segment took 0.5 s to be committed, so two workers need 1 s more than the 2 s before the
+ * deadline. */
 static void commits_take_time_as_well(void **state)
 {
     (void)state;
@@ -332,7 +360,8 @@ static void commits_take_time_as_well(void **state)
     end();
 }
 
-/* What runs 2 s before the deadline is killed; who does not answer until the deadline is left behind. */
+/* What runs 2 s before the deadline is killed; who does not answer until the deadline is left
+ * behind. */
 static void what_runs_at_the_deadline_is_killed(void **state)
 {
     (void)state;
@@ -349,7 +378,8 @@ static void what_runs_at_the_deadline_is_killed(void **state)
     pass(1.5);
     assert_false(fracas_director_over(director));
     pass(0.4);
-    assert_verdict(FRACAS_INTERRUPTED, "the walltime is nearly over: 8 of 16 realizations are done");
+    assert_verdict(FRACAS_INTERRUPTED,
+                   "the walltime is nearly over: 8 of 16 realizations are done");
     end();
 }
 
@@ -369,7 +399,8 @@ static void what_drains_at_the_deadline_is_killed(void **state)
     assert_int_equal(worker[0].stops, 2); /* once is enough */
     say_ended(0);
     say_ended(1);
-    assert_verdict(FRACAS_INTERRUPTED, "interrupted: 8 of 16 realizations are done"); /* which came first */
+    assert_verdict(FRACAS_INTERRUPTED,
+                   "interrupted: 8 of 16 realizations are done"); /* which came first */
     end();
 }
 
@@ -386,7 +417,8 @@ static void a_merge_that_would_not_end_is_not_begun(void **state)
 {
     (void)state;
     everything(1000 + 19);
-    assert_verdict(FRACAS_INTERRUPTED, "all 16 realizations are done and kept, only study.h5 is missing");
+    assert_verdict(FRACAS_INTERRUPTED,
+                   "all 16 realizations are done and kept, only study.h5 is missing");
     end();
     everything(1000 + 21);
     assert_merged();
@@ -413,8 +445,8 @@ static void a_part_is_every_so_many_th(void **state)
         say_ended(w);
     }
     assert_true(found[0][1] && found[1][2]);
-    assert_verdict(FRACAS_INTERRUPTED, "part 2 of 4 is complete, 2 realizations, 0 of them FAILED; when the other parts are, "
-                   "`fracas merge-studies`");
+    assert_verdict(FRACAS_INTERRUPTED, "part 2 of 4 is complete, 2 realizations, 0 of them FAILED; "
+                                       "when the other parts are, `fracas merge-studies`");
     end();
 }
 
@@ -439,7 +471,8 @@ static void the_only_part_is_merged(void **state)
 /* The worker cannot compute the realization that it was given as number `i`. */
 static void failed(size_t from, size_t i)
 {
-    const fracas_lease_failure failure = {.lease = worker[from].lease[i].id, .count = 1, .reason = "it is cursed"};
+    const fracas_lease_failure failure = {
+        .lease = worker[from].lease[i].id, .count = 1, .reason = "it is cursed"};
     hear(from, FRACAS_PACKET_FAILED, &failure, sizeof failure);
 }
 
@@ -459,8 +492,9 @@ static void points_with_failures_are_named(void **state)
     OK(fracas_index_open(study, false, &index));
     assert_int_equal(fracas_failed_verdict(study, index, &campaign->table), FRACAS_SOME_FAILED);
     assert_non_null(strstr(fracas_message(), "7 realizations of"));
-    assert_non_null(strstr(fracas_message(), "FAILED: 1 of point 0, 1 of point 1, 1 of point 2, 1 of point 3, 1 of point 4, "
-                           "and of 2 points more (which and why: fracas status"));
+    assert_non_null(strstr(fracas_message(),
+                           "FAILED: 1 of point 0, 1 of point 1, 1 of point 2, 1 of point 3, 1 of "
+                           "point 4, and of 2 points more (which and why: fracas status"));
     fracas_index_close(index);
     end();
 }

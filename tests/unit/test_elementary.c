@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* base/elementary: errors against long double, special values, and the bits themselves. */
 #include "base/elementary.h"
 #include "base/hash.h"
@@ -64,7 +65,8 @@ static void assert_below(const char *what, double error, double bound)
     assert_true(error < bound);
 }
 
-/* The bounds are those of elementary.h. The oracle's own error (below 2 ulp of long double) adds at most 2^-10 ulp. */
+/* The bounds are those of elementary.h. The oracle's own error (below 2 ulp of long double) adds at
+ * most 2^-10 ulp. */
 static void log_is_within_one_ulp(void **state)
 {
     (void)state;
@@ -96,8 +98,8 @@ static void exp_is_within_one_ulp(void **state)
     }
     assert_below("exp, whole range", all, 1.0);
     assert_below("exp in [-1, 1]", middle, 1.0);
-    /* e^x > 0.7, so 1 ulp >= 2^-53; the last sum rounds by 1/2 ulp, r^2 P(r) < 0.061 is rounded four times by 2^-58 or
-     * less, and r is kept in two doubles: below 0.66. */
+    /* e^x > 0.7, so 1 ulp >= 2^-53; the last sum rounds by 1/2 ulp, r^2 P(r) < 0.061 is rounded
+     * four times by 2^-58 or less, and r is kept in two doubles: below 0.66. */
     assert_below("exp near 0", small, 0.66);
 }
 
@@ -119,7 +121,8 @@ static void expm1_and_log1p_are_exact_near_zero(void **state)
         raise_to(&log_small, ulps(fracas_log1p(x), log1pl(x)));
         x = any_positive(i);
         raise_to(&log_all, ulps(fracas_log1p(x), log1pl(x)));
-        raise_to(&log_all, ulps(fracas_log1p(-between(0.0, 1.0, i, 0)), log1pl(-between(0.0, 1.0, i, 0))));
+        raise_to(&log_all,
+                 ulps(fracas_log1p(-between(0.0, 1.0, i, 0)), log1pl(-between(0.0, 1.0, i, 0))));
     }
     assert_below("expm1 below 0", below, 3.0);
     assert_below("expm1 above 0", above, 3.0);
@@ -127,9 +130,11 @@ static void expm1_and_log1p_are_exact_near_zero(void **state)
     assert_below("expm1 near 0", small, 1.0);
     assert_below("log1p", log_all, 2.0);
     assert_below("log1p near 0", log_small, 2.0);
-    assert_true(fracas_expm1(0.0) == 0.0 && fracas_expm1(-INFINITY) == -1.0 && fracas_expm1(INFINITY) == INFINITY);
+    assert_true(fracas_expm1(0.0) == 0.0 && fracas_expm1(-INFINITY) == -1.0 &&
+                fracas_expm1(INFINITY) == INFINITY);
     assert_true(isnan(fracas_expm1(NAN)));
-    assert_true(fracas_log1p(0.0) == 0.0 && fracas_log1p(-1.0) == -INFINITY && fracas_log1p(INFINITY) == INFINITY);
+    assert_true(fracas_log1p(0.0) == 0.0 && fracas_log1p(-1.0) == -INFINITY &&
+                fracas_log1p(INFINITY) == INFINITY);
     assert_true(isnan(fracas_log1p(-1.5)) && isnan(fracas_log1p(NAN)));
 }
 
@@ -168,8 +173,8 @@ static void gamma_is_within_x_ulp(void **state)
     assert_true(isfinite(fracas_gamma(171.0)));
 }
 
-/* sin(pi r), cos(pi r) for a double |r| <= 1/4: long double rounds pi r by 2^-64 relative, twice, which moves either
- * function by less than 2^-9 ulp of double. */
+/* sin(pi r), cos(pi r) for a double |r| <= 1/4: long double rounds pi r by 2^-64 relative, twice,
+ * which moves either function by less than 2^-9 ulp of double. */
 static const long double pi_l = 3.14159265358979323846264338327950288L;
 
 static long double sinpi_l(double x)
@@ -195,10 +200,10 @@ static void sinpi_and_cospi_are_within_one_ulp(void **state)
     for (uint64_t i = 0; i < POINTS; i++) {
         double tiny = fmin(any_positive(i), 0x1p52), scale = ldexp(1.0, (int)(i % 54) - 1);
         const double x[4] = {
-            between(-0.25, 0.25, i, 0),            /* the polynomials themselves */
-            tiny,                                  /* every exponent, subnormal results too */
-            between(-scale, scale, i, 0),          /* all sizes up to 2^52, spread within each */
-            floor(scale) * 0.5 + ldexp(tiny, -3),  /* close above zeros, where the result is small */
+            between(-0.25, 0.25, i, 0),           /* the polynomials themselves */
+            tiny,                                 /* every exponent, subnormal results too */
+            between(-scale, scale, i, 0),         /* all sizes up to 2^52, spread within each */
+            floor(scale) * 0.5 + ldexp(tiny, -3), /* close above zeros, where the result is small */
         };
         for (int k = 0; k < 4; k++) {
             raise_to(&sine, ulps(fracas_sinpi(x[k]), sinpi_l(x[k])));
@@ -214,7 +219,8 @@ static void sinpi_and_cospi_are_exact_at_halves(void **state)
 {
     (void)state;
     for (uint64_t i = 0; i < POINTS; i++) {
-        double n = i < 1000 ? (double)i - 500.0 : floor(ldexp(between(-1.0, 1.0, i, 0), (int)(i % 53)));
+        double n = i < 1000 ? (double)i - 500.0
+                            : floor(ldexp(between(-1.0, 1.0, i, 0), (int)(i % 53)));
         double odd = fmod(fabs(n), 2.0);
         assert_true(fracas_sinpi(n) == 0.0 && fracas_cospi(n) == 1.0 - 2.0 * odd);
         if (fabs(n) >= 0x1p51) continue; /* n + 1/2 is no double */
@@ -222,7 +228,8 @@ static void sinpi_and_cospi_are_exact_at_halves(void **state)
         double x = between(-300.0, 300.0, i, 1);
         assert_true(fracas_sinpi(-x) == -fracas_sinpi(x) && fracas_cospi(-x) == fracas_cospi(x));
     }
-    assert_true(fracas_sinpi(0x1p52) == 0.0 && fracas_cospi(0x1p52) == 1.0 && fracas_cospi(-0x1p52) == 1.0);
+    assert_true(fracas_sinpi(0x1p52) == 0.0 && fracas_cospi(0x1p52) == 1.0 &&
+                fracas_cospi(-0x1p52) == 1.0);
     assert_true(fracas_sinpi(0x1p52 - 0.5) == -1.0 && fracas_cospi(0x1p52 - 1.0) == -1.0);
     assert_true(isnan(fracas_sinpi(0x1.0000000000001p52)) && isnan(fracas_cospi(-INFINITY)));
     assert_true(isnan(fracas_sinpi(NAN)) && isnan(fracas_cospi(NAN)));
@@ -234,32 +241,38 @@ static void special_values(void **state)
     assert_true(fracas_log(0.0) == -INFINITY && fracas_log(-0.0) == -INFINITY);
     assert_true(fracas_log(INFINITY) == INFINITY && fracas_log(1.0) == 0.0);
     assert_true(isnan(fracas_log(-1.0)) && isnan(fracas_log(-INFINITY)) && isnan(fracas_log(NAN)));
-    assert_true(fracas_exp(0.0) == 1.0 && fracas_exp(-0.0) == 1.0 && fracas_exp(DBL_TRUE_MIN) == 1.0);
-    assert_true(fracas_exp(INFINITY) == INFINITY && fracas_exp(DBL_MAX) == INFINITY && fracas_exp(709.79) == INFINITY);
-    assert_true(fracas_exp(-INFINITY) == 0.0 && fracas_exp(-DBL_MAX) == 0.0 && fracas_exp(-745.14) == 0.0);
+    assert_true(fracas_exp(0.0) == 1.0 && fracas_exp(-0.0) == 1.0 &&
+                fracas_exp(DBL_TRUE_MIN) == 1.0);
+    assert_true(fracas_exp(INFINITY) == INFINITY && fracas_exp(DBL_MAX) == INFINITY &&
+                fracas_exp(709.79) == INFINITY);
+    assert_true(fracas_exp(-INFINITY) == 0.0 && fracas_exp(-DBL_MAX) == 0.0 &&
+                fracas_exp(-745.14) == 0.0);
     assert_true(isnan(fracas_exp(NAN)));
     assert_true(isfinite(fracas_exp(709.78)) && fracas_exp(-745.13) == DBL_TRUE_MIN);
-    assert_true(fracas_pow(NAN, 0.0) == 1.0 && fracas_pow(0.0, 0.0) == 1.0 && fracas_pow(1.0, NAN) == 1.0);
+    assert_true(fracas_pow(NAN, 0.0) == 1.0 && fracas_pow(0.0, 0.0) == 1.0 &&
+                fracas_pow(1.0, NAN) == 1.0);
     assert_true(fracas_pow(0.0, 2.0) == 0.0 && fracas_pow(0.0, -2.0) == INFINITY);
     assert_true(fracas_pow(INFINITY, 2.0) == INFINITY && fracas_pow(INFINITY, -2.0) == 0.0);
     assert_true(fracas_pow(0.5, INFINITY) == 0.0 && fracas_pow(2.0, INFINITY) == INFINITY);
     assert_true(fracas_pow(0.5, -DBL_MAX) == INFINITY && fracas_pow(2.0, -DBL_MAX) == 0.0);
     assert_true(fracas_pow(2.0, DBL_TRUE_MIN) == 1.0);
-    assert_true(isnan(fracas_pow(-1.0, 2.0)) && isnan(fracas_pow(NAN, 1.0)) && isnan(fracas_pow(2.0, NAN)));
-    assert_true(isnan(fracas_gamma(0.999)) && isnan(fracas_gamma(171.5)) && isnan(fracas_gamma(NAN)));
+    assert_true(isnan(fracas_pow(-1.0, 2.0)) && isnan(fracas_pow(NAN, 1.0)) &&
+                isnan(fracas_pow(2.0, NAN)));
+    assert_true(isnan(fracas_gamma(0.999)) && isnan(fracas_gamma(171.5)) &&
+                isnan(fracas_gamma(NAN)));
     assert_true(fracas_gamma(1.0) == 1.0 && fracas_gamma(2.0) == 1.0);
 }
 
-/* A result that is a double is found exactly when the error before the last rounding is below 1/2 ulp. */
+/* A result that is a double is found exactly when the error before the last rounding is below 1/2
+ * ulp. */
 static void powers_of_two_are_exact(void **state)
 {
     (void)state;
-    for (int k = -1074; k <= 1023; k++)
-        assert_true(fracas_pow(2.0, k) == ldexp(1.0, k));
+    for (int k = -1074; k <= 1023; k++) assert_true(fracas_pow(2.0, k) == ldexp(1.0, k));
 }
 
-/* Another compiler, CPU or edit that changes one bit is noticed here. To change the functions on purpose, first
- * see that the errors above hold, then put in the values that this test prints. */
+/* Another compiler, CPU or edit that changes one bit is noticed here. To change the functions on
+ * purpose, first see that the errors above hold, then put in the values that this test prints. */
 static void bits_are_golden(void **state)
 {
     (void)state;

@@ -1,4 +1,6 @@
-/* base/elementary_lanes.h: the bits of the scalar functions, for every argument, on every instruction set of this CPU. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* base/elementary_lanes.h: the bits of the scalar functions, for every argument, on every
+ * instruction set of this CPU. */
 #include "base/elementary.h"
 #include "base/isa.h"
 #include "tests/support/elementary_lanes.h"
@@ -35,7 +37,8 @@ static double double_of(uint64_t bits)
 }
 
 /* Bits, not values: 0 and -0, and every NaN, differ. */
-static void assert_same_bits(const char *what, double (*scalar)(double), over_lanes *const lanes[FRACAS_NISAS])
+static void assert_same_bits(const char *what, double (*scalar)(double),
+                             over_lanes *const lanes[FRACAS_NISAS])
 {
     for (fracas_isa isa = FRACAS_ISA_BASELINE; isa < FRACAS_NISAS; isa++) {
         fracas_isa had;
@@ -47,7 +50,8 @@ static void assert_same_bits(const char *what, double (*scalar)(double), over_la
         for (size_t i = 0; i < N; i++) {
             const double expected = scalar(x[i]);
             if (memcmp(&expected, &y[i], sizeof expected) != 0)
-                fail_msg("%s(%a), %s: %a, the scalar function has %a", what, x[i], fracas_isa_name[isa], y[i], expected);
+                fail_msg("%s(%a), %s: %a, the scalar function has %a", what, x[i],
+                         fracas_isa_name[isa], y[i], expected);
         }
     }
 }
@@ -55,9 +59,31 @@ static void assert_same_bits(const char *what, double (*scalar)(double), over_la
 /* A value and its neighbours, each in every lane among usual ones. */
 static void fill_special(double usual)
 {
-    const double special[] = {0.0, -0.0, INFINITY, -INFINITY, NAN, -NAN, 0x1p-1074, DBL_MIN, DBL_MAX, -DBL_MAX, 1.0, -1.0, 0x1p-537,
-                              sqrt(0.5), sqrt(2.0), 708.0, -708.0, 709.0, -708.4, 709.782712893384, 710.0, -745.133219101941, -746.0,
-                              1e300, 0.34657359027997264};
+    const double special[] = {0.0,
+                              -0.0,
+                              INFINITY,
+                              -INFINITY,
+                              NAN,
+                              -NAN,
+                              0x1p-1074,
+                              DBL_MIN,
+                              DBL_MAX,
+                              -DBL_MAX,
+                              1.0,
+                              -1.0,
+                              0x1p-537,
+                              sqrt(0.5),
+                              sqrt(2.0),
+                              708.0,
+                              -708.0,
+                              709.0,
+                              -708.4,
+                              709.782712893384,
+                              710.0,
+                              -745.133219101941,
+                              -746.0,
+                              1e300,
+                              0.34657359027997264};
     enum { SPECIAL = sizeof special / sizeof *special };
     for (size_t i = 0; i < N; i++) x[i] = usual;
     for (size_t s = 0; s < SPECIAL; s++)
@@ -75,14 +101,18 @@ static over_lanes *const exps[FRACAS_NISAS] = {exp_baseline, exp_avx2, exp_avx51
 static void log_has_the_same_bits(void **state)
 {
     (void)state;
-    for (size_t i = 0; i < N; i++) x[i] = double_of(1 + word(i) % 0x7fefffffffffffff); /* all exponents, subnormal ones among them */
+    for (size_t i = 0; i < N; i++)
+        x[i] = double_of(1 + word(i) %
+                                 0x7fefffffffffffff); /* all exponents, subnormal ones among them */
     assert_same_bits("log", fracas_log, logs);
-    for (size_t i = 0; i < N; i++) x[i] = double_of(0x0010000000000000 + word(i) % 0x7fdfffffffffffff); /* normal ones */
+    for (size_t i = 0; i < N; i++)
+        x[i] = double_of(0x0010000000000000 + word(i) % 0x7fdfffffffffffff); /* normal ones */
     assert_same_bits("log", fracas_log, logs);
     for (size_t i = 0; i < N; i++) x[i] = 1.0 + ldexp(between(-0.5, 0.5, i), -(int)(i % 53));
     assert_same_bits("log", fracas_log, logs);
     for (size_t i = 0; i < N; i++) /* near 2^k sqrt(1/2), on both sides: k turns */
-        x[i] = double_of(0x0016a09e667f3bcd + (i % 2045 << 52) + (uint64_t)((int64_t)word(i) >> (16 + i % 48)));
+        x[i] = double_of(0x0016a09e667f3bcd + (i % 2045 << 52) +
+                         (uint64_t)((int64_t)word(i) >> (16 + i % 48)));
     assert_same_bits("log", fracas_log, logs);
     for (size_t i = 0; i < N; i++) x[i] = double_of(word(i)); /* any bits */
     assert_same_bits("log", fracas_log, logs);

@@ -1,4 +1,6 @@
-/* Estimates of a point whose every number is worked out by hand; convergence with replicas and its warning; energies over time. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Estimates of a point whose every number is worked out by hand; convergence with replicas and its
+ * warning; energies over time. */
 #include "analysis/estimate/convergence.h"
 #include "analysis/estimate/pooled.h"
 #include "analysis/study/bands.h"
@@ -18,14 +20,20 @@
 /* A few roundings of sums of some ten numbers, relative. */
 static const double rounding = 1e-14;
 
-static void assert_near(double value, double expected) { assert_true(fabs(value - expected) <= rounding * (1 + fabs(expected))); }
+static void assert_near(double value, double expected)
+{
+    assert_true(fabs(value - expected) <= rounding * (1 + fabs(expected)));
+}
 
-static void add(fracas_ensemble *ensemble, const fracas_replica_values *value, const double *size, size_t count)
+static void add(fracas_ensemble *ensemble, const fracas_replica_values *value, const double *size,
+                size_t count)
 {
     fracas_fragment fragment[8] = {{.mass = 0}};
     fracas_record record;
     fracas_record_init(&record);
-    for (size_t f = 0; f < count; f++) fragment[f] = (fracas_fragment){.size = size[f], .mass = 2 * size[f], .elements = (int64_t)size[f]};
+    for (size_t f = 0; f < count; f++)
+        fragment[f] = (fracas_fragment){
+            .size = size[f], .mass = 2 * size[f], .elements = (int64_t)size[f]};
     record.fragment = fragment;
     record.nfragment = count;
     assert_int_equal(fracas_ensemble_add(ensemble, 0, 0, value, &record), FRACAS_OK);
@@ -58,14 +66,16 @@ static void sizes_by_number_and_by_mass(void **state)
     for (int q = 0; q < FRACAS_NQUANTILES; q++) {
         assert_true(pooled.all.quantile[q].value == quantile[q]);
         assert_true(pooled.all.mass_quantile[q].value == mass_quantile[q]);
-        assert_true(pooled.all.quantile[q].low <= quantile[q] && pooled.all.quantile[q].high >= quantile[q]);
+        assert_true(pooled.all.quantile[q].low <= quantile[q] &&
+                    pooled.all.quantile[q].high >= quantile[q]);
     }
     assert_true(pooled.all.mean.low < 19.0 / 7 && pooled.all.mean.high > 19.0 / 7);
     fracas_ensemble_clear(&ensemble);
 }
 
-/* On a lattice of step 1 the cut is 1.5: 2 2 3 4 6 are above it, of sum 17 and squares 69. Share q of the number w of a size lies at the size + (q 7 - number
- * before)/w - 1/2, and above the cut numbers count from there. */
+/* On a lattice of step 1 the cut is 1.5: 2 2 3 4 6 are above it, of sum 17 and squares 69. Share q
+ * of the number w of a size lies at the size + (q 7 - number before)/w - 1/2, and above the cut
+ * numbers count from there. */
 static void sizes_on_a_lattice_and_above_the_cut(void **state)
 {
     (void)state;
@@ -78,7 +88,8 @@ static void sizes_on_a_lattice_and_above_the_cut(void **state)
     assert_int_equal(pooled.resolved, 5);
     const double quantile[] = {0.675, 1.375, 2.25, 3.75, 6.15};
     const double above[] = {1.5 + 0.25 / 2, 1.5 + 1.25 / 2, 3, 4.25, 6.25};
-    const double mass_above[] = {1.5 + 0.85 / 4, 2.5 + 0.25 / 3, 3.5 + 1.5 / 4, 5.5 + 1.75 / 6, 5.5 + 5.15 / 6};
+    const double mass_above[] = {1.5 + 0.85 / 4, 2.5 + 0.25 / 3, 3.5 + 1.5 / 4, 5.5 + 1.75 / 6,
+                                 5.5 + 5.15 / 6};
     for (int q = 0; q < FRACAS_NQUANTILES; q++) {
         assert_near(pooled.all.quantile[q].value, quantile[q]);
         assert_near(pooled.above.quantile[q].value, above[q]);
@@ -92,7 +103,8 @@ static void sizes_on_a_lattice_and_above_the_cut(void **state)
     fracas_ensemble_clear(&ensemble);
 }
 
-/* Within: (2 + 2)/(7 - 4). Among: 3 (2 - 19/7)^2 + 2 (3 - 19/7)^2 + (1 - 19/7)^2 + (6 - 19/7)^2 = 108/7 over 3. m0 = (7 - 15/7)/3 = 34/21. */
+/* Within: (2 + 2)/(7 - 4). Among: 3 (2 - 19/7)^2 + 2 (3 - 19/7)^2 + (1 - 19/7)^2 + (6 - 19/7)^2 =
+ * 108/7 over 3. m0 = (7 - 15/7)/3 = 34/21. */
 static void variance_of_unequal_groups(void **state)
 {
     (void)state;
@@ -109,7 +121,8 @@ static void variance_of_unequal_groups(void **state)
     fracas_ensemble_clear(&ensemble);
 }
 
-/* Equal means: the least intraclass correlation, -1/(m0 - 1), and no design effect. Of none and of one there is little to say, and nothing fails. */
+/* Equal means: the least intraclass correlation, -1/(m0 - 1), and no design effect. Of none and of
+ * one there is little to say, and nothing fails. */
 static void estimates_at_their_ends(void **state)
 {
     (void)state;
@@ -119,12 +132,14 @@ static void estimates_at_their_ends(void **state)
     fracas_replica_convergence convergence;
     fracas_ensemble_init(&ensemble, 0);
     assert_int_equal(fracas_pooled_of(&ensemble, 1, &pooled), FRACAS_OK);
-    assert_true(isnan(pooled.all.mean.value) && isnan(pooled.all.quantile[0].value) && pooled.number == 0 && isnan(pooled.cut));
+    assert_true(isnan(pooled.all.mean.value) && isnan(pooled.all.quantile[0].value) &&
+                pooled.number == 0 && isnan(pooled.cut));
     assert_int_equal(fracas_replica_convergence_of(&ensemble, 1, &convergence), FRACAS_OK);
     assert_true(convergence.count == 0 && convergence.unconverged == 0);
     add(&ensemble, &value, (double[]){1, 3}, 2);
     assert_int_equal(fracas_pooled_of(&ensemble, 1, &pooled), FRACAS_OK);
-    assert_true(pooled.all.mean.value == 2 && isnan(pooled.all.mean.low) && isnan(pooled.variance.intraclass.value));
+    assert_true(pooled.all.mean.value == 2 && isnan(pooled.all.mean.low) &&
+                isnan(pooled.variance.intraclass.value));
     for (int i = 0; i < 7; i++) add(&ensemble, &value, (double[]){1, 3}, 2);
     assert_int_equal(fracas_pooled_of(&ensemble, 1, &pooled), FRACAS_OK);
     assert_true(pooled.variance.intraclass.value == -1 && pooled.variance.design_effect.value == 0);
@@ -133,9 +148,11 @@ static void estimates_at_their_ends(void **state)
     fracas_ensemble_clear(&ensemble);
 }
 
-/* Of 40 replicas: counts alternate about 100; sizes about 1 in the first half and 1.1 in the second; dissipated 1 or 3. Four of 100 -+ 1 have deviation 1.1547 and
- * half width 3.182446 (tabulated t of 3) x 1.1547/2. Sizes: 1.05 +- 0.016 (deviation 0.0506), of halves that nothing but 2 of the C(40, 20) deals of these replicas
- * have; dissipated 2 +- 0.32, of equal halves. What all replicas have alike is converged. */
+/* Of 40 replicas: counts alternate about 100; sizes about 1 in the first half and 1.1 in the
+ * second; dissipated 1 or 3. Four of 100 -+ 1 have deviation 1.1547 and half width 3.182446
+ * (tabulated t of 3) x 1.1547/2. Sizes: 1.05 +- 0.016 (deviation 0.0506), of halves that nothing
+ * but 2 of the C(40, 20) deals of these replicas have; dissipated 2 +- 0.32, of equal halves. What
+ * all replicas have alike is converged. */
 static void numbers_that_settle_and_others(void **state)
 {
     (void)state;
@@ -143,7 +160,10 @@ static void numbers_that_settle_and_others(void **state)
     fracas_replica_convergence of;
     fracas_ensemble_init(&ensemble, 0);
     for (int i = 0; i < 40; i++) {
-        const fracas_replica_values value = {.count = i % 2 ? 101 : 99, .size = i < 20 ? 1 : 1.1, .dissipated = i % 2 ? 1 : 3, .largest_share = 0.5};
+        const fracas_replica_values value = {.count = i % 2 ? 101 : 99,
+                                             .size = i < 20 ? 1 : 1.1,
+                                             .dissipated = i % 2 ? 1 : 3,
+                                             .largest_share = 0.5};
         add(&ensemble, &value, (double[]){1, 2, 3}, 3);
     }
     assert_int_equal(fracas_replica_convergence_of(&ensemble, 1, &of), FRACAS_OK);
@@ -151,9 +171,13 @@ static void numbers_that_settle_and_others(void **state)
     assert_int_equal(of.count, FRACAS_COUNT(rows));
     for (size_t r = 0; r < of.count; r++) assert_int_equal(of.row[r].replicas, rows[r]);
     const fracas_settling *count = &of.row[0].number[FRACAS_HEADLINE_COUNT];
-    assert_true(count->value == 100 && fabs(0.5 * (count->high - count->low) - 3.182446 * sqrt(4.0 / 3) / 2) < 1e-6);
-    assert_true(of.half[FRACAS_HEADLINE_SIZE] == 1 && fabs(of.rest[FRACAS_HEADLINE_SIZE] - 1.1) < 1e-14 && of.alike[FRACAS_HEADLINE_COUNT] == 1);
-    assert_true(fabs(of.alike[FRACAS_HEADLINE_SIZE] * 137846528820.0 / 2 - 1) < 1e-9); /* C(40, 20) */
+    assert_true(count->value == 100 &&
+                fabs(0.5 * (count->high - count->low) - 3.182446 * sqrt(4.0 / 3) / 2) < 1e-6);
+    assert_true(of.half[FRACAS_HEADLINE_SIZE] == 1 &&
+                fabs(of.rest[FRACAS_HEADLINE_SIZE] - 1.1) < 1e-14 &&
+                of.alike[FRACAS_HEADLINE_COUNT] == 1);
+    assert_true(fabs(of.alike[FRACAS_HEADLINE_SIZE] * 137846528820.0 / 2 - 1) <
+                1e-9); /* C(40, 20) */
     assert_true(fabs(of.row[4].number[FRACAS_HEADLINE_SIZE].value - 1.05) < 1e-14);
     const int64_t converged[FRACAS_NHEADLINES] = {1, 0, 0, 1, 1, 1, 1};
     for (int h = 0; h < FRACAS_NHEADLINES; h++) assert_int_equal(of.converged[h], converged[h]);
@@ -166,18 +190,24 @@ static void numbers_that_settle_and_others(void **state)
     size_t warnings;
     assert_int_equal(fracas_analysis_warnings(&analysis, &warning, &warnings), FRACAS_OK);
     assert_int_equal(warnings, 1);
-    assert_string_equal(warning->text, "unconverged with 40 replicas, known size to 1.5 % (drifts), dissipated to 16 %: raise replicas");
+    assert_string_equal(warning->text, "unconverged with 40 replicas, known size to 1.5 % "
+                                       "(drifts), dissipated to 16 %: raise replicas");
     free(warning);
     fracas_replica_convergence_clear(&of);
 
-    /* Of two, count is 100 -+ t_(0.975, 1) = 12.7 and dissipated 2 -+ 12.7; what they have alike may be so by chance, and nothing says whether halves differ. */
+    /* Of two, count is 100 -+ t_(0.975, 1) = 12.7 and dissipated 2 -+ 12.7; what they have alike
+     * may be so by chance, and nothing says whether halves differ. */
     ensemble.nrealizations = 2;
     assert_int_equal(fracas_replica_convergence_of(&ensemble, 1, &point.convergence), FRACAS_OK);
-    assert_true(point.convergence.count == 1 && point.convergence.unconverged == 7 && isnan(point.convergence.alike[FRACAS_HEADLINE_SIZE]));
+    assert_true(point.convergence.count == 1 && point.convergence.unconverged == 7 &&
+                isnan(point.convergence.alike[FRACAS_HEADLINE_SIZE]));
     assert_int_equal(fracas_analysis_warnings(&analysis, &warning, &warnings), FRACAS_OK);
     assert_int_equal(warnings, 1);
-    assert_string_equal(warning->text, "unconverged with 2 replicas, known count to 13 %, size to 0 % (all alike), dissipated to 635 %, largest_share to 0 % (all alike), "
-                        "fragment.mean to 0 % (all alike), fragment.mass_mean to 0 % (all alike), fragment.variation to 0 % (all alike): raise replicas");
+    assert_string_equal(warning->text,
+                        "unconverged with 2 replicas, known count to 13 %, size to 0 % (all "
+                        "alike), dissipated to 635 %, largest_share to 0 % (all alike), "
+                        "fragment.mean to 0 % (all alike), fragment.mass_mean to 0 % (all alike), "
+                        "fragment.variation to 0 % (all alike): raise replicas");
     free(warning);
     fracas_replica_convergence_clear(&point.convergence);
     ensemble.nrealizations = 1;
@@ -193,8 +223,9 @@ static void numbers_that_settle_and_others(void **state)
 
 enum { INTERVALS = 4, MOST = 30 };
 
-/* Replica i: rows a little after the times 0, 1, 2 and 3, the last at 2 for odd i, with extra rows in between that no time must find. Kinetic energy is i, in
- * another order of replicas; dissipated the number of the time. Nothing runs until 4. */
+/* Replica i: rows a little after the times 0, 1, 2 and 3, the last at 2 for odd i, with extra rows
+ * in between that no time must find. Kinetic energy is i, in another order of replicas; dissipated
+ * the number of the time. Nothing runs until 4. */
 static void make_history(int64_t replica, fracas_record *record)
 {
     fracas_record_init(record);
@@ -206,15 +237,22 @@ static void make_history(int64_t replica, fracas_record *record)
     const int last = replica % 2 ? 2 : 3;
     for (int j = 0; j <= last; j++) {
         record->history[record->nhistory++] = (fracas_history_row){
-            .time = j ? j + 0.001 * (double)replica : 0, .kinetic = (double)(replica * 7 % MOST), .elastic = -1, .cohesive = 2, .dissipated = j};
-        if (j < last) record->history[record->nhistory++] = (fracas_history_row){.time = j + 0.5, .kinetic = 99, .elastic = 99, .dissipated = 99};
+            .time = j ? j + 0.001 * (double)replica : 0,
+            .kinetic = (double)(replica * 7 % MOST),
+            .elastic = -1,
+            .cohesive = 2,
+            .dissipated = j};
+        if (j < last)
+            record->history[record->nhistory++] = (fracas_history_row){
+                .time = j + 0.5, .kinetic = 99, .elastic = 99, .dissipated = 99};
     }
 }
 
 static void read_bands(int64_t replicas, fracas_bands *bands)
 {
     fracas_bands_collector collector;
-    assert_int_equal(fracas_bands_begin(INTERVALS, INTERVALS, (size_t)replicas, bands, &collector), FRACAS_OK);
+    assert_int_equal(fracas_bands_begin(INTERVALS, INTERVALS, (size_t)replicas, bands, &collector),
+                     FRACAS_OK);
     for (int64_t replica = 0; replica < replicas; replica++) {
         fracas_record record;
         make_history(replica, &record);
@@ -237,7 +275,8 @@ static void band_of_many(void **state)
     for (size_t j = 0; j < bands.count; j++) {
         assert_true(bands.time[j] == (double)j);
         assert_int_equal(bands.running[j], running[j]);
-        const fracas_band *kinetic = &bands.energy[j][FRACAS_ENERGY_KINETIC], *dissipated = &bands.energy[j][FRACAS_ENERGY_DISSIPATED];
+        const fracas_band *kinetic = &bands.energy[j][FRACAS_ENERGY_KINETIC],
+                          *dissipated = &bands.energy[j][FRACAS_ENERGY_DISSIPATED];
         assert_near(kinetic->mean, 14.5);
         assert_near(kinetic->low, 1.45);
         assert_near(kinetic->high, 27.55);
@@ -266,9 +305,13 @@ static void band_of_few(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sizes_by_number_and_by_mass), cmocka_unit_test(sizes_on_a_lattice_and_above_the_cut),
-        cmocka_unit_test(variance_of_unequal_groups), cmocka_unit_test(estimates_at_their_ends),
-        cmocka_unit_test(numbers_that_settle_and_others), cmocka_unit_test(band_of_many), cmocka_unit_test(band_of_few),
+        cmocka_unit_test(sizes_by_number_and_by_mass),
+        cmocka_unit_test(sizes_on_a_lattice_and_above_the_cut),
+        cmocka_unit_test(variance_of_unequal_groups),
+        cmocka_unit_test(estimates_at_their_ends),
+        cmocka_unit_test(numbers_that_settle_and_others),
+        cmocka_unit_test(band_of_many),
+        cmocka_unit_test(band_of_few),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
-/* Families of size distributions: density, distribution and quantiles are those of one law, what is drawn from it is fitted again, and
- * what cannot be fitted is said. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Families of size distributions: density, distribution and quantiles are those of one law, what is
+ * drawn from it is fitted again, and what cannot be fitted is said. */
 #include "analysis/fit/goodness.h"
 #include "tests/support/fit_sample.h"
 
@@ -51,7 +52,9 @@ static double integral(const synthetic *what, double low, double high)
     double sum, error;
     gsl_integration_workspace *room = gsl_integration_workspace_alloc(1000);
     gsl_function function = {density, (void *)(uintptr_t)what};
-    assert_int_equal(gsl_integration_qags(&function, low, high, 1e-11, 1e-9, 1000, room, &sum, &error), GSL_SUCCESS);
+    assert_int_equal(
+        gsl_integration_qags(&function, low, high, 1e-11, 1e-9, 1000, room, &sum, &error),
+        GSL_SUCCESS);
     gsl_integration_workspace_free(room);
     return sum;
 }
@@ -67,10 +70,12 @@ static void density_integrates_to_the_distribution(void **state)
         const double far = family->quantile(what->parameter, what->from, 1e-10);
         double at = shift, all = 0;
         for (int part = 9; part >= 0; part--) {
-            const double next = part ? family->quantile(what->parameter, what->from, 0.1 * part) : far;
+            const double next = part ? family->quantile(what->parameter, what->from, 0.1 * part)
+                                     : far;
             const double found = integral(what, at, next);
             if (!(fabs(found - (above(what, at) - above(what, next))) < 2e-9))
-                fail_msg("%s from %g to %g: %.12g, not %.12g", family->name, at, next, found, above(what, at) - above(what, next));
+                fail_msg("%s from %g to %g: %.12g, not %.12g", family->name, at, next, found,
+                         above(what, at) - above(what, next));
             all += found;
             at = next;
         }
@@ -79,7 +84,8 @@ static void density_integrates_to_the_distribution(void **state)
     }
 }
 
-/* Tails to a relative 1e-9, as far out as 1e-12: the inverse of a distribution is no better than its slope times rounding. */
+/* Tails to a relative 1e-9, as far out as 1e-12: the inverse of a distribution is no better than
+ * its slope times rounding. */
 static void quantiles_are_the_inverse(void **state)
 {
     (void)state;
@@ -88,7 +94,8 @@ static void quantiles_are_the_inverse(void **state)
         for (size_t k = 0; k < sizeof p / sizeof *p; k++) {
             const double x = law[i].family->quantile(law[i].parameter, law[i].from, p[k]);
             if (!(fabs(above(&law[i], x) - p[k]) < 1e-9 * p[k]))
-                fail_msg("%s: P(size > %g) is %.12g instead of %g", law[i].family->name, x, above(&law[i], x), p[k]);
+                fail_msg("%s: P(size > %g) is %.12g instead of %g", law[i].family->name, x,
+                         above(&law[i], x), p[k]);
         }
 }
 
@@ -105,15 +112,17 @@ static void samples_have_the_distribution(void **state)
         gsl_sort(x, 1, N);
         for (size_t k = 0; k < N; k++) {
             const double below = 1 - above(&law[i], x[k]);
-            distance = fmax(distance, fmax(fabs(below - (double)k / N), fabs(below - (double)(k + 1) / N)));
+            distance = fmax(distance,
+                            fmax(fabs(below - (double)k / N), fabs(below - (double)(k + 1) / N)));
         }
         assert_true(distance < 2.69 / sqrt(N));
     }
     gsl_rng_free(random);
 }
 
-/* The fit is as likely as the truth or more, to rounding (1e-6 of a search that has arrived), and by Wilks' theorem 2 log of the ratio is
- * chi-squared: above its quantile of 1e-6 once in a million. On a lattice and without. */
+/* The fit is as likely as the truth or more, to rounding (1e-6 of a search that has arrived), and
+ * by Wilks' theorem 2 log of the ratio is chi-squared: above its quantile of 1e-6 once in a
+ * million. On a lattice and without. */
 static void fits_recover_the_truth(void **state)
 {
     (void)state;
@@ -133,9 +142,13 @@ static void fits_recover_the_truth(void **state)
         if (*fit.why) fail_msg("%s: %s", what.family->name, fit.why);
         for (size_t p = 0; p < what.family->nparameters; p++)
             truth[p] = what.parameter[p] / (what.family->parameter[p].length ? sample.mean : 1);
-        const double gain = 2 * (fit.log_likelihood - fracas_fit_log_likelihood(what.family, &sample, sample.count, truth));
-        print_message("%-18s lattice %.0f, %3zu cells: 2 log ratio to the truth %.2f\n", what.family->name, what.lattice, sample.ncells, gain);
-        assert_true(gain > -1e-6 && gain < gsl_cdf_chisq_Qinv(1e-6, (double)what.family->nparameters));
+        const double gain = 2 *
+                            (fit.log_likelihood -
+                             fracas_fit_log_likelihood(what.family, &sample, sample.count, truth));
+        print_message("%-18s lattice %.0f, %3zu cells: 2 log ratio to the truth %.2f\n",
+                      what.family->name, what.lattice, sample.ncells, gain);
+        assert_true(gain > -1e-6 &&
+                    gain < gsl_cdf_chisq_Qinv(1e-6, (double)what.family->nparameters));
         fracas_fit_sample_clear(&sample);
         fracas_ensemble_clear(&ensemble);
     }
@@ -166,7 +179,8 @@ static void what_is_no_fit_says_why(void **state)
     what.realizations = 100;
     what.fragments = 40;
     assert_string_equal(fit_of(&what, &fracas_family_exponential, 1).why, "");
-    assert_string_equal(fit_of(&what, &fracas_family_shifted_rayleigh, 1).why, "x0 goes to its bound, 0");
+    assert_string_equal(fit_of(&what, &fracas_family_shifted_rayleigh, 1).why,
+                        "x0 goes to its bound, 0");
     what.family = &fracas_family_gamma;
     what.parameter[0] = 5;
     what.parameter[1] = 4;
@@ -179,16 +193,19 @@ static void what_is_no_fit_says_why(void **state)
     assert_non_null(strstr(fit.why, "fragments above the cut, 30 are needed"));
     assert_true(isnan(fit.log_likelihood) && isnan(fit.parameter[0]));
     what.realizations = 0;
-    assert_non_null(strstr(fit_of(&what, &fracas_family_gamma, 1).why, "0 fragments above the cut"));
+    assert_non_null(
+        strstr(fit_of(&what, &fracas_family_gamma, 1).why, "0 fragments above the cut"));
     what = law[2];
     what.parameter[0] = 1e-4; /* every size is one element */
     what.lattice = 1;
     what.realizations = 10;
     what.fragments = 20;
-    assert_non_null(strstr(fit_of(&what, &fracas_family_rayleigh, 1).why, "fragments above the cut"));
+    assert_non_null(
+        strstr(fit_of(&what, &fracas_family_rayleigh, 1).why, "fragments above the cut"));
 }
 
-/* Dust is below the cut; cells hold whole sizes, every fragment above is in one, and a resample of each realization once is the sample. */
+/* Dust is below the cut; cells hold whole sizes, every fragment above is in one, and a resample of
+ * each realization once is the sample. */
 static void cells_of_a_lattice(void **state)
 {
     (void)state;
@@ -206,7 +223,8 @@ static void cells_of_a_lattice(void **state)
     OK(fracas_fit_sample_create(&ensemble, &sample));
     for (size_t f = 0; f < ensemble.nfragments; f++) expected += !ensemble.dust[f];
     assert_true(expected < (double)ensemble.nfragments && sample.total == expected);
-    assert_true(fabs(sample.cut - 0.0015) < 1e-15 && fabs(sample.edge[0] * sample.mean - 0.0015) < 1e-15);
+    assert_true(fabs(sample.cut - 0.0015) < 1e-15 &&
+                fabs(sample.edge[0] * sample.mean - 0.0015) < 1e-15);
     for (size_t k = 0; k + 1 < sample.ncells; k++) {
         const double steps = sample.edge[k + 1] * sample.mean / 0.001 - 0.5;
         assert_true(fabs(steps - round(steps)) < 1e-9 && sample.edge[k + 1] > sample.edge[k]);
@@ -218,7 +236,8 @@ static void cells_of_a_lattice(void **state)
         assert_true(count[k] == sample.count[k]);
         total += count[k];
     }
-    assert_true(total == expected && fabs(mean / sample.mean - 1) < 1e-14 && fabs(cv / sample.cv - 1) < 1e-12);
+    assert_true(total == expected && fabs(mean / sample.mean - 1) < 1e-14 &&
+                fabs(cv / sample.cv - 1) < 1e-12);
     fracas_fit_sample_clear(&sample);
     fracas_ensemble_clear(&ensemble);
     gsl_rng_free(random);
@@ -230,14 +249,17 @@ static void add(fracas_ensemble *ensemble, const double *size, size_t count)
     const fracas_replica_values value = {0};
     fracas_record record;
     fracas_record_init(&record);
-    for (size_t f = 0; f < count; f++) fragment[f] = (fracas_fragment){.size = size[f], .mass = size[f], .elements = 100};
+    for (size_t f = 0; f < count; f++)
+        fragment[f] = (fracas_fragment){.size = size[f], .mass = size[f], .elements = 100};
     record.fragment = fragment;
     record.nfragment = count;
-    OK(fracas_ensemble_add(ensemble, ensemble->nrealizations, (int64_t)ensemble->nrealizations, &value, &record));
+    OK(fracas_ensemble_add(ensemble, ensemble->nrealizations, (int64_t)ensemble->nrealizations,
+                           &value, &record));
 }
 
-/* Bodies that stay whole are atoms of the distribution of sizes. Among 20 of exponential fragments they change no bit of sample and fit but their own
- * number, in whatever order they come; where nothing else is, there is nothing to fit. */
+/* Bodies that stay whole are atoms of the distribution of sizes. Among 20 of exponential fragments
+ * they change no bit of sample and fit but their own number, in whatever order they come; where
+ * nothing else is, there is nothing to fit. */
 static void whole_bodies_are_left_out(void **state)
 {
     (void)state;
@@ -261,7 +283,8 @@ static void whole_bodies_are_left_out(void **state)
     OK(fracas_fit_sample_create(&with, &a));
     OK(fracas_fit_sample_create(&without, &b));
     OK(fracas_fit_sample_create(&alone, &c));
-    assert_true(a.whole == 7 && b.whole == 0 && a.nrealizations == BROKEN && a.fragments == BROKEN * PIECES + 7 && a.total == BROKEN * PIECES);
+    assert_true(a.whole == 7 && b.whole == 0 && a.nrealizations == BROKEN &&
+                a.fragments == BROKEN * PIECES + 7 && a.total == BROKEN * PIECES);
     a.cut = b.cut; /* of mean elements, which are larger with whole bodies; both below 20 */
     a.edge[0] = b.edge[0];
     assert_true(a.mean == b.mean && a.cv == b.cv && a.ncells == b.ncells);
@@ -271,7 +294,8 @@ static void whole_bodies_are_left_out(void **state)
     fracas_fit_of(&fracas_family_exponential, &a, &fit_a);
     fracas_fit_of(&fracas_family_exponential, &b, &fit_b);
     fracas_fit_of(&fracas_family_exponential, &c, &fit_c);
-    assert_true(fit_a.parameter[0] == fit_b.parameter[0] && fit_a.log_likelihood == fit_b.log_likelihood && !*fit_a.why);
+    assert_true(fit_a.parameter[0] == fit_b.parameter[0] &&
+                fit_a.log_likelihood == fit_b.log_likelihood && !*fit_a.why);
     assert_true(c.whole == 7 && c.total == 0 && strstr(fit_c.why, "0 fragments above the cut"));
     fracas_fit_sample_clear(&a);
     fracas_fit_sample_clear(&b);
@@ -282,9 +306,10 @@ static void whole_bodies_are_left_out(void **state)
     gsl_rng_free(random);
 }
 
-/* Sizes 1 -+ 1e-6 in turn: mean 1, deviation/mean 1e-6. Each size is rounded to 1.1e-16, and so is the mean (of sums of 2000 to some ten of these): of the
- * deviation that is 2e-9 at most. Squares of the sizes themselves would be rounded to 1e-16 of 1, in a variance of 1e-12: wrong in the fourth digit at best.
- * A resample of the first realization alone, twice: the same. */
+/* Sizes 1 -+ 1e-6 in turn: mean 1, deviation/mean 1e-6. Each size is rounded to 1.1e-16, and so is
+ * the mean (of sums of 2000 to some ten of these): of the deviation that is 2e-9 at most. Squares
+ * of the sizes themselves would be rounded to 1e-16 of 1, in a variance of 1e-12: wrong in the
+ * fourth digit at best. A resample of the first realization alone, twice: the same. */
 static void sizes_that_are_nearly_alike(void **state)
 {
     (void)state;
@@ -304,7 +329,8 @@ static void sizes_that_are_nearly_alike(void **state)
     fracas_ensemble_clear(&ensemble);
 }
 
-/* Every fragment is carried, each realization keeps as many, and together they have the law: cells to one fragment. Order is kept. */
+/* Every fragment is carried, each realization keeps as many, and together they have the law: cells
+ * to one fragment. Order is kept. */
 static void carried_samples_have_the_law(void **state)
 {
     (void)state;
@@ -320,7 +346,8 @@ static void carried_samples_have_the_law(void **state)
     OK(synthetic_ensemble(&what, random, &ensemble));
     OK(fracas_fit_sample_create(&ensemble, &sample));
     fracas_fit_of(&fracas_family_exponential, &sample, &fit); /* a law of other sizes */
-    assert_true(fracas_fit_probabilities(&fracas_family_exponential, &sample, fit.parameter, probability));
+    assert_true(
+        fracas_fit_probabilities(&fracas_family_exponential, &sample, fit.parameter, probability));
     OK(fracas_fit_carry(&sample, probability, 1, &carried));
     for (size_t k = 0; k < sample.ncells; k++) {
         seen += carried.count[k];
@@ -342,8 +369,8 @@ static void carried_samples_have_the_law(void **state)
     gsl_rng_free(random);
 }
 
-/* Four cells with shares 1/4, counts 2 1 0 1: distribution functions 1/2, 3/4, 3/4 beside 1/4, 1/2, 3/4. D = 1/4;
- * A2/N = 1/4 (1/16/(3/16) + 1/16/(1/4) + 0) = 7/48. */
+/* Four cells with shares 1/4, counts 2 1 0 1: distribution functions 1/2, 3/4, 3/4 beside 1/4, 1/2,
+ * 3/4. D = 1/4; A2/N = 1/4 (1/16/(3/16) + 1/16/(1/4) + 0) = 7/48. */
 static void distances(void **state)
 {
     (void)state;
@@ -358,7 +385,8 @@ static void special_cases(void **state)
     assert_true(fracas_family_within(&fracas_family_rayleigh, &fracas_family_shifted_rayleigh));
     assert_true(fracas_family_within(&fracas_family_gamma, &fracas_family_generalised_gamma));
     assert_false(fracas_family_within(&fracas_family_generalised_gamma, &fracas_family_gamma));
-    assert_false(fracas_family_within(&fracas_family_mott, &fracas_family_gamma)); /* not by the end of a longer name */
+    assert_false(fracas_family_within(&fracas_family_mott,
+                                      &fracas_family_gamma)); /* not by the end of a longer name */
     assert_ptr_equal(fracas_family_find("weibull-3"), &fracas_family_weibull3);
     assert_null(fracas_family_find("weibull-4"));
 }
@@ -367,11 +395,16 @@ int main(void)
 {
     gsl_set_error_handler_off();
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(density_integrates_to_the_distribution), cmocka_unit_test(quantiles_are_the_inverse),
-        cmocka_unit_test(samples_have_the_distribution),          cmocka_unit_test(fits_recover_the_truth),
-        cmocka_unit_test(what_is_no_fit_says_why),                cmocka_unit_test(cells_of_a_lattice),
-        cmocka_unit_test(carried_samples_have_the_law),           cmocka_unit_test(distances),
-        cmocka_unit_test(special_cases),                          cmocka_unit_test(whole_bodies_are_left_out),
+        cmocka_unit_test(density_integrates_to_the_distribution),
+        cmocka_unit_test(quantiles_are_the_inverse),
+        cmocka_unit_test(samples_have_the_distribution),
+        cmocka_unit_test(fits_recover_the_truth),
+        cmocka_unit_test(what_is_no_fit_says_why),
+        cmocka_unit_test(cells_of_a_lattice),
+        cmocka_unit_test(carried_samples_have_the_law),
+        cmocka_unit_test(distances),
+        cmocka_unit_test(special_cases),
+        cmocka_unit_test(whole_bodies_are_left_out),
         cmocka_unit_test(sizes_that_are_nearly_alike),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,6 @@
-/* fracas fit of a study: its rows, its file, whether they are of the realizations that a study has, and points that cannot be fitted. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* fracas fit of a study: its rows, its file, whether they are of the realizations that a study has,
+ * and points that cannot be fitted. */
 #include "tests/support/report.h"
 
 #include "analysis/fit/fits.h"
@@ -10,15 +12,31 @@
 enum { NPOINTS = 4, NCOLUMNS = 6, RESAMPLES = 99 };
 
 static const fracas_column column[NCOLUMNS] = {
-    {"geometry.length", "m", "length", false},      {"geometry.thickness", "m", "thickness", false}, {"loading.rate", "1/s", "rate", false},
-    {"mesh.elements", "1", "elements", false}, {"model", "", "model", true}, {"time.end", "s", "end", false},
+    {"geometry.length", "m", "length", false},
+    {"geometry.thickness", "m", "thickness", false},
+    {"loading.rate", "1/s", "rate", false},
+    {"mesh.elements", "1", "elements", false},
+    {"model", "", "model", true},
+    {"time.end", "s", "end", false},
 };
 
-/* Point 0: shifted Rayleigh on a lattice of 20 um; 1: one realization of three fragments; 2: a surface; 3: nothing usable. */
+/* Point 0: shifted Rayleigh on a lattice of 20 um; 1: one realization of three fragments; 2: a
+ * surface; 3: nothing usable. */
 static const synthetic law[3] = {
-    {.family = &fracas_family_shifted_rayleigh, .parameter = {200e-6, 200e-6}, .lattice = 20e-6, .realizations = 1, .fragments = 60},
-    {.family = &fracas_family_exponential, .parameter = {400e-6}, .lattice = 20e-6, .realizations = 1, .fragments = 4},
-    {.family = &fracas_family_lognormal, .parameter = {1e-3, 0.4}, .realizations = 1, .fragments = 50},
+    {.family = &fracas_family_shifted_rayleigh,
+     .parameter = {200e-6, 200e-6},
+     .lattice = 20e-6,
+     .realizations = 1,
+     .fragments = 60},
+    {.family = &fracas_family_exponential,
+     .parameter = {400e-6},
+     .lattice = 20e-6,
+     .realizations = 1,
+     .fragments = 4},
+    {.family = &fracas_family_lognormal,
+     .parameter = {1e-3, 0.4},
+     .realizations = 1,
+     .fragments = 50},
 };
 
 typedef struct {
@@ -32,11 +50,21 @@ static void make_table(made_table *made, int64_t replicas)
     static const int64_t few[NPOINTS] = {0, 1, 0, 2};
     for (size_t p = 0; p < NPOINTS; p++) {
         const bool surface = p == 2;
-        const double real[NCOLUMNS] = {surface ? NAN : 20e-3, surface ? 1e-3 : NAN, pow(10, 3 + (double)p), surface ? NAN : 1000, NAN, 1e-6};
-        for (size_t c = 0; c < NCOLUMNS; c++) made->value[p][c] = (fracas_value){.real = real[c], .text = c == 4 ? surface ? "shell" : "bar" : ""};
-        made->point[p] = (fracas_point_row){.hash = fracas_hash_of(&p, sizeof p), .replicas = few[p] ? few[p] : replicas, .value = made->value[p]};
+        const double real[NCOLUMNS] = {surface ? NAN : 20e-3,
+                                       surface ? 1e-3 : NAN,
+                                       pow(10, 3 + (double)p),
+                                       surface ? NAN : 1000,
+                                       NAN,
+                                       1e-6};
+        for (size_t c = 0; c < NCOLUMNS; c++)
+            made->value[p][c] = (fracas_value){.real = real[c],
+                                               .text = c == 4 ? surface ? "shell" : "bar" : ""};
+        made->point[p] = (fracas_point_row){.hash = fracas_hash_of(&p, sizeof p),
+                                            .replicas = few[p] ? few[p] : replicas,
+                                            .value = made->value[p]};
     }
-    made->table = (fracas_point_table){.ncolumns = NCOLUMNS, .column = column, .npoints = NPOINTS, .point = made->point};
+    made->table = (fracas_point_table){
+        .ncolumns = NCOLUMNS, .column = column, .npoints = NPOINTS, .point = made->point};
 }
 
 static void make_record(const void *context, size_t point, int64_t replica, fracas_record *record)
@@ -54,7 +82,8 @@ static void write_study(const char *folder, int64_t replicas)
 {
     made_table made;
     make_table(&made, replicas);
-    const fracas_file_header header = {.campaign = fracas_hash_of(folder, 1), .seed = 1, .version = "test", .complete = true};
+    const fracas_file_header header = {
+        .campaign = fracas_hash_of(folder, 1), .seed = 1, .version = "test", .complete = true};
     report_write_study(folder, &header, &made.table, make_record, NULL);
 }
 
@@ -69,7 +98,8 @@ static fracas_fits *fit(const char *folder, size_t point, FILE *out)
     return fits;
 }
 
-static double value_of(const fracas_fits *fits, int64_t point, const char *family, const char *quantity)
+static double value_of(const fracas_fits *fits, int64_t point, const char *family,
+                       const char *quantity)
 {
     const fracas_fits_row *row = fracas_fits_find(fits, point, family, quantity);
     if (!row) fail_msg("no %s of %s at point %lld", quantity, family, (long long)point);
@@ -93,8 +123,9 @@ static void same_rows(const fracas_fits *a, const fracas_fits *b)
     }
 }
 
-/* The truth is ranked first or beside it (delta below 10; a Weibull with a shift holds it too), and its shift, 200 um, is within four half
- * widths of its interval: eight standard errors of 2400 fragments. */
+/* The truth is ranked first or beside it (delta below 10; a Weibull with a shift holds it too), and
+ * its shift, 200 um, is within four half widths of its interval: eight standard errors of 2400
+ * fragments. */
 static void fits_of_a_study(void **state)
 {
     (void)state;
@@ -110,17 +141,23 @@ static void fits_of_a_study(void **state)
     assert_non_null(strstr(text, "fragments above the cut; 30 are needed"));
     free(text);
     const fracas_fits_row *shift = fracas_fits_find(fits, 0, "shifted-rayleigh", "x0");
-    assert_true(value_of(fits, 0, "shifted-rayleigh", "delta_aicc") < 10 && value_of(fits, 0, "shifted-rayleigh", "fitted") == 1);
-    assert_true(shift->low < shift->value && shift->value < shift->high && shift->resamples > 0.9 * RESAMPLES);
+    assert_true(value_of(fits, 0, "shifted-rayleigh", "delta_aicc") < 10 &&
+                value_of(fits, 0, "shifted-rayleigh", "fitted") == 1);
+    assert_true(shift->low < shift->value && shift->value < shift->high &&
+                shift->resamples > 0.9 * RESAMPLES);
     assert_true(fabs(shift->value - 200e-6) < 2 * (shift->high - shift->low));
-    assert_true(fabs(value_of(fits, 0, "data", "cut") - 30e-6) < 1e-12 && value_of(fits, 0, "data", "realizations") == 40);
-    assert_true(value_of(fits, 0, "shifted-rayleigh", "ks_p") > 1e-2 && value_of(fits, 0, "exponential", "ks_p") == 1.0 / (RESAMPLES + 1));
-    const double relative = value_of(fits, 0, "shifted-rayleigh", "x0/mean") * value_of(fits, 0, "data", "mean");
+    assert_true(fabs(value_of(fits, 0, "data", "cut") - 30e-6) < 1e-12 &&
+                value_of(fits, 0, "data", "realizations") == 40);
+    assert_true(value_of(fits, 0, "shifted-rayleigh", "ks_p") > 1e-2 &&
+                value_of(fits, 0, "exponential", "ks_p") == 1.0 / (RESAMPLES + 1));
+    const double relative = value_of(fits, 0, "shifted-rayleigh", "x0/mean") *
+                            value_of(fits, 0, "data", "mean");
     assert_true(fabs(relative - shift->value) < 1e-9 * shift->value);
     assert_string_equal(fracas_fits_ranked(fits, 2, 1), "lognormal");
     assert_null(fracas_fits_find(fits, 2, "mott", "fitted")); /* a law of masses */
     assert_null(fracas_fits_ranked(fits, 1, 1));
-    assert_true(value_of(fits, 1, "gamma", "fitted") == 0 && value_of(fits, 3, "gamma", "fitted") == 0);
+    assert_true(value_of(fits, 1, "gamma", "fitted") == 0 &&
+                value_of(fits, 3, "gamma", "fitted") == 0);
     assert_int_equal(fracas_fits_read(folder, &read), FRACAS_OK);
     assert_null(read);
     assert_int_equal(fracas_fits_write(fits, folder), FRACAS_OK);
@@ -143,8 +180,9 @@ static size_t keep(const char *folder, const char *other, size_t *stale, fracas_
     return (*fits)->n;
 }
 
-/* Fits are of realizations, not of files: the same in another study are fitted already, and where some points have more, those alone are stale. Points
- * that have changed places keep theirs, under the new number. */
+/* Fits are of realizations, not of files: the same in another study are fitted already, and where
+ * some points have more, those alone are stale. Points that have changed places keep theirs, under
+ * the new number. */
 static void fits_of_the_same_realizations(void **state)
 {
     (void)state;
@@ -163,8 +201,10 @@ static void fits_of_the_same_realizations(void **state)
     write_study(other, 13); /* points 0 and 2 have one more */
     assert_true(keep(folder, other, &stale, &kept) < fits->n);
     assert_int_equal(stale, 2);
-    assert_true(!fracas_fits_find(kept, 0, "data", "cut") && !fracas_fits_find(kept, 2, "data", "cut"));
-    assert_true(fracas_fits_find(kept, 1, "data", "cut") && fracas_fits_find(kept, 3, "data", "cut"));
+    assert_true(!fracas_fits_find(kept, 0, "data", "cut") &&
+                !fracas_fits_find(kept, 2, "data", "cut"));
+    assert_true(fracas_fits_find(kept, 1, "data", "cut") &&
+                fracas_fits_find(kept, 3, "data", "cut"));
     fracas_fits_destroy(kept);
     for (size_t i = 0; i < fits->n; i++) fits->row[i].point = NPOINTS - 1 - fits->row[i].point;
     assert_int_equal(fracas_fits_write(fits, other), FRACAS_OK);
@@ -175,7 +215,8 @@ static void fits_of_the_same_realizations(void **state)
     same_rows(fits, kept);
     fracas_fits_destroy(kept);
     for (size_t i = 0; i < fits->n; i++) /* another realization of as many fragments */
-        if (fits->row[i].point == 2 && !strcmp(fits->row[i].quantity, "fingerprint")) fits->row[i].note[5] ^= 1;
+        if (fits->row[i].point == 2 && !strcmp(fits->row[i].quantity, "fingerprint"))
+            fits->row[i].note[5] ^= 1;
     assert_int_equal(fracas_fits_write(fits, other), FRACAS_OK);
     keep(other, folder, &stale, &kept);
     assert_int_equal(stale, 1);
@@ -211,8 +252,10 @@ static void damaged_files(void **state)
         "point,hash,family,quantity,unit,value,low,high,resamples,note\n0,aa,gamma,k,1,1.5,,,\n",
         "point,hash,family,quantity,unit,value,low,high,resamples,note\n0,aa,gamma,k,1,1.5x,,,,\n",
         "point,hash,family,quantity,unit,value,low,high,resamples,note\n0,aa,gamma,k,1,1.5,,,-3,\n",
-        "point,hash,family,quantity,unit,value,low,high,resamples,note\n0,aa,gamma,k,1,1.5,,,,cut short",
-        "point,hash,family,quantity,unit,value,low,high,resamples,note\n0,aa,a-family-of-more-than-twenty-three-letters,k,1,1,,,,\n",
+        "point,hash,family,quantity,unit,value,low,high,resamples,note\n0,aa,gamma,k,1,1.5,,,,cut "
+        "short",
+        "point,hash,family,quantity,unit,value,low,high,resamples,note\n0,aa,a-family-of-more-than-"
+        "twenty-three-letters,k,1,1,,,,\n",
     };
     char path[340];
     fracas_fits *fits;
@@ -230,7 +273,8 @@ static void damaged_files(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(fits_of_a_study), cmocka_unit_test(fits_of_the_same_realizations), cmocka_unit_test(one_point),
-                                       cmocka_unit_test(damaged_files)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fits_of_a_study), cmocka_unit_test(fits_of_the_same_realizations),
+        cmocka_unit_test(one_point), cmocka_unit_test(damaged_files)};
     return cmocka_run_group_tests(tests, report_make_root, report_remove_root);
 }

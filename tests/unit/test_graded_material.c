@@ -1,4 +1,6 @@
-/* Where strengths are: one for each Gauss point, and a factor that depends on the position; from the file to the field. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Where strengths are: one for each Gauss point, and a factor that depends on the position; from
+ * the file to the field. */
 #define FOLDER "fracas-test"
 #include "tests/support/folder.h"
 
@@ -17,7 +19,8 @@
 static const fracas_kind *distribution(const char *name)
 {
     for (size_t k = 0; k < fracas_strength_section.nkinds; k++)
-        if (strcmp(fracas_strength_section.kinds[k]->name, name) == 0) return fracas_strength_section.kinds[k];
+        if (strcmp(fracas_strength_section.kinds[k]->name, name) == 0)
+            return fracas_strength_section.kinds[k];
     fail_msg("no distribution %s", name);
     return NULL;
 }
@@ -28,7 +31,8 @@ static double factor_of(const char *text, const fracas_kind *along, const double
     const fracas_attachment file = {.path = "f.csv", .text = text, .size = strlen(text)};
     const fracas_strength strength = {.factor = &file, .factor_along = along};
     double *factor = NULL, value;
-    if (fracas_grading_create(&strength, 1, (const double(*)[3])position, &factor)) fail_msg("%s", fracas_message());
+    if (fracas_grading_create(&strength, 1, (const double(*)[3])position, &factor))
+        fail_msg("%s", fracas_message());
     value = factor[0];
     free(factor);
     return value;
@@ -38,21 +42,29 @@ static double factor_of(const char *text, const fracas_kind *along, const double
 static void factors_are_linear_between_lines(void **state)
 {
     (void)state;
-    static const char *const texts[] = {"0,1\n1,2\n1,4\n3,8\n", "x, factor\r\n# remark\n\n 0 1 first\r\n1\t2\n1 , 4\n3,8",
+    static const char *const texts[] = {"0,1\n1,2\n1,4\n3,8\n",
+                                        "x, factor\r\n# remark\n\n 0 1 first\r\n1\t2\n1 , 4\n3,8",
                                         "\357\273\2770,1\n0.5,1.5\n1,2\n1,4\n2,6\n3,8\n"};
     static const struct {
         double at, factor;
-    } table[] = {{-5, 1}, {0, 1}, {0.25, 1.25}, {0.5, 1.5}, {0.75, 1.75}, {1 - 0x1p-20, 2 - 0x1p-20}, {1, 4}, {1.25, 4.5}, {2, 6}, {2.75, 7.5}, {3, 8}, {1e9, 8}};
+    } table[] = {
+        {-5, 1}, {0, 1},      {0.25, 1.25}, {0.5, 1.5},  {0.75, 1.75}, {1 - 0x1p-20, 2 - 0x1p-20},
+        {1, 4},  {1.25, 4.5}, {2, 6},       {2.75, 7.5}, {3, 8},       {1e9, 8}};
     for (size_t t = 0; t < 3; t++)
         for (size_t i = 0; i < sizeof table / sizeof *table; i++)
-            assert_true(factor_of(texts[t], &fracas_along_x, (double[3]){table[i].at, 7, 9}) == table[i].factor);
+            assert_true(factor_of(texts[t], &fracas_along_x, (double[3]){table[i].at, 7, 9}) ==
+                        table[i].factor);
     static const double at[3] = {3, 4, 0.5}; /* 5 from the z axis, wherever along it */
     assert_true(factor_of("0,0.5\n10,10.5\n", &fracas_along_radius, (double[3]){3, 4, 12}) == 5.5);
     static const char steps[] = "-1,1\n0,1\n0,2\n1,2\n1,3\n3.5,3\n3.5,4\n4.5,4\n4.5,5\n";
-    assert_true(factor_of(steps, &fracas_along_x, at) == 3 && factor_of(steps, &fracas_along_y, at) == 4);
-    assert_true(factor_of(steps, &fracas_along_z, at) == 2 && factor_of(steps, &fracas_along_radius, at) == 5);
-    assert_true(factor_of("1,2\n1,4\n", &fracas_along_x, (double[3]){1 - 0x1p-53}) == 2 && factor_of("1,2\n1,4\n", &fracas_along_x, (double[3]){1}) == 4);
-    assert_true(factor_of("1,0.25\n", &fracas_along_x, (double[3]){0}) == 0.25 && factor_of("1,0.25\n", &fracas_along_x, (double[3]){2}) == 0.25);
+    assert_true(factor_of(steps, &fracas_along_x, at) == 3 &&
+                factor_of(steps, &fracas_along_y, at) == 4);
+    assert_true(factor_of(steps, &fracas_along_z, at) == 2 &&
+                factor_of(steps, &fracas_along_radius, at) == 5);
+    assert_true(factor_of("1,2\n1,4\n", &fracas_along_x, (double[3]){1 - 0x1p-53}) == 2 &&
+                factor_of("1,2\n1,4\n", &fracas_along_x, (double[3]){1}) == 4);
+    assert_true(factor_of("1,0.25\n", &fracas_along_x, (double[3]){0}) == 0.25 &&
+                factor_of("1,0.25\n", &fracas_along_x, (double[3]){2}) == 0.25);
 }
 
 static void what_is_wrong_is_said(void **state)
@@ -60,49 +72,71 @@ static void what_is_wrong_is_said(void **state)
     (void)state;
     static const struct {
         const char *text, *words;
-    } table[] = {{"0,1\n1,two\n", "f.csv:2: found `two` as factor; a line begins with a coordinate [m] and a factor"},
-                 {"0,1\n1\n", "f.csv:2: found nothing as factor"}, {"0 mm,1\n", "f.csv:1: found `mm` as factor"},
-                 {"x,f\ny,f\n", "f.csv:2: found `y` as coordinate"}, {"0,1\ninf,2\n", "f.csv:2: found `inf` as coordinate"},
-                 {"0,1\n1,nan\n", "f.csv:2: found `nan` as factor"}, {"# 1\n0,1\n1,0\n", "f.csv:3: a factor of 0; it must be greater than 0"},
-                 {"0,-1\n", "f.csv:1: a factor of -1; it must be greater than 0"},
-                 {"0,1\n2,1\n1,1\n", "f.csv:3: the coordinate 1 m comes after 2 m; sort the lines"},
-                 {"0,1\n2,1\n2,3\n2,4\n", "f.csv:4: the coordinate 2 m is given a third time"},
-                 {"1,1\n1,2\n1,3\n", "f.csv:3: the coordinate 1 m is given a third time"},
-                 {"x,f\n", "f.csv has no factor; expected lines of a coordinate [m] and a factor"}};
+    } table[] = {
+        {"0,1\n1,two\n",
+         "f.csv:2: found `two` as factor; a line begins with a coordinate [m] and a factor"},
+        {"0,1\n1\n", "f.csv:2: found nothing as factor"},
+        {"0 mm,1\n", "f.csv:1: found `mm` as factor"},
+        {"x,f\ny,f\n", "f.csv:2: found `y` as coordinate"},
+        {"0,1\ninf,2\n", "f.csv:2: found `inf` as coordinate"},
+        {"0,1\n1,nan\n", "f.csv:2: found `nan` as factor"},
+        {"# 1\n0,1\n1,0\n", "f.csv:3: a factor of 0; it must be greater than 0"},
+        {"0,-1\n", "f.csv:1: a factor of -1; it must be greater than 0"},
+        {"0,1\n2,1\n1,1\n", "f.csv:3: the coordinate 1 m comes after 2 m; sort the lines"},
+        {"0,1\n2,1\n2,3\n2,4\n", "f.csv:4: the coordinate 2 m is given a third time"},
+        {"1,1\n1,2\n1,3\n", "f.csv:3: the coordinate 1 m is given a third time"},
+        {"x,f\n", "f.csv has no factor; expected lines of a coordinate [m] and a factor"}};
     for (size_t t = 0; t < sizeof table / sizeof *table; t++) {
-        const fracas_attachment file = {.path = "f.csv", .text = table[t].text, .size = strlen(table[t].text)};
-        const fracas_strength strength = {.distribution = distribution("constant"), .value = 1, .factor = &file, .factor_along = &fracas_along_x};
+        const fracas_attachment file = {
+            .path = "f.csv", .text = table[t].text, .size = strlen(table[t].text)};
+        const fracas_strength strength = {.distribution = distribution("constant"),
+                                          .value = 1,
+                                          .factor = &file,
+                                          .factor_along = &fracas_along_x};
         assert_int_equal(fracas_strength_check(&strength), FRACAS_USAGE);
-        if (!strstr(fracas_message(), table[t].words)) fail_msg("no \"%s\" in: %s", table[t].words, fracas_message());
+        if (!strstr(fracas_message(), table[t].words))
+            fail_msg("no \"%s\" in: %s", table[t].words, fracas_message());
     }
 }
 
-/* A factor multiplies what the law draws, or the file gives; one of 1 changes no bit, nor does it change what is drawn. */
+/* A factor multiplies what the law draws, or the file gives; one of 1 changes no bit, nor does it
+ * change what is drawn. */
 static void a_field_is_the_law_times_the_factor(void **state)
 {
     (void)state;
     enum { N = 50 };
-    static const char given[] = "3e8\n", ones[] = "0,1\n1,1\n1,1\n4,1\n", halves[] = "0,1\n10,1\n10,0.5\n20,0.5\n20,3\n30,3\n30,0.7\n";
+    static const char given[] = "3e8\n", ones[] = "0,1\n1,1\n1,1\n4,1\n",
+                      halves[] = "0,1\n10,1\n10,0.5\n20,0.5\n20,3\n30,3\n30,0.7\n";
     char lines[N * sizeof given] = "";
     for (int i = 0; i < N; i++) strcat(lines, given);
     const fracas_attachment file = {.path = "s.csv", .text = lines, .size = strlen(lines)};
-    const fracas_attachment one = {.path = "1.csv", .text = ones, .size = strlen(ones)}, half = {.path = "f.csv", .text = halves, .size = strlen(halves)};
-    const fracas_strength law[] = {{.distribution = distribution("weibull"), .minimum = 264e6, .scale = 50e6, .shape = 2},
-                                   {.distribution = distribution("flaws"), .density = 1e9, .exponent = 3, .minimum = 1e6, .maximum = 1e9},
-                                   {.distribution = distribution("file"), .file = &file}};
+    const fracas_attachment one = {.path = "1.csv", .text = ones, .size = strlen(ones)},
+                            half = {.path = "f.csv", .text = halves, .size = strlen(halves)};
+    const fracas_strength law[] = {
+        {.distribution = distribution("weibull"), .minimum = 264e6, .scale = 50e6, .shape = 2},
+        {.distribution = distribution("flaws"),
+         .density = 1e9,
+         .exponent = 3,
+         .minimum = 1e6,
+         .maximum = 1e9},
+        {.distribution = distribution("file"), .file = &file}};
     double position[N][3] = {{0}}, plain[N], got[N];
     for (int i = 0; i < N; i++) position[i][1] = i;
     for (size_t l = 0; l < sizeof law / sizeof *law; l++) {
         const fracas_stream stream = {.seed = 3, .purpose = FRACAS_PURPOSE_STRENGTH};
         fracas_strength graded = law[l];
-        assert_int_equal(sample_strengths(&law[l], &stream, N, NULL, (const double(*)[3])position, 1, plain), 0);
+        assert_int_equal(
+            sample_strengths(&law[l], &stream, N, NULL, (const double(*)[3])position, 1, plain), 0);
         graded.factor_along = &fracas_along_y;
         graded.factor = &one;
-        assert_int_equal(sample_strengths(&graded, &stream, N, NULL, (const double(*)[3])position, 1, got), 0);
+        assert_int_equal(
+            sample_strengths(&graded, &stream, N, NULL, (const double(*)[3])position, 1, got), 0);
         assert_memory_equal(plain, got, sizeof got);
         graded.factor = &half;
-        assert_int_equal(sample_strengths(&graded, &stream, N, NULL, (const double(*)[3])position, 1, got), 0);
-        for (int i = 0; i < N; i++) assert_true(got[i] == plain[i] * (i < 10 ? 1 : i < 20 ? 0.5 : i < 30 ? 3 : 0.7));
+        assert_int_equal(
+            sample_strengths(&graded, &stream, N, NULL, (const double(*)[3])position, 1, got), 0);
+        for (int i = 0; i < N; i++)
+            assert_true(got[i] == plain[i] * (i < 10 ? 1 : i < 20 ? 0.5 : i < 30 ? 3 : 0.7));
     }
 }
 
@@ -138,10 +172,13 @@ static void bad(const char *text, const char *words)
     if (!strstr(fracas_message(), words)) fail_msg("no \"%s\" in: %s", words, fracas_message());
 }
 
-/* A bar of 50 mm and 100 elements that all stretch alike, until it cracks; its strengths are what a test says. */
-#define BAR(strength)                                                                                                                 \
-    "name: bar\nseed: 7\nmodel: bar\ngeometry: {length: 50 mm}\nmesh: {elements: 100}\nmaterial: {young: 275 GPa, density: 2750 kg/m3}\n" \
-    "cohesive: {fracture_energy: 100 J/m2}\nstrength: {" strength "}\nloading: {rate: 1e4 1/s}\ntime: {stop: time, end: 150 ns}\nreplicas: 1\n"
+/* A bar of 50 mm and 100 elements that all stretch alike, until it cracks; its strengths are what a
+ * test says. */
+#define BAR(strength)                                                                              \
+    "name: bar\nseed: 7\nmodel: bar\ngeometry: {length: 50 mm}\nmesh: {elements: 100}\nmaterial: " \
+    "{young: 275 GPa, density: 2750 kg/m3}\n"                                                      \
+    "cohesive: {fracture_energy: 100 J/m2}\nstrength: {" strength                                  \
+    "}\nloading: {rate: 1e4 1/s}\ntime: {stop: time, end: 150 ns}\nreplicas: 1\n"
 #define CONSTANT "distribution: constant, value: 300 MPa"
 
 static void keys_go_together(void **state)
@@ -150,18 +187,25 @@ static void keys_go_together(void **state)
     put("f.csv", "0,1\n1,2\n");
     put("s.csv", "3e8\n");
     put("wrong.csv", "0,1\n-1,2\n");
-    bad(BAR(CONSTANT ", factor: f.csv"), "strength.factor needs `factor_along`: x, y, z or radius, what the coordinates of f.csv are");
-    bad(BAR(CONSTANT ", factor_along: x"), "strength.factor_along is given without a file `factor`");
-    bad(BAR(CONSTANT ", factor: wrong.csv, factor_along: x"), "wrong.csv:2: the coordinate -1 m comes after 0 m");
-    bad(BAR("distribution: file, file: s.csv, per: gauss-point"), "strength.per is gauss-point, but the distribution `file` gives one");
-    bad(BAR("distribution: positions, file: s.csv, per: gauss-point"), "but the distribution `positions` gives one");
+    bad(BAR(CONSTANT ", factor: f.csv"), "strength.factor needs `factor_along`: x, y, z or radius, "
+                                         "what the coordinates of f.csv are");
+    bad(BAR(CONSTANT ", factor_along: x"),
+        "strength.factor_along is given without a file `factor`");
+    bad(BAR(CONSTANT ", factor: wrong.csv, factor_along: x"),
+        "wrong.csv:2: the coordinate -1 m comes after 0 m");
+    bad(BAR("distribution: file, file: s.csv, per: gauss-point"),
+        "strength.per is gauss-point, but the distribution `file` gives one");
+    bad(BAR("distribution: positions, file: s.csv, per: gauss-point"),
+        "but the distribution `positions` gives one");
     bad(BAR(CONSTANT ", per: point"), "unknown per `point`; per can be: interface, gauss-point");
-    fracas_campaign *campaign = good(BAR(CONSTANT)), *same = good(BAR(CONSTANT ", per: gauss-point")),
+    fracas_campaign *campaign = good(BAR(CONSTANT)),
+                    *same = good(BAR(CONSTANT ", per: gauss-point")),
                     *graded = good(BAR(CONSTANT ", factor: f.csv, factor_along: radius"));
     assert_false(fracas_hash_equal(&campaign->point[0].hash, &same->point[0].hash));
     assert_false(fracas_hash_equal(&campaign->point[0].hash, &graded->point[0].hash));
     assert_null(campaign->point[0].strength.per);
-    assert_true(fracas_strength_is_per_point(&same->point[0].strength) && !fracas_strength_is_per_point(&graded->point[0].strength));
+    assert_true(fracas_strength_is_per_point(&same->point[0].strength) &&
+                !fracas_strength_is_per_point(&graded->point[0].strength));
     fracas_model *model;
     if (fracas_point_model_create(same, 0, &model)) fail_msg("%s", fracas_message());
     assert_int_equal(fracas_model_strengths_per_interface(model), 1);
@@ -171,8 +215,8 @@ static void keys_go_together(void **state)
     fracas_campaign_destroy(graded);
 }
 
-/* Strengths are least at x = 30 mm, the right end of element 59: its interface opens first, when E rate t is its strength. The
- * stress is known to round-off until then; 1e-12 of the time. */
+/* Strengths are least at x = 30 mm, the right end of element 59: its interface opens first, when E
+ * rate t is its strength. The stress is known to round-off until then; 1e-12 of the time. */
 static void a_bar_opens_where_its_factor_is_least(void **state)
 {
     (void)state;
@@ -185,10 +229,14 @@ static void a_bar_opens_where_its_factor_is_least(void **state)
     size_t stride;
     assert_int_equal(fracas_point_model_create(campaign, 0, &model), 0);
     assert_int_equal(fracas_model_field(model, &campaign->point[0].strength, &field), 0);
-    assert_int_equal(fracas_batch_create(model, 1, &(fracas_batch_options){.interfaces = true, .isa = FRACAS_ISA_BEST}, &batch), 0);
+    assert_int_equal(
+        fracas_batch_create(
+            model, 1, &(fracas_batch_options){.interfaces = true, .isa = FRACAS_ISA_BEST}, &batch),
+        0);
     double *sigma_c = fracas_batch_strength(batch, 0, &stride);
     assert_int_equal(fracas_field_sample(field, &(fracas_stream){0}, stride, sigma_c), 0);
-    assert_true(fabs(sigma_c[WEAK * stride] / 270e6 - 1) < 1e-15 && fabs(sigma_c[29 * stride] / 330e6 - 1) < 1e-15); /* x = 15 mm: 1.1 */
+    assert_true(fabs(sigma_c[WEAK * stride] / 270e6 - 1) < 1e-15 &&
+                fabs(sigma_c[29 * stride] / 330e6 - 1) < 1e-15); /* x = 15 mm: 1.1 */
     fracas_record record;
     fracas_record_init(&record);
     assert_int_equal(fracas_batch_run(batch, &record), 0);
@@ -212,14 +260,16 @@ static fracas_forecast forecast_of(const char *text)
     return forecast;
 }
 
-/* One interface in 100 has the factor 2: 1.01 is the mean. The mesh bears 663 MPa, and so one of 900 MPa is not let pass. */
+/* One interface in 100 has the factor 2: 1.01 is the mean. The mesh bears 663 MPa, and so one of
+ * 900 MPa is not let pass. */
 static void a_forecast_knows_the_factor(void **state)
 {
     (void)state;
     put("f.csv", "0.0297,1\n0.0297,2\n0.0303,2\n0.0303,1\n");
     put("large.csv", "0.0297,1\n0.0297,3\n0.0303,3\n0.0303,1\n");
     put("two.csv", "0,2\n");
-    const fracas_forecast plain = forecast_of(BAR(CONSTANT)), one = forecast_of(BAR(CONSTANT ", factor: f.csv, factor_along: x")),
+    const fracas_forecast plain = forecast_of(BAR(CONSTANT)),
+                          one = forecast_of(BAR(CONSTANT ", factor: f.csv, factor_along: x")),
                           twice = forecast_of(BAR(CONSTANT ", factor: two.csv, factor_along: x"));
     assert_true(plain.uniform && twice.uniform && !one.uniform);
     assert_true(plain.mean == 300e6 && twice.mean == 600e6 && fabs(one.mean / 303e6 - 1) < 1e-14);
@@ -227,7 +277,8 @@ static void a_forecast_knows_the_factor(void **state)
     fracas_campaign *campaign = good(BAR(CONSTANT ", factor: large.csv, factor_along: x"));
     fracas_forecast forecast;
     assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_USAGE);
-    assert_non_null(strstr(fracas_message(), "the strongest of 100 interfaces (all replicas together)"));
+    assert_non_null(
+        strstr(fracas_message(), "the strongest of 100 interfaces (all replicas together)"));
     const size_t column = fracas_point_table_find(&campaign->table, "derived.strength_mean");
     assert_true(campaign->table.point[0].value[column].real == 300e6); /* of the law */
     fracas_campaign_destroy(campaign);
@@ -235,13 +286,18 @@ static void a_forecast_knows_the_factor(void **state)
 
 /* ---- Gauss points ---- */
 
-#define SURFACE(model, body, mesh, strength)                                                                                          \
-    "name: surface\nseed: 7\nmodel: " model "\ngeometry: {" body ", thickness: 0.1 mm}\nmesh: {" mesh "}\n"                          \
-    "material: {young: 370 GPa, poisson: 0.25, density: 3900 kg/m3}\ncohesive: {fracture_energy: 50 J/m2}\nstrength: {" strength "}\n"   \
+#define SURFACE(model, body, mesh, strength)                                                       \
+    "name: surface\nseed: 7\nmodel: " model "\ngeometry: {" body                                   \
+    ", thickness: 0.1 mm}\nmesh: {" mesh "}\n"                                                     \
+    "material: {young: 370 GPa, poisson: 0.25, density: 3900 kg/m3}\ncohesive: {fracture_energy: " \
+    "50 J/m2}\nstrength: {" strength "}\n"                                                         \
     "loading: {rate: 1e4 1/s}\ntime: {end: 10 ns}\nreplicas: 1\n"
-#define FLAWS "distribution: flaws, per: gauss-point, minimum: 100 MPa, maximum: 300 MPa, exponent: 3, flaw_density: 1e12 1/m3"
+#define FLAWS                                                                                  \
+    "distribution: flaws, per: gauss-point, minimum: 100 MPa, maximum: 300 MPa, exponent: 3, " \
+    "flaw_density: 1e12 1/m3"
 
-/* Strength k = i*points + g is that of the site (i, g), of an equal part of what the interface stands for. */
+/* Strength k = i*points + g is that of the site (i, g), of an equal part of what the interface
+ * stands for. */
 static void check_points(const char *text, size_t points)
 {
     fracas_campaign *campaign = good(text);
@@ -252,10 +308,13 @@ static void check_points(const char *text, size_t points)
     assert_int_equal(sample.n, points * fracas_model_interfaces(sample.model));
     for (size_t i = 0, k = 0; i < fracas_model_interfaces(sample.model); i++)
         for (size_t g = 0; g < points; g++, k++) {
-            const fracas_extent extent = {fracas_model_interface_volume(sample.model, i) / (double)points,
-                                          fracas_model_interface_area(sample.model, i) / (double)points};
+            const fracas_extent extent = {
+                fracas_model_interface_volume(sample.model, i) / (double)points,
+                fracas_model_interface_area(sample.model, i) / (double)points};
             const double u = fracas_stream_uniform(&stream, fracas_stream_site(i, g));
-            assert_true(sample.strength[k] == fracas_strength_quantile(&campaign->point[0].strength, extent, fracas_probability_of(u)));
+            assert_true(sample.strength[k] == fracas_strength_quantile(&campaign->point[0].strength,
+                                                                       extent,
+                                                                       fracas_probability_of(u)));
         }
     fracas_sample_clear(&sample);
     fracas_campaign_destroy(campaign);
@@ -265,11 +324,14 @@ static void each_gauss_point_has_its_own(void **state)
 {
     (void)state;
     check_points(SURFACE("membrane", "width: 2 mm, height: 1 mm", "divisions: 3", FLAWS), 2);
-    check_points(SURFACE("membrane", "shape: annulus, inner: 1 mm, outer: 2 mm", "divisions: 2, order: 2", FLAWS), 3);
+    check_points(SURFACE("membrane", "shape: annulus, inner: 1 mm, outer: 2 mm",
+                         "divisions: 2, order: 2", FLAWS),
+                 3);
     check_points(SURFACE("shell", "shape: sphere, radius: 2 mm", "divisions: 2", FLAWS), 3);
     put("f.csv", "0,1\n0,2\n");
-    fracas_campaign *campaign = good(SURFACE("membrane", "width: 2 mm, height: 1 mm", "divisions: 3",
-                                             CONSTANT ", per: gauss-point, factor: f.csv, factor_along: x"));
+    fracas_campaign *campaign = good(
+        SURFACE("membrane", "width: 2 mm, height: 1 mm", "divisions: 3",
+                CONSTANT ", per: gauss-point, factor: f.csv, factor_along: x"));
     fracas_sample sample;
     if (fracas_sample_draw(campaign, 0, 0, &sample)) fail_msg("%s", fracas_message());
     size_t right = 0;
@@ -287,24 +349,31 @@ static void a_forecast_counts_gauss_points(void **state)
 {
     (void)state;
     static const char *const text[] = {
-        SURFACE("membrane", "width: 2 mm, height: 2 mm", "divisions: 2", "distribution: lognormal, median: 300 MPa, sigma: 1.5"),
-        SURFACE("membrane", "width: 2 mm, height: 2 mm", "divisions: 2", "distribution: lognormal, median: 300 MPa, sigma: 1.5, per: gauss-point")};
-    static const char *const words[] = {"the strongest of 8 interfaces", "the strongest of 16 Gauss points"};
+        SURFACE("membrane", "width: 2 mm, height: 2 mm", "divisions: 2",
+                "distribution: lognormal, median: 300 MPa, sigma: 1.5"),
+        SURFACE("membrane", "width: 2 mm, height: 2 mm", "divisions: 2",
+                "distribution: lognormal, median: 300 MPa, sigma: 1.5, per: gauss-point")};
+    static const char *const words[] = {"the strongest of 8 interfaces",
+                                        "the strongest of 16 Gauss points"};
     for (int t = 0; t < 2; t++) {
         fracas_campaign *campaign = good(text[t]);
         fracas_forecast forecast;
         assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_USAGE);
-        if (!strstr(fracas_message(), words[t])) fail_msg("no \"%s\" in: %s", words[t], fracas_message());
+        if (!strstr(fracas_message(), words[t]))
+            fail_msg("no \"%s\" in: %s", words[t], fracas_message());
         fracas_campaign_destroy(campaign);
     }
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(factors_are_linear_between_lines), cmocka_unit_test(what_is_wrong_is_said),
-        cmocka_unit_test(a_field_is_the_law_times_the_factor), cmocka_unit_test(keys_go_together),
-        cmocka_unit_test(a_bar_opens_where_its_factor_is_least), cmocka_unit_test(a_forecast_knows_the_factor),
-        cmocka_unit_test(each_gauss_point_has_its_own), cmocka_unit_test(a_forecast_counts_gauss_points)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(factors_are_linear_between_lines),
+                                       cmocka_unit_test(what_is_wrong_is_said),
+                                       cmocka_unit_test(a_field_is_the_law_times_the_factor),
+                                       cmocka_unit_test(keys_go_together),
+                                       cmocka_unit_test(a_bar_opens_where_its_factor_is_least),
+                                       cmocka_unit_test(a_forecast_knows_the_factor),
+                                       cmocka_unit_test(each_gauss_point_has_its_own),
+                                       cmocka_unit_test(a_forecast_counts_gauss_points)};
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

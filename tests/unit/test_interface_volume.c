@@ -1,4 +1,6 @@
-/* The volume of the body that an interface stands for: by closed form, and all of them together are the body. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The volume of the body that an interface stands for: by closed form, and all of them together are
+ * the body. */
 #include "tests/support/bar.h"
 
 #include "engine/mesh/make.h"
@@ -15,7 +17,8 @@ static double mean_of(const fracas_spec *spec)
 /* Rounding: three products and a quotient, 2^-53 each; 2 pi is a double within 2^-53. */
 static void assert_near(double got, double expected)
 {
-    if (!(fabs(got - expected) <= 6e-16 * expected)) fail_msg("%.17g m3, expected %.17g m3", got, expected);
+    if (!(fabs(got - expected) <= 6e-16 * expected))
+        fail_msg("%.17g m3, expected %.17g m3", got, expected);
 }
 
 static void mean_volume_of_each_shape(void **unused)
@@ -46,8 +49,8 @@ static void interfaces_share_the_body(void **unused)
     }
 }
 
-/* The same on elements of different lengths, each interface with half of both its elements. A held bar has none at its ends,
- * and lacks half of its first and of its last element. */
+/* The same on elements of different lengths, each interface with half of both its elements. A held
+ * bar has none at its ends, and lacks half of its first and of its last element. */
 static void interfaces_share_the_body_on_any_mesh(void **unused)
 {
     (void)unused;
@@ -65,7 +68,8 @@ static void interfaces_share_the_body_on_any_mesh(void **unused)
         assert_int_equal(n, i / 2 ? 299 : 300);
         for (size_t k = 0; k < n; k++) {
             sum += fracas_model_interface_volume(model, k);
-            assert_near(fracas_model_interface_volume(model, k), 0.5e-6 * (h[k] + h[(k + 1) % 300]));
+            assert_near(fracas_model_interface_volume(model, k),
+                        0.5e-6 * (h[k] + h[(k + 1) % 300]));
         }
         assert_true(fabs(h[0] / h[150] - 1) > 0.01); /* they are different */
         /* a rounding for each length, as much again for their sum, and one for each volume */
@@ -78,18 +82,25 @@ static void interfaces_share_the_body_on_any_mesh(void **unused)
 static void plates_by_closed_form(void **unused)
 {
     (void)unused;
-    fracas_spec spec = {.geometry = {.shape = &fracas_shape_plate, .width = 3e-3, .height = 2e-3, .thickness = 1e-4},
+    fracas_spec spec = {.geometry = {.shape = &fracas_shape_plate,
+                                     .width = 3e-3,
+                                     .height = 2e-3,
+                                     .thickness = 1e-4},
                         .mesh = {.spacing = &fracas_spacing_triangles, .divisions = 8}};
-    for (spec.mesh.order = 1; spec.mesh.order <= 2; spec.mesh.order++) /* 8 x 12 squares, each area and their sum of 800 rounded */
+    for (spec.mesh.order = 1; spec.mesh.order <= 2;
+         spec.mesh.order++) /* 8 x 12 squares, each area and their sum of 800 rounded */
         assert_true(fabs(mean_of(&spec) / (6e-10 / (3 * 96)) - 1) < 800 * 0x1p-53);
 }
 
-/* Each element's area counts a third for each of its edges that is an interface: all of them is the body but for a third of each
- * element at a boundary edge. */
+/* Each element's area counts a third for each of its edges that is an interface: all of them is the
+ * body but for a third of each element at a boundary edge. */
 static void surfaces_lack_what_is_at_edges(void **unused)
 {
     (void)unused;
-    fracas_spec spec = {.geometry = {.shape = &fracas_shape_annulus, .inner = 1e-3, .outer = 3e-3, .thickness = 1e-4},
+    fracas_spec spec = {.geometry = {.shape = &fracas_shape_annulus,
+                                     .inner = 1e-3,
+                                     .outer = 3e-3,
+                                     .thickness = 1e-4},
                         .mesh = {.spacing = &fracas_spacing_triangles, .divisions = 6}};
     for (spec.mesh.order = 1; spec.mesh.order <= 2; spec.mesh.order++) {
         const fracas_surface *s;
@@ -97,9 +108,11 @@ static void surfaces_lack_what_is_at_edges(void **unused)
         assert_ok(fracas_mesh_make(&spec, &s));
         fracas_surface_measure(s, &all);
         double area = all.area;
-        for (size_t b = 0; b < s->nborders; b++) area -= fracas_surface_area(s, s->border[b].element) / 3;
+        for (size_t b = 0; b < s->nborders; b++)
+            area -= fracas_surface_area(s, s->border[b].element) / 3;
         /* sums of some 1000 positive terms, each rounded */
-        assert_true(fabs(mean_of(&spec) * (double)s->ninterfaces / (1e-4 * area) - 1) < 4000 * 0x1p-53);
+        assert_true(fabs(mean_of(&spec) * (double)s->ninterfaces / (1e-4 * area) - 1) <
+                    4000 * 0x1p-53);
         fracas_surface_destroy(s);
     }
 }

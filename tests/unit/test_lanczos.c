@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lanczos' iteration against GSL's eigenvalues of symmetric pencils K x = lambda M x. */
 #include "engine/integrator/lanczos.h"
 
@@ -23,7 +24,7 @@ enum { MOST = 60 };
 typedef struct {
     size_t n;
     double stiffness[MOST][MOST], mass[MOST][MOST], inverse[MOST][MOST]; /* M^-1 */
-    double largest; /* eigenvalue */
+    double largest;                                                      /* eigenvalue */
     int applied;
 } pencil;
 
@@ -56,10 +57,12 @@ static double next_random(uint64_t *x)
     return (double)(*x >> 11) * 0x1p-53 * 2 - 1;
 }
 
-/* M = B B^T/n + 1/2, K = L Q diag(value) Q^T L^T with M = L L^T and Q orthogonal: its eigenvalues are `value`; GSL says so too. */
+/* M = B B^T/n + 1/2, K = L Q diag(value) Q^T L^T with M = L L^T and Q orthogonal: its eigenvalues
+ * are `value`; GSL says so too. */
 static void make(pencil *p, size_t n, const double *value, bool unit_mass, uint64_t *seed)
 {
-    gsl_matrix *b = gsl_matrix_alloc(n, n), *m = gsl_matrix_alloc(n, n), *l = gsl_matrix_alloc(n, n), *k = gsl_matrix_alloc(n, n);
+    gsl_matrix *b = gsl_matrix_alloc(n, n), *m = gsl_matrix_alloc(n, n),
+               *l = gsl_matrix_alloc(n, n), *k = gsl_matrix_alloc(n, n);
     gsl_matrix *q = gsl_matrix_alloc(n, n), *r = gsl_matrix_alloc(n, n);
     gsl_vector *tau = gsl_vector_alloc(n);
     p->n = n;
@@ -105,14 +108,18 @@ static double solve(pencil *p, uint64_t *seed)
 {
     double start[MOST], largest = NAN;
     for (size_t i = 0; i < p->n; i++) start[i] = next_random(seed);
-    assert_int_equal(fracas_lanczos(&(fracas_lanczos_problem){apply, mass, p, p->n}, start, &largest), FRACAS_OK);
+    assert_int_equal(
+        fracas_lanczos(&(fracas_lanczos_problem){apply, mass, p, p->n}, start, &largest),
+        FRACAS_OK);
     return largest;
 }
 
-/* Random spectra. theta <= lambda by Rayleigh and Ritz, so that the result exceeds lambda by the bound at most, 2e-3 theta. From
- * below: the bound holds for some eigenvalue. The top one's share of the start, 1/n at random, grows in k steps by cosh^2(2 k
- * sqrt(gap)) at least of what the others keep, and 20 steps are what the calm ones and those before them come to: 7e2 for a gap
- * of 1e-2, too much to go unseen; 2 for a gap of 1e-3, which may. Then the result is the second eigenvalue: 2e-3. */
+/* Random spectra. theta <= lambda by Rayleigh and Ritz, so that the result exceeds lambda by the
+ * bound at most, 2e-3 theta. From below: the bound holds for some eigenvalue. The top one's share
+ * of the start, 1/n at random, grows in k steps by cosh^2(2 k sqrt(gap)) at least of what the
+ * others keep, and 20 steps are what the calm ones and those before them come to: 7e2 for a gap of
+ * 1e-2, too much to go unseen; 2 for a gap of 1e-3, which may. Then the result is the second
+ * eigenvalue: 2e-3. */
 static void random_pencils(void **unused)
 {
     (void)unused;
@@ -121,7 +128,9 @@ static void random_pencils(void **unused)
     for (int i = 0; i < 600; i++) {
         const size_t n = 1 + (size_t)i % MOST;
         double value[MOST], second = 0, top = 0;
-        const double skew = i / 60 % 5; /* dense at the top (0), or at the bottom: as meshes with small elements have it */
+        const double skew =
+            i / 60 %
+            5; /* dense at the top (0), or at the bottom: as meshes with small elements have it */
         for (size_t j = 0; j < n; j++) {
             value[j] = 1e10 * pow(0.5 * (1 + next_random(&seed)), 1 + skew);
             if (j < n / 6) value[j] = 0; /* motions of the body as a whole */
@@ -138,9 +147,10 @@ static void random_pencils(void **unused)
     }
 }
 
-/* Eigenvalues that occur two, three, n times: the iteration has fewer steps than n. Of distinct ones of which the smallest gap
- * is a fifth, the invariant subspace is found and the result is theirs to round-off: 1e-12 is where it stops, 60 roundings
- * beside; with the bound where it stops before. */
+/* Eigenvalues that occur two, three, n times: the iteration has fewer steps than n. Of distinct
+ * ones of which the smallest gap is a fifth, the invariant subspace is found and the result is
+ * theirs to round-off: 1e-12 is where it stops, 60 roundings beside; with the bound where it stops
+ * before. */
 static void multiple_eigenvalues(void **unused)
 {
     (void)unused;
@@ -158,27 +168,39 @@ static void multiple_eigenvalues(void **unused)
     }
 }
 
-/* One degree of freedom; nothing at all; a start that has nothing of the largest mode: the largest of the others. */
+/* One degree of freedom; nothing at all; a start that has nothing of the largest mode: the largest
+ * of the others. */
 static void small_ones(void **unused)
 {
     (void)unused;
     static pencil p;
     double largest;
     p = (pencil){.n = 1, .stiffness = {{6}}, .mass = {{2}}, .inverse = {{0.5}}};
-    assert_int_equal(fracas_lanczos(&(fracas_lanczos_problem){apply, mass, &p, 1}, (double[]){-0.3}, &largest), FRACAS_OK);
+    assert_int_equal(
+        fracas_lanczos(&(fracas_lanczos_problem){apply, mass, &p, 1}, (double[]){-0.3}, &largest),
+        FRACAS_OK);
     assert_true(fabs(largest - 3) < 1e-14 && p.applied == 1);
     p.stiffness[0][0] = 0;
-    assert_int_equal(fracas_lanczos(&(fracas_lanczos_problem){apply, mass, &p, 1}, (double[]){1}, &largest), FRACAS_OK);
+    assert_int_equal(
+        fracas_lanczos(&(fracas_lanczos_problem){apply, mass, &p, 1}, (double[]){1}, &largest),
+        FRACAS_OK);
     assert_true(largest == 0);
-    p = (pencil){.n = 3, .stiffness = {{5}, {0, 2}, {0, 0, 1}}, .mass = {{1}, {0, 1}, {0, 0, 1}}, .inverse = {{1}, {0, 1}, {0, 0, 1}}};
-    assert_int_equal(fracas_lanczos(&(fracas_lanczos_problem){apply, mass, &p, 3}, (double[]){0, 1, 1}, &largest), FRACAS_OK);
+    p = (pencil){.n = 3,
+                 .stiffness = {{5}, {0, 2}, {0, 0, 1}},
+                 .mass = {{1}, {0, 1}, {0, 0, 1}},
+                 .inverse = {{1}, {0, 1}, {0, 0, 1}}};
+    assert_int_equal(fracas_lanczos(&(fracas_lanczos_problem){apply, mass, &p, 3},
+                                    (double[]){0, 1, 1}, &largest),
+                     FRACAS_OK);
     assert_true(fabs(largest - 2) < 1e-12);
-    assert_int_equal(fracas_lanczos(&(fracas_lanczos_problem){apply, mass, &p, 3}, (double[]){1e-8, 1, 1}, &largest), FRACAS_OK);
+    assert_int_equal(fracas_lanczos(&(fracas_lanczos_problem){apply, mass, &p, 3},
+                                    (double[]){1e-8, 1, 1}, &largest),
+                     FRACAS_OK);
     assert_true(fabs(largest - 5) < 1e-9);
 }
 
-/* A start all of whose parts are alike in the modes of a chain, 2 - 2 cos(pi k/(n + 1)): the densest top a mesh has. It stops by
- * its bound, or has found every mode. */
+/* A start all of whose parts are alike in the modes of a chain, 2 - 2 cos(pi k/(n + 1)): the
+ * densest top a mesh has. It stops by its bound, or has found every mode. */
 static void the_top_of_a_chain(void **unused)
 {
     (void)unused;
@@ -191,11 +213,16 @@ static void the_top_of_a_chain(void **unused)
             p.mass[i][i] = p.inverse[i][i] = 1;
             if (i > 0) p.stiffness[i][i - 1] = p.stiffness[i - 1][i] = -1;
             start[i] = 0;
-            for (size_t k = 1; k <= n; k++) start[i] += sin(3.14159265358979323846 * (double)(k * (i + 1)) / (double)(n + 1));
+            for (size_t k = 1; k <= n; k++)
+                start[i] += sin(3.14159265358979323846 * (double)(k * (i + 1)) / (double)(n + 1));
         }
-        assert_int_equal(fracas_lanczos(&(fracas_lanczos_problem){apply, mass, &p, n}, start, &largest), FRACAS_OK);
-        const double top = 2 + 2 * cos(3.14159265358979323846 / (double)(n + 1)), second = 2 + 2 * cos(2 * 3.14159265358979323846 / (double)(n + 1));
-        assert_true(largest <= top * (1 + 2e-3) && largest >= fmin(top, fmax(second, top * (1 - 2e-3))) - 1e-12);
+        assert_int_equal(
+            fracas_lanczos(&(fracas_lanczos_problem){apply, mass, &p, n}, start, &largest),
+            FRACAS_OK);
+        const double top = 2 + 2 * cos(3.14159265358979323846 / (double)(n + 1)),
+                     second = 2 + 2 * cos(2 * 3.14159265358979323846 / (double)(n + 1));
+        assert_true(largest <= top * (1 + 2e-3) &&
+                    largest >= fmin(top, fmax(second, top * (1 - 2e-3))) - 1e-12);
     }
 }
 

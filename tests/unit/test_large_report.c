@@ -1,10 +1,11 @@
-/* The report without fits of 1 million fragments in 10 000 realizations: within 30 s and 500 MB, from study.h5 and from 1000 segments whose
- * realizations are as far from plan order as can be; from both, the same numbers. Time is that of the processor, so that other work on the
- * machine does not count; memory is the largest resident set of a process that makes the report and nothing else.
- *
- * ctest-labels: storm
- * ctest-timeout: 900
- */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: storm */
+/* ctest-timeout: 900 */
+/* The report without fits of 1 million fragments in 10 000 realizations: within 30 s and 500 MB,
+ * from study.h5 and from 1000 segments whose realizations are as far from plan order as can be;
+ * from both, the same numbers. Time is that of the processor, so that other work on the machine
+ * does not count; memory is the largest resident set of a process that makes the report and nothing
+ * else. */
 #include "tests/support/report.h"
 
 #include "tests/support/large_study.h"
@@ -17,7 +18,10 @@ static const double most_seconds = 30, most_megabytes = 500;
 
 static large_study study;
 
-static double seconds_of(struct timeval time) { return (double)time.tv_sec + 1e-6 * (double)time.tv_usec; }
+static double seconds_of(struct timeval time)
+{
+    return (double)time.tv_sec + 1e-6 * (double)time.tv_usec;
+}
 
 /* What `fracas report` does. */
 static int report_of(const char *folder, bool whole)
@@ -26,7 +30,8 @@ static int report_of(const char *folder, bool whole)
     char path[640];
     snprintf(path, sizeof path, "%s/table.txt", folder);
     FILE *out = fopen(path, "w");
-    fracas_err err = fracas_analysis_create(folder, whole ? NULL : &study.header.campaign, whole ? NULL : &study.table, &analysis);
+    fracas_err err = fracas_analysis_create(folder, whole ? NULL : &study.header.campaign,
+                                            whole ? NULL : &study.table, &analysis);
     if (!err) fracas_analysis_print_table(analysis, out);
     if (!err) err = fracas_report_write(analysis, folder);
     if (err) fprintf(stderr, "%s\n", fracas_message());
@@ -45,8 +50,10 @@ static void measure(const char *folder, bool whole)
     if (child == 0) _exit(report_of(folder, whole));
     assert_int_equal(wait4(child, &status, 0, &used), child);
     assert_int_equal(status, 0);
-    const double seconds = seconds_of(used.ru_utime) + seconds_of(used.ru_stime), megabytes = (double)used.ru_maxrss * 1024e-6;
-    print_message("%s: %.1f s (at most %.0f), %.0f MB (at most %.0f)\n", folder + strlen(report_root) + 1, seconds, most_seconds, megabytes,
+    const double seconds = seconds_of(used.ru_utime) + seconds_of(used.ru_stime),
+                 megabytes = (double)used.ru_maxrss * 1024e-6;
+    print_message("%s: %.1f s (at most %.0f), %.0f MB (at most %.0f)\n",
+                  folder + strlen(report_root) + 1, seconds, most_seconds, megabytes,
                   most_megabytes);
     assert_true(seconds <= most_seconds);
     assert_true(megabytes <= most_megabytes);

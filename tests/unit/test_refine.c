@@ -1,5 +1,6 @@
-/* Refined campaigns: of every shipped example, and where a refinement cannot be.
- * ctest-labels: slow-sanitize */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: slow-sanitize */
+/* Refined campaigns: of every shipped example, and where a refinement cannot be. */
 #include "campaigns/plan/forecast.h"
 #include "campaigns/plan/refine.h"
 #include "campaigns/scheduler/study/prepare.h"
@@ -23,19 +24,23 @@ static bool is_named(const char *path, const char *const *names)
 static double factor_of(fracas_refinement what, const char *path)
 {
     static const char *const doubled[FRACAS_NREFINEMENTS][4] = {
-        [FRACAS_REFINE_MESH] = {"mesh.elements", "mesh.divisions"}, [FRACAS_REFINE_BETA] = {"cohesive.beta", "cohesive.beta_shear"}};
-    static const char *const halved[FRACAS_NREFINEMENTS][2] = {[FRACAS_REFINE_MESH] = {"mesh.size"}, [FRACAS_REFINE_STEP] = {"time.safety"}};
+        [FRACAS_REFINE_MESH] = {"mesh.elements", "mesh.divisions"},
+        [FRACAS_REFINE_BETA] = {"cohesive.beta", "cohesive.beta_shear"}};
+    static const char *const halved[FRACAS_NREFINEMENTS][2] = {
+        [FRACAS_REFINE_MESH] = {"mesh.size"}, [FRACAS_REFINE_STEP] = {"time.safety"}};
     return is_named(path, doubled[what]) ? 2 : is_named(path, halved[what]) ? 0.5 : 1;
 }
 
 static fracas_value value_at(const fracas_campaign *campaign, size_t p, const char *path)
 {
     const size_t c = fracas_point_table_find(&campaign->table, path);
-    return c == SIZE_MAX ? (fracas_value){.real = NAN, .text = ""} : campaign->table.point[p].value[c];
+    return c == SIZE_MAX ? (fracas_value){.real = NAN, .text = ""}
+                         : campaign->table.point[p].value[c];
 }
 
 /* Every value of every point is that of the file but for those that are to be refined. */
-static void check_values(const char *file, const fracas_campaign *plain, fracas_refinement what, const fracas_refined *refined)
+static void check_values(const char *file, const fracas_campaign *plain, fracas_refinement what,
+                         const fracas_refined *refined)
 {
     const fracas_campaign *fine = refined->campaign;
     assert_int_equal(fine->npoints + refined->left, plain->npoints);
@@ -45,17 +50,24 @@ static void check_values(const char *file, const fracas_campaign *plain, fracas_
         size_t changed = 0;
         assert_true(p == 0 || from > refined->from[p - 1]);
         assert_int_equal(fine->point[p].replicas, plain->point[from].replicas);
-        assert_int_equal(fracas_point_most(&fine->point[p]), fracas_point_most(&plain->point[from]));
+        assert_int_equal(fracas_point_most(&fine->point[p]),
+                         fracas_point_most(&plain->point[from]));
         for (size_t c = 0; c < plain->table.ncolumns; c++) {
             const char *path = plain->table.column[c].path;
-            const fracas_value was = plain->table.point[from].value[c], is = value_at(fine, p, path);
+            const fracas_value was = plain->table.point[from].value[c],
+                               is = value_at(fine, p, path);
             const double factor = factor_of(what, path);
-            if (!strncmp(path, "derived.strength_mean", 21)) continue; /* of an interface: with a size effect, of its size */
+            if (!strncmp(path, "derived.strength_mean", 21))
+                continue; /* of an interface: with a size effect, of its size */
             changed += factor != 1 && was.real != 0 && !isnan(was.real);
-            const bool near = isnan(was.real) ? isnan(is.real) : fabs(is.real - factor * was.real) <= 1e-14 * fabs(is.real); /* 15 digits are kept */
+            const bool near = isnan(was.real) ? isnan(is.real)
+                                              : fabs(is.real - factor * was.real) <=
+                                                    1e-14 * fabs(is.real); /* 15 digits are kept */
             const bool same = near && !strcmp(was.text, is.text);
-            if (!same) fail_msg("%s, %s, point %zu: %s was %.17g%s, is %.17g%s", file, fracas_refinement_name[what], p, path, was.real, was.text,
-                                is.real, is.text);
+            if (!same)
+                fail_msg("%s, %s, point %zu: %s was %.17g%s, is %.17g%s", file,
+                         fracas_refinement_name[what], p, path, was.real, was.text, is.real,
+                         is.text);
         }
         assert_true(what == FRACAS_REFINE_NOTHING || changed > 0);
     }
@@ -74,18 +86,22 @@ static void check_file(const fracas_campaign *campaign)
     fracas_campaign_destroy(again);
 }
 
-/* Elements of the first point: two for one along a line, four for one on a surface. There a number of layers is rounded, which here are 8
- * or more: (16 +- 1/2)/(8 +- 1/2) of them for one is 2 within 10 %. */
+/* Elements of the first point: two for one along a line, four for one on a surface. There a number
+ * of layers is rounded, which here are 8 or more: (16 +- 1/2)/(8 +- 1/2) of them for one is 2
+ * within 10 %. */
 static void check_elements(const fracas_campaign *plain, const fracas_refined *refined)
 {
     fracas_forecast coarse, fine;
     assert_int_equal(fracas_forecast_make(plain, refined->from[0], &coarse), FRACAS_OK);
     assert_int_equal(fracas_forecast_make(refined->campaign, 0, &fine), FRACAS_OK);
     const bool surface = fracas_spec_is_surface(&plain->point[0].spec);
-    const double ratio = (double)fine.elements / (double)coarse.elements, halves = fine.element / coarse.element;
+    const double ratio = (double)fine.elements / (double)coarse.elements,
+                 halves = fine.element / coarse.element;
     if (!surface) assert_true(fine.elements == 2 * coarse.elements);
-    else if (!(ratio > 4 * 0.81 && ratio < 4 * 1.21)) fail_msg("%s: %g times as many elements", plain->name, ratio);
-    if (!(halves > 0.5 / 1.1 && halves < 0.5 * 1.1)) fail_msg("%s: elements are %g times as large", plain->name, halves);
+    else if (!(ratio > 4 * 0.81 && ratio < 4 * 1.21))
+        fail_msg("%s: %g times as many elements", plain->name, ratio);
+    if (!(halves > 0.5 / 1.1 && halves < 0.5 * 1.1))
+        fail_msg("%s: elements are %g times as large", plain->name, halves);
 }
 
 /* What cannot be refined, and what is said of the first such point. */
@@ -97,19 +113,26 @@ static void check_left(const char *name, fracas_refinement what, const fracas_re
         size_t left;
         const char *why;
     } known[] = {
-        {"bar-replay.yaml", FRACAS_REFINE_MESH, 6, "point 0: strengths/dynfrag1d-N1250.csv has 1249 strengths, but the mesh has 2499 interfaces"},
+        {"bar-replay.yaml", FRACAS_REFINE_MESH, 6,
+         "point 0: strengths/dynfrag1d-N1250.csv has 1249 strengths, but the mesh has 2499 "
+         "interfaces"},
         {"bar-replay.yaml", FRACAS_REFINE_BETA, 3, "point 0: its interfaces have no cohesive.beta"},
         {"plate-akantu.yaml", FRACAS_REFINE_MESH, 8, "point 0: its mesh is from a file"},
-        {"ring-variants.yaml", FRACAS_REFINE_BETA, 10, "point 1: its interfaces have no cohesive.beta"},
-        {"ring-zoning.yaml", FRACAS_REFINE_BETA, 11, "point 0: its interfaces have no cohesive.beta"},
+        {"ring-variants.yaml", FRACAS_REFINE_BETA, 10,
+         "point 1: its interfaces have no cohesive.beta"},
+        {"ring-zoning.yaml", FRACAS_REFINE_BETA, 11,
+         "point 0: its interfaces have no cohesive.beta"},
     };
     size_t left = 0;
     for (size_t k = 0; k < FRACAS_COUNT(known); k++) {
         if (strcmp(known[k].name, name) != 0 || known[k].what != what) continue;
         left = known[k].left;
-        if (strncmp(refined->why, known[k].why, strlen(known[k].why)) != 0) fail_msg("%s: %s", name, refined->why);
+        if (strncmp(refined->why, known[k].why, strlen(known[k].why)) != 0)
+            fail_msg("%s: %s", name, refined->why);
     }
-    if (refined->left != left) fail_msg("%s, %s: %zu left out, %s", name, fracas_refinement_name[what], refined->left, refined->why);
+    if (refined->left != left)
+        fail_msg("%s, %s: %zu left out, %s", name, fracas_refinement_name[what], refined->left,
+                 refined->why);
 }
 
 /* The same campaign on meshes of triangles that are made in no time. */
@@ -166,7 +189,8 @@ static void every_example(void **state)
 }
 
 /* A copy of the plain campaign with `find` replaced by `put`, refined. */
-static void refine_replaced(const char *find, const char *put, int64_t replicas, fracas_refinement what, fracas_refined *refined)
+static void refine_replaced(const char *find, const char *put, int64_t replicas,
+                            fracas_refinement what, fracas_refined *refined)
 {
     char path[40], *text = replace(plain_campaign, find, put);
     make_path(path);
@@ -177,12 +201,14 @@ static void refine_replaced(const char *find, const char *put, int64_t replicas,
     if (err) fail_msg("%s", fracas_message());
 }
 
-/* Points that cannot be refined are left out one by one, and the others keep their place in the file, their case and their replicas. */
+/* Points that cannot be refined are left out one by one, and the others keep their place in the
+ * file, their case and their replicas. */
 static void some_left_out(void **state)
 {
     (void)state;
     fracas_refined refined;
-    const char *sweep = "sweep:\n  - cases:\n      - {name: a, cohesive.law: rigid-link}\n      - {name: b}\n      - {name: c, cohesive.beta: 6000}\n"
+    const char *sweep = "sweep:\n  - cases:\n      - {name: a, cohesive.law: rigid-link}\n      - "
+                        "{name: b}\n      - {name: c, cohesive.beta: 6000}\n"
                         "      - {name: d, cohesive.beta: 8, replicas: 5}\n";
     refine_replaced("", sweep, 0, FRACAS_REFINE_BETA, &refined);
     assert_int_equal(refined.left, 2);
@@ -196,14 +222,17 @@ static void some_left_out(void **state)
     assert_true(refined.cost[1] > 0 && refined.cost[1] > refined.cost[0]);
     check_file(refined.campaign);
     fracas_refined_clear(&refined);
-    refine_replaced("  fracture_energy", "  beta: 6000\n  fracture_energy", 0, FRACAS_REFINE_BETA, &refined);
+    refine_replaced("  fracture_energy", "  beta: 6000\n  fracture_energy", 0, FRACAS_REFINE_BETA,
+                    &refined);
     assert_null(refined.campaign);
     assert_int_equal(refined.left, 1);
-    assert_string_equal(refined.why, "point 0: cohesive.beta is 6000 already, and its range ends at 10000");
+    assert_string_equal(refined.why,
+                        "point 0: cohesive.beta is 6000 already, and its range ends at 10000");
     fracas_refined_clear(&refined);
 }
 
-/* Strengths are shared with step and beta, as the streams say, not with the mesh; replicas beside the file count. */
+/* Strengths are shared with step and beta, as the streams say, not with the mesh; replicas beside
+ * the file count. */
 static void names_and_numbers(void **state)
 {
     (void)state;
@@ -229,6 +258,8 @@ static void names_and_numbers(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_example), cmocka_unit_test(some_left_out), cmocka_unit_test(names_and_numbers)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_example),
+                                       cmocka_unit_test(some_left_out),
+                                       cmocka_unit_test(names_and_numbers)};
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

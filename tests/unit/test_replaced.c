@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rank 0 without MPI: what becomes of the leases of a server that died and was replaced. */
 #include "tests/support/campaign_text.h"
 #include "tests/support/study_fixture.h"
@@ -65,8 +66,13 @@ static int begin(void **state)
     fracas_run_options_init(&options);
     fracas_voice_init(&voice);
     study = sample_folder();
-    const fracas_director_setup setup = {.campaign = campaign, .options = &options, .study = study, .workers = 2, .send = note,
-                                         .voice = &voice, .now = fracas_now};
+    const fracas_director_setup setup = {.campaign = campaign,
+                                         .options = &options,
+                                         .study = study,
+                                         .workers = 2,
+                                         .send = note,
+                                         .voice = &voice,
+                                         .now = fracas_now};
     fracas_err verdict;
     OK(fracas_director_create(&setup, &director, &verdict));
     ready(0);
@@ -102,8 +108,8 @@ static void what_it_held_waits_and_is_isolated(void **state)
     assert_int_equal(worker[0].stops + worker[1].stops, 0); /* not before everything is durable */
 }
 
-/* All is computed, nothing is durable; then one dies before it has written its segment. The other one, which was not told to stop yet,
- * computes that again. */
+/* All is computed, nothing is durable; then one dies before it has written its segment. The other
+ * one, which was not told to stop yet, computes that again. */
 static void one_that_dies_at_the_end_costs_what_it_had(void **state)
 {
     (void)state;
@@ -129,7 +135,8 @@ static void one_that_dies_while_a_run_drains_is_stopped(void **state)
     assert_int_equal(worker[0].nleases, 1);
 }
 
-/* A drained run whose last worker is lost has drained: the same command goes on, and nobody needs to be told of trouble. */
+/* A drained run whose last worker is lost has drained: the same command goes on, and nobody needs
+ * to be told of trouble. */
 static void one_that_is_lost_while_a_run_drains_is_no_trouble(void **state)
 {
     (void)state;
@@ -141,7 +148,8 @@ static void one_that_is_lost_while_a_run_drains_is_no_trouble(void **state)
     assert_int_equal(fracas_director_finish(director), FRACAS_INTERRUPTED);
 }
 
-/* A server asked for its segment has none where all that it told of was in one before: nobody waits for another, and all are told to stop. */
+/* A server asked for its segment has none where all that it told of was in one before: nobody waits
+ * for another, and all are told to stop. */
 static void a_server_without_a_segment_answers_too(void **state)
 {
     (void)state;
@@ -161,7 +169,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(what_it_held_waits_and_is_isolated, begin, end),
         cmocka_unit_test_setup_teardown(one_that_dies_at_the_end_costs_what_it_had, begin, end),
         cmocka_unit_test_setup_teardown(one_that_dies_while_a_run_drains_is_stopped, begin, end),
-        cmocka_unit_test_setup_teardown(one_that_is_lost_while_a_run_drains_is_no_trouble, begin, end),
+        cmocka_unit_test_setup_teardown(one_that_is_lost_while_a_run_drains_is_no_trouble, begin,
+                                        end),
         cmocka_unit_test_setup_teardown(a_server_without_a_segment_answers_too, begin, end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,6 @@
-/* Rounds of a study: what the index makes of them, whatever order its realizations come in; what is recorded, merged and found wrong. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rounds of a study: what the index makes of them, whatever order its realizations come in; what is
+ * recorded, merged and found wrong. */
 #include "tests/support/campaign_text.h"
 #include "tests/support/study_fixture.h"
 
@@ -28,7 +30,8 @@ static int begin(void **state)
     (void)state;
     study = sample_folder();
     assert_int_equal(mkdir(sample_path(study, "segments"), 0777), 0);
-    campaign = make("{minimum: 8, maximum: 24, until: {quantity: dissipated, relative-half-width: 0.1}}");
+    campaign = make(
+        "{minimum: 8, maximum: 24, until: {quantity: dissipated, relative-half-width: 0.1}}");
     OK(fracas_index_open(study, true, &index_));
     OK(fracas_index_plan(index_, &campaign->table));
     OK(fracas_rounds_init(&rounds, campaign, index_));
@@ -42,7 +45,8 @@ static int end(void **state)
     return tear_down(state);
 }
 
-/* Commits replicas first to last of point p; what is dissipated alternates between 1 - spread and 1 + spread. */
+/* Commits replicas first to last of point p; what is dissipated alternates between 1 - spread and 1
+ * + spread. */
 static void commit(size_t p, int64_t first, int64_t last, double spread, int64_t outcome)
 {
     static int number;
@@ -50,8 +54,13 @@ static void commit(size_t p, int64_t first, int64_t last, double spread, int64_t
     char name[32];
     const fracas_file_seal seal = {100, (uint64_t)++number};
     for (int64_t r = first; r <= last; r++)
-        row[r - first] = (fracas_segment_row){.point = campaign->point[p].hash, .replica = r, .row = r - first, .outcome = outcome,
-                                              .fragments = 5, .dissipated = 1 + (r % 2 ? spread : -spread), .size = 0.01};
+        row[r - first] = (fracas_segment_row){.point = campaign->point[p].hash,
+                                              .replica = r,
+                                              .row = r - first,
+                                              .outcome = outcome,
+                                              .fragments = 5,
+                                              .dissipated = 1 + (r % 2 ? spread : -spread),
+                                              .size = 0.01};
     snprintf(name, sizeof name, "x%d.h5", number);
     OK(fracas_index_commit(index_, name, &seal, row, (size_t)(last - first + 1), "{}"));
 }
@@ -71,7 +80,8 @@ static int64_t rows_of(size_t p)
     return point.realizations;
 }
 
-/* Half width with n values of 1 -+ spread: t spread sqrt(n/(n - 1))/sqrt(n). At 8 of 0.05 0.0447, of 0.5 0.447; at 24 0.216. */
+/* Half width with n values of 1 -+ spread: t spread sqrt(n/(n - 1))/sqrt(n). At 8 of 0.05 0.0447,
+ * of 0.5 0.447; at 24 0.216. */
 static void rounds_go_on_until_they_are_narrow(void **state)
 {
     (void)state;
@@ -136,7 +146,8 @@ static void what_failed_does_not_count(void **state)
     free(decision);
 }
 
-/* Later rounds may be there first, as after the loss of the index: they wait until it is their turn, and what is too much goes. */
+/* Later rounds may be there first, as after the loss of the index: they wait until it is their
+ * turn, and what is too much goes. */
 static void rounds_that_are_there_already_are_decided_at_once(void **state)
 {
     (void)state;
@@ -163,7 +174,8 @@ static void rounds_that_are_there_already_are_decided_at_once(void **state)
 
 static void tampered(const char *sql)
 {
-    if (sqlite3_exec(index_->db, sql, NULL, NULL, NULL) != SQLITE_OK) fail_msg("%s", sqlite3_errmsg(index_->db));
+    if (sqlite3_exec(index_->db, sql, NULL, NULL, NULL) != SQLITE_OK)
+        fail_msg("%s", sqlite3_errmsg(index_->db));
 }
 
 static void a_decision_that_does_not_follow_is_damage(void **state)
@@ -174,21 +186,26 @@ static void a_decision_that_does_not_follow_is_damage(void **state)
     commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
     commit(1, 0, 7, 0.05, FRACAS_FRAGMENTED);
     OK(fracas_rounds_advance(&rounds, index_, 0));
-    sample_fails(fracas_rounds_check(campaign, index_), FRACAS_DAMAGED, "lacks a decision on the replicas of point 1");
+    sample_fails(fracas_rounds_check(campaign, index_), FRACAS_DAMAGED,
+                 "lacks a decision on the replicas of point 1");
     OK(fracas_rounds_advance(&rounds, index_, 1));
     OK(fracas_rounds_check(campaign, index_));
     tampered("UPDATE decision SET half_width = half_width * (1 + 1e-15) WHERE point = 2");
     sample_fails(fracas_rounds_check(campaign, index_), FRACAS_DAMAGED, "round 0 of point 1");
-    sample_fails(fracas_rounds_init(&again, campaign, index_), FRACAS_DAMAGED, "round 0 of point 1");
+    sample_fails(fracas_rounds_init(&again, campaign, index_), FRACAS_DAMAGED,
+                 "round 0 of point 1");
     fracas_rounds_clear(&again);
-    tampered("UPDATE realization SET status = 'planned' WHERE point = 2 AND replica = 3"); /* its segment was lost */
+    tampered(
+        "UPDATE realization SET status = 'planned' WHERE point = 2 AND replica = 3"); /* its segment
+                                                                                         was lost */
     OK(fracas_rounds_init(&again, campaign, index_)); /* nothing to compare with yet */
     assert_int_equal(again.open, 0);
     fracas_rounds_clear(&again);
     sample_fails(fracas_rounds_check(campaign, index_), FRACAS_DAMAGED, "point 1");
     tampered("UPDATE decision SET stop = 7 WHERE point = 2");
     size_t count;
-    sample_fails(fracas_index_decisions(index_, &campaign->point[1].hash, &decision, &count), FRACAS_DAMAGED, "`decision`");
+    sample_fails(fracas_index_decisions(index_, &campaign->point[1].hash, &decision, &count),
+                 FRACAS_DAMAGED, "`decision`");
 }
 
 /* Another rule takes up the realizations, not the decisions. */
@@ -199,7 +216,8 @@ static void a_stronger_rule_decides_again(void **state)
     fracas_rounds again;
     commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
     OK(fracas_rounds_advance(&rounds, index_, 0));
-    fracas_campaign *now = make("{minimum: 8, maximum: 100, until: {quantity: dissipated, relative-half-width: 0.01}}");
+    fracas_campaign *now = make(
+        "{minimum: 8, maximum: 100, until: {quantity: dissipated, relative-half-width: 0.01}}");
     OK(fracas_index_plan(index_, &now->table));
     OK(fracas_rounds_init(&again, now, index_));
     assert_int_equal(again.point[0].replicas, 16);
@@ -232,7 +250,8 @@ static void a_larger_maximum_goes_on(void **state)
     commit(0, 16, 23, 0.5, FRACAS_FRAGMENTED);
     OK(fracas_rounds_advance(&rounds, index_, 0));
     assert_int_equal(rounds.open, 1); /* 0.216 is more than 0.1, but 24 is the maximum */
-    fracas_campaign *now = make("{minimum: 8, maximum: 25, until: {quantity: dissipated, relative-half-width: 0.1}}");
+    fracas_campaign *now = make(
+        "{minimum: 8, maximum: 25, until: {quantity: dissipated, relative-half-width: 0.1}}");
     OK(fracas_index_plan(index_, &now->table));
     OK(fracas_rounds_init(&again, now, index_));
     assert_int_equal(again.open, 2);
@@ -253,7 +272,9 @@ static void a_rule_looks_at_its_quantity(void **state)
         char text[200];
         fracas_decision *decision;
         fracas_rounds again;
-        snprintf(text, sizeof text, "{minimum: 8, maximum: 24, until: {quantity: %s, relative-half-width: 0.2}}", quantity[q]);
+        snprintf(text, sizeof text,
+                 "{minimum: 8, maximum: 24, until: {quantity: %s, relative-half-width: 0.2}}",
+                 quantity[q]);
         fracas_campaign *now = make(text);
         OK(fracas_rounds_init(&again, now, index_));
         look(0, &decision, 1);
@@ -265,7 +286,8 @@ static void a_rule_looks_at_its_quantity(void **state)
     }
 }
 
-/* An index of before sizes were kept gets the column, but no values in it: they are in the segments. */
+/* An index of before sizes were kept gets the column, but no values in it: they are in the
+ * segments. */
 static void an_older_index_is_brought_up(void **state)
 {
     (void)state;
@@ -284,14 +306,16 @@ static void an_older_index_is_brought_up(void **state)
     OK(fracas_index_open(study, true, &index_));
     OK(fracas_rounds_advance(&rounds, index_, 0)); /* what is dissipated was kept */
     assert_int_equal(rounds.open, 1);
-    fracas_campaign *now = make("{minimum: 8, maximum: 24, until: {quantity: mean-size, relative-half-width: 0.1}}");
+    fracas_campaign *now = make(
+        "{minimum: 8, maximum: 24, until: {quantity: mean-size, relative-half-width: 0.1}}");
     fracas_rounds again;
     sample_fails(fracas_rounds_init(&again, now, index_), FRACAS_DAMAGED, "fracas reindex");
     fracas_rounds_clear(&again);
     fracas_campaign_destroy(now);
 }
 
-/* All values 0, as of what is dissipated where nothing breaks: known exactly; of no value nothing is known. */
+/* All values 0, as of what is dissipated where nothing breaks: known exactly; of no value nothing
+ * is known. */
 static void a_mean_of_nothing_is_known(void **state)
 {
     (void)state;
@@ -311,19 +335,23 @@ static void a_mean_of_nothing_is_known(void **state)
     const fracas_decision negative = {.mean = -4, .half_width = 1};
     assert_true(fracas_decision_relative(&negative) == 0.25);
     tampered("CREATE TABLE said(n INTEGER CHECK (n = 1))");
-    tampered("INSERT INTO said SELECT count(*) FROM decision WHERE relative = 0 AND reason LIKE '% 0 +- 0, 0 % of it%'");
+    tampered("INSERT INTO said SELECT count(*) FROM decision WHERE relative = 0 AND reason LIKE '% "
+             "0 +- 0, 0 % of it%'");
 }
 
-/* All points of a segment in one transaction: a decision that cannot be kept takes the others with it. */
+/* All points of a segment in one transaction: a decision that cannot be kept takes the others with
+ * it. */
 static void points_of_a_segment_are_decided_together(void **state)
 {
     (void)state;
     fracas_decision *decision;
-    const fracas_segment_row heard[] = {{.point = campaign->point[0].hash}, {.point = campaign->point[0].hash, .replica = 1},
+    const fracas_segment_row heard[] = {{.point = campaign->point[0].hash},
+                                        {.point = campaign->point[0].hash, .replica = 1},
                                         {.point = campaign->point[1].hash}};
     commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
     commit(1, 0, 7, 0.5, FRACAS_FRAGMENTED);
-    tampered("CREATE TRIGGER refuse BEFORE INSERT ON decision WHEN NEW.point = 2 BEGIN SELECT raise(ABORT, 'no'); END");
+    tampered("CREATE TRIGGER refuse BEFORE INSERT ON decision WHEN NEW.point = 2 BEGIN SELECT "
+             "raise(ABORT, 'no'); END");
     assert_int_not_equal(fracas_rounds_hear(&rounds, index_, heard, 3), FRACAS_OK);
     assert_true(sqlite3_get_autocommit(index_->db));
     look(0, &decision, 0);

@@ -1,4 +1,6 @@
-/* The lease logic: sizes, order, the plan. What fails: test_scheduler_failures.c; what random events do to it: test_scheduler_events.c. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The lease logic: sizes, order, the plan. What fails: test_scheduler_failures.c; what random
+ * events do to it: test_scheduler_events.c. */
 #include "tests/support/leases.h"
 
 /* ---- sizes and order ---- */
@@ -34,7 +36,8 @@ static void sizes_are_by_measured_cost(void **state)
         assert_lease(&lease, 1, first, first + 72 <= MANY ? 72 : (uint64_t)(MANY - first));
         computed(scheduler, 0, &lease, (double)lease.count / 73); /* as it was */
     }
-    /* Point 2 was never measured: a tenth of the cost, so about 730 in 1 s; then measured a hundred times slower than that. */
+    /* Point 2 was never measured: a tenth of the cost, so about 730 in 1 s; then measured a hundred
+     * times slower than that. */
     assert_true(next(scheduler, 0, 0, &lease));
     assert_int_equal(lease.point, 2);
     assert_int_equal(lease.count % 8, 0);
@@ -46,7 +49,8 @@ static void sizes_are_by_measured_cost(void **state)
     fracas_scheduler_destroy(scheduler);
 }
 
-/* Towards the end: at most what is left / (2 workers), never less than a batch but for the last ones, which are shared out. */
+/* Towards the end: at most what is left / (2 workers), never less than a batch but for the last
+ * ones, which are shared out. */
 static void sizes_shrink_with_what_is_left(void **state)
 {
     (void)state;
@@ -57,7 +61,8 @@ static void sizes_shrink_with_what_is_left(void **state)
     computed(scheduler, 0, &lease, 8e-6); /* 1e6 in 1 s: time is no bound */
     size_t leases = 0;
     for (size_t left = 3992; left > 0; left -= lease.count, leases++) {
-        const size_t worker = leases % WORKERS, share = left / (2 * WORKERS) / 8 * 8, even = (left + WORKERS - 1) / WORKERS;
+        const size_t worker = leases % WORKERS, share = left / (2 * WORKERS) / 8 * 8,
+                     even = (left + WORKERS - 1) / WORKERS;
         assert_true(next(scheduler, worker, 0, &lease));
         assert_int_equal(lease.count, share >= 8 ? share : even < 8 ? even : 8);
         computed(scheduler, worker, &lease, 1e-6 * (double)lease.count);
@@ -66,7 +71,8 @@ static void sizes_shrink_with_what_is_left(void **state)
     fracas_scheduler_destroy(scheduler);
 }
 
-/* Which workers share the last ones: those that will be free soon enough to be of use, not those that are lost. */
+/* Which workers share the last ones: those that will be free soon enough to be of use, not those
+ * that are lost. */
 static void the_last_ones_are_shared_with_who_is_free_soon(void **state)
 {
     (void)state;
@@ -84,7 +90,8 @@ static void the_last_ones_are_shared_with_who_is_free_soon(void **state)
             assert_int_equal(last.count, 8);
             computed(scheduler, 0, &last, 8);
         }
-        /* 16 wait. Workers 1 and 2 will be free in 4 s, or a little later; 3 does not ask any more. */
+        /* 16 wait. Workers 1 and 2 will be free in 4 s, or a little later; 3 does not ask any more.
+         */
         assert_true(next(scheduler, 0, late ? 4 : 3.9, &last));
         assert_int_equal(last.count, late ? 6 : 8);
         fracas_scheduler_destroy(scheduler);
@@ -131,7 +138,8 @@ static void the_longest_go_first(void **state)
     fracas_index_row *row = rows(POINTS, 11);
     fracas_scheduler_options options = options_for(1);
     options.seconds = 0;
-    /* By cost, until point 2 turns out to be faster than point 0 is predicted to be, and point 0 faster still. */
+    /* By cost, until point 2 turns out to be faster than point 0 is predicted to be, and point 0
+     * faster still. */
     static const size_t point[2][6] = {{1, 1, 2, 2, 0, 0}, {1, 1, 2, 0, 2, 0}};
     static const double seconds[2][POINTS] = {{1e-5, 1e-3, 1e-4}, {1e-9, 1e-3, 1e-6}};
     for (int slow = 0; slow < 2; slow++) {
@@ -153,7 +161,8 @@ static void the_longest_go_first(void **state)
     free(row);
 }
 
-/* Points on which more depends go before longer ones, measured or not, the longest of them first. */
+/* Points on which more depends go before longer ones, measured or not, the longest of them first.
+ */
 static void some_points_go_first(void **state)
 {
     (void)state;
@@ -198,15 +207,18 @@ static void what_comes_next_is_predicted(void **state)
     fracas_lease lease, ahead;
     assert_true(isnan(fracas_scheduler_predicted(scheduler, 0, 5)));
     assert_true(next(scheduler, 0, 5, &lease));
-    OK(fracas_scheduler_computed(scheduler, 0, lease.id, 13, 8)); /* 1 s each: batches of 8 s from now on */
+    OK(fracas_scheduler_computed(scheduler, 0, lease.id, 13,
+                                 8)); /* 1 s each: batches of 8 s from now on */
     assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 13), 8, 1e-9);
     assert_true(next(scheduler, 0, 13, &lease));
     assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 15), 6 + 8, 1e-9);
-    assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 99), 0 + 8, 1e-9); /* late: it may end at any time */
+    assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 99), 0 + 8,
+                       1e-9); /* late: it may end at any time */
     assert_true(next(scheduler, 0, 15, &ahead));
     assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 15), 6 + 8 + 8, 1e-9);
     OK(fracas_scheduler_computed(scheduler, 0, lease.id, 21, 8));
-    assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 22), 7 + 8, 1e-9); /* the one ahead has run for 1 s */
+    assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 22), 7 + 8,
+                       1e-9); /* the one ahead has run for 1 s */
     fracas_scheduler_destroy(scheduler);
 }
 
@@ -221,7 +233,8 @@ static void what_waits_again_is_predicted(void **state)
     computed(scheduler, 1, &second, 8);
     assert_true(next(scheduler, 1, 0, &second));
     assert_int_equal(second.count, 8);
-    assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 3), 5 + 6, 1e-9); /* the rest of 8, and the last 6 */
+    assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 3), 5 + 6,
+                       1e-9); /* the rest of 8, and the last 6 */
     computed(scheduler, 1, &second, 8);
     fracas_scheduler_lost(scheduler, 0);
     assert_float_equal(fracas_scheduler_predicted(scheduler, 1, 3), 8, 1e-9);
@@ -242,7 +255,8 @@ static void a_lease_has_a_time_limit(void **state)
     fracas_scheduler *scheduler = create_with(row, POINTS * 100, &options);
     fracas_lease lease;
     assert_true(next(scheduler, 0, 0, &lease));
-    assert_float_equal(lease.limit, 600 + 50 * 8 * 100 / 1e6, 1e-9); /* nothing is measured: 1e6 element-steps/s at least */
+    assert_float_equal(lease.limit, 600 + 50 * 8 * 100 / 1e6,
+                       1e-9); /* nothing is measured: 1e6 element-steps/s at least */
     computed(scheduler, 0, &lease, 40);
     assert_true(next(scheduler, 0, 0, &lease));
     assert_float_equal(lease.limit, 600 + 50 * 40, 1e-9);
@@ -262,7 +276,8 @@ static void a_shuffle_changes_order_and_sizes(void **state)
     fracas_scheduler_options options = options_for(1);
     fracas_scheduler *plain = create_with(row, POINTS * 11, &options);
     options.shuffle = true;
-    fracas_scheduler *shuffled = create_with(row, POINTS * 11, &options), *again = create_with(row, POINTS * 11, &options);
+    fracas_scheduler *shuffled = create_with(row, POINTS * 11, &options),
+                     *again = create_with(row, POINTS * 11, &options);
     bool point = false, size = false, order = false;
     size_t left = POINTS * 11;
     while (left > 0) {
@@ -296,7 +311,8 @@ static void rows_are_added(void **state)
     (void)state;
     fracas_index_row more[6];
     fracas_scheduler *scheduler = create(1, 11, 1);
-    for (size_t i = 0; i < 6; i++) more[i] = (fracas_index_row){.point = i < 3 ? 2 : 1, .replica = (int64_t)(20 + i % 3)};
+    for (size_t i = 0; i < 6; i++)
+        more[i] = (fracas_index_row){.point = i < 3 ? 2 : 1, .replica = (int64_t)(20 + i % 3)};
     more[1].status = FRACAS_DONE; /* computed before its round came */
     more[2].status = FRACAS_FAILED_ROW;
     fracas_lease lease;

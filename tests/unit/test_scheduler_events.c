@@ -1,4 +1,6 @@
-/* The lease logic under everything that can happen to it: copies of overdue leases, losses, and random courses of events. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The lease logic under everything that can happen to it: copies of overdue leases, losses, and
+ * random courses of events. */
 #include "campaigns/scheduler/lease/scheduler.h"
 
 #include <malloc.h>
@@ -21,7 +23,8 @@ static bool next(fracas_scheduler *scheduler, size_t worker, double now, fracas_
 }
 
 /* A lease, or (*copy) one that is overdue. */
-static bool any_or_copy(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease, bool *copy)
+static bool any_or_copy(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease,
+                        bool *copy)
 {
     size_t late;
     bool given = next(scheduler, worker, now, lease);
@@ -37,7 +40,8 @@ static bool any(fracas_scheduler *scheduler, size_t worker, double now, fracas_l
 }
 
 /* Only a copy, of what `late` holds. */
-static void copy_of(fracas_scheduler *scheduler, size_t worker, double now, size_t late, fracas_lease *lease)
+static void copy_of(fracas_scheduler *scheduler, size_t worker, double now, size_t late,
+                    fracas_lease *lease)
 {
     size_t found;
     bool given;
@@ -51,24 +55,28 @@ static void copy_of(fracas_scheduler *scheduler, size_t worker, double now, size
 
 static const double flat[] = {1, 1, 1, 1, 1};
 
-/* 24 realizations of 1 s for 3 workers. At 0 each was given 8; worker 2 has computed its own, and they are durable. */
+/* 24 realizations of 1 s for 3 workers. At 0 each was given 8; worker 2 has computed its own, and
+ * they are durable. */
 static fracas_scheduler *create_late(fracas_lease *first, fracas_lease *second)
 {
     fracas_index_row row[24];
     for (size_t i = 0; i < 24; i++) row[i] = (fracas_index_row){.replica = (int64_t)i};
-    const fracas_scheduler_options options = {.cost = flat, .npoints = 1, .workers = 3, .width = 8, .seconds = 1, .memory = 5};
+    const fracas_scheduler_options options = {
+        .cost = flat, .npoints = 1, .workers = 3, .width = 8, .seconds = 1, .memory = 5};
     fracas_scheduler *scheduler;
     fracas_lease other;
     OK(fracas_scheduler_create(row, 24, &options, &scheduler));
     assert_true(next(scheduler, 0, 0, first) && next(scheduler, 1, 0, second));
     assert_int_equal(first->count, 8);
     assert_int_equal(second->count, 8);
-    while (next(scheduler, 2, 0, &other)) OK(fracas_scheduler_computed(scheduler, 2, other.id, 0, (double)other.count));
+    while (next(scheduler, 2, 0, &other))
+        OK(fracas_scheduler_computed(scheduler, 2, other.id, 0, (double)other.count));
     fracas_scheduler_durable(scheduler, 2);
     return scheduler;
 }
 
-static void assert_counts(const fracas_scheduler *scheduler, int64_t done, int64_t memory, int64_t duplicates)
+static void assert_counts(const fracas_scheduler *scheduler, int64_t done, int64_t memory,
+                          int64_t duplicates)
 {
     const fracas_scheduler_counts count = fracas_scheduler_count(scheduler);
     assert_int_equal(count.total, 24);
@@ -110,7 +118,8 @@ static void an_overdue_lease_goes_to_an_idle_worker(void **state)
     fracas_scheduler_destroy(scheduler);
 }
 
-/* 10 s at least; of a lease ahead from when it was given, and from when it began when the one before it was computed. */
+/* 10 s at least; of a lease ahead from when it was given, and from when it began when the one
+ * before it was computed. */
 static void short_leases_are_overdue_after_10_s(void **state)
 {
     (void)state;
@@ -128,7 +137,8 @@ static void short_leases_are_overdue_after_10_s(void **state)
     }
     fracas_scheduler_durable(scheduler, 1);
     assert_false(any(scheduler, 1, 1, &other));
-    copy_of(scheduler, 1, 10.5, 0, &other); /* of both it would be the first; lost, it is not missed */
+    copy_of(scheduler, 1, 10.5, 0,
+            &other); /* of both it would be the first; lost, it is not missed */
     assert_int_equal(other.id, first.id);
     fracas_scheduler_lost(scheduler, 1);
     OK(fracas_scheduler_computed(scheduler, 0, first.id, 5, 0.01));
@@ -139,7 +149,8 @@ static void short_leases_are_overdue_after_10_s(void **state)
     fracas_scheduler_destroy(scheduler);
 }
 
-/* What a worker has computed and does not make durable is computed by another as well: 5 s after a lease would be overdue. */
+/* What a worker has computed and does not make durable is computed by another as well: 5 s after a
+ * lease would be overdue. */
 static void a_lease_that_stays_in_memory_is_overdue(void **state)
 {
     (void)state;
@@ -165,9 +176,18 @@ static void a_lease_that_stays_in_memory_is_overdue(void **state)
 }
 
 /* Where the original and the copy of a lease may be lost, and in what order. */
-enum { LOSE_ORIGINAL, LOSE_COPY, COMPUTE_ORIGINAL, COMPUTE_COPY, COMMIT_ORIGINAL, COMMIT_COPY, NEVENTS };
+enum {
+    LOSE_ORIGINAL,
+    LOSE_COPY,
+    COMPUTE_ORIGINAL,
+    COMPUTE_COPY,
+    COMMIT_ORIGINAL,
+    COMMIT_COPY,
+    NEVENTS
+};
 
-/* Every order of every subset of what can happen to a lease that two workers have: nothing of it is lost, nothing counts twice. */
+/* Every order of every subset of what can happen to a lease that two workers have: nothing of it is
+ * lost, nothing counts twice. */
 static void a_loss_at_any_stage_loses_nothing(void **state)
 {
     (void)state;
@@ -213,7 +233,8 @@ static void a_loss_at_any_stage_loses_nothing(void **state)
 static void a_copy_that_fails_is_forgotten(void **state)
 {
     (void)state;
-    for (int stage = 0; stage < 3; stage++) { /* the other one holds it, has it in memory, has it on disk */
+    for (int stage = 0; stage < 3;
+         stage++) { /* the other one holds it, has it in memory, has it on disk */
         fracas_lease first, second, copy, fault;
         bool final;
         fracas_scheduler *scheduler = create_late(&first, &second);
@@ -248,20 +269,27 @@ typedef struct {
     size_t width, added; /* rows that the scheduler knows */
     bool done[ROWS], failed[ROWS];
     int attempts[ROWS];
-    int held[ROWS], memory[ROWS];        /* by so many workers */
+    int held[ROWS], memory[ROWS]; /* by so many workers */
     int own_memory[WORKERS][ROWS];
     int64_t duplicates;
     fracas_lease lease[WORKERS][FRACAS_LEASES_HELD];
     size_t nheld[WORKERS];
 } world;
 
-static int roll(world *w, int sides) { return rand_r(&w->dice) % sides; }
+static int roll(world *w, int sides)
+{
+    return rand_r(&w->dice) % sides;
+}
 
-static size_t row_of(const fracas_lease *lease, size_t i) { return lease->point * REPLICAS + (size_t)lease->replica[i]; }
+static size_t row_of(const fracas_lease *lease, size_t i)
+{
+    return lease->point * REPLICAS + (size_t)lease->replica[i];
+}
 
 static void drop(world *w, size_t worker, size_t place)
 {
-    for (size_t i = 0; i < w->lease[worker][place].count; i++) w->held[row_of(&w->lease[worker][place], i)]--;
+    for (size_t i = 0; i < w->lease[worker][place].count; i++)
+        w->held[row_of(&w->lease[worker][place], i)]--;
     w->nheld[worker]--;
     for (size_t h = place; h < w->nheld[worker]; h++) w->lease[worker][h] = w->lease[worker][h + 1];
 }
@@ -314,12 +342,15 @@ static void forget(world *w, size_t worker, bool durable)
 static void go_wrong(world *w, size_t worker, size_t place)
 {
     const fracas_lease lease = w->lease[worker][place];
-    const size_t batches = (lease.count + w->width - 1) / w->width, kept = (size_t)roll(w, (int)batches) * w->width;
-    const size_t rest = lease.count - kept, count = rest < w->width ? rest : w->width, r = row_of(&lease, kept);
+    const size_t batches = (lease.count + w->width - 1) / w->width,
+                 kept = (size_t)roll(w, (int)batches) * w->width;
+    const size_t rest = lease.count - kept, count = rest < w->width ? rest : w->width,
+                 r = row_of(&lease, kept);
     fracas_lease fault;
     bool final;
     drop(w, worker, place);
-    OK(fracas_scheduler_failed(w->scheduler, worker, lease.id, w->now, kept, count, &fault, &final));
+    OK(fracas_scheduler_failed(w->scheduler, worker, lease.id, w->now, kept, count, &fault,
+                               &final));
     if (is_copy(w, lease.id) || w->memory[r] || w->done[r]) {
         assert_int_equal(fault.count, 0);
         return;
@@ -352,7 +383,8 @@ static void happen(world *w)
         size_t more = 1 + (size_t)roll(w, 20);
         if (more > ROWS - w->added) more = ROWS - w->added;
         for (size_t i = 0; i < more; i++)
-            row[i] = (fracas_index_row){.point = (w->added + i) / REPLICAS, .replica = (int64_t)((w->added + i) % REPLICAS)};
+            row[i] = (fracas_index_row){.point = (w->added + i) / REPLICAS,
+                                        .replica = (int64_t)((w->added + i) % REPLICAS)};
         OK(fracas_scheduler_add(w->scheduler, row, more));
         w->added += more;
     } else if (event < 35 || !w->nheld[worker]) {
@@ -360,13 +392,15 @@ static void happen(world *w)
     } else {
         const size_t place = (size_t)roll(w, (int)w->nheld[worker]);
         const fracas_lease lease = w->lease[worker][place];
-        const bool bad = lease.count == 1 && lease.replica[0] % 16 == 3; /* alone it fails most of the time */
+        const bool bad = lease.count == 1 &&
+                         lease.replica[0] % 16 == 3; /* alone it fails most of the time */
         if (roll(w, 5) < (bad ? 4 : 1)) {
             go_wrong(w, worker, place);
             return;
         }
         drop(w, worker, place);
-        OK(fracas_scheduler_computed(w->scheduler, worker, lease.id, w->now, 0.01 * (double)(lease.count * (1 + lease.point))));
+        OK(fracas_scheduler_computed(w->scheduler, worker, lease.id, w->now,
+                                     0.01 * (double)(lease.count * (1 + lease.point))));
         remember(w, worker, &lease, lease.count);
     }
 }
@@ -403,10 +437,18 @@ static void any_course_of_events(void **state)
         assert_non_null(w);
         w->dice = seed;
         w->width = seed % 3 ? 8 : 3;
-        const fracas_scheduler_options options = {.cost = cost, .npoints = POINTS, .workers = WORKERS, .width = w->width, .memory = 2,
-                                                  .seconds = seed % 5 ? 0.5 : 0, .shuffle = seed % 2, .seed = seed};
+        const fracas_scheduler_options options = {.cost = cost,
+                                                  .npoints = POINTS,
+                                                  .workers = WORKERS,
+                                                  .width = w->width,
+                                                  .memory = 2,
+                                                  .seconds = seed % 5 ? 0.5 : 0,
+                                                  .shuffle = seed % 2,
+                                                  .seed = seed};
         OK(fracas_scheduler_create(NULL, 0, &options, &w->scheduler));
-        for (int step = 0; step < 100 || w->added < ROWS || !fracas_scheduler_computed_all(w->scheduler); step++) {
+        for (int step = 0;
+             step < 100 || w->added < ROWS || !fracas_scheduler_computed_all(w->scheduler);
+             step++) {
             assert_true(step < 100000);
             happen(w);
             check(w);
@@ -422,22 +464,26 @@ static void any_course_of_events(void **state)
         fracas_scheduler_destroy(w->scheduler);
         free(w);
     }
-    print_message("%lld failed for good, %lld duplicates\n", (long long)failed, (long long)duplicates);
+    print_message("%lld failed for good, %lld duplicates\n", (long long)failed,
+                  (long long)duplicates);
     assert_true(failed > SEEDS && duplicates > SEEDS); /* it was not all plain sailing */
 }
 
 /* ---- a million ---- */
 
-/* s that a million realizations of `npoints` points take for 64 workers, of 0.1 ms each; *bytes: allocated at most. */
+/* s that a million realizations of `npoints` points take for 64 workers, of 0.1 ms each; *bytes:
+ * allocated at most. */
 static double run_million(size_t npoints, size_t *bytes)
 {
     enum { MILLION = 1000000, MANY = 64 };
     fracas_index_row *row = malloc(MILLION * sizeof *row);
     double *cost = malloc(npoints * sizeof *cost);
     assert_true(row && cost);
-    for (size_t i = 0; i < MILLION; i++) row[i] = (fracas_index_row){.point = i * npoints / MILLION, .replica = (int64_t)i};
+    for (size_t i = 0; i < MILLION; i++)
+        row[i] = (fracas_index_row){.point = i * npoints / MILLION, .replica = (int64_t)i};
     for (size_t p = 0; p < npoints; p++) cost[p] = 1 + (double)(p * 7919 % npoints);
-    const fracas_scheduler_options options = {.cost = cost, .npoints = npoints, .workers = MANY, .width = 8, .seconds = 1};
+    const fracas_scheduler_options options = {
+        .cost = cost, .npoints = npoints, .workers = MANY, .width = 8, .seconds = 1};
     struct timespec a, b;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &a);
     const struct mallinfo2 before = mallinfo2();
@@ -447,8 +493,10 @@ static double run_million(size_t npoints, size_t *bytes)
     *bytes = 0;
     for (size_t turn = 0; !fracas_scheduler_computed_all(scheduler); turn++) {
         assert_true(next(scheduler, turn % MANY, (double)turn, &lease));
-        OK(fracas_scheduler_computed(scheduler, turn % MANY, lease.id, (double)turn, 1e-4 * (double)lease.count));
-        if (turn % 1000 == 0) { /* the memory of a worker is at its largest: nothing is durable yet */
+        OK(fracas_scheduler_computed(scheduler, turn % MANY, lease.id, (double)turn,
+                                     1e-4 * (double)lease.count));
+        if (turn % 1000 ==
+            0) { /* the memory of a worker is at its largest: nothing is durable yet */
             const struct mallinfo2 now = mallinfo2();
             const size_t used = now.uordblks + now.hblkhd - before.uordblks - before.hblkhd;
             if (used > *bytes) *bytes = used;
@@ -470,9 +518,11 @@ static void a_million_is_not_too_many(void **state)
     for (size_t i = 0; i < 3; i++) {
         size_t bytes;
         const double seconds = run_million(npoints[i], &bytes);
-        print_message("1e6 realizations of %zu points: %.2f s, %.0f bytes each\n", npoints[i], seconds, (double)bytes * 1e-6);
+        print_message("1e6 realizations of %zu points: %.2f s, %.0f bytes each\n", npoints[i],
+                      seconds, (double)bytes * 1e-6);
         assert_true(bytes < 500000000);
-        assert_true(seconds < 60); /* of a machine that is busy, with sanitizers; a step per point and lease would take hours */
+        assert_true(seconds < 60); /* of a machine that is busy, with sanitizers; a step per point
+                                      and lease would take hours */
     }
 }
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The lease logic where leases fail: bisecting, attempts, lost workers. */
 #include "tests/support/leases.h"
 
@@ -18,7 +19,8 @@ static fracas_scheduler *create_large(size_t count, fracas_lease *lease)
     return scheduler;
 }
 
-/* 8 -> 4 -> 2 -> 1: the one at fault is found in log2 of the batch, has three attempts in all, and everything else is computed. */
+/* 8 -> 4 -> 2 -> 1: the one at fault is found in log2 of the batch, has three attempts in all, and
+ * everything else is computed. */
 static void a_failed_batch_is_bisected(void **state)
 {
     (void)state;
@@ -30,7 +32,8 @@ static void a_failed_batch_is_bisected(void **state)
     assert_lease(&lease, 0, KEPT, 8); /* what was at fault */
     assert_false(final);
     assert_counts(scheduler, 2 * COUNT, KEPT, 0); /* the first batch is kept */
-    /* 8-11 good, 12-15 bad: 12-13 bad: 12 good, 13 bad, 14-15 good, the batch that was not begun, then 13 again twice. */
+    /* 8-11 good, 12-15 bad: 12-13 bad: 12 good, 13 bad, 14-15 good, the batch that was not begun,
+     * then 13 again twice. */
     static const int64_t order[] = {8, 12, 12, 12, 13, 14, 16, 13, 13};
     static const uint64_t size[] = {4, 4, 2, 1, 1, 2, 8, 1, 1};
     for (size_t i = 0; i < 9; i++) {
@@ -69,7 +72,8 @@ static void one_at_fault_has_had_an_attempt(void **state)
         OK(fracas_scheduler_failed(scheduler, 0, lease.id, 0, 0, 1, &lease, &final));
         assert_int_equal(final, attempt == FRACAS_ATTEMPTS_MAX);
     }
-    fracas_scheduler_lost(scheduler, 0); /* what was kept is lost with the worker, what failed stays failed */
+    fracas_scheduler_lost(scheduler,
+                          0); /* what was kept is lost with the worker, what failed stays failed */
     assert_counts(scheduler, 48, 0, 1);
     assert_true(next(scheduler, 0, 0, &lease));
     assert_lease(&lease, 0, 0, 23);
@@ -103,13 +107,20 @@ static void nonsense_is_refused(void **state)
     bool final;
     fracas_scheduler *scheduler = create(1, 40, 2);
     assert_true(next(scheduler, 0, 0, &lease));
-    assert_int_equal(fracas_scheduler_computed(scheduler, 1, lease.id, 0, 1), FRACAS_BUG); /* not its own */
-    assert_int_equal(fracas_scheduler_failed(scheduler, 1, lease.id, 0, 0, 8, &other, &final), FRACAS_BUG);
-    assert_int_equal(fracas_scheduler_failed(scheduler, 0, lease.id, 0, 0, 9, &other, &final), FRACAS_BUG);
-    assert_int_equal(fracas_scheduler_failed(scheduler, 0, lease.id, 0, 8, 0, &other, &final), FRACAS_BUG);
-    assert_int_equal(fracas_scheduler_failed(scheduler, 0, lease.id, 0, SIZE_MAX, 8, &other, &final), FRACAS_BUG);
+    assert_int_equal(fracas_scheduler_computed(scheduler, 1, lease.id, 0, 1),
+                     FRACAS_BUG); /* not its own */
+    assert_int_equal(fracas_scheduler_failed(scheduler, 1, lease.id, 0, 0, 8, &other, &final),
+                     FRACAS_BUG);
+    assert_int_equal(fracas_scheduler_failed(scheduler, 0, lease.id, 0, 0, 9, &other, &final),
+                     FRACAS_BUG);
+    assert_int_equal(fracas_scheduler_failed(scheduler, 0, lease.id, 0, 8, 0, &other, &final),
+                     FRACAS_BUG);
+    assert_int_equal(
+        fracas_scheduler_failed(scheduler, 0, lease.id, 0, SIZE_MAX, 8, &other, &final),
+        FRACAS_BUG);
     computed(scheduler, 0, &lease, 1); /* it is still held */
-    assert_int_equal(fracas_scheduler_computed(scheduler, 0, lease.id, 0, 1), FRACAS_BUG); /* once is enough */
+    assert_int_equal(fracas_scheduler_computed(scheduler, 0, lease.id, 0, 1),
+                     FRACAS_BUG); /* once is enough */
     assert_counts(scheduler, 0, 8, 0);
     fracas_scheduler_destroy(scheduler);
 }
@@ -130,7 +141,8 @@ static void a_lost_worker_costs_what_was_not_durable(void **state)
     fracas_scheduler_lost(scheduler, 0);
     assert_counts(scheduler, 8, 0, 0);
     assert_true(fracas_scheduler_idles(scheduler, 0) && !fracas_scheduler_keeps(scheduler, 0));
-    /* First in line, though 368 others wait: what was in memory, and in isolation what it held, for that may have killed it. */
+    /* First in line, though 368 others wait: what was in memory, and in isolation what it held, for
+     * that may have killed it. */
     const fracas_lease *order[] = {&second, &third, &fourth};
     for (size_t i = 0; i < 3; i++) {
         assert_true(next(scheduler, 1, 0, &again));

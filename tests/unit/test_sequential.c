@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Student's t, the rounds, and the decision of a round. */
 #include "sampler/sequential/sequential.h"
 #include "sampler/special/student.h"
@@ -12,19 +13,24 @@
 
 #include <cmocka.h>
 
-/* GSL solves for its own distribution function to some 1e-14 where that is flat. Ours halves until no double lies between: what
- * is left is the rounding of the sum, nu terms of 1e-16, over the density times t, 1e-3 at least for these confidences; and that of
- * 1 - confidence, 1e-16 over 1e-3. Both stay below 5e-13. */
+/* GSL solves for its own distribution function to some 1e-14 where that is flat. Ours halves until
+ * no double lies between: what is left is the rounding of the sum, nu terms of 1e-16, over the
+ * density times t, 1e-3 at least for these confidences; and that of 1 - confidence, 1e-16 over
+ * 1e-3. Both stay below 5e-13. */
 static void quantiles_are_those_of_gsl(void **state)
 {
     (void)state;
     static const double confidence[] = {0.5, 0.8, 0.9, 0.95, 0.99, 0.999};
     for (size_t c = 0; c < sizeof confidence / sizeof *confidence; c++)
-        for (int64_t nu = 1; nu < 40000; nu += nu < 60 ? 1 : nu < 2000 ? 37 : 3331) { /* across the change to the expansion */
+        for (int64_t nu = 1; nu < 40000;
+             nu += nu < 60     ? 1
+                   : nu < 2000 ? 37
+                               : 3331) { /* across the change to the expansion */
             const double found = fracas_student_quantile(confidence[c], nu);
             const double wanted = gsl_cdf_tdist_Pinv(0.5 * (1 + confidence[c]), (double)nu);
             if (!(fabs(found / wanted - 1) < 1e-12))
-                fail_msg("nu %d, confidence %g: %.17g, not %.17g", (int)nu, confidence[c], found, wanted);
+                fail_msg("nu %d, confidence %g: %.17g, not %.17g", (int)nu, confidence[c], found,
+                         wanted);
         }
 }
 
@@ -41,7 +47,8 @@ static void quantiles_in_closed_form(void **state)
         assert_true(fabs(fracas_student_within(0.5, nu) - 1) < 1e-14); /* nu roundings at most */
         for (double t = 0.25; t < 8; t *= 2) {
             const double x = atan(t / sqrt((double)nu)) / M_PI;
-            assert_true(fabs(fracas_student_within(x, nu) - (1 - 2 * gsl_cdf_tdist_Q(t, (double)nu))) < 1e-14);
+            assert_true(fabs(fracas_student_within(x, nu) -
+                             (1 - 2 * gsl_cdf_tdist_Q(t, (double)nu))) < 1e-14);
         }
     }
 }
@@ -49,7 +56,10 @@ static void quantiles_in_closed_form(void **state)
 static void rounds_grow_by_half_in_batches(void **state)
 {
     (void)state;
-    static const int64_t wanted[][12] = {{16, 24, 40, 64, 96, 144, 216, 256}, {8, 16, 24, 40, 64, 96, 100}, {9, 17, 33, 57, 60}, {20}};
+    static const int64_t wanted[][12] = {{16, 24, 40, 64, 96, 144, 216, 256},
+                                         {8, 16, 24, 40, 64, 96, 100},
+                                         {9, 17, 33, 57, 60},
+                                         {20}};
     static const int64_t maximum[] = {256, 100, 60, 20};
     for (int r = 0; r < 4; r++) {
         const fracas_sequential_rule rule = {.minimum = wanted[r][0], .maximum = maximum[r]};
@@ -70,10 +80,14 @@ static void rounds_grow_by_half_in_batches(void **state)
     assert_true(rounds < 60); /* log(1e9/8)/log(1.5) = 46 */
 }
 
-static const fracas_sequential_rule rule = {
-    .minimum = 8, .maximum = 40, .quantity = FRACAS_MEAN_COUNT, .relative_half_width = 0.1, .confidence = 0.95};
+static const fracas_sequential_rule rule = {.minimum = 8,
+                                            .maximum = 40,
+                                            .quantity = FRACAS_MEAN_COUNT,
+                                            .relative_half_width = 0.1,
+                                            .confidence = 0.95};
 
-/* 1 to 8 around 100: mean 104.5, deviation sqrt(6), t of 7 degrees of freedom 2.364624..., as tables have it. */
+/* 1 to 8 around 100: mean 104.5, deviation sqrt(6), t of 7 degrees of freedom 2.364624..., as
+ * tables have it. */
 static void a_decision_by_hand(void **state)
 {
     (void)state;
@@ -85,44 +99,54 @@ static void a_decision_by_hand(void **state)
     const double half = 2.3646242515927849 * sqrt(6) / sqrt(8);
     assert_true(fabs(made.half_width / half - 1) < 1e-12); /* that of t */
     assert_int_equal(made.stop, FRACAS_PRECISE);
-    narrow.relative_half_width = made.half_width / 104.5 * (1 + 1e-15); /* the bound itself is narrow enough */
+    narrow.relative_half_width = made.half_width / 104.5 *
+                                 (1 + 1e-15); /* the bound itself is narrow enough */
     assert_int_equal(fracas_sequential_decide(&narrow, value, 8).stop, FRACAS_PRECISE);
     narrow.relative_half_width *= 1 - 1e-14;
     assert_int_equal(fracas_sequential_decide(&narrow, value, 8).stop, FRACAS_GO_ON);
     narrow.maximum = 8;
     assert_int_equal(fracas_sequential_decide(&narrow, value, 8).stop, FRACAS_AT_MAXIMUM);
     narrow.relative_half_width = 0.1;
-    assert_int_equal(fracas_sequential_decide(&narrow, value, 8).stop, FRACAS_PRECISE); /* both: it is precise */
+    assert_int_equal(fracas_sequential_decide(&narrow, value, 8).stop,
+                     FRACAS_PRECISE); /* both: it is precise */
     double below[8];
     for (int i = 0; i < 8; i++) below[i] = -value[i];
-    assert_int_equal(fracas_sequential_decide(&rule, below, 8).stop, FRACAS_PRECISE); /* of |mean| */
+    assert_int_equal(fracas_sequential_decide(&rule, below, 8).stop,
+                     FRACAS_PRECISE); /* of |mean| */
 }
 
 static void what_does_not_count_is_left_out(void **state)
 {
     (void)state;
-    const double value[10] = {NAN, 101, 102, 103, 104, NAN, 105, 106, 107, 108}, none[8] = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    const double value[10] = {NAN, 101, 102, 103, 104, NAN, 105, 106, 107, 108},
+                 none[8] = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     const double plain[8] = {101, 102, 103, 104, 105, 106, 107, 108};
-    const fracas_sequential_decision with = fracas_sequential_decide(&rule, value, 10), without = fracas_sequential_decide(&rule, plain, 8);
+    const fracas_sequential_decision with = fracas_sequential_decide(&rule, value, 10),
+                                     without = fracas_sequential_decide(&rule, plain, 8);
     assert_int_equal(with.used, 8);
     assert_true(with.mean == without.mean && with.half_width == without.half_width);
     fracas_sequential_decision made = fracas_sequential_decide(&rule, none, 8);
-    assert_true(made.used == 0 && isnan(made.mean) && isnan(made.half_width) && made.stop == FRACAS_GO_ON);
+    assert_true(made.used == 0 && isnan(made.mean) && isnan(made.half_width) &&
+                made.stop == FRACAS_GO_ON);
     double one[8];
     memcpy(one, none, sizeof one);
     one[3] = 5;
     made = fracas_sequential_decide(&rule, one, 8);
-    assert_true(made.used == 1 && made.mean == 5 && isnan(made.half_width) && made.stop == FRACAS_GO_ON);
+    assert_true(made.used == 1 && made.mean == 5 && isnan(made.half_width) &&
+                made.stop == FRACAS_GO_ON);
     const double zero[8] = {0}, equal[8] = {3, 3, 3, 3, 3, 3, 3, 3};
-    assert_int_equal(fracas_sequential_decide(&rule, zero, 8).stop, FRACAS_PRECISE); /* 0 <= 0: nothing dissipates, and surely so */
+    assert_int_equal(fracas_sequential_decide(&rule, zero, 8).stop,
+                     FRACAS_PRECISE); /* 0 <= 0: nothing dissipates, and surely so */
     assert_int_equal(fracas_sequential_decide(&rule, equal, 8).stop, FRACAS_PRECISE);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quantiles_are_those_of_gsl),   cmocka_unit_test(quantiles_in_closed_form),
-        cmocka_unit_test(rounds_grow_by_half_in_batches), cmocka_unit_test(a_decision_by_hand),
+        cmocka_unit_test(quantiles_are_those_of_gsl),
+        cmocka_unit_test(quantiles_in_closed_form),
+        cmocka_unit_test(rounds_grow_by_half_in_batches),
+        cmocka_unit_test(a_decision_by_hand),
         cmocka_unit_test(what_does_not_count_is_left_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pieces of the solver: stop rules, histories, fragments, what a batch refuses. */
 #include "tests/support/bar.h"
 
@@ -27,37 +28,67 @@ static void stop_at_a_set_time(void **unused)
     const fracas_time rule = {.stop = &fracas_stop_time, .end = 1.0};
     fracas_stop stop = {0};
     fracas_outcome outcome;
-    assert_false(fracas_stop_check(&stop, &rule, &(fracas_progress){.time = 0.999, .dissipated = 1, .cracked = 5, .broken = 2}, &outcome));
-    assert_true(fracas_stop_check(&stop, &rule, &(fracas_progress){.time = 1.0, .dissipated = 1, .cracked = 5, .broken = 2}, &outcome));
+    assert_false(fracas_stop_check(
+        &stop, &rule, &(fracas_progress){.time = 0.999, .dissipated = 1, .cracked = 5, .broken = 2},
+        &outcome));
+    assert_true(fracas_stop_check(
+        &stop, &rule, &(fracas_progress){.time = 1.0, .dissipated = 1, .cracked = 5, .broken = 2},
+        &outcome));
     assert_int_equal(outcome, FRACAS_FRAGMENTED);
-    assert_true(fracas_stop_check(&stop, &rule, &(fracas_progress){.time = 1.0, .dissipated = 1, .cracked = 5, .broken = 0}, &outcome));
+    assert_true(fracas_stop_check(
+        &stop, &rule, &(fracas_progress){.time = 1.0, .dissipated = 1, .cracked = 5, .broken = 0},
+        &outcome));
     assert_int_equal(outcome, FRACAS_INTACT);
 }
 
 static void settled_waits_for_quiet_after_the_first_onset(void **unused)
 {
     (void)unused;
-    const fracas_time rule = {.stop = &fracas_stop_settled, .end = 10, .quiet = 1, .quiet_fraction = 0.01};
+    const fracas_time rule = {
+        .stop = &fracas_stop_settled, .end = 10, .quiet = 1, .quiet_fraction = 0.01};
     fracas_outcome outcome;
     fracas_stop stop = {0};
-    assert_false(fracas_stop_check(&stop, &rule, &(fracas_progress){.time = 5, .dissipated = 0, .cracked = 0, .broken = 0}, &outcome)); /* not armed, however long it is quiet */
-    assert_false(fracas_stop_check(&stop, &rule, &(fracas_progress){.time = 6, .dissipated = 1, .cracked = 1, .broken = 0}, &outcome)); /* onset */
-    assert_false(fracas_stop_check(&stop, &rule, &(fracas_progress){.time = 6.9, .dissipated = 1.005, .cracked = 1, .broken = 0}, &outcome));
-    assert_false(fracas_stop_check(&stop, &rule, &(fracas_progress){.time = 6.95, .dissipated = 1.02, .cracked = 1, .broken = 0}, &outcome)); /* dissipates: starts again */
-    assert_false(fracas_stop_check(&stop, &rule, &(fracas_progress){.time = 7.5, .dissipated = 1.02, .cracked = 1, .broken = 1}, &outcome));  /* a break: again */
-    assert_false(fracas_stop_check(&stop, &rule, &(fracas_progress){.time = 8.4, .dissipated = 1.025, .cracked = 1, .broken = 1}, &outcome));
-    assert_true(fracas_stop_check(&stop, &rule, &(fracas_progress){.time = 8.5, .dissipated = 1.03, .cracked = 1, .broken = 1}, &outcome));
+    assert_false(fracas_stop_check(
+        &stop, &rule, &(fracas_progress){.time = 5, .dissipated = 0, .cracked = 0, .broken = 0},
+        &outcome)); /* not armed, however long it is quiet */
+    assert_false(fracas_stop_check(
+        &stop, &rule, &(fracas_progress){.time = 6, .dissipated = 1, .cracked = 1, .broken = 0},
+        &outcome)); /* onset */
+    assert_false(fracas_stop_check(
+        &stop, &rule,
+        &(fracas_progress){.time = 6.9, .dissipated = 1.005, .cracked = 1, .broken = 0}, &outcome));
+    assert_false(fracas_stop_check(
+        &stop, &rule,
+        &(fracas_progress){.time = 6.95, .dissipated = 1.02, .cracked = 1, .broken = 0},
+        &outcome)); /* dissipates: starts again */
+    assert_false(fracas_stop_check(
+        &stop, &rule,
+        &(fracas_progress){.time = 7.5, .dissipated = 1.02, .cracked = 1, .broken = 1},
+        &outcome)); /* a break: again */
+    assert_false(fracas_stop_check(
+        &stop, &rule,
+        &(fracas_progress){.time = 8.4, .dissipated = 1.025, .cracked = 1, .broken = 1}, &outcome));
+    assert_true(fracas_stop_check(
+        &stop, &rule,
+        &(fracas_progress){.time = 8.5, .dissipated = 1.03, .cracked = 1, .broken = 1}, &outcome));
     assert_int_equal(outcome, FRACAS_FRAGMENTED);
     stop = (fracas_stop){0};
-    assert_false(fracas_stop_check(&stop, &rule, &(fracas_progress){.time = 9.5, .dissipated = 1, .cracked = 1, .broken = 0}, &outcome));
-    assert_true(fracas_stop_check(&stop, &rule, &(fracas_progress){.time = 10, .dissipated = 1, .cracked = 1, .broken = 0}, &outcome)); /* the cap, cracks still running */
+    assert_false(fracas_stop_check(
+        &stop, &rule, &(fracas_progress){.time = 9.5, .dissipated = 1, .cracked = 1, .broken = 0},
+        &outcome));
+    assert_true(fracas_stop_check(
+        &stop, &rule, &(fracas_progress){.time = 10, .dissipated = 1, .cracked = 1, .broken = 0},
+        &outcome)); /* the cap, cracks still running */
     assert_int_equal(outcome, FRACAS_TIME_LIMIT);
     stop = (fracas_stop){0};
-    assert_true(fracas_stop_check(&stop, &rule, &(fracas_progress){.time = 10, .dissipated = 0, .cracked = 0, .broken = 0}, &outcome)); /* nothing ever cracked */
+    assert_true(fracas_stop_check(
+        &stop, &rule, &(fracas_progress){.time = 10, .dissipated = 0, .cracked = 0, .broken = 0},
+        &outcome)); /* nothing ever cracked */
     assert_int_equal(outcome, FRACAS_INTACT);
 }
 
-/* Ten steps of time 0.1, 0.2 ...: rows at 0, 0.5 and 1.0 (first step at or after), onset at step 3, peak at step 7. */
+/* Ten steps of time 0.1, 0.2 ...: rows at 0, 0.5 and 1.0 (first step at or after), onset at step 3,
+ * peak at step 7. */
 static void history_keeps_intervals_onset_peak_and_end(void **unused)
 {
     (void)unused;
@@ -72,21 +103,34 @@ static void history_keeps_intervals_onset_peak_and_end(void **unused)
     assert_ok(fracas_history_harvest(&history, &record));
     const int expected[] = {0, 3, 6, 7, 12};
     assert_int_equal(record.nhistory, 5);
-    for (int i = 0; i < 5; i++) assert_true(fabs(record.history[i].time - 0.09 * expected[i]) < 1e-15);
+    for (int i = 0; i < 5; i++)
+        assert_true(fabs(record.history[i].time - 0.09 * expected[i]) < 1e-15);
     fracas_record_clear(&record);
     fracas_history_clear(&history);
 }
 
-/* Two steps by hand: work is the trapezoid of power, the residual holds every term with its sign. */
+/* Two steps by hand: work is the trapezoid of power, the residual holds every term with its sign.
+ */
 static void the_ledger_adds_every_term(void **unused)
 {
     (void)unused;
     fracas_ledger ledger = {0};
-    fracas_step step = {.width = 1, .kinetic = {1}, .elastic = {2}, .cohesive = {4}, .dissipated = {8}, .power = {3}};
+    fracas_step step = {.width = 1,
+                        .kinetic = {1},
+                        .elastic = {2},
+                        .cohesive = {4},
+                        .dissipated = {8},
+                        .power = {3}};
     fracas_ledger_update(&ledger, &step, 0, true);
     assert_true(ledger.residual == 0 && ledger.initial == 15 && ledger.work == 0);
-    step = (fracas_step){.width = 1, .drift = {0.5}, .kinetic = {16}, .elastic = {32}, .cohesive = {64}, .dissipated = {128},
-                         .created = {256}, .power = {5}};
+    step = (fracas_step){.width = 1,
+                         .drift = {0.5},
+                         .kinetic = {16},
+                         .elastic = {32},
+                         .cohesive = {64},
+                         .dissipated = {128},
+                         .created = {256},
+                         .power = {5}};
     fracas_ledger_update(&ledger, &step, 0, false);
     assert_true(ledger.work == 2); /* 0.5 (3 + 5)/2 */
     assert_true(ledger.residual == 240 - 256 - 2 - 15);
@@ -115,7 +159,8 @@ static void fragments_are_connected_elements(void **unused)
     fracas_partition_clear(&p);
 }
 
-/* A closed bar of 10 elements broken at interfaces 2 and 6: elements 3-6, and 7-9 with 0-2 in one piece across the end. */
+/* A closed bar of 10 elements broken at interfaces 2 and 6: elements 3-6, and 7-9 with 0-2 in one
+ * piece across the end. */
 static void a_fragment_across_the_end_is_in_one_piece(void **unused)
 {
     (void)unused;
@@ -128,7 +173,8 @@ static void a_fragment_across_the_end_is_in_one_piece(void **unused)
     assert_ok(fracas_batch_create(model, 1, &options, &batch));
     for (size_t i = 0; i < 10; i++) bar_set_strength(batch, 0, i, 300e6);
     assert_ok(fracas_batch_begin(batch));
-    batch->step.state[2 * 7 + 4] = batch->step.state[6 * 7 + 4] = 1.0; /* damage of interfaces 2 and 6 */
+    batch->step.state[2 * 7 + 4] = batch->step.state[6 * 7 + 4] =
+        1.0;                    /* damage of interfaces 2 and 6 */
     batch->step.time[0] = 1e-5; /* stretched by 1.1 */
     fracas_record record;
     fracas_record_init(&record);
@@ -136,9 +182,10 @@ static void a_fragment_across_the_end_is_in_one_piece(void **unused)
     assert_int_equal(record.nfragment, 2);
     assert_int_equal(record.fragment[0].elements, 6);
     assert_int_equal(record.fragment[1].elements, 4);
-    /* centre of elements -3 .. 2 is 0, or the stretched length as rounding has it; of 3 .. 6 is 1.1 * 5e-4. Velocity of the
-     * background there, 1e4 x. Rounding of coordinates of 1e-3: 1e-18. */
-    assert_true(fabs(record.fragment[0].position[0]) < 1e-17 || fabs(record.fragment[0].position[0] - 1.1e-3) < 1e-17);
+    /* centre of elements -3 .. 2 is 0, or the stretched length as rounding has it; of 3 .. 6 is 1.1
+     * * 5e-4. Velocity of the background there, 1e4 x. Rounding of coordinates of 1e-3: 1e-18. */
+    assert_true(fabs(record.fragment[0].position[0]) < 1e-17 ||
+                fabs(record.fragment[0].position[0] - 1.1e-3) < 1e-17);
     assert_true(fabs(record.fragment[1].position[0] - 5.5e-4) < 1e-17);
     assert_true(fabs(record.fragment[1].velocity[0] - 5.0) < 1e-12);
     assert_true(fabs(record.fragment[0].mass / record.fragment[1].mass - 1.5) < 1e-12);
@@ -158,11 +205,13 @@ static double noise(uint64_t *state)
 
 enum { N = 12, FIELDS = 7 };
 
-/* Sums over the piece that begins at element `first`, walking right until an interface that is broken (or the end). */
+/* Sums over the piece that begins at element `first`, walking right until an interface that is
+ * broken (or the end). */
 static fracas_fragment walk(const fracas_batch *batch, size_t first, bool periodic)
 {
     const fracas_spec *spec = &batch->model->spec;
-    const double h = spec->geometry.length / N, time = batch->step.time[0], rate = spec->loading.rate;
+    const double h = spec->geometry.length / N, time = batch->step.time[0],
+                 rate = spec->loading.rate;
     fracas_fragment sum = {0};
     for (size_t k = 0; k < N; k++) {
         const double *at = batch->step.state + (first + k) % N * FIELDS;
@@ -178,8 +227,9 @@ static fracas_fragment walk(const fracas_batch *batch, size_t first, bool period
     return sum;
 }
 
-/* Random displacements, velocities and breaks (none, one, several) against sums along the bar. A piece may be named one
- * circumference away: then position and velocity are, together. Rounding of 1e-3 m and 1e2 m/s: 1e-12 relative. */
+/* Random displacements, velocities and breaks (none, one, several) against sums along the bar. A
+ * piece may be named one circumference away: then position and velocity are, together. Rounding of
+ * 1e-3 m and 1e2 m/s: 1e-12 relative. */
 static void fragments_are_sums_over_their_elements(void **unused)
 {
     (void)unused;
@@ -213,8 +263,10 @@ static void fragments_are_sums_over_their_elements(void **unused)
         assert_ok(model->formulation->harvest(model, &batch->step, 0, &record));
         assert_int_equal(record.nfragment, count_broken(model, (int64_t)broken));
         assert_true(fabs(record.momentum[0] - momentum) < 1e-12 * 1e-6);
-        const double length = spec.geometry.length, stretched = length * (1 + spec.loading.rate * 2e-5);
-        /* in order along the bar: from the element after the last break, which holds element 0 unless that is cut off */
+        const double length = spec.geometry.length,
+                     stretched = length * (1 + spec.loading.rate * 2e-5);
+        /* in order along the bar: from the element after the last break, which holds element 0
+         * unless that is cut off */
         size_t first = periodic ? (broken ? (last + 1) % N : 0) : 0;
         int64_t dust = 0;
         for (size_t f = 0; f < record.nfragment; f++) {
@@ -224,9 +276,12 @@ static void fragments_are_sums_over_their_elements(void **unused)
             assert_true(fabs(found->mass / expected.mass - 1) < 1e-12);
             assert_true(fabs(found->size - (double)expected.elements * 1e-4) < 1e-15);
             double turns = round((expected.position[0] - found->position[0]) / stretched);
-            assert_true(fabs(expected.position[0] - found->position[0] - turns * stretched) < 1e-15);
-            assert_true(fabs(expected.velocity[0] - found->velocity[0] - turns * spec.loading.rate * length) < 1e-10);
-            assert_true(found->position[0] > -1e-4); /* named where it is; half an element of play for w */
+            assert_true(fabs(expected.position[0] - found->position[0] - turns * stretched) <
+                        1e-15);
+            assert_true(fabs(expected.velocity[0] - found->velocity[0] -
+                             turns * spec.loading.rate * length) < 1e-10);
+            assert_true(found->position[0] >
+                        -1e-4); /* named where it is; half an element of play for w */
             assert_int_equal(found->dust, expected.elements == 1);
             dust += found->dust;
             first = (first + (size_t)expected.elements) % N;
@@ -238,8 +293,9 @@ static void fragments_are_sums_over_their_elements(void **unused)
     }
 }
 
-/* T(S, D) of the law in the form with the largest opening and the secant stiffness, theory/cohesive.md; 1e-12 of the larger of
- * S and sigma_c for a handful of roundings, divided by 1 - D of 1e-2 at least. */
+/* T(S, D) of the law in the form with the largest opening and the secant stiffness,
+ * theory/cohesive.md; 1e-12 of the larger of S and sigma_c for a handful of roundings, divided by 1
+ * - D of 1e-2 at least. */
 static void nitsche_is_the_secant_law(void **unused)
 {
     (void)unused;
@@ -247,7 +303,8 @@ static void nitsche_is_the_secant_law(void **unused)
     int loading = 0, unloading = 0, contact = 0, open = 0;
     for (int i = 0; i < 20000; i++) {
         const double sigma_c = 300e6 * (1 + noise(&seed)), delta_c = 200 / sigma_c;
-        const double spring = sigma_c / delta_c * (1.5 + 50 * (noise(&seed) + 0.5)), mean = 4e8 * noise(&seed);
+        const double spring = sigma_c / delta_c * (1.5 + 50 * (noise(&seed) + 0.5)),
+                     mean = 4e8 * noise(&seed);
         const double damage = i % 3 == 0 ? 0 : i % 7 == 0 ? 1 : 0.98 * (noise(&seed) + 0.5);
         const double q = 2.5 * delta_c * noise(&seed), opened = damage * delta_c;
         const double trial = damage >= 1 ? spring * q : mean + spring * q;
@@ -272,7 +329,8 @@ static void nitsche_is_the_secant_law(void **unused)
                 unloading++;
             }
         }
-        fracas_nitsche_interface_1 it = fracas_nitsche_law_1(mean, q, damage, sigma_c, spring * delta_c - sigma_c, spring, 1 / spring);
+        fracas_nitsche_interface_1 it = fracas_nitsche_law_1(
+            mean, q, damage, sigma_c, spring * delta_c - sigma_c, spring, 1 / spring);
         const double scale = fmax(fabs(trial), sigma_c);
         assert_true(fabs(it.traction - traction) < 1e-12 * scale);
         assert_true(fabs(it.damage - now / delta_c) < 1e-12 * fmax(1, scale / sigma_c));
@@ -301,9 +359,12 @@ static void a_run_that_gains_energy_ends_as_drift(void **unused)
         assert_ok(fracas_batch_run(batch, &record));
         assert_int_equal(record.outcome, unstable ? FRACAS_ENERGY_DRIFT : FRACAS_FRAGMENTED);
         assert_true(record.end_time == (double)record.steps * record.time_step);
-        assert_true(unstable ? record.end_time < 2e-7 : record.end_time >= 2e-7 && record.end_time < 2e-7 + record.time_step);
+        assert_true(unstable
+                        ? record.end_time < 2e-7
+                        : record.end_time >= 2e-7 && record.end_time < 2e-7 + record.time_step);
         const fracas_history_row *end = &record.history[record.nhistory - 1];
-        assert_true(end->time == record.end_time && end->residual == record.residual_end && record.residual_end != 0);
+        assert_true(end->time == record.end_time && end->residual == record.residual_end &&
+                    record.residual_end != 0);
         assert_true(record.residual >= fabs(record.residual_end));
         fracas_record_clear(&record);
         fracas_batch_destroy(batch);
@@ -311,8 +372,8 @@ static void a_run_that_gains_energy_ends_as_drift(void **unused)
     }
 }
 
-/* Rows of the interfaces agree with the counts, and times of events lie inside steps: one at a step's end would be a clamped
- * one, and of hundreds hardly any falls there by chance. */
+/* Rows of the interfaces agree with the counts, and times of events lie inside steps: one at a
+ * step's end would be a clamped one, and of hundreds hardly any falls there by chance. */
 static void events_are_counted_and_timed_inside_their_steps(void **unused)
 {
     (void)unused;
@@ -343,7 +404,8 @@ static void events_are_counted_and_timed_inside_their_steps(void **unused)
             if (row->damage > 0) assert_false(isnan(row->onset_time));
             if (!isnan(row->break_time)) assert_true(row->break_time > row->onset_time);
             for (int k = 0; k < 2; k++)
-                at_step += !isnan(times[k]) && fabs(times[k] / record.time_step - round(times[k] / record.time_step)) < 1e-6;
+                at_step += !isnan(times[k]) && fabs(times[k] / record.time_step -
+                                                    round(times[k] / record.time_step)) < 1e-6;
         }
         assert_int_equal(record.cracked, cracked);
         assert_int_equal(record.broken, broken);
@@ -358,11 +420,12 @@ static void events_are_counted_and_timed_inside_their_steps(void **unused)
 static void advance_as_if_bent(const fracas_model *model, fracas_step *step)
 {
     fracas_formulation_bar.advance(model, step);
-    for (int l = 0; l < step->width; l++) step->dissipated_bending[l] = (l + 1) * 0.25 * step->dissipated[l];
+    for (int l = 0; l < step->width; l++)
+        step->dissipated_bending[l] = (l + 1) * 0.25 * step->dissipated[l];
 }
 
-/* The part of bending comes from the formulation into every row of the history and the record of its lane, and is part of no
- * balance; a bar on its own has none. */
+/* The part of bending comes from the formulation into every row of the history and the record of
+ * its lane, and is part of no balance; a bar on its own has none. */
 static void the_part_of_bending_is_kept(void **unused)
 {
     (void)unused;
@@ -388,8 +451,9 @@ static void the_part_of_bending_is_kept(void **unused)
             assert_true(record[l].dissipated_bending == part * record[l].dissipated);
             for (const fracas_history_row *row = record[l].history; row <= end; row++)
                 assert_true(row->dissipated_bending == part * row->dissipated);
-            assert_true(fabs(end->kinetic + end->elastic + end->cohesive + end->dissipated - end->created - end->work -
-                             end->residual) < 1e-13 * end->work); /* at rest at first: E(0) is 0; a few roundings */
+            assert_true(fabs(end->kinetic + end->elastic + end->cohesive + end->dissipated -
+                             end->created - end->work - end->residual) <
+                        1e-13 * end->work); /* at rest at first: E(0) is 0; a few roundings */
             fracas_record_clear(&record[l]);
         }
         fracas_batch_destroy(batch);
@@ -409,14 +473,16 @@ static void a_batch_refuses_what_it_cannot_run(void **unused)
     assert_non_null(strstr(fracas_message(), "4 lanes for 5 realizations"));
     options.width = 3;
     assert_int_equal(fracas_batch_create(model, 2, &options, &batch), FRACAS_USAGE);
-    assert_int_equal(fracas_batch_create(model, 9, &(fracas_batch_options){0}, &batch), FRACAS_USAGE);
+    assert_int_equal(fracas_batch_create(model, 9, &(fracas_batch_options){0}, &batch),
+                     FRACAS_USAGE);
     options.width = 0;
     assert_ok(fracas_batch_create(model, 2, &options, &batch));
     for (size_t i = 0; i < 50; i++)
         for (size_t l = 0; l < 2; l++) bar_set_strength(batch, l, i, l == 1 && i == 30 ? 5e8 : 1e8);
     assert_int_equal(fracas_batch_begin(batch), FRACAS_USAGE);
     assert_non_null(strstr(fracas_message(), "realization 1 of the batch, interface 30"));
-    assert_non_null(strstr(fracas_message(), "raise mesh.elements above 57")); /* L sigma_c^2/(2 beta E G_c) = 56.8 */
+    assert_non_null(strstr(fracas_message(),
+                           "raise mesh.elements above 57")); /* L sigma_c^2/(2 beta E G_c) = 56.8 */
     bar_set_strength(batch, 1, 30, -1);
     assert_int_equal(fracas_batch_begin(batch), FRACAS_USAGE);
     bar_set_strength(batch, 1, 30, 1e-200); /* its square is 0 */

@@ -1,7 +1,9 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Flipped bytes of a study, and what the next run makes of them. */
 #include "tests/support/study_fixture.h"
 
-/* What the next run does with a study: recovers, computes what is planned, merges. *rows: what it computed. */
+/* What the next run does with a study: recovers, computes what is planned, merges. *rows: what it
+ * computed. */
 static fracas_err run_again(int64_t *rows)
 {
     fracas_file_header header = sample_header();
@@ -20,7 +22,8 @@ static fracas_err run_again(int64_t *rows)
     return fracas_study_merge(study, index_, &header, &table, NULL);
 }
 
-/* Every byte of a segment is found by the quick verification before, and costs no more than its realizations. */
+/* Every byte of a segment is found by the quick verification before, and costs no more than its
+ * realizations. */
 static void a_flipped_byte_of_a_segment_is_computed_again(void **state)
 {
     (void)state;
@@ -37,7 +40,8 @@ static void a_flipped_byte_of_a_segment_is_computed_again(void **state)
         OK(fracas_index_segments(index_, &segment, &nsegments));
         const fracas_known_segment *one = &segment[sample_bits(&random) % nsegments];
         assert_true(asprintf(&path, "%s/segments/%s", study, one->name) > 0);
-        if (i % 4 == 3) assert_int_equal(truncate(path, (off_t)(sample_bits(&random) % one->seal.bytes)), 0);
+        if (i % 4 == 3)
+            assert_int_equal(truncate(path, (off_t)(sample_bits(&random) % one->seal.bytes)), 0);
         else flip_byte(path, sample_bits(&random) % one->seal.bytes);
         verify_finds_as(false, 1, one->name);
         bool sound;
@@ -75,27 +79,41 @@ static void a_flipped_byte_of_the_merged_file_is_merged_again(void **state)
 
 static void execute(const char *sql)
 {
-    if (sqlite3_exec(index_->db, sql, NULL, NULL, NULL) != SQLITE_OK) fail_msg("%s: %s", sql, sqlite3_errmsg(index_->db));
+    if (sqlite3_exec(index_->db, sql, NULL, NULL, NULL) != SQLITE_OK)
+        fail_msg("%s: %s", sql, sqlite3_errmsg(index_->db));
     assert_true(sqlite3_changes(index_->db) > 0);
 }
 
-/* A flipped bit of a number, which SQLite cannot see: study.h5 is not made of it, and full verification names it. */
+/* A flipped bit of a number, which SQLite cannot see: study.h5 is not made of it, and full
+ * verification names it. */
 static void a_flipped_number_of_the_index_is_not_merged(void **state)
 {
     (void)state;
-    static const char *const flip[] = {"outcome = outcome + 1", "fragments = fragments + 1", "fragments_dust = fragments_dust + 1",
-                                       "steps = steps - 1", "dissipated = 1.25", "residual = 2.5", "size = 1e-5", "row = row + 1",
-                                       "segment = segment + 1", "status = 'failed'", "status = 'quarantined'"};
+    static const char *const flip[] = {"outcome = outcome + 1",
+                                       "fragments = fragments + 1",
+                                       "fragments_dust = fragments_dust + 1",
+                                       "steps = steps - 1",
+                                       "dissipated = 1.25",
+                                       "residual = 2.5",
+                                       "size = 1e-5",
+                                       "row = row + 1",
+                                       "segment = segment + 1",
+                                       "status = 'failed'",
+                                       "status = 'quarantined'"};
     commit_everything(13);
     merge();
     fracas_file_header header = sample_header();
     for (size_t f = 0; f < sizeof flip / sizeof *flip; f++) {
         char sql[512];
         execute("CREATE TABLE kept AS SELECT * FROM realization");
-        snprintf(sql, sizeof sql, "UPDATE realization SET %s WHERE (point, replica) IN (SELECT point, replica FROM realization WHERE"
-                 " status = 'done' AND outcome = 0 AND segment = 1 AND dissipated NOT NULL AND size NOT NULL LIMIT 1)", flip[f]);
+        snprintf(sql, sizeof sql,
+                 "UPDATE realization SET %s WHERE (point, replica) IN (SELECT point, replica FROM "
+                 "realization WHERE status = 'done' AND outcome = 0 AND segment = 1 AND dissipated "
+                 "NOT NULL AND size NOT NULL LIMIT 1)",
+                 flip[f]);
         execute(sql);
-        sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED, "fracas reindex");
+        sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED,
+                     "fracas reindex");
         char text[8192];
         assert_true(verify(text) > 0);
         assert_non_null(strstr(text, "fracas reindex"));
@@ -115,19 +133,24 @@ static void an_index_that_contradicts_itself_is_found(void **state)
         const char *flip, *said;
     } wrong[] = {
         {"UPDATE realization SET segment = NULL WHERE rowid_ = 'done'", "done without a segment"},
-        {"UPDATE realization SET outcome = 0 WHERE rowid_ = 'failed'", "failed with another outcome"},
-        {"UPDATE realization SET status = 'planned' WHERE rowid_ = 'done'", "planned, but have results"},
+        {"UPDATE realization SET outcome = 0 WHERE rowid_ = 'failed'",
+         "failed with another outcome"},
+        {"UPDATE realization SET status = 'planned' WHERE rowid_ = 'done'",
+         "planned, but have results"},
         {"UPDATE realization SET row = 1 WHERE segment = 1", "in the same row"},
         {"UPDATE realization SET row = 100000 WHERE rowid_ = 'done'", "rows that they have not"},
         {"UPDATE realization SET replica = 1000 WHERE rowid_ = 'done'", "lack replicas"},
     };
-    static const char pick[] = "(point, replica) IN (SELECT point, replica FROM realization WHERE status";
+    static const char pick[] =
+        "(point, replica) IN (SELECT point, replica FROM realization WHERE status";
     commit_everything(14);
     merge();
     for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
         char sql[512];
         const char *at = strstr(wrong[w].flip, "rowid_");
-        if (at) snprintf(sql, sizeof sql, "%.*s%s%s LIMIT 1)", (int)(at - wrong[w].flip), wrong[w].flip, pick, at + 6);
+        if (at)
+            snprintf(sql, sizeof sql, "%.*s%s%s LIMIT 1)", (int)(at - wrong[w].flip), wrong[w].flip,
+                     pick, at + 6);
         else snprintf(sql, sizeof sql, "%s", wrong[w].flip);
         execute("CREATE TABLE kept AS SELECT * FROM realization");
         execute(sql);
@@ -151,13 +174,19 @@ static void a_run_does_not_begin_with_a_damaged_index(void **state)
     sqlite3_exec(index_->db, "PRAGMA ignore_check_constraints = ON", NULL, NULL, NULL);
     execute("UPDATE realization SET status = 'fone' WHERE point = 1 AND replica = 3");
     sqlite3_exec(index_->db, "PRAGMA ignore_check_constraints = OFF", NULL, NULL, NULL);
-    sample_fails(fracas_study_recover(study, index_, &header, &table, &report), FRACAS_DAMAGED, "fracas reindex");
+    sample_fails(fracas_study_recover(study, index_, &header, &table, &report), FRACAS_DAMAGED,
+                 "fracas reindex");
     execute("UPDATE realization SET status = 'done' WHERE point = 1 AND replica = 3");
-    execute("UPDATE point SET hash = '00000000000000000000000000000000' WHERE id = 1"); /* no point of the campaign */
-    sample_fails(fracas_study_recover(study, index_, &header, &table, &report), FRACAS_DAMAGED, "1 of its 3 points are not in the campaign");
+    execute(
+        "UPDATE point SET hash = '00000000000000000000000000000000' WHERE id = 1"); /* no point of
+                                                                                       the campaign
+                                                                                     */
+    sample_fails(fracas_study_recover(study, index_, &header, &table, &report), FRACAS_DAMAGED,
+                 "1 of its 3 points are not in the campaign");
 }
 
-/* Sampled flips of the index file: the next run gives the same study.h5, or says that the index is damaged; never another one. */
+/* Sampled flips of the index file: the next run gives the same study.h5, or says that the index is
+ * damaged; never another one. */
 static void flipped_bytes_of_the_index_make_no_wrong_study(void **state)
 {
     (void)state;
@@ -181,9 +210,12 @@ static void flipped_bytes_of_the_index_make_no_wrong_study(void **state)
         index_ = NULL;
         fracas_err err = fracas_index_open(study, true, &index_);
         if (!err) err = run_again(&rows);
-        if (err && err != FRACAS_DAMAGED) print_error("byte %zu: code %d: %s\n", at, err, fracas_message());
+        if (err && err != FRACAS_DAMAGED)
+            print_error("byte %zu: code %d: %s\n", at, err, fracas_message());
         if (err) assert_int_equal(err, FRACAS_DAMAGED);
-        else assert_true(sample_same_file(sample_path(study, "study.h5"), sample_path(study, "first")));
+        else
+            assert_true(
+                sample_same_file(sample_path(study, "study.h5"), sample_path(study, "first")));
         refused += err != FRACAS_OK;
         fracas_index_close(index_);
         unlink(sample_path(study, "index.sqlite-wal"));

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Writer and reader of segments and studies. */
 #include "tests/support/store_sample.h"
 #include "tests/support/stored_mesh.h"
@@ -8,7 +9,10 @@
 #include <malloc.h>
 #include <math.h>
 
-enum { REPLICAS = 300, MOST = 40 }; /* 900 realizations and some 15000 rows a set: many chunks, none full at the end */
+enum {
+    REPLICAS = 300,
+    MOST = 40
+}; /* 900 realizations and some 15000 rows a set: many chunks, none full at the end */
 
 static char *folder;
 
@@ -39,15 +43,46 @@ static void write_meshes(fracas_writer *writer, const grid_shape *shape)
 
 enum { DECISIONS = 3 };
 static const fracas_decision decisions[DECISIONS] = {
-    {.point = 0, .round = 0, .replicas = 8, .used = 7, .mean = 0.1, .half_width = NAN, .stop = 0, .quantity = 2, .minimum = 8,
-     .maximum = 1000000000, .relative_half_width = 0.02, .confidence = 0.95},
-    {.point = 0, .round = 1, .replicas = 16, .used = 16, .mean = -1e300, .half_width = 5e-324, .stop = 1, .quantity = 1, .minimum = 8,
-     .maximum = 16, .relative_half_width = 1, .confidence = 0.5},
-    {.point = 2, .round = 0, .replicas = 9, .used = 0, .mean = NAN, .half_width = NAN, .stop = 2, .quantity = 0, .minimum = 9,
-     .maximum = 9, .relative_half_width = 1e-9, .confidence = 0.999},
+    {.point = 0,
+     .round = 0,
+     .replicas = 8,
+     .used = 7,
+     .mean = 0.1,
+     .half_width = NAN,
+     .stop = 0,
+     .quantity = 2,
+     .minimum = 8,
+     .maximum = 1000000000,
+     .relative_half_width = 0.02,
+     .confidence = 0.95},
+    {.point = 0,
+     .round = 1,
+     .replicas = 16,
+     .used = 16,
+     .mean = -1e300,
+     .half_width = 5e-324,
+     .stop = 1,
+     .quantity = 1,
+     .minimum = 8,
+     .maximum = 16,
+     .relative_half_width = 1,
+     .confidence = 0.5},
+    {.point = 2,
+     .round = 0,
+     .replicas = 9,
+     .used = 0,
+     .mean = NAN,
+     .half_width = NAN,
+     .stop = 2,
+     .quantity = 0,
+     .minimum = 9,
+     .maximum = 9,
+     .relative_half_width = 1e-9,
+     .confidence = 0.999},
 };
 
-/* What is written is read, in one piece or two; a file without any has no group, and one out of range is damage. */
+/* What is written is read, in one piece or two; a file without any has no group, and one out of
+ * range is damage. */
 static void decisions_come_back(void **state)
 {
     (void)state;
@@ -64,26 +99,30 @@ static void decisions_come_back(void **state)
         wrong.stop = 3;
         OK(fracas_writer_create(path, &header, &table, &writer));
         OK(fracas_writer_decisions(writer, decisions, wanted > 1 ? 1 : 0));
-        OK(fracas_writer_decisions(writer, decisions + (wanted > 1), wanted > DECISIONS ? 0 : wanted - (wanted > 1)));
+        OK(fracas_writer_decisions(writer, decisions + (wanted > 1),
+                                   wanted > DECISIONS ? 0 : wanted - (wanted > 1)));
         if (wanted > DECISIONS) OK(fracas_writer_decisions(writer, &wrong, 1));
         OK(fracas_writer_finish(writer, true, &seal));
         OK(fracas_reader_open(path, &reader));
         if (wanted > DECISIONS) {
-            sample_fails(fracas_reader_decisions(reader, &found, &count), FRACAS_DAMAGED, "/decision");
+            sample_fails(fracas_reader_decisions(reader, &found, &count), FRACAS_DAMAGED,
+                         "/decision");
         } else {
             OK(fracas_reader_decisions(reader, &found, &count));
             assert_int_equal(count, wanted);
-            for (size_t d = 0; d < count; d++) assert_true(fracas_decision_same(&found[d], &decisions[d]));
+            for (size_t d = 0; d < count; d++)
+                assert_true(fracas_decision_same(&found[d], &decisions[d]));
             free(found);
         }
         fracas_reader_close(reader);
     }
     for (size_t a = 0; a < DECISIONS; a++)
-        for (size_t b = 0; b < DECISIONS; b++) assert_int_equal(fracas_decision_same(&decisions[a], &decisions[b]), a == b);
+        for (size_t b = 0; b < DECISIONS; b++)
+            assert_int_equal(fracas_decision_same(&decisions[a], &decisions[b]), a == b);
 }
 
-static void write_file_of(const char *path, int64_t replicas, size_t most, bool interfaces, const grid_shape *shape,
-                          fracas_file_seal *seal)
+static void write_file_of(const char *path, int64_t replicas, size_t most, bool interfaces,
+                          const grid_shape *shape, fracas_file_seal *seal)
 {
     fracas_point_row row[SAMPLE_POINTS];
     fracas_point_table table = sample_table(row, replicas);
@@ -103,7 +142,8 @@ static void write_file_of(const char *path, int64_t replicas, size_t most, bool 
     OK(fracas_writer_finish(writer, true, seal));
 }
 
-static void write_file(const char *path, int64_t replicas, size_t most, bool interfaces, fracas_file_seal *seal)
+static void write_file(const char *path, int64_t replicas, size_t most, bool interfaces,
+                       fracas_file_seal *seal)
 {
     write_file_of(path, replicas, most, interfaces, NULL, seal);
 }
@@ -118,24 +158,25 @@ static void tell_mesh(const fracas_stored_mesh *mesh)
     }
     for (size_t i = 0; i < mesh->ninterfaces; i++) {
         const fracas_stored_interface *of = &mesh->interface[i];
-        printf("interface %lld %lld %lld %lld %lld\n", (long long)of->element[0], (long long)of->element[1],
-               (long long)of->node[0], (long long)of->node[1], (long long)of->node[2]);
+        printf("interface %lld %lld %lld %lld %lld\n", (long long)of->element[0],
+               (long long)of->element[1], (long long)of->node[0], (long long)of->node[1],
+               (long long)of->node[2]);
     }
     for (size_t b = 0; b < mesh->nborders; b++) {
         const fracas_stored_border *of = &mesh->border[b];
-        printf("border %lld %lld %lld %lld %lld\n", (long long)of->element, (long long)of->node[0], (long long)of->node[1],
-               (long long)of->node[2], (long long)of->tag);
+        printf("border %lld %lld %lld %lld %lld\n", (long long)of->element, (long long)of->node[0],
+               (long long)of->node[1], (long long)of->node[2], (long long)of->tag);
     }
     for (size_t n = 0; n < mesh->nnodes; n++) {
         uint64_t bits[3];
         memcpy(bits, mesh->node[n].position, sizeof bits);
-        printf("node %016llx %016llx %016llx\n", (unsigned long long)bits[0], (unsigned long long)bits[1],
-               (unsigned long long)bits[2]);
+        printf("node %016llx %016llx %016llx\n", (unsigned long long)bits[0],
+               (unsigned long long)bits[1], (unsigned long long)bits[2]);
     }
 }
 
-/* For tests/unit/store_independent.sh: a file, and on standard output what another reader must find in it, values
- * as the digits of their 64 bits. */
+/* For tests/unit/store_independent.sh: a file, and on standard output what another reader must find
+ * in it, values as the digits of their 64 bits. */
 static void write_and_tell(const char *path)
 {
     enum { SOME = 5, ROWS = 7 };
@@ -149,8 +190,8 @@ static void write_and_tell(const char *path)
         sample_record(i / SOME, (int64_t)(i % SOME), ROWS, &r);
         sample_make_canonical(&r);
         memcpy(&bits, &r.end_time, 8);
-        printf("%zu %zu %d %lld %lld %016llx", i / SOME, i % SOME, (int)r.outcome, (long long)r.fragments,
-               (long long)r.steps, (unsigned long long)bits);
+        printf("%zu %zu %d %lld %lld %016llx", i / SOME, i % SOME, (int)r.outcome,
+               (long long)r.fragments, (long long)r.steps, (unsigned long long)bits);
         for (size_t f = 0; f < r.nfragment; f++) {
             memcpy(&bits, &r.fragment[f].velocity[2], 8);
             printf(" f %lld %d %016llx", (long long)r.fragment[f].elements, (int)r.fragment[f].dust,
@@ -174,7 +215,8 @@ static void write_and_tell(const char *path)
     fracas_stored_mesh_clear(&mesh);
 }
 
-static void check_row(fracas_reader *reader, size_t row, int64_t replicas, size_t most, unsigned parts)
+static void check_row(fracas_reader *reader, size_t row, int64_t replicas, size_t most,
+                      unsigned parts)
 {
     fracas_record wanted, found;
     size_t point;
@@ -212,8 +254,9 @@ static void records_come_back_bit_by_bit(void **state)
     size_t point;
     int64_t replica;
     fracas_record_init(&record);
-    sample_fails(fracas_reader_record(reader, SAMPLE_POINTS * REPLICAS, 0, &point, &replica, &record), FRACAS_BUG,
-                 "row 900");
+    sample_fails(
+        fracas_reader_record(reader, SAMPLE_POINTS * REPLICAS, 0, &point, &replica, &record),
+        FRACAS_BUG, "row 900");
     fracas_reader_close(reader);
 }
 
@@ -248,8 +291,9 @@ static void header_and_points_come_back(void **state)
         assert_int_equal(table->point[p].replicas, 2);
         for (size_t c = 0; c < 3; c++) {
             assert_string_equal(table->point[p].value[c].text, sample_value[p][c].text);
-            assert_true(isnan(sample_value[p][c].real) ? isnan(table->point[p].value[c].real)
-                                                       : table->point[p].value[c].real == sample_value[p][c].real);
+            assert_true(isnan(sample_value[p][c].real)
+                            ? isnan(table->point[p].value[c].real)
+                            : table->point[p].value[c].real == sample_value[p][c].real);
         }
     }
     assert_true(signbit(table->point[2].value[2].real) != 0);
@@ -261,7 +305,8 @@ static void same_calls_give_same_bytes(void **state)
 {
     (void)state;
     fracas_file_seal first, second, third;
-    char *a = sample_path(folder, "a.h5"), *b = sample_path(folder, "b.h5"), *c = sample_path(folder, "c.h5");
+    char *a = sample_path(folder, "a.h5"), *b = sample_path(folder, "b.h5"),
+         *c = sample_path(folder, "c.h5");
     write_file(a, 77, MOST, true, &first);
     void *holes[64];
     for (size_t i = 0; i < 64; i++) holes[i] = memset(malloc(1000 * i + 1), 0xa5, 1000 * i + 1);
@@ -328,8 +373,9 @@ static void large_records_are_cut_and_joined(void **state)
     fracas_reader_close(reader);
 }
 
-/* Lists, spaces and types of HDF5 that nobody closes stay reachable, so no leak checker sees them; but the heap
- * grows: by megabytes in 20 rounds with one of them forgotten, else by the few kilobytes that malloc keeps for itself. */
+/* Lists, spaces and types of HDF5 that nobody closes stay reachable, so no leak checker sees them;
+ * but the heap grows: by megabytes in 20 rounds with one of them forgotten, else by the few
+ * kilobytes that malloc keeps for itself. */
 static void nothing_is_left_open(void **state)
 {
     (void)state;
@@ -414,7 +460,8 @@ static void page_shows_the_schema(void **state)
     fclose(out);
     unsigned char *page = sample_slurp(FRACAS_SOURCE_DIR "/docs/formats/study.md", &size);
     page[size] = '\0';
-    if (!strstr((char *)page, wanted)) fprintf(stderr, "docs/formats/study.md must have this table:\n%s", wanted);
+    if (!strstr((char *)page, wanted))
+        fprintf(stderr, "docs/formats/study.md must have this table:\n%s", wanted);
     assert_non_null(strstr((char *)page, wanted));
     free(page);
     free(wanted);
@@ -435,7 +482,8 @@ static void records_survive_packing(void **state)
         sample_fails(fracas_record_unpack(bytes, size - 1, &back), FRACAS_BUG, "does not fit");
         sample_fails(fracas_record_unpack(bytes, size + 1, &back), FRACAS_BUG, "does not fit");
         sample_fails(fracas_record_unpack(bytes, 10, &back), FRACAS_BUG, "does not fit");
-        ((fracas_record *)(void *)bytes)->nhistory = SIZE_MAX / sizeof(fracas_history_row) + 2; /* wraps around */
+        ((fracas_record *)(void *)bytes)->nhistory = SIZE_MAX / sizeof(fracas_history_row) +
+                                                     2; /* wraps around */
         sample_fails(fracas_record_unpack(bytes, size, &back), FRACAS_BUG, "does not fit");
         free(bytes);
         fracas_record_clear(&record);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The index: plan, lease, commit, its modes and its file. */
 #include "tests/support/study_fixture.h"
 
@@ -18,7 +19,8 @@ static void plan_is_in_order_and_grows(void **state)
     }
     free(row);
     point_row[1].replicas = REPLICAS + 2;
-    sample_fails(fracas_index_rows(index_, &table, &row, &count), FRACAS_DAMAGED, "replica 40 of point 1");
+    sample_fails(fracas_index_rows(index_, &table, &row, &count), FRACAS_DAMAGED,
+                 "replica 40 of point 1");
     OK(fracas_index_plan(index_, &table));
     OK(fracas_index_rows(index_, &table, &row, &count));
     assert_int_equal(count, ALL + 2);
@@ -37,14 +39,15 @@ static void plan_is_in_order_and_grows(void **state)
     assert_int_equal(point[0].planned, REPLICAS + 2);
     assert_int_equal(point[1].realizations, REPLICAS);
     some[1].hash = fracas_hash_of("unknown", 7);
-    sample_fails(fracas_index_count_points(index_, &one, &counts, point), FRACAS_DAMAGED, "has no point");
+    sample_fails(fracas_index_count_points(index_, &one, &counts, point), FRACAS_DAMAGED,
+                 "has no point");
 }
 
 static void note_failure(void *said, const fracas_index_row *row, const char *reason)
 {
     size_t used = strlen(said);
-    snprintf((char *)said + used, 100 - used, "point %zu replica %d attempts %d: %s;", row->point, (int)row->replica,
-             (int)row->attempts, reason);
+    snprintf((char *)said + used, 100 - used, "point %zu replica %d attempts %d: %s;", row->point,
+             (int)row->replica, (int)row->attempts, reason);
 }
 
 static void leases_end_with_the_next_plan(void **state)
@@ -102,7 +105,8 @@ static void first_commit_stays(void **state)
     OK(fracas_index_place(index_, &point_row[0].hash, 3, &place));
     assert_int_equal(place.status, FRACAS_DONE);
     seal.checksum++;
-    sample_fails(fracas_index_commit(index_, "a.h5", &seal, row, 3, "{}"), FRACAS_BUG, "another segment a.h5");
+    sample_fails(fracas_index_commit(index_, "a.h5", &seal, row, 3, "{}"), FRACAS_BUG,
+                 "another segment a.h5");
 }
 
 /* A commit of something unplanned leaves nothing behind. */
@@ -114,9 +118,11 @@ static void commits_are_whole(void **state)
     fracas_file_seal seal;
     sample_segment(study, "a.h5", &table, what, 2, MOST, &seal, row);
     row[1].replica = REPLICAS;
-    sample_fails(fracas_index_commit(index_, "a.h5", &seal, row, 2, "{}"), FRACAS_DAMAGED, "no replica 40");
+    sample_fails(fracas_index_commit(index_, "a.h5", &seal, row, 2, "{}"), FRACAS_DAMAGED,
+                 "no replica 40");
     row[1].replica = 1;
-    sample_fails(fracas_index_commit(index_, "a.h5", &seal, row, 2, "not json"), FRACAS_BUG, "CHECK");
+    sample_fails(fracas_index_commit(index_, "a.h5", &seal, row, 2, "not json"), FRACAS_BUG,
+                 "CHECK");
     fracas_index_counts counts = count_all();
     assert_int_equal(counts.done + counts.segments, 0);
     OK(fracas_index_commit(index_, "a.h5", &seal, row, 2, "{}"));
@@ -140,8 +146,10 @@ static void index_modes_and_versions(void **state)
     bool local;
     OK(fracas_disk_is_local("/proc", &local)); /* one we do not know: taken for a network */
     assert_false(local);
-    sample_fails(fracas_index_open(sample_path(study, "segments"), false, &other), FRACAS_DAMAGED, "fracas run");
-    OK(fracas_index_open_as(sample_path(study, "segments"), true, false, &other)); /* as on a network */
+    sample_fails(fracas_index_open(sample_path(study, "segments"), false, &other), FRACAS_DAMAGED,
+                 "fracas run");
+    OK(fracas_index_open_as(sample_path(study, "segments"), true, false,
+                            &other)); /* as on a network */
     OK(fracas_index_plan(other, &table));
     OK(fracas_index_lease(other, &point_row[0].hash, 0, 3));
     assert_string_equal(first_value(other, "PRAGMA locking_mode"), "exclusive");
@@ -155,10 +163,13 @@ static void index_modes_and_versions(void **state)
     fracas_index_close(other);
     OK(fracas_index_open(study, false, &third)); /* two at a time on a local filesystem */
     fracas_index_close(third);
-    assert_int_equal(sqlite3_exec(index_->db, "UPDATE meta SET value = '99'", NULL, NULL, NULL), SQLITE_OK);
+    assert_int_equal(sqlite3_exec(index_->db, "UPDATE meta SET value = '99'", NULL, NULL, NULL),
+                     SQLITE_OK);
     sample_fails(fracas_index_open(study, false, &other), FRACAS_DAMAGED, "format version 99");
-    sample_spill(sample_path(study, "segments/index.sqlite"), "no database, but long enough to be looked at", 44);
-    sample_fails(fracas_index_open(sample_path(study, "segments"), false, &other), FRACAS_DAMAGED, "reindex");
+    sample_spill(sample_path(study, "segments/index.sqlite"),
+                 "no database, but long enough to be looked at", 44);
+    sample_fails(fracas_index_open(sample_path(study, "segments"), false, &other), FRACAS_DAMAGED,
+                 "reindex");
 }
 
 /* ---- the file of the index ---- */
@@ -179,14 +190,16 @@ static void an_index_without_tables_is_none(void **state)
         sample_spill(path, "", 0);
         if (!empty) { /* as a kill between the first page and the tables leaves it */
             assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
-            assert_int_equal(sqlite3_exec(db, "PRAGMA journal_mode = WAL", NULL, NULL, NULL), SQLITE_OK);
+            assert_int_equal(sqlite3_exec(db, "PRAGMA journal_mode = WAL", NULL, NULL, NULL),
+                             SQLITE_OK);
             sqlite3_close(db);
             struct stat info;
             assert_int_equal(stat(path, &info), 0);
             assert_true(info.st_size > 0);
         }
         assert_false(fracas_index_exists(study));
-        sample_fails(fracas_index_open(study, false, &other), FRACAS_DAMAGED, "`fracas run` makes one");
+        sample_fails(fracas_index_open(study, false, &other), FRACAS_DAMAGED,
+                     "`fracas run` makes one");
         OK(fracas_index_open(study, true, &index_));
         OK(fracas_index_plan(index_, &table));
         fracas_index_close(index_);
@@ -199,10 +212,12 @@ static void an_index_without_tables_is_none(void **state)
     assert_int_equal(sqlite3_exec(db, "CREATE TABLE letters(text)", NULL, NULL, NULL), SQLITE_OK);
     sqlite3_close(db);
     assert_false(fracas_index_exists(study));
-    sample_fails(fracas_index_open(study, true, &other), FRACAS_DAMAGED, "`fracas reindex` makes it anew");
+    sample_fails(fracas_index_open(study, true, &other), FRACAS_DAMAGED,
+                 "`fracas reindex` makes it anew");
     sample_spill(path, "no database, but long enough to be looked at", 44);
     assert_false(fracas_index_exists(study));
-    sample_fails(fracas_index_open(study, true, &other), FRACAS_DAMAGED, "`fracas reindex` makes it anew");
+    sample_fails(fracas_index_open(study, true, &other), FRACAS_DAMAGED,
+                 "`fracas reindex` makes it anew");
 }
 
 /* Reads the study as one who may not write it; the exit status says what went wrong. */
@@ -217,10 +232,18 @@ static void look_as_another(void)
     if (!fracas_index_exists(study) || fracas_index_open(study, false, &index_)) _exit(3);
     if (fracas_index_count(index_, &counts) || counts.planned || !counts.done) _exit(4);
     if (fracas_study_sealed(study, index_, &sealed) || !sealed) _exit(5);
-    if (fracas_index_event(index_, "kind", "text") != FRACAS_ENVIRONMENT || !strstr(fracas_message(), "copy it")) _exit(6);
+    if (fracas_index_event(index_, "kind", "text") != FRACAS_ENVIRONMENT ||
+        !strstr(fracas_message(), "copy it"))
+        _exit(6);
     fracas_index_close(index_);
-    if (fracas_study_verify(study, &(fracas_verify_options){.full = true, .say = keep_problem, .context = text}, &problems) || problems) _exit(7);
-    if (fracas_index_open(study, true, &index_) != FRACAS_ENVIRONMENT || !strstr(fracas_message(), "copy it")) _exit(8);
+    if (fracas_study_verify(
+            study, &(fracas_verify_options){.full = true, .say = keep_problem, .context = text},
+            &problems) ||
+        problems)
+        _exit(7);
+    if (fracas_index_open(study, true, &index_) != FRACAS_ENVIRONMENT ||
+        !strstr(fracas_message(), "copy it"))
+        _exit(8);
     _exit(0);
 }
 
@@ -232,7 +255,8 @@ static void a_study_that_cannot_be_written_can_be_read(void **state)
     merge();
     fracas_index_close(index_);
     index_ = NULL;
-    assert_true(asprintf(&odd, "%s 50%%?#", plain) > 0); /* a name that a URI must not take for its own */
+    assert_true(asprintf(&odd, "%s 50%%?#", plain) >
+                0); /* a name that a URI must not take for its own */
     assert_int_equal(rename(plain, odd), 0);
     study = odd;
     assert_int_equal(chmod(sample_path(odd, "index.sqlite"), 0444) + chmod(odd, 0555), 0);

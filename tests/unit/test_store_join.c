@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Two studies of one campaign made one. */
 #include "tests/support/upkeep.h"
 
@@ -28,14 +29,18 @@ static void commit_part(int part, const char *name)
     sample_realization what[ALL];
     size_t n = 0;
     for (size_t i = 0; i < ALL; i++)
-        if ((int)(i % 2) == part) what[n++] = (sample_realization){i / REPLICAS, (int64_t)(i % REPLICAS)};
+        if ((int)(i % 2) == part)
+            what[n++] = (sample_realization){i / REPLICAS, (int64_t)(i % REPLICAS)};
     commit_segment(name, what, n / 2);
     char second[32];
     snprintf(second, sizeof second, "x%s", name);
     commit_segment(second, what + n / 2, n - n / 2);
 }
 
-static void commit_odd(void) { commit_part(1, "b.h5"); }
+static void commit_odd(void)
+{
+    commit_part(1, "b.h5");
+}
 
 static fracas_err compare(int64_t *both)
 {
@@ -65,7 +70,8 @@ static void two_halves_are_one_study(void **state)
     assert_int_equal(joined.segments, 2);
     assert_int_equal(count_all().planned, 0);
     assert_int_equal(sample_files(sample_path(study, "segments"), ".h5"), 4);
-    OK(fracas_study_join(study, index_, other_study, other_index, &table, &joined)); /* again: nothing is new */
+    OK(fracas_study_join(study, index_, other_study, other_index, &table,
+                         &joined)); /* again: nothing is new */
     assert_int_equal(joined.realizations + joined.segments + joined.failed, 0);
     OK(compare(&both));
     assert_true(both > ALL / 3); /* but those of outcome FAILED */
@@ -88,8 +94,16 @@ static void commit_different(void)
         fracas_record record;
         sample_record(1, r, MOST, &record);
         if (r == 3) record.momentum[1] = 0.125;
-        row[r] = (fracas_segment_row){point_row[1].hash, r, r, record.outcome, record.fragments, record.fragments_dust, record.steps,
-                                      record.dissipated, record.residual, fracas_record_mean_size(&record)};
+        row[r] = (fracas_segment_row){point_row[1].hash,
+                                      r,
+                                      r,
+                                      record.outcome,
+                                      record.fragments,
+                                      record.fragments_dust,
+                                      record.steps,
+                                      record.dissipated,
+                                      record.residual,
+                                      fracas_record_mean_size(&record)};
         OK(fracas_writer_append(writer, 1, r, &record));
         fracas_record_clear(&record);
     }

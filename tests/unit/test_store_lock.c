@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* STUDY/lock: who is refused, who takes over, and what the file says. */
 #include "tests/support/store_sample.h"
 
@@ -25,7 +26,8 @@ static int tear_down(void **state)
     return 0;
 }
 
-/* One who only looks does not sign: a run waits until that is over, and does not end with "in use". */
+/* One who only looks does not sign: a run waits until that is over, and does not end with "in use".
+ */
 static void one_who_looks_is_waited_for(void **state)
 {
     (void)state;
@@ -60,7 +62,8 @@ static const char *lock_text(void)
     return text;
 }
 
-/* A run that takes the lock as `host` in Slurm job `job` (NULL: none), requeued so many times, and dies with it. Returns its pid. */
+/* A run that takes the lock as `host` in Slurm job `job` (NULL: none), requeued so many times, and
+ * dies with it. Returns its pid. */
 static pid_t die_with_it(const char *host, const char *job, const char *restarts)
 {
     pid_t child = fork();
@@ -141,7 +144,8 @@ static void second_run_is_refused(void **state)
     assert_int_equal(read(ready[0], &byte, 1), 1);
     assert_int_equal(byte, 'y');
     for (int force = 0; force < 2; force++) { /* it lives: force does not help */
-        sample_fails(fracas_study_lock(study, force, &lock), FRACAS_IN_USE, "another run uses this study");
+        sample_fails(fracas_study_lock(study, force, &lock), FRACAS_IN_USE,
+                     "another run uses this study");
         snprintf(pid, sizeof pid, "pid %ld, since 20", (long)child);
         assert_non_null(strstr(fracas_message(), pid));
         char host[257] = "";
@@ -163,7 +167,8 @@ static void second_run_is_refused(void **state)
     fracas_study_unlock(lock);
     assert_int_equal(write(stop[1], "x", 1), 1);
     for (int i = 0; i < 2; i++) close(ready[i]), close(stop[i]);
-    sample_fails(fracas_study_lock("/nowhere/at/all", false, &lock), FRACAS_ENVIRONMENT, "/nowhere/at/all/lock");
+    sample_fails(fracas_study_lock("/nowhere/at/all", false, &lock), FRACAS_ENVIRONMENT,
+                 "/nowhere/at/all/lock");
 }
 
 static void to_look_takes_nothing_over(void **state)
@@ -246,7 +251,8 @@ static void a_pid_used_again_is_no_holder(void **state)
     snprintf(text, sizeof text, "%s", lock_text());
     pid = strstr(text, " pid=");
     rest = strstr(text, " since=");
-    assert_true(asprintf(&other, "%.*s pid=%ld%s", (int)(pid - text), text, (long)getppid(), rest) > 0);
+    assert_true(asprintf(&other, "%.*s pid=%ld%s", (int)(pid - text), text, (long)getppid(), rest) >
+                0);
     sample_spill(sample_path(study, "lock"), other, strlen(other));
     take(false, over);
     free(other);
@@ -282,7 +288,8 @@ static void a_requeued_job_takes_over_its_own(void **state)
     char over[FRACAS_HOLDER_TEXT] = "?";
     die_with_it("node7", "1234", NULL);
     setenv("SLURM_JOB_ID", "1234", 1);
-    sample_fails(fracas_study_lock(study, false, &lock), FRACAS_IN_USE, "Slurm job 1234"); /* twice in one allocation */
+    sample_fails(fracas_study_lock(study, false, &lock), FRACAS_IN_USE,
+                 "Slurm job 1234"); /* twice in one allocation */
     setenv("SLURM_RESTART_COUNT", "1", 1);
     setenv("SLURM_JOB_ID", "1235", 1);
     sample_fails(fracas_study_lock(study, false, &lock), FRACAS_IN_USE, "Slurm job 1234");
@@ -306,7 +313,8 @@ static void older_and_torn_files_are_read(void **state)
     assert_non_null(strstr(over, "pid 123"));
     sample_spill(sample_path(study, "lock"), "node9 77\n", 9);
     sample_fails(fracas_study_lock(study, false, &lock), FRACAS_IN_USE, "host node9, pid 77");
-    sample_spill(sample_path(study, "lock"), "host=node9 pi", 13); /* a power cut; no other host has this filesystem */
+    sample_spill(sample_path(study, "lock"), "host=node9 pi",
+                 13); /* a power cut; no other host has this filesystem */
     take(false, over);
     char zeros[40] = {0};
     sample_spill(sample_path(study, "lock"), zeros, sizeof zeros);

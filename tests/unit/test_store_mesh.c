@@ -1,11 +1,16 @@
-/* Meshes in study.h5: what is merged comes back, whatever else is damaged, and what pictures are refused of it. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Meshes in study.h5: what is merged comes back, whatever else is damaged, and what pictures are
+ * refused of it. */
 #include "tests/support/body.h"
 #include "tests/support/study_fixture.h"
 
 #include "analysis/analysis.h"
 #include "analysis/report/picture/surface_picture.h"
 
-enum { SURFACE = 1, EACH = 5 }; /* the one of the three points that is a surface; replicas of each */
+enum {
+    SURFACE = 1,
+    EACH = 5
+}; /* the one of the three points that is a surface; replicas of each */
 
 static const grid_shape shape = {.nx = 4, .ny = 3, .middles = true};
 
@@ -17,7 +22,8 @@ static fracas_err get_mesh(const void *context, size_t point, fracas_stored_mesh
 
 static const fracas_mesh_source source = {get_mesh, &shape};
 
-/* Replica 2 FAILED, the others have `interfaces` of them: interface i of replica r cracks at r + i [us] and breaks 0.5 us later. */
+/* Replica 2 FAILED, the others have `interfaces` of them: interface i of replica r cracks at r + i
+ * [us] and breaks 0.5 us later. */
 static void make_record(size_t point, int64_t replica, size_t interfaces, fracas_record *record)
 {
     fracas_record_init(record);
@@ -31,7 +37,8 @@ static void make_record(size_t point, int64_t replica, size_t interfaces, fracas
     record->interface = calloc(interfaces + 1, sizeof *record->interface);
     for (size_t i = 0; i < interfaces; i++) {
         const double onset = 1e-6 * (double)(replica + (int64_t)i);
-        record->interface[i] = (fracas_interface_row){.strength = 1, .damage = 1, .onset_time = onset, .break_time = onset + 5e-7};
+        record->interface[i] = (fracas_interface_row){
+            .strength = 1, .damage = 1, .onset_time = onset, .break_time = onset + 5e-7};
     }
 }
 
@@ -53,9 +60,16 @@ static void commit(size_t size, size_t interfaces)
             const size_t point = i / EACH;
             const int64_t replica = (int64_t)(i % EACH);
             make_record(point, replica, point == SURFACE ? interfaces : 7, &record);
-            row[i - begin] = (fracas_segment_row){table.point[point].hash, replica, (int64_t)(i - begin), record.outcome,
-                                                  record.fragments, record.fragments_dust, record.steps, record.dissipated,
-                                                  record.residual, fracas_record_mean_size(&record)};
+            row[i - begin] = (fracas_segment_row){table.point[point].hash,
+                                                  replica,
+                                                  (int64_t)(i - begin),
+                                                  record.outcome,
+                                                  record.fragments,
+                                                  record.fragments_dust,
+                                                  record.steps,
+                                                  record.dissipated,
+                                                  record.residual,
+                                                  fracas_record_mean_size(&record)};
             OK(fracas_writer_append(writer, point, replica, &record));
             fracas_record_clear(&record);
         }
@@ -108,14 +122,17 @@ static void meshes_come_back_bit_by_bit(void **state)
         OK(fracas_reader_mesh_interfaces(reader, p, &interfaces));
         assert_int_equal(interfaces, p == SURFACE ? wanted.ninterfaces : 0);
         if (p == SURFACE) assert_true(fracas_stored_mesh_same(&wanted, &found));
-        else assert_true(found.nnodes == 0 && found.nelements == 0 && found.ninterfaces == 0 && found.nborders == 0);
+        else
+            assert_true(found.nnodes == 0 && found.nelements == 0 && found.ninterfaces == 0 &&
+                        found.nborders == 0);
         fracas_stored_mesh_clear(&found);
     }
     sample_fails(fracas_reader_mesh(reader, SAMPLE_POINTS, &found), FRACAS_BUG, "point 3");
     OK(fracas_reader_check_meshes(reader, &source));
     const grid_shape other = {.nx = 4, .ny = 3};
     const fracas_mesh_source others = {get_mesh, &other};
-    sample_fails(fracas_reader_check_meshes(reader, &others), FRACAS_DAMAGED, "mesh of point 1 is not that of the campaign");
+    sample_fails(fracas_reader_check_meshes(reader, &others), FRACAS_DAMAGED,
+                 "mesh of point 1 is not that of the campaign");
     fracas_reader_close(reader);
     fracas_stored_mesh_clear(&wanted);
 }
@@ -176,19 +193,24 @@ static void faulty_meshes_are_refused(void **state)
     const fracas_mesh_source refusing = {refuse, NULL}, broken = {faulty, &shape};
     fracas_file_header header = sample_header();
     commit(4, interfaces_of(&shape) - 1);
-    sample_fails(fracas_study_merge(study, index_, &header, &table, &refusing), FRACAS_USAGE, "no such mesh");
-    sample_fails(fracas_study_merge(study, index_, &header, &table, &broken), FRACAS_BUG, "no edge of its elements");
+    sample_fails(fracas_study_merge(study, index_, &header, &table, &refusing), FRACAS_USAGE,
+                 "no such mesh");
+    sample_fails(fracas_study_merge(study, index_, &header, &table, &broken), FRACAS_BUG,
+                 "no edge of its elements");
     assert_int_equal(sample_files(study, "study.h5"), 0);
     merge_with(&source);
-    verify_finds(EACH - 1, "has 28 interfaces, the mesh of its point 29"); /* all but the one that FAILED */
+    verify_finds(EACH - 1,
+                 "has 28 interfaces, the mesh of its point 29"); /* all but the one that FAILED */
 }
 
 /* Every kind of number that does not belong there. */
 static void faults_of_meshes(void **state)
 {
     (void)state;
-    static const char *const wanted[] = {"no position", "node that does not exist", "node that does not exist",
-                                         "interface is no edge", "interface is no edge", "border is no edge", "border is no edge"};
+    static const char *const wanted[] = {
+        "no position",          "node that does not exist", "node that does not exist",
+        "interface is no edge", "interface is no edge",     "border is no edge",
+        "border is no edge"};
     for (int k = 0; k < 7; k++) {
         fracas_stored_mesh mesh;
         grid_make(&shape, &mesh);
@@ -228,11 +250,16 @@ static void pictures_of_what_is_not_there(void **state)
     merge_with(&source);
     refused(study, (fracas_picture_request){.point = 3, .count = 6}, "there is no point 3");
     refused(study, (fracas_picture_request){.point = 0, .count = 6}, "point 0 is no surface");
-    refused(study, (fracas_picture_request){.point = 1, .replica = EACH, .count = 6}, "there is no replica 5: point 1 has 5");
-    refused(study, (fracas_picture_request){.point = 1, .replica = -1, .count = 6}, "there is no replica -1");
-    refused(study, (fracas_picture_request){.point = 1, .replica = 2, .count = 6}, "replica 2 of point 1 ended FAILED");
-    refused(study, (fracas_picture_request){.point = 1, .count = 1, .time = &late}, "time 200.0 us is outside of the realization, which goes from 0 to 100.0 us");
-    refused(study, (fracas_picture_request){.point = 1, .count = 1, .time = &early}, "outside of the realization");
+    refused(study, (fracas_picture_request){.point = 1, .replica = EACH, .count = 6},
+            "there is no replica 5: point 1 has 5");
+    refused(study, (fracas_picture_request){.point = 1, .replica = -1, .count = 6},
+            "there is no replica -1");
+    refused(study, (fracas_picture_request){.point = 1, .replica = 2, .count = 6},
+            "replica 2 of point 1 ended FAILED");
+    refused(study, (fracas_picture_request){.point = 1, .count = 1, .time = &late},
+            "time 200.0 us is outside of the realization, which goes from 0 to 100.0 us");
+    refused(study, (fracas_picture_request){.point = 1, .count = 1, .time = &early},
+            "outside of the realization");
     fracas_reader *reader;
     fracas_file_header header = sample_header();
     fracas_writer *writer;
@@ -247,7 +274,8 @@ static void pictures_of_what_is_not_there(void **state)
     refused(study, (fracas_picture_request){.point = 1, .count = 6}, "point 1 is no surface");
 }
 
-/* Two pictures and the table; replica 1 of point 1 cracks first at 1 us and breaks first at 1.5 us. */
+/* Two pictures and the table; replica 1 of point 1 cracks first at 1 us and breaks first at 1.5 us.
+ */
 static void pictures_and_first_times(void **state)
 {
     (void)state;
@@ -258,13 +286,19 @@ static void pictures_and_first_times(void **state)
     commit(4, interfaces_of(&shape));
     merge_with(&source);
     FILE *out = open_memstream(&said, &size);
-    const fracas_picture_request request = {.point = 1, .replica = 1, .count = 2, .time = time, .show = FRACAS_SHOW_FRAGMENTS,
-                                            .table = true, .folder = folder};
+    const fracas_picture_request request = {.point = 1,
+                                            .replica = 1,
+                                            .count = 2,
+                                            .time = time,
+                                            .show = FRACAS_SHOW_FRAGMENTS,
+                                            .table = true,
+                                            .folder = folder};
     OK(fracas_pictures_write(study, &request, out));
     fclose(out);
     assert_non_null(strstr(said, "drawn/surface-point-1-replica-1-1.svg: 2.000 us\n"));
     assert_non_null(strstr(said, "drawn/surface-point-1-replica-1-2.svg: 90.00 us\n"));
-    assert_non_null(strstr(said, "first onset: 1.000 us\nfirst break: 1.500 us\nfirst crack through: "));
+    assert_non_null(
+        strstr(said, "first onset: 1.000 us\nfirst break: 1.500 us\nfirst crack through: "));
     assert_int_equal(sample_files(folder, ".svg"), 2);
     char *csv = (char *)sample_slurp(sample_path(folder, "times-point-1.csv"), &size);
     csv[size] = '\0';
@@ -274,7 +308,8 @@ static void pictures_and_first_times(void **state)
     assert_non_null(strstr(csv, "\n4,INTACT,4e-06,4.5e-06,"));
     char *svg = (char *)sample_slurp(sample_path(folder, "surface-point-1-replica-1-2.svg"), &size);
     svg[size] = '\0';
-    assert_non_null(strstr(svg, "90.00 \u00b5s: 24 fragments (dust: 24)</text>")); /* everything is broken */
+    assert_non_null(
+        strstr(svg, "90.00 \u00b5s: 24 fragments (dust: 24)</text>")); /* everything is broken */
     free(folder);
     free(svg);
     free(csv);
@@ -299,10 +334,12 @@ static fracas_err get_octant(const void *context, size_t point, fracas_stored_me
 /* The octant's study: the sample's columns, and the thickness. */
 static void make_octant_study(void)
 {
-    static const fracas_column column[] = {{"cohesive.law", "", "Law of the interfaces", true},
-                                           {"geometry.thickness", "m", "Thickness of the shell", false}};
-    static const fracas_value value[SAMPLE_POINTS][2] = {
-        {{NAN, "nitsche"}, {NAN, ""}}, {{NAN, "nitsche"}, {thickness, ""}}, {{NAN, "linear"}, {NAN, ""}}};
+    static const fracas_column column[] = {
+        {"cohesive.law", "", "Law of the interfaces", true},
+        {"geometry.thickness", "m", "Thickness of the shell", false}};
+    static const fracas_value value[SAMPLE_POINTS][2] = {{{NAN, "nitsche"}, {NAN, ""}},
+                                                         {{NAN, "nitsche"}, {thickness, ""}},
+                                                         {{NAN, "linear"}, {NAN, ""}}};
     static const fracas_mesh_source octant = {get_octant, NULL};
     table.ncolumns = 2;
     table.column = column;
@@ -324,14 +361,21 @@ static void bodies_are_drawn_as_asked_for(void **state)
     fracas_surface_state now;
     make_octant_study();
     FILE *out = open_memstream(&said, &size);
-    const fracas_picture_request request = {.point = SURFACE, .replica = 1, .count = 1, .time = &time, .show = FRACAS_SHOW_MESH,
-                                            .view = &view, .explode = 0.15, .folder = folder};
+    const fracas_picture_request request = {.point = SURFACE,
+                                            .replica = 1,
+                                            .count = 1,
+                                            .time = &time,
+                                            .show = FRACAS_SHOW_MESH,
+                                            .view = &view,
+                                            .explode = 0.15,
+                                            .folder = folder};
     OK(fracas_pictures_write(study, &request, out));
     fclose(out);
     OK(get_octant(NULL, SURFACE, &mesh));
     make_record(SURFACE, 1, 18, &record);
     OK(fracas_surface_state_create(&mesh, &record, time, &now));
-    const fracas_surface_picture picture = {"Point 1, replica 1 at 9.000 \u00b5s", FRACAS_SHOW_MESH, 800, true, &view, 0.15, thickness};
+    const fracas_surface_picture picture = {
+        "Point 1, replica 1 at 9.000 \u00b5s", FRACAS_SHOW_MESH, 800, true, &view, 0.15, thickness};
     out = open_memstream(&wanted, &size);
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", out);
     OK(fracas_surface_picture_write(&mesh, &now, &picture, out));
@@ -394,11 +438,16 @@ static void the_report_shows_flat_surfaces_as_they_lie(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(meshes_come_back_bit_by_bit),   TEST(order_of_segments_changes_no_mesh),
-        TEST(without_surfaces_nothing_is_added), TEST(faulty_meshes_are_refused),
-        TEST(faults_of_meshes),              TEST(pictures_of_what_is_not_there),
-        TEST(pictures_and_first_times),      TEST(bodies_are_drawn_as_asked_for),
-        TEST(the_report_shows_bodies_with_gaps), TEST(the_report_shows_flat_surfaces_as_they_lie),
+        TEST(meshes_come_back_bit_by_bit),
+        TEST(order_of_segments_changes_no_mesh),
+        TEST(without_surfaces_nothing_is_added),
+        TEST(faulty_meshes_are_refused),
+        TEST(faults_of_meshes),
+        TEST(pictures_of_what_is_not_there),
+        TEST(pictures_and_first_times),
+        TEST(bodies_are_drawn_as_asked_for),
+        TEST(the_report_shows_bodies_with_gaps),
+        TEST(the_report_shows_flat_surfaces_as_they_lie),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,6 @@
-/* The results of a study: study.h5 or segments, whichever is of everything; the same records from both. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The results of a study: study.h5 or segments, whichever is of everything; the same records from
+ * both. */
 #include "tests/support/study_fixture.h"
 
 #include "campaigns/store/results.h"
@@ -24,9 +26,12 @@ typedef struct {
 
 static void cut(fracas_record *record, unsigned parts)
 {
-    if (!(parts & FRACAS_READ_FRAGMENTS)) free(record->fragment), record->fragment = NULL, record->nfragment = 0;
-    if (!(parts & FRACAS_READ_HISTORY)) free(record->history), record->history = NULL, record->nhistory = 0;
-    if (!(parts & FRACAS_READ_INTERFACES)) free(record->interface), record->interface = NULL, record->ninterface = 0;
+    if (!(parts & FRACAS_READ_FRAGMENTS))
+        free(record->fragment), record->fragment = NULL, record->nfragment = 0;
+    if (!(parts & FRACAS_READ_HISTORY))
+        free(record->history), record->history = NULL, record->nhistory = 0;
+    if (!(parts & FRACAS_READ_INTERFACES))
+        free(record->interface), record->interface = NULL, record->ninterface = 0;
 }
 
 static void check_record(const walk *w, size_t point, int64_t replica, const fracas_record *record)
@@ -50,7 +55,8 @@ static fracas_err look(void *context, fracas_result *result)
     return FRACAS_OK;
 }
 
-static size_t walk_all(fracas_results *results, const fracas_point_table *of, unsigned parts, size_t shift)
+static size_t walk_all(fracas_results *results, const fracas_point_table *of, unsigned parts,
+                       size_t shift)
 {
     walk w = {.results = results, .table = of, .parts = parts, .shift = shift};
     OK(fracas_results_walk(results, parts, look, &w));
@@ -60,7 +66,8 @@ static size_t walk_all(fracas_results *results, const fracas_point_table *of, un
 static int64_t missing_of(const fracas_results *results)
 {
     int64_t missing = 0;
-    for (size_t p = 0; p < fracas_results_points(results)->npoints; p++) missing += fracas_results_missing(results, p);
+    for (size_t p = 0; p < fracas_results_points(results)->npoints; p++)
+        missing += fracas_results_missing(results, p);
     return missing;
 }
 
@@ -77,12 +84,14 @@ static void every_order_of_segments_gives_the_records_of_the_study(void **state)
         fracas_results *results = open_results(&table);
         assert_int_equal(fracas_results_partial(results), !merged);
         assert_int_equal(fracas_results_realizations(results), ALL);
-        assert_memory_equal(&fracas_results_header(results)->campaign, &header.campaign, sizeof header.campaign);
+        assert_memory_equal(&fracas_results_header(results)->campaign, &header.campaign,
+                            sizeof header.campaign);
         assert_int_equal(fracas_results_header(results)->seed, header.seed);
         assert_int_equal(fracas_results_header(results)->history, header.history);
         assert_true(fracas_results_header(results)->interfaces);
         assert_string_equal(fracas_results_header(results)->version, header.version);
-        for (unsigned parts = 0; parts <= FRACAS_READ_ALL; parts++) assert_int_equal(walk_all(results, &table, parts, 0), ALL);
+        for (unsigned parts = 0; parts <= FRACAS_READ_ALL; parts++)
+            assert_int_equal(walk_all(results, &table, parts, 0), ALL);
         for (size_t row = ALL; row-- > 0;) { /* against the order */
             walk w = {.parts = FRACAS_READ_ALL};
             fracas_record record;
@@ -113,7 +122,8 @@ static void a_merged_study_counts_while_it_is_of_everything(void **state)
     fracas_results_close(results);
     merge();
     int64_t again;
-    OK(fracas_index_retry(index_, NULL, &again)); /* study.h5 has those that FAILED, the index plans them */
+    OK(fracas_index_retry(index_, NULL,
+                          &again)); /* study.h5 has those that FAILED, the index plans them */
     assert_true(again > 0);
     results = open_results(&table);
     assert_true(fracas_results_partial(results));
@@ -140,7 +150,8 @@ static void points_are_those_of_the_campaign(void **state)
     fracas_file_header header = sample_header();
     OK(fracas_index_claim(index_, &header));
     commit_everything(5);
-    memcpy(more + 1, point_row, sizeof point_row); /* a new point before those that the segments know */
+    memcpy(more + 1, point_row,
+           sizeof point_row); /* a new point before those that the segments know */
     more[0] = (fracas_point_row){fracas_hash_of("new", 3), 2, sample_value[0]};
     const fracas_point_table extended = {3, sample_column, SAMPLE_POINTS + 1, more};
     for (int planned = 0; planned < 2; planned++) { /* killed before the index had it, and after */
@@ -170,8 +181,10 @@ static void lost_segments_are_named_once_and_left_out(void **state)
     int64_t lost = 0;
     fracas_place place;
     for (size_t i = 0; i < ALL; i++) { /* what failed needs no segment */
-        OK(fracas_index_place(index_, &table.point[i / REPLICAS].hash, (int64_t)(i % REPLICAS), &place));
-        for (size_t s = 1; s <= 3; s += 2) lost += place.status == FRACAS_DONE && place.segment == segment[s].id;
+        OK(fracas_index_place(index_, &table.point[i / REPLICAS].hash, (int64_t)(i % REPLICAS),
+                              &place));
+        for (size_t s = 1; s <= 3; s += 2)
+            lost += place.status == FRACAS_DONE && place.segment == segment[s].id;
     }
     fracas_index_segments_free(segment, count);
     assert_true(lost > 2);
@@ -206,11 +219,14 @@ static void without_an_index_study_h5_must_be_of_the_campaign(void **state)
     assert_int_equal(fracas_results_notes(results), 1);
     assert_non_null(strstr(fracas_results_note(results, 0), "study.h5 is taken as it is"));
     fracas_results_close(results);
-    sample_fails(fracas_results_open(study, &other, &table, &results), FRACAS_DAMAGED, "is of another campaign than");
+    sample_fails(fracas_results_open(study, &other, &table, &results), FRACAS_DAMAGED,
+                 "is of another campaign than");
     assert_non_null(strstr(fracas_message(), "fracas reindex"));
     assert_int_equal(unlink(sample_path(study, "study.h5")), 0);
-    sample_fails(fracas_results_open(study, &header.campaign, &table, &results), FRACAS_DAMAGED, "and there is no");
-    sample_fails(fracas_results_open(study, NULL, NULL, &results), FRACAS_DAMAGED, "`fracas run` makes it");
+    sample_fails(fracas_results_open(study, &header.campaign, &table, &results), FRACAS_DAMAGED,
+                 "and there is no");
+    sample_fails(fracas_results_open(study, NULL, NULL, &results), FRACAS_DAMAGED,
+                 "`fracas run` makes it");
 }
 
 static void nothing_done_is_said(void **state)
@@ -219,8 +235,10 @@ static void nothing_done_is_said(void **state)
     fracas_results *results;
     fracas_file_header header = sample_header();
     OK(fracas_index_claim(index_, &header));
-    sample_fails(fracas_results_open(study, &header.campaign, &table, &results), FRACAS_INTERRUPTED, "of 120: there is nothing to report");
-    OK(fracas_index_fail(index_, &table.point[0].hash, 0, "crashed", true)); /* a FAILED one is a result */
+    sample_fails(fracas_results_open(study, &header.campaign, &table, &results), FRACAS_INTERRUPTED,
+                 "of 120: there is nothing to report");
+    OK(fracas_index_fail(index_, &table.point[0].hash, 0, "crashed",
+                         true)); /* a FAILED one is a result */
     results = open_results(&table);
     assert_int_equal(fracas_results_realizations(results), 1);
     fracas_record record;
@@ -244,7 +262,8 @@ static void an_index_that_is_held_is_named(void **state)
     index_ = NULL;
     OK(fracas_index_open_as(study, true, false, &holder)); /* as on a network filesystem */
     OK(fracas_index_plan(holder, &table));
-    sample_fails(fracas_results_open(study, &header.campaign, &table, &results), FRACAS_IN_USE, "on a network filesystem nobody else can");
+    sample_fails(fracas_results_open(study, &header.campaign, &table, &results), FRACAS_IN_USE,
+                 "on a network filesystem nobody else can");
     fracas_index_close(holder);
 }
 

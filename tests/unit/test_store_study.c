@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A study as a whole: identity, merge, recover, verify, lock. */
 #include "tests/support/study_fixture.h"
 
@@ -15,9 +16,9 @@ static fracas_file_header other_header(int other)
     return header;
 }
 
-static const char *const difference[OTHERS] = {"program_version 0.1.0, not 0.2.0",
-                                               "seed 18446744073709551611, not 18446744073709551612",
-                                               "history 100, not 101", "interfaces 1, not 0"};
+static const char *const difference[OTHERS] = {
+    "program_version 0.1.0, not 0.2.0", "seed 18446744073709551611, not 18446744073709551612",
+    "history 100, not 101", "interfaces 1, not 0"};
 
 static void a_study_is_of_one_program_and_campaign(void **state)
 {
@@ -52,10 +53,12 @@ static void segments_of_another_are_left_and_not_merged(void **state)
     assert_int_equal(count_all().planned, 0);
     for (int other = 0; other < OTHERS; other++) {
         fracas_file_header header = other_header(other);
-        sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED, difference[other]);
+        sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED,
+                     difference[other]);
     }
     fracas_file_header header = other_header(2);
-    OK(fracas_index_claim(index_, &header)); /* and verify compares with what the study was begun with */
+    OK(fracas_index_claim(index_,
+                          &header)); /* and verify compares with what the study was begun with */
     char text[8192];
     assert_true(verify(text) > 0);
     assert_non_null(strstr(text, "s0.h5: not of this study: history 100, not 101"));
@@ -83,7 +86,8 @@ static void order_of_segments_changes_nothing(void **state)
     }
 }
 
-/* The merged file is what one writer would have written; failed rows are empty and make it incomplete. */
+/* The merged file is what one writer would have written; failed rows are empty and make it
+ * incomplete. */
 static void merged_is_as_if_written_in_order(void **state)
 {
     (void)state;
@@ -108,16 +112,19 @@ static void merge_refuses_what_is_not_whole(void **state)
 {
     (void)state;
     fracas_file_header header = sample_header();
-    sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_INTERRUPTED, "run again");
+    sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_INTERRUPTED,
+                 "run again");
     commit_everything(3);
     strcpy(header.version, "0.2.0");
-    sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED, "not of this study: program_version 0.1.0, not 0.2.0");
+    sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED,
+                 "not of this study: program_version 0.1.0, not 0.2.0");
     header = sample_header();
     header.seed++;
     sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED, "seed");
     flip_byte(sample_path(study, "segments/s2.h5"), 30000);
     header = sample_header();
-    sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_INTERRUPTED, "s2.h5: damaged");
+    sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_INTERRUPTED,
+                 "s2.h5: damaged");
     assert_int_equal(sample_files(study, "study.h5"), 0);
     assert_true(count_all().planned > 0); /* already */
     assert_int_equal(access(sample_path(study, "segments/s2.damaged"), F_OK), 0);
@@ -147,11 +154,13 @@ static void orphans_are_adopted(void **state)
     fracas_index_counts before = count_all();
     fracas_index_close(index_);
     unlink(sample_path(study, "index.sqlite"));
-    OK(fracas_index_open(study, true, &index_)); /* not planned: recover must not take the segments for foreign */
+    OK(fracas_index_open(
+        study, true, &index_)); /* not planned: recover must not take the segments for foreign */
     recover_says("adopted");
     fracas_index_counts after = count_all();
     assert_memory_equal(&after, &before, sizeof after);
-    assert_int_equal(number("SELECT count(*) FROM segment WHERE provenance <> '" SAMPLE_PROVENANCE "'"), 0);
+    assert_int_equal(
+        number("SELECT count(*) FROM segment WHERE provenance <> '" SAMPLE_PROVENANCE "'"), 0);
     merge();
     assert_true(sample_same_file(sample_path(study, "study.h5"), sample_path(study, "first")));
     recover_says("");
@@ -183,7 +192,8 @@ static void segments_without_provenance_are_adopted(void **state)
         OK(fracas_writer_finish(writer, false, &seal));
     }
     recover_says("old1.h5 with 1 realizations");
-    assert_int_equal(number("SELECT count(*) FROM segment WHERE provenance = '{\"adopted\": true}'"), 2);
+    assert_int_equal(
+        number("SELECT count(*) FROM segment WHERE provenance = '{\"adopted\": true}'"), 2);
 }
 
 static void half_written_files_go_and_foreign_ones_stay(void **state)
@@ -210,8 +220,10 @@ static void half_written_files_go_and_foreign_ones_stay(void **state)
     assert_int_equal(strstr(report, "good.h5") != NULL, 0);
     assert_non_null(strstr(report, "torn.h5"));
     /* Sound, but of realizations that nobody asked for here: somebody may have, elsewhere. */
-    assert_non_null(strstr(report, "foreign.h5, which has realizations that this campaign does not ask for"));
-    assert_non_null(strstr(report, "more.h5, which has realizations that this campaign does not ask for"));
+    assert_non_null(
+        strstr(report, "foreign.h5, which has realizations that this campaign does not ask for"));
+    assert_non_null(
+        strstr(report, "more.h5, which has realizations that this campaign does not ask for"));
     free(report);
     assert_int_equal(sample_files(sample_path(study, "segments"), ".h5"), 3);
     assert_int_equal(sample_files(sample_path(study, "segments"), "good.h5"), 1);
@@ -258,9 +270,12 @@ static void verify_names_what_is_wrong(void **state)
     verify_finds(1, "s1.h5: damaged");
     flip_byte(sample_path(study, "segments/s1.h5"), 50001);
     verify_finds(0, "");
-    assert_int_equal(sqlite3_exec(index_->db, "UPDATE realization SET steps = steps - 1 WHERE point = 1 AND replica = "
-                                  "(SELECT min(replica) FROM realization WHERE point = 1 AND status = 'done')", NULL,
-                                  NULL, NULL), SQLITE_OK);
+    assert_int_equal(
+        sqlite3_exec(index_->db,
+                     "UPDATE realization SET steps = steps - 1 WHERE point = 1 AND replica = "
+                     "(SELECT min(replica) FROM realization WHERE point = 1 AND status = 'done')",
+                     NULL, NULL, NULL),
+        SQLITE_OK);
     verify_finds(1, "differs from its record");
 }
 
@@ -319,8 +334,8 @@ static void verify_compares_every_record(void **state)
     verify_finds(2, "row 77 differs");
 }
 
-/* Flipped bytes of the index: nothing crashes, and none is taken for a bug of ours or another run. What lies in free
- * space or in a text for people cannot be found. */
+/* Flipped bytes of the index: nothing crashes, and none is taken for a bug of ours or another run.
+ * What lies in free space or in a text for people cannot be found. */
 static void verify_bears_a_damaged_index(void **state)
 {
     (void)state;
@@ -341,7 +356,9 @@ static void verify_bears_a_damaged_index(void **state)
         bytes[at] ^= (unsigned char)(1 + sample_bits(&random) % 255);
         sample_spill(path, bytes, size);
         bytes[at] = kept;
-        OK(fracas_study_verify(study, &(fracas_verify_options){.full = true, .say = keep_problem, .context = text}, &problems));
+        OK(fracas_study_verify(
+            study, &(fracas_verify_options){.full = true, .say = keep_problem, .context = text},
+            &problems));
         found += problems > 0;
         unlink(sample_path(study, "index.sqlite-wal"));
         unlink(sample_path(study, "index.sqlite-shm"));
@@ -366,8 +383,10 @@ static void leftovers_are_noted(void **state)
     sample_spill(sample_path(study, "segments/old.damaged"), "abc", 3);
     sample_spill(sample_path(study, "lock"), "node9 77\n", 9);
     assert_int_equal(verify_as(false, true, text), 0);
-    static const char *const said[] = {"segments/.x.h5.tmp-123: half written", "/.study.h5.tmp-99: half written", "orphan.h5: not in the index",
-                                       "old.damaged: set aside", "lock: left by another host", "host node9, pid 77"};
+    static const char *const said[] = {
+        "segments/.x.h5.tmp-123: half written", "/.study.h5.tmp-99: half written",
+        "orphan.h5: not in the index",          "old.damaged: set aside",
+        "lock: left by another host",           "host node9, pid 77"};
     for (size_t i = 0; i < sizeof said / sizeof *said; i++)
         if (!strstr(text, said[i])) fail_msg("no \"%s\" in:\n%s", said[i], text);
 }

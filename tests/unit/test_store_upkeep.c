@@ -1,4 +1,6 @@
-/* Looking after a study: the index anew, garbage, failures again, older formats. Two studies made one: test_store_join.c. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Looking after a study: the index anew, garbage, failures again, older formats. Two studies made
+ * one: test_store_join.c. */
 #include "tests/support/upkeep.h"
 
 /* ---- reindex ---- */
@@ -17,7 +19,9 @@ static void the_index_is_made_anew(void **state)
     failures_are("0:5 2 signal 9;");
     assert_int_equal(number("SELECT count(*) FROM event"), 2);
     assert_int_equal(number("SELECT count(*) FROM event WHERE kind = 'reindexed'"), 1);
-    assert_int_equal(number("SELECT attempts FROM realization WHERE reason = 'signal 6' AND status = 'planned'"), 1);
+    assert_int_equal(
+        number("SELECT attempts FROM realization WHERE reason = 'signal 6' AND status = 'planned'"),
+        1);
     assert_int_equal(number("SELECT count(*) FROM segment WHERE provenance LIKE '%\"b\"%'"), 1);
     assert_int_equal(number("SELECT count(*) FROM segment WHERE provenance LIKE '%\"a\"%'"), 2);
     assert_int_equal(sample_files(study, "before"), 0);
@@ -43,7 +47,8 @@ static void a_lost_or_damaged_index_is_made_anew(void **state)
         if (damage == 2) assert_int_equal(truncate(path, 5000), 0);
         if (damage == 3)
             for (size_t at = 4100; at < 4700; at += 3) flip_byte(path, at);
-        if (damage == 1) sample_spill(sample_path(study, "index.sqlite-wal"), "a log of nothing", 16);
+        if (damage == 1)
+            sample_spill(sample_path(study, "index.sqlite-wal"), "a log of nothing", 16);
         OK(reindex());
         const fracas_index_counts after = count_all();
         assert_int_equal(after.done, before.done);
@@ -92,7 +97,9 @@ static void a_segment_wins_over_a_failure(void **state)
     OK(fracas_index_fail(index_, &point_row[0].hash, 5, "signal 9", true));
     OK(reindex());
     failures_are("");
-    assert_int_equal(number("SELECT count(*) FROM realization WHERE status = 'done' AND reason = 'signal 9'"), 1);
+    assert_int_equal(
+        number("SELECT count(*) FROM realization WHERE status = 'done' AND reason = 'signal 9'"),
+        1);
     verify_finds(0, "");
 }
 
@@ -121,14 +128,15 @@ static void segments_of_another_study_are_named(void **state)
 static void make_old(const char *path)
 {
     const int32_t one = 1;
-    hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT), attribute = H5Aopen(file, "format_version", H5P_DEFAULT);
+    hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT),
+          attribute = H5Aopen(file, "format_version", H5P_DEFAULT);
     assert_true(attribute >= 0 && H5Awrite(attribute, H5T_NATIVE_INT32, &one) >= 0);
     H5Aclose(attribute);
     H5Fclose(file);
 }
 
-static const char refusal[] = "has format version 1; this program reads 2: use the program version that wrote it, or compute the study "
-                              "again in another folder";
+static const char refusal[] = "has format version 1; this program reads 2: use the program version "
+                              "that wrote it, or compute the study again in another folder";
 
 static void version_1_is_refused_by_name(void **state)
 {
@@ -148,7 +156,8 @@ static void version_1_is_refused_by_name(void **state)
     assert_int_equal(sample_files(study, "before"), 0);
     fracas_reader *reader;
     make_old(sample_path(study, "study.h5"));
-    sample_fails(fracas_reader_open(sample_path(study, "study.h5"), &reader), FRACAS_DAMAGED, refusal);
+    sample_fails(fracas_reader_open(sample_path(study, "study.h5"), &reader), FRACAS_DAMAGED,
+                 refusal);
     OK(fracas_index_open(study, true, &index_));
     sql("UPDATE meta SET value = '1' WHERE key = 'format_version'");
     fracas_index_close(index_);
@@ -157,10 +166,13 @@ static void version_1_is_refused_by_name(void **state)
     int64_t problems;
     sample_fails(fracas_index_open(study, false, &other), FRACAS_DAMAGED, refusal);
     sample_fails(fracas_index_open(study, true, &other), FRACAS_DAMAGED, refusal);
-    OK(fracas_study_verify(study, &(fracas_verify_options){.say = keep_problem, .context = text}, &problems));
+    OK(fracas_study_verify(study, &(fracas_verify_options){.say = keep_problem, .context = text},
+                           &problems));
     assert_int_equal(problems, 1);
     assert_non_null(strstr(text, refusal));
-    sample_fails(fracas_study_reindex(study, &(fracas_file_header){.version = "0.1.0"}, &table, &said), FRACAS_DAMAGED, refusal);
+    sample_fails(
+        fracas_study_reindex(study, &(fracas_file_header){.version = "0.1.0"}, &table, &said),
+        FRACAS_DAMAGED, refusal);
     index_ = NULL;
 }
 
@@ -196,7 +208,8 @@ static void failures_are_forgotten(void **state)
     int64_t rows;
     fail_some();
     OK(fracas_index_fail(index_, &point_row[1].hash, 20, "signal 7", true));
-    for (int64_t round = 0; round < 3; round++) decide(1, round, 10 + 8 * round); /* of 10, 18 and 26 replicas */
+    for (int64_t round = 0; round < 3; round++)
+        decide(1, round, 10 + 8 * round); /* of 10, 18 and 26 replicas */
     decide(0, 0, 5);
     OK(fracas_index_retry(index_, &point_row[2].hash, &rows));
     assert_int_equal(rows, 0);
@@ -204,12 +217,15 @@ static void failures_are_forgotten(void **state)
     OK(fracas_index_retry(index_, &point_row[1].hash, &rows));
     assert_int_equal(rows, 1);
     failures_are("0:5 2 signal 9;");
-    assert_int_equal(number("SELECT count(*) FROM decision"), 3); /* not the one that had replica 20 */
+    assert_int_equal(number("SELECT count(*) FROM decision"),
+                     3); /* not the one that had replica 20 */
     OK(fracas_index_retry(index_, NULL, &rows));
     assert_int_equal(rows, 1);
     failures_are("");
-    assert_int_equal(number("SELECT count(*) FROM decision"), 3); /* the one of replicas 0 to 4 had not replica 5 */
-    assert_int_equal(number("SELECT sum(attempts) FROM realization"), 1); /* of one that is not failed */
+    assert_int_equal(number("SELECT count(*) FROM decision"),
+                     3); /* the one of replicas 0 to 4 had not replica 5 */
+    assert_int_equal(number("SELECT sum(attempts) FROM realization"),
+                     1); /* of one that is not failed */
     assert_int_equal(number("SELECT count(*) FROM event WHERE kind = 'retried'"), 2);
     assert_int_equal(count_all().planned, ALL);
     assert_int_equal(count_all().outcome[FRACAS_FAILED], 0);
@@ -223,7 +239,8 @@ static void keep_found(void *context, const fracas_collected *item)
 {
     (void)context;
     char line[1024];
-    snprintf(line, sizeof line, "%s %s %d", item->removed ? "-" : "=", strrchr(item->path, '/') + 1, (int)item->bytes);
+    snprintf(line, sizeof line, "%s %s %d", item->removed ? "-" : "=", strrchr(item->path, '/') + 1,
+             (int)item->bytes);
     keep_problem(found_text, line);
 }
 
@@ -232,7 +249,8 @@ static uint64_t collect(bool dry)
     static const char *const named[] = {"00000000000000000000000000000001"};
     uint64_t freed;
     found_text[0] = '\0';
-    OK(fracas_study_collect(study, index_, &(fracas_collect_options){named, 1, dry, keep_found, NULL}, &freed));
+    OK(fracas_study_collect(study, index_,
+                            &(fracas_collect_options){named, 1, dry, keep_found, NULL}, &freed));
     return freed;
 }
 
@@ -251,7 +269,8 @@ static int64_t entries(void)
     return atoi(text);
 }
 
-/* Replicas of point 0 that are done in every study that has them: a record of outcome FAILED gives way to any other. */
+/* Replicas of point 0 that are done in every study that has them: a record of outcome FAILED gives
+ * way to any other. */
 static void choose_done(sample_realization *what, size_t count)
 {
     int64_t replica = 6;
@@ -273,13 +292,28 @@ static void what_nobody_needs_goes(void **state)
     fracas_file_seal seal;
     fracas_segment_row row[3];
     sample_segment(study, "orphan.h5", &table, twice, 3, MOST, &seal, row);
-    assert_int_equal(mkdir(sample_path(study, "attachments"), 0777) | mkdir(sample_path(study, ".reindex"), 0777), 0);
-    static const char *const spilt[] = {"segments/.x.h5.tmp-12", "segments/old.damaged", ".study.h5.tmp-9", "campaign.yaml.tmp", "index.sqlite.before-20260101T000000Z-7",
-                                        "index.sqlite.before-20260101T000000Z-7-wal", ".reindex/index.sqlite", ".reindex/index.sqlite-wal",
-                                        "attachments/00000000000000000000000000000002", "attachments/00000000000000000000000000000002.tmp",
-                                        "attachments/00000000000000000000000000000001", "attachments/readme", "notes.txt", "campaign.yaml",
-                                        "segments/mine.txt", "lock", "study.h5"};
-    for (size_t i = 0; i < FRACAS_COUNT(spilt); i++) sample_spill(sample_path(study, spilt[i]), "1234567", 7);
+    assert_int_equal(mkdir(sample_path(study, "attachments"), 0777) |
+                         mkdir(sample_path(study, ".reindex"), 0777),
+                     0);
+    static const char *const spilt[] = {"segments/.x.h5.tmp-12",
+                                        "segments/old.damaged",
+                                        ".study.h5.tmp-9",
+                                        "campaign.yaml.tmp",
+                                        "index.sqlite.before-20260101T000000Z-7",
+                                        "index.sqlite.before-20260101T000000Z-7-wal",
+                                        ".reindex/index.sqlite",
+                                        ".reindex/index.sqlite-wal",
+                                        "attachments/00000000000000000000000000000002",
+                                        "attachments/00000000000000000000000000000002.tmp",
+                                        "attachments/00000000000000000000000000000001",
+                                        "attachments/readme",
+                                        "notes.txt",
+                                        "campaign.yaml",
+                                        "segments/mine.txt",
+                                        "lock",
+                                        "study.h5"};
+    for (size_t i = 0; i < FRACAS_COUNT(spilt); i++)
+        sample_spill(sample_path(study, spilt[i]), "1234567", 7);
     const fracas_index_counts before = count_all();
     const int64_t all = entries();
     const uint64_t promised = collect(true);
@@ -311,7 +345,8 @@ static void what_nobody_needs_goes(void **state)
     verify_finds(0, "");
 }
 
-/* Killed after the index has forgotten a segment and before its file went: it is an orphan like others, and goes the next time. */
+/* Killed after the index has forgotten a segment and before its file went: it is an orphan like
+ * others, and goes the next time. */
 static void a_forgotten_segment_is_known_again(void **state)
 {
     (void)state;
@@ -334,8 +369,9 @@ static void the_index_gives_pages_back(void **state)
 {
     (void)state;
     struct stat large, small;
-    sql("WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 20000)"
-        " INSERT INTO event(time, kind, text) SELECT 'now', 'kind', 'a text of some length, again and again' FROM n; DELETE FROM event");
+    sql("WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 20000) INSERT "
+        "INTO event(time, kind, text) SELECT 'now', 'kind', 'a text of some length, again and "
+        "again' FROM n; DELETE FROM event");
     open_again();
     assert_int_equal(stat(sample_path(study, "index.sqlite"), &large), 0);
     const uint64_t promised = collect(true), freed = collect(false);

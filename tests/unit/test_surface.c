@@ -1,10 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* engine/mesh/surface: surfaces from arrays, every refusal, the order of elements. */
 #include "tests/support/surface.h"
 
 /* A square of two triangles and a third on its right side:
  *     3 - 2
  *     | / | \
- *     0 - 1 - 4                                                                                                        */
+ *     0 - 1 - 4 */
 typedef struct {
     double node[16][3];
     uint32_t element[36];
@@ -17,8 +18,13 @@ static void make_sample(sample *s)
     *s = (sample){.node = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}},
                   .element = {0, 1, 2, 0, 2, 3, 1, 4, 2},
                   .tag = {{{0, 1}, 7}, {{3, 2}, 8}, {{1, 2}, 9}}};
-    s->arrays = (fracas_surface_arrays){.order = 1, .nnodes = 5, .nelements = 3, .ntags = 3,
-                                        .node = (const double (*)[3])s->node, .element = s->element, .tag = s->tag};
+    s->arrays = (fracas_surface_arrays){.order = 1,
+                                        .nnodes = 5,
+                                        .nelements = 3,
+                                        .ntags = 3,
+                                        .node = (const double(*)[3])s->node,
+                                        .element = s->element,
+                                        .tag = s->tag};
 }
 
 /* The same with mid-side nodes, 5 to 11. */
@@ -29,7 +35,8 @@ static void make_quadratic(sample *s)
     make_sample(s);
     memcpy(s->element, element, sizeof element);
     for (size_t m = 0; m < 7; m++)
-        for (int i = 0; i < 3; i++) s->node[5 + m][i] = 0.5 * (s->node[ends[m][0]][i] + s->node[ends[m][1]][i]);
+        for (int i = 0; i < 3; i++)
+            s->node[5 + m][i] = 0.5 * (s->node[ends[m][0]][i] + s->node[ends[m][1]][i]);
     s->arrays.order = 2;
     s->arrays.nnodes = 12;
 }
@@ -39,7 +46,8 @@ static void expect(const sample *s, const char *message)
     const fracas_surface *surface = NULL;
     assert_int_equal(fracas_surface_assemble(&s->arrays, &surface), FRACAS_USAGE);
     assert_null(surface);
-    if (!strstr(fracas_message(), message)) fail_msg("expected \"%s\" in \"%s\"", message, fracas_message());
+    if (!strstr(fracas_message(), message))
+        fail_msg("expected \"%s\" in \"%s\"", message, fracas_message());
 }
 
 static size_t place_of(const fracas_surface *surface, int64_t given)
@@ -68,8 +76,9 @@ static void test_assembled(void **state)
         for (size_t e = 0; e < 3; e++)
             for (size_t k = 0; k < surface->corners; k++)
                 for (int i = 0; i < 3; i++)
-                    assert_true(surface->node[corner_of(surface, e, k)][i] ==
-                                s.node[s.element[surface->corners * (size_t)surface->given[e] + k]][i]);
+                    assert_true(
+                        surface->node[corner_of(surface, e, k)][i] ==
+                        s.node[s.element[surface->corners * (size_t)surface->given[e] + k]][i]);
         /* Tags: of two edges of the boundary, and of the interface between elements 0 and 2. */
         int tagged = 0;
         for (size_t b = 0; b < surface->nborders; b++) {
@@ -82,14 +91,17 @@ static void test_assembled(void **state)
         assert_int_equal(tagged, 5);
         for (size_t i = 0; i < 2; i++) {
             const fracas_surface_interface *f = &surface->interface[i];
-            const bool is_right = f->element[0] == place_of(surface, 2) || f->element[1] == place_of(surface, 2);
+            const bool is_right = f->element[0] == place_of(surface, 2) ||
+                                  f->element[1] == place_of(surface, 2);
             assert_int_equal(f->tag, is_right ? 9 : 0);
         }
         fracas_surface_measures all;
         fracas_surface_measure(surface, &all);
         assert_true(fabs(all.area - 1.5) < 1e-15 && fabs(all.border - 4.0 - sqrt(2.0)) < 1e-14);
-        assert_true(all.least_area == 0.5 && fabs(all.largest_edge - sqrt(2.0)) < 1e-15 && fabs(all.least_edge - 1.0) < 1e-15);
-        assert_true(all.largest_distance == 1 && all.mean_distance == 1.0); /* the middle one comes between its neighbours */
+        assert_true(all.least_area == 0.5 && fabs(all.largest_edge - sqrt(2.0)) < 1e-15 &&
+                    fabs(all.least_edge - 1.0) < 1e-15);
+        assert_true(all.largest_distance == 1 &&
+                    all.mean_distance == 1.0); /* the middle one comes between its neighbours */
         fracas_surface_destroy(surface);
     }
 }
@@ -140,7 +152,8 @@ static void test_refused_neighbours(void **state)
     memcpy(s.element, (uint32_t[]){0, 1, 2, 0, 2, 3, 1, 4, 2, 4, 2, 1}, 12 * sizeof *s.element);
     s.arrays.nelements = 4;
     expect(&s, "elements 2 and 3 have the same vertices");
-    /* The first triangle turned round is at odds with both its neighbours, each of which is so with one. */
+    /* The first triangle turned round is at odds with both its neighbours, each of which is so with
+     * one. */
     make_sample(&s);
     memcpy(s.element, (uint32_t[]){0, 2, 1}, 3 * sizeof *s.element);
     expect(&s, "element 0 is inverted: it goes round against 2 of its neighbours");
@@ -172,7 +185,8 @@ static void test_refused_neighbours(void **state)
     s.arrays.nelements = 5;
     s.arrays.nnodes = 5;
     s.arrays.ntags = 0;
-    memcpy(s.element, (uint32_t[]){0, 1, 2, 1, 3, 2, 2, 3, 4, 3, 0, 4, 4, 0, 1}, 15 * sizeof *s.element);
+    memcpy(s.element, (uint32_t[]){0, 1, 2, 1, 3, 2, 2, 3, 4, 3, 0, 4, 4, 0, 1},
+           15 * sizeof *s.element);
     expect(&s, "is inverted: it goes round against 1 of its neighbours");
 }
 
@@ -184,7 +198,8 @@ static void test_refused_middles(void **state)
     memcpy(s.node[12], s.node[6], sizeof s.node[12]); /* another node in the same place */
     s.element[17] = 12;
     s.arrays.nnodes = 13;
-    expect(&s, "elements 0 and 2 have different nodes, 6 and 12, in the middle of the edge between nodes 1 and 2");
+    expect(&s, "elements 0 and 2 have different nodes, 6 and 12, in the middle of the edge between "
+               "nodes 1 and 2");
     make_quadratic(&s);
     s.element[11] = 5; /* the node of edge 0-1 for edge 3-0 too */
     memcpy(s.node[9], s.node[11], sizeof s.node[9]);
@@ -197,8 +212,8 @@ static void test_refused_middles(void **state)
     s.element[16] = 9;
     s.arrays.nnodes = 11;
     expect(&s, "node 4 in the middle of an edge of element 1 has another place in element 2");
-    /* (meshes.2) On the edge from 0 to 1, of length 1, the node of the middle may be a quarter off: at 1/4 the Jacobian of
-     * a straight edge vanishes at the vertex. */
+    /* (meshes.2) On the edge from 0 to 1, of length 1, the node of the middle may be a quarter off:
+     * at 1/4 the Jacobian of a straight edge vanishes at the vertex. */
     for (int step = 0; step <= 1; step++) {
         make_quadratic(&s);
         s.node[5][0] = 0.25 + (step ? 1e-6 : -1e-6);
@@ -212,8 +227,9 @@ static void test_refused_middles(void **state)
     }
 }
 
-/* The Jacobian of one random element is positive on a fine grid when it is accepted, and not when it is refused: the
- * criterion is exact, so that only the grid leaves a gap, of elements whose least value is near zero. */
+/* The Jacobian of one random element is positive on a fine grid when it is accepted, and not when
+ * it is refused: the criterion is exact, so that only the grid leaves a gap, of elements whose
+ * least value is near zero. */
 static void test_jacobian(void **state)
 {
     (void)state;
@@ -221,7 +237,8 @@ static void test_jacobian(void **state)
     uint64_t x = 5;
     int accepted = 0, refused = 0;
     for (int t = 0; t < TRIES; t++) {
-        double node[6][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0, 0}, {0.5, 0.5, 0}, {0, 0.5, 0}};
+        double node[6][3] = {{0, 0, 0},   {1, 0, 0},     {0, 1, 0},
+                             {0.5, 0, 0}, {0.5, 0.5, 0}, {0, 0.5, 0}};
         for (int k = 3; k < 6; k++)
             for (int i = 0; i < 2; i++) node[k][i] += 0.5 * (next_share(&x) - 0.5);
         double least = INFINITY;
@@ -239,21 +256,27 @@ static void test_jacobian(void **state)
                 least = fmin(least, d[0][0] * d[1][1] - d[0][1] * d[1][0]);
             }
         const uint32_t element[6] = {0, 1, 2, 3, 4, 5};
-        const fracas_surface_arrays arrays = {
-            .order = 2, .nnodes = 6, .nelements = 1, .node = (const double (*)[3])node, .element = element};
+        const fracas_surface_arrays arrays = {.order = 2,
+                                              .nnodes = 6,
+                                              .nelements = 1,
+                                              .node = (const double(*)[3])node,
+                                              .element = element};
         const fracas_surface *surface = NULL;
         const fracas_err err = fracas_surface_assemble(&arrays, &surface);
         fracas_surface_destroy(surface);
         accepted += !err;
         refused += err != FRACAS_OK;
-        /* A quadratic form with second derivatives below 16 lies at most 16 (1/60)^2/2 under its values on the grid. */
-        if (err ? least > 0.003 : least <= 0.0) fail_msg("try %d: %d, least Jacobian %g", t, err, least);
+        /* A quadratic form with second derivatives below 16 lies at most 16 (1/60)^2/2 under its
+         * values on the grid. */
+        if (err ? least > 0.003 : least <= 0.0)
+            fail_msg("try %d: %d, least Jacobian %g", t, err, least);
     }
     assert_true(accepted > TRIES / 10 && refused > TRIES / 10);
 }
 
-/* A triangle a, b, c of the complex plane under z -> z^2, which an element of order 2 is without error: the Jacobian, 4 |z|^2,
- * is positive unless 0 lies inside. There, all nodes and edges may look well. */
+/* A triangle a, b, c of the complex plane under z -> z^2, which an element of order 2 is without
+ * error: the Jacobian, 4 |z|^2, is positive unless 0 lies inside. There, all nodes and edges may
+ * look well. */
 static void test_squared(void **state)
 {
     (void)state;
@@ -275,16 +298,21 @@ static void test_squared(void **state)
         }
         const double flat = (node[1][0] - node[0][0]) * (node[2][1] - node[0][1]) -
                             (node[1][1] - node[0][1]) * (node[2][0] - node[0][0]);
-        if (side[0] + side[1] + side[2] < 1e-3 || gap < 1e-3 || fabs(flat) < 1e-3) continue; /* clockwise, or hard to tell */
+        if (side[0] + side[1] + side[2] < 1e-3 || gap < 1e-3 || fabs(flat) < 1e-3)
+            continue; /* clockwise, or hard to tell */
         const bool is_inside = side[0] > 0.0 && side[1] > 0.0 && side[2] > 0.0;
         const uint32_t element[6] = {0, 1, 2, 3, 4, 5};
-        const fracas_surface_arrays arrays = {
-            .order = 2, .nnodes = 6, .nelements = 1, .node = (const double (*)[3])node, .element = element};
+        const fracas_surface_arrays arrays = {.order = 2,
+                                              .nnodes = 6,
+                                              .nelements = 1,
+                                              .node = (const double(*)[3])node,
+                                              .element = element};
         const fracas_surface *surface = NULL;
         const fracas_err err = fracas_surface_assemble(&arrays, &surface);
         fracas_surface_destroy(surface);
         const bool is_good = flat > 0.0 && !is_inside;
-        if (is_good ? err != FRACAS_OK : err != FRACAS_USAGE) fail_msg("try %d: %d, inside %d, flat %g", t, err, is_inside, flat);
+        if (is_good ? err != FRACAS_OK : err != FRACAS_USAGE)
+            fail_msg("try %d: %d, inside %d, flat %g", t, err, is_inside, flat);
         accepted += is_good;
         refused += !is_good;
         inside_only += is_inside && flat > 0.0;
@@ -332,8 +360,9 @@ static void test_names(void **state)
     fracas_surface_destroy(surface);
 }
 
-/* A rectangle of 60 x 60 squares whose 7200 elements and nodes come shuffled. A strip of such a mesh has 120 elements
- * across; Cuthill and McKee go over it in diagonals, whose length is 1.5 strips at most and less near the corners. */
+/* A rectangle of 60 x 60 squares whose 7200 elements and nodes come shuffled. A strip of such a
+ * mesh has 120 elements across; Cuthill and McKee go over it in diagonals, whose length is 1.5
+ * strips at most and less near the corners. */
 static void test_locality(void **state)
 {
     (void)state;
@@ -352,8 +381,11 @@ static void test_locality(void **state)
             element[3 * other + k] = swapped;
         }
     }
-    const fracas_surface_arrays arrays = {
-        .order = 1, .nnodes = plain->nnodes, .nelements = plain->nelements, .node = plain->node, .element = element};
+    const fracas_surface_arrays arrays = {.order = 1,
+                                          .nnodes = plain->nnodes,
+                                          .nelements = plain->nelements,
+                                          .node = plain->node,
+                                          .element = element};
     assert_int_equal(fracas_surface_assemble(&arrays, &surface), FRACAS_OK);
     check_edges(surface);
     double before = 0.0, nodes_apart = 0.0;
@@ -372,8 +404,9 @@ static void test_locality(void **state)
     }
     fracas_surface_measures all;
     fracas_surface_measure(surface, &all);
-    print_message("distance across interfaces: shuffled %.1f, ordered %.1f, at most %zu; of an element's nodes %.1f\n", before,
-                  all.mean_distance, all.largest_distance, nodes_apart);
+    print_message("distance across interfaces: shuffled %.1f, ordered %.1f, at most %zu; of an "
+                  "element's nodes %.1f\n",
+                  before, all.mean_distance, all.largest_distance, nodes_apart);
     assert_true(fabs(before - 7200.0 / 3.0) < 100.0); /* two numbers drawn from n are n/3 apart */
     assert_true(all.mean_distance < 120.0 && all.largest_distance < 180);
     fracas_surface_destroy(surface);
@@ -401,9 +434,10 @@ static void test_parts(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_assembled), cmocka_unit_test(test_refused_elements), cmocka_unit_test(test_refused_neighbours),
-        cmocka_unit_test(test_refused_middles), cmocka_unit_test(test_jacobian), cmocka_unit_test(test_squared),
-        cmocka_unit_test(test_refused_tags),
-        cmocka_unit_test(test_names), cmocka_unit_test(test_locality), cmocka_unit_test(test_parts)};
+        cmocka_unit_test(test_assembled),          cmocka_unit_test(test_refused_elements),
+        cmocka_unit_test(test_refused_neighbours), cmocka_unit_test(test_refused_middles),
+        cmocka_unit_test(test_jacobian),           cmocka_unit_test(test_squared),
+        cmocka_unit_test(test_refused_tags),       cmocka_unit_test(test_names),
+        cmocka_unit_test(test_locality),           cmocka_unit_test(test_parts)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

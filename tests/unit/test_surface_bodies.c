@@ -1,26 +1,32 @@
-/* engine/mesh/surface: rectangles, annuli, spheres and octants: topology, areas, perturbation, bits. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* engine/mesh/surface: rectangles, annuli, spheres and octants: topology, areas, perturbation,
+ * bits. */
 #include "tests/support/surface.h"
 
 #define PI 3.14159265358979323846
 
 typedef fracas_err maker(const fracas_surface_fineness *fineness, const fracas_surface **surface);
 
-static fracas_err make_rectangle(const fracas_surface_fineness *fineness, const fracas_surface **surface)
+static fracas_err make_rectangle(const fracas_surface_fineness *fineness,
+                                 const fracas_surface **surface)
 {
     return fracas_surface_rectangle(3.0, 2.0, fineness, surface);
 }
 
-static fracas_err make_annulus(const fracas_surface_fineness *fineness, const fracas_surface **surface)
+static fracas_err make_annulus(const fracas_surface_fineness *fineness,
+                               const fracas_surface **surface)
 {
     return fracas_surface_annulus(1.0, 2.0, fineness, surface);
 }
 
-static fracas_err make_sphere(const fracas_surface_fineness *fineness, const fracas_surface **surface)
+static fracas_err make_sphere(const fracas_surface_fineness *fineness,
+                              const fracas_surface **surface)
 {
     return fracas_surface_sphere(2.0, fineness, surface);
 }
 
-static fracas_err make_octant(const fracas_surface_fineness *fineness, const fracas_surface **surface)
+static fracas_err make_octant(const fracas_surface_fineness *fineness,
+                              const fracas_surface **surface)
 {
     return fracas_surface_octant(2.0, fineness, surface);
 }
@@ -31,15 +37,52 @@ typedef struct {
     double area, border, sphere;
     long euler;
     int tags;
-    double area_ratio, edge_ratio; /* largest by smallest, at 16 divisions: measured, and rounded up */
-    uint64_t bits[2];              /* checksums for orders 1 and 2, perturbed */
+    double area_ratio,
+        edge_ratio;   /* largest by smallest, at 16 divisions: measured, and rounded up */
+    uint64_t bits[2]; /* checksums for orders 1 and 2, perturbed */
 } body;
 
 static const body bodies[] = {
-    {"rectangle", make_rectangle, 6.0, 10.0, 0.0, 1, 4, 1.0001, 1.4143, {0x8a331ad5461bbe74, 0x61ed2581fd5f1d39}},
-    {"annulus", make_annulus, 3.0 * PI, 6.0 * PI, 0.0, 0, 2, 1.03, 1.54, {0x1cb5415b2eb412d1, 0xe9a0ad3b1ad00f0f}},
-    {"sphere", make_sphere, 16.0 * PI, 0.0, 2.0, 2, 0, 1.2, 1.18, {0xca48d546424be57a, 0x4c6850602b364004}},
-    {"octant", make_octant, 2.0 * PI, 3.0 * PI, 2.0, 1, 3, 1.75, 1.47, {0x90feec28914a2f5a, 0xd4d117494b31ceb0}},
+    {"rectangle",
+     make_rectangle,
+     6.0,
+     10.0,
+     0.0,
+     1,
+     4,
+     1.0001,
+     1.4143,
+     {0x8a331ad5461bbe74, 0x61ed2581fd5f1d39}},
+    {"annulus",
+     make_annulus,
+     3.0 * PI,
+     6.0 * PI,
+     0.0,
+     0,
+     2,
+     1.03,
+     1.54,
+     {0x1cb5415b2eb412d1, 0xe9a0ad3b1ad00f0f}},
+    {"sphere",
+     make_sphere,
+     16.0 * PI,
+     0.0,
+     2.0,
+     2,
+     0,
+     1.2,
+     1.18,
+     {0xca48d546424be57a, 0x4c6850602b364004}},
+    {"octant",
+     make_octant,
+     2.0 * PI,
+     3.0 * PI,
+     2.0,
+     1,
+     3,
+     1.75,
+     1.47,
+     {0x90feec28914a2f5a, 0xd4d117494b31ceb0}},
 };
 
 static const fracas_surface *made(const body *b, size_t divisions, int order)
@@ -51,33 +94,41 @@ static const fracas_surface *made(const body *b, size_t divisions, int order)
 }
 
 /* Perturbed by random numbers, or by the ends of their range. */
-static const fracas_surface *perturbed(const body *b, size_t divisions, int order, uint64_t seed, bool ends)
+static const fracas_surface *perturbed(const body *b, size_t divisions, int order, uint64_t seed,
+                                       bool ends)
 {
     const fracas_surface *plain = made(b, divisions, 1), *surface = NULL;
-    double (*shift)[2] = malloc(plain->nvertices * sizeof *shift);
+    double(*shift)[2] = malloc(plain->nvertices * sizeof *shift);
     assert_non_null(shift);
     for (size_t v = 0; v < plain->nvertices; v++)
         for (int i = 0; i < 2; i++) {
             shift[v][i] = 2.0 * next_share(&seed) - 1.0;
             if (ends) shift[v][i] = shift[v][i] < 0.0 ? -1.0 : 1.0;
         }
-    const fracas_surface_fineness fineness = {.divisions = divisions, .order = order, .amplitude = 0.3,
-                                              .shift = (const double (*)[2])shift, .nshifts = plain->nvertices};
+    const fracas_surface_fineness fineness = {.divisions = divisions,
+                                              .order = order,
+                                              .amplitude = 0.3,
+                                              .shift = (const double(*)[2])shift,
+                                              .nshifts = plain->nvertices};
     if (b->make(&fineness, &surface)) fail_msg("%s: %s", b->name, fracas_message());
     fracas_surface_destroy(plain);
     free(shift);
     return surface;
 }
 
-/* Six times the volume of the tetrahedron to the origin on a sphere, else twice the area: positive unless inverted. */
+/* Six times the volume of the tetrahedron to the origin on a sphere, else twice the area: positive
+ * unless inverted. */
 static double outward(const fracas_surface *s, size_t e, bool is_sphere)
 {
-    const double *a = s->node[corner_of(s, e, 0)], *b = s->node[corner_of(s, e, 1)], *c = s->node[corner_of(s, e, 2)];
+    const double *a = s->node[corner_of(s, e, 0)], *b = s->node[corner_of(s, e, 1)],
+                 *c = s->node[corner_of(s, e, 2)];
     if (!is_sphere) return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+           a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-/* What holds for every mesh of a body: nodes on it to round-off, elements outward, tags where they belong. */
+/* What holds for every mesh of a body: nodes on it to round-off, elements outward, tags where they
+ * belong. */
 static void check_body(const body *b, const fracas_surface *s)
 {
     check_edges(s);
@@ -97,7 +148,8 @@ static void check_body(const body *b, const fracas_surface *s)
             const double *x = s->node[corner_of(s, f->element, corner[k])];
             const double radius = sqrt(x[0] * x[0] + x[1] * x[1]);
             if (b->make == make_rectangle)
-                assert_true(f->tag <= 2 ? x[0] == (f->tag == 1 ? -1.5 : 1.5) : x[1] == (f->tag == 3 ? -1.0 : 1.0));
+                assert_true(f->tag <= 2 ? x[0] == (f->tag == 1 ? -1.5 : 1.5)
+                                        : x[1] == (f->tag == 3 ? -1.0 : 1.0));
             if (b->make == make_annulus) assert_true(fabs(radius - f->tag) < 5e-16 * f->tag);
             if (b->make == make_octant) assert_true(x[f->tag - 1] == 0.0); /* to the last bit */
         }
@@ -114,12 +166,14 @@ static void test_bodies(void **state)
                 check_body(&bodies[i], s);
                 if (bodies[i].make == make_sphere) assert_int_equal(s->nelements, 20 * n * n);
                 if (bodies[i].make == make_octant) assert_int_equal(s->nelements, n * n);
-                if (bodies[i].make == make_rectangle) assert_int_equal(s->nelements, 2 * n * ((3 * n + 1) / 2));
+                if (bodies[i].make == make_rectangle)
+                    assert_int_equal(s->nelements, 2 * n * ((3 * n + 1) / 2));
                 fracas_surface_destroy(s);
             }
 }
 
-/* Of the octant: every node of a plane of symmetry is there to the last bit, nothing else comes near. */
+/* Of the octant: every node of a plane of symmetry is there to the last bit, nothing else comes
+ * near. */
 static void test_planes(void **state)
 {
     (void)state;
@@ -135,10 +189,11 @@ static void test_planes(void **state)
     fracas_surface_destroy(s);
 }
 
-/* Flat bodies with straight edges to round-off: n terms of 1/n of the sum, each within some 4 units of 1.1e-16. Curved
- * ones converge with h^2 by chords; with h^4 by parabolas. Ratios of the errors of meshes with h and h/2 approach 4
- * and 16, and are within 4 % and 8 % of that at these h (the next term is of relative order h^2 < 0.02, with a factor
- * of a few). The chords of each circle of an annulus cut off pi h^2/6, the same outside and inside: h^4 is left. */
+/* Flat bodies with straight edges to round-off: n terms of 1/n of the sum, each within some 4 units
+ * of 1.1e-16. Curved ones converge with h^2 by chords; with h^4 by parabolas. Ratios of the errors
+ * of meshes with h and h/2 approach 4 and 16, and are within 4 % and 8 % of that at these h (the
+ * next term is of relative order h^2 < 0.02, with a factor of a few). The chords of each circle of
+ * an annulus cut off pi h^2/6, the same outside and inside: h^4 is left. */
 static void test_areas(void **state)
 {
     (void)state;
@@ -154,8 +209,10 @@ static void test_areas(void **state)
                 border[k] = all.border - b->border;
                 fracas_surface_destroy(s);
             }
-            print_message("%s, order %d: area %.3g then %.3g, ratio %.2f; border %.3g then %.3g, ratio %.2f\n", b->name, order,
-                          area[0], area[1], area[0] / area[1], border[0], border[1], border[0] / border[1]);
+            print_message("%s, order %d: area %.3g then %.3g, ratio %.2f; border %.3g then %.3g, "
+                          "ratio %.2f\n",
+                          b->name, order, area[0], area[1], area[0] / area[1], border[0], border[1],
+                          border[0] / border[1]);
             if (b->make == make_rectangle) {
                 assert_true(fabs(area[1]) < 1e-12 && fabs(border[1]) < 1e-12);
                 continue;
@@ -163,11 +220,13 @@ static void test_areas(void **state)
             const double expected = order == 1 ? 4.0 : 16.0, share = order == 1 ? 0.04 : 0.08;
             const double further = b->make == make_annulus && order == 1 ? 4.0 : 1.0;
             assert_true(fabs(area[0] / area[1] - further * expected) < share * further * expected);
-            if (b->border > 0.0) assert_true(fabs(border[0] / border[1] - expected) < share * expected);
+            if (b->border > 0.0)
+                assert_true(fabs(border[0] / border[1] - expected) < share * expected);
         }
 }
 
-/* The area of the polygon between the chords of n and m nodes on the circles, whatever lies between. */
+/* The area of the polygon between the chords of n and m nodes on the circles, whatever lies
+ * between. */
 static void test_annulus_area(void **state)
 {
     (void)state;
@@ -176,7 +235,8 @@ static void test_annulus_area(void **state)
     fracas_surface_measure(plain, &all);
     double count[3] = {0};
     for (size_t i = 0; i < plain->nborders; i++) count[plain->border[i].tag]++;
-    const double exact = 0.5 * (count[2] * 4.0 * sin(2.0 * PI / count[2]) - count[1] * sin(2.0 * PI / count[1]));
+    const double exact = 0.5 * (count[2] * 4.0 * sin(2.0 * PI / count[2]) -
+                                count[1] * sin(2.0 * PI / count[1]));
     assert_true(fabs(all.area - exact) < 1e-13);
     fracas_surface_destroy(plain);
 }
@@ -188,9 +248,12 @@ static void test_uniformity(void **state)
         const fracas_surface *s = made(&bodies[i], 16, 1);
         fracas_surface_measures all;
         fracas_surface_measure(s, &all);
-        const double area = all.largest_area / all.least_area, edge = all.largest_edge / all.least_edge;
-        print_message("%s: %zu elements, largest by smallest area %.4f, edge %.4f; across interfaces %.1f, at most %zu\n",
-                      bodies[i].name, s->nelements, area, edge, all.mean_distance, all.largest_distance);
+        const double area = all.largest_area / all.least_area,
+                     edge = all.largest_edge / all.least_edge;
+        print_message("%s: %zu elements, largest by smallest area %.4f, edge %.4f; across "
+                      "interfaces %.1f, at most %zu\n",
+                      bodies[i].name, s->nelements, area, edge, all.mean_distance,
+                      all.largest_distance);
         assert_true(area <= bodies[i].area_ratio && edge <= bodies[i].edge_ratio);
         /* A level of Cuthill and McKee's search is about as long as the body is wide. */
         assert_true(all.mean_distance < 3.0 * sqrt((double)s->nelements));
@@ -198,8 +261,9 @@ static void test_uniformity(void **state)
     }
 }
 
-/* The mean element is as large as the equilateral triangle asked for, but for the rounding of divisions: half of one in n
- * changes the area by 1/n, and n > 10 here (the annulus: 12 layers, whose circles round too); the mean edge follows. */
+/* The mean element is as large as the equilateral triangle asked for, but for the rounding of
+ * divisions: half of one in n changes the area by 1/n, and n > 10 here (the annulus: 12 layers,
+ * whose circles round too); the mean edge follows. */
 static void test_size(void **state)
 {
     (void)state;
@@ -211,15 +275,17 @@ static void test_size(void **state)
         for (size_t k = 0; k < 3 * s->nelements; k++) sum += fracas_surface_length(s, k / 3, k % 3);
         const double mean = sum / (3.0 * (double)s->nelements);
         const double area = bodies[i].area / (double)s->nelements / (0.25 * sqrt(3.0) * 0.01);
-        print_message("%s of size 0.1: mean edge %.4f, mean area %.4f\n", bodies[i].name, mean, area);
+        print_message("%s of size 0.1: mean edge %.4f, mean area %.4f\n", bodies[i].name, mean,
+                      area);
         assert_true(fabs(area - 1.0) < 0.1 && fabs(mean - 0.1) < 0.01);
         fracas_surface_destroy(s);
     }
 }
 
-/* Largest distance of a vertex from where it is without perturbation, in local edge lengths, is amplitude sqrt(2); the
- * boundary stays. Twice the area of a flat element is linear in each of the six numbers of its vertices, so that it is
- * least where all are -1 or 1: with each element's 64 cases positive, no numbers invert it. */
+/* Largest distance of a vertex from where it is without perturbation, in local edge lengths, is
+ * amplitude sqrt(2); the boundary stays. Twice the area of a flat element is linear in each of the
+ * six numbers of its vertices, so that it is least where all are -1 or 1: with each element's 64
+ * cases positive, no numbers invert it. */
 static void test_never_inverts(void **state)
 {
     (void)state;
@@ -227,18 +293,22 @@ static void test_never_inverts(void **state)
         for (size_t n = 1; n <= 9; n += 2) {
             const body *b = &bodies[i];
             const fracas_surface *plain = made(b, n, 1);
-            double (*shift)[2] = calloc(plain->nvertices, sizeof *shift);
-            const double (**corner)[3] = calloc(4, sizeof *corner);
+            double(*shift)[2] = calloc(plain->nvertices, sizeof *shift);
+            const double(**corner)[3] = calloc(4, sizeof *corner);
             assert_true(shift && corner);
-            /* Positions for the four corners of the square; elements and vertices stand in the same order in all meshes. */
+            /* Positions for the four corners of the square; elements and vertices stand in the same
+             * order in all meshes. */
             const fracas_surface *at[4];
             for (int c = 0; c < 4; c++) {
                 for (size_t v = 0; v < plain->nvertices; v++) {
                     shift[v][0] = c % 2 ? 1.0 : -1.0;
                     shift[v][1] = c / 2 ? 1.0 : -1.0;
                 }
-                const fracas_surface_fineness fineness = {.divisions = n, .order = 1, .amplitude = 0.3, .nshifts = plain->nvertices,
-                                                          .shift = (const double (*)[2])shift};
+                const fracas_surface_fineness fineness = {.divisions = n,
+                                                          .order = 1,
+                                                          .amplitude = 0.3,
+                                                          .nshifts = plain->nvertices,
+                                                          .shift = (const double(*)[2])shift};
                 if (b->make(&fineness, &at[c])) fail_msg("%s: %s", b->name, fracas_message());
                 corner[c] = at[c]->node;
             }
@@ -247,12 +317,18 @@ static void test_never_inverts(void **state)
                 for (int c = 0; c < 64; c++) {
                     double node[3][3];
                     for (size_t k = 0; k < 3; k++)
-                        memcpy(node[k], corner[c >> (2 * k) & 3][corner_of(plain, e, k)], sizeof node[k]);
-                    const fracas_surface one = {.corners = 3, .node = (const double (*)[3])node, .element = (uint32_t[]){0, 1, 2}};
-                    least = fmin(least, outward(&one, 0, b->sphere > 0.0) / outward(plain, e, b->sphere > 0.0));
+                        memcpy(node[k], corner[c >> (2 * k) & 3][corner_of(plain, e, k)],
+                               sizeof node[k]);
+                    const fracas_surface one = {.corners = 3,
+                                                .node = (const double(*)[3])node,
+                                                .element = (uint32_t[]){0, 1, 2}};
+                    least = fmin(least, outward(&one, 0, b->sphere > 0.0) /
+                                            outward(plain, e, b->sphere > 0.0));
                 }
             if (!(least > 0.0)) fail_msg("%s, %zu divisions: %g", b->name, n, least);
-            if (n == 9) print_message("%s: least area after the worst perturbation %.4f of its own\n", b->name, least);
+            if (n == 9)
+                print_message("%s: least area after the worst perturbation %.4f of its own\n",
+                              b->name, least);
             for (int c = 0; c < 4; c++) fracas_surface_destroy(at[c]);
             free(corner);
             free(shift);
@@ -268,7 +344,8 @@ static void test_perturbed(void **state)
             for (uint64_t seed = 1; seed <= 12; seed++) {
                 const size_t n = 1 + (size_t)seed;
                 const body *b = &bodies[i];
-                const fracas_surface *s = perturbed(b, n, order, seed, seed % 2), *plain = made(b, n, order);
+                const fracas_surface *s = perturbed(b, n, order, seed, seed % 2),
+                                     *plain = made(b, n, order);
                 check_body(b, s);
                 size_t moved = 0;
                 double most = 0.0;
@@ -280,7 +357,8 @@ static void test_perturbed(void **state)
                     most = fmax(most, sqrt(d));
                     moved += d > 0.0;
                 }
-                /* An edge is never shorter than the altitude, 2/sqrt(3) of which is the local length. */
+                /* An edge is never shorter than the altitude, 2/sqrt(3) of which is the local
+                 * length. */
                 assert_true(most <= 0.3 * sqrt(2.0) * 2.0 / sqrt(3.0) * all.largest_edge);
                 if (n > 4) assert_true(moved > s->nnodes / 4 && most > 0.1 * all.least_edge);
                 fracas_surface_destroy(plain);
@@ -297,17 +375,19 @@ static void test_annuli(void **state)
             for (int order = 1; order <= 2; order++) {
                 const fracas_surface_fineness fineness = {.divisions = divisions, .order = order};
                 const fracas_surface *plain, *s;
-                if (fracas_surface_annulus(inner, 1.0, &fineness, &plain)) fail_msg("%g: %s", inner, fracas_message());
-                double (*shift)[2] = malloc(plain->nvertices * sizeof *shift), area = 0.0;
+                if (fracas_surface_annulus(inner, 1.0, &fineness, &plain))
+                    fail_msg("%g: %s", inner, fracas_message());
+                double(*shift)[2] = malloc(plain->nvertices * sizeof *shift), area = 0.0;
                 assert_non_null(shift);
                 uint64_t seed = divisions;
                 for (size_t v = 0; v < plain->nvertices; v++)
                     for (int i = 0; i < 2; i++) shift[v][i] = next_share(&seed) < 0.5 ? -1.0 : 1.0;
                 fracas_surface_fineness moved = fineness;
                 moved.amplitude = 0.3;
-                moved.shift = (const double (*)[2])shift;
+                moved.shift = (const double(*)[2])shift;
                 moved.nshifts = plain->nvertices;
-                if (fracas_surface_annulus(inner, 1.0, &moved, &s)) fail_msg("%g: %s", inner, fracas_message());
+                if (fracas_surface_annulus(inner, 1.0, &moved, &s))
+                    fail_msg("%g: %s", inner, fracas_message());
                 for (size_t e = 0; e < s->nelements; e++) {
                     assert_true(outward(plain, e, false) > 0.0 && outward(s, e, false) > 0.0);
                     area += fracas_surface_area(s, e);
@@ -325,7 +405,8 @@ static void test_annuli(void **state)
 static void expect(fracas_err err, const char *message)
 {
     assert_int_equal(err, FRACAS_USAGE);
-    if (!strstr(fracas_message(), message)) fail_msg("expected \"%s\" in \"%s\"", message, fracas_message());
+    if (!strstr(fracas_message(), message))
+        fail_msg("expected \"%s\" in \"%s\"", message, fracas_message());
 }
 
 static void test_refused(void **state)
@@ -337,7 +418,8 @@ static void test_refused(void **state)
     expect(fracas_surface_rectangle(-1.0, 1.0, &f, &s), "the width of a surface is -1 m");
     expect(fracas_surface_rectangle(1.0, NAN, &f, &s), "the height of a surface is nan m");
     expect(fracas_surface_annulus(0.0, 1.0, &f, &s), "the inner radius of a surface is 0 m");
-    expect(fracas_surface_annulus(1.0, 1.0, &f, &s), "the outer radius of an annulus is 1 m, the inner one 1 m");
+    expect(fracas_surface_annulus(1.0, 1.0, &f, &s),
+           "the outer radius of an annulus is 1 m, the inner one 1 m");
     expect(fracas_surface_sphere(INFINITY, &f, &s), "the radius of a surface is inf m");
     expect(fracas_surface_octant(0.0, &f, &s), "the radius of a surface is 0 m");
     f.order = 3;
@@ -358,14 +440,17 @@ static void test_refused(void **state)
     expect(fracas_surface_sphere(1.0, &f, &s), "not neither");
     f.divisions = 1;
     f.amplitude = 0.31;
-    expect(fracas_surface_rectangle(1.0, 1.0, &f, &s), "perturbation is 0.31: it should be between 0 and 0.3");
+    expect(fracas_surface_rectangle(1.0, 1.0, &f, &s),
+           "perturbation is 0.31: it should be between 0 and 0.3");
     f.amplitude = 0.3;
-    expect(fracas_surface_rectangle(1.0, 1.0, &f, &s), "needs a pair of numbers for each of its 4 vertices, not 0");
+    expect(fracas_surface_rectangle(1.0, 1.0, &f, &s),
+           "needs a pair of numbers for each of its 4 vertices, not 0");
     f.shift = shift;
     f.nshifts = 3;
     expect(fracas_surface_rectangle(1.0, 1.0, &f, &s), "4 vertices, not 3");
     f.nshifts = 4;
-    expect(fracas_surface_rectangle(1.0, 1.0, &f, &s), "number 1 of vertex 1 in a mesh's perturbation is -1.5");
+    expect(fracas_surface_rectangle(1.0, 1.0, &f, &s),
+           "number 1 of vertex 1 in a mesh's perturbation is -1.5");
     assert_null(s);
 }
 
@@ -380,7 +465,8 @@ static void test_bits(void **state)
             const uint64_t sum = checksum_of(s);
             same = same && sum == bodies[i].bits[order - 1];
             if (sum != bodies[i].bits[order - 1])
-                print_message("%s, order %d: 0x%016llx\n", bodies[i].name, order, (unsigned long long)sum);
+                print_message("%s, order %d: 0x%016llx\n", bodies[i].name, order,
+                              (unsigned long long)sum);
             fracas_surface_destroy(s);
         }
     assert_true(same);
@@ -389,9 +475,11 @@ static void test_bits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bodies), cmocka_unit_test(test_planes), cmocka_unit_test(test_areas),
-        cmocka_unit_test(test_annulus_area), cmocka_unit_test(test_uniformity), cmocka_unit_test(test_size),
-        cmocka_unit_test(test_never_inverts), cmocka_unit_test(test_perturbed), cmocka_unit_test(test_annuli),
-        cmocka_unit_test(test_refused), cmocka_unit_test(test_bits)};
+        cmocka_unit_test(test_bodies),        cmocka_unit_test(test_planes),
+        cmocka_unit_test(test_areas),         cmocka_unit_test(test_annulus_area),
+        cmocka_unit_test(test_uniformity),    cmocka_unit_test(test_size),
+        cmocka_unit_test(test_never_inverts), cmocka_unit_test(test_perturbed),
+        cmocka_unit_test(test_annuli),        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_bits)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

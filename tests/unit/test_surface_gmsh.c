@@ -1,4 +1,6 @@
-/* engine/mesh/surface/gmsh: files of our own writer and of Gmsh 4.8 itself, refusals, damaged files. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* engine/mesh/surface/gmsh: files of our own writer and of Gmsh 4.8 itself, refusals, damaged
+ * files. */
 #include "tests/support/gmsh.h"
 
 #include <time.h>
@@ -41,7 +43,8 @@ static void test_round_trip(void **state)
         for (int order = 1; order <= 2; order++) {
             const fracas_surface *s = rectangle(3, order), *back = NULL;
             gmsh_file f = variant(s, which);
-            if (fracas_surface_read_gmsh(f.bytes, f.size, &back)) fail_msg("variant %d: %s", which, fracas_message());
+            if (fracas_surface_read_gmsh(f.bytes, f.size, &back))
+                fail_msg("variant %d: %s", which, fracas_message());
             assert_int_equal(back->order, order);
             assert_int_equal(back->nnodes, s->nnodes);
             assert_int_equal(back->nelements, s->nelements);
@@ -50,8 +53,10 @@ static void test_round_trip(void **state)
             for (size_t e = 0; e < s->nelements; e++) {
                 const size_t there = place_of(back, gmsh_element(e));
                 for (size_t k = 0; k < s->corners; k++)
-                    assert_memory_equal(s->node[corner_of(s, e, k)], back->node[corner_of(back, there, k)], sizeof *s->node);
-                for (size_t k = 0; k < 3; k++) assert_int_equal(tag_of(s, e, k), tag_of(back, there, k));
+                    assert_memory_equal(s->node[corner_of(s, e, k)],
+                                        back->node[corner_of(back, there, k)], sizeof *s->node);
+                for (size_t k = 0; k < 3; k++)
+                    assert_int_equal(tag_of(s, e, k), tag_of(back, there, k));
             }
             fracas_surface_destroy(back);
             fracas_surface_destroy(s);
@@ -59,10 +64,12 @@ static void test_round_trip(void **state)
         }
 }
 
-/* What Gmsh 4.8.4 made of tests/data/gmsh/plate.geo, a plate of 2 x 1 with a quarter of a hole of radius 1/2. */
+/* What Gmsh 4.8.4 made of tests/data/gmsh/plate.geo, a plate of 2 x 1 with a quarter of a hole of
+ * radius 1/2. */
 static const char *const plates[] = {
-    "order1-msh22-text", "order1-msh22-binary", "order1-msh41-text", "order1-msh41-binary", "order2-msh22-text",
-    "order2-msh22-binary", "order2-msh41-text", "order2-msh41-binary", "parametric"};
+    "order1-msh22-text",   "order1-msh22-binary", "order1-msh41-text",
+    "order1-msh41-binary", "order2-msh22-text",   "order2-msh22-binary",
+    "order2-msh41-text",   "order2-msh41-binary", "parametric"};
 
 static char *read_plate(size_t which, size_t *size)
 {
@@ -84,7 +91,8 @@ static void test_plates(void **state)
         size_t size;
         char *bytes = read_plate(i, &size);
         const fracas_surface *s = NULL;
-        if (fracas_surface_read_gmsh(bytes, size, &s)) fail_msg("%s: %s", plates[i], fracas_message());
+        if (fracas_surface_read_gmsh(bytes, size, &s))
+            fail_msg("%s: %s", plates[i], fracas_message());
         check_edges(s);
         assert_int_equal(euler(s), 1);
         assert_int_equal(s->order, i < 4 ? 1 : 2);
@@ -97,12 +105,16 @@ static void test_plates(void **state)
             hole += s->border[b].tag == 12 ? length : 0.0;
             assert_true(s->border[b].tag == 0 || s->border[b].tag == 11 || s->border[b].tag == 12);
         }
-        /* Two edges go round the hole: each of pi/4 as a chord, or as a parabola, whose error is some h^4/1000 of it.
-         * Gmsh computes places on a curve to 1e-9 or so. */
-        const double quarter = asin(1.0), chords = 4.0 * 0.5 * sin(0.25 * quarter), cut = 0.25 * sin(0.5 * quarter);
+        /* Two edges go round the hole: each of pi/4 as a chord, or as a parabola, whose error is
+         * some h^4/1000 of it. Gmsh computes places on a curve to 1e-9 or so. */
+        const double quarter = asin(1.0), chords = 4.0 * 0.5 * sin(0.25 * quarter),
+                     cut = 0.25 * sin(0.5 * quarter);
         assert_true(fabs(left - 0.5) < 1e-8);
-        if (s->order == 1) assert_true(fabs(hole - chords) < 1e-8 && fabs(all.area - (2.0 - cut)) < 1e-8);
-        else assert_true(fabs(hole - 0.5 * quarter) < 2e-3 && fabs(all.area - (2.0 - 0.125 * quarter)) < 2e-3);
+        if (s->order == 1)
+            assert_true(fabs(hole - chords) < 1e-8 && fabs(all.area - (2.0 - cut)) < 1e-8);
+        else
+            assert_true(fabs(hole - 0.5 * quarter) < 2e-3 &&
+                        fabs(all.area - (2.0 - 0.125 * quarter)) < 2e-3);
         fracas_surface_destroy(s);
         free(bytes);
     }
@@ -123,11 +135,13 @@ static void test_plates_agree(void **state)
         free(bytes);
         assert_int_equal(s->nnodes, first->nnodes);
         assert_int_equal(s->nelements, first->nelements);
-        assert_memory_equal(s->element, first->element, s->nelements * s->corners * sizeof *s->element);
+        assert_memory_equal(s->element, first->element,
+                            s->nelements * s->corners * sizeof *s->element);
         assert_memory_equal(s->border, first->border, s->nborders * sizeof *s->border);
         /* Text has 16 digits. */
         for (size_t n = 0; n < s->nnodes; n++)
-            for (int k = 0; k < 3; k++) assert_true(fabs(s->node[n][k] - first->node[n][k]) < 1e-15);
+            for (int k = 0; k < 3; k++)
+                assert_true(fabs(s->node[n][k] - first->node[n][k]) < 1e-15);
         fracas_surface_destroy(first);
         fracas_surface_destroy(s);
     }
@@ -145,45 +159,69 @@ static const struct {
     {"solid cube\n", "line 1: expected $MeshFormat, not `solid`"},
     {"$MeshFormat\n4 0 8\n$EndMeshFormat\n", "line 2: a mesh of format 4: save it as 4.1 or 2.2"},
     {"$MeshFormat\n2.2 0 4\n$EndMeshFormat\n", "expected 0 or 1, and 8"},
-    {"$MeshFormat\n2.2 1 8\n\1\1\1\1\n$EndMeshFormat\n", "the number that tells the byte order is 16843009, not 1"},
+    {"$MeshFormat\n2.2 1 8\n\1\1\1\1\n$EndMeshFormat\n",
+     "the number that tells the byte order is 16843009, not 1"},
     {"$MeshFormat\n2.2 0 8 3\n$EndMeshFormat\n", "expected $EndMeshFormat, not `3`"},
     {HEAD, "line 4: the file ends without a section $Nodes"},
     {HEAD NODES, "without a section $Elements"},
     {HEAD NODES NODES, "a second section $Nodes"},
     {HEAD NODES "$Elements\n0\n$EndElements\n", "the file has no triangles"},
-    {HEAD NODES "$Elements\n0\n$EndElements\n$Elements\n0\n$EndElements\n", "a second section $Elements"},
-    {HEAD NODES "$Elements\n1\n1 3 2 0 1 1 2 4 3\n$EndElements\n", "line 13: 4-node quadrangles (Gmsh's type 3)"},
+    {HEAD NODES "$Elements\n0\n$EndElements\n$Elements\n0\n$EndElements\n",
+     "a second section $Elements"},
+    {HEAD NODES "$Elements\n1\n1 3 2 0 1 1 2 4 3\n$EndElements\n",
+     "line 13: 4-node quadrangles (Gmsh's type 3)"},
     {HEAD NODES "$Elements\n1\n1 4 2 0 1 1 2 4 3\n$EndElements\n", "4-node tetrahedra"},
     {HEAD NODES "$Elements\n1\n1 77 2 0 1 1 2 4 3\n$EndElements\n", "elements of Gmsh's type 77"},
-    {HEAD NODES "$Elements\n1\n1 2 2 0 1 1 2 9\n$EndElements\n", "element 1 names node 9, which the file does not have"},
-    {HEAD NODES "$Elements\n2\n1 2 2 0 1 1 2 3\n2 9 2 0 1 1 2 3 1 2 3\n$EndElements\n", "element 2 is a 6-node triangle"},
-    {HEAD NODES "$Elements\n2\n5 2 2 0 1 1 2 3\n6 2 2 0 1 2 3 4\n$EndElements\n", "element 5 is inverted"},
-    {HEAD NODES "$Elements\n2\n5 2 2 0 1 1 2 3\n6 1 2 9 1 2 4\n$EndElements\n", "line 6 of the physical group 9 has node 4"},
-    {HEAD NODES "$Elements\n3\n5 2 0 1 2 3\n7 2 0 2 4 3\n6 1 2 9 1 1 4\n$EndElements\n", "tag 9 is for nodes 1 and 4"},
-    {HEAD NODES "$Elements\n1\n1 2 2 0 1 1 2 3.5\n$EndElements\n", "line 13: `3.5` is not a whole number of 32 bits"},
-    {HEAD NODES "$Elements\n1\n1 2 2 99999999999 1 1 2 3\n$EndElements\n", "`99999999999` is not a whole number of 32 bits"},
-    {HEAD NODES "$Elements\n1\n1 1 1 -2147483648 1 2\n$EndElements\n", "in the physical group -2147483648"},
-    {HEAD NODES "$Elements\n999999999999\n1 2 2 0 1 1 2 3\n$EndElements\n", "a count of 999999999999 things"},
+    {HEAD NODES "$Elements\n1\n1 2 2 0 1 1 2 9\n$EndElements\n",
+     "element 1 names node 9, which the file does not have"},
+    {HEAD NODES "$Elements\n2\n1 2 2 0 1 1 2 3\n2 9 2 0 1 1 2 3 1 2 3\n$EndElements\n",
+     "element 2 is a 6-node triangle"},
+    {HEAD NODES "$Elements\n2\n5 2 2 0 1 1 2 3\n6 2 2 0 1 2 3 4\n$EndElements\n",
+     "element 5 is inverted"},
+    {HEAD NODES "$Elements\n2\n5 2 2 0 1 1 2 3\n6 1 2 9 1 2 4\n$EndElements\n",
+     "line 6 of the physical group 9 has node 4"},
+    {HEAD NODES "$Elements\n3\n5 2 0 1 2 3\n7 2 0 2 4 3\n6 1 2 9 1 1 4\n$EndElements\n",
+     "tag 9 is for nodes 1 and 4"},
+    {HEAD NODES "$Elements\n1\n1 2 2 0 1 1 2 3.5\n$EndElements\n",
+     "line 13: `3.5` is not a whole number of 32 bits"},
+    {HEAD NODES "$Elements\n1\n1 2 2 99999999999 1 1 2 3\n$EndElements\n",
+     "`99999999999` is not a whole number of 32 bits"},
+    {HEAD NODES "$Elements\n1\n1 1 1 -2147483648 1 2\n$EndElements\n",
+     "in the physical group -2147483648"},
+    {HEAD NODES "$Elements\n999999999999\n1 2 2 0 1 1 2 3\n$EndElements\n",
+     "a count of 999999999999 things"},
     {HEAD NODES "$Elements\n1\n1 2 -1 0 1 1 2 3\n$EndElements\n", "a count of -1 things"},
-    {HEAD NODES "$Elements\n1\n1 2 2 0 1 1 2 3\n", "line 14: the file ends here, in the middle of a section"},
-    {HEAD NODES "$Elements\n1\n1 2 2 0 1 1 2 3\n4\n$EndElements\n", "expected $EndElements, not `4`"},
+    {HEAD NODES "$Elements\n1\n1 2 2 0 1 1 2 3\n",
+     "line 14: the file ends here, in the middle of a section"},
+    {HEAD NODES "$Elements\n1\n1 2 2 0 1 1 2 3\n4\n$EndElements\n",
+     "expected $EndElements, not `4`"},
     {HEAD "$Nodes\n2\n1 0 0 0\n1 1 0 0\n$EndNodes\n", "node 1 comes twice"},
     {HEAD "$Nodes\n1\n1 0 nan 0\n$EndNodes\n", "line 6: `nan` is not a number"},
     {HEAD "$Nodes\n1\n1 0 1,5 0\n$EndNodes\n", "line 6: `1,5` is not a number"},
     {HEAD "$Nodes 1\n1 0 \xff 0\n$EndNodes\n", "a byte that is no text, 255"},
     {HEAD "$Nodes\n1 1 0 0 0\n$EndNodes\n", "expected the end of the line"},
-    {HEAD "$Nodes\n1\n1 0 0000000000000000000000000000000000000000000000000000000000000000000000 0\n", "is no word of a mesh"},
+    {HEAD
+     "$Nodes\n1\n1 0 0000000000000000000000000000000000000000000000000000000000000000000000 0\n",
+     "is no word of a mesh"},
     {HEAD "Nodes\n", "expected a section, which begins with $, not `Nodes`"},
     {HEAD "$Comments\nno end\n", "section $Comments has no $EndComments"},
     {HEAD_4 "$PartitionedEntities\n", "a mesh in partitions"},
-    {HEAD_4 "$Entities\n0 1 0 0\n3 0 0 0 1 1 1 2 7 8 0\n$EndEntities\n", "curve 3 is in 2 physical groups"},
-    {HEAD_4 "$Entities\n0 2 0 0\n3 0 0 0 1 1 1 0 0\n3 0 0 0 1 1 1 0 0\n$EndEntities\n", "curve 3 comes twice"},
-    {HEAD_4 "$Entities\n0 0 0 0\n$EndEntities\n$Entities\n0 0 0 0\n$EndEntities\n", "a second section $Entities"},
-    {HEAD_4 "$Nodes\n1 1 1 1\n4 1 0 1\n1\n0 0 0\n$EndNodes\n", "nodes of an entity of 4 dimensions"},
-    {HEAD_4 "$Nodes\n1 1 1 1\n2 1 0 2\n1\n0 0 0\n$EndNodes\n", "2 nodes in a block, but 1 are left"},
-    {HEAD_4 "$Nodes\n2 1 1 2\n2 1 0 1\n1\n0 0 0\n2 1 0 1\n2\n0 0 0\n$EndNodes\n", "1 nodes in a block, but 0 are left"},
-    {HEAD_4 "$Elements\n2 1 1 2\n2 1 2 1\n1 1 2 3\n2 1 2 1\n2 1 2 3\n$EndElements\n", "1 elements in a block, but 0 are left"},
-    {HEAD_4 "$Elements\n1 1 1 1\n2 1 2 2\n1 1 2 3\n$EndElements\n", "2 elements in a block, but 1 are left"},
+    {HEAD_4 "$Entities\n0 1 0 0\n3 0 0 0 1 1 1 2 7 8 0\n$EndEntities\n",
+     "curve 3 is in 2 physical groups"},
+    {HEAD_4 "$Entities\n0 2 0 0\n3 0 0 0 1 1 1 0 0\n3 0 0 0 1 1 1 0 0\n$EndEntities\n",
+     "curve 3 comes twice"},
+    {HEAD_4 "$Entities\n0 0 0 0\n$EndEntities\n$Entities\n0 0 0 0\n$EndEntities\n",
+     "a second section $Entities"},
+    {HEAD_4 "$Nodes\n1 1 1 1\n4 1 0 1\n1\n0 0 0\n$EndNodes\n",
+     "nodes of an entity of 4 dimensions"},
+    {HEAD_4 "$Nodes\n1 1 1 1\n2 1 0 2\n1\n0 0 0\n$EndNodes\n",
+     "2 nodes in a block, but 1 are left"},
+    {HEAD_4 "$Nodes\n2 1 1 2\n2 1 0 1\n1\n0 0 0\n2 1 0 1\n2\n0 0 0\n$EndNodes\n",
+     "1 nodes in a block, but 0 are left"},
+    {HEAD_4 "$Elements\n2 1 1 2\n2 1 2 1\n1 1 2 3\n2 1 2 1\n2 1 2 3\n$EndElements\n",
+     "1 elements in a block, but 0 are left"},
+    {HEAD_4 "$Elements\n1 1 1 1\n2 1 2 2\n1 1 2 3\n$EndElements\n",
+     "2 elements in a block, but 1 are left"},
 };
 
 static void test_refused(void **state)
@@ -191,7 +229,8 @@ static void test_refused(void **state)
     (void)state;
     for (size_t i = 0; i < FRACAS_COUNT(refused); i++) {
         const fracas_surface *s = NULL;
-        assert_int_equal(fracas_surface_read_gmsh(refused[i].text, strlen(refused[i].text), &s), FRACAS_USAGE);
+        assert_int_equal(fracas_surface_read_gmsh(refused[i].text, strlen(refused[i].text), &s),
+                         FRACAS_USAGE);
         assert_null(s);
         if (!strstr(fracas_message(), refused[i].message))
             fail_msg("expected \"%s\" in \"%s\"", refused[i].message, fracas_message());
@@ -225,7 +264,8 @@ static bool survives(const char *bytes, size_t size)
     const fracas_surface *s = NULL;
     fracas_err err = fracas_surface_read_gmsh(copy, size, &s);
     free(copy);
-    if (err ? err != FRACAS_USAGE || s || !*fracas_message() : !s) fail_msg("%d: %s", err, fracas_message());
+    if (err ? err != FRACAS_USAGE || s || !*fracas_message() : !s)
+        fail_msg("%d: %s", err, fracas_message());
     if (!err) check_edges(s);
     fracas_surface_destroy(s);
     return !err;
@@ -242,7 +282,8 @@ static void test_cut(void **state)
         assert_non_null(end);
         for (size_t size = 0; size <= f.size; size++) {
             const bool has_all = size >= (size_t)(end - f.bytes) + 12;
-            const bool is_cut = size > (size_t)(end - f.bytes) + 13 && size < f.size - 1; /* within $NodeData */
+            const bool is_cut = size > (size_t)(end - f.bytes) + 13 &&
+                                size < f.size - 1; /* within $NodeData */
             assert_int_equal(survives(f.bytes, size), has_all && !is_cut);
         }
         free(f.bytes);
@@ -259,10 +300,23 @@ static double seconds(void)
 
 static size_t mutate(char *bytes, size_t size, uint64_t *x)
 {
-    static const char *const piece[] = {"-1", "999999999", "1e308", "$End", "\n", " ", "0", "2", "nan", "$Nodes\n",
-                                        "\xff\xff\xff\xff", "\0\0\0\0", "\x7f\xff\xff\xff\xff\xff\xff\xff", "\1\0\0\0"};
+    static const char *const piece[] = {"-1",
+                                        "999999999",
+                                        "1e308",
+                                        "$End",
+                                        "\n",
+                                        " ",
+                                        "0",
+                                        "2",
+                                        "nan",
+                                        "$Nodes\n",
+                                        "\xff\xff\xff\xff",
+                                        "\0\0\0\0",
+                                        "\x7f\xff\xff\xff\xff\xff\xff\xff",
+                                        "\1\0\0\0"};
     static const size_t length[] = {2, 9, 5, 4, 1, 1, 1, 1, 3, 7, 4, 4, 8, 4};
-    const size_t at = (size_t)(next_share(x) * (double)size), which = (size_t)(next_share(x) * (double)FRACAS_COUNT(piece));
+    const size_t at = (size_t)(next_share(x) * (double)size),
+                 which = (size_t)(next_share(x) * (double)FRACAS_COUNT(piece));
     switch ((int)(next_share(x) * 4.0)) {
     case 0: bytes[at] = (char)(256.0 * next_share(x)); return size;
     case 1: bytes[at] ^= (char)(1 << (int)(8.0 * next_share(x))); return size;
@@ -295,7 +349,8 @@ static void test_mutations(void **state)
         slowest = fmax(slowest, seconds() - before);
         free(f.bytes);
     }
-    print_message("%zu mutations, %zu still a mesh, slowest %.1f ms\n", tried, accepted, 1e3 * slowest);
+    print_message("%zu mutations, %zu still a mesh, slowest %.1f ms\n", tried, accepted,
+                  1e3 * slowest);
     assert_true(tried > 1000 && accepted > 0 && accepted < tried);
     fracas_surface_destroy(s[0]);
     fracas_surface_destroy(s[1]);
@@ -304,8 +359,9 @@ static void test_mutations(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trip), cmocka_unit_test(test_plates), cmocka_unit_test(test_plates_agree),
-        cmocka_unit_test(test_refused), cmocka_unit_test(test_refused_binary), cmocka_unit_test(test_cut),
+        cmocka_unit_test(test_round_trip),     cmocka_unit_test(test_plates),
+        cmocka_unit_test(test_plates_agree),   cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_refused_binary), cmocka_unit_test(test_cut),
         cmocka_unit_test(test_mutations)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* base/units: strict numbers, units to SI, 15 digits. */
 #include "base/units.h"
 
@@ -30,29 +31,58 @@ static int unload(void **state)
     return 0;
 }
 
-/* Values are compared with ==: after rounding to 15 digits, the double is the one nearest to the decimal. */
+/* Values are compared with ==: after rounding to 15 digits, the double is the one nearest to the
+ * decimal. */
 static void check_values(const fracas_units *units)
 {
     static const struct {
         const char *text, *si;
         double value;
     } good[] = {
-        {"264 MPa", "Pa", 264e6}, {"275 GPa", "Pa", 275e9}, {"0.1 mm", "m", 1e-4}, {"1e4 1/s", "1/s", 1e4},
-        {"1e4 s-1", "1/s", 1e4}, {"1e4 s^-1", "1/s", 1e4}, {"1e4 Hz", "1/s", 1e4}, {"100 J/m2", "J/m2", 100},
-        {"100 J/m^2", "J/m2", 100}, {"100 N/m", "J/m2", 100}, {"0.1 kJ/m2", "J/m2", 100}, {"100 J m-2", "J/m2", 100},
-        {"100 J/m\xc2\xb2", "J/m2", 100}, {"2 us", "s", 2e-6}, {"2 \xc2\xb5s", "s", 2e-6}, {"2 \xce\xbcs", "s", 2e-6},
-        {"300 ns", "s", 300e-9}, {"1 mm2", "m2", 1e-6}, {"2750 kg/m3", "kg/m3", 2750}, {"2.75 g/cm3", "kg/m3", 2750},
-        {"1 kg/(m s2)", "Pa", 1}, {"5", "Pa", 5}, {"+5.", "m", 5}, {".5", "m", 0.5}, {"-1.5e+3", "m", -1500},
-        {"1E3 m", "m", 1000}, {"5%", "1", 0.05}, {"5 %", "1", 0.05}, {"0.33 %", "1", 0.0033}, {"0 MPa", "Pa", 0},
-        {"-0 mm", "m", 0}, {"0e999", "m", 0}, {"1 mm.mm", "m2", 1e-6}, {"36 km/hour", "m/s", 10},
-        {"2 1/mm3", "1/m3", 2e9}, {"2 mm-3", "1/m3", 2e9},
+        {"264 MPa", "Pa", 264e6},
+        {"275 GPa", "Pa", 275e9},
+        {"0.1 mm", "m", 1e-4},
+        {"1e4 1/s", "1/s", 1e4},
+        {"1e4 s-1", "1/s", 1e4},
+        {"1e4 s^-1", "1/s", 1e4},
+        {"1e4 Hz", "1/s", 1e4},
+        {"100 J/m2", "J/m2", 100},
+        {"100 J/m^2", "J/m2", 100},
+        {"100 N/m", "J/m2", 100},
+        {"0.1 kJ/m2", "J/m2", 100},
+        {"100 J m-2", "J/m2", 100},
+        {"100 J/m\xc2\xb2", "J/m2", 100},
+        {"2 us", "s", 2e-6},
+        {"2 \xc2\xb5s", "s", 2e-6},
+        {"2 \xce\xbcs", "s", 2e-6},
+        {"300 ns", "s", 300e-9},
+        {"1 mm2", "m2", 1e-6},
+        {"2750 kg/m3", "kg/m3", 2750},
+        {"2.75 g/cm3", "kg/m3", 2750},
+        {"1 kg/(m s2)", "Pa", 1},
+        {"5", "Pa", 5},
+        {"+5.", "m", 5},
+        {".5", "m", 0.5},
+        {"-1.5e+3", "m", -1500},
+        {"1E3 m", "m", 1000},
+        {"5%", "1", 0.05},
+        {"5 %", "1", 0.05},
+        {"0.33 %", "1", 0.0033},
+        {"0 MPa", "Pa", 0},
+        {"-0 mm", "m", 0},
+        {"0e999", "m", 0},
+        {"1 mm.mm", "m2", 1e-6},
+        {"36 km/hour", "m/s", 10},
+        {"2 1/mm3", "1/m3", 2e9},
+        {"2 mm-3", "1/m3", 2e9},
     };
     for (size_t i = 0; i < COUNT(good); i++) {
         double value = NAN;
         if (fracas_units_read(units, good[i].text, good[i].si, &value))
             fail_msg("%s: %s", good[i].text, fracas_message());
         if (value != good[i].value || signbit(value) != signbit(good[i].value))
-            fail_msg("%s in %s: %.17g, expected %.17g", good[i].text, good[i].si, value, good[i].value);
+            fail_msg("%s in %s: %.17g, expected %.17g", good[i].text, good[i].si, value,
+                     good[i].value);
     }
 }
 
@@ -68,11 +98,14 @@ static bool set_comma_locale(const char *folder)
     snprintf(source, sizeof source, "%s/comma.src", folder);
     FILE *out = fopen(source, "w");
     assert_non_null(out);
-    fputs("comment_char %\nescape_char /\nLC_NUMERIC\ndecimal_point \",\"\nthousands_sep \".\"\ngrouping 3;3\n"
-          "END LC_NUMERIC\n", out);
+    fputs("comment_char %\nescape_char /\nLC_NUMERIC\ndecimal_point \",\"\nthousands_sep "
+          "\".\"\ngrouping 3;3\n"
+          "END LC_NUMERIC\n",
+          out);
     assert_int_equal(fclose(out), 0);
     /* localedef's status is 1 for the categories that are left out. */
-    snprintf(command, sizeof command, "localedef -c -i %s %s/comma >%s/log 2>&1 || true", source, folder, folder);
+    snprintf(command, sizeof command, "localedef -c -i %s %s/comma >%s/log 2>&1 || true", source,
+             folder, folder);
     assert_int_equal(system(command), 0);
     setenv("LOCPATH", folder, 1);
     return setlocale(LC_NUMERIC, "comma") != NULL;
@@ -81,7 +114,8 @@ static bool set_comma_locale(const char *folder)
 /* A program that has set a locale with a decimal comma reads and writes the same. */
 static void test_locale(void **state)
 {
-    char folder[] = "/tmp/fracas-locale-XXXXXX", command[100], text[FRACAS_NUMBER_TEXT], comma_text[8];
+    char folder[] = "/tmp/fracas-locale-XXXXXX", command[100], text[FRACAS_NUMBER_TEXT],
+         comma_text[8];
     assert_non_null(mkdtemp(folder));
     bool set = set_comma_locale(folder);
     snprintf(command, sizeof command, "rm -r %s", folder);
@@ -103,7 +137,9 @@ static void test_refused(void **state)
         {"264 mm", "Pa", {"`264 mm` is a length", "expected a stress", "Pa or MPa"}},
         {"264 MPa", "m", {"is a stress", "expected a length", "m or mm"}},
         {"100 J", "J/m2", {"is an energy;", "expected an energy per area", "J/m2"}},
-        {"1e4 s", "1/s", {"is a time", "expected a rate", "1/s"}}, /* udunits would take the reciprocal */
+        {"1e4 s",
+         "1/s",
+         {"is a time", "expected a rate", "1/s"}}, /* udunits would take the reciprocal */
         {"5 W", "Pa", {"is a quantity in", "expected a stress", ""}},
         {"5 %", "Pa", {"`%`", "expected a stress", ""}},
         {"5 Mpa", "Pa", {"unknown unit, `Mpa`", "a stress", "Pa or MPa"}},
@@ -146,10 +182,12 @@ static void test_refused(void **state)
     for (size_t i = 0; i < COUNT(bad); i++) {
         double value = 17;
         fracas_err err = fracas_units_read(*state, bad[i].text, bad[i].si, &value);
-        if (err != FRACAS_USAGE || value != 17) fail_msg("%s in %s was accepted as %g", bad[i].text, bad[i].si, value);
+        if (err != FRACAS_USAGE || value != 17)
+            fail_msg("%s in %s was accepted as %g", bad[i].text, bad[i].si, value);
         for (int w = 0; w < 3; w++)
             if (!strstr(fracas_message(), bad[i].words[w] ? bad[i].words[w] : ""))
-                fail_msg("%s: the message lacks \"%s\": %s", bad[i].text, bad[i].words[w], fracas_message());
+                fail_msg("%s: the message lacks \"%s\": %s", bad[i].text, bad[i].words[w],
+                         fracas_message());
     }
 }
 
@@ -169,8 +207,8 @@ static void test_numbers(void **state)
     assert_string_equal(text, "-1.79769313486232e+308");
 }
 
-/* Rounding is idempotent and text is exact: what is written reads back to the same double. A fixed linear congruence
- * walks over mantissas and exponents. */
+/* Rounding is idempotent and text is exact: what is written reads back to the same double. A fixed
+ * linear congruence walks over mantissas and exponents. */
 static void test_round_trip(void **state)
 {
     (void)state;
@@ -189,8 +227,9 @@ static void test_round_trip(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values),  cmocka_unit_test(test_locale),  cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_numbers), cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_values),     cmocka_unit_test(test_locale),
+        cmocka_unit_test(test_refused),    cmocka_unit_test(test_numbers),
+        cmocka_unit_test(test_round_trip),
     };
     return cmocka_run_group_tests(tests, load, unload);
 }

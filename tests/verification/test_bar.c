@@ -1,17 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The bar against closed forms: onset, isolated crack, waves, critical step. */
 #include "tests/support/bar.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { W_LEFT, W_RIGHT, V_LEFT, V_RIGHT, DAMAGE, FIELDS = 7 }; /* as in engine/formulation/chain/bar_sweep.h */
+enum {
+    W_LEFT,
+    W_RIGHT,
+    V_LEFT,
+    V_RIGHT,
+    DAMAGE,
+    FIELDS = 7
+}; /* as in engine/formulation/chain/bar_sweep.h */
 
 static fracas_batch *batch_of(const fracas_model *model, double sigma_c)
 {
     fracas_batch *batch;
     const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
     assert_ok(fracas_batch_create(model, 1, &options, &batch));
-    for (size_t i = 0; i < fracas_model_interfaces(model); i++) bar_set_strength(batch, 0, i, sigma_c);
+    for (size_t i = 0; i < fracas_model_interfaces(model); i++)
+        bar_set_strength(batch, 0, i, sigma_c);
     return batch;
 }
 
@@ -28,8 +37,8 @@ static fracas_record run_alone(fracas_batch *batch)
     return record;
 }
 
-/* sigma = E rate t: failure at sigma_c/(E rate), 109.0909 ns at 1e4 /s. S is linear in time until onset, so that the
- * interpolated time is exact up to round-off; 1e-6 is the figure promised. */
+/* sigma = E rate t: failure at sigma_c/(E rate), 109.0909 ns at 1e4 /s. S is linear in time until
+ * onset, so that the interpolated time is exact up to round-off; 1e-6 is the figure promised. */
 static void onset_time_is_strength_over_stress_rate(void **unused)
 {
     (void)unused;
@@ -84,18 +93,22 @@ static crack_errors isolated_crack(double rate, double x_b, int elements_per_s0)
         double exact = 2 * 1e4 * rate * BAR_T0 * BAR_T0 * (exp(x) - 1 - x);
         /* relative to delta_c/10 where the opening is smaller than that: both vanish at onset */
         if (x > 0 && damage < 1)
-            errors.opening_error = fmax(errors.opening_error, fabs(damage * delta_c - exact) / fmax(exact, 0.1 * delta_c));
+            errors.opening_error = fmax(
+                errors.opening_error, fabs(damage * delta_c - exact) / fmax(exact, 0.1 * delta_c));
     }
     fracas_batch_destroy(batch);
 
     const fracas_batch_options options = {.width = 1, .interfaces = true, .isa = FRACAS_ISA_BEST};
     assert_ok(fracas_batch_create(model, 1, &options, &batch));
-    for (size_t i = 0; i < fracas_model_interfaces(model); i++) bar_set_strength(batch, 0, i, 2.9e9);
+    for (size_t i = 0; i < fracas_model_interfaces(model); i++)
+        bar_set_strength(batch, 0, i, 2.9e9);
     bar_set_strength(batch, 0, weak, 300e6);
     fracas_record_clear(&record);
     record = run_alone(batch);
     assert_true(record.cracked >= 1);
-    errors.break_error = fabs((record.interface[weak].break_time - record.interface[weak].onset_time) / (x_b * BAR_T0) - 1);
+    errors.break_error = fabs(
+        (record.interface[weak].break_time - record.interface[weak].onset_time) / (x_b * BAR_T0) -
+        1);
     fracas_record_clear(&record);
     fracas_batch_destroy(batch);
     fracas_model_destroy(model);
@@ -108,13 +121,17 @@ static void isolated_crack_opens_as_the_closed_form(void **unused)
     /* x_b of theory: roots of e^x - 1 - x = rate0/rate for rate0 = 35 702.5 /s */
     static const struct {
         double rate, x_b, break_bound, opening_bound;
-    } cases[] = {{1e3, 3.69886, 1e-3, 1e-3}, {1e4, 1.86120, 1e-3, 1e-3}, {1e5, 0.740993, 1e-3, 1e-3}, {1e6, 0.255828, 2e-3, 1.5e-2}};
+    } cases[] = {{1e3, 3.69886, 1e-3, 1e-3},
+                 {1e4, 1.86120, 1e-3, 1e-3},
+                 {1e5, 0.740993, 1e-3, 1e-3},
+                 {1e6, 0.255828, 2e-3, 1.5e-2}};
     for (int i = 0; i < 4; i++) {
         double last_break = 1;
         for (int m = 20; m <= 80; m *= 2) {
             crack_errors e = isolated_crack(cases[i].rate, cases[i].x_b, m);
-            print_message("[  figures ] rate %.0e h = s0/%d: break time error %.2e, opening error %.2e\n", cases[i].rate, m,
-                          e.break_error, e.opening_error);
+            print_message(
+                "[  figures ] rate %.0e h = s0/%d: break time error %.2e, opening error %.2e\n",
+                cases[i].rate, m, e.break_error, e.opening_error);
             /* Converging until the step's interpolation error is reached. */
             assert_true(e.break_error < fmax(last_break, 2e-4));
             last_break = e.break_error;
@@ -126,9 +143,10 @@ static void isolated_crack_opens_as_the_closed_form(void **unused)
     }
 }
 
-/* Standing wave: w = W sin(kx) sin(wt)/..., started with v = sin(2 pi x/L) m/s and no load. After a quarter period the
- * displacement is c/(k c^2) sin(kx). L2 error of P1 elements and central difference at a fixed ratio of step and size:
- * order 2 in h. The slope over two halvings must be 2 within 0.1; dropping consistency or symmetrisation loses it. */
+/* Standing wave: w = W sin(kx) sin(wt)/..., started with v = sin(2 pi x/L) m/s and no load. After a
+ * quarter period the displacement is c/(k c^2) sin(kx). L2 error of P1 elements and central
+ * difference at a fixed ratio of step and size: order 2 in h. The slope over two halvings must be 2
+ * within 0.1; dropping consistency or symmetrisation loses it. */
 static double wave_error(const fracas_kind *ends, double beta, int64_t elements)
 {
     const double length = 0.05, k = 2 * M_PI / length, quarter = 0.25 * length / BAR_WAVE_SPEED;
@@ -142,7 +160,8 @@ static double wave_error(const fracas_kind *ends, double beta, int64_t elements)
     fracas_batch *batch = batch_of(model, 1e8);
     assert_ok(fracas_batch_begin(batch));
     const double h = length / (double)elements;
-    for (size_t e = 0; e < (size_t)elements; e++) { /* w(0) = 0, so v(-dt/2) = v(0) to second order */
+    for (size_t e = 0; e < (size_t)elements;
+         e++) { /* w(0) = 0, so v(-dt/2) = v(0) to second order */
         *field(batch, e, V_LEFT) = sin(k * h * (double)e);
         *field(batch, e, V_RIGHT) = sin(k * h * ((double)e + 1));
     }
@@ -173,40 +192,46 @@ static void waves_converge_with_order_two(void **unused)
     const double betas[] = {2, 4, 30};
     for (int i = 0; i < 2; i++)
         for (int b = 0; b < 3; b++) {
-            double coarse = wave_error(ends[i], betas[b], 32), middle = wave_error(ends[i], betas[b], 64),
+            double coarse = wave_error(ends[i], betas[b], 32),
+                   middle = wave_error(ends[i], betas[b], 64),
                    fine = wave_error(ends[i], betas[b], 128);
-            print_message("[  figures ] %s beta %g: L2 errors %.3e %.3e %.3e, slopes %.3f %.3f\n", ends[i]->name, betas[b], coarse,
-                          middle, fine, log2(coarse / middle), log2(middle / fine));
+            print_message("[  figures ] %s beta %g: L2 errors %.3e %.3e %.3e, slopes %.3f %.3f\n",
+                          ends[i]->name, betas[b], coarse, middle, fine, log2(coarse / middle),
+                          log2(middle / fine));
             assert_true(fabs(log2(coarse / middle) - 2) < 0.1);
             assert_true(fabs(log2(middle / fine) - 2) < 0.1);
         }
 }
 
-/* Largest omega h/c of the closed DG bar by Bloch's theorem: for wave number theta the 2 x 2 matrix of (left, right)
- * nodes, maximised over theta. Written from the energy, independently of the engine's operator. */
+/* Largest omega h/c of the closed DG bar by Bloch's theorem: for wave number theta the 2 x 2 matrix
+ * of (left, right) nodes, maximised over theta. Written from the energy, independently of the
+ * engine's operator. */
 static double bloch_top(double beta)
 {
     double top = 0;
     for (int i = 0; i <= 2000; i++) {
         double theta = M_PI * i / 2000, c = cos(theta), s = sin(theta);
-        /* unknowns a (left), b (right); next element's times e^{i theta}; energy per element, E = h = 1:
-         * 1/2 |b-a|^2 + Re(conj(m) q) + beta/2 |q|^2, m = (b-a)(1+z)/2, q = a z - b, z = e^{i theta} */
+        /* unknowns a (left), b (right); next element's times e^{i theta}; energy per element, E = h
+         * = 1: 1/2 |b-a|^2 + Re(conj(m) q) + beta/2 |q|^2, m = (b-a)(1+z)/2, q = a z - b, z = e^{i
+         * theta} */
         double aa, bb, re, im; /* Hermitian matrix [aa, re + i im; ., bb] */
         /* q = z a - b: |q|^2 -> [1, -conj(z); -z, 1] */
         aa = 1 + beta;
         bb = 1 + beta;
         re = -1 - beta * c;
         im = beta * s;
-        /* Re(conj(m) q): sesquilinear form 1/2 (conj(m) q + m conj(q)), m = p (b - a), p = (1+z)/2; conj(p) z = p and
-         * conj(p) = p conj(z):  conj(m) q = conj(p)(conj(b) - conj(a))(z a - b)
+        /* Re(conj(m) q): sesquilinear form 1/2 (conj(m) q + m conj(q)), m = p (b - a), p = (1+z)/2;
+         * conj(p) z = p and conj(p) = p conj(z):  conj(m) q = conj(p)(conj(b) - conj(a))(z a - b)
          *   coefficient of |a|^2: -conj(p) z = -p -> real part; of |b|^2: -conj(p) */
         double pr = 0.5 * (1 + c), pi = 0.5 * s;
         aa += -2 * pr;
         bb += -2 * pr;
-        /* twice the form's cross term conj(a) b: from conj(m) q: +conj(p); from m conj(q): p b (conj(z) conj(a)) -> p conj(z) = conj(p) */
+        /* twice the form's cross term conj(a) b: from conj(m) q: +conj(p); from m conj(q): p b
+         * (conj(z) conj(a)) -> p conj(z) = conj(p) */
         re += 2 * pr;
         im += -2 * pi;
-        double mean = 0.5 * (aa + bb), half = sqrt(0.25 * (aa - bb) * (aa - bb) + re * re + im * im);
+        double mean = 0.5 * (aa + bb),
+               half = sqrt(0.25 * (aa - bb) * (aa - bb) + re * re + im * im);
         top = fmax(top, mean + half);
     }
     return sqrt(2 * top); /* nodal mass 1/2 */
@@ -234,8 +259,8 @@ static critical_steps critical(const fracas_kind *law, double beta)
 static void critical_step_is_that_of_the_spectrum(void **unused)
 {
     (void)unused;
-    /* theory: 0.500 h/c closed, 0.447 cracked, at beta 4. Cracked and in contact every wave number has
-     * omega^2 <= (c/h)^2 4 (1 + beta): the two springs of a node both stretch.  */
+    /* theory: 0.500 h/c closed, 0.447 cracked, at beta 4. Cracked and in contact every wave number
+     * has omega^2 <= (c/h)^2 4 (1 + beta): the two springs of a node both stretch.  */
     assert_true(fabs(2 / bloch_top(4) - 0.5) < 1e-6);
     assert_true(fabs(critical(&fracas_law_nitsche, 4).step - 0.4472) < 5e-5);
     const double betas[] = {1.5, 2, 4, 10, 30};
@@ -244,7 +269,8 @@ static void critical_step_is_that_of_the_spectrum(void **unused)
         critical_steps found = critical(&fracas_law_nitsche, betas[i]);
         /* power iteration comes from below: the step from above, by 1e-3 at most */
         assert_true(found.closed >= exact[0] * (1 - 1e-9) && found.closed <= exact[0] * (1 + 1e-3));
-        assert_true(found.cracked >= exact[1] * (1 - 1e-9) && found.cracked <= exact[1] * (1 + 1e-3));
+        assert_true(found.cracked >= exact[1] * (1 - 1e-9) &&
+                    found.cracked <= exact[1] * (1 + 1e-3));
         assert_true(found.step <= found.closed && found.step <= found.cracked);
     }
     /* rigid links: 2-node elements, h/c while closed; in contact with k = E/h as beta = 1 */
@@ -252,7 +278,8 @@ static void critical_step_is_that_of_the_spectrum(void **unused)
     assert_true(fabs(rigid.closed - 1) < 1e-3 && fabs(rigid.cracked - 1 / sqrt(2)) < 1e-3);
 }
 
-/* Just below the closed operator's critical step a disturbance stays, just above it grows without bound. */
+/* Just below the closed operator's critical step a disturbance stays, just above it grows without
+ * bound. */
 static void steps_blow_up_above_the_critical_one_only(void **unused)
 {
     (void)unused;

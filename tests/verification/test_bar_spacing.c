@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The bar on elements of different lengths: lengths, waves, events, fragments. */
 #include "tests/support/bar_spacing.h"
 
@@ -6,8 +7,8 @@
 
 /* ---- lengths ---- */
 
-/* h_e of a progression is L ratio^(e/(n-1)) over the sum: ten roundings of the exponent (e ln ratio/(n-1), 7 at most) and
- * of exp, and one of each addition: (16 + n) 2^-53. */
+/* h_e of a progression is L ratio^(e/(n-1)) over the sum: ten roundings of the exponent (e ln
+ * ratio/(n-1), 7 at most) and of exp, and one of each addition: (16 + n) 2^-53. */
 static void lengths_of_a_graded_mesh_are_a_progression(void **unused)
 {
     (void)unused;
@@ -21,9 +22,12 @@ static void lengths_of_a_graded_mesh_are_a_progression(void **unused)
             fracas_model *model;
             assert_ok(fracas_model_create(&spec, &model));
             long double total = 0, sum = 0;
-            for (size_t e = 0; e < n; e++) total += powl((long double)ratios[r], (long double)e / (long double)(n - 1));
+            for (size_t e = 0; e < n; e++)
+                total += powl((long double)ratios[r], (long double)e / (long double)(n - 1));
             for (size_t e = 0; e < n; e++) {
-                long double exact = 0.05L * powl((long double)ratios[r], (long double)e / (long double)(n - 1)) / total;
+                long double exact =
+                    0.05L * powl((long double)ratios[r], (long double)e / (long double)(n - 1)) /
+                    total;
                 assert_true(fabsl(model->table[e] / exact - 1) < (16 + (long double)n) * 0x1p-53L);
                 sum += model->table[e];
             }
@@ -33,8 +37,8 @@ static void lengths_of_a_graded_mesh_are_a_progression(void **unused)
         }
 }
 
-/* Node i is at i L/n + amplitude (L/n) z_i, both ends where they were: lengths are a difference of three numbers of the size
- * of L/n, 4 roundings each. Without numbers there is no mesh. */
+/* Node i is at i L/n + amplitude (L/n) z_i, both ends where they were: lengths are a difference of
+ * three numbers of the size of L/n, 4 roundings each. Without numbers there is no mesh. */
 static void nodes_of_a_perturbed_mesh_are_moved_by_their_numbers(void **unused)
 {
     (void)unused;
@@ -50,11 +54,13 @@ static void nodes_of_a_perturbed_mesh_are_moved_by_their_numbers(void **unused)
         double longest = 0;
         for (size_t e = 0; e < N; e++) {
             const double *size = model->table;
-            assert_true(size[e] >= h * (1 - 2 * amplitudes[a]) && size[e] <= h * (1 + 2 * amplitudes[a]));
+            assert_true(size[e] >= h * (1 - 2 * amplitudes[a]) &&
+                        size[e] <= h * (1 + 2 * amplitudes[a]));
             longest = fmax(longest, size[e]);
             node += size[e];
             const double move = e + 1 < N ? amplitudes[a] * noise[e + 1] : 0;
-            assert_true(fabsl(node - (long double)h * ((long double)e + 1 + move)) < 4 * (long double)h * 0x1p-53L * (e + 1));
+            assert_true(fabsl(node - (long double)h * ((long double)e + 1 + move)) <
+                        4 * (long double)h * 0x1p-53L * (e + 1));
         }
         assert_true(model->longest == longest && longest > h * (1 + amplitudes[a]));
         fracas_model_destroy(model);
@@ -63,8 +69,9 @@ static void nodes_of_a_perturbed_mesh_are_moved_by_their_numbers(void **unused)
     }
 }
 
-/* The longest element decides what strength a mesh bears: K delta_c > sigma_c with the K of two of them, (cohesive.7), or the
- * contact penalty (cohesive.9) below their stiffness. The lengths of the formulas are exact to 1e-12. */
+/* The longest element decides what strength a mesh bears: K delta_c > sigma_c with the K of two of
+ * them, (cohesive.7), or the contact penalty (cohesive.9) below their stiffness. The lengths of the
+ * formulas are exact to 1e-12. */
 static void the_longest_element_bounds_the_strength(void **unused)
 {
     (void)unused;
@@ -75,8 +82,10 @@ static void the_longest_element_bounds_the_strength(void **unused)
         fracas_model *model = model_on(&spec, i / 2);
         double longest = 0;
         for (size_t e = 0; e < 200; e++) longest = fmax(longest, model->table[e]);
-        const double offset = 4.5 * pow(1e4, 2.0 / 3) * 275e9 * pow(100, 2.0 / 3) * pow(2750, 1.0 / 3);
-        const double most = i % 2 ? sqrt(4.5 * 100 * 275e9 / longest - offset) : sqrt(2 * 4 * 275e9 * 100 / longest);
+        const double offset = 4.5 * pow(1e4, 2.0 / 3) * 275e9 * pow(100, 2.0 / 3) *
+                              pow(2750, 1.0 / 3);
+        const double most = i % 2 ? sqrt(4.5 * 100 * 275e9 / longest - offset)
+                                  : sqrt(2 * 4 * 275e9 * 100 / longest);
         assert_int_equal(fracas_model_check_strength(model, most * (1 - 1e-12)), FRACAS_OK);
         assert_int_equal(fracas_model_check_strength(model, most * (1 + 1e-12)), FRACAS_USAGE);
         fracas_model_destroy(model);
@@ -90,7 +99,8 @@ static fracas_record run_to_fragments(fracas_spec *spec, double time_step)
     fracas_batch *batch;
     fracas_record record;
     assert_ok(fracas_model_create(spec, &model));
-    assert_true(fabs(model->time_step / time_step - 1) < 1e-6); /* power iterations end at 1e-9 a step, of 20 */
+    assert_true(fabs(model->time_step / time_step - 1) <
+                1e-6); /* power iterations end at 1e-9 a step, of 20 */
     model->time_step = time_step;
     assert_ok(fracas_batch_create(model, 1, &options, &batch));
     bar_draw(batch, 0, 0.1, 5);
@@ -101,10 +111,12 @@ static fracas_record run_to_fragments(fracas_spec *spec, double time_step)
     return record;
 }
 
-/* Lengths that are alike to 1e-14 fragment as one length does: with the law nitsche all is continuous, and 1e-14 has grown to
- * 1e-12 when all is broken; 1e-10 is the bound. rigid-link is not: the traction of an open link jumps at q = 0, so that roundings
- * decide (strengths that differ by 1e-14 on one uniform mesh change energies by 1e-3 too). Its counts are the same, its energies
- * within 1e-2; on a progression of ratio 1, whose lengths are those of the uniform mesh, it is held to 1e-10 as well. */
+/* Lengths that are alike to 1e-14 fragment as one length does: with the law nitsche all is
+ * continuous, and 1e-14 has grown to 1e-12 when all is broken; 1e-10 is the bound. rigid-link is
+ * not: the traction of an open link jumps at q = 0, so that roundings decide (strengths that differ
+ * by 1e-14 on one uniform mesh change energies by 1e-3 too). Its counts are the same, its energies
+ * within 1e-2; on a progression of ratio 1, whose lengths are those of the uniform mesh, it is held
+ * to 1e-10 as well. */
 static void nearly_equal_lengths_give_the_uniform_run(void **unused)
 {
     (void)unused;
@@ -126,13 +138,15 @@ static void nearly_equal_lengths_give_the_uniform_run(void **unused)
         assert_int_equal(varied.fragments, uniform.fragments);
         assert_true(uniform.fragments > 10);
         const double total = uniform.kinetic + uniform.elastic + uniform.dissipated;
-        const double differences[] = {varied.kinetic - uniform.kinetic, varied.elastic - uniform.elastic,
-                                      varied.cohesive - uniform.cohesive, varied.dissipated - uniform.dissipated,
-                                      varied.created - uniform.created, varied.work - uniform.work};
+        const double differences[] = {
+            varied.kinetic - uniform.kinetic,   varied.elastic - uniform.elastic,
+            varied.cohesive - uniform.cohesive, varied.dissipated - uniform.dissipated,
+            varied.created - uniform.created,   varied.work - uniform.work};
         double worst = 0;
         for (int d = 0; d < 6; d++) worst = fmax(worst, fabs(differences[d]) / total);
-        print_message("[  figures ] %s %s: %lld fragments, energies differ by %.1e\n", laws[i % 2]->name, spec.mesh.spacing->name,
-                      (long long)uniform.fragments, worst);
+        print_message("[  figures ] %s %s: %lld fragments, energies differ by %.1e\n",
+                      laws[i % 2]->name, spec.mesh.spacing->name, (long long)uniform.fragments,
+                      worst);
         assert_true(worst < (i == 3 ? 1e-2 : 1e-10));
         fracas_record_clear(&uniform);
         fracas_record_clear(&varied);
@@ -141,8 +155,8 @@ static void nearly_equal_lengths_give_the_uniform_run(void **unused)
 
 /* ---- consistency ---- */
 
-/* Under imposed rate every element has the same stress, to the bit, and no interface a jump: nothing moves before onset, and
- * the first onset is when the background reaches the strength. */
+/* Under imposed rate every element has the same stress, to the bit, and no interface a jump:
+ * nothing moves before onset, and the first onset is when the background reaches the strength. */
 static void a_uniform_stretch_moves_nothing(void **unused)
 {
     (void)unused;
@@ -170,9 +184,10 @@ static void a_uniform_stretch_moves_nothing(void **unused)
     }
 }
 
-/* w = strain x is the same stretch, this time made of nodes: strains of elements are then (x_right - x_left)/h, one rounding
- * of x (L at most) over h, so that forces are 2 E strain (L/h) 2^-53 at most, twice that for N and T each, and the kick of a
- * unit step by mass leaves rho h/2 times that. */
+/* w = strain x is the same stretch, this time made of nodes: strains of elements are then (x_right
+ * - x_left)/h, one rounding of x (L at most) over h, so that forces are 2 E strain (L/h) 2^-53 at
+ * most, twice that for N and T each, and the kick of a unit step by mass leaves rho h/2 times that.
+ */
 static void a_stretch_of_the_nodes_moves_no_inner_node(void **unused)
 {
     (void)unused;
@@ -199,7 +214,8 @@ static void a_stretch_of_the_nodes_moves_no_inner_node(void **unused)
             for (int f = V_LEFT; f <= V_RIGHT; f++)
                 largest = fmax(largest, fabs(*field(batch, e, f)) * 0.5 * 2750 * model->table[e]);
         assert_true(largest < 8 * stress * 0.02 / least * 0x1p-53);
-        assert_true(fabs(batch->step.elastic[0] / (0.5 * stress * strain * 0.02 * 1e-6) - 1) < 1e-9);
+        assert_true(fabs(batch->step.elastic[0] / (0.5 * stress * strain * 0.02 * 1e-6) - 1) <
+                    1e-9);
         fracas_batch_destroy(batch);
         fracas_model_destroy(model);
     }
@@ -207,7 +223,8 @@ static void a_stretch_of_the_nodes_moves_no_inner_node(void **unused)
 
 /* ---- waves ---- */
 
-/* Held bar, no load: v = sin(pi x/L) at the start, so that after a quarter of a period w = L/(pi c) sin(pi x/L). */
+/* Held bar, no load: v = sin(pi x/L) at the start, so that after a quarter of a period w = L/(pi c)
+ * sin(pi x/L). */
 static double wave_error(int law, int mesh, int64_t elements)
 {
     const double length = 0.05, k = M_PI / length, quarter = 0.5 * length / BAR_WAVE_SPEED;
@@ -220,7 +237,8 @@ static double wave_error(int law, int mesh, int64_t elements)
     model->time_step = quarter / steps;
     fracas_batch *batch = batch_of(model, 5e7);
     double x = 0, sum = 0, norm = 0;
-    for (size_t e = 0; e < model->elements; e++) { /* w(0) = 0, so v(-dt/2) = v(0) to second order */
+    for (size_t e = 0; e < model->elements;
+         e++) { /* w(0) = 0, so v(-dt/2) = v(0) to second order */
         *field(batch, e, V_LEFT) = e > 0 ? *field(batch, e - 1, V_RIGHT) : 0;
         x += model->table[e];
         *field(batch, e, V_RIGHT) = e + 1 < model->elements ? sin(k * x) : 0;
@@ -245,16 +263,19 @@ static double wave_error(int law, int mesh, int64_t elements)
     return sqrt(sum / norm);
 }
 
-/* L2 error of linear elements: order 2 in h. A progression of one ratio over more elements is the same map of a finer mesh:
- * the slope is 2 within 0.1. The numbers of a perturbed mesh are others on each, and move its error by some 10 %: 0.3. */
+/* L2 error of linear elements: order 2 in h. A progression of one ratio over more elements is the
+ * same map of a finer mesh: the slope is 2 within 0.1. The numbers of a perturbed mesh are others
+ * on each, and move its error by some 10 %: 0.3. */
 static void waves_converge_with_order_two(void **unused)
 {
     (void)unused;
     static const double bound[MESHES] = {0.1, 0.1, 0.3};
     for (int i = 0; i < 2 * MESHES; i++) {
-        double coarse = wave_error(i % 2, i / 2, 64), middle = wave_error(i % 2, i / 2, 128), fine = wave_error(i % 2, i / 2, 256);
-        print_message("[  figures ] %s mesh %d: L2 errors %.3e %.3e %.3e, slopes %.3f %.3f\n", laws[i % 2]->name, i / 2, coarse,
-                      middle, fine, log2(coarse / middle), log2(middle / fine));
+        double coarse = wave_error(i % 2, i / 2, 64), middle = wave_error(i % 2, i / 2, 128),
+               fine = wave_error(i % 2, i / 2, 256);
+        print_message("[  figures ] %s mesh %d: L2 errors %.3e %.3e %.3e, slopes %.3f %.3f\n",
+                      laws[i % 2]->name, i / 2, coarse, middle, fine, log2(coarse / middle),
+                      log2(middle / fine));
         assert_true(fabs(log2(coarse / middle) - 2) < bound[i / 2]);
         assert_true(fabs(log2(middle / fine) - 2) < bound[i / 2]);
     }
@@ -262,7 +283,8 @@ static void waves_converge_with_order_two(void **unused)
 
 /* ---- what a run leaves ---- */
 
-/* Both sides of an uncracked rigid link have one displacement and one velocity, to the bit, until it cracks. */
+/* Both sides of an uncracked rigid link have one displacement and one velocity, to the bit, until
+ * it cracks. */
 static void tied_nodes_stay_together(void **unused)
 {
     (void)unused;
@@ -306,23 +328,28 @@ static void tied_nodes_stay_together(void **unused)
     }
 }
 
-/* What reaches sigma_c at onset: m + K q (nitsche), m (rigid-link); at a break it is K delta_c, or q reaches delta_c. */
+/* What reaches sigma_c at onset: m + K q (nitsche), m (rigid-link); at a break it is K delta_c, or
+ * q reaches delta_c. */
 static double crossing_of(fracas_batch *batch, size_t e, bool onset)
 {
     const fracas_model *model = batch->model;
     const size_t next = (e + 1) % model->elements;
-    const double left = 275e9 / model->table[e], right = 275e9 / model->table[next], sigma_c = *field(batch, e, STRENGTH);
+    const double left = 275e9 / model->table[e], right = 275e9 / model->table[next],
+                 sigma_c = *field(batch, e, STRENGTH);
     const bool nitsche = model->spec.cohesive.law == &fracas_law_nitsche;
-    const double q = *field(batch, next, W_LEFT) - *field(batch, e, W_RIGHT), spring = 2 * (left + right);
+    const double q = *field(batch, next, W_LEFT) - *field(batch, e, W_RIGHT),
+                 spring = 2 * (left + right);
     const double mean = 275e9 * model->spec.loading.rate * batch->step.time[0] +
-                        0.5 * (left * (*field(batch, e, W_RIGHT) - *field(batch, e, W_LEFT)) +
-                               right * (*field(batch, next, W_RIGHT) - *field(batch, next, W_LEFT)));
+                        0.5 *
+                            (left * (*field(batch, e, W_RIGHT) - *field(batch, e, W_LEFT)) +
+                             right * (*field(batch, next, W_RIGHT) - *field(batch, next, W_LEFT)));
     if (!nitsche) return onset ? mean - sigma_c : q - 200 / sigma_c;
     return mean + spring * q - (onset ? sigma_c : spring * 200 / sigma_c);
 }
 
-/* It is linear in time within a step, so that the crossing is where a line through both ends of the step has it: 1e-8 of the
- * step, as roundings are 1e-16 of 3e8 Pa and of what it moves in a step, 1e5 Pa and more. */
+/* It is linear in time within a step, so that the crossing is where a line through both ends of the
+ * step has it: 1e-8 of the step, as roundings are 1e-16 of 3e8 Pa and of what it moves in a step,
+ * 1e5 Pa and more. */
 static void events_are_timed_inside_their_steps(void **unused)
 {
     (void)unused;
@@ -332,7 +359,8 @@ static void events_are_timed_inside_their_steps(void **unused)
         spec.geometry.length = 6e-3;
         spec.cohesive.law = laws[i % 2];
         fracas_model *model = model_on(&spec, i / 2);
-        const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST, .interfaces = true};
+        const fracas_batch_options options = {
+            .width = 1, .isa = FRACAS_ISA_BEST, .interfaces = true};
         fracas_batch *batch;
         assert_ok(fracas_batch_create(model, 1, &options, &batch));
         bar_draw(batch, 0, 0.1, 4);
@@ -346,10 +374,12 @@ static void events_are_timed_inside_their_steps(void **unused)
             step(batch, &record);
             for (size_t e = 0; e < N; e++)
                 for (int k = 0; k < 2; k++) { /* onset, break */
-                    const double now = crossing_of(batch, e, k == 0), at = (k ? batch->step.break_time : batch->step.onset_time)[e];
+                    const double now = crossing_of(batch, e, k == 0),
+                                 at = (k ? batch->step.break_time : batch->step.onset_time)[e];
                     if (!seen[k][e] && !isnan(at)) {
                         const double time = batch->step.time[0], dt = time - last;
-                        assert_true(fabs(at - (time - dt * now / (now - before[k][e]))) < 1e-8 * dt);
+                        assert_true(fabs(at - (time - dt * now / (now - before[k][e]))) <
+                                    1e-8 * dt);
                         seen[k][e] = true;
                         count[k]++;
                     }
@@ -371,7 +401,8 @@ typedef struct {
 /* Element e of a bar taken `back` by this length [m], its left node at `x`, joins the piece. */
 static void join(piece *p, fracas_batch *batch, size_t e, long double x, long double back)
 {
-    const long double h = batch->model->table[e], middle = x + h / 2 - back, rate = batch->model->spec.loading.rate;
+    const long double h = batch->model->table[e], middle = x + h / 2 - back,
+                      rate = batch->model->spec.loading.rate;
     const long double w = ((long double)*field(batch, e, W_LEFT) + *field(batch, e, W_RIGHT)) / 2;
     const long double v = ((long double)*field(batch, e, V_LEFT) + *field(batch, e, V_RIGHT)) / 2;
     p->elements++;
@@ -381,7 +412,8 @@ static void join(piece *p, fracas_batch *batch, size_t e, long double x, long do
     p->velocity += h * (rate * middle + v);
 }
 
-/* The pieces between broken interfaces, walked from the first element on; those after the last break belong to the first. */
+/* The pieces between broken interfaces, walked from the first element on; those after the last
+ * break belong to the first. */
 static size_t walk(fracas_batch *batch, piece *pieces)
 {
     const fracas_model *model = batch->model;
@@ -400,13 +432,15 @@ static size_t walk(fracas_batch *batch, piece *pieces)
         pieces[p].position /= pieces[p].size;
         pieces[p].velocity /= pieces[p].size;
         if (!ring || pieces[p].position >= 0) continue;
-        pieces[p].position += length * (1 + model->spec.loading.rate * (long double)batch->step.time[0]);
+        pieces[p].position += length *
+                              (1 + model->spec.loading.rate * (long double)batch->step.time[0]);
         pieces[p].velocity += model->spec.loading.rate * length;
     }
     return count;
 }
 
-/* Each rounds once an element in each of its sums, 400 elements: 1e-13 of the body's mass, length, and fastest end. */
+/* Each rounds once an element in each of its sums, 400 elements: 1e-13 of the body's mass, length,
+ * and fastest end. */
 static void fragments_are_sums_over_their_elements(void **unused)
 {
     (void)unused;
@@ -420,7 +454,8 @@ static void fragments_are_sums_over_their_elements(void **unused)
         bar_draw(batch, 0, 0.05, 2);
         fracas_record record;
         fracas_record_init(&record);
-        for (size_t running = 1; running > 0;) assert_ok(fracas_batch_step(batch, &record, &running));
+        for (size_t running = 1; running > 0;)
+            assert_ok(fracas_batch_step(batch, &record, &running));
         static piece pieces[401];
         assert_int_equal(record.nfragment, walk(batch, pieces));
         assert_true(record.nfragment > 5);
@@ -437,12 +472,14 @@ static void fragments_are_sums_over_their_elements(void **unused)
             size += got->size;
         }
         for (size_t e = 0; e < 400; e++)
-            momentum += 0.5 * 2750e-6 * model->table[e] * (*field(batch, e, V_LEFT) + *field(batch, e, V_RIGHT));
+            momentum += 0.5 * 2750e-6 * model->table[e] *
+                        (*field(batch, e, V_LEFT) + *field(batch, e, V_RIGHT));
         assert_true(fabs(size / 8e-3 - 1) < 1e-13 && fabs(mass / record.mass - 1) < 1e-13);
         assert_true(fabs(record.mass / (2750e-6 * 8e-3) - 1) < 1e-15);
         assert_true(fabs(record.momentum[0] - momentum) < 1e-13 * fastest * record.mass);
         if (i / 2 % 2 == 0) /* closed: none; leapfrog's v is that of sqrt(2 T/m) on average */
-            assert_true(fabs(record.momentum[0]) < sqrt(2 * record.kinetic * record.mass) * 1e-16 * (double)record.steps);
+            assert_true(fabs(record.momentum[0]) <
+                        sqrt(2 * record.kinetic * record.mass) * 1e-16 * (double)record.steps);
         fracas_record_clear(&record);
         fracas_batch_destroy(batch);
         fracas_model_destroy(model);

@@ -1,4 +1,6 @@
-/* The critical time step of bars on elements of different lengths, against a dense eigenvalue solver and by running. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The critical time step of bars on elements of different lengths, against a dense eigenvalue
+ * solver and by running. */
 #include "tests/support/bar_spacing.h"
 
 #include <gsl/gsl_eigen.h>
@@ -18,13 +20,16 @@ typedef struct {
     gsl_matrix *stiffness; /* of all nodes, left and right of each element */
 } dense_operator;
 
-static void add_product(dense_operator *o, const size_t *at, const double *a, const double *b, double factor)
+static void add_product(dense_operator *o, const size_t *at, const double *a, const double *b,
+                        double factor)
 {
     for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++) *gsl_matrix_ptr(o->stiffness, at[i], at[j]) += factor * (a[i] * b[j] + b[i] * a[j]);
+        for (int j = 0; j < 4; j++)
+            *gsl_matrix_ptr(o->stiffness, at[i], at[j]) += factor * (a[i] * b[j] + b[i] * a[j]);
 }
 
-/* Second derivatives of (bar.4) with delta = 0, or of elements and contact springs: bulk (E/2h) (b - a)^2; m q + K q^2/2. */
+/* Second derivatives of (bar.4) with delta = 0, or of elements and contact springs: bulk (E/2h) (b
+ * - a)^2; m q + K q^2/2. */
 static void assemble(dense_operator *o)
 {
     const size_t n = o->model->elements;
@@ -40,7 +45,8 @@ static void assemble(dense_operator *o)
         const size_t r = (l + 1) % n, at[4] = {2 * l, 2 * l + 1, 2 * r, 2 * r + 1};
         const double left = 275e9 / h[l], right = 275e9 / h[r], jump[4] = {0, -1, 1, 0};
         const double mean[4] = {-0.5 * left, 0.5 * left, -0.5 * right, 0.5 * right};
-        if (o->broken || o->nitsche) add_product(o, at, jump, jump, 0.25 * o->contact * (left + right));
+        if (o->broken || o->nitsche)
+            add_product(o, at, jump, jump, 0.25 * o->contact * (left + right));
         if (!o->broken && o->nitsche) add_product(o, at, mean, jump, 1);
     }
 }
@@ -54,7 +60,9 @@ static size_t number_nodes(const dense_operator *o, int *number)
     for (size_t i = 0; i < o->size; i++) {
         if (!o->ring && (i == 0 || i == o->size - 1)) continue;
         if (number[i] < 0) number[i] = (int)count++;
-        if (tied && i % 2 == 1) number[(i + 1) % o->size] = number[i]; /* a right node and the left one of the next element */
+        if (tied && i % 2 == 1)
+            number[(i + 1) % o->size] =
+                number[i]; /* a right node and the left one of the next element */
     }
     if (tied && o->ring) { /* node 0 came first, and is tied to the last one */
         const int last = number[o->size - 1];
@@ -69,7 +77,10 @@ static size_t number_nodes(const dense_operator *o, int *number)
 static double dense_step(const fracas_model *model, bool broken)
 {
     const bool nitsche = model->spec.cohesive.law == &fracas_law_nitsche;
-    dense_operator o = {.model = model, .ring = model->interfaces == model->elements, .nitsche = nitsche, .broken = broken,
+    dense_operator o = {.model = model,
+                        .ring = model->interfaces == model->elements,
+                        .nitsche = nitsche,
+                        .broken = broken,
                         .contact = nitsche ? model->spec.cohesive.beta : 1.0};
     assemble(&o);
     int number[2 * MOST];
@@ -87,7 +98,8 @@ static double dense_step(const fracas_model *model, bool broken)
     gsl_eigen_symm_workspace *work = gsl_eigen_symm_alloc(n);
     assert_int_equal(gsl_eigen_symm(matrix, value, work), 0);
     const double omega_squared = gsl_vector_max(value);
-    assert_true(gsl_vector_min(value) > -1e-10 * omega_squared); /* stiff in every direction, at every beta > 1 */
+    assert_true(gsl_vector_min(value) >
+                -1e-10 * omega_squared); /* stiff in every direction, at every beta > 1 */
     gsl_eigen_symm_free(work);
     gsl_vector_free(value);
     gsl_matrix_free(matrix);
@@ -95,12 +107,14 @@ static double dense_step(const fracas_model *model, bool broken)
     return 2 / sqrt(omega_squared);
 }
 
-/* Steps above the true critical one by less than 1e-3 whatever the mesh, and below it hardly at all: power iteration ends
- * within 1e-3 where frequencies are dense, which is where elements are nearly alike (the last meshes). */
+/* Steps above the true critical one by less than 1e-3 whatever the mesh, and below it hardly at
+ * all: power iteration ends within 1e-3 where frequencies are dense, which is where elements are
+ * nearly alike (the last meshes). */
 static void critical_step_is_that_of_the_dense_operator(void **unused)
 {
     (void)unused;
-    static const double ratios[] = {1.001, 3, 100, 1e3, 1e-3}, amplitudes[] = {0.45, 0.3, 0.1, 0.01, 0.001};
+    static const double ratios[] = {1.001, 3, 100, 1e3, 1e-3},
+                        amplitudes[] = {0.45, 0.3, 0.1, 0.01, 0.001};
     static const double betas[] = {1.05, 4, 30};
     double above[2][2] = {{0}}, below = 0, noise[301];
     for (int i = 0; i < 122; i++) {
@@ -125,20 +139,22 @@ static void critical_step_is_that_of_the_dense_operator(void **unused)
         fracas_model_destroy(model);
     }
     for (int i = 0; i < 4; i++) {
-        print_message("[  figures ] %s %s: step above the critical one by %.1e at most\n", laws[i / 2]->name,
-                      i % 2 ? "broken" : "uncracked", above[i / 2][i % 2]);
+        print_message("[  figures ] %s %s: step above the critical one by %.1e at most\n",
+                      laws[i / 2]->name, i % 2 ? "broken" : "uncracked", above[i / 2][i % 2]);
         assert_true(above[i / 2][i % 2] < 1e-3);
     }
     assert_true(below > -1e-3);
 }
 
-/* All interfaces broken and pressed together: uniform stress sigma = E (rate t + strain) = K q, of a bar that keeps its
- * length. Rigid links get the strengths that make them as stiff as the time step takes them to be. */
+/* All interfaces broken and pressed together: uniform stress sigma = E (rate t + strain) = K q, of
+ * a bar that keeps its length. Rigid links get the strengths that make them as stiff as the time
+ * step takes them to be. */
 static void press_together(const fracas_model *model, fracas_batch *batch)
 {
     const size_t n = model->elements;
     const bool nitsche = model->spec.cohesive.law == &fracas_law_nitsche;
-    const double offset = 4.5 * pow(model->spec.loading.rate, 2.0 / 3) * 275e9 * pow(100, 2.0 / 3) * pow(2750, 1.0 / 3);
+    const double offset = 4.5 * pow(model->spec.loading.rate, 2.0 / 3) * 275e9 * pow(100, 2.0 / 3) *
+                          pow(2750, 1.0 / 3);
     double stiffness[MOST], give = model->spec.geometry.length / 275e9, left = 0;
     for (size_t e = 0; e < model->interfaces; e++) {
         const double mean = 0.5 * 275e9 * (1 / model->table[e] + 1 / model->table[(e + 1) % n]);
@@ -150,7 +166,8 @@ static void press_together(const fracas_model *model, fracas_batch *batch)
         *field(batch, e, LAW) = 2;
     }
     batch->step.time[0] = -1e-8; /* pressed by a background of -1e-4 */
-    const double load = model->spec.loading.rate * batch->step.time[0], stress = load * model->spec.geometry.length / give;
+    const double load = model->spec.loading.rate * batch->step.time[0],
+                 stress = load * model->spec.geometry.length / give;
     for (size_t e = 0; e < n; e++) {
         *field(batch, e, W_LEFT) = left;
         *field(batch, e, W_RIGHT) = left += (stress / 275e9 - load) * model->table[e];
@@ -158,7 +175,8 @@ static void press_together(const fracas_model *model, fracas_batch *batch)
     }
 }
 
-/* 100 steps of `factor` times the critical one from a nm/s of noise at every node: the largest velocity after them [m/s]. */
+/* 100 steps of `factor` times the critical one from a nm/s of noise at every node: the largest
+ * velocity after them [m/s]. */
 static double march(const fracas_model *model, bool broken, double factor)
 {
     const size_t n = model->elements;
@@ -180,8 +198,8 @@ static double march(const fracas_model *model, bool broken, double factor)
     return largest;
 }
 
-/* Below it, omega dt = 1.98, noise is magnified by 1/sqrt(1 - 0.99^2) = 7 in the worst mode; above it, omega dt = 2.02, by
- * e^(2 arcosh 1.01) = 1.33 a step, until interfaces open. */
+/* Below it, omega dt = 1.98, noise is magnified by 1/sqrt(1 - 0.99^2) = 7 in the worst mode; above
+ * it, omega dt = 2.02, by e^(2 arcosh 1.01) = 1.33 a step, until interfaces open. */
 static void steps_blow_up_above_the_critical_one_only(void **unused)
 {
     (void)unused;
@@ -193,8 +211,9 @@ static void steps_blow_up_above_the_critical_one_only(void **unused)
         fracas_model *model = model_on(&spec, i / 8);
         const double stays = march(model, i / 4 % 2, 0.99), grows = march(model, i / 4 % 2, 1.01);
         if (!(stays < 1e-7) || !(grows > 1e-5))
-            fail_msg("%s, %s, %s, mesh %d: %g m/s below, %g m/s above", laws[i % 2]->name, ends[i / 2 % 2]->name,
-                     i / 4 % 2 ? "broken" : "uncracked", i / 8, stays, grows);
+            fail_msg("%s, %s, %s, mesh %d: %g m/s below, %g m/s above", laws[i % 2]->name,
+                     ends[i / 2 % 2]->name, i / 4 % 2 ? "broken" : "uncracked", i / 8, stays,
+                     grows);
         fracas_model_destroy(model);
     }
 }

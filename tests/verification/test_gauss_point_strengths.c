@@ -1,5 +1,7 @@
-/* Strengths at the Gauss points of a surface's interfaces: where they are, and that equal ones are as one. What unequal ones do:
- * test_membrane_cracks, test_shell_cracks; that lanes and axes do not matter: tests/invariant. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Strengths at the Gauss points of a surface's interfaces: where they are, and that equal ones are
+ * as one. What unequal ones do: test_membrane_cracks, test_shell_cracks; that lanes and axes do not
+ * matter: tests/invariant. */
 #include "tests/support/distorted_model.h"
 #include "tests/support/same_record.h"
 
@@ -9,32 +11,55 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A body that breaks: E 320 GPa, nu 0.3, rho 3300, G_c 200 J/m2; a plate of 6 mm x 5 mm, an annulus of 2 to 4 mm, a sphere of 1.5 mm. */
-static fracas_spec body_of(const fracas_formulation *formulation, const fracas_kind *shape, int64_t order, int64_t divisions)
+/* A body that breaks: E 320 GPa, nu 0.3, rho 3300, G_c 200 J/m2; a plate of 6 mm x 5 mm, an annulus
+ * of 2 to 4 mm, a sphere of 1.5 mm. */
+static fracas_spec body_of(const fracas_formulation *formulation, const fracas_kind *shape,
+                           int64_t order, int64_t divisions)
 {
     fracas_spec spec = {
         .formulation = &formulation->kind,
-        .geometry = {.shape = shape, .part = &fracas_part_whole, .width = 6e-3, .height = 5e-3, .inner = 2e-3, .outer = 4e-3,
-                     .radius = 1.5e-3, .thickness = 3e-4},
+        .geometry = {.shape = shape,
+                     .part = &fracas_part_whole,
+                     .width = 6e-3,
+                     .height = 5e-3,
+                     .inner = 2e-3,
+                     .outer = 4e-3,
+                     .radius = 1.5e-3,
+                     .thickness = 3e-4},
         .mesh = {.spacing = &fracas_spacing_triangles, .divisions = divisions, .order = order},
         .material = {.young = 320e9, .density = 3300, .poisson = 0.3},
-        .cohesive = {.law = &fracas_law_nitsche, .fracture_energy = 200, .beta = 5, .beta_shear = 1, .onset = &fracas_onset_mean, .coupling = 1},
-        .loading = {.type = &fracas_loading_expansion, .rate = 2e4, .ratio = 1, .start = &fracas_start_moving},
-        .time = {.stop = &fracas_stop_time, .end = 5e-7, .safety = 0.5, .integrator = &fracas_integrator_central_difference,
-                 .spectral_radius = 0.8, .mass = &fracas_mass_lumped}};
+        .cohesive = {.law = &fracas_law_nitsche,
+                     .fracture_energy = 200,
+                     .beta = 5,
+                     .beta_shear = 1,
+                     .onset = &fracas_onset_mean,
+                     .coupling = 1},
+        .loading = {.type = &fracas_loading_expansion,
+                    .rate = 2e4,
+                    .ratio = 1,
+                    .start = &fracas_start_moving},
+        .time = {.stop = &fracas_stop_time,
+                 .end = 5e-7,
+                 .safety = 0.5,
+                 .integrator = &fracas_integrator_central_difference,
+                 .spectral_radius = 0.8,
+                 .mass = &fracas_mass_lumped}};
     for (int i = 0; i < FRACAS_EDGES; i++) spec.geometry.edge[i] = &fracas_edge_free;
     return spec;
 }
 
 static void run(const fracas_model *model, int width, fracas_isa isa, fracas_record *record)
 {
-    const fracas_batch_options options = {.history = 20, .interfaces = true, .width = width, .isa = isa};
+    const fracas_batch_options options = {
+        .history = 20, .interfaces = true, .width = width, .isa = isa};
     const fracas_stream stream = {.seed = 6, .purpose = FRACAS_PURPOSE_STRENGTH};
     fracas_batch *batch;
     assert_ok(fracas_batch_create(model, (size_t)width, &options, &batch));
     for (size_t l = 0; l < (size_t)width; l++) {
         for (size_t k = 0; k < strengths_of(model); k++)
-            bar_set_strength(batch, l, k, 300e6 * (1 + 0.3 * fracas_stream_uniform(&stream, k / model->strengths + 100000 * l)));
+            bar_set_strength(batch, l, k,
+                             300e6 * (1 + 0.3 * fracas_stream_uniform(
+                                                    &stream, k / model->strengths + 100000 * l)));
         fracas_record_init(&record[l]);
     }
     assert_ok(fracas_batch_run(batch, record));
@@ -54,8 +79,10 @@ static void equal_strengths_are_as_one(void **unused)
                 fracas_spec spec = body[b];
                 spec.strength_per_point = per_point;
                 fracas_model *model = distorted_model(spec, 0.1, 3);
-                assert_int_equal(fracas_model_strengths_per_interface(model), per_point ? spec.mesh.order + 1 : 1);
-                run(model, width, width == 1 ? FRACAS_ISA_BASELINE : FRACAS_ISA_BEST, record[per_point]);
+                assert_int_equal(fracas_model_strengths_per_interface(model),
+                                 per_point ? spec.mesh.order + 1 : 1);
+                run(model, width, width == 1 ? FRACAS_ISA_BASELINE : FRACAS_ISA_BEST,
+                    record[per_point]);
                 fracas_model_destroy(model);
             }
             for (int l = 0; l < width; l++) {
@@ -73,7 +100,8 @@ static void every_one_is_checked(void **unused)
     spec.strength_per_point = true;
     fracas_model *model = distorted_model(spec, 0, 0);
     fracas_batch *batch;
-    assert_ok(fracas_batch_create(model, 1, &(fracas_batch_options){.isa = FRACAS_ISA_BEST}, &batch));
+    assert_ok(
+        fracas_batch_create(model, 1, &(fracas_batch_options){.isa = FRACAS_ISA_BEST}, &batch));
     for (size_t k = 0; k < strengths_of(model); k++) bar_set_strength(batch, 0, k, 300e6);
     assert_ok(fracas_batch_begin(batch));
     bar_set_strength(batch, 0, strengths_of(model) - 1, 0);
@@ -97,18 +125,21 @@ static void chains_have_one(void **unused)
 }
 
 /* The point at s from the first end of an edge, by Lagrange's polynomials through its nodes. */
-static void on_edge(const fracas_surface *surface, const fracas_surface_interface *interface, int side, double s, double x[3])
+static void on_edge(const fracas_surface *surface, const fracas_surface_interface *interface,
+                    int side, double s, double x[3])
 {
     const uint32_t *node = surface->element + interface->element[side] * surface->corners;
     const int edge = interface->edge[side];
     const double *a = surface->node[node[edge]], *b = surface->node[node[(edge + 1) % 3]];
     for (int i = 0; i < 3; i++) {
         x[i] = (1 - s) * a[i] + s * b[i];
-        if (surface->order == 2) x[i] += 4 * s * (1 - s) * (surface->node[node[3 + edge]][i] - 0.5 * (a[i] + b[i]));
+        if (surface->order == 2)
+            x[i] += 4 * s * (1 - s) * (surface->node[node[3 + edge]][i] - 0.5 * (a[i] + b[i]));
     }
 }
 
-/* Gauss's points, from both sides of an edge. Coordinates are up to 6 mm, sums of three terms: 1e-17 m is ten times their rounding. */
+/* Gauss's points, from both sides of an edge. Coordinates are up to 6 mm, sums of three terms:
+ * 1e-17 m is ten times their rounding. */
 static void positions_are_those_of_gauss(void **unused)
 {
     (void)unused;
@@ -125,9 +156,11 @@ static void positions_are_those_of_gauss(void **unused)
         fracas_model_interface_positions(model, position);
         for (size_t k = 0; k < strengths_of(model); k++)
             for (int side = 0; side < 2; side++) {
-                const double off = ((double)(k % points) - 0.5 * (double)(points - 1)) * (points == 2 ? sqrt(1.0 / 3) : sqrt(0.15));
+                const double off = ((double)(k % points) - 0.5 * (double)(points - 1)) *
+                                   (points == 2 ? sqrt(1.0 / 3) : sqrt(0.15));
                 double x[3];
-                on_edge(model->surface, &model->surface->interface[k / points], side, side ? 0.5 - off : 0.5 + off, x);
+                on_edge(model->surface, &model->surface->interface[k / points], side,
+                        side ? 0.5 - off : 0.5 + off, x);
                 for (int i = 0; i < 3; i++) worst = fmax(worst, fabs(position[k][i] - x[i]));
             }
         assert_true(worst < 1e-17);
@@ -138,7 +171,8 @@ static void positions_are_those_of_gauss(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(equal_strengths_are_as_one), cmocka_unit_test(every_one_is_checked),
-                                       cmocka_unit_test(chains_have_one), cmocka_unit_test(positions_are_those_of_gauss)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(equal_strengths_are_as_one), cmocka_unit_test(every_one_is_checked),
+        cmocka_unit_test(chains_have_one), cmocka_unit_test(positions_are_those_of_gauss)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

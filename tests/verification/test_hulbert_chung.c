@@ -1,5 +1,7 @@
-/* The explicit scheme of Hulbert and Chung: its parameters and limits by its amplification matrix, and the membrane's sweep
- * against the scheme applied to one number, an eigenmode's amplitude. Central difference likewise. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The explicit scheme of Hulbert and Chung: its parameters and limits by its amplification matrix,
+ * and the membrane's sweep against the scheme applied to one number, an eigenmode's amplitude.
+ * Central difference likewise. */
 #include "tests/support/membrane.h"
 
 #include "engine/integrator/hulbert_chung.h"
@@ -17,11 +19,13 @@ typedef struct {
     double u, v, a;
 } motion;
 
-/* (1 - am) a' + am a = -Omega^2 u, then u' = u + v + (1/2 - b) a + b a', v' = v + (1 - g) a + g a'. */
+/* (1 - am) a' + am a = -Omega^2 u, then u' = u + v + (1/2 - b) a + b a', v' = v + (1 - g) a + g a'.
+ */
 static motion advance(const fracas_hulbert_chung *h, double square, motion x)
 {
     const double a = (-square * x.u - h->alpha_m * x.a) / (1 - h->alpha_m);
-    return (motion){x.u + x.v + (0.5 - h->beta) * x.a + h->beta * a, x.v + (1 - h->gamma) * x.a + h->gamma * a, a};
+    return (motion){x.u + x.v + (0.5 - h->beta) * x.a + h->beta * a,
+                    x.v + (1 - h->gamma) * x.a + h->gamma * a, a};
 }
 
 static void amplification(const fracas_hulbert_chung *h, double square, double m[3][3])
@@ -40,8 +44,10 @@ static void characteristic(const fracas_hulbert_chung *h, double square, double 
     double m[3][3];
     amplification(h, square, m);
     c[2] = -(m[0][0] + m[1][1] + m[2][2]);
-    c[1] = m[0][0] * m[1][1] - m[0][1] * m[1][0] + m[0][0] * m[2][2] - m[0][2] * m[2][0] + m[1][1] * m[2][2] - m[1][2] * m[2][1];
-    c[0] = -(m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+    c[1] = m[0][0] * m[1][1] - m[0][1] * m[1][0] + m[0][0] * m[2][2] - m[0][2] * m[2][0] +
+           m[1][1] * m[2][2] - m[1][2] * m[2][1];
+    c[0] = -(m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+             m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
              m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]));
 }
 
@@ -74,13 +80,15 @@ static void parameters_are_those_of_the_table(void **unused)
     for (size_t i = 0; i < 4; i++) {
         const double *t = table[i], r = t[0];
         const fracas_hulbert_chung h = fracas_hulbert_chung_of(r);
-        assert_true(fabs(h.alpha_m - t[1]) < 6e-7 && fabs(h.beta - t[2]) < 6e-7 && fabs(h.gamma - t[3]) < 6e-7);
+        assert_true(fabs(h.alpha_m - t[1]) < 6e-7 && fabs(h.beta - t[2]) < 6e-7 &&
+                    fabs(h.gamma - t[3]) < 6e-7);
         assert_true(fabs((1 + r) * sqrt(2 - r) - t[4]) < 6e-7 && fabs(h.limit - t[5]) < 6e-6);
     }
 }
 
-/* At Omega_b = (1 + r) sqrt(2 - r) the characteristic polynomial is (x + r)^3: coefficients to some roundings of numbers
- * below 10. At the limit a root is -1, and no root is outside the circle below, one is above: P(-1) changes its sign there. */
+/* At Omega_b = (1 + r) sqrt(2 - r) the characteristic polynomial is (x + r)^3: coefficients to some
+ * roundings of numbers below 10. At the limit a root is -1, and no root is outside the circle
+ * below, one is above: P(-1) changes its sign there. */
 static void roots_are_those_of_the_scheme(void **unused)
 {
     (void)unused;
@@ -89,10 +97,12 @@ static void roots_are_those_of_the_scheme(void **unused)
         const fracas_hulbert_chung h = fracas_hulbert_chung_of(r);
         double c[3];
         characteristic(&h, bifurcation * bifurcation, c);
-        assert_true(fabs(c[2] - 3 * r) < 1e-13 && fabs(c[1] - 3 * r * r) < 1e-13 && fabs(c[0] - r * r * r) < 1e-13);
+        assert_true(fabs(c[2] - 3 * r) < 1e-13 && fabs(c[1] - 3 * r * r) < 1e-13 &&
+                    fabs(c[0] - r * r * r) < 1e-13);
         characteristic(&h, h.limit * h.limit, c);
         assert_true(fabs(-1 + c[2] - c[1] + c[0]) < 1e-13);
-        /* a root of multiplicity 3 at r = 1 (2 at Omega = 0) is found to eps^(1/3) = 6e-6 (eps^(1/2)) */
+        /* a root of multiplicity 3 at r = 1 (2 at Omega = 0) is found to eps^(1/3) = 6e-6
+         * (eps^(1/2)) */
         for (int k = 0; k <= 200; k++) {
             const double omega = h.limit * (1 - 1e-4) * k / 200;
             assert_true(spectral_radius(&h, omega * omega) <= 1 + 2e-5);
@@ -102,8 +112,8 @@ static void roots_are_those_of_the_scheme(void **unused)
     }
 }
 
-/* Errors of u and v after one time unit, of cos(2 t): a quarter for half the step, within what the next order leaves, which is
- * of the step itself: 2 dt omega = 2 % here. */
+/* Errors of u and v after one time unit, of cos(2 t): a quarter for half the step, within what the
+ * next order leaves, which is of the step itself: 2 dt omega = 2 % here. */
 static void second_order(void **unused)
 {
     (void)unused;
@@ -119,7 +129,8 @@ static void second_order(void **unused)
             wrong[fine][0] = fabs(x.u - cos(2));
             wrong[fine][1] = fabs(x.v / dt + 2 * sin(2));
         }
-        for (int k = 0; k < 2; k++) assert_true(wrong[0][k] < 1e-3 && fabs(wrong[0][k] / wrong[1][k] - 4) < 0.16);
+        for (int k = 0; k < 2; k++)
+            assert_true(wrong[0][k] < 1e-3 && fabs(wrong[0][k] / wrong[1][k] - 4) < 0.16);
     }
 }
 
@@ -128,9 +139,9 @@ static void second_order(void **unused)
 typedef struct {
     fracas_model *model;
     fracas_batch *batch;
-    size_t n, size;          /* degrees of freedom, of an element */
-    double *value;           /* [n], eigenvalues of M^-1 K, largest first */
-    double *mode;            /* [which][n], largest component 1 */
+    size_t n, size; /* degrees of freedom, of an element */
+    double *value;  /* [n], eigenvalues of M^-1 K, largest first */
+    double *mode;   /* [which][n], largest component 1 */
 } body;
 
 static body body_of(const fracas_spec *spec)
@@ -193,8 +204,10 @@ static void start(body *b, const double *mode, double u, double v)
     for (size_t i = 0; i < b->model->interfaces; i++) bar_set_strength(b->batch, 0, i, 1e9);
     assert_ok(fracas_batch_begin(b->batch));
     for (size_t i = 0; i < b->n; i++) {
-        *fracas_membrane_value(b->model, &b->batch->step, i / b->size, SURFACE_U, (int)(i % b->size), 0) = u * mode[i];
-        *fracas_membrane_value(b->model, &b->batch->step, i / b->size, SURFACE_V, (int)(i % b->size), 0) = v * mode[i];
+        *fracas_membrane_value(b->model, &b->batch->step, i / b->size, SURFACE_U,
+                               (int)(i % b->size), 0) = u * mode[i];
+        *fracas_membrane_value(b->model, &b->batch->step, i / b->size, SURFACE_V,
+                               (int)(i % b->size), 0) = v * mode[i];
     }
 }
 
@@ -203,20 +216,25 @@ static double apart(const body *b, const double *mode, int field, double amplitu
 {
     double largest = 0;
     for (size_t i = 0; i < b->n; i++)
-        largest = fmax(largest, fabs(*fracas_membrane_value(b->model, &b->batch->step, i / b->size, field, (int)(i % b->size), 0) - amplitude * mode[i]));
+        largest = fmax(largest, fabs(*fracas_membrane_value(b->model, &b->batch->step, i / b->size,
+                                                            field, (int)(i % b->size), 0) -
+                                     amplitude * mode[i]));
     return largest;
 }
 
-/* Follows one mode for 300 steps; also where the guard of the energy ends the lane's record, as one coarse mode on its own has
- * an energy v^2 + omega^2 u^2 that swings. GSL's modes are good to 1e-12 or so (their remainder is 1e-13 of the largest eigenvalue), and
- * what is not of the mode grows at most with the number of steps (drift of the body as a whole): 300 x 1e-12 and some
- * roundings: 1e-9 of the amplitudes. */
+/* Follows one mode for 300 steps; also where the guard of the energy ends the lane's record, as one
+ * coarse mode on its own has an energy v^2 + omega^2 u^2 that swings. GSL's modes are good to 1e-12
+ * or so (their remainder is 1e-13 of the largest eigenvalue), and what is not of the mode grows at
+ * most with the number of steps (drift of the body as a whole): 300 x 1e-12 and some roundings:
+ * 1e-9 of the amplitudes. */
 static void follow(body *b, size_t which, double omega_dt)
 {
     const fracas_time *time = &b->model->spec.time;
     const bool alpha = time->integrator == &fracas_integrator_hulbert_chung;
     const fracas_hulbert_chung h = fracas_hulbert_chung_of(time->spectral_radius);
-    const double *mode = b->mode + which * b->n, dt = b->model->time_step = omega_dt / sqrt(b->value[0]), square = b->value[which] * dt * dt;
+    const double *mode = b->mode + which * b->n,
+                 dt = b->model->time_step = omega_dt / sqrt(b->value[0]),
+                 square = b->value[which] * dt * dt;
     const double u = 1e-10, v = 0.3 * u / dt;
     fracas_record record;
     fracas_record_init(&record);
@@ -234,7 +252,8 @@ static void follow(body *b, size_t which, double omega_dt)
             x.a = -square * x.u;
             after = x.v = before + x.a;
         }
-        /* bounded: by 306 for r = 1 at 0.999 of its limit, where three roots of size 1 lie close together */
+        /* bounded: by 306 for r = 1 at 0.999 of its limit, where three roots of size 1 lie close
+         * together */
         largest = fmax(largest, fmax(fabs(x.u), fabs(x.v)));
         assert_true(largest < 400 * u);
         assert_true(apart(b, mode, SURFACE_U, x.u) < 1e-9 * largest);
@@ -242,12 +261,14 @@ static void follow(body *b, size_t which, double omega_dt)
         if (alpha) {
             const motion next = advance(&h, square, x);
             assert_true(apart(b, mode, SURFACE_A, x.a / (dt * dt)) < 1e-8 * largest / (dt * dt));
-            assert_true(apart(b, mode, SURFACE_A_NEXT, next.a / (dt * dt)) < 1e-8 * largest / (dt * dt));
+            assert_true(apart(b, mode, SURFACE_A_NEXT, next.a / (dt * dt)) <
+                        1e-8 * largest / (dt * dt));
         }
         /* energies are v^2 and omega^2 u^2 times the same mass */
         const double kinetic = alpha ? x.v * x.v : before * after, elastic = square * x.u * x.u;
         most = fmax(most, fabs(b->batch->step.kinetic[0]) + b->batch->step.elastic[0]);
-        assert_true(fabs(b->batch->step.kinetic[0] * elastic - b->batch->step.elastic[0] * kinetic) < 1e-8 * most * largest * largest);
+        assert_true(fabs(b->batch->step.kinetic[0] * elastic -
+                         b->batch->step.elastic[0] * kinetic) < 1e-8 * most * largest * largest);
         assert_true(b->batch->step.cracked[0] == 0 && b->batch->step.dissipated[0] == 0);
     }
     fracas_record_clear(&record);
@@ -269,9 +290,11 @@ static void the_sweep_is_the_scheme(void **unused)
         body b = body_of(&spec);
         assert_true(b.model->elements == 2 && b.n == (spec.mesh.order == 1 ? 12 : 24));
         const double limit = scheme ? fracas_hulbert_chung_of(spec.time.spectral_radius).limit : 2;
-        /* what the model takes for its critical step is at most its bound, 2e-3 of the square, from the truth */
+        /* what the model takes for its critical step is at most its bound, 2e-3 of the square, from
+         * the truth */
         const double critical = limit / sqrt(b.value[0]);
-        assert_true(b.model->critical_closed < critical * (1 + 1e-6) && b.model->critical_closed > critical * (1 - 1.5e-3));
+        assert_true(b.model->critical_closed < critical * (1 + 1e-6) &&
+                    b.model->critical_closed > critical * (1 - 1.5e-3));
         for (size_t which = 0; which + 3 < b.n; which += 2) {
             follow(&b, which, 0.3 * limit);
             follow(&b, which, 0.9 * limit);
@@ -281,8 +304,8 @@ static void the_sweep_is_the_scheme(void **unused)
     }
 }
 
-/* The highest mode grows without end 1e-3 above the limit and not below it, in the batch too. Growth by 1e4 or by a few times:
- * above it the root is -(1 + some 1e-3), 20000 steps. */
+/* The highest mode grows without end 1e-3 above the limit and not below it, in the batch too.
+ * Growth by 1e4 or by a few times: above it the root is -(1 + some 1e-3), 20000 steps. */
 static void the_batch_blows_up_above_the_limit_only(void **unused)
 {
     (void)unused;
@@ -293,7 +316,8 @@ static void the_batch_blows_up_above_the_limit_only(void **unused)
         spec.time.spectral_radius = radii[i / 2];
         body b = body_of(&spec);
         const bool above = i % 2;
-        b.model->time_step = (above ? 1.001 : 0.999) * fracas_hulbert_chung_of(radii[i / 2]).limit / sqrt(b.value[0]);
+        b.model->time_step = (above ? 1.001 : 0.999) * fracas_hulbert_chung_of(radii[i / 2]).limit /
+                             sqrt(b.value[0]);
         fracas_record record;
         fracas_record_init(&record);
         start(&b, b.mode, 1e-16, 0);

@@ -1,5 +1,6 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: slow-sanitize */
 /* Manufactured solutions: how fast the membrane's errors fall with the size of its elements.
- * ctest-labels: slow-sanitize
  */
 #include "tests/support/membrane_elastic.h"
 
@@ -7,8 +8,8 @@
 
 #include <gsl/gsl_fit.h>
 
-#define SMALL 1e-6  /* m, of the displacements */
-#define P 260.0     /* 1/m: half a wave over the plate and more */
+#define SMALL 1e-6 /* m, of the displacements */
+#define P 260.0    /* 1/m: half a wave over the plate and more */
 #define Q 330.0
 
 /* u = (sin(P x + 0.2) cos(Q y - 0.1), 0.8 cos(P x + 0.5) sin(Q y + 0.3)) */
@@ -40,17 +41,20 @@ static double dot(const double *a, const double *b, size_t n)
     return sum;
 }
 
-/* Conjugate gradients on what is not held, preconditioned by the masses' diagonal; u holds the start. */
+/* Conjugate gradients on what is not held, preconditioned by the masses' diagonal; u holds the
+ * start. */
 static void solve(const fracas_model *model, const double *f, double *u)
 {
     const size_t n = unknowns_of(model), nodes = model->surface->corners;
     const fracas_membrane_tables *t = tables_of(model);
     fracas_membrane_operator *op = open_operator(model);
-    double *r = vector_of(n), *z = vector_of(n), *p = vector_of(n), *kp = vector_of(n), before = 1, first = 0;
+    double *r = vector_of(n), *z = vector_of(n), *p = vector_of(n), *kp = vector_of(n), before = 1,
+           first = 0;
     apply_stiffness(model, op, u, r);
     for (size_t i = 0; i < n; i++) r[i] = is_held(model, i) ? 0 : f[i] - r[i];
     for (int step = 0; step < 20000; step++) {
-        for (size_t i = 0; i < n; i++) z[i] = r[i] * t->lumped[i / (2 * nodes) * 2 * nodes + i / 2 % nodes];
+        for (size_t i = 0; i < n; i++)
+            z[i] = r[i] * t->lumped[i / (2 * nodes) * 2 * nodes + i / 2 % nodes];
         const double now = dot(r, z, n);
         if (step == 0) first = now;
         if (now <= 1e-24 * first) break; /* the error's norm has fallen by 1e-12 */
@@ -83,7 +87,8 @@ static void load(const fracas_model *model, double *f)
             body_force(&model->spec.material, p.x, b);
             for (size_t k = 0; k < nodes; k++)
                 for (size_t i = 0; i < 2; i++)
-                    f[2 * (nodes * e + k) + i] += rule[2] * p.det * model->spec.geometry.thickness * p.shape[k] * b[i];
+                    f[2 * (nodes * e + k) + i] += rule[2] * p.det * model->spec.geometry.thickness *
+                                                  p.shape[k] * b[i];
         }
 }
 
@@ -141,7 +146,8 @@ static double slope_of(const double *size, const double *error, size_t count)
         x[i] = log(size[i]);
         y[i] = log(error[i]);
     }
-    gsl_fit_linear(x, 1, y, 1, count, &intercept, &slope, &unused[0], &unused[1], &unused[2], &unused[3]);
+    gsl_fit_linear(x, 1, y, 1, count, &intercept, &slope, &unused[0], &unused[1], &unused[2],
+                   &unused[3]);
     return slope;
 }
 
@@ -154,23 +160,27 @@ static void static_displacements_converge(void **unused)
         int order;
         int64_t divisions[3];
         double slope;
-    } cases[] = {{&fracas_shape_plate, 1, {8, 16, 32}, 1.9}, {&fracas_shape_plate, 2, {6, 12, 24}, 2.9},
+    } cases[] = {{&fracas_shape_plate, 1, {8, 16, 32}, 1.9},
+                 {&fracas_shape_plate, 2, {6, 12, 24}, 2.9},
                  {&fracas_shape_annulus, 2, {2, 4, 8}, 2.9}};
     for (size_t c = 0; c < 3; c++) {
         double size[3], error[3];
         for (int i = 0; i < 3; i++)
-            error[i] = static_error(membrane_spec(cases[c].shape, cases[c].order, cases[c].divisions[i]), DISTORTION, &size[i]);
+            error[i] = static_error(
+                membrane_spec(cases[c].shape, cases[c].order, cases[c].divisions[i]), DISTORTION,
+                &size[i]);
         const double slope = slope_of(size, error, 3);
-        print_message("%s, order %d: errors %.2e %.2e %.2e, slope %.3f\n", cases[c].shape->name, cases[c].order, error[0], error[1],
-                      error[2], slope);
+        print_message("%s, order %d: errors %.2e %.2e %.2e, slope %.3f\n", cases[c].shape->name,
+                      cases[c].order, error[0], error[1], error[2], slope);
         assert_true(slope > cases[c].slope);
     }
 }
 
 /* ---- standing waves ---- */
 
-/* The slowest motion of a plate of which all edges slide: u = (psi,y, -psi,x), psi = sin(a x) sin(b y) from a corner,
- * a = pi/width, b = pi/height: shear alone, w = c_s sqrt(a^2 + b^2), and no shear stress at the edges. */
+/* The slowest motion of a plate of which all edges slide: u = (psi,y, -psi,x), psi = sin(a x) sin(b
+ * y) from a corner, a = pi/width, b = pi/height: shear alone, w = c_s sqrt(a^2 + b^2), and no shear
+ * stress at the edges. */
 typedef struct {
     double a, b, x, y; /* 1/m, m: the corner */
 } wave;
@@ -182,10 +192,12 @@ static void wave_at(const void *how, const double x[2], double u[2])
     u[1] = -w->a * cos(w->a * (x[0] - w->x)) * sin(w->b * (x[1] - w->y));
 }
 
-/* w^2 by w^2 of the exact wave, less 1: inverse iteration from the exact shape. What that differs by from the mesh's own is of
- * the order k + 1, and its square counts, 2 k + 2: less than what is looked for, 2 k at best. Each turn takes most of it away,
- * all but what moves nearly as slowly; four are enough. */
-static double frequency_error(int64_t order, int64_t divisions, const fracas_kind *mass, double *size)
+/* w^2 by w^2 of the exact wave, less 1: inverse iteration from the exact shape. What that differs
+ * by from the mesh's own is of the order k + 1, and its square counts, 2 k + 2: less than what is
+ * looked for, 2 k at best. Each turn takes most of it away, all but what moves nearly as slowly;
+ * four are enough. */
+static double frequency_error(int64_t order, int64_t divisions, const fracas_kind *mass,
+                              double *size)
 {
     fracas_spec spec = membrane_spec(&fracas_shape_plate, order, divisions);
     spec.material.poisson = 0.22;
@@ -194,7 +206,8 @@ static double frequency_error(int64_t order, int64_t divisions, const fracas_kin
     fracas_model *model = distorted_model(spec, DISTORTION, (uint64_t)divisions);
     const fracas_geometry *g = &spec.geometry;
     const wave exact_wave = {PI / g->width, PI / g->height, -0.5 * g->width, -0.5 * g->height};
-    const double shear = spec.material.young / (2 * (1 + spec.material.poisson) * spec.material.density);
+    const double shear = spec.material.young /
+                         (2 * (1 + spec.material.poisson) * spec.material.density);
     const double square = shear * (exact_wave.a * exact_wave.a + exact_wave.b * exact_wave.b);
     const size_t n = unknowns_of(model);
     double *u = vector_of(n), *f = vector_of(n), *momentum = vector_of(n), quotient = 0;
@@ -215,9 +228,10 @@ static double frequency_error(int64_t order, int64_t divisions, const fracas_kin
     return quotient - 1;
 }
 
-/* 2 k with consistent masses, the theory of eigenvalues; 2 with lumped ones of either order: the rule of Hinton, Rock and
- * Zienkiewicz has 11/57 of the element's mass for int l^2, where 1/6 is right, so that it is exact to degree 1 alone. Less a
- * twentieth, as slopes are those of the last term but for the next one. */
+/* 2 k with consistent masses, the theory of eigenvalues; 2 with lumped ones of either order: the
+ * rule of Hinton, Rock and Zienkiewicz has 11/57 of the element's mass for int l^2, where 1/6 is
+ * right, so that it is exact to degree 1 alone. Less a twentieth, as slopes are those of the last
+ * term but for the next one. */
 static void frequencies_converge(void **unused)
 {
     (void)unused;
@@ -226,12 +240,17 @@ static void frequencies_converge(void **unused)
         const fracas_kind *mass;
         int64_t divisions[3];
         double slope;
-    } cases[] = {{1, &fracas_mass_lumped, {8, 16, 32}, 1.9}, {1, &fracas_mass_consistent, {8, 16, 32}, 1.9},
-                 {2, &fracas_mass_lumped, {6, 12, 24}, 1.9}, {2, &fracas_mass_consistent, {4, 8, 16}, 3.8}};
+    } cases[] = {{1, &fracas_mass_lumped, {8, 16, 32}, 1.9},
+                 {1, &fracas_mass_consistent, {8, 16, 32}, 1.9},
+                 {2, &fracas_mass_lumped, {6, 12, 24}, 1.9},
+                 {2, &fracas_mass_consistent, {4, 8, 16}, 3.8}};
     for (size_t c = 0; c < 4; c++) {
         double size[3], error[3];
-        for (int i = 0; i < 3; i++) error[i] = frequency_error(cases[c].order, cases[c].divisions[i], cases[c].mass, &size[i]);
-        print_message("order %d, %s masses: w^2 off by %+.2e %+.2e %+.2e", cases[c].order, cases[c].mass->name, error[0], error[1], error[2]);
+        for (int i = 0; i < 3; i++)
+            error[i] = frequency_error(cases[c].order, cases[c].divisions[i], cases[c].mass,
+                                       &size[i]);
+        print_message("order %d, %s masses: w^2 off by %+.2e %+.2e %+.2e", cases[c].order,
+                      cases[c].mass->name, error[0], error[1], error[2]);
         for (int i = 0; i < 3; i++) error[i] = fabs(error[i]);
         const double slope = slope_of(size, error, 3);
         print_message(", slope %.3f\n", slope);

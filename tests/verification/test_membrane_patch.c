@@ -1,5 +1,6 @@
-/* The membrane's operator on distorted meshes: uniform strain, rigid motions, its matrix against the bilinear form written down
- * anew, its eigenvalues, masses and critical step. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The membrane's operator on distorted meshes: uniform strain, rigid motions, its matrix against
+ * the bilinear form written down anew, its eigenvalues, masses and critical step. */
 #include "tests/support/gmsh.h"
 #include "tests/support/membrane_elastic.h"
 
@@ -14,7 +15,7 @@ static fracas_model *bent_plate(int64_t divisions, uint64_t seed)
     fracas_spec spec = membrane_spec(&fracas_shape_plate, 2, divisions);
     fracas_model *flat = distorted_model(spec, DISTORTION, seed), *model;
     fracas_surface bent = *flat->surface;
-    double (*node)[3] = malloc(bent.nnodes * sizeof *node);
+    double(*node)[3] = malloc(bent.nnodes * sizeof *node);
     assert_non_null(node);
     for (size_t n = 0; n < bent.nnodes; n++) {
         const double *x = bent.node[n];
@@ -22,7 +23,7 @@ static fracas_model *bent_plate(int64_t divisions, uint64_t seed)
         node[n][1] = x[1] + 0.3e-3 * cos(500 * x[0]);
         node[n][2] = 0;
     }
-    bent.node = (const double (*)[3])node;
+    bent.node = (const double(*)[3])node;
     gmsh_file file = gmsh_write(&bent, false, true, false);
     const fracas_attachment mesh = {.path = "bent", .text = file.bytes, .size = file.size};
     spec.geometry.shape = &fracas_shape_file;
@@ -37,7 +38,8 @@ static fracas_model *bent_plate(int64_t divisions, uint64_t seed)
 
 static fracas_model *distorted(int which, int64_t divisions, uint64_t seed)
 {
-    return which == BENT ? bent_plate(divisions, seed) : distorted_model(body_of(which, divisions), DISTORTION, seed);
+    return which == BENT ? bent_plate(divisions, seed)
+                         : distorted_model(body_of(which, divisions), DISTORTION, seed);
 }
 
 /* u = g x + c, g = du_i/dx_j */
@@ -51,7 +53,8 @@ static void linear_at(const void *how, const double x[2], double u[2])
     for (int i = 0; i < 2; i++) u[i] = f->c[i] + f->g[i][0] * x[0] + f->g[i][1] * x[1];
 }
 
-/* Force of a uniform stress on the nodes of the boundary: int N n.sigma h ds, by Gauss' rule of 4 points, exact to degree 7. */
+/* Force of a uniform stress on the nodes of the boundary: int N n.sigma h ds, by Gauss' rule of 4
+ * points, exact to degree 7. */
 static void tractions(const fracas_model *model, const double stress[3], double *f)
 {
     const size_t nodes = model->surface->corners;
@@ -66,37 +69,43 @@ static void tractions(const fracas_model *model, const double stress[3], double 
             const membrane_place p = place_at(model, border->element, at[0], at[1]);
             weight *= model->spec.geometry.thickness;
             for (size_t k = 0; k < nodes; k++) {
-                f[2 * (nodes * border->element + k)] += weight * p.shape[k] * (stress[0] * n[0] + stress[2] * n[1]);
-                f[2 * (nodes * border->element + k) + 1] += weight * p.shape[k] * (stress[2] * n[0] + stress[1] * n[1]);
+                f[2 * (nodes * border->element + k)] += weight * p.shape[k] *
+                                                        (stress[0] * n[0] + stress[2] * n[1]);
+                f[2 * (nodes * border->element + k) + 1] += weight * p.shape[k] *
+                                                            (stress[2] * n[0] + stress[1] * n[1]);
             }
         }
     }
     gsl_integration_glfixed_table_free(rule);
 }
 
-/* Forces are sums of some 50 terms as large as the largest force by the ratio of the body to an element, about 10 (u is as large
- * as the body's size lets it, and its differences over an element are taken): 50 x 10 x 1.1e-16 = 6e-14 of it; 1e-12.
- * Isoparametric elements with a bent edge pass as well: their shape functions' derivatives by their Jacobian's cofactors are of
- * degree 2, which the bulk's rule integrates, and edges' integrands are of degree 3. */
+/* Forces are sums of some 50 terms as large as the largest force by the ratio of the body to an
+ * element, about 10 (u is as large as the body's size lets it, and its differences over an element
+ * are taken): 50 x 10 x 1.1e-16 = 6e-14 of it; 1e-12. Isoparametric elements with a bent edge pass
+ * as well: their shape functions' derivatives by their Jacobian's cofactors are of degree 2, which
+ * the bulk's rule integrates, and edges' integrands are of degree 3. */
 static void uniform_strain_is_exact(void **unused)
 {
     (void)unused;
-    const linear_field fields[] = {{{{1e-3, 0}, {0, 0}}, {0}}, {{{0, 0}, {0, 1e-3}}, {0}}, {{{0, 1e-3}, {1e-3, 0}}, {0}},
+    const linear_field fields[] = {{{{1e-3, 0}, {0, 0}}, {0}},
+                                   {{{0, 0}, {0, 1e-3}}, {0}},
+                                   {{{0, 1e-3}, {1e-3, 0}}, {0}},
                                    {{{2e-3, -1e-3}, {3e-3, 1e-3}}, {1e-6, -2e-6}}};
     for (int which = 0; which < ALL_BODIES; which++)
         for (size_t f = 0; f < 4; f++) {
             fracas_model *model = distorted(which, 6, 5 + f);
             fracas_membrane_operator *op = open_operator(model);
             const size_t n = unknowns_of(model);
-            double *u = vector_of(n), *force = vector_of(n), *expected = vector_of(n), stress[3], g[2][2], worst = 0;
+            double *u = vector_of(n), *force = vector_of(n), *expected = vector_of(n), stress[3],
+                   g[2][2], worst = 0;
             memcpy(g, fields[f].g, sizeof g);
             hooke(&model->spec.material, g, stress);
             interpolate(model, linear_at, &fields[f], u);
             apply_stiffness(model, op, u, force);
             tractions(model, stress, expected);
             for (size_t i = 0; i < n; i++) worst = fmax(worst, fabs(force[i] - expected[i]));
-            print_message("body %d, field %zu: %zu elements, forces within %.1e of the largest\n", which, f, model->elements,
-                          worst / largest_of(expected, n));
+            print_message("body %d, field %zu: %zu elements, forces within %.1e of the largest\n",
+                          which, f, model->elements, worst / largest_of(expected, n));
             assert_true(worst < 1e-12 * largest_of(expected, n));
             free(u);
             free(force);
@@ -106,12 +115,14 @@ static void uniform_strain_is_exact(void **unused)
         }
 }
 
-/* No force at all: what remains is the round-off of K u, some 30 terms K_ij u_j of which none exceeds max|K| max|u|: 4e-15 of
- * that. */
+/* No force at all: what remains is the round-off of K u, some 30 terms K_ij u_j of which none
+ * exceeds max|K| max|u|: 4e-15 of that. */
 static void rigid_motions_give_no_force(void **unused)
 {
     (void)unused;
-    const linear_field fields[] = {{{{0, 0}, {0, 0}}, {1e-3, 0}}, {{{0, 0}, {0, 0}}, {0, 1e-3}}, {{{0, -1e-2}, {1e-2, 0}}, {0}}};
+    const linear_field fields[] = {{{{0, 0}, {0, 0}}, {1e-3, 0}},
+                                   {{{0, 0}, {0, 0}}, {0, 1e-3}},
+                                   {{{0, -1e-2}, {1e-2, 0}}, {0}}};
     for (int which = 0; which < ALL_BODIES; which++) {
         fracas_model *model = distorted(which, 4, 11);
         fracas_membrane_operator *op = open_operator(model);
@@ -123,7 +134,8 @@ static void rigid_motions_give_no_force(void **unused)
         for (size_t f = 0; f < 3; f++) {
             interpolate(model, linear_at, &fields[f], u);
             apply_stiffness(model, op, u, force);
-            print_message("body %d, motion %zu: %.1e\n", which, f, largest_of(force, n) / (stiffness * largest_of(u, n)));
+            print_message("body %d, motion %zu: %.1e\n", which, f,
+                          largest_of(force, n) / (stiffness * largest_of(u, n)));
             assert_true(largest_of(force, n) < 1e-14 * stiffness * largest_of(u, n));
         }
         free(u);
@@ -135,9 +147,10 @@ static void rigid_motions_give_no_force(void **unused)
 
 /* ---- the matrix ---- */
 
-/* Stress of an element's unit displacement `d` at a place, as interfaces see it: extrapolated from the points l_g = 2/3 of
- * quadratic triangles. Straight ones have it anywhere. */
-static void stress_of(const fracas_model *model, size_t e, size_t d, const double at[2], double stress[3])
+/* Stress of an element's unit displacement `d` at a place, as interfaces see it: extrapolated from
+ * the points l_g = 2/3 of quadratic triangles. Straight ones have it anywhere. */
+static void stress_of(const fracas_model *model, size_t e, size_t d, const double at[2],
+                      double stress[3])
 {
     double u[12] = {0};
     u[d] = 1;
@@ -157,11 +170,13 @@ static void stress_of(const fracas_model *model, size_t e, size_t d, const doubl
     }
 }
 
-/* int eps : sigma: the rule of 3 points at l_g = 2/3 for quadratic triangles, exact for straight ones. */
+/* int eps : sigma: the rule of 3 points at l_g = 2/3 for quadratic triangles, exact for straight
+ * ones. */
 static void add_bulk(const fracas_model *model, size_t n, double *matrix)
 {
     const size_t size = 2 * model->surface->corners, points = size == 6 ? 1 : 3;
-    const double place[2][3][2] = {{{1.0 / 3, 1.0 / 3}}, {{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}}};
+    const double place[2][3][2] = {{{1.0 / 3, 1.0 / 3}},
+                                   {{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}}};
     for (size_t e = 0; e < model->elements; e++)
         for (size_t g = 0; g < points; g++) {
             const double *at = place[points / 3][g];
@@ -172,8 +187,10 @@ static void add_bulk(const fracas_model *model, size_t n, double *matrix)
                 u[d] = 1;
                 stress_at(model, &p, u, stress);
                 for (size_t k = 0; k < size / 2; k++) {
-                    matrix[(e * size + 2 * k) * n + e * size + d] += weight * (stress[0] * p.by[k][0] + stress[2] * p.by[k][1]);
-                    matrix[(e * size + 2 * k + 1) * n + e * size + d] += weight * (stress[2] * p.by[k][0] + stress[1] * p.by[k][1]);
+                    matrix[(e * size + 2 * k) * n + e * size + d] +=
+                        weight * (stress[0] * p.by[k][0] + stress[2] * p.by[k][1]);
+                    matrix[(e * size + 2 * k + 1) * n + e * size + d] +=
+                        weight * (stress[2] * p.by[k][0] + stress[1] * p.by[k][1]);
                 }
             }
         }
@@ -187,7 +204,8 @@ static double area_of(const fracas_model *model, size_t e)
     return area;
 }
 
-static double length_of(const fracas_model *model, size_t e, size_t edge, const gsl_integration_glfixed_table *rule)
+static double length_of(const fracas_model *model, size_t e, size_t edge,
+                        const gsl_integration_glfixed_table *rule)
 {
     double length = 0;
     for (size_t g = 0; g < rule->n; g++) {
@@ -199,18 +217,21 @@ static double length_of(const fracas_model *model, size_t e, size_t edge, const 
     return length;
 }
 
-/* At one point of an interface, of each unknown of both elements: jump u+ - u- and mean traction. */
+/* At one point of an interface, of each unknown of both elements: jump u+ - u- and mean traction.
+ */
 typedef struct {
     double jump[24][2], mean[24][2];
     size_t at[24]; /* row of the matrix */
 } interface_point;
 
-static void fill_point(const fracas_model *model, const fracas_surface_interface *it, double s, const double normal[2], interface_point *p)
+static void fill_point(const fracas_model *model, const fracas_surface_interface *it, double s,
+                       const double normal[2], interface_point *p)
 {
     const size_t size = 2 * model->surface->corners;
     for (size_t side = 0; side < 2; side++) {
         double at[2];
-        on_edge(it->edge[side], side ? 1 - s : s, at); /* neighbours go along their edge in opposite directions */
+        on_edge(it->edge[side], side ? 1 - s : s,
+                at); /* neighbours go along their edge in opposite directions */
         const membrane_place place = place_at(model, it->element[side], at[0], at[1]);
         for (size_t d = 0; d < size; d++) {
             double stress[3], *jump = p->jump[side * size + d], *mean = p->mean[side * size + d];
@@ -224,31 +245,35 @@ static void fill_point(const fracas_model *model, const fracas_surface_interface
     }
 }
 
-/* int <t(u)>.[v] + <t(v)>.[u] + K [u].[v], K = beta E/(1 - nu^2) (|e|/A- + |e|/A+)/2, by Gauss' points: the engine's 2 and 3,
- * which are exact where edges are straight. */
+/* int <t(u)>.[v] + <t(v)>.[u] + K [u].[v], K = beta E/(1 - nu^2) (|e|/A- + |e|/A+)/2, by Gauss'
+ * points: the engine's 2 and 3, which are exact where edges are straight. */
 static void add_interfaces(const fracas_model *model, size_t n, double *matrix)
 {
     const size_t both = 4 * model->surface->corners;
-    const double nu = model->spec.material.poisson, modulus = model->spec.material.young / (1 - nu * nu);
+    const double nu = model->spec.material.poisson,
+                 modulus = model->spec.material.young / (1 - nu * nu);
     const size_t points = (size_t)model->surface->order + 1;
     gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(points);
     for (size_t i = 0; i < model->interfaces; i++) {
         const fracas_surface_interface *it = &model->surface->interface[i];
         const double length = length_of(model, it->element[0], it->edge[0], rule);
         const double k = model->spec.cohesive.beta * modulus * length *
-                         (0.5 / area_of(model, it->element[0]) + 0.5 / area_of(model, it->element[1]));
+                         (0.5 / area_of(model, it->element[0]) +
+                          0.5 / area_of(model, it->element[1]));
         for (size_t g = 0; g < points; g++) {
             double s, weight, normal[2];
             interface_point p;
             gsl_integration_glfixed_point(0, 1, g, &s, &weight, rule);
             edge_normal(model, it->element[0], it->edge[0], s, normal);
-            const double speed = hypot(normal[0], normal[1]), unit[2] = {normal[0] / speed, normal[1] / speed};
+            const double speed = hypot(normal[0], normal[1]),
+                         unit[2] = {normal[0] / speed, normal[1] / speed};
             fill_point(model, it, s, unit, &p);
             weight *= speed * model->spec.geometry.thickness;
             for (size_t a = 0; a < both; a++)
                 for (size_t b = 0; b < both; b++)
                     for (int c = 0; c < 2; c++)
-                        matrix[p.at[a] * n + p.at[b]] += weight * (p.mean[b][c] * p.jump[a][c] + p.mean[a][c] * p.jump[b][c] +
+                        matrix[p.at[a] * n + p.at[b]] += weight * (p.mean[b][c] * p.jump[a][c] +
+                                                                   p.mean[a][c] * p.jump[b][c] +
                                                                    k * p.jump[a][c] * p.jump[b][c]);
         }
     }
@@ -262,7 +287,8 @@ static void the_matrix_is_the_bilinear_form(void **unused)
     for (int which = 0; which < ALL_BODIES; which++) {
         fracas_model *model = distorted(which, which < 2 || which == BENT ? 3 : 1, 3);
         const size_t n = unknowns_of(model);
-        double *matrix = stiffness_matrix(model, n), *expected = vector_of(n * n), worst = 0, skew = 0;
+        double *matrix = stiffness_matrix(model, n), *expected = vector_of(n * n), worst = 0,
+               skew = 0;
         add_bulk(model, n, expected);
         add_interfaces(model, n, expected);
         for (size_t i = 0; i < n; i++)
@@ -271,7 +297,8 @@ static void the_matrix_is_the_bilinear_form(void **unused)
                 skew = fmax(skew, fabs(matrix[i * n + j] - matrix[j * n + i]));
             }
         const double scale = largest_of(expected, n * n);
-        print_message("body %d: %zu unknowns, within %.1e, symmetric to %.1e\n", which, n, worst / scale, skew / scale);
+        print_message("body %d: %zu unknowns, within %.1e, symmetric to %.1e\n", which, n,
+                      worst / scale, skew / scale);
         assert_true(worst < 1e-12 * scale);
         assert_true(skew < 1e-12 * scale);
         free(matrix);
@@ -280,8 +307,8 @@ static void the_matrix_is_the_bilinear_form(void **unused)
     }
 }
 
-/* Three rigid motions, and nothing below: zeros are known to n 1.1e-16 of the largest eigenvalue, 1e-13; the first elastic one is
- * far above. */
+/* Three rigid motions, and nothing below: zeros are known to n 1.1e-16 of the largest eigenvalue,
+ * 1e-13; the first elastic one is far above. */
 static void only_rigid_motions_cost_no_energy(void **unused)
 {
     (void)unused;
@@ -289,8 +316,9 @@ static void only_rigid_motions_cost_no_energy(void **unused)
         fracas_model *model = distorted_model(body_of(which, which < 2 ? 2 : 1), DISTORTION, 7);
         const size_t n = unknowns_of(model);
         double *matrix = stiffness_matrix(model, n), *value = eigenvalues_of(matrix, n);
-        print_message("body %d: %.1e %.1e %.1e, then %.1e of the largest\n", which, value[0] / value[n - 1], value[1] / value[n - 1],
-                      value[2] / value[n - 1], value[3] / value[n - 1]);
+        print_message("body %d: %.1e %.1e %.1e, then %.1e of the largest\n", which,
+                      value[0] / value[n - 1], value[1] / value[n - 1], value[2] / value[n - 1],
+                      value[3] / value[n - 1]);
         for (int i = 0; i < 3; i++) assert_true(fabs(value[i]) < 1e-13 * value[n - 1]);
         assert_true(value[3] > 1e-6 * value[n - 1]);
         free(value);
@@ -301,14 +329,16 @@ static void only_rigid_motions_cost_no_energy(void **unused)
 
 /* ---- masses ---- */
 
-/* Of straight triangles: a third each of order 1; of order 2 1/19 at corners, 16/57 at middles; and int N_k N_l, by A/12 or A/180
- * (textbook). Ratios of sums of 12 points: 1e-13. The inverse, times M, is 1: its condition is below 100. */
+/* Of straight triangles: a third each of order 1; of order 2 1/19 at corners, 16/57 at middles; and
+ * int N_k N_l, by A/12 or A/180 (textbook). Ratios of sums of 12 points: 1e-13. The inverse, times
+ * M, is 1: its condition is below 100. */
 static void masses_are_those_of_the_textbook(void **unused)
 {
     (void)unused;
     static const double linear[3][3] = {{2, 1, 1}, {1, 2, 1}, {1, 1, 2}};
-    static const double quadratic[6][6] = {{6, -1, -1, 0, -4, 0}, {-1, 6, -1, 0, 0, -4}, {-1, -1, 6, -4, 0, 0},
-                                           {0, 0, -4, 32, 16, 16}, {-4, 0, 0, 16, 32, 16}, {0, -4, 0, 16, 16, 32}};
+    static const double quadratic[6][6] = {{6, -1, -1, 0, -4, 0},  {-1, 6, -1, 0, 0, -4},
+                                           {-1, -1, 6, -4, 0, 0},  {0, 0, -4, 32, 16, 16},
+                                           {-4, 0, 0, 16, 32, 16}, {0, -4, 0, 16, 16, 32}};
     for (int order = 1; order <= 2; order++) {
         fracas_spec spec = membrane_spec(&fracas_shape_plate, order, 3);
         spec.time.mass = &fracas_mass_consistent;
@@ -327,7 +357,9 @@ static void masses_are_those_of_the_textbook(void **unused)
                     double one[2] = {0, 0};
                     assert_true(fabs(m[k * nodes + l] - entry * mass) < 1e-13 * mass);
                     for (size_t i = 0; i < nodes; i++)
-                        for (int axis = 0; axis < 2; axis++) one[axis] += all[((size_t)axis * nodes + k) * nodes + i] * m[i * nodes + l];
+                        for (int axis = 0; axis < 2; axis++)
+                            one[axis] += all[((size_t)axis * nodes + k) * nodes + i] *
+                                         m[i * nodes + l];
                     assert_true(fabs(one[0] - (k == l)) < 1e-13 && fabs(one[1] - (k == l)) < 1e-13);
                 }
             }
@@ -336,8 +368,8 @@ static void masses_are_those_of_the_textbook(void **unused)
     }
 }
 
-/* 2/omega_max by GSL from the matrix. Lanczos' value of omega^2 is an upper bound, at most 2e-3 too large: 1e-3 of the step, and
- * round-off. */
+/* 2/omega_max by GSL from the matrix. Lanczos' value of omega^2 is an upper bound, at most 2e-3 too
+ * large: 1e-3 of the step, and round-off. */
 static void the_critical_step_is_that_of_the_matrix(void **unused)
 {
     (void)unused;
@@ -346,7 +378,8 @@ static void the_critical_step_is_that_of_the_matrix(void **unused)
         const fracas_membrane_tables *t = tables_of(model);
         const size_t n = unknowns_of(model), nodes = model->surface->corners;
         double *matrix = stiffness_matrix(model, n), *root = vector_of(n);
-        for (size_t i = 0; i < n; i++) root[i] = sqrt(t->lumped[(2 * (i / (2 * nodes)) + 1) * nodes + i / 2 % nodes]);
+        for (size_t i = 0; i < n; i++)
+            root[i] = sqrt(t->lumped[(2 * (i / (2 * nodes)) + 1) * nodes + i / 2 % nodes]);
         for (size_t i = 0; i < n * n; i++) matrix[i] /= root[i / n] * root[i % n];
         double *value = eigenvalues_of(matrix, n);
         const double ratio = model->critical_closed * sqrt(value[n - 1]) / 2;
@@ -375,7 +408,8 @@ static bool is_positive(double *work, size_t n)
     return true;
 }
 
-/* beta from which K has no negative eigenvalue: K is linear in beta. Zero eigenvalues are lifted by 1e-9 of the largest entry. */
+/* beta from which K has no negative eigenvalue: K is linear in beta. Zero eigenvalues are lifted by
+ * 1e-9 of the largest entry. */
 static double smallest_beta(fracas_spec spec, double distortion)
 {
     double *k[2], low = 0, high = 10;
@@ -391,7 +425,8 @@ static double smallest_beta(fracas_spec spec, double distortion)
     const double lift = 1e-9 * largest_of(k[0], n * n);
     while (high - low > 1e-3) {
         const double beta = 0.5 * (low + high);
-        for (size_t i = 0; i < n * n; i++) work[i] = k[0][i] + (beta - 10) / 10 * (k[1][i] - k[0][i]) + (i % (n + 1) ? 0 : lift);
+        for (size_t i = 0; i < n * n; i++)
+            work[i] = k[0][i] + (beta - 10) / 10 * (k[1][i] - k[0][i]) + (i % (n + 1) ? 0 : lift);
         if (is_positive(work, n)) high = beta;
         else low = beta;
     }
@@ -401,13 +436,13 @@ static double smallest_beta(fracas_spec spec, double distortion)
     return high;
 }
 
-/* A rhombus of equilateral triangles with edges of 1 mm, n x n, as a Gmsh file. Its nodes, middles too, are a grid of half that
- * spacing; vertices are those of even numbers. */
+/* A rhombus of equilateral triangles with edges of 1 mm, n x n, as a Gmsh file. Its nodes, middles
+ * too, are a grid of half that spacing; vertices are those of even numbers. */
 static gmsh_file equilateral(size_t n, int order)
 {
     const size_t step = (size_t)order, row = step * n + 1;
     const fracas_surface *surface = NULL;
-    double (*node)[3] = malloc(row * row * sizeof *node);
+    double(*node)[3] = malloc(row * row * sizeof *node);
     uint32_t *element = malloc(12 * n * n * sizeof *element), *put = element;
     assert_true(node && element);
     for (size_t j = 0; j < row; j++)
@@ -419,12 +454,18 @@ static gmsh_file equilateral(size_t n, int order)
     const size_t corner[2][3][2] = {{{0, 0}, {1, 0}, {0, 1}}, {{1, 0}, {1, 1}, {0, 1}}};
     for (size_t e = 0; e < 2 * n * n; e++) {
         size_t at[3];
-        for (int k = 0; k < 3; k++) at[k] = row * step * (e / 2 / n + corner[e % 2][k][1]) + step * (e / 2 % n + corner[e % 2][k][0]);
+        for (int k = 0; k < 3; k++)
+            at[k] = row * step * (e / 2 / n + corner[e % 2][k][1]) +
+                    step * (e / 2 % n + corner[e % 2][k][0]);
         for (int k = 0; k < 3; k++) *put++ = (uint32_t)at[k];
-        for (int k = 0; order == 2 && k < 3; k++) *put++ = (uint32_t)((at[k] + at[(k + 1) % 3]) / 2);
+        for (int k = 0; order == 2 && k < 3; k++)
+            *put++ = (uint32_t)((at[k] + at[(k + 1) % 3]) / 2);
     }
-    const fracas_surface_arrays arrays = {.order = order, .nnodes = row * row, .nelements = 2 * n * n,
-                                          .node = (const double (*)[3])node, .element = element};
+    const fracas_surface_arrays arrays = {.order = order,
+                                          .nnodes = row * row,
+                                          .nelements = 2 * n * n,
+                                          .node = (const double(*)[3])node,
+                                          .element = element};
     assert_ok(fracas_surface_assemble(&arrays, &surface));
     gmsh_file file = gmsh_write(surface, false, false, false);
     gmsh_put(&file, "", 1);
@@ -434,16 +475,18 @@ static gmsh_file equilateral(size_t n, int order)
     return file;
 }
 
-/* The theory has 1.01 to 1.23 and 2.0 to 2.3 from equilateral to right-angled triangles, with the smaller element's area by the
- * edge: the same for equal elements. Meshes as small as these, of which a third of the elements are at the boundary, get by with
- * less, up to a fifth; so do small Poisson's ratios. The mean of both elements does for distorted ones too. */
+/* The theory has 1.01 to 1.23 and 2.0 to 2.3 from equilateral to right-angled triangles, with the
+ * smaller element's area by the edge: the same for equal elements. Meshes as small as these, of
+ * which a third of the elements are at the boundary, get by with less, up to a fifth; so do small
+ * Poisson's ratios. The mean of both elements does for distorted ones too. */
 static void beta_has_room(void **unused)
 {
     (void)unused;
     const double poisson[] = {0, 0.22, 0.3, 0.45};
     for (int order = 1; order <= 2; order++) {
         gmsh_file file = equilateral(4, order);
-        const fracas_attachment mesh = {.path = "equilateral", .text = file.bytes, .size = file.size - 1};
+        const fracas_attachment mesh = {
+            .path = "equilateral", .text = file.bytes, .size = file.size - 1};
         for (int p = 0; p < 4; p++) {
             fracas_spec spec = membrane_spec(&fracas_shape_plate, order, 4);
             spec.material.poisson = poisson[p];
@@ -453,10 +496,11 @@ static void beta_has_room(void **unused)
             equal.geometry.file = &mesh;
             equal.mesh = (fracas_mesh){.spacing = &fracas_spacing_given};
             const double least = order == 1 ? 1.01 : 2.0, most = order == 1 ? 1.23 : 2.3;
-            const double beta[] = {smallest_beta(equal, 0), smallest_beta(spec, 0), smallest_beta(spec, DISTORTION),
-                                   smallest_beta(spec, 0.3)};
-            print_message("order %d, nu %.2f: smallest beta %.3f equilateral, %.3f right-angled, %.3f and %.3f distorted by 20 and 30 %%\n", order,
-                          poisson[p], beta[0], beta[1], beta[2], beta[3]);
+            const double beta[] = {smallest_beta(equal, 0), smallest_beta(spec, 0),
+                                   smallest_beta(spec, DISTORTION), smallest_beta(spec, 0.3)};
+            print_message("order %d, nu %.2f: smallest beta %.3f equilateral, %.3f right-angled, "
+                          "%.3f and %.3f distorted by 20 and 30 %%\n",
+                          order, poisson[p], beta[0], beta[1], beta[2], beta[3]);
             for (int i = 0; i < 4; i++) assert_true(beta[i] < most);
             for (int i = 0; i < 2 && poisson[p] > 0.2; i++) assert_true(beta[i] > 0.8 * least);
         }

@@ -1,4 +1,6 @@
-/* A step of the membrane in a batch: what its kick and energies are by the operator, and what edges hold. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A step of the membrane in a batch: what its kick and energies are by the operator, and what edges
+ * hold. */
 #include "tests/support/membrane_elastic.h"
 #include "tests/support/surface.h"
 
@@ -23,7 +25,10 @@ static membrane_run begin(const fracas_spec *spec, int width)
     return run;
 }
 
-static void step(membrane_run *run) { assert_ok(fracas_batch_step(run->batch, &run->record, &run->running)); }
+static void step(membrane_run *run)
+{
+    assert_ok(fracas_batch_step(run->batch, &run->record, &run->running));
+}
 
 static void clear(membrane_run *run)
 {
@@ -35,21 +40,26 @@ static void clear(membrane_run *run)
 static double *value_of(const membrane_run *run, size_t unknown, int field)
 {
     const size_t size = 2 * run->model->surface->corners;
-    return fracas_membrane_value(run->model, &run->batch->step, unknown / size, field, (int)(unknown % size), 0);
+    return fracas_membrane_value(run->model, &run->batch->step, unknown / size, field,
+                                 (int)(unknown % size), 0);
 }
 
-/* One step from displacements and velocities at random: the kick is that of the operator, the elastic energy u.K u/2, the
- * kinetic one v.M v'/2 with the velocities before and after. Sums of n terms: 1e-12 by the largest. */
+/* One step from displacements and velocities at random: the kick is that of the operator, the
+ * elastic energy u.K u/2, the kinetic one v.M v'/2 with the velocities before and after. Sums of n
+ * terms: 1e-12 by the largest. */
 static void check_first_step(fracas_spec spec, int width)
 {
     spec.cohesive.fracture_energy = 1e12;
     membrane_run run = begin(&spec, width);
     const size_t n = unknowns_of(run.model);
-    double *u = vector_of(n), *v = vector_of(n), *f = vector_of(n), *a = vector_of(n), *momentum = vector_of(n), worst = 0;
+    double *u = vector_of(n), *v = vector_of(n), *f = vector_of(n), *a = vector_of(n),
+           *momentum = vector_of(n), worst = 0;
     uint64_t noise = 3;
     for (size_t i = 0; i < n; i++) {
-        *value_of(&run, i, SURFACE_U) = u[i] = is_held(run.model, i) ? 0 : 1e-9 * (next_share(&noise) - 0.5);
-        *value_of(&run, i, SURFACE_V) = v[i] = is_held(run.model, i) ? 0 : 1e-3 * (next_share(&noise) - 0.5);
+        *value_of(&run, i,
+                  SURFACE_U) = u[i] = is_held(run.model, i) ? 0 : 1e-9 * (next_share(&noise) - 0.5);
+        *value_of(&run, i,
+                  SURFACE_V) = v[i] = is_held(run.model, i) ? 0 : 1e-3 * (next_share(&noise) - 0.5);
     }
     fracas_membrane_operator *op = open_operator(run.model);
     fracas_membrane_operator_apply(op, u, a);
@@ -80,7 +90,8 @@ static void check_first_step(fracas_spec spec, int width)
 static void a_step_is_the_operator(void **unused)
 {
     (void)unused;
-    const fracas_kind *const laws[] = {&fracas_law_nitsche, &fracas_law_camacho_ortiz_standard, &fracas_law_camacho_ortiz};
+    const fracas_kind *const laws[] = {&fracas_law_nitsche, &fracas_law_camacho_ortiz_standard,
+                                       &fracas_law_camacho_ortiz};
     const int widths[] = {1, 4, 8};
     for (int which = 0; which < BODIES; which++)
         for (int law = 0; law < 3; law++)
@@ -98,7 +109,8 @@ static void a_step_is_the_operator(void **unused)
 static fracas_spec held_plate(int64_t order, bool consistent, bool rest)
 {
     fracas_spec spec = membrane_spec(&fracas_shape_plate, order, 3);
-    const fracas_kind *const edge[FRACAS_EDGES] = {NULL, &fracas_edge_held, &fracas_edge_sliding, &fracas_edge_fixed, &fracas_edge_free};
+    const fracas_kind *const edge[FRACAS_EDGES] = {NULL, &fracas_edge_held, &fracas_edge_sliding,
+                                                   &fracas_edge_fixed, &fracas_edge_free};
     memcpy(spec.geometry.edge, edge, sizeof edge);
     spec.cohesive.fracture_energy = 1e12;
     spec.loading.ratio = 0.5;
@@ -107,23 +119,29 @@ static fracas_spec held_plate(int64_t order, bool consistent, bool rest)
     return spec;
 }
 
-/* What an unknown should be held at by the edges of its element: NaN for nothing. An edge that is fixed has the last word. */
+/* What an unknown should be held at by the edges of its element: NaN for nothing. An edge that is
+ * fixed has the last word. */
 static double expected_velocity(const fracas_model *model, size_t unknown)
 {
-    const size_t size = 2 * model->surface->corners, e = unknown / size, k = unknown % size / 2, i = unknown % 2;
-    const double place = node_at(model, e, k)[i], of_loading = model->spec.loading.rate * (i ? 0.5 : 1) * place;
+    const size_t size = 2 * model->surface->corners, e = unknown / size, k = unknown % size / 2,
+                 i = unknown % 2;
+    const double place = node_at(model, e, k)[i],
+                 of_loading = model->spec.loading.rate * (i ? 0.5 : 1) * place;
     double held = NAN;
     for (size_t b = 0; b < model->surface->nborders; b++) {
         const fracas_surface_border *border = &model->surface->border[b];
-        if (border->element != e || (k != border->edge && k != (border->edge + 1) % 3 && k != 3 + border->edge)) continue;
+        if (border->element != e ||
+            (k != border->edge && k != (border->edge + 1) % 3 && k != 3 + border->edge))
+            continue;
         if (border->tag == 3) return 0;
         if (border->tag == 1 || (border->tag == 2 && i == 0)) held = of_loading;
     }
     return held;
 }
 
-/* Held unknowns move as u = v t, each step rounding u and v dt once: 1e-14 after 40. All the others start with the loading's
- * velocity or none. The ledger has the power of what holds: 1e-12 of its largest term, as sums round. */
+/* Held unknowns move as u = v t, each step rounding u and v dt once: 1e-14 after 40. All the others
+ * start with the loading's velocity or none. The ledger has the power of what holds: 1e-12 of its
+ * largest term, as sums round. */
 static void check_edges_hold(int64_t order, bool consistent, bool rest)
 {
     const fracas_spec spec = held_plate(order, consistent, rest);
@@ -131,25 +149,32 @@ static void check_edges_hold(int64_t order, bool consistent, bool rest)
     const size_t n = unknowns_of(run.model), size = 2 * run.model->surface->corners;
     size_t count[2] = {0, 0};
     for (size_t i = 0; i < n; i++) {
-        const double held = expected_velocity(run.model, i), *x = node_at(run.model, i / size, i % size / 2);
+        const double held = expected_velocity(run.model, i),
+                     *x = node_at(run.model, i / size, i % size / 2);
         const double free_start = rest ? 0 : spec.loading.rate * (i % 2 ? 0.5 : 1) * x[i % 2];
         assert_int_equal(is_held(run.model, i), !isnan(held));
-        assert_true(fabs(*value_of(&run, i, SURFACE_V) - (isnan(held) ? free_start : held)) < 1e-14);
+        assert_true(fabs(*value_of(&run, i, SURFACE_V) - (isnan(held) ? free_start : held)) <
+                    1e-14);
     }
     for (int s = 0; s < 40; s++) step(&run);
     const double time = run.batch->step.time[0];
     for (size_t i = 0; i < n; i++) {
         const double held = expected_velocity(run.model, i);
-        if (!isnan(held)) assert_true(fabs(*value_of(&run, i, SURFACE_U) - held * time) < 1e-14 * fmax(1e-9, fabs(held * time)));
+        if (!isnan(held))
+            assert_true(fabs(*value_of(&run, i, SURFACE_U) - held * time) <
+                        1e-14 * fmax(1e-9, fabs(held * time)));
         if (!isnan(held)) count[held != 0]++;
         else count[0] += *value_of(&run, i, SURFACE_U) == 0;
     }
     assert_true(count[0] > 0 && count[1] > 0);
     const fracas_ledger *ledger = &run.batch->lane[0].ledger;
-    print_message("order %d, %s, %s: residual %.1e of %.2e J\n", (int)order, spec.time.mass->name, spec.loading.start->name,
-                  ledger->largest_residual / fmax(ledger->kinetic, ledger->elastic), fmax(ledger->kinetic, ledger->elastic));
+    print_message("order %d, %s, %s: residual %.1e of %.2e J\n", (int)order, spec.time.mass->name,
+                  spec.loading.start->name,
+                  ledger->largest_residual / fmax(ledger->kinetic, ledger->elastic),
+                  fmax(ledger->kinetic, ledger->elastic));
     assert_true(fabs(ledger->work) > 0.01 * ledger->kinetic);
-    assert_true(ledger->largest_residual < 1e-12 * fmax(fabs(ledger->work), fmax(ledger->kinetic, ledger->elastic)));
+    assert_true(ledger->largest_residual <
+                1e-12 * fmax(fabs(ledger->work), fmax(ledger->kinetic, ledger->elastic)));
     clear(&run);
 }
 
@@ -160,8 +185,9 @@ static void edges_hold_what_they_should(void **unused)
         for (int which = 0; which < 4; which++) check_edges_hold(order, which % 2, which / 2);
 }
 
-/* Nodes that are free do not know what is held elsewhere: lumped, their accelerations are those of the free plate; with
- * consistent masses M a = -K u on them, where a is 0 on those that are held. */
+/* Nodes that are free do not know what is held elsewhere: lumped, their accelerations are those of
+ * the free plate; with consistent masses M a = -K u on them, where a is 0 on those that are held.
+ */
 static void held_edges_change_nothing_else(void **unused)
 {
     (void)unused;
@@ -169,9 +195,11 @@ static void held_edges_change_nothing_else(void **unused)
         for (int consistent = 0; consistent < 2; consistent++) {
             const fracas_spec spec = held_plate(order, consistent, false);
             fracas_model *held = distorted_model(spec, DISTORTION, 9);
-            fracas_model *loose = distorted_model(membrane_spec(&fracas_shape_plate, order, 3), DISTORTION, 9);
+            fracas_model *loose = distorted_model(membrane_spec(&fracas_shape_plate, order, 3),
+                                                  DISTORTION, 9);
             const size_t n = unknowns_of(held);
-            double *u = vector_of(n), *a = vector_of(n), *force = vector_of(n), *balance = vector_of(n);
+            double *u = vector_of(n), *a = vector_of(n), *force = vector_of(n),
+                   *balance = vector_of(n);
             uint64_t noise = 5;
             for (size_t i = 0; i < n; i++) u[i] = next_share(&noise) - 0.5;
             fracas_membrane_operator *op = open_operator(held), *free_op = open_operator(loose);

@@ -1,5 +1,7 @@
-/* Cracked interfaces of a shell, whatever its nodes do: tractions, what the flux carries, energies and forces against the law written
- * once more for one layer and kinematics written once more from the nodes (docs/theory/shell.md, docs/theory/cohesive.md). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cracked interfaces of a shell, whatever its nodes do: tractions, what the flux carries, energies
+ * and forces against the law written once more for one layer and kinematics written once more from
+ * the nodes (docs/theory/shell.md, docs/theory/cohesive.md). */
 #include "tests/support/plane.h"
 #include "tests/support/shell_cracks.h"
 
@@ -21,7 +23,10 @@ typedef struct {
     int by_mean;
 } layer_law;
 
-static double effective_of(const double t[2], double beta_c) { return hypot(fmax(0, t[0]), t[1] / beta_c); }
+static double effective_of(const double t[2], double beta_c)
+{
+    return hypot(fmax(0, t[0]), t[1] / beta_c);
+}
 
 /* What is held against the strength  (cohesive.11) */
 static double judged_of(const double t[2], double beta_c, double mu_c)
@@ -40,20 +45,27 @@ static void energies_of(const layer_law *law, const double m[2], const double q[
     }
 }
 
-/* Without friction, by openings: theory of the law, not its code. `opened`: another layer of the point has cracked before. */
-static layer_answer layer_of(const layer_law *law, layer *x, const double mean[2], const double q[2], bool opened)
+/* Without friction, by openings: theory of the law, not its code. `opened`: another layer of the
+ * point has cracked before. */
+static layer_answer layer_of(const layer_law *law, layer *x, const double mean[2],
+                             const double q[2], bool opened)
 {
     layer_answer a = {.spent = 0};
-    const double old_c = law->opening > 0 ? law->opening : 2 * law->energy / x->peak; /* of the peak it had */
+    const double old_c = law->opening > 0 ? law->opening
+                                          : 2 * law->energy / x->peak; /* of the peak it had */
     const int was_broken = x->peak > 0 && x->widest >= old_c;
-    const double m[2] = {was_broken ? 0 : mean[0], was_broken ? 0 : mean[1]}, trial[2] = {m[0] + law->k[0] * q[0], m[1] + law->k[1] * q[1]};
+    const double m[2] = {was_broken ? 0 : mean[0], was_broken ? 0 : mean[1]},
+                 trial[2] = {m[0] + law->k[0] * q[0], m[1] + law->k[1] * q[1]};
     const double s = effective_of(trial, law->beta_c);
     double whole = 0;
     for (int i = 0; i < 2; i++) whole += q[i] * (m[i] + 0.5 * law->k[i] * q[i]);
-    if (x->peak == 0 && judged_of(law->by_mean && !opened ? mean : trial, law->beta_c, 0) > law->sigma_c) {
-        const double most = law->opening > 0 ? 0.5 * law->k[0] * law->opening : sqrt(law->k[0] * law->energy);
+    if (x->peak == 0 &&
+        judged_of(law->by_mean && !opened ? mean : trial, law->beta_c, 0) > law->sigma_c) {
+        const double most = law->opening > 0 ? 0.5 * law->k[0] * law->opening
+                                             : sqrt(law->k[0] * law->energy);
         const double late = opened ? 0 : judged_of(mean, law->beta_c, 0) - law->sigma_c;
-        x->peak = law->by_mean ? fmax(judged_of(trial, law->beta_c, 0) - late, law->sigma_c) : law->sigma_c;
+        x->peak = law->by_mean ? fmax(judged_of(trial, law->beta_c, 0) - late, law->sigma_c)
+                               : law->sigma_c;
         a.cut = x->peak > most;
         x->peak = fmin(x->peak, most);
     }
@@ -63,7 +75,8 @@ static layer_answer layer_of(const layer_law *law, layer *x, const double mean[2
         a.flux = whole;
         return a;
     }
-    const double p = x->peak, delta_c = law->opening > 0 ? law->opening : 2 * law->energy / p, was = x->widest;
+    const double p = x->peak, delta_c = law->opening > 0 ? law->opening : 2 * law->energy / p,
+                 was = x->widest;
     const double reach = (s - p) / (law->k[0] - p / delta_c);
     double factor, midway;
     a.cracked = 1;
@@ -97,18 +110,36 @@ static layer_answer layer_of(const layer_law *law, layer *x, const double mean[2
     return a;
 }
 
-static layer_answer rubbed_layer(const layer_law *law, layer *x, const double mean[2], const double q[2], bool opened)
+static layer_answer rubbed_layer(const layer_law *law, layer *x, const double mean[2],
+                                 const double q[2], bool opened)
 {
-    const plane_case kind = {.law = PLANE_NITSCHE, .k_n = law->k[0], .k_t = law->k[1], .sigma_c = law->sigma_c, .beta_c = law->beta_c,
-                             .mu_c = law->mu_c, .energy = law->energy, .opening = law->opening, .onset_mean = law->by_mean};
+    const plane_case kind = {.law = PLANE_NITSCHE,
+                             .k_n = law->k[0],
+                             .k_t = law->k[1],
+                             .sigma_c = law->sigma_c,
+                             .beta_c = law->beta_c,
+                             .mu_c = law->mu_c,
+                             .energy = law->energy,
+                             .opening = law->opening,
+                             .onset_mean = law->by_mean};
     const plane_case *kinds[] = {&kind};
-    const plane_at at = {.m_n = mean[0], .m_t = mean[1], .q_n = q[0], .q_t = q[1], .opened = opened};
+    const plane_at at = {
+        .m_n = mean[0], .m_t = mean[1], .q_n = q[0], .q_t = q[1], .opened = opened};
     const double was = x->rubbed.damage;
     plane_out out;
     plane_call_1(kinds, &at, &x->rubbed, &out);
-    layer_answer a = {.t = {out.t_n, out.t_t}, .s = {out.s_n, out.s_t}, .flux = out.flux, .stored = out.stored, .dissipated = out.dissipated,
-                      .created = out.created, .rubbed = out.cracked ? out.rubbed : 0, .cracked = out.cracked,
-                      .loads = x->rubbed.damage > was, .broken = out.cracked && x->rubbed.damage >= 1, .breaks = out.breaks, .pressed = out.t_n < 0};
+    layer_answer a = {.t = {out.t_n, out.t_t},
+                      .s = {out.s_n, out.s_t},
+                      .flux = out.flux,
+                      .stored = out.stored,
+                      .dissipated = out.dissipated,
+                      .created = out.created,
+                      .rubbed = out.cracked ? out.rubbed : 0,
+                      .cracked = out.cracked,
+                      .loads = x->rubbed.damage > was,
+                      .broken = out.cracked && x->rubbed.damage >= 1,
+                      .breaks = out.breaks,
+                      .pressed = out.t_n < 0};
     x->peak = x->rubbed.peak;
     return a;
 }
@@ -117,26 +148,33 @@ static layer_answer rubbed_layer(const layer_law *law, layer *x, const double me
 
 typedef struct {
     const fracas_model *model;
-    shell_sight *unit; /* [interface][Gauss point][36]: of each displacement of the - element, then of the + element */
+    shell_sight *unit; /* [interface][Gauss point][36]: of each displacement of the - element, then
+                          of the + element */
     layer *memory;     /* [interface][Gauss point][layer] */
     double *strength, *force; /* [interface][Gauss point], [unknown] */
     double elastic, cohesive, dissipated, created, rubbed, bending;
-    long seen[7]; /* layers: intact, loading, unloading, broken, pressed and broken, pressed and cracked, cut */
+    long seen[7]; /* layers: intact, loading, unloading, broken, pressed and broken, pressed and
+                     cracked, cut */
 } twin;
 
 static twin twin_of(const fracas_model *model, const fracas_batch *batch)
 {
     const size_t n = model->interfaces * SHELL_EDGE;
-    twin t = {.model = model, .unit = calloc(36 * n, sizeof *t.unit), .memory = calloc(SHELL_LAYERS * n, sizeof *t.memory),
-              .strength = calloc(n, sizeof(double)), .force = calloc(unknowns_of(model), sizeof(double))};
+    twin t = {.model = model,
+              .unit = calloc(36 * n, sizeof *t.unit),
+              .memory = calloc(SHELL_LAYERS * n, sizeof *t.memory),
+              .strength = calloc(n, sizeof(double)),
+              .force = calloc(unknowns_of(model), sizeof(double))};
     assert_true(t.unit && t.memory && t.strength && t.force);
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < 36; j++) {
             double u[2][SHELL_UNKNOWNS] = {{0}};
             u[j / 18][j % 18] = 1;
-            t.unit[36 * i + j] = sight_at(model, i / SHELL_EDGE, (int)(i % SHELL_EDGE), (const double *const[2]){u[0], u[1]});
+            t.unit[36 * i + j] = sight_at(model, i / SHELL_EDGE, (int)(i % SHELL_EDGE),
+                                          (const double *const[2]){u[0], u[1]});
         }
-    for (size_t i = 0; i < n; i++) t.strength[i] = strength_at(batch, 0, i / SHELL_EDGE, i % SHELL_EDGE);
+    for (size_t i = 0; i < n; i++)
+        t.strength[i] = strength_at(batch, 0, i / SHELL_EDGE, i % SHELL_EDGE);
     return t;
 }
 
@@ -177,15 +215,21 @@ static void count(twin *t, const layer_answer *a)
 
 static void twin_point(twin *t, size_t i, int g, const double *u)
 {
-    static const double place[SHELL_LAYERS] = {-0.5, 0, 0.5}, weight[SHELL_LAYERS] = {1.0 / 6, 2.0 / 3, 1.0 / 6};
+    static const double place[SHELL_LAYERS] = {-0.5, 0, 0.5},
+                        weight[SHELL_LAYERS] = {1.0 / 6, 2.0 / 3, 1.0 / 6};
     const fracas_cohesive *cohesive = &t->model->spec.cohesive;
     const double h = t->model->spec.geometry.thickness, beta_c = cohesive->coupling;
     const shell_sight *unit = t->unit + 36 * (3 * i + (size_t)g);
     const uint32_t *element = t->model->surface->interface[i].element;
     double shearing;
     const double spring = spring_of(t->model, i, &shearing) * fmax(1, 1 / (beta_c * beta_c));
-    const layer_law law = {.k = {spring, beta_c * beta_c * spring}, .sigma_c = t->strength[3 * i + (size_t)g], .beta_c = beta_c, .mu_c = cohesive->friction,
-                           .energy = cohesive->fracture_energy, .opening = cohesive->critical_opening, .by_mean = cohesive->onset == &fracas_onset_mean};
+    const layer_law law = {.k = {spring, beta_c * beta_c * spring},
+                           .sigma_c = t->strength[3 * i + (size_t)g],
+                           .beta_c = beta_c,
+                           .mu_c = cohesive->friction,
+                           .energy = cohesive->fracture_energy,
+                           .opening = cohesive->critical_opening,
+                           .by_mean = cohesive->onset == &fracas_onset_mean};
     shell_sight at = {.lift = 0};
     for (int j = 0; j < 36; j++) {
         const double x = u[SHELL_UNKNOWNS * element[j / 18] + (size_t)j % 18];
@@ -197,7 +241,8 @@ static void twin_point(twin *t, size_t i, int g, const double *u)
         }
         at.lift += unit[j].lift * x;
     }
-    double n[2] = {0}, m[2] = {0}, carried_u[2] = {0}, carried_t[2] = {0}, half_n[2] = {0}, half_m[2] = {0}, spent = 0;
+    double n[2] = {0}, m[2] = {0}, carried_u[2] = {0}, carried_t[2] = {0}, half_n[2] = {0},
+           half_m[2] = {0}, spent = 0;
     int broken = 1, breaks = 0;
     const layer *layers = &t->memory[(3 * i + (size_t)g) * SHELL_LAYERS];
     const bool opened = layers[0].peak > 0 || layers[1].peak > 0 || layers[2].peak > 0;
@@ -209,7 +254,8 @@ static void twin_point(twin *t, size_t i, int g, const double *u)
             q[d] = at.jump[d] + z * at.turn[d];
         }
         layer *memory = &t->memory[(3 * i + (size_t)g) * SHELL_LAYERS + (size_t)k];
-        const layer_answer a = law.mu_c > 0 ? rubbed_layer(&law, memory, mean, q, opened) : layer_of(&law, memory, mean, q, opened);
+        const layer_answer a = law.mu_c > 0 ? rubbed_layer(&law, memory, mean, q, opened)
+                                            : layer_of(&law, memory, mean, q, opened);
         count(t, &a);
         for (int d = 0; d < 2; d++) {
             n[d] += w * a.t[d];
@@ -231,12 +277,14 @@ static void twin_point(twin *t, size_t i, int g, const double *u)
     const double sheared = 0.5 * unit->length * shearing * at.lift * at.lift;
     if (!broken) t->elastic += sheared;
     if (broken && breaks) t->created -= sheared;
-    const double stretched = fmax(0, half_n[0] * at.jump[0] + half_n[1] * at.jump[1]), bent = fmax(0, half_m[0] * at.turn[0] + half_m[1] * at.turn[1]);
+    const double stretched = fmax(0, half_n[0] * at.jump[0] + half_n[1] * at.jump[1]),
+                 bent = fmax(0, half_m[0] * at.turn[0] + half_m[1] * at.turn[1]);
     if (spent > 0) t->bending += spent * bent / (stretched + bent);
     for (int j = 0; j < 36; j++) {
         double work = broken ? 0 : shearing * at.lift * unit[j].lift;
         for (int d = 0; d < 2; d++)
-            work += n[d] * unit[j].jump[d] + m[d] * unit[j].turn[d] + carried_u[d] * unit[j].n[d] + carried_t[d] * unit[j].m[d];
+            work += n[d] * unit[j].jump[d] + m[d] * unit[j].turn[d] + carried_u[d] * unit[j].n[d] +
+                    carried_t[d] * unit[j].m[d];
         t->force[SHELL_UNKNOWNS * element[j / 18] + (size_t)j % 18] -= unit->length * work;
     }
 }
@@ -254,20 +302,26 @@ static void twin_evaluate(twin *t, const double *u, double scale)
 
 enum { SEGMENTS = 5, STEPS = 40 };
 
-/* Forces are the slope of Pi + dissipated, along any direction: central differences over 2e-7 of the displacements, in which Pi is
- * quadratic but for points that turn from loading to unloading (a share of 1e-7 of the force), with 1e-16/1e-7 of round-off. */
-static double slope_error(fracas_batch *batch, const double *u, double scale, const fracas_stream *stream, uint64_t *draw)
+/* Forces are the slope of Pi + dissipated, along any direction: central differences over 2e-7 of
+ * the displacements, in which Pi is quadratic but for points that turn from loading to unloading (a
+ * share of 1e-7 of the force), with 1e-16/1e-7 of round-off. */
+static double slope_error(fracas_batch *batch, const double *u, double scale,
+                          const fracas_stream *stream, uint64_t *draw)
 {
     const size_t n = unknowns_of(batch->model);
-    shell_answer here = {.force = calloc(n, sizeof(double))}, there = {.force = calloc(n, sizeof(double))};
-    double *direction = calloc(n, sizeof *direction), *moved = calloc(n, sizeof *moved), energy[2], worst = 0;
+    shell_answer here = {.force = calloc(n, sizeof(double))},
+                 there = {.force = calloc(n, sizeof(double))};
+    double *direction = calloc(n, sizeof *direction), *moved = calloc(n, sizeof *moved), energy[2],
+           worst = 0;
     assert_true(here.force && there.force && direction && moved);
     look_at(batch, u, &here);
     for (int trial = 0; trial < 4; trial++) {
         double power = 0, size = 0;
-        for (size_t i = 0; i < n; i++) direction[i] = 2 * fracas_stream_uniform(stream, (*draw)++) - 1;
+        for (size_t i = 0; i < n; i++)
+            direction[i] = 2 * fracas_stream_uniform(stream, (*draw)++) - 1;
         for (int sign = 0; sign < 2; sign++) {
-            for (size_t i = 0; i < n; i++) moved[i] = u[i] + (sign ? -1 : 1) * 1e-7 * scale * direction[i];
+            for (size_t i = 0; i < n; i++)
+                moved[i] = u[i] + (sign ? -1 : 1) * 1e-7 * scale * direction[i];
             look_at(batch, moved, &there);
             energy[sign] = there.elastic + there.cohesive + there.dissipated;
             assert_true(there.created == 0 && here.created == 0);
@@ -285,11 +339,16 @@ static double slope_error(fracas_batch *batch, const double *u, double scale, co
     return worst;
 }
 
-static double relative(double a, double b, double scale) { return fabs(a - b) / scale; }
+static double relative(double a, double b, double scale)
+{
+    return fabs(a - b) / scale;
+}
 
-/* Straight from one random state to the next, the third of which is a tenth of the second: it unloads. Energies are sums of some
- * thousand terms of which each has, through stresses that are differences of displacements, 1e-13 of it: 1e-11. */
-static void walk(const fracas_spec *spec, double scale, double distortion, long seen[7], double worst[3])
+/* Straight from one random state to the next, the third of which is a tenth of the second: it
+ * unloads. Energies are sums of some thousand terms of which each has, through stresses that are
+ * differences of displacements, 1e-13 of it: 1e-11. */
+static void walk(const fracas_spec *spec, double scale, double distortion, long seen[7],
+                 double worst[3])
 {
     fracas_model *model = distorted_model(*spec, distortion, 3);
     fracas_batch *batch = lane_of(model, 0.3, 5);
@@ -297,33 +356,43 @@ static void walk(const fracas_spec *spec, double scale, double distortion, long 
     const size_t n = unknowns_of(model);
     twin t = twin_of(model, batch);
     shell_answer answer = {.force = calloc(n, sizeof(double))};
-    double *from = calloc(n, sizeof *from), *to = calloc(n, sizeof *to), *u = calloc(n, sizeof *u), size = 0, largest = 0, bending[2] = {0};
+    double *from = calloc(n, sizeof *from), *to = calloc(n, sizeof *to), *u = calloc(n, sizeof *u),
+           size = 0, largest = 0, bending[2] = {0};
     assert_true(answer.force && from && to && u);
     const fracas_stream stream = {.seed = 8, .purpose = FRACAS_PURPOSE_MESH};
     uint64_t draw = 0;
     for (int segment = 0; segment < SEGMENTS; segment++) {
-        for (size_t i = 0; i < n; i++) to[i] = segment == 2 ? 0.1 * from[i] : scale * (2 * fracas_stream_uniform(&stream, draw++) - 1);
+        for (size_t i = 0; i < n; i++)
+            to[i] = segment == 2 ? 0.1 * from[i]
+                                 : scale * (2 * fracas_stream_uniform(&stream, draw++) - 1);
         for (int step = 1; step <= STEPS; step++) {
-            const double x = segment == 0 ? pow((double)step / STEPS, 3) : (double)step / STEPS; /* so that onsets are not all in one step */
+            const double x = segment == 0 ? pow((double)step / STEPS, 3)
+                                          : (double)step /
+                                                STEPS; /* so that onsets are not all in one step */
             for (size_t i = 0; i < n; i++) u[i] = (1 - x) * from[i] + x * to[i];
             evaluate(batch, u, &answer);
             twin_evaluate(&t, u, scale);
             for (size_t i = 0; i < n; i++) largest = fmax(largest, fabs(t.force[i]));
             size = fmax(size, fmax(t.elastic + t.cohesive, t.dissipated));
-            for (size_t i = 0; i < n; i++) worst[0] = fmax(worst[0], relative(answer.force[i], t.force[i], largest));
+            for (size_t i = 0; i < n; i++)
+                worst[0] = fmax(worst[0], relative(answer.force[i], t.force[i], largest));
             worst[1] = fmax(worst[1], relative(answer.elastic, t.elastic, size));
             worst[1] = fmax(worst[1], relative(answer.cohesive, t.cohesive, size));
             /* the sum of what rubs so far is in the step, what layers rub now in the twin */
-            worst[1] = fmax(worst[1], relative(answer.dissipated - batch->step.rubbed[0] + answer.rubbed, t.dissipated, size));
+            worst[1] = fmax(worst[1],
+                            relative(answer.dissipated - batch->step.rubbed[0] + answer.rubbed,
+                                     t.dissipated, size));
             worst[1] = fmax(worst[1], relative(answer.rubbed, t.rubbed, size));
             worst[1] = fmax(worst[1], relative(answer.created, t.created, size));
-            if (spec->cohesive.friction == 0) worst[1] = fmax(worst[1], relative(answer.bending, t.bending, size));
+            if (spec->cohesive.friction == 0)
+                worst[1] = fmax(worst[1], relative(answer.bending, t.bending, size));
             bending[0] += answer.bending;
             assert_true(answer.bending >= 0);
         }
         memcpy(from, to, n * sizeof *from);
         if (spec->cohesive.friction == 0) {
-            for (size_t i = 0; i < n; i++) u[i] *= 0.999; /* back a little, and until no layer cracks beside one that has */
+            for (size_t i = 0; i < n; i++)
+                u[i] *= 0.999; /* back a little, and until no layer cracks beside one that has */
             for (int again = 0; again < 3; again++) {
                 evaluate(batch, u, &answer);
                 twin_evaluate(&t, u, scale);
@@ -333,10 +402,13 @@ static void walk(const fracas_spec *spec, double scale, double distortion, long 
     }
     bending[1] = t.dissipated;
     for (int i = 0; i < 7; i++) seen[i] += t.seen[i];
-    print_message("%-7s onset %s, beta_c %.1f, mu_c %.1f, %s, %zu strengths: forces within %.1e, energies %.1e, slopes %.1e; bending %.2f of it; layers "
-                  "%ld %ld %ld %ld %ld %ld %ld\n", spec->geometry.shape->name, spec->cohesive.onset->name, spec->cohesive.coupling,
-                  spec->cohesive.friction, spec->cohesive.critical_opening > 0 ? "delta_c" : "G_c", model->strengths, worst[0], worst[1], worst[2],
-                  bending[0] / bending[1], t.seen[0], t.seen[1], t.seen[2], t.seen[3], t.seen[4], t.seen[5], t.seen[6]);
+    print_message(
+        "%-7s onset %s, beta_c %.1f, mu_c %.1f, %s, %zu strengths: forces within %.1e, energies "
+        "%.1e, slopes %.1e; bending %.2f of it; layers %ld %ld %ld %ld %ld %ld %ld\n",
+        spec->geometry.shape->name, spec->cohesive.onset->name, spec->cohesive.coupling,
+        spec->cohesive.friction, spec->cohesive.critical_opening > 0 ? "delta_c" : "G_c",
+        model->strengths, worst[0], worst[1], worst[2], bending[0] / bending[1], t.seen[0],
+        t.seen[1], t.seen[2], t.seen[3], t.seen[4], t.seen[5], t.seen[6]);
     free(from);
     free(to);
     free(u);
@@ -349,7 +421,8 @@ static void walk(const fracas_spec *spec, double scale, double distortion, long 
 static void interfaces_do_what_their_layers_do(void **unused)
 {
     (void)unused;
-    static const fracas_kind *const shapes[] = {&fracas_shape_plate, &fracas_shape_annulus, &fracas_shape_sphere};
+    static const fracas_kind *const shapes[] = {&fracas_shape_plate, &fracas_shape_annulus,
+                                                &fracas_shape_sphere};
     static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};
     static const double coupling[] = {1, 0.6, 1.7};
     long seen[7] = {0};
@@ -372,22 +445,27 @@ static void interfaces_do_what_their_layers_do(void **unused)
 
 /* ---- when ---- */
 
-/* When an interface cracks and breaks, if every node moves with a velocity of its own: mean tractions and jumps grow as t, but what the
- * law keeps from an onset is that of the step at which it was seen. INFINITY: never. False where a layer breaks in the step of its
- * onset, or slips while it is pressed: then times are not such crossings. */
-static bool fate_of(const fracas_batch *batch, size_t i, const double *velocity, double *onset, double *broken)
+/* When an interface cracks and breaks, if every node moves with a velocity of its own: mean
+ * tractions and jumps grow as t, but what the law keeps from an onset is that of the step at which
+ * it was seen. INFINITY: never. False where a layer breaks in the step of its onset, or slips while
+ * it is pressed: then times are not such crossings. */
+static bool fate_of(const fracas_batch *batch, size_t i, const double *velocity, double *onset,
+                    double *broken)
 {
     const fracas_model *model = batch->model;
     const fracas_cohesive *law = &model->spec.cohesive;
     const uint32_t *element = model->surface->interface[i].element;
     const double h = model->spec.geometry.thickness, dt = model->time_step, beta_c = law->coupling;
     double shearing;
-    const double k_n = spring_of(model, i, &shearing) * fmax(1, 1 / (beta_c * beta_c)), k_t = beta_c * beta_c * k_n;
+    const double k_n = spring_of(model, i, &shearing) * fmax(1, 1 / (beta_c * beta_c)),
+                 k_t = beta_c * beta_c * k_n;
     bool ok = true;
     *onset = INFINITY;
     *broken = 0;
     for (int g = 0; g < SHELL_EDGE; g++) {
-        const shell_sight r = sight_at(model, i, g, (const double *const[2]){velocity + 18 * element[0], velocity + 18 * element[1]});
+        const shell_sight r = sight_at(
+            model, i, g,
+            (const double *const[2]){velocity + 18 * element[0], velocity + 18 * element[1]});
         const bool by_mean = law->onset == &fracas_onset_mean;
         const double strength = strength_at(batch, 0, i, (size_t)g);
         double flux[3][2], opens[3], seen[3], first = INFINITY;
@@ -405,71 +483,99 @@ static bool fate_of(const fracas_batch *batch, size_t i, const double *velocity,
         }
         for (int k = 0; k < 3; k++) {
             const double judged = judged_of(flux[k], beta_c, law->friction);
-            const bool beside = by_mean && seen[k] > first; /* a layer that is open: by the flux from then on */
+            const bool beside = by_mean &&
+                                seen[k] >
+                                    first; /* a layer that is open: by the flux from then on */
             if (beside) seen[k] = fmax(first + dt, (floor(strength / judged / dt) + 1) * dt);
             const double late = beside ? 0 : strength * (seen[k] / opens[k] - 1);
-            const double most = law->critical_opening > 0 ? 0.5 * k_n * law->critical_opening : sqrt(k_n * law->fracture_energy);
-            const double peak = fmin(most, by_mean ? fmax(strength, judged * seen[k] - late) : strength);
-            const double delta_c = law->critical_opening > 0 ? law->critical_opening : 2 * law->fracture_energy / peak;
-            const double breaks = isfinite(seen[k]) ? k_n * delta_c / effective_of(flux[k], beta_c) : INFINITY;
+            const double most = law->critical_opening > 0 ? 0.5 * k_n * law->critical_opening
+                                                          : sqrt(k_n * law->fracture_energy);
+            const double peak = fmin(most,
+                                     by_mean ? fmax(strength, judged * seen[k] - late) : strength);
+            const double delta_c = law->critical_opening > 0 ? law->critical_opening
+                                                             : 2 * law->fracture_energy / peak;
+            const double breaks = isfinite(seen[k]) ? k_n * delta_c / effective_of(flux[k], beta_c)
+                                                    : INFINITY;
             *broken = fmax(*broken, breaks);
-            ok = ok && (!isfinite(seen[k]) || (breaks > seen[k] && (law->friction == 0 || flux[k][0] > 0)));
+            ok = ok && (!isfinite(seen[k]) ||
+                        (breaks > seen[k] && (law->friction == 0 || flux[k][0] > 0)));
         }
     }
     return ok;
 }
 
-/* The mean of an interface's damage by the weights of its points and layers; 1 only when all are. */
+/* The mean of an interface's damage by the weights of its points and layers; 1 only when all are.
+ */
 static double damage_of(const fracas_batch *batch, size_t i)
 {
-    static const double along[SHELL_EDGE] = {5.0 / 18, 8.0 / 18, 5.0 / 18}, across[SHELL_LAYERS] = {1.0 / 6, 2.0 / 3, 1.0 / 6};
+    static const double along[SHELL_EDGE] = {5.0 / 18, 8.0 / 18, 5.0 / 18},
+                        across[SHELL_LAYERS] = {1.0 / 6, 2.0 / 3, 1.0 / 6};
     double damage = 0;
-    for (int p = 0; p < SHELL_EDGE * SHELL_LAYERS; p++) damage += along[p / 3] * across[p % 3] * *fracas_shell_point(batch->model, &batch->step, i, p / 3, p % 3, SURFACE_DAMAGE, 0);
+    for (int p = 0; p < SHELL_EDGE * SHELL_LAYERS; p++)
+        damage += along[p / 3] * across[p % 3] *
+                  *fracas_shell_point(batch->model, &batch->step, i, p / 3, p % 3, SURFACE_DAMAGE,
+                                      0);
     return damage;
 }
 
-/* Every node of a body moves with a velocity of its own, and 100 m/s beside, which does not matter but lets a ledger pass which cannot
- * close with a motion that forces do not change. What is crossed is linear in t: round-off of stresses, which are differences of
- * displacements up to 30 times as large as those over an element, and of sums of some 1000 steps, and 1.1e-16 of the displacements by
- * those 100 m/s, which are 1000 times as large: 1e-10 of the time, and ten times that
- * for an onset by what shear has over friction. */
+/* Every node of a body moves with a velocity of its own, and 100 m/s beside, which does not matter
+ * but lets a ledger pass which cannot close with a motion that forces do not change. What is
+ * crossed is linear in t: round-off of stresses, which are differences of displacements up to 30
+ * times as large as those over an element, and of sums of some 1000 steps, and 1.1e-16 of the
+ * displacements by those 100 m/s, which are 1000 times as large: 1e-10 of the time, and ten times
+ * that for an onset by what shear has over friction. */
 static void check_times(const fracas_spec *spec, double distortion, double worst[2], long counts[2])
 {
     fracas_model *model = distorted_model(*spec, distortion, 3);
     const size_t n = unknowns_of(model);
-    const double dt = model->time_step, speed = spec->cohesive.onset == &fracas_onset_flux || spec->cohesive.critical_opening > 0 ? 2.5 : 1;
-    for (size_t e = 0; e < model->elements; e++) shell_tables(model)->held[e] = shell_tables(model)->fixed[e] = 0x3ffff;
+    const double dt = model->time_step, speed = spec->cohesive.onset == &fracas_onset_flux ||
+                                                        spec->cohesive.critical_opening > 0
+                                                    ? 2.5
+                                                    : 1;
+    for (size_t e = 0; e < model->elements; e++)
+        shell_tables(model)->held[e] = shell_tables(model)->fixed[e] = 0x3ffff;
     double *velocity = calloc(n, sizeof *velocity);
     assert_non_null(velocity);
     const fracas_stream stream = {.seed = 12, .purpose = FRACAS_PURPOSE_MESH};
     for (uint64_t trial = 0; trial < 160 / model->interfaces; trial++) {
         const bool pressed = spec->cohesive.friction > 0 && trial % 2; /* and sheared at random */
-        for (size_t i = 0; i < n; i++) velocity[i] = speed * (pressed ? 8e-7 : 1e-7) / (200 * dt) * (2 * fracas_stream_uniform(&stream, trial * n + i) - 1);
+        for (size_t i = 0; i < n; i++)
+            velocity[i] = speed * (pressed ? 8e-7 : 1e-7) / (200 * dt) *
+                          (2 * fracas_stream_uniform(&stream, trial * n + i) - 1);
         for (size_t i = 0; i < n; i++) { /* elements fly apart and stretch, so that much opens */
-            const double *element = node_at(model, i / 18, 0), *other = node_at(model, i / 18, 1), *third = node_at(model, i / 18, 2);
+            const double *element = node_at(model, i / 18, 0), *other = node_at(model, i / 18, 1),
+                         *third = node_at(model, i / 18, 2);
             const double centre = (element[i % 3] + other[i % 3] + third[i % 3]) / 3;
-            velocity[i] += (pressed ? -0.3 : 1) * speed * (2.1e-3 * centre + 1.5e-3 * (node_at(model, i / 18, i % 18 / 3)[i % 3] - centre)) / (200 * dt);
+            velocity[i] += (pressed ? -0.3 : 1) * speed *
+                           (2.1e-3 * centre +
+                            1.5e-3 * (node_at(model, i / 18, i % 18 / 3)[i % 3] - centre)) /
+                           (200 * dt);
         }
         fracas_batch *batch = lane_of(model, 0.3, trial);
         double end = 0, onset, broken;
         for (size_t i = 0; i < model->interfaces; i++) {
-            if (fate_of(batch, i, velocity, &onset, &broken) && isfinite(broken)) end = fmax(end, broken);
+            if (fate_of(batch, i, velocity, &onset, &broken) && isfinite(broken))
+                end = fmax(end, broken);
             if (isfinite(onset)) end = fmax(end, onset);
         }
         model->spec.time.end = fmin(end + 1.5 * dt, 2000 * dt);
         fracas_record record;
         fracas_record_init(&record);
         assert_ok(fracas_batch_begin(batch));
-        for (size_t i = 0; i < n; i++) *shell_state(batch, i / 18, SURFACE_V, i % 18) = 100 + velocity[i];
+        for (size_t i = 0; i < n; i++)
+            *shell_state(batch, i / 18, SURFACE_V, i % 18) = 100 + velocity[i];
         run_to_end(batch, &record);
         assert_int_equal(record.outcome == FRACAS_ENERGY_DRIFT, 0);
         double first = INFINITY;
         for (size_t i = 0; i < model->interfaces; i++) {
             const fracas_interface_row *row = &record.interface[i];
             const bool breaks = fate_of(batch, i, velocity, &onset, &broken);
-            assert_true(row->strength == fmin(strength_at(batch, 0, i, 0), fmin(strength_at(batch, 0, i, 1), strength_at(batch, 0, i, 2))));
+            assert_true(row->strength ==
+                        fmin(strength_at(batch, 0, i, 0),
+                             fmin(strength_at(batch, 0, i, 1), strength_at(batch, 0, i, 2))));
             first = fmin(first, isnan(row->onset_time) ? INFINITY : row->onset_time);
-            assert_true(fabs(row->damage - damage_of(batch, i)) < 1e-15 && (row->damage == 1) == !isnan(row->break_time));
+            assert_true(fabs(row->damage - damage_of(batch, i)) < 1e-15 &&
+                        (row->damage == 1) == !isnan(row->break_time));
             if (onset > record.end_time) assert_true(isnan(row->onset_time));
             else worst[0] = fmax(worst[0], fabs(row->onset_time / onset - 1)), counts[0]++;
             if (!breaks) continue;
@@ -487,7 +593,8 @@ static void check_times(const fracas_spec *spec, double distortion, double worst
 static void onsets_and_breaks_come_when_they_must(void **unused)
 {
     (void)unused;
-    static const fracas_kind *const shapes[] = {&fracas_shape_plate, &fracas_shape_annulus, &fracas_shape_sphere};
+    static const fracas_kind *const shapes[] = {&fracas_shape_plate, &fracas_shape_annulus,
+                                                &fracas_shape_sphere};
     static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};
     for (int which = 0; which < 24; which++) {
         fracas_spec spec = brittle_shell(shapes[which % 3], 1);
@@ -497,21 +604,26 @@ static void onsets_and_breaks_come_when_they_must(void **unused)
         spec.cohesive.onset = onsets[which % 2];
         spec.cohesive.coupling = which / 3 % 2 ? 0.6 : 1.5;
         spec.cohesive.friction = which / 6 % 2 ? 0.3 : 0;
-        spec.time.integrator = which / 3 % 2 ? &fracas_integrator_hulbert_chung : &fracas_integrator_central_difference;
+        spec.time.integrator = which / 3 % 2 ? &fracas_integrator_hulbert_chung
+                                             : &fracas_integrator_central_difference;
         if (which / 6 % 2) {
             spec.cohesive.fracture_energy = 0;
             spec.cohesive.critical_opening = 1.2e-6;
         }
         check_times(&spec, which % 3 == 0 ? 0 : 0.1, worst, counts);
-        print_message("%-7s onset %s, beta_c %.1f, mu_c %.1f, %s: %ld onsets within %.1e, %ld breaks within %.1e\n", spec.geometry.shape->name,
-                      spec.cohesive.onset->name, spec.cohesive.coupling, spec.cohesive.friction,
-                      spec.strength_per_point ? "3 strengths" : "1 strength", counts[0], worst[0], counts[1], worst[1]);
+        print_message("%-7s onset %s, beta_c %.1f, mu_c %.1f, %s: %ld onsets within %.1e, %ld "
+                      "breaks within %.1e\n",
+                      spec.geometry.shape->name, spec.cohesive.onset->name, spec.cohesive.coupling,
+                      spec.cohesive.friction,
+                      spec.strength_per_point ? "3 strengths" : "1 strength", counts[0], worst[0],
+                      counts[1], worst[1]);
         assert_true(counts[0] > 100 && counts[1] > 20);
         assert_true(worst[0] < 1e-9 && worst[1] < 1e-10);
     }
 }
 
-/* An interface whose last layer is short of its end by the last bit is not broken, however the weights sum. */
+/* An interface whose last layer is short of its end by the last bit is not broken, however the
+ * weights sum. */
 static void an_interface_breaks_with_its_last_layer(void **unused)
 {
     (void)unused;
@@ -520,7 +632,8 @@ static void an_interface_breaks_with_its_last_layer(void **unused)
     assert_ok(fracas_batch_begin(batch));
     for (int last = 0; last <= SHELL_EDGE * SHELL_LAYERS; last++) {
         for (int p = 0; p < SHELL_EDGE * SHELL_LAYERS; p++)
-            *fracas_shell_point(model, &batch->step, 0, p / 3, p % 3, SURFACE_DAMAGE, 0) = p == last ? 1 - 0x1p-53 : 1;
+            *fracas_shell_point(model, &batch->step, 0, p / 3, p % 3, SURFACE_DAMAGE,
+                                0) = p == last ? 1 - 0x1p-53 : 1;
         fracas_record record;
         fracas_record_init(&record);
         batch->step.broken[0] = 1;
@@ -535,7 +648,8 @@ static void an_interface_breaks_with_its_last_layer(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(interfaces_do_what_their_layers_do), cmocka_unit_test(onsets_and_breaks_come_when_they_must),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(interfaces_do_what_their_layers_do),
+                                       cmocka_unit_test(onsets_and_breaks_come_when_they_must),
                                        cmocka_unit_test(an_interface_breaks_with_its_last_layer)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

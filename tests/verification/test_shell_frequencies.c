@@ -1,5 +1,6 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: slow-sanitize */
 /* Frequencies of thin plates and strips by the shell's operator, masses lumped.
- * ctest-labels: slow-sanitize
  */
 #include "tests/support/shell_statics.h"
 
@@ -17,7 +18,8 @@ typedef struct {
     double within;
 } vibration;
 
-static void frequencies(const vibration *v, size_t level, double beta, double beta_shear, double *error)
+static void frequencies(const vibration *v, size_t level, double beta, double beta_shear,
+                        double *error)
 {
     fracas_spec spec = shell_spec(&fracas_shape_file);
     spec.geometry.thickness = v->thickness;
@@ -25,12 +27,15 @@ static void frequencies(const vibration *v, size_t level, double beta, double be
     spec.cohesive.beta = beta;
     spec.cohesive.beta_shear = beta_shear;
     for (int tag = 1; tag < FRACAS_EDGES; tag++) spec.geometry.edge[tag] = v->edge[tag > 2];
-    fracas_model *model = grid_model(&spec, &(shell_grid){.nx = v->nx[level], .ny = v->ny[level], .map = flat_map, .how = v->size});
+    fracas_model *model = grid_model(
+        &spec,
+        &(shell_grid){.nx = v->nx[level], .ny = v->ny[level], .map = flat_map, .how = v->size});
     shell_statics *s = statics_open(model);
     const int more = (int)v->count + 2;
     double *mode = random_start(s, more), omega[5];
     lowest_frequencies(s, (int)v->count, more, mode, omega);
-    print_message("%s, %zu x %zu cells, beta %g, beta_shear %g:", v->name, v->nx[level], v->ny[level], beta, beta_shear);
+    print_message("%s, %zu x %zu cells, beta %g, beta_shear %g:", v->name, v->nx[level],
+                  v->ny[level], beta, beta_shear);
     for (size_t k = 0; k < v->count; k++) {
         error[k] = omega[k] / (v->exact[k] * wave(&spec)) - 1;
         print_message("  %+.3f %%", 100 * error[k]);
@@ -41,13 +46,14 @@ static void frequencies(const vibration *v, size_t level, double beta, double be
     fracas_model_destroy(model);
 }
 
-/* Frequencies are wrong by the energy of the modes' errors, of order 2 in h: the slope of the last halving is within 0.2 of that, and
- * the finest mesh within 0.5 %, for beta 5 and 10. */
+/* Frequencies are wrong by the energy of the modes' errors, of order 2 in h: the slope of the last
+ * halving is within 0.2 of that, and the finest mesh within 0.5 %, for beta 5 and 10. */
 static void check(const vibration *v)
 {
     for (int k = 0; k < 2; k++) {
         double error[3][3];
-        for (size_t level = k ? 1 : 0; level < 3; level++) frequencies(v, level, k ? 10 : 5, 1, error[level]);
+        for (size_t level = k ? 1 : 0; level < 3; level++)
+            frequencies(v, level, k ? 10 : 5, 1, error[level]);
         for (size_t m = 0; m < v->count; m++) {
             const double slope = log2(fabs(error[1][m] / error[2][m]));
             print_message("  mode %zu: slope %.2f\n", m, slope);
@@ -62,21 +68,38 @@ static void a_supported_plate(void **unused)
 {
     (void)unused;
     const double a = 1, b = 0.8, p = PI * PI;
-    check(&(vibration){.name = "supported plate", .size = {a, b}, .thickness = 1e-3, .poisson = 0.3,
-                       .exact = {p * (1 / (a * a) + 1 / (b * b)), p * (4 / (a * a) + 1 / (b * b)), p * (1 / (a * a) + 4 / (b * b))},
-                       .edge = {&fracas_edge_fixed, &fracas_edge_fixed}, .count = 3, .nx = {8, 16, 32}, .ny = {8, 16, 32}, .within = 0.005});
+    check(&(vibration){.name = "supported plate",
+                       .size = {a, b},
+                       .thickness = 1e-3,
+                       .poisson = 0.3,
+                       .exact = {p * (1 / (a * a) + 1 / (b * b)), p * (4 / (a * a) + 1 / (b * b)),
+                                 p * (1 / (a * a) + 4 / (b * b))},
+                       .edge = {&fracas_edge_fixed, &fracas_edge_fixed},
+                       .count = 3,
+                       .nx = {8, 16, 32},
+                       .ny = {8, 16, 32},
+                       .within = 0.005});
 }
 
 /* cos(k L) cosh(k L) = 1: k L = 4.73004, 7.85320. nu = 0 makes the strip a beam. */
 static void a_clamped_beam(void **unused)
 {
     (void)unused;
-    check(&(vibration){.name = "clamped beam", .size = {10, 1}, .thickness = 1e-2, .poisson = 0, .exact = {0.4730041 * 0.4730041, 0.7853205 * 0.7853205},
-                       .edge = {&fracas_edge_clamped, &fracas_edge_free}, .count = 2, .nx = {10, 20, 40}, .ny = {1, 2, 4}, .within = 0.005});
+    check(&(vibration){.name = "clamped beam",
+                       .size = {10, 1},
+                       .thickness = 1e-2,
+                       .poisson = 0,
+                       .exact = {0.4730041 * 0.4730041, 0.7853205 * 0.7853205},
+                       .edge = {&fracas_edge_clamped, &fracas_edge_free},
+                       .count = 2,
+                       .nx = {10, 20, 40},
+                       .ny = {1, 2, 4},
+                       .within = 0.005});
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_supported_plate), cmocka_unit_test(a_clamped_beam)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_supported_plate),
+                                       cmocka_unit_test(a_clamped_beam)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,14 @@
-/* The shell's operator against its bilinear form, written down anew: strains of bending as changes of curvature by differences. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The shell's operator against its bilinear form, written down anew: strains of bending as changes
+ * of curvature by differences. */
 #include "tests/support/shell_bodies.h"
 
 #include <gsl/gsl_integration.h>
 
-static double dot3(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static double dot3(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 static void cross3(const double a[3], const double b[3], double c[3])
 {
@@ -34,8 +39,8 @@ static void shape6(double xi, double eta, double value[6], double slope[6][2])
     }
 }
 
-/* At a place of an element: basis a_1, a_2 and its reciprocal by the metric, normal, and of each unknown u_{,1}, u_{,2} (the unknown's
- * component alone). */
+/* At a place of an element: basis a_1, a_2 and its reciprocal by the metric, normal, and of each
+ * unknown u_{,1}, u_{,2} (the unknown's component alone). */
 typedef struct {
     double shape[6], slope[6][2], a[2][3], up[2][3], t[3], area;
 } place;
@@ -47,7 +52,8 @@ static place place_at(const fracas_model *model, size_t e, double xi, double eta
     for (size_t k = 0; k < 6; k++)
         for (int a = 0; a < 2; a++)
             for (int i = 0; i < 3; i++) p.a[a][i] += p.slope[k][a] * node_at(model, e, k)[i];
-    const double g11 = dot3(p.a[0], p.a[0]), g12 = dot3(p.a[0], p.a[1]), g22 = dot3(p.a[1], p.a[1]), det = g11 * g22 - g12 * g12;
+    const double g11 = dot3(p.a[0], p.a[0]), g12 = dot3(p.a[0], p.a[1]), g22 = dot3(p.a[1], p.a[1]),
+                 det = g11 * g22 - g12 * g12;
     for (int i = 0; i < 3; i++) {
         p.up[0][i] = (g22 * p.a[0][i] - g12 * p.a[1][i]) / det;
         p.up[1][i] = (g11 * p.a[1][i] - g12 * p.a[0][i]) / det;
@@ -60,12 +66,16 @@ static place place_at(const fracas_model *model, size_t e, double xi, double eta
 /* Change of the director by unknown d:  -(t.u_{,a}) a^a */
 static void director(const place *p, size_t d, double of[3])
 {
-    for (int i = 0; i < 3; i++) of[i] = -p->t[d % 3] * (p->slope[d / 3][0] * p->up[0][i] + p->slope[d / 3][1] * p->up[1][i]);
+    for (int i = 0; i < 3; i++)
+        of[i] = -p->t[d % 3] *
+                (p->slope[d / 3][0] * p->up[0][i] + p->slope[d / 3][1] * p->up[1][i]);
 }
 
-/* Derivatives of t and of the change of the director by xi or eta: differences of sixth order. Their error is that of the seventh
- * derivatives, below 1e5, times step^6/140, and round-off 1e-16/step: 1e-12. */
-static void by_coordinate(const fracas_model *model, size_t e, double xi, double eta, int along, double of_t[3], double of_turn[18][3])
+/* Derivatives of t and of the change of the director by xi or eta: differences of sixth order.
+ * Their error is that of the seventh derivatives, below 1e5, times step^6/140, and round-off
+ * 1e-16/step: 1e-12. */
+static void by_coordinate(const fracas_model *model, size_t e, double xi, double eta, int along,
+                          double of_t[3], double of_turn[18][3])
 {
     const double step = 1e-3, weight[3] = {45.0 / 60, -9.0 / 60, 1.0 / 60};
     for (int i = 0; i < 3; i++) of_t[i] = 0;
@@ -94,8 +104,10 @@ static void frame_at(const fracas_model *model, size_t e, const place *p, double
     cross3(p->t, x, y);
 }
 
-/* Of each unknown: strains xx, yy, 2 xy of stretching, and of bending as the change of a_a . t_{,b}: a_a . dt_{,b} + u_{,a} . t_{,b}. */
-static void strains_at(const fracas_model *model, size_t e, double xi, double eta, double eps[18][3], double rho[18][3])
+/* Of each unknown: strains xx, yy, 2 xy of stretching, and of bending as the change of a_a .
+ * t_{,b}: a_a . dt_{,b} + u_{,a} . t_{,b}. */
+static void strains_at(const fracas_model *model, size_t e, double xi, double eta,
+                       double eps[18][3], double rho[18][3])
 {
     const place p = place_at(model, e, xi, eta);
     double frame[2][3], of_t[2][3], of_turn[2][18][3];
@@ -109,7 +121,9 @@ static void strains_at(const fracas_model *model, size_t e, double xi, double et
                     const double ia = dot3(frame[i], p.up[a]);
                     stretch[i][j] += ia * p.slope[d / 3][a] * frame[j][d % 3];
                     for (int b = 0; b < 2; b++)
-                        bend[i][j] += ia * dot3(frame[j], p.up[b]) * (dot3(p.a[a], of_turn[b][d]) + p.slope[d / 3][a] * of_t[b][d % 3]);
+                        bend[i][j] += ia * dot3(frame[j], p.up[b]) *
+                                      (dot3(p.a[a], of_turn[b][d]) +
+                                       p.slope[d / 3][a] * of_t[b][d % 3]);
                 }
         for (int i = 0; i < 2; i++) {
             eps[d][i] = stretch[i][i];
@@ -150,7 +164,8 @@ static element_state *states_of(const fracas_model *model)
     return state;
 }
 
-static void add_bulk(const fracas_model *model, const element_state *state, size_t n, double *matrix)
+static void add_bulk(const fracas_model *model, const element_state *state, size_t n,
+                     double *matrix)
 {
     static const double at[3][2] = {{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}};
     for (size_t e = 0; e < model->elements; e++)
@@ -159,25 +174,36 @@ static void add_bulk(const fracas_model *model, const element_state *state, size
             for (size_t i = 0; i < 18; i++)
                 for (size_t j = 0; j < 18; j++)
                     matrix[(18 * e + i) * n + 18 * e + j] +=
-                        weight * (dot3(state[e].eps[g][i], state[e].n[g][j]) + dot3(state[e].rho[g][i], state[e].m[g][j]));
+                        weight * (dot3(state[e].eps[g][i], state[e].n[g][j]) +
+                                  dot3(state[e].rho[g][i], state[e].m[g][j]));
         }
 }
 
-/* One side of an edge at s from the edge's first vertex: the place, n_nn, n_ns, m_nn, m_ns of each unknown, the normal's turn of each,
- * and the curvatures nn, ns, ss by differences of t. */
+/* One side of an edge at s from the edge's first vertex: the place, n_nn, n_ns, m_nn, m_ns of each
+ * unknown, the normal's turn of each, and the curvatures nn, ns, ss by differences of t. */
 typedef struct {
     place p;
     double tangent[3], normal[3], speed, of[18][4], turn[18], l[3];
 } edge_side;
 
 /* `tangent`: of the first side, or NULL to take the element's own. */
-static edge_side side_at(const fracas_model *model, const element_state *state, size_t e, size_t edge, double s, const double *tangent)
+static edge_side side_at(const fracas_model *model, const element_state *state, size_t e,
+                         size_t edge, double s, const double *tangent)
 {
-    const double l[3] = {edge == 0 ? 1 - s : edge == 2 ? s : 0, edge == 0 ? s : edge == 1 ? 1 - s : 0, edge == 1 ? s : edge == 2 ? 1 - s : 0};
+    const double l[3] = {edge == 0   ? 1 - s
+                         : edge == 2 ? s
+                                     : 0,
+                         edge == 0   ? s
+                         : edge == 1 ? 1 - s
+                                     : 0,
+                         edge == 1   ? s
+                         : edge == 2 ? 1 - s
+                                     : 0};
     const double along[3][2] = {{1, 0}, {-1, 1}, {0, -1}};
     edge_side of = {.p = place_at(model, e, l[1], l[2])};
     double x[3], y[3], of_t[2][3], unused[18][3];
-    for (int i = 0; i < 3; i++) of.tangent[i] = along[edge][0] * of.p.a[0][i] + along[edge][1] * of.p.a[1][i];
+    for (int i = 0; i < 3; i++)
+        of.tangent[i] = along[edge][0] * of.p.a[0][i] + along[edge][1] * of.p.a[1][i];
     of.speed = unit3(of.tangent);
     if (tangent) memcpy(of.tangent, tangent, sizeof of.tangent);
     cross3(of.tangent, of.p.t, of.normal);
@@ -191,7 +217,8 @@ static edge_side side_at(const fracas_model *model, const element_state *state, 
                 r[1][i] += (2 * l[g] - 1.0 / 3) * state[e].m[g][d][i];
             }
         for (int part = 0; part < 2; part++) {
-            const double pull[2] = {r[part][0] * n[0] + r[part][2] * n[1], r[part][2] * n[0] + r[part][1] * n[1]};
+            const double pull[2] = {r[part][0] * n[0] + r[part][2] * n[1],
+                                    r[part][2] * n[0] + r[part][1] * n[1]};
             of.of[d][2 * part] = pull[0] * n[0] + pull[1] * n[1];
             of.of[d][2 * part + 1] = pull[0] * t[0] + pull[1] * t[1];
         }
@@ -217,22 +244,30 @@ static double per_size(const fracas_model *model, size_t e, size_t edge)
     return fracas_surface_length(model->surface, e, edge) / fracas_surface_area(model->surface, e);
 }
 
-/* int <N>.[v] + <N(v)>.[u] + k h [u].[v] + the same of M and the turns + beta_shear G h/h_s [u].t [v].t, N_i = n_ni + L_ik m_nk. */
-static void add_interfaces(const fracas_model *model, const element_state *state, size_t n, double *matrix, const gsl_integration_glfixed_table *rule)
+/* int <N>.[v] + <N(v)>.[u] + k h [u].[v] + the same of M and the turns + beta_shear G h/h_s [u].t
+ * [v].t, N_i = n_ni + L_ik m_nk. */
+static void add_interfaces(const fracas_model *model, const element_state *state, size_t n,
+                           double *matrix, const gsl_integration_glfixed_table *rule)
 {
     const fracas_spec *spec = &model->spec;
-    const double nu = spec->material.poisson, h = spec->geometry.thickness, c = spec->cohesive.beta * spec->material.young / (1 - nu * nu);
-    const double coupling = spec->cohesive.coupling, normal = fmax(1, 1 / (coupling * coupling)), shear = coupling * coupling * normal;
+    const double nu = spec->material.poisson, h = spec->geometry.thickness,
+                 c = spec->cohesive.beta * spec->material.young / (1 - nu * nu);
+    const double coupling = spec->cohesive.coupling, normal = fmax(1, 1 / (coupling * coupling)),
+                 shear = coupling * coupling * normal;
     for (size_t i = 0; i < model->interfaces; i++) {
         const fracas_surface_interface *it = &model->surface->interface[i];
-        const double size = 0.5 * (per_size(model, it->element[0], it->edge[0]) + per_size(model, it->element[1], it->edge[1]));
-        const double stiff[5] = {normal * c * size * h, shear * c * size * h, normal * c * size * h * h * h / 12,
-                                 shear * c * size * h * h * h / 12, spec->cohesive.beta_shear * spec->material.young / (2 * (1 + nu)) * h * size};
+        const double size = 0.5 * (per_size(model, it->element[0], it->edge[0]) +
+                                   per_size(model, it->element[1], it->edge[1]));
+        const double stiff[5] = {
+            normal * c * size * h, shear * c * size * h, normal * c * size * h * h * h / 12,
+            shear * c * size * h * h * h / 12,
+            spec->cohesive.beta_shear * spec->material.young / (2 * (1 + nu)) * h * size};
         for (size_t g = 0; g < 3; g++) {
             double s, weight, t[3], out[3], jump[36][5], mean[36][5] = {{0}};
             gsl_integration_glfixed_point(0, 1, g, &s, &weight, rule);
             const edge_side a = side_at(model, state, it->element[0], it->edge[0], s, NULL);
-            const edge_side b = side_at(model, state, it->element[1], it->edge[1], 1 - s, a.tangent);
+            const edge_side b = side_at(model, state, it->element[1], it->edge[1], 1 - s,
+                                        a.tangent);
             const double along[2][3][2] = {{{1, 0}, {-1, 1}, {0, -1}}, {{-1, 0}, {1, -1}, {0, 1}}};
             for (int k = 0; k < 3; k++) t[k] = a.p.t[k] + b.p.t[k];
             unit3(t);
@@ -242,10 +277,13 @@ static void add_interfaces(const fracas_model *model, const element_state *state
                 const edge_side *of = d < 18 ? &a : &b;
                 const int side = d >= 18, k = d % 18 / 3, x = d % 3;
                 const double sign = side ? 1 : -1, *way = along[side][it->edge[side]];
-                const double ds = (way[0] * of->p.slope[k][0] + way[1] * of->p.slope[k][1]) / a.speed, *r = of->of[d % 18];
+                const double ds = (way[0] * of->p.slope[k][0] + way[1] * of->p.slope[k][1]) /
+                                  a.speed,
+                             *r = of->of[d % 18];
                 for (int q = 0; q < 2; q++) {
                     jump[d][q] = sign * of->p.shape[k] * axis[q][x];
-                    mean[d][q] = 0.5 * (r[q] + 0.5 * (a.l[q] + b.l[q]) * r[2] + 0.5 * (a.l[q + 1] + b.l[q + 1]) * r[3]);
+                    mean[d][q] = 0.5 * (r[q] + 0.5 * (a.l[q] + b.l[q]) * r[2] +
+                                        0.5 * (a.l[q + 1] + b.l[q + 1]) * r[3]);
                     mean[d][2 + q] = 0.5 * r[2 + q];
                 }
                 jump[d][2] = sign * of->turn[d % 18];
@@ -255,14 +293,19 @@ static void add_interfaces(const fracas_model *model, const element_state *state
             for (size_t p = 0; p < 36; p++)
                 for (size_t q = 0; q < 36; q++)
                     for (int j = 0; j < 5; j++)
-                        matrix[(18 * it->element[p >= 18] + p % 18) * n + 18 * it->element[q >= 18] + q % 18] +=
-                            weight * a.speed * (mean[q][j] * jump[p][j] + mean[p][j] * jump[q][j] + stiff[j] * jump[p][j] * jump[q][j]);
+                        matrix[(18 * it->element[p >= 18] + p % 18) * n +
+                               18 * it->element[q >= 18] + q % 18] +=
+                            weight * a.speed *
+                            (mean[q][j] * jump[p][j] + mean[p][j] * jump[q][j] +
+                             stiff[j] * jump[p][j] * jump[q][j]);
         }
     }
 }
 
-/* Edges about which the shell does not turn: as an interface of m_nn alone with its mirror image. */
-static void add_rims(const fracas_model *model, const element_state *state, size_t n, double *matrix, const gsl_integration_glfixed_table *rule)
+/* Edges about which the shell does not turn: as an interface of m_nn alone with its mirror image.
+ */
+static void add_rims(const fracas_model *model, const element_state *state, size_t n,
+                     double *matrix, const gsl_integration_glfixed_table *rule)
 {
     const fracas_spec *spec = &model->spec;
     const double nu = spec->material.poisson, h = spec->geometry.thickness;
@@ -270,7 +313,8 @@ static void add_rims(const fracas_model *model, const element_state *state, size
         const fracas_surface_border *it = &model->surface->border[i];
         const fracas_kind *kind = spec->geometry.edge[it->tag];
         if (kind != &fracas_edge_clamped && kind != &fracas_edge_symmetry) continue;
-        const double stiff = 2 * spec->cohesive.beta * spec->material.young / (1 - nu * nu) * h * h * h / 12 * per_size(model, it->element, it->edge);
+        const double stiff = 2 * spec->cohesive.beta * spec->material.young / (1 - nu * nu) * h *
+                             h * h / 12 * per_size(model, it->element, it->edge);
         for (size_t g = 0; g < 3; g++) {
             double s, weight;
             gsl_integration_glfixed_point(0, 1, g, &s, &weight, rule);
@@ -278,13 +322,15 @@ static void add_rims(const fracas_model *model, const element_state *state, size
             for (size_t p = 0; p < 18; p++)
                 for (size_t q = 0; q < 18; q++)
                     matrix[(18 * it->element + p) * n + 18 * it->element + q] +=
-                        weight * a.speed * (stiff * a.turn[p] * a.turn[q] - a.of[q][2] * a.turn[p] - a.of[p][2] * a.turn[q]);
+                        weight * a.speed *
+                        (stiff * a.turn[p] * a.turn[q] - a.of[q][2] * a.turn[p] -
+                         a.of[p][2] * a.turn[q]);
         }
     }
 }
 
-/* Entries sum terms that are known to 1e-12 (see by_coordinate) of the largest entry. K itself is symmetric to the round-off of its sums of
- * some 50 terms, 1e-14 of the largest; 1e-13. */
+/* Entries sum terms that are known to 1e-12 (see by_coordinate) of the largest entry. K itself is
+ * symmetric to the round-off of its sums of some 50 terms, 1e-14 of the largest; 1e-13. */
 static void the_matrix_is_the_bilinear_form(void **unused)
 {
     (void)unused;
@@ -292,13 +338,15 @@ static void the_matrix_is_the_bilinear_form(void **unused)
     for (int which = 0; which < BODIES; which++)
         for (int edges = 0; edges < (which == SPHERE ? 1 : 2); edges++) {
             fracas_spec spec = shell_spec(&fracas_shape_sphere);
-            for (int tag = 0; edges && tag < FRACAS_EDGES; tag++) spec.geometry.edge[tag] = tag % 2 ? &fracas_edge_clamped : &fracas_edge_free;
+            for (int tag = 0; edges && tag < FRACAS_EDGES; tag++)
+                spec.geometry.edge[tag] = tag % 2 ? &fracas_edge_clamped : &fracas_edge_free;
             spec.geometry.thickness = 0.5; /* bending as large as stretching */
             spec.cohesive.beta_shear = 3;
             spec.cohesive.coupling = edges ? 0.8 : 1.25;
             fracas_model *model = body_of(which, spec, 2, 11);
             const size_t n = unknowns_of(model);
-            double *got = stiffness_matrix(model, n), *expected = vector_of(n * n), worst = 0, asymmetry = 0;
+            double *got = stiffness_matrix(model, n), *expected = vector_of(n * n), worst = 0,
+                   asymmetry = 0;
             element_state *state = states_of(model);
             add_bulk(model, state, n, expected);
             add_interfaces(model, state, n, expected, rule);
@@ -310,8 +358,9 @@ static void the_matrix_is_the_bilinear_form(void **unused)
                     asymmetry = fmax(asymmetry, fabs(got[i * n + j] - got[j * n + i]));
                 }
             const double largest = largest_of(got, n * n);
-            print_message("%s, edges %s: entries within %.1e, symmetric within %.1e\n", body_name[which], edges ? "clamped and free" : "free",
-                          worst / largest, asymmetry / largest);
+            print_message("%s, edges %s: entries within %.1e, symmetric within %.1e\n",
+                          body_name[which], edges ? "clamped and free" : "free", worst / largest,
+                          asymmetry / largest);
             assert_true(worst < 1e-12 * largest);
             assert_true(asymmetry < 1e-13 * largest);
             free(state);

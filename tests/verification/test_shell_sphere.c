@@ -1,10 +1,13 @@
-/* A spherical shell that expands, and does not crack: breathing frequency, stress, energies; the octant and the whole.
- * ctest-labels: slow-sanitize
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: slow-sanitize */
+/* A spherical shell that expands, and does not crack: breathing frequency, stress, energies; the
+ * octant and the whole.
  */
 #include "tests/support/shell.h"
 #include "tests/support/shell_run.h"
 
-/* The alumina sphere of docs/theory/shell.md: mid radius 9.95 mm, 0.1 mm thick; it grows at 1e4 /s at the start. */
+/* The alumina sphere of docs/theory/shell.md: mid radius 9.95 mm, 0.1 mm thick; it grows at 1e4 /s
+ * at the start. */
 #define RADIUS 9.95e-3
 static fracas_spec alumina(const fracas_kind *part, int64_t divisions)
 {
@@ -19,12 +22,14 @@ static fracas_spec alumina(const fracas_kind *part, int64_t divisions)
     return spec;
 }
 
-/* u = w x/R: strains of stretching w/R both ways, of bending t_{,i}.u_{,j} = w/R^2; so omega^2 = 2 E/(rho R^2 (1 - nu)) (1 + h^2/(12 R^2)),
- * 249.48 kHz; bending is 4 parts in a million of it. */
+/* u = w x/R: strains of stretching w/R both ways, of bending t_{,i}.u_{,j} = w/R^2; so omega^2 = 2
+ * E/(rho R^2 (1 - nu)) (1 + h^2/(12 R^2)), 249.48 kHz; bending is 4 parts in a million of it. */
 static double breathing(const fracas_spec *spec)
 {
     const double r = spec->geometry.radius, h = spec->geometry.thickness;
-    return sqrt(2 * spec->material.young / (spec->material.density * r * r * (1 - spec->material.poisson)) * (1 + h * h / (12 * r * r)));
+    return sqrt(2 * spec->material.young /
+                (spec->material.density * r * r * (1 - spec->material.poisson)) *
+                (1 + h * h / (12 * r * r)));
 }
 
 static void radial(const void *unused, const double x[3], double u[3])
@@ -34,7 +39,8 @@ static void radial(const void *unused, const double x[3], double u[3])
     for (int i = 0; i < 3; i++) u[i] = x[i] / r;
 }
 
-/* By Rayleigh's quotient of the radial displacement, of which errors of the second order in that of the mode remain. */
+/* By Rayleigh's quotient of the radial displacement, of which errors of the second order in that of
+ * the mode remain. */
 static void breathing_frequency(void **unused)
 {
     (void)unused;
@@ -52,7 +58,8 @@ static void breathing_frequency(void **unused)
             stretch = dot_of(u, f, size);
             for (size_t i = 0; i < size; i++) mass += mass_of(model, i) * u[i] * u[i];
             const double omega = sqrt(stretch / mass), error = omega / breathing(&spec) - 1;
-            print_message("%s, %zu elements: %.4f kHz, %+.1e\n", whole ? "sphere" : "octant", model->elements, omega / (2e3 * PI), error);
+            print_message("%s, %zu elements: %.4f kHz, %+.1e\n", whole ? "sphere" : "octant",
+                          model->elements, omega / (2e3 * PI), error);
             assert_true(fabs(error) < before);
             before = fabs(error);
             fracas_shell_operator_close(op);
@@ -68,7 +75,8 @@ static void breathing_frequency(void **unused)
 
 /* ---- runs ---- */
 
-/* Mean stress of stretching of an element, E/(1 - nu) times half the trace of the strain at the points where resultants are. */
+/* Mean stress of stretching of an element, E/(1 - nu) times half the trace of the strain at the
+ * points where resultants are. */
 static double stress_of(const shell_run *run, size_t e)
 {
     static const double place[3][2] = {{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}};
@@ -81,7 +89,8 @@ static double stress_of(const shell_run *run, size_t e)
         for (size_t k = 0; k < SHELL_NODES; k++)
             for (int i = 0; i < 3; i++)
                 sum += at.area * (at.slope[k][0] * at.dual[0][i] + at.slope[k][1] * at.dual[1][i]) *
-                       *fracas_shell_value(run->model, &run->batch->step, e, SURFACE_U, 3 * (int)k + i, 0);
+                       *fracas_shell_value(run->model, &run->batch->step, e, SURFACE_U,
+                                           3 * (int)k + i, 0);
     }
     return m->young / (1 - m->poisson) * 0.5 * sum / area;
 }
@@ -101,33 +110,41 @@ static double mean_stress(const shell_run *run, double *spread)
     return sum / area;
 }
 
-/* sigma = E edot/((1 - nu) omega) sin(omega t): 264 MPa at 55.725 ns, and within 0.1 % of its amplitude over one period of the octant;
- * kinetic energy 1/2 rho h (pi/2) R^2 (edot R)^2 = 0.3002 J an octant; kinetic + elastic constant. Elements that are not all alike
- * stir modes of bending, of some 20 waves around, that are as fast as the breathing: of the stress 8e-3 with 256 elements, 5e-4 with
- * 1024, 1e-4 with 2304 (measured). Half the critical step, 1/1000 of the period, is off by (omega dt)^2/24 = 2e-6 in frequency. Energy:
- * sums of n terms, at random n^1/2 1.1e-16 = 1e-14. */
+/* sigma = E edot/((1 - nu) omega) sin(omega t): 264 MPa at 55.725 ns, and within 0.1 % of its
+ * amplitude over one period of the octant; kinetic energy 1/2 rho h (pi/2) R^2 (edot R)^2 = 0.3002
+ * J an octant; kinetic + elastic constant. Elements that are not all alike stir modes of bending,
+ * of some 20 waves around, that are as fast as the breathing: of the stress 8e-3 with 256 elements,
+ * 5e-4 with 1024, 1e-4 with 2304 (measured). Half the critical step, 1/1000 of the period, is off
+ * by (omega dt)^2/24 = 2e-6 in frequency. Energy: sums of n terms, at random n^1/2 1.1e-16 = 1e-14.
+ */
 static void a_growing_sphere(void **unused)
 {
     (void)unused;
     for (int whole = 0; whole < 2; whole++) {
-        const fracas_spec spec = alumina(whole ? &fracas_part_whole : &fracas_part_octant, whole ? 16 : 32);
+        const fracas_spec spec = alumina(whole ? &fracas_part_whole : &fracas_part_octant,
+                                         whole ? 16 : 32);
         shell_run run = shell_begin(distorted_model(spec, 0.1, 5), 1, 1e10);
-        const double omega = breathing(&spec), amplitude = spec.material.young * 1e4 / (1 - spec.material.poisson) / omega;
+        const double omega = breathing(&spec),
+                     amplitude = spec.material.young * 1e4 / (1 - spec.material.poisson) / omega;
         const double end = whole ? 200e-9 : 2 * PI / omega;
         double worst = 0, drift = 0, spread = 0, furthest = 0, early = 0, start = 0;
         assert_true(fabs(amplitude * sin(omega * 55.725e-9) - 264e6) < 0.01e6);
         while (run.batch->step.time[0] < end) {
             shell_step(&run);
             const fracas_ledger *ledger = &run.batch->lane[0].ledger;
-            const double time = run.batch->step.time[0], sigma = mean_stress(&run, &spread), expected = amplitude * sin(omega * time);
+            const double time = run.batch->step.time[0], sigma = mean_stress(&run, &spread),
+                         expected = amplitude * sin(omega * time);
             if (time == 0) start = ledger->kinetic / (whole ? 8 : 1);
             worst = fmax(worst, fabs(sigma - expected) / amplitude);
             furthest = fmax(furthest, spread / amplitude);
             if (time > 0 && time < 200e-9) early = fmax(early, fabs(sigma / expected - 1));
-            drift = fmax(drift, fabs(ledger->kinetic + ledger->elastic - ledger->initial) / fmax(ledger->kinetic, ledger->elastic));
+            drift = fmax(drift, fabs(ledger->kinetic + ledger->elastic - ledger->initial) /
+                                    fmax(ledger->kinetic, ledger->elastic));
         }
-        print_message("%s: %zu elements, %.4f J an octant; stress within %.1e of the amplitude, to 200 ns within %.1e of itself, an element's within "
-                      "%.1e; energy within %.1e\n", whole ? "sphere" : "octant", run.model->elements, start, worst, early, furthest, drift);
+        print_message(
+            "%s: %zu elements, %.4f J an octant; stress within %.1e of the amplitude, to 200 ns "
+            "within %.1e of itself, an element's within %.1e; energy within %.1e\n",
+            whole ? "sphere" : "octant", run.model->elements, start, worst, early, furthest, drift);
         assert_true(fabs(start - 0.3002) < 5e-5);
         assert_true(worst < 1e-3 && early < 1e-3);
         assert_true(drift < 1e-12);
@@ -142,18 +159,19 @@ static uint32_t find_node(const double (*node)[3], size_t count, const double x[
     size_t best = 0;
     double least = INFINITY;
     for (size_t n = 0; n < count; n++) {
-        const double far = fabs(node[n][0] - x[0]) + fabs(node[n][1] - x[1]) + fabs(node[n][2] - x[2]);
+        const double far = fabs(node[n][0] - x[0]) + fabs(node[n][1] - x[1]) +
+                           fabs(node[n][2] - x[2]);
         if (far < least) least = far, best = n;
     }
     return least < 1e-9 * RADIUS ? (uint32_t)best : UINT32_MAX;
 }
 
-/* Eight mirror images that share their nodes on the planes. An image goes round the other way: nodes 1, 0, 2 keep edge 0, of which
- * each element's frame is made. */
+/* Eight mirror images that share their nodes on the planes. An image goes round the other way:
+ * nodes 1, 0, 2 keep edge 0, of which each element's frame is made. */
 static fracas_model *mirrored(const fracas_model *octant)
 {
     const fracas_surface *s = octant->surface;
-    double (*node)[3] = calloc(8 * s->nnodes, sizeof *node);
+    double(*node)[3] = calloc(8 * s->nnodes, sizeof *node);
     uint32_t *element = calloc(8 * s->nelements * 6, sizeof *element);
     assert_non_null(node);
     assert_non_null(element);
@@ -166,14 +184,18 @@ static fracas_model *mirrored(const fracas_model *octant)
                 const double *from = node_at(octant, e, odd ? turned[k] : k);
                 double x[3];
                 for (size_t i = 0; i < 3; i++) x[i] = image >> i & 1 ? -from[i] : from[i];
-                uint32_t at = find_node((const double (*)[3])node, nodes, x);
+                uint32_t at = find_node((const double(*)[3])node, nodes, x);
                 if (at == UINT32_MAX) {
                     memcpy(node[nodes], x, sizeof x);
                     at = (uint32_t)nodes++;
                 }
                 element[(image * s->nelements + e) * 6 + k] = at;
             }
-    const fracas_surface_arrays arrays = {.order = 2, .nnodes = nodes, .nelements = 8 * s->nelements, .node = (const double (*)[3])node, .element = element};
+    const fracas_surface_arrays arrays = {.order = 2,
+                                          .nnodes = nodes,
+                                          .nelements = 8 * s->nelements,
+                                          .node = (const double(*)[3])node,
+                                          .element = element};
     const fracas_surface *all;
     assert_ok(fracas_surface_assemble(&arrays, &all));
     fracas_model *model = shell_of(octant->spec, all);
@@ -206,7 +228,7 @@ static void match(const fracas_model *octant, const fracas_model *whole, size_t 
             double x[3], there[6][3];
             for (int i = 0; i < 3; i++) x[i] = fabs(node_at(whole, e, k)[i]);
             for (size_t l = 0; l < 6; l++) memcpy(there[l], node_at(octant, to, l), sizeof x);
-            const uint32_t l = find_node((const double (*)[3])there, 6, x);
+            const uint32_t l = find_node((const double(*)[3])there, 6, x);
             assert_true(l != UINT32_MAX);
             for (size_t i = 0; i < 3; i++) {
                 from[e * SHELL_UNKNOWNS + 3 * k + i] = to * SHELL_UNKNOWNS + 3 * l + i;
@@ -216,8 +238,9 @@ static void match(const fracas_model *octant, const fracas_model *whole, size_t 
     }
 }
 
-/* A symmetric state in which nodes stay on the planes gets the same forces in both, wherever the octant does not hold a node: the
- * symmetry edge is an interface with the mirror image. Round-off of sums of some 50 terms: 1e-14 of the largest, 1e-13. */
+/* A symmetric state in which nodes stay on the planes gets the same forces in both, wherever the
+ * octant does not hold a node: the symmetry edge is an interface with the mirror image. Round-off
+ * of sums of some 50 terms: 1e-14 of the largest, 1e-13. */
 static void symmetry_is_a_mirror(void **unused)
 {
     (void)unused;
@@ -225,7 +248,8 @@ static void symmetry_is_a_mirror(void **unused)
     spec.geometry.thickness = 1e-3; /* bending as large as stretching */
     fracas_model *octant = distorted_model(spec, DISTORTION, 5), *whole = mirrored(octant);
     const size_t n = unknowns_of(octant), all = unknowns_of(whole);
-    double *u = vector_of(n), *f = vector_of(n), *u_all = vector_of(all), *f_all = vector_of(all), *sign = vector_of(all), worst = 0;
+    double *u = vector_of(n), *f = vector_of(n), *u_all = vector_of(all), *f_all = vector_of(all),
+           *sign = vector_of(all), worst = 0;
     size_t *from = calloc(all, sizeof *from);
     assert_non_null(from);
     match(octant, whole, from, sign);
@@ -238,7 +262,8 @@ static void symmetry_is_a_mirror(void **unused)
     for (size_t i = 0; i < all; i++)
         if (!is_held(octant, from[i])) worst = fmax(worst, fabs(f_all[i] - sign[i] * f[from[i]]));
     const double energy = dot_of(u_all, f_all, all) / (8 * dot_of(u, f, n)) - 1;
-    print_message("octant and 8 images: forces within %.1e of the largest, energy %+.1e\n", worst / largest_of(f, n), energy);
+    print_message("octant and 8 images: forces within %.1e of the largest, energy %+.1e\n",
+                  worst / largest_of(f, n), energy);
     assert_true(worst < 1e-13 * largest_of(f, n));
     assert_true(fabs(energy) < 1e-13);
     fracas_shell_operator_close(op);
@@ -257,11 +282,13 @@ static void start_ellipsoid(shell_run *run)
 {
     const double rate[3] = {1e4, -4e3, -5e3};
     for (size_t i = 0; i < unknowns_of(run->model); i++)
-        *fracas_shell_value(run->model, &run->batch->step, i / SHELL_UNKNOWNS, SURFACE_V, (int)(i % SHELL_UNKNOWNS), 0) =
-            rate[i % 3] * place_of(run->model, i)[i % 3];
+        *fracas_shell_value(run->model, &run->batch->step, i / SHELL_UNKNOWNS, SURFACE_V,
+                            (int)(i % SHELL_UNKNOWNS),
+                            0) = rate[i % 3] * place_of(run->model, i)[i % 3];
 }
 
-/* Largest difference of the elastic energies over a breathing period, by the whole energy, both from v = (a x, b y, c z). */
+/* Largest difference of the elastic energies over a breathing period, by the whole energy, both
+ * from v = (a x, b y, c z). */
 static double ellipsoids_differ(int64_t divisions)
 {
     const fracas_spec spec = alumina(&fracas_part_octant, divisions);
@@ -286,15 +313,18 @@ static double ellipsoids_differ(int64_t divisions)
     return worst;
 }
 
-/* The whole keeps its nodes on the planes by its interfaces, the octant holds them: energies differ by the squares of jumps, of order h^2
- * each in velocities and 3 in displacements of quadratic elements; by less than a quarter for half the size. */
+/* The whole keeps its nodes on the planes by its interfaces, the octant holds them: energies differ
+ * by the squares of jumps, of order h^2 each in velocities and 3 in displacements of quadratic
+ * elements; by less than a quarter for half the size. */
 static void ellipsoids_agree_as_the_mesh_gets_finer(void **unused)
 {
     (void)unused;
     double before = INFINITY;
     for (int64_t n = 2; n < 9; n *= 2) {
         const double differ = ellipsoids_differ(n);
-        print_message("octant of %lld elements: its elastic energy and an eighth of the whole's differ by %.1e of the initial energy\n", (long long)(n * n), differ);
+        print_message("octant of %lld elements: its elastic energy and an eighth of the whole's "
+                      "differ by %.1e of the initial energy\n",
+                      (long long)(n * n), differ);
         assert_true(differ < before / 4);
         before = differ;
     }
@@ -303,7 +333,9 @@ static void ellipsoids_agree_as_the_mesh_gets_finer(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(breathing_frequency), cmocka_unit_test(a_growing_sphere),
-                                       cmocka_unit_test(symmetry_is_a_mirror), cmocka_unit_test(ellipsoids_agree_as_the_mesh_gets_finer)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(breathing_frequency),
+                                       cmocka_unit_test(a_growing_sphere),
+                                       cmocka_unit_test(symmetry_is_a_mirror),
+                                       cmocka_unit_test(ellipsoids_agree_as_the_mesh_gets_finer)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,14 +1,18 @@
-/* A step of the shell in a batch: what its kick and energies are by the operator, and what edges hold. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A step of the shell in a batch: what its kick and energies are by the operator, and what edges
+ * hold. */
 #include "tests/support/shell_bodies.h"
 #include "tests/support/shell_run.h"
 
 static double *value_of(const shell_run *run, size_t unknown, int field)
 {
-    return fracas_shell_value(run->model, &run->batch->step, unknown / SHELL_UNKNOWNS, field, (int)(unknown % SHELL_UNKNOWNS), 0);
+    return fracas_shell_value(run->model, &run->batch->step, unknown / SHELL_UNKNOWNS, field,
+                              (int)(unknown % SHELL_UNKNOWNS), 0);
 }
 
-/* One step from displacements and velocities at random: the kick is that of the operator, the elastic energy u.K u/2, the kinetic one
- * v.M v'/2 with the velocities before and after. Sums of n terms: 1e-12 by the largest. */
+/* One step from displacements and velocities at random: the kick is that of the operator, the
+ * elastic energy u.K u/2, the kinetic one v.M v'/2 with the velocities before and after. Sums of n
+ * terms: 1e-12 by the largest. */
 static void a_step_is_the_operator(void **unused)
 {
     (void)unused;
@@ -16,14 +20,20 @@ static void a_step_is_the_operator(void **unused)
     for (int which = 0; which < BODIES; which++)
         for (int w = 0; w < 3; w++) {
             fracas_spec spec = shell_spec(&fracas_shape_sphere);
-            if (which != SPHERE) spec.geometry.edge[1] = spec.geometry.edge[3] = &fracas_edge_clamped;
+            if (which != SPHERE)
+                spec.geometry.edge[1] = spec.geometry.edge[3] = &fracas_edge_clamped;
             shell_run run = shell_begin(body_of(which, spec, 3, 5), widths[w], 1e3);
             const size_t n = unknowns_of(run.model);
-            double *u = vector_of(n), *v = vector_of(n), *f = vector_of(n), worst = 0, kinetic = 0, largest = 0;
+            double *u = vector_of(n), *v = vector_of(n), *f = vector_of(n), worst = 0, kinetic = 0,
+                   largest = 0;
             uint64_t noise = 3;
             for (size_t i = 0; i < n; i++) {
-                *value_of(&run, i, SURFACE_U) = u[i] = is_held(run.model, i) ? 0 : 1e-9 * (next_share(&noise) - 0.5);
-                *value_of(&run, i, SURFACE_V) = v[i] = is_held(run.model, i) ? 0 : 1e-6 * (next_share(&noise) - 0.5);
+                *value_of(&run, i, SURFACE_U) = u[i] = is_held(run.model, i)
+                                                           ? 0
+                                                           : 1e-9 * (next_share(&noise) - 0.5);
+                *value_of(&run, i, SURFACE_V) = v[i] = is_held(run.model, i)
+                                                           ? 0
+                                                           : 1e-6 * (next_share(&noise) - 0.5);
             }
             fracas_shell_operator *op = open_operator(run.model);
             apply_stiffness(run.model, op, u, f);
@@ -36,8 +46,10 @@ static void a_step_is_the_operator(void **unused)
                 largest = fmax(largest, kick * fabs(a) + fabs(v[i]));
                 kinetic += 0.5 * mass_of(run.model, i) * v[i] * (v[i] + kick * a);
             }
-            print_message("%s, width %d: velocities within %.1e, elastic %+.1e, kinetic %+.1e\n", body_name[which], widths[w], worst / largest,
-                          run.batch->step.elastic[0] / elastic - 1, run.batch->step.kinetic[0] / kinetic - 1);
+            print_message("%s, width %d: velocities within %.1e, elastic %+.1e, kinetic %+.1e\n",
+                          body_name[which], widths[w], worst / largest,
+                          run.batch->step.elastic[0] / elastic - 1,
+                          run.batch->step.kinetic[0] / kinetic - 1);
             assert_true(worst <= 1e-12 * largest);
             assert_true(fabs(run.batch->step.elastic[0] / elastic - 1) < 1e-12);
             assert_true(fabs(run.batch->step.kinetic[0] - kinetic) < 1e-12 * fabs(kinetic));
@@ -51,7 +63,8 @@ static void a_step_is_the_operator(void **unused)
 
 /* ---- edges ---- */
 
-/* What an edge of the flat plate does to a node on it, component i: 'f' free, '0' at rest, 'v' with the loading. */
+/* What an edge of the flat plate does to a node on it, component i: 'f' free, '0' at rest, 'v' with
+ * the loading. */
 static char held_of(const fracas_kind *kind, int axis, int i)
 {
     if (kind == &fracas_edge_held) return 'v';
@@ -61,13 +74,15 @@ static char held_of(const fracas_kind *kind, int axis, int i)
     return 'f';
 }
 
-/* Only elements that have the edge are held on it; and after 20 steps nodes are where they should be, the ledger closes by what the
- * edges do: its residual is that of the trapezoidal rule of work, of the order of (omega dt)^2/10 of what they do. */
+/* Only elements that have the edge are held on it; and after 20 steps nodes are where they should
+ * be, the ledger closes by what the edges do: its residual is that of the trapezoidal rule of work,
+ * of the order of (omega dt)^2/10 of what they do. */
 static void edges_hold_what_they_should(void **unused)
 {
     (void)unused;
-    const fracas_kind *const kinds[] = {&fracas_edge_free, &fracas_edge_held, &fracas_edge_fixed, &fracas_edge_clamped, &fracas_edge_symmetry,
-                                        &fracas_edge_diaphragm};
+    const fracas_kind *const kinds[] = {&fracas_edge_free,     &fracas_edge_held,
+                                        &fracas_edge_fixed,    &fracas_edge_clamped,
+                                        &fracas_edge_symmetry, &fracas_edge_diaphragm};
     const double unit[2] = {1, 1}, rate = 1e-6;
     for (int k = 0; k < 6; k++)
         for (int tag = 1; tag < FRACAS_EDGES; tag++) {
@@ -75,7 +90,13 @@ static void edges_hold_what_they_should(void **unused)
             spec.geometry.edge[tag] = kinds[k];
             spec.loading.rate = rate;
             spec.loading.ratio = 0.5;
-            shell_run run = shell_begin(grid_model(&spec, &(shell_grid){.nx = 3, .ny = 3, .map = flat_map, .how = unit, .distortion = 0.1, .seed = 3}), 1, 1e3);
+            shell_run run = shell_begin(grid_model(&spec, &(shell_grid){.nx = 3,
+                                                                        .ny = 3,
+                                                                        .map = flat_map,
+                                                                        .how = unit,
+                                                                        .distortion = 0.1,
+                                                                        .seed = 3}),
+                                        1, 1e3);
             const fracas_surface *s = run.model->surface;
             const double speed[3] = {rate, 0.5 * rate, rate};
             for (int n = 0; n < 20; n++) shell_step(&run);
@@ -84,17 +105,22 @@ static void edges_hold_what_they_should(void **unused)
                 char expected = 'f';
                 for (size_t b = 0; b < s->nborders; b++) {
                     const fracas_surface_border *border = &s->border[b];
-                    const bool on = node == border->edge || node == (border->edge + 1) % 3 || node == 3 + border->edge;
-                    if (border->element == e && border->tag == tag && on) expected = held_of(kinds[k], tag < 3 ? 0 : 1, (int)i % 3);
+                    const bool on = node == border->edge || node == (border->edge + 1) % 3 ||
+                                    node == 3 + border->edge;
+                    if (border->element == e && border->tag == tag && on)
+                        expected = held_of(kinds[k], tag < 3 ? 0 : 1, (int)i % 3);
                 }
                 assert_true((expected != 'f') == is_held(run.model, i));
                 const double v = *value_of(&run, i, SURFACE_V), u = *value_of(&run, i, SURFACE_U);
                 const double by_loading = speed[i % 3] * place_of(run.model, i)[i % 3];
                 if (expected == '0') assert_true(v == 0 && u == 0);
-                if (expected == 'v') assert_true(fabs(v - by_loading) <= 1e-15 * rate && fabs(u - run.batch->step.time[0] * by_loading) < 1e-13 * rate);
+                if (expected == 'v')
+                    assert_true(fabs(v - by_loading) <= 1e-15 * rate &&
+                                fabs(u - run.batch->step.time[0] * by_loading) < 1e-13 * rate);
             }
             const fracas_ledger *ledger = &run.batch->lane[0].ledger;
-            assert_true(fabs(ledger->residual) < 0.02 * fmax(fabs(ledger->work), 1e-10 * ledger->initial));
+            assert_true(fabs(ledger->residual) <
+                        0.02 * fmax(fabs(ledger->work), 1e-10 * ledger->initial));
             shell_clear(&run);
         }
 }
@@ -108,8 +134,10 @@ static void tilted_map(const void *how, double s, double t, double x[3])
     x[2] = s * sin(angle);
 }
 
-/* A symmetry lies in a plane x, y or z = const that the shell meets at a right angle: the edge s = 1 is in a plane x = const
- * and in one z = const, which only plates that lie or stand meet so; a diaphragm may be met at any angle. An octant of one element passes: its edges lean by less than coarse meshes may. */
+/* A symmetry lies in a plane x, y or z = const that the shell meets at a right angle: the edge s =
+ * 1 is in a plane x = const and in one z = const, which only plates that lie or stand meet so; a
+ * diaphragm may be met at any angle. An octant of one element passes: its edges lean by less than
+ * coarse meshes may. */
 static void oblique_edges_are_refused(void **unused)
 {
     (void)unused;
@@ -118,14 +146,20 @@ static void oblique_edges_are_refused(void **unused)
         for (int which = 0; which < 2; which++) {
             const double angle = degrees[k] * PI / 180;
             fracas_spec spec = shell_spec(&fracas_shape_file);
-            fracas_model *free_one = grid_model(&spec, &(shell_grid){.nx = 2, .ny = 2, .map = tilted_map, .how = &angle}), *model = NULL;
+            fracas_model *free_one = grid_model(
+                             &spec,
+                             &(shell_grid){.nx = 2, .ny = 2, .map = tilted_map, .how = &angle}),
+                         *model = NULL;
             gmsh_file file = gmsh_write(free_one->surface, false, true, false);
-            const fracas_attachment mesh = {.path = "tilted", .text = file.bytes, .size = file.size};
+            const fracas_attachment mesh = {
+                .path = "tilted", .text = file.bytes, .size = file.size};
             spec.geometry.file = &mesh;
             spec.geometry.edge[2] = which ? &fracas_edge_diaphragm : &fracas_edge_symmetry;
             spec.mesh = (fracas_mesh){.spacing = &fracas_spacing_given};
             const fracas_err err = fracas_model_create(&spec, &model);
-            assert_int_equal(err, which || k == 0 || k == 4 ? FRACAS_OK : FRACAS_USAGE); /* a diaphragm may be met at any angle */
+            assert_int_equal(err, which || k == 0 || k == 4
+                                      ? FRACAS_OK
+                                      : FRACAS_USAGE); /* a diaphragm may be met at any angle */
             if (err) assert_non_null(strstr(fracas_message(), "right angle"));
             if (!err) fracas_model_destroy(model);
             free(file.bytes);
@@ -139,7 +173,8 @@ static void oblique_edges_are_refused(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_step_is_the_operator), cmocka_unit_test(edges_hold_what_they_should),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_step_is_the_operator),
+                                       cmocka_unit_test(edges_hold_what_they_should),
                                        cmocka_unit_test(oblique_edges_are_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

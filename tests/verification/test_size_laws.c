@@ -1,5 +1,6 @@
-/* Size laws against the table of docs/theory/size-laws.md, digit by digit as printed, and against their limits.
- * (Glenn-Chudnovsky at 1e3 /s is 1.99948.) */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Size laws against the table of docs/theory/size-laws.md, digit by digit as printed, and against
+ * their limits. (Glenn-Chudnovsky at 1e3 /s is 1.99948.) */
 #include "analysis/laws/size_laws.h"
 
 #include "analysis/laws/modulus.h"
@@ -40,29 +41,39 @@ static void laws_as_printed(void **state)
     (void)state;
     static const struct {
         double rate;
-        const char *e, *e_format, *grady, *grady_format, *gc, *gc_format, *zmr, *zmr_format, *zmr2, *zmr2_format;
+        const char *e, *e_format, *grady, *grady_format, *gc, *gc_format, *zmr, *zmr_format, *zmr2,
+            *zmr2_format;
         const char *count, *count_format;
     } row[] = {
-        {1e3, "0.02801", "%.5f", "31.28", "%.2f", "1.999", "%.3f", "3.180", "%.3f", "2.671", "%.3f", "51.5", "%.1f"},
-        {1e4, "0.28009", "%.5f", "6.738", "%.3f", "1.951", "%.3f", "1.538", "%.3f", "1.237", "%.3f", "106.4", "%.1f"},
-        {1e5, "2.8009", "%.4f", "1.452", "%.3f", "1.109", "%.3f", "0.4526", "%.4f", "0.3288", "%.4f", "361.5", "%.1f"},
-        {1e6, "28.009", "%.3f", "0.3128", "%.4f", "0.2965", "%.4f", "0.1059", "%.4f", "0.0657", "%.4f", "1546", "%.0f"},
+        {1e3, "0.02801", "%.5f", "31.28", "%.2f", "1.999", "%.3f", "3.180", "%.3f", "2.671", "%.3f",
+         "51.5", "%.1f"},
+        {1e4, "0.28009", "%.5f", "6.738", "%.3f", "1.951", "%.3f", "1.538", "%.3f", "1.237", "%.3f",
+         "106.4", "%.1f"},
+        {1e5, "2.8009", "%.4f", "1.452", "%.3f", "1.109", "%.3f", "0.4526", "%.4f", "0.3288",
+         "%.4f", "361.5", "%.1f"},
+        {1e6, "28.009", "%.3f", "0.3128", "%.4f", "0.2965", "%.4f", "0.1059", "%.4f", "0.0657",
+         "%.4f", "1546", "%.0f"},
     };
     fracas_scales scales = reference_scales();
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         double e = row[i].rate / scales.rate;
         assert_prints(row[i].e_format, e, row[i].e);
-        assert_prints(row[i].grady_format, fracas_size_laws[FRACAS_LAW_GRADY].normalised(e, NAN), row[i].grady);
-        assert_prints(row[i].gc_format, fracas_size_laws[FRACAS_LAW_GLENN_CHUDNOVSKY].normalised(e, NAN), row[i].gc);
-        assert_prints(row[i].zmr_format, fracas_size_laws[FRACAS_LAW_ZMR].normalised(e, NAN), row[i].zmr);
-        assert_prints(row[i].zmr2_format, fracas_size_laws[FRACAS_LAW_ZMR2].normalised(e, NAN), row[i].zmr2);
+        assert_prints(row[i].grady_format, fracas_size_laws[FRACAS_LAW_GRADY].normalised(e, NAN),
+                      row[i].grady);
+        assert_prints(row[i].gc_format,
+                      fracas_size_laws[FRACAS_LAW_GLENN_CHUDNOVSKY].normalised(e, NAN), row[i].gc);
+        assert_prints(row[i].zmr_format, fracas_size_laws[FRACAS_LAW_ZMR].normalised(e, NAN),
+                      row[i].zmr);
+        assert_prints(row[i].zmr2_format, fracas_size_laws[FRACAS_LAW_ZMR2].normalised(e, NAN),
+                      row[i].zmr2);
         double zmr_size = fracas_size_law_at(FRACAS_LAW_ZMR, &scales, row[i].rate);
         assert_prints(row[i].count_format, 50e-3 / zmr_size, row[i].count);
     }
 }
 
-/* The dimensional forms, written out: Grady's s = (24 Gc/(rho edot^2))^(1/3) and Glenn and Chudnovsky's
- * s = 4 sqrt(alpha/3) sinh(phi/3). A dozen roundings of 1.1e-16, a cube root and sinh(asinh) amplify to below 1e-14. */
+/* The dimensional forms, written out: Grady's s = (24 Gc/(rho edot^2))^(1/3) and Glenn and
+ * Chudnovsky's s = 4 sqrt(alpha/3) sinh(phi/3). A dozen roundings of 1.1e-16, a cube root and
+ * sinh(asinh) amplify to below 1e-14. */
 static void dimensional_forms(void **state)
 {
     (void)state;
@@ -70,18 +81,21 @@ static void dimensional_forms(void **state)
     fracas_scales scales = fracas_scales_of(young, density, strength, fracture_energy);
     for (double rate = 1e2; rate < 2e6; rate *= 10) {
         double by_grady = cbrt(24 * fracture_energy / (density * rate * rate));
-        assert_true(fabs(fracas_size_law_at(FRACAS_LAW_GRADY, &scales, rate) / by_grady - 1) < 1e-14);
+        assert_true(fabs(fracas_size_law_at(FRACAS_LAW_GRADY, &scales, rate) / by_grady - 1) <
+                    1e-14);
         double alpha = 3 * strength * strength / (density * young * rate * rate);
         double beta = 3 * fracture_energy / (2 * density * rate * rate);
         double phi = asinh(beta * pow(3 / alpha, 1.5));
         double by_gc = 4 * sqrt(alpha / 3) * sinh(phi / 3);
-        assert_true(fabs(fracas_size_law_at(FRACAS_LAW_GLENN_CHUDNOVSKY, &scales, rate) / by_gc - 1) < 1e-13);
+        assert_true(fabs(fracas_size_law_at(FRACAS_LAW_GLENN_CHUDNOVSKY, &scales, rate) / by_gc -
+                         1) < 1e-13);
     }
 }
 
-/* With x = 1.5 e, s/s0 = (4/e) sinh(asinh(x)/3) = 2 (1 - 4 x^2/27 + ...) as e -> 0: 2 to 6.7e-9 at e = 1e-4.
- * As e -> infinity sinh(asinh(x)/3) -> ((2x)^(1/3) - (2x)^(-1/3))/2, so GC/Grady -> 1 - (3e)^(-2/3):
- * 1 to 4.8e-7 at e = 1e9. ZMR -> 4.5 as e -> 0 and e^(-2/3) as e -> infinity; ZMR-2 -> 4.5 and (4.5/5.4) e^(-3/4). */
+/* With x = 1.5 e, s/s0 = (4/e) sinh(asinh(x)/3) = 2 (1 - 4 x^2/27 + ...) as e -> 0: 2 to 6.7e-9 at
+ * e = 1e-4. As e -> infinity sinh(asinh(x)/3) -> ((2x)^(1/3) - (2x)^(-1/3))/2, so GC/Grady -> 1 -
+ * (3e)^(-2/3): 1 to 4.8e-7 at e = 1e9. ZMR -> 4.5 as e -> 0 and e^(-2/3) as e -> infinity; ZMR-2
+ * -> 4.5 and (4.5/5.4) e^(-3/4). */
 static void limits(void **state)
 {
     (void)state;
@@ -92,14 +106,15 @@ static void limits(void **state)
     assert_true(fabs(gc(1e-4, NAN) - 2) < 1e-8);
     assert_true(fabs(gc(1e-4, NAN) - 2) > 1e-9);
     assert_true(fabs(gc(1e9, NAN) / grady(1e9, NAN) - 1) < 5e-7);
-    assert_true(fabs(zmr(1e-12, NAN) / 4.5 - 1) < 5e-8);     /* 4.5 e^(2/3) = 4.5e-8 */
-    assert_true(fabs(zmr(1e12, NAN) * 1e8 - 1) < 3e-9);      /* 1/(4.5 e^(2/3)) = 2.2e-9 */
-    assert_true(fabs(zmr2(1e-24, NAN) / 4.5 - 1) < 1e-6);    /* 0.77 e^(1/4) = 7.7e-7 */
-    assert_true(fabs(zmr2(1e24, NAN) * 1e18 * 5.4 / 4.5 - 1) < 1e-12); /* 0.77/5.4 e^(-1/2) = 1.4e-13 */
+    assert_true(fabs(zmr(1e-12, NAN) / 4.5 - 1) < 5e-8);  /* 4.5 e^(2/3) = 4.5e-8 */
+    assert_true(fabs(zmr(1e12, NAN) * 1e8 - 1) < 3e-9);   /* 1/(4.5 e^(2/3)) = 2.2e-9 */
+    assert_true(fabs(zmr2(1e-24, NAN) / 4.5 - 1) < 1e-6); /* 0.77 e^(1/4) = 7.7e-7 */
+    assert_true(fabs(zmr2(1e24, NAN) * 1e18 * 5.4 / 4.5 - 1) <
+                1e-12); /* 0.77/5.4 e^(-1/2) = 1.4e-13 */
 }
 
-/* Mott's law as printed, and written out: s = sqrt(pi) sqrt(2 sigma_c/(rho gamma))/edot with gamma = M E/sigma_c. Five roundings and two
- * roots: 1e-14. */
+/* Mott's law as printed, and written out: s = sqrt(pi) sqrt(2 sigma_c/(rho gamma))/edot with gamma
+ * = M E/sigma_c. Five roundings and two roots: 1e-14. */
 static void mott(void **state)
 {
     (void)state;
@@ -111,10 +126,14 @@ static void mott(void **state)
     } row[] = {{10, "2.8300"}, {30, "1.6339"}};
     for (size_t i = 0; i < 2; i++) {
         scales.modulus = row[i].modulus;
-        assert_prints("%.4f", fracas_size_law_at(FRACAS_LAW_MOTT, &scales, 1e4) / scales.size, row[i].size);
+        assert_prints("%.4f", fracas_size_law_at(FRACAS_LAW_MOTT, &scales, 1e4) / scales.size,
+                      row[i].size);
         for (double rate = 1e2; rate < 2e6; rate *= 10) {
-            double gamma = row[i].modulus * 275e9 / 300e6, length = sqrt(2 * 300e6 / (2750 * gamma)) / rate;
-            assert_true(fabs(fracas_size_law_at(FRACAS_LAW_MOTT, &scales, rate) / (sqrt(M_PI) * length) - 1) < 1e-14);
+            double gamma = row[i].modulus * 275e9 / 300e6,
+                   length = sqrt(2 * 300e6 / (2750 * gamma)) / rate;
+            assert_true(
+                fabs(fracas_size_law_at(FRACAS_LAW_MOTT, &scales, rate) / (sqrt(M_PI) * length) -
+                     1) < 1e-14);
         }
     }
     scales.modulus = 10;
@@ -122,33 +141,55 @@ static void mott(void **state)
 }
 
 /* What Mott's law knows of the strengths. */
-enum { MEAN, AREA, DEVIATION, LAW, EXPONENT, FLAWS, STRENGTH_MEAN, MINIMUM, SHAPE, ELEMENTS, NCOLUMNS };
+enum {
+    MEAN,
+    AREA,
+    DEVIATION,
+    LAW,
+    EXPONENT,
+    FLAWS,
+    STRENGTH_MEAN,
+    MINIMUM,
+    SHAPE,
+    ELEMENTS,
+    NCOLUMNS
+};
 
 static fracas_modulus modulus_of(const char *law, const double real[NCOLUMNS])
 {
     static const fracas_column column[NCOLUMNS] = {
-        [MEAN] = {.path = "derived.strength_mean"}, [AREA] = {.path = "geometry.area"}, [DEVIATION] = {.path = "strength.deviation"},
-        [LAW] = {.path = "strength.distribution", .text = true}, [EXPONENT] = {.path = "strength.exponent"},
-        [FLAWS] = {.path = "strength.flaw_density"}, [STRENGTH_MEAN] = {.path = "strength.mean"}, [MINIMUM] = {.path = "strength.minimum"},
-        [SHAPE] = {.path = "strength.shape"}, [ELEMENTS] = {.path = "mesh.elements"}};
+        [MEAN] = {.path = "derived.strength_mean"},
+        [AREA] = {.path = "geometry.area"},
+        [DEVIATION] = {.path = "strength.deviation"},
+        [LAW] = {.path = "strength.distribution", .text = true},
+        [EXPONENT] = {.path = "strength.exponent"},
+        [FLAWS] = {.path = "strength.flaw_density"},
+        [STRENGTH_MEAN] = {.path = "strength.mean"},
+        [MINIMUM] = {.path = "strength.minimum"},
+        [SHAPE] = {.path = "strength.shape"},
+        [ELEMENTS] = {.path = "mesh.elements"}};
     fracas_value value[NCOLUMNS];
-    for (size_t c = 0; c < NCOLUMNS; c++) value[c] = (fracas_value){.real = c == LAW ? NAN : real[c], .text = c == LAW ? law : ""};
+    for (size_t c = 0; c < NCOLUMNS; c++)
+        value[c] = (fracas_value){.real = c == LAW ? NAN : real[c], .text = c == LAW ? law : ""};
     const fracas_point_row row = {.value = value};
-    const fracas_point_table table = {.ncolumns = NCOLUMNS, .column = column, .npoints = 1, .point = &row};
+    const fracas_point_table table = {
+        .ncolumns = NCOLUMNS, .column = column, .npoints = 1, .point = &row};
     return fracas_modulus_of(&table, 0, 10e-3);
 }
 
 static void modulus(void **state)
 {
     (void)state;
-    double real[NCOLUMNS] = {[MEAN] = 300e6, [AREA] = 1e-6, [DEVIATION] = NAN, [EXPONENT] = NAN, [FLAWS] = NAN, [STRENGTH_MEAN] = NAN,
-                             [MINIMUM] = 0, [SHAPE] = 10, [ELEMENTS] = 500};
+    double real[NCOLUMNS] = {
+        [MEAN] = 300e6,        [AREA] = 1e-6, [DEVIATION] = NAN, [EXPONENT] = NAN, [FLAWS] = NAN,
+        [STRENGTH_MEAN] = NAN, [MINIMUM] = 0, [SHAPE] = 10,      [ELEMENTS] = 500};
     assert_true(modulus_of("weibull", real).value == 10 && !modulus_of("weibull", real).reason);
     real[MINIMUM] = 200e6;
     assert_true(fabs(modulus_of("weibull", real).value - 30) < 1e-13);
     real[MINIMUM] = NAN;
     assert_true(modulus_of("weibull", real).value == 10);
-    /* By mean and deviation: shape 10 has deviation/mean sqrt(Gamma(1.2)/Gamma(1.1)^2 - 1) = 0.12031. */
+    /* By mean and deviation: shape 10 has deviation/mean sqrt(Gamma(1.2)/Gamma(1.1)^2 - 1) =
+     * 0.12031. */
     real[SHAPE] = NAN;
     real[STRENGTH_MEAN] = 300e6;
     real[DEVIATION] = 300e6 * sqrt(tgamma(1.2) / (tgamma(1.1) * tgamma(1.1)) - 1);
@@ -156,14 +197,17 @@ static void modulus(void **state)
     assert_true(fabs(modulus_of("weibull", real).value - 10) < 1e-9);
     real[DEVIATION] = 300e6 * 1e-3; /* narrower than shape 1000 */
     assert_true(isnan(modulus_of("weibull", real).value) && modulus_of("weibull", real).reason);
-    /* Flaws: 1e-6 m2 x 10 mm/500 = 2e-11 m3 an interface; one in two interfaces has one at ln 2/2e-11 = 3.466e10 /m3. */
+    /* Flaws: 1e-6 m2 x 10 mm/500 = 2e-11 m3 an interface; one in two interfaces has one at ln
+     * 2/2e-11 = 3.466e10 /m3. */
     real[EXPONENT] = 6;
     real[FLAWS] = 3.5e10;
     assert_true(modulus_of("flaws", real).value == 6);
     real[FLAWS] = 3.4e10;
     assert_true(isnan(modulus_of("flaws", real).value) && modulus_of("flaws", real).reason);
     const char *const without[] = {"uniform", "constant", "lognormal", ""};
-    for (size_t i = 0; i < 4; i++) assert_true(isnan(modulus_of(without[i], real).value) && modulus_of(without[i], real).reason);
+    for (size_t i = 0; i < 4; i++)
+        assert_true(isnan(modulus_of(without[i], real).value) &&
+                    modulus_of(without[i], real).reason);
 }
 
 int main(void)

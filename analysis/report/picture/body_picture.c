@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/report/picture/body_picture.h"
 
 #include "analysis/report/picture/tint.h"
@@ -5,12 +6,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double step = 0.02;                  /* share of what is below it that a shade takes */
-static const double ambient = 0.45, inside = 0.6; /* light that is everywhere; on the inner skin / on the outer */
-static const char night[] = "#0b1220";            /* what shades are of */
+static const double step = 0.02; /* share of what is below it that a shade takes */
+static const double ambient = 0.45,
+                    inside = 0.6; /* light that is everywhere; on the inner skin / on the outer */
+static const char night[] = "#0b1220"; /* what shades are of */
 
-fracas_err fracas_body_picture_create(const fracas_stored_mesh *mesh, const fracas_surface_state *state,
-                                      const fracas_surface_picture *picture, const fracas_view *view, fracas_body_picture *body)
+fracas_err fracas_body_picture_create(const fracas_stored_mesh *mesh,
+                                      const fracas_surface_state *state,
+                                      const fracas_surface_picture *picture,
+                                      const fracas_view *view, fracas_body_picture *body)
 {
     const fracas_facets_form form = {*view, picture->explode, picture->thickness};
     *body = (fracas_body_picture){0};
@@ -19,7 +23,8 @@ fracas_err fracas_body_picture_create(const fracas_stored_mesh *mesh, const frac
     fracas_frame_fit(body->facets.least, body->facets.largest, picture->width, &body->frame);
     body->spot = malloc((body->facets.nnodes + 1) * sizeof *body->spot);
     if (!body->spot) return fracas_no_memory("a picture");
-    for (size_t n = 0; n < body->facets.nnodes; n++) body->spot[n] = fracas_frame_place(&body->frame, body->facets.node[n]);
+    for (size_t n = 0; n < body->facets.nnodes; n++)
+        body->spot[n] = fracas_frame_place(&body->frame, body->facets.node[n]);
     return FRACAS_OK;
 }
 
@@ -34,11 +39,13 @@ typedef struct {
     const fracas_body_picture *body;
     FILE *out;
     uint8_t *tint;         /* of each facet */
-    uint8_t *shade, *base; /* how many shades lie on it, and how many of them on all that is in one piece with it in this layer */
-    uint8_t *least;        /* of each fragment in this layer, outer skin and inner one: its fewest shades */
+    uint8_t *shade, *base; /* how many shades lie on it, and how many of them on all that is in one
+                              piece with it in this layer */
+    uint8_t
+        *least; /* of each fragment in this layer, outer skin and inner one: its fewest shades */
     int darkest;
-    double line;           /* width of a broken interface, units */
-    int32_t layer;         /* the one that is being drawn */
+    double line;            /* width of a broken interface, units */
+    int32_t layer;          /* the one that is being drawn */
     size_t *sorted, *first; /* facets by their layer; where each begins */
     size_t count, *member; /* facets of this layer, and those of nearer ones that lie beside them */
     int32_t *in;           /* of each facet: the last layer of which it was a member */
@@ -49,7 +56,8 @@ typedef struct {
 static uint8_t shade_of(const fracas_facet *facet)
 {
     const double lit = ambient + (1 - ambient) * (double)facet->light;
-    return (uint8_t)lround(log(facet->kind == FRACAS_FACET_INNER ? inside * lit : lit) / log(1 - step));
+    return (uint8_t)lround(log(facet->kind == FRACAS_FACET_INNER ? inside * lit : lit) /
+                           log(1 - step));
 }
 
 static fracas_err prepare(drawing *d, const uint8_t *tint)
@@ -64,7 +72,9 @@ static fracas_err prepare(drawing *d, const uint8_t *tint)
     d->member = calloc(4 * n, sizeof *d->member);
     d->in = malloc(n * sizeof *d->in);
     d->first = calloc(facets->nlayers + 2, sizeof *d->first);
-    if (!d->tint || !d->shade || !d->base || !d->least || !d->sorted || !d->member || !d->in || !d->first) return fracas_no_memory("a picture");
+    if (!d->tint || !d->shade || !d->base || !d->least || !d->sorted || !d->member || !d->in ||
+        !d->first)
+        return fracas_no_memory("a picture");
     for (size_t f = 0; f < facets->nfacets; f++) {
         const fracas_facet *facet = &facets->facet[f];
         d->tint[f] = tint ? tint[facet->fragment] : 0;
@@ -107,7 +117,8 @@ static void find_bases(drawing *d)
     }
 }
 
-/* The neighbours in nearer layers will be drawn over: without them, what is behind would shine through the joint. */
+/* The neighbours in nearer layers will be drawn over: without them, what is behind would shine
+ * through the joint. */
 static void begin_layer(drawing *d, int32_t layer)
 {
     d->layer = layer;
@@ -117,7 +128,8 @@ static void begin_layer(drawing *d, int32_t layer)
         join(d, d->sorted[k]);
         for (int side = 0; side < 3; side++) {
             const int32_t other = facet->neighbour[side];
-            if (other >= 0 && d->body->facets.facet[other].layer >= 0 && d->body->facets.facet[other].layer < layer)
+            if (other >= 0 && d->body->facets.facet[other].layer >= 0 &&
+                d->body->facets.facet[other].layer < layer)
                 join(d, (size_t)other);
         }
     }
@@ -133,7 +145,8 @@ static fracas_err add_side(fracas_trail *trail, const fracas_facet *facet, int s
 }
 
 /* Lines or areas, in a group with these attributes; nothing without an edge. */
-static fracas_err draw(const drawing *d, fracas_trail *trail, fracas_err err, bool closed, const char *attributes, const char *class)
+static fracas_err draw(const drawing *d, fracas_trail *trail, fracas_err err, bool closed,
+                       const char *attributes, const char *class)
 {
     if (!err && trail->count > 0) {
         fprintf(d->out, "<g%s>\n", attributes);
@@ -162,7 +175,8 @@ static bool is_above(const drawing *d, size_t facet, int k)
 }
 
 /* Members of the layer that are chosen, `attributes` around them. */
-static fracas_err fill(const drawing *d, choice *chosen, int k, const char *attributes, const char *class)
+static fracas_err fill(const drawing *d, choice *chosen, int k, const char *attributes,
+                       const char *class)
 {
     fracas_trail trail = {0};
     fracas_err err = FRACAS_OK;
@@ -189,13 +203,14 @@ static fracas_err draw_tints(const drawing *d, bool tinted)
     return FRACAS_OK;
 }
 
-/* First what all of a piece has, at once; then one shade upon the other, each with the shape of all that is at least as dark: few
- * lines, and no joints. */
+/* First what all of a piece has, at once; then one shade upon the other, each with the shape of all
+ * that is at least as dark: few lines, and no joints. */
 static fracas_err draw_shades(const drawing *d)
 {
     char attributes[64];
     for (int k = 1; k <= d->darkest; k++) {
-        snprintf(attributes, sizeof attributes, " fill=\"%s\" fill-opacity=\"%.3f\"", night, 1 - pow(1 - step, k));
+        snprintf(attributes, sizeof attributes, " fill=\"%s\" fill-opacity=\"%.3f\"", night,
+                 1 - pow(1 - step, k));
         TRY(fill(d, has_base, k, attributes, "shade"));
     }
     snprintf(attributes, sizeof attributes, " fill=\"%s\" fill-opacity=\"%g\"", night, step);
@@ -205,7 +220,8 @@ static fracas_err draw_shades(const drawing *d)
 
 /* ---- lines ---- */
 
-/* Two facets of one skin have a side in common: the one in the nearer layer draws it, of equals the first. */
+/* Two facets of one skin have a side in common: the one in the nearer layer draws it, of equals the
+ * first. */
 static bool draws(const drawing *d, size_t f, int side)
 {
     const int32_t other = d->body->facets.facet[f].neighbour[side];
@@ -221,7 +237,8 @@ static fracas_err draw_sides(const drawing *d, fracas_side what, const char *cla
     for (size_t k = d->first[d->layer]; k < d->first[d->layer + 1]; k++) {
         const fracas_facet *facet = &d->body->facets.facet[d->sorted[k]];
         for (int side = 0; !err && side < 3; side++)
-            if (facet->side[side] == what && draws(d, d->sorted[k], side)) err = add_side(&trail, facet, side);
+            if (facet->side[side] == what && draws(d, d->sorted[k], side))
+                err = add_side(&trail, facet, side);
     }
     char attributes[64];
     snprintf(attributes, sizeof attributes, " stroke-width=\"%.1f\"", width * d->line);
@@ -253,7 +270,8 @@ static double line_width(const fracas_body_picture *body)
     return FRACAS_FRAME_UNITS * fmin(fmax(0.2 * mean, 0.4), 1.2);
 }
 
-fracas_err fracas_body_picture_draw(const fracas_body_picture *body, const uint8_t *tint, fracas_surface_show show, FILE *out)
+fracas_err fracas_body_picture_draw(const fracas_body_picture *body, const uint8_t *tint,
+                                    fracas_surface_show show, FILE *out)
 {
     drawing d = {.body = body, .out = out, .line = line_width(body)};
     fracas_err err = prepare(&d, tint);

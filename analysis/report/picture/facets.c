@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/report/picture/facets.h"
 
 #include <math.h>
@@ -11,7 +12,8 @@ static const double lamp[3] = {-0.36, 0.48, 0.8};
 void fracas_view_turn(const fracas_view *view, const double vector[3], double turned[3])
 {
     const double a = view->azimuth * M_PI / 180, h = view->elevation * M_PI / 180;
-    const double along = cos(a) * vector[0] + sin(a) * vector[1]; /* horizontal part of the direction to the reader */
+    const double along = cos(a) * vector[0] +
+                         sin(a) * vector[1]; /* horizontal part of the direction to the reader */
     turned[0] = cos(a) * vector[1] - sin(a) * vector[0];
     turned[1] = cos(h) * vector[2] - sin(h) * along;
     turned[2] = cos(h) * along + sin(h) * vector[2];
@@ -19,7 +21,8 @@ void fracas_view_turn(const fracas_view *view, const double vector[3], double tu
 
 static void cross(const double a[3], const double b[3], double c[3])
 {
-    for (int i = 0; i < 3; i++) c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+    for (int i = 0; i < 3; i++)
+        c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
 static double dot(const double a[3], const double b[3])
@@ -40,13 +43,14 @@ typedef struct {
     const fracas_surface_state *state;
     const fracas_facets_form *form;
     fracas_facets *to;
-    bool apart;           /* fragments are drawn apart */
-    size_t ngroups;       /* fragments if they are apart, else 1 */
-    double (*turned)[3];  /* of each node of the mesh, in the frame of the view */
-    double (*normal)[3];  /* of length 1 */
-    double (*shift)[3];   /* of each group, then the centroid of all */
-    uint32_t (*corner)[6]; /* of each element: nodes of its group, two of the facets' for each, the outer and the inner one */
-    int64_t (*across)[3]; /* of each element: interface at its side k, -1 at the border */
+    bool apart;            /* fragments are drawn apart */
+    size_t ngroups;        /* fragments if they are apart, else 1 */
+    double (*turned)[3];   /* of each node of the mesh, in the frame of the view */
+    double (*normal)[3];   /* of length 1 */
+    double (*shift)[3];    /* of each group, then the centroid of all */
+    uint32_t (*corner)[6]; /* of each element: nodes of its group, two of the facets' for each, the
+                              outer and the inner one */
+    int64_t (*across)[3];  /* of each element: interface at its side k, -1 at the border */
 } shaping;
 
 static void free_shaping(shaping *s)
@@ -97,18 +101,21 @@ static fracas_err find_shifts(shaping *s)
         for (int k = 0; k < 2; k++) {
             area[into[k]] += twice;
             for (int c = 0; c < 3; c++)
-                for (int i = 0; i < 3; i++) s->shift[into[k]][i] += twice * s->turned[node[c]][i] / 3;
+                for (int i = 0; i < 3; i++)
+                    s->shift[into[k]][i] += twice * s->turned[node[c]][i] / 3;
         }
     }
     for (size_t g = 0; g <= all; g++)
         for (int i = 0; i < 3 && area[g] > 0; i++) s->shift[g][i] /= area[g];
     for (size_t g = 0; g < all; g++)
-        for (int i = 0; i < 3; i++) s->shift[g][i] = s->form->explode * (s->shift[g][i] - s->shift[all][i]);
+        for (int i = 0; i < 3; i++)
+            s->shift[g][i] = s->form->explode * (s->shift[g][i] - s->shift[all][i]);
     free(area);
     return FRACAS_OK;
 }
 
-/* A fragment's centroid is within the convex hull of the surface, so that all of it stays within that hull enlarged by 1 + explode. */
+/* A fragment's centroid is within the convex hull of the surface, so that all of it stays within
+ * that hull enlarged by 1 + explode. */
 static void find_room(const shaping *s)
 {
     fracas_facets *to = s->to;
@@ -143,12 +150,14 @@ static void put_node(const shaping *s, size_t node, size_t group)
     for (int skin = 0; skin < 2; skin++) {
         const double out = (skin ? -0.5 : 0.5) * s->form->thickness;
         double *at = s->to->node[s->to->nnodes++];
-        for (int i = 0; i < 3; i++) at[i] = s->turned[node][i] + s->shift[group][i] + out * s->normal[node][i];
+        for (int i = 0; i < 3; i++)
+            at[i] = s->turned[node][i] + s->shift[group][i] + out * s->normal[node][i];
     }
 }
 
 /* copy: of each node of the mesh, in the last group that had it, SIZE_MAX before. */
-static void number_nodes(const shaping *s, const size_t *first, const size_t *of, uint32_t *copy, size_t *last)
+static void number_nodes(const shaping *s, const size_t *first, const size_t *of, uint32_t *copy,
+                         size_t *last)
 {
     for (size_t n = 0; n < s->mesh->nnodes; n++) last[n] = SIZE_MAX;
     for (size_t g = 0; g < s->ngroups; g++)
@@ -173,7 +182,8 @@ static fracas_err place_nodes(const shaping *s)
     uint32_t *copy = malloc((mesh->nnodes + 1) * sizeof *copy);
     const size_t most = 2 * (s->apart ? 6 * mesh->nelements : mesh->nnodes);
     s->to->node = malloc((most + 1) * sizeof *s->to->node);
-    fracas_err err = last && copy && s->to->node ? FRACAS_OK : fracas_no_memory("the fragments of a picture");
+    fracas_err err = last && copy && s->to->node ? FRACAS_OK
+                                                 : fracas_no_memory("the fragments of a picture");
     if (!err) err = sort_elements(s, &first, &of);
     if (!err) number_nodes(s, first, of, copy, last);
     free(first);
@@ -201,7 +211,8 @@ static void find_across(const shaping *s)
         for (int end = 0; end < 2; end++) {
             const fracas_stored_interface *interface = &s->mesh->interface[i];
             const int64_t e = interface->element[end];
-            const int k = side_of(&s->mesh->element[e], interface->node[end], interface->node[!end]);
+            const int k = side_of(&s->mesh->element[e], interface->node[end],
+                                  interface->node[!end]);
             if (k < 3) s->across[e][k] = (int64_t)i;
         }
 }
@@ -230,7 +241,8 @@ static void put_skin(const shaping *s, size_t e)
         smooth[i] = s->normal[node[0]][i] + s->normal[node[1]][i] + s->normal[node[2]][i];
         if (inner) smooth[i] = -smooth[i];
     }
-    *facet = (fracas_facet){.kind = inner ? FRACAS_FACET_INNER : FRACAS_FACET_OUTER, .fragment = s->state->fragment[e],
+    *facet = (fracas_facet){.kind = inner ? FRACAS_FACET_INNER : FRACAS_FACET_OUTER,
+                            .fragment = s->state->fragment[e],
                             .light = (float)light_on(smooth)};
     for (int k = 0; k < 3; k++) {
         const int from = 3 + side_in_skin(facet, k);
@@ -261,8 +273,10 @@ static void join_skins(const shaping *s)
             const int64_t i = s->across[e][k];
             skin->side[side] = FRACAS_SIDE_EDGE;
             if (i < 0) continue;
-            const int64_t *element = s->mesh->interface[i].element, other = element[element[0] == (int64_t)e];
-            if (is_parted(s, i)) skin->side[side] = is_dust(s, e) ? FRACAS_SIDE_NONE : FRACAS_SIDE_PARTED;
+            const int64_t *element = s->mesh->interface[i].element,
+                          other = element[element[0] == (int64_t)e];
+            if (is_parted(s, i))
+                skin->side[side] = is_dust(s, e) ? FRACAS_SIDE_NONE : FRACAS_SIDE_PARTED;
             else if (s->to->facet[other].kind == skin->kind) {
                 skin->side[side] = s->state->interface[i];
                 skin->neighbour[side] = (int32_t)other;
@@ -272,18 +286,21 @@ static void join_skins(const shaping *s)
 
 static void facet_normal(const shaping *s, const uint32_t node[3], double normal[3])
 {
-    double (*at)[3] = s->to->node;
+    double(*at)[3] = s->to->node;
     normal_of(at[node[0]], at[node[1]], at[node[2]], normal);
 }
 
-/* The cut at side k of an element, as far as it faces the reader: from its inner skin to its outer one, seen from where the element is
- * not, in two halves. Where it meets the skin that faces the reader, the line is that of the skin. */
+/* The cut at side k of an element, as far as it faces the reader: from its inner skin to its outer
+ * one, seen from where the element is not, in two halves. Where it meets the skin that faces the
+ * reader, the line is that of the skin. */
 static void put_cut(const shaping *s, size_t e, int k)
 {
     const uint32_t *corner = s->corner[e], a = corner[k], b = corner[(k + 1) % 3];
-    const bool curved = s->mesh->element[e].node[3 + k] >= 0, inner = s->to->facet[e].kind == FRACAS_FACET_INNER;
+    const bool curved = s->mesh->element[e].node[3 + k] >= 0,
+               inner = s->to->facet[e].kind == FRACAS_FACET_INNER;
     const fracas_side line = s->across[e][k] < 0 ? FRACAS_SIDE_EDGE : FRACAS_SIDE_PARTED;
-    const uint32_t node[2][3] = {{a + 1, b + 1, b}, {b, a, a + 1}}; /* the inner edge first, and the outer one */
+    const uint32_t node[2][3] = {{a + 1, b + 1, b},
+                                 {b, a, a + 1}}; /* the inner edge first, and the outer one */
     double normal[2][3], sum[3];
     for (int half = 0; half < 2; half++) facet_normal(s, node[half], normal[half]);
     for (int i = 0; i < 3; i++) sum[i] = normal[0][i] + normal[1][i];
@@ -291,13 +308,17 @@ static void put_cut(const shaping *s, size_t e, int k)
         if (!(normal[half][2] > 0)) continue;
         fracas_facet *facet = &s->to->facet[s->to->nfacets++];
         const uint32_t *of = node[half];
-        *facet = (fracas_facet){.node = {of[0], of[1], of[2]}, .neighbour = {-1, -1, -1}, .kind = FRACAS_FACET_CUT,
-                                .fragment = s->state->fragment[e], .light = (float)light_on(sum)};
+        *facet = (fracas_facet){.node = {of[0], of[1], of[2]},
+                                .neighbour = {-1, -1, -1},
+                                .kind = FRACAS_FACET_CUT,
+                                .fragment = s->state->fragment[e],
+                                .light = (float)light_on(sum)};
         for (int i = 0; i < 3; i++) facet->middle[i] = -1, facet->side[i] = FRACAS_SIDE_NONE;
         if (curved) facet->middle[0] = (int32_t)corner[3 + k] + !half;
         if (inner == half) facet->side[0] = (uint8_t)line;
     }
-    if (normal[0][2] > 0 && normal[1][2] > 0) { /* side 2 of the first half is side 2 of the other: b to a + 1 */
+    if (normal[0][2] > 0 &&
+        normal[1][2] > 0) { /* side 2 of the first half is side 2 of the other: b to a + 1 */
         const int32_t last = (int32_t)s->to->nfacets - 1;
         s->to->facet[last].neighbour[2] = last - 1;
         s->to->facet[last - 1].neighbour[2] = last;
@@ -306,7 +327,8 @@ static void put_cut(const shaping *s, size_t e, int k)
 
 static bool is_cut(const shaping *s, size_t e, int k)
 {
-    return s->form->thickness > 0 && !is_dust(s, e) && (s->across[e][k] < 0 || is_parted(s, s->across[e][k]));
+    return s->form->thickness > 0 && !is_dust(s, e) &&
+           (s->across[e][k] < 0 || is_parted(s, s->across[e][k]));
 }
 
 static fracas_err put_facets(const shaping *s)
@@ -334,8 +356,10 @@ static fracas_err shape(shaping *s)
     s->shift = calloc(s->ngroups + 1, sizeof *s->shift);
     s->corner = calloc(mesh->nelements + 1, sizeof *s->corner);
     s->across = calloc(mesh->nelements + 1, sizeof *s->across);
-    if (!s->turned || !s->normal || !s->shift || !s->corner || !s->across) return fracas_no_memory("a picture");
-    for (size_t n = 0; n < mesh->nnodes; n++) fracas_view_turn(&s->form->view, mesh->node[n].position, s->turned[n]);
+    if (!s->turned || !s->normal || !s->shift || !s->corner || !s->across)
+        return fracas_no_memory("a picture");
+    for (size_t n = 0; n < mesh->nnodes; n++)
+        fracas_view_turn(&s->form->view, mesh->node[n].position, s->turned[n]);
     find_normals(s);
     find_across(s);
     TRY(find_shifts(s));
@@ -348,7 +372,11 @@ fracas_err fracas_facets_create(const fracas_stored_mesh *mesh, const fracas_sur
                                 const fracas_facets_form *form, fracas_facets *facets)
 {
     const bool apart = form->explode > 0;
-    shaping s = {.mesh = mesh, .state = state, .form = form, .to = facets, .apart = apart,
+    shaping s = {.mesh = mesh,
+                 .state = state,
+                 .form = form,
+                 .to = facets,
+                 .apart = apart,
                  .ngroups = apart ? state->nfragments : 1};
     *facets = (fracas_facets){0};
     const fracas_err err = shape(&s);

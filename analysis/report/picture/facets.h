@@ -1,6 +1,8 @@
-/* What a picture of a surface in space is made of: triangles that face the reader, in the frame of the view. The shell is a solid
- * with the surface in its middle: an element shows its outer skin or, where it is turned away, its inner one; where there is an
- * edge, the cut through the thickness may show, too. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a picture of a surface in space is made of: triangles that face the reader, in the frame of
+ * the view. The shell is a solid with the surface in its middle: an element shows its outer skin
+ * or, where it is turned away, its inner one; where there is an edge, the cut through the thickness
+ * may show, too. */
 #ifndef FRACAS_ANALYSIS_REPORT_PICTURE_FACETS_H
 #define FRACAS_ANALYSIS_REPORT_PICTURE_FACETS_H
 
@@ -18,7 +20,8 @@ typedef struct {
 
 typedef enum { FRACAS_FACET_OUTER, FRACAS_FACET_INNER, FRACAS_FACET_CUT } fracas_facet_kind;
 
-/* What the side of a facet is drawn as. The first three are interfaces that are not parted, as fracas_interface_state has them. */
+/* What the side of a facet is drawn as. The first three are interfaces that are not parted, as
+ * fracas_interface_state has them. */
 typedef enum {
     FRACAS_SIDE_CLOSED,
     FRACAS_SIDE_CRACKED,
@@ -36,29 +39,33 @@ typedef struct {
     uint8_t side[3];      /* fracas_side */
     uint8_t kind;         /* fracas_facet_kind */
     uint32_t fragment;
-    float light;          /* share of a light that falls on it square on, 0 to 1 */
-    int32_t layer;        /* -1: hidden by others; else all that hide some of it have smaller numbers, 0 the first */
+    float light;   /* share of a light that falls on it square on, 0 to 1 */
+    int32_t layer; /* -1: hidden by others; else all that hide some of it have smaller numbers, 0
+                      the first */
 } fracas_facet;
 
 typedef struct {
     size_t nfacets, nnodes, nlayers;
-    fracas_facet *facet;    /* owned; facet e < nskin is that of element e */
+    fracas_facet *facet; /* owned; facet e < nskin is that of element e */
     size_t nskin;
-    double (*node)[3];      /* owned; to the right, upward, toward the reader [m] */
+    double (*node)[3];           /* owned; to the right, upward, toward the reader [m] */
     double least[2], largest[2]; /* m, right and up: room for it at any time of its run */
 } fracas_facets;
 
 /* Without layers: those are all 0. Cleared by the caller, after an error too. */
-FRACAS_MUST_USE fracas_err fracas_facets_create(const fracas_stored_mesh *mesh, const fracas_surface_state *state,
-                                                const fracas_facets_form *form, fracas_facets *facets);
+FRACAS_MUST_USE fracas_err fracas_facets_create(const fracas_stored_mesh *mesh,
+                                                const fracas_surface_state *state,
+                                                const fracas_facets_form *form,
+                                                fracas_facets *facets);
 void fracas_facets_clear(fracas_facets *facets);
 
-/* Turns [m] in x, y, z to right, up, toward the reader: r = (-sin a, cos a, 0), u = (-sin h cos a, -sin h sin a, cos h),
- * t = (cos h cos a, cos h sin a, sin h) with a azimuth and h elevation. */
+/* Turns [m] in x, y, z to right, up, toward the reader: r = (-sin a, cos a, 0), u = (-sin h cos a,
+ * -sin h sin a, cos h), t = (cos h cos a, cos h sin a, sin h) with a azimuth and h elevation. */
 void fracas_view_turn(const fracas_view *view, const double vector[3], double turned[3]);
 
-/* Finds what hides what, and so the layers (facets_hiding.c). Facets of a layer do not hide each other, but for circles of them. A
- * facet counts as hidden if 45 points spread over it are, or if it is seen edge on. */
+/* Finds what hides what, and so the layers (facets_hiding.c). Facets of a layer do not hide each
+ * other, but for circles of them. A facet counts as hidden if 45 points spread over it are, or if
+ * it is seen edge on. */
 FRACAS_MUST_USE fracas_err fracas_facets_hide(fracas_facets *facets);
 
 #endif

@@ -1,4 +1,6 @@
-/* fracas_facets_hide: pairs of facets that overlap in the picture, by a grid of cells; what is hidden altogether; layers. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* fracas_facets_hide: pairs of facets that overlap in the picture, by a grid of cells; what is
+ * hidden altogether; layers. */
 #include "analysis/report/picture/facets.h"
 
 #include "base/partition.h"
@@ -8,8 +10,9 @@
 #include <stdlib.h>
 
 enum { MOST_CORNERS = 6, LATTICE = 8 }; /* steps along a side: 45 points */
-enum { MOST_LAYERS = 32 }; /* what hides each other in a circle stops there */
-static const double touching = 1e-6; /* areas that overlap / that of the smaller facet, and depths / size of the facets */
+enum { MOST_LAYERS = 32 };              /* what hides each other in a circle stops there */
+static const double touching =
+    1e-6; /* areas that overlap / that of the smaller facet, and depths / size of the facets */
 
 typedef struct {
     uint32_t behind, front;
@@ -19,11 +22,11 @@ typedef struct {
     fracas_facets *facets;
     double corner[2], cell; /* m: of the grid */
     size_t columns, rows;
-    size_t *first;   /* of each cell, in `of` */
-    uint32_t *of;    /* facets */
+    size_t *first; /* of each cell, in `of` */
+    uint32_t *of;  /* facets */
     size_t ncovers, capacity;
-    cover *covers;   /* sorted by the facet behind once found */
-    size_t *start;   /* of each facet, in `covers` */
+    cover *covers; /* sorted by the facet behind once found */
+    size_t *start; /* of each facet, in `covers` */
 } hiding;
 
 static void free_hiding(hiding *h)
@@ -44,7 +47,8 @@ static const double *corner_of(const fracas_facets *facets, size_t f, int k)
 static void box_of(const fracas_facets *facets, size_t f, double least[2], double largest[2])
 {
     for (int i = 0; i < 2; i++) {
-        const double a = corner_of(facets, f, 0)[i], b = corner_of(facets, f, 1)[i], c = corner_of(facets, f, 2)[i];
+        const double a = corner_of(facets, f, 0)[i], b = corner_of(facets, f, 1)[i],
+                     c = corner_of(facets, f, 2)[i];
         least[i] = fmin(a, fmin(b, c));
         largest[i] = fmax(a, fmax(b, c));
     }
@@ -73,7 +77,8 @@ static void cells_of(const hiding *h, size_t f, size_t from[2], size_t to[2])
 static fracas_err make_grid(hiding *h)
 {
     const fracas_facets *facets = h->facets;
-    const double width = facets->largest[0] - facets->least[0], height = facets->largest[1] - facets->least[1];
+    const double width = facets->largest[0] - facets->least[0],
+                 height = facets->largest[1] - facets->least[1];
     h->cell = 2 * sqrt(width * height / (double)facets->nfacets) + fmax(width, height) / 4096;
     h->columns = (size_t)(width / h->cell) + 1;
     h->rows = (size_t)(height / h->cell) + 1;
@@ -93,7 +98,8 @@ static fracas_err make_grid(hiding *h)
     for (size_t f = 0; f < facets->nfacets; f++) {
         cells_of(h, f, from, to);
         for (size_t j = from[1]; j <= to[1]; j++)
-            for (size_t i = from[0]; i <= to[0]; i++) h->of[h->first[j * h->columns + i + 1]++] = (uint32_t)f;
+            for (size_t i = from[0]; i <= to[0]; i++)
+                h->of[h->first[j * h->columns + i + 1]++] = (uint32_t)f;
     }
     return FRACAS_OK;
 }
@@ -133,8 +139,10 @@ static double common(const fracas_facets *facets, size_t f, size_t g, double cen
 {
     double at[MOST_CORNERS + 1][2], sum = 0;
     int n = 3;
-    for (int k = 0; k < 3; k++) at[k][0] = corner_of(facets, f, k)[0], at[k][1] = corner_of(facets, f, k)[1];
-    for (int k = 0; k < 3 && n > 0; k++) n = clip(at, n, corner_of(facets, g, k), corner_of(facets, g, (k + 1) % 3));
+    for (int k = 0; k < 3; k++)
+        at[k][0] = corner_of(facets, f, k)[0], at[k][1] = corner_of(facets, f, k)[1];
+    for (int k = 0; k < 3 && n > 0; k++)
+        n = clip(at, n, corner_of(facets, g, k), corner_of(facets, g, (k + 1) % 3));
     centre[0] = centre[1] = 0;
     for (int k = 1; k + 1 < n; k++) {
         const double twice = turn(at[0], at[k], at[k + 1]);
@@ -148,8 +156,10 @@ static double common(const fracas_facets *facets, size_t f, size_t g, double cen
 /* How near the reader a facet is at a point; false if that is beside it. */
 static bool depth_at(const fracas_facets *facets, size_t f, const double point[2], double *depth)
 {
-    const double *a = corner_of(facets, f, 0), *b = corner_of(facets, f, 1), *c = corner_of(facets, f, 2);
-    const double twice = turn(a, b, c), u = turn(b, c, point) / twice, v = turn(c, a, point) / twice, w = 1 - u - v;
+    const double *a = corner_of(facets, f, 0), *b = corner_of(facets, f, 1),
+                 *c = corner_of(facets, f, 2);
+    const double twice = turn(a, b, c), u = turn(b, c, point) / twice,
+                 v = turn(c, a, point) / twice, w = 1 - u - v;
     if (!(u > -touching && v > -touching && w > -touching)) return false;
     *depth = u * a[2] + v * b[2] + w * c[2];
     return true;
@@ -174,12 +184,14 @@ static fracas_err compare(hiding *h, uint32_t f, uint32_t g)
     const double area[2] = {twice_area(h->facets, f), twice_area(h->facets, g)};
     const double both = common(h->facets, f, g, centre);
     if (!(both > touching * fmin(area[0], area[1]))) return FRACAS_OK;
-    if (!depth_at(h->facets, f, centre, &of_f) || !depth_at(h->facets, g, centre, &of_g)) return FRACAS_OK;
+    if (!depth_at(h->facets, f, centre, &of_f) || !depth_at(h->facets, g, centre, &of_g))
+        return FRACAS_OK;
     if (fabs(of_f - of_g) <= touching * h->cell) return FRACAS_OK;
     return of_f < of_g ? add_cover(h, f, g) : add_cover(h, g, f);
 }
 
-/* Boxes that overlap are compared in one cell only: that of the lower left corner of what they have in common. */
+/* Boxes that overlap are compared in one cell only: that of the lower left corner of what they have
+ * in common. */
 static bool meet_in(const hiding *h, size_t f, size_t g, size_t column, size_t row)
 {
     double least[2][2], largest[2][2], corner[2];
@@ -200,7 +212,8 @@ static fracas_err find_covers(hiding *h)
             const size_t cell = row * h->columns + column;
             for (size_t i = h->first[cell]; i < h->first[cell + 1]; i++)
                 for (size_t j = i + 1; j < h->first[cell + 1]; j++)
-                    if (meet_in(h, h->of[i], h->of[j], column, row)) TRY(compare(h, h->of[i], h->of[j]));
+                    if (meet_in(h, h->of[i], h->of[j], column, row))
+                        TRY(compare(h, h->of[i], h->of[j]));
         }
     return FRACAS_OK;
 }
@@ -216,7 +229,8 @@ static fracas_err sort_covers(hiding *h)
     }
     for (size_t c = 0; c < h->ncovers; c++) h->start[h->covers[c].behind + 2]++;
     for (size_t f = 0; f < nfacets; f++) h->start[f + 2] += h->start[f + 1];
-    for (size_t c = 0; c < h->ncovers; c++) sorted[h->start[h->covers[c].behind + 1]++] = h->covers[c];
+    for (size_t c = 0; c < h->ncovers; c++)
+        sorted[h->start[h->covers[c].behind + 1]++] = h->covers[c];
     free(h->covers);
     h->covers = sorted;
     return FRACAS_OK;
@@ -235,7 +249,8 @@ static bool is_covered(const hiding *h, size_t f, const double share[3])
     return false;
 }
 
-/* True if all points of a lattice over the facet are covered, its outermost ones 1 % of the way from the corners to the middle. */
+/* True if all points of a lattice over the facet are covered, its outermost ones 1 % of the way
+ * from the corners to the middle. */
 static bool is_hidden(const hiding *h, size_t f)
 {
     if (h->start[f] == h->start[f + 1]) return false;
@@ -292,13 +307,14 @@ static fracas_err find_parts(const hiding *h, parts *p)
     p->of = partition.label;
     partition.label = NULL;
     fracas_partition_clear(&partition);
-    p->layer = calloc(p->count + facets->nfacets + 1, sizeof *p->layer); /* room for all of them split */
+    p->layer = calloc(p->count + facets->nfacets + 1,
+                      sizeof *p->layer); /* room for all of them split */
     p->split = calloc(p->count + facets->nfacets + 1, sizeof *p->split);
     return p->layer && p->split ? FRACAS_OK : fracas_no_memory("the facets of a picture");
 }
 
-/* One more than the largest layer of all that hide some of it. Parts that hide each other in a circle are split, and those far behind
- * them. */
+/* One more than the largest layer of all that hide some of it. Parts that hide each other in a
+ * circle are split, and those far behind them. */
 static void raise_parts(const hiding *h, parts *p)
 {
     const fracas_facet *facet = h->facets->facet;
@@ -310,8 +326,10 @@ static void raise_parts(const hiding *h, parts *p)
             const cover *pair = &h->covers[c];
             if (facet[pair->front].layer < 0 || facet[pair->behind].layer < 0) continue;
             const uint32_t front = p->of[pair->front], behind = p->of[pair->behind];
-            if (front == behind || p->layer[front] + 1 >= MOST_LAYERS) p->split[front] = p->split[behind] = true;
-            else if (p->layer[behind] <= p->layer[front]) p->layer[behind] = p->layer[front] + 1, grown = true;
+            if (front == behind || p->layer[front] + 1 >= MOST_LAYERS)
+                p->split[front] = p->split[behind] = true;
+            else if (p->layer[behind] <= p->layer[front])
+                p->layer[behind] = p->layer[front] + 1, grown = true;
         }
     }
 }
@@ -326,7 +344,8 @@ static fracas_err find_layers(const hiding *h)
 {
     fracas_facets *facets = h->facets;
     parts p = {0};
-    for (size_t f = 0; f < facets->nfacets; f++) facets->facet[f].layer = is_edge_on(facets, f) || is_hidden(h, f) ? -1 : 0;
+    for (size_t f = 0; f < facets->nfacets; f++)
+        facets->facet[f].layer = is_edge_on(facets, f) || is_hidden(h, f) ? -1 : 0;
     fracas_err err = find_parts(h, &p);
     if (!err) {
         raise_parts(h, &p);

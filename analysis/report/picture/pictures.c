@@ -1,4 +1,6 @@
-/* fracas_pictures_write: pictures and first times of one realization, and the first times of all of a point. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* fracas_pictures_write: pictures and first times of one realization, and the first times of all of
+ * a point. */
 #include "analysis/export/csv.h"
 #include "analysis/export/output.h"
 #include "analysis/report/picture/surfaces.h"
@@ -27,28 +29,37 @@ typedef struct {
 static fracas_err check_campaign(const making *m)
 {
     const fracas_hash *wanted = m->request->campaign;
-    if (!wanted || fracas_hash_equal(&fracas_results_header(m->results)->campaign, wanted)) return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED, "pictures come with the complete study: %s/study.h5 is of another campaign than "
-                       "%s/campaign.yaml, from before it was extended; `fracas run %s/campaign.yaml --study %s` completes it", m->study, m->study,
-                       m->study, m->study);
+    if (!wanted || fracas_hash_equal(&fracas_results_header(m->results)->campaign, wanted))
+        return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED,
+                       "pictures come with the complete study: %s/study.h5 is of another campaign "
+                       "than %s/campaign.yaml, from before it was extended; `fracas run "
+                       "%s/campaign.yaml --study %s` completes it",
+                       m->study, m->study, m->study, m->study);
 }
 
 static fracas_err no_surface(size_t point)
 {
-    return fracas_fail(FRACAS_USAGE, "point %zu is no surface: only membranes and shells have pictures; "
-                       "`fracas report` draws the fragments of rings", point);
+    return fracas_fail(FRACAS_USAGE,
+                       "point %zu is no surface: only membranes and shells have pictures; `fracas "
+                       "report` draws the fragments of rings",
+                       point);
 }
 
 static fracas_err check_point(making *m)
 {
     const size_t point = m->request->point, npoints = m->table->npoints;
     const bool kept = fracas_results_header(m->results)->interfaces;
-    if (!kept && point < npoints && !fracas_columns_surface(m->table, point)) return no_surface(point);
+    if (!kept && point < npoints && !fracas_columns_surface(m->table, point))
+        return no_surface(point);
     if (!kept)
-        return fracas_fail(FRACAS_USAGE, "%s keeps no interfaces, so it does not say where the cracks are: run the campaign with "
-                           "`output: {interfaces: true}` into another study", m->study);
+        return fracas_fail(FRACAS_USAGE,
+                           "%s keeps no interfaces, so it does not say where the cracks are: run "
+                           "the campaign with `output: {interfaces: true}` into another study",
+                           m->study);
     if (point >= npoints)
-        return fracas_fail(FRACAS_USAGE, "there is no point %zu: %s has %zu of them, from 0", point, m->study, npoints);
+        return fracas_fail(FRACAS_USAGE, "there is no point %zu: %s has %zu of them, from 0", point,
+                           m->study, npoints);
     for (size_t p = 0; p < point; p++) m->first_row += (size_t)m->table->point[p].replicas;
     size_t interfaces;
     TRY(fracas_results_mesh_interfaces(m->results, point, &interfaces));
@@ -57,24 +68,30 @@ static fracas_err check_point(making *m)
 
 static fracas_err check_replica(const making *m)
 {
-    const int64_t replica = m->request->replica, replicas = m->table->point[m->request->point].replicas;
+    const int64_t replica = m->request->replica,
+                  replicas = m->table->point[m->request->point].replicas;
     if (replica >= 0 && replica < replicas) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "there is no replica %" PRId64 ": point %zu has %" PRId64 " of them, from 0", replica,
-                       m->request->point, replicas);
+    return fracas_fail(FRACAS_USAGE,
+                       "there is no replica %" PRId64 ": point %zu has %" PRId64 " of them, from 0",
+                       replica, m->request->point, replicas);
 }
 
 static fracas_err check_record(const making *m, const fracas_record *record)
 {
     if (record->ninterface == 0)
-        return fracas_fail(FRACAS_USAGE, "replica %" PRId64 " of point %zu ended %s and left nothing to draw; choose another",
-                           m->request->replica, m->request->point, fracas_outcome_name(record->outcome));
+        return fracas_fail(
+            FRACAS_USAGE,
+            "replica %" PRId64 " of point %zu ended %s and left nothing to draw; choose another",
+            m->request->replica, m->request->point, fracas_outcome_name(record->outcome));
     for (size_t k = 0; m->request->time && k < m->request->count; k++) {
         const double time = m->request->time[k];
         char wanted[48], end[48];
         if (time >= 0 && time <= record->end_time) continue;
         fracas_surface_time_text(time, false, wanted, sizeof wanted);
         fracas_surface_time_text(record->end_time, false, end, sizeof end);
-        return fracas_fail(FRACAS_USAGE, "time %s is outside of the realization, which goes from 0 to %s", wanted, end);
+        return fracas_fail(FRACAS_USAGE,
+                           "time %s is outside of the realization, which goes from 0 to %s", wanted,
+                           end);
     }
     return FRACAS_OK;
 }
@@ -93,10 +110,13 @@ static fracas_err save_pictures(const making *m, const fracas_broken_surface *su
     for (size_t k = 0; !err && k < count; k++) {
         char title[256], text[48], name[128];
         fracas_surface_time_text(time[k], true, text, sizeof text);
-        snprintf(title, sizeof title, "Point %zu, replica %" PRId64 " at %s", request->point, request->replica, text);
-        snprintf(name, sizeof name, "surface-point-%zu-replica-%" PRId64 "-%zu.svg", request->point, request->replica, k + 1);
-        const fracas_surface_picture picture = {title, request->show, FRACAS_SURFACE_WIDTH, true, request->view,
-                                                request->explode, surface->thickness};
+        snprintf(title, sizeof title, "Point %zu, replica %" PRId64 " at %s", request->point,
+                 request->replica, text);
+        snprintf(name, sizeof name, "surface-point-%zu-replica-%" PRId64 "-%zu.svg", request->point,
+                 request->replica, k + 1);
+        const fracas_surface_picture picture = {
+            title,         request->show,    FRACAS_SURFACE_WIDTH, true,
+            request->view, request->explode, surface->thickness};
         err = fracas_broken_surface_save(surface, time[k], &picture, m->folder, name);
         fracas_surface_time_text(time[k], false, text, sizeof text);
         if (!err) fprintf(m->out, "%s/%s: %s\n", m->folder, name, text);
@@ -111,7 +131,8 @@ static fracas_err say_times(const making *m, const fracas_broken_surface *surfac
     fracas_surface_times times;
     TRY(fracas_surface_times_of(&surface->mesh, &surface->record, &times));
     const double at[] = {times.onset, times.broken, fmin(times.through[0], times.through[1])};
-    for (int k = 0; k < (fracas_surface_is_flat(&surface->mesh) ? 3 : 2); k++) { /* a body in space has no width */
+    for (int k = 0; k < (fracas_surface_is_flat(&surface->mesh) ? 3 : 2);
+         k++) { /* a body in space has no width */
         char text[48];
         fracas_surface_time_text(at[k], false, text, sizeof text);
         fprintf(m->out, "%s: %s\n", what[k], text);
@@ -120,11 +141,13 @@ static fracas_err say_times(const making *m, const fracas_broken_surface *surfac
 }
 
 /* One line of times-point-P.csv. */
-static fracas_err put_line(const making *m, const fracas_stored_mesh *mesh, int64_t replica, fracas_record *record, FILE *out)
+static fracas_err put_line(const making *m, const fracas_stored_mesh *mesh, int64_t replica,
+                           fracas_record *record, FILE *out)
 {
     size_t point;
     int64_t found;
-    TRY(fracas_results_record(m->results, m->first_row + (size_t)replica, FRACAS_READ_INTERFACES, &point, &found, record));
+    TRY(fracas_results_record(m->results, m->first_row + (size_t)replica, FRACAS_READ_INTERFACES,
+                              &point, &found, record));
     fracas_surface_times times = {NAN, NAN, {NAN, NAN}};
     if (record->ninterface > 0) TRY(fracas_surface_times_of(mesh, record, &times));
     fprintf(out, "%" PRId64 ",%s", replica, fracas_outcome_name(record->outcome));
@@ -146,7 +169,8 @@ static fracas_err save_table(const making *m, const fracas_stored_mesh *mesh)
     snprintf(name, sizeof name, "times-point-%zu.csv", m->request->point);
     TRY(fracas_output_open(m->folder, name, &output));
     fracas_record_init(&record);
-    fputs("replica,outcome,first_onset,first_break,first_through,through_1_2,through_3_4,end_time,fragments,fragments_dust\n",
+    fputs("replica,outcome,first_onset,first_break,first_through,through_1_2,through_3_4,end_time,"
+          "fragments,fragments_dust\n",
           output.file);
     for (int64_t r = 0; !err && r < m->table->point[m->request->point].replicas; r++)
         err = put_line(m, mesh, r, &record, output.file);
@@ -159,13 +183,15 @@ static fracas_err save_table(const making *m, const fracas_stored_mesh *mesh)
 static fracas_err make_folder(making *m)
 {
     const char *wanted = m->request->folder;
-    const int length = wanted ? asprintf(&m->folder, "%s", wanted) : asprintf(&m->folder, "%s/pictures", m->study);
+    const int length = wanted ? asprintf(&m->folder, "%s", wanted)
+                              : asprintf(&m->folder, "%s/pictures", m->study);
     if (length < 0) {
         m->folder = NULL;
         return fracas_no_memory("a path");
     }
     if (!mkdir(m->folder, 0777) || errno == EEXIST) return FRACAS_OK;
-    return fracas_fail(FRACAS_ENVIRONMENT, "cannot make the folder %s: %s", m->folder, strerror(errno));
+    return fracas_fail(FRACAS_ENVIRONMENT, "cannot make the folder %s: %s", m->folder,
+                       strerror(errno));
 }
 
 static fracas_err make(making *m)
@@ -174,8 +200,8 @@ static fracas_err make(making *m)
     m->table = fracas_results_points(m->results);
     TRY(check_point(m));
     TRY(check_replica(m));
-    fracas_err err = fracas_broken_surface_read(m->results, m->request->point, m->first_row + (size_t)m->request->replica,
-                                                &surface);
+    fracas_err err = fracas_broken_surface_read(
+        m->results, m->request->point, m->first_row + (size_t)m->request->replica, &surface);
     if (!err) err = check_record(m, &surface.record);
     if (!err) err = make_folder(m);
     if (!err) err = save_pictures(m, &surface);
@@ -185,7 +211,8 @@ static fracas_err make(making *m)
     return err;
 }
 
-fracas_err fracas_pictures_write(const char *study, const fracas_picture_request *request, FILE *out)
+fracas_err fracas_pictures_write(const char *study, const fracas_picture_request *request,
+                                 FILE *out)
 {
     making m = {.study = study, .request = request, .out = out};
     fracas_err err = fracas_results_open(study, NULL, NULL, &m.results);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/report/picture/trail.h"
 
 #include <stdlib.h>
@@ -26,12 +27,13 @@ void fracas_trail_clear(fracas_trail *trail)
 
 typedef struct {
     size_t nnodes;
-    uint32_t *node;      /* those that have an edge, ascending; the others know them by their place here */
+    uint32_t
+        *node; /* those that have an edge, ascending; the others know them by their place here */
     uint32_t (*place)[2]; /* of the ends of each edge */
-    size_t *first;   /* of each node, in `leaving`; nodes + 1 of them */
-    size_t *next;    /* of each node: the first that is not known to be used */
-    size_t *leaving; /* 2 edge + 1 if the edge is gone through backwards */
-    bool *used;      /* of each edge */
+    size_t *first;        /* of each node, in `leaving`; nodes + 1 of them */
+    size_t *next;         /* of each node: the first that is not known to be used */
+    size_t *leaving;      /* 2 edge + 1 if the edge is gone through backwards */
+    bool *used;           /* of each edge */
 } departures;
 
 static void free_departures(departures *from)
@@ -57,13 +59,16 @@ static fracas_err list_nodes(const fracas_trail *trail, departures *from)
     from->place = malloc((trail->count + 1) * sizeof *from->place);
     if (!from->node || !from->place) return fracas_no_memory("the lines of a picture");
     for (size_t e = 0; e < trail->count; e++)
-        for (int end = 0; end < 2; end++) from->node[2 * e + (size_t)end] = trail->edge[e].node[end];
+        for (int end = 0; end < 2; end++)
+            from->node[2 * e + (size_t)end] = trail->edge[e].node[end];
     qsort(from->node, 2 * trail->count, sizeof *from->node, by_number);
     for (size_t k = 0; k < 2 * trail->count; k++)
-        if (k == 0 || from->node[k] != from->node[from->nnodes - 1]) from->node[from->nnodes++] = from->node[k];
+        if (k == 0 || from->node[k] != from->node[from->nnodes - 1])
+            from->node[from->nnodes++] = from->node[k];
     for (size_t e = 0; e < trail->count; e++)
         for (int end = 0; end < 2; end++) {
-            const uint32_t *found = bsearch(&trail->edge[e].node[end], from->node, from->nnodes, sizeof *from->node, by_number);
+            const uint32_t *found = bsearch(&trail->edge[e].node[end], from->node, from->nnodes,
+                                            sizeof *from->node, by_number);
             from->place[e][end] = (uint32_t)(found - from->node);
         }
     return FRACAS_OK;
@@ -78,7 +83,8 @@ static fracas_err list_departures(const fracas_trail *trail, bool closed, depart
     from->next = calloc(nodes + 1, sizeof *from->next);
     from->leaving = calloc(2 * trail->count + 1, sizeof *from->leaving);
     from->used = calloc(trail->count + 1, sizeof *from->used);
-    if (!from->first || !from->next || !from->leaving || !from->used) return fracas_no_memory("the lines of a picture");
+    if (!from->first || !from->next || !from->leaving || !from->used)
+        return fracas_no_memory("the lines of a picture");
     for (size_t e = 0; e < trail->count; e++)
         for (int end = 0; end < ends; end++) from->first[from->place[e][end] + 1]++;
     for (size_t n = 0; n < nodes; n++) {
@@ -86,7 +92,8 @@ static fracas_err list_departures(const fracas_trail *trail, bool closed, depart
         from->next[n] = from->first[n];
     }
     for (size_t e = 0; e < trail->count; e++)
-        for (int end = 0; end < ends; end++) from->leaving[from->next[from->place[e][end]]++] = 2 * e + (size_t)end;
+        for (int end = 0; end < ends; end++)
+            from->leaving[from->next[from->place[e][end]]++] = 2 * e + (size_t)end;
     for (size_t n = 0; n < nodes; n++) from->next[n] = from->first[n];
     return FRACAS_OK;
 }
@@ -119,7 +126,8 @@ static void put_pair(trail_pen *pen, char command, int32_t dx, int32_t dy)
     fprintf(pen->out, "%d%s%d", (int)dx, dy < 0 ? "" : " ", (int)dy);
 }
 
-/* A parabola through the middle where that is not on the straight line (by more than a unit), else the line. */
+/* A parabola through the middle where that is not on the straight line (by more than a unit), else
+ * the line. */
 static void put_edge(trail_pen *pen, const fracas_trail_edge *edge, bool backwards)
 {
     const fracas_spot a = pen->spot[edge->node[backwards]], b = pen->spot[edge->node[!backwards]];
@@ -136,12 +144,14 @@ static void put_edge(trail_pen *pen, const fracas_trail_edge *edge, bool backwar
 }
 
 /* One line as long as it gets from a node; nothing if no edge leaves it. */
-static void put_line(trail_pen *pen, const fracas_trail *trail, departures *from, size_t node, bool closed)
+static void put_line(trail_pen *pen, const fracas_trail *trail, departures *from, size_t node,
+                     bool closed)
 {
     size_t way = depart(from, node);
     if (way == SIZE_MAX) return;
     pen->command = 'M';
-    fprintf(pen->out, "M%d %d", (int)pen->spot[from->node[node]].x, (int)pen->spot[from->node[node]].y);
+    fprintf(pen->out, "M%d %d", (int)pen->spot[from->node[node]].x,
+            (int)pen->spot[from->node[node]].y);
     for (; way != SIZE_MAX; way = depart(from, node)) {
         put_edge(pen, &trail->edge[way / 2], way % 2);
         node = from->place[way / 2][way % 2 == 0];
@@ -149,8 +159,8 @@ static void put_line(trail_pen *pen, const fracas_trail *trail, departures *from
     if (closed) putc('z', pen->out);
 }
 
-static void put_lines(const fracas_trail *trail, const fracas_spot *spot, bool closed, departures *from, const char *class,
-                      FILE *out)
+static void put_lines(const fracas_trail *trail, const fracas_spot *spot, bool closed,
+                      departures *from, const char *class, FILE *out)
 {
     trail_pen pen = {.spot = spot, .out = out};
     fprintf(out, "<path class=\"%s\"%s d=\"", class, closed ? " fill-rule=\"evenodd\"" : "");
@@ -161,7 +171,8 @@ static void put_lines(const fracas_trail *trail, const fracas_spot *spot, bool c
     fputs("\"/>\n", out);
 }
 
-fracas_err fracas_trail_write(const fracas_trail *trail, const fracas_spot *spot, bool closed, const char *class, FILE *out)
+fracas_err fracas_trail_write(const fracas_trail *trail, const fracas_spot *spot, bool closed,
+                              const char *class, FILE *out)
 {
     if (trail->count == 0) return FRACAS_OK;
     departures from = {0};

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Edges written as an SVG path of few long lines. */
 #ifndef FRACAS_ANALYSIS_REPORT_PICTURE_TRAIL_H
 #define FRACAS_ANALYSIS_REPORT_PICTURE_TRAIL_H
@@ -24,12 +25,14 @@ typedef struct {
     fracas_trail_edge *edge;
 } fracas_trail;
 
-FRACAS_MUST_USE fracas_err fracas_trail_add(fracas_trail *trail, const int64_t node[3], bool backwards);
+FRACAS_MUST_USE fracas_err fracas_trail_add(fracas_trail *trail, const int64_t node[3],
+                                            bool backwards);
 void fracas_trail_clear(fracas_trail *trail);
 
-/* Writes `<path class=... d=.../>` through every edge once; nothing without an edge. `closed`: edges have a direction, as many
- * end in a node as start there, and the loops that they make are filled by the even-odd rule; else either way round will do. */
-FRACAS_MUST_USE fracas_err fracas_trail_write(const fracas_trail *trail, const fracas_spot *spot, bool closed, const char *class,
-                                              FILE *out);
+/* Writes `<path class=... d=.../>` through every edge once; nothing without an edge. `closed`:
+ * edges have a direction, as many end in a node as start there, and the loops that they make are
+ * filled by the even-odd rule; else either way round will do. */
+FRACAS_MUST_USE fracas_err fracas_trail_write(const fracas_trail *trail, const fracas_spot *spot,
+                                              bool closed, const char *class, FILE *out);
 
 #endif

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/launch/allocation.h"
 
 #include <ctype.h>
@@ -38,17 +39,23 @@ fracas_err fracas_allocation_jobs(int wanted, int *jobs)
 {
     enum { MOST_A_CORE = 32 };
     cpu_set_t set;
-    const int cores = sched_getaffinity(0, sizeof set, &set) ? 1 : CPU_COUNT(&set), tasks = slurm_tasks();
+    const int cores = sched_getaffinity(0, sizeof set, &set) ? 1 : CPU_COUNT(&set),
+              tasks = slurm_tasks();
     *jobs = wanted ? wanted : tasks ? tasks : cores;
     if (tasks || *jobs <= MOST_A_CORE * cores) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "--jobs %d: this machine gives the run %d cores; %d processes are the most, one a core "
-                       "is the best", *jobs, cores, MOST_A_CORE * cores);
+    return fracas_fail(FRACAS_USAGE,
+                       "--jobs %d: this machine gives the run %d cores; %d processes are the most, "
+                       "one a core is the best",
+                       *jobs, cores, MOST_A_CORE * cores);
 }
 
 fracas_err fracas_allocation_check(void)
 {
     const char *tasks = getenv("SLURM_STEP_NUM_TASKS");
     if (!getenv("SLURM_STEP_ID") || !tasks || atoi(tasks) < 2) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "srun started %s processes without MPI, and each would run the whole campaign: run `fracas run` in "
-                       "the job without srun, or as `srun --mpi=pmix fracas run`", tasks);
+    return fracas_fail(
+        FRACAS_USAGE,
+        "srun started %s processes without MPI, and each would run the whole campaign: run `fracas "
+        "run` in the job without srun, or as `srun --mpi=pmix fracas run`",
+        tasks);
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/launch/mpirun.h"
 
 #include "base/param.h"
@@ -19,7 +20,8 @@ static void set_environment(void)
         const char *name, *value;
     } quiet[] = {
         {FRACAS_PARENT_MARK, "1"},
-        /* Copying between processes needs a ptrace permission that containers lack: Open MPI warns of each failure. */
+        /* Copying between processes needs a ptrace permission that containers lack: Open MPI warns
+           of each failure. */
         {"OMPI_MCA_btl_vader_single_copy_mechanism", "none"},
         /* No warning where a fast network is compiled in and not there. */
         {"OMPI_MCA_btl_base_warn_component_unused", "0"},
@@ -35,7 +37,8 @@ static void set_environment(void)
 }
 
 /* In the new process: never returns. */
-static _Noreturn void become_mpirun(char **arguments, pid_t parent, const int out[2], const int errors[2])
+static _Noreturn void become_mpirun(char **arguments, pid_t parent, const int out[2],
+                                    const int errors[2])
 {
     static const int reset[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGPIPE};
     setpgid(0, 0);
@@ -51,7 +54,8 @@ static _Noreturn void become_mpirun(char **arguments, pid_t parent, const int ou
     _exit(FRACAS_MPIRUN_MISSING);
 }
 
-static fracas_err make_arguments(int jobs, int argc, char **argv, char *self, char *count, char ***arguments)
+static fracas_err make_arguments(int jobs, int argc, char **argv, char *self, char *count,
+                                 char ***arguments)
 {
     char *const before[] = {"mpirun", "--oversubscribe", "--bind-to", "none", "-n", count, self};
     *arguments = calloc(FRACAS_COUNT(before) + (size_t)argc + 1, sizeof **arguments);
@@ -66,7 +70,9 @@ fracas_err fracas_mpirun_start(int jobs, int argc, char **argv, fracas_mpirun *m
 {
     char self[4096], count[16], **arguments;
     ssize_t n = readlink("/proc/self/exe", self, sizeof self - 1);
-    if (n < 0) return fracas_fail(FRACAS_ENVIRONMENT, "cannot find this program: /proc/self/exe: %s", strerror(errno));
+    if (n < 0)
+        return fracas_fail(FRACAS_ENVIRONMENT, "cannot find this program: /proc/self/exe: %s",
+                           strerror(errno));
     self[n] = '\0';
     TRY(make_arguments(jobs, argc, argv, self, count, &arguments));
     int out[2] = {-1, -1}, errors[2] = {-1, -1};
@@ -84,7 +90,8 @@ fracas_err fracas_mpirun_start(int jobs, int argc, char **argv, fracas_mpirun *m
         if (errors[0] >= 0) close(errors[0]);
         return err;
     }
-    setpgid(pid, pid); /* both sides, whoever comes first; it fails once mpirun runs, which has done it then */
+    setpgid(pid, pid); /* both sides, whoever comes first; it fails once mpirun runs, which has done
+                          it then */
     *mpirun = (fracas_mpirun){pid, out[0], errors[0]};
     return FRACAS_OK;
 }
@@ -95,8 +102,10 @@ static bool find_line(const char *said, const char *key, char *text, size_t size
     for (const char *line = said; *line;) {
         size_t length = strcspn(line, "\n"), blank = strspn(line, " \t*");
         if (blank > length) blank = length;
-        snprintf(text, size, "%.*s", (int)(length - blank < size ? length - blank : size - 1), line + blank);
-        if (key ? strstr(text, key) != NULL : strpbrk(text, "abcdefghijklmnopqrstuvwxyz") != NULL) return true;
+        snprintf(text, size, "%.*s", (int)(length - blank < size ? length - blank : size - 1),
+                 line + blank);
+        if (key ? strstr(text, key) != NULL : strpbrk(text, "abcdefghijklmnopqrstuvwxyz") != NULL)
+            return true;
         line += length + (line[length] == '\n');
     }
     *text = '\0';
@@ -105,9 +114,17 @@ static bool find_line(const char *said, const char *key, char *text, size_t size
 
 void fracas_mpirun_reason(const char *said, char *text, size_t size)
 {
-    static const char *const telling[] = {"mpirun noticed that", "MPI_ABORT was invoked", "lost communication with", "not enough slots",
-                                          "fracas: ", "unable to", "failed", "rror", NULL};
+    static const char *const telling[] = {"mpirun noticed that",
+                                          "MPI_ABORT was invoked",
+                                          "lost communication with",
+                                          "not enough slots",
+                                          "fracas: ",
+                                          "unable to",
+                                          "failed",
+                                          "rror",
+                                          NULL};
     for (size_t i = 0; i < FRACAS_COUNT(telling); i++)
         if (find_line(said, telling[i], text, size)) break;
-    for (size_t end = strlen(text); end > 0 && strchr(" .", text[end - 1]); end--) text[end - 1] = '\0';
+    for (size_t end = strlen(text); end > 0 && strchr(" .", text[end - 1]); end--)
+        text[end - 1] = '\0';
 }

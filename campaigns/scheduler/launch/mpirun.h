@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* mpirun as a child process. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_LAUNCH_MPIRUN_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_LAUNCH_MPIRUN_H
@@ -15,10 +16,13 @@ typedef struct {
 
 enum { FRACAS_MPIRUN_MISSING = 127 }; /* its exit status when there is no mpirun */
 
-/* Starts `mpirun -n jobs <this program> argv[1] ...` in a process group of its own; it dies with this process. */
-FRACAS_MUST_USE fracas_err fracas_mpirun_start(int jobs, int argc, char **argv, fracas_mpirun *mpirun);
+/* Starts `mpirun -n jobs <this program> argv[1] ...` in a process group of its own; it dies with
+ * this process. */
+FRACAS_MUST_USE fracas_err fracas_mpirun_start(int jobs, int argc, char **argv,
+                                               fracas_mpirun *mpirun);
 
-/* Why a job ended early, as one line: that of all they said (mpirun and the ranks) which tells most; "" if none does. */
+/* Why a job ended early, as one line: that of all they said (mpirun and the ranks) which tells
+ * most; "" if none does. */
 void fracas_mpirun_reason(const char *said, char *text, size_t size);
 
 #endif

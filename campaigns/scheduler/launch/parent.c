@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/launch/parent.h"
 
 #include "campaigns/scheduler/clock.h"
@@ -18,8 +19,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Seconds. MPI that does not come up: with an end asked for it is killed, else something is said. mpirun that does not end after rank
- * 0's last word, or leaves its streams open when it is gone, has hung. */
+/* Seconds. MPI that does not come up: with an end asked for it is killed, else something is said.
+ * mpirun that does not end after rank 0's last word, or leaves its streams open when it is gone,
+ * has hung. */
 enum { PATIENCE_ASKED = 5, PATIENCE = 60, PATIENCE_END = 10 };
 
 enum { NOISE = 16384, MOST_BARREN = 3 };
@@ -28,13 +30,13 @@ enum { NOISE = 16384, MOST_BARREN = 3 };
 typedef struct {
     fracas_mpirun mpirun;
     fracas_verdict verdict;
-    bool speaks;   /* rank 0 has said something: every rank can be signalled */
+    bool speaks;          /* rank 0 has said something: every rank can be signalled */
     bool drained, killed; /* by this process */
-    bool gone;     /* mpirun's end was taken: its number may be another's */
-    bool warned;   /* of its silence */
-    bool gained;   /* realizations became durable */
+    bool gone;            /* mpirun's end was taken: its number may be another's */
+    bool warned;          /* of its silence */
+    bool gained;          /* realizations became durable */
     double began;
-    double ended;  /* rank 0's last word, or mpirun's end; 0: not yet */
+    double ended; /* rank 0's last word, or mpirun's end; 0: not yet */
     char line[4096];
     size_t nline;
     char noise[NOISE]; /* the last of stderr and of lines that are not rank 0's */
@@ -45,9 +47,10 @@ typedef struct {
     launch now;
     fracas_reaper reaper;
     fracas_progress progress;
-    double asked;    /* when it was noticed that the run's end is asked for; 0: not yet */
+    double asked;             /* when it was noticed that the run's end is asked for; 0: not yet */
     double drain_at, kill_at; /* by the walltime; INFINITY: there is none */
-    int64_t durable; /* the most realizations that were done or failed for good; -1: not known yet */
+    int64_t
+        durable; /* the most realizations that were done or failed for good; -1: not known yet */
     int starts, barren; /* those in a row that gained nothing */
 } parent;
 
@@ -125,7 +128,8 @@ static bool is_asked(parent *p)
     return p->asked > 0;
 }
 
-/* Ranks, servers and children on this machine die with mpirun, those on others when they lose it. */
+/* Ranks, servers and children on this machine die with mpirun, those on others when they lose it.
+ */
 static void kill_run(launch *now)
 {
     if (now->killed) return;
@@ -133,15 +137,19 @@ static void kill_run(launch *now)
     now->killed = true;
 }
 
-/* The run's end is asked for: drained as soon as the ranks can take it, and killed by whoever insists. */
+/* The run's end is asked for: drained as soon as the ranks can take it, and killed by whoever
+ * insists. */
 static void obey(parent *p)
 {
     launch *now = &p->now;
     if (!is_asked(p)) return;
     if (now->speaks && !now->drained && !now->gone) {
-        fracas_progress_say(&p->progress, fracas_signals_ask()
-                                ? "draining: leases that run are finished and kept (again: stop at once)"
-                                : "draining: leases that run are finished and kept, as the walltime is nearly over");
+        fracas_progress_say(
+            &p->progress,
+            fracas_signals_ask()
+                ? "draining: leases that run are finished and kept (again: stop at once)"
+                : "draining: leases that run are finished and kept, as the walltime is nearly "
+                  "over");
         kill(now->mpirun.pid, SIGUSR1); /* mpirun hands it on to the ranks */
         now->drained = true;
     }
@@ -154,8 +162,9 @@ static void mind_silence(parent *p)
     launch *now = &p->now;
     if (now->ended > 0 && fracas_now() - now->ended > PATIENCE_END) kill_run(now);
     if (now->speaks || now->warned || fracas_now() - now->began <= PATIENCE) return;
-    fracas_progress_say(&p->progress, "MPI has not started for a minute; check the limits on open files and file sizes "
-                        "(ulimit -n, ulimit -f), or stop with Ctrl-C");
+    fracas_progress_say(&p->progress,
+                        "MPI has not started for a minute; check the limits on open files and file "
+                        "sizes (ulimit -n, ulimit -f), or stop with Ctrl-C");
     now->warned = true;
 }
 
@@ -163,7 +172,9 @@ static void mind_silence(parent *p)
 static bool is_hollow(launch *now)
 {
     siginfo_t info = {.si_pid = 0};
-    if (waitid(P_PID, (id_t)now->mpirun.pid, &info, WEXITED | WNOHANG | WNOWAIT) || info.si_pid == 0) return false;
+    if (waitid(P_PID, (id_t)now->mpirun.pid, &info, WEXITED | WNOHANG | WNOWAIT) ||
+        info.si_pid == 0)
+        return false;
     if (now->ended == 0) now->ended = fracas_now();
     return fracas_now() - now->ended > PATIENCE_END;
 }
@@ -172,7 +183,8 @@ static bool is_hollow(launch *now)
 static void listen(parent *p)
 {
     launch *now = &p->now;
-    struct pollfd from[2] = {{.fd = now->mpirun.out, .events = POLLIN}, {.fd = now->mpirun.errors, .events = POLLIN}};
+    struct pollfd from[2] = {{.fd = now->mpirun.out, .events = POLLIN},
+                             {.fd = now->mpirun.errors, .events = POLLIN}};
     while ((from[0].fd >= 0 || from[1].fd >= 0) && !is_hollow(now)) {
         obey(p);
         mind_silence(p);
@@ -183,7 +195,8 @@ static void listen(parent *p)
     }
 }
 
-/* Waits until mpirun and whatever it left behind have ended, so that the study is free. Returns mpirun's status. */
+/* Waits until mpirun and whatever it left behind have ended, so that the study is free. Returns
+ * mpirun's status. */
 static int wait_for_all(parent *p)
 {
     launch *now = &p->now;
@@ -223,16 +236,20 @@ static void explain(const launch *now, int status, char *text, size_t size)
         return;
     }
     if (WIFSIGNALED(status)) {
-        snprintf(text, size, "mpirun died of signal %d (%s)", WTERMSIG(status), strsignal(WTERMSIG(status)));
+        snprintf(text, size, "mpirun died of signal %d (%s)", WTERMSIG(status),
+                 strsignal(WTERMSIG(status)));
         return;
     }
     char reason[512];
     fracas_mpirun_reason(now->noise, reason, sizeof reason);
     if (*reason) snprintf(text, size, "%s", reason);
-    else snprintf(text, size, "mpirun ended with status %d before the run was over", WEXITSTATUS(status));
+    else
+        snprintf(text, size, "mpirun ended with status %d before the run was over",
+                 WEXITSTATUS(status));
 }
 
-/* What of the run before may still hold the study on another machine: then it is not over, but begins anew. */
+/* What of the run before may still hold the study on another machine: then it is not over, but
+ * begins anew. */
 static bool is_verdict(const parent *p)
 {
     return p->now.verdict.ended && !(p->now.verdict.err == FRACAS_IN_USE && p->starts > 1);
@@ -241,8 +258,12 @@ static bool is_verdict(const parent *p)
 static fracas_err stopped(const parent *p)
 {
     if (p->drain_at <= p->asked)
-        return fracas_fail(FRACAS_INTERRUPTED, "the walltime is over: what was done is kept; the same command goes on from there");
-    return fracas_fail(FRACAS_INTERRUPTED, "stopped at once: what was done is kept; the same command goes on from there");
+        return fracas_fail(
+            FRACAS_INTERRUPTED,
+            "the walltime is over: what was done is kept; the same command goes on from there");
+    return fracas_fail(
+        FRACAS_INTERRUPTED,
+        "stopped at once: what was done is kept; the same command goes on from there");
 }
 
 /* After a start that ended too early: FRACAS_OK to start again. */
@@ -252,18 +273,22 @@ static fracas_err go_on(parent *p, int status)
     char reason[700], text[900];
     if (is_asked(p)) return stopped(p);
     if (WIFEXITED(status) && WEXITSTATUS(status) == FRACAS_MPIRUN_MISSING && !now->speaks)
-        return fracas_fail(FRACAS_ENVIRONMENT, "there is no mpirun; install Open MPI (Debian: openmpi-bin)");
+        return fracas_fail(FRACAS_ENVIRONMENT,
+                           "there is no mpirun; install Open MPI (Debian: openmpi-bin)");
     explain(now, status, reason, sizeof reason);
     p->barren = now->gained ? 0 : p->barren + 1;
     if (p->barren == MOST_BARREN) {
         fprintf(stderr, "%s", now->noise);
-        return fracas_fail(FRACAS_ENVIRONMENT, "%s; MPI was started %d times, the last %d in vain; what was done is kept; the same command "
-                           "goes on from there", reason, p->starts, MOST_BARREN);
+        return fracas_fail(FRACAS_ENVIRONMENT,
+                           "%s; MPI was started %d times, the last %d in vain; what was done is "
+                           "kept; the same command goes on from there",
+                           reason, p->starts, MOST_BARREN);
     }
     snprintf(text, sizeof text, "%s; MPI is started again", reason);
     fracas_progress_say(&p->progress, text);
     setenv(FRACAS_RESTARTED, reason, 1);
-    for (const double until = fracas_now() + p->barren; fracas_now() < until && !is_asked(p);) poll(NULL, 0, 50);
+    for (const double until = fracas_now() + p->barren; fracas_now() < until && !is_asked(p);)
+        poll(NULL, 0, 50);
     return is_asked(p) ? stopped(p) : FRACAS_OK;
 }
 
@@ -280,7 +305,8 @@ static void set_deadline(parent *p, double walltime, double began)
     struct timespec t;
     clock_gettime(CLOCK_REALTIME, &t);
     char text[64];
-    snprintf(text, sizeof text, "%.3f", (double)t.tv_sec + 1e-9 * (double)t.tv_nsec + (end - fracas_now()));
+    snprintf(text, sizeof text, "%.3f",
+             (double)t.tv_sec + 1e-9 * (double)t.tv_nsec + (end - fracas_now()));
     setenv(FRACAS_DEADLINE, text, 1);
 }
 
@@ -297,7 +323,8 @@ static fracas_err run(parent *p, int jobs, int argc, char **argv, bool *ran)
     return verdict->err ? fracas_fail(verdict->err, "%s", verdict->text) : FRACAS_OK;
 }
 
-fracas_err fracas_parent_run(const fracas_run_options *options, double began, int argc, char **argv, bool *ran)
+fracas_err fracas_parent_run(const fracas_run_options *options, double began, int argc, char **argv,
+                             bool *ran)
 {
     int jobs;
     TRY(fracas_allocation_jobs(options->jobs, &jobs));

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/launch/progress.h"
 
 #include "campaigns/scheduler/clock.h"
@@ -14,16 +15,20 @@ void fracas_progress_init(fracas_progress *progress, FILE *out)
     *progress = (fracas_progress){.out = out, .terminal = isatty(fileno(out))};
 }
 
-/* "128 of 512 realizations done, 16 computed, 0 failed, 12.3/s, 0:31 left"; shorter on a terminal. The rate counts
- * computed ones, as done ones come a segment at a time; the time left goes by predicted work, as the longest come first. */
+/* "128 of 512 realizations done, 16 computed, 0 failed, 12.3/s, 0:31 left"; shorter on a terminal.
+ * The rate counts computed ones, as done ones come a segment at a time; the time left goes by
+ * predicted work, as the longest come first. */
 static void describe(const fracas_progress *progress, char *text, size_t size)
 {
     const fracas_scheduler_counts *now = &progress->last, *first = &progress->first;
     double elapsed = fracas_now() - progress->began;
-    double computed = (double)(now->done + now->memory + now->failed - first->done - first->memory - first->failed);
-    int n = snprintf(text, size, progress->terminal ? "%lld/%lld done" : "%lld of %lld realizations done",
+    double computed = (double)(now->done + now->memory + now->failed - first->done - first->memory -
+                               first->failed);
+    int n = snprintf(text, size,
+                     progress->terminal ? "%lld/%lld done" : "%lld of %lld realizations done",
                      (long long)now->done, (long long)now->total);
-    if (now->memory) n += snprintf(text + n, size - (size_t)n, ", %lld computed", (long long)now->memory);
+    if (now->memory)
+        n += snprintf(text + n, size - (size_t)n, ", %lld computed", (long long)now->memory);
     n += snprintf(text + n, size - (size_t)n, ", %lld failed", (long long)now->failed);
     if (computed <= 0 || elapsed <= 0) return;
     n += snprintf(text + n, size - (size_t)n, ", %.3g/s", computed / elapsed);
@@ -31,9 +36,9 @@ static void describe(const fracas_progress *progress, char *text, size_t size)
     if (now->work < 1 && seconds < 1e8) {
         long long s = (long long)(seconds + 0.5);
         if (s >= 3600)
-            snprintf(text + n, size - (size_t)n, ", %lld:%02lld:%02lld left", s / 3600, s / 60 % 60, s % 60);
-        else
-            snprintf(text + n, size - (size_t)n, ", %lld:%02lld left", s / 60, s % 60);
+            snprintf(text + n, size - (size_t)n, ", %lld:%02lld:%02lld left", s / 3600, s / 60 % 60,
+                     s % 60);
+        else snprintf(text + n, size - (size_t)n, ", %lld:%02lld left", s / 60, s % 60);
     }
 }
 
@@ -52,13 +57,15 @@ static void show(fracas_progress *progress)
         fprintf(progress->out, "%s\n", text);
     } else {
         const fracas_scheduler_counts *now = &progress->last;
-        int full = now->total ? (int)(BAR * (now->done + now->memory + now->failed) / now->total) : BAR;
+        int full = now->total ? (int)(BAR * (now->done + now->memory + now->failed) / now->total)
+                              : BAR;
         char bar[BAR + 1];
         for (int i = 0; i < BAR; i++) bar[i] = i < full ? '#' : '.';
         bar[BAR] = '\0';
         char line[sizeof bar + sizeof text + 4];
         snprintf(line, sizeof line, "[%s] %s", bar, text);
-        /* Cut to the terminal, as a line that wraps cannot be updated; then what a longer one left is erased. */
+        /* Cut to the terminal, as a line that wraps cannot be updated; then what a longer one left
+         * is erased. */
         fprintf(progress->out, "\r%.*s\033[K", columns(progress->out) - 1, line);
         progress->bar = true;
     }
@@ -73,7 +80,8 @@ void fracas_progress_update(fracas_progress *progress, const fracas_scheduler_co
         progress->first = *counts;
         progress->began = progress->shown = fracas_now();
     }
-    if (fracas_now() - progress->shown >= (progress->terminal ? terminal_interval : plain_interval)) show(progress);
+    if (fracas_now() - progress->shown >= (progress->terminal ? terminal_interval : plain_interval))
+        show(progress);
 }
 
 void fracas_progress_say(fracas_progress *progress, const char *text)

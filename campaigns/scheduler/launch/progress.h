@@ -1,4 +1,6 @@
-/* What a person sees of a run: on a terminal one line with a bar, updated in place; else a plain line now and then. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a person sees of a run: on a terminal one line with a bar, updated in place; else a plain
+ * line now and then. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_LAUNCH_PROGRESS_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_LAUNCH_PROGRESS_H
 
@@ -10,10 +12,10 @@
 typedef struct {
     FILE *out;
     bool terminal;
-    bool bar;       /* one stands in the last line of the terminal */
-    bool any;       /* counts were seen */
-    double began;   /* fracas_now at the first counts: the rate is since then */
-    double shown;   /* fracas_now of the last line */
+    bool bar;     /* one stands in the last line of the terminal */
+    bool any;     /* counts were seen */
+    double began; /* fracas_now at the first counts: the rate is since then */
+    double shown; /* fracas_now of the last line */
     fracas_scheduler_counts first, last;
 } fracas_progress;
 

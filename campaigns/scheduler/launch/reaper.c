@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/launch/reaper.h"
 
 #include <dirent.h>
@@ -10,7 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* The parent of a process; 0 if it is gone. /proc/PID/stat: "PID (NAME) STATE PARENT ...", NAME may have parentheses. */
+/* The parent of a process; 0 if it is gone. /proc/PID/stat: "PID (NAME) STATE PARENT ...", NAME may
+ * have parentheses. */
 static pid_t parent_of(pid_t pid)
 {
     char path[64], text[512] = "";
@@ -40,7 +42,8 @@ static size_t scan(const fracas_reaper *reaper, bool kill_them)
     if (!all) return 0;
     for (const struct dirent *entry; (entry = readdir(all));) {
         const pid_t pid = (pid_t)strtol(entry->d_name, NULL, 10);
-        if (pid <= 0 || parent_of(pid) != getpid() || place_of(reaper, pid) < reaper->nforeign) continue;
+        if (pid <= 0 || parent_of(pid) != getpid() || place_of(reaper, pid) < reaper->nforeign)
+            continue;
         count++;
         if (kill_them) kill(pid, SIGKILL);
     }
@@ -52,7 +55,8 @@ void fracas_reaper_begin(fracas_reaper *reaper)
 {
     *reaper = (fracas_reaper){0};
     DIR *all = opendir("/proc");
-    for (const struct dirent *entry; all && (entry = readdir(all)) && reaper->nforeign < FRACAS_FOREIGN_MAX;) {
+    for (const struct dirent *entry;
+         all && (entry = readdir(all)) && reaper->nforeign < FRACAS_FOREIGN_MAX;) {
         const pid_t pid = (pid_t)strtol(entry->d_name, NULL, 10);
         if (pid > 0 && parent_of(pid) == getpid()) reaper->foreign[reaper->nforeign++] = pid;
     }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/launch/signals.h"
 
 #include "base/err.h"
@@ -27,7 +28,8 @@ static void drain(int signal_number)
 static void leave(int signal_number)
 {
     (void)signal_number;
-    static const char text[] = "fracas: interrupted; what was computed is kept: the same command goes on from there\n";
+    static const char text[] =
+        "fracas: interrupted; what was computed is kept: the same command goes on from there\n";
     if (write(STDERR_FILENO, text, sizeof text - 1) < 0) _exit(FRACAS_INTERRUPTED);
     _exit(FRACAS_INTERRUPTED);
 }

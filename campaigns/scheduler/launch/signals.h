@@ -1,20 +1,24 @@
-/* Signals of the process that a person or a batch system talks to: they ask for the run's end, and never end the process. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Signals of the process that a person or a batch system talks to: they ask for the run's end, and
+ * never end the process. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_LAUNCH_SIGNALS_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_LAUNCH_SIGNALS_H
 
 #include <stdbool.h>
 
-/* From here on SIGINT, SIGTERM, SIGHUP, SIGUSR1 and SIGUSR2 are counted (SIGHUP not under nohup), and SIGPIPE is ignored: a run goes
- * on when nobody reads its progress. */
+/* From here on SIGINT, SIGTERM, SIGHUP, SIGUSR1 and SIGUSR2 are counted (SIGHUP not under nohup),
+ * and SIGPIPE is ignored: a run goes on when nobody reads its progress. */
 void fracas_signals_catch(void);
 
 /* One of them came: what runs is to be finished and kept. */
 bool fracas_signals_ask(void);
 
-/* SIGINT, SIGTERM and SIGHUP came twice: stop at once. SIGUSR1 and SIGUSR2 never insist, as batch systems may send them often. */
+/* SIGINT, SIGTERM and SIGHUP came twice: stop at once. SIGUSR1 and SIGUSR2 never insist, as batch
+ * systems may send them often. */
 bool fracas_signals_insist(void);
 
-/* Nothing runs any more: SIGUSR1 and SIGUSR2 are ignored, the others end the process with FRACAS_INTERRUPTED. */
+/* Nothing runs any more: SIGUSR1 and SIGUSR2 are ignored, the others end the process with
+ * FRACAS_INTERRUPTED. */
 void fracas_signals_end(void);
 
 #endif

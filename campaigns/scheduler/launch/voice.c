@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/launch/voice.h"
 
 #include <stdarg.h>
@@ -24,8 +25,9 @@ void fracas_voice_progress(fracas_voice *voice, const fracas_scheduler_counts *c
         fracas_progress_update(&voice->progress, counts);
         return;
     }
-    printf("%sprogress %lld %lld %lld %lld %.9g\n", mark, (long long)counts->total, (long long)counts->done,
-           (long long)counts->memory, (long long)counts->failed, counts->work);
+    printf("%sprogress %lld %lld %lld %lld %.9g\n", mark, (long long)counts->total,
+           (long long)counts->done, (long long)counts->memory, (long long)counts->failed,
+           counts->work);
     fflush(stdout);
 }
 
@@ -66,15 +68,18 @@ bool fracas_voice_hear(char *line, fracas_progress *progress, fracas_verdict *ve
     long long total, done, memory, failed;
     double work;
     int code, ran, text = 0;
-    if (sscanf(line, "progress %lld %lld %lld %lld %lg", &total, &done, &memory, &failed, &work) == 5) {
-        fracas_progress_update(progress, &(fracas_scheduler_counts){total, done, memory, failed, work});
+    if (sscanf(line, "progress %lld %lld %lld %lld %lg", &total, &done, &memory, &failed, &work) ==
+        5) {
+        fracas_progress_update(progress,
+                               &(fracas_scheduler_counts){total, done, memory, failed, work});
     } else if (!strncmp(line, "say ", 4)) {
         replace(line, '\v', '\n');
         fracas_progress_say(progress, line + 4);
     } else if (sscanf(line, "end %d %d%n", &code, &ran, &text) == 2 && text) {
         replace(line, '\v', '\n');
         *verdict = (fracas_verdict){.ended = true, .ran = ran != 0, .err = (fracas_err)code};
-        snprintf(verdict->text, sizeof verdict->text, "%s", line[text] == ' ' ? line + text + 1 : "");
+        snprintf(verdict->text, sizeof verdict->text, "%s",
+                 line[text] == ' ' ? line + text + 1 : "");
     }
     return true;
 }

@@ -1,11 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/lease/backlog.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The estimates of points that were measured, and of those that were not, which all change at once when anything is measured: their
- * order by cost does not. */
+/* The estimates of points that were measured, and of those that were not, which all change at once
+ * when anything is measured: their order by cost does not. */
 enum { UNMEASURED, MEASURED, NKINDS };
 enum { NONE = UINT32_MAX };
 
@@ -42,7 +43,10 @@ uint64_t fracas_backlog_random(uint64_t *state)
 
 /* ---- estimates ---- */
 
-static double rate(const fracas_backlog *b) { return b->measured > 0 ? b->seconds / b->measured : 1; }
+static double rate(const fracas_backlog *b)
+{
+    return b->measured > 0 ? b->seconds / b->measured : 1;
+}
 
 static double own_estimate(const fracas_backlog *b, size_t point)
 {
@@ -74,7 +78,10 @@ static range range_of(const fracas_backlog *b, size_t point)
     return made;
 }
 
-static bool goes_first(const fracas_backlog *b, uint32_t point) { return b->first && b->first[point]; }
+static bool goes_first(const fracas_backlog *b, uint32_t point)
+{
+    return b->first && b->first[point];
+}
 
 /* The first of equal ones, so that the order does not depend on the machine. */
 static uint32_t better(const fracas_backlog *b, uint32_t left, uint32_t right)
@@ -104,7 +111,8 @@ static void update(fracas_backlog *b, size_t point)
 
 /* ---- create ---- */
 
-fracas_err fracas_backlog_create(const double *cost, const bool *first, size_t npoints, fracas_backlog **backlog)
+fracas_err fracas_backlog_create(const double *cost, const bool *first, size_t npoints,
+                                 fracas_backlog **backlog)
 {
     fracas_backlog *b = calloc(1, sizeof *b);
     if (!b) return fracas_no_memory("the plan");
@@ -132,7 +140,8 @@ void fracas_backlog_destroy(fracas_backlog *backlog)
 
 /* ---- what waits ---- */
 
-fracas_err fracas_backlog_add(fracas_backlog *backlog, size_t point, const int64_t *replica, size_t count)
+fracas_err fracas_backlog_add(fracas_backlog *backlog, size_t point, const int64_t *replica,
+                              size_t count)
 {
     point_state *p = &backlog->point[point];
     if (!count) return FRACAS_OK;
@@ -157,7 +166,8 @@ void fracas_backlog_shuffle(fracas_backlog *backlog, size_t point, uint64_t *sta
 {
     const point_state *p = &backlog->point[point];
     for (size_t i = p->to - p->from; i > 1; i--) {
-        int64_t *a = &p->replica[p->from + i - 1], *b = &p->replica[p->from + (size_t)(fracas_backlog_random(state) % i)];
+        int64_t *a = &p->replica[p->from + i - 1],
+                *b = &p->replica[p->from + (size_t)(fracas_backlog_random(state) % i)];
         const int64_t swap = *a;
         *a = *b;
         *b = swap;
@@ -204,7 +214,8 @@ size_t fracas_backlog_longest(const fracas_backlog *backlog)
     }
     if (goes_first(backlog, best[UNMEASURED]) != goes_first(backlog, best[MEASURED]))
         return goes_first(backlog, best[MEASURED]) ? best[MEASURED] : best[UNMEASURED];
-    const double a = fracas_backlog_estimate(backlog, best[UNMEASURED]), b = fracas_backlog_estimate(backlog, best[MEASURED]);
+    const double a = fracas_backlog_estimate(backlog, best[UNMEASURED]),
+                 b = fracas_backlog_estimate(backlog, best[MEASURED]);
     if (a == b) return best[UNMEASURED] < best[MEASURED] ? best[UNMEASURED] : best[MEASURED];
     return a > b ? best[UNMEASURED] : best[MEASURED];
 }

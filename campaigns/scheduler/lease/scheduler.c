@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/lease/scheduler.h"
 
 #include "campaigns/scheduler/lease/backlog.h"
@@ -6,14 +7,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A number of realizations that is given out, or was and waits again. It lives until nobody holds it or has it in memory. */
+/* A number of realizations that is given out, or was and waits again. It lives until nobody holds
+ * it or has it in memory. */
 typedef struct task {
-    struct task *next;  /* of those that wait again */
+    struct task *next; /* of those that wait again */
     uint64_t id, point;
-    int64_t attempts;   /* of a single realization */
+    int64_t attempts; /* of a single realization */
     bool isolated;
-    bool done;          /* durable, by whichever worker was first */
-    size_t held, kept;  /* by so many workers: at work, in memory */
+    bool done;         /* durable, by whichever worker was first */
+    size_t held, kept; /* by so many workers: at work, in memory */
     size_t count;
     int64_t replica[];
 } task;
@@ -47,12 +49,14 @@ struct fracas_scheduler {
     size_t uncomputed;       /* tasks held that nobody has in memory or durable */
     worker_state *worker;
     fracas_scheduler_counts count;
-    double cost, computed;   /* predicted, of all realizations and of those computed or failed for good */
+    double cost,
+        computed; /* predicted, of all realizations and of those computed or failed for good */
 };
 
 static const double OVERDUE = 4, OVERDUE_LEAST = 10; /* times the prediction; s */
-static const double LIMIT = 50, LIMIT_LEAST = 600;   /* the same of the time that a lease may take */
-static const double SLOWEST = 1e6;                   /* element-steps/s, where nothing is measured: any machine is faster */
+static const double LIMIT = 50, LIMIT_LEAST = 600; /* the same of the time that a lease may take */
+static const double SLOWEST =
+    1e6; /* element-steps/s, where nothing is measured: any machine is faster */
 
 size_t fracas_lease_bytes(const fracas_lease *lease)
 {
@@ -76,7 +80,10 @@ static task *create_task(fracas_scheduler *s, uint64_t point, const int64_t *rep
     return t;
 }
 
-static double cost_of(const fracas_scheduler *s, const task *t) { return s->options.cost[t->point] * (double)t->count; }
+static double cost_of(const fracas_scheduler *s, const task *t)
+{
+    return s->options.cost[t->point] * (double)t->count;
+}
 
 static void wait_first(fracas_scheduler *s, task *t)
 {
@@ -106,7 +113,10 @@ static task *take_again(fracas_scheduler *s)
 }
 
 /* Nobody has computed it and somebody still does. */
-static bool is_open(const task *t) { return t->held && !t->kept && !t->done; }
+static bool is_open(const task *t)
+{
+    return t->held && !t->kept && !t->done;
+}
 
 static void destroy_if_unused(task *t)
 {
@@ -153,7 +163,8 @@ static fracas_err add_row(fracas_scheduler *s, const fracas_index_row *row, bool
 }
 
 /* Rows of one point; `replica` has room for as many. */
-static fracas_err add_point(fracas_scheduler *s, const fracas_index_row *row, size_t count, int64_t *replica)
+static fracas_err add_point(fracas_scheduler *s, const fracas_index_row *row, size_t count,
+                            int64_t *replica)
 {
     size_t fresh = 0;
     for (size_t i = 0; i < count; i++) {
@@ -167,7 +178,8 @@ static fracas_err add_point(fracas_scheduler *s, const fracas_index_row *row, si
     return FRACAS_OK;
 }
 
-fracas_err fracas_scheduler_add(fracas_scheduler *scheduler, const fracas_index_row *row, size_t count)
+fracas_err fracas_scheduler_add(fracas_scheduler *scheduler, const fracas_index_row *row,
+                                size_t count)
 {
     int64_t *replica = malloc((count + 1) * sizeof *replica);
     if (!replica) return fracas_no_memory("the plan");
@@ -181,7 +193,8 @@ fracas_err fracas_scheduler_add(fracas_scheduler *scheduler, const fracas_index_
     return err;
 }
 
-fracas_err fracas_scheduler_create(const fracas_index_row *row, size_t count, const fracas_scheduler_options *options,
+fracas_err fracas_scheduler_create(const fracas_index_row *row, size_t count,
+                                   const fracas_scheduler_options *options,
                                    fracas_scheduler **scheduler)
 {
     fracas_scheduler *s = calloc(1, sizeof *s);
@@ -189,8 +202,9 @@ fracas_err fracas_scheduler_create(const fracas_index_row *row, size_t count, co
     s->options = *options;
     s->state = options->seed;
     s->worker = calloc(options->workers, sizeof *s->worker);
-    fracas_err err = s->worker ? fracas_backlog_create(options->cost, options->first, options->npoints, &s->backlog)
-                                : fracas_no_memory("the workers");
+    fracas_err err = s->worker ? fracas_backlog_create(options->cost, options->first,
+                                                       options->npoints, &s->backlog)
+                               : fracas_no_memory("the workers");
     if (!err) err = fracas_scheduler_add(s, row, count);
     if (err) fracas_scheduler_destroy(s);
     else *scheduler = s;
@@ -234,7 +248,10 @@ void fracas_scheduler_destroy(fracas_scheduler *scheduler)
 
 /* ---- the next lease ---- */
 
-static size_t smaller(size_t a, size_t b) { return a < b ? a : b; }
+static size_t smaller(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
 
 /* s until the worker will have computed what it holds; NAN while nothing is measured. */
 static double left(const fracas_scheduler *s, const worker_state *w, double now)
@@ -247,8 +264,8 @@ static double left(const fracas_scheduler *s, const worker_state *w, double now)
     return seconds;
 }
 
-/* Workers that will be free within half the time of a batch of the point, by when sharing with them is worth it, or are free now while
- * nothing is measured: one at least. */
+/* Workers that will be free within half the time of a batch of the point, by when sharing with them
+ * is worth it, or are free now while nothing is measured: one at least. */
 static size_t free_workers(const fracas_scheduler *s, size_t point, double now)
 {
     const bool measured = fracas_backlog_measured(s->backlog);
@@ -264,18 +281,23 @@ static size_t free_workers(const fracas_scheduler *s, size_t point, double now)
 /* The formula at fracas_scheduler_next. */
 static size_t choose_count(const fracas_scheduler *s, size_t point, double now)
 {
-    const size_t width = s->options.width, there = fracas_backlog_waiting(s->backlog, point), workers = s->options.workers;
+    const size_t width = s->options.width, there = fracas_backlog_waiting(s->backlog, point),
+                 workers = s->options.workers;
     const double one = fracas_backlog_estimate(s->backlog, point), shares = 2 * (double)workers;
     double most = 0;
     if (fracas_backlog_measured(s->backlog))
-        most = one > 0 ? fmin(s->options.seconds, fracas_backlog_work(s->backlog) / shares) / one : (double)s->waiting / shares;
+        most = one > 0 ? fmin(s->options.seconds, fracas_backlog_work(s->backlog) / shares) / one
+                       : (double)s->waiting / shares;
     const size_t batches = (size_t)fmin(most, FRACAS_LEASE_MAX) / width * width;
     if (batches) return smaller(there, batches);
     const size_t shared = s->waiting < workers * width ? free_workers(s, point, now) : 1;
     return smaller(there, smaller(width, (s->waiting + shared - 1) / shared));
 }
 
-static size_t shuffled_most(const fracas_scheduler *s) { return s->options.seconds > 0 ? 2 * s->options.width : s->options.width; }
+static size_t shuffled_most(const fracas_scheduler *s)
+{
+    return s->options.seconds > 0 ? 2 * s->options.width : s->options.width;
+}
 
 /* From the backlog, which is not empty; NULL without memory. */
 static task *cut(fracas_scheduler *s, double now)
@@ -283,19 +305,22 @@ static task *cut(fracas_scheduler *s, double now)
     size_t point, count;
     if (s->options.shuffle) {
         point = fracas_backlog_any(s->backlog, &s->state);
-        count = smaller(fracas_backlog_waiting(s->backlog, point), 1 + (size_t)(fracas_backlog_random(&s->state) % shuffled_most(s)));
+        count = smaller(fracas_backlog_waiting(s->backlog, point),
+                        1 + (size_t)(fracas_backlog_random(&s->state) % shuffled_most(s)));
     } else {
         point = fracas_backlog_longest(s->backlog);
         count = choose_count(s, point, now);
     }
-    task *t = new_task(s, point, count); /* before the replicas are taken, so that none is lost without memory */
+    task *t = new_task(
+        s, point, count); /* before the replicas are taken, so that none is lost without memory */
     if (!t) return NULL;
     memcpy(t->replica, fracas_backlog_take(s->backlog, point, count), count * sizeof *t->replica);
     s->waiting -= count;
     return t;
 }
 
-/* When a lease is overdue that one worker alone has had since `since`, and may keep in memory for `kept` seconds; INFINITY: never. */
+/* When a lease is overdue that one worker alone has had since `since`, and may keep in memory for
+ * `kept` seconds; INFINITY: never. */
 static double overdue_at(const fracas_scheduler *s, const task *t, double since, double kept)
 {
     const double expected = predicted(s, t);
@@ -332,7 +357,8 @@ static void give(fracas_scheduler *s, worker_state *w, task *t, double now, frac
     memcpy(lease->replica, t->replica, t->count * sizeof *t->replica);
 }
 
-fracas_err fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease, bool *given)
+fracas_err fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker, double now,
+                                 fracas_lease *lease, bool *given)
 {
     worker_state *w = &scheduler->worker[worker];
     const size_t spare = scheduler->options.workers * scheduler->options.width;
@@ -347,7 +373,8 @@ fracas_err fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker, dou
     return FRACAS_OK;
 }
 
-void fracas_scheduler_overdue(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease, size_t *late, bool *given)
+void fracas_scheduler_overdue(fracas_scheduler *scheduler, size_t worker, double now,
+                              fracas_lease *lease, size_t *late, bool *given)
 {
     worker_state *w = &scheduler->worker[worker];
     *given = false;
@@ -374,7 +401,8 @@ static fracas_err find(const fracas_scheduler *s, size_t worker, uint64_t id, si
     const worker_state *w = &s->worker[worker];
     for (*place = 0; *place < w->nheld; (*place)++)
         if (w->held[*place].task->id == id) return FRACAS_OK;
-    return fracas_fail(FRACAS_BUG, "worker %zu returned lease %llu, which it did not hold", worker, (unsigned long long)id);
+    return fracas_fail(FRACAS_BUG, "worker %zu returned lease %llu, which it did not hold", worker,
+                       (unsigned long long)id);
 }
 
 /* Takes a lease out of the worker's hands. What it has ahead begins to run. */
@@ -401,7 +429,8 @@ static void keep(fracas_scheduler *s, size_t worker, task *t, double now, note *
     s->worker[worker].memory = n;
 }
 
-fracas_err fracas_scheduler_computed(fracas_scheduler *scheduler, size_t worker, uint64_t id, double now, double seconds)
+fracas_err fracas_scheduler_computed(fracas_scheduler *scheduler, size_t worker, uint64_t id,
+                                     double now, double seconds)
 {
     size_t place;
     TRY(find(scheduler, worker, id, &place));
@@ -413,7 +442,8 @@ fracas_err fracas_scheduler_computed(fracas_scheduler *scheduler, size_t worker,
     return FRACAS_OK;
 }
 
-/* Of a lease that failed: what was computed, the two halves of what is at fault, what was not begun; and the note of the first. */
+/* Of a lease that failed: what was computed, the two halves of what is at fault, what was not
+ * begun; and the note of the first. */
 enum { KEPT, HALF, OTHER_HALF, REST, NPARTS };
 typedef struct {
     task *part[NPARTS];
@@ -452,7 +482,8 @@ static void try_again(fracas_scheduler *s, task *t, bool *final)
 }
 
 /* What is at fault is one realization alone, or is tried in two halves. */
-static void bisect(fracas_scheduler *s, size_t worker, double now, size_t count, const pieces *made, bool *final)
+static void bisect(fracas_scheduler *s, size_t worker, double now, size_t count, const pieces *made,
+                   bool *final)
 {
     if (made->part[KEPT]) keep(s, worker, made->part[KEPT], now, made->kept);
     if (made->part[REST]) wait_first(s, made->part[REST]);
@@ -461,16 +492,19 @@ static void bisect(fracas_scheduler *s, size_t worker, double now, size_t count,
     else try_again(s, made->part[HALF], final); /* that was its attempt */
 }
 
-fracas_err fracas_scheduler_failed(fracas_scheduler *scheduler, size_t worker, uint64_t id, double now, size_t kept, size_t count,
-                                   fracas_lease *lease, bool *final)
+fracas_err fracas_scheduler_failed(fracas_scheduler *scheduler, size_t worker, uint64_t id,
+                                   double now, size_t kept, size_t count, fracas_lease *lease,
+                                   bool *final)
 {
     size_t place;
     pieces made = {0};
     TRY(find(scheduler, worker, id, &place));
     task *t = scheduler->worker[worker].held[place].task;
     if (!count || kept > t->count || count > t->count - kept)
-        return fracas_fail(FRACAS_BUG, "worker %zu says that of a lease of %zu realizations %zu are kept and %zu failed", worker,
-                           t->count, kept, count);
+        return fracas_fail(
+            FRACAS_BUG,
+            "worker %zu says that of a lease of %zu realizations %zu are kept and %zu failed",
+            worker, t->count, kept, count);
     const bool alone = t->held == 1 && is_open(t), single = t->count == 1;
     if (alone && !single) TRY(split(scheduler, t, kept, count, &made));
     let_go(scheduler, worker, place, now);
@@ -554,7 +588,8 @@ double fracas_scheduler_predicted(const fracas_scheduler *scheduler, size_t work
     if (scheduler->again) return seconds + predicted(scheduler, scheduler->again);
     const size_t longest = fracas_backlog_longest(scheduler->backlog);
     if (longest == SIZE_MAX) return seconds;
-    const size_t count = scheduler->options.shuffle ? shuffled_most(scheduler) : choose_count(scheduler, longest, now);
+    const size_t count = scheduler->options.shuffle ? shuffled_most(scheduler)
+                                                    : choose_count(scheduler, longest, now);
     return seconds + fracas_backlog_estimate(scheduler->backlog, longest) * (double)count;
 }
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/study/costs.h"
 
 #include "campaigns/plan/plan.h"
@@ -18,12 +19,15 @@ static fracas_err try_batch(const fracas_campaign *campaign, const fracas_run_op
     return err;
 }
 
-fracas_err fracas_costs_create(const fracas_campaign *campaign, const fracas_run_options *options, double **cost, double **bytes)
+fracas_err fracas_costs_create(const fracas_campaign *campaign, const fracas_run_options *options,
+                               double **cost, double **bytes)
 {
-    double *c = malloc((campaign->npoints + 1) * sizeof *c), *b = malloc((campaign->npoints + 1) * sizeof *b);
+    double *c = malloc((campaign->npoints + 1) * sizeof *c),
+           *b = malloc((campaign->npoints + 1) * sizeof *b);
     fracas_err err = c && b ? FRACAS_OK : fracas_no_memory("the plan");
     if (!err && campaign->npoints) err = try_batch(campaign, options);
-    for (size_t i = 0; !err && i < campaign->npoints; i++) err = fracas_plan_cost(campaign, i, &c[i], &b[i]);
+    for (size_t i = 0; !err && i < campaign->npoints; i++)
+        err = fracas_plan_cost(campaign, i, &c[i], &b[i]);
     if (err || !bytes) free(b);
     else *bytes = b;
     if (err) free(c);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/study/meshes.h"
 
 #include "campaigns/plan/point_model.h"
@@ -14,23 +15,29 @@ static void edge_nodes(const fracas_surface *surface, size_t element, size_t edg
 
 static fracas_err copy_surface(const fracas_surface *surface, fracas_stored_mesh *mesh)
 {
-    *mesh = (fracas_stored_mesh){.nnodes = surface->nnodes, .nelements = surface->nelements,
-                                 .ninterfaces = surface->ninterfaces, .nborders = surface->nborders};
+    *mesh = (fracas_stored_mesh){.nnodes = surface->nnodes,
+                                 .nelements = surface->nelements,
+                                 .ninterfaces = surface->ninterfaces,
+                                 .nborders = surface->nborders};
     TRY(fracas_stored_mesh_allocate(mesh));
     for (size_t n = 0; n < surface->nnodes; n++)
         for (int i = 0; i < 3; i++) mesh->node[n].position[i] = surface->node[n][i];
     for (size_t e = 0; e < surface->nelements; e++)
         for (size_t k = 0; k < 6; k++)
-            mesh->element[e].node[k] = k < surface->corners ? (int64_t)surface->element[e * surface->corners + k] : -1;
+            mesh->element[e].node[k] = k < surface->corners
+                                           ? (int64_t)surface->element[e * surface->corners + k]
+                                           : -1;
     for (size_t i = 0; i < surface->ninterfaces; i++) {
         const fracas_surface_interface *interface = &surface->interface[i];
-        for (int side = 0; side < 2; side++) mesh->interface[i].element[side] = interface->element[side];
+        for (int side = 0; side < 2; side++)
+            mesh->interface[i].element[side] = interface->element[side];
         edge_nodes(surface, interface->element[0], interface->edge[0], mesh->interface[i].node);
     }
     for (size_t b = 0; b < surface->nborders; b++) {
         mesh->border[b].element = surface->border[b].element;
         mesh->border[b].tag = surface->border[b].tag;
-        edge_nodes(surface, surface->border[b].element, surface->border[b].edge, mesh->border[b].node);
+        edge_nodes(surface, surface->border[b].element, surface->border[b].edge,
+                   mesh->border[b].node);
     }
     return FRACAS_OK;
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The meshes of a campaign's surfaces, for its study. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_STUDY_MESHES_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_STUDY_MESHES_H

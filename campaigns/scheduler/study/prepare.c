@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/study/prepare.h"
 
 #include "campaigns/scheduler/worker/segment.h"
@@ -18,19 +19,23 @@ static fracas_err join(const char *folder, const char *name, char path[PATH])
     return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s", folder);
 }
 
-fracas_err fracas_study_folder(const fracas_run_options *options, const fracas_campaign *campaign, char *study,
-                               size_t size)
+fracas_err fracas_study_folder(const fracas_run_options *options, const fracas_campaign *campaign,
+                               char *study, size_t size)
 {
     if (options->study && !*options->study)
-        return fracas_fail(FRACAS_USAGE, "--study is empty; name a folder, or leave it out for studies/%s", campaign->name);
+        return fracas_fail(FRACAS_USAGE,
+                           "--study is empty; name a folder, or leave it out for studies/%s",
+                           campaign->name);
     struct stat found;
     if (options->study && !stat(options->study, &found) && !S_ISDIR(found.st_mode))
-        return fracas_fail(FRACAS_USAGE, "--study %s is not a folder; name another, or remove it", options->study);
+        return fracas_fail(FRACAS_USAGE, "--study %s is not a folder; name another, or remove it",
+                           options->study);
     int n = options->study ? snprintf(study, size, "%s", options->study)
                            : snprintf(study, size, "studies/%s", campaign->name);
     if ((size_t)n < size) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "the path of the study is longer than %zu characters; choose another --study",
-                       size);
+    return fracas_fail(
+        FRACAS_USAGE, "the path of the study is longer than %zu characters; choose another --study",
+        size);
 }
 
 fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign)
@@ -41,21 +46,26 @@ fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign)
     fracas_campaign *before;
     fracas_err err = fracas_campaign_read(path, &before);
     if (err == FRACAS_USAGE)
-        return fracas_fail_within(FRACAS_DAMAGED, "the study's own campaign file is damaged (remove it and run again: it is written anew; or run in "
-                                  "another --study)");
+        return fracas_fail_within(FRACAS_DAMAGED,
+                                  "the study's own campaign file is damaged (remove it and run "
+                                  "again: it is written anew; or run in another --study)");
     TRY(err);
     const bool extended = !fracas_campaign_extends(before, campaign);
     err = fracas_campaign_extends(campaign, before);
     fracas_campaign_destroy(before);
     if (err && extended)
-        return fracas_fail_within(err, "%s has been extended since: `fracas run %s --study %s` goes on with it (or choose another --study)",
+        return fracas_fail_within(err,
+                                  "%s has been extended since: `fracas run %s --study %s` goes on "
+                                  "with it (or choose another --study)",
                                   study, path, study);
-    if (err) return fracas_fail_within(err, "%s is a study of another campaign (choose another --study)", study);
+    if (err)
+        return fracas_fail_within(err, "%s is a study of another campaign (choose another --study)",
+                                  study);
     return FRACAS_OK;
 }
 
-fracas_err fracas_study_settled(const char *study, fracas_index *index, const fracas_campaign *campaign, bool *settled,
-                                int64_t *failed)
+fracas_err fracas_study_settled(const char *study, fracas_index *index,
+                                const fracas_campaign *campaign, bool *settled, int64_t *failed)
 {
     *settled = false;
     *failed = 0;
@@ -65,19 +75,23 @@ fracas_err fracas_study_settled(const char *study, fracas_index *index, const fr
     TRY(fracas_study_sealed(study, index, &sealed));
     if (!sealed) return FRACAS_OK;
     fracas_reader *reader;
-    if (access(path, R_OK) || fracas_reader_open(path, &reader)) return FRACAS_OK; /* it is merged again */
+    if (access(path, R_OK) || fracas_reader_open(path, &reader))
+        return FRACAS_OK; /* it is merged again */
     bool same = fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash);
-    const size_t realizations = fracas_reader_realizations(reader); /* of this campaign: as many as were asked for */
+    const size_t realizations = fracas_reader_realizations(
+        reader); /* of this campaign: as many as were asked for */
     fracas_reader_close(reader);
     if (!same) return FRACAS_OK;
     fracas_index_counts counts;
     TRY(fracas_index_count(index, &counts));
-    *settled = counts.planned == 0 && counts.leased == 0 && counts.realizations == (int64_t)realizations;
+    *settled = counts.planned == 0 && counts.leased == 0 &&
+               counts.realizations == (int64_t)realizations;
     *failed = counts.failed;
     return FRACAS_OK;
 }
 
-fracas_err fracas_study_examine(const char *study, const fracas_campaign *campaign, bool force, bool *settled, int64_t *failed)
+fracas_err fracas_study_examine(const char *study, const fracas_campaign *campaign, bool force,
+                                bool *settled, int64_t *failed)
 {
     *settled = false;
     *failed = 0;
@@ -109,7 +123,8 @@ static fracas_err make_folder(const char *path)
         if (here != '/' && here != '\0') continue;
         *at = '\0';
         if (mkdir(part, 0777) && errno != EEXIST)
-            return fracas_fail_system(errno, "cannot create the folder %s (or choose another --study)", part);
+            return fracas_fail_system(
+                errno, "cannot create the folder %s (or choose another --study)", part);
         if (here == '\0') return FRACAS_OK;
         *at = here;
     }
@@ -126,8 +141,8 @@ static fracas_err sync_folder(const char *path)
 }
 
 /* Writes FOLDER/NAME whole by `write`: under a temporary name, synced, renamed. */
-static fracas_err write_whole(const char *folder, const char *name, fracas_err (*write)(const void *what, FILE *out),
-                              const void *what)
+static fracas_err write_whole(const char *folder, const char *name,
+                              fracas_err (*write)(const void *what, FILE *out), const void *what)
 {
     char path[PATH], temporary[PATH];
     TRY(join(folder, name, path));
@@ -183,8 +198,8 @@ static bool is_copied(const char *folder, const fracas_attachment *attachment)
     return same;
 }
 
-/* Copies the files that the campaign names into the study, where campaign.yaml will look for them: the study does not
- * depend on what becomes of the originals. */
+/* Copies the files that the campaign names into the study, where campaign.yaml will look for them:
+ * the study does not depend on what becomes of the originals. */
 static fracas_err copy_attachments(const char *study, const fracas_campaign *campaign)
 {
     char folder[PATH];
@@ -198,14 +213,16 @@ static fracas_err copy_attachments(const char *study, const fracas_campaign *cam
     return FRACAS_OK;
 }
 
-fracas_err fracas_campaign_keep(const fracas_campaign *campaign, const char *folder, const char *name)
+fracas_err fracas_campaign_keep(const fracas_campaign *campaign, const char *folder,
+                                const char *name)
 {
     TRY(make_folder(folder));
     TRY(copy_attachments(folder, campaign));
     return write_whole(folder, name, campaign_to, campaign);
 }
 
-fracas_err fracas_study_plan(const char *study, const fracas_campaign *campaign, fracas_index **index, char **report)
+fracas_err fracas_study_plan(const char *study, const fracas_campaign *campaign,
+                             fracas_index **index, char **report)
 {
     *report = NULL;
     *index = NULL;
@@ -229,12 +246,13 @@ static fracas_err note_takeover(fracas_index *index, int lock)
 {
     char holder[FRACAS_HOLDER_TEXT], text[FRACAS_HOLDER_TEXT + 64];
     if (!fracas_study_took_over(lock, holder)) return FRACAS_OK;
-    snprintf(text, sizeof text, "the lock, from a run that has ended without leaving it: %s", holder);
+    snprintf(text, sizeof text, "the lock, from a run that has ended without leaving it: %s",
+             holder);
     return fracas_index_event(index, "took over", text);
 }
 
-fracas_err fracas_study_prepare(const char *study, const fracas_campaign *campaign, bool force, int *lock, fracas_index **index,
-                                char **report)
+fracas_err fracas_study_prepare(const char *study, const fracas_campaign *campaign, bool force,
+                                int *lock, fracas_index **index, char **report)
 {
     char segments[PATH];
     TRY(join(study, "segments", segments));

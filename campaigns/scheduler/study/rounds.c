@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/study/rounds.h"
 
 #include <inttypes.h>
@@ -8,11 +9,13 @@
 
 /* ---- what a round's realizations say ---- */
 
-/* The outcomes that count are those of the report (analysis/statistics.c); NaN leaves a realization out. */
+/* The outcomes that count are those of the report (analysis/statistics.c); NaN leaves a realization
+ * out. */
 static double value_of(const fracas_index_summary *row, fracas_quantity quantity)
 {
-    const bool counts = row->status == FRACAS_DONE && (row->outcome == FRACAS_FRAGMENTED || row->outcome == FRACAS_INTACT ||
-                                                       row->outcome == FRACAS_TIME_LIMIT);
+    const bool counts = row->status == FRACAS_DONE &&
+                        (row->outcome == FRACAS_FRAGMENTED || row->outcome == FRACAS_INTACT ||
+                         row->outcome == FRACAS_TIME_LIMIT);
     if (!counts) return NAN;
     switch (quantity) {
     case FRACAS_MEAN_COUNT: return (double)row->fragments;
@@ -22,7 +25,8 @@ static double value_of(const fracas_index_summary *row, fracas_quantity quantity
 }
 
 /* Values of the replicas 0 to replicas - 1; *complete: every one is done or failed for good. */
-static fracas_err read_values(fracas_index *index, const fracas_point *point, int64_t replicas, double *value, bool *complete)
+static fracas_err read_values(fracas_index *index, const fracas_point *point, int64_t replicas,
+                              double *value, bool *complete)
 {
     fracas_index_summary *row = malloc((size_t)replicas * sizeof *row);
     if (!row) return fracas_no_memory("the realizations of a round");
@@ -31,19 +35,21 @@ static fracas_err read_values(fracas_index *index, const fracas_point *point, in
     for (int64_t r = 0; !err && r < replicas; r++) {
         *complete = *complete && row[r].status != FRACAS_PLANNED && row[r].status != FRACAS_LEASED;
         value[r] = value_of(&row[r], point->rule.quantity);
-        const bool kept = isnan(value[r]) && point->rule.quantity == FRACAS_MEAN_SIZE && row[r].status == FRACAS_DONE &&
-                          row[r].outcome <= FRACAS_TIME_LIMIT;
+        const bool kept = isnan(value[r]) && point->rule.quantity == FRACAS_MEAN_SIZE &&
+                          row[r].status == FRACAS_DONE && row[r].outcome <= FRACAS_TIME_LIMIT;
         if (kept)
-            err = fracas_fail(FRACAS_DAMAGED, "the index of the study is of before mean sizes were kept, which this campaign decides "
-                              "by; `fracas reindex` makes it anew from the segments");
+            err = fracas_fail(
+                FRACAS_DAMAGED,
+                "the index of the study is of before mean sizes were kept, which this campaign "
+                "decides by; `fracas reindex` makes it anew from the segments");
     }
     free(row);
     return err;
 }
 
 /* The decision of a round from its realizations; *complete as above, *decision only then. */
-static fracas_err decide(fracas_index *index, const fracas_point *point, int64_t round, int64_t replicas, fracas_decision *decision,
-                         bool *complete)
+static fracas_err decide(fracas_index *index, const fracas_point *point, int64_t round,
+                         int64_t replicas, fracas_decision *decision, bool *complete)
 {
     double *value = malloc((size_t)replicas * sizeof *value);
     if (!value) return fracas_no_memory("the realizations of a round");
@@ -51,10 +57,17 @@ static fracas_err decide(fracas_index *index, const fracas_point *point, int64_t
     if (!err && *complete) {
         const fracas_sequential_rule *rule = &point->rule;
         const fracas_sequential_decision made = fracas_sequential_decide(rule, value, replicas);
-        *decision = (fracas_decision){.round = round, .replicas = replicas, .used = made.used, .mean = made.mean,
-                                      .half_width = made.half_width, .stop = made.stop, .quantity = rule->quantity,
-                                      .minimum = rule->minimum, .maximum = rule->maximum,
-                                      .relative_half_width = rule->relative_half_width, .confidence = rule->confidence};
+        *decision = (fracas_decision){.round = round,
+                                      .replicas = replicas,
+                                      .used = made.used,
+                                      .mean = made.mean,
+                                      .half_width = made.half_width,
+                                      .stop = made.stop,
+                                      .quantity = rule->quantity,
+                                      .minimum = rule->minimum,
+                                      .maximum = rule->maximum,
+                                      .relative_half_width = rule->relative_half_width,
+                                      .confidence = rule->confidence};
     }
     free(value);
     return err;
@@ -62,39 +75,50 @@ static fracas_err decide(fracas_index *index, const fracas_point *point, int64_t
 
 static bool is_by(const fracas_decision *recorded, const fracas_sequential_rule *rule)
 {
-    return recorded->quantity == (int64_t)rule->quantity && recorded->minimum == rule->minimum && recorded->maximum == rule->maximum &&
-           recorded->relative_half_width == rule->relative_half_width && recorded->confidence == rule->confidence;
+    return recorded->quantity == (int64_t)rule->quantity && recorded->minimum == rule->minimum &&
+           recorded->maximum == rule->maximum &&
+           recorded->relative_half_width == rule->relative_half_width &&
+           recorded->confidence == rule->confidence;
 }
 
 /* ---- recording ---- */
 
-static fracas_err record(fracas_rounds *rounds, fracas_index *index, size_t p, const fracas_decision *made)
+static fracas_err record(fracas_rounds *rounds, fracas_index *index, size_t p,
+                         const fracas_decision *made)
 {
     const fracas_sequential_rule *rule = &rounds->campaign->point[p].rule;
     char reason[160], text[240];
-    snprintf(reason, sizeof reason, "%s of %" PRId64 " realizations %.6g +- %.3g, %.3g %% of it; %.3g %% asked for%s",
-             fracas_quantity_name[rule->quantity], made->used, made->mean, made->half_width, 100 * fracas_decision_relative(made),
-             100 * rule->relative_half_width, made->stop == FRACAS_AT_MAXIMUM ? ", but this is the maximum" : "");
-    snprintf(text, sizeof text, "point %zu, round %" PRId64 ", %" PRId64 " replicas: %s: %s", p, made->round, made->replicas,
-             fracas_sequential_stop_name[made->stop], reason);
+    snprintf(reason, sizeof reason,
+             "%s of %" PRId64 " realizations %.6g +- %.3g, %.3g %% of it; %.3g %% asked for%s",
+             fracas_quantity_name[rule->quantity], made->used, made->mean, made->half_width,
+             100 * fracas_decision_relative(made), 100 * rule->relative_half_width,
+             made->stop == FRACAS_AT_MAXIMUM ? ", but this is the maximum" : "");
+    snprintf(text, sizeof text, "point %zu, round %" PRId64 ", %" PRId64 " replicas: %s: %s", p,
+             made->round, made->replicas, fracas_sequential_stop_name[made->stop], reason);
     TRY(fracas_index_decide(index, &rounds->point[p], made, reason));
     return fracas_index_event(index, "decided", text);
 }
 
 static fracas_err disagrees(size_t p, const fracas_decision *recorded)
 {
-    return fracas_fail(FRACAS_DAMAGED, "the index records for round %" PRId64 " of point %zu a decision (mean %.17g, half width %.17g) "
-                       "that its realizations do not give; `fracas reindex` makes it anew from the segments",
+    return fracas_fail(FRACAS_DAMAGED,
+                       "the index records for round %" PRId64
+                       " of point %zu a decision (mean %.17g, half width %.17g) that its "
+                       "realizations do not give; `fracas reindex` makes it anew from the segments",
                        recorded->round, p, recorded->mean, recorded->half_width);
 }
 
 /* Goes over the rounds of point p from where it is, with what was recorded of it. */
-static fracas_err go_on(fracas_rounds *rounds, fracas_index *index, size_t p, const fracas_decision *recorded, size_t count)
+static fracas_err go_on(fracas_rounds *rounds, fracas_index *index, size_t p,
+                        const fracas_decision *recorded, size_t count)
 {
     const fracas_point *point = &rounds->campaign->point[p];
     while (!rounds->stopped[p]) {
         const int64_t round = rounds->round[p], replicas = rounds->point[p].replicas;
-        const fracas_decision *known = (size_t)round < count && is_by(&recorded[round], &point->rule) ? &recorded[round] : NULL;
+        const fracas_decision *known = (size_t)round < count &&
+                                               is_by(&recorded[round], &point->rule)
+                                           ? &recorded[round]
+                                           : NULL;
         fracas_decision made;
         bool complete;
         TRY(decide(index, point, round, replicas, &made, &complete));
@@ -119,7 +143,8 @@ fracas_err fracas_rounds_advance(fracas_rounds *rounds, fracas_index *index, siz
     return fracas_index_end(index, go_on(rounds, index, p, NULL, 0));
 }
 
-fracas_err fracas_rounds_hear(fracas_rounds *rounds, fracas_index *index, const fracas_segment_row *row, size_t count)
+fracas_err fracas_rounds_hear(fracas_rounds *rounds, fracas_index *index,
+                              const fracas_segment_row *row, size_t count)
 {
     const fracas_campaign *campaign = rounds->campaign;
     TRY(fracas_index_begin(index));
@@ -127,7 +152,8 @@ fracas_err fracas_rounds_hear(fracas_rounds *rounds, fracas_index *index, const 
     for (size_t r = 0; !err && r < count; r++) {
         if (r > 0 && fracas_hash_equal(&row[r].point, &row[r - 1].point)) continue;
         for (size_t p = 0; !err && rounds->open > 0 && p < campaign->npoints; p++)
-            if (fracas_hash_equal(&campaign->point[p].hash, &row[r].point)) err = go_on(rounds, index, p, NULL, 0);
+            if (fracas_hash_equal(&campaign->point[p].hash, &row[r].point))
+                err = go_on(rounds, index, p, NULL, 0);
     }
     return fracas_index_end(index, err);
 }
@@ -144,13 +170,15 @@ static fracas_err begin(fracas_rounds *rounds, fracas_index *index, size_t p)
     return err;
 }
 
-fracas_err fracas_rounds_init(fracas_rounds *rounds, const fracas_campaign *campaign, fracas_index *index)
+fracas_err fracas_rounds_init(fracas_rounds *rounds, const fracas_campaign *campaign,
+                              fracas_index *index)
 {
     *rounds = (fracas_rounds){.campaign = campaign, .table = campaign->table};
     rounds->point = malloc(campaign->npoints * sizeof *rounds->point);
     rounds->round = calloc(campaign->npoints, sizeof *rounds->round);
     rounds->stopped = calloc(campaign->npoints, sizeof *rounds->stopped);
-    if (!rounds->point || !rounds->round || !rounds->stopped) return fracas_no_memory("the rounds of the campaign");
+    if (!rounds->point || !rounds->round || !rounds->stopped)
+        return fracas_no_memory("the rounds of the campaign");
     memcpy(rounds->point, campaign->table.point, campaign->npoints * sizeof *rounds->point);
     rounds->table.point = rounds->point;
     for (size_t p = 0; p < campaign->npoints; p++) {
@@ -182,13 +210,16 @@ static fracas_err check_point(const fracas_point *point, fracas_index *index, si
     for (int64_t replicas = point->rule.minimum; !err && complete && !stopped && d < count; d++) {
         fracas_decision made;
         err = decide(index, point, (int64_t)d, replicas, &made, &complete);
-        if (!err && complete && !fracas_decision_same(&recorded[d], &made)) err = disagrees(p, &recorded[d]);
+        if (!err && complete && !fracas_decision_same(&recorded[d], &made))
+            err = disagrees(p, &recorded[d]);
         stopped = !err && complete && made.stop;
         replicas = fracas_sequential_next(&point->rule, replicas);
     }
     if (!err && !(stopped && d == count))
-        err = fracas_fail(FRACAS_DAMAGED, "the index lacks a decision on the replicas of point %zu, or has one too many; remove "
-                          "index.sqlite: `fracas run` makes it anew from the segments", p);
+        err = fracas_fail(FRACAS_DAMAGED,
+                          "the index lacks a decision on the replicas of point %zu, or has one too "
+                          "many; remove index.sqlite: `fracas run` makes it anew from the segments",
+                          p);
     free(recorded);
     return err;
 }

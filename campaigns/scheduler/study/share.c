@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/study/share.h"
 
 #include <stdio.h>
@@ -7,8 +8,10 @@ static fracas_err check_part(const fracas_run_options *options, const fracas_cam
 {
     for (size_t p = 0; options->parts > 1 && p < campaign->npoints; p++)
         if (campaign->point[p].rule.maximum > 0)
-            return fracas_fail(FRACAS_USAGE, "--part %d/%d: in %s a rule decides the replicas of point %zu (`replicas: {minimum: ..., "
-                               "until: ...}`) by all that are there, which no part has; give a number of replicas, or leave --part out",
+            return fracas_fail(FRACAS_USAGE,
+                               "--part %d/%d: in %s a rule decides the replicas of point %zu "
+                               "(`replicas: {minimum: ..., until: ...}`) by all that are there, "
+                               "which no part has; give a number of replicas, or leave --part out",
                                options->part, options->parts, options->file, p);
     return FRACAS_OK;
 }
@@ -16,7 +19,8 @@ static fracas_err check_part(const fracas_run_options *options, const fracas_cam
 fracas_err fracas_run_campaign(const fracas_run_options *options, fracas_campaign **campaign)
 {
     TRY(fracas_campaign_read(options->file, campaign));
-    fracas_err err = options->replicas ? fracas_campaign_replicas(*campaign, options->replicas) : FRACAS_OK;
+    fracas_err err = options->replicas ? fracas_campaign_replicas(*campaign, options->replicas)
+                                       : FRACAS_OK;
     if (err) err = fracas_fail_within(err, "%s", options->file);
     else err = check_part(options, *campaign);
     if (err) {

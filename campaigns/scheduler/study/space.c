@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/study/space.h"
 
 #include "campaigns/store/store.h"
@@ -24,13 +25,15 @@ static bool look_at_disk(const char *study, struct statvfs *disk)
     return true;
 }
 
-/* What the index says of a study that was begun: the part that is done, and bytes of a realization in the segments. */
+/* What the index says of a study that was begun: the part that is done, and bytes of a realization
+ * in the segments. */
 static void look_at_study(const char *study, double *done, double *bytes)
 {
     fracas_index *index;
     fracas_index_counts counts;
     *done = *bytes = 0;
-    if (!fracas_index_exists(study) || fracas_index_open(study, false, &index)) return; /* that has its own message */
+    if (!fracas_index_exists(study) || fracas_index_open(study, false, &index))
+        return; /* that has its own message */
     if (!fracas_index_count(index, &counts) && counts.realizations > 0) {
         *done = (double)(counts.done + counts.failed);
         if (counts.done) *bytes = (double)counts.bytes / (double)counts.done;
@@ -47,9 +50,14 @@ static const char *size_text(double bytes, char text[32])
     return text;
 }
 
-fracas_err fracas_space_check(const char *study, const fracas_campaign *campaign, const fracas_run_options *options, const double *bytes)
+fracas_err fracas_space_check(const char *study, const fracas_campaign *campaign,
+                              const fracas_run_options *options, const double *bytes)
 {
-    enum { EMPTY = 400000, ROW = 300, FILES = 64 }; /* bytes of a file of few realizations, and of a row of the index */
+    enum {
+        EMPTY = 400000,
+        ROW = 300,
+        FILES = 64
+    }; /* bytes of a file of few realizations, and of a row of the index */
     struct statvfs disk;
     double planned = 0, all = 0, done, measured;
     char need[32], segments[32], merged[32], have[32];
@@ -60,41 +68,65 @@ fracas_err fracas_space_check(const char *study, const fracas_campaign *campaign
     }
     look_at_study(study, &done, &measured);
     const double part = options->parts > 1 ? 1.0 / options->parts : 1.0;
-    const double left = fmax(0, planned * part - done), each = fmax(measured, planned > 0 ? all / planned : 0);
-    const double in_segments = left > 0 ? left * (each + ROW) + EMPTY * fmin(left, fmax(1, options->jobs)) : 0;
-    const double in_merged = options->parts > 1 ? 0 : all + EMPTY, room = (double)disk.f_bavail * (double)disk.f_frsize;
+    const double left = fmax(0, planned * part - done),
+                 each = fmax(measured, planned > 0 ? all / planned : 0);
+    const double in_segments =
+        left > 0 ? left * (each + ROW) + EMPTY * fmin(left, fmax(1, options->jobs)) : 0;
+    const double in_merged = options->parts > 1 ? 0 : all + EMPTY,
+                 room = (double)disk.f_bavail * (double)disk.f_frsize;
     if (in_segments + in_merged > room)
-        return fracas_fail(FRACAS_ENVIRONMENT, "%s will need about %s (segments of %.0f realizations %s, study.h5 %s), but its disk has %s "
-                           "free; free some space, choose another --study, keep less (output.history, output.interfaces), or start all "
-                           "the same with --ignore-space", study, size_text(in_segments + in_merged, need), left,
-                           size_text(in_segments, segments), size_text(in_merged, merged), size_text(room, have));
+        return fracas_fail(
+            FRACAS_ENVIRONMENT,
+            "%s will need about %s (segments of %.0f realizations %s, study.h5 %s), but its disk "
+            "has %s free; free some space, choose another --study, keep less (output.history, "
+            "output.interfaces), or start all the same with --ignore-space",
+            study, size_text(in_segments + in_merged, need), left, size_text(in_segments, segments),
+            size_text(in_merged, merged), size_text(room, have));
     struct rlimit limit;
-    if (!getrlimit(RLIMIT_FSIZE, &limit) && limit.rlim_cur != RLIM_INFINITY && in_merged > (double)limit.rlim_cur)
-        return fracas_fail(FRACAS_ENVIRONMENT, "%s/study.h5 will have about %s, but a file may have %s; raise the limit (`ulimit -f`), or start "
-                           "all the same with --ignore-space", study, size_text(in_merged, merged),
+    if (!getrlimit(RLIMIT_FSIZE, &limit) && limit.rlim_cur != RLIM_INFINITY &&
+        in_merged > (double)limit.rlim_cur)
+        return fracas_fail(FRACAS_ENVIRONMENT,
+                           "%s/study.h5 will have about %s, but a file may have %s; raise the "
+                           "limit (`ulimit -f`), or start all the same with --ignore-space",
+                           study, size_text(in_merged, merged),
                            size_text((double)limit.rlim_cur, have));
     if (disk.f_files > 0 && left > 0 && (double)disk.f_favail < FILES + fmin(left, options->jobs))
-        return fracas_fail(FRACAS_ENVIRONMENT, "the disk of %s has room for %llu more files (`df -i`), a study needs %d and more; remove some, "
-                           "choose another --study, or start all the same with --ignore-space", study, (unsigned long long)disk.f_favail,
-                           FILES + (int)fmin(left, options->jobs));
+        return fracas_fail(
+            FRACAS_ENVIRONMENT,
+            "the disk of %s has room for %llu more files (`df -i`), a study needs %d and more; "
+            "remove some, choose another --study, or start all the same with --ignore-space",
+            study, (unsigned long long)disk.f_favail, FILES + (int)fmin(left, options->jobs));
     return FRACAS_OK;
 }
 
-/* Open MPI 4.1.4 hung with 4 files less than 28 + 4 jobs, and where a file could not have 4.2 MB, its shared memory. */
+/* Open MPI 4.1.4 hung with 4 files less than 28 + 4 jobs, and where a file could not have 4.2 MB,
+ * its shared memory. */
 fracas_err fracas_limits_check(const fracas_run_options *options)
 {
-    enum { FILES = 40, FILES_A_JOB = 5, FILE_SIZE = 8 << 20, MOST_JOBS = 1024 }; /* of one machine; too many are refused as such */
+    enum {
+        FILES = 40,
+        FILES_A_JOB = 5,
+        FILE_SIZE = 8 << 20,
+        MOST_JOBS = 1024
+    }; /* of one machine; too many are refused as such */
     const long cores = sysconf(_SC_NPROCESSORS_ONLN), jobs = options->jobs ? options->jobs : cores;
-    const rlim_t files = FILES + FILES_A_JOB * (rlim_t)(jobs < 1 ? 1 : jobs > MOST_JOBS ? MOST_JOBS : jobs);
+    const rlim_t files = FILES + FILES_A_JOB * (rlim_t)(jobs < 1           ? 1
+                                                        : jobs > MOST_JOBS ? MOST_JOBS
+                                                                           : jobs);
     struct rlimit limit;
     if (!getrlimit(RLIMIT_NOFILE, &limit) && limit.rlim_cur < files) {
-        const struct rlimit raised = {limit.rlim_max < 2 * files ? limit.rlim_max : 2 * files, limit.rlim_max};
+        const struct rlimit raised = {limit.rlim_max < 2 * files ? limit.rlim_max : 2 * files,
+                                      limit.rlim_max};
         if (raised.rlim_cur < files || setrlimit(RLIMIT_NOFILE, &raised))
-            return fracas_fail(FRACAS_ENVIRONMENT, "a process may open %llu files, MPI needs %llu for this run; raise the limit on open files "
-                               "(`ulimit -n`), or use fewer --jobs", (unsigned long long)limit.rlim_cur, (unsigned long long)files);
+            return fracas_fail(FRACAS_ENVIRONMENT,
+                               "a process may open %llu files, MPI needs %llu for this run; raise "
+                               "the limit on open files (`ulimit -n`), or use fewer --jobs",
+                               (unsigned long long)limit.rlim_cur, (unsigned long long)files);
     }
     if (!getrlimit(RLIMIT_FSIZE, &limit) && limit.rlim_cur < FILE_SIZE)
-        return fracas_fail(FRACAS_ENVIRONMENT, "a file may have %llu bytes, MPI needs %d for its shared memory; raise the limit on the size of "
-                           "files (`ulimit -f`)", (unsigned long long)limit.rlim_cur, FILE_SIZE);
+        return fracas_fail(FRACAS_ENVIRONMENT,
+                           "a file may have %llu bytes, MPI needs %d for its shared memory; raise "
+                           "the limit on the size of files (`ulimit -f`)",
+                           (unsigned long long)limit.rlim_cur, FILE_SIZE);
     return FRACAS_OK;
 }

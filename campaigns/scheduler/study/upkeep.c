@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/study/upkeep.h"
 
 #include "campaigns/scheduler/director.h"
@@ -61,13 +62,15 @@ static fracas_err count(fracas_index *index, fracas_upkeep *end)
 {
     fracas_index_counts counts;
     TRY(fracas_index_count(index, &counts));
-    *end = (fracas_upkeep){counts.realizations, counts.done, counts.failed, counts.planned + counts.leased, counts.segments};
+    *end = (fracas_upkeep){counts.realizations, counts.done, counts.failed,
+                           counts.planned + counts.leased, counts.segments};
     return FRACAS_OK;
 }
 
 /* ---- reindex ---- */
 
-static fracas_err reindex(holding *h, const fracas_campaign *campaign, const fracas_said *said, fracas_upkeep *end)
+static fracas_err reindex(holding *h, const fracas_campaign *campaign, const fracas_said *said,
+                          fracas_upkeep *end)
 {
     const fracas_file_header header = fracas_segment_header(campaign);
     TRY(fracas_study_reindex(h->study, &header, &campaign->table, said));
@@ -76,7 +79,8 @@ static fracas_err reindex(holding *h, const fracas_campaign *campaign, const fra
     return count(h->index, end);
 }
 
-fracas_err fracas_upkeep_reindex(const char *study, const fracas_campaign *campaign, const fracas_said *said, fracas_upkeep *end)
+fracas_err fracas_upkeep_reindex(const char *study, const fracas_campaign *campaign,
+                                 const fracas_said *said, fracas_upkeep *end)
 {
     holding h = HOLDING_NONE;
     h.study = study;
@@ -88,7 +92,8 @@ fracas_err fracas_upkeep_reindex(const char *study, const fracas_campaign *campa
 
 /* ---- merge ---- */
 
-static fracas_err merge(holding *h, const fracas_campaign *campaign, const fracas_said *said, fracas_upkeep *end, bool *written)
+static fracas_err merge(holding *h, const fracas_campaign *campaign, const fracas_said *said,
+                        fracas_upkeep *end, bool *written)
 {
     bool settled;
     int64_t failed;
@@ -97,8 +102,11 @@ static fracas_err merge(holding *h, const fracas_campaign *campaign, const fraca
     TRY(take_up(h, campaign, said));
     TRY(count(h->index, end));
     if (end->missing)
-        return fracas_fail(FRACAS_INTERRUPTED, "%" PRId64 " of %" PRId64 " realizations of %s are not computed yet; `fracas run "
-                           "%s/campaign.yaml --study %s` computes them", end->missing, end->realizations, h->study, h->study, h->study);
+        return fracas_fail(FRACAS_INTERRUPTED,
+                           "%" PRId64 " of %" PRId64
+                           " realizations of %s are not computed yet; `fracas run %s/campaign.yaml "
+                           "--study %s` computes them",
+                           end->missing, end->realizations, h->study, h->study, h->study);
     TRY(fracas_rounds_check(campaign, h->index));
     TRY(fracas_study_settled(h->study, h->index, campaign, &settled, &failed));
     if (settled) return fracas_failed_verdict(h->study, h->index, &campaign->table);
@@ -108,8 +116,8 @@ static fracas_err merge(holding *h, const fracas_campaign *campaign, const fraca
     return fracas_failed_verdict(h->study, h->index, &campaign->table);
 }
 
-fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaign, const fracas_said *said, fracas_upkeep *end,
-                               bool *written)
+fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaign,
+                               const fracas_said *said, fracas_upkeep *end, bool *written)
 {
     holding h = HOLDING_NONE;
     h.study = study;
@@ -123,19 +131,22 @@ fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaig
 /* ---- gc ---- */
 
 /* The digests of all files that the campaign names. */
-static fracas_err list_attachments(const fracas_campaign *campaign, const char ***digest, size_t *count)
+static fracas_err list_attachments(const fracas_campaign *campaign, const char ***digest,
+                                   size_t *count)
 {
     *count = 0;
     for (const fracas_attached *a = campaign->attached; a; a = a->next) ++*count;
     *digest = calloc(*count + 1, sizeof **digest);
     if (!*digest) return fracas_no_memory("the files that the campaign names");
     size_t i = 0;
-    for (const fracas_attached *a = campaign->attached; a; a = a->next) (*digest)[i++] = a->attachment.digest;
+    for (const fracas_attached *a = campaign->attached; a; a = a->next)
+        (*digest)[i++] = a->attachment.digest;
     return FRACAS_OK;
 }
 
 fracas_err fracas_upkeep_collect(const char *study, const fracas_campaign *campaign, bool dry,
-                                 void (*found)(void *context, const fracas_collected *item), void *context, uint64_t *freed)
+                                 void (*found)(void *context, const fracas_collected *item),
+                                 void *context, uint64_t *freed)
 {
     holding h = HOLDING_NONE;
     fracas_collect_options options = {.dry = dry, .found = found, .context = context};
@@ -152,16 +163,21 @@ fracas_err fracas_upkeep_collect(const char *study, const fracas_campaign *campa
 
 /* ---- retry ---- */
 
-fracas_err fracas_upkeep_retry(const char *study, const fracas_campaign *campaign, int64_t point, int64_t *rows)
+fracas_err fracas_upkeep_retry(const char *study, const fracas_campaign *campaign, int64_t point,
+                               int64_t *rows)
 {
     holding h = HOLDING_NONE;
     const fracas_file_header header = fracas_segment_header(campaign);
     if (point >= (int64_t)campaign->npoints)
-        return fracas_fail(FRACAS_USAGE, "--point %" PRId64 ": %s has the points 0 to %zu", point, study, campaign->npoints - 1);
+        return fracas_fail(FRACAS_USAGE, "--point %" PRId64 ": %s has the points 0 to %zu", point,
+                           study, campaign->npoints - 1);
     TRY(fracas_study_lock(study, false, &h.lock));
     fracas_err err = open_index(study, &h.index);
-    if (!err) err = fracas_index_claim(h.index, &header); /* what this program cannot compute again stays as it is */
-    if (!err) err = fracas_index_retry(h.index, point < 0 ? NULL : &campaign->point[point].hash, rows);
+    if (!err)
+        err = fracas_index_claim(
+            h.index, &header); /* what this program cannot compute again stays as it is */
+    if (!err)
+        err = fracas_index_retry(h.index, point < 0 ? NULL : &campaign->point[point].hash, rows);
     let_go(&h);
     return err;
 }
@@ -181,7 +197,10 @@ static fracas_err read_campaign(const char *study, fracas_campaign **campaign)
     if (snprintf(file, sizeof file, "%s/campaign.yaml", study) >= (int)sizeof file)
         return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s", study);
     fracas_err err = fracas_campaign_read(file, campaign);
-    return err == FRACAS_USAGE ? fracas_fail_within(FRACAS_DAMAGED, "the campaign file of %s is damaged; restore it", study) : err;
+    return err == FRACAS_USAGE
+               ? fracas_fail_within(FRACAS_DAMAGED,
+                                    "the campaign file of %s is damaged; restore it", study)
+               : err;
 }
 
 /* One of them extends the other. */
@@ -194,15 +213,18 @@ static fracas_err choose_longer(joining *j)
     j->longer = j->theirs;
     fracas_err err = fracas_campaign_extends(j->theirs, j->ours);
     if (!err) return FRACAS_OK;
-    return fracas_fail_within(err, "%s (\"the study\") and %s are not of one campaign, and neither extends the other", j->into.study,
-                              j->from.study);
+    return fracas_fail_within(
+        err, "%s (\"the study\") and %s are not of one campaign, and neither extends the other",
+        j->into.study, j->from.study);
 }
 
 static fracas_err lock_both(joining *j)
 {
     struct stat a, b;
-    if (!stat(j->into.study, &a) && !stat(j->from.study, &b) && a.st_dev == b.st_dev && a.st_ino == b.st_ino)
-        return fracas_fail(FRACAS_USAGE, "%s and %s are one study; name two", j->into.study, j->from.study);
+    if (!stat(j->into.study, &a) && !stat(j->from.study, &b) && a.st_dev == b.st_dev &&
+        a.st_ino == b.st_ino)
+        return fracas_fail(FRACAS_USAGE, "%s and %s are one study; name two", j->into.study,
+                           j->from.study);
     TRY(fracas_study_lock(j->into.study, false, &j->into.lock));
     return fracas_study_lock(j->from.study, false, &j->from.lock);
 }
@@ -212,23 +234,28 @@ static fracas_err join(joining *j, fracas_joined *joined, int64_t *both, fracas_
     const fracas_file_header header = fracas_segment_header(j->longer);
     TRY(take_up(&j->from, j->theirs, j->said));
     TRY(take_up(&j->into, j->ours, j->said));
-    TRY(fracas_study_compare(j->into.study, j->into.index, j->from.study, j->from.index, &header, &j->from.rounds.table, both));
+    TRY(fracas_study_compare(j->into.study, j->into.index, j->from.study, j->from.index, &header,
+                             &j->from.rounds.table, both));
     if (j->longer != j->ours) { /* now it becomes a study of that one */
         fracas_rounds_clear(&j->into.rounds);
         fracas_index_close(j->into.index);
         j->into.index = NULL;
         TRY(take_up(&j->into, j->longer, j->said));
     }
-    TRY(fracas_index_plan(j->into.index, &j->from.rounds.table)); /* what a rule planned there is in no campaign file */
-    TRY(fracas_study_join(j->into.study, j->into.index, j->from.study, j->from.index, &j->from.rounds.table, joined));
+    TRY(fracas_index_plan(
+        j->into.index,
+        &j->from.rounds.table)); /* what a rule planned there is in no campaign file */
+    TRY(fracas_study_join(j->into.study, j->into.index, j->from.study, j->from.index,
+                          &j->from.rounds.table, joined));
     TRY(fracas_index_set_part(j->into.index, 1, 1)); /* what is missing now, this study computes */
     fracas_rounds_clear(&j->into.rounds);
-    TRY(fracas_rounds_init(&j->into.rounds, j->longer, j->into.index)); /* more may be decided now */
+    TRY(fracas_rounds_init(&j->into.rounds, j->longer,
+                           j->into.index)); /* more may be decided now */
     return count(j->into.index, end);
 }
 
-fracas_err fracas_upkeep_join(const char *into, const char *from, const fracas_said *said, fracas_joined *joined, int64_t *both,
-                              fracas_upkeep *end)
+fracas_err fracas_upkeep_join(const char *into, const char *from, const fracas_said *said,
+                              fracas_joined *joined, int64_t *both, fracas_upkeep *end)
 {
     joining j = {.into = HOLDING_NONE, .from = HOLDING_NONE, .said = said};
     j.into.study = into;

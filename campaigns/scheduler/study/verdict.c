@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/study/verdict.h"
 
 #include <stdio.h>
@@ -25,7 +26,8 @@ static void count_failure(void *context, const fracas_index_row *row, const char
     if (f->points <= NAMED) f->count[f->points - 1]++;
 }
 
-static fracas_err count_all(const char *study, fracas_index *index, const fracas_point_table *table, failures *found)
+static fracas_err count_all(const char *study, fracas_index *index, const fracas_point_table *table,
+                            failures *found)
 {
     fracas_index *opened = NULL;
     if (!index) TRY(fracas_index_open(study, false, &opened));
@@ -34,7 +36,8 @@ static fracas_err count_all(const char *study, fracas_index *index, const fracas
     return err;
 }
 
-fracas_err fracas_failed_verdict(const char *study, fracas_index *index, const fracas_point_table *table)
+fracas_err fracas_failed_verdict(const char *study, fracas_index *index,
+                                 const fracas_point_table *table)
 {
     failures found = {0};
     TRY(count_all(study, index, table, &found));
@@ -42,8 +45,13 @@ fracas_err fracas_failed_verdict(const char *study, fracas_index *index, const f
     char points[NAMED * 64 + 64] = "";
     size_t n = 0;
     for (size_t i = 0; i < found.points && i < NAMED; i++)
-        n += (size_t)snprintf(points + n, sizeof points - n, "%s%lld of point %zu", i ? ", " : "", found.count[i], found.point[i]);
-    if (found.points > NAMED) snprintf(points + n, sizeof points - n, ", and of %zu points more", found.points - NAMED);
-    return fracas_fail(FRACAS_SOME_FAILED, "%lld realization%s of %s FAILED: %s (which and why: fracas status %s; to try them again: fracas retry %s --failed)", found.realizations,
-                       found.realizations > 1 ? "s" : "", study, points, study, study);
+        n += (size_t)snprintf(points + n, sizeof points - n, "%s%lld of point %zu", i ? ", " : "",
+                              found.count[i], found.point[i]);
+    if (found.points > NAMED)
+        snprintf(points + n, sizeof points - n, ", and of %zu points more", found.points - NAMED);
+    return fracas_fail(FRACAS_SOME_FAILED,
+                       "%lld realization%s of %s FAILED: %s (which and why: fracas status %s; to "
+                       "try them again: fracas retry %s --failed)",
+                       found.realizations, found.realizations > 1 ? "s" : "", study, points, study,
+                       study);
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/worker/child.h"
 
 #include "campaigns/scheduler/clock.h"
@@ -42,14 +43,16 @@ static fracas_err compute(const fracas_computation *computation, fracas_models *
 }
 
 /* The life of the child. */
-static _Noreturn void run_child(const fracas_computation *computation, fracas_models *models, pid_t server, int fd, int said)
+static _Noreturn void run_child(const fracas_computation *computation, fracas_models *models,
+                                pid_t server, int fd, int said)
 {
     fracas_process_begin("fracas-lease", server, FRACAS_OOM_CHILD);
     if (said >= 0) dup2(said, STDERR_FILENO);
     fracas_err err = compute(computation, models, fd);
     fracas_trouble fault;
     if (err) fracas_trouble_take(err, &fault);
-    if (err && fracas_packet_send(fd, FRACAS_PACKET_FAULT, &fault, sizeof fault)) _exit(FRACAS_ENVIRONMENT); /* nobody is there to hear more */
+    if (err && fracas_packet_send(fd, FRACAS_PACKET_FAULT, &fault, sizeof fault))
+        _exit(FRACAS_ENVIRONMENT); /* nobody is there to hear more */
     _exit(0);
 }
 
@@ -65,7 +68,8 @@ static int create_said(void)
     return -1;
 }
 
-fracas_err fracas_child_start(fracas_child *child, const fracas_computation *computation, fracas_models *models, int server_fd)
+fracas_err fracas_child_start(fracas_child *child, const fracas_computation *computation,
+                              fracas_models *models, int server_fd)
 {
     const fracas_lease *lease = computation->lease;
     fracas_packet **record = calloc(lease->count, sizeof(fracas_packet *));
@@ -84,18 +88,26 @@ fracas_err fracas_child_start(fracas_child *child, const fracas_computation *com
     }
     fracas_err err = FRACAS_OK;
     if (pid < 0)
-        err = fracas_fail(FRACAS_ENVIRONMENT, "no process for a lease: %s; use fewer --jobs, or raise the limits on processes and memory",
+        err = fracas_fail(FRACAS_ENVIRONMENT,
+                          "no process for a lease: %s; use fewer --jobs, or raise the limits on "
+                          "processes and memory",
                           strerror(errno));
     close(fd[1]);
     const double now = fracas_now();
-    *child = (fracas_child){.pid = pid > 0 ? pid : 0, .fd = fd[0], .said = said, .width = fracas_compute_width(computation->options),
-                            .began = now, .deadline = lease->limit > 0 ? now + lease->limit : INFINITY, .record = record};
+    *child = (fracas_child){.pid = pid > 0 ? pid : 0,
+                            .fd = fd[0],
+                            .said = said,
+                            .width = fracas_compute_width(computation->options),
+                            .began = now,
+                            .deadline = lease->limit > 0 ? now + lease->limit : INFINITY,
+                            .record = record};
     if (err) fracas_child_clear(child);
     else memcpy(&child->lease, lease, fracas_lease_bytes(lease));
     return err;
 }
 
-/* Takes the whole messages off the front of what was received; what is none of a child's ends it. */
+/* Takes the whole messages off the front of what was received; what is none of a child's ends it.
+ */
 static fracas_err cut(fracas_child *child)
 {
     size_t at = 0;
@@ -107,11 +119,13 @@ static fracas_err cut(fracas_child *child)
         if (head.kind == FRACAS_PACKET_FAULT && head.size == sizeof(fracas_trouble)) {
             memcpy(child->fault, body + offsetof(fracas_trouble, text), sizeof child->fault);
         } else if (head.kind == FRACAS_PACKET_RECORD && child->count < child->lease.count) {
-            TRY(fracas_packet_create(FRACAS_PACKET_RECORD, body, head.size, &child->record[child->count]));
+            TRY(fracas_packet_create(FRACAS_PACKET_RECORD, body, head.size,
+                                     &child->record[child->count]));
             child->count++;
         } else {
             kill(child->pid, SIGKILL);
-            snprintf(child->fault, sizeof child->fault, "its process sent a message of kind %u", head.kind);
+            snprintf(child->fault, sizeof child->fault, "its process sent a message of kind %u",
+                     head.kind);
         }
         at += fracas_packet_bytes(&head);
     }
@@ -132,7 +146,8 @@ fracas_err fracas_child_receive(fracas_child *child, bool *ended)
     }
     ssize_t n = read(child->fd, child->bytes + child->size, child->capacity - child->size);
     if (n < 0 && errno != EINTR)
-        return fracas_fail(FRACAS_ENVIRONMENT, "cannot read from the process of a lease: %s", strerror(errno));
+        return fracas_fail(FRACAS_ENVIRONMENT, "cannot read from the process of a lease: %s",
+                           strerror(errno));
     *ended = n == 0;
     if (n > 0) child->size += (size_t)n;
     return cut(child);
@@ -150,11 +165,14 @@ static fracas_err reap(fracas_child *child, char *reason, size_t size)
 {
     int status = 0;
     while (waitpid(child->pid, &status, 0) < 0)
-        if (errno != EINTR) return fracas_fail(FRACAS_BUG, "cannot wait for a lease: %s", strerror(errno));
+        if (errno != EINTR)
+            return fracas_fail(FRACAS_BUG, "cannot wait for a lease: %s", strerror(errno));
     child->pid = 0;
     if (WIFEXITED(status) && !WEXITSTATUS(status)) return FRACAS_OK;
     if (child->late && WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) {
-        snprintf(reason, size, "its process was killed after the %g s that a lease may take (--lease-limit)", child->lease.limit);
+        snprintf(reason, size,
+                 "its process was killed after the %g s that a lease may take (--lease-limit)",
+                 child->lease.limit);
     } else {
         const int used = snprintf(reason, size, "its process ");
         fracas_process_end_text(status, reason + used, size - (size_t)used);
@@ -180,17 +198,21 @@ static void quote(const fracas_child *child, char *reason, size_t size)
 static void explain(fracas_child *child, fracas_lease_failure *failure)
 {
     const size_t wanted = (size_t)child->lease.count;
-    if (child->count == wanted) free(child->record[--child->count]); /* it ended badly after its last record: of that one we are not sure */
+    if (child->count == wanted)
+        free(child->record[--child->count]); /* it ended badly after its last record: of that one we
+                                                are not sure */
     const size_t end = (child->count / child->width + 1) * child->width; /* of the batch */
     failure->kept = child->count;
     failure->count = (end < wanted ? end : wanted) - child->count;
     if (child->fault[0]) memcpy(failure->reason, child->fault, sizeof failure->reason);
     if (!failure->reason[0])
-        snprintf(failure->reason, sizeof failure->reason, "its process ended after %zu of %zu records", child->count, wanted);
+        snprintf(failure->reason, sizeof failure->reason,
+                 "its process ended after %zu of %zu records", child->count, wanted);
     quote(child, failure->reason, sizeof failure->reason);
 }
 
-fracas_err fracas_child_collect(fracas_child *child, bool *good, fracas_packet ***record, size_t *count, fracas_lease_failure *failure)
+fracas_err fracas_child_collect(fracas_child *child, bool *good, fracas_packet ***record,
+                                size_t *count, fracas_lease_failure *failure)
 {
     memset(failure, 0, sizeof *failure);
     failure->lease = child->lease.id;

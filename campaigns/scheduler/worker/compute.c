@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/worker/compute.h"
 
 #include "campaigns/plan/point_model.h"
@@ -15,27 +16,32 @@ typedef struct {
     size_t count;
 } lanes;
 
-static fracas_err fill_strengths(const fracas_computation *computation, const lanes *realizations, fracas_batch *batch)
+static fracas_err fill_strengths(const fracas_computation *computation, const lanes *realizations,
+                                 fracas_batch *batch)
 {
     for (size_t lane = 0; lane < realizations->count; lane++) {
         size_t stride;
         double *strength = fracas_batch_strength(batch, lane, &stride);
-        const fracas_stream stream = fracas_point_stream(computation->campaign, (size_t)computation->lease->point,
-                                                         FRACAS_PURPOSE_STRENGTH, (uint64_t)realizations->replica[lane]);
+        const fracas_stream stream = fracas_point_stream(
+            computation->campaign, (size_t)computation->lease->point, FRACAS_PURPOSE_STRENGTH,
+            (uint64_t)realizations->replica[lane]);
         TRY(fracas_field_sample(computation->field, &stream, stride, strength));
     }
     return FRACAS_OK;
 }
 
-static fracas_err solve(const fracas_computation *computation, const lanes *realizations, fracas_record *record)
+static fracas_err solve(const fracas_computation *computation, const lanes *realizations,
+                        fracas_record *record)
 {
-    const fracas_batch_options batch_options = {.history = computation->campaign->output.history,
-                                                .interfaces = computation->campaign->output.interfaces,
-                                                .width = computation->options->width,
-                                                .isa = computation->options->isa};
+    const fracas_batch_options batch_options = {
+        .history = computation->campaign->output.history,
+        .interfaces = computation->campaign->output.interfaces,
+        .width = computation->options->width,
+        .isa = computation->options->isa};
     fracas_batch *batch;
     fracas_log_if_asked(computation->lease->point, realizations->replica, realizations->count);
-    TRY(fracas_fault_if_asked(computation->lease->point, realizations->replica, realizations->count));
+    TRY(fracas_fault_if_asked(computation->lease->point, realizations->replica,
+                              realizations->count));
     TRY(fracas_batch_create(computation->model, realizations->count, &batch_options, &batch));
     fracas_err err = fill_strengths(computation, realizations, batch);
     if (!err) err = fracas_batch_run(batch, record);
@@ -54,13 +60,15 @@ static fracas_err pack(const fracas_record *record, fracas_packet **message)
     return err;
 }
 
-static fracas_err compute(const fracas_computation *computation, const lanes *realizations, fracas_packet **message)
+static fracas_err compute(const fracas_computation *computation, const lanes *realizations,
+                          fracas_packet **message)
 {
     fracas_record record[FRACAS_BATCH_MAX];
     size_t packed = 0;
     for (size_t lane = 0; lane < realizations->count; lane++) fracas_record_init(&record[lane]);
     fracas_err err = computation->options->stand_in
-                         ? fracas_stand_in_compute(computation->options->stand_in, computation->lease->point, realizations->replica,
+                         ? fracas_stand_in_compute(computation->options->stand_in,
+                                                   computation->lease->point, realizations->replica,
                                                    realizations->count, record)
                          : solve(computation, realizations, record);
     for (size_t lane = 0; lane < realizations->count; lane++) {
@@ -89,7 +97,8 @@ static void limit_memory(double bytes, struct rlimit *before)
     getrlimit(RLIMIT_DATA, before);
     struct rlimit limit = *before;
     const double most = allocated() + bytes;
-    if (limit.rlim_cur == RLIM_INFINITY || most < (double)limit.rlim_cur) limit.rlim_cur = (rlim_t)most;
+    if (limit.rlim_cur == RLIM_INFINITY || most < (double)limit.rlim_cur)
+        limit.rlim_cur = (rlim_t)most;
     setrlimit(RLIMIT_DATA, &limit);
 }
 
@@ -100,13 +109,15 @@ size_t fracas_compute_width(const fracas_run_options *options)
 
 fracas_err fracas_compute_prepare(fracas_computation *computation, fracas_models *models)
 {
-    return fracas_models_get(models, computation->campaign, (size_t)computation->lease->point, &computation->model, &computation->field);
+    return fracas_models_get(models, computation->campaign, (size_t)computation->lease->point,
+                             &computation->model, &computation->field);
 }
 
-fracas_err fracas_compute_batch(const fracas_computation *computation, size_t from, fracas_packet *record[FRACAS_BATCH_MAX],
-                                size_t *count)
+fracas_err fracas_compute_batch(const fracas_computation *computation, size_t from,
+                                fracas_packet *record[FRACAS_BATCH_MAX], size_t *count)
 {
-    const size_t width = fracas_compute_width(computation->options), left = (size_t)computation->lease->count - from;
+    const size_t width = fracas_compute_width(computation->options),
+                 left = (size_t)computation->lease->count - from;
     const lanes realizations = {computation->lease->replica + from, left < width ? left : width};
     const double memory = computation->options->memory_limit;
     *count = realizations.count;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Computing a batch of a lease: in the server, or in a child of it. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_WORKER_COMPUTE_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_WORKER_COMPUTE_H
@@ -21,13 +22,17 @@ typedef struct {
 size_t fracas_compute_width(const fracas_run_options *options);
 
 /* The model and the field, which are in `models` then: built, unless they were there already. */
-FRACAS_MUST_USE fracas_err fracas_compute_prepare(fracas_computation *computation, fracas_models *models);
+FRACAS_MUST_USE fracas_err fracas_compute_prepare(fracas_computation *computation,
+                                                  fracas_models *models);
 
-/* Computes the batch that begins with realization `from` of the lease: *count realizations, fracas_compute_width but at the lease's
- * end (also told on failure). record[i] is the RECORD message for lease->replica[from + i], to be freed with free(); on failure there
- * is none. At most options->memory_limit bytes are allocated on the way, if it is not 0. FRACAS_ENVIRONMENT without memory, FRACAS_USAGE
- * for strengths that the law cannot have. A fault that a test asks for (fault.h) happens here. */
+/* Computes the batch that begins with realization `from` of the lease: *count realizations,
+ * fracas_compute_width but at the lease's end (also told on failure). record[i] is the RECORD
+ * message for lease->replica[from + i], to be freed with free(); on failure there is none. At most
+ * options->memory_limit bytes are allocated on the way, if it is not 0. FRACAS_ENVIRONMENT without
+ * memory, FRACAS_USAGE for strengths that the law cannot have. A fault that a test asks for
+ * (fault.h) happens here. */
 FRACAS_MUST_USE fracas_err fracas_compute_batch(const fracas_computation *computation, size_t from,
-                                                fracas_packet *record[FRACAS_BATCH_MAX], size_t *count);
+                                                fracas_packet *record[FRACAS_BATCH_MAX],
+                                                size_t *count);
 
 #endif

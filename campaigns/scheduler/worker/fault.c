@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/worker/fault.h"
 
 #include "campaigns/scheduler/lease/scheduler.h"
@@ -10,7 +11,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* In large blocks, each of which points to the one before: a sanitizer needs some memory to tell that there is none. */
+/* In large blocks, each of which points to the one before: a sanitizer needs some memory to tell
+ * that there is none. */
 static fracas_err exhaust_memory(void)
 {
     enum { BLOCK = 64 << 20, BLOCKS = 16 };
@@ -50,7 +52,10 @@ static fracas_err happen(const char *what)
     } else if (!strcmp(what, "model")) {
         return FRACAS_OK;
     }
-    return fracas_fail(FRACAS_BUG, "FRACAS_TEST_FAULT asks for `%s`; it must be crash, abort, exit, hang, memory or model", what);
+    return fracas_fail(
+        FRACAS_BUG,
+        "FRACAS_TEST_FAULT asks for `%s`; it must be crash, abort, exit, hang, memory or model",
+        what);
 }
 
 /* True unless it has happened already, and may happen only once. */
@@ -71,7 +76,10 @@ fracas_err fracas_fault_if_asked(uint64_t point, const int64_t *replica, size_t 
     long long its_replica;
     if (!asked) return FRACAS_OK;
     if (sscanf(asked, "%15[a-z]:%llu:%lld:%1023s", what, &its_point, &its_replica, file) < 3)
-        return fracas_fail(FRACAS_BUG, "FRACAS_TEST_FAULT is `%s`; it must be WHAT:POINT:REPLICA or WHAT:POINT:REPLICA:FILE", asked);
+        return fracas_fail(
+            FRACAS_BUG,
+            "FRACAS_TEST_FAULT is `%s`; it must be WHAT:POINT:REPLICA or WHAT:POINT:REPLICA:FILE",
+            asked);
     for (size_t i = 0; i < count; i++)
         if (point == its_point && replica[i] == its_replica && is_due(file)) return happen(what);
     return FRACAS_OK;
@@ -91,8 +99,10 @@ void fracas_log_if_asked(uint64_t point, const int64_t *replica, size_t count)
     int fd = path ? open(path, O_WRONLY | O_APPEND | O_CLOEXEC) : -1;
     if (fd < 0) return;
     char line[64 + 24 * FRACAS_BATCH_MAX];
-    int at = sprintf(line, "%ld %ld %llu", (long)getpid(), (long)getppid(), (unsigned long long)point);
-    for (size_t i = 0; i < count && i < FRACAS_BATCH_MAX; i++) at += sprintf(line + at, " %lld", (long long)replica[i]);
+    int at = sprintf(line, "%ld %ld %llu", (long)getpid(), (long)getppid(),
+                     (unsigned long long)point);
+    for (size_t i = 0; i < count && i < FRACAS_BATCH_MAX; i++)
+        at += sprintf(line + at, " %lld", (long long)replica[i]);
     line[at++] = '\n';
     if (write(fd, line, (size_t)at) != at) abort(); /* a test that counts must not miss one */
     close(fd);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/worker/keeper.h"
 
 #include "base/param.h"
@@ -18,8 +19,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* What the keeper tells: a connection to a new server, or why there is none or how one died. The rank answers a death with a byte if
- * it wants a new server. */
+/* What the keeper tells: a connection to a new server, or why there is none or how one died. The
+ * rank answers a death with a byte if it wants a new server. */
 
 static const double PATIENCE = 2; /* s that a server has to end when its rank lets go of it */
 
@@ -31,7 +32,9 @@ static bool tell(int control, const fracas_trouble *trouble, int connection)
     union {
         struct cmsghdr head;
         char room[CMSG_SPACE(sizeof connection)];
-    } with = {.head = {.cmsg_len = CMSG_LEN(sizeof connection), .cmsg_level = SOL_SOCKET, .cmsg_type = SCM_RIGHTS}};
+    } with = {.head = {.cmsg_len = CMSG_LEN(sizeof connection),
+                       .cmsg_level = SOL_SOCKET,
+                       .cmsg_type = SCM_RIGHTS}};
     struct iovec body = {(void *)trouble, sizeof *trouble};
     struct msghdr message = {.msg_iov = &body, .msg_iovlen = 1};
     if (connection >= 0) {
@@ -53,13 +56,15 @@ static bool hear(int control, fracas_trouble *trouble, int *connection)
         char room[CMSG_SPACE(sizeof *connection)];
     } with;
     struct iovec body = {trouble, sizeof *trouble};
-    struct msghdr message = {.msg_iov = &body, .msg_iovlen = 1, .msg_control = &with, .msg_controllen = sizeof with};
+    struct msghdr message = {
+        .msg_iov = &body, .msg_iovlen = 1, .msg_control = &with, .msg_controllen = sizeof with};
     ssize_t n;
     do n = recvmsg(control, &message, MSG_CMSG_CLOEXEC);
     while (n < 0 && errno == EINTR);
     *connection = -1;
     const struct cmsghdr *head = n > 0 ? CMSG_FIRSTHDR(&message) : NULL;
-    if (head && head->cmsg_type == SCM_RIGHTS) memcpy(connection, CMSG_DATA(head), sizeof *connection);
+    if (head && head->cmsg_type == SCM_RIGHTS)
+        memcpy(connection, CMSG_DATA(head), sizeof *connection);
     return n == (ssize_t)sizeof *trouble;
 }
 
@@ -78,12 +83,13 @@ static void wake(int signal_number)
     (void)signal_number; /* ppoll returns */
 }
 
-/* Draining is rank 0's decision, so signals that mpirun or a terminal sends to everybody are not for the keeper, nor for servers and
- * children, which inherit this. */
+/* Draining is rank 0's decision, so signals that mpirun or a terminal sends to everybody are not
+ * for the keeper, nor for servers and children, which inherit this. */
 static void set_up_process(keeper *k)
 {
-    static const int ignored[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2,
-                                  SIGPIPE, SIGXFSZ}; /* the last two: an error of write will do */
+    static const int ignored[] = {
+        SIGINT,  SIGTERM, SIGHUP, SIGUSR1,
+        SIGUSR2, SIGPIPE, SIGXFSZ}; /* the last two: an error of write will do */
     for (size_t i = 0; i < FRACAS_COUNT(ignored); i++) signal(ignored[i], SIG_IGN);
     int null = open("/dev/null", O_RDWR | O_CLOEXEC);
     if (null >= 0) {
@@ -113,13 +119,17 @@ static fracas_err start_server(keeper *k, int *connection, pid_t *pid)
         close(k->control);
         close(pair[0]);
         fracas_process_begin("fracas-server", self,
-                             k->options->isolation == FRACAS_ISOLATION_NONE ? FRACAS_OOM_COMPUTING_SERVER : FRACAS_OOM_SAME);
+                             k->options->isolation == FRACAS_ISOLATION_NONE
+                                 ? FRACAS_OOM_COMPUTING_SERVER
+                                 : FRACAS_OOM_SAME);
         fracas_server_run(k->campaign, k->options, k->study, pair[1]);
     }
     fracas_err err = FRACAS_OK;
     if (*pid < 0) {
-        err = fracas_fail(FRACAS_ENVIRONMENT, "no process for a compute server: %s; use fewer --jobs, or raise the limits on processes "
-                          "and memory", strerror(errno));
+        err = fracas_fail(FRACAS_ENVIRONMENT,
+                          "no process for a compute server: %s; use fewer --jobs, or raise the "
+                          "limits on processes and memory",
+                          strerror(errno));
         close(pair[0]);
     }
     close(pair[1]);
@@ -127,7 +137,8 @@ static fracas_err start_server(keeper *k, int *connection, pid_t *pid)
     return err;
 }
 
-/* True, and its status, when the server has ended. Children that it or the one before left behind are buried as well. */
+/* True, and its status, when the server has ended. Children that it or the one before left behind
+ * are buried as well. */
 static bool bury(pid_t server, int *status)
 {
     bool ended = false;
@@ -148,10 +159,13 @@ static int wait_for_server(const keeper *k, pid_t pid)
     while (!bury(pid, &status)) {
         const bool let_go = !isinf(until);
         const double left = let_go ? fmax(until - fracas_now(), 1e-3) : 0;
-        const struct timespec timeout = {.tv_sec = (time_t)left, .tv_nsec = (long)(fmod(left, 1) * 1e9)};
+        const struct timespec timeout = {.tv_sec = (time_t)left,
+                                         .tv_nsec = (long)(fmod(left, 1) * 1e9)};
         struct pollfd from = {.fd = k->control, .events = POLLIN};
-        /* The rank has nothing to say while there is a server: something there is its end of the connection. */
-        if (ppoll(&from, let_go ? 0 : 1, let_go ? &timeout : NULL, &k->mask) > 0) until = fracas_now() + PATIENCE;
+        /* The rank has nothing to say while there is a server: something there is its end of the
+         * connection. */
+        if (ppoll(&from, let_go ? 0 : 1, let_go ? &timeout : NULL, &k->mask) > 0)
+            until = fracas_now() + PATIENCE;
         if (fracas_now() >= until) kill(pid, SIGKILL);
     }
     return status;
@@ -172,13 +186,15 @@ static _Noreturn void keep(keeper *k)
             tell(k->control, &trouble, -1);
             _exit(FRACAS_ENVIRONMENT);
         }
-        if (!tell(k->control, &trouble, connection)) _exit(FRACAS_ENVIRONMENT); /* the rank is gone, or waits for ever */
+        if (!tell(k->control, &trouble, connection))
+            _exit(FRACAS_ENVIRONMENT); /* the rank is gone, or waits for ever */
         close(connection);
         const int status = wait_for_server(k, pid);
         trouble.code = FRACAS_ENVIRONMENT;
         fracas_process_end_text(status, trouble.text, sizeof trouble.text);
         if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
-            snprintf(trouble.text, sizeof trouble.text, "was killed by its timer: a lease took longer than it may (--lease-limit)");
+            snprintf(trouble.text, sizeof trouble.text,
+                     "was killed by its timer: a lease took longer than it may (--lease-limit)");
         tell(k->control, &trouble, -1);
     } while (read(k->control, &again, 1) == 1);
     _exit(0);
@@ -211,12 +227,14 @@ static fracas_err take_server(fracas_keeper *one)
     if (!hear(one->control, &trouble, &one->server)) return keeper_gone(one);
     if (!trouble.code && one->server >= 0) return FRACAS_OK;
     fracas_keeper_end(one);
-    if (!trouble.code) return fracas_fail_system(EMFILE, "no connection to a compute server"); /* the kernel drops what finds no place */
+    if (!trouble.code)
+        return fracas_fail_system(
+            EMFILE, "no connection to a compute server"); /* the kernel drops what finds no place */
     return fracas_fail((fracas_err)trouble.code, "%s", trouble.text);
 }
 
-fracas_err fracas_keeper_start(const fracas_campaign *campaign, const fracas_run_options *options, const char *study,
-                               fracas_keeper *keeper_made)
+fracas_err fracas_keeper_start(const fracas_campaign *campaign, const fracas_run_options *options,
+                               const char *study, fracas_keeper *keeper_made)
 {
     int pair[2];
     *keeper_made = (fracas_keeper){.control = -1, .server = -1};
@@ -231,8 +249,10 @@ fracas_err fracas_keeper_start(const fracas_campaign *campaign, const fracas_run
     }
     close(pair[1]);
     if (pid < 0) {
-        fracas_err err = fracas_fail(FRACAS_ENVIRONMENT, "no process for the keeper of a compute server: %s; use fewer --jobs, or raise "
-                                     "the limits on processes and memory", strerror(errno));
+        fracas_err err = fracas_fail(FRACAS_ENVIRONMENT,
+                                     "no process for the keeper of a compute server: %s; use fewer "
+                                     "--jobs, or raise the limits on processes and memory",
+                                     strerror(errno));
         close(pair[0]);
         return err;
     }

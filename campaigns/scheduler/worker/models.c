@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/worker/models.h"
 
 #include "campaigns/plan/point_model.h"
@@ -22,17 +23,19 @@ static size_t find(const fracas_models *models, size_t point)
     return oldest;
 }
 
-static fracas_err fill(fracas_models *models, size_t slot, const fracas_campaign *campaign, size_t point)
+static fracas_err fill(fracas_models *models, size_t slot, const fracas_campaign *campaign,
+                       size_t point)
 {
     clear(models, slot);
     fracas_fault_of_model(point);
     models->slot[slot].point = point;
     TRY(fracas_point_model_create(campaign, point, &models->slot[slot].model));
-    return fracas_model_field(models->slot[slot].model, &campaign->point[point].strength, &models->slot[slot].field);
+    return fracas_model_field(models->slot[slot].model, &campaign->point[point].strength,
+                              &models->slot[slot].field);
 }
 
-fracas_err fracas_models_get(fracas_models *models, const fracas_campaign *campaign, size_t point, const fracas_model **model,
-                             const fracas_field **field)
+fracas_err fracas_models_get(fracas_models *models, const fracas_campaign *campaign, size_t point,
+                             const fracas_model **model, const fracas_field **field)
 {
     const size_t slot = find(models, point);
     if (!models->slot[slot].model || models->slot[slot].point != point) {

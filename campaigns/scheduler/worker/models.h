@@ -1,4 +1,6 @@
-/* The models of a server, with their strength fields: built when a lease of their point comes, the latest few are kept. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The models of a server, with their strength fields: built when a lease of their point comes, the
+ * latest few are kept. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_WORKER_MODELS_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_WORKER_MODELS_H
 
@@ -12,14 +14,15 @@ typedef struct {
         size_t point;
         fracas_model *model; /* NULL: free */
         fracas_field *field;
-        uint64_t used;       /* the larger, the later */
+        uint64_t used; /* the larger, the later */
     } slot[FRACAS_MODELS_KEPT];
     uint64_t clock;
 } fracas_models;
 
 /* The model and the strength field of a point, owned by `models` and valid until the next call. */
-FRACAS_MUST_USE fracas_err fracas_models_get(fracas_models *models, const fracas_campaign *campaign, size_t point,
-                                             const fracas_model **model, const fracas_field **field);
+FRACAS_MUST_USE fracas_err fracas_models_get(fracas_models *models, const fracas_campaign *campaign,
+                                             size_t point, const fracas_model **model,
+                                             const fracas_field **field);
 void fracas_models_clear(fracas_models *models);
 
 #endif

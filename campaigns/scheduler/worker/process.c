@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/worker/process.h"
 
 #include "base/err.h"
@@ -23,9 +24,9 @@ void fracas_process_begin(const char *name, pid_t parent, int oom_score)
 
 void fracas_process_end_text(int status, char *text, size_t size)
 {
-    if (!WIFSIGNALED(status))
-        snprintf(text, size, "ended with status %d", WEXITSTATUS(status));
+    if (!WIFSIGNALED(status)) snprintf(text, size, "ended with status %d", WEXITSTATUS(status));
     else
-        snprintf(text, size, "died of signal %d (%s%s)", WTERMSIG(status), strsignal(WTERMSIG(status)),
+        snprintf(text, size, "died of signal %d (%s%s)", WTERMSIG(status),
+                 strsignal(WTERMSIG(status)),
                  WTERMSIG(status) == SIGKILL ? "; memory may have run out" : "");
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/worker/provenance.h"
 
 #include "base/json.h"
@@ -32,7 +33,8 @@ static void read_cpu(char *model, size_t size)
     fclose(file);
 }
 
-/* "Open MPI v4.1.4": one of the few calls that MPI allows before MPI_Init, and so in a compute server. */
+/* "Open MPI v4.1.4": one of the few calls that MPI allows before MPI_Init, and so in a compute
+ * server. */
 static void read_mpi(char *version, size_t size)
 {
     char text[MPI_MAX_LIBRARY_VERSION_STRING] = "unknown";
@@ -55,7 +57,8 @@ static void write_versions(fracas_json *json)
     fracas_json_text(json, "cpu", cpu);
 }
 
-fracas_err fracas_provenance_make(const fracas_provenance *provenance, const fracas_run_options *options, char **text)
+fracas_err fracas_provenance_make(const fracas_provenance *provenance,
+                                  const fracas_run_options *options, char **text)
 {
     fracas_isa isa; /* what a batch of this server runs with */
     size_t size;
@@ -71,8 +74,10 @@ fracas_err fracas_provenance_make(const fracas_provenance *provenance, const fra
     if (job) fracas_json_text(&json, "slurm_job", job);
     write_versions(&json);
     fracas_json_text(&json, "isa", fracas_isa_name[isa]);
-    fracas_json_integer(&json, "lanes_asked", options->width); /* 0: by the number of realizations */
-    fracas_json_real(&json, "began", (double)provenance->began.tv_sec + 1e-9 * (double)provenance->began.tv_nsec);
+    fracas_json_integer(&json, "lanes_asked",
+                        options->width); /* 0: by the number of realizations */
+    fracas_json_real(&json, "began",
+                     (double)provenance->began.tv_sec + 1e-9 * (double)provenance->began.tv_nsec);
     fracas_json_real(&json, "wall_seconds", provenance->wall);
     fracas_json_real(&json, "compute_seconds", provenance->compute);
     fracas_json_close_object(&json);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/worker/segment.h"
 
 #include "base/version.h"
@@ -10,7 +11,8 @@
 #include <string.h>
 #include <unistd.h>
 
-fracas_err fracas_segment_add(fracas_segment *segment, size_t point, int64_t replica, fracas_packet *record)
+fracas_err fracas_segment_add(fracas_segment *segment, size_t point, int64_t replica,
+                              fracas_packet *record)
 {
     if (segment->count == segment->capacity) {
         size_t capacity = 2 * segment->capacity + 64;
@@ -45,8 +47,8 @@ static void make_name(const fracas_segment *segment, const char *host, char *nam
     gmtime_r(&segment->clock.tv_sec, &utc);
     char day[32];
     strftime(day, sizeof day, "%Y%m%dT%H%M%S", &utc);
-    snprintf(name, size, "%s.%09ld-%s-%ld-%llu.h5", day, segment->clock.tv_nsec, host, (long)getpid(),
-             (unsigned long long)segment->number);
+    snprintf(name, size, "%s.%09ld-%s-%ld-%llu.h5", day, segment->clock.tv_nsec, host,
+             (long)getpid(), (unsigned long long)segment->number);
 }
 
 /* Appends entry `i` to the file and fills its row for the index. */
@@ -81,7 +83,8 @@ fracas_file_header fracas_segment_header(const fracas_campaign *campaign)
                                 .version = FRACAS_VERSION};
 }
 
-static fracas_err write_file(const fracas_segment *segment, const char *path, const fracas_campaign *campaign, const char *provenance,
+static fracas_err write_file(const fracas_segment *segment, const char *path,
+                             const fracas_campaign *campaign, const char *provenance,
                              fracas_segment_row *row, fracas_file_seal *seal)
 {
     fracas_file_header header = fracas_segment_header(campaign);
@@ -89,14 +92,16 @@ static fracas_err write_file(const fracas_segment *segment, const char *path, co
     TRY(fracas_writer_create(path, &header, &campaign->table, &writer));
     fracas_writer_own_seal(writer); /* no index knows it yet */
     fracas_err err = fracas_writer_provenance(writer, provenance);
-    for (size_t i = 0; !err && i < segment->count; i++) err = append(segment, i, campaign, writer, &row[i]);
+    for (size_t i = 0; !err && i < segment->count; i++)
+        err = append(segment, i, campaign, writer, &row[i]);
     if (!err) return fracas_writer_finish(writer, false, seal);
     fracas_writer_abandon(writer);
     return err;
 }
 
-fracas_err fracas_segment_write(fracas_segment *segment, const char *study, const fracas_campaign *campaign,
-                                const fracas_run_options *options, fracas_packet **note)
+fracas_err fracas_segment_write(fracas_segment *segment, const char *study,
+                                const fracas_campaign *campaign, const fracas_run_options *options,
+                                fracas_packet **note)
 {
     char host[65] = "unknown", path[4096], *provenance = NULL;
     gethostname(host, sizeof host - 1);
@@ -104,15 +109,16 @@ fracas_err fracas_segment_write(fracas_segment *segment, const char *study, cons
     make_name(segment, host, head.name, sizeof head.name);
     if ((size_t)snprintf(path, sizeof path, "%s/segments/%s", study, head.name) >= sizeof path)
         return fracas_fail(FRACAS_ENVIRONMENT, "the path of the study is too long: %s", study);
-    const fracas_provenance origin = {host, segment->clock, fracas_now() - segment->began, segment->compute};
+    const fracas_provenance origin = {host, segment->clock, fracas_now() - segment->began,
+                                      segment->compute};
     TRY(fracas_provenance_make(&origin, options, &provenance));
     size_t rows = segment->count * sizeof(fracas_segment_row), text = strlen(provenance) + 1;
     unsigned char *body = malloc(sizeof head + rows + text);
     fracas_err err = FRACAS_OK;
-    if (!body)
-        err = fracas_no_memory("the rows of a segment");
+    if (!body) err = fracas_no_memory("the rows of a segment");
     else
-        err = write_file(segment, path, campaign, provenance, (fracas_segment_row *)(body + sizeof head), &head.seal);
+        err = write_file(segment, path, campaign, provenance,
+                         (fracas_segment_row *)(body + sizeof head), &head.seal);
     if (!err) {
         memcpy(body, &head, sizeof head);
         memcpy(body + sizeof head + rows, provenance, text);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/worker/server.h"
 
 #include "campaigns/scheduler/clock.h"
@@ -70,7 +71,8 @@ static fracas_err write_segment(server *s)
 }
 
 /* The records of replica[0], replica[1] ... into the segment, which owns them from here on. */
-static fracas_err add_records(server *s, uint64_t point, const int64_t *replica, fracas_packet **record, size_t count)
+static fracas_err add_records(server *s, uint64_t point, const int64_t *replica,
+                              fracas_packet **record, size_t count)
 {
     fracas_err err = FRACAS_OK;
     for (size_t i = 0; i < count; i++) {
@@ -86,7 +88,9 @@ static fracas_err add_records(server *s, uint64_t point, const int64_t *replica,
 static void set_alarm(double seconds)
 {
     const double whole = floor(fmin(seconds, 1e9));
-    const struct itimerval timer = {.it_value = {.tv_sec = (time_t)whole, .tv_usec = (suseconds_t)(fmin(seconds - whole, 0.999999) * 1e6)}};
+    const struct itimerval timer = {
+        .it_value = {.tv_sec = (time_t)whole,
+                     .tv_usec = (suseconds_t)(fmin(seconds - whole, 0.999999) * 1e6)}};
     setitimer(ITIMER_REAL, &timer, NULL);
 }
 
@@ -96,25 +100,29 @@ static fracas_err start_next(server *s)
     const fracas_lease *lease = &s->waiting[s->first];
     s->first = (s->first + 1) % FRACAS_LEASES_HELD;
     s->nwaiting--;
-    fracas_computation computation = {.campaign = s->campaign, .options = s->options, .lease = lease};
+    fracas_computation computation = {
+        .campaign = s->campaign, .options = s->options, .lease = lease};
     if (lease->isolated) return fracas_child_start(&s->child, &computation, &s->models, s->rank);
     set_alarm(fmax(lease->limit, 0));
     fracas_err err = fracas_compute_prepare(&computation, &s->models);
     set_alarm(0);
     if (err) {
         const size_t width = fracas_compute_width(s->options);
-        fracas_lease_failure failure = {.lease = lease->id, .count = lease->count < width ? lease->count : width};
+        fracas_lease_failure failure = {.lease = lease->id,
+                                        .count = lease->count < width ? lease->count : width};
         strncpy(failure.reason, fracas_message(), sizeof failure.reason - 1);
         return say_failed(s, &failure);
     }
-    if (s->options->isolation == FRACAS_ISOLATION_LEASE) return fracas_child_start(&s->child, &computation, &s->models, s->rank);
+    if (s->options->isolation == FRACAS_ISOLATION_LEASE)
+        return fracas_child_start(&s->child, &computation, &s->models, s->rank);
     s->own = (own_lease){.runs = true, .computation = computation};
     memcpy(&s->own.lease, lease, fracas_lease_bytes(lease));
     s->own.computation.lease = &s->own.lease;
     return FRACAS_OK;
 }
 
-/* The child sent something, or ended: then its records go to the segment and rank 0 hears of the lease. */
+/* The child sent something, or ended: then its records go to the segment and rank 0 hears of the
+ * lease. */
 static fracas_err hear_child(server *s)
 {
     bool ended, good;
@@ -133,7 +141,8 @@ static fracas_err hear_child(server *s)
     return good ? say_computed(s, lease.id, seconds) : say_failed(s, &failure);
 }
 
-/* Computes one batch of the server's own lease. Between two batches its limit may be over as well: then the next one is at fault. */
+/* Computes one batch of the server's own lease. Between two batches its limit may be over as well:
+ * then the next one is at fault. */
 static fracas_err advance(server *s)
 {
     own_lease *own = &s->own;
@@ -144,7 +153,9 @@ static fracas_err advance(server *s)
     fracas_err err;
     if (limited && left <= 0) {
         if (count > width) count = width;
-        err = fracas_fail(FRACAS_ENVIRONMENT, "it took the %g s that a lease may take (--lease-limit)", own->lease.limit);
+        err = fracas_fail(FRACAS_ENVIRONMENT,
+                          "it took the %g s that a lease may take (--lease-limit)",
+                          own->lease.limit);
     } else {
         set_alarm(limited ? fmax(left, 1e-3) : 0);
         err = fracas_compute_batch(&own->computation, own->done, record, &count);
@@ -161,7 +172,9 @@ static fracas_err advance(server *s)
     }
     const bool empty = s->segment.count == 0;
     TRY(add_records(s, own->lease.point, own->lease.replica + own->done, record, count));
-    if (empty) s->segment.began = began; /* nothing is written while a batch is computed: what took long is written at once */
+    if (empty)
+        s->segment.began = began; /* nothing is written while a batch is computed: what took long is
+                                     written at once */
     own->done += count;
     own->runs = own->done < own->lease.count;
     return own->runs ? FRACAS_OK : say_computed(s, own->lease.id, own->seconds);
@@ -185,10 +198,12 @@ static fracas_err hear_stop(server *s, const fracas_packet *message)
 static fracas_err hear_lease(server *s, const fracas_packet *message)
 {
     fracas_lease *lease = &s->waiting[(s->first + s->nwaiting) % FRACAS_LEASES_HELD];
-    if (message->size > sizeof *lease) return fracas_fail(FRACAS_BUG, "a lease of %u bytes", message->size);
+    if (message->size > sizeof *lease)
+        return fracas_fail(FRACAS_BUG, "a lease of %u bytes", message->size);
     TRY(fracas_packet_expect(message, offsetof(fracas_lease, replica) + sizeof *lease->replica));
     memcpy(lease, message->body, message->size);
-    if (fracas_lease_bytes(lease) != message->size) return fracas_fail(FRACAS_BUG, "a lease of %u bytes", message->size);
+    if (fracas_lease_bytes(lease) != message->size)
+        return fracas_fail(FRACAS_BUG, "a lease of %u bytes", message->size);
     s->nwaiting++;
     return FRACAS_OK;
 }
@@ -198,16 +213,14 @@ static fracas_err hear_rank(server *s)
     fracas_packet *message;
     TRY(fracas_packet_read(s->rank, &message));
     fracas_err err = FRACAS_OK;
-    if (!message)
-        s->alone = true;
-    else if (message->kind == FRACAS_PACKET_STOP)
-        err = hear_stop(s, message);
+    if (!message) s->alone = true;
+    else if (message->kind == FRACAS_PACKET_STOP) err = hear_stop(s, message);
     else if (message->kind == FRACAS_PACKET_FLUSH)
-        err = s->segment.count ? write_segment(s) : fracas_packet_send(s->rank, FRACAS_PACKET_FLUSHED, NULL, 0);
+        err = s->segment.count ? write_segment(s)
+                               : fracas_packet_send(s->rank, FRACAS_PACKET_FLUSHED, NULL, 0);
     else if (message->kind == FRACAS_PACKET_LEASE && s->nwaiting < FRACAS_LEASES_HELD)
         err = hear_lease(s, message);
-    else
-        err = fracas_fail(FRACAS_BUG, "a compute server got a message of kind %u", message->kind);
+    else err = fracas_fail(FRACAS_BUG, "a compute server got a message of kind %u", message->kind);
     free(message);
     return err;
 }
@@ -220,10 +233,12 @@ static bool has_more(const server *s)
     return s->own.runs || (!works(s) && (s->nwaiting || s->stopping));
 }
 
-/* Sleeps until something comes, the segment is old enough or the child's time is over; not at all while there is more to do. */
+/* Sleeps until something comes, the segment is old enough or the child's time is over; not at all
+ * while there is more to do. */
 static fracas_err wait_and_hear(server *s)
 {
-    struct pollfd from[2] = {{.fd = s->rank, .events = POLLIN}, {.fd = s->child.fd, .events = POLLIN}};
+    struct pollfd from[2] = {{.fd = s->rank, .events = POLLIN},
+                             {.fd = s->child.fd, .events = POLLIN}};
     double wait = fracas_segment_wait(&s->segment, s->options);
     if (s->child.pid) wait = fmin(wait, s->child.deadline - fracas_now());
     if (has_more(s)) wait = 0;
@@ -241,7 +256,8 @@ static fracas_err wait_and_hear(server *s)
 /* Until STOP is obeyed or the rank is gone. */
 static fracas_err serve(server *s)
 {
-    TRY(fracas_packet_send(s->rank, FRACAS_PACKET_READY, &s->campaign->hash, sizeof s->campaign->hash));
+    TRY(fracas_packet_send(s->rank, FRACAS_PACKET_READY, &s->campaign->hash,
+                           sizeof s->campaign->hash));
     while (!s->alone) {
         if (!works(s) && s->stopping) {
             if (s->segment.count) TRY(write_segment(s));
@@ -255,7 +271,8 @@ static fracas_err serve(server *s)
     return FRACAS_OK;
 }
 
-_Noreturn void fracas_server_run(const fracas_campaign *campaign, const fracas_run_options *options, const char *study, int rank)
+_Noreturn void fracas_server_run(const fracas_campaign *campaign, const fracas_run_options *options,
+                                 const char *study, int rank)
 {
     signal(SIGALRM, SIG_DFL); /* set_alarm */
     server s = {.rank = rank, .campaign = campaign, .options = options, .study = study};
@@ -269,5 +286,6 @@ _Noreturn void fracas_server_run(const fracas_campaign *campaign, const fracas_r
     fracas_child_clear(&s.child);
     fracas_segment_clear(&s.segment);
     fracas_models_clear(&s.models);
-    _exit(err ? FRACAS_ENVIRONMENT : 0); /* not exit: what the rank registered is not for this process */
+    _exit(err ? FRACAS_ENVIRONMENT
+              : 0); /* not exit: what the rank registered is not for this process */
 }

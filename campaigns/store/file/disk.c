@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/store/file/disk.h"
 
 #include "base/param.h"
@@ -16,7 +17,10 @@
 
 static const char temporary_mark[] = ".tmp-";
 
-fracas_err fracas_disk_fail(const char *verb, const char *path) { return fracas_fail_system(errno, "cannot %s %s", verb, path); }
+fracas_err fracas_disk_fail(const char *verb, const char *path)
+{
+    return fracas_fail_system(errno, "cannot %s %s", verb, path);
+}
 
 fracas_err fracas_disk_join(const char *folder, const char *name, char **path)
 {
@@ -36,7 +40,8 @@ fracas_err fracas_disk_segment(const char *study, const char *name, char **path)
 fracas_err fracas_disk_temporary(const char *path, char **temporary)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-    if (asprintf(temporary, "%.*s.%s%s%ld", (int)(name - path), path, name, temporary_mark, (long)getpid()) < 0)
+    if (asprintf(temporary, "%.*s.%s%s%ld", (int)(name - path), path, name, temporary_mark,
+                 (long)getpid()) < 0)
         return fracas_no_memory("a file name");
     return FRACAS_OK;
 }
@@ -103,8 +108,10 @@ fracas_err fracas_disk_check_seal(const char *path, const fracas_file_seal *want
     fracas_file_seal seal;
     TRY(fracas_disk_seal_path(path, &seal));
     if (seal.bytes == wanted->bytes && seal.checksum == wanted->checksum) return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED, "%s: damaged: it has %" PRIu64 " bytes of checksum %016" PRIx64 ", the index says %" PRIu64
-                       " of %016" PRIx64, path, seal.bytes, seal.checksum, wanted->bytes, wanted->checksum);
+    return fracas_fail(FRACAS_DAMAGED,
+                       "%s: damaged: it has %" PRIu64 " bytes of checksum %016" PRIx64
+                       ", the index says %" PRIu64 " of %016" PRIx64,
+                       path, seal.bytes, seal.checksum, wanted->bytes, wanted->checksum);
 }
 
 fracas_err fracas_disk_set_aside(const char *path, char **aside)
@@ -132,10 +139,18 @@ fracas_err fracas_disk_has_size(const char *path, uint64_t bytes, bool *has)
 
 fracas_err fracas_disk_is_local(const char *path, bool *local)
 {
-    /* Those whose locks and shared memory WAL can rely on; all others are taken for network filesystems. */
-    static const unsigned long known[] = {EXT4_SUPER_MAGIC, XFS_SUPER_MAGIC,  BTRFS_SUPER_MAGIC, TMPFS_MAGIC,
-                                          RAMFS_MAGIC,      F2FS_SUPER_MAGIC, OVERLAYFS_SUPER_MAGIC,
-                                          REISERFS_SUPER_MAGIC, 0x2fc12fc1 /* ZFS */, 0xca451a4e /* bcachefs */,
+    /* Those whose locks and shared memory WAL can rely on; all others are taken for network
+     * filesystems. */
+    static const unsigned long known[] = {EXT4_SUPER_MAGIC,
+                                          XFS_SUPER_MAGIC,
+                                          BTRFS_SUPER_MAGIC,
+                                          TMPFS_MAGIC,
+                                          RAMFS_MAGIC,
+                                          F2FS_SUPER_MAGIC,
+                                          OVERLAYFS_SUPER_MAGIC,
+                                          REISERFS_SUPER_MAGIC,
+                                          0x2fc12fc1 /* ZFS */,
+                                          0xca451a4e /* bcachefs */,
                                           0x3153464a /* JFS */};
     struct statfs info;
     *local = false;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Durable files: names, seals and the syncing of folders. Private to the store. */
 #ifndef FRACAS_CAMPAIGNS_STORE_FILE_DISK_H
 #define FRACAS_CAMPAIGNS_STORE_FILE_DISK_H
@@ -8,7 +9,8 @@
 FRACAS_MUST_USE fracas_err fracas_disk_join(const char *folder, const char *name, char **path);
 /* STUDY/segments/NAME. */
 FRACAS_MUST_USE fracas_err fracas_disk_segment(const char *study, const char *name, char **path);
-/* The temporary name of `path` in this process, .NAME.tmp-PID in the same folder; freed by the caller. */
+/* The temporary name of `path` in this process, .NAME.tmp-PID in the same folder; freed by the
+ * caller. */
 FRACAS_MUST_USE fracas_err fracas_disk_temporary(const char *path, char **temporary);
 /* True for such a name (without its folder). */
 bool fracas_disk_is_temporary(const char *name);
@@ -18,33 +20,37 @@ FRACAS_MUST_USE fracas_err fracas_disk_sync_folder(const char *path);
 /* Size and checksum of an open file, read in blocks; `path` is for the message. */
 FRACAS_MUST_USE fracas_err fracas_disk_seal(int fd, const char *path, fracas_file_seal *seal);
 /* The same of its first `most` bytes alone. */
-FRACAS_MUST_USE fracas_err fracas_disk_seal_first(int fd, const char *path, uint64_t most, fracas_file_seal *seal);
+FRACAS_MUST_USE fracas_err fracas_disk_seal_first(int fd, const char *path, uint64_t most,
+                                                  fracas_file_seal *seal);
 /* The same of a closed one; FRACAS_DAMAGED if it is not there. */
 FRACAS_MUST_USE fracas_err fracas_disk_seal_path(const char *path, fracas_file_seal *seal);
 
 /* FRACAS_DAMAGED, with sizes and checksums, unless the file is there and is what the seal says. */
 FRACAS_MUST_USE fracas_err fracas_disk_check_seal(const char *path, const fracas_file_seal *wanted);
-/* Renames a damaged FOLDER/NAME.h5 to FOLDER/NAME.damaged, durable on return; *aside is that, freed by the caller. One that is not
- * there is no error. */
+/* Renames a damaged FOLDER/NAME.h5 to FOLDER/NAME.damaged, durable on return; *aside is that, freed
+ * by the caller. One that is not there is no error. */
 FRACAS_MUST_USE fracas_err fracas_disk_set_aside(const char *path, char **aside);
 
 /* True if `path` is there and has so many bytes. */
 FRACAS_MUST_USE fracas_err fracas_disk_has_size(const char *path, uint64_t bytes, bool *has);
 
-/* True if `path` lies on a filesystem of this machine, false on a network one or one that we do not know. */
+/* True if `path` lies on a filesystem of this machine, false on a network one or one that we do not
+ * know. */
 FRACAS_MUST_USE fracas_err fracas_disk_is_local(const char *path, bool *local);
 
 /* FRACAS_ENVIRONMENT: "cannot VERB PATH: reason" from errno. */
 FRACAS_MUST_USE fracas_err fracas_disk_fail(const char *verb, const char *path);
 
-/* Segments end with a seal of their own, so that one that no index knows can be checked before HDF5 opens it, which a damaged file
- * could crash: FRACAS_OWN_SEAL bytes behind the last of HDF5, which does not look there. They are a mark, then the number of bytes
- * before them and the checksum of those (docs/formats/study.md). */
+/* Segments end with a seal of their own, so that one that no index knows can be checked before HDF5
+ * opens it, which a damaged file could crash: FRACAS_OWN_SEAL bytes behind the last of HDF5, which
+ * does not look there. They are a mark, then the number of bytes before them and the checksum of
+ * those (docs/formats/study.md). */
 enum { FRACAS_OWN_SEAL = 32 };
 /* Appends it to what the descriptor holds. */
 FRACAS_MUST_USE fracas_err fracas_disk_append_seal(int fd, const char *path);
-/* FRACAS_DAMAGED, naming the file, if the seal at its end is not of the bytes before it, or if there is none and its size is not what
- * HDF5 noted in its first bytes: cut short, or not of HDF5. A whole file without a seal passes: an older program wrote it. */
+/* FRACAS_DAMAGED, naming the file, if the seal at its end is not of the bytes before it, or if
+ * there is none and its size is not what HDF5 noted in its first bytes: cut short, or not of HDF5.
+ * A whole file without a seal passes: an older program wrote it. */
 FRACAS_MUST_USE fracas_err fracas_disk_check_own_seal(const char *path);
 
 #endif

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Attributes, columns and error messages of HDF5. */
 #include "campaigns/store/file/h5.h"
 
@@ -18,9 +19,12 @@ static herr_t look_at_error(unsigned n, const H5E_error2_t *error, void *context
 {
     error_walk *walk = context;
     if (n == 0 && error->desc) snprintf(walk->text, sizeof walk->text, "%s", error->desc);
-    if (error->maj_num == H5E_RESOURCE || error->min_num == H5E_NOSPACE || error->min_num == H5E_CANTALLOC) walk->memory = true;
+    if (error->maj_num == H5E_RESOURCE || error->min_num == H5E_NOSPACE ||
+        error->min_num == H5E_CANTALLOC)
+        walk->memory = true;
     /* What its own default properties lack, memory for them lacked; no file has a say in them. */
-    if (n == 0 && error->maj_num == H5E_PLIST && error->min_num == H5E_NOTFOUND) walk->memory = true;
+    if (n == 0 && error->maj_num == H5E_PLIST && error->min_num == H5E_NOTFOUND)
+        walk->memory = true;
     return 0;
 }
 
@@ -30,10 +34,13 @@ fracas_err fracas_h5_fail(const fracas_h5 *h5, const char *what)
     (void)H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look_at_error, &walk);
     (void)H5Eclear2(H5E_DEFAULT);
     if (h5->error)
-        return fracas_fail_system(h5->error, "cannot %s %s (%s)", h5->writing ? "write" : "read", h5->path, what);
+        return fracas_fail_system(h5->error, "cannot %s %s (%s)", h5->writing ? "write" : "read",
+                                  h5->path, what);
     if (walk.memory) return fracas_no_memory(h5->path);
-    if (h5->writing) return fracas_fail(FRACAS_BUG, "%s: %s: HDF5 refuses: %s", h5->path, what, walk.text);
-    return fracas_fail(FRACAS_DAMAGED, "%s: %s: damaged, or no file of fracas: %s", h5->path, what, walk.text);
+    if (h5->writing)
+        return fracas_fail(FRACAS_BUG, "%s: %s: HDF5 refuses: %s", h5->path, what, walk.text);
+    return fracas_fail(FRACAS_DAMAGED, "%s: %s: damaged, or no file of fracas: %s", h5->path, what,
+                       walk.text);
 }
 
 void fracas_h5_let_go(bool good, herr_t (*close)(hid_t id), hid_t id)
@@ -59,12 +66,13 @@ static hid_t text_type(size_t size)
     return H5I_INVALID_HID;
 }
 
-static fracas_err put_attribute(const fracas_h5 *h5, const char *object, const char *name, hid_t file_type,
-                                hid_t memory_type, const void *value)
+static fracas_err put_attribute(const fracas_h5 *h5, const char *object, const char *name,
+                                hid_t file_type, hid_t memory_type, const void *value)
 {
     hid_t space = H5Screate(H5S_SCALAR), attribute = H5I_INVALID_HID;
     if (space >= 0)
-        attribute = H5Acreate_by_name(h5->id, object, name, file_type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+        attribute = H5Acreate_by_name(h5->id, object, name, file_type, space, H5P_DEFAULT,
+                                      H5P_DEFAULT, H5P_DEFAULT);
     bool ok = attribute >= 0 && H5Awrite(attribute, memory_type, value) >= 0;
     fracas_err err = ok ? FRACAS_OK : fracas_h5_fail(h5, name);
     if (attribute >= 0) H5Aclose(attribute);
@@ -72,25 +80,28 @@ static fracas_err put_attribute(const fracas_h5 *h5, const char *object, const c
     return err;
 }
 
-fracas_err fracas_h5_put_text(const fracas_h5 *h5, const char *object, const char *name, const char *text)
+fracas_err fracas_h5_put_text(const fracas_h5 *h5, const char *object, const char *name,
+                              const char *text)
 {
     size_t length = strlen(text);
-    if (length > MOST_TEXT) return fracas_fail(FRACAS_BUG, "%s of %s is longer than %d bytes", name, object, MOST_TEXT);
+    if (length > MOST_TEXT)
+        return fracas_fail(FRACAS_BUG, "%s of %s is longer than %d bytes", name, object, MOST_TEXT);
     hid_t type = text_type(length ? length : 1);
-    fracas_err err = type < 0 ? fracas_h5_fail(h5, name) : put_attribute(h5, object, name, type, type, text);
+    fracas_err err = type < 0 ? fracas_h5_fail(h5, name)
+                              : put_attribute(h5, object, name, type, type, text);
     if (type >= 0) H5Tclose(type);
     return err;
 }
 
-fracas_err fracas_h5_put_integer(const fracas_h5 *h5, const char *object, const char *name, hid_t file_type,
-                                 uint64_t value)
+fracas_err fracas_h5_put_integer(const fracas_h5 *h5, const char *object, const char *name,
+                                 hid_t file_type, uint64_t value)
 {
     return put_attribute(h5, object, name, file_type, H5T_NATIVE_UINT64, &value);
 }
 
 /* Opens a scalar attribute and its type. */
-static fracas_err open_attribute(const fracas_h5 *h5, const char *object, const char *name, hid_t *attribute,
-                                 hid_t *type)
+static fracas_err open_attribute(const fracas_h5 *h5, const char *object, const char *name,
+                                 hid_t *attribute, hid_t *type)
 {
     *type = H5I_INVALID_HID;
     *attribute = H5Aopen_by_name(h5->id, object, name, H5P_DEFAULT, H5P_DEFAULT);
@@ -115,7 +126,8 @@ static size_t text_size(hid_t type)
     return size <= MOST_TEXT ? size : 0;
 }
 
-fracas_err fracas_h5_get_text(const fracas_h5 *h5, const char *object, const char *name, char **text)
+fracas_err fracas_h5_get_text(const fracas_h5 *h5, const char *object, const char *name,
+                              char **text)
 {
     hid_t attribute, type;
     *text = NULL;
@@ -129,19 +141,21 @@ fracas_err fracas_h5_get_text(const fracas_h5 *h5, const char *object, const cha
     return err;
 }
 
-fracas_err fracas_h5_has_attribute(const fracas_h5 *h5, const char *object, const char *name, bool *has)
+fracas_err fracas_h5_has_attribute(const fracas_h5 *h5, const char *object, const char *name,
+                                   bool *has)
 {
     const htri_t found = H5Aexists_by_name(h5->id, object, name, H5P_DEFAULT);
     *has = found > 0;
     return found < 0 ? fracas_h5_fail(h5, name) : FRACAS_OK;
 }
 
-fracas_err fracas_h5_get_integer(const fracas_h5 *h5, const char *object, const char *name, hid_t file_type,
-                                 uint64_t *value)
+fracas_err fracas_h5_get_integer(const fracas_h5 *h5, const char *object, const char *name,
+                                 hid_t file_type, uint64_t *value)
 {
     hid_t attribute, type;
     fracas_err err = open_attribute(h5, object, name, &attribute, &type);
-    if (!err && (H5Tequal(type, file_type) <= 0 || H5Aread(attribute, H5T_NATIVE_UINT64, value) < 0))
+    if (!err &&
+        (H5Tequal(type, file_type) <= 0 || H5Aread(attribute, H5T_NATIVE_UINT64, value) < 0))
         err = fracas_h5_fail(h5, name);
     close_attribute(attribute, type);
     return err;
@@ -189,15 +203,17 @@ static int column_rank(const fracas_store_column *column)
     return column->type != FRACAS_TEXT && column->width > 1 ? 2 : 1;
 }
 
-/* Shuffle is there for whoever repacks the file with compression; Fletcher32 finds flipped bytes. Neither is optional: HDF5 leaves out an
- * optional filter that finds no memory, and the file would have other bytes. */
+/* Shuffle is there for whoever repacks the file with compression; Fletcher32 finds flipped bytes.
+ * Neither is optional: HDF5 leaves out an optional filter that finds no memory, and the file would
+ * have other bytes. */
 static hid_t creation_list(const fracas_store_column *column, size_t chunk)
 {
     hsize_t shape[2] = {chunk, column->width};
     hid_t list = H5Pcreate(H5P_DATASET_CREATE);
     if (list >= 0 && H5Pset_chunk(list, column_rank(column), shape) >= 0 &&
-        H5Pset_filter(list, H5Z_FILTER_SHUFFLE, H5Z_FLAG_MANDATORY, 0, NULL) >= 0 && H5Pset_fletcher32(list) >= 0 &&
-        H5Pset_obj_track_times(list, false) >= 0 && H5Pset_fill_time(list, H5D_FILL_TIME_ALLOC) >= 0)
+        H5Pset_filter(list, H5Z_FILTER_SHUFFLE, H5Z_FLAG_MANDATORY, 0, NULL) >= 0 &&
+        H5Pset_fletcher32(list) >= 0 && H5Pset_obj_track_times(list, false) >= 0 &&
+        H5Pset_fill_time(list, H5D_FILL_TIME_ALLOC) >= 0)
         return list;
     fracas_h5_let_go(false, H5Pclose, list);
     return H5I_INVALID_HID;
@@ -214,8 +230,8 @@ static hid_t dataset_access_list(void)
     return list;
 }
 
-fracas_err fracas_h5_create_column(const fracas_h5 *h5, const fracas_store_column *column, size_t chunk,
-                                   hid_t *dataset)
+fracas_err fracas_h5_create_column(const fracas_h5 *h5, const fracas_store_column *column,
+                                   size_t chunk, hid_t *dataset)
 {
     hsize_t none[2] = {0, column->width}, most[2] = {H5S_UNLIMITED, column->width};
     hid_t type = column_type(column, true); /* no call after one that failed: it would forget why */
@@ -237,7 +253,8 @@ fracas_err fracas_h5_create_column(const fracas_h5 *h5, const fracas_store_colum
 
 static bool right_type(hid_t dataset, const fracas_store_column *column)
 {
-    hid_t found = H5Dget_type(dataset), wanted = found < 0 ? H5I_INVALID_HID : column_type(column, true);
+    hid_t found = H5Dget_type(dataset),
+          wanted = found < 0 ? H5I_INVALID_HID : column_type(column, true);
     bool right = found >= 0 && wanted >= 0 && H5Tequal(found, wanted) > 0;
     fracas_h5_let_go(right, H5Tclose, found);
     fracas_h5_let_go(right, H5Tclose, wanted);
@@ -250,7 +267,8 @@ static bool right_shape(hid_t dataset, const fracas_store_column *column, uint64
     hsize_t shape[2] = {0, 1};
     int rank = column_rank(column);
     bool right = space >= 0 && H5Sget_simple_extent_ndims(space) == rank &&
-                 H5Sget_simple_extent_dims(space, shape, NULL) == rank && (rank == 1 || shape[1] == column->width);
+                 H5Sget_simple_extent_dims(space, shape, NULL) == rank &&
+                 (rank == 1 || shape[1] == column->width);
     fracas_h5_let_go(right, H5Sclose, space);
     *rows = shape[0];
     return right;
@@ -261,8 +279,9 @@ static bool right_storage(hid_t dataset, const fracas_store_column *column, size
     hsize_t shape[2] = {0, 0};
     hid_t list = H5Dget_create_plist(dataset);
     int rank = column_rank(column);
-    bool right = list >= 0 && H5Pget_layout(list) == H5D_CHUNKED && H5Pget_chunk(list, 2, shape) == rank &&
-                 shape[0] == chunk && (rank == 1 || shape[1] == column->width) && H5Pget_nfilters(list) == 2;
+    bool right = list >= 0 && H5Pget_layout(list) == H5D_CHUNKED &&
+                 H5Pget_chunk(list, 2, shape) == rank && shape[0] == chunk &&
+                 (rank == 1 || shape[1] == column->width) && H5Pget_nfilters(list) == 2;
     static const H5Z_filter_t filters[2] = {H5Z_FILTER_SHUFFLE, H5Z_FILTER_FLETCHER32};
     for (unsigned f = 0; right && f < FRACAS_COUNT(filters); f++) {
         unsigned flags;
@@ -273,14 +292,15 @@ static bool right_storage(hid_t dataset, const fracas_store_column *column, size
     return right;
 }
 
-fracas_err fracas_h5_open_column(const fracas_h5 *h5, const fracas_store_column *column, size_t chunk,
-                                 hid_t *dataset, uint64_t *rows)
+fracas_err fracas_h5_open_column(const fracas_h5 *h5, const fracas_store_column *column,
+                                 size_t chunk, hid_t *dataset, uint64_t *rows)
 {
     hid_t access = dataset_access_list();
     *dataset = access >= 0 ? H5Dopen2(h5->id, column->path, access) : H5I_INVALID_HID;
     fracas_h5_let_go(*dataset >= 0, H5Pclose, access);
     if (*dataset < 0) return fracas_h5_fail(h5, column->path);
-    /* Nothing is compressed, so rows that are there take their bytes: this bounds every allocation to come. */
+    /* Nothing is compressed, so rows that are there take their bytes: this bounds every allocation
+     * to come. */
     bool right = right_type(*dataset, column) && right_shape(*dataset, column, rows) &&
                  right_storage(*dataset, column, chunk) && *rows <= h5->bytes &&
                  *rows * fracas_stored_size(column) <= H5Dget_storage_size(*dataset) &&
@@ -294,26 +314,31 @@ fracas_err fracas_h5_open_column(const fracas_h5 *h5, const fracas_store_column 
 
 typedef enum { READ_ROWS, WRITE_ROWS } direction;
 
-static bool transfer(const fracas_store_column *column, hid_t dataset, uint64_t start, size_t count, direction way,
-                     void *stored)
+static bool transfer(const fracas_store_column *column, hid_t dataset, uint64_t start, size_t count,
+                     direction way, void *stored)
 {
     int rank = column_rank(column);
     hsize_t from[2] = {start, 0}, size[2] = {count, column->width};
     hid_t type = column_type(column, false);
-    hid_t memory = type < 0 ? H5I_INVALID_HID : H5Screate_simple(rank, size, NULL); /* no call after one that failed: it would forget why */
+    hid_t memory = type < 0 ? H5I_INVALID_HID
+                            : H5Screate_simple(
+                                  rank, size,
+                                  NULL); /* no call after one that failed: it would forget why */
     hid_t space = memory < 0 ? H5I_INVALID_HID : H5Dget_space(dataset);
     bool ok = type >= 0 && memory >= 0 && space >= 0 &&
               H5Sselect_hyperslab(space, H5S_SELECT_SET, from, NULL, size, NULL) >= 0;
-    if (ok && way == WRITE_ROWS) ok = H5Dwrite(dataset, type, memory, space, H5P_DEFAULT, stored) >= 0;
-    if (ok && way == READ_ROWS) ok = H5Dread(dataset, type, memory, space, H5P_DEFAULT, stored) >= 0;
+    if (ok && way == WRITE_ROWS)
+        ok = H5Dwrite(dataset, type, memory, space, H5P_DEFAULT, stored) >= 0;
+    if (ok && way == READ_ROWS)
+        ok = H5Dread(dataset, type, memory, space, H5P_DEFAULT, stored) >= 0;
     fracas_h5_let_go(ok, H5Sclose, space);
     fracas_h5_let_go(ok, H5Sclose, memory);
     fracas_h5_let_go(ok, H5Tclose, type);
     return ok;
 }
 
-fracas_err fracas_h5_append_rows(const fracas_h5 *h5, const fracas_store_column *column, hid_t dataset,
-                                 uint64_t start, size_t count, const void *stored)
+fracas_err fracas_h5_append_rows(const fracas_h5 *h5, const fracas_store_column *column,
+                                 hid_t dataset, uint64_t start, size_t count, const void *stored)
 {
     hsize_t extent[2] = {start + count, column->width};
     bool ok = H5Dset_extent(dataset, extent) >= 0 &&
@@ -321,8 +346,10 @@ fracas_err fracas_h5_append_rows(const fracas_h5 *h5, const fracas_store_column 
     return ok && !h5->error ? FRACAS_OK : fracas_h5_fail(h5, column->path);
 }
 
-fracas_err fracas_h5_read_rows(const fracas_h5 *h5, const fracas_store_column *column, hid_t dataset, uint64_t start,
-                               size_t count, void *stored)
+fracas_err fracas_h5_read_rows(const fracas_h5 *h5, const fracas_store_column *column,
+                               hid_t dataset, uint64_t start, size_t count, void *stored)
 {
-    return transfer(column, dataset, start, count, READ_ROWS, stored) ? FRACAS_OK : fracas_h5_fail(h5, column->path);
+    return transfer(column, dataset, start, count, READ_ROWS, stored)
+               ? FRACAS_OK
+               : fracas_h5_fail(h5, column->path);
 }

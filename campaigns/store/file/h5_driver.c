@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* HDF5's file driver over our own descriptor, and the opening and closing of files. */
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/file/h5.h"
@@ -65,7 +66,8 @@ static haddr_t driver_get_eof(const H5FD_t *base, H5FD_mem_t type)
     return ((const driver_file *)(const void *)base)->eof;
 }
 
-static herr_t driver_read(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t address, size_t size, void *buffer)
+static herr_t driver_read(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t address,
+                          size_t size, void *buffer)
 {
     (void)type, (void)transfer;
     fracas_h5 *h5 = ((driver_file *)(void *)base)->h5;
@@ -88,8 +90,8 @@ static herr_t driver_read(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t
     return 0;
 }
 
-static herr_t driver_write(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t address, size_t size,
-                           const void *buffer)
+static herr_t driver_write(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t address,
+                           size_t size, const void *buffer)
 {
     (void)type, (void)transfer;
     driver_file *file = (driver_file *)(void *)base;
@@ -136,7 +138,8 @@ static const H5FD_class_t driver = {
     .fl_map = H5FD_FLMAP_DICHOTOMY,
 };
 
-/* File format of HDF5 1.10, whatever library is used: its metadata carry checksums, the older one's do not. */
+/* File format of HDF5 1.10, whatever library is used: its metadata carry checksums, the older one's
+ * do not. */
 static hid_t access_list(fracas_h5 *h5)
 {
     driver_info info = {h5};
@@ -149,16 +152,17 @@ static hid_t access_list(fracas_h5 *h5)
     return H5I_INVALID_HID;
 }
 
-/* No handler at exit: in a forked child it would write the parent's open files. Nothing needs it here. */
+/* No handler at exit: in a forked child it would write the parent's open files. Nothing needs it
+ * here. */
 static fracas_err start(fracas_h5 *h5, const char *path, bool writing)
 {
     *h5 = FRACAS_H5_CLOSED;
     h5->path = path;
     h5->writing = writing;
     (void)H5dont_atexit();
-    if (H5open() >= 0 && H5Eset_auto2(H5E_DEFAULT, NULL, NULL) >= 0) h5->driver = H5FDregister(&driver);
-    if (h5->driver < 0)
-        return fracas_fail(FRACAS_ENVIRONMENT, "the HDF5 library does not start");
+    if (H5open() >= 0 && H5Eset_auto2(H5E_DEFAULT, NULL, NULL) >= 0)
+        h5->driver = H5FDregister(&driver);
+    if (h5->driver < 0) return fracas_fail(FRACAS_ENVIRONMENT, "the HDF5 library does not start");
     return FRACAS_OK;
 }
 
@@ -174,7 +178,8 @@ fracas_err fracas_h5_create(fracas_h5 *h5, const char *name, const char *path)
     TRY(start(h5, path, true));
     h5->fd = open(name, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (h5->fd < 0) return fracas_disk_fail("create", path);
-    hid_t list = access_list(h5), creation = list < 0 ? H5I_INVALID_HID : H5Pcreate(H5P_FILE_CREATE);
+    hid_t list = access_list(h5),
+          creation = list < 0 ? H5I_INVALID_HID : H5Pcreate(H5P_FILE_CREATE);
     if (list >= 0 && creation >= 0 && H5Pset_obj_track_times(creation, false) >= 0)
         h5->id = H5Fcreate(name, H5F_ACC_TRUNC, creation, list);
     fracas_err err = h5->id < 0 ? fracas_h5_fail(h5, "start of the file") : FRACAS_OK;
@@ -203,14 +208,16 @@ fracas_err fracas_h5_flush_close(fracas_h5 *h5)
 {
     hid_t id = h5->id;
     h5->id = H5I_INVALID_HID;
-    if (H5Fclose(id) < 0) h5->driver = H5I_INVALID_HID; /* HDF5 has not let go of the file, so of it neither */
+    if (H5Fclose(id) < 0)
+        h5->driver = H5I_INVALID_HID; /* HDF5 has not let go of the file, so of it neither */
     else if (!h5->error) return FRACAS_OK;
     return fracas_h5_fail(h5, "end of the file");
 }
 
 void fracas_h5_close(fracas_h5 *h5)
 {
-    if (h5->writing && !h5->error) h5->error = ECANCELED; /* given up: HDF5 need not write the rest */
+    if (h5->writing && !h5->error)
+        h5->error = ECANCELED; /* given up: HDF5 need not write the rest */
     if (h5->id >= 0 && H5Fclose(h5->id) < 0) h5->driver = H5I_INVALID_HID;
     if (h5->driver >= 0) H5FDunregister(h5->driver);
     if (h5->fd >= 0) close(h5->fd);

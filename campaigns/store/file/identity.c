@@ -1,10 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/store/file/identity.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
-const char *const fracas_identity_name[FRACAS_IDENTITY_VALUES] = {"program_version", "seed", "history", "interfaces"};
+const char *const fracas_identity_name[FRACAS_IDENTITY_VALUES] = {"program_version", "seed",
+                                                                  "history", "interfaces"};
 
 void fracas_identity_of(const fracas_file_header *header, fracas_identity *identity)
 {

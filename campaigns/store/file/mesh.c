@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/store/file/mesh.h"
 
 #include <math.h>
@@ -30,32 +31,41 @@ static bool same(const void *a, const void *b, size_t count, size_t size)
 
 bool fracas_stored_mesh_same(const fracas_stored_mesh *a, const fracas_stored_mesh *b)
 {
-    return a->nnodes == b->nnodes && a->nelements == b->nelements && a->ninterfaces == b->ninterfaces &&
-           a->nborders == b->nborders && same(a->node, b->node, a->nnodes, sizeof *a->node) &&
+    return a->nnodes == b->nnodes && a->nelements == b->nelements &&
+           a->ninterfaces == b->ninterfaces && a->nborders == b->nborders &&
+           same(a->node, b->node, a->nnodes, sizeof *a->node) &&
            same(a->element, b->element, a->nelements, sizeof *a->element) &&
            same(a->interface, b->interface, a->ninterfaces, sizeof *a->interface) &&
            same(a->border, b->border, a->nborders, sizeof *a->border);
 }
 
-static bool exists(int64_t number, size_t count) { return number >= 0 && (uint64_t)number < count; }
+static bool exists(int64_t number, size_t count)
+{
+    return number >= 0 && (uint64_t)number < count;
+}
 
-/* True if `element` has the edge node[0] to node[1], with that middle; either way round unless `forward`. */
-static bool has_edge(const fracas_stored_mesh *mesh, int64_t element, const int64_t node[3], bool forward)
+/* True if `element` has the edge node[0] to node[1], with that middle; either way round unless
+ * `forward`. */
+static bool has_edge(const fracas_stored_mesh *mesh, int64_t element, const int64_t node[3],
+                     bool forward)
 {
     const int64_t *of = mesh->element[element].node;
     for (int k = 0; k < 3; k++) {
         const int64_t from = of[k], to = of[(k + 1) % 3];
-        const bool found = (from == node[0] && to == node[1]) || (!forward && from == node[1] && to == node[0]);
+        const bool found = (from == node[0] && to == node[1]) ||
+                           (!forward && from == node[1] && to == node[0]);
         if (found) return of[3 + k] == node[2];
     }
     return false;
 }
 
-static const char *fault_of_element(const fracas_stored_mesh *mesh, const fracas_stored_element *element)
+static const char *fault_of_element(const fracas_stored_mesh *mesh,
+                                    const fracas_stored_element *element)
 {
     for (int k = 0; k < 6; k++) {
         if (k >= 3 && element->node[k] == -1) continue;
-        if (!exists(element->node[k], mesh->nnodes)) return "an element has a node that does not exist";
+        if (!exists(element->node[k], mesh->nnodes))
+            return "an element has a node that does not exist";
     }
     return NULL;
 }
@@ -78,7 +88,8 @@ const char *fracas_stored_mesh_fault(const fracas_stored_mesh *mesh)
     }
     for (size_t b = 0; b < mesh->nborders; b++) {
         const fracas_stored_border *border = &mesh->border[b];
-        if (!exists(border->element, mesh->nelements) || !has_edge(mesh, border->element, border->node, true))
+        if (!exists(border->element, mesh->nelements) ||
+            !has_edge(mesh, border->element, border->node, true))
             return "a border is no edge of its element";
     }
     return NULL;

@@ -1,4 +1,6 @@
-/* The mesh of a surface as study.h5 keeps it: what the interfaces of a realization are, for pictures. Lengths in m. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The mesh of a surface as study.h5 keeps it: what the interfaces of a realization are, for
+ * pictures. Lengths in m. */
 #ifndef FRACAS_CAMPAIGNS_STORE_FILE_MESH_H
 #define FRACAS_CAMPAIGNS_STORE_FILE_MESH_H
 
@@ -12,7 +14,8 @@ typedef struct {
     double position[3];
 } fracas_stored_node;
 
-/* A triangle: its vertices, then the middles of the edges from vertex k to vertex k + 1, -1 where there are none. */
+/* A triangle: its vertices, then the middles of the edges from vertex k to vertex k + 1, -1 where
+ * there are none. */
 typedef struct {
     int64_t node[6];
 } fracas_stored_element;
@@ -43,13 +46,14 @@ void fracas_stored_mesh_clear(fracas_stored_mesh *mesh);
 /* True if every bit is the same. */
 bool fracas_stored_mesh_same(const fracas_stored_mesh *a, const fracas_stored_mesh *b);
 
-/* What is wrong with the numbers in it, NULL if nothing: nodes and elements that do not exist, positions that are no
- * numbers, edges that are not those of their elements. */
+/* What is wrong with the numbers in it, NULL if nothing: nodes and elements that do not exist,
+ * positions that are no numbers, edges that are not those of their elements. */
 const char *fracas_stored_mesh_fault(const fracas_stored_mesh *mesh);
 
 /* Where the meshes of a campaign's points come from. */
 typedef struct {
-    /* Sets *mesh, which is all zero and is cleared by the caller; leaves it so for a point that is no surface. */
+    /* Sets *mesh, which is all zero and is cleared by the caller; leaves it so for a point that is
+     * no surface. */
     fracas_err (*get)(const void *context, size_t point, fracas_stored_mesh *mesh);
     const void *context;
 } fracas_mesh_source;

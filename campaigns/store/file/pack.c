@@ -1,4 +1,6 @@
-/* A record as bytes: the struct with its pointers taken out, then its three arrays. For one program on one machine. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A record as bytes: the struct with its pointers taken out, then its three arrays. For one program
+ * on one machine. */
 #include "campaigns/store/store.h"
 
 #include <stdlib.h>
@@ -7,7 +9,8 @@
 size_t fracas_record_packed_size(const fracas_record *record)
 {
     return sizeof *record + record->nfragment * sizeof *record->fragment +
-           record->nhistory * sizeof *record->history + record->ninterface * sizeof *record->interface;
+           record->nhistory * sizeof *record->history +
+           record->ninterface * sizeof *record->interface;
 }
 
 static char *put(char *to, const void *from, size_t size)
@@ -50,9 +53,12 @@ fracas_err fracas_record_unpack(const void *bytes, size_t size, fracas_record *r
         /* Each count alone first, so that the sum cannot wrap around. */
         fits = scalars.nfragment <= size / sizeof *scalars.fragment &&
                scalars.nhistory <= size / sizeof *scalars.history &&
-               scalars.ninterface <= size / sizeof *scalars.interface && fracas_record_packed_size(&scalars) == size;
+               scalars.ninterface <= size / sizeof *scalars.interface &&
+               fracas_record_packed_size(&scalars) == size;
     }
-    if (!fits) return fracas_fail(FRACAS_BUG, "a packed record of %zu bytes does not fit its own counts", size);
+    if (!fits)
+        return fracas_fail(FRACAS_BUG, "a packed record of %zu bytes does not fit its own counts",
+                           size);
     const char *from = (const char *)bytes + sizeof scalars;
     void *fragment = NULL, *history = NULL, *interface = NULL;
     bool taken = take(&from, scalars.nfragment, sizeof(fracas_fragment), &fragment) &&
@@ -67,7 +73,10 @@ fracas_err fracas_record_unpack(const void *bytes, size_t size, fracas_record *r
     return fracas_no_memory("a record");
 }
 
-static bool same_bytes(const void *a, const void *b, size_t size) { return size == 0 || memcmp(a, b, size) == 0; }
+static bool same_bytes(const void *a, const void *b, size_t size)
+{
+    return size == 0 || memcmp(a, b, size) == 0;
+}
 
 bool fracas_record_same(const fracas_record *a, const fracas_record *b)
 {
@@ -75,7 +84,8 @@ bool fracas_record_same(const fracas_record *a, const fracas_record *b)
     x.fragment = y.fragment = NULL;
     x.history = y.history = NULL;
     x.interface = y.interface = NULL;
-    return same_bytes(&x, &y, sizeof x) && same_bytes(a->fragment, b->fragment, a->nfragment * sizeof *a->fragment) &&
+    return same_bytes(&x, &y, sizeof x) &&
+           same_bytes(a->fragment, b->fragment, a->nfragment * sizeof *a->fragment) &&
            same_bytes(a->history, b->history, a->nhistory * sizeof *a->history) &&
            same_bytes(a->interface, b->interface, a->ninterface * sizeof *a->interface);
 }

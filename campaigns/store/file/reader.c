@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/store.h"
 #include "campaigns/store/file/table.h"
@@ -32,7 +33,8 @@ static fracas_err damaged(const fracas_reader *reader, const char *where, const 
 
 /* ---- opening ---- */
 
-static fracas_err read_text_attribute(fracas_reader *reader, const char *name, size_t size, char *to)
+static fracas_err read_text_attribute(fracas_reader *reader, const char *name, size_t size,
+                                      char *to)
 {
     char *text;
     TRY(fracas_h5_get_text(&reader->h5, "/", name, &text));
@@ -67,11 +69,13 @@ static fracas_err read_header(fracas_reader *reader)
     fracas_file_header *header = &reader->header;
     TRY(fracas_h5_get_integer(&reader->h5, "/", "format_version", H5T_STD_I32LE, &version));
     if (version != FRACAS_FORMAT_VERSION)
-        return fracas_fail(FRACAS_DAMAGED, "%s has format version %llu; this program reads %d: use the program version "
-                           "that wrote it, or compute the study again in another folder", reader->path,
-                           (unsigned long long)version, FRACAS_FORMAT_VERSION);
+        return fracas_fail(FRACAS_DAMAGED,
+                           "%s has format version %llu; this program reads %d: use the program "
+                           "version that wrote it, or compute the study again in another folder",
+                           reader->path, (unsigned long long)version, FRACAS_FORMAT_VERSION);
     TRY(read_text_attribute(reader, "campaign", sizeof hex, hex));
-    if (!fracas_hash_parse(hex, &header->campaign)) return damaged(reader, "campaign", "it is no hash");
+    if (!fracas_hash_parse(hex, &header->campaign))
+        return damaged(reader, "campaign", "it is no hash");
     TRY(fracas_h5_get_integer(&reader->h5, "/", "seed", H5T_STD_U64LE, &header->seed));
     TRY(fracas_h5_get_integer(&reader->h5, "/", "history", H5T_STD_I64LE, &history));
     header->history = (int64_t)history;
@@ -86,9 +90,11 @@ static fracas_err open_set(fracas_reader *reader, int s)
     set_reader *set = &reader->set[s];
     for (size_t c = 0; c < schema->ncolumns; c++) {
         uint64_t rows;
-        TRY(fracas_h5_open_column(&reader->h5, &schema->column[c], schema->chunk, &set->dataset[c], &rows));
+        TRY(fracas_h5_open_column(&reader->h5, &schema->column[c], schema->chunk, &set->dataset[c],
+                                  &rows));
         if (c > 0 && rows != set->rows)
-            return damaged(reader, schema->column[c].path, "it has another number of rows than its neighbours");
+            return damaged(reader, schema->column[c].path,
+                           "it has another number of rows than its neighbours");
         set->rows = rows;
     }
     return FRACAS_OK;
@@ -96,14 +102,16 @@ static fracas_err open_set(fracas_reader *reader, int s)
 
 static fracas_err load_rows(fracas_reader *reader, int s, uint64_t first, size_t count, void *rows);
 
-/* Offsets of `owners` things go from 0 to the rows of the set; that they never fall is checked where they are used. */
+/* Offsets of `owners` things go from 0 to the rows of the set; that they never fall is checked
+ * where they are used. */
 static fracas_err open_ragged(fracas_reader *reader, uint64_t owners, int offsets, int s)
 {
     const char *path = fracas_store_sets[offsets].column->path;
     TRY(open_set(reader, offsets));
     TRY(open_set(reader, s));
     if (reader->set[offsets].rows != owners + 1)
-        return damaged(reader, path, "it must have one value more than there are realizations, or points");
+        return damaged(reader, path,
+                       "it must have one value more than there are realizations, or points");
     int64_t first, last;
     TRY(load_rows(reader, offsets, owners, 1, &last));
     TRY(load_rows(reader, offsets, 0, 1, &first));
@@ -135,12 +143,15 @@ static fracas_err open_records(fracas_reader *reader, unsigned parts)
     reader->parts = parts;
     TRY(open_set(reader, FRACAS_SET_REALIZATION));
     const uint64_t realizations = reader->set[FRACAS_SET_REALIZATION].rows;
-    if (parts & FRACAS_READ_FRAGMENTS) TRY(open_ragged(reader, realizations, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT));
-    if (parts & FRACAS_READ_HISTORY) TRY(open_ragged(reader, realizations, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY));
+    if (parts & FRACAS_READ_FRAGMENTS)
+        TRY(open_ragged(reader, realizations, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT));
+    if (parts & FRACAS_READ_HISTORY)
+        TRY(open_ragged(reader, realizations, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY));
     bool there = false;
     TRY(is_there(reader, "/interface", &there));
     if (reader->header.interfaces != there)
-        return damaged(reader, "interfaces", "the group /interface is there when it must not be, or missing");
+        return damaged(reader, "interfaces",
+                       "the group /interface is there when it must not be, or missing");
     if (there && parts & FRACAS_READ_INTERFACES)
         TRY(open_ragged(reader, realizations, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE));
     return FRACAS_OK;
@@ -159,9 +170,12 @@ static fracas_err open_file(const char *path, unsigned parts, bool all, fracas_r
     if (!*reader) return fracas_no_memory("a file");
     fracas_reader *r = *reader;
     r->h5 = FRACAS_H5_CLOSED;
-    fracas_err err = (r->path = strdup(path)) ? fracas_h5_open(&r->h5, r->path) : fracas_no_memory("a file");
+    fracas_err err = (r->path = strdup(path)) ? fracas_h5_open(&r->h5, r->path)
+                                              : fracas_no_memory("a file");
     if (!err) err = read_header(r);
-    if (!err) err = all ? fracas_table_read(&r->h5, &r->points) : fracas_table_read_points(&r->h5, &r->points);
+    if (!err)
+        err = all ? fracas_table_read(&r->h5, &r->points)
+                  : fracas_table_read_points(&r->h5, &r->points);
     if (!err) err = open_records(r, parts);
     if (!err && all) err = open_rest(r);
     if (!err) return FRACAS_OK;
@@ -170,7 +184,10 @@ static fracas_err open_file(const char *path, unsigned parts, bool all, fracas_r
     return err;
 }
 
-fracas_err fracas_reader_open(const char *path, fracas_reader **reader) { return open_file(path, FRACAS_READ_ALL, true, reader); }
+fracas_err fracas_reader_open(const char *path, fracas_reader **reader)
+{
+    return open_file(path, FRACAS_READ_ALL, true, reader);
+}
 
 fracas_err fracas_reader_open_records(const char *path, unsigned parts, fracas_reader **reader)
 {
@@ -188,9 +205,18 @@ void fracas_reader_close(fracas_reader *reader)
     free(reader);
 }
 
-const fracas_file_header *fracas_reader_header(const fracas_reader *reader) { return &reader->header; }
-const fracas_point_table *fracas_reader_points(const fracas_reader *reader) { return &reader->points.table; }
-size_t fracas_reader_realizations(const fracas_reader *reader) { return reader->set[FRACAS_SET_REALIZATION].rows; }
+const fracas_file_header *fracas_reader_header(const fracas_reader *reader)
+{
+    return &reader->header;
+}
+const fracas_point_table *fracas_reader_points(const fracas_reader *reader)
+{
+    return &reader->points.table;
+}
+size_t fracas_reader_realizations(const fracas_reader *reader)
+{
+    return reader->set[FRACAS_SET_REALIZATION].rows;
+}
 
 fracas_err fracas_reader_provenance(const fracas_reader *reader, char **provenance)
 {
@@ -213,7 +239,8 @@ static fracas_err read_block(fracas_reader *reader, int s, uint64_t row)
         const fracas_store_column *column = &schema->column[c];
         if (!set->stored[c]) set->stored[c] = malloc(block * fracas_stored_size(column));
         if (!set->stored[c]) return fracas_no_memory("the columns of a file");
-        TRY(fracas_h5_read_rows(&reader->h5, column, set->dataset[c], first, count, set->stored[c]));
+        TRY(fracas_h5_read_rows(&reader->h5, column, set->dataset[c], first, count,
+                                set->stored[c]));
     }
     set->first = first;
     set->count = count;
@@ -227,12 +254,14 @@ static fracas_err load_rows(fracas_reader *reader, int s, uint64_t first, size_t
     set_reader *set = &reader->set[s];
     char *to = rows;
     while (count > 0) {
-        if (first < set->first || first >= set->first + set->count) TRY(read_block(reader, s, first));
+        if (first < set->first || first >= set->first + set->count)
+            TRY(read_block(reader, s, first));
         uint64_t at = first - set->first, there = set->count - at;
         size_t take = count < there ? count : there;
         for (size_t c = 0; c < schema->ncolumns; c++) {
             const fracas_store_column *column = &schema->column[c];
-            fracas_rows_load(column, set->stored[c] + at * fracas_stored_size(column), take, to, schema->row_size);
+            fracas_rows_load(column, set->stored[c] + at * fracas_stored_size(column), take, to,
+                             schema->row_size);
         }
         first += take;
         count -= take;
@@ -242,64 +271,75 @@ static fracas_err load_rows(fracas_reader *reader, int s, uint64_t first, size_t
 }
 
 /* Where the rows of realization or point `row` are in a ragged set. */
-static fracas_err find_ragged(fracas_reader *reader, int offsets, int s, size_t row, int64_t *begin, size_t *count)
+static fracas_err find_ragged(fracas_reader *reader, int offsets, int s, size_t row, int64_t *begin,
+                              size_t *count)
 {
     int64_t end;
     TRY(load_rows(reader, offsets, row, 1, begin));
     TRY(load_rows(reader, offsets, row + 1, 1, &end));
     if (*begin < 0 || end < *begin || (uint64_t)end > reader->set[s].rows)
-        return damaged(reader, fracas_store_sets[offsets].column->path, "an offset is out of order");
+        return damaged(reader, fracas_store_sets[offsets].column->path,
+                       "an offset is out of order");
     *count = (size_t)(end - *begin);
     return FRACAS_OK;
 }
 
 /* Those rows; *rows freed by the caller, NULL if there are none. */
-static fracas_err load_ragged(fracas_reader *reader, int offsets, int s, size_t row, void **rows, size_t *count)
+static fracas_err load_ragged(fracas_reader *reader, int offsets, int s, size_t row, void **rows,
+                              size_t *count)
 {
     int64_t begin;
     *rows = NULL;
     TRY(find_ragged(reader, offsets, s, row, &begin, count));
     if (!*count) return FRACAS_OK;
     *rows = calloc(*count, fracas_store_sets[s].row_size);
-    fracas_err err = *rows ? load_rows(reader, s, (uint64_t)begin, *count, *rows) : fracas_no_memory("a record");
+    fracas_err err = *rows ? load_rows(reader, s, (uint64_t)begin, *count, *rows)
+                           : fracas_no_memory("a record");
     if (err) free(*rows), *rows = NULL;
     return err;
 }
 
-static fracas_err load_parts(fracas_reader *reader, size_t row, unsigned parts, fracas_record *record)
+static fracas_err load_parts(fracas_reader *reader, size_t row, unsigned parts,
+                             fracas_record *record)
 {
     void *rows;
     parts &= reader->parts;
     if (parts & FRACAS_READ_FRAGMENTS) {
-        TRY(load_ragged(reader, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT, row, &rows, &record->nfragment));
+        TRY(load_ragged(reader, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT, row, &rows,
+                        &record->nfragment));
         record->fragment = rows;
         if (record->outcome != FRACAS_FAILED && (uint64_t)record->fragments != record->nfragment)
-            return damaged(reader, "/realization/fragments", "it is not the number of rows in /fragment");
+            return damaged(reader, "/realization/fragments",
+                           "it is not the number of rows in /fragment");
     }
     if (parts & FRACAS_READ_HISTORY) {
-        TRY(load_ragged(reader, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY, row, &rows, &record->nhistory));
+        TRY(load_ragged(reader, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY, row, &rows,
+                        &record->nhistory));
         record->history = rows;
     }
     if (parts & FRACAS_READ_INTERFACES && reader->header.interfaces) {
-        TRY(load_ragged(reader, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE, row, &rows, &record->ninterface));
+        TRY(load_ragged(reader, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE, row, &rows,
+                        &record->ninterface));
         record->interface = rows;
     }
     return FRACAS_OK;
 }
 
-fracas_err fracas_reader_record(fracas_reader *reader, size_t row, unsigned parts, size_t *point, int64_t *replica,
-                                fracas_record *record)
+fracas_err fracas_reader_record(fracas_reader *reader, size_t row, unsigned parts, size_t *point,
+                                int64_t *replica, fracas_record *record)
 {
     fracas_stored_realization stored = {0};
     fracas_record_clear(record);
     if (row >= fracas_reader_realizations(reader))
-        return fracas_fail(FRACAS_BUG, "%s has %zu realizations; row %zu was asked for", reader->path,
-                           fracas_reader_realizations(reader), row);
+        return fracas_fail(FRACAS_BUG, "%s has %zu realizations; row %zu was asked for",
+                           reader->path, fracas_reader_realizations(reader), row);
     TRY(load_rows(reader, FRACAS_SET_REALIZATION, row, 1, &stored));
-    if (stored.point < 0 || (uint64_t)stored.point >= reader->points.table.npoints || stored.replica < 0)
+    if (stored.point < 0 || (uint64_t)stored.point >= reader->points.table.npoints ||
+        stored.replica < 0)
         return damaged(reader, "/realization/point", "a realization is of no point of the file");
-    if (stored.record.outcome < 0 || stored.record.outcome >= FRACAS_NOUTCOMES || stored.record.fragments < 0 ||
-        stored.record.fragments_dust < 0 || stored.record.fragments_dust > stored.record.fragments)
+    if (stored.record.outcome < 0 || stored.record.outcome >= FRACAS_NOUTCOMES ||
+        stored.record.fragments < 0 || stored.record.fragments_dust < 0 ||
+        stored.record.fragments_dust > stored.record.fragments)
         return damaged(reader, "/realization/outcome", "an outcome or a count is out of range");
     *point = (size_t)stored.point;
     *replica = stored.replica;
@@ -316,11 +356,13 @@ fracas_err fracas_reader_decisions(fracas_reader *reader, fracas_decision **deci
     *count = reader->decisions ? reader->set[FRACAS_SET_DECISION].rows : 0;
     *decision = calloc(*count + 1, sizeof **decision);
     if (!*decision) return fracas_no_memory("the decisions of a study");
-    fracas_err err = *count ? load_rows(reader, FRACAS_SET_DECISION, 0, *count, *decision) : FRACAS_OK;
+    fracas_err err = *count ? load_rows(reader, FRACAS_SET_DECISION, 0, *count, *decision)
+                            : FRACAS_OK;
     for (size_t d = 0; !err && d < *count; d++)
         if (!fracas_decision_valid(&(*decision)[d]) || (*decision)[d].point < 0 ||
             (uint64_t)(*decision)[d].point >= reader->points.table.npoints)
-            err = damaged(reader, "/decision", "a decision is of no point of the file, or out of range");
+            err = damaged(reader, "/decision",
+                          "a decision is of no point of the file, or out of range");
     if (err) free(*decision), *decision = NULL;
     return err;
 }
@@ -332,20 +374,24 @@ fracas_err fracas_reader_mesh_interfaces(fracas_reader *reader, size_t point, si
     int64_t begin;
     *interfaces = 0;
     if (!reader->meshes) return FRACAS_OK;
-    return find_ragged(reader, FRACAS_SET_MESH_INTERFACE_OFFSET, FRACAS_SET_MESH_INTERFACE, point, &begin, interfaces);
+    return find_ragged(reader, FRACAS_SET_MESH_INTERFACE_OFFSET, FRACAS_SET_MESH_INTERFACE, point,
+                       &begin, interfaces);
 }
 
 static fracas_err load_mesh(fracas_reader *reader, size_t point, fracas_stored_mesh *mesh)
 {
     void *rows;
-    TRY(load_ragged(reader, FRACAS_SET_MESH_NODE_OFFSET, FRACAS_SET_MESH_NODE, point, &rows, &mesh->nnodes));
+    TRY(load_ragged(reader, FRACAS_SET_MESH_NODE_OFFSET, FRACAS_SET_MESH_NODE, point, &rows,
+                    &mesh->nnodes));
     mesh->node = rows;
-    TRY(load_ragged(reader, FRACAS_SET_MESH_ELEMENT_OFFSET, FRACAS_SET_MESH_ELEMENT, point, &rows, &mesh->nelements));
+    TRY(load_ragged(reader, FRACAS_SET_MESH_ELEMENT_OFFSET, FRACAS_SET_MESH_ELEMENT, point, &rows,
+                    &mesh->nelements));
     mesh->element = rows;
-    TRY(load_ragged(reader, FRACAS_SET_MESH_INTERFACE_OFFSET, FRACAS_SET_MESH_INTERFACE, point, &rows,
-                    &mesh->ninterfaces));
+    TRY(load_ragged(reader, FRACAS_SET_MESH_INTERFACE_OFFSET, FRACAS_SET_MESH_INTERFACE, point,
+                    &rows, &mesh->ninterfaces));
     mesh->interface = rows;
-    TRY(load_ragged(reader, FRACAS_SET_MESH_BORDER_OFFSET, FRACAS_SET_MESH_BORDER, point, &rows, &mesh->nborders));
+    TRY(load_ragged(reader, FRACAS_SET_MESH_BORDER_OFFSET, FRACAS_SET_MESH_BORDER, point, &rows,
+                    &mesh->nborders));
     mesh->border = rows;
     const char *fault = fracas_stored_mesh_fault(mesh);
     return fault ? damaged(reader, "/mesh", fault) : FRACAS_OK;
@@ -355,8 +401,8 @@ fracas_err fracas_reader_mesh(fracas_reader *reader, size_t point, fracas_stored
 {
     *mesh = (fracas_stored_mesh){0};
     if (point >= reader->points.table.npoints)
-        return fracas_fail(FRACAS_BUG, "%s has %zu points; the mesh of point %zu was asked for", reader->path,
-                           reader->points.table.npoints, point);
+        return fracas_fail(FRACAS_BUG, "%s has %zu points; the mesh of point %zu was asked for",
+                           reader->path, reader->points.table.npoints, point);
     if (!reader->meshes) return FRACAS_OK;
     fracas_err err = load_mesh(reader, point, mesh);
     if (err) fracas_stored_mesh_clear(mesh);
@@ -371,8 +417,10 @@ fracas_err fracas_reader_check_meshes(fracas_reader *reader, const fracas_mesh_s
         err = meshes->get(meshes->context, p, &wanted);
         if (!err) err = fracas_reader_mesh(reader, p, &found);
         if (!err && !fracas_stored_mesh_same(&wanted, &found))
-            err = fracas_fail(FRACAS_DAMAGED, "%s: the mesh of point %zu is not that of the campaign; remove the file and run "
-                              "again", reader->path, p);
+            err = fracas_fail(FRACAS_DAMAGED,
+                              "%s: the mesh of point %zu is not that of the campaign; remove the "
+                              "file and run again",
+                              reader->path, p);
         fracas_stored_mesh_clear(&wanted);
         fracas_stored_mesh_clear(&found);
     }

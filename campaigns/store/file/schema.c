@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/store/file/schema.h"
 
 #include "base/param.h"
@@ -9,46 +10,60 @@
 #define OF(member) offsetof(fracas_stored_realization, member)
 
 static const fracas_store_column realization[] = {
-    {"/realization/point", FRACAS_INT32, 1, "1", "row of the realization's point in /point", OF(point)},
-    {"/realization/replica", FRACAS_INT64, 1, "1", "number of the strength field at the point, from 0", OF(replica)},
+    {"/realization/point", FRACAS_INT32, 1, "1", "row of the realization's point in /point",
+     OF(point)},
+    {"/realization/replica", FRACAS_INT64, 1, "1",
+     "number of the strength field at the point, from 0", OF(replica)},
     {"/realization/outcome", FRACAS_INT8, 1, "1",
-     "how it ended: 0 FRAGMENTED, 1 INTACT (nothing broken), 2 TIME_LIMIT (cap reached with cracks still running), "
-     "3 NONFINITE, 4 ENERGY_DRIFT, 5 FAILED (no result: values NaN, counts 0)", OF(record.outcome)},
-    {"/realization/fragments", FRACAS_INT64, 1, "1", "fragments, dust included", OF(record.fragments)},
-    {"/realization/fragments_dust", FRACAS_INT64, 1, "1", "of those, dust", OF(record.fragments_dust)},
-    {"/realization/broken", FRACAS_INT64, 1, "1", "interfaces opened to delta_c at every Gauss point",
-     OF(record.broken)},
-    {"/realization/cracked", FRACAS_INT64, 1, "1", "interfaces past onset, broken ones included", OF(record.cracked)},
+     "how it ended: 0 FRAGMENTED, 1 INTACT (nothing broken), 2 TIME_LIMIT (cap reached with cracks "
+     "still running), 3 NONFINITE, 4 ENERGY_DRIFT, 5 FAILED (no result: values NaN, counts 0)",
+     OF(record.outcome)},
+    {"/realization/fragments", FRACAS_INT64, 1, "1", "fragments, dust included",
+     OF(record.fragments)},
+    {"/realization/fragments_dust", FRACAS_INT64, 1, "1", "of those, dust",
+     OF(record.fragments_dust)},
+    {"/realization/broken", FRACAS_INT64, 1, "1",
+     "interfaces opened to delta_c at every Gauss point", OF(record.broken)},
+    {"/realization/cracked", FRACAS_INT64, 1, "1", "interfaces past onset, broken ones included",
+     OF(record.cracked)},
     {"/realization/steps", FRACAS_INT64, 1, "1", "time steps taken", OF(record.steps)},
-    {"/realization/onset_time", FRACAS_FLOAT64, 1, "s", "time of the first onset, NaN if there was none",
-     OF(record.onset_time)},
-    {"/realization/end_time", FRACAS_FLOAT64, 1, "s", "time at which it stopped", OF(record.end_time)},
+    {"/realization/onset_time", FRACAS_FLOAT64, 1, "s",
+     "time of the first onset, NaN if there was none", OF(record.onset_time)},
+    {"/realization/end_time", FRACAS_FLOAT64, 1, "s", "time at which it stopped",
+     OF(record.end_time)},
     {"/realization/time_step", FRACAS_FLOAT64, 1, "s", "time step", OF(record.time_step)},
     {"/realization/mass", FRACAS_FLOAT64, 1, "kg", "mass of the body", OF(record.mass)},
-    {"/realization/kinetic", FRACAS_FLOAT64, 1, "J", "kinetic energy at end_time", OF(record.kinetic)},
-    {"/realization/elastic", FRACAS_FLOAT64, 1, "J", "elastic energy, bulk and interface, at end_time",
-     OF(record.elastic)},
-    {"/realization/cohesive", FRACAS_FLOAT64, 1, "J", "energy stored in openings and contact at end_time",
-     OF(record.cohesive)},
-    {"/realization/dissipated", FRACAS_FLOAT64, 1, "J", "energy dissipated by cracks until end_time",
-     OF(record.dissipated)},
+    {"/realization/kinetic", FRACAS_FLOAT64, 1, "J", "kinetic energy at end_time",
+     OF(record.kinetic)},
+    {"/realization/elastic", FRACAS_FLOAT64, 1, "J",
+     "elastic energy, bulk and interface, at end_time", OF(record.elastic)},
+    {"/realization/cohesive", FRACAS_FLOAT64, 1, "J",
+     "energy stored in openings and contact at end_time", OF(record.cohesive)},
+    {"/realization/dissipated", FRACAS_FLOAT64, 1, "J",
+     "energy dissipated by cracks until end_time", OF(record.dissipated)},
     {"/realization/dissipated_bending", FRACAS_FLOAT64, 1, "J", "of that, the part of bending",
      OF(record.dissipated_bending)},
-    {"/realization/created", FRACAS_FLOAT64, 1, "J", "energy that the method put in at onsets until end_time",
-     OF(record.created)},
-    {"/realization/work", FRACAS_FLOAT64, 1, "J", "work of the loading until end_time", OF(record.work)},
+    {"/realization/created", FRACAS_FLOAT64, 1, "J",
+     "energy that the method put in at onsets until end_time", OF(record.created)},
+    {"/realization/work", FRACAS_FLOAT64, 1, "J", "work of the loading until end_time",
+     OF(record.work)},
     {"/realization/residual", FRACAS_FLOAT64, 1, "J",
-     "largest absolute value over the run of kinetic + elastic + cohesive + dissipated - created - work - E(0)",
+     "largest absolute value over the run of kinetic + elastic + cohesive + dissipated - created - "
+     "work - E(0)",
      OF(record.residual)},
     {"/realization/residual_end", FRACAS_FLOAT64, 1, "J", "the same sum, signed, at end_time",
      OF(record.residual_end)},
-    {"/realization/momentum", FRACAS_FLOAT64, 3, "kg m/s", "linear momentum (x, y, z) of the motion beside an imposed rate, half a time step after end_time",
+    {"/realization/momentum", FRACAS_FLOAT64, 3, "kg m/s",
+     "linear momentum (x, y, z) of the motion beside an imposed rate, half a time step after "
+     "end_time",
      OF(record.momentum)},
 };
 
 static const fracas_store_column fragment_offset[] = {
     {"/fragment/offset", FRACAS_INT64, 1, "1",
-     "fragments of realization i are rows offset[i] to offset[i + 1] - 1; one value more than realizations", 0},
+     "fragments of realization i are rows offset[i] to offset[i + 1] - 1; one value more than "
+     "realizations",
+     0},
 };
 
 static const fracas_store_column fragment[] = {
@@ -61,23 +76,31 @@ static const fracas_store_column fragment[] = {
      offsetof(fracas_fragment, dust)},
     {"/fragment/position", FRACAS_FLOAT64, 3, "m", "centre of mass (x, y, z) at end_time",
      offsetof(fracas_fragment, position)},
-    {"/fragment/velocity", FRACAS_FLOAT64, 3, "m/s", "velocity (x, y, z) of the centre of mass, background included, half a time step after end_time",
+    {"/fragment/velocity", FRACAS_FLOAT64, 3, "m/s",
+     "velocity (x, y, z) of the centre of mass, background included, half a time step after "
+     "end_time",
      offsetof(fracas_fragment, velocity)},
     {"/fragment/angular_momentum", FRACAS_FLOAT64, 3, "kg m2/s",
-     "angular momentum (x, y, z) about the centre of mass at end_time", offsetof(fracas_fragment, angular_momentum)},
+     "angular momentum (x, y, z) about the centre of mass at end_time",
+     offsetof(fracas_fragment, angular_momentum)},
     {"/fragment/spin", FRACAS_FLOAT64, 3, "rad/s",
-     "angular velocity (x, y, z) of the rigid body of the same inertia with that angular momentum; 0 about an axis without inertia, and in a bar",
+     "angular velocity (x, y, z) of the rigid body of the same inertia with that angular momentum; "
+     "0 about an axis without inertia, and in a bar",
      offsetof(fracas_fragment, spin)},
 };
 
 static const fracas_store_column history_offset[] = {
     {"/history/offset", FRACAS_INT64, 1, "1",
-     "history of realization i is rows offset[i] to offset[i + 1] - 1; one value more than realizations", 0},
+     "history of realization i is rows offset[i] to offset[i + 1] - 1; one value more than "
+     "realizations",
+     0},
 };
 
 static const fracas_store_column history[] = {
-    {"/history/time", FRACAS_FLOAT64, 1, "s", "time of the row's step", offsetof(fracas_history_row, time)},
-    {"/history/kinetic", FRACAS_FLOAT64, 1, "J", "kinetic energy", offsetof(fracas_history_row, kinetic)},
+    {"/history/time", FRACAS_FLOAT64, 1, "s", "time of the row's step",
+     offsetof(fracas_history_row, time)},
+    {"/history/kinetic", FRACAS_FLOAT64, 1, "J", "kinetic energy",
+     offsetof(fracas_history_row, kinetic)},
     {"/history/elastic", FRACAS_FLOAT64, 1, "J", "elastic energy, bulk and interface",
      offsetof(fracas_history_row, elastic)},
     {"/history/cohesive", FRACAS_FLOAT64, 1, "J", "energy stored in openings and contact",
@@ -88,21 +111,27 @@ static const fracas_store_column history[] = {
      offsetof(fracas_history_row, dissipated_bending)},
     {"/history/created", FRACAS_FLOAT64, 1, "J", "energy that the method put in at onsets so far",
      offsetof(fracas_history_row, created)},
-    {"/history/work", FRACAS_FLOAT64, 1, "J", "work of the loading so far", offsetof(fracas_history_row, work)},
+    {"/history/work", FRACAS_FLOAT64, 1, "J", "work of the loading so far",
+     offsetof(fracas_history_row, work)},
     {"/history/residual", FRACAS_FLOAT64, 1, "J",
-     "kinetic + elastic + cohesive + dissipated - created - work - E(0)", offsetof(fracas_history_row, residual)},
+     "kinetic + elastic + cohesive + dissipated - created - work - E(0)",
+     offsetof(fracas_history_row, residual)},
     {"/history/fragments", FRACAS_INT64, 1, "1", "fragments, dust included",
      offsetof(fracas_history_row, fragments)},
-    {"/history/broken", FRACAS_INT64, 1, "1", "broken interfaces", offsetof(fracas_history_row, broken)},
+    {"/history/broken", FRACAS_INT64, 1, "1", "broken interfaces",
+     offsetof(fracas_history_row, broken)},
 };
 
 static const fracas_store_column interface_offset[] = {
     {"/interface/offset", FRACAS_INT64, 1, "1",
-     "interfaces of realization i are rows offset[i] to offset[i + 1] - 1; one value more than realizations", 0},
+     "interfaces of realization i are rows offset[i] to offset[i + 1] - 1; one value more than "
+     "realizations",
+     0},
 };
 
 static const fracas_store_column interface[] = {
-    {"/interface/strength", FRACAS_FLOAT64, 1, "Pa", "strength sigma_c", offsetof(fracas_interface_row, strength)},
+    {"/interface/strength", FRACAS_FLOAT64, 1, "Pa", "strength sigma_c",
+     offsetof(fracas_interface_row, strength)},
     {"/interface/damage", FRACAS_FLOAT64, 1, "1", "delta_max/delta_c at end_time, 0 to 1",
      offsetof(fracas_interface_row, damage)},
     {"/interface/onset_time", FRACAS_FLOAT64, 1, "s", "time of its onset, NaN if it never cracked",
@@ -112,31 +141,43 @@ static const fracas_store_column interface[] = {
 };
 
 static const fracas_store_column decision[] = {
-    {"/decision/point", FRACAS_INT32, 1, "1", "row of the point in /point", offsetof(fracas_decision, point)},
-    {"/decision/round", FRACAS_INT32, 1, "1", "round of the point, from 0", offsetof(fracas_decision, round)},
-    {"/decision/replicas", FRACAS_INT64, 1, "1", "replicas that the point had, 0 to this - 1, when it was decided",
+    {"/decision/point", FRACAS_INT32, 1, "1", "row of the point in /point",
+     offsetof(fracas_decision, point)},
+    {"/decision/round", FRACAS_INT32, 1, "1", "round of the point, from 0",
+     offsetof(fracas_decision, round)},
+    {"/decision/replicas", FRACAS_INT64, 1, "1",
+     "replicas that the point had, 0 to this - 1, when it was decided",
      offsetof(fracas_decision, replicas)},
-    {"/decision/used", FRACAS_INT64, 1, "1", "of those, realizations in the mean: FRAGMENTED, INTACT and TIME_LIMIT",
+    {"/decision/used", FRACAS_INT64, 1, "1",
+     "of those, realizations in the mean: FRAGMENTED, INTACT and TIME_LIMIT",
      offsetof(fracas_decision, used)},
-    {"/decision/mean", FRACAS_FLOAT64, 1, "1", "mean of the quantity over them: 1, m or J by the quantity",
-     offsetof(fracas_decision, mean)},
-    {"/decision/half_width", FRACAS_FLOAT64, 1, "1", "half width of the t interval of the mean, in the same unit",
+    {"/decision/mean", FRACAS_FLOAT64, 1, "1",
+     "mean of the quantity over them: 1, m or J by the quantity", offsetof(fracas_decision, mean)},
+    {"/decision/half_width", FRACAS_FLOAT64, 1, "1",
+     "half width of the t interval of the mean, in the same unit",
      offsetof(fracas_decision, half_width)},
-    {"/decision/stop", FRACAS_INT8, 1, "1", "0 goes on to the next round, 1 precise enough, 2 at the maximum",
+    {"/decision/stop", FRACAS_INT8, 1, "1",
+     "0 goes on to the next round, 1 precise enough, 2 at the maximum",
      offsetof(fracas_decision, stop)},
     {"/decision/quantity", FRACAS_INT8, 1, "1", "the rule: 0 mean-count, 1 mean-size, 2 dissipated",
      offsetof(fracas_decision, quantity)},
-    {"/decision/minimum", FRACAS_INT64, 1, "1", "the rule: replicas of the first round", offsetof(fracas_decision, minimum)},
-    {"/decision/maximum", FRACAS_INT64, 1, "1", "the rule: most replicas", offsetof(fracas_decision, maximum)},
-    {"/decision/relative_half_width", FRACAS_FLOAT64, 1, "1", "the rule: half width asked for, as part of the mean",
+    {"/decision/minimum", FRACAS_INT64, 1, "1", "the rule: replicas of the first round",
+     offsetof(fracas_decision, minimum)},
+    {"/decision/maximum", FRACAS_INT64, 1, "1", "the rule: most replicas",
+     offsetof(fracas_decision, maximum)},
+    {"/decision/relative_half_width", FRACAS_FLOAT64, 1, "1",
+     "the rule: half width asked for, as part of the mean",
      offsetof(fracas_decision, relative_half_width)},
-    {"/decision/confidence", FRACAS_FLOAT64, 1, "1", "the rule: confidence of the interval", offsetof(fracas_decision, confidence)},
+    {"/decision/confidence", FRACAS_FLOAT64, 1, "1", "the rule: confidence of the interval",
+     offsetof(fracas_decision, confidence)},
 };
 
-#define MESH_OFFSET(name, things)                                                                               \
-    static const fracas_store_column name[] = {                                                                 \
-        {"/mesh/" things "_offset", FRACAS_INT64, 1, "1",                                                       \
-         things "s of the mesh of point i are rows offset[i] to offset[i + 1] - 1; one value more than points", 0}, \
+#define MESH_OFFSET(name, things)                                                              \
+    static const fracas_store_column name[] = {                                                \
+        {"/mesh/" things "_offset", FRACAS_INT64, 1, "1",                                      \
+         things "s of the mesh of point i are rows offset[i] to offset[i + 1] - 1; one value " \
+                "more than points",                                                            \
+         0},                                                                                   \
     }
 MESH_OFFSET(mesh_node_offset, "node");
 MESH_OFFSET(mesh_element_offset, "element");
@@ -144,19 +185,21 @@ MESH_OFFSET(mesh_interface_offset, "interface");
 MESH_OFFSET(mesh_border_offset, "border");
 
 static const fracas_store_column mesh_node[] = {
-    {"/mesh/node_position", FRACAS_FLOAT64, 3, "m", "position (x, y, z) of a node before any motion",
-     offsetof(fracas_stored_node, position)},
+    {"/mesh/node_position", FRACAS_FLOAT64, 3, "m",
+     "position (x, y, z) of a node before any motion", offsetof(fracas_stored_node, position)},
 };
 
 static const fracas_store_column mesh_element[] = {
     {"/mesh/element_node", FRACAS_INT32, 6, "1",
-     "nodes of a triangle, numbered from 0 in the mesh of its point: three vertices, then the middles of the edges from "
-     "each to the next, -1 where there are none", offsetof(fracas_stored_element, node)},
+     "nodes of a triangle, numbered from 0 in the mesh of its point: three vertices, then the "
+     "middles of the edges from each to the next, -1 where there are none",
+     offsetof(fracas_stored_element, node)},
 };
 
 static const fracas_store_column mesh_interface[] = {
     {"/mesh/interface_element", FRACAS_INT32, 2, "1",
-     "the two elements of an interface; interfaces are in the order of those of a realization in /interface",
+     "the two elements of an interface; interfaces are in the order of those of a realization in "
+     "/interface",
      offsetof(fracas_stored_interface, element)},
     {"/mesh/interface_node", FRACAS_INT32, 3, "1",
      "its two ends, as the first element goes round, and its middle, -1 where it has none",
@@ -170,13 +213,18 @@ static const fracas_store_column mesh_border[] = {
      "its two ends, as the element goes round, and its middle, -1 where it has none",
      offsetof(fracas_stored_border, node)},
     {"/mesh/border_tag", FRACAS_INT32, 1, "1",
-     "tag of the edge, 0: none; plate: 1 smallest x, 2 largest x, 3 smallest y, 4 largest y; annulus: 1 inner, 2 outer circle",
+     "tag of the edge, 0: none; plate: 1 smallest x, 2 largest x, 3 smallest y, 4 largest y; "
+     "annulus: 1 inner, 2 outer circle",
      offsetof(fracas_stored_border, tag)},
 };
 
-/* Chunks are small enough for a segment of one realization (a chunk is never stored in part) and large enough for
- * a study of millions of fragments. They are part of the format: another size is another format version. */
-#define SET(columns, rows, type) {columns, FRACAS_COUNT(columns), rows, sizeof(type)}
+/* Chunks are small enough for a segment of one realization (a chunk is never stored in part) and
+ * large enough for a study of millions of fragments. They are part of the format: another size is
+ * another format version. */
+#define SET(columns, rows, type)                           \
+    {                                                      \
+        columns, FRACAS_COUNT(columns), rows, sizeof(type) \
+    }
 const fracas_store_set fracas_store_sets[FRACAS_NSETS] = {
     [FRACAS_SET_REALIZATION] = SET(realization, 256, fracas_stored_realization),
     [FRACAS_SET_FRAGMENT_OFFSET] = SET(fragment_offset, 256, int64_t),
@@ -198,19 +246,27 @@ const fracas_store_set fracas_store_sets[FRACAS_NSETS] = {
 _Static_assert(FRACAS_COUNT(realization) <= FRACAS_MAX_COLUMNS, "FRACAS_MAX_COLUMNS is too small");
 
 const fracas_store_column fracas_store_point_hash = {
-    "/point/hash", FRACAS_TEXT, 32, "", "hash of the point's resolved values, 32 hexadecimal digits", 0};
+    "/point/hash",
+    FRACAS_TEXT,
+    32,
+    "",
+    "hash of the point's resolved values, 32 hexadecimal digits",
+    0};
 const fracas_store_column fracas_store_point_replicas = {
     "/point/replicas", FRACAS_INT64, 1, "1", "replicas planned at the point", 0};
 
 size_t fracas_stored_size(const fracas_store_column *column)
 {
-    static const size_t size[] = {[FRACAS_INT8] = 1, [FRACAS_INT32] = 4, [FRACAS_INT64] = 8, [FRACAS_FLOAT64] = 8,
+    static const size_t size[] = {[FRACAS_INT8] = 1,
+                                  [FRACAS_INT32] = 4,
+                                  [FRACAS_INT64] = 8,
+                                  [FRACAS_FLOAT64] = 8,
                                   [FRACAS_TEXT] = 1};
     return column->width * size[column->type];
 }
 
-size_t fracas_rows_store(const fracas_store_column *column, const void *rows, size_t row_size, size_t count,
-                         void *stored)
+size_t fracas_rows_store(const fracas_store_column *column, const void *rows, size_t row_size,
+                         size_t count, void *stored)
 {
     static const uint64_t canonical_nan = 0x7ff8000000000000u;
     size_t width = column->width, misfits = 0;
@@ -235,7 +291,8 @@ size_t fracas_rows_store(const fracas_store_column *column, const void *rows, si
                 break;
             case FRACAS_INT64: memcpy((char *)stored + 8 * at, &integer, 8); break;
             case FRACAS_FLOAT64:
-                memcpy((char *)stored + 8 * at, real != real ? (const void *)&canonical_nan : &real, 8);
+                memcpy((char *)stored + 8 * at, real != real ? (const void *)&canonical_nan : &real,
+                       8);
                 break;
             case FRACAS_TEXT: break; /* only in /point, which has no structs */
             }
@@ -244,8 +301,8 @@ size_t fracas_rows_store(const fracas_store_column *column, const void *rows, si
     return misfits;
 }
 
-void fracas_rows_load(const fracas_store_column *column, const void *stored, size_t count, void *rows,
-                      size_t row_size)
+void fracas_rows_load(const fracas_store_column *column, const void *stored, size_t count,
+                      void *rows, size_t row_size)
 {
     size_t width = column->width;
     const int8_t *narrow = stored;
@@ -269,7 +326,9 @@ void fracas_rows_load(const fracas_store_column *column, const void *stored, siz
 
 static void reference_row(FILE *out, const fracas_store_column *column, size_t chunk)
 {
-    static const char *const name[] = {[FRACAS_INT8] = "int8", [FRACAS_INT32] = "int32", [FRACAS_INT64] = "int64",
+    static const char *const name[] = {[FRACAS_INT8] = "int8",
+                                       [FRACAS_INT32] = "int32",
+                                       [FRACAS_INT64] = "int64",
                                        [FRACAS_FLOAT64] = "float64"};
     bool text = column->type == FRACAS_TEXT;
     fprintf(out, "| `%s` | ", column->path);

@@ -1,5 +1,7 @@
-/* The schema of segments and studies: one const table that writer, reader, verification and docs/formats/study.md
- * are driven by. For the store alone, and for analysis/export, whose tables have the same columns. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The schema of segments and studies: one const table that writer, reader, verification and
+ * docs/formats/study.md are driven by. For the store alone, and for analysis/export, whose tables
+ * have the same columns. */
 #ifndef FRACAS_CAMPAIGNS_STORE_FILE_SCHEMA_H
 #define FRACAS_CAMPAIGNS_STORE_FILE_SCHEMA_H
 
@@ -10,7 +12,13 @@
 #include <stdio.h>
 
 /* How a value is stored (little-endian). In memory integers are int64_t, reals double. */
-typedef enum { FRACAS_INT8, FRACAS_INT32, FRACAS_INT64, FRACAS_FLOAT64, FRACAS_TEXT } fracas_stored_type;
+typedef enum {
+    FRACAS_INT8,
+    FRACAS_INT32,
+    FRACAS_INT64,
+    FRACAS_FLOAT64,
+    FRACAS_TEXT
+} fracas_stored_type;
 
 /* One dataset. */
 typedef struct {
@@ -19,7 +27,7 @@ typedef struct {
     size_t width;     /* values in a row; of FRACAS_TEXT: bytes, padded with NUL */
     const char *unit; /* as UDUNITS-2 reads it; "" for text */
     const char *description;
-    size_t offset;    /* of the row's first value in its struct in memory */
+    size_t offset; /* of the row's first value in its struct in memory */
 } fracas_store_column;
 
 /* A set: datasets that grow together, row by row. */
@@ -31,7 +39,7 @@ typedef enum {
     FRACAS_SET_HISTORY,
     FRACAS_SET_INTERFACE_OFFSET, /* this and the next only in files with interfaces */
     FRACAS_SET_INTERFACE,
-    FRACAS_SET_DECISION, /* only in a study.h5 with points whose replicas a rule decided */
+    FRACAS_SET_DECISION,         /* only in a study.h5 with points whose replicas a rule decided */
     FRACAS_SET_MESH_NODE_OFFSET, /* from here on only in a study.h5 that keeps meshes of surfaces */
     FRACAS_SET_MESH_NODE,
     FRACAS_SET_MESH_ELEMENT_OFFSET,
@@ -54,8 +62,9 @@ typedef struct {
 
 extern const fracas_store_set fracas_store_sets[FRACAS_NSETS];
 
-/* A row of FRACAS_SET_REALIZATION in memory; rows of the others are fracas_fragment, fracas_history_row,
- * fracas_interface_row, fracas_decision, those of campaigns/store/file/mesh.h, and an int64_t for the offsets. */
+/* A row of FRACAS_SET_REALIZATION in memory; rows of the others are fracas_fragment,
+ * fracas_history_row, fracas_interface_row, fracas_decision, those of campaigns/store/file/mesh.h,
+ * and an int64_t for the offsets. */
 typedef struct {
     int64_t point, replica;
     fracas_record record; /* its scalars */
@@ -70,11 +79,11 @@ size_t fracas_stored_size(const fracas_store_column *column);
 
 /* Puts `count` rows (structs of `row_size` bytes) into `stored`, NaNs in one bit pattern.
  * Returns the number of integers that do not fit the stored type. */
-size_t fracas_rows_store(const fracas_store_column *column, const void *rows, size_t row_size, size_t count,
-                         void *stored);
+size_t fracas_rows_store(const fracas_store_column *column, const void *rows, size_t row_size,
+                         size_t count, void *stored);
 /* The inverse. */
-void fracas_rows_load(const fracas_store_column *column, const void *stored, size_t count, void *rows,
-                      size_t row_size);
+void fracas_rows_load(const fracas_store_column *column, const void *stored, size_t count,
+                      void *rows, size_t row_size);
 
 /* The dataset tables of docs/formats/study.md. */
 void fracas_store_reference(FILE *out);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The seal at the end of a segment. */
 #include "campaigns/store/file/disk.h"
 
@@ -61,9 +62,12 @@ static fracas_err check_end(int fd, const char *path, uint64_t bytes)
     uint64_t end;
     size_t got;
     TRY(read_at(fd, path, 0, sizeof start, start, &got));
-    if (got < sizeof start || memcmp(start, signature, sizeof signature) != 0) return damaged(path, "it does not begin as HDF5");
+    if (got < sizeof start || memcmp(start, signature, sizeof signature) != 0)
+        return damaged(path, "it does not begin as HDF5");
     memcpy(&end, start + END, sizeof end);
-    return bytes == end ? FRACAS_OK : damaged(path, "it has no seal at its end, or not the size that it had: cut short, or overwritten");
+    return bytes == end ? FRACAS_OK
+                        : damaged(path, "it has no seal at its end, or not the size that it had: "
+                                        "cut short, or overwritten");
 }
 
 static fracas_err check_open(int fd, const char *path)
@@ -76,7 +80,8 @@ static fracas_err check_open(int fd, const char *path)
     const uint64_t bytes = (uint64_t)info.st_size;
     if (bytes < sizeof own) return damaged(path, "it is too short");
     TRY(read_at(fd, path, bytes - sizeof own, sizeof own, &own, &got));
-    if (got < sizeof own || memcmp(own.mark, mark, sizeof mark) != 0) return check_end(fd, path, bytes);
+    if (got < sizeof own || memcmp(own.mark, mark, sizeof mark) != 0)
+        return check_end(fd, path, bytes);
     TRY(fracas_disk_seal_first(fd, path, bytes - sizeof own, &found));
     if (own.bytes == found.bytes && own.checksum == found.checksum) return FRACAS_OK;
     return damaged(path, "the seal at its end is not of its bytes");

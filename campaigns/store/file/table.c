@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/store/file/table.h"
 
 #include <math.h>
@@ -17,7 +18,8 @@ static fracas_err write_column(const fracas_h5 *h5, const fracas_store_column *c
 {
     hid_t dataset;
     TRY(fracas_h5_create_column(h5, column, FRACAS_POINT_CHUNK, &dataset));
-    fracas_err err = count ? fracas_h5_append_rows(h5, column, dataset, 0, count, stored) : FRACAS_OK;
+    fracas_err err = count ? fracas_h5_append_rows(h5, column, dataset, 0, count, stored)
+                           : FRACAS_OK;
     H5Dclose(dataset);
     return err;
 }
@@ -61,10 +63,13 @@ static fracas_err write_values(const fracas_h5 *h5, const fracas_point_table *ta
 {
     const fracas_column *from = &table->column[c];
     char path[256];
-    if ((size_t)snprintf(path, sizeof path, "/point/%s", from->path) >= sizeof path || strchr(from->path, '/') ||
-        !strcmp(path, fracas_store_point_hash.path) || !strcmp(path, fracas_store_point_replicas.path))
-        return fracas_fail(FRACAS_BUG, "a column of the point table cannot be named '%s'", from->path);
-    fracas_store_column column = {path, FRACAS_FLOAT64, 1, from->unit, from->doc, offsetof(fracas_value, real)};
+    if ((size_t)snprintf(path, sizeof path, "/point/%s", from->path) >= sizeof path ||
+        strchr(from->path, '/') || !strcmp(path, fracas_store_point_hash.path) ||
+        !strcmp(path, fracas_store_point_replicas.path))
+        return fracas_fail(FRACAS_BUG, "a column of the point table cannot be named '%s'",
+                           from->path);
+    fracas_store_column column = {path,       FRACAS_FLOAT64, 1,
+                                  from->unit, from->doc,      offsetof(fracas_value, real)};
     if (from->text) column.type = FRACAS_TEXT, column.width = longest_text(table, c);
     char *stored = column_memory(&column, table->npoints);
     if (!stored) return fracas_no_memory("the point table");
@@ -91,8 +96,10 @@ fracas_err fracas_table_write(const fracas_h5 *h5, const fracas_point_table *tab
 
 /* ---- reading ---- */
 
-/* A whole column; `rows` is what it must have, SIZE_MAX for any number. *stored freed by the caller. */
-static fracas_err read_column(const fracas_h5 *h5, const fracas_store_column *column, size_t *rows, void **stored)
+/* A whole column; `rows` is what it must have, SIZE_MAX for any number. *stored freed by the
+ * caller. */
+static fracas_err read_column(const fracas_h5 *h5, const fracas_store_column *column, size_t *rows,
+                              void **stored)
 {
     hid_t dataset;
     uint64_t found;
@@ -101,9 +108,10 @@ static fracas_err read_column(const fracas_h5 *h5, const fracas_store_column *co
     fracas_err err = FRACAS_OK;
     if (*rows == SIZE_MAX) *rows = found;
     else if (*rows != found)
-        err = fracas_fail(FRACAS_DAMAGED, "%s: %s: damaged: %llu rows for %zu points", h5->path, column->path,
-                          (unsigned long long)found, *rows);
-    if (!err && !(*stored = column_memory(column, *rows))) err = fracas_no_memory("the point table");
+        err = fracas_fail(FRACAS_DAMAGED, "%s: %s: damaged: %llu rows for %zu points", h5->path,
+                          column->path, (unsigned long long)found, *rows);
+    if (!err && !(*stored = column_memory(column, *rows)))
+        err = fracas_no_memory("the point table");
     if (!err && *rows) err = fracas_h5_read_rows(h5, column, dataset, 0, *rows, *stored);
     H5Dclose(dataset);
     if (err) free(*stored), *stored = NULL;
@@ -123,8 +131,9 @@ fracas_err fracas_table_read_points(const fracas_h5 *h5, fracas_stored_table *st
         memcpy(hex, (char *)hashes + p * width, width);
         stored->point[p].replicas = ((int64_t *)replicas)[p];
         if (!fracas_hash_parse(hex, &stored->point[p].hash) || stored->point[p].replicas < 0)
-            err = fracas_fail(FRACAS_DAMAGED, "%s: /point: damaged: row %zu has no valid hash and replicas", h5->path,
-                              p);
+            err = fracas_fail(FRACAS_DAMAGED,
+                              "%s: /point: damaged: row %zu has no valid hash and replicas",
+                              h5->path, p);
     }
     stored->table.npoints = err ? 0 : count;
     stored->table.point = stored->point;
@@ -134,22 +143,29 @@ fracas_err fracas_table_read_points(const fracas_h5 *h5, fracas_stored_table *st
 }
 
 /* Spreads a column as read over the rows' values. */
-static fracas_err spread_values(fracas_stored_table *stored, size_t c, const fracas_store_column *column,
-                                const char *from)
+static fracas_err spread_values(fracas_stored_table *stored, size_t c,
+                                const fracas_store_column *column, const char *from)
 {
-    size_t npoints = stored->table.npoints, ncolumns = stored->table.ncolumns, step = column->width + 1;
+    size_t npoints = stored->table.npoints, ncolumns = stored->table.ncolumns,
+           step = column->width + 1;
     bool text = column->type == FRACAS_TEXT;
-    if (text && !(stored->text[c] = calloc(npoints ? npoints : 1, step))) return fracas_no_memory("the point table");
+    if (text && !(stored->text[c] = calloc(npoints ? npoints : 1, step)))
+        return fracas_no_memory("the point table");
     for (size_t p = 0; p < npoints; p++) {
         fracas_value *value = &stored->value[p * ncolumns + c];
         *value = (fracas_value){NAN, ""};
-        if (text) value->text = memcpy(stored->text[c] + p * step, from + p * column->width, column->width);
-        else fracas_rows_load(column, from + p * fracas_stored_size(column), 1, value, sizeof *value);
+        if (text)
+            value->text = memcpy(stored->text[c] + p * step, from + p * column->width,
+                                 column->width);
+        else
+            fracas_rows_load(column, from + p * fracas_stored_size(column), 1, value,
+                             sizeof *value);
     }
     return FRACAS_OK;
 }
 
-static fracas_err read_values(const fracas_h5 *h5, const char *name, fracas_stored_table *stored, size_t c)
+static fracas_err read_values(const fracas_h5 *h5, const char *name, fracas_stored_table *stored,
+                              size_t c)
 {
     char path[256], *unit = NULL, *doc = NULL;
     snprintf(path, sizeof path, "/point/%s", name);
@@ -171,7 +187,8 @@ static fracas_err read_values(const fracas_h5 *h5, const char *name, fracas_stor
 /* Name of link `n` of /point in byte order; false for the two that are no columns of the table. */
 static fracas_err column_name(const fracas_h5 *h5, hsize_t n, char name[240], bool *is_column)
 {
-    ssize_t length = H5Lget_name_by_idx(h5->id, "/point", H5_INDEX_NAME, H5_ITER_INC, n, name, 240, H5P_DEFAULT);
+    ssize_t length = H5Lget_name_by_idx(h5->id, "/point", H5_INDEX_NAME, H5_ITER_INC, n, name, 240,
+                                        H5P_DEFAULT);
     if (length <= 0 || length >= 240) return fracas_h5_fail(h5, "/point");
     *is_column = strcmp(name, strrchr(fracas_store_point_hash.path, '/') + 1) != 0 &&
                  strcmp(name, strrchr(fracas_store_point_replicas.path, '/') + 1) != 0;
@@ -181,18 +198,22 @@ static fracas_err column_name(const fracas_h5 *h5, hsize_t n, char name[240], bo
 fracas_err fracas_table_read(const fracas_h5 *h5, fracas_stored_table *stored)
 {
     H5G_info_t info;
-    if (H5Gget_info_by_name(h5->id, "/point", &info, H5P_DEFAULT) < 0) return fracas_h5_fail(h5, "/point");
+    if (H5Gget_info_by_name(h5->id, "/point", &info, H5P_DEFAULT) < 0)
+        return fracas_h5_fail(h5, "/point");
     TRY(fracas_table_read_points(h5, stored));
-    /* After a bad checksum in a part of a group's header HDF5 1.10 may go on without the links in it. */
+    /* After a bad checksum in a part of a group's header HDF5 1.10 may go on without the links in
+     * it. */
     uint64_t columns;
     TRY(fracas_h5_get_integer(h5, "/point", "columns", H5T_STD_I64LE, &columns));
     if (info.nlinks < 2 || info.nlinks > h5->bytes || info.nlinks - 2 != columns)
-        return fracas_fail(FRACAS_DAMAGED, "%s: /point: damaged: it has not the columns that it says", h5->path);
+        return fracas_fail(FRACAS_DAMAGED,
+                           "%s: /point: damaged: it has not the columns that it says", h5->path);
     size_t ncolumns = columns, npoints = stored->table.npoints;
     stored->column = calloc(ncolumns + 1, sizeof *stored->column);
     stored->text = calloc(ncolumns + 1, sizeof *stored->text);
     stored->value = calloc(npoints * ncolumns + 1, sizeof *stored->value);
-    if (!stored->column || !stored->text || !stored->value) return fracas_no_memory("the point table");
+    if (!stored->column || !stored->text || !stored->value)
+        return fracas_no_memory("the point table");
     stored->table.column = stored->column;
     stored->table.ncolumns = ncolumns;
     size_t c = 0;

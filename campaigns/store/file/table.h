@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* /point in a file: the point table, one dataset a column. Private to the store. */
 #ifndef FRACAS_CAMPAIGNS_STORE_FILE_TABLE_H
 #define FRACAS_CAMPAIGNS_STORE_FILE_TABLE_H
@@ -18,7 +19,8 @@ FRACAS_MUST_USE fracas_err fracas_table_write(const fracas_h5 *h5, const fracas_
 /* *stored must be all zero; cleared by the caller, after an error too. */
 FRACAS_MUST_USE fracas_err fracas_table_read(const fracas_h5 *h5, fracas_stored_table *stored);
 /* The same without columns: only hash and replicas of each point. */
-FRACAS_MUST_USE fracas_err fracas_table_read_points(const fracas_h5 *h5, fracas_stored_table *stored);
+FRACAS_MUST_USE fracas_err fracas_table_read_points(const fracas_h5 *h5,
+                                                    fracas_stored_table *stored);
 void fracas_table_clear(fracas_stored_table *stored);
 
 #endif

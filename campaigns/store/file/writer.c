@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/file/table.h"
 
@@ -30,7 +31,8 @@ static bool has_set(const fracas_writer *writer, int set)
 {
     if (set >= FRACAS_SET_MESH_NODE_OFFSET) return writer->meshes;
     if (set == FRACAS_SET_DECISION) return writer->decisions;
-    return writer->interfaces || (set != FRACAS_SET_INTERFACE_OFFSET && set != FRACAS_SET_INTERFACE);
+    return writer->interfaces ||
+           (set != FRACAS_SET_INTERFACE_OFFSET && set != FRACAS_SET_INTERFACE);
 }
 
 static void writer_free(fracas_writer *writer)
@@ -50,8 +52,8 @@ static fracas_err flush(fracas_writer *writer, int s)
     set_writer *set = &writer->set[s];
     if (!set->waiting) return FRACAS_OK;
     for (size_t c = 0; c < fracas_store_sets[s].ncolumns; c++)
-        TRY(fracas_h5_append_rows(&writer->h5, &fracas_store_sets[s].column[c], set->dataset[c], set->written,
-                                  set->waiting, set->stored[c]));
+        TRY(fracas_h5_append_rows(&writer->h5, &fracas_store_sets[s].column[c], set->dataset[c],
+                                  set->written, set->waiting, set->stored[c]));
     set->written += set->waiting;
     set->waiting = 0;
     return FRACAS_OK;
@@ -68,7 +70,8 @@ static fracas_err put_rows(fracas_writer *writer, int s, const void *rows, size_
             const fracas_store_column *column = &schema->column[c];
             if (fracas_rows_store(column, from, schema->row_size, take,
                                   set->stored[c] + set->waiting * fracas_stored_size(column)))
-                return fracas_fail(FRACAS_BUG, "%s: %s: a value does not fit its type", writer->path, column->path);
+                return fracas_fail(FRACAS_BUG, "%s: %s: a value does not fit its type",
+                                   writer->path, column->path);
         }
         set->waiting += take;
         from += take * schema->row_size;
@@ -79,7 +82,8 @@ static fracas_err put_rows(fracas_writer *writer, int s, const void *rows, size_
 }
 
 /* Rows of one realization in a ragged set, and where they end in the set of offsets. */
-static fracas_err put_ragged(fracas_writer *writer, int offsets, int s, const void *rows, size_t count)
+static fracas_err put_ragged(fracas_writer *writer, int offsets, int s, const void *rows,
+                             size_t count)
 {
     if (!has_set(writer, s)) return FRACAS_OK;
     TRY(put_rows(writer, s, rows, count));
@@ -106,7 +110,8 @@ static fracas_err create_set(fracas_writer *writer, int s)
     const fracas_store_set *schema = &fracas_store_sets[s];
     for (size_t c = 0; c < schema->ncolumns; c++) {
         const fracas_store_column *column = &schema->column[c];
-        TRY(fracas_h5_create_column(&writer->h5, column, schema->chunk, &writer->set[s].dataset[c]));
+        TRY(fracas_h5_create_column(&writer->h5, column, schema->chunk,
+                                    &writer->set[s].dataset[c]));
         writer->set[s].stored[c] = malloc(schema->chunk * fracas_stored_size(column));
         if (!writer->set[s].stored[c]) return fracas_no_memory("the columns of a file");
     }
@@ -136,8 +141,8 @@ static fracas_err create_sets(fracas_writer *writer)
     return FRACAS_OK;
 }
 
-fracas_err fracas_writer_create(const char *path, const fracas_file_header *header, const fracas_point_table *table,
-                                fracas_writer **writer)
+fracas_err fracas_writer_create(const char *path, const fracas_file_header *header,
+                                const fracas_point_table *table, fracas_writer **writer)
 {
     *writer = calloc(1, sizeof **writer);
     if (!*writer) return fracas_no_memory("a file");
@@ -145,7 +150,8 @@ fracas_err fracas_writer_create(const char *path, const fracas_file_header *head
     w->h5 = FRACAS_H5_CLOSED;
     w->npoints = table->npoints;
     w->interfaces = header->interfaces;
-    fracas_err err = (w->path = strdup(path)) ? fracas_disk_temporary(path, &w->temporary) : fracas_no_memory("a file");
+    fracas_err err = (w->path = strdup(path)) ? fracas_disk_temporary(path, &w->temporary)
+                                              : fracas_no_memory("a file");
     if (!err) err = fracas_h5_create(&w->h5, w->temporary, w->path);
     if (!err) err = write_header(&w->h5, header);
     if (!err) err = fracas_table_write(&w->h5, table);
@@ -158,7 +164,8 @@ fracas_err fracas_writer_create(const char *path, const fracas_file_header *head
 
 /* ---- records and the end ---- */
 
-static bool is_consistent(const fracas_writer *writer, size_t point, int64_t replica, const fracas_record *record)
+static bool is_consistent(const fracas_writer *writer, size_t point, int64_t replica,
+                          const fracas_record *record)
 {
     bool failed = record->outcome == FRACAS_FAILED;
     return point < writer->npoints && point <= INT32_MAX && replica >= 0 && record->outcome >= 0 &&
@@ -167,15 +174,20 @@ static bool is_consistent(const fracas_writer *writer, size_t point, int64_t rep
            (failed || record->nfragment == (uint64_t)record->fragments);
 }
 
-fracas_err fracas_writer_append(fracas_writer *writer, size_t point, int64_t replica, const fracas_record *record)
+fracas_err fracas_writer_append(fracas_writer *writer, size_t point, int64_t replica,
+                                const fracas_record *record)
 {
     if (!is_consistent(writer, point, replica, record))
-        return fracas_fail(FRACAS_BUG, "%s: point %zu, replica %lld: the record contradicts itself or the point table",
-                           writer->path, point, (long long)replica);
+        return fracas_fail(
+            FRACAS_BUG,
+            "%s: point %zu, replica %lld: the record contradicts itself or the point table",
+            writer->path, point, (long long)replica);
     fracas_stored_realization row = {(int64_t)point, replica, *record};
     TRY(put_rows(writer, FRACAS_SET_REALIZATION, &row, 1));
-    TRY(put_ragged(writer, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT, record->fragment, record->nfragment));
-    TRY(put_ragged(writer, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY, record->history, record->nhistory));
+    TRY(put_ragged(writer, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT, record->fragment,
+                   record->nfragment));
+    TRY(put_ragged(writer, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY, record->history,
+                   record->nhistory));
     return put_ragged(writer, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE, record->interface,
                       record->ninterface);
 }
@@ -187,7 +199,8 @@ fracas_err fracas_writer_provenance(fracas_writer *writer, const char *provenanc
 
 /* ---- decisions ---- */
 
-fracas_err fracas_writer_decisions(fracas_writer *writer, const fracas_decision *decision, size_t count)
+fracas_err fracas_writer_decisions(fracas_writer *writer, const fracas_decision *decision,
+                                   size_t count)
 {
     if (!count) return FRACAS_OK;
     if (!writer->decisions) { /* a study without them has the bytes that it always had */
@@ -202,20 +215,25 @@ fracas_err fracas_writer_decisions(fracas_writer *writer, const fracas_decision 
 
 static fracas_err put_mesh(fracas_writer *writer, const fracas_stored_mesh *mesh)
 {
-    TRY(put_ragged(writer, FRACAS_SET_MESH_NODE_OFFSET, FRACAS_SET_MESH_NODE, mesh->node, mesh->nnodes));
-    TRY(put_ragged(writer, FRACAS_SET_MESH_ELEMENT_OFFSET, FRACAS_SET_MESH_ELEMENT, mesh->element, mesh->nelements));
-    TRY(put_ragged(writer, FRACAS_SET_MESH_INTERFACE_OFFSET, FRACAS_SET_MESH_INTERFACE, mesh->interface,
-                   mesh->ninterfaces));
-    return put_ragged(writer, FRACAS_SET_MESH_BORDER_OFFSET, FRACAS_SET_MESH_BORDER, mesh->border, mesh->nborders);
+    TRY(put_ragged(writer, FRACAS_SET_MESH_NODE_OFFSET, FRACAS_SET_MESH_NODE, mesh->node,
+                   mesh->nnodes));
+    TRY(put_ragged(writer, FRACAS_SET_MESH_ELEMENT_OFFSET, FRACAS_SET_MESH_ELEMENT, mesh->element,
+                   mesh->nelements));
+    TRY(put_ragged(writer, FRACAS_SET_MESH_INTERFACE_OFFSET, FRACAS_SET_MESH_INTERFACE,
+                   mesh->interface, mesh->ninterfaces));
+    return put_ragged(writer, FRACAS_SET_MESH_BORDER_OFFSET, FRACAS_SET_MESH_BORDER, mesh->border,
+                      mesh->nborders);
 }
 
-/* The group comes with the first surface, so that a study without one has the bytes that it always had. */
+/* The group comes with the first surface, so that a study without one has the bytes that it always
+ * had. */
 static fracas_err begin_meshes(fracas_writer *writer)
 {
     static const fracas_stored_mesh none = {0};
     TRY(fracas_h5_create_group(&writer->h5, "/mesh"));
     writer->meshes = true;
-    for (int s = FRACAS_SET_MESH_NODE_OFFSET; s < FRACAS_NSETS; s += 2) TRY(create_ragged(writer, s, s + 1));
+    for (int s = FRACAS_SET_MESH_NODE_OFFSET; s < FRACAS_NSETS; s += 2)
+        TRY(create_ragged(writer, s, s + 1));
     for (size_t p = 0; p < writer->npassed; p++) TRY(put_mesh(writer, &none));
     return FRACAS_OK;
 }
@@ -226,7 +244,8 @@ fracas_err fracas_writer_mesh(fracas_writer *writer, const fracas_stored_mesh *m
     if (!writer->interfaces) fault = "the file keeps no interfaces";
     if (writer->npassed >= writer->npoints) fault = "every point has had its mesh";
     if (fault)
-        return fracas_fail(FRACAS_BUG, "%s: mesh of point %zu: %s", writer->path, writer->npassed, fault);
+        return fracas_fail(FRACAS_BUG, "%s: mesh of point %zu: %s", writer->path, writer->npassed,
+                           fault);
     if (!writer->meshes && mesh->nelements > 0) TRY(begin_meshes(writer));
     writer->npassed++;
     return writer->meshes ? put_mesh(writer, mesh) : FRACAS_OK;
@@ -235,8 +254,8 @@ fracas_err fracas_writer_mesh(fracas_writer *writer, const fracas_stored_mesh *m
 static fracas_err finish(fracas_writer *writer, bool complete, fracas_file_seal *seal)
 {
     if (writer->meshes && writer->npassed != writer->npoints)
-        return fracas_fail(FRACAS_BUG, "%s: %zu of %zu points have had their mesh", writer->path, writer->npassed,
-                           writer->npoints);
+        return fracas_fail(FRACAS_BUG, "%s: %zu of %zu points have had their mesh", writer->path,
+                           writer->npassed, writer->npoints);
     for (int s = 0; s < FRACAS_NSETS; s++)
         if (has_set(writer, s)) TRY(flush(writer, s));
     TRY(fracas_h5_put_integer(&writer->h5, "/", "complete", H5T_STD_I8LE, complete));
@@ -244,11 +263,15 @@ static fracas_err finish(fracas_writer *writer, bool complete, fracas_file_seal 
     if (writer->own_seal) TRY(fracas_disk_append_seal(writer->h5.fd, writer->path));
     TRY(fracas_disk_seal(writer->h5.fd, writer->path, seal));
     if (fsync(writer->h5.fd) < 0) return fracas_disk_fail("sync", writer->path);
-    if (rename(writer->temporary, writer->path) < 0) return fracas_disk_fail("rename to", writer->path);
+    if (rename(writer->temporary, writer->path) < 0)
+        return fracas_disk_fail("rename to", writer->path);
     return fracas_disk_sync_folder(writer->path);
 }
 
-void fracas_writer_own_seal(fracas_writer *writer) { writer->own_seal = true; }
+void fracas_writer_own_seal(fracas_writer *writer)
+{
+    writer->own_seal = true;
+}
 
 fracas_err fracas_writer_finish(fracas_writer *writer, bool complete, fracas_file_seal *seal)
 {
@@ -261,6 +284,7 @@ fracas_err fracas_writer_finish(fracas_writer *writer, bool complete, fracas_fil
 void fracas_writer_abandon(fracas_writer *writer)
 {
     if (!writer) return;
-    if (writer->temporary) unlink(writer->temporary); /* not there any more if only the last sync failed */
+    if (writer->temporary)
+        unlink(writer->temporary); /* not there any more if only the last sync failed */
     writer_free(writer);
 }

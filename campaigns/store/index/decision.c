@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Decisions on the number of replicas, and what they are made of. */
 #include "campaigns/store/index/index.h"
 
@@ -19,20 +20,24 @@ double fracas_decision_relative(const fracas_decision *decision)
     return decision->half_width == 0 ? 0 : decision->half_width / fabs(decision->mean);
 }
 
-static bool same_real(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
+static bool same_real(double a, double b)
+{
+    return a == b || (isnan(a) && isnan(b));
+}
 
 bool fracas_decision_same(const fracas_decision *a, const fracas_decision *b)
 {
-    return a->point == b->point && a->round == b->round && a->replicas == b->replicas && a->used == b->used &&
-           same_real(a->mean, b->mean) && same_real(a->half_width, b->half_width) && a->stop == b->stop &&
+    return a->point == b->point && a->round == b->round && a->replicas == b->replicas &&
+           a->used == b->used && same_real(a->mean, b->mean) &&
+           same_real(a->half_width, b->half_width) && a->stop == b->stop &&
            a->quantity == b->quantity && a->minimum == b->minimum && a->maximum == b->maximum &&
            a->relative_half_width == b->relative_half_width && a->confidence == b->confidence;
 }
 
 bool fracas_decision_valid(const fracas_decision *d)
 {
-    return d->round >= 0 && d->replicas > 0 && d->used >= 0 && d->used <= d->replicas && d->stop >= 0 && d->stop <= 2 &&
-           d->quantity >= 0 && d->quantity <= 2;
+    return d->round >= 0 && d->replicas > 0 && d->used >= 0 && d->used <= d->replicas &&
+           d->stop >= 0 && d->stop <= 2 && d->quantity >= 0 && d->quantity <= 2;
 }
 
 static double real_at(sqlite3_stmt *s, int column) /* NULL is NaN */
@@ -43,10 +48,13 @@ static double real_at(sqlite3_stmt *s, int column) /* NULL is NaN */
 static fracas_err need_point(fracas_index *index, const fracas_hash *point, int64_t *id)
 {
     TRY(fracas_index_find_point(index, point, id));
-    return *id ? FRACAS_OK : fracas_fail(FRACAS_DAMAGED, "%s lacks a point of the campaign; %s", index->path, remedy);
+    return *id ? FRACAS_OK
+               : fracas_fail(FRACAS_DAMAGED, "%s lacks a point of the campaign; %s", index->path,
+                             remedy);
 }
 
-fracas_err fracas_index_summaries(fracas_index *index, const fracas_hash *point, size_t count, fracas_index_summary *summary)
+fracas_err fracas_index_summaries(fracas_index *index, const fracas_hash *point, size_t count,
+                                  fracas_index_summary *summary)
 {
     int64_t id;
     size_t found = 0;
@@ -58,15 +66,18 @@ fracas_err fracas_index_summaries(fracas_index *index, const fracas_hash *point,
         bool more;
         TRY(fracas_index_step(index, FRACAS_SQL_ROW_SUMMARY, &more));
         if (!more || found == count) break;
-        summary[found] = (fracas_index_summary){fracas_index_status(sqlite3_column_text(s, 0)), sqlite3_column_int64(s, 1),
-                                                sqlite3_column_int64(s, 2), real_at(s, 3), real_at(s, 4)};
+        summary[found] = (fracas_index_summary){
+            fracas_index_status(sqlite3_column_text(s, 0)), sqlite3_column_int64(s, 1),
+            sqlite3_column_int64(s, 2), real_at(s, 3), real_at(s, 4)};
     }
     fracas_index_reset(index, FRACAS_SQL_ROW_SUMMARY);
     if (found == count) return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED, "%s: %zu of the first %zu replicas of a point are there; %s", index->path, found, count, remedy);
+    return fracas_fail(FRACAS_DAMAGED, "%s: %zu of the first %zu replicas of a point are there; %s",
+                       index->path, found, count, remedy);
 }
 
-fracas_err fracas_index_decisions(fracas_index *index, const fracas_hash *point, fracas_decision **decision, size_t *count)
+fracas_err fracas_index_decisions(fracas_index *index, const fracas_hash *point,
+                                  fracas_decision **decision, size_t *count)
 {
     int64_t id;
     size_t room = 0;
@@ -74,7 +85,8 @@ fracas_err fracas_index_decisions(fracas_index *index, const fracas_hash *point,
     *decision = NULL;
     *count = 0;
     TRY(need_point(index, point, &id));
-    fracas_err err = index->old ? FRACAS_OK : fracas_index_bind(index, FRACAS_SQL_DECISION_OF_POINT, 1, id);
+    fracas_err err = index->old ? FRACAS_OK
+                                : fracas_index_bind(index, FRACAS_SQL_DECISION_OF_POINT, 1, id);
     for (bool more; !err; ++*count) {
         err = fracas_index_step(index, FRACAS_SQL_DECISION_OF_POINT, &more);
         if (err || !more) break;
@@ -86,20 +98,28 @@ fracas_err fracas_index_decisions(fracas_index *index, const fracas_hash *point,
             if (err) break;
         }
         const int64_t replicas = sqlite3_column_int64(s, 1);
-        (*decision)[*count] = (fracas_decision){
-            .round = sqlite3_column_int64(s, 0), .replicas = replicas, .used = replicas - sqlite3_column_int64(s, 2),
-            .mean = real_at(s, 3), .half_width = real_at(s, 4), .stop = sqlite3_column_int64(s, 5),
-            .quantity = sqlite3_column_int64(s, 6), .minimum = sqlite3_column_int64(s, 7), .maximum = sqlite3_column_int64(s, 8),
-            .relative_half_width = real_at(s, 9), .confidence = real_at(s, 10)};
+        (*decision)[*count] = (fracas_decision){.round = sqlite3_column_int64(s, 0),
+                                                .replicas = replicas,
+                                                .used = replicas - sqlite3_column_int64(s, 2),
+                                                .mean = real_at(s, 3),
+                                                .half_width = real_at(s, 4),
+                                                .stop = sqlite3_column_int64(s, 5),
+                                                .quantity = sqlite3_column_int64(s, 6),
+                                                .minimum = sqlite3_column_int64(s, 7),
+                                                .maximum = sqlite3_column_int64(s, 8),
+                                                .relative_half_width = real_at(s, 9),
+                                                .confidence = real_at(s, 10)};
         if (!fracas_decision_valid(&(*decision)[*count]))
-            err = fracas_fail(FRACAS_DAMAGED, "%s: a row of its table `decision` is damaged; %s", index->path, remedy);
+            err = fracas_fail(FRACAS_DAMAGED, "%s: a row of its table `decision` is damaged; %s",
+                              index->path, remedy);
     }
     fracas_index_reset(index, FRACAS_SQL_DECISION_OF_POINT);
     if (err) free(*decision), *decision = NULL;
     return err;
 }
 
-static fracas_err add_decision(fracas_index *index, int64_t id, const fracas_decision *d, const char *reason)
+static fracas_err add_decision(fracas_index *index, int64_t id, const fracas_decision *d,
+                               const char *reason)
 {
     const fracas_sql add = FRACAS_SQL_DECISION_ADD;
     const int64_t whole[] = {id, d->round, d->replicas, d->replicas - d->used};
@@ -116,7 +136,8 @@ static fracas_err add_decision(fracas_index *index, int64_t id, const fracas_dec
     return fracas_index_do(index, add);
 }
 
-fracas_err fracas_index_decide(fracas_index *index, const fracas_point_row *point, const fracas_decision *decision, const char *reason)
+fracas_err fracas_index_decide(fracas_index *index, const fracas_point_row *point,
+                               const fracas_decision *decision, const char *reason)
 {
     int64_t id;
     TRY(need_point(index, &point->hash, &id));

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The index: opening the database, its tables and its statements. */
 #include "campaigns/store/index/index.h"
 
@@ -14,25 +15,23 @@
 
 /* docs/formats/study.md explains every column. */
 static const char tables[] =
-    "CREATE TABLE IF NOT EXISTS meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT, WITHOUT ROWID;"
-    "CREATE TABLE IF NOT EXISTS point(id INTEGER PRIMARY KEY, hash TEXT NOT NULL UNIQUE, replicas INTEGER NOT NULL)"
-    " STRICT;"
-    "CREATE TABLE IF NOT EXISTS segment(id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, bytes INTEGER NOT NULL,"
-    " checksum TEXT NOT NULL, rows INTEGER NOT NULL,"
-    " provenance TEXT NOT NULL CHECK (json_valid(provenance))) STRICT;"
-    "CREATE TABLE IF NOT EXISTS realization(point INTEGER NOT NULL REFERENCES point(id), replica INTEGER NOT NULL,"
-    " status TEXT NOT NULL CHECK (status IN ('planned', 'leased', 'done', 'failed', 'quarantined')),"
-    " attempts INTEGER NOT NULL DEFAULT 0, reason TEXT, outcome INTEGER, segment INTEGER REFERENCES segment(id),"
-    " row INTEGER, fragments INTEGER, fragments_dust INTEGER, steps INTEGER, dissipated REAL, residual REAL,"
-    " size REAL,"
-    " PRIMARY KEY (point, replica)) STRICT, WITHOUT ROWID;"
-    "CREATE TABLE IF NOT EXISTS event(id INTEGER PRIMARY KEY, time TEXT NOT NULL, kind TEXT NOT NULL,"
-    " text TEXT NOT NULL) STRICT;"
-    "CREATE TABLE IF NOT EXISTS decision(point INTEGER NOT NULL REFERENCES point(id), round INTEGER NOT NULL,"
-    " replicas INTEGER NOT NULL, failed INTEGER NOT NULL, mean REAL, half_width REAL, relative REAL,"
-    " stop INTEGER NOT NULL, reason TEXT NOT NULL, quantity INTEGER NOT NULL, minimum INTEGER NOT NULL,"
-    " maximum INTEGER NOT NULL, relative_half_width REAL NOT NULL, confidence REAL NOT NULL,"
-    " PRIMARY KEY (point, round)) STRICT, WITHOUT ROWID;";
+    "CREATE TABLE IF NOT EXISTS meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT, WITHOUT "
+    "ROWID;CREATE TABLE IF NOT EXISTS point(id INTEGER PRIMARY KEY, hash TEXT NOT NULL UNIQUE, "
+    "replicas INTEGER NOT NULL) STRICT;CREATE TABLE IF NOT EXISTS segment(id INTEGER PRIMARY KEY, "
+    "name TEXT NOT NULL UNIQUE, bytes INTEGER NOT NULL, checksum TEXT NOT NULL, rows INTEGER NOT "
+    "NULL, provenance TEXT NOT NULL CHECK (json_valid(provenance))) STRICT;CREATE TABLE IF NOT "
+    "EXISTS realization(point INTEGER NOT NULL REFERENCES point(id), replica INTEGER NOT NULL, "
+    "status TEXT NOT NULL CHECK (status IN ('planned', 'leased', 'done', 'failed', "
+    "'quarantined')), attempts INTEGER NOT NULL DEFAULT 0, reason TEXT, outcome INTEGER, segment "
+    "INTEGER REFERENCES segment(id), row INTEGER, fragments INTEGER, fragments_dust INTEGER, steps "
+    "INTEGER, dissipated REAL, residual REAL, size REAL, PRIMARY KEY (point, replica)) STRICT, "
+    "WITHOUT ROWID;CREATE TABLE IF NOT EXISTS event(id INTEGER PRIMARY KEY, time TEXT NOT NULL, "
+    "kind TEXT NOT NULL, text TEXT NOT NULL) STRICT;CREATE TABLE IF NOT EXISTS decision(point "
+    "INTEGER NOT NULL REFERENCES point(id), round INTEGER NOT NULL, replicas INTEGER NOT NULL, "
+    "failed INTEGER NOT NULL, mean REAL, half_width REAL, relative REAL, stop INTEGER NOT NULL, "
+    "reason TEXT NOT NULL, quantity INTEGER NOT NULL, minimum INTEGER NOT NULL, maximum INTEGER "
+    "NOT NULL, relative_half_width REAL NOT NULL, confidence REAL NOT NULL, PRIMARY KEY (point, "
+    "round)) STRICT, WITHOUT ROWID;";
 
 static const char remedy[] = "`fracas reindex` makes it anew from the segments";
 
@@ -40,68 +39,77 @@ static const char *const sql_text[FRACAS_NSQL] = {
     [FRACAS_SQL_BEGIN] = "BEGIN IMMEDIATE",
     [FRACAS_SQL_BEGIN_READING] = "BEGIN",
     [FRACAS_SQL_COMMIT] = "COMMIT",
-    [FRACAS_SQL_POINT_ADD] = "INSERT INTO point(hash, replicas) VALUES (?1, ?2)"
-                             " ON CONFLICT (hash) DO UPDATE SET replicas = max(replicas, excluded.replicas)",
+    [FRACAS_SQL_POINT_ADD] = "INSERT INTO point(hash, replicas) VALUES (?1, ?2) ON CONFLICT (hash) "
+                             "DO UPDATE SET replicas = max(replicas, excluded.replicas)",
     [FRACAS_SQL_POINT_FIND] = "SELECT id FROM point WHERE hash = ?1",
     [FRACAS_SQL_POINT_COUNT] = "SELECT count(*) FROM point",
     [FRACAS_SQL_POINT_ALL] = "SELECT hash, replicas FROM point ORDER BY id",
     [FRACAS_SQL_ROW_COUNT] = "SELECT count(*) FROM realization WHERE point = ?1 AND replica < ?2",
-    [FRACAS_SQL_ROW_ADD] = "WITH RECURSIVE n(replica) AS"
-                           " (SELECT 0 UNION ALL SELECT replica + 1 FROM n WHERE replica + 1 < ?2)"
-                           " INSERT OR IGNORE INTO realization(point, replica, status)"
-                           " SELECT ?1, replica, 'planned' FROM n",
-    [FRACAS_SQL_ROW_FIND] = "SELECT status, segment, row, outcome, fragments, fragments_dust, steps, dissipated, residual, size"
-                            " FROM realization WHERE point = ?1 AND replica = ?2",
-    [FRACAS_SQL_ROW_OF_POINT] = "SELECT replica, status, attempts FROM realization"
-                                " WHERE point = ?1 AND replica >= ?3 AND replica < ?2 ORDER BY replica",
-    [FRACAS_SQL_ROW_FAILED] = "SELECT replica, status, attempts, coalesce(reason, '') FROM realization"
-                              " WHERE point = ?1 AND status IN ('failed', 'quarantined') ORDER BY replica",
-    [FRACAS_SQL_ROW_BY_SEGMENT] = "SELECT r.segment, r.row, p.hash, r.replica, r.outcome, r.fragments,"
-                                  " r.fragments_dust, r.steps, r.dissipated, r.residual, r.status, r.size"
-                                  " FROM realization r JOIN point p ON p.id = r.point"
-                                  " WHERE r.segment IS NOT NULL OR r.status = 'done' ORDER BY r.segment, r.row",
+    [FRACAS_SQL_ROW_ADD] =
+        "WITH RECURSIVE n(replica) AS (SELECT 0 UNION ALL SELECT replica + 1 FROM n WHERE replica "
+        "+ 1 < ?2) INSERT OR IGNORE INTO realization(point, replica, status) SELECT ?1, replica, "
+        "'planned' FROM n",
+    [FRACAS_SQL_ROW_FIND] =
+        "SELECT status, segment, row, outcome, fragments, fragments_dust, steps, dissipated, "
+        "residual, size FROM realization WHERE point = ?1 AND replica = ?2",
+    [FRACAS_SQL_ROW_OF_POINT] = "SELECT replica, status, attempts FROM realization WHERE point = "
+                                "?1 AND replica >= ?3 AND replica < ?2 ORDER BY replica",
+    [FRACAS_SQL_ROW_FAILED] =
+        "SELECT replica, status, attempts, coalesce(reason, '') FROM realization WHERE point = ?1 "
+        "AND status IN ('failed', 'quarantined') ORDER BY replica",
+    [FRACAS_SQL_ROW_BY_SEGMENT] =
+        "SELECT r.segment, r.row, p.hash, r.replica, r.outcome, r.fragments, r.fragments_dust, "
+        "r.steps, r.dissipated, r.residual, r.status, r.size FROM realization r JOIN point p ON "
+        "p.id = r.point WHERE r.segment IS NOT NULL OR r.status = 'done' ORDER BY r.segment, r.row",
     [FRACAS_SQL_ROW_UNLEASE] = "UPDATE realization SET status = 'planned' WHERE status = 'leased'",
-    [FRACAS_SQL_ROW_LEASE] = "UPDATE realization SET status = 'leased'"
-                             " WHERE point = ?1 AND replica >= ?2 AND replica < ?2 + ?3 AND status = 'planned'",
-    [FRACAS_SQL_ROW_FAIL] = "UPDATE realization SET attempts = attempts + 1, reason = ?3, status = ?4, outcome = ?5"
-                            " WHERE point = ?1 AND replica = ?2 AND status <> 'done'",
-    [FRACAS_SQL_ROW_DONE] = "UPDATE realization SET status = ?3, outcome = ?4, segment = ?5, row = ?6, fragments = ?7,"
-                            " fragments_dust = ?8, steps = ?9, dissipated = ?10, residual = ?11, size = ?12"
-                            " WHERE point = ?1 AND replica = ?2 AND status <> 'done'",
-    [FRACAS_SQL_ROW_FORGET] = "UPDATE realization SET status = 'planned', outcome = NULL, segment = NULL, row = NULL,"
-                              " fragments = NULL, fragments_dust = NULL, steps = NULL, dissipated = NULL,"
-                              " residual = NULL, size = NULL WHERE segment IN (SELECT id FROM segment WHERE bytes < 0)",
+    [FRACAS_SQL_ROW_LEASE] = "UPDATE realization SET status = 'leased' WHERE point = ?1 AND "
+                             "replica >= ?2 AND replica < ?2 + ?3 AND status = 'planned'",
+    [FRACAS_SQL_ROW_FAIL] =
+        "UPDATE realization SET attempts = attempts + 1, reason = ?3, status = ?4, outcome = ?5 "
+        "WHERE point = ?1 AND replica = ?2 AND status <> 'done'",
+    [FRACAS_SQL_ROW_DONE] =
+        "UPDATE realization SET status = ?3, outcome = ?4, segment = ?5, row = ?6, fragments = ?7, "
+        "fragments_dust = ?8, steps = ?9, dissipated = ?10, residual = ?11, size = ?12 WHERE point "
+        "= ?1 AND replica = ?2 AND status <> 'done'",
+    [FRACAS_SQL_ROW_FORGET] =
+        "UPDATE realization SET status = 'planned', outcome = NULL, segment = NULL, row = NULL, "
+        "fragments = NULL, fragments_dust = NULL, steps = NULL, dissipated = NULL, residual = "
+        "NULL, size = NULL WHERE segment IN (SELECT id FROM segment WHERE bytes < 0)",
     [FRACAS_SQL_TALLY] = "SELECT status, outcome, point FROM realization",
-    [FRACAS_SQL_SEGMENT_ADD] = "INSERT INTO segment(name, bytes, checksum, rows, provenance)"
-                               " VALUES (?1, ?2, ?3, ?4, ?5)",
+    [FRACAS_SQL_SEGMENT_ADD] =
+        "INSERT INTO segment(name, bytes, checksum, rows, provenance) VALUES (?1, ?2, ?3, ?4, ?5)",
     [FRACAS_SQL_SEGMENT_FIND] = "SELECT id, bytes, checksum FROM segment WHERE name = ?1",
     [FRACAS_SQL_SEGMENT_ALL] = "SELECT id, name, bytes, checksum, rows FROM segment ORDER BY id",
     [FRACAS_SQL_SEGMENT_LOSE] = "UPDATE segment SET bytes = -1 WHERE id = ?1",
     [FRACAS_SQL_SEGMENT_FORGET] = "DELETE FROM segment WHERE bytes < 0",
     [FRACAS_SQL_SEGMENT_TOTAL] = "SELECT count(*), coalesce(sum(bytes), 0) FROM segment",
-    [FRACAS_SQL_EVENT_ADD] = "INSERT INTO event(time, kind, text)"
-                             " VALUES (strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), ?1, ?2)",
+    [FRACAS_SQL_EVENT_ADD] = "INSERT INTO event(time, kind, text) VALUES "
+                             "(strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), ?1, ?2)",
     [FRACAS_SQL_EVENT_LAST] = "SELECT text FROM event WHERE kind = ?1 ORDER BY id DESC LIMIT 1",
-    [FRACAS_SQL_ROW_SUMMARY] = "SELECT status, outcome, fragments, size, dissipated FROM realization"
-                               " WHERE point = ?1 AND replica < ?2 ORDER BY replica",
+    [FRACAS_SQL_ROW_SUMMARY] = "SELECT status, outcome, fragments, size, dissipated FROM "
+                               "realization WHERE point = ?1 AND replica < ?2 ORDER BY replica",
     [FRACAS_SQL_ROW_TRIM] = "DELETE FROM realization WHERE point = ?1 AND replica >= ?2",
-    [FRACAS_SQL_DECISION_ADD] = "INSERT INTO decision VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14)",
+    [FRACAS_SQL_DECISION_ADD] =
+        "INSERT INTO decision VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14)",
     [FRACAS_SQL_DECISION_DROP] = "DELETE FROM decision WHERE point = ?1 AND round >= ?2",
-    [FRACAS_SQL_DECISION_OF_POINT] = "SELECT round, replicas, failed, mean, half_width, stop, quantity, minimum, maximum,"
-                                     " relative_half_width, confidence FROM decision WHERE point = ?1 ORDER BY round",
+    [FRACAS_SQL_DECISION_OF_POINT] =
+        "SELECT round, replicas, failed, mean, half_width, stop, quantity, minimum, maximum, "
+        "relative_half_width, confidence FROM decision WHERE point = ?1 ORDER BY round",
 };
 
-/* The same for an index of before decisions were kept, which is only looked at: a run adds what it lacks. */
+/* The same for an index of before decisions were kept, which is only looked at: a run adds what it
+ * lacks. */
 static const char *old_text(int sql)
 {
     switch (sql) {
     case FRACAS_SQL_ROW_BY_SEGMENT:
-        return "SELECT r.segment, r.row, p.hash, r.replica, r.outcome, r.fragments, r.fragments_dust, r.steps, r.dissipated,"
-               " r.residual, r.status, NULL FROM realization r JOIN point p ON p.id = r.point"
-               " WHERE r.segment IS NOT NULL OR r.status = 'done' ORDER BY r.segment, r.row";
+        return "SELECT r.segment, r.row, p.hash, r.replica, r.outcome, r.fragments, "
+               "r.fragments_dust, r.steps, r.dissipated, r.residual, r.status, NULL FROM "
+               "realization r JOIN point p ON p.id = r.point WHERE r.segment IS NOT NULL OR "
+               "r.status = 'done' ORDER BY r.segment, r.row";
     case FRACAS_SQL_ROW_FIND:
-        return "SELECT status, segment, row, outcome, fragments, fragments_dust, steps, dissipated, residual, NULL FROM realization"
-               " WHERE point = ?1 AND replica = ?2";
+        return "SELECT status, segment, row, outcome, fragments, fragments_dust, steps, "
+               "dissipated, residual, NULL FROM realization WHERE point = ?1 AND replica = ?2";
     case FRACAS_SQL_ROW_DONE:
     case FRACAS_SQL_ROW_FORGET:
     case FRACAS_SQL_ROW_SUMMARY:
@@ -114,11 +122,13 @@ static const char *old_text(int sql)
 
 /* ---- errors and statements ---- */
 
-/* What the system said to SQLite. Of a COMMIT that fails SQLite does not tell; errno is as it was left then. */
+/* What the system said to SQLite. Of a COMMIT that fails SQLite does not tell; errno is as it was
+ * left then. */
 static int system_reason(const fracas_index *index, int last)
 {
     const int told = index->db ? sqlite3_system_errno(index->db) : 0;
-    const bool is_of_disk = last == ENOSPC || last == EDQUOT || last == EFBIG || last == EIO || last == EROFS;
+    const bool is_of_disk = last == ENOSPC || last == EDQUOT || last == EFBIG || last == EIO ||
+                            last == EROFS;
     return told ? told : is_of_disk ? last : 0;
 }
 
@@ -130,27 +140,34 @@ fracas_err fracas_index_error(const fracas_index *index, const char *doing)
     switch (code) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-        return fracas_fail(FRACAS_IN_USE, "%s: cannot %s: another process is using it; try again later", index->path,
-                           doing);
+        return fracas_fail(FRACAS_IN_USE,
+                           "%s: cannot %s: another process is using it; try again later",
+                           index->path, doing);
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
     case SQLITE_FORMAT:
-        return fracas_fail(FRACAS_DAMAGED, "%s: cannot %s: damaged: %s; %s", index->path, doing, text, remedy);
+        return fracas_fail(FRACAS_DAMAGED, "%s: cannot %s: damaged: %s; %s", index->path, doing,
+                           text, remedy);
     case SQLITE_ERROR:
     case SQLITE_CONSTRAINT:
     case SQLITE_MISUSE:
     case SQLITE_RANGE:
     case SQLITE_MISMATCH:
         return fracas_fail(FRACAS_BUG, "%s: cannot %s: %s", index->path, doing, text);
-    case SQLITE_FULL: return fracas_fail_system(system ? system : ENOSPC, "%s: cannot %s", index->path, doing);
+    case SQLITE_FULL:
+        return fracas_fail_system(system ? system : ENOSPC, "%s: cannot %s", index->path, doing);
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
     case SQLITE_PERM:
-        if (system && *fracas_remedy(system)) return fracas_fail_system(system, "%s: cannot %s", index->path, doing);
-        return fracas_fail(FRACAS_ENVIRONMENT, "%s: cannot %s: %s; make the study writable, or copy it to where "
-                           "you may write", index->path, doing, text);
+        if (system && *fracas_remedy(system))
+            return fracas_fail_system(system, "%s: cannot %s", index->path, doing);
+        return fracas_fail(
+            FRACAS_ENVIRONMENT,
+            "%s: cannot %s: %s; make the study writable, or copy it to where you may write",
+            index->path, doing, text);
     default:
-        if (system) return fracas_fail_system(system, "%s: cannot %s: %s", index->path, doing, text);
+        if (system)
+            return fracas_fail_system(system, "%s: cannot %s: %s", index->path, doing, text);
         return fracas_fail(FRACAS_ENVIRONMENT, "%s: cannot %s: %s", index->path, doing, text);
     }
 }
@@ -168,7 +185,8 @@ fracas_err fracas_index_step(fracas_index *index, fracas_sql sql, bool *row)
 
 void fracas_index_reset(fracas_index *index, fracas_sql sql)
 {
-    sqlite3_reset(index->statement[sql]); /* repeats the error of the last step, which was reported */
+    sqlite3_reset(
+        index->statement[sql]); /* repeats the error of the last step, which was reported */
 }
 
 fracas_err fracas_index_do(fracas_index *index, fracas_sql sql)
@@ -191,7 +209,8 @@ fracas_err fracas_index_bind(fracas_index *index, fracas_sql sql, int n, int64_t
 
 fracas_err fracas_index_bind_real(fracas_index *index, fracas_sql sql, int n, double value)
 {
-    return bound(index, sqlite3_bind_double(index->statement[sql], n, value)); /* NaN becomes NULL */
+    return bound(index,
+                 sqlite3_bind_double(index->statement[sql], n, value)); /* NaN becomes NULL */
 }
 
 fracas_err fracas_index_bind_text(fracas_index *index, fracas_sql sql, int n, const char *text)
@@ -199,13 +218,17 @@ fracas_err fracas_index_bind_text(fracas_index *index, fracas_sql sql, int n, co
     return bound(index, sqlite3_bind_text(index->statement[sql], n, text, -1, SQLITE_TRANSIENT));
 }
 
-fracas_err fracas_index_begin(fracas_index *index) { return fracas_index_do(index, FRACAS_SQL_BEGIN); }
+fracas_err fracas_index_begin(fracas_index *index)
+{
+    return fracas_index_do(index, FRACAS_SQL_BEGIN);
+}
 
 fracas_err fracas_index_end(fracas_index *index, fracas_err err)
 {
     if (!err) err = fracas_index_do(index, FRACAS_SQL_COMMIT);
     /* SQLite may have rolled back by itself (disk full); the first error is the one to tell. */
-    if (err && !sqlite3_get_autocommit(index->db)) sqlite3_exec(index->db, "ROLLBACK", NULL, NULL, NULL);
+    if (err && !sqlite3_get_autocommit(index->db))
+        sqlite3_exec(index->db, "ROLLBACK", NULL, NULL, NULL);
     return err;
 }
 
@@ -222,7 +245,8 @@ static fracas_err pragma(fracas_index *index, const char *text, const char *want
     fracas_err err = FRACAS_OK;
     if (code != SQLITE_ROW && code != SQLITE_DONE) err = fracas_index_error(index, "open");
     else if (wanted && (!found || strcmp(found, wanted) != 0))
-        err = fracas_fail(FRACAS_ENVIRONMENT, "%s: '%s' gives '%s', not '%s': nothing would be durable here",
+        err = fracas_fail(FRACAS_ENVIRONMENT,
+                          "%s: '%s' gives '%s', not '%s': nothing would be durable here",
                           index->path, text, found ? found : "", wanted);
     sqlite3_finalize(statement);
     return err;
@@ -231,7 +255,8 @@ static fracas_err pragma(fracas_index *index, const char *text, const char *want
 static fracas_err set_memory(fracas_index *index)
 {
     sqlite3_busy_timeout(index->db, 5000);
-    return pragma(index, "PRAGMA cache_size = -65536", NULL); /* 64 MiB: a commit may touch pages all over the table */
+    return pragma(index, "PRAGMA cache_size = -65536",
+                  NULL); /* 64 MiB: a commit may touch pages all over the table */
 }
 
 static fracas_err set_durability(fracas_index *index)
@@ -246,10 +271,13 @@ static fracas_err set_durability(fracas_index *index)
 static fracas_err create_tables(fracas_index *index)
 {
     char text[sizeof tables + 256];
-    snprintf(text, sizeof text, "BEGIN IMMEDIATE;%s INSERT OR IGNORE INTO meta VALUES ('format_version', '%d'); COMMIT",
-             tables, FRACAS_FORMAT_VERSION);
+    snprintf(
+        text, sizeof text,
+        "BEGIN IMMEDIATE;%s INSERT OR IGNORE INTO meta VALUES ('format_version', '%d'); COMMIT",
+        tables, FRACAS_FORMAT_VERSION);
     fracas_err err = sqlite3_exec(index->db, text, NULL, NULL, NULL) == SQLITE_OK
-                         ? FRACAS_OK : fracas_index_error(index, "create its tables");
+                         ? FRACAS_OK
+                         : fracas_index_error(index, "create its tables");
     if (err) sqlite3_exec(index->db, "ROLLBACK", NULL, NULL, NULL);
     return err ? err : fracas_disk_sync_folder(index->path);
 }
@@ -260,9 +288,10 @@ static fracas_err check_version(fracas_index *index)
     TRY(fracas_index_read_meta(index, "format_version", found, sizeof found));
     snprintf(wanted, sizeof wanted, "%d", FRACAS_FORMAT_VERSION);
     if (strcmp(found, wanted) == 0) return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED, "%s has format version %s; this program reads %s: use the program version that wrote "
-                       "it, or compute the study again in another folder", index->path,
-                       *found ? found : "none", wanted);
+    return fracas_fail(FRACAS_DAMAGED,
+                       "%s has format version %s; this program reads %s: use the program version "
+                       "that wrote it, or compute the study again in another folder",
+                       index->path, *found ? found : "none", wanted);
 }
 
 /* ---- the file ---- */
@@ -278,7 +307,8 @@ static bool has_log(const char *path)
     return has;
 }
 
-/* "file:" and the path with all but plain characters as %XX; freed by the caller, NULL without memory. */
+/* "file:" and the path with all but plain characters as %XX; freed by the caller, NULL without
+ * memory. */
 static char *immutable_uri(const char *path)
 {
     static const char hex[] = "0123456789ABCDEF", head[] = "file://", tail[] = "?immutable=1";
@@ -298,12 +328,13 @@ static char *immutable_uri(const char *path)
     return uri;
 }
 
-/* A file that cannot be written. In WAL mode reading needs files beside it; where those cannot be made and the log is
- * empty nobody writes, and SQLite may read it as it is. */
+/* A file that cannot be written. In WAL mode reading needs files beside it; where those cannot be
+ * made and the log is empty nobody writes, and SQLite may read it as it is. */
 static fracas_err connect_to_read(fracas_index *index)
 {
     int code = sqlite3_open_v2(index->path, &index->db, SQLITE_OPEN_READONLY, NULL);
-    if (code == SQLITE_OK) code = sqlite3_exec(index->db, "SELECT 1 FROM sqlite_master", NULL, NULL, NULL);
+    if (code == SQLITE_OK)
+        code = sqlite3_exec(index->db, "SELECT 1 FROM sqlite_master", NULL, NULL, NULL);
     if ((code == SQLITE_CANTOPEN || code == SQLITE_READONLY) && !has_log(index->path)) {
         char *uri = immutable_uri(index->path);
         if (!uri) return fracas_no_memory("a file name");
@@ -314,27 +345,39 @@ static fracas_err connect_to_read(fracas_index *index)
     return code == SQLITE_OK ? FRACAS_OK : fracas_index_error(index, "open");
 }
 
-static bool can_write(const char *path) { return faccessat(AT_FDCWD, path, W_OK, AT_EACCESS) == 0; }
+static bool can_write(const char *path)
+{
+    return faccessat(AT_FDCWD, path, W_OK, AT_EACCESS) == 0;
+}
 
 static fracas_err connect_to(fracas_index *index, const char *study, bool create)
 {
     if (!create && access(index->path, F_OK) < 0 && errno == ENOENT)
-        return fracas_fail(FRACAS_DAMAGED, "%s is not there; `fracas reindex` makes it from the segments of a study, `fracas run` a new study", index->path);
+        return fracas_fail(FRACAS_DAMAGED,
+                           "%s is not there; `fracas reindex` makes it from the segments of a "
+                           "study, `fracas run` a new study",
+                           index->path);
     index->reading = !create && !(can_write(index->path) && can_write(study));
     if (index->reading) return connect_to_read(index);
     int flags = SQLITE_OPEN_READWRITE | (create ? SQLITE_OPEN_CREATE : 0);
-    return sqlite3_open_v2(index->path, &index->db, flags, NULL) == SQLITE_OK ? FRACAS_OK
-                                                                              : fracas_index_error(index, "open");
+    return sqlite3_open_v2(index->path, &index->db, flags, NULL) == SQLITE_OK
+               ? FRACAS_OK
+               : fracas_index_error(index, "open");
 }
 
 /* Is `realization` of before decisions were kept? */
 static fracas_err is_old(fracas_index *index, bool *old)
 {
-    static const char query[] = "SELECT count(*), count(CASE name WHEN 'size' THEN 1 END) FROM pragma_table_info('realization')";
+    static const char query[] = "SELECT count(*), count(CASE name WHEN 'size' THEN 1 END) FROM "
+                                "pragma_table_info('realization')";
     sqlite3_stmt *statement;
-    if (sqlite3_prepare_v2(index->db, query, -1, &statement, NULL) != SQLITE_OK) return fracas_index_error(index, "open");
+    if (sqlite3_prepare_v2(index->db, query, -1, &statement, NULL) != SQLITE_OK)
+        return fracas_index_error(index, "open");
     bool row = sqlite3_step(statement) == SQLITE_ROW;
-    fracas_err err = row ? FRACAS_OK : fracas_index_error(index, "open"); /* first: a column that is not there is another error */
+    fracas_err err = row ? FRACAS_OK
+                         : fracas_index_error(
+                               index,
+                               "open"); /* first: a column that is not there is another error */
     *old = row && sqlite3_column_int(statement, 0) > 0 && sqlite3_column_int(statement, 1) == 0;
     sqlite3_finalize(statement);
     return err;
@@ -342,7 +385,8 @@ static fracas_err is_old(fracas_index *index, bool *old)
 
 static fracas_err bring_up(fracas_index *index)
 {
-    if (sqlite3_exec(index->db, "ALTER TABLE realization ADD COLUMN size REAL", NULL, NULL, NULL) != SQLITE_OK)
+    if (sqlite3_exec(index->db, "ALTER TABLE realization ADD COLUMN size REAL", NULL, NULL, NULL) !=
+        SQLITE_OK)
         return fracas_index_error(index, "add a column");
     index->old = false;
     return FRACAS_OK;
@@ -351,13 +395,16 @@ static fracas_err bring_up(fracas_index *index)
 /* Counts the tables, and those that are called `meta`. */
 static fracas_err count_tables(fracas_index *index, int *all, int *meta)
 {
-    static const char query[] = "SELECT count(*), count(CASE name WHEN 'meta' THEN 1 END) FROM sqlite_master"
-                                " WHERE type = 'table'";
+    static const char query[] = "SELECT count(*), count(CASE name WHEN 'meta' THEN 1 END) FROM "
+                                "sqlite_master WHERE type = 'table'";
     sqlite3_stmt *statement;
     if (sqlite3_prepare_v2(index->db, query, -1, &statement, NULL) != SQLITE_OK)
         return fracas_index_error(index, "open");
     bool row = sqlite3_step(statement) == SQLITE_ROW;
-    fracas_err err = row ? FRACAS_OK : fracas_index_error(index, "open"); /* first: a column that is not there is another error */
+    fracas_err err = row ? FRACAS_OK
+                         : fracas_index_error(
+                               index,
+                               "open"); /* first: a column that is not there is another error */
     *all = row ? sqlite3_column_int(statement, 0) : 0;
     *meta = row ? sqlite3_column_int(statement, 1) : 0;
     sqlite3_finalize(statement);
@@ -372,15 +419,17 @@ static fracas_err open_database(fracas_index *index, const char *study, bool cre
     if (!index->reading) TRY(set_durability(index));
     TRY(count_tables(index, &all, &meta));
     if (!all && !create)
-        return fracas_fail(FRACAS_DAMAGED, "%s holds no index yet; `fracas run` makes one", index->path);
-    if (all && !meta) return fracas_fail(FRACAS_DAMAGED, "%s is no index of fracas; %s", index->path, remedy);
+        return fracas_fail(FRACAS_DAMAGED, "%s holds no index yet; `fracas run` makes one",
+                           index->path);
+    if (all && !meta)
+        return fracas_fail(FRACAS_DAMAGED, "%s is no index of fracas; %s", index->path, remedy);
     if (create) TRY(create_tables(index));
     TRY(check_version(index));
     TRY(is_old(index, &index->old));
     if (create && index->old) TRY(bring_up(index));
     for (int s = 0; s < FRACAS_NSQL; s++)
-        if (sqlite3_prepare_v3(index->db, index->old ? old_text(s) : sql_text[s], -1, SQLITE_PREPARE_PERSISTENT,
-                               &index->statement[s], NULL))
+        if (sqlite3_prepare_v3(index->db, index->old ? old_text(s) : sql_text[s], -1,
+                               SQLITE_PREPARE_PERSISTENT, &index->statement[s], NULL))
             return fracas_index_error(index, "prepare a statement");
     return FRACAS_OK;
 }
@@ -389,8 +438,8 @@ bool fracas_index_exists(const char *study)
 {
     fracas_index index = {0};
     int all, meta = 0;
-    bool exists = !fracas_disk_join(study, "index.sqlite", &index.path) && !connect_to(&index, study, false) &&
-                  !count_tables(&index, &all, &meta) && meta;
+    bool exists = !fracas_disk_join(study, "index.sqlite", &index.path) &&
+                  !connect_to(&index, study, false) && !count_tables(&index, &all, &meta) && meta;
     sqlite3_close(index.db);
     free(index.path);
     return exists;
@@ -404,7 +453,8 @@ fracas_err fracas_index_open_as(const char *study, bool create, bool local, frac
     fracas_err err = fracas_disk_join(study, "index.sqlite", &(*index)->path);
     if (!err) err = open_database(*index, study, create);
     if (!err) return FRACAS_OK;
-    if (err == FRACAS_BUG) err = fracas_fail_within(FRACAS_DAMAGED, "damaged, or no index of fracas; %s", remedy);
+    if (err == FRACAS_BUG)
+        err = fracas_fail_within(FRACAS_DAMAGED, "damaged, or no index of fracas; %s", remedy);
     fracas_index_close(*index);
     *index = NULL;
     return err;

@@ -1,4 +1,6 @@
-/* Inside the index: the database handle, its statements, and what recover, merge and verify ask of it. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Inside the index: the database handle, its statements, and what recover, merge and verify ask of
+ * it. */
 #ifndef FRACAS_CAMPAIGNS_STORE_INDEX_INDEX_H
 #define FRACAS_CAMPAIGNS_STORE_INDEX_INDEX_H
 
@@ -46,34 +48,42 @@ typedef enum {
 struct fracas_index {
     sqlite3 *db;
     char *path;
-    bool local; /* WAL: a filesystem of this machine */
+    bool local;   /* WAL: a filesystem of this machine */
     bool reading; /* the study cannot be written */
     bool old;     /* of before decisions were kept, and only looked at */
     sqlite3_stmt *statement[FRACAS_NSQL];
 };
 
 /* fracas_index_open with the kind of filesystem given. */
-FRACAS_MUST_USE fracas_err fracas_index_open_as(const char *study, bool create, bool local, fracas_index **index);
+FRACAS_MUST_USE fracas_err fracas_index_open_as(const char *study, bool create, bool local,
+                                                fracas_index **index);
 
 /* The last SQLite failure as our message. */
 FRACAS_MUST_USE fracas_err fracas_index_error(const fracas_index *index, const char *doing);
-/* Steps a statement: *row says whether a row is there. The caller resets with fracas_index_reset. */
+/* Steps a statement: *row says whether a row is there. The caller resets with fracas_index_reset.
+ */
 FRACAS_MUST_USE fracas_err fracas_index_step(fracas_index *index, fracas_sql sql, bool *row);
 void fracas_index_reset(fracas_index *index, fracas_sql sql);
 /* Steps a statement that gives no rows, and resets it. */
 FRACAS_MUST_USE fracas_err fracas_index_do(fracas_index *index, fracas_sql sql);
 /* Binds argument `n` (from 1). */
-FRACAS_MUST_USE fracas_err fracas_index_bind(fracas_index *index, fracas_sql sql, int n, int64_t value);
-FRACAS_MUST_USE fracas_err fracas_index_bind_real(fracas_index *index, fracas_sql sql, int n, double value);
-FRACAS_MUST_USE fracas_err fracas_index_bind_text(fracas_index *index, fracas_sql sql, int n, const char *text);
+FRACAS_MUST_USE fracas_err fracas_index_bind(fracas_index *index, fracas_sql sql, int n,
+                                             int64_t value);
+FRACAS_MUST_USE fracas_err fracas_index_bind_real(fracas_index *index, fracas_sql sql, int n,
+                                                  double value);
+FRACAS_MUST_USE fracas_err fracas_index_bind_text(fracas_index *index, fracas_sql sql, int n,
+                                                  const char *text);
 
 /* The value under `key` in meta, cut to `size`; "" if there is none. */
-FRACAS_MUST_USE fracas_err fracas_index_read_meta(fracas_index *index, const char *key, char *value, size_t size);
+FRACAS_MUST_USE fracas_err fracas_index_read_meta(fracas_index *index, const char *key, char *value,
+                                                  size_t size);
 /* What the study was begun with, as fracas_index_claim left it. */
 FRACAS_MUST_USE fracas_err fracas_index_identity(fracas_index *index, fracas_identity *identity);
 /* Keeps the seal of study.h5, durable on return; NULL takes it away. */
-FRACAS_MUST_USE fracas_err fracas_index_seal_study(fracas_index *index, const fracas_file_seal *seal);
-FRACAS_MUST_USE fracas_err fracas_index_study_seal(fracas_index *index, bool *sealed, fracas_file_seal *seal);
+FRACAS_MUST_USE fracas_err fracas_index_seal_study(fracas_index *index,
+                                                   const fracas_file_seal *seal);
+FRACAS_MUST_USE fracas_err fracas_index_study_seal(fracas_index *index, bool *sealed,
+                                                   fracas_file_seal *seal);
 
 /* FRACAS_DAMAGED with the first thing that SQLite's quick_check finds. */
 FRACAS_MUST_USE fracas_err fracas_index_quick_check(fracas_index *index);
@@ -82,12 +92,15 @@ bool fracas_index_is_json(fracas_index *index, const char *text);
 FRACAS_MUST_USE fracas_err fracas_index_points(fracas_index *index, int64_t *points);
 
 /* Id of a point, 0 if it is not there. */
-FRACAS_MUST_USE fracas_err fracas_index_find_point(fracas_index *index, const fracas_hash *point, int64_t *id);
+FRACAS_MUST_USE fracas_err fracas_index_find_point(fracas_index *index, const fracas_hash *point,
+                                                   int64_t *id);
 
 /* Plans the replicas of a point that are not there yet, within a transaction. */
-FRACAS_MUST_USE fracas_err fracas_index_plan_point(fracas_index *index, const fracas_point_row *point);
+FRACAS_MUST_USE fracas_err fracas_index_plan_point(fracas_index *index,
+                                                   const fracas_point_row *point);
 
-/* Where a realization's bytes are, and what the index keeps of them (0, and NaN, before it is done). */
+/* Where a realization's bytes are, and what the index keeps of them (0, and NaN, before it is
+ * done). */
 typedef struct {
     fracas_row_status status;
     int64_t segment; /* id, 0 if it has none */
@@ -97,12 +110,13 @@ typedef struct {
     bool sized; /* false in rows of before mean sizes were kept: `size` says nothing */
 } fracas_place;
 
-/* True if that is the row of this record: a flipped bit in the index, which SQLite does not see, does not get any further. */
+/* True if that is the row of this record: a flipped bit in the index, which SQLite does not see,
+ * does not get any further. */
 bool fracas_place_fits(const fracas_place *place, const fracas_record *record);
 
 /* FRACAS_DAMAGED if the index has no such realization. */
-FRACAS_MUST_USE fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point, int64_t replica,
-                                              fracas_place *place);
+FRACAS_MUST_USE fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point,
+                                              int64_t replica, fracas_place *place);
 fracas_row_status fracas_index_status(const unsigned char *text);
 
 /* What the index knows of a segment. */
@@ -114,17 +128,22 @@ typedef struct {
 } fracas_known_segment;
 
 /* All of them by id; freed with fracas_index_segments_free. */
-FRACAS_MUST_USE fracas_err fracas_index_segments(fracas_index *index, fracas_known_segment **segment, size_t *count);
+FRACAS_MUST_USE fracas_err fracas_index_segments(fracas_index *index,
+                                                 fracas_known_segment **segment, size_t *count);
 void fracas_index_segments_free(fracas_known_segment *segment, size_t count);
 int fracas_segment_compare_names(const void *a, const void *b); /* for qsort */
 /* `segment` sorted by name. */
 bool fracas_segment_is_known(const fracas_known_segment *segment, size_t count, char *name);
 /* True if its file is there and has its size. */
-FRACAS_MUST_USE fracas_err fracas_segment_is_there(const char *study, const fracas_known_segment *segment, bool *there);
+FRACAS_MUST_USE fracas_err fracas_segment_is_there(const char *study,
+                                                   const fracas_known_segment *segment,
+                                                   bool *there);
 /* FRACAS_DAMAGED, naming it, unless its every byte is what the index says. */
-FRACAS_MUST_USE fracas_err fracas_segment_check(const char *study, const fracas_known_segment *segment);
-/* Turns the rows of these segments back to planned and forgets the segments; one transaction. *rows counts them. */
-FRACAS_MUST_USE fracas_err fracas_index_forget(fracas_index *index, const int64_t *segment, size_t count,
-                                               int64_t *rows);
+FRACAS_MUST_USE fracas_err fracas_segment_check(const char *study,
+                                                const fracas_known_segment *segment);
+/* Turns the rows of these segments back to planned and forgets the segments; one transaction. *rows
+ * counts them. */
+FRACAS_MUST_USE fracas_err fracas_index_forget(fracas_index *index, const int64_t *segment,
+                                               size_t count, int64_t *rows);
 
 #endif

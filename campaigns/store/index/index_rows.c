@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The index: planning, leasing, committing and counting realizations. */
 #include "campaigns/store/index/index.h"
 
@@ -7,14 +8,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-static sqlite3_stmt *at(fracas_index *index, fracas_sql sql) { return index->statement[sql]; }
+static sqlite3_stmt *at(fracas_index *index, fracas_sql sql)
+{
+    return index->statement[sql];
+}
 
 static const char *const status_text[] = {
-    [FRACAS_PLANNED] = "planned", [FRACAS_LEASED] = "leased", [FRACAS_DONE] = "done",
+    [FRACAS_PLANNED] = "planned",   [FRACAS_LEASED] = "leased",           [FRACAS_DONE] = "done",
     [FRACAS_FAILED_ROW] = "failed", [FRACAS_QUARANTINED] = "quarantined",
 };
 
-/* The tables' CHECK allows nothing else; what a flipped bit has made of a text is to be computed. */
+/* The tables' CHECK allows nothing else; what a flipped bit has made of a text is to be computed.
+ */
 fracas_row_status fracas_index_status(const unsigned char *text)
 {
     for (int s = FRACAS_PLANNED; text && s <= FRACAS_QUARANTINED; s++)
@@ -41,7 +46,10 @@ static fracas_err need_point(fracas_index *index, const fracas_hash *point, int6
     if (*id) return FRACAS_OK;
     char hex[FRACAS_HASH_HEX];
     fracas_hash_hex(point, hex);
-    return fracas_fail(FRACAS_DAMAGED, "%s has no point %s; remove it and run again: it is made anew from the segments", index->path, hex);
+    return fracas_fail(
+        FRACAS_DAMAGED,
+        "%s has no point %s; remove it and run again: it is made anew from the segments",
+        index->path, hex);
 }
 
 /* Steps a statement of one row of numbers. */
@@ -79,11 +87,13 @@ fracas_err fracas_index_plan(fracas_index *index, const fracas_point_table *tabl
 {
     TRY(fracas_index_do(index, FRACAS_SQL_BEGIN));
     fracas_err err = fracas_index_do(index, FRACAS_SQL_ROW_UNLEASE);
-    for (size_t p = 0; !err && p < table->npoints; p++) err = fracas_index_plan_point(index, &table->point[p]);
+    for (size_t p = 0; !err && p < table->npoints; p++)
+        err = fracas_index_plan_point(index, &table->point[p]);
     return fracas_index_end(index, err);
 }
 
-fracas_err fracas_index_rows_from(fracas_index *index, const fracas_point_row *point, size_t p, int64_t first, fracas_index_row *row)
+fracas_err fracas_index_rows_from(fracas_index *index, const fracas_point_row *point, size_t p,
+                                  int64_t first, fracas_index_row *row)
 {
     int64_t id, found = first;
     bool more = true;
@@ -94,18 +104,22 @@ fracas_err fracas_index_rows_from(fracas_index *index, const fracas_point_row *p
     sqlite3_stmt *s = at(index, FRACAS_SQL_ROW_OF_POINT);
     for (;; found++) {
         TRY(fracas_index_step(index, FRACAS_SQL_ROW_OF_POINT, &more));
-        if (!more || sqlite3_column_int64(s, 0) != found) break; /* else first, first + 1 ... below point->replicas */
-        row[found - first] = (fracas_index_row){p, found, fracas_index_status(sqlite3_column_text(s, 1)),
-                                        sqlite3_column_int64(s, 2)};
+        if (!more || sqlite3_column_int64(s, 0) != found)
+            break; /* else first, first + 1 ... below point->replicas */
+        row[found - first] = (fracas_index_row){
+            p, found, fracas_index_status(sqlite3_column_text(s, 1)), sqlite3_column_int64(s, 2)};
     }
     fracas_index_reset(index, FRACAS_SQL_ROW_OF_POINT);
     if (found == point->replicas) return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED, "%s: replica %" PRId64 " of point %zu was never planned; `fracas reindex` makes it anew from the "
-                       "segments", index->path, found, p);
+    return fracas_fail(
+        FRACAS_DAMAGED,
+        "%s: replica %" PRId64
+        " of point %zu was never planned; `fracas reindex` makes it anew from the segments",
+        index->path, found, p);
 }
 
-fracas_err fracas_index_rows(fracas_index *index, const fracas_point_table *table, fracas_index_row **row,
-                             size_t *count)
+fracas_err fracas_index_rows(fracas_index *index, const fracas_point_table *table,
+                             fracas_index_row **row, size_t *count)
 {
     *count = 0;
     for (size_t p = 0; p < table->npoints; p++) *count += (size_t)table->point[p].replicas;
@@ -122,7 +136,8 @@ fracas_err fracas_index_rows(fracas_index *index, const fracas_point_table *tabl
 }
 
 fracas_err fracas_index_failures(fracas_index *index, const fracas_point_table *table,
-                                 void (*say)(void *context, const fracas_index_row *row, const char *reason),
+                                 void (*say)(void *context, const fracas_index_row *row,
+                                             const char *reason),
                                  void *context)
 {
     sqlite3_stmt *s = at(index, FRACAS_SQL_ROW_FAILED);
@@ -134,7 +149,8 @@ fracas_err fracas_index_failures(fracas_index *index, const fracas_point_table *
         for (;;) {
             TRY(fracas_index_step(index, FRACAS_SQL_ROW_FAILED, &more));
             if (!more) break;
-            fracas_index_row row = {p, sqlite3_column_int64(s, 0), fracas_index_status(sqlite3_column_text(s, 1)),
+            fracas_index_row row = {p, sqlite3_column_int64(s, 0),
+                                    fracas_index_status(sqlite3_column_text(s, 1)),
                                     sqlite3_column_int64(s, 2)};
             say(context, &row, (const char *)sqlite3_column_text(s, 3));
         }
@@ -148,7 +164,8 @@ static double real_at(sqlite3_stmt *s, int column) /* NULL is NaN */
     return sqlite3_column_type(s, column) == SQLITE_NULL ? NAN : sqlite3_column_double(s, column);
 }
 
-fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point, int64_t replica, fracas_place *place)
+fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point, int64_t replica,
+                              fracas_place *place)
 {
     int64_t id;
     bool found = false;
@@ -158,23 +175,34 @@ fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point, int
     TRY(fracas_index_step(index, FRACAS_SQL_ROW_FIND, &found));
     sqlite3_stmt *s = at(index, FRACAS_SQL_ROW_FIND);
     if (found)
-        *place = (fracas_place){fracas_index_status(sqlite3_column_text(s, 0)), sqlite3_column_int64(s, 1),
-                                sqlite3_column_int64(s, 2), sqlite3_column_int64(s, 3), sqlite3_column_int64(s, 4),
-                                sqlite3_column_int64(s, 5), sqlite3_column_int64(s, 6), real_at(s, 7), real_at(s, 8), real_at(s, 9),
+        *place = (fracas_place){fracas_index_status(sqlite3_column_text(s, 0)),
+                                sqlite3_column_int64(s, 1),
+                                sqlite3_column_int64(s, 2),
+                                sqlite3_column_int64(s, 3),
+                                sqlite3_column_int64(s, 4),
+                                sqlite3_column_int64(s, 5),
+                                sqlite3_column_int64(s, 6),
+                                real_at(s, 7),
+                                real_at(s, 8),
+                                real_at(s, 9),
                                 sqlite3_column_type(s, 9) != SQLITE_NULL};
     fracas_index_reset(index, FRACAS_SQL_ROW_FIND);
     if (found) return FRACAS_OK;
     char hex[FRACAS_HASH_HEX];
     fracas_hash_hex(point, hex);
-    return fracas_fail(FRACAS_DAMAGED, "%s has no replica %" PRId64 " of point %s; `fracas reindex` makes it anew from the segments",
+    return fracas_fail(FRACAS_DAMAGED,
+                       "%s has no replica %" PRId64
+                       " of point %s; `fracas reindex` makes it anew from the segments",
                        index->path, replica, hex);
 }
 
-/* The last update changed this realization, or it is done already and stays; FRACAS_DAMAGED if it was never planned. */
+/* The last update changed this realization, or it is done already and stays; FRACAS_DAMAGED if it
+ * was never planned. */
 static fracas_err changed_or_done(fracas_index *index, const fracas_hash *point, int64_t replica)
 {
     fracas_place place;
-    return sqlite3_changes(index->db) == 1 ? FRACAS_OK : fracas_index_place(index, point, replica, &place);
+    return sqlite3_changes(index->db) == 1 ? FRACAS_OK
+                                           : fracas_index_place(index, point, replica, &place);
 }
 
 /* ---- leases, failures, events ---- */
@@ -185,9 +213,10 @@ static fracas_err synchronous(fracas_index *index, const char *text)
     return fracas_index_error(index, "change its syncing");
 }
 
-/* A lease need not survive: after any death its rows are planned again. So it waits for no disk where the
- * journal cannot suffer from that (WAL). */
-fracas_err fracas_index_lease(fracas_index *index, const fracas_hash *point, int64_t replica, int64_t count)
+/* A lease need not survive: after any death its rows are planned again. So it waits for no disk
+ * where the journal cannot suffer from that (WAL). */
+fracas_err fracas_index_lease(fracas_index *index, const fracas_hash *point, int64_t replica,
+                              int64_t count)
 {
     int64_t id;
     TRY(need_point(index, point, &id));
@@ -200,15 +229,16 @@ fracas_err fracas_index_lease(fracas_index *index, const fracas_hash *point, int
     return err;
 }
 
-fracas_err fracas_index_fail(fracas_index *index, const fracas_hash *point, int64_t replica, const char *reason,
-                             bool final)
+fracas_err fracas_index_fail(fracas_index *index, const fracas_hash *point, int64_t replica,
+                             const char *reason, bool final)
 {
     int64_t id;
     TRY(need_point(index, point, &id));
     TRY(fracas_index_bind(index, FRACAS_SQL_ROW_FAIL, 1, id));
     TRY(fracas_index_bind(index, FRACAS_SQL_ROW_FAIL, 2, replica));
     TRY(fracas_index_bind_text(index, FRACAS_SQL_ROW_FAIL, 3, reason));
-    TRY(fracas_index_bind_text(index, FRACAS_SQL_ROW_FAIL, 4, status_text[final ? FRACAS_FAILED_ROW : FRACAS_PLANNED]));
+    TRY(fracas_index_bind_text(index, FRACAS_SQL_ROW_FAIL, 4,
+                               status_text[final ? FRACAS_FAILED_ROW : FRACAS_PLANNED]));
     if (final) TRY(fracas_index_bind(index, FRACAS_SQL_ROW_FAIL, 5, FRACAS_FAILED));
     else sqlite3_bind_null(at(index, FRACAS_SQL_ROW_FAIL), 5);
     TRY(fracas_index_do(index, FRACAS_SQL_ROW_FAIL));
@@ -228,7 +258,8 @@ fracas_err fracas_index_last_event(fracas_index *index, const char *kind, char *
     *text = NULL;
     TRY(fracas_index_bind_text(index, FRACAS_SQL_EVENT_LAST, 1, kind));
     TRY(fracas_index_step(index, FRACAS_SQL_EVENT_LAST, &found));
-    if (found) *text = strdup((const char *)sqlite3_column_text(at(index, FRACAS_SQL_EVENT_LAST), 0));
+    if (found)
+        *text = strdup((const char *)sqlite3_column_text(at(index, FRACAS_SQL_EVENT_LAST), 0));
     fracas_index_reset(index, FRACAS_SQL_EVENT_LAST);
     return found && !*text ? fracas_no_memory("an event") : FRACAS_OK;
 }
@@ -241,8 +272,8 @@ static void checksum_text(uint64_t checksum, char text[17])
 }
 
 /* Id of the segment; added if the index does not know it. */
-static fracas_err add_segment(fracas_index *index, const char *name, const fracas_file_seal *seal, size_t rows,
-                              const char *provenance, int64_t *id)
+static fracas_err add_segment(fracas_index *index, const char *name, const fracas_file_seal *seal,
+                              size_t rows, const char *provenance, int64_t *id)
 {
     char checksum[17];
     bool known = false, same = false;
@@ -256,7 +287,8 @@ static fracas_err add_segment(fracas_index *index, const char *name, const fraca
                !strcmp((const char *)sqlite3_column_text(s, 2), checksum);
     }
     fracas_index_reset(index, FRACAS_SQL_SEGMENT_FIND);
-    if (known && !same) return fracas_fail(FRACAS_BUG, "%s knows another segment %s", index->path, name);
+    if (known && !same)
+        return fracas_fail(FRACAS_BUG, "%s knows another segment %s", index->path, name);
     if (known) return FRACAS_OK;
     TRY(fracas_index_bind_text(index, FRACAS_SQL_SEGMENT_ADD, 1, name));
     TRY(fracas_index_bind(index, FRACAS_SQL_SEGMENT_ADD, 2, (int64_t)seal->bytes));
@@ -268,12 +300,14 @@ static fracas_err add_segment(fracas_index *index, const char *name, const fraca
     return FRACAS_OK;
 }
 
-static fracas_err set_done(fracas_index *index, int64_t point, int64_t segment, const fracas_segment_row *row)
+static fracas_err set_done(fracas_index *index, int64_t point, int64_t segment,
+                           const fracas_segment_row *row)
 {
     bool failed = row->outcome == FRACAS_FAILED;
     TRY(fracas_index_bind(index, FRACAS_SQL_ROW_DONE, 1, point));
     TRY(fracas_index_bind(index, FRACAS_SQL_ROW_DONE, 2, row->replica));
-    TRY(fracas_index_bind_text(index, FRACAS_SQL_ROW_DONE, 3, status_text[failed ? FRACAS_FAILED_ROW : FRACAS_DONE]));
+    TRY(fracas_index_bind_text(index, FRACAS_SQL_ROW_DONE, 3,
+                               status_text[failed ? FRACAS_FAILED_ROW : FRACAS_DONE]));
     TRY(fracas_index_bind(index, FRACAS_SQL_ROW_DONE, 4, row->outcome));
     TRY(fracas_index_bind(index, FRACAS_SQL_ROW_DONE, 5, segment));
     TRY(fracas_index_bind(index, FRACAS_SQL_ROW_DONE, 6, row->row));
@@ -287,8 +321,9 @@ static fracas_err set_done(fracas_index *index, int64_t point, int64_t segment, 
     return changed_or_done(index, &row->point, row->replica);
 }
 
-fracas_err fracas_index_commit(fracas_index *index, const char *segment, const fracas_file_seal *seal,
-                               const fracas_segment_row *row, size_t count, const char *provenance)
+fracas_err fracas_index_commit(fracas_index *index, const char *segment,
+                               const fracas_file_seal *seal, const fracas_segment_row *row,
+                               size_t count, const char *provenance)
 {
     TRY(fracas_index_do(index, FRACAS_SQL_BEGIN));
     int64_t id = 0, point = 0;
@@ -315,14 +350,19 @@ static fracas_err load_segments(fracas_index *index, fracas_known_segment **segm
             if (!bigger) return fracas_no_memory("the list of segments");
             *segment = bigger;
         }
-        const char *name = (const char *)sqlite3_column_text(s, 1), *hex = (const char *)sqlite3_column_text(s, 3);
+        const char *name = (const char *)sqlite3_column_text(s, 1),
+                   *hex = (const char *)sqlite3_column_text(s, 3);
         char *end;
-        fracas_file_seal seal = {(uint64_t)sqlite3_column_int64(s, 2), hex ? strtoull(hex, &end, 16) : 0};
+        fracas_file_seal seal = {(uint64_t)sqlite3_column_int64(s, 2),
+                                 hex ? strtoull(hex, &end, 16) : 0};
         int64_t rows = sqlite3_column_int64(s, 4);
         if (!name || strchr(name, '/') || !hex || strlen(hex) != 16 || *end || rows < 0)
-            return fracas_fail(FRACAS_DAMAGED, "%s: a row of its table `segment` is damaged; remove it and run again: it is made anew "
-                               "from the segments", index->path);
-        (*segment)[*count] = (fracas_known_segment){sqlite3_column_int64(s, 0), strdup(name), seal, rows};
+            return fracas_fail(FRACAS_DAMAGED,
+                               "%s: a row of its table `segment` is damaged; remove it and run "
+                               "again: it is made anew from the segments",
+                               index->path);
+        (*segment)[*count] = (fracas_known_segment){sqlite3_column_int64(s, 0), strdup(name), seal,
+                                                    rows};
         if (!(*segment)[(*count)++].name) return fracas_no_memory("the list of segments");
     }
 }
@@ -343,7 +383,8 @@ void fracas_index_segments_free(fracas_known_segment *segment, size_t count)
     free(segment);
 }
 
-fracas_err fracas_index_forget(fracas_index *index, const int64_t *segment, size_t count, int64_t *rows)
+fracas_err fracas_index_forget(fracas_index *index, const int64_t *segment, size_t count,
+                               int64_t *rows)
 {
     *rows = 0;
     if (!count) return FRACAS_OK;
@@ -376,7 +417,8 @@ static void add_to(fracas_index_counts *counts, fracas_row_status status, int64_
 }
 
 /* Counts every row into *counts, and those of point id `i` into each[i - 1], for i to `most`. */
-static fracas_err tally(fracas_index *index, fracas_sql sql, fracas_index_counts *counts, fracas_index_counts **each, int64_t most)
+static fracas_err tally(fracas_index *index, fracas_sql sql, fracas_index_counts *counts,
+                        fracas_index_counts **each, int64_t most)
 {
     sqlite3_stmt *s = at(index, sql);
     for (;;) {
@@ -384,7 +426,9 @@ static fracas_err tally(fracas_index *index, fracas_sql sql, fracas_index_counts
         TRY(fracas_index_step(index, sql, &more));
         if (!more) break;
         const fracas_row_status status = fracas_index_status(sqlite3_column_text(s, 0));
-        const int64_t outcome = sqlite3_column_type(s, 1) == SQLITE_NULL ? -1 : sqlite3_column_int64(s, 1);
+        const int64_t outcome = sqlite3_column_type(s, 1) == SQLITE_NULL
+                                    ? -1
+                                    : sqlite3_column_int64(s, 1);
         add_to(counts, status, outcome);
         const int64_t id = each ? sqlite3_column_int64(s, 2) : 0;
         if (id > 0 && id <= most && each[id - 1]) add_to(each[id - 1], status, outcome);
@@ -393,9 +437,13 @@ static fracas_err tally(fracas_index *index, fracas_sql sql, fracas_index_counts
     return FRACAS_OK;
 }
 
-fracas_err fracas_index_points(fracas_index *index, int64_t *points) { return one_row(index, FRACAS_SQL_POINT_COUNT, points, NULL); }
+fracas_err fracas_index_points(fracas_index *index, int64_t *points)
+{
+    return one_row(index, FRACAS_SQL_POINT_COUNT, points, NULL);
+}
 
-static fracas_err count_all(fracas_index *index, fracas_index_counts *counts, fracas_index_counts **each, int64_t most)
+static fracas_err count_all(fracas_index *index, fracas_index_counts *counts,
+                            fracas_index_counts **each, int64_t most)
 {
     *counts = (fracas_index_counts){0};
     TRY(one_row(index, FRACAS_SQL_POINT_COUNT, &counts->points, NULL));
@@ -403,10 +451,13 @@ static fracas_err count_all(fracas_index *index, fracas_index_counts *counts, fr
     return tally(index, FRACAS_SQL_TALLY, counts, each, most);
 }
 
-fracas_err fracas_index_count(fracas_index *index, fracas_index_counts *counts) { return count_all(index, counts, NULL, 0); }
+fracas_err fracas_index_count(fracas_index *index, fracas_index_counts *counts)
+{
+    return count_all(index, counts, NULL, 0);
+}
 
-fracas_err fracas_index_count_points(fracas_index *index, const fracas_point_table *table, fracas_index_counts *counts,
-                                     fracas_index_counts *point)
+fracas_err fracas_index_count_points(fracas_index *index, const fracas_point_table *table,
+                                     fracas_index_counts *counts, fracas_index_counts *point)
 {
     int64_t *id = malloc((table->npoints + 1) * sizeof *id), most = 0;
     fracas_err err = id ? FRACAS_OK : fracas_no_memory("the counts of the points");

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The table `meta`: what the study is of, and the seal of study.h5. */
 #include "campaigns/store/index/index.h"
 
@@ -10,12 +11,15 @@ static const char seal_key[] = "study_seal";
 fracas_err fracas_index_read_meta(fracas_index *index, const char *key, char *value, size_t size)
 {
     sqlite3_stmt *statement;
-    int code = sqlite3_prepare_v2(index->db, "SELECT value FROM meta WHERE key = ?1", -1, &statement, NULL);
+    int code = sqlite3_prepare_v2(index->db, "SELECT value FROM meta WHERE key = ?1", -1,
+                                  &statement, NULL);
     if (code == SQLITE_OK) code = sqlite3_bind_text(statement, 1, key, -1, SQLITE_STATIC);
     if (code == SQLITE_OK) code = sqlite3_step(statement);
     const char *found = code == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;
     snprintf(value, size, "%s", found ? found : "");
-    fracas_err err = code == SQLITE_ROW || code == SQLITE_DONE ? FRACAS_OK : fracas_index_error(index, "read `meta`");
+    fracas_err err = code == SQLITE_ROW || code == SQLITE_DONE
+                         ? FRACAS_OK
+                         : fracas_index_error(index, "read `meta`");
     sqlite3_finalize(statement);
     return err;
 }
@@ -35,7 +39,8 @@ static fracas_err write_meta(fracas_index *index, const char *key, const char *v
 fracas_err fracas_index_identity(fracas_index *index, fracas_identity *identity)
 {
     for (int v = 0; v < FRACAS_IDENTITY_VALUES; v++)
-        TRY(fracas_index_read_meta(index, fracas_identity_name[v], identity->value[v], FRACAS_IDENTITY_TEXT));
+        TRY(fracas_index_read_meta(index, fracas_identity_name[v], identity->value[v],
+                                   FRACAS_IDENTITY_TEXT));
     return FRACAS_OK;
 }
 
@@ -46,8 +51,10 @@ fracas_err fracas_index_claim(fracas_index *index, const fracas_file_header *hea
     TRY(fracas_index_identity(index, &found));
     fracas_identity_of(header, &wanted);
     if (fracas_identity_differs(&found, &wanted, text))
-        return fracas_fail(FRACAS_DAMAGED, "%s: the study was begun with %s; go on with the program and the campaign "
-                           "that began it, or choose another --study", index->path, text);
+        return fracas_fail(FRACAS_DAMAGED,
+                           "%s: the study was begun with %s; go on with the program and the "
+                           "campaign that began it, or choose another --study",
+                           index->path, text);
     TRY(fracas_index_do(index, FRACAS_SQL_BEGIN));
     fracas_err err = FRACAS_OK;
     for (int v = 0; !err && v < FRACAS_IDENTITY_VALUES; v++)
@@ -78,14 +85,18 @@ fracas_err fracas_index_part(fracas_index *index, int *part, int *parts)
 
 /* ---- what SQLite says ---- */
 
-const char *fracas_sqlite_version(void) { return sqlite3_libversion(); }
+const char *fracas_sqlite_version(void)
+{
+    return sqlite3_libversion();
+}
 
 bool fracas_index_is_json(fracas_index *index, const char *text)
 {
     sqlite3_stmt *statement;
     bool valid = false;
     if (sqlite3_prepare_v2(index->db, "SELECT json_valid(?1)", -1, &statement, NULL) == SQLITE_OK &&
-        sqlite3_bind_text(statement, 1, text, -1, SQLITE_STATIC) == SQLITE_OK && sqlite3_step(statement) == SQLITE_ROW)
+        sqlite3_bind_text(statement, 1, text, -1, SQLITE_STATIC) == SQLITE_OK &&
+        sqlite3_step(statement) == SQLITE_ROW)
         valid = sqlite3_column_int(statement, 0) == 1;
     sqlite3_finalize(statement);
     return valid;
@@ -94,13 +105,16 @@ bool fracas_index_is_json(fracas_index *index, const char *text)
 fracas_err fracas_index_quick_check(fracas_index *index)
 {
     sqlite3_stmt *statement;
-    if (sqlite3_prepare_v2(index->db, "PRAGMA quick_check(1)", -1, &statement, NULL) != SQLITE_OK) return fracas_index_error(index, "check");
+    if (sqlite3_prepare_v2(index->db, "PRAGMA quick_check(1)", -1, &statement, NULL) != SQLITE_OK)
+        return fracas_index_error(index, "check");
     fracas_err err = FRACAS_OK;
     const int code = sqlite3_step(statement);
     const char *text = code == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;
     if (code != SQLITE_ROW && code != SQLITE_DONE) err = fracas_index_error(index, "check");
     else if (text && strcmp(text, "ok") != 0)
-        err = fracas_fail(FRACAS_DAMAGED, "%s: damaged: %s; `fracas reindex` makes it anew from the segments", index->path, text);
+        err = fracas_fail(FRACAS_DAMAGED,
+                          "%s: damaged: %s; `fracas reindex` makes it anew from the segments",
+                          index->path, text);
     sqlite3_finalize(statement);
     return err;
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/store/index/query.h"
 
 static fracas_err check(fracas_index *index, int code)
@@ -11,12 +12,14 @@ fracas_err fracas_query_begin(fracas_index *index, const char *text, sqlite3_stm
     return check(index, sqlite3_prepare_v2(index->db, text, -1, statement, NULL));
 }
 
-fracas_err fracas_query_bind_text(fracas_index *index, sqlite3_stmt *statement, int n, const char *text)
+fracas_err fracas_query_bind_text(fracas_index *index, sqlite3_stmt *statement, int n,
+                                  const char *text)
 {
     return check(index, sqlite3_bind_text(statement, n, text, -1, SQLITE_TRANSIENT));
 }
 
-fracas_err fracas_query_bind_hash(fracas_index *index, sqlite3_stmt *statement, int n, const fracas_hash *hash)
+fracas_err fracas_query_bind_hash(fracas_index *index, sqlite3_stmt *statement, int n,
+                                  const fracas_hash *hash)
 {
     char hex[FRACAS_HASH_HEX];
     fracas_hash_hex(hash, hex);
@@ -32,7 +35,8 @@ fracas_err fracas_query_step(fracas_index *index, sqlite3_stmt *statement, bool 
 {
     const int code = sqlite3_step(statement);
     *row = code == SQLITE_ROW;
-    return code == SQLITE_ROW || code == SQLITE_DONE ? FRACAS_OK : fracas_index_error(index, "read or write");
+    return code == SQLITE_ROW || code == SQLITE_DONE ? FRACAS_OK
+                                                     : fracas_index_error(index, "read or write");
 }
 
 fracas_err fracas_query_do(fracas_index *index, sqlite3_stmt *statement)
@@ -62,5 +66,6 @@ fracas_err fracas_query_number(fracas_index *index, const char *text, int64_t *n
 
 fracas_err fracas_query_checkpoint(fracas_index *index)
 {
-    return check(index, sqlite3_wal_checkpoint_v2(index->db, NULL, SQLITE_CHECKPOINT_TRUNCATE, NULL, NULL));
+    return check(
+        index, sqlite3_wal_checkpoint_v2(index->db, NULL, SQLITE_CHECKPOINT_TRUNCATE, NULL, NULL));
 }

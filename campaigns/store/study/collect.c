@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What nobody needs in a study: found, and removed. */
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/index/query.h"
@@ -17,14 +18,17 @@ typedef struct {
     const fracas_collect_options *options;
     fracas_known_segment *segment; /* by name */
     size_t nsegments;
-    int64_t *needless;             /* ids of segments that no row names, ascending */
+    int64_t *needless; /* ids of segments that no row names, ascending */
     size_t nneedless;
     uint64_t freed;
 } collection;
 
 typedef enum { KEEP, REMOVE, LEAVE } fate;
 
-static bool starts_with(const char *name, const char *start) { return strncmp(name, start, strlen(start)) == 0; }
+static bool starts_with(const char *name, const char *start)
+{
+    return strncmp(name, start, strlen(start)) == 0;
+}
 
 static bool ends_with(const char *name, const char *end)
 {
@@ -37,16 +41,19 @@ static fracas_err dispose(collection *c, const char *path, fate what, const char
 {
     struct stat info;
     if (what == KEEP) return FRACAS_OK;
-    if (lstat(path, &info) < 0) return errno == ENOENT ? FRACAS_OK : fracas_disk_fail("look at", path);
+    if (lstat(path, &info) < 0)
+        return errno == ENOENT ? FRACAS_OK : fracas_disk_fail("look at", path);
     const uint64_t bytes = S_ISDIR(info.st_mode) ? 0 : (uint64_t)info.st_size;
-    if (what == REMOVE && !c->options->dry && remove(path) < 0 && errno != ENOENT) return fracas_disk_fail("remove", path);
+    if (what == REMOVE && !c->options->dry && remove(path) < 0 && errno != ENOENT)
+        return fracas_disk_fail("remove", path);
     if (what == REMOVE) c->freed += bytes;
     c->options->found(c->options->context, &(fracas_collected){path, bytes, why, what == REMOVE});
     return FRACAS_OK;
 }
 
 /* Every name of a folder (none if it is not there), in their order. */
-static fracas_err each(collection *c, const char *folder, fate (*judge)(const collection *c, const char *name, const char **why))
+static fracas_err each(collection *c, const char *folder,
+                       fate (*judge)(const collection *c, const char *name, const char **why))
 {
     struct dirent **entry;
     const int count = scandir(folder, &entry, NULL, alphasort);
@@ -55,7 +62,8 @@ static fracas_err each(collection *c, const char *folder, fate (*judge)(const co
     for (int e = 0; e < count; e++) {
         const char *name = entry[e]->d_name, *why = "not of fracas, as far as it knows";
         char *path;
-        if (!err && strcmp(name, ".") != 0 && strcmp(name, "..") != 0 && !(err = fracas_disk_join(folder, name, &path))) {
+        if (!err && strcmp(name, ".") != 0 && strcmp(name, "..") != 0 &&
+            !(err = fracas_disk_join(folder, name, &path))) {
             const fate what = judge(c, name, &why);
             err = dispose(c, path, what, why);
             free(path);
@@ -77,12 +85,15 @@ static fate judge_nursery(const collection *c, const char *name, const char **wh
 
 static fate judge_study(const collection *c, const char *name, const char **why)
 {
-    static const char *const ours[] = {"campaign.yaml", "index.sqlite", "index.sqlite-wal", "index.sqlite-shm", "index.sqlite-journal",
-                                       "lock",          "study.h5",     "segments",    "attachments",      "report"};
+    static const char *const ours[] = {
+        "campaign.yaml",        "index.sqlite", "index.sqlite-wal", "index.sqlite-shm",
+        "index.sqlite-journal", "lock",         "study.h5",         "segments",
+        "attachments",          "report"};
     (void)c;
     for (size_t i = 0; i < sizeof ours / sizeof *ours; i++)
         if (strcmp(name, ours[i]) == 0) return KEEP;
-    if (fracas_disk_is_temporary(name) || strcmp(name, "campaign.yaml.tmp") == 0) *why = "half written";
+    if (fracas_disk_is_temporary(name) || strcmp(name, "campaign.yaml.tmp") == 0)
+        *why = "half written";
     else if (starts_with(name, "index.sqlite.before-")) *why = "an index that was replaced";
     else if (strcmp(name, FRACAS_REINDEX_FOLDER) == 0) *why = "of an interrupted reindex";
     else return LEAVE;
@@ -115,23 +126,32 @@ static int compare_ids(const void *a, const void *b)
 
 static fate judge_segment(const collection *c, const char *name, const char **why)
 {
-    union { const char *given; char *name; } key = {.given = name};
+    union {
+        const char *given;
+        char *name;
+    } key = {.given = name};
     const fracas_known_segment wanted = {.name = key.name};
-    const fracas_known_segment *known =
-        c->nsegments ? bsearch(&wanted, c->segment, c->nsegments, sizeof wanted, fracas_segment_compare_names) : NULL;
+    const fracas_known_segment *known = c->nsegments
+                                            ? bsearch(&wanted, c->segment, c->nsegments,
+                                                      sizeof wanted, fracas_segment_compare_names)
+                                            : NULL;
     if (fracas_disk_is_temporary(name)) {
         *why = "half written";
         return REMOVE;
     }
     if (known) {
         *why = "another segment has each of its realizations";
-        return c->nneedless && bsearch(&known->id, c->needless, c->nneedless, sizeof known->id, compare_ids) ? REMOVE : KEEP;
+        return c->nneedless &&
+                       bsearch(&known->id, c->needless, c->nneedless, sizeof known->id, compare_ids)
+                   ? REMOVE
+                   : KEEP;
     }
     if (name[0] != '.' && ends_with(name, ".damaged")) {
         *why = "a damaged segment that was set aside";
         return REMOVE;
     }
-    if (ends_with(name, ".h5")) *why = "not in the index; `fracas run` and `fracas merge` adopt it, if it is of this study";
+    if (ends_with(name, ".h5"))
+        *why = "not in the index; `fracas run` and `fracas merge` adopt it, if it is of this study";
     return LEAVE;
 }
 
@@ -143,14 +163,17 @@ static fracas_err list_needless(collection *c)
     bool row = false;
     c->needless = calloc(c->nsegments + 1, sizeof *c->needless);
     if (!c->needless) return fracas_no_memory("the list of segments");
-    fracas_err err = fracas_query_begin(c->index, "SELECT id FROM segment WHERE " NEEDLESS " ORDER BY id", &statement);
-    while (!err && !(err = fracas_query_step(c->index, statement, &row)) && row && c->nneedless < c->nsegments)
+    fracas_err err = fracas_query_begin(
+        c->index, "SELECT id FROM segment WHERE " NEEDLESS " ORDER BY id", &statement);
+    while (!err && !(err = fracas_query_step(c->index, statement, &row)) && row &&
+           c->nneedless < c->nsegments)
         c->needless[c->nneedless++] = sqlite3_column_int64(statement, 0);
     sqlite3_finalize(statement);
     return err;
 }
 
-/* Before their files go: killed in between, they are found and known again; the other way round they would be missed. */
+/* Before their files go: killed in between, they are found and known again; the other way round
+ * they would be missed. */
 static fracas_err forget_needless(collection *c)
 {
     char text[96];
@@ -166,7 +189,8 @@ static fracas_err collect_segments(collection *c)
 {
     char *folder;
     TRY(fracas_index_segments(c->index, &c->segment, &c->nsegments));
-    if (c->nsegments) qsort(c->segment, c->nsegments, sizeof *c->segment, fracas_segment_compare_names);
+    if (c->nsegments)
+        qsort(c->segment, c->nsegments, sizeof *c->segment, fracas_segment_compare_names);
     TRY(list_needless(c));
     TRY(forget_needless(c));
     TRY(fracas_disk_join(c->study, "segments", &folder));
@@ -185,7 +209,8 @@ static fracas_err index_bytes(const collection *c, uint64_t *bytes)
     for (int t = 0; t < 2; t++) {
         char *path;
         struct stat info;
-        if (asprintf(&path, "%s%s", c->index->path, tail[t]) < 0) return fracas_no_memory("a file name");
+        if (asprintf(&path, "%s%s", c->index->path, tail[t]) < 0)
+            return fracas_no_memory("a file name");
         if (stat(path, &info) == 0) *bytes += (uint64_t)info.st_size;
         free(path);
     }
@@ -217,7 +242,10 @@ static fracas_err compact(collection *c)
         freed = before > after ? before - after : 0;
     }
     c->freed += freed;
-    if (freed) c->options->found(c->options->context, &(fracas_collected){c->index->path, freed, "free pages, and its log", true});
+    if (freed)
+        c->options->found(
+            c->options->context,
+            &(fracas_collected){c->index->path, freed, "free pages, and its log", true});
     return FRACAS_OK;
 }
 
@@ -238,7 +266,8 @@ static fracas_err collect(collection *c)
     return err ? err : compact(c);
 }
 
-fracas_err fracas_study_collect(const char *study, fracas_index *index, const fracas_collect_options *options, uint64_t *freed)
+fracas_err fracas_study_collect(const char *study, fracas_index *index,
+                                const fracas_collect_options *options, uint64_t *freed)
 {
     collection c = {.study = study, .index = index, .options = options};
     fracas_err err = collect(&c);

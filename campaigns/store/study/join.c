@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Two studies of one campaign, computed in two places, made one. */
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/index/query.h"
@@ -24,7 +25,8 @@ typedef struct {
 } comparison;
 
 /* Where `index` has a realization; status FRACAS_PLANNED if it has not. */
-static fracas_err place_of(fracas_index *index, const fracas_hash *point, int64_t replica, fracas_place *place)
+static fracas_err place_of(fracas_index *index, const fracas_hash *point, int64_t replica,
+                           fracas_place *place)
 {
     int64_t id;
     *place = (fracas_place){.status = FRACAS_PLANNED};
@@ -42,18 +44,23 @@ static fracas_err compare(void *context, fracas_step *step)
     if (step->status != FRACAS_DONE) return FRACAS_OK;
     TRY(place_of(c->index, point, step->replica, &place));
     if (place.status != FRACAS_DONE) return FRACAS_OK;
-    TRY(fracas_segments_record(c->segments, &place, point, step->replica, FRACAS_READ_ALL, &c->record));
+    TRY(fracas_segments_record(c->segments, &place, point, step->replica, FRACAS_READ_ALL,
+                               &c->record));
     c->both++;
     if (fracas_record_same(&c->record, &step->record)) return FRACAS_OK;
     char hex[FRACAS_HASH_HEX];
     fracas_hash_hex(point, hex);
-    return fracas_fail(FRACAS_DAMAGED, "replica %" PRId64 " of point %zu (%s) is not the same in %s and %s: one of them was computed by "
-                       "another build of the program, or on a faulty machine; compute it again in both (docs/how-to/two-machines.md)",
+    return fracas_fail(FRACAS_DAMAGED,
+                       "replica %" PRId64
+                       " of point %zu (%s) is not the same in %s and %s: one of them was computed "
+                       "by another build of the program, or on a faulty machine; compute it again "
+                       "in both (docs/how-to/two-machines.md)",
                        step->replica, step->point, hex, c->into, c->from);
 }
 
-fracas_err fracas_study_compare(const char *into, fracas_index *into_index, const char *from, fracas_index *from_index,
-                                const fracas_file_header *header, const fracas_point_table *table, int64_t *both)
+fracas_err fracas_study_compare(const char *into, fracas_index *into_index, const char *from,
+                                fracas_index *from_index, const fracas_file_header *header,
+                                const fracas_point_table *table, int64_t *both)
 {
     comparison c = {.into = into, .from = from, .index = into_index, .table = table};
     fracas_segments *theirs = NULL;
@@ -93,7 +100,8 @@ static fracas_err copy_bytes(int from, int to, const char *path)
         else if (got < 0) err = fracas_disk_fail("read for", path);
         else
             for (ssize_t at = 0, put; !err && at < got; at += put)
-                if ((put = write(to, block + at, (size_t)(got - at))) < 0) err = fracas_disk_fail("write", path);
+                if ((put = write(to, block + at, (size_t)(got - at))) < 0)
+                    err = fracas_disk_fail("write", path);
     }
     free(block);
     return err;
@@ -109,9 +117,11 @@ static fracas_err copy_to(int from, const fracas_file_seal *seal, const char *pa
     fracas_err err = to < 0 ? fracas_disk_fail("create", temporary) : copy_bytes(from, to, path);
     if (!err) err = fracas_disk_seal(to, path, &copied);
     if (!err && (copied.bytes != seal->bytes || copied.checksum != seal->checksum))
-        err = fracas_fail(FRACAS_ENVIRONMENT, "the copy of a segment to %s came out as %" PRIu64 " bytes of checksum %016" PRIx64
-                          ", not %" PRIu64 " of %016" PRIx64 "; look after the disk, then run again", path, copied.bytes,
-                          copied.checksum, seal->bytes, seal->checksum);
+        err = fracas_fail(FRACAS_ENVIRONMENT,
+                          "the copy of a segment to %s came out as %" PRIu64
+                          " bytes of checksum %016" PRIx64 ", not %" PRIu64 " of %016" PRIx64
+                          "; look after the disk, then run again",
+                          path, copied.bytes, copied.checksum, seal->bytes, seal->checksum);
     if (!err && fsync(to) < 0) err = fracas_disk_fail("sync", path);
     if (to >= 0) close(to);
     if (!err && rename(temporary, path) < 0) err = fracas_disk_fail("rename to", path);
@@ -126,15 +136,19 @@ static fracas_err bring(const char *theirs, const fracas_file_seal *seal, const 
     int from = open(theirs, O_RDONLY | O_CLOEXEC);
     if (from < 0) return fracas_disk_fail("open", theirs);
     /* It may have come here by a copy that nobody has synced. */
-    fracas_err err = fsync(from) == 0 || errno == EROFS || errno == EINVAL ? FRACAS_OK : fracas_disk_fail("sync", theirs);
+    fracas_err err = fsync(from) == 0 || errno == EROFS || errno == EINVAL
+                         ? FRACAS_OK
+                         : fracas_disk_fail("sync", theirs);
     if (!err && link(theirs, ours) < 0)
         err = errno == EEXIST ? fracas_disk_fail("link to", ours) : copy_to(from, seal, ours);
     close(from);
     return err ? err : fracas_disk_sync_folder(ours);
 }
 
-/* Its name in `into`: the same, or one that tells it from another segment there; *there: its bytes are. */
-static fracas_err choose_name(const joining *j, const fracas_known_segment *segment, char **name, char **path, bool *there)
+/* Its name in `into`: the same, or one that tells it from another segment there; *there: its bytes
+ * are. */
+static fracas_err choose_name(const joining *j, const fracas_known_segment *segment, char **name,
+                              char **path, bool *there)
 {
     const char *dot = strrchr(segment->name, '.');
     const int stem = dot ? (int)(dot - segment->name) : (int)strlen(segment->name);
@@ -144,7 +158,8 @@ static fracas_err choose_name(const joining *j, const fracas_known_segment *segm
         free(*name);
         free(*path);
         *path = NULL;
-        const int length = other ? asprintf(name, "%.*s-%016" PRIx64 ".h5", stem, segment->name, segment->seal.checksum)
+        const int length = other ? asprintf(name, "%.*s-%016" PRIx64 ".h5", stem, segment->name,
+                                            segment->seal.checksum)
                                  : asprintf(name, "%s", segment->name);
         if (length < 0) *name = NULL;
         if (!*name) return fracas_no_memory("a file name");
@@ -152,9 +167,11 @@ static fracas_err choose_name(const joining *j, const fracas_known_segment *segm
         *there = access(*path, F_OK) == 0;
         if (!*there) return FRACAS_OK;
         TRY(fracas_disk_seal_path(*path, &seal));
-        if (seal.bytes == segment->seal.bytes && seal.checksum == segment->seal.checksum) return FRACAS_OK;
+        if (seal.bytes == segment->seal.bytes && seal.checksum == segment->seal.checksum)
+            return FRACAS_OK;
     }
-    return fracas_fail(FRACAS_DAMAGED, "%s is there, but not the segment of %s; move it away", *path, j->from);
+    return fracas_fail(FRACAS_DAMAGED, "%s is there, but not the segment of %s; move it away",
+                       *path, j->from);
 }
 
 static fracas_err take_segment(const joining *j, const fracas_known_segment *segment, char **name)
@@ -174,10 +191,12 @@ static fracas_err provenance_of(fracas_index *index, int64_t id, char **text)
     sqlite3_stmt *statement;
     bool row = false;
     *text = NULL;
-    fracas_err err = fracas_query_begin(index, "SELECT provenance FROM segment WHERE id = ?1", &statement);
+    fracas_err err = fracas_query_begin(index, "SELECT provenance FROM segment WHERE id = ?1",
+                                        &statement);
     if (!err) err = fracas_query_bind(index, statement, 1, id);
     if (!err) err = fracas_query_step(index, statement, &row);
-    if (!err && !(*text = strdup(row ? (const char *)sqlite3_column_text(statement, 0) : "{}"))) err = fracas_no_memory("provenance");
+    if (!err && !(*text = strdup(row ? (const char *)sqlite3_column_text(statement, 0) : "{}")))
+        err = fracas_no_memory("provenance");
     sqlite3_finalize(statement);
     return err;
 }
@@ -186,7 +205,9 @@ static fracas_err provenance_of(fracas_index *index, int64_t id, char **text)
 static fracas_err undecide(fracas_index *index, const fracas_segment_row *row)
 {
     sqlite3_stmt *statement;
-    fracas_err err = fracas_query_begin(index, "DELETE FROM decision WHERE replicas > ?2 AND point = (SELECT id FROM point WHERE hash = ?1)",
+    fracas_err err = fracas_query_begin(index,
+                                        "DELETE FROM decision WHERE replicas > ?2 AND point = "
+                                        "(SELECT id FROM point WHERE hash = ?1)",
                                         &statement);
     if (!err) err = fracas_query_bind_hash(index, statement, 1, &row->point);
     if (!err) err = fracas_query_bind(index, statement, 2, row->replica);
@@ -202,7 +223,9 @@ static fracas_err count_fresh(joining *j, int64_t *fresh)
     for (size_t r = 0; r < j->nrows; r++) {
         fracas_place place;
         TRY(place_of(j->index, &j->row[r].point, j->row[r].replica, &place));
-        if (place.status == FRACAS_DONE || (place.status == FRACAS_FAILED_ROW && j->row[r].outcome == FRACAS_FAILED)) continue;
+        if (place.status == FRACAS_DONE ||
+            (place.status == FRACAS_FAILED_ROW && j->row[r].outcome == FRACAS_FAILED))
+            continue;
         ++*fresh;
         if (place.status != FRACAS_FAILED_ROW && place.status != FRACAS_QUARANTINED) continue;
         TRY(fracas_index_seal_study(j->index, NULL));
@@ -213,7 +236,8 @@ static fracas_err count_fresh(joining *j, int64_t *fresh)
 
 static int compare_ids(const void *a, const void *b)
 {
-    const int64_t x = ((const fracas_known_segment *)a)->id, y = ((const fracas_known_segment *)b)->id;
+    const int64_t x = ((const fracas_known_segment *)a)->id,
+                  y = ((const fracas_known_segment *)b)->id;
     return (x > y) - (x < y);
 }
 
@@ -224,13 +248,17 @@ static fracas_err take_rows(joining *j, int64_t id)
     int64_t fresh;
     char *name = NULL, *provenance = NULL;
     if (!j->nrows) return FRACAS_OK;
-    const fracas_known_segment *segment = j->nsegments ? bsearch(&wanted, j->segment, j->nsegments, sizeof wanted, compare_ids) : NULL;
-    if (!segment) return fracas_fail(FRACAS_DAMAGED, "%s has no segment %" PRId64, j->theirs->path, id);
+    const fracas_known_segment *segment = j->nsegments ? bsearch(&wanted, j->segment, j->nsegments,
+                                                                 sizeof wanted, compare_ids)
+                                                       : NULL;
+    if (!segment)
+        return fracas_fail(FRACAS_DAMAGED, "%s has no segment %" PRId64, j->theirs->path, id);
     TRY(count_fresh(j, &fresh));
     if (!fresh) return FRACAS_OK;
     fracas_err err = take_segment(j, segment, &name);
     if (!err) err = provenance_of(j->theirs, id, &provenance);
-    if (!err) err = fracas_index_commit(j->index, name, &segment->seal, j->row, j->nrows, provenance);
+    if (!err)
+        err = fracas_index_commit(j->index, name, &segment->seal, j->row, j->nrows, provenance);
     free(provenance);
     free(name);
     if (err) return err;
@@ -241,7 +269,8 @@ static fracas_err take_rows(joining *j, int64_t id)
 
 static double real_at(sqlite3_stmt *s, int column) /* NULL is NaN */
 {
-    return sqlite3_column_type(s, column) == SQLITE_NULL ? 0.0 / 0.0 : sqlite3_column_double(s, column);
+    return sqlite3_column_type(s, column) == SQLITE_NULL ? 0.0 / 0.0
+                                                         : sqlite3_column_double(s, column);
 }
 
 /* A row of FRACAS_SQL_ROW_BY_SEGMENT. */
@@ -254,10 +283,15 @@ static fracas_err add_row(joining *j, sqlite3_stmt *s)
         j->row = bigger;
     }
     fracas_segment_row *row = &j->row[j->nrows++];
-    *row = (fracas_segment_row){.replica = sqlite3_column_int64(s, 3), .row = sqlite3_column_int64(s, 1),
-                                .outcome = sqlite3_column_int64(s, 4), .fragments = sqlite3_column_int64(s, 5),
-                                .fragments_dust = sqlite3_column_int64(s, 6), .steps = sqlite3_column_int64(s, 7),
-                                .dissipated = real_at(s, 8), .residual = real_at(s, 9), .size = real_at(s, 11)};
+    *row = (fracas_segment_row){.replica = sqlite3_column_int64(s, 3),
+                                .row = sqlite3_column_int64(s, 1),
+                                .outcome = sqlite3_column_int64(s, 4),
+                                .fragments = sqlite3_column_int64(s, 5),
+                                .fragments_dust = sqlite3_column_int64(s, 6),
+                                .steps = sqlite3_column_int64(s, 7),
+                                .dissipated = real_at(s, 8),
+                                .residual = real_at(s, 9),
+                                .size = real_at(s, 11)};
     const char *hex = (const char *)sqlite3_column_text(s, 2);
     if (hex && fracas_hash_parse(hex, &row->point)) return FRACAS_OK;
     return fracas_fail(FRACAS_DAMAGED, "%s: a point has no valid hash", j->theirs->path);
@@ -269,7 +303,8 @@ static fracas_err take_segments(joining *j)
     int64_t id = 0;
     bool more = true;
     fracas_err err = FRACAS_OK;
-    while (!err && !(err = fracas_index_step(j->theirs, FRACAS_SQL_ROW_BY_SEGMENT, &more)) && more) {
+    while (!err && !(err = fracas_index_step(j->theirs, FRACAS_SQL_ROW_BY_SEGMENT, &more)) &&
+           more) {
         if (sqlite3_column_int64(s, 0) != id) {
             err = take_rows(j, id);
             j->nrows = 0;
@@ -295,7 +330,8 @@ static void take_failure(void *context, const fracas_index_row *row, const char 
 {
     failing *f = context;
     fracas_index *index = f->joining->index;
-    if (!f->err) f->err = fracas_query_bind_hash(index, f->fail, 1, &f->table->point[row->point].hash);
+    if (!f->err)
+        f->err = fracas_query_bind_hash(index, f->fail, 1, &f->table->point[row->point].hash);
     if (!f->err) f->err = fracas_query_bind(index, f->fail, 2, row->replica);
     if (!f->err) f->err = fracas_query_bind(index, f->fail, 3, row->attempts);
     if (!f->err) f->err = fracas_query_bind_text(index, f->fail, 4, reason);
@@ -308,18 +344,23 @@ static fracas_err take_failures(joining *j, const fracas_point_table *table)
 {
     failing f = {.joining = j, .table = table};
     TRY(fracas_index_begin(j->index));
-    fracas_err err = fracas_query_begin(j->index, "UPDATE realization SET status = 'failed', attempts = ?3, reason = ?4, outcome = ?5"
-                                                  " WHERE point = (SELECT id FROM point WHERE hash = ?1) AND replica = ?2"
-                                                  " AND status IN ('planned', 'leased')", &f.fail);
+    fracas_err err = fracas_query_begin(
+        j->index,
+        "UPDATE realization SET status = 'failed', attempts = ?3, reason = ?4, outcome = ?5 WHERE "
+        "point = (SELECT id FROM point WHERE hash = ?1) AND replica = ?2 AND status IN ('planned', "
+        "'leased')",
+        &f.fail);
     if (!err) err = fracas_index_failures(j->theirs, table, take_failure, &f);
     sqlite3_finalize(f.fail);
     return fracas_index_end(j->index, err ? err : f.err);
 }
 
-fracas_err fracas_study_join(const char *into, fracas_index *into_index, const char *from, fracas_index *from_index,
-                             const fracas_point_table *table, fracas_joined *joined)
+fracas_err fracas_study_join(const char *into, fracas_index *into_index, const char *from,
+                             fracas_index *from_index, const fracas_point_table *table,
+                             fracas_joined *joined)
 {
-    joining j = {.into = into, .from = from, .index = into_index, .theirs = from_index, .joined = joined};
+    joining j = {
+        .into = into, .from = from, .index = into_index, .theirs = from_index, .joined = joined};
     char text[4400];
     *joined = (fracas_joined){0};
     fracas_err err = fracas_index_segments(from_index, &j.segment, &j.nsegments);
@@ -328,7 +369,8 @@ fracas_err fracas_study_join(const char *into, fracas_index *into_index, const c
     fracas_index_segments_free(j.segment, j.nsegments);
     free(j.row);
     if (err || (!joined->realizations && !joined->failed)) return err;
-    snprintf(text, sizeof text, "%" PRId64 " realizations in %" PRId64 " segments, and %" PRId64 " failures, of %s", joined->realizations,
-             joined->segments, joined->failed, from);
+    snprintf(text, sizeof text,
+             "%" PRId64 " realizations in %" PRId64 " segments, and %" PRId64 " failures, of %s",
+             joined->realizations, joined->segments, joined->failed, from);
     return fracas_index_event(into_index, "joined", text);
 }

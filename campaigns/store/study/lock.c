@@ -1,8 +1,10 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* STUDY/lock: one run at a time.
  *
- * The kernel's lock (fcntl) decides where it can; the text of the file says whose it is, for messages and for the one case in
- * which the kernel does not know: a filesystem whose locks hosts do not share. A clean release empties the file, so text under
- * a lock that could be had is that of a holder that died, or that runs on another such host (docs/decisions/lock.md). */
+ * The kernel's lock (fcntl) decides where it can; the text of the file says whose it is, for
+ * messages and for the one case in which the kernel does not know: a filesystem whose locks hosts
+ * do not share. A clean release empties the file, so text under a lock that could be had is that of
+ * a holder that died, or that runs on another such host (docs/decisions/lock.md). */
 #include "campaigns/store/file/disk.h"
 
 #include <errno.h>
@@ -39,7 +41,8 @@ static void read_line(const char *path, char *text, size_t size)
     fclose(in);
 }
 
-/* Start of a process in ticks since the boot, 0 if there is none, or only its entry until its parent asks how it ended. */
+/* Start of a process in ticks since the boot, 0 if there is none, or only its entry until its
+ * parent asks how it ended. */
 static unsigned long long start_of(long pid)
 {
     char path[64], text[TEXT], state = 'X';
@@ -47,7 +50,9 @@ static unsigned long long start_of(long pid)
     snprintf(path, sizeof path, "/proc/%ld/stat", pid);
     read_line(path, text, sizeof text);
     const char *at = strrchr(text, ')'); /* a name may hold anything */
-    if (at && sscanf(at + 1, " %c%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%llu", &state, &start) != 2) start = 0;
+    if (at && sscanf(at + 1, " %c%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%llu",
+                     &state, &start) != 2)
+        start = 0;
     return state == 'Z' || state == 'X' ? 0 : start;
 }
 
@@ -74,17 +79,20 @@ static holder this_process(void)
     return self;
 }
 
-/* "host=H pid=N since=T start=N boot=B job=J restart=N", "-" for what is not known; "H N" before there was more. */
+/* "host=H pid=N since=T start=N boot=B job=J restart=N", "-" for what is not known; "H N" before
+ * there was more. */
 static bool parse(const char *text, holder *h)
 {
     *h = (holder){0};
-    int fields = sscanf(text, "host=%256s pid=%ld since=%31s start=%llu boot=%63s job=%63s restart=%d", h->host, &h->pid, h->since,
-                        &h->start, h->boot, h->job, &h->restart);
+    int fields = sscanf(text,
+                        "host=%256s pid=%ld since=%31s start=%llu boot=%63s job=%63s restart=%d",
+                        h->host, &h->pid, h->since, &h->start, h->boot, h->job, &h->restart);
     if (!strcmp(h->boot, "-")) *h->boot = '\0';
     if (!strcmp(h->job, "-")) *h->job = '\0';
     if (fields == 7) return true;
     *h = (holder){0};
-    if (!strncmp(text, "host=", 5) || sscanf(text, "%256s %ld", h->host, &h->pid) != 2) *h = (holder){0};
+    if (!strncmp(text, "host=", 5) || sscanf(text, "%256s %ld", h->host, &h->pid) != 2)
+        *h = (holder){0};
     return *h->host != '\0';
 }
 
@@ -104,17 +112,19 @@ static void describe(const holder *h, char text[FRACAS_HOLDER_TEXT])
     char pid[32] = "unknown", job[80] = "";
     if (h->pid > 0) snprintf(pid, sizeof pid, "%ld", h->pid);
     if (*h->job) snprintf(job, sizeof job, ", Slurm job %s", h->job);
-    snprintf(text, FRACAS_HOLDER_TEXT, "host %.200s, pid %s%s%s%s", *h->host ? h->host : "unknown", pid, *h->since ? ", since " : "",
-             h->since, job);
+    snprintf(text, FRACAS_HOLDER_TEXT, "host %.200s, pid %s%s%s%s", *h->host ? h->host : "unknown",
+             pid, *h->since ? ", since " : "", h->since, job);
 }
 
-/* One kernel knows of the locks of both: that the lock could be had means that the other is dead. */
+/* One kernel knows of the locks of both: that the lock could be had means that the other is dead.
+ */
 static bool same_kernel(const holder *a, const holder *b)
 {
     return !strcmp(a->host, b->host) || (*a->boot && !strcmp(a->boot, b->boot));
 }
 
-/* The same job on another node is the same run: Slurm has ended it there before it began it again here. */
+/* The same job on another node is the same run: Slurm has ended it there before it began it again
+ * here. */
 static bool is_requeued(const holder *before, const holder *self)
 {
     return *self->job && !strcmp(before->job, self->job) && self->restart > before->restart;
@@ -123,8 +133,8 @@ static bool is_requeued(const holder *before, const holder *self)
 /* It runs, though the kernel has no lock of it: on a filesystem that only pretends to lock. */
 static bool lives(const holder *h, const holder *self)
 {
-    return h->pid > 0 && h->pid != self->pid && h->start && same_kernel(h, self) && !strcmp(h->boot, self->boot) &&
-           start_of(h->pid) == h->start;
+    return h->pid > 0 && h->pid != self->pid && h->start && same_kernel(h, self) &&
+           !strcmp(h->boot, self->boot) && start_of(h->pid) == h->start;
 }
 
 /* ---- taking and leaving it ---- */
@@ -133,13 +143,16 @@ static fracas_err sign(int fd, const char *path, const holder *before)
 {
     char text[TEXT], left[FRACAS_HOLDER_TEXT];
     holder self = this_process();
-    int length = snprintf(text, sizeof text, "host=%s pid=%ld since=%s start=%llu boot=%s job=%s restart=%d\n", self.host, self.pid,
-                          self.since, self.start, *self.boot ? self.boot : "-", *self.job ? self.job : "-", self.restart);
+    int length = snprintf(text, sizeof text,
+                          "host=%s pid=%ld since=%s start=%llu boot=%s job=%s restart=%d\n",
+                          self.host, self.pid, self.since, self.start, *self.boot ? self.boot : "-",
+                          *self.job ? self.job : "-", self.restart);
     if (before) {
         describe(before, left);
         length += snprintf(text + length, sizeof text - (size_t)length, "after %s\n", left);
     }
-    if (ftruncate(fd, 0) < 0 || pwrite(fd, text, (size_t)length, 0) != length) return fracas_disk_fail("write", path);
+    if (ftruncate(fd, 0) < 0 || pwrite(fd, text, (size_t)length, 0) != length)
+        return fracas_disk_fail("write", path);
     return FRACAS_OK;
 }
 
@@ -149,9 +162,11 @@ static fracas_err in_use(int fd, const char *path, pid_t pid)
     holder h;
     char text[FRACAS_HOLDER_TEXT];
     read_holder(fd, &h);
-    if (pid > 0 && h.pid != pid) h = (holder){.pid = pid}, snprintf(h.host, sizeof h.host, "%s", this_process().host);
+    if (pid > 0 && h.pid != pid)
+        h = (holder){.pid = pid}, snprintf(h.host, sizeof h.host, "%s", this_process().host);
     describe(&h, text);
-    return fracas_fail(FRACAS_IN_USE, "%s: another run uses this study: %s; wait for it or stop it", path, text);
+    return fracas_fail(FRACAS_IN_USE, "%s: another run uses this study: %s; wait for it or stop it",
+                       path, text);
 }
 
 /* The kernel gives the lock: is it free? */
@@ -162,12 +177,18 @@ static fracas_err judge(const char *path, const holder *before, bool force)
     holder self = this_process();
     describe(before, text);
     if (lives(before, &self))
-        return fracas_fail(FRACAS_IN_USE, "%s: another run uses this study: %s; it runs, though the filesystem does not keep its lock; "
-                           "wait for it or stop it", path, text);
+        return fracas_fail(FRACAS_IN_USE,
+                           "%s: another run uses this study: %s; it runs, though the filesystem "
+                           "does not keep its lock; wait for it or stop it",
+                           path, text);
     if (force || same_kernel(before, &self) || is_requeued(before, &self)) return FRACAS_OK;
-    if (!strcmp(before->host, "unknown") && !fracas_disk_is_local(path, &local) && local) return FRACAS_OK; /* torn by a power cut */
-    return fracas_fail(FRACAS_IN_USE, "%s: another run uses this study, or died without leaving it: %s; whether it lives cannot be told "
-                       "from here: look on that host, and if it is gone run again with --force", path, text);
+    if (!strcmp(before->host, "unknown") && !fracas_disk_is_local(path, &local) && local)
+        return FRACAS_OK; /* torn by a power cut */
+    return fracas_fail(
+        FRACAS_IN_USE,
+        "%s: another run uses this study, or died without leaving it: %s; whether it lives cannot "
+        "be told from here: look on that host, and if it is gone run again with --force",
+        path, text);
 }
 
 /* Who has it has not signed it: it only looks, or is about to sign. That is over soon. */
@@ -176,7 +197,8 @@ static bool is_passing(int fd)
     struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     holder h;
     if (fcntl(fd, F_GETLK, &lock) < 0) return false;
-    return lock.l_type == F_UNLCK || !read_holder(fd, &h) || (lock.l_pid > 0 && h.pid != lock.l_pid);
+    return lock.l_type == F_UNLCK || !read_holder(fd, &h) ||
+           (lock.l_pid > 0 && h.pid != lock.l_pid);
 }
 
 /* False, and errno, if another process has the lock and keeps it. */
@@ -195,8 +217,8 @@ static bool try_lock(int fd)
     return true;
 }
 
-/* A lock of fcntl's older kind: it belongs to the process and not to the open file, so forked children neither
- * have it nor keep it alive. */
+/* A lock of fcntl's older kind: it belongs to the process and not to the open file, so forked
+ * children neither have it nor keep it alive. */
 static fracas_err take(int fd, const char *path, bool force, bool signing)
 {
     struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET}; /* for F_GETLK */
@@ -207,8 +229,10 @@ static fracas_err take(int fd, const char *path, bool force, bool signing)
         return signing ? sign(fd, path, left ? &before : NULL) : FRACAS_OK;
     }
     if (errno == ENOLCK || errno == ENOSYS || errno == EOPNOTSUPP)
-        return fracas_fail(FRACAS_ENVIRONMENT, "cannot lock %s: %s; this filesystem has no locks: put the study on one "
-                           "that has", path, strerror(errno));
+        return fracas_fail(
+            FRACAS_ENVIRONMENT,
+            "cannot lock %s: %s; this filesystem has no locks: put the study on one that has", path,
+            strerror(errno));
     if (errno != EACCES && errno != EAGAIN) return fracas_disk_fail("lock", path);
     if (fcntl(fd, F_GETLK, &lock) < 0) lock.l_pid = 0;
     return in_use(fd, path, lock.l_pid);
@@ -228,14 +252,21 @@ static fracas_err open_and_take(const char *study, bool force, bool signing, int
     return err;
 }
 
-fracas_err fracas_study_lock(const char *study, bool force, int *lock) { return open_and_take(study, force, true, lock); }
+fracas_err fracas_study_lock(const char *study, bool force, int *lock)
+{
+    return open_and_take(study, force, true, lock);
+}
 
-fracas_err fracas_study_lock_to_look(const char *study, bool force, int *lock) { return open_and_take(study, force, false, lock); }
+fracas_err fracas_study_lock_to_look(const char *study, bool force, int *lock)
+{
+    return open_and_take(study, force, false, lock);
+}
 
 void fracas_study_unlock(int lock)
 {
     if (lock < 0) return;
-    while (ftruncate(lock, 0) < 0 && errno == EINTR) /* if it cannot be: the next run takes it over from the dead */
+    while (ftruncate(lock, 0) < 0 &&
+           errno == EINTR) /* if it cannot be: the next run takes it over from the dead */
         ;
     close(lock);
 }
@@ -263,7 +294,8 @@ fracas_lock_state fracas_study_lock_state(const char *study, char text[FRACAS_HO
     int fd = open(path, O_RDONLY | O_CLOEXEC);
     free(path);
     if (fd < 0) return state;
-    bool held = fcntl(fd, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK, named = read_holder(fd, &h);
+    bool held = fcntl(fd, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK,
+         named = read_holder(fd, &h);
     close(fd);
     if (held && lock.l_pid > 0 && h.pid != lock.l_pid) h = (holder){.pid = lock.l_pid};
     if (held || named) describe(&h, text);

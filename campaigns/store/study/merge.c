@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* STUDY/study.h5 from the segments, in plan order. */
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/study/segments.h"
@@ -18,8 +19,10 @@ static fracas_err append(void *context, fracas_step *step)
     if (step->status == FRACAS_PLANNED || step->status == FRACAS_LEASED) {
         char hex[FRACAS_HASH_HEX];
         fracas_hash_hex(&m->table->point[step->point].hash, hex);
-        return fracas_fail(FRACAS_INTERRUPTED, "replica %" PRId64 " of point %s is not computed yet; run again to go "
-                           "on", step->replica, hex);
+        return fracas_fail(FRACAS_INTERRUPTED,
+                           "replica %" PRId64
+                           " of point %s is not computed yet; run again to go on",
+                           step->replica, hex);
     }
     if (step->status != FRACAS_DONE) m->complete = false;
     return fracas_writer_append(m->writer, step->point, step->replica, &step->record);
@@ -54,8 +57,8 @@ static fracas_err append_meshes(const merging *m, const fracas_mesh_source *mesh
     return err;
 }
 
-/* After a merge that found damage. If that is in the bytes of segments, they are set aside and FRACAS_INTERRUPTED says so; else it says
- * what it said. */
+/* After a merge that found damage. If that is in the bytes of segments, they are set aside and
+ * FRACAS_INTERRUPTED says so; else it says what it said. */
 static fracas_err plan_damaged_again(const char *study, fracas_index *index)
 {
     char *text = NULL, before[1024];
@@ -68,14 +71,18 @@ static fracas_err plan_damaged_again(const char *study, fracas_index *index)
     if (fclose(report) != 0 && !err) err = fracas_no_memory("a report");
     if (!err && *text) err = fracas_index_event(index, "recovered", text);
     if (!err)
-        err = rows ? fracas_fail(FRACAS_INTERRUPTED, "damage was found when study.h5 was to be made: %sthe same command computes them", text)
+        err = rows ? fracas_fail(FRACAS_INTERRUPTED,
+                                 "damage was found when study.h5 was to be made: %sthe same "
+                                 "command computes them",
+                                 text)
                    : fracas_fail(FRACAS_DAMAGED, "%s", before);
     free(text);
     return err;
 }
 
-fracas_err fracas_study_merge(const char *study, fracas_index *index, const fracas_file_header *header,
-                              const fracas_point_table *table, const fracas_mesh_source *meshes)
+fracas_err fracas_study_merge(const char *study, fracas_index *index,
+                              const fracas_file_header *header, const fracas_point_table *table,
+                              const fracas_mesh_source *meshes)
 {
     char *path;
     merging m = {.table = table, .complete = true};
@@ -89,7 +96,9 @@ fracas_err fracas_study_merge(const char *study, fracas_index *index, const frac
     if (!err) err = fracas_segments_walk(segments, table, false, append, &m);
     if (!err) err = append_decisions(&m, index);
     if (!err && meshes && header->interfaces) err = append_meshes(&m, meshes);
-    if (!err) err = fracas_index_seal_study(index, NULL); /* a death from here on leaves no seal: merged again */
+    if (!err)
+        err = fracas_index_seal_study(index,
+                                      NULL); /* a death from here on leaves no seal: merged again */
     if (err) fracas_writer_abandon(m.writer);
     else err = fracas_writer_finish(m.writer, m.complete, &seal);
     if (!err) err = fracas_index_seal_study(index, &seal);
@@ -111,7 +120,8 @@ fracas_err fracas_study_sealed(const char *study, fracas_index *index, bool *sea
     free(path);
     TRY(err);
     TRY(fracas_index_segments(index, &segment, &count));
-    for (size_t s = 0; !err && *sealed && s < count; s++) err = fracas_segment_is_there(study, &segment[s], sealed);
+    for (size_t s = 0; !err && *sealed && s < count; s++)
+        err = fracas_segment_is_there(study, &segment[s], sealed);
     fracas_index_segments_free(segment, count);
     return err;
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sweeping a study after an interruption. */
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/study/segments.h"
@@ -78,7 +79,8 @@ fracas_err fracas_study_sweep(const char *study, char **report)
 
 /* ---- segments that the index knows, but the folder has not ---- */
 
-fracas_err fracas_segment_is_there(const char *study, const fracas_known_segment *segment, bool *there)
+fracas_err fracas_segment_is_there(const char *study, const fracas_known_segment *segment,
+                                   bool *there)
 {
     char *path;
     TRY(fracas_disk_segment(study, segment->name, &path));
@@ -107,7 +109,8 @@ static fracas_err set_aside(const char *path, FILE *report)
 }
 
 /* *lost: its realizations must be computed again. */
-static fracas_err sweep_segment(const char *study, const fracas_known_segment *segment, bool seal, FILE *report, bool *lost)
+static fracas_err sweep_segment(const char *study, const fracas_known_segment *segment, bool seal,
+                                FILE *report, bool *lost)
 {
     char *path;
     bool there;
@@ -128,7 +131,8 @@ static fracas_err sweep_segment(const char *study, const fracas_known_segment *s
     return err;
 }
 
-fracas_err fracas_segments_sweep(const char *study, fracas_index *index, bool seals, FILE *report, int64_t *rows)
+fracas_err fracas_segments_sweep(const char *study, fracas_index *index, bool seals, FILE *report,
+                                 int64_t *rows)
 {
     fracas_known_segment *segment;
     size_t count, nlost = 0;
@@ -168,8 +172,8 @@ static fracas_err unseal_damaged(const char *study, fracas_index *index, FILE *r
     return err;
 }
 
-/* Whether every byte is read at the start of a run: it takes seconds in studies that are not of many gigabytes. In those the merge
- * finds what is damaged. */
+/* Whether every byte is read at the start of a run: it takes seconds in studies that are not of
+ * many gigabytes. In those the merge finds what is damaged. */
 static fracas_err is_quick_to_check(fracas_index *index, bool *quick)
 {
     static const double most = 2e9; /* bytes: 1 s from memory, some 7 s from a slow disk */
@@ -219,8 +223,10 @@ fracas_err fracas_study_sound(const char *study, fracas_index *index, bool *soun
 
 /* ---- segments that the folder has, but the index does not know ---- */
 
-/* A realization that the index does not know, but a rule may have asked for before the index was lost, is planned now. */
-static fracas_err place_or_plan(fracas_index *index, const fracas_point_table *table, const fracas_hash *point, int64_t replica)
+/* A realization that the index does not know, but a rule may have asked for before the index was
+ * lost, is planned now. */
+static fracas_err place_or_plan(fracas_index *index, const fracas_point_table *table,
+                                const fracas_hash *point, int64_t replica)
 {
     fracas_place place;
     fracas_err err = fracas_index_place(index, point, replica, &place);
@@ -233,9 +239,10 @@ static fracas_err place_or_plan(fracas_index *index, const fracas_point_table *t
     return err;
 }
 
-/* Reads every record, so that every checksum of the file is looked at. *asked becomes false if one is of no realization here. */
-static fracas_err read_rows(fracas_reader *reader, const fracas_point_table *table, fracas_index *index, fracas_segment_row *row,
-                            bool *asked)
+/* Reads every record, so that every checksum of the file is looked at. *asked becomes false if one
+ * is of no realization here. */
+static fracas_err read_rows(fracas_reader *reader, const fracas_point_table *table,
+                            fracas_index *index, fracas_segment_row *row, bool *asked)
 {
     fracas_record record;
     fracas_err err = FRACAS_OK;
@@ -260,9 +267,11 @@ static fracas_err read_rows(fracas_reader *reader, const fracas_point_table *tab
     return err;
 }
 
-/* Commits the rows of an open segment, if this campaign asks for all of them; what goes wrong when it is *sound is not its fault. */
-static fracas_err adopt(const char *path, const char *name, fracas_reader *reader, const fracas_file_seal *seal,
-                        const fracas_point_table *table, fracas_index *index, bool *sound, FILE *report)
+/* Commits the rows of an open segment, if this campaign asks for all of them; what goes wrong when
+ * it is *sound is not its fault. */
+static fracas_err adopt(const char *path, const char *name, fracas_reader *reader,
+                        const fracas_file_seal *seal, const fracas_point_table *table,
+                        fracas_index *index, bool *sound, FILE *report)
 {
     size_t count = fracas_reader_realizations(reader);
     bool asked = true;
@@ -270,22 +279,29 @@ static fracas_err adopt(const char *path, const char *name, fracas_reader *reade
     TRY(fracas_reader_provenance(reader, &provenance));
     const bool tells = provenance && fracas_index_is_json(index, provenance);
     fracas_segment_row *row = calloc(count + 1, sizeof *row);
-    fracas_err err = row ? read_rows(reader, table, index, row, &asked) : fracas_no_memory("the rows of a segment");
+    fracas_err err = row ? read_rows(reader, table, index, row, &asked)
+                         : fracas_no_memory("the rows of a segment");
     *sound = !err;
     if (!err && !asked)
-        fprintf(report, "left %s, which has realizations that this campaign does not ask for; move it away, or run the campaign that "
-                "does\n", path);
-    if (!err && asked) err = fracas_disk_sync_folder(path); /* whoever renamed it may have died before this */
+        fprintf(report,
+                "left %s, which has realizations that this campaign does not ask for; move it "
+                "away, or run the campaign that does\n",
+                path);
     if (!err && asked)
-        err = fracas_index_commit(index, name, seal, row, count, tells ? provenance : "{\"adopted\": true}");
+        err = fracas_disk_sync_folder(path); /* whoever renamed it may have died before this */
+    if (!err && asked)
+        err = fracas_index_commit(index, name, seal, row, count,
+                                  tells ? provenance : "{\"adopted\": true}");
     free(provenance);
     if (!err && asked) fprintf(report, "adopted %s with %zu realizations\n", path, count);
     free(row);
     return err;
 }
 
-/* Adopts a segment, or leaves it: what another program or campaign computed is not ours to remove. */
-static fracas_err adopt_or_leave(const char *path, const char *name, const fracas_point_table *table, fracas_index *index,
+/* Adopts a segment, or leaves it: what another program or campaign computed is not ours to remove.
+ */
+static fracas_err adopt_or_leave(const char *path, const char *name,
+                                 const fracas_point_table *table, fracas_index *index,
                                  const fracas_identity *identity, bool *sound, FILE *report)
 {
     fracas_reader *reader;
@@ -295,7 +311,8 @@ static fracas_err adopt_or_leave(const char *path, const char *name, const fraca
     uint64_t version;
     TRY(fracas_file_version(path, &version));
     if (version != FRACAS_FORMAT_VERSION) {
-        fprintf(report, "left %s, which has format version %" PRIu64 ", not %d; move it away\n", path, version, FRACAS_FORMAT_VERSION);
+        fprintf(report, "left %s, which has format version %" PRIu64 ", not %d; move it away\n",
+                path, version, FRACAS_FORMAT_VERSION);
         return FRACAS_OK;
     }
     TRY(fracas_disk_seal_path(path, &seal));
@@ -304,14 +321,14 @@ static fracas_err adopt_or_leave(const char *path, const char *name, const fraca
     fracas_err err = FRACAS_OK;
     if (fracas_identity_differs(&found, identity, text))
         fprintf(report, "left %s, which is not of this study: %s; move it away\n", path, text);
-    else
-        err = adopt(path, name, reader, &seal, table, index, sound, report);
+    else err = adopt(path, name, reader, &seal, table, index, sound, report);
     fracas_reader_close(reader);
     return err;
 }
 
-static fracas_err adopt_or_set_aside(const char *path, const char *name, const fracas_point_table *table, fracas_index *index,
-                                  const fracas_identity *identity, FILE *report)
+static fracas_err adopt_or_set_aside(const char *path, const char *name,
+                                     const fracas_point_table *table, fracas_index *index,
+                                     const fracas_identity *identity, FILE *report)
 {
     bool sound = false;
     fracas_err err = adopt_or_leave(path, name, table, index, identity, &sound, report);
@@ -328,11 +345,12 @@ int fracas_segment_compare_names(const void *a, const void *b)
 bool fracas_segment_is_known(const fracas_known_segment *segment, size_t count, char *name)
 {
     fracas_known_segment wanted = {.name = name};
-    return count > 0 && bsearch(&wanted, segment, count, sizeof *segment, fracas_segment_compare_names);
+    return count > 0 &&
+           bsearch(&wanted, segment, count, sizeof *segment, fracas_segment_compare_names);
 }
 
-static fracas_err adopt_orphans(const char *folder, const fracas_point_table *table, fracas_index *index, const fracas_identity *identity,
-                                FILE *report)
+static fracas_err adopt_orphans(const char *folder, const fracas_point_table *table,
+                                fracas_index *index, const fracas_identity *identity, FILE *report)
 {
     struct dirent **entry;
     int count;
@@ -344,7 +362,9 @@ static fracas_err adopt_orphans(const char *folder, const fracas_point_table *ta
     for (int e = 0; !err && e < count; e++) {
         char *name = entry[e]->d_name, *dot = strrchr(name, '.');
         char *path;
-        if (name[0] == '.' || !dot || strcmp(dot, ".h5") != 0 || fracas_segment_is_known(segment, nsegments, name)) continue;
+        if (name[0] == '.' || !dot || strcmp(dot, ".h5") != 0 ||
+            fracas_segment_is_known(segment, nsegments, name))
+            continue;
         err = fracas_disk_join(folder, name, &path);
         if (err) break;
         err = adopt_or_set_aside(path, name, table, index, identity, report);
@@ -357,8 +377,9 @@ static fracas_err adopt_orphans(const char *folder, const fracas_point_table *ta
 
 /* ---- the index itself ---- */
 
-/* Before anything is computed by it. An index of so many realizations that this would take long is believed here: what is damaged in
- * it is found where it is used, at the latest when rows are compared with records in the merge. */
+/* Before anything is computed by it. An index of so many realizations that this would take long is
+ * believed here: what is damaged in it is found where it is used, at the latest when rows are
+ * compared with records in the merge. */
 static fracas_err check_index(fracas_index *index, const fracas_point_table *table)
 {
     enum { MOST = 32 << 20 }; /* bytes: about a second */
@@ -371,8 +392,11 @@ static fracas_err check_index(fracas_index *index, const fracas_point_table *tab
         known += id != 0;
     }
     if (points <= known) return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED, "%s: %" PRId64 " of its %" PRId64 " points are not in the campaign; if campaign.yaml of the study was "
-                       "edited put it back, else `fracas reindex` makes the index anew from the segments", index->path, points - known, points);
+    return fracas_fail(FRACAS_DAMAGED,
+                       "%s: %" PRId64 " of its %" PRId64
+                       " points are not in the campaign; if campaign.yaml of the study was edited "
+                       "put it back, else `fracas reindex` makes the index anew from the segments",
+                       index->path, points - known, points);
 }
 
 static fracas_err recover(const char *study, const fracas_point_table *table, fracas_index *index,
@@ -389,15 +413,17 @@ static fracas_err recover(const char *study, const fracas_point_table *table, fr
     return err;
 }
 
-fracas_err fracas_study_recover(const char *study, fracas_index *index, const fracas_file_header *header,
-                                const fracas_point_table *table, char **report)
+fracas_err fracas_study_recover(const char *study, fracas_index *index,
+                                const fracas_file_header *header, const fracas_point_table *table,
+                                char **report)
 {
     size_t size;
     fracas_identity identity;
     fracas_identity_of(header, &identity);
     *report = NULL;
-    TRY(check_index(index, table)); /* before anything is added to it */
-    TRY(fracas_index_plan(index, table)); /* before the sweep: a segment of a realization that the index does not know is left alone */
+    TRY(check_index(index, table));       /* before anything is added to it */
+    TRY(fracas_index_plan(index, table)); /* before the sweep: a segment of a realization that the
+                                             index does not know is left alone */
     FILE *text = open_memstream(report, &size);
     if (!text) return fracas_no_memory("a report");
     fracas_err err = recover(study, table, index, &identity, text);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* STUDY/index.sqlite made anew from the segments. */
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/index/query.h"
@@ -49,7 +50,8 @@ void fracas_say_lines(const fracas_said *said, const char *text)
 
 /* ---- what is there ---- */
 
-/* A study of another format version is refused as such, and not as one without any segment of ours. */
+/* A study of another format version is refused as such, and not as one without any segment of ours.
+ */
 static fracas_err check_versions(const char *study)
 {
     char *folder, *other = NULL;
@@ -71,8 +73,11 @@ static fracas_err check_versions(const char *study)
         free(path);
     }
     if (!err && !ours && other)
-        err = fracas_fail(FRACAS_DAMAGED, "%s has format version %" PRIu64 "; this program reads %d: use the program version that wrote "
-                          "it, or compute the study again in another folder", other, found, FRACAS_FORMAT_VERSION);
+        err = fracas_fail(FRACAS_DAMAGED,
+                          "%s has format version %" PRIu64
+                          "; this program reads %d: use the program version that wrote it, or "
+                          "compute the study again in another folder",
+                          other, found, FRACAS_FORMAT_VERSION);
     if (list) closedir(list);
     free(other);
     free(folder);
@@ -89,7 +94,8 @@ static fracas_err check_old(reindexing *r, fracas_index *old)
     fracas_err err = fracas_query_begin(old, "PRAGMA integrity_check(1)", &check);
     if (!err) err = fracas_query_step(old, check, &row);
     const char *text = row ? (const char *)sqlite3_column_text(check, 0) : NULL;
-    if (!err && (!text || strcmp(text, "ok") != 0)) err = fracas_fail(FRACAS_DAMAGED, "%s: damaged: %s", r->old, text ? text : "");
+    if (!err && (!text || strcmp(text, "ok") != 0))
+        err = fracas_fail(FRACAS_DAMAGED, "%s: damaged: %s", r->old, text ? text : "");
     sqlite3_finalize(check);
     if (!err) err = fracas_index_identity(old, &found);
     if (!err && fracas_identity_differs(&found, &r->identity, difference))
@@ -108,9 +114,11 @@ static fracas_err look_at_old(reindexing *r)
         fracas_index_close(old);
     }
     r->readable = !err;
-    if (err != FRACAS_DAMAGED && err != FRACAS_BUG) return err; /* a bug: tables that are not as ours */
+    if (err != FRACAS_DAMAGED && err != FRACAS_BUG)
+        return err; /* a bug: tables that are not as ours */
     fracas_say_line(r->said, "the index before cannot be used: %s", fracas_message());
-    fracas_say_line(r->said, "realizations that FAILED are computed again, for that index alone knew of them");
+    fracas_say_line(
+        r->said, "realizations that FAILED are computed again, for that index alone knew of them");
     return FRACAS_OK;
 }
 
@@ -139,8 +147,10 @@ static fracas_err plan_as_before(reindexing *r)
 {
     sqlite3_stmt *most;
     bool row = true;
-    TRY(fracas_query_begin(r->index, "SELECT coalesce(max(r.replica) + 1, 0) FROM old.realization r JOIN old.point q ON q.id = r.point"
-                                     " WHERE q.hash = ?1 AND r.replica < ?2", &most));
+    TRY(fracas_query_begin(r->index,
+                           "SELECT coalesce(max(r.replica) + 1, 0) FROM old.realization r JOIN "
+                           "old.point q ON q.id = r.point WHERE q.hash = ?1 AND r.replica < ?2",
+                           &most));
     fracas_err err = FRACAS_OK;
     for (size_t p = 0; !err && p < r->table->npoints; p++) {
         fracas_point_row point = r->table->point[p];
@@ -160,18 +170,19 @@ static fracas_err plan_as_before(reindexing *r)
 
 /* A failure holds unless a segment has the realization. */
 static const char carried[] =
-    "INSERT INTO main.event(time, kind, text) SELECT time, kind, text FROM old.event ORDER BY id;"
-    "INSERT INTO main.meta SELECT key, value FROM old.meta WHERE key = 'part';"
-    "UPDATE main.segment SET provenance = o.provenance FROM old.segment o"
-    " WHERE o.name = main.segment.name AND o.bytes = main.segment.bytes AND o.checksum = main.segment.checksum;"
-    "UPDATE main.realization SET attempts = o.attempts, reason = o.reason,"
-    " outcome = CASE WHEN main.realization.status = 'planned' AND o.failed THEN o.outcome ELSE main.realization.outcome END,"
-    " status = CASE WHEN main.realization.status = 'planned' AND o.failed THEN o.status ELSE main.realization.status END"
-    " FROM (SELECT p.id AS point, r.replica, r.attempts, r.reason, r.outcome, r.status,"
-    "  r.status IN ('failed', 'quarantined') AND r.segment IS NULL AS failed"
-    "  FROM old.realization r JOIN old.point q ON q.id = r.point JOIN main.point p ON p.hash = q.hash"
-    "  WHERE r.attempts > 0 OR r.status IN ('failed', 'quarantined')) AS o"
-    " WHERE main.realization.point = o.point AND main.realization.replica = o.replica;";
+    "INSERT INTO main.event(time, kind, text) SELECT time, kind, text FROM old.event ORDER BY "
+    "id;INSERT INTO main.meta SELECT key, value FROM old.meta WHERE key = 'part';UPDATE "
+    "main.segment SET provenance = o.provenance FROM old.segment o WHERE o.name = "
+    "main.segment.name AND o.bytes = main.segment.bytes AND o.checksum = "
+    "main.segment.checksum;UPDATE main.realization SET attempts = o.attempts, reason = o.reason, "
+    "outcome = CASE WHEN main.realization.status = 'planned' AND o.failed THEN o.outcome ELSE "
+    "main.realization.outcome END, status = CASE WHEN main.realization.status = 'planned' AND "
+    "o.failed THEN o.status ELSE main.realization.status END FROM (SELECT p.id AS point, "
+    "r.replica, r.attempts, r.reason, r.outcome, r.status,  r.status IN ('failed', 'quarantined') "
+    "AND r.segment IS NULL AS failed  FROM old.realization r JOIN old.point q ON q.id = r.point "
+    "JOIN main.point p ON p.hash = q.hash  WHERE r.attempts > 0 OR r.status IN ('failed', "
+    "'quarantined')) AS o WHERE main.realization.point = o.point AND main.realization.replica = "
+    "o.replica;";
 
 static fracas_err carry(reindexing *r)
 {
@@ -240,8 +251,8 @@ static fracas_err make(reindexing *r, const fracas_file_header *header)
 
 /* ---- the exchange ---- */
 
-/* Moves the old index away with all that SQLite has beside it, itself first: a log without its database is nothing, but
- * it must not be found beside another one. */
+/* Moves the old index away with all that SQLite has beside it, itself first: a log without its
+ * database is nothing, but it must not be found beside another one. */
 static fracas_err move_old(const reindexing *r)
 {
     char stamp[32];
@@ -253,10 +264,13 @@ static fracas_err move_old(const reindexing *r)
     for (int t = 0; t < NTAILS; t++) {
         char *from, *to = NULL;
         if (asprintf(&from, "%s%s", r->old, tail[t]) < 0) return fracas_no_memory("a file name");
-        if (asprintf(&to, "%s.before-%s.%09ld%s", r->old, stamp, now.tv_nsec, tail[t]) < 0) to = NULL;
+        if (asprintf(&to, "%s.before-%s.%09ld%s", r->old, stamp, now.tv_nsec, tail[t]) < 0)
+            to = NULL;
         fracas_err err = to ? FRACAS_OK : fracas_no_memory("a file name");
-        if (!err && rename(from, to) < 0 && errno != ENOENT) err = fracas_disk_fail("move away", from);
-        else if (!err && t == 0 && access(to, F_OK) == 0) fracas_say_line(r->said, "the index before is %s", to);
+        if (!err && rename(from, to) < 0 && errno != ENOENT)
+            err = fracas_disk_fail("move away", from);
+        else if (!err && t == 0 && access(to, F_OK) == 0)
+            fracas_say_line(r->said, "the index before is %s", to);
         free(from);
         free(to);
         TRY(err);
@@ -291,8 +305,8 @@ static fracas_err reindex(reindexing *r, const fracas_file_header *header)
     return err;
 }
 
-fracas_err fracas_study_reindex(const char *study, const fracas_file_header *header, const fracas_point_table *table,
-                                const fracas_said *said)
+fracas_err fracas_study_reindex(const char *study, const fracas_file_header *header,
+                                const fracas_point_table *table, const fracas_said *said)
 {
     reindexing r = {.study = study, .table = table, .said = said};
     fracas_identity_of(header, &r.identity);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/store/results.h"
 
 #include "campaigns/store/file/disk.h"
@@ -24,16 +25,16 @@ struct fracas_results {
     fracas_reader *reader; /* study.h5; NULL of partial ones, which are all that follows */
     fracas_file_header header;
     fracas_point_table table;
-    fracas_point_row *point;     /* of the table, with the replicas of by now */
-    int64_t *missing;            /* of each point */
+    fracas_point_row *point; /* of the table, with the replicas of by now */
+    int64_t *missing;        /* of each point */
     entry *row;
     size_t nrows, room;
     fracas_segments *segments;
     fracas_decision *decision;
     size_t ndecisions;
-    char **note;                 /* of both */
+    char **note; /* of both */
     size_t nnotes;
-    int64_t *named;              /* segments that a note names */
+    int64_t *named; /* segments that a note names */
     size_t nnamed;
 };
 
@@ -70,8 +71,10 @@ static fracas_err open_file(const char *study, fracas_reader **reader)
 {
     char *path;
     TRY(fracas_disk_join(study, "study.h5", &path));
-    fracas_err err = access(path, F_OK) ? fracas_fail(FRACAS_DAMAGED, "%s is not there; `fracas run` makes it", path)
-                                        : fracas_reader_open(path, reader);
+    fracas_err err = access(path, F_OK)
+                         ? fracas_fail(FRACAS_DAMAGED, "%s is not there; `fracas run` makes it",
+                                       path)
+                         : fracas_reader_open(path, reader);
     free(path);
     return err;
 }
@@ -89,7 +92,8 @@ static fracas_err file_is_sealed(const char *study, fracas_index *index, bool *s
 }
 
 /* Takes study.h5 if it is of all that the index has; else leaves results->reader NULL. */
-static fracas_err take_file(const char *study, fracas_index *index, const fracas_hash *campaign, fracas_results *results)
+static fracas_err take_file(const char *study, fracas_index *index, const fracas_hash *campaign,
+                            fracas_results *results)
 {
     bool sealed;
     fracas_index_counts counts;
@@ -107,17 +111,21 @@ static fracas_err take_file(const char *study, fracas_index *index, const fracas
 }
 
 /* Without an index, whose message is the present one: study.h5, if it is of this campaign. */
-static fracas_err take_file_alone(const char *study, const fracas_hash *campaign, fracas_results *results)
+static fracas_err take_file_alone(const char *study, const fracas_hash *campaign,
+                                  fracas_results *results)
 {
     char *why = strdup(fracas_message());
     if (!why) return fracas_no_memory("a message");
     bool there = false;
     fracas_err err = file_is_there(study, &there);
-    if (!err && !there) err = fracas_fail(FRACAS_DAMAGED, "%s; and there is no %s/study.h5", why, study);
+    if (!err && !there)
+        err = fracas_fail(FRACAS_DAMAGED, "%s; and there is no %s/study.h5", why, study);
     if (!err) err = open_file(study, &results->reader);
     if (!err && !fracas_hash_equal(&fracas_reader_header(results->reader)->campaign, campaign))
-        err = fracas_fail(FRACAS_DAMAGED, "%s; and %s/study.h5 is of another campaign than %s/campaign.yaml, from before it was extended", why,
-                          study, study);
+        err = fracas_fail(FRACAS_DAMAGED,
+                          "%s; and %s/study.h5 is of another campaign than %s/campaign.yaml, from "
+                          "before it was extended",
+                          why, study, study);
     if (!err) err = take_note(results, "%s; study.h5 is taken as it is", why);
     free(why);
     return err;
@@ -125,7 +133,8 @@ static fracas_err take_file_alone(const char *study, const fracas_hash *campaign
 
 /* ---- the index ---- */
 
-static fracas_err add_row(fracas_results *results, size_t p, int64_t replica, const fracas_place *place)
+static fracas_err add_row(fracas_results *results, size_t p, int64_t replica,
+                          const fracas_place *place)
 {
     if (results->nrows == results->room) {
         const size_t room = results->room ? 2 * results->room : 256;
@@ -156,11 +165,19 @@ static fracas_err read_rows(fracas_results *results, fracas_index *index, sqlite
         const int64_t replica = sqlite3_column_int64(s, 0);
         if (replica < 0 || replica >= most) continue;
         given++;
-        const fracas_place place = {
-            fracas_index_status(sqlite3_column_text(s, 1)), sqlite3_column_int64(s, 2), sqlite3_column_int64(s, 3),
-            sqlite3_column_int64(s, 4), sqlite3_column_int64(s, 5), sqlite3_column_int64(s, 6), sqlite3_column_int64(s, 7),
-            real_at(s, 8), real_at(s, 9), real_at(s, 10), sqlite3_column_type(s, 10) != SQLITE_NULL};
-        if (place.status != FRACAS_PLANNED && place.status != FRACAS_LEASED) TRY(add_row(results, p, replica, &place));
+        const fracas_place place = {fracas_index_status(sqlite3_column_text(s, 1)),
+                                    sqlite3_column_int64(s, 2),
+                                    sqlite3_column_int64(s, 3),
+                                    sqlite3_column_int64(s, 4),
+                                    sqlite3_column_int64(s, 5),
+                                    sqlite3_column_int64(s, 6),
+                                    sqlite3_column_int64(s, 7),
+                                    real_at(s, 8),
+                                    real_at(s, 9),
+                                    real_at(s, 10),
+                                    sqlite3_column_type(s, 10) != SQLITE_NULL};
+        if (place.status != FRACAS_PLANNED && place.status != FRACAS_LEASED)
+            TRY(add_row(results, p, replica, &place));
     }
     sqlite3_reset(s);
     if (point->most && given) point->replicas = given;
@@ -171,8 +188,11 @@ static fracas_err read_points(fracas_results *results, fracas_index *index)
 {
     char text[256];
     sqlite3_stmt *s;
-    snprintf(text, sizeof text, "SELECT replica, status, segment, row, outcome, fragments, fragments_dust, steps, dissipated, residual, %s"
-             " FROM realization WHERE point = (SELECT id FROM point WHERE hash = ?1) ORDER BY replica", index->old ? "NULL" : "size");
+    snprintf(text, sizeof text,
+             "SELECT replica, status, segment, row, outcome, fragments, fragments_dust, steps, "
+             "dissipated, residual, %s FROM realization WHERE point = (SELECT id FROM point WHERE "
+             "hash = ?1) ORDER BY replica",
+             index->old ? "NULL" : "size");
     fracas_err err = fracas_query_begin(index, text, &s);
     for (size_t p = 0; !err && p < results->table.npoints; p++) {
         err = fracas_query_bind_hash(index, s, 1, &results->point[p].hash);
@@ -193,7 +213,8 @@ static fracas_err read_decisions(fracas_results *results, fracas_index *index)
         if (!id) continue; /* it is not planned yet */
         TRY(fracas_index_decisions(index, &results->point[p].hash, &decision, &count));
         for (size_t d = 0; d < count; d++) decision[d].point = (int64_t)p;
-        more = count ? realloc(results->decision, (results->ndecisions + count) * sizeof *more) : results->decision;
+        more = count ? realloc(results->decision, (results->ndecisions + count) * sizeof *more)
+                     : results->decision;
         if (count && more) memcpy(more + results->ndecisions, decision, count * sizeof *decision);
         free(decision);
         if (count && !more) return fracas_no_memory("the decisions of a study");
@@ -204,7 +225,8 @@ static fracas_err read_decisions(fracas_results *results, fracas_index *index)
 }
 
 /* What the study was begun with: its segments are of that. */
-static void read_header(const fracas_identity *identity, const fracas_hash *campaign, fracas_file_header *header)
+static void read_header(const fracas_identity *identity, const fracas_hash *campaign,
+                        fracas_file_header *header)
 {
     *header = (fracas_file_header){.campaign = *campaign};
     snprintf(header->version, sizeof header->version, "%s", identity->value[0]);
@@ -214,7 +236,8 @@ static void read_header(const fracas_identity *identity, const fracas_hash *camp
 }
 
 /* Within a transaction, so that all of it is of one moment. */
-static fracas_err read_index(const char *study, fracas_index *index, const fracas_hash *campaign, fracas_results *results)
+static fracas_err read_index(const char *study, fracas_index *index, const fracas_hash *campaign,
+                             fracas_results *results)
 {
     fracas_identity identity;
     TRY(take_file(study, index, campaign, results));
@@ -245,11 +268,14 @@ static fracas_err check_any(const char *study, const fracas_results *results)
     if (results->reader || results->nrows) return FRACAS_OK;
     int64_t planned = 0;
     for (size_t p = 0; p < results->table.npoints; p++) planned += results->point[p].replicas;
-    return fracas_fail(FRACAS_INTERRUPTED, "no realization of %s is done yet, of %" PRId64 ": there is nothing to report; `fracas run` with the "
-                       "campaign file goes on", study, planned);
+    return fracas_fail(FRACAS_INTERRUPTED,
+                       "no realization of %s is done yet, of %" PRId64
+                       ": there is nothing to report; `fracas run` with the campaign file goes on",
+                       study, planned);
 }
 
-static fracas_err open_by_index(const char *study, const fracas_hash *campaign, fracas_results *results)
+static fracas_err open_by_index(const char *study, const fracas_hash *campaign,
+                                fracas_results *results)
 {
     fracas_index *index;
     fracas_err err = fracas_index_open(study, false, &index);
@@ -260,12 +286,16 @@ static fracas_err open_by_index(const char *study, const fracas_hash *campaign, 
         fracas_index_close(index);
     }
     if (err == FRACAS_IN_USE)
-        err = fracas_fail_within(err, "the index of %s cannot be read now: on a network filesystem nobody else can while a run has it; "
-                                 "try again when the run has ended", study);
+        err = fracas_fail_within(
+            err,
+            "the index of %s cannot be read now: on a network filesystem nobody else can while a "
+            "run has it; try again when the run has ended",
+            study);
     return err ? err : check_any(study, results);
 }
 
-fracas_err fracas_results_open(const char *study, const fracas_hash *campaign, const fracas_point_table *table, fracas_results **results)
+fracas_err fracas_results_open(const char *study, const fracas_hash *campaign,
+                               const fracas_point_table *table, fracas_results **results)
 {
     fracas_results *new = *results = calloc(1, sizeof **results);
     if (!new) return fracas_no_memory("the results of a study");
@@ -313,24 +343,30 @@ static fracas_err lose(fracas_results *results, entry *row)
     results->named[results->nnamed++] = id;
     char *why = strdup(fracas_message());
     if (!why) return fracas_no_memory("a note");
-    fracas_err err = take_note(results, "segment %s is left out (`fracas verify` checks the study): %s",
+    fracas_err err = take_note(results,
+                               "segment %s is left out (`fracas verify` checks the study): %s",
                                fracas_segments_name(results->segments, id), why);
     free(why);
     return err;
 }
 
-static fracas_err read_entry(fracas_results *results, const entry *row, unsigned parts, fracas_record *record)
+static fracas_err read_entry(fracas_results *results, const entry *row, unsigned parts,
+                             fracas_record *record)
 {
     fracas_record_clear(record);
     if (row->place.status != FRACAS_DONE) return FRACAS_OK; /* it failed: nothing is known of it */
-    return fracas_segments_record(results->segments, &row->place, &results->point[row->point].hash, row->replica, parts, record);
+    return fracas_segments_record(results->segments, &row->place, &results->point[row->point].hash,
+                                  row->replica, parts, record);
 }
 
-fracas_err fracas_results_record(fracas_results *results, size_t row, unsigned parts, size_t *point, int64_t *replica, fracas_record *record)
+fracas_err fracas_results_record(fracas_results *results, size_t row, unsigned parts, size_t *point,
+                                 int64_t *replica, fracas_record *record)
 {
-    if (results->reader) return fracas_reader_record(results->reader, row, parts, point, replica, record);
+    if (results->reader)
+        return fracas_reader_record(results->reader, row, parts, point, replica, record);
     if (row >= results->nrows)
-        return fracas_fail(FRACAS_BUG, "there are %zu realizations by now; row %zu was asked for", results->nrows, row);
+        return fracas_fail(FRACAS_BUG, "there are %zu realizations by now; row %zu was asked for",
+                           results->nrows, row);
     *point = results->row[row].point;
     *replica = results->row[row].replica;
     return read_entry(results, &results->row[row], parts, record);
@@ -351,16 +387,21 @@ enum { WINDOW_BYTES = 192 << 20 };
 static uint64_t size_of(const fracas_results *results, const entry *row, unsigned parts)
 {
     uint64_t bytes = sizeof(fracas_result) + sizeof(size_t);
-    if (parts & FRACAS_READ_FRAGMENTS) bytes += (uint64_t)row->place.fragments * sizeof(fracas_fragment);
-    if (parts & FRACAS_READ_HISTORY) bytes += (uint64_t)(results->header.history + 4) * sizeof(fracas_history_row);
-    if (parts & FRACAS_READ_INTERFACES) bytes += 2 * fracas_segments_share(results->segments, row->place.segment);
+    if (parts & FRACAS_READ_FRAGMENTS)
+        bytes += (uint64_t)row->place.fragments * sizeof(fracas_fragment);
+    if (parts & FRACAS_READ_HISTORY)
+        bytes += (uint64_t)(results->header.history + 4) * sizeof(fracas_history_row);
+    if (parts & FRACAS_READ_INTERFACES)
+        bytes += 2 * fracas_segments_share(results->segments, row->place.segment);
     return bytes;
 }
 
 static fracas_err window_fill(const fracas_results *results, unsigned parts, window *w)
 {
     uint64_t bytes = 0;
-    for (w->count = 0; w->first + w->count < results->nrows && (w->count == 0 || bytes < WINDOW_BYTES); w->count++)
+    for (w->count = 0;
+         w->first + w->count < results->nrows && (w->count == 0 || bytes < WINDOW_BYTES);
+         w->count++)
         bytes += size_of(results, &results->row[w->first + w->count], parts);
     if (w->count <= w->room) return FRACAS_OK;
     w->room = w->count;
@@ -375,7 +416,8 @@ static fracas_err window_fill(const fracas_results *results, unsigned parts, win
 
 static int by_place(const void *a, const void *b, void *rows)
 {
-    const fracas_place *x = &((const entry *)rows)[*(const size_t *)a].place, *y = &((const entry *)rows)[*(const size_t *)b].place;
+    const fracas_place *x = &((const entry *)rows)[*(const size_t *)a].place,
+                       *y = &((const entry *)rows)[*(const size_t *)b].place;
     if (x->segment != y->segment) return x->segment < y->segment ? -1 : 1;
     return (x->row > y->row) - (x->row < y->row);
 }
@@ -384,7 +426,8 @@ static fracas_err window_read(fracas_results *results, unsigned parts, window *w
 {
     for (size_t i = 0; i < w->count; i++) {
         const entry *row = &results->row[w->first + i];
-        w->result[i] = (fracas_result){.row = w->first + i, .point = row->point, .replica = row->replica};
+        w->result[i] = (fracas_result){
+            .row = w->first + i, .point = row->point, .replica = row->replica};
         fracas_record_init(&w->result[i].record);
         w->sorted[i] = i;
     }
@@ -399,7 +442,8 @@ static fracas_err window_read(fracas_results *results, unsigned parts, window *w
     return FRACAS_OK;
 }
 
-static fracas_err walk_segments(fracas_results *results, unsigned parts, fracas_err (*visit)(void *context, fracas_result *result),
+static fracas_err walk_segments(fracas_results *results, unsigned parts,
+                                fracas_err (*visit)(void *context, fracas_result *result),
                                 void *context)
 {
     window w = {0};
@@ -417,28 +461,36 @@ static fracas_err walk_segments(fracas_results *results, unsigned parts, fracas_
     return err;
 }
 
-static fracas_err walk_file(fracas_reader *reader, unsigned parts, fracas_err (*visit)(void *context, fracas_result *result), void *context)
+static fracas_err walk_file(fracas_reader *reader, unsigned parts,
+                            fracas_err (*visit)(void *context, fracas_result *result),
+                            void *context)
 {
     fracas_result result = {0};
     fracas_err err = FRACAS_OK;
     fracas_record_init(&result.record);
     for (; !err && result.row < fracas_reader_realizations(reader); result.row++) {
-        err = fracas_reader_record(reader, result.row, parts, &result.point, &result.replica, &result.record);
+        err = fracas_reader_record(reader, result.row, parts, &result.point, &result.replica,
+                                   &result.record);
         if (!err) err = visit(context, &result);
     }
     fracas_record_clear(&result.record);
     return err;
 }
 
-fracas_err fracas_results_walk(fracas_results *results, unsigned parts, fracas_err (*visit)(void *context, fracas_result *result),
+fracas_err fracas_results_walk(fracas_results *results, unsigned parts,
+                               fracas_err (*visit)(void *context, fracas_result *result),
                                void *context)
 {
-    return results->reader ? walk_file(results->reader, parts, visit, context) : walk_segments(results, parts, visit, context);
+    return results->reader ? walk_file(results->reader, parts, visit, context)
+                           : walk_segments(results, parts, visit, context);
 }
 
 /* ---- what is known of them ---- */
 
-bool fracas_results_partial(const fracas_results *results) { return results && !results->reader; }
+bool fracas_results_partial(const fracas_results *results)
+{
+    return results && !results->reader;
+}
 
 const fracas_file_header *fracas_results_header(const fracas_results *results)
 {
@@ -468,10 +520,17 @@ bool fracas_results_decided(const fracas_results *results, size_t point)
     return decided;
 }
 
-size_t fracas_results_notes(const fracas_results *results) { return results ? results->nnotes : 0; }
-const char *fracas_results_note(const fracas_results *results, size_t note) { return results->note[note]; }
+size_t fracas_results_notes(const fracas_results *results)
+{
+    return results ? results->nnotes : 0;
+}
+const char *fracas_results_note(const fracas_results *results, size_t note)
+{
+    return results->note[note];
+}
 
-fracas_err fracas_results_decisions(fracas_results *results, fracas_decision **decision, size_t *count)
+fracas_err fracas_results_decisions(fracas_results *results, fracas_decision **decision,
+                                    size_t *count)
 {
     if (results->reader) return fracas_reader_decisions(results->reader, decision, count);
     *count = results->ndecisions;
@@ -484,7 +543,8 @@ fracas_err fracas_results_decisions(fracas_results *results, fracas_decision **d
 fracas_err fracas_results_mesh_interfaces(fracas_results *results, size_t point, size_t *interfaces)
 {
     *interfaces = 0;
-    return results->reader ? fracas_reader_mesh_interfaces(results->reader, point, interfaces) : FRACAS_OK;
+    return results->reader ? fracas_reader_mesh_interfaces(results->reader, point, interfaces)
+                           : FRACAS_OK;
 }
 
 fracas_err fracas_results_mesh(fracas_results *results, size_t point, fracas_stored_mesh *mesh)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Failed realizations that are to be computed again. */
 #include "campaigns/store/index/query.h"
 #include "campaigns/store/upkeep.h"
@@ -5,20 +6,26 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-/* ?1 is the hash of a point, or NULL for all of them. A decision stands on the replicas 0 to decision.replicas - 1. */
-#define OF_POINT " status IN ('failed', 'quarantined') AND (?1 IS NULL OR point = (SELECT id FROM point WHERE hash = ?1))"
+/* ?1 is the hash of a point, or NULL for all of them. A decision stands on the replicas 0 to
+ * decision.replicas - 1. */
+#define OF_POINT                                                                                   \
+    " status IN ('failed', 'quarantined') AND (?1 IS NULL OR point = (SELECT id FROM point WHERE " \
+    "hash = ?1))"
 
-static const char undecide[] = "DELETE FROM decision WHERE replicas > (SELECT min(r.replica) FROM realization r"
-                               " WHERE r.point = decision.point AND" OF_POINT ")";
-static const char plan_again[] = "UPDATE realization SET status = 'planned', attempts = 0, reason = NULL, outcome = NULL, segment = NULL,"
-                                 " row = NULL, fragments = NULL, fragments_dust = NULL, steps = NULL, dissipated = NULL,"
-                                 " residual = NULL, size = NULL WHERE" OF_POINT;
+static const char undecide[] = "DELETE FROM decision WHERE replicas > (SELECT min(r.replica) FROM "
+                               "realization r WHERE r.point = decision.point AND" OF_POINT ")";
+static const char plan_again[] =
+    "UPDATE realization SET status = 'planned', attempts = 0, reason = NULL, outcome = NULL, "
+    "segment = NULL, row = NULL, fragments = NULL, fragments_dust = NULL, steps = NULL, dissipated "
+    "= NULL, residual = NULL, size = NULL WHERE" OF_POINT;
 
-static fracas_err run(fracas_index *index, const char *text, const fracas_hash *point, int64_t *rows)
+static fracas_err run(fracas_index *index, const char *text, const fracas_hash *point,
+                      int64_t *rows)
 {
     sqlite3_stmt *statement;
     fracas_err err = fracas_query_begin(index, text, &statement);
-    if (!err && point) err = fracas_query_bind_hash(index, statement, 1, point); /* else it is NULL */
+    if (!err && point)
+        err = fracas_query_bind_hash(index, statement, 1, point); /* else it is NULL */
     if (!err) err = fracas_query_do(index, statement);
     *rows = err ? 0 : sqlite3_changes64(index->db);
     sqlite3_finalize(statement);
@@ -33,7 +40,8 @@ static fracas_err retry(fracas_index *index, const fracas_hash *point, int64_t *
     TRY(run(index, plan_again, point, rows));
     if (!*rows) return FRACAS_OK;
     if (point) fracas_hash_hex(point, hex);
-    snprintf(text, sizeof text, "%" PRId64 " failed realizations%s%s are planned again", *rows, point ? " of point " : "", hex);
+    snprintf(text, sizeof text, "%" PRId64 " failed realizations%s%s are planned again", *rows,
+             point ? " of point " : "", hex);
     return fracas_index_event(index, "retried", text);
 }
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/store/study/segments.h"
 
 #include "campaigns/store/file/disk.h"
@@ -16,15 +17,15 @@ struct fracas_segments {
     fracas_identity identity;
     fracas_known_segment *segment; /* by id */
     size_t count;
-    bool *checked, *bad;   /* of each segment */
+    bool *checked, *bad; /* of each segment */
     bool only_records;
     size_t current;        /* the one that is open, */
     unsigned parts;        /* with these parts */
     fracas_reader *reader; /* NULL if none is */
 };
 
-fracas_err fracas_segments_create(const char *study, fracas_index *index, const fracas_identity *identity,
-                                  fracas_segments **segments)
+fracas_err fracas_segments_create(const char *study, fracas_index *index,
+                                  const fracas_identity *identity, fracas_segments **segments)
 {
     fracas_segments *new = *segments = calloc(1, sizeof **segments);
     if (!new) return fracas_no_memory("the segments");
@@ -32,7 +33,8 @@ fracas_err fracas_segments_create(const char *study, fracas_index *index, const 
     new->index = index;
     new->identity = *identity;
     new->index_path = strdup(index->path);
-    fracas_err err = new->index_path ? fracas_index_segments(index, &new->segment, &new->count) : fracas_no_memory("the segments");
+    fracas_err err = new->index_path ? fracas_index_segments(index, &new->segment, &new->count)
+                                     : fracas_no_memory("the segments");
     if (!err) {
         new->checked = calloc(new->count + 1, sizeof *new->checked);
         new->bad = calloc(new->count + 1, sizeof *new->bad);
@@ -67,8 +69,8 @@ static int compare_id(const void *id, const void *segment)
 static size_t find(const fracas_segments *segments, int64_t id)
 {
     if (!segments->count) return SIZE_MAX;
-    const fracas_known_segment *found =
-        bsearch(&id, segments->segment, segments->count, sizeof *found, compare_id);
+    const fracas_known_segment *found = bsearch(&id, segments->segment, segments->count,
+                                                sizeof *found, compare_id);
     return found ? (size_t)(found - segments->segment) : SIZE_MAX;
 }
 
@@ -87,7 +89,9 @@ const char *fracas_segments_name(const fracas_segments *segments, int64_t id)
 uint64_t fracas_segments_share(const fracas_segments *segments, int64_t id)
 {
     const size_t s = find(segments, id);
-    return s == SIZE_MAX ? 0 : segments->segment[s].seal.bytes / (uint64_t)(segments->segment[s].rows + 1);
+    return s == SIZE_MAX
+               ? 0
+               : segments->segment[s].seal.bytes / (uint64_t)(segments->segment[s].rows + 1);
 }
 
 static fracas_err check_identity(const fracas_segments *segments, const char *path)
@@ -101,36 +105,50 @@ static fracas_err check_identity(const fracas_segments *segments, const char *pa
 
 static fracas_err open_reader(fracas_segments *segments, const char *path)
 {
-    return segments->only_records ? fracas_reader_open_records(path, segments->parts, &segments->reader)
-                                  : fracas_reader_open(path, &segments->reader);
+    return segments->only_records
+               ? fracas_reader_open_records(path, segments->parts, &segments->reader)
+               : fracas_reader_open(path, &segments->reader);
 }
 
 static fracas_err open_segment(fracas_segments *segments, size_t s)
 {
     char *path;
     TRY(fracas_disk_segment(segments->study, segments->segment[s].name, &path));
-    fracas_err err = segments->checked[s] ? FRACAS_OK : fracas_disk_check_seal(path, &segments->segment[s].seal);
+    fracas_err err = segments->checked[s]
+                         ? FRACAS_OK
+                         : fracas_disk_check_seal(path, &segments->segment[s].seal);
     if (!err) err = open_reader(segments, path);
     if (!err) err = check_identity(segments, path);
     if (err) fracas_reader_close(segments->reader), segments->reader = NULL;
     segments->checked[s] = true;
     segments->bad[s] = err == FRACAS_DAMAGED;
     if (segments->bad[s])
-        err = fracas_fail_within(err, "to compute its realizations again, move %s away and run again", path);
+        err = fracas_fail_within(
+            err, "to compute its realizations again, move %s away and run again", path);
     free(path);
     return err;
 }
 
-fracas_reader *fracas_segments_reader(const fracas_segments *segments) { return segments->reader; }
+fracas_reader *fracas_segments_reader(const fracas_segments *segments)
+{
+    return segments->reader;
+}
 
-void fracas_segments_only_records(fracas_segments *segments) { segments->only_records = true; }
+void fracas_segments_only_records(fracas_segments *segments)
+{
+    segments->only_records = true;
+}
 
 static fracas_err open_with(fracas_segments *segments, int64_t id, unsigned parts)
 {
     size_t s = find(segments, id);
-    if (s == SIZE_MAX) return fracas_fail(FRACAS_DAMAGED, "%s has no segment %" PRId64 "; %s", segments->index_path, id, reindex);
-    if (segments->bad[s]) return fracas_fail(FRACAS_DAMAGED, "segment %s is damaged", segments->segment[s].name);
-    if (segments->reader && segments->current == s && (segments->parts & parts) == parts) return FRACAS_OK;
+    if (s == SIZE_MAX)
+        return fracas_fail(FRACAS_DAMAGED, "%s has no segment %" PRId64 "; %s",
+                           segments->index_path, id, reindex);
+    if (segments->bad[s])
+        return fracas_fail(FRACAS_DAMAGED, "segment %s is damaged", segments->segment[s].name);
+    if (segments->reader && segments->current == s && (segments->parts & parts) == parts)
+        return FRACAS_OK;
     fracas_reader_close(segments->reader);
     segments->reader = NULL;
     segments->current = s;
@@ -138,41 +156,60 @@ static fracas_err open_with(fracas_segments *segments, int64_t id, unsigned part
     return open_segment(segments, s);
 }
 
-fracas_err fracas_segments_open(fracas_segments *segments, int64_t id) { return open_with(segments, id, FRACAS_READ_ALL); }
+fracas_err fracas_segments_open(fracas_segments *segments, int64_t id)
+{
+    return open_with(segments, id, FRACAS_READ_ALL);
+}
 
-static bool same_real(double a, double b) { return a == b || (isnan(a) && isnan(b)); }
+static bool same_real(double a, double b)
+{
+    return a == b || (isnan(a) && isnan(b));
+}
 
 bool fracas_place_fits(const fracas_place *place, const fracas_record *record)
 {
-    return place->outcome == record->outcome && place->fragments == record->fragments && place->steps == record->steps &&
-           place->fragments_dust == record->fragments_dust && same_real(place->dissipated, record->dissipated) &&
+    return place->outcome == record->outcome && place->fragments == record->fragments &&
+           place->steps == record->steps && place->fragments_dust == record->fragments_dust &&
+           same_real(place->dissipated, record->dissipated) &&
            same_real(place->residual, record->residual) &&
            (!place->sized || same_real(place->size, fracas_record_mean_size(record))) &&
            place->status == (record->outcome == FRACAS_FAILED ? FRACAS_FAILED_ROW : FRACAS_DONE);
 }
 
-fracas_err fracas_segments_record(fracas_segments *segments, const fracas_place *place, const fracas_hash *point,
-                                  int64_t replica, unsigned parts, fracas_record *record)
+fracas_err fracas_segments_record(fracas_segments *segments, const fracas_place *place,
+                                  const fracas_hash *point, int64_t replica, unsigned parts,
+                                  fracas_record *record)
 {
     TRY(open_with(segments, place->segment, parts));
     const char *name = segments->segment[segments->current].name;
     fracas_reader *reader = segments->reader;
     if (place->row < 0 || (uint64_t)place->row >= fracas_reader_realizations(reader))
-        return fracas_fail(FRACAS_DAMAGED, "segment %s has no row %" PRId64 ", which the index names; %s", name, place->row, reindex);
+        return fracas_fail(FRACAS_DAMAGED,
+                           "segment %s has no row %" PRId64 ", which the index names; %s", name,
+                           place->row, reindex);
     size_t found_point;
     int64_t found_replica;
-    fracas_err err = fracas_reader_record(reader, (size_t)place->row, parts, &found_point, &found_replica, record);
-    if (err == FRACAS_DAMAGED) err = fracas_fail_within(err, "to compute its realizations again, move it away and run again");
+    fracas_err err = fracas_reader_record(reader, (size_t)place->row, parts, &found_point,
+                                          &found_replica, record);
+    if (err == FRACAS_DAMAGED)
+        err = fracas_fail_within(err,
+                                 "to compute its realizations again, move it away and run again");
     TRY(err);
-    if (!fracas_hash_equal(&fracas_reader_points(reader)->point[found_point].hash, point) || found_replica != replica)
-        return fracas_fail(FRACAS_DAMAGED, "segment %s: row %" PRId64 " is another realization than the index says; %s", name,
-                           place->row, reindex);
+    if (!fracas_hash_equal(&fracas_reader_points(reader)->point[found_point].hash, point) ||
+        found_replica != replica)
+        return fracas_fail(FRACAS_DAMAGED,
+                           "segment %s: row %" PRId64
+                           " is another realization than the index says; %s",
+                           name, place->row, reindex);
     fracas_place said = *place;
-    if (!(parts & FRACAS_READ_FRAGMENTS)) said.sized = false; /* their mean size is not known here */
+    if (!(parts & FRACAS_READ_FRAGMENTS))
+        said.sized = false; /* their mean size is not known here */
     if (fracas_place_fits(&said, record)) return FRACAS_OK;
     char hex[FRACAS_HASH_HEX];
     fracas_hash_hex(point, hex);
-    return fracas_fail(FRACAS_DAMAGED, "%s: replica %" PRId64 " of point %s: its row differs from its record in segment %s; %s",
+    return fracas_fail(FRACAS_DAMAGED,
+                       "%s: replica %" PRId64
+                       " of point %s: its row differs from its record in segment %s; %s",
                        segments->index_path, replica, hex, name, reindex);
 }
 
@@ -193,8 +230,8 @@ typedef struct {
 
 enum { WINDOW_BYTES = 128 << 20 };
 
-static fracas_err window_add(window *w, fracas_segments *segments, const fracas_point_table *table, size_t point,
-                             int64_t replica)
+static fracas_err window_add(window *w, fracas_segments *segments, const fracas_point_table *table,
+                             size_t point, int64_t replica)
 {
     if (w->count == w->room) {
         size_t room = w->room ? 2 * w->room : 256;
@@ -223,15 +260,19 @@ static int compare_places(const void *a, const void *b)
 }
 
 /* A row that says failed says so twice. */
-static fracas_err check_failed(const fracas_segments *segments, const fracas_place *place, int64_t replica)
+static fracas_err check_failed(const fracas_segments *segments, const fracas_place *place,
+                               int64_t replica)
 {
     const bool failed = place->status == FRACAS_FAILED_ROW || place->status == FRACAS_QUARANTINED;
     if (!failed || place->outcome == FRACAS_FAILED) return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED, "%s: replica %" PRId64 " of a point has failed, but has the outcome %" PRId64 "; %s",
+    return fracas_fail(FRACAS_DAMAGED,
+                       "%s: replica %" PRId64 " of a point has failed, but has the outcome %" PRId64
+                       "; %s",
                        segments->index_path, replica, place->outcome, reindex);
 }
 
-static fracas_err window_read(window *w, fracas_segments *segments, const fracas_point_table *table, bool tolerant)
+static fracas_err window_read(window *w, fracas_segments *segments, const fracas_point_table *table,
+                              bool tolerant)
 {
     size_t n = 0;
     for (size_t i = 0; i < w->count; i++) {
@@ -241,8 +282,9 @@ static fracas_err window_read(window *w, fracas_segments *segments, const fracas
     if (n) qsort(w->sorted, n, sizeof *w->sorted, compare_places);
     for (size_t i = 0; i < n; i++) {
         fracas_step *step = &w->sorted[i]->step;
-        fracas_err err = fracas_segments_record(segments, &w->sorted[i]->place, &table->point[step->point].hash,
-                                                step->replica, FRACAS_READ_ALL, &step->record);
+        fracas_err err = fracas_segments_record(segments, &w->sorted[i]->place,
+                                                &table->point[step->point].hash, step->replica,
+                                                FRACAS_READ_ALL, &step->record);
         step->damaged = err == FRACAS_DAMAGED;
         if (err && !(tolerant && step->damaged)) return err;
     }
@@ -257,7 +299,8 @@ static void window_empty(window *w)
 }
 
 /* Reads what is in the window, visits it, empties the window. */
-static fracas_err window_visit(window *w, fracas_segments *segments, const fracas_point_table *table, bool tolerant,
+static fracas_err window_visit(window *w, fracas_segments *segments,
+                               const fracas_point_table *table, bool tolerant,
                                fracas_err (*visit)(void *context, fracas_step *step), void *context)
 {
     fracas_err err = window_read(w, segments, table, tolerant);
@@ -266,16 +309,20 @@ static fracas_err window_visit(window *w, fracas_segments *segments, const fraca
     return err;
 }
 
-fracas_err fracas_segments_walk(fracas_segments *segments, const fracas_point_table *table, bool tolerant,
-                                fracas_err (*visit)(void *context, fracas_step *step), void *context)
+fracas_err fracas_segments_walk(fracas_segments *segments, const fracas_point_table *table,
+                                bool tolerant,
+                                fracas_err (*visit)(void *context, fracas_step *step),
+                                void *context)
 {
     window w = {0};
-    TRY(fracas_index_do(segments->index, FRACAS_SQL_BEGIN_READING)); /* one lock for all its look-ups */
+    TRY(fracas_index_do(segments->index,
+                        FRACAS_SQL_BEGIN_READING)); /* one lock for all its look-ups */
     fracas_err err = FRACAS_OK;
     for (size_t p = 0; !err && p < table->npoints; p++)
         for (int64_t replica = 0; !err && replica < table->point[p].replicas; replica++) {
             err = window_add(&w, segments, table, p, replica);
-            if (!err && w.bytes >= WINDOW_BYTES) err = window_visit(&w, segments, table, tolerant, visit, context);
+            if (!err && w.bytes >= WINDOW_BYTES)
+                err = window_visit(&w, segments, table, tolerant, visit, context);
         }
     if (!err) err = window_visit(&w, segments, table, tolerant, visit, context);
     window_empty(&w);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is wrong with a study: segments against the index, study.h5 against the segments. */
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/study/segments.h"
@@ -19,10 +20,10 @@ typedef struct {
     fracas_index *index;
     fracas_segments *segments;
     fracas_identity identity; /* what the study was begun with */
-    fracas_reader *merged; /* study.h5, NULL if it is not there or not sound */
-    bool there;            /* study.h5 is there */
-    fracas_record record;  /* as read last from it or from a segment */
-    size_t row;            /* next one of study.h5 */
+    fracas_reader *merged;    /* study.h5, NULL if it is not there or not sound */
+    bool there;               /* study.h5 is there */
+    fracas_record record;     /* as read last from it or from a segment */
+    size_t row;               /* next one of study.h5 */
     const fracas_verify_options *options;
     int64_t problems;
 } verification;
@@ -60,7 +61,8 @@ static fracas_err check_database(verification *v, const char *pragma)
     while (!err && (code = sqlite3_step(statement)) == SQLITE_ROW) {
         const char *text = (const char *)sqlite3_column_text(statement, 0);
         if (text && strcmp(text, "ok") != 0)
-            err = found(v, "%s: %s: %s; `fracas reindex` makes it anew from the segments", v->index->path, pragma, text);
+            err = found(v, "%s: %s: %s; `fracas reindex` makes it anew from the segments",
+                        v->index->path, pragma, text);
     }
     if (!err && code != SQLITE_DONE) err = problem(v, fracas_index_error(v->index, "check"));
     sqlite3_finalize(statement);
@@ -71,18 +73,21 @@ static fracas_err check_database(verification *v, const char *pragma)
 static const struct {
     const char *query, *what;
 } never[] = {
-    {"SELECT count(*) FROM realization WHERE status = 'done' AND (segment IS NULL OR row IS NULL OR coalesce(outcome, -1) NOT BETWEEN 0 AND 4)",
+    {"SELECT count(*) FROM realization WHERE status = 'done' AND (segment IS NULL OR row IS NULL "
+     "OR coalesce(outcome, -1) NOT BETWEEN 0 AND 4)",
      "realizations that are done without a segment, a row or an outcome"},
-    {"SELECT count(*) FROM realization WHERE status IN ('failed', 'quarantined') AND outcome IS NOT 5",
+    {"SELECT count(*) FROM realization WHERE status IN ('failed', 'quarantined') AND outcome IS "
+     "NOT 5",
      "realizations that failed with another outcome"},
-    {"SELECT count(*) FROM realization WHERE status IN ('planned', 'leased') AND (segment IS NOT NULL OR outcome IS NOT NULL)",
+    {"SELECT count(*) FROM realization WHERE status IN ('planned', 'leased') AND (segment IS NOT "
+     "NULL OR outcome IS NOT NULL)",
      "realizations that are planned, but have results"},
-    {"SELECT count(*) FROM (SELECT segment, count(*) AS n, count(DISTINCT row) AS places, min(row) AS first, max(row) AS last FROM realization"
-     " WHERE segment IS NOT NULL GROUP BY segment) g JOIN segment s ON s.id = g.segment"
-     " WHERE g.places < g.n OR g.first < 0 OR g.last >= s.rows",
+    {"SELECT count(*) FROM (SELECT segment, count(*) AS n, count(DISTINCT row) AS places, min(row) "
+     "AS first, max(row) AS last FROM realization WHERE segment IS NOT NULL GROUP BY segment) g "
+     "JOIN segment s ON s.id = g.segment WHERE g.places < g.n OR g.first < 0 OR g.last >= s.rows",
      "segments with realizations in the same row, or in rows that they have not"},
-    {"SELECT count(*) FROM (SELECT min(replica) AS first, max(replica) AS last, count(*) AS n FROM realization GROUP BY point)"
-     " WHERE first <> 0 OR last + 1 <> n",
+    {"SELECT count(*) FROM (SELECT min(replica) AS first, max(replica) AS last, count(*) AS n FROM "
+     "realization GROUP BY point) WHERE first <> 0 OR last + 1 <> n",
      "points that lack replicas"},
 };
 
@@ -94,9 +99,11 @@ static fracas_err check_consistency(verification *v)
             return problem(v, fracas_index_error(v->index, "check"));
         const int code = sqlite3_step(statement);
         const int64_t count = code == SQLITE_ROW ? sqlite3_column_int64(statement, 0) : 0;
-        fracas_err err = code == SQLITE_ROW ? FRACAS_OK : problem(v, fracas_index_error(v->index, "check"));
+        fracas_err err = code == SQLITE_ROW ? FRACAS_OK
+                                            : problem(v, fracas_index_error(v->index, "check"));
         if (count)
-            err = found(v, "%s: %" PRId64 " %s; `fracas reindex` makes it anew from the segments", v->index->path, count, never[q].what);
+            err = found(v, "%s: %" PRId64 " %s; `fracas reindex` makes it anew from the segments",
+                        v->index->path, count, never[q].what);
         sqlite3_finalize(statement);
         TRY(err);
     }
@@ -123,16 +130,22 @@ static void note_lock(const verification *v)
     switch (fracas_study_lock_state(v->study, holder)) {
     case FRACAS_LOCK_FREE: break;
     case FRACAS_LOCK_HELD: note(v, "%s is being computed: %s", v->study, holder); break;
-    case FRACAS_LOCK_LEFT: note(v, "%s/lock: left by a run that died: %s; the next run takes it over", v->study, holder); break;
-    case FRACAS_LOCK_ELSEWHERE:
-        note(v, "%s/lock: left by another host, where the run may live: %s; if it is gone, `fracas run --force` takes it over", v->study,
+    case FRACAS_LOCK_LEFT:
+        note(v, "%s/lock: left by a run that died: %s; the next run takes it over", v->study,
              holder);
+        break;
+    case FRACAS_LOCK_ELSEWHERE:
+        note(v,
+             "%s/lock: left by another host, where the run may live: %s; if it is gone, `fracas "
+             "run --force` takes it over",
+             v->study, holder);
         break;
     }
 }
 
 /* Names of a folder that are no segment of the index, which are sorted by name. */
-static fracas_err note_folder(const verification *v, const char *folder, bool inner, const fracas_known_segment *segment, size_t count)
+static fracas_err note_folder(const verification *v, const char *folder, bool inner,
+                              const fracas_known_segment *segment, size_t count)
 {
     DIR *open = opendir(folder);
     if (!open) return errno == ENOENT ? FRACAS_OK : fracas_disk_fail("list", folder);
@@ -142,7 +155,8 @@ static fracas_err note_folder(const verification *v, const char *folder, bool in
             note(v, "%s/%s: half written; the next run removes it", folder, name);
         else if (name[0] != '.' && dot && !strcmp(dot, ".damaged"))
             note(v, "%s/%s: set aside because it was damaged; nothing needs it", folder, name);
-        else if (inner && name[0] != '.' && dot && !strcmp(dot, ".h5") && !fracas_segment_is_known(segment, count, name))
+        else if (inner && name[0] != '.' && dot && !strcmp(dot, ".h5") &&
+                 !fracas_segment_is_known(segment, count, name))
             note(v, "%s/%s: not in the index; the next run adopts it", folder, name);
     }
     closedir(open);
@@ -169,7 +183,8 @@ static fracas_err note_leftovers(verification *v)
 
 /* ---- segments against the index ---- */
 
-/* Every record of the segment that is open, also of those realizations that the index has from another. */
+/* Every record of the segment that is open, also of those realizations that the index has from
+ * another. */
 static fracas_err check_datasets(verification *v)
 {
     fracas_reader *reader = fracas_segments_reader(v->segments);
@@ -198,7 +213,8 @@ static fracas_err check_segments(verification *v)
 
 static double real_at(sqlite3_stmt *row, int column) /* NULL is NaN */
 {
-    return sqlite3_column_type(row, column) == SQLITE_NULL ? NAN : sqlite3_column_double(row, column);
+    return sqlite3_column_type(row, column) == SQLITE_NULL ? NAN
+                                                           : sqlite3_column_double(row, column);
 }
 
 /* One row of FRACAS_SQL_ROW_BY_SEGMENT against its record. */
@@ -207,13 +223,22 @@ static fracas_err check_row(verification *v, sqlite3_stmt *row)
     fracas_hash point;
     const char *hex = (const char *)sqlite3_column_text(row, 2);
     int64_t replica = sqlite3_column_int64(row, 3);
-    const fracas_place place = {fracas_index_status(sqlite3_column_text(row, 10)), sqlite3_column_int64(row, 0),
-                                sqlite3_column_int64(row, 1), sqlite3_column_int64(row, 4), sqlite3_column_int64(row, 5),
-                                sqlite3_column_int64(row, 6), sqlite3_column_int64(row, 7), real_at(row, 8), real_at(row, 9),
-                                real_at(row, 11), sqlite3_column_type(row, 11) != SQLITE_NULL};
-    if (!hex || !fracas_hash_parse(hex, &point)) return found(v, "%s: a point has no valid hash", v->index->path);
+    const fracas_place place = {fracas_index_status(sqlite3_column_text(row, 10)),
+                                sqlite3_column_int64(row, 0),
+                                sqlite3_column_int64(row, 1),
+                                sqlite3_column_int64(row, 4),
+                                sqlite3_column_int64(row, 5),
+                                sqlite3_column_int64(row, 6),
+                                sqlite3_column_int64(row, 7),
+                                real_at(row, 8),
+                                real_at(row, 9),
+                                real_at(row, 11),
+                                sqlite3_column_type(row, 11) != SQLITE_NULL};
+    if (!hex || !fracas_hash_parse(hex, &point))
+        return found(v, "%s: a point has no valid hash", v->index->path);
     if (fracas_segments_is_bad(v->segments, place.segment)) return FRACAS_OK; /* said already */
-    return problem(v, fracas_segments_record(v->segments, &place, &point, replica, FRACAS_READ_ALL, &v->record));
+    return problem(v, fracas_segments_record(v->segments, &place, &point, replica, FRACAS_READ_ALL,
+                                             &v->record));
 }
 
 static fracas_err check_rows(verification *v)
@@ -237,9 +262,12 @@ static fracas_err check_mesh_fits(verification *v, size_t row, size_t point)
 {
     size_t interfaces;
     TRY(fracas_reader_mesh_interfaces(v->merged, point, &interfaces));
-    if (!interfaces || !v->record.ninterface || interfaces == v->record.ninterface) return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED, "%s/study.h5: row %zu has %zu interfaces, the mesh of its point %zu; remove it, and `fracas merge` "
-                       "writes it again", v->study, row, v->record.ninterface, interfaces);
+    if (!interfaces || !v->record.ninterface || interfaces == v->record.ninterface)
+        return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED,
+                       "%s/study.h5: row %zu has %zu interfaces, the mesh of its point %zu; remove "
+                       "it, and `fracas merge` writes it again",
+                       v->study, row, v->record.ninterface, interfaces);
 }
 
 static fracas_err check_meshes(verification *v)
@@ -259,18 +287,28 @@ static fracas_err check_merged_row(void *context, fracas_step *step)
     verification *v = context;
     size_t point, row = v->row++;
     int64_t replica;
-    fracas_err err = fracas_reader_record(v->merged, row, FRACAS_READ_ALL, &point, &replica, &v->record);
+    fracas_err err = fracas_reader_record(v->merged, row, FRACAS_READ_ALL, &point, &replica,
+                                          &v->record);
     if (err) return problem(v, err);
     if (point != step->point || replica != step->replica)
-        return found(v, "%s/study.h5: row %zu is not in plan order; remove it, and `fracas merge` writes it again", v->study, row);
+        return found(v,
+                     "%s/study.h5: row %zu is not in plan order; remove it, and `fracas merge` "
+                     "writes it again",
+                     v->study, row);
     TRY(problem(v, check_mesh_fits(v, row, point)));
     if (step->damaged) return FRACAS_OK; /* said already */
     const bool computed = step->status != FRACAS_PLANNED && step->status != FRACAS_LEASED;
-    if (!computed && v->record.outcome == FRACAS_FAILED) return FRACAS_OK; /* to be retried: study.h5 is older */
+    if (!computed && v->record.outcome == FRACAS_FAILED)
+        return FRACAS_OK; /* to be retried: study.h5 is older */
     if (!computed)
-        return found(v, "%s/study.h5: row %zu is in no segment any more; `fracas run` computes it again", v->study, row);
+        return found(
+            v, "%s/study.h5: row %zu is in no segment any more; `fracas run` computes it again",
+            v->study, row);
     if (fracas_record_same(&v->record, &step->record)) return FRACAS_OK;
-    return found(v, "%s/study.h5: row %zu differs from its segment; remove it, and `fracas merge` writes it again", v->study, row);
+    return found(v,
+                 "%s/study.h5: row %zu differs from its segment; remove it, and `fracas merge` "
+                 "writes it again",
+                 v->study, row);
 }
 
 static fracas_err check_merged_rows(verification *v)
@@ -279,8 +317,10 @@ static fracas_err check_merged_rows(verification *v)
     uint64_t planned = 0;
     for (size_t p = 0; p < table->npoints; p++) planned += (uint64_t)table->point[p].replicas;
     if (planned != fracas_reader_realizations(v->merged))
-        return found(v, "%s/study.h5 has %zu realizations, but %" PRIu64 " in its /point/replicas; remove it, and `fracas merge` "
-                       "writes it again", v->study, fracas_reader_realizations(v->merged), planned);
+        return found(v,
+                     "%s/study.h5 has %zu realizations, but %" PRIu64
+                     " in its /point/replicas; remove it, and `fracas merge` writes it again",
+                     v->study, fracas_reader_realizations(v->merged), planned);
     return problem(v, fracas_segments_walk(v->segments, table, true, check_merged_row, v));
 }
 
@@ -290,9 +330,11 @@ static bool same_rule(const fracas_decision *a, const fracas_decision *b)
            a->relative_half_width == b->relative_half_width && a->confidence == b->confidence;
 }
 
-/* Of one point: what study.h5 has from *next on against what the index recorded, unless that is by the rule of a longer campaign, which
- * has not come to its end: study.h5 is sound then, but older. */
-static fracas_err check_decisions_of(verification *v, size_t p, const fracas_decision *merged, size_t nmerged, size_t *next)
+/* Of one point: what study.h5 has from *next on against what the index recorded, unless that is by
+ * the rule of a longer campaign, which has not come to its end: study.h5 is sound then, but older.
+ */
+static fracas_err check_decisions_of(verification *v, size_t p, const fracas_decision *merged,
+                                     size_t nmerged, size_t *next)
 {
     fracas_decision *recorded;
     size_t count, same = 0, first = *next;
@@ -308,9 +350,12 @@ static fracas_err check_decisions_of(verification *v, size_t p, const fracas_dec
     free(recorded);
     if (extended) return FRACAS_OK;
     const fracas_decision *last = &merged[*next - 1];
-    if (same == count && count == *next - first && last->stop && last->replicas == point->replicas) return FRACAS_OK;
-    return found(v, "%s/study.h5: the decisions on the replicas of point %zu are not those that the index recorded; remove it, and `fracas merge` "
-                       "writes it again", v->study, p);
+    if (same == count && count == *next - first && last->stop && last->replicas == point->replicas)
+        return FRACAS_OK;
+    return found(v,
+                 "%s/study.h5: the decisions on the replicas of point %zu are not those that the "
+                 "index recorded; remove it, and `fracas merge` writes it again",
+                 v->study, p);
 }
 
 static fracas_err check_decisions(verification *v)
@@ -321,7 +366,11 @@ static fracas_err check_decisions(verification *v)
     if (err) return problem(v, err);
     for (size_t p = 0; !err && p < fracas_reader_points(v->merged)->npoints; p++)
         err = problem(v, check_decisions_of(v, p, merged, count, &next));
-    if (!err && next != count) err = found(v, "%s/study.h5: its decisions are not in plan order; remove it, and `fracas merge` writes it again", v->study);
+    if (!err && next != count)
+        err = found(v,
+                    "%s/study.h5: its decisions are not in plan order; remove it, and `fracas "
+                    "merge` writes it again",
+                    v->study);
     free(merged);
     return err;
 }
@@ -334,10 +383,16 @@ static fracas_err check_merged_whole(verification *v)
     if (err) return problem(v, err);
     if (counts.planned || counts.leased || !counts.realizations) return FRACAS_OK;
     if (!v->merged || (int64_t)fracas_reader_realizations(v->merged) != counts.realizations)
-        return found(v, "%s: every realization is computed, but study.h5 is not there or older; `fracas merge` writes it", v->study);
+        return found(v,
+                     "%s: every realization is computed, but study.h5 is not there or older; "
+                     "`fracas merge` writes it",
+                     v->study);
     bool complete = fracas_reader_header(v->merged)->complete;
     if (complete == (counts.failed == 0)) return FRACAS_OK;
-    return found(v, "%s/study.h5: its attribute `complete` is wrong; remove it, and `fracas merge` writes it again", v->study);
+    return found(v,
+                 "%s/study.h5: its attribute `complete` is wrong; remove it, and `fracas merge` "
+                 "writes it again",
+                 v->study);
 }
 
 /* ---- all of it ---- */
@@ -349,9 +404,14 @@ static fracas_err check_merged_seal(verification *v, const char *path)
     fracas_file_seal wanted;
     TRY(fracas_index_study_seal(v->index, &sealed, &wanted));
     if (!sealed)
-        return fracas_fail(FRACAS_DAMAGED, "%s has no seal: its merge was interrupted, or the index is newer; `fracas merge` writes it again", path);
+        return fracas_fail(FRACAS_DAMAGED,
+                           "%s has no seal: its merge was interrupted, or the index is newer; "
+                           "`fracas merge` writes it again",
+                           path);
     fracas_err err = fracas_disk_check_seal(path, &wanted);
-    return err == FRACAS_DAMAGED ? fracas_fail_within(err, "to make it again, remove %s, and `fracas merge` it", path) : err;
+    return err == FRACAS_DAMAGED
+               ? fracas_fail_within(err, "to make it again, remove %s, and `fracas merge` it", path)
+               : err;
 }
 
 static fracas_err check_merged_header(verification *v)
@@ -360,8 +420,11 @@ static fracas_err check_merged_header(verification *v)
     char text[FRACAS_DIFFERENCE_TEXT];
     fracas_identity_of(fracas_reader_header(v->merged), &found);
     if (!fracas_identity_differs(&found, &v->identity, text)) return FRACAS_OK;
-    return problem(v, fracas_fail(FRACAS_DAMAGED, "%s/study.h5: not of this study: %s; remove it, and `fracas merge` writes it again",
-                                  v->study, text));
+    return problem(
+        v, fracas_fail(
+               FRACAS_DAMAGED,
+               "%s/study.h5: not of this study: %s; remove it, and `fracas merge` writes it again",
+               v->study, text));
 }
 
 static fracas_err open_merged(verification *v)
@@ -407,7 +470,8 @@ static fracas_err verify(verification *v)
     return v->there && !v->merged ? FRACAS_OK : check_merged_whole(v); /* said already */
 }
 
-fracas_err fracas_study_verify(const char *study, const fracas_verify_options *options, int64_t *problems)
+fracas_err fracas_study_verify(const char *study, const fracas_verify_options *options,
+                               int64_t *problems)
 {
     verification v = {.study = study, .options = options};
     fracas_record_init(&v.record);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The bar: one coordinate, background motion rate t x taken out (docs/theory/bar.md). */
 #include "engine/formulation/chain/bar_sweep.h"
 
@@ -11,7 +12,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const fracas_chain chain = {.fields = BAR_FIELDS, .damage = BAR_DAMAGE, .strength = BAR_STRENGTH};
+static const fracas_chain chain = {
+    .fields = BAR_FIELDS, .damage = BAR_DAMAGE, .strength = BAR_STRENGTH};
 
 static bool is_nitsche(const fracas_model *model)
 {
@@ -28,14 +30,22 @@ static fracas_bar_constants constants_of(const fracas_model *model)
 {
     const fracas_spec *spec = &model->spec;
     const double young = spec->material.young, energy = spec->cohesive.fracture_energy;
-    return (fracas_bar_constants){
-        .elements = model->elements, .periodic = fracas_chain_is_closed(model), .young = young,
-        .spring = spec->cohesive.beta * young / model->element_size, .beta = spec->cohesive.beta,
-        .contact_offset = 4.5 * fracas_pow(spec->loading.rate, 2.0 / 3.0) * young * fracas_pow(energy, 2.0 / 3.0) *
-                          fracas_pow(spec->material.density, 1.0 / 3.0),
-        .size = model->element_size, .nodal_mass = 0.5 * spec->material.density * model->element_size,
-        .density = spec->material.density, .sizes = is_uniform(model) ? NULL : model->table,
-        .fracture_energy = energy, .rate = spec->loading.rate, .area = spec->geometry.area};
+    return (fracas_bar_constants){.elements = model->elements,
+                                  .periodic = fracas_chain_is_closed(model),
+                                  .young = young,
+                                  .spring = spec->cohesive.beta * young / model->element_size,
+                                  .beta = spec->cohesive.beta,
+                                  .contact_offset = 4.5 *
+                                                    fracas_pow(spec->loading.rate, 2.0 / 3.0) *
+                                                    young * fracas_pow(energy, 2.0 / 3.0) *
+                                                    fracas_pow(spec->material.density, 1.0 / 3.0),
+                                  .size = model->element_size,
+                                  .nodal_mass = 0.5 * spec->material.density * model->element_size,
+                                  .density = spec->material.density,
+                                  .sizes = is_uniform(model) ? NULL : model->table,
+                                  .fracture_energy = energy,
+                                  .rate = spec->loading.rate,
+                                  .area = spec->geometry.area};
 }
 
 /* ---- mesh ---- */
@@ -45,7 +55,8 @@ static double size_of(const fracas_model *model, size_t e)
     return is_uniform(model) ? model->element_size : model->table[e];
 }
 
-/* The interface on the right of element e. Its stiffness is K = beta E/h with 1/h the mean of its two elements'  (bar.18). */
+/* The interface on the right of element e. Its stiffness is K = beta E/h with 1/h the mean of its
+ * two elements'  (bar.18). */
 static double spring_of(const fracas_model *model, size_t e)
 {
     const fracas_bar_constants bar = constants_of(model);
@@ -56,7 +67,8 @@ static double spring_of(const fracas_model *model, size_t e)
 
 static double bar_interface_volume(const fracas_model *model, size_t e)
 {
-    return model->spec.geometry.area * (0.5 * (size_of(model, e) + size_of(model, e + 1 < model->elements ? e + 1 : 0)));
+    return model->spec.geometry.area *
+           (0.5 * (size_of(model, e) + size_of(model, e + 1 < model->elements ? e + 1 : 0)));
 }
 
 static void bar_interface_positions(const fracas_model *model, double (*position)[3])
@@ -101,14 +113,18 @@ static fracas_err bar_model_init(fracas_model *model)
 {
     const fracas_spec *spec = &model->spec;
     if (spec->mesh.elements < 2 || spec->mesh.elements > 100000000)
-        return fracas_fail(FRACAS_USAGE, "mesh.elements is %" PRId64 "; a bar takes 2 to 1e8 elements", spec->mesh.elements);
+        return fracas_fail(FRACAS_USAGE,
+                           "mesh.elements is %" PRId64 "; a bar takes 2 to 1e8 elements",
+                           spec->mesh.elements);
     model->elements = (size_t)spec->mesh.elements;
-    model->interfaces = spec->geometry.ends == &fracas_ends_periodic ? model->elements : model->elements - 1;
+    model->interfaces = spec->geometry.ends == &fracas_ends_periodic ? model->elements
+                                                                     : model->elements - 1;
     model->element_size = spec->geometry.length / (double)model->elements;
     model->longest = model->element_size;
     model->mass = spec->material.density * spec->geometry.area * spec->geometry.length;
     if (!is_uniform(model)) TRY(fill_sizes(model));
-    /* The penalty of rigid-link depends on each strength; check_strength keeps it below the elements' stiffness. */
+    /* The penalty of rigid-link depends on each strength; check_strength keeps it below the
+     * elements' stiffness. */
     return fracas_chain_critical_step(model, is_uniform(model) ? NULL : model->table);
 }
 
@@ -122,9 +138,12 @@ static fracas_err bar_check_strength(const fracas_model *model, double strength)
     const double h = model->longest;
     double penalty = (strength * strength + bar.contact_offset) / (4.5 * bar.fracture_energy);
     if (penalty > bar.young / h)
-        return fracas_fail(FRACAS_USAGE, "contact penalty %.4g Pa/m of strength %g Pa exceeds the elements' stiffness "
-                           "%.4g Pa/m: raise mesh.elements above %.0f", penalty, strength, bar.young / h,
-                           ceil(h / model->element_size * model->spec.geometry.length * penalty / bar.young));
+        return fracas_fail(
+            FRACAS_USAGE,
+            "contact penalty %.4g Pa/m of strength %g Pa exceeds the elements' stiffness %.4g "
+            "Pa/m: raise mesh.elements above %.0f",
+            penalty, strength, bar.young / h,
+            ceil(h / model->element_size * model->spec.geometry.length * penalty / bar.young));
     return FRACAS_OK;
 }
 
@@ -135,12 +154,14 @@ static size_t bar_state_size(const fracas_model *model)
     return model->elements * BAR_FIELDS;
 }
 
-static double *field_of(const fracas_model *model, const fracas_step *step, size_t element, int field, int lane)
+static double *field_of(const fracas_model *model, const fracas_step *step, size_t element,
+                        int field, int lane)
 {
     return fracas_chain_field(&chain, model, step, element, field, lane);
 }
 
-static double *bar_strength(const fracas_model *model, const fracas_step *step, int lane, size_t *stride)
+static double *bar_strength(const fracas_model *model, const fracas_step *step, int lane,
+                            size_t *stride)
 {
     return fracas_chain_strength(&chain, model, step, lane, stride);
 }
@@ -153,7 +174,8 @@ static void bar_lane_init(const fracas_model *model, const fracas_step *step, in
             if (field != BAR_STRENGTH) *field_of(model, step, e, field, lane) = 0.0;
         double strength = *field_of(model, step, e, BAR_STRENGTH, lane);
         if (is_nitsche(model) && e < model->interfaces)
-            *field_of(model, step, e, BAR_LAW, lane) = 2 * spring_of(model, e) * energy / strength - strength;
+            *field_of(model, step, e, BAR_LAW, lane) = 2 * spring_of(model, e) * energy / strength -
+                                                       strength;
     }
 }
 
@@ -161,8 +183,9 @@ static void bar_advance(const fracas_model *model, fracas_step *step)
 {
     const fracas_bar_constants bar = constants_of(model);
     const fracas_bar_kernels *kernels = step->isa == FRACAS_ISA_AVX512 ? &fracas_bar_kernels_avx512
-                                        : step->isa == FRACAS_ISA_AVX2 ? &fracas_bar_kernels_avx2
-                                                                       : &fracas_bar_kernels_baseline;
+                                        : step->isa == FRACAS_ISA_AVX2
+                                            ? &fracas_bar_kernels_avx2
+                                            : &fracas_bar_kernels_baseline;
     int which = step->lanes == 8 ? 2 : step->lanes == 4 ? 1 : 0;
     fracas_bar_sweep *sweep = kernels->sweep[is_uniform(model)][is_nitsche(model)][which];
     for (int first = 0; first < step->width; first += step->lanes) sweep(&bar, step, first);
@@ -181,17 +204,20 @@ static double lane_value(const lane_view *view, size_t element, int field)
     return *field_of(view->model, view->step, element, field, view->lane);
 }
 
-/* Adds up the elements of each fragment, moved as (bar.1). In a closed bar whose last interface holds, the elements after the
- * last break belong to the fragment of element 0: they are taken one circumference back, so that it is in one piece. */
+/* Adds up the elements of each fragment, moved as (bar.1). In a closed bar whose last interface
+ * holds, the elements after the last break belong to the fragment of element 0: they are taken one
+ * circumference back, so that it is in one piece. */
 static void add_elements(const lane_view *view, const uint32_t *label, fracas_fragment *fragment)
 {
     const fracas_model *model = view->model;
     const fracas_spec *spec = &model->spec;
     const double mass_per_length = spec->material.density * spec->geometry.area;
-    const double time = view->step->time[view->lane], rate = spec->loading.rate, length = spec->geometry.length;
+    const double time = view->step->time[view->lane], rate = spec->loading.rate,
+                 length = spec->geometry.length;
     size_t back = model->elements; /* elements from here on are taken back */
     while (fracas_chain_is_closed(model) && back > 0 &&
-           !fracas_chain_is_broken(&chain, model, view->step, back - 1, view->lane)) back--;
+           !fracas_chain_is_broken(&chain, model, view->step, back - 1, view->lane))
+        back--;
     double node = 0;
     for (size_t e = 0; e < model->elements; e++) {
         fracas_fragment *f = &fragment[label[e]];
@@ -216,7 +242,8 @@ static fracas_err harvest_fragments(const lane_view *view, fracas_record *record
     fracas_fragment *fragment = calloc(count, sizeof *fragment);
     if (!fragment) return fracas_no_memory("the fragments of a realization");
     add_elements(view, view->step->partition.label, fragment);
-    const double stretched = model->spec.geometry.length * (1 + model->spec.loading.rate * view->step->time[view->lane]);
+    const double stretched = model->spec.geometry.length *
+                             (1 + model->spec.loading.rate * view->step->time[view->lane]);
     for (size_t f = 0; f < count; f++) {
         fragment[f].position[0] /= fragment[f].size;
         fragment[f].velocity[0] /= fragment[f].size;
@@ -233,25 +260,38 @@ static fracas_err harvest_fragments(const lane_view *view, fracas_record *record
     return FRACAS_OK;
 }
 
-static fracas_err bar_harvest(const fracas_model *model, fracas_step *step, int lane, fracas_record *record)
+static fracas_err bar_harvest(const fracas_model *model, fracas_step *step, int lane,
+                              fracas_record *record)
 {
     lane_view view = {model, step, lane};
     const double mass_per_length = 0.5 * model->spec.material.density * model->spec.geometry.area;
     record->momentum[0] = record->momentum[1] = record->momentum[2] = 0;
     for (size_t e = 0; e < model->elements; e++)
         record->momentum[0] += mass_per_length * size_of(model, e) *
-                               (lane_value(&view, e, BAR_V_LEFT) + lane_value(&view, e, BAR_V_RIGHT));
+                               (lane_value(&view, e, BAR_V_LEFT) +
+                                lane_value(&view, e, BAR_V_RIGHT));
     TRY(harvest_fragments(&view, record));
-    return step->onset_time ? fracas_chain_harvest_interfaces(&chain, model, step, lane, record) : FRACAS_OK;
+    return step->onset_time ? fracas_chain_harvest_interfaces(&chain, model, step, lane, record)
+                            : FRACAS_OK;
 }
 
-static const fracas_kind *const goes_with[] = {&fracas_shape_bar, &fracas_spacing_uniform, &fracas_spacing_graded,
-                                               &fracas_spacing_perturbed, &fracas_law_nitsche, &fracas_law_rigid_link,
-                                               &fracas_loading_imposed_rate};
+static const fracas_kind *const goes_with[] = {
+    &fracas_shape_bar,           &fracas_spacing_uniform, &fracas_spacing_graded,
+    &fracas_spacing_perturbed,   &fracas_law_nitsche,     &fracas_law_rigid_link,
+    &fracas_loading_imposed_rate};
 const fracas_formulation fracas_formulation_bar = {
-    .kind = {.name = "bar", .doc = "a bar stretched at a uniform rate: the hoop direction of an expanding ring",
-             .goes_with = goes_with, .ngoes_with = FRACAS_COUNT(goes_with)},
-    .model_init = bar_model_init, .check_strength = bar_check_strength, .interface_volume = bar_interface_volume,
-    .interface_positions = bar_interface_positions, .state_size = bar_state_size, .strength = bar_strength,
-    .lane_init = bar_lane_init, .advance = bar_advance, .fragment_count = fracas_chain_fragment_count, .harvest = bar_harvest,
+    .kind = {.name = "bar",
+             .doc = "a bar stretched at a uniform rate: the hoop direction of an expanding ring",
+             .goes_with = goes_with,
+             .ngoes_with = FRACAS_COUNT(goes_with)},
+    .model_init = bar_model_init,
+    .check_strength = bar_check_strength,
+    .interface_volume = bar_interface_volume,
+    .interface_positions = bar_interface_positions,
+    .state_size = bar_state_size,
+    .strength = bar_strength,
+    .lane_init = bar_lane_init,
+    .advance = bar_advance,
+    .fragment_count = fracas_chain_fragment_count,
+    .harvest = bar_harvest,
 };

@@ -1,20 +1,25 @@
-/* The sweep of the bar: one step of central difference for all lanes, in one pass over the elements.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The sweep of the bar: one step of central difference for all lanes, in one pass over the
+ * elements.
  *
- * State: a record of BAR_FIELDS values of `lanes` lanes for each element and the interface at its right end
- * (interface e joins elements e and e+1; the last one closes a periodic bar, and does not exist with held ends). */
+ * State: a record of BAR_FIELDS values of `lanes` lanes for each element and the interface at its
+ * right end (interface e joins elements e and e+1; the last one closes a periodic bar, and does not
+ * exist with held ends). */
 #ifndef FRACAS_ENGINE_FORMULATION_BAR_SWEEP_H
 #define FRACAS_ENGINE_FORMULATION_BAR_SWEEP_H
 
 #include "engine/formulation/formulation.h"
 
 enum {
-    BAR_W_LEFT,   /* peculiar displacement of the element's left node [m]: u - rate t x */
+    BAR_W_LEFT, /* peculiar displacement of the element's left node [m]: u - rate t x */
     BAR_W_RIGHT,
-    BAR_V_LEFT,   /* its velocity, half a step behind the displacement before the sweep, half a step ahead after [m/s] */
+    BAR_V_LEFT, /* its velocity, half a step behind the displacement before the sweep, half a step
+                   ahead after [m/s] */
     BAR_V_RIGHT,
     BAR_DAMAGE,   /* delta_max/delta_c of the interface */
     BAR_STRENGTH, /* sigma_c [Pa] */
-    BAR_LAW,      /* nitsche: K delta_c - sigma_c [Pa]; rigid-link: 0 closed, 1 strength exceeded, 2 open */
+    BAR_LAW, /* nitsche: K delta_c - sigma_c [Pa]; rigid-link: 0 closed, 1 strength exceeded, 2 open
+              */
     BAR_FIELDS
 };
 
@@ -22,27 +27,28 @@ enum {
 typedef struct {
     size_t elements;
     int periodic;
-    double young;          /* Pa */
-    double beta, spring;   /* 1, Pa/m: nitsche, K = beta E/h */
-    double contact_offset; /* Pa2: rigid-link, 4.5 rate^(2/3) E G_c^(2/3) rho^(1/3) */
-    double size;          /* m, h: of every element, where all are alike */
-    const double *sizes;  /* m, [elements]; NULL where all are alike */
-    double density;       /* kg/m3 */
-    double nodal_mass;    /* kg/m2, rho h/2 */
+    double young;           /* Pa */
+    double beta, spring;    /* 1, Pa/m: nitsche, K = beta E/h */
+    double contact_offset;  /* Pa2: rigid-link, 4.5 rate^(2/3) E G_c^(2/3) rho^(1/3) */
+    double size;            /* m, h: of every element, where all are alike */
+    const double *sizes;    /* m, [elements]; NULL where all are alike */
+    double density;         /* kg/m3 */
+    double nodal_mass;      /* kg/m2, rho h/2 */
     double fracture_energy; /* J/m2 */
-    double rate;          /* 1/s */
-    double area;          /* m2 */
+    double rate;            /* 1/s */
+    double area;            /* m2 */
 } fracas_bar_constants;
 
 /* Advances the lanes first .. first + lanes - 1 of the step. */
 typedef void fracas_bar_sweep(const fracas_bar_constants *bar, fracas_step *step, int first);
 
-/* Kernels of one instruction set: [elements of one length: 0 no, 1 yes][law: 0 rigid-link, 1 nitsche][for 1, 4, 8 lanes, NULL
- * where it has no such register]. */
+/* Kernels of one instruction set: [elements of one length: 0 no, 1 yes][law: 0 rigid-link, 1
+ * nitsche][for 1, 4, 8 lanes, NULL where it has no such register]. */
 typedef struct {
     fracas_bar_sweep *sweep[2][2][3];
 } fracas_bar_kernels;
 
-extern const fracas_bar_kernels fracas_bar_kernels_baseline, fracas_bar_kernels_avx2, fracas_bar_kernels_avx512;
+extern const fracas_bar_kernels fracas_bar_kernels_baseline, fracas_bar_kernels_avx2,
+    fracas_bar_kernels_avx512;
 
 #endif

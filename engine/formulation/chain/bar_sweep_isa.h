@@ -1,5 +1,6 @@
-/* One instruction set's kernels: the template in its widths, for both laws, for elements of one length and of many. Include with BAR_KERNELS defined as
- * the name of the table. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One instruction set's kernels: the template in its widths, for both laws, for elements of one
+ * length and of many. Include with BAR_KERNELS defined as the name of the table. */
 #include "engine/formulation/chain/bar_sweep.h"
 
 #include <math.h>
@@ -29,7 +30,9 @@
 #endif
 
 const fracas_bar_kernels BAR_KERNELS = {
-    .sweep = {{{sweep_varied_rigid_link_1, BAR_IF_4(sweep_varied_rigid_link_4), BAR_IF_8(sweep_varied_rigid_link_8)},
-               {sweep_varied_nitsche_1, BAR_IF_4(sweep_varied_nitsche_4), BAR_IF_8(sweep_varied_nitsche_8)}},
+    .sweep = {{{sweep_varied_rigid_link_1, BAR_IF_4(sweep_varied_rigid_link_4),
+                BAR_IF_8(sweep_varied_rigid_link_8)},
+               {sweep_varied_nitsche_1, BAR_IF_4(sweep_varied_nitsche_4),
+                BAR_IF_8(sweep_varied_nitsche_8)}},
               {{sweep_rigid_link_1, BAR_IF_4(sweep_rigid_link_4), BAR_IF_8(sweep_rigid_link_8)},
                {sweep_nitsche_1, BAR_IF_4(sweep_nitsche_4), BAR_IF_8(sweep_nitsche_8)}}}};

@@ -1,5 +1,6 @@
-/* The bar's sweep for one width (docs/theory/bar.md, docs/theory/cohesive.md). No include guard: included once a
- * width by bar_sweep_isa.h, with LANES defined. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The bar's sweep for one width (docs/theory/bar.md, docs/theory/cohesive.md). No include guard:
+ * included once a width by bar_sweep_isa.h, with LANES defined. */
 #include "base/lanes.h"
 #include "engine/cohesive/nitsche.h"
 #include "engine/cohesive/rigid_link.h"
@@ -31,16 +32,16 @@ typedef struct {
 typedef struct {
     vd traction, slip; /* T [Pa], q - delta [m] */
     vmask closed;      /* rigid-link only: both nodes move as one ... */
-    vd common;         /* ... under this force [Pa] per mass, in units of an element's of mean length */
+    vd common; /* ... under this force [Pa] per mass, in units of an element's of mean length */
 } bar_link;
 
 typedef struct {
     const fracas_bar_constants *bar;
     fracas_step *step;
-    int first;      /* lane of the step that is lane 0 here */
-    double *state;  /* of these lanes */
-    vd drift, kick; /* dt [s], dt/(nodal mass) [m/(s Pa)] */
-    vd load_stress; /* E rate t [Pa] */
+    int first;                      /* lane of the step that is lane 0 here */
+    double *state;                  /* of these lanes */
+    vd drift, kick;                 /* dt [s], dt/(nodal mass) [m/(s Pa)] */
+    vd load_stress;                 /* E rate t [Pa] */
     vd spring, compliance, modulus; /* K, 1/K, E/h [Pa/m] of elements of one length */
     /* sums over the body, for the ledger */
     vd stress_squared, flux_energy, opening_energy, damage, velocity_squared, stress, slip;
@@ -49,9 +50,10 @@ typedef struct {
 LANES_FUNCTION bar_element bar_load(const bar_context *c, int uniform, size_t e)
 {
     const double *at = c->state + e * BAR_FIELDS * LANES;
-    bar_element element = {
-        .v_left = lanes_load(at + BAR_V_LEFT * LANES), .v_right = lanes_load(at + BAR_V_RIGHT * LANES),
-        .w_left = lanes_load(at + BAR_W_LEFT * LANES), .w_right = lanes_load(at + BAR_W_RIGHT * LANES)};
+    bar_element element = {.v_left = lanes_load(at + BAR_V_LEFT * LANES),
+                           .v_right = lanes_load(at + BAR_V_RIGHT * LANES),
+                           .w_left = lanes_load(at + BAR_W_LEFT * LANES),
+                           .w_right = lanes_load(at + BAR_W_RIGHT * LANES)};
     element.w_left = central_drift(element.w_left, element.v_left, c->drift);
     element.w_right = central_drift(element.w_right, element.v_right, c->drift);
     element.size = lanes_set(uniform ? 1.0 : c->bar->sizes[e] / c->bar->size);
@@ -62,14 +64,20 @@ LANES_FUNCTION bar_element bar_load(const bar_context *c, int uniform, size_t e)
 }
 
 /* Time derivative of the mean stress within the step [Pa/s]. */
-LANES_FUNCTION vd bar_stress_rate(const bar_context *c, int uniform, const bar_element *left, const bar_element *right)
+LANES_FUNCTION vd bar_stress_rate(const bar_context *c, int uniform, const bar_element *left,
+                                  const bar_element *right)
 {
     const vd half = lanes_set(0.5), load = lanes_set(c->bar->young * c->bar->rate);
-    if (uniform) return half * c->modulus * (left->v_right - left->v_left + right->v_right - right->v_left) + load;
-    return half * (left->modulus * (left->v_right - left->v_left) + right->modulus * (right->v_right - right->v_left)) + load;
+    if (uniform)
+        return half * c->modulus * (left->v_right - left->v_left + right->v_right - right->v_left) +
+               load;
+    return half * (left->modulus * (left->v_right - left->v_left) +
+                   right->modulus * (right->v_right - right->v_left)) +
+           load;
 }
 
-LANES_FUNCTION bar_link bar_nitsche(bar_context *c, int uniform, size_t e, const bar_element *left, const bar_element *right)
+LANES_FUNCTION bar_link bar_nitsche(bar_context *c, int uniform, size_t e, const bar_element *left,
+                                    const bar_element *right)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5);
     double *at = c->state + e * BAR_FIELDS * LANES;
@@ -78,33 +86,42 @@ LANES_FUNCTION bar_link bar_nitsche(bar_context *c, int uniform, size_t e, const
     vd mean = half * (left->stress + right->stress); /* (bar.2) */
     vd q = right->w_left - left->w_right;
     /* K = beta E/h, 1/h the mean of both elements'  (bar.18) */
-    vd spring = uniform ? c->spring : lanes_set(c->bar->beta) * (half * (left->modulus + right->modulus));
+    vd spring = uniform ? c->spring
+                        : lanes_set(c->bar->beta) * (half * (left->modulus + right->modulus));
     vd compliance = uniform ? c->compliance : one / spring;
     nitsche_interface it = nitsche_law(mean, q, before, sigma_c, x, spring, compliance);
     lanes_store(at + BAR_DAMAGE * LANES, it.damage);
 
-    /* Energies per area, twice: slip (m + T) of the flux, T delta stored in the opening or in contact  (cohesive.5) */
+    /* Energies per area, twice: slip (m + T) of the flux, T delta stored in the opening or in
+     * contact  (cohesive.5) */
     c->flux_energy += it.slip * (mean + it.traction);
     c->opening_energy += it.traction * (q - it.slip);
     c->damage += it.damage;
     c->slip += it.slip;
 
     vmask grows = lanes_lt(before, it.damage);
-    vmask cracks = lanes_and(grows, lanes_le(before, zero)), breaks = lanes_and(grows, lanes_le(one, it.damage));
+    vmask cracks = lanes_and(grows, lanes_le(before, zero)),
+          breaks = lanes_and(grows, lanes_le(one, it.damage));
     if (__builtin_expect(lanes_any(lanes_or(cracks, breaks)), 0)) {
-        /* S is linear in time within the step: the crossing of sigma_c, and of K delta_c = sigma_c + x  (bar.12) */
-        vd rate = bar_stress_rate(c, uniform, left, right) + spring * (right->v_left - left->v_right);
+        /* S is linear in time within the step: the crossing of sigma_c, and of K delta_c = sigma_c
+         * + x  (bar.12) */
+        vd rate = bar_stress_rate(c, uniform, left, right) +
+                  spring * (right->v_left - left->v_right);
         vd time = lanes_load(c->step->time + c->first);
-        vd onset = time - (it.trial - sigma_c) / rate, broke = time - (it.trial - sigma_c - x) / rate;
+        vd onset = time - (it.trial - sigma_c) / rate,
+           broke = time - (it.trial - sigma_c - x) / rate;
         vd lost = half * mean * mean * compliance; /* (cohesive.6) */
-        chain_note_events(c->step, c->first, c->bar->area, e, &(chain_events){cracks, breaks, onset, broke, zero, lost});
+        chain_note_events(c->step, c->first, c->bar->area, e,
+                          &(chain_events){cracks, breaks, onset, broke, zero, lost});
     }
     return (bar_link){.traction = it.traction, .slip = it.slip};
 }
 
-LANES_FUNCTION bar_link bar_rigid_link(bar_context *c, int uniform, size_t e, const bar_element *left, const bar_element *right)
+LANES_FUNCTION bar_link bar_rigid_link(bar_context *c, int uniform, size_t e,
+                                       const bar_element *left, const bar_element *right)
 {
-    const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5), two = lanes_set(2.0);
+    const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5),
+             two = lanes_set(2.0);
     double *at = c->state + e * BAR_FIELDS * LANES;
     vd before = lanes_load(at + BAR_DAMAGE * LANES), state = lanes_load(at + BAR_LAW * LANES);
     vd sigma_c = lanes_load(at + BAR_STRENGTH * LANES);
@@ -116,7 +133,8 @@ LANES_FUNCTION bar_link bar_rigid_link(bar_context *c, int uniform, size_t e, co
     /* closed 0 -> exceeded 1 -> open 2 */
     lanes_store(at + BAR_LAW * LANES, lanes_select(exceeded, two, lanes_select(cracks, one, zero)));
 
-    vd penalty = (sigma_c * sigma_c + lanes_set(c->bar->contact_offset)) / lanes_set(4.5 * c->bar->fracture_energy);
+    vd penalty = (sigma_c * sigma_c + lanes_set(c->bar->contact_offset)) /
+                 lanes_set(4.5 * c->bar->fracture_energy);
     vd damage = before;
     vd traction = rigid_link_law(q, &damage, sigma_c, delta_c, penalty);
     damage = lanes_select(open, damage, before);
@@ -130,26 +148,32 @@ LANES_FUNCTION bar_link bar_rigid_link(bar_context *c, int uniform, size_t e, co
         vd time = lanes_load(c->step->time + c->first);
         vd onset = time - (mean - sigma_c) / bar_stress_rate(c, uniform, left, right);
         vd broke = time - (q - delta_c) / (right->v_left - left->v_right);
-        chain_note_events(c->step, c->first, c->bar->area, e, &(chain_events){cracks, breaks, onset, broke, zero, zero});
+        chain_note_events(c->step, c->first, c->bar->area, e,
+                          &(chain_events){cracks, breaks, onset, broke, zero, zero});
     }
     /* both nodes accelerate as one, under the force on both */
-    vd common = uniform ? half * (right->stress - left->stress) : (right->stress - left->stress) / (left->size + right->size);
-    return (bar_link){.traction = traction, .slip = zero, .closed = lanes_lt(state, two), .common = common};
+    vd common = uniform ? half * (right->stress - left->stress)
+                        : (right->stress - left->stress) / (left->size + right->size);
+    return (bar_link){
+        .traction = traction, .slip = zero, .closed = lanes_lt(state, two), .common = common};
 }
 
-LANES_FUNCTION bar_link bar_join(bar_context *c, int uniform, int law, size_t e, const bar_element *left,
-                                 const bar_element *right)
+LANES_FUNCTION bar_link bar_join(bar_context *c, int uniform, int law, size_t e,
+                                 const bar_element *left, const bar_element *right)
 {
-    return law == BAR_NITSCHE ? bar_nitsche(c, uniform, e, left, right) : bar_rigid_link(c, uniform, e, left, right);
+    return law == BAR_NITSCHE ? bar_nitsche(c, uniform, e, left, right)
+                              : bar_rigid_link(c, uniform, e, left, right);
 }
 
 /* Forces and kick of one element, and its share of the sums; a held node stays where it is. */
-LANES_FUNCTION void bar_finish(bar_context *c, int uniform, int law, size_t e, const bar_element *element,
-                               const bar_link *left, const bar_link *right, int hold_left, int hold_right)
+LANES_FUNCTION void bar_finish(bar_context *c, int uniform, int law, size_t e,
+                               const bar_element *element, const bar_link *left,
+                               const bar_link *right, int hold_left, int hold_right)
 {
     const vd half = lanes_set(0.5);
     double *at = c->state + e * BAR_FIELDS * LANES;
-    /* N = sigma + (E/2h) (slip of both ends): bulk and symmetrisation  (bar.6); forces per area  (bar.7) */
+    /* N = sigma + (E/2h) (slip of both ends): bulk and symmetrisation  (bar.6); forces per area
+     * (bar.7) */
     vd internal = element->stress;
     if (law == BAR_NITSCHE) internal += half * element->modulus * (left->slip + right->slip);
     vd force_left = internal - left->traction, force_right = right->traction - internal;
@@ -157,13 +181,16 @@ LANES_FUNCTION void bar_finish(bar_context *c, int uniform, int law, size_t e, c
         force_left = force_left / element->size;
         force_right = force_right / element->size;
     }
-    if (law == BAR_RIGID_LINK) { /* the same number on both sides: tied nodes stay together to the bit */
+    if (law ==
+        BAR_RIGID_LINK) { /* the same number on both sides: tied nodes stay together to the bit */
         force_left = lanes_select(left->closed, left->common, force_left);
         force_right = lanes_select(right->closed, right->common, force_right);
     }
     vd v_left = hold_left ? element->v_left : central_kick(element->v_left, force_left, c->kick);
-    vd v_right = hold_right ? element->v_right : central_kick(element->v_right, force_right, c->kick);
-    /* kinetic energy of leapfrog, v_{n-1/2} v_{n+1/2}: constant to round-off with the rest  (bar.11) */
+    vd v_right = hold_right ? element->v_right
+                            : central_kick(element->v_right, force_right, c->kick);
+    /* kinetic energy of leapfrog, v_{n-1/2} v_{n+1/2}: constant to round-off with the rest (bar.11)
+     */
     vd velocity_squared = element->v_left * v_left + element->v_right * v_right;
     vd stress_squared = element->stress * element->stress;
     c->velocity_squared += uniform ? velocity_squared : element->size * velocity_squared;
@@ -180,31 +207,47 @@ LANES_FUNCTION void bar_totals(const bar_context *c)
 {
     const fracas_bar_constants *bar = c->bar;
     fracas_step *step = c->step;
-    lanes_store(step->kinetic + c->first, lanes_set(0.5 * bar->area * bar->nodal_mass) * c->velocity_squared);
-    lanes_store(step->elastic + c->first, lanes_set(0.5 * bar->area * bar->size / bar->young) * c->stress_squared +
-                                   lanes_set(0.5 * bar->area) * c->flux_energy);
+    lanes_store(step->kinetic + c->first,
+                lanes_set(0.5 * bar->area * bar->nodal_mass) * c->velocity_squared);
+    lanes_store(step->elastic + c->first,
+                lanes_set(0.5 * bar->area * bar->size / bar->young) * c->stress_squared +
+                    lanes_set(0.5 * bar->area) * c->flux_energy);
     lanes_store(step->cohesive + c->first, lanes_set(0.5 * bar->area) * c->opening_energy);
-    lanes_store(step->dissipated + c->first, lanes_set(bar->area * bar->fracture_energy) * c->damage);
-    lanes_store(step->power + c->first, lanes_set(bar->area * bar->rate) *
-                                 (lanes_set(bar->size) * c->stress + lanes_set(bar->young) * c->slip));
+    lanes_store(step->dissipated + c->first,
+                lanes_set(bar->area * bar->fracture_energy) * c->damage);
+    lanes_store(step->power + c->first,
+                lanes_set(bar->area * bar->rate) *
+                    (lanes_set(bar->size) * c->stress + lanes_set(bar->young) * c->slip));
 }
 
-LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, int first, int uniform, int law)
+LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, int first,
+                            int uniform, int law)
 {
     const vd zero = lanes_set(0.0);
     const size_t last = bar->elements - 1;
-    bar_context context = {
-        .bar = bar, .step = step, .first = first, .state = step->state + (size_t)first * bar->elements * BAR_FIELDS,
-        .drift = lanes_load(step->drift + first), .kick = lanes_load(step->kick + first) / lanes_set(bar->nodal_mass),
-        .load_stress = lanes_set(bar->young) * (lanes_set(bar->rate) * lanes_load(step->time + first)),
-        .spring = lanes_set(bar->spring), .compliance = lanes_set(1.0 / bar->spring),
-        .modulus = lanes_set(bar->young / bar->size),
-        .stress_squared = zero, .flux_energy = zero, .opening_energy = zero, .damage = zero,
-        .velocity_squared = zero, .stress = zero, .slip = zero};
+    bar_context context = {.bar = bar,
+                           .step = step,
+                           .first = first,
+                           .state = step->state + (size_t)first * bar->elements * BAR_FIELDS,
+                           .drift = lanes_load(step->drift + first),
+                           .kick = lanes_load(step->kick + first) / lanes_set(bar->nodal_mass),
+                           .load_stress = lanes_set(bar->young) *
+                                          (lanes_set(bar->rate) * lanes_load(step->time + first)),
+                           .spring = lanes_set(bar->spring),
+                           .compliance = lanes_set(1.0 / bar->spring),
+                           .modulus = lanes_set(bar->young / bar->size),
+                           .stress_squared = zero,
+                           .flux_energy = zero,
+                           .opening_energy = zero,
+                           .damage = zero,
+                           .velocity_squared = zero,
+                           .stress = zero,
+                           .slip = zero};
     bar_context *c = &context;
 
-    /* One pass in place: an element is written once both its interfaces are known, and what its right neighbour
-     * needs of it is kept in registers. The interface that closes a periodic bar comes first. */
+    /* One pass in place: an element is written once both its interfaces are known, and what its
+     * right neighbour needs of it is kept in registers. The interface that closes a periodic bar
+     * comes first. */
     bar_element element = bar_load(c, uniform, 0);
     bar_link closing = {.traction = zero, .slip = zero}, left;
     if (bar->periodic) {
@@ -227,7 +270,7 @@ LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, 
     bar_totals(c);
 }
 
-#define BAR_SWEEP_OF(name, uniform, law)                                                        \
+#define BAR_SWEEP_OF(name, uniform, law)                                                       \
     static void BAR_SWEEP(name)(const fracas_bar_constants *bar, fracas_step *step, int first) \
     {                                                                                          \
         bar_run(bar, step, first, uniform, law);                                               \

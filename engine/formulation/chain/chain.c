@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/formulation/chain/chain.h"
 
 #include "engine/cohesive/law.h"
@@ -5,16 +6,17 @@
 #include <math.h>
 #include <stdlib.h>
 
-double *fracas_chain_field(const fracas_chain *chain, const fracas_model *model, const fracas_step *step, size_t element,
-                           int field, int lane)
+double *fracas_chain_field(const fracas_chain *chain, const fracas_model *model,
+                           const fracas_step *step, size_t element, int field, int lane)
 {
-    const size_t lanes = (size_t)step->lanes, group = (size_t)lane / lanes, fields = (size_t)chain->fields;
-    return step->state + group * lanes * model->elements * fields + (element * fields + (size_t)field) * lanes +
-           (size_t)lane % lanes;
+    const size_t lanes = (size_t)step->lanes, group = (size_t)lane / lanes,
+                 fields = (size_t)chain->fields;
+    return step->state + group * lanes * model->elements * fields +
+           (element * fields + (size_t)field) * lanes + (size_t)lane % lanes;
 }
 
-double *fracas_chain_strength(const fracas_chain *chain, const fracas_model *model, const fracas_step *step, int lane,
-                              size_t *stride)
+double *fracas_chain_strength(const fracas_chain *chain, const fracas_model *model,
+                              const fracas_step *step, int lane, size_t *stride)
 {
     *stride = (size_t)(chain->fields * step->lanes);
     return fracas_chain_field(chain, model, step, 0, chain->strength, lane);
@@ -25,17 +27,25 @@ fracas_err fracas_chain_check_strength(const fracas_model *model, double strengt
 {
     const fracas_cohesive *cohesive = &model->spec.cohesive;
     if (!(strength > 0) || !isfinite(strength))
-        return fracas_fail(FRACAS_USAGE, "strength of %g Pa; it must be positive and finite: check the section strength", strength);
+        return fracas_fail(
+            FRACAS_USAGE,
+            "strength of %g Pa; it must be positive and finite: check the section strength",
+            strength);
     if (cohesive->law != &fracas_law_nitsche) return FRACAS_OK;
-    const double young = model->spec.material.young, energy = cohesive->fracture_energy, h = model->longest;
+    const double young = model->spec.material.young, energy = cohesive->fracture_energy,
+                 h = model->longest;
     double margin = 2 * (cohesive->beta * young / h) * energy / strength - strength;
     double most = 2 * cohesive->beta * young * energy / (strength * strength);
     if (margin > 0 && isfinite(margin)) return FRACAS_OK;
     const double needed = ceil((double)model->elements * h / most);
-    return fracas_fail(FRACAS_USAGE, "strength %g Pa needs elements shorter than %.4g m, they are %.4g m: "
-                       "raise mesh.elements above %.0f (or cohesive.beta)%s", strength, most, h, needed,
-                       needed < 1e7 ? "" : "; so many: are material.young [Pa], cohesive.fracture_energy [J/m2] and lengths [m] in the units meant? "
-                                           "A bare number is SI");
+    return fracas_fail(FRACAS_USAGE,
+                       "strength %g Pa needs elements shorter than %.4g m, they are %.4g m: raise "
+                       "mesh.elements above %.0f (or cohesive.beta)%s",
+                       strength, most, h, needed,
+                       needed < 1e7
+                           ? ""
+                           : "; so many: are material.young [Pa], cohesive.fracture_energy [J/m2] "
+                             "and lengths [m] in the units meant? A bare number is SI");
 }
 
 int64_t fracas_chain_fragment_count(const fracas_model *model, fracas_step *step, int lane)
@@ -44,25 +54,28 @@ int64_t fracas_chain_fragment_count(const fracas_model *model, fracas_step *step
     return fracas_chain_is_closed(model) ? (broken > 1 ? broken : 1) : broken + 1;
 }
 
-bool fracas_chain_is_broken(const fracas_chain *chain, const fracas_model *model, const fracas_step *step, size_t element,
-                            int lane)
+bool fracas_chain_is_broken(const fracas_chain *chain, const fracas_model *model,
+                            const fracas_step *step, size_t element, int lane)
 {
-    return element >= model->interfaces || *fracas_chain_field(chain, model, step, element, chain->damage, lane) >= 1.0;
+    return element >= model->interfaces ||
+           *fracas_chain_field(chain, model, step, element, chain->damage, lane) >= 1.0;
 }
 
 /* (bar.17) */
-size_t fracas_chain_partition(const fracas_chain *chain, const fracas_model *model, fracas_step *step, int lane)
+size_t fracas_chain_partition(const fracas_chain *chain, const fracas_model *model,
+                              fracas_step *step, int lane)
 {
     fracas_partition *partition = &step->partition;
     fracas_partition_reset(partition);
     for (size_t e = 0; e < model->interfaces; e++)
         if (!fracas_chain_is_broken(chain, model, step, e, lane))
-            fracas_partition_join(partition, (uint32_t)e, (uint32_t)(e + 1 < model->elements ? e + 1 : 0));
+            fracas_partition_join(partition, (uint32_t)e,
+                                  (uint32_t)(e + 1 < model->elements ? e + 1 : 0));
     return fracas_partition_label(partition);
 }
 
-fracas_err fracas_chain_harvest_interfaces(const fracas_chain *chain, const fracas_model *model, const fracas_step *step,
-                                           int lane, fracas_record *record)
+fracas_err fracas_chain_harvest_interfaces(const fracas_chain *chain, const fracas_model *model,
+                                           const fracas_step *step, int lane, fracas_record *record)
 {
     record->interface = calloc(model->interfaces, sizeof *record->interface);
     if (!record->interface) return fracas_no_memory("the interfaces of a realization");
@@ -72,7 +85,8 @@ fracas_err fracas_chain_harvest_interfaces(const fracas_chain *chain, const frac
         record->interface[e] = (fracas_interface_row){
             .strength = *fracas_chain_field(chain, model, step, e, chain->strength, lane),
             .damage = *fracas_chain_field(chain, model, step, e, chain->damage, lane),
-            .onset_time = step->onset_time[at], .break_time = step->break_time[at]};
+            .onset_time = step->onset_time[at],
+            .break_time = step->break_time[at]};
     }
     return FRACAS_OK;
 }

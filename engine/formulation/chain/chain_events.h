@@ -1,4 +1,6 @@
-/* Onsets and breaks of interfaces, booked lane by lane: they are rare. Include after base/lanes.h. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Onsets and breaks of interfaces, booked lane by lane: they are rare. Include after base/lanes.h.
+ */
 #ifndef FRACAS_ENGINE_FORMULATION_CHAIN_NOTE
 #define FRACAS_ENGINE_FORMULATION_CHAIN_NOTE
 /* An interface of lane l cracks at `time` [s], held within the step. */
@@ -15,13 +17,14 @@ static inline void fracas_chain_note_onset(fracas_step *step, int l, size_t inte
 #define chain_note_events LANES_NAME(fracas_chain_note_events)
 
 typedef struct {
-    vmask cracks, breaks;   /* lanes in which the interface cracks or breaks in this step */
-    vd onset, broke;        /* when, where it does [s]; held within the step */
-    vd at_onset, at_break;  /* energy that the event creates [J/m2] */
+    vmask cracks, breaks;  /* lanes in which the interface cracks or breaks in this step */
+    vd onset, broke;       /* when, where it does [s]; held within the step */
+    vd at_onset, at_break; /* energy that the event creates [J/m2] */
 } chain_events;
 
-__attribute__((noinline, cold, unused)) static void chain_note_events(fracas_step *step, int first, double area, size_t interface,
-                                                                     const chain_events *event)
+__attribute__((noinline, cold, unused)) static void chain_note_events(fracas_step *step, int first,
+                                                                      double area, size_t interface,
+                                                                      const chain_events *event)
 {
     double onset[LANES], broke[LANES], at_onset[LANES], at_break[LANES];
     memcpy(onset, &event->onset, sizeof onset);

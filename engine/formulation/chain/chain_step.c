@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The critical time step of a chain, by power iteration on its linearised operator. */
 #include "engine/formulation/chain/chain.h"
 
@@ -11,8 +12,8 @@ typedef struct {
     const fracas_model *model;
     const double *size; /* m, of each element; NULL: all alike */
     size_t elements;
-    bool ring;          /* the last interface closes the chain */
-    bool closed;        /* all interfaces uncracked; else all broken and in contact */
+    bool ring;   /* the last interface closes the chain */
+    bool closed; /* all interfaces uncracked; else all broken and in contact */
 } chain_operator;
 
 static double size_of(const chain_operator *o, size_t e)
@@ -30,7 +31,8 @@ static bool has_flux(const chain_operator *o)
     return o->closed && o->model->spec.cohesive.law == &fracas_law_nitsche;
 }
 
-/* Stiffness of a broken interface in contact: the flux's for nitsche, at most `penalty` elements' for the rigid links. */
+/* Stiffness of a broken interface in contact: the flux's for nitsche, at most `penalty` elements'
+ * for the rigid links. */
 static double contact_of(const chain_operator *o, size_t left, size_t right)
 {
     const fracas_cohesive *cohesive = &o->model->spec.cohesive;
@@ -40,8 +42,8 @@ static double contact_of(const chain_operator *o, size_t left, size_t right)
     return factor * (0.5 * (modulus_of(o, left) + modulus_of(o, right)));
 }
 
-/* result = M^-1 K w, w = (left, right) node of each element: equations (bar.6) and (bar.7), linear. Nodes tied by a rigid link
- * share their force. */
+/* result = M^-1 K w, w = (left, right) node of each element: equations (bar.6) and (bar.7), linear.
+ * Nodes tied by a rigid link share their force. */
 static void apply_chain(const void *context, const double *w, double *result)
 {
     const chain_operator *o = context;
@@ -75,11 +77,13 @@ static void apply_chain(const void *context, const double *w, double *result)
         result[2 * r] = share * size_of(o, r);
     }
     if (!o->ring) result[0] = result[2 * n - 1] = 0;
-    for (size_t i = 0; i < 2 * n; i++) result[i] /= 0.5 * o->model->spec.material.density * size_of(o, i / 2);
+    for (size_t i = 0; i < 2 * n; i++)
+        result[i] /= 0.5 * o->model->spec.material.density * size_of(o, i / 2);
 }
 
-/* The extreme modes of a regular chain: nodes of an element, or whole elements, in turn up and down; a little of everything
- * else for other cases; most of it where elements are small. Tied nodes of a rigid link have equal values. */
+/* The extreme modes of a regular chain: nodes of an element, or whole elements, in turn up and
+ * down; a little of everything else for other cases; most of it where elements are small. Tied
+ * nodes of a rigid link have equal values. */
 static void fill_start(const chain_operator *o, double *start)
 {
     const size_t n = o->elements;
@@ -88,7 +92,8 @@ static void fill_start(const chain_operator *o, double *start)
     for (size_t e = 1; e < n; e++) least = fmin(least, size_of(o, e));
     uint64_t noise = 1;
     for (size_t e = 0; e < n; e++) {
-        double sign = e % 2 ? -1.0 : 1.0, part = least / size_of(o, e), large = part * part * part * part;
+        double sign = e % 2 ? -1.0 : 1.0, part = least / size_of(o, e),
+               large = part * part * part * part;
         noise = noise * 6364136223846793005u + 1442695040888963407u;
         double small = 1e-3 * ((double)(noise >> 40) / 16777216.0 - 0.5);
         start[2 * e] = tied ? large * sign + small : large * (1.0 + 0.5 * sign) + small;
@@ -98,8 +103,10 @@ static void fill_start(const chain_operator *o, double *start)
     if (!o->ring) start[0] = start[2 * n - 1] = 0;
 }
 
-/* A regular chain's largest frequency is that of a short one: 1024 elements at most are looked at. */
-static fracas_err critical_step(const fracas_model *model, const double *size, bool closed, double *step)
+/* A regular chain's largest frequency is that of a short one: 1024 elements at most are looked at.
+ */
+static fracas_err critical_step(const fracas_model *model, const double *size, bool closed,
+                                double *step)
 {
     enum { ENOUGH = 1024 };
     const size_t n = !size && model->elements > ENOUGH ? ENOUGH : model->elements;
@@ -118,7 +125,8 @@ fracas_err fracas_chain_critical_step(fracas_model *model, const double *size)
 {
     TRY(critical_step(model, size, true, &model->critical_closed));
     TRY(critical_step(model, size, false, &model->critical_cracked));
-    /* Stershic's algorithm starts from the uncracked step, and refines it where links are in contact. */
+    /* Stershic's algorithm starts from the uncracked step, and refines it where links are in
+     * contact. */
     model->critical_step = model->spec.cohesive.law == &fracas_law_stershic
                                ? model->critical_closed
                                : fmin(model->critical_closed, model->critical_cracked);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The ring: nodes in the plane, an element is a spring along its chord (docs/theory/ring.md). */
 #include "engine/formulation/chain/ring_sweep.h"
 
@@ -13,7 +14,8 @@
 
 #define PI 3.14159265358979323846
 
-static const fracas_chain nitsche_chain = {.fields = RING_FIELDS, .damage = RING_DAMAGE, .strength = RING_STRENGTH};
+static const fracas_chain nitsche_chain = {
+    .fields = RING_FIELDS, .damage = RING_DAMAGE, .strength = RING_STRENGTH};
 static const fracas_chain stershic_chain = {
     .fields = RING_FIELDS_STERSHIC, .damage = RING_DAMAGE, .strength = RING_STRENGTH};
 
@@ -27,7 +29,8 @@ static const fracas_chain *chain_of(const fracas_model *model)
     return is_nitsche(model) ? &nitsche_chain : &stershic_chain;
 }
 
-/* Radius of the vertices of the polygon whose perimeter is the ring's circumference [m]  (ring.1). */
+/* Radius of the vertices of the polygon whose perimeter is the ring's circumference [m]  (ring.1).
+ */
 static double vertex_radius(const fracas_model *model)
 {
     return model->element_size / (2.0 * fracas_sinpi(1.0 / (double)model->elements));
@@ -37,7 +40,8 @@ static double vertex_radius(const fracas_model *model)
 static void set_drive(const fracas_model *model, fracas_ring_constants *ring)
 {
     const fracas_loading *loading = &model->spec.loading;
-    const double swell = ring->radius / model->spec.geometry.radius; /* of the vertices over the circle */
+    const double swell = ring->radius /
+                         model->spec.geometry.radius; /* of the vertices over the circle */
     ring->circumferential = loading->direction == &fracas_axis_circumferential;
     if (loading->type == &fracas_loading_imposed_rate) {
         ring->drive = RING_HELD;
@@ -48,7 +52,8 @@ static void set_drive(const fracas_model *model, fracas_ring_constants *ring)
         ring->level = loading->velocity * swell;
         ring->rate = loading->acceleration * swell;
     } else if (loading->type == &fracas_loading_force) {
-        const double share = 0.5 * ring->size / ring->area; /* of a node, of a force per length, by area */
+        const double share = 0.5 * ring->size /
+                             ring->area; /* of a node, of a force per length, by area */
         ring->drive = RING_FORCED;
         ring->level = loading->force * share;
         ring->rate = loading->force_rate * share;
@@ -60,12 +65,21 @@ static fracas_ring_constants constants_of(const fracas_model *model)
     const fracas_spec *spec = &model->spec;
     const double young = spec->material.young, h = model->element_size;
     fracas_ring_constants ring = {
-        .elements = model->elements, .table = model->table, .current = spec->geometry.direction == &fracas_direction_current,
-        .young = young, .spring = (is_nitsche(model) ? spec->cohesive.beta : spec->cohesive.penalty) * young / h, .size = h,
-        .radius = vertex_radius(model), .nodal_mass = 0.5 * spec->material.density * h,
-        .fracture_energy = spec->cohesive.fracture_energy, .critical_opening = spec->cohesive.critical_opening,
-        .area = spec->geometry.area, .refinement = spec->cohesive.refinement, .time_step = model->time_step,
-        .zone = spec->cohesive.zone, .steep = spec->cohesive.critical_zone == &fracas_zone_steep};
+        .elements = model->elements,
+        .table = model->table,
+        .current = spec->geometry.direction == &fracas_direction_current,
+        .young = young,
+        .spring = (is_nitsche(model) ? spec->cohesive.beta : spec->cohesive.penalty) * young / h,
+        .size = h,
+        .radius = vertex_radius(model),
+        .nodal_mass = 0.5 * spec->material.density * h,
+        .fracture_energy = spec->cohesive.fracture_energy,
+        .critical_opening = spec->cohesive.critical_opening,
+        .area = spec->geometry.area,
+        .refinement = spec->cohesive.refinement,
+        .time_step = model->time_step,
+        .zone = spec->cohesive.zone,
+        .steep = spec->cohesive.critical_zone == &fracas_zone_steep};
     set_drive(model, &ring);
     return ring;
 }
@@ -74,19 +88,25 @@ static fracas_err ring_model_init(fracas_model *model)
 {
     const fracas_spec *spec = &model->spec;
     if (spec->mesh.elements < 3 || spec->mesh.elements > 100000000)
-        return fracas_fail(FRACAS_USAGE, "mesh.elements is %" PRId64 "; a ring takes 3 to 1e8 elements", spec->mesh.elements);
+        return fracas_fail(FRACAS_USAGE,
+                           "mesh.elements is %" PRId64 "; a ring takes 3 to 1e8 elements",
+                           spec->mesh.elements);
     const size_t n = model->elements = model->interfaces = (size_t)spec->mesh.elements;
     const double circumference = 2 * PI * spec->geometry.radius;
     model->element_size = model->longest = circumference / (double)n;
     model->mass = spec->material.density * spec->geometry.area * circumference;
-    if (!is_nitsche(model) && spec->cohesive.zone > 0 && spec->cohesive.zone * (1 + 1e-12) < model->element_size)
-        return fracas_fail(FRACAS_USAGE, "cohesive.zone is %.4g m, but elements are %.4g m long, so that it holds no other interface: "
-                           "raise it, or mesh.elements above %.0f, or leave it out", spec->cohesive.zone, model->element_size,
-                           ceil(circumference / spec->cohesive.zone));
+    if (!is_nitsche(model) && spec->cohesive.zone > 0 &&
+        spec->cohesive.zone * (1 + 1e-12) < model->element_size)
+        return fracas_fail(
+            FRACAS_USAGE,
+            "cohesive.zone is %.4g m, but elements are %.4g m long, so that it holds no other "
+            "interface: raise it, or mesh.elements above %.0f, or leave it out",
+            spec->cohesive.zone, model->element_size, ceil(circumference / spec->cohesive.zone));
     double *table = model->table = malloc(n * RING_TABLE * sizeof *table);
     if (!table) return fracas_no_memory("the mesh of a ring");
     for (size_t e = 0; e < n; e++) {
-        const double angle = (double)(2 * e) / (double)n, middle = (double)(2 * e + 1) / (double)n; /* of pi */
+        const double angle = (double)(2 * e) / (double)n,
+                     middle = (double)(2 * e + 1) / (double)n; /* of pi */
         table[e * RING_TABLE + RING_COS] = fracas_cospi(angle);
         table[e * RING_TABLE + RING_SIN] = fracas_sinpi(angle);
         table[e * RING_TABLE + RING_COS_MIDDLE] = fracas_cospi(middle);
@@ -119,18 +139,21 @@ static size_t ring_state_size(const fracas_model *model)
     return model->elements * (size_t)chain_of(model)->fields;
 }
 
-static double *field_of(const fracas_model *model, const fracas_step *step, size_t element, int field, int lane)
+static double *field_of(const fracas_model *model, const fracas_step *step, size_t element,
+                        int field, int lane)
 {
     return fracas_chain_field(chain_of(model), model, step, element, field, lane);
 }
 
-static double *ring_strength(const fracas_model *model, const fracas_step *step, int lane, size_t *stride)
+static double *ring_strength(const fracas_model *model, const fracas_step *step, int lane,
+                             size_t *stride)
 {
     return fracas_chain_strength(chain_of(model), model, step, lane, stride);
 }
 
-/* Velocities outward and along the ring that its nodes start with [m/s]; central difference has them half a step before the
- * start, at the acceleration of the start, Newmark at the start itself  (ring.10). */
+/* Velocities outward and along the ring that its nodes start with [m/s]; central difference has
+ * them half a step before the start, at the acceleration of the start, Newmark at the start itself
+ * (ring.10). */
 static void start_velocities(const fracas_model *model, double velocity[2])
 {
     const fracas_ring_constants ring = constants_of(model);
@@ -139,7 +162,8 @@ static void start_velocities(const fracas_model *model, double velocity[2])
     const double back = is_nitsche(model) ? 0.5 * model->time_step : 0.0;
     velocity[0] = velocity[1] = 0;
     if (ring.drive == RING_HELD) velocity[ring.circumferential] = ring.level - ring.rate * back;
-    if (ring.drive == RING_FORCED) velocity[ring.circumferential] = -ring.level / ring.nodal_mass * back;
+    if (ring.drive == RING_FORCED)
+        velocity[ring.circumferential] = -ring.level / ring.nodal_mass * back;
     if (loading->type != &fracas_loading_initial_velocity) return;
     velocity[0] = loading->radial * swell;
     velocity[1] = loading->circumferential * swell;
@@ -157,11 +181,15 @@ static void ring_lane_init(const fracas_model *model, const fracas_step *step, i
         for (size_t side = 0; side < 2; side++) {
             const double *table = model->table + (e + side) % n * RING_TABLE;
             const int field = side ? RING_V_RIGHT : RING_V_LEFT;
-            *field_of(model, step, e, field, lane) = velocity[0] * table[RING_COS] - velocity[1] * table[RING_SIN];
-            *field_of(model, step, e, field + 1, lane) = velocity[0] * table[RING_SIN] + velocity[1] * table[RING_COS];
+            *field_of(model, step, e, field, lane) = velocity[0] * table[RING_COS] -
+                                                     velocity[1] * table[RING_SIN];
+            *field_of(model, step, e, field + 1, lane) = velocity[0] * table[RING_SIN] +
+                                                         velocity[1] * table[RING_COS];
         }
         double strength = *field_of(model, step, e, RING_STRENGTH, lane);
-        if (is_nitsche(model)) *field_of(model, step, e, RING_LAW, lane) = 2 * ring.spring * ring.fracture_energy / strength - strength;
+        if (is_nitsche(model))
+            *field_of(model, step, e, RING_LAW,
+                      lane) = 2 * ring.spring * ring.fracture_energy / strength - strength;
         else *field_of(model, step, e, RING_STRAIN, lane) = -1.0;
     }
 }
@@ -169,9 +197,11 @@ static void ring_lane_init(const fracas_model *model, const fracas_step *step, i
 static void ring_advance(const fracas_model *model, fracas_step *step)
 {
     const fracas_ring_constants ring = constants_of(model);
-    const fracas_ring_kernels *kernels = step->isa == FRACAS_ISA_AVX512 ? &fracas_ring_kernels_avx512
-                                         : step->isa == FRACAS_ISA_AVX2 ? &fracas_ring_kernels_avx2
-                                                                        : &fracas_ring_kernels_baseline;
+    const fracas_ring_kernels *kernels = step->isa == FRACAS_ISA_AVX512
+                                             ? &fracas_ring_kernels_avx512
+                                         : step->isa == FRACAS_ISA_AVX2
+                                             ? &fracas_ring_kernels_avx2
+                                             : &fracas_ring_kernels_baseline;
     int which = step->lanes == 8 ? 2 : step->lanes == 4 ? 1 : 0;
     fracas_ring_sweep *sweep = (is_nitsche(model) ? kernels->nitsche : kernels->stershic)[which];
     for (int first = 0; first < step->width; first += step->lanes) sweep(&ring, step, first);
@@ -180,10 +210,12 @@ static void ring_advance(const fracas_model *model, fracas_step *step)
 /* ---- what is left of a lane ---- */
 
 /* Adds one element's two nodes to its fragment's sums. */
-static void add_element(const fracas_model *model, const fracas_step *step, int lane, size_t e, fracas_fragment_sums *f)
+static void add_element(const fracas_model *model, const fracas_step *step, int lane, size_t e,
+                        fracas_fragment_sums *f)
 {
     const double radius = vertex_radius(model);
-    const double mass = 0.5 * model->spec.material.density * model->spec.geometry.area * model->element_size;
+    const double mass = 0.5 * model->spec.material.density * model->spec.geometry.area *
+                        model->element_size;
     const double before = f->mass;
     f->elements++;
     f->size += model->element_size;
@@ -192,32 +224,51 @@ static void add_element(const fracas_model *model, const fracas_step *step, int 
         const int u = side ? RING_U_RIGHT : RING_U_LEFT, v = side ? RING_V_RIGHT : RING_V_LEFT;
         const double x[3] = {radius * table[RING_COS] + *field_of(model, step, e, u, lane),
                              radius * table[RING_SIN] + *field_of(model, step, e, u + 1, lane)};
-        const double w[3] = {*field_of(model, step, e, v, lane), *field_of(model, step, e, v + 1, lane)};
+        const double w[3] = {*field_of(model, step, e, v, lane),
+                             *field_of(model, step, e, v + 1, lane)};
         fracas_fragment_sums_add(f, mass, x, w);
     }
     f->mass = before + 2 * mass; /* rounded once an element */
 }
 
 /* Fragments as (bar.17), in the plane  (ring.18). */
-static fracas_err ring_harvest(const fracas_model *model, fracas_step *step, int lane, fracas_record *record)
+static fracas_err ring_harvest(const fracas_model *model, fracas_step *step, int lane,
+                               fracas_record *record)
 {
     const size_t count = fracas_chain_partition(chain_of(model), model, step, lane);
     fracas_fragment_sums *sums = calloc(count, sizeof *sums);
     if (!sums) return fracas_no_memory("the fragments of a realization");
-    for (size_t e = 0; e < model->elements; e++) add_element(model, step, lane, e, &sums[step->partition.label[e]]);
+    for (size_t e = 0; e < model->elements; e++)
+        add_element(model, step, lane, e, &sums[step->partition.label[e]]);
     fracas_err err = fracas_fragments_take(sums, count, 1, record);
     free(sums);
     TRY(err);
-    return step->onset_time ? fracas_chain_harvest_interfaces(chain_of(model), model, step, lane, record) : FRACAS_OK;
+    return step->onset_time
+               ? fracas_chain_harvest_interfaces(chain_of(model), model, step, lane, record)
+               : FRACAS_OK;
 }
 
-static const fracas_kind *const goes_with[] = {
-    &fracas_shape_ring, &fracas_spacing_uniform, &fracas_law_nitsche, &fracas_law_stershic, &fracas_loading_imposed_rate,
-    &fracas_loading_initial_velocity, &fracas_loading_held_velocity, &fracas_loading_force};
+static const fracas_kind *const goes_with[] = {&fracas_shape_ring,
+                                               &fracas_spacing_uniform,
+                                               &fracas_law_nitsche,
+                                               &fracas_law_stershic,
+                                               &fracas_loading_imposed_rate,
+                                               &fracas_loading_initial_velocity,
+                                               &fracas_loading_held_velocity,
+                                               &fracas_loading_force};
 const fracas_formulation fracas_formulation_ring = {
-    .kind = {.name = "ring", .doc = "a closed ring in the plane, of springs along its circumference", .goes_with = goes_with,
+    .kind = {.name = "ring",
+             .doc = "a closed ring in the plane, of springs along its circumference",
+             .goes_with = goes_with,
              .ngoes_with = FRACAS_COUNT(goes_with)},
-    .model_init = ring_model_init, .check_strength = fracas_chain_check_strength, .interface_volume = ring_interface_volume,
-    .interface_positions = ring_interface_positions, .state_size = ring_state_size, .strength = ring_strength,
-    .lane_init = ring_lane_init, .advance = ring_advance, .fragment_count = fracas_chain_fragment_count, .harvest = ring_harvest,
+    .model_init = ring_model_init,
+    .check_strength = fracas_chain_check_strength,
+    .interface_volume = ring_interface_volume,
+    .interface_positions = ring_interface_positions,
+    .state_size = ring_state_size,
+    .strength = ring_strength,
+    .lane_init = ring_lane_init,
+    .advance = ring_advance,
+    .fragment_count = fracas_chain_fragment_count,
+    .harvest = ring_harvest,
 };

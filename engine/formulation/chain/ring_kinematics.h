@@ -1,5 +1,6 @@
-/* What both sweeps of the ring are made of: elements, directions, drives, over lanes (docs/theory/ring.md). Include after
- * base/lanes.h. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What both sweeps of the ring are made of: elements, directions, drives, over lanes
+ * (docs/theory/ring.md). Include after base/lanes.h. */
 #include "engine/cohesive/nitsche.h"
 #include "engine/cohesive/rigid_link.h"
 #include "engine/formulation/chain/chain_events.h"
@@ -27,10 +28,22 @@ typedef struct {
     vd x, y;
 } ring_vector;
 
-LANES_FUNCTION ring_vector ring_add(ring_vector a, ring_vector b) { return (ring_vector){a.x + b.x, a.y + b.y}; }
-LANES_FUNCTION ring_vector ring_subtract(ring_vector a, ring_vector b) { return (ring_vector){a.x - b.x, a.y - b.y}; }
-LANES_FUNCTION ring_vector ring_scale(vd s, ring_vector a) { return (ring_vector){s * a.x, s * a.y}; }
-LANES_FUNCTION vd ring_dot(ring_vector a, ring_vector b) { return a.x * b.x + a.y * b.y; }
+LANES_FUNCTION ring_vector ring_add(ring_vector a, ring_vector b)
+{
+    return (ring_vector){a.x + b.x, a.y + b.y};
+}
+LANES_FUNCTION ring_vector ring_subtract(ring_vector a, ring_vector b)
+{
+    return (ring_vector){a.x - b.x, a.y - b.y};
+}
+LANES_FUNCTION ring_vector ring_scale(vd s, ring_vector a)
+{
+    return (ring_vector){s * a.x, s * a.y};
+}
+LANES_FUNCTION vd ring_dot(ring_vector a, ring_vector b)
+{
+    return a.x * b.x + a.y * b.y;
+}
 
 /* An element at t_n: displacements drifted, velocities still those of t_{n-1/2}. */
 typedef struct {
@@ -57,15 +70,17 @@ typedef struct {
 typedef struct {
     const fracas_ring_constants *ring;
     fracas_step *step;
-    int first;      /* lane of the step that is lane 0 here */
-    double *state;  /* of these lanes */
-    vd drift, kick; /* dt [s]; what a velocity is advanced by, per force: dt/(nodal mass) [m/(s Pa)] */
-    vd spring, modulus; /* K, E/h [Pa/m] */
+    int first;     /* lane of the step that is lane 0 here */
+    double *state; /* of these lanes */
+    vd drift,
+        kick; /* dt [s]; what a velocity is advanced by, per force: dt/(nodal mass) [m/(s Pa)] */
+    vd spring, modulus;   /* K, E/h [Pa/m] */
     vd drive, next_drive; /* force on a node [Pa] now; velocity held half a step ahead [m/s] */
-    vd inertia;     /* nodal mass/dt [Pa s/m] */
+    vd inertia;           /* nodal mass/dt [Pa s/m] */
     /* sums over the body, for the ledger */
     vd elastic, flux_energy, opening_energy, dissipated, velocity_squared;
-    vd driven, driven_next; /* power of the drive, per area, at the velocities before and after now [W/m2] */
+    vd driven, driven_next; /* power of the drive, per area, at the velocities before and after now
+                               [W/m2] */
 } ring_context;
 
 LANES_FUNCTION ring_vector ring_read(const double *at)
@@ -84,19 +99,22 @@ LANES_FUNCTION void ring_stretch(const ring_context *c, size_t e, ring_element *
 {
     const double *table = c->ring->table + e * RING_TABLE, h = c->ring->size;
     const vd one = lanes_set(1.0), size = lanes_set(h);
-    const ring_vector start = {lanes_set(-h * table[RING_SIN_MIDDLE]), lanes_set(h * table[RING_COS_MIDDLE])};
+    const ring_vector start = {lanes_set(-h * table[RING_SIN_MIDDLE]),
+                               lanes_set(h * table[RING_COS_MIDDLE])};
     const ring_vector du = ring_subtract(element->u_right, element->u_left);
     element->chord = ring_add(start, du);
     vd length = lanes_sqrt(ring_dot(element->chord, element->chord)), sum = length + size;
     vd inverse = one / (length * sum);
     element->tangent = ring_scale(sum * inverse, element->chord);
     /* (l - h)/h by the difference of squares: no digits of a small strain are lost */
-    element->strain = (ring_dot(start, du) + ring_dot(element->chord, du)) * (length * inverse) * lanes_set(1.0 / h);
+    element->strain = (ring_dot(start, du) + ring_dot(element->chord, du)) * (length * inverse) *
+                      lanes_set(1.0 / h);
     element->stress = lanes_set(c->ring->young) * element->strain;
 }
 
 /* The directions of interface e, between these elements  (ring.4). */
-LANES_FUNCTION ring_frame ring_frame_of(const ring_context *c, size_t e, const ring_element *left, const ring_element *right)
+LANES_FUNCTION ring_frame ring_frame_of(const ring_context *c, size_t e, const ring_element *left,
+                                        const ring_element *right)
 {
     if (c->ring->current) {
         const vd one = lanes_set(1.0), zero = lanes_set(0.0);
@@ -112,22 +130,27 @@ LANES_FUNCTION ring_frame ring_frame_of(const ring_context *c, size_t e, const r
 }
 
 /* Time derivative of an interface's mean stress within the step [Pa/s]. */
-LANES_FUNCTION vd ring_stress_rate(const ring_context *c, const ring_element *left, const ring_element *right)
+LANES_FUNCTION vd ring_stress_rate(const ring_context *c, const ring_element *left,
+                                   const ring_element *right)
 {
-    return lanes_set(0.5) * c->modulus * (ring_dot(left->tangent, ring_subtract(left->v_right, left->v_left)) +
-                                          ring_dot(right->tangent, ring_subtract(right->v_right, right->v_left)));
+    return lanes_set(0.5) * c->modulus *
+           (ring_dot(left->tangent, ring_subtract(left->v_right, left->v_left)) +
+            ring_dot(right->tangent, ring_subtract(right->v_right, right->v_left)));
 }
 
-/* The velocity of a node at `vertex` once kicked by `force` [Pa], under the drive  (ring.10); books the power of the drive's force, or
- * of the reaction to a held velocity, at the velocities before and after. */
-LANES_FUNCTION ring_vector ring_drive_node(ring_context *c, size_t vertex, ring_vector u, ring_vector v, ring_vector force)
+/* The velocity of a node at `vertex` once kicked by `force` [Pa], under the drive  (ring.10); books
+ * the power of the drive's force, or of the reaction to a held velocity, at the velocities before
+ * and after. */
+LANES_FUNCTION ring_vector ring_drive_node(ring_context *c, size_t vertex, ring_vector u,
+                                           ring_vector v, ring_vector force)
 {
     const fracas_ring_constants *ring = c->ring;
     ring_vector after = {central_kick(v.x, force.x, c->kick), central_kick(v.y, force.y, c->kick)};
     if (ring->drive == RING_FREE) return after;
     const double *table = ring->table + vertex * RING_TABLE;
     const vd zero = lanes_set(0.0), one = lanes_set(1.0);
-    ring_vector place = {lanes_set(ring->radius * table[RING_COS]) + u.x, lanes_set(ring->radius * table[RING_SIN]) + u.y};
+    ring_vector place = {lanes_set(ring->radius * table[RING_COS]) + u.x,
+                         lanes_set(ring->radius * table[RING_SIN]) + u.y};
     ring_vector out = ring_scale(one / lanes_sqrt(ring_dot(place, place)), place);
     ring_vector along = ring->circumferential ? (ring_vector){zero - out.y, out.x} : out;
     vd change = c->kick * c->drive, push = c->drive;
@@ -151,16 +174,30 @@ LANES_FUNCTION vd ring_drive_work(const ring_context *c)
     return half * c->drift * (before + area * c->driven);
 }
 
-/* `kick` and `ahead` [s]: what velocities are advanced by, and how far beyond this step's time they are then. */
-LANES_FUNCTION ring_context ring_context_of(const fracas_ring_constants *ring, fracas_step *step, int first, int fields, vd kick,
-                                            vd ahead)
+/* `kick` and `ahead` [s]: what velocities are advanced by, and how far beyond this step's time they
+ * are then. */
+LANES_FUNCTION ring_context ring_context_of(const fracas_ring_constants *ring, fracas_step *step,
+                                            int first, int fields, vd kick, vd ahead)
 {
-    const vd zero = lanes_set(0.0), mass = lanes_set(ring->nodal_mass), level = lanes_set(ring->level);
+    const vd zero = lanes_set(0.0), mass = lanes_set(ring->nodal_mass),
+             level = lanes_set(ring->level);
     const vd rate = lanes_set(ring->rate), time = lanes_load(step->time + first);
-    return (ring_context){
-        .ring = ring, .step = step, .first = first, .state = step->state + (size_t)first * ring->elements * (size_t)fields,
-        .drift = lanes_load(step->drift + first), .kick = kick / mass, .spring = lanes_set(ring->spring),
-        .modulus = lanes_set(ring->young / ring->size), .drive = level + rate * time, .next_drive = level + rate * (time + ahead),
-        .inertia = mass / kick, .elastic = zero, .flux_energy = zero, .opening_energy = zero, .dissipated = zero,
-        .velocity_squared = zero, .driven = zero, .driven_next = zero};
+    return (ring_context){.ring = ring,
+                          .step = step,
+                          .first = first,
+                          .state = step->state + (size_t)first * ring->elements * (size_t)fields,
+                          .drift = lanes_load(step->drift + first),
+                          .kick = kick / mass,
+                          .spring = lanes_set(ring->spring),
+                          .modulus = lanes_set(ring->young / ring->size),
+                          .drive = level + rate * time,
+                          .next_drive = level + rate * (time + ahead),
+                          .inertia = mass / kick,
+                          .elastic = zero,
+                          .flux_energy = zero,
+                          .opening_energy = zero,
+                          .dissipated = zero,
+                          .velocity_squared = zero,
+                          .driven = zero,
+                          .driven_next = zero};
 }

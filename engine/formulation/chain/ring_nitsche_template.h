@@ -1,5 +1,6 @@
-/* The ring's sweep with the law nitsche, central difference, one pass over the elements; included once a width by
- * ring_sweep_isa.h. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The ring's sweep with the law nitsche, central difference, one pass over the elements; included
+ * once a width by ring_sweep_isa.h. */
 #define ring_load LANES_NAME(ring_load)
 #define ring_join LANES_NAME(ring_join)
 #define ring_finish LANES_NAME(ring_finish)
@@ -7,15 +8,18 @@
 LANES_FUNCTION ring_element ring_load(const ring_context *c, size_t e)
 {
     const double *at = c->state + e * RING_FIELDS * LANES;
-    ring_element element = {.v_left = ring_read(at + RING_V_LEFT * LANES), .v_right = ring_read(at + RING_V_RIGHT * LANES),
-                            .u_left = ring_read(at + RING_U_LEFT * LANES), .u_right = ring_read(at + RING_U_RIGHT * LANES)};
+    ring_element element = {.v_left = ring_read(at + RING_V_LEFT * LANES),
+                            .v_right = ring_read(at + RING_V_RIGHT * LANES),
+                            .u_left = ring_read(at + RING_U_LEFT * LANES),
+                            .u_right = ring_read(at + RING_U_RIGHT * LANES)};
     element.u_left = ring_add(element.u_left, ring_scale(c->drift, element.v_left));
     element.u_right = ring_add(element.u_right, ring_scale(c->drift, element.v_right));
     ring_stretch(c, e, &element);
     return element;
 }
 
-LANES_FUNCTION ring_link ring_join(ring_context *c, size_t e, const ring_element *left, const ring_element *right)
+LANES_FUNCTION ring_link ring_join(ring_context *c, size_t e, const ring_element *left,
+                                   const ring_element *right)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5);
     double *at = c->state + e * RING_FIELDS * LANES;
@@ -35,32 +39,41 @@ LANES_FUNCTION ring_link ring_join(ring_context *c, size_t e, const ring_element
     c->dissipated += it.damage;
 
     vmask grows = lanes_lt(before, it.damage);
-    vmask cracks = lanes_and(grows, lanes_le(before, zero)), breaks = lanes_and(grows, lanes_le(one, it.damage));
+    vmask cracks = lanes_and(grows, lanes_le(before, zero)),
+          breaks = lanes_and(grows, lanes_le(one, it.damage));
     if (__builtin_expect(lanes_any(lanes_or(cracks, breaks)), 0)) {
-        vd rate = ring_stress_rate(c, left, right) + c->spring * ring_dot(ring_subtract(right->v_left, left->v_right), frame.n);
+        vd rate = ring_stress_rate(c, left, right) +
+                  c->spring * ring_dot(ring_subtract(right->v_left, left->v_right), frame.n);
         vd time = lanes_load(c->step->time + c->first);
-        chain_note_events(c->step, c->first, c->ring->area, e,
-                          &(chain_events){.cracks = cracks, .breaks = breaks, .onset = time - (it.trial - sigma_c) / rate,
-                                          .broke = time - (it.trial - sigma_c - x) / rate,
-                                          .at_onset = zero - half * c->spring * p * p, /* (ring.7) */
-                                          .at_break = half * mean * mean * compliance}); /* (cohesive.6) */
+        chain_note_events(
+            c->step, c->first, c->ring->area, e,
+            &(chain_events){.cracks = cracks,
+                            .breaks = breaks,
+                            .onset = time - (it.trial - sigma_c) / rate,
+                            .broke = time - (it.trial - sigma_c - x) / rate,
+                            .at_onset = zero - half * c->spring * p * p,   /* (ring.7) */
+                            .at_break = half * mean * mean * compliance}); /* (cohesive.6) */
     }
     vd couple = (it.traction * p - restraint * q) * frame.turn; /* (ring.9) */
-    return (ring_link){.force = ring_add(ring_scale(it.traction, frame.n), ring_scale(restraint, frame.r)), .slip = it.slip,
-                       .couple = ring_scale(couple, frame.r)};
+    return (ring_link){
+        .force = ring_add(ring_scale(it.traction, frame.n), ring_scale(restraint, frame.r)),
+        .slip = it.slip,
+        .couple = ring_scale(couple, frame.r)};
 }
 
 /* Forces and kick of one element, and its share of the sums. */
-LANES_FUNCTION void ring_finish(ring_context *c, size_t e, const ring_element *element, const ring_link *left,
-                                const ring_link *right)
+LANES_FUNCTION void ring_finish(ring_context *c, size_t e, const ring_element *element,
+                                const ring_link *left, const ring_link *right)
 {
     const vd half = lanes_set(0.5);
     double *at = c->state + e * RING_FIELDS * LANES;
     vd normal = element->stress + half * c->modulus * (left->slip + right->slip);
     ring_vector internal = ring_scale(normal, element->tangent); /* (ring.8) */
     if (c->ring->current) internal = ring_add(internal, ring_add(left->couple, right->couple));
-    ring_vector v_left = ring_drive_node(c, e, element->u_left, element->v_left, ring_subtract(internal, left->force));
-    ring_vector v_right = ring_drive_node(c, e + 1 < c->ring->elements ? e + 1 : 0, element->u_right, element->v_right,
+    ring_vector v_left = ring_drive_node(c, e, element->u_left, element->v_left,
+                                         ring_subtract(internal, left->force));
+    ring_vector v_right = ring_drive_node(c, e + 1 < c->ring->elements ? e + 1 : 0,
+                                          element->u_right, element->v_right,
                                           ring_subtract(right->force, internal));
     c->velocity_squared += ring_dot(element->v_left, v_left) + ring_dot(element->v_right, v_right);
     c->elastic += element->stress * element->strain;
@@ -74,7 +87,8 @@ static void RING_SWEEP(nitsche)(const fracas_ring_constants *ring, fracas_step *
 {
     const size_t last = ring->elements - 1;
     const vd dt = lanes_load(step->kick + first);
-    ring_context context = ring_context_of(ring, step, first, RING_FIELDS, dt, lanes_set(0.5) * dt), *c = &context;
+    ring_context context = ring_context_of(ring, step, first, RING_FIELDS, dt, lanes_set(0.5) * dt),
+                 *c = &context;
 
     /* One pass in place, as the bar's; the interface that closes the ring comes first. */
     ring_element element = ring_load(c, 0), end = ring_load(c, last);
@@ -92,8 +106,10 @@ static void RING_SWEEP(nitsche)(const fracas_ring_constants *ring, fracas_step *
     ring_finish(c, last, &next, &right, &closing);
 
     const vd area = lanes_set(ring->area), half_area = lanes_set(0.5 * ring->area);
-    lanes_store(step->kinetic + first, half_area * lanes_set(ring->nodal_mass) * c->velocity_squared);
-    lanes_store(step->elastic + first, half_area * (lanes_set(ring->size) * c->elastic + c->flux_energy));
+    lanes_store(step->kinetic + first,
+                half_area * lanes_set(ring->nodal_mass) * c->velocity_squared);
+    lanes_store(step->elastic + first,
+                half_area * (lanes_set(ring->size) * c->elastic + c->flux_energy));
     lanes_store(step->cohesive + first, half_area * c->opening_energy);
     lanes_store(step->dissipated + first, area * lanes_set(ring->fracture_energy) * c->dissipated);
     lanes_store(step->work + first, ring_drive_work(c));

@@ -1,8 +1,10 @@
-/* The ring's sweep with Stershic's algorithm (docs/theory/ring.md): explicit Newmark with velocities at whole steps, rigid links
- * that open at sigma_c, time step refined by critical zones, fracture-limiting zone with bulk damage; included once a width by
- * ring_sweep_isa.h.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The ring's sweep with Stershic's algorithm (docs/theory/ring.md): explicit Newmark with
+ * velocities at whole steps, rigid links that open at sigma_c, time step refined by critical zones,
+ * fracture-limiting zone with bulk damage; included once a width by ring_sweep_isa.h.
  *
- * Two passes: which links open, and how long the next step is, must be known before any force is. */
+ * Two passes: which links open, and how long the next step is, must be known before any force is.
+ */
 #define stershic_load LANES_NAME(stershic_load)
 #define stershic_traction LANES_NAME(stershic_traction)
 #define stershic_is_open LANES_NAME(stershic_is_open)
@@ -29,7 +31,8 @@ typedef struct {
 
 /* ---- first pass ---- */
 
-/* Stress of an element under bulk damage, eps_d being the largest strain since both its links were barred  (ring.16). */
+/* Stress of an element under bulk damage, eps_d being the largest strain since both its links were
+ * barred  (ring.16). */
 LANES_FUNCTION vd stershic_stress(const ring_context *c, vd strain, vd largest, vd yield)
 {
     const vd zero = lanes_set(0.0), young = lanes_set(c->ring->young);
@@ -42,42 +45,51 @@ LANES_FUNCTION vd stershic_stress(const ring_context *c, vd strain, vd largest, 
 LANES_FUNCTION vd stershic_yield(const ring_context *c, size_t e)
 {
     const size_t before = e > 0 ? e - 1 : c->ring->elements - 1;
-    return lanes_set(0.5) * (lanes_load(c->state + (before * RING_FIELDS_STERSHIC + RING_STRENGTH) * LANES) +
-                             lanes_load(c->state + (e * RING_FIELDS_STERSHIC + RING_STRENGTH) * LANES));
+    return lanes_set(0.5) *
+           (lanes_load(c->state + (before * RING_FIELDS_STERSHIC + RING_STRENGTH) * LANES) +
+            lanes_load(c->state + (e * RING_FIELDS_STERSHIC + RING_STRENGTH) * LANES));
 }
 
 /* The element where its displacements are now, with its stress. */
 LANES_FUNCTION ring_element stershic_load(const ring_context *c, size_t e)
 {
     const double *at = c->state + e * RING_FIELDS_STERSHIC * LANES;
-    ring_element element = {.v_left = ring_read(at + RING_V_LEFT * LANES), .v_right = ring_read(at + RING_V_RIGHT * LANES),
-                            .u_left = ring_read(at + RING_U_LEFT * LANES), .u_right = ring_read(at + RING_U_RIGHT * LANES)};
+    ring_element element = {.v_left = ring_read(at + RING_V_LEFT * LANES),
+                            .v_right = ring_read(at + RING_V_RIGHT * LANES),
+                            .u_left = ring_read(at + RING_U_LEFT * LANES),
+                            .u_right = ring_read(at + RING_U_RIGHT * LANES)};
     ring_stretch(c, e, &element);
     if (c->ring->zone > 0) {
         vd largest = lanes_load(at + RING_STRAIN * LANES);
         vmask barred = lanes_le(lanes_set(0.0), largest);
-        element.stress = lanes_select(barred, stershic_stress(c, element.strain, largest, stershic_yield(c, e)), element.stress);
+        element.stress = lanes_select(
+            barred, stershic_stress(c, element.strain, largest, stershic_yield(c, e)),
+            element.stress);
     }
     return element;
 }
 
 LANES_FUNCTION vmask stershic_is_open(vd state)
 {
-    return lanes_and(lanes_lt(lanes_set(RING_LINK_CLOSED), state), lanes_lt(state, lanes_set(RING_LINK_BARRED)));
+    return lanes_and(lanes_lt(lanes_set(RING_LINK_CLOSED), state),
+                     lanes_lt(state, lanes_set(RING_LINK_BARRED)));
 }
 
-/* Traction of an open link [Pa], from the jump q along its normal; *damage is brought up to date  (ring.13). */
-LANES_FUNCTION vd stershic_traction(const ring_context *c, vd q, vd *damage, vd sigma_c, vd *delta_c)
+/* Traction of an open link [Pa], from the jump q along its normal; *damage is brought up to date
+ * (ring.13). */
+LANES_FUNCTION vd stershic_traction(const ring_context *c, vd q, vd *damage, vd sigma_c,
+                                    vd *delta_c)
 {
     const fracas_ring_constants *ring = c->ring;
-    *delta_c = ring->critical_opening > 0 ? lanes_set(ring->critical_opening) : lanes_set(2.0 * ring->fracture_energy) / sigma_c;
+    *delta_c = ring->critical_opening > 0 ? lanes_set(ring->critical_opening)
+                                          : lanes_set(2.0 * ring->fracture_energy) / sigma_c;
     return rigid_link_law(q, damage, sigma_c, *delta_c, c->spring);
 }
 
-/* Looks at one interface: does it qualify, is it in a critical zone  (ring.14)? What its elements pull it apart with is that along
- * n, so that a link that opens does open. */
-LANES_FUNCTION void stershic_look(const ring_context *c, size_t e, const ring_element *left, const ring_element *right,
-                                  stershic_watch *watch)
+/* Looks at one interface: does it qualify, is it in a critical zone  (ring.14)? What its elements
+ * pull it apart with is that along n, so that a link that opens does open. */
+LANES_FUNCTION void stershic_look(const ring_context *c, size_t e, const ring_element *left,
+                                  const ring_element *right, stershic_watch *watch)
 {
     const vd zero = lanes_set(0.0);
     double *at = c->state + e * RING_FIELDS_STERSHIC * LANES;
@@ -85,11 +97,15 @@ LANES_FUNCTION void stershic_look(const ring_context *c, size_t e, const ring_el
     vd state = lanes_load(at + RING_LAW * LANES), sigma_c = lanes_load(at + RING_STRENGTH * LANES);
     vd before = lanes_load(at + RING_DAMAGE * LANES), damage = before, delta_c;
     vmask closed = lanes_le(state, lanes_set(RING_LINK_CLOSED)), open = stershic_is_open(state);
-    vd pull = lanes_set(0.5) * (left->stress * ring_dot(left->tangent, frame.n) + right->stress * ring_dot(right->tangent, frame.n));
+    vd pull = lanes_set(0.5) * (left->stress * ring_dot(left->tangent, frame.n) +
+                                right->stress * ring_dot(right->tangent, frame.n));
     vd q = ring_dot(ring_subtract(right->u_left, left->u_right), frame.n);
     vd traction = stershic_traction(c, q, &damage, sigma_c, &delta_c);
-    vd watched = c->ring->steep ? zero : before * delta_c; /* the opening from which on a link is looked at */
-    vmask softens = lanes_and(open, lanes_and(lanes_le(watched, q), lanes_lt(c->modulus * q, traction)));
+    vd watched = c->ring->steep
+                     ? zero
+                     : before * delta_c; /* the opening from which on a link is looked at */
+    vmask softens = lanes_and(open,
+                              lanes_and(lanes_le(watched, q), lanes_lt(c->modulus * q, traction)));
     vmask rises = lanes_and(closed, lanes_le(lanes_set(0.95) * sigma_c, pull));
     vd stress = lanes_select(open, traction, pull);
     watch->qualifies = lanes_or(watch->qualifies, lanes_and(closed, lanes_le(sigma_c, pull)));
@@ -108,7 +124,8 @@ LANES_FUNCTION stershic_watch stershic_look_around(const ring_context *c)
     for (size_t e = 0; e <= last; e++) {
         double *at = c->state + e * RING_FIELDS_STERSHIC * LANES;
         for (int i = 0; i < 4; i++) {
-            vd u = lanes_load(at + (RING_U_LEFT + i) * LANES), v = lanes_load(at + (RING_V_LEFT + i) * LANES);
+            vd u = lanes_load(at + (RING_U_LEFT + i) * LANES),
+               v = lanes_load(at + (RING_V_LEFT + i) * LANES);
             lanes_store(at + (RING_U_LEFT + i) * LANES, central_drift(u, v, c->drift));
         }
         ring_element element = stershic_load(c, e);
@@ -130,12 +147,14 @@ static inline double *stershic_value(const ring_context *c, size_t element, int 
 }
 
 /* How far the right node of an element is beyond its left one in a field of theirs, one lane. */
-static inline double stershic_between(const ring_context *c, size_t element, int left, int right, int lane)
+static inline double stershic_between(const ring_context *c, size_t element, int left, int right,
+                                      int lane)
 {
     return *stershic_value(c, element, right, lane) - *stershic_value(c, element, left, lane);
 }
 
-/* When the stress of link e passed its strength: within the step, at the rate that the velocities give [s]. */
+/* When the stress of link e passed its strength: within the step, at the rate that the velocities
+ * give [s]. */
 static inline double stershic_onset(const ring_context *c, size_t e, int lane)
 {
     const fracas_ring_constants *ring = c->ring;
@@ -144,43 +163,57 @@ static inline double stershic_onset(const ring_context *c, size_t e, int lane)
     for (int side = 0; side < 2; side++) {
         const size_t i = side ? next : e;
         const double *table = ring->table + i * RING_TABLE;
-        const double x = stershic_between(c, i, RING_U_LEFT, RING_U_RIGHT, lane) - ring->size * table[RING_SIN_MIDDLE];
-        const double y = stershic_between(c, i, RING_U_LEFT + 1, RING_U_RIGHT + 1, lane) + ring->size * table[RING_COS_MIDDLE];
+        const double x = stershic_between(c, i, RING_U_LEFT, RING_U_RIGHT, lane) -
+                         ring->size * table[RING_SIN_MIDDLE];
+        const double y = stershic_between(c, i, RING_U_LEFT + 1, RING_U_RIGHT + 1, lane) +
+                         ring->size * table[RING_COS_MIDDLE];
         const double along = x * stershic_between(c, i, RING_V_LEFT, RING_V_RIGHT, lane) +
                              y * stershic_between(c, i, RING_V_LEFT + 1, RING_V_RIGHT + 1, lane);
         rate += 0.5 * ring->young / ring->size * along / sqrt(x * x + y * y);
     }
-    return c->step->time[c->first + lane] - (*stershic_value(c, e, RING_PULL, lane) - *stershic_value(c, e, RING_STRENGTH, lane)) / rate;
+    return c->step->time[c->first + lane] -
+           (*stershic_value(c, e, RING_PULL, lane) - *stershic_value(c, e, RING_STRENGTH, lane)) /
+               rate;
 }
 
-/* Opens link e, bars the closed ones within the zone, and lets elements between two barred ones suffer damage from now on: those
- * already beyond their yield stress lose E (eps - eps_y)^2/2 per volume, which the ledger calls created  (ring.15). */
-__attribute__((noinline, cold)) static void stershic_open_one(const ring_context *c, size_t e, int lane)
+/* Opens link e, bars the closed ones within the zone, and lets elements between two barred ones
+ * suffer damage from now on: those already beyond their yield stress lose E (eps - eps_y)^2/2 per
+ * volume, which the ledger calls created  (ring.15). */
+__attribute__((noinline, cold)) static void stershic_open_one(const ring_context *c, size_t e,
+                                                              int lane)
 {
     const fracas_ring_constants *ring = c->ring;
-    const size_t n = ring->elements, reach = (size_t)fmin(ring->zone / ring->size * (1 + 1e-12), (double)(n / 2));
+    const size_t n = ring->elements,
+                 reach = (size_t)fmin(ring->zone / ring->size * (1 + 1e-12), (double)(n / 2));
     *stershic_value(c, e, RING_LAW, lane) = RING_LINK_OPEN;
     fracas_chain_note_onset(c->step, c->first + lane, e, stershic_onset(c, e, lane));
     for (size_t d = 1; d <= reach; d++) {
-        double *ahead = stershic_value(c, (e + d) % n, RING_LAW, lane), *behind = stershic_value(c, (e + n - d) % n, RING_LAW, lane);
+        double *ahead = stershic_value(c, (e + d) % n, RING_LAW, lane),
+               *behind = stershic_value(c, (e + n - d) % n, RING_LAW, lane);
         if (*ahead == RING_LINK_CLOSED) *ahead = RING_LINK_BARRED;
         if (*behind == RING_LINK_CLOSED) *behind = RING_LINK_BARRED;
     }
-    for (size_t d = 0; reach > 0 && d <= 2 * reach + 1; d++) { /* every element that a link just barred touches */
+    for (size_t d = 0; reach > 0 && d <= 2 * reach + 1;
+         d++) { /* every element that a link just barred touches */
         const size_t i = (e + n - reach + d) % n, before = (i + n - 1) % n;
         double *largest = stershic_value(c, i, RING_STRAIN, lane);
         if (*largest >= 0 || *stershic_value(c, i, RING_LAW, lane) != RING_LINK_BARRED ||
-            *stershic_value(c, before, RING_LAW, lane) != RING_LINK_BARRED) continue;
+            *stershic_value(c, before, RING_LAW, lane) != RING_LINK_BARRED)
+            continue;
         double strain = *stershic_value(c, i, RING_STRESS, lane) / ring->young;
-        double yield = 0.5 * (*stershic_value(c, before, RING_STRENGTH, lane) + *stershic_value(c, i, RING_STRENGTH, lane)) / ring->young;
+        double yield = 0.5 *
+                       (*stershic_value(c, before, RING_STRENGTH, lane) +
+                        *stershic_value(c, i, RING_STRENGTH, lane)) /
+                       ring->young;
         *largest = fmax(strain, 0);
         if (strain > yield)
-            c->step->created[c->first + lane] -= 0.5 * ring->area * ring->size * ring->young * (strain - yield) * (strain - yield);
+            c->step->created[c->first + lane] -= 0.5 * ring->area * ring->size * ring->young *
+                                                 (strain - yield) * (strain - yield);
     }
 }
 
-/* Opens the links of one lane that qualify: the one of largest stress by strength first, of several the lowest, each unless it has
- * been barred by then. */
+/* Opens the links of one lane that qualify: the one of largest stress by strength first, of several
+ * the lowest, each unless it has been barred by then. */
 __attribute__((noinline, cold)) static void stershic_open_links(const ring_context *c, int lane)
 {
     const size_t n = c->ring->elements;
@@ -188,9 +221,11 @@ __attribute__((noinline, cold)) static void stershic_open_links(const ring_conte
         size_t best = n;
         double largest = 0;
         for (size_t e = 0; e < n; e++) {
-            double pull = *stershic_value(c, e, RING_PULL, lane), strength = *stershic_value(c, e, RING_STRENGTH, lane);
+            double pull = *stershic_value(c, e, RING_PULL, lane),
+                   strength = *stershic_value(c, e, RING_STRENGTH, lane);
             double ratio = pull / strength;
-            if (*stershic_value(c, e, RING_LAW, lane) != RING_LINK_CLOSED || !(pull >= strength)) continue;
+            if (*stershic_value(c, e, RING_LAW, lane) != RING_LINK_CLOSED || !(pull >= strength))
+                continue;
             if (c->ring->zone == 0) stershic_open_one(c, e, lane); /* order does not matter */
             else if (ratio > largest) {
                 largest = ratio;
@@ -202,7 +237,8 @@ __attribute__((noinline, cold)) static void stershic_open_links(const ring_conte
     }
 }
 
-/* The time step that follows: base xi^k, k the number of critical zones that are occupied  (ring.12). */
+/* The time step that follows: base xi^k, k the number of critical zones that are occupied
+ * (ring.12). */
 LANES_FUNCTION vd stershic_refine(const ring_context *c, const stershic_watch *watch)
 {
     const vd xi = lanes_set(c->ring->refinement), one = lanes_set(1.0);
@@ -212,11 +248,13 @@ LANES_FUNCTION vd stershic_refine(const ring_context *c, const stershic_watch *w
 
 /* ---- second pass ---- */
 
-LANES_FUNCTION ring_link stershic_join(ring_context *c, size_t e, const ring_element *left, const ring_element *right)
+LANES_FUNCTION ring_link stershic_join(ring_context *c, size_t e, const ring_element *left,
+                                       const ring_element *right)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5);
     double *at = c->state + e * RING_FIELDS_STERSHIC * LANES;
-    vd before = lanes_load(at + RING_DAMAGE * LANES), sigma_c = lanes_load(at + RING_STRENGTH * LANES);
+    vd before = lanes_load(at + RING_DAMAGE * LANES),
+       sigma_c = lanes_load(at + RING_STRENGTH * LANES);
     vd damage = before, delta_c;
     vmask open = stershic_is_open(lanes_load(at + RING_LAW * LANES));
     const ring_frame frame = ring_frame_of(c, e, left, right);
@@ -233,8 +271,12 @@ LANES_FUNCTION ring_link stershic_join(ring_context *c, size_t e, const ring_ele
         vd time = lanes_load(c->step->time + c->first);
         vd speed = ring_dot(ring_subtract(right->v_left, left->v_right), frame.n);
         chain_note_events(c->step, c->first, c->ring->area, e,
-                          &(chain_events){.cracks = lanes_lt(one, zero), .breaks = breaks, .onset = zero,
-                                          .broke = time - (q - delta_c) / speed, .at_onset = zero, .at_break = zero});
+                          &(chain_events){.cracks = lanes_lt(one, zero),
+                                          .breaks = breaks,
+                                          .onset = zero,
+                                          .broke = time - (q - delta_c) / speed,
+                                          .at_onset = zero,
+                                          .at_break = zero});
     }
     /* both nodes of a link that is not open share the forces of their two elements */
     ring_vector common = ring_scale(half, ring_subtract(ring_scale(right->stress, right->tangent),
@@ -247,19 +289,24 @@ LANES_FUNCTION ring_vector stershic_choose(vmask mask, ring_vector a, ring_vecto
     return (ring_vector){lanes_select(mask, a.x, b.x), lanes_select(mask, a.y, b.y)};
 }
 
-/* Forces and new velocities of one element, and its share of the sums; `share` = dt/(dt + next dt): where between the velocities
- * half a step before and after now the one of now is. */
-LANES_FUNCTION void stershic_finish(ring_context *c, size_t e, const ring_element *element, const ring_link *left,
-                                    const ring_link *right, vd share)
+/* Forces and new velocities of one element, and its share of the sums; `share` = dt/(dt + next dt):
+ * where between the velocities half a step before and after now the one of now is. */
+LANES_FUNCTION void stershic_finish(ring_context *c, size_t e, const ring_element *element,
+                                    const ring_link *left, const ring_link *right, vd share)
 {
     double *at = c->state + e * RING_FIELDS_STERSHIC * LANES;
     ring_vector internal = ring_scale(element->stress, element->tangent);
-    ring_vector on_left = stershic_choose(left->open, ring_subtract(internal, left->force), left->common);
-    ring_vector on_right = stershic_choose(right->open, ring_subtract(right->force, internal), right->common);
+    ring_vector on_left = stershic_choose(left->open, ring_subtract(internal, left->force),
+                                          left->common);
+    ring_vector on_right = stershic_choose(right->open, ring_subtract(right->force, internal),
+                                           right->common);
     ring_vector v_left = ring_drive_node(c, e, element->u_left, element->v_left, on_left);
-    ring_vector v_right = ring_drive_node(c, e + 1 < c->ring->elements ? e + 1 : 0, element->u_right, element->v_right, on_right);
-    ring_vector now_left = ring_add(element->v_left, ring_scale(share, ring_subtract(v_left, element->v_left)));
-    ring_vector now_right = ring_add(element->v_right, ring_scale(share, ring_subtract(v_right, element->v_right)));
+    ring_vector v_right = ring_drive_node(c, e + 1 < c->ring->elements ? e + 1 : 0,
+                                          element->u_right, element->v_right, on_right);
+    ring_vector now_left = ring_add(element->v_left,
+                                    ring_scale(share, ring_subtract(v_left, element->v_left)));
+    ring_vector now_right = ring_add(element->v_right,
+                                     ring_scale(share, ring_subtract(v_right, element->v_right)));
     c->velocity_squared += ring_dot(now_left, now_left) + ring_dot(now_right, now_right);
     c->elastic += element->stress * element->strain;
     if (c->ring->zone > 0) {
@@ -269,7 +316,8 @@ LANES_FUNCTION void stershic_finish(ring_context *c, size_t e, const ring_elemen
         largest = lanes_select(grows, element->strain, largest);
         lanes_store(at + RING_STRAIN * LANES, largest);
         vd beyond = largest - yield / young; /* (ring.17) */
-        c->dissipated += lanes_select(lanes_lt(zero, beyond), half * lanes_set(c->ring->size) * yield * beyond, zero);
+        c->dissipated += lanes_select(lanes_lt(zero, beyond),
+                                      half * lanes_set(c->ring->size) * yield * beyond, zero);
     }
     ring_write(at + RING_V_LEFT * LANES, v_left);
     ring_write(at + RING_V_RIGHT * LANES, v_right);
@@ -296,7 +344,8 @@ LANES_FUNCTION void stershic_advance(ring_context *c, vd share)
 static void RING_SWEEP(stershic)(const fracas_ring_constants *ring, fracas_step *step, int first)
 {
     const vd zero = lanes_set(0.0), half = lanes_set(0.5), drift = lanes_load(step->drift + first);
-    ring_context context = ring_context_of(ring, step, first, RING_FIELDS_STERSHIC, drift, zero), *c = &context;
+    ring_context context = ring_context_of(ring, step, first, RING_FIELDS_STERSHIC, drift, zero),
+                 *c = &context;
     const stershic_watch watch = stershic_look_around(c);
     if (__builtin_expect(lanes_any(watch.qualifies), 0))
         for (int lane = 0; lane < LANES; lane++)
@@ -304,11 +353,13 @@ static void RING_SWEEP(stershic)(const fracas_ring_constants *ring, fracas_step 
 
     const vd next = stershic_refine(c, &watch);
     lanes_store(step->next + first, next);
-    context = ring_context_of(ring, step, first, RING_FIELDS_STERSHIC, half * (drift + next), half * next);
+    context = ring_context_of(ring, step, first, RING_FIELDS_STERSHIC, half * (drift + next),
+                              half * next);
     stershic_advance(c, drift / (drift + next));
 
     const vd area = lanes_set(ring->area), half_area = half * area;
-    lanes_store(step->kinetic + first, half_area * lanes_set(ring->nodal_mass) * c->velocity_squared);
+    lanes_store(step->kinetic + first,
+                half_area * lanes_set(ring->nodal_mass) * c->velocity_squared);
     lanes_store(step->elastic + first, half_area * lanes_set(ring->size) * c->elastic);
     lanes_store(step->cohesive + first, half_area * c->opening_energy);
     lanes_store(step->dissipated + first, area * c->dissipated);

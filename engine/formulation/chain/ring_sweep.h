@@ -1,24 +1,28 @@
-/* The sweeps of the ring: one step of all lanes; for the law nitsche in one pass over the elements, for Stershic's algorithm
- * in two (docs/theory/ring.md).
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The sweeps of the ring: one step of all lanes; for the law nitsche in one pass over the elements,
+ * for Stershic's algorithm in two (docs/theory/ring.md).
  *
- * State: a chain's (chain.h). Vertex e of the polygon is where element e starts; interface e is at vertex e + 1. */
+ * State: a chain's (chain.h). Vertex e of the polygon is where element e starts; interface e is at
+ * vertex e + 1. */
 #ifndef FRACAS_ENGINE_FORMULATION_RING_SWEEP_H
 #define FRACAS_ENGINE_FORMULATION_RING_SWEEP_H
 
 #include "engine/formulation/formulation.h"
 
 enum {
-    RING_U_LEFT,                   /* displacement of the element's left node, x and y [m] */
+    RING_U_LEFT, /* displacement of the element's left node, x and y [m] */
     RING_U_RIGHT = RING_U_LEFT + 2,
-    RING_V_LEFT = RING_U_RIGHT + 2, /* its velocity, half a step behind the displacement before the sweep, ahead after [m/s] */
+    RING_V_LEFT = RING_U_RIGHT + 2, /* its velocity, half a step behind the displacement before the
+                                       sweep, ahead after [m/s] */
     RING_V_RIGHT = RING_V_LEFT + 2,
     RING_DAMAGE = RING_V_RIGHT + 2, /* delta_max/delta_c of the interface */
-    RING_STRENGTH,                 /* sigma_c [Pa] */
-    RING_LAW,                      /* nitsche: K delta_c - sigma_c [Pa]; stershic: a ring_link_state */
-    RING_FIELDS,                   /* of nitsche */
-    RING_STRESS = RING_FIELDS,     /* stershic: stress of the element [Pa] */
-    RING_STRAIN,                   /* stershic: eps_d, largest strain since both its links are barred; -1: not barred */
-    RING_PULL,                     /* stershic: stress of the interface while it is not open, along its normal [Pa] */
+    RING_STRENGTH,                  /* sigma_c [Pa] */
+    RING_LAW,                  /* nitsche: K delta_c - sigma_c [Pa]; stershic: a ring_link_state */
+    RING_FIELDS,               /* of nitsche */
+    RING_STRESS = RING_FIELDS, /* stershic: stress of the element [Pa] */
+    RING_STRAIN, /* stershic: eps_d, largest strain since both its links are barred; -1: not barred
+                  */
+    RING_PULL,   /* stershic: stress of the interface while it is not open, along its normal [Pa] */
     RING_FIELDS_STERSHIC
 };
 
@@ -30,21 +34,22 @@ typedef enum { RING_FREE, RING_HELD, RING_FORCED } ring_drive;
 /* Everything a sweep needs that is the same for all lanes. */
 typedef struct {
     size_t elements;
-    const double *table;   /* [elements][RING_TABLE] */
-    int current;           /* interfaces open along their elements' mean direction as it is, not as it was */
-    double young;          /* Pa */
-    double spring;         /* Pa/m: nitsche, K = beta E/h; stershic, the stiffness of contact */
-    double size;           /* m, h */
-    double radius;         /* m, of the polygon's vertices */
-    double nodal_mass;     /* kg/m2, rho h/2 */
-    double fracture_energy; /* J/m2; stershic: 0 where the critical opening is given */
+    const double *table; /* [elements][RING_TABLE] */
+    int current;  /* interfaces open along their elements' mean direction as it is, not as it was */
+    double young; /* Pa */
+    double spring;           /* Pa/m: nitsche, K = beta E/h; stershic, the stiffness of contact */
+    double size;             /* m, h */
+    double radius;           /* m, of the polygon's vertices */
+    double nodal_mass;       /* kg/m2, rho h/2 */
+    double fracture_energy;  /* J/m2; stershic: 0 where the critical opening is given */
     double critical_opening; /* m, or 0 */
-    double area;           /* m2 */
+    double area;             /* m2 */
     double refinement, time_step, zone; /* stershic: xi; s, unrefined; m */
-    int steep;             /* stershic: closing links on steep secants refine the time step too */
+    int steep; /* stershic: closing links on steep secants refine the time step too */
     ring_drive drive;
-    int circumferential;   /* direction of the drive; else radial */
-    double level, rate;    /* of the drive: level + rate t is the velocity held [m/s], or the force on a node per area [Pa] */
+    int circumferential; /* direction of the drive; else radial */
+    double level, rate;  /* of the drive: level + rate t is the velocity held [m/s], or the force on
+                            a node per area [Pa] */
 } fracas_ring_constants;
 
 /* Of vertex e: cosine and sine of its angle; of the middle of element e: the same. */
@@ -59,6 +64,7 @@ typedef struct {
     fracas_ring_sweep *stershic[3];
 } fracas_ring_kernels;
 
-extern const fracas_ring_kernels fracas_ring_kernels_baseline, fracas_ring_kernels_avx2, fracas_ring_kernels_avx512;
+extern const fracas_ring_kernels fracas_ring_kernels_baseline, fracas_ring_kernels_avx2,
+    fracas_ring_kernels_avx512;
 
 #endif

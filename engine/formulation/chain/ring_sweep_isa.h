@@ -1,4 +1,6 @@
-/* One instruction set's kernels: the templates in its widths. Include with RING_KERNELS defined as the name of the table. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One instruction set's kernels: the templates in its widths. Include with RING_KERNELS defined as
+ * the name of the table. */
 #include "engine/formulation/chain/ring_sweep.h"
 
 #include <math.h>
@@ -22,11 +24,14 @@
 #endif
 
 const fracas_ring_kernels RING_KERNELS = {
-    .nitsche[0] = sweep_nitsche_1, .stershic[0] = sweep_stershic_1,
+    .nitsche[0] = sweep_nitsche_1,
+    .stershic[0] = sweep_stershic_1,
 #ifdef __AVX2__
-    .nitsche[1] = sweep_nitsche_4, .stershic[1] = sweep_stershic_4,
+    .nitsche[1] = sweep_nitsche_4,
+    .stershic[1] = sweep_stershic_4,
 #endif
 #ifdef __AVX512F__
-    .nitsche[2] = sweep_nitsche_8, .stershic[2] = sweep_stershic_8,
+    .nitsche[2] = sweep_nitsche_8,
+    .stershic[2] = sweep_stershic_8,
 #endif
 };

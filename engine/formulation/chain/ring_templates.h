@@ -1,4 +1,6 @@
-/* Both sweeps of the ring for one width; included once a width by ring_sweep_isa.h, with LANES defined. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Both sweeps of the ring for one width; included once a width by ring_sweep_isa.h, with LANES
+ * defined. */
 #include "base/lanes.h"
 #include "engine/formulation/chain/ring_kinematics.h"
 #include "engine/formulation/chain/ring_nitsche_template.h"

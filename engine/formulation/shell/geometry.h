@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The mid-surface of a shell at a point of an element  (shell.1), (shell.2). */
 #ifndef FRACAS_ENGINE_FORMULATION_SHELL_GEOMETRY_H
 #define FRACAS_ENGINE_FORMULATION_SHELL_GEOMETRY_H
@@ -15,7 +16,8 @@ typedef struct {
 } fracas_shell_geometry;
 
 /* `surface` of quadratic triangles. */
-void fracas_shell_geometry_at(const fracas_surface *surface, size_t element, double xi, double eta, fracas_shell_geometry *at);
+void fracas_shell_geometry_at(const fracas_surface *surface, size_t element, double xi, double eta,
+                              fracas_shell_geometry *at);
 
 /* xi, eta at s on edge k, s from its first vertex. */
 void fracas_shell_edge_point(uint32_t edge, double s, double *xi, double *eta);

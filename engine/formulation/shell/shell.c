@@ -1,4 +1,6 @@
-/* The shell: linear Kirchhoff-Love kinematics on a surface of quadratic triangles that share no nodes (docs/theory/shell.md). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The shell: linear Kirchhoff-Love kinematics on a surface of quadratic triangles that share no
+ * nodes (docs/theory/shell.md). */
 #include "engine/formulation/shell/shell.h"
 
 #include "engine/cohesive/law.h"
@@ -10,20 +12,35 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const fracas_shell_tables *tables_of(const fracas_model *model) { return model->plan; }
+static const fracas_shell_tables *tables_of(const fracas_model *model)
+{
+    return model->plan;
+}
 
 /* k_n = K max(1, 1/beta_c^2), k_t = beta_c^2 k_n: neither is softer than K  (membrane.6) */
 fracas_shell_constants fracas_shell_constants_of(const fracas_model *model)
 {
     const fracas_spec *spec = &model->spec;
-    const double nu = spec->material.poisson, h = spec->geometry.thickness, c11 = h * spec->material.young / (1 - nu * nu);
-    const double c33 = h * spec->material.young / (2 * (1 + nu)), bending = h * h / 12, beta_c = spec->cohesive.coupling;
-    fracas_shell_constants c = {
-        .tables = tables_of(model), .thickness = h, .c11 = c11, .c12 = nu * c11, .c33 = c33, .d11 = bending * c11, .d12 = bending * nu * c11,
-        .d33 = bending * c33, .normal = beta_c < 1 ? 1 / (beta_c * beta_c) : 1, .energy = spec->cohesive.fracture_energy,
-        .opening = spec->cohesive.critical_opening, .beta_c = beta_c, .mu_c = spec->cohesive.friction,
-        .onset_mean = spec->cohesive.onset != &fracas_onset_flux, .friction = spec->cohesive.friction > 0,
-        .motion = fracas_surface_motion_of(&spec->time)};
+    const double nu = spec->material.poisson, h = spec->geometry.thickness,
+                 c11 = h * spec->material.young / (1 - nu * nu);
+    const double c33 = h * spec->material.young / (2 * (1 + nu)), bending = h * h / 12,
+                 beta_c = spec->cohesive.coupling;
+    fracas_shell_constants c = {.tables = tables_of(model),
+                                .thickness = h,
+                                .c11 = c11,
+                                .c12 = nu * c11,
+                                .c33 = c33,
+                                .d11 = bending * c11,
+                                .d12 = bending * nu * c11,
+                                .d33 = bending * c33,
+                                .normal = beta_c < 1 ? 1 / (beta_c * beta_c) : 1,
+                                .energy = spec->cohesive.fracture_energy,
+                                .opening = spec->cohesive.critical_opening,
+                                .beta_c = beta_c,
+                                .mu_c = spec->cohesive.friction,
+                                .onset_mean = spec->cohesive.onset != &fracas_onset_flux,
+                                .friction = spec->cohesive.friction > 0,
+                                .motion = fracas_surface_motion_of(&spec->time)};
     c.tangential = beta_c * beta_c * c.normal;
     c.fields = c.motion.alpha ? SURFACE_FIELDS_ALPHA : SURFACE_FIELDS;
     c.strengths = (int)model->strengths;
@@ -36,7 +53,9 @@ fracas_shell_constants fracas_shell_constants_of(const fracas_model *model)
 static fracas_err check_order(const fracas_surface *surface)
 {
     if (surface->order == 2) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "a shell's elements bend, which linear triangles cannot: make the mesh of quadratic ones");
+    return fracas_fail(
+        FRACAS_USAGE,
+        "a shell's elements bend, which linear triangles cannot: make the mesh of quadratic ones");
 }
 
 /* As thick as its radius of curvature, at the edges of elements, it is no shell. */
@@ -47,12 +66,16 @@ static fracas_err check_thickness(const fracas_model *model)
     double most = 0;
     for (size_t i = 0; i < t->ninterfaces; i++)
         for (int g = 0; g < SHELL_EDGE; g++) {
-            const double *place = t->joint + i * SHELL_JOINT_TABLE + SHELL_POINTS + g * SHELL_POINT_TABLE;
+            const double *place = t->joint + i * SHELL_JOINT_TABLE + SHELL_POINTS +
+                                  g * SHELL_POINT_TABLE;
             most = fmax(most, fmax(fabs(place[SHELL_L_NN]), fabs(place[SHELL_L_SS])));
         }
     if (most * h < 1) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "geometry.thickness is %g m, and the mid-surface has a radius of curvature of %g m: a shell is thin, "
-                       "a tenth of its radius and less: lower the thickness", h, 1 / most);
+    return fracas_fail(
+        FRACAS_USAGE,
+        "geometry.thickness is %g m, and the mid-surface has a radius of curvature of %g m: a "
+        "shell is thin, a tenth of its radius and less: lower the thickness",
+        h, 1 / most);
 }
 
 /* Some edge moves with the loading. */
@@ -78,7 +101,8 @@ static fracas_err shell_model_init(fracas_model *model)
     TRY(check_thickness(model));
     TRY(fracas_surface_check_motion(model, holds_moving(tables)));
     for (size_t k = 0; k < SHELL_NODES * tables->nelements; k++)
-        model->mass += tables->mass[k / SHELL_NODES * 2 * SHELL_NODES + SHELL_NODES + k % SHELL_NODES];
+        model->mass +=
+            tables->mass[k / SHELL_NODES * 2 * SHELL_NODES + SHELL_NODES + k % SHELL_NODES];
     fracas_surface_measure_model(model);
     return fracas_shell_critical_step(model);
 }
@@ -92,36 +116,45 @@ static size_t shell_state_size(const fracas_model *model)
 }
 
 /* Field `field` of a lane, counted from the start of its group's state. */
-static double *value_at(const fracas_shell_constants *c, const fracas_step *step, size_t field, int lane)
+static double *value_at(const fracas_shell_constants *c, const fracas_step *step, size_t field,
+                        int lane)
 {
     const size_t lanes = (size_t)step->lanes, group = (size_t)lane / lanes;
-    return step->state + (group * fracas_shell_state_fields(c) + field) * lanes + (size_t)lane % lanes;
+    return step->state + (group * fracas_shell_state_fields(c) + field) * lanes +
+           (size_t)lane % lanes;
 }
 
-static double *element_value(const fracas_shell_constants *c, const fracas_step *step, size_t element, int field, int i, int lane)
+static double *element_value(const fracas_shell_constants *c, const fracas_step *step,
+                             size_t element, int field, int i, int lane)
 {
-    return value_at(c, step, element * fracas_shell_element_fields(c) + (size_t)(field * SHELL_UNKNOWNS + i), lane);
+    return value_at(c, step,
+                    element * fracas_shell_element_fields(c) + (size_t)(field * SHELL_UNKNOWNS + i),
+                    lane);
 }
 
-static double *point_value(const fracas_shell_constants *c, const fracas_step *step, size_t interface, int g, int k, int field, int lane)
+static double *point_value(const fracas_shell_constants *c, const fracas_step *step,
+                           size_t interface, int g, int k, int field, int lane)
 {
     const size_t at = fracas_shell_joints_at(c) + interface * fracas_shell_joint_fields(c);
     return value_at(c, step, at + (size_t)((g * SHELL_LAYERS + k) * c->point_fields + field), lane);
 }
 
-double *fracas_shell_value(const fracas_model *model, const fracas_step *step, size_t element, int field, int i, int lane)
+double *fracas_shell_value(const fracas_model *model, const fracas_step *step, size_t element,
+                           int field, int i, int lane)
 {
     const fracas_shell_constants c = fracas_shell_constants_of(model);
     return element_value(&c, step, element, field, i, lane);
 }
 
-double *fracas_shell_point(const fracas_model *model, const fracas_step *step, size_t interface, int g, int k, int field, int lane)
+double *fracas_shell_point(const fracas_model *model, const fracas_step *step, size_t interface,
+                           int g, int k, int field, int lane)
 {
     const fracas_shell_constants c = fracas_shell_constants_of(model);
     return point_value(&c, step, interface, g, k, field, lane);
 }
 
-static double *shell_strength(const fracas_model *model, const fracas_step *step, int lane, size_t *stride)
+static double *shell_strength(const fracas_model *model, const fracas_step *step, int lane,
+                              size_t *stride)
 {
     const fracas_shell_constants c = fracas_shell_constants_of(model);
     *stride = (size_t)step->lanes;
@@ -132,13 +165,15 @@ static void shell_lane_init(const fracas_model *model, const fracas_step *step, 
 {
     const fracas_shell_constants c = fracas_shell_constants_of(model);
     const fracas_surface *surface = model->surface;
-    const size_t fields = fracas_shell_element_fields(&c), joint = fracas_shell_joint_fields(&c), joints = fracas_shell_joints_at(&c);
+    const size_t fields = fracas_shell_element_fields(&c), joint = fracas_shell_joint_fields(&c),
+                 joints = fracas_shell_joints_at(&c);
     for (size_t e = 0; e < model->elements; e++) {
         for (size_t f = 0; f < fields; f++) *value_at(&c, step, e * fields + f, lane) = 0;
         for (int i = 0; i < SHELL_UNKNOWNS; i++) {
             const double *x = surface->node[surface->element[e * SHELL_NODES + (size_t)i / 3]];
             *element_value(&c, step, e, SURFACE_V, i, lane) = fracas_surface_start_velocity(
-                &model->spec.loading, x, i % 3, c.tables->held[e] >> i & 1, c.tables->fixed[e] >> i & 1);
+                &model->spec.loading, x, i % 3, c.tables->held[e] >> i & 1,
+                c.tables->fixed[e] >> i & 1);
         }
     }
     for (size_t i = 0; i < model->interfaces; i++)
@@ -148,10 +183,14 @@ static void shell_lane_init(const fracas_model *model, const fracas_step *step, 
 static void shell_advance(const fracas_model *model, fracas_step *step)
 {
     const fracas_shell_constants c = fracas_shell_constants_of(model);
-    const fracas_shell_kernels *kernels = step->isa == FRACAS_ISA_AVX512 ? &fracas_shell_kernels_avx512
-                                          : step->isa == FRACAS_ISA_AVX2 ? &fracas_shell_kernels_avx2
-                                                                         : &fracas_shell_kernels_baseline;
-    fracas_shell_sweep *sweep = kernels->sweep[SHELL_NITSCHE][step->lanes == 8 ? 2 : step->lanes == 4 ? 1 : 0];
+    const fracas_shell_kernels *kernels = step->isa == FRACAS_ISA_AVX512
+                                              ? &fracas_shell_kernels_avx512
+                                          : step->isa == FRACAS_ISA_AVX2
+                                              ? &fracas_shell_kernels_avx2
+                                              : &fracas_shell_kernels_baseline;
+    fracas_shell_sweep *sweep = kernels->sweep[SHELL_NITSCHE][step->lanes == 8   ? 2
+                                                              : step->lanes == 4 ? 1
+                                                                                 : 0];
     for (int first = 0; first < step->width; first += step->lanes) sweep(&c, step, first);
 }
 
@@ -159,7 +198,8 @@ static void shell_advance(const fracas_model *model, fracas_step *step)
 
 static double shell_damage(const fracas_model *model, const fracas_step *step, size_t i, int lane)
 {
-    static const double along[SHELL_EDGE] = FRACAS_EDGE_WEIGHTS_2, across[SHELL_LAYERS] = SHELL_LAYER_WEIGHTS;
+    static const double along[SHELL_EDGE] = FRACAS_EDGE_WEIGHTS_2,
+                        across[SHELL_LAYERS] = SHELL_LAYER_WEIGHTS;
     const fracas_shell_constants c = fracas_shell_constants_of(model);
     double damage = 0;
     bool broken = true;
@@ -177,32 +217,46 @@ static int64_t shell_fragment_count(const fracas_model *model, fracas_step *step
     return fracas_surface_fragment_count(model, step, lane, shell_damage);
 }
 
-static void add_element(const fracas_model *model, const fracas_step *step, int lane, size_t e, fracas_fragment_sums *f)
+static void add_element(const fracas_model *model, const fracas_step *step, int lane, size_t e,
+                        fracas_fragment_sums *f)
 {
     const fracas_shell_constants c = fracas_shell_constants_of(model);
     for (int k = 0; k < SHELL_NODES; k++) {
-        const double *start = model->surface->node[model->surface->element[e * SHELL_NODES + (size_t)k]];
+        const double *start =
+            model->surface->node[model->surface->element[e * SHELL_NODES + (size_t)k]];
         double x[3], v[3];
         for (int i = 0; i < 3; i++) {
             x[i] = start[i] + *element_value(&c, step, e, SURFACE_U, 3 * k + i, lane);
             v[i] = *element_value(&c, step, e, SURFACE_V, 3 * k + i, lane);
         }
-        fracas_fragment_sums_add(f, c.tables->mass[e * 2 * SHELL_NODES + SHELL_NODES + (size_t)k], x, v);
+        fracas_fragment_sums_add(f, c.tables->mass[e * 2 * SHELL_NODES + SHELL_NODES + (size_t)k],
+                                 x, v);
     }
 }
 
-static fracas_err shell_harvest(const fracas_model *model, fracas_step *step, int lane, fracas_record *record)
+static fracas_err shell_harvest(const fracas_model *model, fracas_step *step, int lane,
+                                fracas_record *record)
 {
     return fracas_surface_harvest(model, step, lane, shell_damage, add_element, record);
 }
 
-static const fracas_kind *const goes_with[] = {&fracas_shape_sphere, &fracas_shape_plate, &fracas_shape_annulus, &fracas_shape_file,
-                                               &fracas_spacing_triangles, &fracas_spacing_given, &fracas_law_nitsche,
-                                               &fracas_loading_expansion};
+static const fracas_kind *const goes_with[] = {
+    &fracas_shape_sphere, &fracas_shape_plate,       &fracas_shape_annulus,
+    &fracas_shape_file,   &fracas_spacing_triangles, &fracas_spacing_given,
+    &fracas_law_nitsche,  &fracas_loading_expansion};
 const fracas_formulation fracas_formulation_shell = {
-    .kind = {.name = "shell", .doc = "a thin shell or plate that stretches and bends, of triangles in space", .goes_with = goes_with,
+    .kind = {.name = "shell",
+             .doc = "a thin shell or plate that stretches and bends, of triangles in space",
+             .goes_with = goes_with,
              .ngoes_with = FRACAS_COUNT(goes_with)},
-    .model_init = shell_model_init, .check_strength = fracas_surface_check_strength, .interface_volume = fracas_surface_interface_volume,
-    .plan_destroy = fracas_shell_tables_destroy, .state_size = shell_state_size, .strength = shell_strength,
-    .lane_init = shell_lane_init, .advance = shell_advance, .fragment_count = shell_fragment_count, .harvest = shell_harvest,
+    .model_init = shell_model_init,
+    .check_strength = fracas_surface_check_strength,
+    .interface_volume = fracas_surface_interface_volume,
+    .plan_destroy = fracas_shell_tables_destroy,
+    .state_size = shell_state_size,
+    .strength = shell_strength,
+    .lane_init = shell_lane_init,
+    .advance = shell_advance,
+    .fragment_count = shell_fragment_count,
+    .harvest = shell_harvest,
 };

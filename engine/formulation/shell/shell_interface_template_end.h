@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Undefines the names of shell_interface_template.h. */
 #undef shell_sides_of
 #undef shell_turn

@@ -1,4 +1,6 @@
-/* One instruction set's kernels: the template in its widths. Include with SHELL_KERNELS defined as the name of the table. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One instruction set's kernels: the template in its widths. Include with SHELL_KERNELS defined as
+ * the name of the table. */
 #include "engine/formulation/shell/shell_sweep.h"
 
 #include <math.h>
@@ -33,6 +35,7 @@
 #endif
 
 const fracas_shell_kernels SHELL_KERNELS = {
-    .sweep = {[SHELL_NITSCHE] = {sweep_nitsche_1, SHELL_FOUR(sweep_nitsche), SHELL_EIGHT(sweep_nitsche)},
+    .sweep = {[SHELL_NITSCHE] = {sweep_nitsche_1, SHELL_FOUR(sweep_nitsche),
+                                 SHELL_EIGHT(sweep_nitsche)},
               [SHELL_OPERATOR] = {sweep_operator_1}},
 };

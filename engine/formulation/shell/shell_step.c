@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The shell as an operator, and its critical time step. */
 #include "engine/formulation/shell/shell.h"
 
@@ -10,11 +11,13 @@ struct fracas_shell_operator {
     fracas_shell_constants constants;
 };
 
-fracas_err fracas_shell_operator_open(const fracas_model *model, int contact, fracas_shell_operator **out)
+fracas_err fracas_shell_operator_open(const fracas_model *model, int contact,
+                                      fracas_shell_operator **out)
 {
     fracas_shell_operator *op = aligned_alloc(64, (sizeof *op + 63) / 64 * 64);
     if (!op) return fracas_no_memory("the critical time step");
-    *op = (fracas_shell_operator){.step = {.width = 1, .lanes = 1}, .constants = fracas_shell_constants_of(model)};
+    *op = (fracas_shell_operator){.step = {.width = 1, .lanes = 1},
+                                  .constants = fracas_shell_constants_of(model)};
     op->constants.contact = contact;
     op->constants.motion.alpha = 0;
     op->constants.fields = SURFACE_FIELDS;
@@ -33,11 +36,13 @@ void fracas_shell_operator_apply(fracas_shell_operator *op, const double *u, dou
     const fracas_shell_constants *c = &op->constants;
     const size_t fields = fracas_shell_element_fields(c);
     for (size_t e = 0; e < c->tables->nelements; e++)
-        for (size_t i = 0; i < SHELL_UNKNOWNS; i++) op->step.state[e * fields + i] = u[e * SHELL_UNKNOWNS + i];
+        for (size_t i = 0; i < SHELL_UNKNOWNS; i++)
+            op->step.state[e * fields + i] = u[e * SHELL_UNKNOWNS + i];
     fracas_shell_kernels_baseline.sweep[SHELL_OPERATOR][0](c, &op->step, 0);
     for (size_t e = 0; e < c->tables->nelements; e++)
         for (size_t i = 0; i < SHELL_UNKNOWNS; i++)
-            acceleration[e * SHELL_UNKNOWNS + i] = op->step.state[e * fields + SURFACE_V * SHELL_UNKNOWNS + i];
+            acceleration[e * SHELL_UNKNOWNS + i] =
+                op->step.state[e * fields + SURFACE_V * SHELL_UNKNOWNS + i];
 }
 
 void fracas_shell_operator_close(fracas_shell_operator *op)
@@ -51,12 +56,14 @@ static void apply(void *context, const double *w, double *result)
 {
     fracas_shell_operator *op = context;
     fracas_shell_operator_apply(op, w, result);
-    for (size_t i = 0; i < SHELL_UNKNOWNS * op->constants.tables->nelements; i++) result[i] = -result[i];
+    for (size_t i = 0; i < SHELL_UNKNOWNS * op->constants.tables->nelements; i++)
+        result[i] = -result[i];
 }
 
 static double mass_of(const fracas_shell_tables *t, size_t unknown)
 {
-    return t->mass[unknown / SHELL_UNKNOWNS * 2 * SHELL_NODES + SHELL_NODES + unknown % SHELL_UNKNOWNS / 3];
+    return t->mass[unknown / SHELL_UNKNOWNS * 2 * SHELL_NODES + SHELL_NODES +
+                   unknown % SHELL_UNKNOWNS / 3];
 }
 
 static void multiply_by_mass(void *context, const double *w, double *result)
@@ -74,8 +81,12 @@ static fracas_err largest_frequency(const fracas_model *model, int contact, doub
     double *scale = malloc(n * sizeof *scale);
     fracas_err err = scale ? FRACAS_OK : fracas_no_memory("the critical time step");
     for (size_t i = 0; scale && i < n; i++)
-        scale[i] = t->held[i / SHELL_UNKNOWNS] >> i % SHELL_UNKNOWNS & 1 ? 0 : mass_of(t, i / SHELL_UNKNOWNS * SHELL_UNKNOWNS);
-    if (!err) err = fracas_surface_frequency(&(fracas_lanczos_problem){apply, multiply_by_mass, op, n}, scale, omega);
+        scale[i] = t->held[i / SHELL_UNKNOWNS] >> i % SHELL_UNKNOWNS & 1
+                       ? 0
+                       : mass_of(t, i / SHELL_UNKNOWNS * SHELL_UNKNOWNS);
+    if (!err)
+        err = fracas_surface_frequency(&(fracas_lanczos_problem){apply, multiply_by_mass, op, n},
+                                       scale, omega);
     free(scale);
     fracas_shell_operator_close(op);
     return err;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/formulation/shell/shell_tables.h"
 
 #include "engine/element/triangle.h"
@@ -16,7 +17,8 @@ void fracas_shell_tables_destroy(void *p)
 {
     fracas_shell_tables *t = p;
     if (!t) return;
-    void *const owned[] = {t->bulk, t->mass, t->joint, t->rim, t->element, t->edge, t->rim_edge, t->rim_from, t->held, t->fixed};
+    void *const owned[] = {t->bulk, t->mass,     t->joint,    t->rim,  t->element,
+                           t->edge, t->rim_edge, t->rim_from, t->held, t->fixed};
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
     fracas_surface_visits_clear(&t->visits);
     free(t);
@@ -24,7 +26,8 @@ void fracas_shell_tables_destroy(void *p)
 
 static bool allocate(fracas_shell_tables *t)
 {
-    const size_t n = t->nelements, m = t->ninterfaces ? t->ninterfaces : 1, rims = t->nrims ? t->nrims : 1;
+    const size_t n = t->nelements, m = t->ninterfaces ? t->ninterfaces : 1,
+                 rims = t->nrims ? t->nrims : 1;
     t->bulk = malloc(n * SHELL_BULK * SHELL_BULK_TABLE * sizeof *t->bulk);
     t->mass = malloc(n * 2 * SHELL_NODES * sizeof *t->mass);
     t->joint = malloc(m * SHELL_JOINT_TABLE * sizeof *t->joint);
@@ -35,7 +38,8 @@ static bool allocate(fracas_shell_tables *t)
     t->rim_from = calloc(n + 1, sizeof *t->rim_from);
     t->held = calloc(n, sizeof *t->held);
     t->fixed = calloc(n, sizeof *t->fixed);
-    return t->bulk && t->mass && t->joint && t->rim && t->element && t->edge && t->rim_edge && t->rim_from && t->held && t->fixed;
+    return t->bulk && t->mass && t->joint && t->rim && t->element && t->edge && t->rim_edge &&
+           t->rim_from && t->held && t->fixed;
 }
 
 /* Coefficients of u,xixi, u,etaeta and u,xieta in the second derivatives along xx, yy, 2 xy, with
@@ -74,7 +78,8 @@ static void fill_bulk(const fracas_surface *surface, fracas_shell_tables *t, siz
                 bulk[SHELL_SECOND + 3 * ij + b] = -of[ij][b];
                 for (int a = 0; a < 2; a++) { /* Christoffel's symbols G^a_b */
                     double *first = &bulk[SHELL_FIRST + 2 * ij + a];
-                    *first = (b ? *first : 0) + of[ij][b] * fracas_shell_dot(here.second[b], here.dual[a]);
+                    *first = (b ? *first : 0) +
+                             of[ij][b] * fracas_shell_dot(here.second[b], here.dual[a]);
                 }
             }
         bulk[SHELL_WEIGHT] = 0.5 / SHELL_BULK * here.area;
@@ -85,20 +90,26 @@ static void fill_bulk(const fracas_surface *surface, fracas_shell_tables *t, siz
 static void fill_mass(const fracas_model *model, fracas_shell_tables *t, size_t e)
 {
     double consistent[SHELL_NODES * SHELL_NODES], *mass = t->mass + 2 * SHELL_NODES * e;
-    fracas_nodal_mass(model->surface, e, model->spec.material.density * model->spec.geometry.thickness, consistent, mass + SHELL_NODES);
+    fracas_nodal_mass(model->surface, e,
+                      model->spec.material.density * model->spec.geometry.thickness, consistent,
+                      mass + SHELL_NODES);
     for (int k = 0; k < SHELL_NODES; k++) mass[k] = 1.0 / mass[SHELL_NODES + k];
 }
 
-/* One side of an edge at a point where the edge runs along `tangent`: its normal in the surface, n = s x t, comes back. */
-static void fill_side(const fracas_shell_geometry *at, const double tangent[3], double sign, double share, double *side, double normal[3])
+/* One side of an edge at a point where the edge runs along `tangent`: its normal in the surface, n
+ * = s x t, comes back. */
+static void fill_side(const fracas_shell_geometry *at, const double tangent[3], double sign,
+                      double share, double *side, double normal[3])
 {
     fracas_shell_cross(tangent, at->normal, normal);
     const double nx = fracas_shell_dot(normal, at->x), ny = fracas_shell_dot(normal, at->y);
     side[SHELL_SQUARE_X] = share * nx * nx;
     side[SHELL_SQUARE_Y] = share * ny * ny;
     side[SHELL_PRODUCT] = share * nx * ny;
-    const double along[2] = {fracas_shell_dot(normal, at->dual[0]), fracas_shell_dot(normal, at->dual[1])};
-    for (int k = 0; k < SHELL_NODES; k++) side[SHELL_SLOPE + k] = along[0] * at->slope[k][0] + along[1] * at->slope[k][1];
+    const double along[2] = {fracas_shell_dot(normal, at->dual[0]),
+                             fracas_shell_dot(normal, at->dual[1])};
+    for (int k = 0; k < SHELL_NODES; k++)
+        side[SHELL_SLOPE + k] = along[0] * at->slope[k][0] + along[1] * at->slope[k][1];
     for (int i = 0; i < 3; i++) side[SHELL_TURN + i] = sign * at->normal[i];
 }
 
@@ -107,20 +118,24 @@ static double curvature(const fracas_shell_geometry *at, const double a[3], cons
 {
     const double ax = fracas_shell_dot(a, at->dual[0]), ay = fracas_shell_dot(a, at->dual[1]);
     const double bx = fracas_shell_dot(b, at->dual[0]), by = fracas_shell_dot(b, at->dual[1]);
-    return -(ax * bx * fracas_shell_dot(at->normal, at->second[0]) + ay * by * fracas_shell_dot(at->normal, at->second[1]) +
+    return -(ax * bx * fracas_shell_dot(at->normal, at->second[0]) +
+             ay * by * fracas_shell_dot(at->normal, at->second[1]) +
              (ax * by + ay * bx) * fracas_shell_dot(at->normal, at->second[2]));
 }
 
-static void fill_point(const fracas_surface *surface, const fracas_surface_interface *interface, int g, double *point)
+static void fill_point(const fracas_surface *surface, const fracas_surface_interface *interface,
+                       int g, double *point)
 {
     fracas_shell_geometry at[2];
     double tangent[3], normal[2][3], speed = 0;
     for (int side = 0; side < 2; side++) {
         double xi, eta;
-        fracas_shell_edge_point(interface->edge[side], side ? 1 - edge_point[g] : edge_point[g], &xi, &eta);
+        fracas_shell_edge_point(interface->edge[side], side ? 1 - edge_point[g] : edge_point[g],
+                                &xi, &eta);
         fracas_shell_geometry_at(surface, interface->element[side], xi, eta, &at[side]);
         if (side == 0) speed = fracas_shell_edge_tangent(&at[0], interface->edge[0], tangent);
-        fill_side(&at[side], tangent, side ? -1 : 1, 0.5, point + SHELL_SIDES + side * SHELL_SIDE, normal[side]);
+        fill_side(&at[side], tangent, side ? -1 : 1, 0.5, point + SHELL_SIDES + side * SHELL_SIDE,
+                  normal[side]);
     }
     double *lift = point + SHELL_LIFT, length = 0;
     for (int i = 0; i < 3; i++) lift[i] = at[0].normal[i] + at[1].normal[i];
@@ -132,9 +147,12 @@ static void fill_point(const fracas_surface *surface, const fracas_surface_inter
     fracas_shell_cross(tangent, lift, point + SHELL_N);
     point[SHELL_PER_SPEED] = 1.0 / speed;
     point[SHELL_LENGTH] = edge_weight[g] * speed;
-    point[SHELL_L_NN] = 0.5 * (curvature(&at[0], normal[0], normal[0]) + curvature(&at[1], normal[1], normal[1]));
-    point[SHELL_L_NS] = 0.5 * (curvature(&at[0], normal[0], tangent) + curvature(&at[1], normal[1], tangent));
-    point[SHELL_L_SS] = 0.5 * (curvature(&at[0], tangent, tangent) + curvature(&at[1], tangent, tangent));
+    point[SHELL_L_NN] = 0.5 * (curvature(&at[0], normal[0], normal[0]) +
+                               curvature(&at[1], normal[1], normal[1]));
+    point[SHELL_L_NS] = 0.5 * (curvature(&at[0], normal[0], tangent) +
+                               curvature(&at[1], normal[1], tangent));
+    point[SHELL_L_SS] = 0.5 *
+                        (curvature(&at[0], tangent, tangent) + curvature(&at[1], tangent, tangent));
 }
 
 /* (membrane.5), (shell.7) */
@@ -151,37 +169,50 @@ static void fill_joint(const fracas_model *model, fracas_shell_tables *t, size_t
     }
     joint[SHELL_STIFFNESS] = spec->cohesive.beta * young / (1 - nu * nu) * inverse_size;
     joint[SHELL_COMPLIANCE] = 1.0 / joint[SHELL_STIFFNESS];
-    joint[SHELL_SHEARING] = spec->cohesive.beta_shear * young / (2 * (1 + nu)) * spec->geometry.thickness * inverse_size;
-    for (int g = 0; g < SHELL_EDGE; g++) fill_point(model->surface, interface, g, joint + SHELL_POINTS + g * SHELL_POINT_TABLE);
+    joint[SHELL_SHEARING] = spec->cohesive.beta_shear * young / (2 * (1 + nu)) *
+                            spec->geometry.thickness * inverse_size;
+    for (int g = 0; g < SHELL_EDGE; g++)
+        fill_point(model->surface, interface, g, joint + SHELL_POINTS + g * SHELL_POINT_TABLE);
 }
 
 /* ---- edges ---- */
 
-static bool holds_director(const fracas_kind *kind) { return kind == &fracas_edge_clamped || kind == &fracas_edge_symmetry; }
+static bool holds_director(const fracas_kind *kind)
+{
+    return kind == &fracas_edge_clamped || kind == &fracas_edge_symmetry;
+}
 
-/* The director's turn about the edge has twice the stiffness of an interface's: the other side is its mirror image  (shell.9) */
-static void fill_rim(const fracas_model *model, fracas_shell_tables *t, const fracas_surface_border *border, size_t r)
+/* The director's turn about the edge has twice the stiffness of an interface's: the other side is
+ * its mirror image  (shell.9) */
+static void fill_rim(const fracas_model *model, fracas_shell_tables *t,
+                     const fracas_surface_border *border, size_t r)
 {
     const fracas_spec *spec = &model->spec;
-    const double nu = spec->material.poisson, h = spec->geometry.thickness, modulus = spec->material.young / (1 - nu * nu);
+    const double nu = spec->material.poisson, h = spec->geometry.thickness,
+                 modulus = spec->material.young / (1 - nu * nu);
     const double length = fracas_surface_length(model->surface, border->element, border->edge);
     double *rim = t->rim + r * SHELL_RIM_TABLE;
     t->rim_edge[r] = (uint8_t)border->edge;
-    rim[SHELL_RIM_STIFFNESS] = 2 * spec->cohesive.beta * modulus * (h * h * h / 12) * length / fracas_surface_area(model->surface, border->element);
+    rim[SHELL_RIM_STIFFNESS] = 2 * spec->cohesive.beta * modulus * (h * h * h / 12) * length /
+                               fracas_surface_area(model->surface, border->element);
     for (int g = 0; g < SHELL_EDGE; g++) {
-        double xi, eta, tangent[3], normal[3], *point = rim + SHELL_RIM_POINTS + g * SHELL_RIM_POINT_TABLE;
+        double xi, eta, tangent[3], normal[3],
+            *point = rim + SHELL_RIM_POINTS + g * SHELL_RIM_POINT_TABLE;
         fracas_shell_geometry at;
         fracas_shell_edge_point(border->edge, edge_point[g], &xi, &eta);
         fracas_shell_geometry_at(model->surface, border->element, xi, eta, &at);
-        point[SHELL_RIM_LENGTH] = edge_weight[g] * fracas_shell_edge_tangent(&at, border->edge, tangent);
+        point[SHELL_RIM_LENGTH] = edge_weight[g] *
+                                  fracas_shell_edge_tangent(&at, border->edge, tangent);
         fill_side(&at, tangent, 1, 1, point + SHELL_RIM_SIDE, normal);
     }
 }
 
-#define UPRIGHT 0.93 /* least cosine at a plane of symmetry: bent edges of coarse meshes are off by some degrees */
+#define UPRIGHT                                                                              \
+    0.93 /* least cosine at a plane of symmetry: bent edges of coarse meshes are off by some \
+            degrees */
 
-/* The axis that is normal to the plane of an edge, the one nearest to the edge's own normal where two are; 3: there is none, or the
- * shell leans on it by more than its cosine `least`. */
+/* The axis that is normal to the plane of an edge, the one nearest to the edge's own normal where
+ * two are; 3: there is none, or the shell leans on it by more than its cosine `least`. */
 static int axis_of(const fracas_surface *surface, const fracas_surface_border *border, double least)
 {
     double xi, eta, tangent[3], normal[3];
@@ -191,27 +222,36 @@ static int axis_of(const fracas_surface *surface, const fracas_surface_border *b
     const double speed = fracas_shell_edge_tangent(&at, border->edge, tangent);
     fracas_shell_cross(tangent, at.normal, normal);
     const uint32_t *node = surface->element + border->element * surface->corners, k = border->edge;
-    const double *a = surface->node[node[k]], *b = surface->node[node[(k + 1) % 3]], *c = surface->node[node[3 + k]];
+    const double *a = surface->node[node[k]], *b = surface->node[node[(k + 1) % 3]],
+                 *c = surface->node[node[3 + k]];
     int axis = 3;
     for (int i = 0; i < 3; i++) {
         const bool is_in_plane = fmax(fabs(b[i] - a[i]), fabs(c[i] - a[i])) <= 1e-9 * speed;
-        if (is_in_plane && fabs(normal[i]) >= least && (axis == 3 || fabs(normal[i]) > fabs(normal[axis]))) axis = i;
+        if (is_in_plane && fabs(normal[i]) >= least &&
+            (axis == 3 || fabs(normal[i]) > fabs(normal[axis])))
+            axis = i;
     }
     return axis;
 }
 
-static fracas_err hold_edge(const fracas_model *model, fracas_shell_tables *t, const fracas_surface_border *border, const fracas_kind *kind)
+static fracas_err hold_edge(const fracas_model *model, fracas_shell_tables *t,
+                            const fracas_surface_border *border, const fracas_kind *kind)
 {
     const uint32_t k = border->edge, node[3] = {k, (k + 1) % 3, 3 + k};
     const bool one = kind == &fracas_edge_symmetry, others = kind == &fracas_edge_diaphragm;
     const int axis = one || others ? axis_of(model->surface, border, one ? UPRIGHT : 0) : 3;
-    const double *at = model->surface->node[model->surface->element[border->element * SHELL_NODES + k]];
+    const double *at =
+        model->surface->node[model->surface->element[border->element * SHELL_NODES + k]];
     if (kind == &fracas_edge_sliding)
-        return fracas_fail(FRACAS_USAGE, "an edge with tag %d is to slide, which edges of shells do not: let it be a symmetry, a diaphragm, "
-                           "held, fixed, clamped or free", (int)border->tag);
+        return fracas_fail(FRACAS_USAGE,
+                           "an edge with tag %d is to slide, which edges of shells do not: let it "
+                           "be a symmetry, a diaphragm, held, fixed, clamped or free",
+                           (int)border->tag);
     if ((one || others) && axis == 3)
-        return fracas_fail(FRACAS_USAGE, "an edge with tag %d is a %s, but at (%g, %g, %g) m it does not lie in a plane x, y or z = const%s: "
-                           "hold it otherwise, or leave it free", (int)border->tag, kind->name, at[0], at[1], at[2],
+        return fracas_fail(FRACAS_USAGE,
+                           "an edge with tag %d is a %s, but at (%g, %g, %g) m it does not lie in "
+                           "a plane x, y or z = const%s: hold it otherwise, or leave it free",
+                           (int)border->tag, kind->name, at[0], at[1], at[2],
                            one ? " that the shell meets at a right angle" : "");
     for (int n = 0; n < 3; n++)
         for (uint32_t i = 0; i < 3; i++) {

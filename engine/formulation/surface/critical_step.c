@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/formulation/surface/critical_step.h"
 
 #include "engine/integrator/critical_step.h"
@@ -21,7 +22,8 @@ static void fill_start(const double *scale, size_t n, double *start)
     }
 }
 
-fracas_err fracas_surface_frequency(const fracas_lanczos_problem *problem, const double *scale, double *omega)
+fracas_err fracas_surface_frequency(const fracas_lanczos_problem *problem, const double *scale,
+                                    double *omega)
 {
     double square = 0, *start = malloc(problem->n * sizeof *start);
     if (!start) return fracas_no_memory("the critical time step");
@@ -29,7 +31,9 @@ fracas_err fracas_surface_frequency(const fracas_lanczos_problem *problem, const
     const fracas_err err = fracas_lanczos(problem, start, &square);
     free(start);
     *omega = sqrt(square);
-    if (!err && !(square > 0)) return fracas_fail(FRACAS_USAGE, "every node of the mesh is held: leave an edge free, or refine the mesh");
+    if (!err && !(square > 0))
+        return fracas_fail(
+            FRACAS_USAGE, "every node of the mesh is held: leave an edge free, or refine the mesh");
     return err;
 }
 
@@ -37,8 +41,9 @@ void fracas_surface_set_critical_step(fracas_model *model, double whole, double 
 {
     const fracas_time *time = &model->spec.time;
     /* Omega_c = 2 of central difference */
-    const double limit = time->integrator == &fracas_integrator_hulbert_chung ? fracas_hulbert_chung_of(time->spectral_radius).limit
-                                                                             : FRACAS_CENTRAL_DIFFERENCE_LIMIT;
+    const double limit = time->integrator == &fracas_integrator_hulbert_chung
+                             ? fracas_hulbert_chung_of(time->spectral_radius).limit
+                             : FRACAS_CENTRAL_DIFFERENCE_LIMIT;
     model->critical_closed = limit / whole;
     model->critical_cracked = limit / pressed;
     model->critical_step = fmin(model->critical_closed, model->critical_cracked);

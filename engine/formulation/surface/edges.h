@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the campaign says of the edges of a surface. */
 #ifndef FRACAS_ENGINE_FORMULATION_SURFACE_EDGES_H
 #define FRACAS_ENGINE_FORMULATION_SURFACE_EDGES_H

@@ -1,4 +1,6 @@
-/* One instruction set's kernels: the template in its widths. Include with MEMBRANE_KERNELS defined as the name of the table. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One instruction set's kernels: the template in its widths. Include with MEMBRANE_KERNELS defined
+ * as the name of the table. */
 #include "engine/formulation/surface/membrane_sweep.h"
 
 #include <math.h>
@@ -31,10 +33,15 @@
 #else
 #define MEMBRANE_EIGHT(name) NULL
 #endif
-#define MEMBRANE_WIDTHS(name) {name##_1, MEMBRANE_FOUR(name), MEMBRANE_EIGHT(name)}
+#define MEMBRANE_WIDTHS(name)                               \
+    {                                                       \
+        name##_1, MEMBRANE_FOUR(name), MEMBRANE_EIGHT(name) \
+    }
 
 const fracas_membrane_kernels MEMBRANE_KERNELS = {
-    .sweep = {[MEMBRANE_NITSCHE] = {MEMBRANE_WIDTHS(sweep_nitsche_linear), MEMBRANE_WIDTHS(sweep_nitsche_quadratic)},
-              [MEMBRANE_EXTRINSIC] = {MEMBRANE_WIDTHS(sweep_extrinsic_linear), MEMBRANE_WIDTHS(sweep_extrinsic_quadratic)},
+    .sweep = {[MEMBRANE_NITSCHE] = {MEMBRANE_WIDTHS(sweep_nitsche_linear),
+                                    MEMBRANE_WIDTHS(sweep_nitsche_quadratic)},
+              [MEMBRANE_EXTRINSIC] = {MEMBRANE_WIDTHS(sweep_extrinsic_linear),
+                                      MEMBRANE_WIDTHS(sweep_extrinsic_quadratic)},
               [MEMBRANE_OPERATOR] = {{sweep_operator_linear_1}, {sweep_operator_quadratic_1}}},
 };

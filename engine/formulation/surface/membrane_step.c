@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The membrane as an operator, and its critical time step. */
 #include "engine/formulation/surface/membrane.h"
 
@@ -10,11 +11,13 @@ struct fracas_membrane_operator {
     fracas_membrane_constants constants;
 };
 
-fracas_err fracas_membrane_operator_open(const fracas_model *model, int contact, fracas_membrane_operator **out)
+fracas_err fracas_membrane_operator_open(const fracas_model *model, int contact,
+                                         fracas_membrane_operator **out)
 {
     fracas_membrane_operator *op = aligned_alloc(64, (sizeof *op + 63) / 64 * 64);
     if (!op) return fracas_no_memory("the critical time step");
-    *op = (fracas_membrane_operator){.step = {.width = 1, .lanes = 1}, .constants = fracas_membrane_constants_of(model)};
+    *op = (fracas_membrane_operator){.step = {.width = 1, .lanes = 1},
+                                     .constants = fracas_membrane_constants_of(model)};
     op->constants.contact = contact;
     op->constants.motion.alpha = 0;
     op->constants.fields = SURFACE_FIELDS;
@@ -29,15 +32,19 @@ fracas_err fracas_membrane_operator_open(const fracas_model *model, int contact,
     return FRACAS_OK;
 }
 
-void fracas_membrane_operator_apply(fracas_membrane_operator *op, const double *u, double *acceleration)
+void fracas_membrane_operator_apply(fracas_membrane_operator *op, const double *u,
+                                    double *acceleration)
 {
     const fracas_membrane_constants *c = &op->constants;
-    const size_t size = 2 * (size_t)MEMBRANE_NODES(c->tables->order), fields = fracas_membrane_element_fields(c);
+    const size_t size = 2 * (size_t)MEMBRANE_NODES(c->tables->order),
+                 fields = fracas_membrane_element_fields(c);
     for (size_t e = 0; e < c->tables->nelements; e++)
         for (size_t i = 0; i < size; i++) op->step.state[e * fields + i] = u[e * size + i];
-    fracas_membrane_kernels_baseline.sweep[MEMBRANE_OPERATOR][c->tables->order - 1][0](c, &op->step, 0);
+    fracas_membrane_kernels_baseline.sweep[MEMBRANE_OPERATOR][c->tables->order - 1][0](c, &op->step,
+                                                                                       0);
     for (size_t e = 0; e < c->tables->nelements; e++)
-        for (size_t i = 0; i < size; i++) acceleration[e * size + i] = op->step.state[e * fields + SURFACE_V * size + i];
+        for (size_t i = 0; i < size; i++)
+            acceleration[e * size + i] = op->step.state[e * fields + SURFACE_V * size + i];
 }
 
 void fracas_membrane_operator_close(fracas_membrane_operator *op)
@@ -52,7 +59,8 @@ static void apply(void *context, const double *w, double *result)
     fracas_membrane_operator *op = context;
     const fracas_membrane_tables *t = op->constants.tables;
     fracas_membrane_operator_apply(op, w, result);
-    for (size_t i = 0; i < 2 * (size_t)MEMBRANE_NODES(t->order) * t->nelements; i++) result[i] = -result[i];
+    for (size_t i = 0; i < 2 * (size_t)MEMBRANE_NODES(t->order) * t->nelements; i++)
+        result[i] = -result[i];
 }
 
 static void multiply_by_mass(void *context, const double *w, double *result)
@@ -80,9 +88,12 @@ static fracas_err largest_frequency(const fracas_model *model, int contact, doub
     fracas_err err = scale ? FRACAS_OK : fracas_no_memory("the critical time step");
     for (size_t i = 0; scale && i < n; i++) {
         const size_t e = i / (2 * nodes);
-        scale[i] = t->held && (t->held[e] >> i % (2 * nodes) & 1) ? 0 : t->lumped[(2 * e + 1) * nodes];
+        scale[i] = t->held && (t->held[e] >> i % (2 * nodes) & 1) ? 0
+                                                                  : t->lumped[(2 * e + 1) * nodes];
     }
-    if (!err) err = fracas_surface_frequency(&(fracas_lanczos_problem){apply, multiply_by_mass, op, n}, scale, omega);
+    if (!err)
+        err = fracas_surface_frequency(&(fracas_lanczos_problem){apply, multiply_by_mass, op, n},
+                                       scale, omega);
     free(scale);
     fracas_membrane_operator_close(op);
     return err;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/formulation/surface/membrane_tables.h"
 
 #include "engine/element/triangle.h"
@@ -15,8 +16,8 @@ void fracas_membrane_tables_destroy(void *p)
 {
     fracas_membrane_tables *t = p;
     if (!t) return;
-    void *const owned[] = {t->bulk, t->lumped, t->consistent, t->position, t->joint, t->element, t->edge,
-                           t->held, t->fixed};
+    void *const owned[] = {t->bulk,    t->lumped, t->consistent, t->position, t->joint,
+                           t->element, t->edge,   t->held,       t->fixed};
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
     fracas_surface_visits_clear(&t->visits);
     free(t);
@@ -35,19 +36,21 @@ static bool allocate(fracas_membrane_tables *t, bool consistent, bool positions,
     t->joint = malloc((m ? m : 1) * joint * sizeof *t->joint);
     t->element = malloc((m ? m : 1) * sizeof *t->element);
     t->edge = malloc((m ? m : 1) * sizeof *t->edge);
-    return t->bulk && t->lumped && (t->consistent || !consistent) && (t->position || !positions) && ((t->held && t->fixed) || !held) &&
-           t->joint && t->element && t->edge;
+    return t->bulk && t->lumped && (t->consistent || !consistent) && (t->position || !positions) &&
+           ((t->held && t->fixed) || !held) && t->joint && t->element && t->edge;
 }
 
 /* Coordinates of the nodes of an element in the plane. */
 static void nodes_of(const fracas_surface *surface, size_t e, double (*x)[2])
 {
     for (size_t k = 0; k < surface->corners; k++)
-        for (int i = 0; i < 2; i++) x[k][i] = surface->node[surface->element[e * surface->corners + k]][i];
+        for (int i = 0; i < 2; i++)
+            x[k][i] = surface->node[surface->element[e * surface->corners + k]][i];
 }
 
 /* d(x, y)/d(xi, eta) at a point, its determinant. */
-static double jacobian(int order, const double (*x)[2], double xi, double eta, double *shape, double j[2][2])
+static double jacobian(int order, const double (*x)[2], double xi, double eta, double *shape,
+                       double j[2][2])
 {
     double derivative[6][2];
     fracas_triangle_shape(order, xi, eta, shape, derivative);
@@ -61,12 +64,14 @@ static double jacobian(int order, const double (*x)[2], double xi, double eta, d
 
 static void fill_bulk(const fracas_model *model, fracas_membrane_tables *t, size_t e)
 {
-    static const double at[2][3][2] = {{{1.0 / 3, 1.0 / 3}}, {{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}}};
+    static const double at[2][3][2] = {
+        {{1.0 / 3, 1.0 / 3}}, {{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}}};
     const int points = MEMBRANE_BULK(t->order);
     double x[6][2], shape[6], j[2][2];
     nodes_of(model->surface, e, x);
     for (int g = 0; g < points; g++) {
-        const double det = jacobian(t->order, (const double(*)[2])x, at[t->order - 1][g][0], at[t->order - 1][g][1], shape, j);
+        const double det = jacobian(t->order, (const double(*)[2])x, at[t->order - 1][g][0],
+                                    at[t->order - 1][g][1], shape, j);
         double *bulk = t->bulk + (e * (size_t)points + (size_t)g) * MEMBRANE_BULK_TABLE;
         bulk[MEMBRANE_XI_X] = j[1][1] / det;
         bulk[MEMBRANE_XI_Y] = -j[0][1] / det;
@@ -93,7 +98,8 @@ static void invert(double *m, int n)
 }
 
 /* Inverse of the mass among the nodes that are not held in a component; 0 for those that are. */
-static void invert_free(const double *mass, int nodes, unsigned held, int component, double *inverse)
+static void invert_free(const double *mass, int nodes, unsigned held, int component,
+                        double *inverse)
 {
     for (int r = 0; r < nodes; r++)
         for (int c = 0; c < nodes; c++) {
@@ -109,12 +115,15 @@ static void fill_mass(const fracas_model *model, fracas_membrane_tables *t, size
 {
     const int nodes = MEMBRANE_NODES(t->order);
     double mass[36], *lumped = t->lumped + 2 * (size_t)nodes * e;
-    fracas_nodal_mass(model->surface, e, model->spec.material.density * model->spec.geometry.thickness, mass, lumped + nodes);
+    fracas_nodal_mass(model->surface, e,
+                      model->spec.material.density * model->spec.geometry.thickness, mass,
+                      lumped + nodes);
     for (int k = 0; k < nodes; k++) lumped[k] = 1.0 / lumped[nodes + k];
     if (!t->consistent) return;
     const size_t entries = (size_t)(nodes * nodes);
     double *consistent = t->consistent + 3 * entries * e;
-    for (int i = 0; i < 2; i++) invert_free(mass, nodes, t->held ? t->held[e] : 0u, i, consistent + (size_t)i * entries);
+    for (int i = 0; i < 2; i++)
+        invert_free(mass, nodes, t->held ? t->held[e] : 0u, i, consistent + (size_t)i * entries);
     for (size_t i = 0; i < entries; i++) consistent[2 * entries + i] = mass[i];
 }
 
@@ -140,12 +149,14 @@ static void fill_joint(const fracas_model *model, fracas_membrane_tables *t, siz
         t->element[i][side] = interface->element[side];
         t->edge[i][side] = (uint8_t)interface->edge[side];
     }
-    joint[MEMBRANE_STIFFNESS] = spec->cohesive.beta * modulus * fracas_surface_inverse_size(model->surface, i);
+    joint[MEMBRANE_STIFFNESS] = spec->cohesive.beta * modulus *
+                                fracas_surface_inverse_size(model->surface, i);
     joint[MEMBRANE_COMPLIANCE] = 1.0 / joint[MEMBRANE_STIFFNESS];
     nodes_of(model->surface, interface->element[0], x);
     for (int g = 0; g < MEMBRANE_EDGE(t->order); g++) {
         double tangent[2], *point = joint + MEMBRANE_POINTS + g * MEMBRANE_POINT_TABLE;
-        tangent_of(t->order, (const double(*)[2])x, interface->edge[0], points[t->order - 1][g], tangent);
+        tangent_of(t->order, (const double(*)[2])x, interface->edge[0], points[t->order - 1][g],
+                   tangent);
         const double speed = sqrt(tangent[0] * tangent[0] + tangent[1] * tangent[1]);
         point[MEMBRANE_NX] = tangent[1] / speed;
         point[MEMBRANE_NY] = -tangent[0] / speed;
@@ -153,21 +164,28 @@ static void fill_joint(const fracas_model *model, fracas_membrane_tables *t, siz
     }
 }
 
-static fracas_err hold_edge(const fracas_model *model, const fracas_surface_border *border, const fracas_kind *kind,
-                            fracas_membrane_tables *t)
+static fracas_err hold_edge(const fracas_model *model, const fracas_surface_border *border,
+                            const fracas_kind *kind, fracas_membrane_tables *t)
 {
     double x[6][2];
     nodes_of(model->surface, border->element, x);
     const uint32_t k = border->edge, node[3] = {k, (k + 1) % 3, 3 + k};
     bool held[2] = {true, true};
-    if (kind == &fracas_edge_clamped || kind == &fracas_edge_symmetry || kind == &fracas_edge_diaphragm)
-        return fracas_fail(FRACAS_USAGE, "an edge with tag %d is %s, which edges of shells are: let an edge of a membrane be %s", (int)border->tag,
-                           kind->name, kind == &fracas_edge_symmetry ? "sliding" : "fixed, held, sliding or free");
+    if (kind == &fracas_edge_clamped || kind == &fracas_edge_symmetry ||
+        kind == &fracas_edge_diaphragm)
+        return fracas_fail(
+            FRACAS_USAGE,
+            "an edge with tag %d is %s, which edges of shells are: let an edge of a membrane be %s",
+            (int)border->tag, kind->name,
+            kind == &fracas_edge_symmetry ? "sliding" : "fixed, held, sliding or free");
     if (kind == &fracas_edge_sliding) {
-        const double dx = fabs(x[node[1]][0] - x[node[0]][0]), dy = fabs(x[node[1]][1] - x[node[0]][1]);
+        const double dx = fabs(x[node[1]][0] - x[node[0]][0]),
+                     dy = fabs(x[node[1]][1] - x[node[0]][1]);
         if (fmin(dx, dy) > 1e-9 * fmax(dx, dy))
-            return fracas_fail(FRACAS_USAGE, "an edge with tag %d slides, but it is neither along x nor along y at (%g, %g) m: hold it, "
-                               "or leave it free", (int)border->tag, x[node[0]][0], x[node[0]][1]);
+            return fracas_fail(FRACAS_USAGE,
+                               "an edge with tag %d slides, but it is neither along x nor along y "
+                               "at (%g, %g) m: hold it, or leave it free",
+                               (int)border->tag, x[node[0]][0], x[node[0]][1]);
         held[0] = dy > dx;
         held[1] = dx > dy;
     }
@@ -184,7 +202,9 @@ static fracas_err hold_edge(const fracas_model *model, const fracas_surface_bord
 static bool holds_something(const fracas_model *model)
 {
     for (size_t b = 0; b < model->surface->nborders; b++)
-        if (fracas_surface_edge_kind(&model->spec, model->surface->border[b].tag) != &fracas_edge_free) return true;
+        if (fracas_surface_edge_kind(&model->spec, model->surface->border[b].tag) !=
+            &fracas_edge_free)
+            return true;
     return false;
 }
 
@@ -192,13 +212,17 @@ static fracas_err fill(const fracas_model *model, fracas_membrane_tables *t)
 {
     TRY(fracas_surface_check_edge_tags(model));
     for (size_t b = 0; t->held && b < model->surface->nborders; b++) {
-        const fracas_kind *kind = fracas_surface_edge_kind(&model->spec, model->surface->border[b].tag);
+        const fracas_kind *kind = fracas_surface_edge_kind(&model->spec,
+                                                           model->surface->border[b].tag);
         if (kind != &fracas_edge_free) TRY(hold_edge(model, &model->surface->border[b], kind, t));
     }
     for (size_t e = 0; e < t->nelements; e++) {
         fill_bulk(model, t, e);
         fill_mass(model, t, e);
-        if (t->position) nodes_of(model->surface, e, (double(*)[2])(void *)(t->position + e * 2 * (size_t)MEMBRANE_NODES(t->order)));
+        if (t->position)
+            nodes_of(
+                model->surface, e,
+                (double(*)[2])(void *)(t->position + e * 2 * (size_t)MEMBRANE_NODES(t->order)));
     }
     for (size_t i = 0; i < t->ninterfaces; i++) fill_joint(model, t, i);
     return fracas_surface_visits_init(&t->visits, model->surface);
@@ -214,8 +238,9 @@ fracas_err fracas_membrane_tables_create(const fracas_model *model, fracas_membr
     t->ninterfaces = surface->ninterfaces;
     const bool consistent = model->spec.time.mass == &fracas_mass_consistent;
     const bool positions = model->spec.loading.type == &fracas_loading_centrifugal;
-    fracas_err err = allocate(t, consistent, positions, holds_something(model)) ? fill(model, t)
-                                                                               : fracas_no_memory("the tables of a membrane");
+    fracas_err err = allocate(t, consistent, positions, holds_something(model))
+                         ? fill(model, t)
+                         : fracas_no_memory("the tables of a membrane");
     if (err) {
         fracas_membrane_tables_destroy(t);
         return err;

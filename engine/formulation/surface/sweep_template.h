@@ -1,5 +1,6 @@
-/* What the sweeps of membranes and shells share, for one width. Include after base/lanes.h and cohesive/plane_nitsche.h; undefined
- * again by sweep_template_end.h. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the sweeps of membranes and shells share, for one width. Include after base/lanes.h and
+ * cohesive/plane_nitsche.h; undefined again by sweep_template_end.h. */
 #include "engine/integrator/central_difference.h"
 
 #define surface_at LANES_NAME(fracas_surface_at)
@@ -7,41 +8,50 @@
 #define surface_kick LANES_NAME(fracas_surface_kick)
 #define surface_nitsche LANES_NAME(fracas_surface_nitsche)
 #ifdef __SANITIZE_ADDRESS__ /* unrolled, checks take minutes to compile */
-#define UNROLL
+#define UNROLL_FOR(...) for (__VA_ARGS__)
 #else
-#define UNROLL _Pragma("GCC unroll 18")
+#define UNROLL_FOR(...) _Pragma("GCC unroll 18") for (__VA_ARGS__)
 #endif
 
-LANES_FUNCTION double *surface_at(double *record, int field) { return record + field * LANES; }
+LANES_FUNCTION double *surface_at(double *record, int field)
+{
+    return record + field * LANES;
+}
 
-/* Displacements of the `size` unknowns of an element at t_n, from where the last kick left them, `dt` ago. */
+/* Displacements of the `size` unknowns of an element at t_n, from where the last kick left them,
+ * `dt` ago. */
 LANES_FUNCTION void surface_drift(const fracas_surface_motion *m, vd dt, int size, double *at)
 {
-    UNROLL for (int i = 0; i < size; i++) {
+    UNROLL_FOR (int i = 0; i < size; i++) {
         double *u = surface_at(at, SURFACE_U * size + i), *v = surface_at(at, SURFACE_V * size + i);
         if (!m->alpha) {
             lanes_store(u, central_drift(lanes_load(u), lanes_load(v), dt));
         } else { /* (membrane.15) */
-            const vd old = lanes_load(surface_at(at, SURFACE_A * size + i)), now = lanes_load(surface_at(at, SURFACE_A_NEXT * size + i));
-            lanes_store(u, lanes_load(u) + dt * lanes_load(v) + dt * dt * (lanes_set(0.5 - m->b) * old + lanes_set(m->b) * now));
-            lanes_store(v, lanes_load(v) + dt * (lanes_set(1.0 - m->g) * old + lanes_set(m->g) * now));
+            const vd old = lanes_load(surface_at(at, SURFACE_A * size + i)),
+                     now = lanes_load(surface_at(at, SURFACE_A_NEXT * size + i));
+            lanes_store(u, lanes_load(u) + dt * lanes_load(v) +
+                               dt * dt * (lanes_set(0.5 - m->b) * old + lanes_set(m->b) * now));
+            lanes_store(v,
+                        lanes_load(v) + dt * (lanes_set(1.0 - m->g) * old + lanes_set(m->g) * now));
         }
     }
 }
 
-/* Velocities v of an element to those after its kick, which last `dt`, by the accelerations a of its forces. `begins`: in the first
- * step of all. */
-LANES_FUNCTION void surface_kick(const fracas_surface_motion *m, vd dt, int begins, int size, double *at, const vd *a, const vd *v, vd *after)
+/* Velocities v of an element to those after its kick, which last `dt`, by the accelerations a of
+ * its forces. `begins`: in the first step of all. */
+LANES_FUNCTION void surface_kick(const fracas_surface_motion *m, vd dt, int begins, int size,
+                                 double *at, const vd *a, const vd *v, vd *after)
 {
-    UNROLL for (int i = 0; i < size; i++) after[i] = v[i];
+    UNROLL_FOR (int i = 0; i < size; i++) after[i] = v[i];
     if (!m->alpha) {
-        UNROLL for (int i = 0; i < size; i++) {
+        UNROLL_FOR (int i = 0; i < size; i++) {
             after[i] = central_kick(v[i], a[i], dt);
             lanes_store(surface_at(at, SURFACE_V * size + i), after[i]);
         }
     } else { /* (membrane.14); the first acceleration is the force's own */
-        const vd keep = lanes_set(begins ? 0.0 : m->alpha_m), share = lanes_set(begins ? 1.0 : 1.0 - m->alpha_m);
-        UNROLL for (int i = 0; i < size; i++) {
+        const vd keep = lanes_set(begins ? 0.0 : m->alpha_m),
+                 share = lanes_set(begins ? 1.0 : 1.0 - m->alpha_m);
+        UNROLL_FOR (int i = 0; i < size; i++) {
             const vd old = begins ? a[i] : lanes_load(surface_at(at, SURFACE_A_NEXT * size + i));
             lanes_store(surface_at(at, SURFACE_A * size + i), old);
             lanes_store(surface_at(at, SURFACE_A_NEXT * size + i), (a[i] - keep * old) / share);
@@ -50,9 +60,11 @@ LANES_FUNCTION void surface_kick(const fracas_surface_motion *m, vd dt, int begi
 }
 
 /* Law `nitsche` at a point: reads and writes its fields. */
-LANES_FUNCTION plane_result surface_nitsche(const plane_interface *at, const plane_input *in, int friction, double *point)
+LANES_FUNCTION plane_result surface_nitsche(const plane_interface *at, const plane_input *in,
+                                            int friction, double *point)
 {
-    plane_nitsche_state state = {.damage = lanes_load(surface_at(point, SURFACE_DAMAGE)), .peak = lanes_load(surface_at(point, SURFACE_PEAK))};
+    plane_nitsche_state state = {.damage = lanes_load(surface_at(point, SURFACE_DAMAGE)),
+                                 .peak = lanes_load(surface_at(point, SURFACE_PEAK))};
     if (!friction) {
         plane_result r = plane_nitsche(at, in, 0, &state);
         lanes_store(surface_at(point, SURFACE_DAMAGE), state.damage);

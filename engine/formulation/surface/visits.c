@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/formulation/surface/visits.h"
 
 #include <stdbool.h>
@@ -18,11 +19,14 @@ static void fill_join(fracas_surface_visits *v, const fracas_surface *surface)
     const size_t n = surface->nelements, m = surface->ninterfaces;
     for (size_t i = 0; i < m; i++) v->join_from[surface->interface[i].element[1] + 2]++;
     for (size_t e = 0; e < n; e++) v->join_from[e + 1] += v->join_from[e];
-    for (size_t i = 0; i < m; i++) v->join[v->join_from[surface->interface[i].element[1] + 1]++] = (uint32_t)i;
+    for (size_t i = 0; i < m; i++)
+        v->join[v->join_from[surface->interface[i].element[1] + 1]++] = (uint32_t)i;
 }
 
-/* Elements by the last of their neighbours, likewise; `last` and `next` are room for one number an element. */
-static void fill_finish(fracas_surface_visits *v, const fracas_surface *surface, uint32_t *last, uint32_t *next)
+/* Elements by the last of their neighbours, likewise; `last` and `next` are room for one number an
+ * element. */
+static void fill_finish(fracas_surface_visits *v, const fracas_surface *surface, uint32_t *last,
+                        uint32_t *next)
 {
     const size_t n = surface->nelements;
     for (size_t e = 0; e < n; e++) last[e] = (uint32_t)e;
@@ -42,8 +46,10 @@ static void fill_finish(fracas_surface_visits *v, const fracas_surface *surface,
 fracas_err fracas_surface_visits_init(fracas_surface_visits *v, const fracas_surface *surface)
 {
     const size_t n = surface->nelements, m = surface->ninterfaces;
-    *v = (fracas_surface_visits){.join_from = calloc(n + 2, sizeof *v->join_from), .join = malloc((m ? m : 1) * sizeof *v->join),
-                                 .finish_from = calloc(n + 2, sizeof *v->finish_from), .finish = malloc(n * sizeof *v->finish)};
+    *v = (fracas_surface_visits){.join_from = calloc(n + 2, sizeof *v->join_from),
+                                 .join = malloc((m ? m : 1) * sizeof *v->join),
+                                 .finish_from = calloc(n + 2, sizeof *v->finish_from),
+                                 .finish = malloc(n * sizeof *v->finish)};
     uint32_t *last = malloc(n * sizeof *last), *next = malloc(n * sizeof *next);
     const bool enough = v->join_from && v->join && v->finish_from && v->finish && last && next;
     if (enough) {

@@ -1,4 +1,6 @@
-/* Circles of nodes, each with as many as its length asks for, and a strip of triangles between each two. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Circles of nodes, each with as many as its length asks for, and a strip of triangles between each
+ * two. */
 #include "base/elementary.h"
 #include "engine/mesh/surface/parts.h"
 
@@ -6,7 +8,8 @@
 
 #define PI 3.14159265358979323846
 #define ROW 0.86602540378443865 /* altitude of an equilateral triangle by its edge */
-#define LEAST_NODES 8.0         /* of a circle: with fewer, its bent edges come too close to the opposite vertices */
+#define LEAST_NODES \
+    8.0 /* of a circle: with fewer, its bent edges come too close to the opposite vertices */
 
 typedef struct {
     double inner, outer;
@@ -38,26 +41,30 @@ static void fill_circle(const annulus *body, size_t circle, size_t count, double
 }
 
 /* Advances on the circle whose next edge has its middle first; `circle`: the inner one. */
-static uint32_t *fill_strip(size_t circle, size_t inner, size_t outer, uint32_t first, uint32_t *put)
+static uint32_t *fill_strip(size_t circle, size_t inner, size_t outer, uint32_t first,
+                            uint32_t *put)
 {
     const size_t turn_in = circle % 2, turn_out = 1 - turn_in;
     size_t a = 0, b = 0;
     while (a < inner || b < outer) {
-        const uint32_t from_in = first + (uint32_t)(a % inner), from_out = first + (uint32_t)(inner + b % outer);
+        const uint32_t from_in = first + (uint32_t)(a % inner),
+                       from_out = first + (uint32_t)(inner + b % outer);
         *put++ = from_in;
         *put++ = from_out;
-        if (b == outer || (a < inner && (2 * a + 1 + turn_in) * outer < (2 * b + 1 + turn_out) * inner))
+        if (b == outer ||
+            (a < inner && (2 * a + 1 + turn_in) * outer < (2 * b + 1 + turn_out) * inner))
             *put++ = first + (uint32_t)(++a % inner);
-        else
-            *put++ = first + (uint32_t)(inner + ++b % outer);
+        else *put++ = first + (uint32_t)(inner + ++b % outer);
     }
     return put;
 }
 
-static fracas_surface_tag *fill_tags(size_t count, uint32_t first, int32_t tag, fracas_surface_tag *put)
+static fracas_surface_tag *fill_tags(size_t count, uint32_t first, int32_t tag,
+                                     fracas_surface_tag *put)
 {
     for (uint32_t i = 0; i < count; i++)
-        *put++ = (fracas_surface_tag){.node = {first + i, first + (uint32_t)((i + 1) % count)}, .tag = tag};
+        *put++ = (fracas_surface_tag){.node = {first + i, first + (uint32_t)((i + 1) % count)},
+                                      .tag = tag};
     return put;
 }
 
@@ -80,20 +87,24 @@ static void fill(const annulus *body, fracas_surface_draft *draft)
     draft->radius[2] = body->outer;
 }
 
-fracas_err fracas_surface_annulus(double inner, double outer, const fracas_surface_fineness *fineness,
+fracas_err fracas_surface_annulus(double inner, double outer,
+                                  const fracas_surface_fineness *fineness,
                                   const fracas_surface **surface)
 {
     TRY(fracas_surface_check_length("the inner radius", inner));
     TRY(fracas_surface_check_length("the outer radius", outer));
     if (!(outer - inner >= 1e-6 * outer))
-        return fracas_fail(FRACAS_USAGE, "the outer radius of an annulus is %g m, the inner one %g m: it should be larger, by a "
-                                         "millionth at least", outer, inner);
+        return fracas_fail(FRACAS_USAGE,
+                           "the outer radius of an annulus is %g m, the inner one %g m: it should "
+                           "be larger, by a millionth at least",
+                           outer, inner);
     annulus body = {.inner = inner, .outer = outer};
     TRY(fracas_surface_divide(fineness, outer - inner, ROW, &body.layers));
     const double ends = nodes_of(&body, 0.0) + nodes_of(&body, body.layers);
     double vertices = nodes_of(&body, 0.0);
     /* Stops where fracas_surface_draft_init will refuse. */
-    for (double circle = 1.0; circle <= body.layers && vertices <= (double)FRACAS_SURFACE_LARGEST; circle++)
+    for (double circle = 1.0; circle <= body.layers && vertices <= (double)FRACAS_SURFACE_LARGEST;
+         circle++)
         vertices += nodes_of(&body, circle);
     fracas_surface_draft draft;
     TRY(fracas_surface_draft_init(&draft, vertices, 2.0 * vertices - ends, ends));

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From arrays to a surface: neighbours found, elements and nodes put in a new order. */
 #include "engine/mesh/surface/parts.h"
 
@@ -59,17 +60,24 @@ static fracas_err set_tags(assembly *work)
         const fracas_surface_tag *given = &arrays->tag[t];
         for (int k = 0; k < 2; k++)
             if (given->node[k] >= arrays->nnodes)
-                return fracas_fail(FRACAS_USAGE, "tag %" PRId32 " is for node %" PRIu32 ", but there are %zu", given->tag,
-                                   given->node[k], arrays->nnodes);
-        const int64_t a = fracas_surface_node_name(arrays, given->node[0]), b = fracas_surface_node_name(arrays, given->node[1]);
-        const size_t first = fracas_surface_find_edge(work->side, nsides, given->node[0], given->node[1]);
+                return fracas_fail(FRACAS_USAGE,
+                                   "tag %" PRId32 " is for node %" PRIu32 ", but there are %zu",
+                                   given->tag, given->node[k], arrays->nnodes);
+        const int64_t a = fracas_surface_node_name(arrays, given->node[0]),
+                      b = fracas_surface_node_name(arrays, given->node[1]);
+        const size_t first = fracas_surface_find_edge(work->side, nsides, given->node[0],
+                                                      given->node[1]);
         if (first == nsides)
-            return fracas_fail(FRACAS_USAGE, "tag %" PRId32 " is for nodes %" PRId64 " and %" PRId64
-                                             ", between which no triangle has an edge", given->tag, a, b);
+            return fracas_fail(FRACAS_USAGE,
+                               "tag %" PRId32 " is for nodes %" PRId64 " and %" PRId64
+                               ", between which no triangle has an edge",
+                               given->tag, a, b);
         const int32_t before = work->tag[work->side[first].element][work->side[first].edge];
         if (before != 0 && before != given->tag)
-            return fracas_fail(FRACAS_USAGE, "the edge between nodes %" PRId64 " and %" PRId64 " has the tags %" PRId32
-                                             " and %" PRId32 ": one is the most", a, b, before, given->tag);
+            return fracas_fail(FRACAS_USAGE,
+                               "the edge between nodes %" PRId64 " and %" PRId64
+                               " has the tags %" PRId32 " and %" PRId32 ": one is the most",
+                               a, b, before, given->tag);
         for (size_t i = first; i < fracas_surface_next_edge(work->side, first, nsides); i++)
             work->tag[work->side[i].element][work->side[i].edge] = given->tag;
     }
@@ -79,7 +87,8 @@ static fracas_err set_tags(assembly *work)
 static void set_neighbours(assembly *work)
 {
     const size_t nsides = 3 * work->arrays->nelements;
-    for (size_t i = 0; i < nsides; i++) work->neighbour[work->side[i].element][work->side[i].edge] = NONE;
+    for (size_t i = 0; i < nsides; i++)
+        work->neighbour[work->side[i].element][work->side[i].edge] = NONE;
     for (size_t i = 0; i + 1 < nsides; i++) {
         const fracas_surface_side *a = &work->side[i], *b = a + 1;
         if (!fracas_surface_same_edge(a, b)) continue;
@@ -102,7 +111,8 @@ static void count(const assembly *work, fracas_surface *made)
     made->nvertices = made->nnodes - (made->order == 2 ? made->ninterfaces + made->nborders : 0);
 }
 
-static void fill_elements(const assembly *work, size_t corners, double (*node)[3], uint32_t *element, int64_t *given)
+static void fill_elements(const assembly *work, size_t corners, double (*node)[3],
+                          uint32_t *element, int64_t *given)
 {
     const fracas_surface_arrays *arrays = work->arrays;
     uint32_t nodes = 0;
@@ -129,7 +139,8 @@ static uint32_t edge_to(const assembly *work, uint32_t of, uint32_t neighbour)
     return k;
 }
 
-static void fill_edges(const assembly *work, fracas_surface_interface *interface, fracas_surface_border *border)
+static void fill_edges(const assembly *work, fracas_surface_interface *interface,
+                       fracas_surface_border *border)
 {
     size_t interfaces = 0, borders = 0;
     for (uint32_t e = 0; e < work->arrays->nelements; e++) {
@@ -138,11 +149,13 @@ static void fill_edges(const assembly *work, fracas_surface_interface *interface
         for (uint32_t k = 0; k < 3; k++) {
             const uint32_t neighbour = work->neighbour[from][k];
             const int32_t tag = work->tag[from][k];
-            if (neighbour == NONE) border[borders++] = (fracas_surface_border){.element = e, .edge = k, .tag = tag};
+            if (neighbour == NONE)
+                border[borders++] = (fracas_surface_border){.element = e, .edge = k, .tag = tag};
             if (neighbour == NONE || work->place[neighbour] < e) continue;
             const uint32_t other = work->place[neighbour];
             size_t at = interfaces++;
-            for (; at > start && interface[at - 1].element[1] > other; at--) interface[at] = interface[at - 1];
+            for (; at > start && interface[at - 1].element[1] > other; at--)
+                interface[at] = interface[at - 1];
             interface[at] = (fracas_surface_interface){
                 .element = {e, other}, .edge = {k, edge_to(work, neighbour, from)}, .tag = tag};
         }
@@ -152,12 +165,13 @@ static void fill_edges(const assembly *work, fracas_surface_interface *interface
 static fracas_err fill(const assembly *work, fracas_surface *made)
 {
     count(work, made);
-    double (*node)[3] = malloc(made->nnodes * sizeof *node);
+    double(*node)[3] = malloc(made->nnodes * sizeof *node);
     uint32_t *element = malloc(made->nelements * made->corners * sizeof *element);
     int64_t *given = malloc(made->nelements * sizeof *given);
-    fracas_surface_interface *interface = malloc((made->ninterfaces + 1) * sizeof *interface); /* there may be none */
+    fracas_surface_interface *interface = malloc((made->ninterfaces + 1) *
+                                                 sizeof *interface); /* there may be none */
     fracas_surface_border *border = malloc((made->nborders + 1) * sizeof *border);
-    made->node = (const double (*)[3])node;
+    made->node = (const double(*)[3])node;
     made->element = element;
     made->given = given;
     made->interface = interface;
@@ -172,19 +186,22 @@ static fracas_err assemble(assembly *work, fracas_surface *made)
 {
     const fracas_surface_arrays *arrays = work->arrays;
     TRY(fracas_surface_check_elements(arrays));
-    work->side = fracas_surface_sides(arrays->element, arrays->nelements, (size_t)(3 * arrays->order));
+    work->side = fracas_surface_sides(arrays->element, arrays->nelements,
+                                      (size_t)(3 * arrays->order));
     if (!work->side) return fracas_no_memory("the edges of a mesh");
     TRY(fracas_surface_check_edges(arrays, work->side));
     if (arrays->order == 2) TRY(fracas_surface_check_jacobians(arrays));
     TRY(allocate_work(work));
     TRY(set_tags(work));
     set_neighbours(work);
-    TRY(fracas_surface_order(arrays->nelements, (const uint32_t (*)[3])work->neighbour, work->order));
+    TRY(fracas_surface_order(arrays->nelements, (const uint32_t(*)[3])work->neighbour,
+                             work->order));
     for (uint32_t e = 0; e < arrays->nelements; e++) work->place[work->order[e]] = e;
     return fill(work, made);
 }
 
-fracas_err fracas_surface_assemble(const fracas_surface_arrays *arrays, const fracas_surface **surface)
+fracas_err fracas_surface_assemble(const fracas_surface_arrays *arrays,
+                                   const fracas_surface **surface)
 {
     fracas_surface *made = calloc(1, sizeof *made);
     if (!made) return fracas_no_memory("a mesh");

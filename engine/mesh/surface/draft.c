@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the bodies share: how fine, perturbation of vertices, mid-side nodes. */
 #include "engine/mesh/surface/parts.h"
 
@@ -8,29 +9,42 @@
 
 fracas_err fracas_surface_check_length(const char *what, double length)
 {
-    if (length >= 1e-30 && length <= 1e30) return FRACAS_OK; /* volumes and their inverses are numbers */
-    return fracas_fail(FRACAS_USAGE, "%s of a surface is %g m: it should be between 1e-30 and 1e30 m", what, length);
+    if (length >= 1e-30 && length <= 1e30)
+        return FRACAS_OK; /* volumes and their inverses are numbers */
+    return fracas_fail(FRACAS_USAGE,
+                       "%s of a surface is %g m: it should be between 1e-30 and 1e30 m", what,
+                       length);
 }
 
-fracas_err fracas_surface_divide(const fracas_surface_fineness *fineness, double length, double height, double *divisions)
+fracas_err fracas_surface_divide(const fracas_surface_fineness *fineness, double length,
+                                 double height, double *divisions)
 {
     if ((fineness->size != 0.0) == (fineness->divisions != 0))
-        return fracas_fail(FRACAS_USAGE, "a surface takes either a size of elements or a number of divisions, not %s",
-                           fineness->divisions ? "both" : "neither");
-    if (fineness->divisions == 0) TRY(fracas_surface_check_length("the size of the elements", fineness->size));
-    *divisions = fineness->divisions ? (double)fineness->divisions : fmax(1.0, floor(length / (height * fineness->size) + 0.5));
+        return fracas_fail(
+            FRACAS_USAGE,
+            "a surface takes either a size of elements or a number of divisions, not %s",
+            fineness->divisions ? "both" : "neither");
+    if (fineness->divisions == 0)
+        TRY(fracas_surface_check_length("the size of the elements", fineness->size));
+    *divisions = fineness->divisions ? (double)fineness->divisions
+                                     : fmax(1.0, floor(length / (height * fineness->size) + 0.5));
     if (*divisions <= (double)FRACAS_SURFACE_LARGEST) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "a surface of %g m would have %g divisions: take fewer, or a larger size of elements",
-                       length, *divisions);
+    return fracas_fail(
+        FRACAS_USAGE,
+        "a surface of %g m would have %g divisions: take fewer, or a larger size of elements",
+        length, *divisions);
 }
 
-fracas_err fracas_surface_draft_init(fracas_surface_draft *draft, double nvertices, double nelements, double ntags)
+fracas_err fracas_surface_draft_init(fracas_surface_draft *draft, double nvertices,
+                                     double nelements, double ntags)
 {
     /* Twice as many edges as vertices make four times as many nodes of the second order. */
     if (!(4.0 * nvertices <= (double)FRACAS_SURFACE_LARGEST))
-        return fracas_fail(FRACAS_USAGE, "a surface would have %.0f elements, more than %zu: take a larger size", nelements,
-                           FRACAS_SURFACE_LARGEST / 2);
-    *draft = (fracas_surface_draft){.nvertices = (size_t)nvertices, .nelements = (size_t)nelements, .ntags = (size_t)ntags};
+        return fracas_fail(FRACAS_USAGE,
+                           "a surface would have %.0f elements, more than %zu: take a larger size",
+                           nelements, FRACAS_SURFACE_LARGEST / 2);
+    *draft = (fracas_surface_draft){
+        .nvertices = (size_t)nvertices, .nelements = (size_t)nelements, .ntags = (size_t)ntags};
     draft->node = malloc(draft->nvertices * sizeof *draft->node);
     draft->element = malloc(3 * draft->nelements * sizeof *draft->element);
     draft->tag = malloc((draft->ntags + 1) * sizeof *draft->tag); /* there may be none */
@@ -55,26 +69,33 @@ void fracas_surface_project(double point[3], double radius)
 
 /* ---- perturbation ---- */
 
-static fracas_err check_shifts(const fracas_surface_draft *draft, const fracas_surface_fineness *fineness)
+static fracas_err check_shifts(const fracas_surface_draft *draft,
+                               const fracas_surface_fineness *fineness)
 {
     if (!(fineness->amplitude >= 0.0 && fineness->amplitude <= FRACAS_SURFACE_AMPLITUDE))
-        return fracas_fail(FRACAS_USAGE, "the amplitude of a mesh's perturbation is %g: it should be between 0 and %g",
-                           fineness->amplitude, FRACAS_SURFACE_AMPLITUDE);
+        return fracas_fail(
+            FRACAS_USAGE,
+            "the amplitude of a mesh's perturbation is %g: it should be between 0 and %g",
+            fineness->amplitude, FRACAS_SURFACE_AMPLITUDE);
     if (!fineness->shift && fineness->amplitude == 0.0) return FRACAS_OK;
     const size_t given = fineness->shift ? fineness->nshifts : 0;
     if (given != draft->nvertices)
-        return fracas_fail(FRACAS_USAGE, "a mesh's perturbation needs a pair of numbers for each of its %zu vertices, not %zu",
-                           draft->nvertices, given);
+        return fracas_fail(
+            FRACAS_USAGE,
+            "a mesh's perturbation needs a pair of numbers for each of its %zu vertices, not %zu",
+            draft->nvertices, given);
     for (size_t v = 0; v < draft->nvertices; v++)
         for (int i = 0; i < 2; i++)
             if (!(fabs(fineness->shift[v][i]) <= 1.0))
-                return fracas_fail(FRACAS_USAGE, "number %d of vertex %zu in a mesh's perturbation is %g: it should be between "
-                                                 "-1 and 1", i, v, fineness->shift[v][i]);
+                return fracas_fail(FRACAS_USAGE,
+                                   "number %d of vertex %zu in a mesh's perturbation is %g: it "
+                                   "should be between -1 and 1",
+                                   i, v, fineness->shift[v][i]);
     return FRACAS_OK;
 }
 
-/* (meshes.6) The local edge length of each vertex, 0 on the boundary: that of an equilateral triangle as high as the least
- * altitude of the elements around it. */
+/* (meshes.6) The local edge length of each vertex, 0 on the boundary: that of an equilateral
+ * triangle as high as the least altitude of the elements around it. */
 static void set_room(const fracas_surface_draft *draft, double *room)
 {
     const double edge_by_altitude = 1.1547005383792515; /* 2/sqrt(3) */
@@ -82,21 +103,24 @@ static void set_room(const fracas_surface_draft *draft, double *room)
     for (size_t e = 0; e < draft->nelements; e++) {
         const uint32_t *node = draft->element + 3 * e;
         double normal[3], longest = 0.0;
-        fracas_surface_normal(draft->node[node[0]], draft->node[node[1]], draft->node[node[2]], normal);
+        fracas_surface_normal(draft->node[node[0]], draft->node[node[1]], draft->node[node[2]],
+                              normal);
         for (int k = 0; k < 3; k++) {
             const double *a = draft->node[node[k]], *b = draft->node[node[(k + 1) % 3]];
             const double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
             longest = fmax(longest, sqrt(fracas_surface_dot(d, d)));
         }
         const double altitude = sqrt(fracas_surface_dot(normal, normal)) / longest;
-        for (int k = 0; k < 3; k++) room[node[k]] = fmin(room[node[k]], edge_by_altitude * altitude);
+        for (int k = 0; k < 3; k++)
+            room[node[k]] = fmin(room[node[k]], edge_by_altitude * altitude);
     }
     for (size_t t = 0; t < draft->ntags; t++)
         for (int k = 0; k < 2; k++) room[draft->tag[t].node[k]] = 0.0;
 }
 
 /* Two unit vectors along the surface at `point`: x and y in the plane. */
-static void tangents(const fracas_surface_draft *draft, const double point[3], double first[3], double second[3])
+static void tangents(const fracas_surface_draft *draft, const double point[3], double first[3],
+                     double second[3])
 {
     static const double origin[3], axis[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     memcpy(first, axis[0], sizeof axis[0]);
@@ -112,7 +136,8 @@ static void tangents(const fracas_surface_draft *draft, const double point[3], d
 }
 
 /* (meshes.7) */
-static fracas_err perturb(const fracas_surface_draft *draft, const fracas_surface_fineness *fineness, double (*node)[3])
+static fracas_err perturb(const fracas_surface_draft *draft,
+                          const fracas_surface_fineness *fineness, double (*node)[3])
 {
     double *room = malloc(draft->nvertices * sizeof *room);
     if (!room) return fracas_no_memory("the perturbation of a mesh");
@@ -122,7 +147,8 @@ static fracas_err perturb(const fracas_surface_draft *draft, const fracas_surfac
         double first[3], second[3];
         tangents(draft, node[v], first, second);
         for (int i = 0; i < 3; i++)
-            node[v][i] += fineness->amplitude * room[v] * (fineness->shift[v][0] * first[i] + fineness->shift[v][1] * second[i]);
+            node[v][i] += fineness->amplitude * room[v] *
+                          (fineness->shift[v][0] * first[i] + fineness->shift[v][1] * second[i]);
         if (draft->sphere > 0.0) fracas_surface_project(node[v], draft->sphere);
     }
     free(room);
@@ -139,7 +165,8 @@ typedef struct {
 } refined;
 
 /* Straight middles behind the vertices; each edge's in all its elements. */
-static void add_middles(const fracas_surface_draft *draft, const fracas_surface_side *side, refined *all)
+static void add_middles(const fracas_surface_draft *draft, const fracas_surface_side *side,
+                        refined *all)
 {
     const size_t nsides = 3 * draft->nelements;
     for (size_t e = 0; e < draft->nelements; e++)
@@ -149,7 +176,8 @@ static void add_middles(const fracas_surface_draft *draft, const fracas_surface_
         const double *a = all->node[side[first].low], *b = all->node[side[first].high];
         double *middle = all->node[all->nnodes];
         for (int i = 0; i < 3; i++) middle[i] = 0.5 * (a[i] + b[i]);
-        if (next - first == 2 && draft->radius[0] > 0.0) fracas_surface_project(middle, draft->radius[0]);
+        if (next - first == 2 && draft->radius[0] > 0.0)
+            fracas_surface_project(middle, draft->radius[0]);
         for (size_t i = first; i < next; i++)
             all->element[6 * (size_t)side[i].element + 3 + side[i].edge] = (uint32_t)all->nnodes;
         all->nnodes++;
@@ -157,24 +185,30 @@ static void add_middles(const fracas_surface_draft *draft, const fracas_surface_
 }
 
 /* Middles of tagged edges onto their circles. */
-static void bend_tagged(const fracas_surface_draft *draft, const fracas_surface_side *side, refined *all)
+static void bend_tagged(const fracas_surface_draft *draft, const fracas_surface_side *side,
+                        refined *all)
 {
     for (size_t t = 0; t < draft->ntags; t++) {
         const fracas_surface_tag *tag = &draft->tag[t];
-        const size_t first = fracas_surface_find_edge(side, 3 * draft->nelements, tag->node[0], tag->node[1]);
-        const uint32_t middle = all->element[6 * (size_t)side[first].element + 3 + side[first].edge];
-        if (draft->radius[tag->tag] > 0.0) fracas_surface_project(all->node[middle], draft->radius[tag->tag]);
+        const size_t first = fracas_surface_find_edge(side, 3 * draft->nelements, tag->node[0],
+                                                      tag->node[1]);
+        const uint32_t middle =
+            all->element[6 * (size_t)side[first].element + 3 + side[first].edge];
+        if (draft->radius[tag->tag] > 0.0)
+            fracas_surface_project(all->node[middle], draft->radius[tag->tag]);
     }
 }
 
-static fracas_err refine(const fracas_surface_draft *draft, const fracas_surface_fineness *fineness, refined *all)
+static fracas_err refine(const fracas_surface_draft *draft, const fracas_surface_fineness *fineness,
+                         refined *all)
 {
     fracas_surface_side *side = NULL;
     size_t nedges = 0;
     if (fineness->order == 2) {
         side = fracas_surface_sides(draft->element, draft->nelements, 3);
         if (!side) return fracas_no_memory("the edges of a mesh");
-        nedges = (3 * draft->nelements + draft->ntags) / 2; /* every edge of the boundary has a tag */
+        nedges = (3 * draft->nelements + draft->ntags) /
+                 2; /* every edge of the boundary has a tag */
     }
     all->node = malloc((draft->nvertices + nedges) * sizeof *all->node);
     all->element = malloc(3 * (size_t)fineness->order * draft->nelements * sizeof *all->element);
@@ -192,17 +226,23 @@ static fracas_err refine(const fracas_surface_draft *draft, const fracas_surface
     return err;
 }
 
-fracas_err fracas_surface_draft_finish(const fracas_surface_draft *draft, const fracas_surface_fineness *fineness,
+fracas_err fracas_surface_draft_finish(const fracas_surface_draft *draft,
+                                       const fracas_surface_fineness *fineness,
                                        const fracas_surface **surface)
 {
     if (fineness->order != 1 && fineness->order != 2)
-        return fracas_fail(FRACAS_USAGE, "a surface has elements of order 1 or 2, not %d", fineness->order);
+        return fracas_fail(FRACAS_USAGE, "a surface has elements of order 1 or 2, not %d",
+                           fineness->order);
     TRY(check_shifts(draft, fineness));
     refined all = {0};
     fracas_err err = refine(draft, fineness, &all);
-    const fracas_surface_arrays arrays = {.order = fineness->order, .nnodes = all.nnodes, .nelements = draft->nelements,
-                                          .ntags = draft->ntags, .node = (const double (*)[3])all.node,
-                                          .element = all.element, .tag = draft->tag};
+    const fracas_surface_arrays arrays = {.order = fineness->order,
+                                          .nnodes = all.nnodes,
+                                          .nelements = draft->nelements,
+                                          .ntags = draft->ntags,
+                                          .node = (const double(*)[3])all.node,
+                                          .element = all.element,
+                                          .tag = draft->tag};
     if (!err) err = fracas_surface_assemble(&arrays, surface);
     free(all.node);
     free(all.element);

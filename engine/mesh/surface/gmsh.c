@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/mesh/surface/gmsh.h"
 
 #include "engine/mesh/surface/gmsh_scan.h"
@@ -24,12 +25,12 @@ typedef struct {
     bool is_4; /* MSH 4.1, else 2.2 */
     size_t nnodes, nelements, nlines, ncurves;
     double (*node)[3];
-    entry *node_entry;  /* sorted: index of each node */
+    entry *node_entry;    /* sorted: index of each node */
     int64_t (*corner)[6]; /* of triangles: Gmsh's numbers */
-    int64_t *element;   /* number of each triangle */
+    int64_t *element;     /* number of each triangle */
     line *line;
-    entry *curve;       /* sorted: physical group of each curve */
-    int order;          /* 0: no triangle so far */
+    entry *curve; /* sorted: physical group of each curve */
+    int order;    /* 0: no triangle so far */
 } mesh;
 
 static void clear(mesh *m)
@@ -74,7 +75,9 @@ static fracas_err read_physical(mesh *m, int dimension, int32_t curve, int32_t *
     TRY(fracas_gmsh_integer(&m->scan, 8, &count));
     TRY(fracas_gmsh_fits(&m->scan, count, 1));
     if (dimension == 1 && count > 1)
-        return fracas_gmsh_fail(&m->scan, "curve %" PRId32 " is in %" PRId64 " physical groups: an edge has one tag at most",
+        return fracas_gmsh_fail(&m->scan,
+                                "curve %" PRId32 " is in %" PRId64
+                                " physical groups: an edge has one tag at most",
                                 curve, count);
     for (int64_t i = 0; i < count; i++) {
         TRY(fracas_gmsh_int(&m->scan, &tag));
@@ -149,7 +152,8 @@ static fracas_err read_nodes_2(mesh *m)
     return sort(m, "node", m->node_entry, m->nnodes);
 }
 
-/* Numbers of the block's nodes, then their coordinates, with those on the entity itself where it is `parametric`. */
+/* Numbers of the block's nodes, then their coordinates, with those on the entity itself where it is
+ * `parametric`. */
 static fracas_err read_node_block(mesh *m, size_t all)
 {
     int32_t dimension, entity, parametric;
@@ -159,10 +163,12 @@ static fracas_err read_node_block(mesh *m, size_t all)
     TRY(fracas_gmsh_int(&m->scan, &parametric));
     TRY(fracas_gmsh_integer(&m->scan, 8, &count));
     if (dimension < 0 || dimension > 3)
-        return fracas_gmsh_fail(&m->scan, "nodes of an entity of %" PRId32 " dimensions", dimension);
+        return fracas_gmsh_fail(&m->scan, "nodes of an entity of %" PRId32 " dimensions",
+                                dimension);
     if (count < 0 || (size_t)count > all - m->nnodes)
-        return fracas_gmsh_fail(&m->scan, "%" PRId64 " nodes in a block, but %zu are left of those announced", count,
-                                all - m->nnodes);
+        return fracas_gmsh_fail(&m->scan,
+                                "%" PRId64 " nodes in a block, but %zu are left of those announced",
+                                count, all - m->nnodes);
     for (int64_t i = 0; i < count; i++) {
         const size_t n = m->nnodes + (size_t)i;
         TRY(fracas_gmsh_integer(&m->scan, 8, &m->node_entry[n].number));
@@ -171,7 +177,8 @@ static fracas_err read_node_block(mesh *m, size_t all)
     for (int64_t i = 0; i < count; i++, m->nnodes++) {
         double ignored;
         TRY(read_point(m, m->node[m->nnodes]));
-        for (int32_t d = 0; parametric && d < dimension; d++) TRY(fracas_gmsh_real(&m->scan, &ignored));
+        for (int32_t d = 0; parametric && d < dimension; d++)
+            TRY(fracas_gmsh_real(&m->scan, &ignored));
     }
     return FRACAS_OK;
 }
@@ -197,12 +204,38 @@ static fracas_err read_nodes_4(mesh *m)
 /* Nodes of an element; FRACAS_USAGE with its name for those that are no part of a surface. */
 static fracas_err nodes_of_type(const mesh *m, int32_t type, size_t *nodes)
 {
-    static const char *const names[] = {
-        NULL, NULL, NULL, "4-node quadrangles", "4-node tetrahedra", "8-node hexahedra", "6-node prisms", "5-node pyramids",
-        NULL, NULL, "9-node quadrangles", "10-node tetrahedra", "27-node hexahedra", "18-node prisms", "14-node pyramids", NULL,
-        "8-node quadrangles", "20-node hexahedra", "15-node prisms", "13-node pyramids", "9-node triangles",
-        "10-node triangles", "12-node triangles", "15-node triangles", "15-node triangles", "21-node triangles",
-        "4-node lines", "5-node lines", "6-node lines", "20-node tetrahedra", "35-node tetrahedra", "56-node tetrahedra"};
+    static const char *const names[] = {NULL,
+                                        NULL,
+                                        NULL,
+                                        "4-node quadrangles",
+                                        "4-node tetrahedra",
+                                        "8-node hexahedra",
+                                        "6-node prisms",
+                                        "5-node pyramids",
+                                        NULL,
+                                        NULL,
+                                        "9-node quadrangles",
+                                        "10-node tetrahedra",
+                                        "27-node hexahedra",
+                                        "18-node prisms",
+                                        "14-node pyramids",
+                                        NULL,
+                                        "8-node quadrangles",
+                                        "20-node hexahedra",
+                                        "15-node prisms",
+                                        "13-node pyramids",
+                                        "9-node triangles",
+                                        "10-node triangles",
+                                        "12-node triangles",
+                                        "15-node triangles",
+                                        "15-node triangles",
+                                        "21-node triangles",
+                                        "4-node lines",
+                                        "5-node lines",
+                                        "6-node lines",
+                                        "20-node tetrahedra",
+                                        "35-node tetrahedra",
+                                        "56-node tetrahedra"};
     switch (type) {
     case GMSH_POINT: *nodes = 1; return FRACAS_OK;
     case GMSH_LINE: *nodes = 2; return FRACAS_OK;
@@ -212,8 +245,12 @@ static fracas_err nodes_of_type(const mesh *m, int32_t type, size_t *nodes)
     default: break;
     }
     if (type > 0 && (size_t)type < sizeof names / sizeof *names)
-        return fracas_gmsh_fail(&m->scan, "%s (Gmsh's type %" PRId32 "): a surface has 3- or 6-node triangles", names[type], type);
-    return fracas_gmsh_fail(&m->scan, "elements of Gmsh's type %" PRId32 ": a surface has 3- or 6-node triangles", type);
+        return fracas_gmsh_fail(
+            &m->scan, "%s (Gmsh's type %" PRId32 "): a surface has 3- or 6-node triangles",
+            names[type], type);
+    return fracas_gmsh_fail(
+        &m->scan, "elements of Gmsh's type %" PRId32 ": a surface has 3- or 6-node triangles",
+        type);
 }
 
 static fracas_err allocate_elements(mesh *m, int64_t count)
@@ -223,7 +260,8 @@ static fracas_err allocate_elements(mesh *m, int64_t count)
     m->corner = malloc(((size_t)count + 1) * sizeof *m->corner);
     m->element = malloc(((size_t)count + 1) * sizeof *m->element);
     m->line = malloc(((size_t)count + 1) * sizeof *m->line);
-    return m->corner && m->element && m->line ? FRACAS_OK : fracas_no_memory("the elements of a mesh");
+    return m->corner && m->element && m->line ? FRACAS_OK
+                                              : fracas_no_memory("the elements of a mesh");
 }
 
 /* Reads the nodes of an element, and keeps it where it matters. */
@@ -233,14 +271,19 @@ static fracas_err read_element(mesh *m, int32_t type, size_t bytes, int64_t numb
     int64_t node[6];
     TRY(nodes_of_type(m, type, &nodes));
     for (size_t k = 0; k < nodes; k++) TRY(fracas_gmsh_integer(&m->scan, bytes, &node[k]));
-    if (tag == INT32_MIN) return fracas_gmsh_fail(&m->scan, "element %" PRId64 " in the physical group %" PRId32, number, tag);
+    if (tag == INT32_MIN)
+        return fracas_gmsh_fail(&m->scan, "element %" PRId64 " in the physical group %" PRId32,
+                                number, tag);
     if ((type == GMSH_LINE || type == GMSH_LINE_3) && tag != 0)
         /* Gmsh turns a group's curve round by a minus. */
-        m->line[m->nlines++] = (line){.node = {node[0], node[1]}, .element = number, .tag = tag < 0 ? -tag : tag};
+        m->line[m->nlines++] = (line){
+            .node = {node[0], node[1]}, .element = number, .tag = tag < 0 ? -tag : tag};
     if (type != GMSH_TRIANGLE && type != GMSH_TRIANGLE_6) return FRACAS_OK;
     const int order = type == GMSH_TRIANGLE ? 1 : 2;
     if (m->order != 0 && m->order != order)
-        return fracas_gmsh_fail(&m->scan, "element %" PRId64 " is a %zu-node triangle, those before are of the other order",
+        return fracas_gmsh_fail(&m->scan,
+                                "element %" PRId64
+                                " is a %zu-node triangle, those before are of the other order",
                                 number, nodes);
     m->order = order;
     memcpy(m->corner[m->nelements], node, nodes * sizeof *node);
@@ -283,7 +326,9 @@ static fracas_err read_elements_2_binary(mesh *m, int64_t count)
         TRY(fracas_gmsh_int(&m->scan, &follow));
         TRY(fracas_gmsh_int(&m->scan, &tags));
         if (follow < 1 || follow > count - done)
-            return fracas_gmsh_fail(&m->scan, "%" PRId32 " elements in a block, but %" PRId64 " are left of those announced",
+            return fracas_gmsh_fail(&m->scan,
+                                    "%" PRId32 " elements in a block, but %" PRId64
+                                    " are left of those announced",
                                     follow, count - done);
         for (int32_t i = 0; i < follow; i++) {
             int64_t number;
@@ -323,7 +368,9 @@ static fracas_err read_elements_4(mesh *m)
         TRY(fracas_gmsh_int(&m->scan, &type));
         TRY(fracas_gmsh_integer(&m->scan, 8, &count));
         if (count < 0 || count > left)
-            return fracas_gmsh_fail(&m->scan, "%" PRId64 " elements in a block, but %" PRId64 " are left of those announced",
+            return fracas_gmsh_fail(&m->scan,
+                                    "%" PRId64 " elements in a block, but %" PRId64
+                                    " are left of those announced",
                                     count, left);
         const entry *curve = dimension == 1 ? find(m->curve, m->ncurves, entity) : NULL;
         for (int64_t i = 0; i < count; i++) {
@@ -338,7 +385,8 @@ static fracas_err read_elements_4(mesh *m)
 
 /* ---- the file ---- */
 
-/* "$MeshFormat", version, 0 or 1 for text or binary, bytes of a double; in a binary file the number 1. */
+/* "$MeshFormat", version, 0 or 1 for text or binary, bytes of a double; in a binary file the
+ * number 1. */
 static fracas_err read_format(mesh *m)
 {
     fracas_gmsh_scan *scan = &m->scan;
@@ -351,9 +399,12 @@ static fracas_err read_format(mesh *m)
     TRY(fracas_gmsh_integer(scan, 8, &bytes));
     m->is_4 = strcmp(version, "4.1") == 0;
     if (!m->is_4 && strcmp(version, "2.2") != 0)
-        return fracas_gmsh_fail(scan, "a mesh of format %s: save it as 4.1 or 2.2 (gmsh -format msh41)", version);
+        return fracas_gmsh_fail(
+            scan, "a mesh of format %s: save it as 4.1 or 2.2 (gmsh -format msh41)", version);
     if (bytes != 8 || (kind != 0 && kind != 1))
-        return fracas_gmsh_fail(scan, "the format %s %" PRId64 " %" PRId64 ": expected 0 or 1, and 8", version, kind, bytes);
+        return fracas_gmsh_fail(scan,
+                                "the format %s %" PRId64 " %" PRId64 ": expected 0 or 1, and 8",
+                                version, kind, bytes);
     if (kind == 1) {
         TRY(fracas_gmsh_line_end(scan));
         int32_t one;
@@ -361,7 +412,8 @@ static fracas_err read_format(mesh *m)
         TRY(fracas_gmsh_int(scan, &one));
         scan->is_swapped = one == 0x01000000;
         if (one != 1 && !scan->is_swapped)
-            return fracas_gmsh_fail(scan, "the number that tells the byte order is %" PRId32 ", not 1", one);
+            return fracas_gmsh_fail(
+                scan, "the number that tells the byte order is %" PRId32 ", not 1", one);
     }
     return fracas_gmsh_expect(scan, "$EndMeshFormat");
 }
@@ -373,18 +425,22 @@ typedef struct {
 
 static fracas_err read_section(mesh *m)
 {
-    static const section sections[] = {
-        {"Nodes", {read_nodes_2, read_nodes_4}}, {"Elements", {read_elements_2, read_elements_4}},
-        {"Entities", {NULL, read_entities}}};
+    static const section sections[] = {{"Nodes", {read_nodes_2, read_nodes_4}},
+                                       {"Elements", {read_elements_2, read_elements_4}},
+                                       {"Entities", {NULL, read_entities}}};
     char word[FRACAS_GMSH_WORD], end[FRACAS_GMSH_WORD + 8] = "$End";
     TRY(fracas_gmsh_word(&m->scan, word));
-    if (word[0] != '$') return fracas_gmsh_fail(&m->scan, "expected a section, which begins with $, not `%s`", word);
+    if (word[0] != '$')
+        return fracas_gmsh_fail(&m->scan, "expected a section, which begins with $, not `%s`",
+                                word);
     if (strcmp(word, "$PartitionedEntities") == 0)
-        return fracas_gmsh_fail(&m->scan, "a mesh in partitions: save it as one (gmsh -unpartition)");
+        return fracas_gmsh_fail(&m->scan,
+                                "a mesh in partitions: save it as one (gmsh -unpartition)");
     for (size_t s = 0; s < sizeof sections / sizeof *sections; s++) {
         fracas_err (*read)(mesh *) = sections[s].read[m->is_4];
         if (strcmp(word + 1, sections[s].name) != 0 || !read) continue;
-        /* Text may go on in any place, the numbers of a binary 4.1 file begin with the next line. */
+        /* Text may go on in any place, the numbers of a binary 4.1 file begin with the next line.
+         */
         if (m->scan.is_binary) TRY(fracas_gmsh_line_end(&m->scan));
         TRY(read(m));
         strcat(end, sections[s].name);
@@ -401,8 +457,9 @@ static fracas_err read_file(mesh *m)
     if (!m->corner) return fracas_gmsh_fail(&m->scan, "the file ends without a section $Elements");
     if (m->nelements == 0) return fracas_gmsh_fail(&m->scan, "the file has no triangles");
     if (m->nelements > FRACAS_SURFACE_LARGEST || m->nnodes > FRACAS_SURFACE_LARGEST)
-        return fracas_gmsh_fail(&m->scan, "the file has %zu triangles and %zu nodes: at most %zu are possible", m->nelements,
-                                m->nnodes, FRACAS_SURFACE_LARGEST);
+        return fracas_gmsh_fail(
+            &m->scan, "the file has %zu triangles and %zu nodes: at most %zu are possible",
+            m->nelements, m->nnodes, FRACAS_SURFACE_LARGEST);
     return FRACAS_OK;
 }
 
@@ -434,7 +491,8 @@ static fracas_err allocate_resolved(const mesh *m, resolved *out)
     out->node = malloc((m->nnodes + 1) * sizeof *out->node);
     out->node_number = malloc((m->nnodes + 1) * sizeof *out->node_number);
     out->tag = malloc((m->nlines + 1) * sizeof *out->tag);
-    if (out->new_node && out->element && out->node && out->node_number && out->tag) return FRACAS_OK;
+    if (out->new_node && out->element && out->node && out->node_number && out->tag)
+        return FRACAS_OK;
     return fracas_no_memory("a mesh");
 }
 
@@ -446,7 +504,9 @@ static fracas_err resolve_elements(const mesh *m, resolved *out)
         for (size_t k = 0; k < corners; k++) {
             const entry *at = find(m->node_entry, m->nnodes, m->corner[e][k]);
             if (!at)
-                return fracas_fail(FRACAS_USAGE, "element %" PRId64 " names node %" PRId64 ", which the file does not have",
+                return fracas_fail(FRACAS_USAGE,
+                                   "element %" PRId64 " names node %" PRId64
+                                   ", which the file does not have",
                                    m->element[e], m->corner[e][k]);
             uint32_t *node = &out->new_node[at->value];
             if (*node == UINT32_MAX) {
@@ -466,9 +526,10 @@ static fracas_err resolve_lines(const mesh *m, resolved *out)
         for (int k = 0; k < 2; k++) {
             const entry *at = find(m->node_entry, m->nnodes, m->line[l].node[k]);
             if (!at || out->new_node[at->value] == UINT32_MAX)
-                return fracas_fail(FRACAS_USAGE, "line %" PRId64 " of the physical group %" PRId32 " has node %" PRId64
-                                                 ", which no triangle has", m->line[l].element, m->line[l].tag,
-                                   m->line[l].node[k]);
+                return fracas_fail(FRACAS_USAGE,
+                                   "line %" PRId64 " of the physical group %" PRId32
+                                   " has node %" PRId64 ", which no triangle has",
+                                   m->line[l].element, m->line[l].tag, m->line[l].node[k]);
             out->tag[l].node[k] = out->new_node[at->value];
         }
     }
@@ -483,10 +544,15 @@ fracas_err fracas_surface_read_gmsh(const void *bytes, size_t size, const fracas
     if (!err) err = allocate_resolved(&m, &out);
     if (!err) err = resolve_elements(&m, &out);
     if (!err) err = resolve_lines(&m, &out);
-    const fracas_surface_arrays arrays = {
-        .order = m.order, .nnodes = out.nnodes, .nelements = m.nelements, .ntags = m.nlines,
-        .node = (const double (*)[3])out.node, .element = out.element, .tag = out.tag, .node_number = out.node_number,
-        .element_number = m.element};
+    const fracas_surface_arrays arrays = {.order = m.order,
+                                          .nnodes = out.nnodes,
+                                          .nelements = m.nelements,
+                                          .ntags = m.nlines,
+                                          .node = (const double(*)[3])out.node,
+                                          .element = out.element,
+                                          .tag = out.tag,
+                                          .node_number = out.node_number,
+                                          .element_number = m.element};
     if (!err) err = fracas_surface_assemble(&arrays, surface);
     clear_resolved(&out);
     clear(&m);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/mesh/surface/gmsh_scan.h"
 
 #include "base/units.h"
@@ -33,11 +34,13 @@ bool fracas_gmsh_at_end(fracas_gmsh_scan *scan)
 
 fracas_err fracas_gmsh_word(fracas_gmsh_scan *scan, char word[FRACAS_GMSH_WORD])
 {
-    if (fracas_gmsh_at_end(scan)) return fracas_gmsh_fail(scan, "the file ends here, in the middle of a section");
+    if (fracas_gmsh_at_end(scan))
+        return fracas_gmsh_fail(scan, "the file ends here, in the middle of a section");
     size_t length = 0;
     while (scan->at + length < scan->size && !is_blank(scan->text[scan->at + length])) {
         const char c = scan->text[scan->at + length];
-        if (c < ' ' || c > '~') return fracas_gmsh_fail(scan, "a byte that is no text, %d", (unsigned char)c);
+        if (c < ' ' || c > '~')
+            return fracas_gmsh_fail(scan, "a byte that is no text, %d", (unsigned char)c);
         word[length++] = c;
         if (length == FRACAS_GMSH_WORD) {
             word[20] = '\0';
@@ -59,7 +62,8 @@ fracas_err fracas_gmsh_expect(fracas_gmsh_scan *scan, const char *expected)
 
 fracas_err fracas_gmsh_line_end(fracas_gmsh_scan *scan)
 {
-    while (scan->at < scan->size && scan->text[scan->at] != '\n' && is_blank(scan->text[scan->at])) scan->at++;
+    while (scan->at < scan->size && scan->text[scan->at] != '\n' && is_blank(scan->text[scan->at]))
+        scan->at++;
     if (scan->at == scan->size || scan->text[scan->at] != '\n')
         return fracas_gmsh_fail(scan, "expected the end of the line");
     scan->at++;
@@ -72,7 +76,8 @@ fracas_err fracas_gmsh_skip(fracas_gmsh_scan *scan, const char *name)
     snprintf(end, sizeof end, "$End%s", name);
     const char *from = scan->text + scan->at;
     const char *found = memmem(from, scan->size - scan->at, end, strlen(end));
-    if (!found) return fracas_gmsh_fail(scan, "section $%s has no %s: the file is cut short", name, end);
+    if (!found)
+        return fracas_gmsh_fail(scan, "section $%s has no %s: the file is cut short", name, end);
     scan->at += (size_t)(found - from) + strlen(end);
     return FRACAS_OK;
 }
@@ -116,7 +121,8 @@ fracas_err fracas_gmsh_integer(fracas_gmsh_scan *scan, size_t bytes, int64_t *va
     }
     char word[FRACAS_GMSH_WORD];
     TRY(fracas_gmsh_word(scan, word));
-    if (parse_integer(word, value) && (bytes == 8 || (*value >= INT32_MIN && *value <= INT32_MAX))) return FRACAS_OK;
+    if (parse_integer(word, value) && (bytes == 8 || (*value >= INT32_MIN && *value <= INT32_MAX)))
+        return FRACAS_OK;
     return fracas_gmsh_fail(scan, "`%s` is not a whole number of %zu bits", word, 8 * bytes);
 }
 
@@ -133,7 +139,8 @@ fracas_err fracas_gmsh_real(fracas_gmsh_scan *scan, double *value)
     if (scan->is_binary) return read_bytes(scan, 8, value);
     char word[FRACAS_GMSH_WORD];
     TRY(fracas_gmsh_word(scan, word));
-    if (fracas_number_read(word, value)) return fracas_gmsh_fail(scan, "`%s` is not a number", word);
+    if (fracas_number_read(word, value))
+        return fracas_gmsh_fail(scan, "`%s` is not a number", word);
     return FRACAS_OK;
 }
 
@@ -141,5 +148,6 @@ fracas_err fracas_gmsh_fits(const fracas_gmsh_scan *scan, int64_t count, size_t 
 {
     const size_t least = numbers * (scan->is_binary ? 4 : 2); /* bytes: a digit and a blank */
     if (count >= 0 && (size_t)count <= (scan->size - scan->at) / least) return FRACAS_OK;
-    return fracas_gmsh_fail(scan, "a count of %" PRId64 " things, which the rest of the file cannot hold", count);
+    return fracas_gmsh_fail(
+        scan, "a count of %" PRId64 " things, which the rest of the file cannot hold", count);
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The numbers of a Gmsh file, one after the other: the same calls for text and binary. */
 #ifndef FRACAS_ENGINE_MESH_SURFACE_GMSH_SCAN_H
 #define FRACAS_ENGINE_MESH_SURFACE_GMSH_SCAN_H
@@ -17,7 +18,8 @@ typedef struct {
 } fracas_gmsh_scan;
 
 /* FRACAS_USAGE with "line 3: " or "byte 120: " before what is wrong. */
-FRACAS_MUST_USE fracas_err fracas_gmsh_fail(const fracas_gmsh_scan *scan, const char *format, ...) FRACAS_PRINTF(2, 3);
+FRACAS_MUST_USE fracas_err fracas_gmsh_fail(const fracas_gmsh_scan *scan, const char *format, ...)
+    FRACAS_PRINTF(2, 3);
 
 /* Passes over blanks and newlines; true at the end of the file. */
 bool fracas_gmsh_at_end(fracas_gmsh_scan *scan);
@@ -31,12 +33,14 @@ FRACAS_MUST_USE fracas_err fracas_gmsh_line_end(fracas_gmsh_scan *scan);
 FRACAS_MUST_USE fracas_err fracas_gmsh_skip(fracas_gmsh_scan *scan, const char *name);
 
 /* A whole number of 4 or 8 bytes; of text one that would fit them. */
-FRACAS_MUST_USE fracas_err fracas_gmsh_integer(fracas_gmsh_scan *scan, size_t bytes, int64_t *value);
+FRACAS_MUST_USE fracas_err fracas_gmsh_integer(fracas_gmsh_scan *scan, size_t bytes,
+                                               int64_t *value);
 /* The same of an `int`. */
 FRACAS_MUST_USE fracas_err fracas_gmsh_int(fracas_gmsh_scan *scan, int32_t *value);
 FRACAS_MUST_USE fracas_err fracas_gmsh_real(fracas_gmsh_scan *scan, double *value);
-/* Refuses `count` things of `numbers` numbers each that cannot fit into the rest of the file, so that what is
- * allocated for them stays in proportion to the file. */
-FRACAS_MUST_USE fracas_err fracas_gmsh_fits(const fracas_gmsh_scan *scan, int64_t count, size_t numbers);
+/* Refuses `count` things of `numbers` numbers each that cannot fit into the rest of the file, so
+ * that what is allocated for them stays in proportion to the file. */
+FRACAS_MUST_USE fracas_err fracas_gmsh_fits(const fracas_gmsh_scan *scan, int64_t count,
+                                            size_t numbers);
 
 #endif

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Areas and lengths, by Gauss quadrature where elements are curved. */
 #include "engine/mesh/surface/parts.h"
 
@@ -8,8 +9,8 @@ static const double *node_of(const fracas_surface *surface, size_t element, size
     return surface->node[surface->element[element * surface->corners + corner]];
 }
 
-/* (meshes.1) Derivatives of the six shape functions along the edges from vertex 0 to 1 and to 2, at the area coordinates
- * (1 - r - s, r, s). */
+/* (meshes.1) Derivatives of the six shape functions along the edges from vertex 0 to 1 and to 2, at
+ * the area coordinates (1 - r - s, r, s). */
 static void slopes(double r, double s, double along_r[6], double along_s[6])
 {
     const double q = 1.0 - r - s;
@@ -42,7 +43,8 @@ double fracas_surface_area(const fracas_surface *surface, size_t element)
 {
     if (surface->order == 1) {
         double normal[3];
-        fracas_surface_normal(node_of(surface, element, 0), node_of(surface, element, 1), node_of(surface, element, 2), normal);
+        fracas_surface_normal(node_of(surface, element, 0), node_of(surface, element, 1),
+                              node_of(surface, element, 2), normal);
         return 0.5 * sqrt(fracas_surface_dot(normal, normal));
     }
     /* Strang and Fix, degree 4: the weights w and the points (1 - 2 a, a, a) and its turns. */
@@ -50,7 +52,8 @@ double fracas_surface_area(const fracas_surface *surface, size_t element)
     static const double w[2] = {0.223381589678011466, 0.109951743655321868};
     double sum = 0.0;
     for (int i = 0; i < 2; i++)
-        sum += w[i] * (area_density(surface, element, a[i], a[i]) + area_density(surface, element, 1.0 - 2.0 * a[i], a[i]) +
+        sum += w[i] * (area_density(surface, element, a[i], a[i]) +
+                       area_density(surface, element, 1.0 - 2.0 * a[i], a[i]) +
                        area_density(surface, element, a[i], 1.0 - 2.0 * a[i]));
     return 0.5 * sum;
 }
@@ -65,7 +68,8 @@ static double speed(const double a[3], const double m[3], const double b[3], dou
 
 double fracas_surface_length(const fracas_surface *surface, size_t element, size_t edge)
 {
-    const double *a = node_of(surface, element, edge), *b = node_of(surface, element, (edge + 1) % 3);
+    const double *a = node_of(surface, element, edge),
+                 *b = node_of(surface, element, (edge + 1) % 3);
     if (surface->order == 1) {
         const double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
         return sqrt(fracas_surface_dot(d, d));
@@ -90,7 +94,8 @@ void fracas_surface_measure(const fracas_surface *surface, fracas_surface_measur
         }
     }
     for (size_t b = 0; b < surface->nborders; b++)
-        all.border += fracas_surface_length(surface, surface->border[b].element, surface->border[b].edge);
+        all.border += fracas_surface_length(surface, surface->border[b].element,
+                                            surface->border[b].edge);
     for (size_t i = 0; i < surface->ninterfaces; i++) {
         const size_t distance = surface->interface[i].element[1] - surface->interface[i].element[0];
         all.mean_distance += (double)distance / (double)surface->ninterfaces;

@@ -1,4 +1,6 @@
-/* Which element comes after which: neighbours close to each other, so that a sweep finds them in the cache. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which element comes after which: neighbours close to each other, so that a sweep finds them in
+ * the cache. */
 #include "engine/mesh/surface/parts.h"
 
 #include <stdlib.h>
@@ -19,7 +21,8 @@ static int degree_of(const search *state, uint32_t e)
     return degree;
 }
 
-/* Puts what this sweep reaches first from `e` behind the queue's `end`: fewer neighbours first, then lower numbers. */
+/* Puts what this sweep reaches first from `e` behind the queue's `end`: fewer neighbours first,
+ * then lower numbers. */
 static size_t reach_neighbours(search *state, uint32_t e, size_t end)
 {
     const size_t start = end;
@@ -31,7 +34,9 @@ static size_t reach_neighbours(search *state, uint32_t e, size_t end)
         size_t at = end++;
         for (; at > start; at--) {
             const uint32_t other = state->queue[at - 1];
-            if (degree_of(state, other) < degree || (degree_of(state, other) == degree && other < next)) break;
+            if (degree_of(state, other) < degree ||
+                (degree_of(state, other) == degree && other < next))
+                break;
             state->queue[at] = other;
         }
         state->queue[at] = next;
@@ -59,7 +64,8 @@ static size_t sweep(search *state, uint32_t start, size_t begin, size_t *depth, 
     return end;
 }
 
-/* Cuthill and McKee from an element far out, found as George and Liu do: from the last level to its opposite. */
+/* Cuthill and McKee from an element far out, found as George and Liu do: from the last level to its
+ * opposite. */
 static size_t order_component(search *state, uint32_t start, size_t begin)
 {
     size_t depth, last_level, end = sweep(state, start, begin, &depth, &last_level);
@@ -76,7 +82,9 @@ static size_t order_component(search *state, uint32_t start, size_t begin)
 
 fracas_err fracas_surface_order(size_t nelements, const uint32_t (*neighbour)[3], uint32_t *order)
 {
-    search state = {.neighbour = neighbour, .queue = order, .reached = calloc(nelements, sizeof *state.reached)};
+    search state = {.neighbour = neighbour,
+                    .queue = order,
+                    .reached = calloc(nelements, sizeof *state.reached)};
     if (!state.reached) return fracas_no_memory("the order of a mesh's elements");
     size_t end = 0;
     for (size_t e = 0; e < nelements; e++)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the files of this folder share. */
 #ifndef FRACAS_ENGINE_MESH_SURFACE_PARTS_H
 #define FRACAS_ENGINE_MESH_SURFACE_PARTS_H
@@ -12,20 +13,24 @@ typedef struct {
     uint32_t element, edge;
 } fracas_surface_side;
 
-/* All 3 nelements sides, sorted by vertices, then by element: those of one edge stand together. The caller frees them;
- * NULL without memory. */
-fracas_surface_side *fracas_surface_sides(const uint32_t *element, size_t nelements, size_t corners);
+/* All 3 nelements sides, sorted by vertices, then by element: those of one edge stand together. The
+ * caller frees them; NULL without memory. */
+fracas_surface_side *fracas_surface_sides(const uint32_t *element, size_t nelements,
+                                          size_t corners);
 
-static inline bool fracas_surface_same_edge(const fracas_surface_side *a, const fracas_surface_side *b)
+static inline bool fracas_surface_same_edge(const fracas_surface_side *a,
+                                            const fracas_surface_side *b)
 {
     return a->low == b->low && a->high == b->high;
 }
 
 /* First side of the edge between two vertices, `nsides` where there is none. */
-size_t fracas_surface_find_edge(const fracas_surface_side *side, size_t nsides, uint32_t a, uint32_t b);
+size_t fracas_surface_find_edge(const fracas_surface_side *side, size_t nsides, uint32_t a,
+                                uint32_t b);
 
 /* Sides of the edge that begins at `first`: they end before the return value. */
-static inline size_t fracas_surface_next_edge(const fracas_surface_side *side, size_t first, size_t nsides)
+static inline size_t fracas_surface_next_edge(const fracas_surface_side *side, size_t first,
+                                              size_t nsides)
 {
     size_t next = first + 1;
     while (next < nsides && fracas_surface_same_edge(&side[first], &side[next])) next++;
@@ -33,7 +38,8 @@ static inline size_t fracas_surface_next_edge(const fracas_surface_side *side, s
 }
 
 /* Numbers as messages give them. */
-static inline int64_t fracas_surface_element_name(const fracas_surface_arrays *arrays, size_t element)
+static inline int64_t fracas_surface_element_name(const fracas_surface_arrays *arrays,
+                                                  size_t element)
 {
     return arrays->element_number ? arrays->element_number[element] : (int64_t)element;
 }
@@ -43,20 +49,24 @@ static inline int64_t fracas_surface_node_name(const fracas_surface_arrays *arra
     return arrays->node_number ? arrays->node_number[node] : (int64_t)node;
 }
 
-/* Checks of single elements and their nodes; then, with the sides, of neighbours; then of elements of order 2. */
+/* Checks of single elements and their nodes; then, with the sides, of neighbours; then of elements
+ * of order 2. */
 FRACAS_MUST_USE fracas_err fracas_surface_check_elements(const fracas_surface_arrays *arrays);
 FRACAS_MUST_USE fracas_err fracas_surface_check_edges(const fracas_surface_arrays *arrays,
                                                       const fracas_surface_side *side);
 FRACAS_MUST_USE fracas_err fracas_surface_check_jacobians(const fracas_surface_arrays *arrays);
 
-/* order[k]: which element comes k-th, in the reverse order of Cuthill and McKee; neighbour[e][k]: the element across
- * edge k, UINT32_MAX for none. */
-FRACAS_MUST_USE fracas_err fracas_surface_order(size_t nelements, const uint32_t (*neighbour)[3], uint32_t *order);
+/* order[k]: which element comes k-th, in the reverse order of Cuthill and McKee; neighbour[e][k]:
+ * the element across edge k, UINT32_MAX for none. */
+FRACAS_MUST_USE fracas_err fracas_surface_order(size_t nelements, const uint32_t (*neighbour)[3],
+                                                uint32_t *order);
 
 /* c = (b - a) x (d - a), twice the area of the triangle a, b, d along its normal. */
-static inline void fracas_surface_normal(const double a[3], const double b[3], const double d[3], double c[3])
+static inline void fracas_surface_normal(const double a[3], const double b[3], const double d[3],
+                                         double c[3])
 {
-    const double u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v[3] = {d[0] - a[0], d[1] - a[1], d[2] - a[2]};
+    const double u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]},
+                 v[3] = {d[0] - a[0], d[1] - a[1], d[2] - a[2]};
     c[0] = u[1] * v[2] - u[2] * v[1];
     c[1] = u[2] * v[0] - u[0] * v[2];
     c[2] = u[0] * v[1] - u[1] * v[0];
@@ -71,8 +81,8 @@ static inline double fracas_surface_dot(const double a[3], const double b[3])
 
 enum { FRACAS_SURFACE_TAGS = 5 }; /* tags 0 to 4 */
 
-/* Vertices, triangles and tags of a body; `radius` says for each tag (0: every other edge) onto which radius around the
- * origin mid-side nodes go, 0: they stay where they are. */
+/* Vertices, triangles and tags of a body; `radius` says for each tag (0: every other edge) onto
+ * which radius around the origin mid-side nodes go, 0: they stay where they are. */
 typedef struct {
     size_t nvertices, nelements, ntags;
     double (*node)[3];
@@ -83,8 +93,8 @@ typedef struct {
 } fracas_surface_draft;
 
 /* Room for so many; the caller clears. */
-FRACAS_MUST_USE fracas_err fracas_surface_draft_init(fracas_surface_draft *draft, double nvertices, double nelements,
-                                                     double ntags);
+FRACAS_MUST_USE fracas_err fracas_surface_draft_init(fracas_surface_draft *draft, double nvertices,
+                                                     double nelements, double ntags);
 void fracas_surface_draft_clear(fracas_surface_draft *draft);
 /* Perturbs, adds mid-side nodes, assembles. */
 FRACAS_MUST_USE fracas_err fracas_surface_draft_finish(const fracas_surface_draft *draft,
@@ -94,8 +104,8 @@ FRACAS_MUST_USE fracas_err fracas_surface_draft_finish(const fracas_surface_draf
 /* Refuses what is no length of a body. */
 FRACAS_MUST_USE fracas_err fracas_surface_check_length(const char *what, double length);
 /* Whole number of divisions of `length`, each `height` times the size of elements. */
-FRACAS_MUST_USE fracas_err fracas_surface_divide(const fracas_surface_fineness *fineness, double length, double height,
-                                                 double *divisions);
+FRACAS_MUST_USE fracas_err fracas_surface_divide(const fracas_surface_fineness *fineness,
+                                                 double length, double height, double *divisions);
 /* Moves `point` along its line through the origin to the distance `radius`. */
 void fracas_surface_project(double point[3], double radius);
 

@@ -1,9 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Squares cut in two along alternating diagonals. */
 #include "engine/mesh/surface/parts.h"
 
 #include <math.h>
 
-#define LEG 0.93060485910209960 /* of half a square by the edge of an equilateral triangle as large: sqrt(sqrt(3)/2) */
+#define LEG                                                                                  \
+    0.93060485910209960 /* of half a square by the edge of an equilateral triangle as large: \
+                           sqrt(sqrt(3)/2) */
 
 static void fill(fracas_surface_draft *draft, double width, double height, size_t nx, size_t ny)
 {
@@ -18,7 +21,8 @@ static void fill(fracas_surface_draft *draft, double width, double height, size_
     uint32_t *put = draft->element;
     for (size_t j = 0; j < ny; j++)
         for (size_t i = 0; i < nx; i++) {
-            /* Round the square; odd squares start a corner later, so that their diagonal is the other one. */
+            /* Round the square; odd squares start a corner later, so that their diagonal is the
+             * other one. */
             const uint32_t a = (uint32_t)(row * j + i), up = (uint32_t)row;
             const uint32_t corner[4] = {a, a + 1, a + up + 1, a + up};
             const size_t turn = (i + j) % 2;
@@ -34,11 +38,13 @@ static void fill(fracas_surface_draft *draft, double width, double height, size_
     for (uint32_t j = 0; j < ny; j++) {
         const uint32_t left = (uint32_t)(row * j), up = (uint32_t)row;
         *tag++ = (fracas_surface_tag){.node = {left, left + up}, .tag = 1};
-        *tag++ = (fracas_surface_tag){.node = {left + (uint32_t)nx, left + (uint32_t)nx + up}, .tag = 2};
+        *tag++ = (fracas_surface_tag){.node = {left + (uint32_t)nx, left + (uint32_t)nx + up},
+                                      .tag = 2};
     }
 }
 
-fracas_err fracas_surface_rectangle(double width, double height, const fracas_surface_fineness *fineness,
+fracas_err fracas_surface_rectangle(double width, double height,
+                                    const fracas_surface_fineness *fineness,
                                     const fracas_surface **surface)
 {
     TRY(fracas_surface_check_length("the width", width));

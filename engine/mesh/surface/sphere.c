@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Spheres: each face of a polyhedron cut into divisions^2 triangles. */
 #include "base/elementary.h"
 #include "engine/mesh/surface/parts.h"
@@ -9,12 +10,13 @@
 
 enum { MOST_VERTICES = 12, MOST_FACES = 20 };
 
-/* Vertices at the distance 1 or so from the origin; those that are next to each other span the angle pi `arc`. */
+/* Vertices at the distance 1 or so from the origin; those that are next to each other span the
+ * angle pi `arc`. */
 typedef struct {
     size_t nvertices, nfaces, nedges;
     double vertex[MOST_VERTICES][3];
-    size_t face[MOST_FACES][3];                  /* anticlockwise, seen from outside */
-    size_t edge[MOST_VERTICES][MOST_VERTICES];   /* number of the edge between two */
+    size_t face[MOST_FACES][3];                /* anticlockwise, seen from outside */
+    size_t edge[MOST_VERTICES][MOST_VERTICES]; /* number of the edge between two */
     double arc;
 } polyhedron;
 
@@ -31,7 +33,8 @@ static void connect(polyhedron *solid, double edge_square)
     bool is_near[MOST_VERTICES][MOST_VERTICES];
     for (size_t a = 0; a < solid->nvertices; a++)
         for (size_t b = 0; b < solid->nvertices; b++) {
-            is_near[a][b] = a != b && square_distance(solid->vertex[a], solid->vertex[b]) < 1.01 * edge_square;
+            is_near[a][b] = a != b && square_distance(solid->vertex[a], solid->vertex[b]) <
+                                          1.01 * edge_square;
             if (a < b && is_near[a][b]) solid->edge[a][b] = solid->edge[b][a] = solid->nedges++;
         }
     for (size_t a = 0; a < solid->nvertices; a++)
@@ -70,8 +73,8 @@ static polyhedron octant(void)
     return solid;
 }
 
-/* Number of the node that is `step[k]` divisions away from the side opposite of each corner k of the face. Vertices come
- * first, then edges, each from its lower vertex, then faces, row by row. */
+/* Number of the node that is `step[k]` divisions away from the side opposite of each corner k of
+ * the face. Vertices come first, then edges, each from its lower vertex, then faces, row by row. */
 static uint32_t number_of(const polyhedron *solid, size_t face, size_t n, const size_t step[3])
 {
     const size_t *corner = solid->face[face];
@@ -85,11 +88,13 @@ static uint32_t number_of(const polyhedron *solid, size_t face, size_t n, const 
     }
     const size_t row = step[0] - 1; /* rows 0, 1, ... of n - 2, n - 3, ... nodes */
     const size_t before = row * (n - 2) - row * (row - 1) / 2; /* for row 0: 0 - 0, modulo 2^64 */
-    return (uint32_t)(solid->nvertices + solid->nedges * (n - 1) + face * ((n - 1) * (n - 2) / 2) + before + step[1] - 1);
+    return (uint32_t)(solid->nvertices + solid->nedges * (n - 1) + face * ((n - 1) * (n - 2) / 2) +
+                      before + step[1] - 1);
 }
 
 /* (meshes.5) */
-static void place(const polyhedron *solid, size_t face, size_t n, const size_t step[3], double radius, double node[3])
+static void place(const polyhedron *solid, size_t face, size_t n, const size_t step[3],
+                  double radius, double node[3])
 {
     for (int i = 0; i < 3; i++) node[i] = 0.0;
     for (size_t k = 0; k < 3; k++) {
@@ -99,7 +104,8 @@ static void place(const polyhedron *solid, size_t face, size_t n, const size_t s
     fracas_surface_project(node, radius);
 }
 
-static void fill_face(const polyhedron *solid, size_t face, size_t n, double radius, fracas_surface_draft *draft)
+static void fill_face(const polyhedron *solid, size_t face, size_t n, double radius,
+                      fracas_surface_draft *draft)
 {
     uint32_t *put = draft->element + 3 * face * n * n;
     for (size_t i = 0; i <= n; i++)
@@ -130,13 +136,14 @@ static void fill_tags(const polyhedron *solid, size_t n, fracas_surface_tag *put
             from[(k + 2) % 3] = s;
             to[(k + 1) % 3] = n - s - 1;
             to[(k + 2) % 3] = s + 1;
-            *put++ = (fracas_surface_tag){.node = {number_of(solid, 0, n, from), number_of(solid, 0, n, to)},
-                                          .tag = (int32_t)k + 1};
+            *put++ = (fracas_surface_tag){
+                .node = {number_of(solid, 0, n, from), number_of(solid, 0, n, to)},
+                .tag = (int32_t)k + 1};
         }
 }
 
-static fracas_err make(const polyhedron *solid, double radius, const fracas_surface_fineness *fineness,
-                       const fracas_surface **surface)
+static fracas_err make(const polyhedron *solid, double radius,
+                       const fracas_surface_fineness *fineness, const fracas_surface **surface)
 {
     TRY(fracas_surface_check_length("the radius", radius));
     const double faces = (double)solid->nfaces, edges = (double)solid->nedges;
@@ -145,24 +152,28 @@ static fracas_err make(const polyhedron *solid, double radius, const fracas_surf
     double n; /* n^2 equilateral triangles are as large as the part of the sphere over a face */
     TRY(fracas_surface_divide(fineness, radius, sqrt(EQUILATERAL * faces / solid_angle), &n));
     fracas_surface_draft draft;
-    TRY(fracas_surface_draft_init(&draft, (double)solid->nvertices + edges * (n - 1.0) + faces * (n - 1.0) * (n - 2.0) / 2.0,
-                                  faces * n * n, is_closed ? 0.0 : 3.0 * n));
+    TRY(fracas_surface_draft_init(
+        &draft, (double)solid->nvertices + edges * (n - 1.0) + faces * (n - 1.0) * (n - 2.0) / 2.0,
+        faces * n * n, is_closed ? 0.0 : 3.0 * n));
     draft.sphere = radius;
     for (int t = 0; t < FRACAS_SURFACE_TAGS; t++) draft.radius[t] = radius;
-    for (size_t face = 0; face < solid->nfaces; face++) fill_face(solid, face, (size_t)n, radius, &draft);
+    for (size_t face = 0; face < solid->nfaces; face++)
+        fill_face(solid, face, (size_t)n, radius, &draft);
     if (!is_closed) fill_tags(solid, (size_t)n, draft.tag);
     fracas_err err = fracas_surface_draft_finish(&draft, fineness, surface);
     fracas_surface_draft_clear(&draft);
     return err;
 }
 
-fracas_err fracas_surface_sphere(double radius, const fracas_surface_fineness *fineness, const fracas_surface **surface)
+fracas_err fracas_surface_sphere(double radius, const fracas_surface_fineness *fineness,
+                                 const fracas_surface **surface)
 {
     const polyhedron solid = icosahedron();
     return make(&solid, radius, fineness, surface);
 }
 
-fracas_err fracas_surface_octant(double radius, const fracas_surface_fineness *fineness, const fracas_surface **surface)
+fracas_err fracas_surface_octant(double radius, const fracas_surface_fineness *fineness,
+                                 const fracas_surface **surface)
 {
     const polyhedron solid = octant();
     return make(&solid, radius, fineness, surface);
