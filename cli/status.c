@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/cli.h"
 
-#include "analysis/tables/format.h"
-#include "analysis/study/statistics.h"
+#include "analysis/data/format.h"
+#include "analysis/summary/statistics.h"
 #include "base/json.h"
 #include "base/param.h"
 #include "campaigns/campaign.h"

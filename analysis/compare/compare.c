@@ -4,7 +4,7 @@
 #include "analysis/compare/difference.h"
 #include "analysis/compare/match.h"
 #include "analysis/compare/permutation.h"
-#include "analysis/study/study.h"
+#include "analysis/summary/study.h"
 
 #include <gsl/gsl_sort.h>
 #include <math.h>

@@ -5,7 +5,7 @@
 #define FRACAS_ANALYSIS_COMPARE_COMPARE_H
 
 #include "analysis/analysis.h"
-#include "analysis/estimate/estimate.h"
+#include "analysis/data/estimate.h"
 
 enum { FRACAS_COMPARED_VALUES = 12, FRACAS_COMPARE_PERMUTATIONS = 9999 };
 

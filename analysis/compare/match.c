@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/compare/match.h"
 
-#include "analysis/tables/format.h"
+#include "analysis/data/format.h"
 
 #include <stdio.h>
 #include <stdlib.h>

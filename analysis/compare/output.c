@@ -2,9 +2,9 @@
 /* A comparison as people and programs read it. */
 #include "analysis/compare/compare.h"
 
-#include "analysis/study/study.h"
-#include "analysis/tables/table.h"
-#include "analysis/tables/format.h"
+#include "analysis/summary/study.h"
+#include "analysis/export/table.h"
+#include "analysis/data/format.h"
 #include "base/json.h"
 
 #include <inttypes.h>

@@ -2,7 +2,7 @@
 /* What a convergence looks like: a figure a headline number. */
 #include "analysis/converge/rows.h"
 
-#include "analysis/tables/format.h"
+#include "analysis/data/format.h"
 
 #include <math.h>
 #include <stdio.h>

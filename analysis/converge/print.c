@@ -3,7 +3,7 @@
 #include "analysis/converge/rows.h"
 
 #include "analysis/export/csv.h"
-#include "analysis/export/output.h"
+#include "analysis/data/output.h"
 #include "base/json.h"
 #include "base/param.h"
 

@@ -5,9 +5,9 @@
 
 #include "analysis/compare/compare.h"
 #include "analysis/converge/converge.h"
-#include "analysis/report/chart.h"
-#include "analysis/study/study.h"
-#include "analysis/tables/table.h"
+#include "analysis/draw/chart.h"
+#include "analysis/summary/study.h"
+#include "analysis/export/table.h"
 
 typedef enum {
     FRACAS_NUMBER_MOVED,

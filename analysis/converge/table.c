@@ -2,8 +2,8 @@
 /* The table of a convergence: for a terminal and for its page. */
 #include "analysis/converge/rows.h"
 
-#include "analysis/tables/format.h"
-#include "analysis/tables/side_tables.h"
+#include "analysis/data/format.h"
+#include "analysis/export/side_tables.h"
 
 #include <math.h>
 #include <stdio.h>

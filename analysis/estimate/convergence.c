@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/estimate/convergence.h"
 
-#include "analysis/estimate/estimate.h"
+#include "analysis/data/estimate.h"
 #include "analysis/estimate/pooled.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 #ifndef FRACAS_ANALYSIS_ESTIMATE_CONVERGENCE_H
 #define FRACAS_ANALYSIS_ESTIMATE_CONVERGENCE_H
 
-#include "analysis/study/ensemble.h"
+#include "analysis/data/ensemble.h"
 #include "base/err.h"
 
 #include <stdbool.h>

@@ -6,7 +6,7 @@
 
 #include "analysis/estimate/bootstrap.h"
 #include "analysis/estimate/halves.h"
-#include "analysis/study/ensemble.h"
+#include "analysis/data/ensemble.h"
 #include "base/err.h"
 
 enum { FRACAS_NQUANTILES = 5 };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/export/csv.h"
 
-#include "analysis/export/output.h"
+#include "analysis/data/output.h"
 
 #include <math.h>
 #include <stdio.h>

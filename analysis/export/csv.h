@@ -4,7 +4,7 @@
 #ifndef FRACAS_ANALYSIS_EXPORT_CSV_H
 #define FRACAS_ANALYSIS_EXPORT_CSV_H
 
-#include "analysis/study/study.h"
+#include "analysis/summary/study.h"
 
 typedef enum { FRACAS_FIELD_INTEGER, FRACAS_FIELD_NUMBER, FRACAS_FIELD_TEXT } fracas_field_type;
 

@@ -2,7 +2,7 @@
 /* A study as a Frictionless Data Package: its tables as CSV, and datapackage.json, which says what
  * is in them. */
 #include "analysis/export/csv.h"
-#include "analysis/export/output.h"
+#include "analysis/data/output.h"
 #include "analysis/export/sha256.h"
 
 #include "base/json.h"

@@ -2,8 +2,8 @@
 /* Tables of series: energies over time, convergence with replicas, slopes over the rates. */
 #include "analysis/export/csv.h"
 
-#include "analysis/laws/slope.h"
-#include "analysis/laws/windows.h"
+#include "analysis/scaling/slope.h"
+#include "analysis/scaling/windows.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -2,9 +2,9 @@
 /* The JSON summary. Its keys are those of fracas_statistics and of /point: they do not change. */
 #include "analysis/export/summary.h"
 
-#include "analysis/laws/crossover.h"
-#include "analysis/laws/slope.h"
-#include "analysis/laws/windows.h"
+#include "analysis/scaling/crossover.h"
+#include "analysis/scaling/slope.h"
+#include "analysis/scaling/windows.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -4,7 +4,7 @@
 #define FRACAS_ANALYSIS_EXPORT_SUMMARY_H
 
 #include "analysis/fit/fits.h"
-#include "analysis/study/study.h"
+#include "analysis/summary/study.h"
 #include "base/json.h"
 
 /* The whole document. `fits`: what fracas_fits_keep kept of STUDY/fits.csv, NULL if there are none;

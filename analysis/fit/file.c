@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* STUDY/fits.csv: a stamp in its first lines, then a line a number. */
-#include "analysis/export/output.h"
+#include "analysis/data/output.h"
 #include "analysis/fit/fits.h"
 #include "campaigns/store/file/disk.h"
 

@@ -2,7 +2,7 @@
 #include "analysis/fit/fits.h"
 
 #include "analysis/fit/point.h"
-#include "analysis/study/study.h"
+#include "analysis/summary/study.h"
 
 #include <math.h>
 #include <stdlib.h>

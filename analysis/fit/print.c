@@ -2,8 +2,8 @@
 /* Fits for a terminal, and as JSON. */
 #include "analysis/fit/family.h"
 #include "analysis/fit/fits.h"
-#include "analysis/study/study.h"
-#include "analysis/tables/format.h"
+#include "analysis/summary/study.h"
+#include "analysis/data/format.h"
 #include "base/json.h"
 
 #include <math.h>

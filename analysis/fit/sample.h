@@ -5,7 +5,7 @@
 #define FRACAS_ANALYSIS_FIT_SAMPLE_H
 
 #include "analysis/fit/family.h"
-#include "analysis/study/ensemble.h"
+#include "analysis/data/ensemble.h"
 #include "base/err.h"
 
 #include <stddef.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/report/figures.h"
 
-#include "analysis/laws/crossover.h"
-#include "analysis/tables/format.h"
+#include "analysis/scaling/crossover.h"
+#include "analysis/data/format.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,8 +5,8 @@
 #define FRACAS_ANALYSIS_REPORT_FIGURES_H
 
 #include "analysis/fit/fits.h"
-#include "analysis/report/chart.h"
-#include "analysis/study/study.h"
+#include "analysis/draw/chart.h"
+#include "analysis/summary/study.h"
 
 /* Mean fragment size against strain rate with the size laws: in metres, or s/s0 against edot/edot0.
  * A series for each combination of the other parameters that differ between points. */

@@ -3,7 +3,7 @@
  */
 #include "analysis/report/figures.h"
 
-#include "analysis/tables/format.h"
+#include "analysis/data/format.h"
 
 #include <math.h>
 #include <stdio.h>

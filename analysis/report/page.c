@@ -3,11 +3,11 @@
 #include "analysis/report/page.h"
 
 #include "analysis/export/csv.h"
-#include "analysis/export/output.h"
+#include "analysis/data/output.h"
 #include "analysis/export/summary.h"
-#include "analysis/report/assets.h"
+#include "analysis/draw/assets.h"
 #include "analysis/report/pdf.h"
-#include "analysis/report/picture/surfaces.h"
+#include "analysis/report/surfaces.h"
 #include "base/param.h"
 
 #include <errno.h>

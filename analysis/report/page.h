@@ -8,9 +8,9 @@
 #define FRACAS_ANALYSIS_REPORT_PAGE_H
 
 #include "analysis/fit/fits.h"
-#include "analysis/report/chart.h"
-#include "analysis/study/study.h"
-#include "analysis/tables/table.h"
+#include "analysis/draw/chart.h"
+#include "analysis/summary/study.h"
+#include "analysis/export/table.h"
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 /* What sections of the page are made of: figures and tables. */
 #include "analysis/report/page.h"
 
-#include "analysis/export/output.h"
+#include "analysis/data/output.h"
 #include "analysis/report/pdf.h"
 
 #include <ctype.h>

@@ -2,11 +2,11 @@
 /* The sections of figures. */
 #include "analysis/report/page.h"
 
-#include "analysis/export/output.h"
+#include "analysis/data/output.h"
 #include "analysis/report/figures.h"
-#include "analysis/report/picture/picture.h"
-#include "analysis/report/picture/surfaces.h"
-#include "analysis/tables/side_tables.h"
+#include "analysis/draw/picture.h"
+#include "analysis/report/surfaces.h"
+#include "analysis/export/side_tables.h"
 
 /* Instead of the figures against the rate, where there is none. */
 static void say_no_rate(const fracas_page *page)

@@ -2,9 +2,9 @@
 /* The first section: what was run, what came out, what to beware of. */
 #include "analysis/report/page.h"
 
-#include "analysis/laws/crossover.h"
-#include "analysis/laws/slope.h"
-#include "analysis/tables/format.h"
+#include "analysis/scaling/crossover.h"
+#include "analysis/scaling/slope.h"
+#include "analysis/data/format.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 /* The sections of tables, and what files there are. */
 #include "analysis/report/page.h"
 
-#include "analysis/tables/side_tables.h"
+#include "analysis/export/side_tables.h"
 
 /* How the replicas were decided, where they were not given. */
 static void put_decisions(const fracas_page *page)

@@ -6,7 +6,7 @@
 #include "analysis/compare/difference.h"
 #include "analysis/compare/match.h"
 #include "analysis/compare/permutation.h"
-#include "analysis/study/study.h"
+#include "analysis/summary/study.h"
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>

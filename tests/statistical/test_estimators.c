@@ -5,7 +5,7 @@
  * tests/statistical/coverage.sh repeats (FRACAS_REPETITIONS=1000, minutes); the ordinary run has
  * fewer.
  */
-#include "analysis/estimate/estimate.h"
+#include "analysis/data/estimate.h"
 #include "analysis/estimate/pooled.h"
 
 #include <gsl/gsl_cdf.h>

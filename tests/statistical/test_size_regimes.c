@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Slopes between rates and the crossover of mean size: known exponents are found, 95 % intervals
  * hold them as often as they should, and what cannot be fitted says why. */
-#include "analysis/laws/crossover.h"
-#include "analysis/laws/windows.h"
-#include "analysis/estimate/estimate.h"
+#include "analysis/scaling/crossover.h"
+#include "analysis/scaling/windows.h"
+#include "analysis/data/estimate.h"
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>

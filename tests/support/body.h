@@ -6,8 +6,8 @@
 #include "tests/support/store_sample.h"
 #include "tests/support/stored_mesh.h"
 
-#include "analysis/report/picture/facets.h"
-#include "analysis/report/picture/surface_picture.h"
+#include "analysis/draw/facets.h"
+#include "analysis/draw/surface_picture.h"
 #include "engine/mesh/surface/surface.h"
 
 #include <math.h>

@@ -5,9 +5,9 @@
 #ifndef FRACAS_TESTS_SUPPORT_FEW_REPLICAS_H
 #define FRACAS_TESTS_SUPPORT_FEW_REPLICAS_H
 
-#include "analysis/laws/crossover.h"
-#include "analysis/laws/slope.h"
-#include "analysis/estimate/estimate.h"
+#include "analysis/scaling/crossover.h"
+#include "analysis/scaling/slope.h"
+#include "analysis/data/estimate.h"
 #include "base/param.h"
 
 #include <gsl/gsl_randist.h>

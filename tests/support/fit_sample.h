@@ -5,7 +5,7 @@
 #define FRACAS_TESTS_SUPPORT_FIT_SAMPLE_H
 
 #include "analysis/fit/family.h"
-#include "analysis/study/ensemble.h"
+#include "analysis/data/ensemble.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_randist.h>

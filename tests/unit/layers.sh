@@ -70,6 +70,28 @@ plant engine/planted.c '#include SAMPLER_HEADER'
 # Two headers with the guard of one.
 plant sampler/zplanted.h '#ifndef FRACAS_SAMPLER_STRENGTH_H'
 
+# Folders in a circle: two that include each other, and three, each of which one include closes. Two files of one folder may.
+circle() {
+    if found=$(tools/check-layers "$tree"); then
+        echo "not found: a circle of $1"
+        exit 1
+    fi
+    for step in "circle of folders: $1" "$2"; do
+        echo "$found" | grep -qF "$step" || { echo "no \"$step\" in: $found"; exit 1; }
+    done
+}
+mkdir -p "$tree/base/one" "$tree/base/two" "$tree/base/three"
+printf '#include "base/two/b.h"\n' >"$tree/base/one/a.h"
+printf '#include "base/two/c.h"\n' >"$tree/base/two/b.h"
+printf '#include "base/two/b.h"\n' >"$tree/base/two/c.h"
+tools/check-layers "$tree"
+printf '\n#include "base/one/a.h"\n' >"$tree/base/two/d.c"
+circle "base/one base/two" "base/two -> base/one (base/two/d.c:2)"
+printf '#include "base/three/e.h"\n' >"$tree/base/two/d.c"
+printf '#include "base/one/a.h"\n' >"$tree/base/three/e.h"
+circle "base/one base/three base/two" "base/three -> base/one (base/three/e.h:1)"
+rm -r "$tree/base/one" "$tree/base/two" "$tree/base/three"
+
 # A tree without sources is no success.
 mkdir "$tree/empty"
 if tools/check-layers "$tree/empty"; then exit 1; fi

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Estimates, numbers as text, the columns that tell points apart, warnings, and what a figure
  * shows. */
-#include "analysis/study/columns.h"
-#include "analysis/estimate/estimate.h"
-#include "analysis/tables/format.h"
+#include "analysis/data/columns.h"
+#include "analysis/data/estimate.h"
+#include "analysis/data/format.h"
 #include "analysis/report/figures.h"
-#include "analysis/report/scale.h"
-#include "analysis/study/study.h"
+#include "analysis/draw/scale.h"
+#include "analysis/summary/study.h"
 #include "base/param.h"
 
 #include <math.h>

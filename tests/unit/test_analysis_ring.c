@@ -5,8 +5,8 @@
 #include "tests/support/report.h"
 
 #include "analysis/report/figures.h"
-#include "analysis/report/picture/picture.h"
-#include "analysis/study/ring.h"
+#include "analysis/draw/picture.h"
+#include "analysis/data/ring.h"
 #include "base/param.h"
 #include "base/version.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The slope of a line and its interval: exact lines, GSL, the interval's coverage, errors that
  * points share, and which points of a study count. */
-#include "analysis/laws/slope.h"
-#include "analysis/study/study.h"
+#include "analysis/scaling/slope.h"
+#include "analysis/summary/study.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_fit.h>

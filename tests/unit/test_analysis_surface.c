@@ -4,8 +4,8 @@
 #include "tests/support/store_sample.h"
 #include "tests/support/stored_mesh.h"
 
-#include "analysis/report/picture/tint.h"
-#include "analysis/report/picture/surface_picture.h"
+#include "analysis/draw/tint.h"
+#include "analysis/draw/surface_picture.h"
 #include "base/hash.h"
 
 static const grid_shape plate = {.nx = 6, .ny = 4}, ring = {.nx = 12, .ny = 3, .rolled = true};

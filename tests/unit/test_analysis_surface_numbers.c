@@ -3,8 +3,8 @@
 #include "tests/support/store_sample.h"
 #include "tests/support/stored_mesh.h"
 #include "analysis/report/figures.h"
-#include "analysis/laws/slope.h"
-#include "analysis/tables/table.h"
+#include "analysis/scaling/slope.h"
+#include "analysis/export/table.h"
 
 enum { NPOINTS = 4 };
 

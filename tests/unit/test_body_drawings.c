@@ -3,8 +3,8 @@
  * bytes. Spheres and octants of 1 m, broken along the borders of Voronoi cells. */
 #include "tests/support/body.h"
 
-#include "analysis/report/picture/frame.h"
-#include "analysis/report/picture/tint.h"
+#include "analysis/draw/frame.h"
+#include "analysis/draw/tint.h"
 
 static char *draw(const body *b, const fracas_view *view, double explode, double thickness,
                   fracas_surface_show show)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Intervals by resampling realizations, and the cut-off of what a mesh resolves. */
 #include "analysis/estimate/bootstrap.h"
-#include "analysis/study/ensemble.h"
+#include "analysis/data/ensemble.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Charts: what their CSV says, what their drawings have, and drawings as PDF. */
-#include "analysis/report/chart.h"
+#include "analysis/draw/chart.h"
 #include "analysis/report/pdf.h"
 #include "base/param.h"
 

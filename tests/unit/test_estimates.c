@@ -3,8 +3,8 @@
  * warning; energies over time. */
 #include "analysis/estimate/convergence.h"
 #include "analysis/estimate/pooled.h"
-#include "analysis/study/bands.h"
-#include "analysis/study/study.h"
+#include "analysis/data/bands.h"
+#include "analysis/summary/study.h"
 #include "base/param.h"
 
 #include <math.h>

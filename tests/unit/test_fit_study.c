@@ -4,7 +4,7 @@
 #include "tests/support/report.h"
 
 #include "analysis/fit/fits.h"
-#include "analysis/study/study.h"
+#include "analysis/summary/study.h"
 #include "tests/support/fit_sample.h"
 
 #include <gsl/gsl_errno.h>

@@ -5,7 +5,7 @@
 #include "tests/support/study_fixture.h"
 
 #include "analysis/analysis.h"
-#include "analysis/report/picture/surface_picture.h"
+#include "analysis/draw/surface_picture.h"
 
 enum {
     SURFACE = 1,

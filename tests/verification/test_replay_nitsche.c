@@ -4,7 +4,7 @@
  *
  * It prints the tables of docs/results/ring.md; with FRACAS_WRITE_REPLAY=FOLDER it writes their
  * figures there. */
-#include "analysis/report/chart.h"
+#include "analysis/draw/chart.h"
 #include "tests/support/dynfrag1d.h"
 
 enum { MOST_INTERFACES = 2500 };

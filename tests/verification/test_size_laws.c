@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Size laws against the table of docs/theory/size-laws.md, digit by digit as printed, and against
  * their limits. (Glenn-Chudnovsky at 1e3 /s is 1.99948.) */
-#include "analysis/laws/size_laws.h"
+#include "analysis/estimate/scales.h"
 
-#include "analysis/laws/modulus.h"
+#include "analysis/summary/modulus.h"
 
 #include <math.h>
 #include <setjmp.h>

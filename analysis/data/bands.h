@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Energies over time of all realizations of a point: their mean and the band that most of them stay
+ * in. */
+#ifndef FRACAS_ANALYSIS_DATA_BANDS_H
+#define FRACAS_ANALYSIS_DATA_BANDS_H
+
+#include "analysis/data/ensemble.h"
+#include "base/err.h"
+#include "campaigns/store/store.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef enum {
+    FRACAS_ENERGY_KINETIC,
+    FRACAS_ENERGY_ELASTIC,
+    FRACAS_ENERGY_COHESIVE,
+    FRACAS_ENERGY_DISSIPATED
+} fracas_energy;
+
+#define FRACAS_NENERGIES 4
+
+extern const char *const fracas_energy_key[FRACAS_NENERGIES]; /* "kinetic", ... */
+
+typedef struct {
+    double mean, low, high; /* J */
+} fracas_band;
+
+/* At the times t_j = j time.end/intervals of the histories (estimators.23), (estimators.24), until
+ * all realizations have ended. */
+typedef struct {
+    size_t count;     /* times, 0 of a study without histories */
+    double *time;     /* s */
+    int64_t *running; /* realizations that had not ended before that time; the others count with
+                         what they had in the end */
+    fracas_band (*energy)[FRACAS_NENERGIES];
+    int64_t realizations; /* that were taken: all usable ones, or as many, evenly spread over them,
+                             as fit in 16 MiB */
+    bool extremes; /* low and high are the least and the greatest, of fewer than FRACAS_BAND_LEAST;
+                      else the quantiles 0.05 and 0.95 */
+} fracas_bands;
+
+enum { FRACAS_BAND_LEAST = 20 };
+
+/* Takes in one realization after the other, at most 16 MiB beside the bands, whatever their number.
+ */
+typedef struct {
+    fracas_bands *bands;
+    size_t times; /* 0: there are no histories */
+    size_t all,
+        selected; /* usable realizations of the point, and how many of them are taken, evenly */
+    size_t met, count;        /* of those, so far */
+    size_t most;              /* values in a heap */
+    double *least, *negative; /* [time][energy][most]: heaps of the least values and of the least
+                                 negatives, the first is the greatest kept */
+} fracas_bands_collector;
+
+/* Of `realizations` usable ones; their histories have `intervals` (>= 0) equal ones of time.end
+ * `end` [s]. Both are cleared by the caller, also after an error: fracas_bands_end frees what only
+ * the collector needs. */
+FRACAS_MUST_USE fracas_err fracas_bands_begin(int64_t intervals, double end, size_t realizations,
+                                              fracas_bands *bands,
+                                              fracas_bands_collector *collector);
+/* The history of the next usable realization, in the order of the study. */
+void fracas_bands_add(fracas_bands_collector *collector, const fracas_record *record);
+void fracas_bands_end(fracas_bands_collector *collector);
+void fracas_bands_clear(fracas_bands *bands);
+
+#endif

@@ -1,0 +1,244 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "analysis/data/columns.h"
+
+#include "analysis/data/format.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char strain_rate_path[] = "derived.strain_rate", imposed_rate_path[] = "loading.rate";
+static const char radius_path[] = "geometry.radius";
+
+/* The columns that make the strain rate, each with its type of loading. The radius does not, though
+ * it divides the velocities: it makes series, on which the size over v/R is to be seen as one curve
+ * or not. */
+static bool makes_rate(const char *path)
+{
+    static const char *const maker[] = {imposed_rate_path, "loading.radial", "loading.velocity"};
+    for (size_t i = 0; i < sizeof maker / sizeof *maker; i++)
+        if (!strcmp(path, maker[i])) return true;
+    return false;
+}
+
+double fracas_columns_real(const fracas_point_table *table, size_t point, const char *path)
+{
+    size_t column = fracas_point_table_find(table, path);
+    return column == SIZE_MAX ? NAN : table->point[point].value[column].real;
+}
+
+bool fracas_columns_surface(const fracas_point_table *table, size_t point)
+{
+    return isfinite(fracas_columns_real(table, point, "geometry.thickness"));
+}
+
+double fracas_columns_rate(const fracas_point_table *table, size_t point)
+{
+    bool derived = fracas_point_table_find(table, strain_rate_path) != SIZE_MAX;
+    return fracas_columns_real(table, point, derived ? strain_rate_path : imposed_rate_path);
+}
+
+/* Causes before numerics: a zipped sweep is called by what is physical in it, and cases by their
+ * names. The radius comes before the velocities, so that of radii and velocities swept together the
+ * radius stays, and makes series. */
+static int rank_of(const char *path)
+{
+    static const char *const order[] = {imposed_rate_path, radius_path, "case",     "loading",
+                                        "material",        "cohesive",  "strength", "geometry",
+                                        "model",           "mesh",      "time"};
+    const int n = (int)(sizeof order / sizeof *order);
+    for (int i = 0; i < n; i++) {
+        size_t length = strlen(order[i]);
+        if (!strncmp(path, order[i], length) && (path[length] == '.' || path[length] == '\0'))
+            return i;
+    }
+    return strncmp(path, "derived.", strlen("derived.")) ? n : -1;
+}
+
+static bool same_value(const fracas_point_table *table, size_t column, size_t a, size_t b)
+{
+    return fracas_value_same(&table->point[a].value[column], &table->point[b].value[column]);
+}
+
+bool fracas_columns_same(const fracas_point_table *table, const fracas_columns *columns, size_t a,
+                         size_t b)
+{
+    for (size_t i = 0; i < columns->count; i++)
+        if (!same_value(table, columns->column[i], a, b)) return false;
+    return true;
+}
+
+/* True if some two points of one class differ in the column. class[p] is the first point of p's
+ * class. */
+static bool refine(const fracas_point_table *table, size_t column, size_t *class, size_t *scratch)
+{
+    bool parted = false;
+    for (size_t p = 0; p < table->npoints; p++) {
+        scratch[p] = p;
+        for (size_t q = class[p]; q < p; q++) {
+            if (class[q] != class[p] || !same_value(table, column, p, q)) continue;
+            scratch[p] = scratch[q];
+            break;
+        }
+        if (scratch[p] != class[p]) parted = true;
+    }
+    memcpy(class, scratch, table->npoints * sizeof *class);
+    return parted;
+}
+
+static void select_columns(const fracas_point_table *table, size_t *class, size_t *scratch,
+                           fracas_columns *columns)
+{
+    int last = 0;
+    for (size_t c = 0; c < table->ncolumns; c++)
+        if (rank_of(table->column[c].path) > last) last = rank_of(table->column[c].path);
+    /* Within a section names first: a law tells points apart better than a number that only one law
+     * has. */
+    for (int place = 0; place < 2 * (last + 1); place++)
+        for (size_t c = 0; c < table->ncolumns; c++)
+            if (rank_of(table->column[c].path) == place / 2 &&
+                table->column[c].text == (place % 2 == 0) && refine(table, c, class, scratch))
+                columns->column[columns->count++] = c;
+    for (size_t c = 0; c < table->ncolumns && columns->count == 0 && table->npoints > 0; c++)
+        if (makes_rate(table->column[c].path) && isfinite(table->point[0].value[c].real))
+            columns->column[columns->count++] = c;
+}
+
+fracas_err fracas_columns_create(const fracas_point_table *table, fracas_columns *columns)
+{
+    *columns = (fracas_columns){0};
+    columns->column = malloc((table->ncolumns + 1) * sizeof *columns->column);
+    size_t *class = calloc(2 * table->npoints + 1,
+                           sizeof *class); /* all points in the class of point 0 */
+    if (columns->column && class) select_columns(table, class, class + table->npoints, columns);
+    bool made = columns->column && class;
+    free(class);
+    if (made) return FRACAS_OK;
+    fracas_columns_clear(columns);
+    return fracas_no_memory("the columns of the table");
+}
+
+fracas_err fracas_columns_without_rate(const fracas_point_table *table,
+                                       const fracas_columns *columns, fracas_columns *others)
+{
+    *others = (fracas_columns){.column = malloc((columns->count + 1) * sizeof *others->column)};
+    if (!others->column) return fracas_no_memory("the series of a figure");
+    for (size_t i = 0; i < columns->count; i++)
+        if (!makes_rate(table->column[columns->column[i]].path))
+            others->column[others->count++] = columns->column[i];
+    return FRACAS_OK;
+}
+
+fracas_err fracas_columns_with_rate(const fracas_point_table *table, const fracas_columns *columns,
+                                    fracas_columns *with)
+{
+    *with = (fracas_columns){.column = malloc((columns->count + 1) * sizeof *with->column)};
+    if (!with->column) return fracas_no_memory("the columns of the table");
+    bool imposed = false, radius = false, velocity = false;
+    for (size_t i = 0; i < columns->count; i++) {
+        const char *path = table->column[columns->column[i]].path;
+        if (!strcmp(path, imposed_rate_path)) imposed = true;
+        else if (!strcmp(path, radius_path)) radius = true;
+        else if (makes_rate(path)) velocity = true;
+        with->column[with->count++] = columns->column[i];
+    }
+    size_t rate = fracas_point_table_find(table, strain_rate_path);
+    if (rate != SIZE_MAX && (velocity || (radius && !imposed))) with->column[with->count++] = rate;
+    return FRACAS_OK;
+}
+
+void fracas_columns_clear(fracas_columns *columns)
+{
+    free(columns->column);
+    *columns = (fracas_columns){0};
+}
+
+static const char *last_part(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot ? dot + 1 : path;
+}
+
+const char *fracas_columns_name(const fracas_point_table *table, const fracas_columns *columns,
+                                size_t i)
+{
+    const char *path = table->column[columns->column[i]].path;
+    if (!strcmp(path, strain_rate_path)) return "strain rate";
+    for (size_t j = 0; j < columns->count; j++)
+        if (j != i && !strcmp(last_part(path), last_part(table->column[columns->column[j]].path)))
+            return path;
+    return last_part(path);
+}
+
+void fracas_columns_value(const fracas_point_table *table, size_t column, size_t point,
+                          double factor, char *text, size_t size)
+{
+    const fracas_value *value = &table->point[point].value[column];
+    if (table->column[column].text) snprintf(text, size, "%s", *value->text ? value->text : "-");
+    else fracas_format_short(value->real * factor, text, size);
+}
+
+static bool is_absent(const fracas_point_table *table, size_t column, size_t point)
+{
+    const fracas_value *value = &table->point[point].value[column];
+    return table->column[column].text ? *value->text == '\0' : isnan(value->real);
+}
+
+static bool takes_prefix(const char *unit)
+{
+    static const char *const plain[] = {"m", "s", "Pa", "J"};
+    for (size_t i = 0; i < sizeof plain / sizeof *plain; i++)
+        if (!strcmp(unit, plain[i])) return true;
+    return false;
+}
+
+/* A point is called by the values that it has, unless it has none of them: a load by its own keys,
+ * not by the lack of those of other loads. */
+void fracas_columns_label(const fracas_point_table *table, const fracas_columns *columns,
+                          size_t point, char *text, size_t size)
+{
+    size_t used = 0, present = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < columns->count; i++)
+        present += !is_absent(table, columns->column[i], point);
+    for (size_t i = 0; i < columns->count && used < size; i++) {
+        const fracas_column *column = &table->column[columns->column[i]];
+        const bool absent = is_absent(table, columns->column[i], point);
+        if (absent && present > 0) continue;
+        char value[64];
+        fracas_prefix prefix = {1, "", ""};
+        if (takes_prefix(column->unit))
+            prefix = fracas_prefix_for(&table->point[point].value[columns->column[i]].real, 1);
+        fracas_columns_value(table, columns->column[i], point, prefix.factor, value, sizeof value);
+        bool unit = !column->text && !absent && strcmp(column->unit, "1");
+        const char *name = fracas_columns_name(table, columns, i);
+        used += (size_t)snprintf(text + used, size - used, "%s%s %s%s%s%s", used ? ", " : "", name,
+                                 value, unit ? " " : "", prefix.symbol, unit ? column->unit : "");
+    }
+}
+
+/* True if two points have values that differ; one that lacks the value, as of another law, is no
+ * difference. */
+static bool differs(const fracas_point_table *table, size_t column)
+{
+    size_t first = 0;
+    while (first < table->npoints && is_absent(table, column, first)) first++;
+    for (size_t p = first + 1; p < table->npoints; p++)
+        if (!is_absent(table, column, p) && !same_value(table, column, p, first)) return true;
+    return false;
+}
+
+void fracas_columns_beside(const fracas_point_table *table, const fracas_columns *columns,
+                           char *text, size_t size)
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (size_t c = 0; c < table->ncolumns && used < size; c++) {
+        const char *path = table->column[c].path;
+        bool known = !strncmp(path, "mesh.", 5) || !strncmp(path, "time.", 5) || rank_of(path) < 0;
+        for (size_t i = 0; i < columns->count; i++) known = known || columns->column[i] == c;
+        if (!known && differs(table, c))
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", path);
+    }
+}

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The usable realizations of one point and their fragments, kept apart by realization: what is
+ * resampled. */
+#ifndef FRACAS_ANALYSIS_DATA_ENSEMBLE_H
+#define FRACAS_ANALYSIS_DATA_ENSEMBLE_H
+
+#include "analysis/data/ring.h"
+#include "base/err.h"
+#include "campaigns/store/store.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* One usable realization, as the estimates take it. All double: fracas_estimate_of strides over
+ * them. */
+typedef struct {
+    double count;       /* fragments */
+    double count_large; /* fragments without dust */
+    double size;       /* m, length of the body / fragments; of a surface the mean over fragments of
+                          sqrt(area) */
+    double dissipated; /* J */
+    double bending;    /* J, the part of bending */
+    double translation, rotation; /* J, kinetic energy of the fragments as rigid bodies; NaN unless
+                                     of a surface in fragments */
+    double onset_time;            /* s, NaN if nothing cracked */
+    double largest_size,
+        largest_share;         /* of the fragment of most mass: m, and its mass/the mass of all */
+    fracas_ring_motion motion; /* NaN unless of a ring in fragments */
+} fracas_replica_values;
+
+enum { FRACAS_REPLICA_STRIDE = sizeof(fracas_replica_values) / sizeof(double) };
+
+typedef struct {
+    size_t nrealizations;         /* FRAGMENTED, INTACT and TIME_LIMIT, in the order of the study */
+    fracas_replica_values *value; /* of each */
+    int64_t *replica;             /* of each */
+    size_t *row;                  /* of each, in the study */
+    size_t *first; /* fragments of realization i are first[i] to first[i + 1] - 1: nrealizations + 1
+                      of them */
+    size_t nfragments;
+    double *size, *mass; /* of each fragment [m], [kg] */
+    int32_t *elements;   /* of each */
+    uint8_t *dust;       /* of each: 1, or 0 */
+    double lattice; /* m: every size is a whole multiple of it (a bar or ring of equal elements); 0:
+                       they are not */
+    bool surface;   /* a size is the square root of an area; false after init */
+    size_t room, fragment_room;
+} fracas_ensemble;
+
+/* An empty one; cleared by the caller. */
+void fracas_ensemble_init(fracas_ensemble *ensemble, double lattice);
+void fracas_ensemble_clear(fracas_ensemble *ensemble);
+
+/* Takes in a usable realization with the fragments of `record`. */
+FRACAS_MUST_USE fracas_err fracas_ensemble_add(fracas_ensemble *ensemble, size_t row,
+                                               int64_t replica, const fracas_replica_values *value,
+                                               const fracas_record *record);
+
+/* The cut-off c [m] of what the mesh resolves: fragments of size > c are resolved, the others are
+ * left out of every estimate and fit "without dust", which is then of sizes truncated from the left
+ * at c. With D the dimension and h^D the mean length or area of an element, h^D = sum s_i^D/sum
+ * elements_i over all fragments: c = 1.5 h of lengths, sqrt(2.5) h of surfaces (estimators.14). It
+ * lies between one element and two, or two and three: where all elements are equal it parts dust
+ * from the rest, and no fragment is of size c. On a lattice h is the lattice itself. 0 of an
+ * ensemble without fragments. */
+double fracas_ensemble_cut(const fracas_ensemble *ensemble);
+
+#endif

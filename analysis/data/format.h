@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Numbers as people read them. */
+#ifndef FRACAS_ANALYSIS_DATA_FORMAT_H
+#define FRACAS_ANALYSIS_DATA_FORMAT_H
+
+#include "analysis/data/estimate.h"
+
+#include <stddef.h>
+
+/* "1e4", "2500", "0.33": the shorter of plain and exponent notation, to six digits; "-" for what is
+ * not finite. */
+void fracas_format_short(double value, char *text, size_t size);
+/* "0.890", "2.0e-3": so many significant digits, zeros kept; "-" for what is not finite. */
+void fracas_format_digits(double value, int digits, char *text, size_t size);
+
+/* Two significant digits, or as many more (up to five) as show on which side of the limit the value
+ * is. */
+void fracas_format_beside(double value, double limit, char *text, size_t size);
+
+/* "442.3 +- 5.6": the half width to two digits and the mean to the same place, both times `factor`.
+ * Without a half width (one replica, or equal values) the mean to four digits, and "+- -" or "+-
+ * 0". "-" without a mean. */
+void fracas_format_estimate(const fracas_estimate *estimate, double factor, const char *plus_minus,
+                            char *text, size_t size);
+
+/* The mean of an estimate alone, times `factor`, to that place; without a half width to three
+ * digits. */
+void fracas_format_mean(const fracas_estimate *estimate, double factor, char *text, size_t size);
+
+/* "0.0851 [0.066, 0.109]" to the place of the second digit of half the interval's width, "1.24e5
+ * [1.10e5, 1.39e5]" where that is above the point or the value below 0.01. An end above 0 that this
+ * rounds to 0 has the digit it needs. Without an interval, or with one that is round-off, the value
+ * to three digits, and " [-]" where there is none. "-" without a value. */
+void fracas_format_interval(double value, double low, double high, char *text, size_t size);
+
+/* A power of 1000 for a unit: shown value = factor * SI value. */
+typedef struct {
+    double factor;
+    const char *symbol; /* "u" in ASCII */
+    const char *sign;   /* "\u00b5" in UTF-8 */
+} fracas_prefix;
+
+/* The prefix (nano to giga) in which the geometric mean of the least and the greatest positive
+ * value is between 1 and 1000. */
+fracas_prefix fracas_prefix_for(const double *value, size_t count);
+
+#endif

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Files of a report: whole or not there. */
+#ifndef FRACAS_ANALYSIS_DATA_OUTPUT_H
+#define FRACAS_ANALYSIS_DATA_OUTPUT_H
+
+#include "base/err.h"
+
+#include <stdio.h>
+
+typedef struct {
+    FILE *file;
+    char *path;      /* final name */
+    char *temporary; /* name until it is whole */
+} fracas_output_file;
+
+/* Starts folder/name under a temporary name beside it. FRACAS_ENVIRONMENT if it cannot. */
+FRACAS_MUST_USE fracas_err fracas_output_open(const char *folder, const char *name,
+                                              fracas_output_file *output);
+/* With `err` FRACAS_OK renames the file, once all of it is written, to its final name; else removes
+ * it and returns `err`. Frees what `output` owns. */
+FRACAS_MUST_USE fracas_err fracas_output_close(fracas_output_file *output, fracas_err err);
+
+#endif

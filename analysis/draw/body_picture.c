@@ -1,0 +1,291 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "analysis/draw/body_picture.h"
+
+#include "analysis/draw/tint.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const double step = 0.02; /* share of what is below it that a shade takes */
+static const double ambient = 0.45,
+                    inside = 0.6; /* light that is everywhere; on the inner skin / on the outer */
+static const char night[] = "#0b1220"; /* what shades are of */
+
+fracas_err fracas_body_picture_create(const fracas_stored_mesh *mesh,
+                                      const fracas_surface_state *state,
+                                      const fracas_surface_picture *picture,
+                                      const fracas_view *view, fracas_body_picture *body)
+{
+    const fracas_facets_form form = {*view, picture->explode, picture->thickness};
+    *body = (fracas_body_picture){0};
+    TRY(fracas_facets_create(mesh, state, &form, &body->facets));
+    TRY(fracas_facets_hide(&body->facets));
+    fracas_frame_fit(body->facets.least, body->facets.largest, picture->width, &body->frame);
+    body->spot = malloc((body->facets.nnodes + 1) * sizeof *body->spot);
+    if (!body->spot) return fracas_no_memory("a picture");
+    for (size_t n = 0; n < body->facets.nnodes; n++)
+        body->spot[n] = fracas_frame_place(&body->frame, body->facets.node[n]);
+    return FRACAS_OK;
+}
+
+void fracas_body_picture_clear(fracas_body_picture *body)
+{
+    fracas_facets_clear(&body->facets);
+    free(body->spot);
+    *body = (fracas_body_picture){0};
+}
+
+typedef struct {
+    const fracas_body_picture *body;
+    FILE *out;
+    uint8_t *tint;         /* of each facet */
+    uint8_t *shade, *base; /* how many shades lie on it, and how many of them on all that is in one
+                              piece with it in this layer */
+    uint8_t
+        *least; /* of each fragment in this layer, outer skin and inner one: its fewest shades */
+    int darkest;
+    double line;            /* width of a broken interface, units */
+    int32_t layer;          /* the one that is being drawn */
+    size_t *sorted, *first; /* facets by their layer; where each begins */
+    size_t count, *member; /* facets of this layer, and those of nearer ones that lie beside them */
+    int32_t *in;           /* of each facet: the last layer of which it was a member */
+} drawing;
+
+/* ---- what is in a layer ---- */
+
+static uint8_t shade_of(const fracas_facet *facet)
+{
+    const double lit = ambient + (1 - ambient) * (double)facet->light;
+    return (uint8_t)lround(log(facet->kind == FRACAS_FACET_INNER ? inside * lit : lit) /
+                           log(1 - step));
+}
+
+static fracas_err prepare(drawing *d, const uint8_t *tint)
+{
+    const fracas_facets *facets = &d->body->facets;
+    const size_t n = facets->nfacets + 1;
+    d->tint = calloc(n, sizeof *d->tint);
+    d->shade = calloc(n, sizeof *d->shade);
+    d->base = calloc(n, sizeof *d->base);
+    d->least = calloc(2 * n, sizeof *d->least);
+    d->sorted = calloc(n, sizeof *d->sorted);
+    d->member = calloc(4 * n, sizeof *d->member);
+    d->in = malloc(n * sizeof *d->in);
+    d->first = calloc(facets->nlayers + 2, sizeof *d->first);
+    if (!d->tint || !d->shade || !d->base || !d->least || !d->sorted || !d->member || !d->in ||
+        !d->first)
+        return fracas_no_memory("a picture");
+    for (size_t f = 0; f < facets->nfacets; f++) {
+        const fracas_facet *facet = &facets->facet[f];
+        d->tint[f] = tint ? tint[facet->fragment] : 0;
+        d->shade[f] = shade_of(facet);
+        if (d->shade[f] > d->darkest) d->darkest = d->shade[f];
+        d->in[f] = -1;
+        if (facet->layer >= 0) d->first[facet->layer + 2]++;
+    }
+    for (size_t l = 0; l < facets->nlayers; l++) d->first[l + 2] += d->first[l + 1];
+    for (size_t f = 0; f < facets->nfacets; f++)
+        if (facets->facet[f].layer >= 0) d->sorted[d->first[facets->facet[f].layer + 1]++] = f;
+    return FRACAS_OK;
+}
+
+static void join(drawing *d, size_t f)
+{
+    if (d->in[f] == d->layer) return;
+    d->in[f] = d->layer;
+    d->member[d->count++] = f;
+}
+
+static uint8_t *least_of(const drawing *d, const fracas_facet *facet)
+{
+    return &d->least[2 * (size_t)facet->fragment + (facet->kind == FRACAS_FACET_INNER)];
+}
+
+/* Of a cut, which is too narrow for shades of shapes of their own, all of them. */
+static void find_bases(drawing *d)
+{
+    const fracas_facet *facet = d->body->facets.facet;
+    for (size_t m = 0; m < d->count; m++) *least_of(d, &facet[d->member[m]]) = UINT8_MAX;
+    for (size_t m = 0; m < d->count; m++) {
+        const size_t f = d->member[m];
+        uint8_t *least = least_of(d, &facet[f]);
+        if (facet[f].kind != FRACAS_FACET_CUT && d->shade[f] < *least) *least = d->shade[f];
+    }
+    for (size_t m = 0; m < d->count; m++) {
+        const size_t f = d->member[m];
+        d->base[f] = facet[f].kind == FRACAS_FACET_CUT ? d->shade[f] : *least_of(d, &facet[f]);
+    }
+}
+
+/* The neighbours in nearer layers will be drawn over: without them, what is behind would shine
+ * through the joint. */
+static void begin_layer(drawing *d, int32_t layer)
+{
+    d->layer = layer;
+    d->count = 0;
+    for (size_t k = d->first[layer]; k < d->first[layer + 1]; k++) {
+        const fracas_facet *facet = &d->body->facets.facet[d->sorted[k]];
+        join(d, d->sorted[k]);
+        for (int side = 0; side < 3; side++) {
+            const int32_t other = facet->neighbour[side];
+            if (other >= 0 && d->body->facets.facet[other].layer >= 0 &&
+                d->body->facets.facet[other].layer < layer)
+                join(d, (size_t)other);
+        }
+    }
+    find_bases(d);
+}
+
+/* ---- areas ---- */
+
+static fracas_err add_side(fracas_trail *trail, const fracas_facet *facet, int side)
+{
+    const int64_t node[3] = {facet->node[side], facet->node[(side + 1) % 3], facet->middle[side]};
+    return fracas_trail_add(trail, node, false);
+}
+
+/* Lines or areas, in a group with these attributes; nothing without an edge. */
+static fracas_err draw(const drawing *d, fracas_trail *trail, fracas_err err, bool closed,
+                       const char *attributes, const char *class)
+{
+    if (!err && trail->count > 0) {
+        fprintf(d->out, "<g%s>\n", attributes);
+        err = fracas_trail_write(trail, d->body->spot, closed, class, d->out);
+        fputs("</g>\n", d->out);
+    }
+    fracas_trail_clear(trail);
+    return err;
+}
+
+typedef bool choice(const drawing *d, size_t facet, int k);
+
+static bool has_tint(const drawing *d, size_t facet, int k)
+{
+    return d->tint[facet] == k;
+}
+
+static bool has_base(const drawing *d, size_t facet, int k)
+{
+    return d->base[facet] == k;
+}
+
+static bool is_above(const drawing *d, size_t facet, int k)
+{
+    return d->base[facet] < k && k <= d->shade[facet];
+}
+
+/* Members of the layer that are chosen, `attributes` around them. */
+static fracas_err fill(const drawing *d, choice *chosen, int k, const char *attributes,
+                       const char *class)
+{
+    fracas_trail trail = {0};
+    fracas_err err = FRACAS_OK;
+    for (size_t m = 0; !err && m < d->count; m++) {
+        const fracas_facet *facet = &d->body->facets.facet[d->member[m]];
+        for (int side = 0; !err && side < 3 && chosen(d, d->member[m], k); side++) {
+            const int32_t other = facet->neighbour[side];
+            if (other >= 0 && d->in[other] == d->layer && chosen(d, (size_t)other, k)) continue;
+            err = add_side(&trail, facet, side);
+        }
+    }
+    return draw(d, &trail, err, true, attributes, class);
+}
+
+static fracas_err draw_tints(const drawing *d, bool tinted)
+{
+    for (int t = 0; t <= FRACAS_TINT_DUST; t++) {
+        char class[16];
+        if (t == FRACAS_TINT_DUST) snprintf(class, sizeof class, "dust-fill");
+        else if (tinted) snprintf(class, sizeof class, "t%d", t);
+        else snprintf(class, sizeof class, "body");
+        TRY(fill(d, has_tint, t, "", class));
+    }
+    return FRACAS_OK;
+}
+
+/* First what all of a piece has, at once; then one shade upon the other, each with the shape of all
+ * that is at least as dark: few lines, and no joints. */
+static fracas_err draw_shades(const drawing *d)
+{
+    char attributes[64];
+    for (int k = 1; k <= d->darkest; k++) {
+        snprintf(attributes, sizeof attributes, " fill=\"%s\" fill-opacity=\"%.3f\"", night,
+                 1 - pow(1 - step, k));
+        TRY(fill(d, has_base, k, attributes, "shade"));
+    }
+    snprintf(attributes, sizeof attributes, " fill=\"%s\" fill-opacity=\"%g\"", night, step);
+    for (int k = 1; k <= d->darkest; k++) TRY(fill(d, is_above, k, attributes, "shade"));
+    return FRACAS_OK;
+}
+
+/* ---- lines ---- */
+
+/* Two facets of one skin have a side in common: the one in the nearer layer draws it, of equals the
+ * first. */
+static bool draws(const drawing *d, size_t f, int side)
+{
+    const int32_t other = d->body->facets.facet[f].neighbour[side];
+    if (other < 0) return true;
+    const int32_t layer = d->body->facets.facet[other].layer;
+    return layer < 0 || layer > d->layer || (layer == d->layer && f < (size_t)other);
+}
+
+static fracas_err draw_sides(const drawing *d, fracas_side what, const char *class, double width)
+{
+    fracas_trail trail = {0};
+    fracas_err err = FRACAS_OK;
+    for (size_t k = d->first[d->layer]; k < d->first[d->layer + 1]; k++) {
+        const fracas_facet *facet = &d->body->facets.facet[d->sorted[k]];
+        for (int side = 0; !err && side < 3; side++)
+            if (facet->side[side] == what && draws(d, d->sorted[k], side))
+                err = add_side(&trail, facet, side);
+    }
+    char attributes[64];
+    snprintf(attributes, sizeof attributes, " stroke-width=\"%.1f\"", width * d->line);
+    return draw(d, &trail, err, false, attributes, class);
+}
+
+static fracas_err draw_layer(const drawing *d, bool tinted, bool mesh)
+{
+    TRY(draw_tints(d, tinted));
+    if (mesh) TRY(draw_sides(d, FRACAS_SIDE_CLOSED, "mesh", 0.5));
+    TRY(draw_sides(d, FRACAS_SIDE_CRACKED, "cracked", 0.9));
+    TRY(draw_shades(d)); /* over faint lines, too, so that they stay faint in the dark */
+    TRY(draw_sides(d, FRACAS_SIDE_BROKEN, "broken", 1.0));
+    TRY(draw_sides(d, FRACAS_SIDE_PARTED, "broken", 0.6));
+    return draw_sides(d, FRACAS_SIDE_EDGE, "outline", 1.0);
+}
+
+/* A fifth of a mean edge, so that small elements are not all line; between 0.4 and 1.2 pixels. */
+static double line_width(const fracas_body_picture *body)
+{
+    double sum = 0;
+    for (size_t e = 0; e < body->facets.nskin; e++)
+        for (int k = 0; k < 3; k++) {
+            const double *a = body->facets.node[body->facets.facet[e].node[k]];
+            const double *b = body->facets.node[body->facets.facet[e].node[(k + 1) % 3]];
+            sum += hypot(hypot(b[0] - a[0], b[1] - a[1]), b[2] - a[2]);
+        }
+    const double mean = sum / (3 * (double)body->facets.nskin) * body->frame.scale;
+    return FRACAS_FRAME_UNITS * fmin(fmax(0.2 * mean, 0.4), 1.2);
+}
+
+fracas_err fracas_body_picture_draw(const fracas_body_picture *body, const uint8_t *tint,
+                                    fracas_surface_show show, FILE *out)
+{
+    drawing d = {.body = body, .out = out, .line = line_width(body)};
+    fracas_err err = prepare(&d, tint);
+    for (int32_t layer = (int32_t)body->facets.nlayers - 1; !err && layer >= 0; layer--) {
+        begin_layer(&d, layer);
+        err = draw_layer(&d, tint != NULL, show == FRACAS_SHOW_MESH);
+    }
+    free(d.tint);
+    free(d.shade);
+    free(d.base);
+    free(d.least);
+    free(d.sorted);
+    free(d.first);
+    free(d.member);
+    free(d.in);
+    return err;
+}

@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "analysis/draw/chart.h"
+
+#include "analysis/export/csv.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void fracas_chart_init(fracas_chart *chart)
+{
+    *chart = (fracas_chart){.width = FRACAS_CHART_WIDE};
+}
+
+void fracas_chart_clear(fracas_chart *chart)
+{
+    for (size_t p = 0; p < chart->npanels; p++) {
+        fracas_panel *panel = &chart->panel[p];
+        for (size_t s = 0; s < panel->nseries; s++) {
+            free(panel->series[s].x);
+            free(panel->series[s].y);
+            free(panel->series[s].low);
+            free(panel->series[s].high);
+        }
+        free(panel->series);
+    }
+    fracas_chart_init(chart);
+}
+
+fracas_panel *fracas_chart_add(fracas_chart *chart, double height)
+{
+    fracas_panel *panel = &chart->panel[chart->npanels++];
+    panel->height = height;
+    return panel;
+}
+
+fracas_err fracas_panel_add(fracas_panel *panel, fracas_series_kind kind, unsigned look, size_t n,
+                            fracas_series **series)
+{
+    if (panel->nseries == panel->capacity) {
+        size_t capacity = panel->capacity ? 2 * panel->capacity : 8;
+        fracas_series *more = realloc(panel->series, capacity * sizeof *more);
+        if (!more) return fracas_no_memory("a figure");
+        panel->series = more;
+        panel->capacity = capacity;
+    }
+    fracas_series *made = &panel->series[panel->nseries++];
+    *made = (fracas_series){.kind = kind, .look = look, .n = n};
+    made->x = calloc(n + 1, sizeof *made->x);
+    made->y = calloc(n + 1, sizeof *made->y);
+    const bool ranges = kind == FRACAS_MARKS || kind == FRACAS_BAND || kind == FRACAS_BOXES;
+    if (ranges) {
+        made->low = calloc(n + 1, sizeof *made->low);
+        made->high = calloc(n + 1, sizeof *made->high);
+    }
+    if (!made->x || !made->y || (ranges && (!made->low || !made->high)))
+        return fracas_no_memory("a figure");
+    *series = made;
+    return FRACAS_OK;
+}
+
+void fracas_markup_text(const char *text, FILE *out)
+{
+    for (; *text; text++) {
+        switch (*text) {
+        case '&': fputs("&amp;", out); break;
+        case '<': fputs("&lt;", out); break;
+        case '>': fputs("&gt;", out); break;
+        case '"': fputs("&quot;", out); break;
+        default: putc(*text, out);
+        }
+    }
+}
+
+bool fracas_panel_shows(const fracas_panel *panel, const fracas_series *series, size_t i)
+{
+    const double x = series->x[i], y = series->y[i];
+    if (!isfinite(x) || !isfinite(y) || (panel->x.log && x <= 0) || (panel->y.log && y <= 0))
+        return false;
+    return !(panel->y_floor > 0) || y >= panel->y_floor;
+}
+
+const char *fracas_axis_name(const fracas_axis *axis, double value)
+{
+    if (axis->nnames == 0) return NULL;
+    const double most = (double)axis->nnames, nearest = round(value);
+    return axis->name[(size_t)fmin(fmax(nearest, 1), most) - 1];
+}
+
+/* ---- CSV ---- */
+
+static void put_field(const char *text, FILE *out)
+{
+    putc('"', out);
+    for (; *text; text++) {
+        if (*text == '"') putc('"', out);
+        putc(*text, out);
+    }
+    putc('"', out);
+}
+
+/* The labels of an axis of all panels that have one, each once. */
+static void put_label(const fracas_chart *chart, bool of_y, FILE *out)
+{
+    char text[FRACAS_MAX_PANELS * (sizeof chart->panel->x.label + 4)] = "";
+    const char *before = "";
+    for (size_t p = 0; p < chart->npanels; p++) {
+        const char *label = of_y ? chart->panel[p].y.label : chart->panel[p].x.label;
+        if (!*label || !strcmp(label, before)) continue;
+        if (*text) strcat(text, " | ");
+        strcat(text, label);
+        before = label;
+    }
+    put_field(text, out);
+}
+
+static void put_x(const fracas_axis *axis, double x, FILE *out)
+{
+    const char *name = fracas_axis_name(axis, x);
+    if (!name) {
+        fracas_csv_real(x, out);
+        return;
+    }
+    putc(',', out);
+    put_field(name, out);
+}
+
+static void put_series(const fracas_panel *panel, size_t number, const fracas_series *series,
+                       FILE *out)
+{
+    static const char *const kind[] = {"curve", "steps", "mark", "band", "box"};
+    for (size_t i = 0; i < series->n; i++) {
+        if (!fracas_panel_shows(panel, series, i)) continue;
+        fprintf(out, "%zu,", number);
+        put_field(series->name, out);
+        fprintf(out, ",%s", kind[series->kind]);
+        put_x(&panel->x, series->x[i], out);
+        fracas_csv_real(series->y[i], out);
+        fracas_csv_real(series->low ? series->low[i] : NAN, out);
+        fracas_csv_real(series->high ? series->high[i] : NAN, out);
+        putc('\n', out);
+    }
+}
+
+void fracas_chart_csv(const fracas_chart *chart, FILE *out)
+{
+    fputs("panel,series,kind,", out);
+    put_label(chart, false, out);
+    putc(',', out);
+    put_label(chart, true, out);
+    fputs(",low,high\n", out);
+    for (size_t p = 0; p < chart->npanels; p++)
+        for (size_t s = 0; s < chart->panel[p].nseries; s++)
+            put_series(&chart->panel[p], p + 1, &chart->panel[p].series[s], out);
+}

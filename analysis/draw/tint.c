@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "analysis/draw/tint.h"
+
+#include <stdlib.h>
+
+enum { NONE = 255 };
+
+/* Interfaces by the fragments they part: those of fragment f are interface[first[f]] to
+ * interface[first[f + 1] - 1]. */
+typedef struct {
+    size_t *first, *interface;
+    uint32_t *order; /* fragments, the largest first */
+} neighbours;
+
+static void free_neighbours(neighbours *of)
+{
+    free(of->first);
+    free(of->interface);
+    free(of->order);
+}
+
+static uint32_t fragment_at(const fracas_stored_mesh *mesh, const fracas_surface_state *state,
+                            size_t i, int side)
+{
+    return state->fragment[mesh->interface[i].element[side]];
+}
+
+static int larger_first(const void *a, const void *b, void *state)
+{
+    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    const size_t *elements = ((const fracas_surface_state *)state)->elements;
+    if (elements[x] != elements[y]) return elements[x] > elements[y] ? -1 : 1;
+    return (x > y) - (x < y);
+}
+
+static fracas_err list_neighbours(const fracas_stored_mesh *mesh, const fracas_surface_state *state,
+                                  neighbours *of)
+{
+    of->first = calloc(state->nfragments + 2, sizeof *of->first);
+    of->interface = calloc(2 * mesh->ninterfaces + 1, sizeof *of->interface);
+    of->order = calloc(state->nfragments + 1, sizeof *of->order);
+    if (!of->first || !of->interface || !of->order)
+        return fracas_no_memory("the tints of a picture");
+    /* Counted one place further on, so that the filling below leaves each start where it belongs.
+     */
+    for (size_t i = 0; i < mesh->ninterfaces; i++)
+        for (int side = 0; side < 2; side++) of->first[fragment_at(mesh, state, i, side) + 1]++;
+    for (size_t f = 0, sum = 0; f <= state->nfragments; f++) {
+        const size_t own = of->first[f + 1];
+        of->first[f + 1] = sum;
+        sum += own;
+    }
+    for (size_t i = 0; i < mesh->ninterfaces; i++)
+        for (int side = 0; side < 2; side++)
+            of->interface[of->first[fragment_at(mesh, state, i, side) + 1]++] = i;
+    for (size_t f = 0; f < state->nfragments; f++) of->order[f] = (uint32_t)f;
+    qsort_r(of->order, state->nfragments, sizeof *of->order, larger_first,
+            (void *)(uintptr_t)state);
+    return FRACAS_OK;
+}
+
+static uint8_t best_tint(const fracas_stored_mesh *mesh, const fracas_surface_state *state,
+                         const neighbours *of, uint32_t f, const uint8_t *tint, const size_t *drawn)
+{
+    size_t edges[FRACAS_TINTS] = {0};
+    for (size_t k = of->first[f]; k < of->first[f + 1]; k++)
+        for (int side = 0; side < 2; side++) {
+            const uint32_t other = fragment_at(mesh, state, of->interface[k], side);
+            if (other != f && tint[other] < FRACAS_TINTS) edges[tint[other]]++;
+        }
+    uint8_t best = 0;
+    for (uint8_t t = 1; t < FRACAS_TINTS; t++)
+        if (edges[t] < edges[best] || (edges[t] == edges[best] && drawn[t] < drawn[best])) best = t;
+    return best;
+}
+
+fracas_err fracas_tint_fragments(const fracas_stored_mesh *mesh, const fracas_surface_state *state,
+                                 uint8_t **tint)
+{
+    neighbours of = {0};
+    size_t drawn[FRACAS_TINTS] = {0}; /* elements in each tint */
+    *tint = malloc(state->nfragments + 1);
+    fracas_err err = *tint ? list_neighbours(mesh, state, &of)
+                           : fracas_no_memory("the tints of a picture");
+    for (size_t f = 0; !err && f < state->nfragments; f++)
+        (*tint)[f] = state->elements[f] <= FRACAS_SURFACE_DUST ? FRACAS_TINT_DUST : NONE;
+    for (size_t k = 0; !err && k < state->nfragments; k++) {
+        const uint32_t f = of.order[k];
+        if ((*tint)[f] == FRACAS_TINT_DUST) continue;
+        (*tint)[f] = best_tint(mesh, state, &of, f, *tint, drawn);
+        drawn[(*tint)[f]] += state->elements[f];
+    }
+    free_neighbours(&of);
+    if (err) free(*tint), *tint = NULL;
+    return err;
+}

@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "analysis/draw/trail.h"
+
+#include <stdlib.h>
+
+fracas_err fracas_trail_add(fracas_trail *trail, const int64_t node[3], bool backwards)
+{
+    if (trail->count == trail->capacity) {
+        size_t capacity = trail->capacity ? 2 * trail->capacity : 256;
+        fracas_trail_edge *more = realloc(trail->edge, capacity * sizeof *more);
+        if (!more) return fracas_no_memory("the lines of a picture");
+        trail->edge = more;
+        trail->capacity = capacity;
+    }
+    trail->edge[trail->count++] = (fracas_trail_edge){
+        {(uint32_t)node[backwards], (uint32_t)node[!backwards]}, (int32_t)node[2]};
+    return FRACAS_OK;
+}
+
+void fracas_trail_clear(fracas_trail *trail)
+{
+    free(trail->edge);
+    *trail = (fracas_trail){0};
+}
+
+/* ---- which edges leave a node ---- */
+
+typedef struct {
+    size_t nnodes;
+    uint32_t
+        *node; /* those that have an edge, ascending; the others know them by their place here */
+    uint32_t (*place)[2]; /* of the ends of each edge */
+    size_t *first;        /* of each node, in `leaving`; nodes + 1 of them */
+    size_t *next;         /* of each node: the first that is not known to be used */
+    size_t *leaving;      /* 2 edge + 1 if the edge is gone through backwards */
+    bool *used;           /* of each edge */
+} departures;
+
+static void free_departures(departures *from)
+{
+    free(from->node);
+    free(from->place);
+    free(from->first);
+    free(from->next);
+    free(from->leaving);
+    free(from->used);
+}
+
+static int by_number(const void *a, const void *b)
+{
+    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return (x > y) - (x < y);
+}
+
+/* A mesh has far more nodes than most trails have. */
+static fracas_err list_nodes(const fracas_trail *trail, departures *from)
+{
+    from->node = malloc((2 * trail->count + 1) * sizeof *from->node);
+    from->place = malloc((trail->count + 1) * sizeof *from->place);
+    if (!from->node || !from->place) return fracas_no_memory("the lines of a picture");
+    for (size_t e = 0; e < trail->count; e++)
+        for (int end = 0; end < 2; end++)
+            from->node[2 * e + (size_t)end] = trail->edge[e].node[end];
+    qsort(from->node, 2 * trail->count, sizeof *from->node, by_number);
+    for (size_t k = 0; k < 2 * trail->count; k++)
+        if (k == 0 || from->node[k] != from->node[from->nnodes - 1])
+            from->node[from->nnodes++] = from->node[k];
+    for (size_t e = 0; e < trail->count; e++)
+        for (int end = 0; end < 2; end++) {
+            const uint32_t *found = bsearch(&trail->edge[e].node[end], from->node, from->nnodes,
+                                            sizeof *from->node, by_number);
+            from->place[e][end] = (uint32_t)(found - from->node);
+        }
+    return FRACAS_OK;
+}
+
+static fracas_err list_departures(const fracas_trail *trail, bool closed, departures *from)
+{
+    const int ends = closed ? 1 : 2;
+    TRY(list_nodes(trail, from));
+    const size_t nodes = from->nnodes;
+    from->first = calloc(nodes + 2, sizeof *from->first);
+    from->next = calloc(nodes + 1, sizeof *from->next);
+    from->leaving = calloc(2 * trail->count + 1, sizeof *from->leaving);
+    from->used = calloc(trail->count + 1, sizeof *from->used);
+    if (!from->first || !from->next || !from->leaving || !from->used)
+        return fracas_no_memory("the lines of a picture");
+    for (size_t e = 0; e < trail->count; e++)
+        for (int end = 0; end < ends; end++) from->first[from->place[e][end] + 1]++;
+    for (size_t n = 0; n < nodes; n++) {
+        from->first[n + 1] += from->first[n];
+        from->next[n] = from->first[n];
+    }
+    for (size_t e = 0; e < trail->count; e++)
+        for (int end = 0; end < ends; end++)
+            from->leaving[from->next[from->place[e][end]]++] = 2 * e + (size_t)end;
+    for (size_t n = 0; n < nodes; n++) from->next[n] = from->first[n];
+    return FRACAS_OK;
+}
+
+/* The next edge to go on with from a node, SIZE_MAX if none is left; marks it used. */
+static size_t depart(departures *from, size_t node)
+{
+    while (from->next[node] < from->first[node + 1]) {
+        size_t way = from->leaving[from->next[node]++];
+        if (from->used[way / 2]) continue;
+        from->used[way / 2] = true;
+        return way;
+    }
+    return SIZE_MAX;
+}
+
+/* ---- writing ---- */
+
+typedef struct {
+    const fracas_spot *spot;
+    FILE *out;
+    char command; /* the last one */
+} trail_pen;
+
+static void put_pair(trail_pen *pen, char command, int32_t dx, int32_t dy)
+{
+    if (command != pen->command) putc(command, pen->out);
+    else if (dx >= 0) putc(' ', pen->out); /* a sign separates as well */
+    pen->command = command;
+    fprintf(pen->out, "%d%s%d", (int)dx, dy < 0 ? "" : " ", (int)dy);
+}
+
+/* A parabola through the middle where that is not on the straight line (by more than a unit), else
+ * the line. */
+static void put_edge(trail_pen *pen, const fracas_trail_edge *edge, bool backwards)
+{
+    const fracas_spot a = pen->spot[edge->node[backwards]], b = pen->spot[edge->node[!backwards]];
+    if (edge->middle >= 0) {
+        const fracas_spot m = pen->spot[edge->middle];
+        const int32_t bow[2] = {2 * m.x - a.x - b.x, 2 * m.y - a.y - b.y};
+        if (abs(bow[0]) > 2 || abs(bow[1]) > 2) {
+            put_pair(pen, 'q', 2 * m.x - (a.x + b.x) / 2 - a.x, 2 * m.y - (a.y + b.y) / 2 - a.y);
+            put_pair(pen, 'q', b.x - a.x, b.y - a.y);
+            return;
+        }
+    }
+    put_pair(pen, 'l', b.x - a.x, b.y - a.y);
+}
+
+/* One line as long as it gets from a node; nothing if no edge leaves it. */
+static void put_line(trail_pen *pen, const fracas_trail *trail, departures *from, size_t node,
+                     bool closed)
+{
+    size_t way = depart(from, node);
+    if (way == SIZE_MAX) return;
+    pen->command = 'M';
+    fprintf(pen->out, "M%d %d", (int)pen->spot[from->node[node]].x,
+            (int)pen->spot[from->node[node]].y);
+    for (; way != SIZE_MAX; way = depart(from, node)) {
+        put_edge(pen, &trail->edge[way / 2], way % 2);
+        node = from->place[way / 2][way % 2 == 0];
+    }
+    if (closed) putc('z', pen->out);
+}
+
+static void put_lines(const fracas_trail *trail, const fracas_spot *spot, bool closed,
+                      departures *from, const char *class, FILE *out)
+{
+    trail_pen pen = {.spot = spot, .out = out};
+    fprintf(out, "<path class=\"%s\"%s d=\"", class, closed ? " fill-rule=\"evenodd\"" : "");
+    for (size_t n = 0; n < from->nnodes && !closed; n++) /* lines that end somewhere start there */
+        if ((from->first[n + 1] - from->first[n]) % 2 == 1) put_line(&pen, trail, from, n, false);
+    for (size_t n = 0; n < from->nnodes; n++)
+        while (from->next[n] < from->first[n + 1]) put_line(&pen, trail, from, n, closed);
+    fputs("\"/>\n", out);
+}
+
+fracas_err fracas_trail_write(const fracas_trail *trail, const fracas_spot *spot, bool closed,
+                              const char *class, FILE *out)
+{
+    if (trail->count == 0) return FRACAS_OK;
+    departures from = {0};
+    fracas_err err = list_departures(trail, closed, &from);
+    if (!err) put_lines(trail, spot, closed, &from, class, out);
+    free_departures(&from);
+    return err;
+}

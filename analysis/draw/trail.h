@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Edges written as an SVG path of few long lines. */
+#ifndef FRACAS_ANALYSIS_DRAW_TRAIL_H
+#define FRACAS_ANALYSIS_DRAW_TRAIL_H
+
+#include "base/err.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* Where the nodes of a mesh are in a drawing, in its whole units. */
+typedef struct {
+    int32_t x, y;
+} fracas_spot;
+
+typedef struct {
+    uint32_t node[2];
+    int32_t middle; /* node that a curved edge goes through half way, -1: it is straight */
+} fracas_trail_edge;
+
+typedef struct {
+    size_t count, capacity;
+    fracas_trail_edge *edge;
+} fracas_trail;
+
+FRACAS_MUST_USE fracas_err fracas_trail_add(fracas_trail *trail, const int64_t node[3],
+                                            bool backwards);
+void fracas_trail_clear(fracas_trail *trail);
+
+/* Writes `<path class=... d=.../>` through every edge once; nothing without an edge. `closed`:
+ * edges have a direction, as many end in a node as start there, and the loops that they make are
+ * filled by the even-odd rule; else either way round will do. */
+FRACAS_MUST_USE fracas_err fracas_trail_write(const fracas_trail *trail, const fracas_spot *spot,
+                                              bool closed, const char *class, FILE *out);
+
+#endif

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Characteristic scales of dynamic fragmentation and laws for the mean fragment size
+ * (docs/theory/size-laws.md). */
+#ifndef FRACAS_ANALYSIS_ESTIMATE_SCALES_H
+#define FRACAS_ANALYSIS_ESTIMATE_SCALES_H
+
+typedef struct {
+    double time;    /* t0 [s] */
+    double size;    /* s0 [m] */
+    double rate;    /* edot0 [1/s] */
+    double modulus; /* M of the strengths, by fracas_modulus_of; NaN: they have none */
+} fracas_scales;
+
+/* t0 = E Gc/(sigma_c^2 c), s0 = c t0, edot0 = c sigma_c^3/(E^2 Gc) with c = sqrt(E/rho)
+ * (size-laws.1) to (size-laws.3). young E > 0 [Pa], density rho > 0 [kg/m3], strength sigma_c > 0
+ * [Pa], fracture_energy Gc > 0 [J/m2]; a NaN argument gives NaN scales. The modulus is NaN. */
+fracas_scales fracas_scales_of(double young, double density, double strength,
+                               double fracture_energy);
+
+typedef enum {
+    FRACAS_LAW_ZMR,              /* Zhou, Molinari & Ramesh, APL 2006 */
+    FRACAS_LAW_GRADY,            /* Grady 1982 */
+    FRACAS_LAW_GLENN_CHUDNOVSKY, /* Glenn & Chudnovsky 1986 */
+    FRACAS_LAW_ZMR2,             /* Zhou, Molinari & Ramesh 2006, second form */
+    FRACAS_LAW_MOTT              /* Mott 1947, with the mean of Grady 1981 */
+} fracas_size_law_id;
+
+#define FRACAS_NLAWS 5
+
+typedef struct {
+    const char *key;  /* in JSON and CSV */
+    const char *name; /* in tables and legends */
+    double (*normalised)(
+        double e,
+        double modulus); /* s/s0 at e = edot/edot0 > 0; Mott's alone depends on the modulus */
+} fracas_size_law;
+
+/* Indexed by fracas_size_law_id. */
+extern const fracas_size_law fracas_size_laws[FRACAS_NLAWS];
+
+/* s [m] = s0 f(rate/edot0, M), rate > 0 [1/s]; NaN by Mott's law without a modulus. */
+double fracas_size_law_at(fracas_size_law_id law, const fracas_scales *scales, double rate);
+
+#endif

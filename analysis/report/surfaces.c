@@ -1,0 +1,229 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "analysis/report/surfaces.h"
+
+#include "analysis/export/csv.h"
+#include "analysis/data/output.h"
+#include "analysis/draw/chart.h"
+
+#include <math.h>
+
+static const size_t most_elements = 1500000; /* drawn on a page, some 20 MB of it */
+static const double apart = 0.1;             /* fragments of surfaces in space on a page */
+static const size_t most_apart =
+    50000; /* elements of a mesh; of larger ones the gaps are not worth the room they take */
+
+fracas_err fracas_broken_surface_read(fracas_results *results, size_t point, size_t row,
+                                      fracas_broken_surface *surface)
+{
+    size_t of;
+    int64_t replica;
+    *surface = (fracas_broken_surface){0};
+    fracas_record_init(&surface->record);
+    const double thickness = fracas_columns_real(fracas_results_points(results), point,
+                                                 "geometry.thickness");
+    if (thickness > 0) surface->thickness = thickness;
+    TRY(fracas_results_mesh(results, point, &surface->mesh));
+    return fracas_results_record(results, row, FRACAS_READ_INTERFACES, &of, &replica,
+                                 &surface->record);
+}
+
+void fracas_broken_surface_clear(fracas_broken_surface *surface)
+{
+    fracas_stored_mesh_clear(&surface->mesh);
+    fracas_record_clear(&surface->record);
+}
+
+static fracas_err write_picture(const fracas_broken_surface *surface, double time,
+                                const fracas_surface_picture *picture, FILE *out)
+{
+    fracas_surface_state state;
+    fracas_err err = fracas_surface_state_create(&surface->mesh, &surface->record, time, &state);
+    if (!err) err = fracas_surface_picture_write(&surface->mesh, &state, picture, out);
+    fracas_surface_state_clear(&state);
+    return err;
+}
+
+fracas_err fracas_broken_surface_save(const fracas_broken_surface *surface, double time,
+                                      const fracas_surface_picture *picture, const char *folder,
+                                      const char *name)
+{
+    fracas_output_file output;
+    TRY(fracas_output_open(folder, name, &output));
+    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", output.file);
+    return fracas_output_close(&output, write_picture(surface, time, picture, output.file));
+}
+
+/* ---- the page ---- */
+
+static fracas_err has_mesh(const fracas_analysis *analysis, size_t point, bool *has)
+{
+    size_t interfaces;
+    TRY(fracas_results_mesh_interfaces(analysis->results, point, &interfaces));
+    *has = interfaces > 0;
+    return FRACAS_OK;
+}
+
+fracas_err fracas_surfaces_any(const fracas_analysis *analysis, bool *any)
+{
+    *any = false;
+    for (size_t p = 0; p < analysis->table->npoints && !*any; p++) TRY(has_mesh(analysis, p, any));
+    return FRACAS_OK;
+}
+
+typedef struct {
+    fracas_page *page;
+    size_t drawn; /* elements so far; a gap takes twice the room of an element */
+} gallery;
+
+static double explode_of(const fracas_stored_mesh *mesh)
+{
+    return fracas_surface_is_flat(mesh) || mesh->nelements > most_apart ? 0 : apart;
+}
+
+static fracas_err put_moment(const gallery *to, const fracas_broken_surface *surface, size_t p,
+                             size_t k, double time)
+{
+    char label[160], title[256], moment[48], name[64], file[80];
+    fracas_surface_time_text(time, true, moment, sizeof moment);
+    fracas_analysis_label(to->page->analysis, p, label, sizeof label);
+    snprintf(title, sizeof title, "Broken surface at %s%s%s", moment, *label ? ": " : "", label);
+    snprintf(name, sizeof name, "surface-point-%zu-%zu", p, k + 1);
+    snprintf(file, sizeof file, "%s.svg", name);
+    TRY(fracas_page_drew(to->page, name));
+    fracas_surface_picture picture = {.title = title,
+                                      .show = FRACAS_SHOW_FRAGMENTS,
+                                      .width = FRACAS_CHART_NARROW,
+                                      .explode = explode_of(&surface->mesh),
+                                      .thickness = surface->thickness};
+    fprintf(to->page->out, "<figure id=\"%s\">\n", name); /* in that of the point */
+    TRY(write_picture(surface, time, &picture, to->page->out));
+    fputs("<figcaption>", to->page->out);
+    fracas_page_links(to->page, name, true, false);
+    fputs("</figcaption>\n</figure>\n", to->page->out);
+    picture.standalone = true;
+    picture.width = FRACAS_SURFACE_WIDTH;
+    return fracas_broken_surface_save(surface, time, &picture, to->page->folder, file);
+}
+
+/* "; first crack through the width: 27.1 us" and the like, that one over both pairs of borders of a
+ * flat surface. */
+static fracas_err write_caption(const fracas_broken_surface *surface, int64_t replica, bool broken,
+                                char *text, size_t size)
+{
+    static const char *const what[] = {"first onset", "first break",
+                                       "first crack through the width"};
+    fracas_surface_times times;
+    TRY(fracas_surface_times_of(&surface->mesh, &surface->record, &times));
+    const double at[] = {times.onset, times.broken, fmin(times.through[0], times.through[1])};
+    const bool flat = fracas_surface_is_flat(&surface->mesh);
+    size_t used = (size_t)snprintf(
+        text, size, "Replica %lld, %s, at even times from the first onset to the end",
+        (long long)replica,
+        broken ? "the first that ended FRAGMENTED"
+               : "of typical dissipated energy, for none ended FRAGMENTED");
+    for (int k = 0; k < (flat ? 3 : 2); k++) {
+        char moment[48];
+        fracas_surface_time_text(at[k], true, moment, sizeof moment);
+        used += (size_t)snprintf(text + used, size - used, "; %s: %s", what[k], moment);
+    }
+    used += (size_t)snprintf(text + used, size - used, ".%s",
+                             flat ? "" : " Seen from the direction (1, 1, 1)");
+    if (explode_of(&surface->mesh) > 0)
+        used += (size_t)snprintf(
+            text + used, size - used,
+            ", each fragment moved by %g of the way from the centroid of the surface to its own",
+            apart);
+    snprintf(text + used, size - used, "%s", flat ? "" : ".");
+    return FRACAS_OK;
+}
+
+/* What all pictures of a point are drawn from: an interface a line. */
+static void write_interfaces(const fracas_broken_surface *surface, FILE *out)
+{
+    fputs("interface,x1,y1,z1,x2,y2,z2,onset_time,break_time\n", out);
+    for (size_t i = 0; i < surface->mesh.ninterfaces; i++) {
+        fprintf(out, "%zu", i);
+        for (int end = 0; end < 2; end++)
+            for (int axis = 0; axis < 3; axis++)
+                fracas_csv_real(
+                    surface->mesh.node[surface->mesh.interface[i].node[end]].position[axis], out);
+        fracas_csv_real(surface->record.interface[i].onset_time, out);
+        fracas_csv_real(surface->record.interface[i].break_time, out);
+        putc('\n', out);
+    }
+}
+
+static fracas_err put_row(gallery *to, const fracas_broken_surface *surface, size_t p,
+                          int64_t replica, bool broken)
+{
+    char label[160], name[64], title[256], caption[640], file[80];
+    double time[FRACAS_MOMENTS];
+    const size_t count = fracas_surface_moments(&surface->record, FRACAS_MOMENTS, time);
+    fracas_analysis_label(to->page->analysis, p, label, sizeof label);
+    snprintf(name, sizeof name, "surface-point-%zu", p);
+    snprintf(file, sizeof file, "%s.csv", name);
+    snprintf(title, sizeof title, "Broken surface%s%s", *label ? ", " : "", label);
+    TRY(write_caption(surface, replica, broken, caption, sizeof caption));
+    fracas_page_figure(to->page, name, "row");
+    fputs("<div class=\"small\">\n", to->page->out);
+    for (size_t k = 0; k < count; k++) TRY(put_moment(to, surface, p, k, time[k]));
+    fputs("</div>\n", to->page->out);
+    fracas_page_figure_end(to->page, title, caption, name, false, true);
+    to->drawn += (explode_of(&surface->mesh) > 0 ? 3 : 1) * count * surface->mesh.nelements;
+    fracas_output_file output;
+    TRY(fracas_output_open(to->page->folder, file, &output));
+    write_interfaces(surface, output.file);
+    return fracas_output_close(&output, FRACAS_OK);
+}
+
+static fracas_err put_point(gallery *to, size_t p)
+{
+    const fracas_point_statistics *statistics = &to->page->analysis->point[p];
+    const bool broken = statistics->broken_replica >= 0;
+    const int64_t replica = broken ? statistics->broken_replica : statistics->typical_replica;
+    bool has;
+    TRY(has_mesh(to->page->analysis, p, &has));
+    if (!has || replica < 0) return FRACAS_OK;
+    if (to->drawn > most_elements) {
+        fprintf(to->page->out, "<p>Point %zu: <code>fracas picture STUDY --point %zu</code></p>\n",
+                p, p);
+        return FRACAS_OK;
+    }
+    fracas_broken_surface surface;
+    fracas_err err = fracas_broken_surface_read(
+        to->page->analysis->results, p, broken ? statistics->broken_row : statistics->typical_row,
+        &surface);
+    if (!err) err = put_row(to, &surface, p, replica, broken);
+    fracas_broken_surface_clear(&surface);
+    return err;
+}
+
+/* Meshes come with study.h5. */
+static void say_later(const fracas_page *page)
+{
+    const fracas_analysis *analysis = page->analysis;
+    if (!fracas_results_partial(analysis->results) || !analysis->header.interfaces ||
+        !fracas_analysis_any_surface(analysis))
+        return;
+    fputs("<p>Crack pictures come with the complete study: its meshes are in study.h5, which "
+          "<code>fracas run</code> writes at the end.</p>\n",
+          page->out);
+}
+
+fracas_err fracas_surfaces_put(fracas_page *page)
+{
+    bool any;
+    gallery to = {page, 0};
+    TRY(fracas_surfaces_any(page->analysis, &any));
+    if (!any) {
+        say_later(page);
+        return FRACAS_OK;
+    }
+    fputs("<p>One realization of each point, the first that ended FRAGMENTED, as it was before any "
+          "motion. Strong lines: broken interfaces; faint ones: cracked, not yet broken. Fragments "
+          "have tints by which neighbours differ; orange: dust, of one or two elements. Others: "
+          "<code>fracas picture STUDY</code>.</p>\n",
+          page->out);
+    for (size_t p = 0; p < page->analysis->table->npoints; p++) TRY(put_point(&to, p));
+    return FRACAS_OK;
+}

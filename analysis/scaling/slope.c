@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "analysis/scaling/slope.h"
+
+#include "analysis/scaling/series.h"
+#include "analysis/summary/study.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static bool known(double variance)
+{
+    return isfinite(variance) && variance > 0;
+}
+
+static double weight_of(const double *x, const double *y, const fracas_mean_error *error,
+                        bool weighted, size_t i)
+{
+    if (!isfinite(x[i]) || !isfinite(y[i])) return 0;
+    if (!weighted) return 1;
+    return known(error[i].variance) ? 1 / error[i].variance : 0;
+}
+
+typedef struct {
+    double weight, x, xx; /* sum w, weighted mean x, sum w (x - mean x)^2; xx is 0 if the x differ
+                             by rounding alone */
+} moments;
+
+/* Slope and intercept by (estimators.1). */
+static moments fit(const double *x, const double *y, const fracas_mean_error *error, bool weighted,
+                   size_t n, fracas_slope *line)
+{
+    moments of = {0};
+    double mean_y = 0, xy = 0;
+    for (size_t i = 0; i < n; i++) {
+        double w = weight_of(x, y, error, weighted, i);
+        if (!(w > 0)) continue;
+        line->n++;
+        of.weight += w;
+        of.x += (x[i] - of.x) * w /
+                of.weight; /* running means: no sum of values that are far from 0 */
+        mean_y += (y[i] - mean_y) * w / of.weight;
+    }
+    for (size_t i = 0; i < n; i++) {
+        double w = weight_of(x, y, error, weighted, i);
+        if (!(w > 0)) continue;
+        of.xx += w * (x[i] - of.x) * (x[i] - of.x);
+        xy += w * (x[i] - of.x) * (y[i] - mean_y);
+    }
+    if (of.xx <= of.weight * 1e-20 * of.x * of.x) of.xx = 0;
+    line->slope = xy / of.xx;
+    line->intercept = mean_y - line->slope * of.x;
+    return of;
+}
+
+/* (estimators.2), (estimators.3). */
+fracas_slope fracas_slope_of(const double *x, const double *y, const fracas_mean_error *error,
+                             size_t n)
+{
+    fracas_slope line = {.pooled = NAN}, none = {0, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    bool weighted = false;
+    for (size_t i = 0; i < n; i++)
+        weighted = weighted || (known(error[i].variance) && isfinite(x[i]) && isfinite(y[i]));
+    const moments of = fit(x, y, error, weighted, n, &line);
+    none.n = line.n;
+    if (line.n < FRACAS_SLOPE_POINTS || !(of.xx > 0)) return none;
+    double squares = 0, freedom = (double)(line.n - 2);
+    fracas_misfit misfit = {0};
+    for (size_t i = 0; i < n; i++) {
+        double w = weight_of(x, y, error, weighted, i),
+               residual = y[i] - line.intercept - line.slope * x[i];
+        if (!(w > 0)) continue;
+        squares += w * residual * residual;
+        fracas_misfit_add(&misfit, w * (1 / of.weight + (x[i] - of.x) * (x[i] - of.x) / of.xx),
+                          &error[i]);
+    }
+    double inflation = squares / freedom;
+    if (weighted) inflation = fmax(1, inflation);
+    line.chi2 = weighted ? squares : NAN;
+    line.misfit = fracas_misfit_probability(&misfit, line.chi2, freedom);
+    if (weighted && misfit.shared > 0) line.pooled = misfit.shared;
+    line.standard_error = sqrt(inflation / of.xx);
+    line.half_width = gsl_cdf_tdist_Pinv(0.975, freedom) * line.standard_error;
+    return line;
+}
+
+/* ---- series of a study ---- */
+
+typedef struct {
+    const fracas_analysis *analysis;
+    const fracas_columns *others; /* columns that make series */
+    double *x, *y;                /* a value a point */
+    fracas_mean *mean;
+    fracas_mean_error *error;
+} fitter;
+
+/* The line through the points that are of the series of `first`, all of them if that is SIZE_MAX.
+ */
+static fracas_slope fit_series(const fitter *of, size_t first)
+{
+    size_t n = 0;
+    for (size_t p = 0; p < of->analysis->table->npoints; p++) {
+        if (first != SIZE_MAX && !fracas_columns_same(of->analysis->table, of->others, p, first))
+            continue;
+        const fracas_point_statistics *statistics = &of->analysis->point[p];
+        if (!fracas_size_counts(of->analysis, p) || fracas_size_whole(of->analysis, p)) continue;
+        of->x[n] = log(statistics->rate);
+        of->y[n] = log(statistics->size.mean);
+        of->mean[n++] = (fracas_mean){statistics->size.n,
+                                      statistics->size.deviation / statistics->size.mean};
+    }
+    fracas_mean_errors(of->mean, n, of->error);
+    return fracas_slope_of(of->x, of->y, of->error, n);
+}
+
+static bool begins_series(const fitter *of, size_t p)
+{
+    for (size_t q = 0; q < p; q++)
+        if (fracas_columns_same(of->analysis->table, of->others, p, q)) return false;
+    return true;
+}
+
+static void fit_all(const fitter *of, fracas_size_slope *list, size_t *count)
+{
+    size_t npoints = of->analysis->table->npoints, series = 0;
+    fracas_slope all = fit_series(of, SIZE_MAX);
+    if (!isfinite(all.slope)) return;
+    list[(*count)++] = (fracas_size_slope){.name = "all points", .slope = all};
+    for (size_t p = 0; p < npoints; p++) series += begins_series(of, p);
+    for (size_t p = 0; p < npoints && series > 1; p++) {
+        if (!begins_series(of, p)) continue;
+        fracas_size_slope *next = &list[*count];
+        *next = (fracas_size_slope){.slope = fit_series(of, p)};
+        if (!isfinite(next->slope.slope)) continue;
+        fracas_columns_label(of->analysis->table, of->others, p, next->name, sizeof next->name);
+        (*count)++;
+    }
+}
+
+fracas_err fracas_size_slopes(const fracas_analysis *analysis, fracas_size_slope **list,
+                              size_t *count)
+{
+    size_t npoints = analysis->table->npoints;
+    *count = 0;
+    *list = NULL;
+    fracas_columns others;
+    TRY(fracas_columns_without_rate(analysis->table, &analysis->shown, &others));
+    double *value = calloc(2 * npoints + 1, sizeof *value);
+    fracas_mean *mean = calloc(npoints + 1, sizeof *mean);
+    fracas_mean_error *error = calloc(npoints + 1, sizeof *error);
+    fracas_size_slope *made = calloc(npoints + 2, sizeof *made);
+    const bool room = value && mean && error && made;
+    if (room) {
+        fitter of = {analysis, &others, value, value + npoints, mean, error};
+        fit_all(&of, made, count);
+    }
+    fracas_columns_clear(&others);
+    free(value);
+    free(mean);
+    free(error);
+    if (room) *list = made;
+    else free(made);
+    return *list ? FRACAS_OK : fracas_no_memory("the slopes of the study");
+}

@@ -1,0 +1,406 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "analysis/summary/statistics.h"
+
+#include "analysis/summary/modulus.h"
+#include "analysis/data/columns.h"
+
+#include <gsl/gsl_sort.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define STATISTIC(key, unit, doc, member)                                \
+    {                                                                    \
+        key, unit, doc, offsetof(fracas_point_statistics, member), false \
+    }
+#define COUNTED(key, doc, member)                                      \
+    {                                                                  \
+        key, "1", doc, offsetof(fracas_point_statistics, member), true \
+    }
+#define ESTIMATE(key, unit, what, member)                                                       \
+    COUNTED(key ".n", "replicas in the mean " what, member.n),                                  \
+        STATISTIC(key ".mean", unit, "mean over replicas of the " what, member.mean),           \
+        STATISTIC(key ".deviation", unit, "standard deviation over replicas of the " what,      \
+                  member.deviation),                                                            \
+        STATISTIC(key ".half_width", unit, "half width of the 95 % interval of the mean " what, \
+                  member.half_width)
+
+#define INTERVAL(key, unit, what, member)                                                    \
+    STATISTIC(key ".value", unit, what, member.value),                                       \
+        STATISTIC(key ".low", unit, "lower end of the 95 % interval of: " what, member.low), \
+        STATISTIC(key ".high", unit, "upper end of the 95 % interval of: " what, member.high)
+#define SIZES(key, of, member)                                                                     \
+    INTERVAL(key ".mean", "m", "mean size of " of, member.mean),                                   \
+        INTERVAL(key ".mass_mean", "m", "mean size, weighed by mass, of " of, member.mass_mean),   \
+        INTERVAL(key ".variation", "1", "standard deviation / mean of the size of " of,            \
+                 member.variation),                                                                \
+        INTERVAL(key ".quantile_05", "m", "size below which are 5 % of " of, member.quantile[0]),  \
+        INTERVAL(key ".quantile_25", "m", "size below which are 25 % of " of, member.quantile[1]), \
+        INTERVAL(key ".quantile_50", "m", "median size of " of, member.quantile[2]),               \
+        INTERVAL(key ".quantile_75", "m", "size below which are 75 % of " of, member.quantile[3]), \
+        INTERVAL(key ".quantile_95", "m", "size below which are 95 % of " of, member.quantile[4]), \
+        INTERVAL(key ".mass_quantile_05", "m", "size below which is 5 % of the mass of " of,       \
+                 member.mass_quantile[0]),                                                         \
+        INTERVAL(key ".mass_quantile_25", "m", "size below which is 25 % of the mass of " of,      \
+                 member.mass_quantile[1]),                                                         \
+        INTERVAL(key ".mass_quantile_50", "m", "size below which is half of the mass of " of,      \
+                 member.mass_quantile[2]),                                                         \
+        INTERVAL(key ".mass_quantile_75", "m", "size below which is 75 % of the mass of " of,      \
+                 member.mass_quantile[3]),                                                         \
+        INTERVAL(key ".mass_quantile_95", "m", "size below which is 95 % of the mass of " of,      \
+                 member.mass_quantile[4])
+#define CONVERGED(key, h)                                                        \
+    COUNTED("converged." key, "1 if " key " is converged with replicas, else 0", \
+            convergence.converged[h])
+
+const fracas_statistic fracas_statistics[] = {
+    COUNTED("realizations", "realizations in the study", realizations),
+    COUNTED("usable", "realizations that ended FRAGMENTED, INTACT or TIME_LIMIT", usable),
+    COUNTED("unusable", "realizations that ended NONFINITE, ENERGY_DRIFT or FAILED", unusable),
+    ESTIMATE("count", "1", "number of fragments", count),
+    ESTIMATE("count_large", "1", "number of fragments without dust", count_large),
+    ESTIMATE("size", "m",
+             "mean fragment size (length / fragments; of a surface the mean of sqrt(area))", size),
+    ESTIMATE("dissipated", "J", "dissipated energy", dissipated),
+    ESTIMATE("dissipated_bending", "J", "part of bending in the dissipated energy", bending),
+    ESTIMATE("onset_time", "s", "time of first onset", onset_time),
+    ESTIMATE("radial_velocity", "m/s", "mean velocity outward of a ring's fragments",
+             radial_velocity),
+    ESTIMATE("radial_scatter", "m/s", "standard deviation over a ring's fragments of that velocity",
+             radial_scatter),
+    ESTIMATE("circumferential_velocity", "m/s", "rms velocity along the ring of its fragments",
+             circumferential_velocity),
+    ESTIMATE("angular_velocity", "rad/s", "|angular velocity| of a ring's fragments",
+             angular_velocity),
+    ESTIMATE("translation", "J", "kinetic energy of the centres of mass of a surface's fragments",
+             translation),
+    ESTIMATE("rotation", "J", "kinetic energy of the spins of a surface's fragments", rotation),
+    STATISTIC("residual", "1",
+              "largest |residual| of the energy balance / dissipated, over replicas", residual),
+    STATISTIC("created", "1", "largest created / dissipated, over replicas", created),
+    STATISTIC("drift", "1", "largest |residual| / largest energy at the end, over replicas", drift),
+    COUNTED("drifted", "usable realizations of which that is above 0.01", drifted),
+    STATISTIC("elements", "1", "elements of a mean fragment", elements),
+    STATISTIC("dust_share", "1", "dust fragments / all fragments", dust_share),
+    ESTIMATE("largest_size", "m", "size of the fragment of most mass", largest_size),
+    ESTIMATE("largest_share", "1", "mass of that / mass of all fragments", largest_share),
+    STATISTIC("cut", "m", "fragments of a larger size are resolved by the mesh", pooled.cut),
+    COUNTED("fragment.n", "fragments of all usable realizations", pooled.number),
+    SIZES("fragment", "all fragments", pooled.all),
+    COUNTED("resolved.n", "fragments above the cut", pooled.resolved),
+    SIZES("resolved", "the fragments above the cut", pooled.above),
+    INTERVAL("unresolved.share", "1", "share of the fragments that are not above the cut",
+             pooled.unresolved),
+    INTERVAL("unresolved.mass_share", "1",
+             "share of the mass in fragments that are not above the cut", pooled.unresolved_mass),
+    INTERVAL("variance.within", "m2", "variance of the fragment sizes within a realization",
+             pooled.variance.within),
+    INTERVAL("variance.between", "m2", "variance of realizations' mean fragment sizes beyond that",
+             pooled.variance.between),
+    INTERVAL("variance.intraclass", "1", "between / (within + between)",
+             pooled.variance.intraclass),
+    INTERVAL("variance.design_effect", "1", "1 + (variance.group - 1) intraclass",
+             pooled.variance.design_effect),
+    STATISTIC("variance.group", "1",
+              "fragments of a realization, as the analysis of variance weighs them",
+              pooled.variance.group),
+    STATISTIC("variance.effective", "1", "fragments / design effect", pooled.variance.effective),
+    STATISTIC("normalised.rate", "1", "strain rate / edot0", normalised.rate),
+    STATISTIC("normalised.size.mean", "1", "size.mean / s0", normalised.size),
+    STATISTIC("normalised.size.half_width", "1", "size.half_width / s0",
+              normalised.size_half_width),
+    INTERVAL("normalised.mean", "1", "mean size of all fragments / s0", normalised.mean),
+    INTERVAL("normalised.mass_mean", "1", "mean size, weighed by mass, of all fragments / s0",
+             normalised.mass_mean),
+    INTERVAL("normalised.median", "1", "median size of all fragments / s0", normalised.median),
+    COUNTED("unconverged", "headline numbers that are not converged with replicas",
+            convergence.unconverged),
+    CONVERGED("count", FRACAS_HEADLINE_COUNT),
+    CONVERGED("size", FRACAS_HEADLINE_SIZE),
+    CONVERGED("dissipated", FRACAS_HEADLINE_DISSIPATED),
+    CONVERGED("largest_share", FRACAS_HEADLINE_LARGEST_SHARE),
+    CONVERGED("fragment.mean", FRACAS_HEADLINE_MEAN),
+    CONVERGED("fragment.mass_mean", FRACAS_HEADLINE_MASS_MEAN),
+    CONVERGED("fragment.variation", FRACAS_HEADLINE_VARIATION),
+    STATISTIC("scale.time", "s", "t0 = E Gc/(sigma_c^2 c)", scales.time),
+    STATISTIC("scale.size", "m", "s0 = E Gc/sigma_c^2", scales.size),
+    STATISTIC("scale.rate", "1/s", "edot0 = c sigma_c^3/(E^2 Gc)", scales.rate),
+    STATISTIC("scale.modulus", "1", "M of the strengths, of Mott's law", scales.modulus),
+    STATISTIC("law.zmr", "m", "mean size by Zhou, Molinari and Ramesh (APL 2006)",
+              law[FRACAS_LAW_ZMR]),
+    STATISTIC("law.grady", "m", "mean size by Grady", law[FRACAS_LAW_GRADY]),
+    STATISTIC("law.glenn_chudnovsky", "m", "mean size by Glenn and Chudnovsky",
+              law[FRACAS_LAW_GLENN_CHUDNOVSKY]),
+    STATISTIC("law.zmr2", "m", "mean size by Zhou, Molinari and Ramesh, second form",
+              law[FRACAS_LAW_ZMR2]),
+    STATISTIC("law.mott", "m", "mean size by Mott", law[FRACAS_LAW_MOTT]),
+};
+const size_t fracas_nstatistics = sizeof fracas_statistics / sizeof *fracas_statistics;
+
+bool fracas_outcome_usable(int64_t outcome)
+{
+    return outcome == FRACAS_FRAGMENTED || outcome == FRACAS_INTACT || outcome == FRACAS_TIME_LIMIT;
+}
+
+const char *fracas_outcome_name(int64_t outcome)
+{
+    static const char *const name[FRACAS_NOUTCOMES] = {
+        [FRACAS_FRAGMENTED] = "FRAGMENTED",     [FRACAS_INTACT] = "INTACT",
+        [FRACAS_TIME_LIMIT] = "TIME_LIMIT",     [FRACAS_NONFINITE] = "NONFINITE",
+        [FRACAS_ENERGY_DRIFT] = "ENERGY_DRIFT", [FRACAS_FAILED] = "FAILED",
+    };
+    return outcome >= 0 && outcome < FRACAS_NOUTCOMES ? name[outcome] : "?";
+}
+
+static double ring_radius(const fracas_point_table *table, size_t point)
+{
+    size_t model = fracas_point_table_find(table, "model");
+    bool ring = model != SIZE_MAX && !strcmp(table->point[point].value[model].text, "ring");
+    return ring ? fracas_columns_real(table, point, "geometry.radius") : NAN;
+}
+
+/* G_c [J/m2], of the mean strength where the critical opening is given: fracture_energy is 0 then.
+ */
+static double fracture_energy(const fracas_point_table *table, size_t point)
+{
+    const double opening = fracas_columns_real(table, point, "cohesive.critical_opening");
+    if (opening > 0)
+        return 0.5 * opening * fracas_columns_real(table, point, "derived.strength_mean");
+    return fracas_columns_real(table, point, "cohesive.fracture_energy");
+}
+
+/* Of a body whose elements are all equal: what every size is a multiple of [m]; else 0. */
+static double lattice_of(const fracas_point_table *table, size_t point, double length)
+{
+    const size_t spacing = fracas_point_table_find(table, "mesh.spacing");
+    const double elements = fracas_columns_real(table, point, "mesh.elements");
+    const bool equal = spacing == SIZE_MAX ||
+                       !strcmp(table->point[point].value[spacing].text, "uniform");
+    return equal && !fracas_columns_surface(table, point) && length > 0 && elements > 0
+               ? length / elements
+               : 0;
+}
+
+void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
+                                  fracas_point_statistics *statistics)
+{
+    *statistics = (fracas_point_statistics){
+        .rate = fracas_columns_rate(table, point),
+        .length = fracas_columns_real(table, point, "geometry.length"),
+        .radius = ring_radius(table, point),
+        .surface = fracas_columns_surface(table, point),
+        .scales = fracas_scales_of(fracas_columns_real(table, point, "material.young"),
+                                   fracas_columns_real(table, point, "material.density"),
+                                   fracas_columns_real(table, point, "derived.strength_mean"),
+                                   fracture_energy(table, point)),
+        .residual = NAN,
+        .created = NAN,
+        .drift = NAN,
+        .elements = NAN,
+        .dust_share = NAN,
+        .typical_replica = -1,
+        .broken_replica = -1,
+    };
+    memcpy(&statistics->seed, table->point[point].hash.byte, sizeof statistics->seed);
+    if (statistics->radius > 0) statistics->length = 2 * M_PI * statistics->radius;
+    const fracas_modulus modulus = fracas_modulus_of(table, point, statistics->length);
+    statistics->scales.modulus = modulus.value;
+    statistics->without_mott = statistics->surface       ? "the law is of one dimension"
+                               : !(statistics->rate > 0) ? "there is no strain rate"
+                                                         : modulus.reason;
+    fracas_ensemble_init(&statistics->ensemble, lattice_of(table, point, statistics->length));
+    statistics->ensemble.surface = statistics->surface;
+    for (int law = 0; law < FRACAS_NLAWS;
+         law++) /* at rate 0, a ring that spins or is accelerated, they say nothing */
+        statistics->law[law] = statistics->rate > 0 && !statistics->surface
+                                   ? fracas_size_law_at((fracas_size_law_id)law,
+                                                        &statistics->scales, statistics->rate)
+                                   : NAN;
+}
+
+/* Of the fragments of one realization. */
+static double mean_size(const fracas_point_statistics *statistics, const fracas_record *record)
+{
+    if (!statistics->surface) return statistics->length / (double)record->fragments;
+    double sum = 0;
+    for (size_t i = 0; i < record->nfragment; i++) sum += record->fragment[i].size;
+    return sum / (double)record->nfragment;
+}
+
+/* Kinetic energy of the centres of mass [J]  (estimators.12) */
+static double translation_of(const fracas_record *record)
+{
+    double sum = 0;
+    for (const fracas_fragment *f = record->fragment; f < record->fragment + record->nfragment; f++)
+        for (int i = 0; i < 3; i++) sum += 0.5 * f->mass * f->velocity[i] * f->velocity[i];
+    return sum;
+}
+
+/* That of the spins [J]  (estimators.13) */
+static double rotation_of(const fracas_record *record)
+{
+    double sum = 0;
+    for (const fracas_fragment *f = record->fragment; f < record->fragment + record->nfragment; f++)
+        for (int i = 0; i < 3; i++) sum += 0.5 * f->angular_momentum[i] * f->spin[i];
+    return sum;
+}
+
+/* The fragment of most mass, the first of several; NULL without any. */
+static const fracas_fragment *largest_of(const fracas_record *record, double *mass)
+{
+    const fracas_fragment *largest = record->fragment;
+    *mass = 0;
+    for (const fracas_fragment *f = record->fragment; f < record->fragment + record->nfragment;
+         f++) {
+        if (f->mass > largest->mass) largest = f;
+        *mass += f->mass;
+    }
+    return record->nfragment ? largest : NULL;
+}
+
+/* As the energy guard has it, but over the energies at the end. */
+static void add_balance(fracas_point_statistics *statistics, const fracas_record *record)
+{
+    double stored = record->elastic + record->cohesive + record->dissipated;
+    double drift = record->residual / fmax(record->kinetic, fmax(stored, fabs(record->work)));
+    if (drift > FRACAS_DRIFT_LIMIT) statistics->drifted++;
+    if (isfinite(drift))
+        statistics->drift = fmax(statistics->drift, drift); /* the number where the other is NaN */
+    if (!(record->dissipated > 0)) return;
+    statistics->residual = fmax(statistics->residual, record->residual / record->dissipated);
+    statistics->created = fmax(statistics->created, record->created / record->dissipated);
+}
+
+fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size_t row,
+                                       int64_t replica, const fracas_record *record)
+{
+    if (record->outcome < 0 || record->outcome >= FRACAS_NOUTCOMES)
+        return fracas_fail(FRACAS_DAMAGED,
+                           "realization %zu of the study has outcome %lld, which is none of 0 to "
+                           "%d; `fracas verify` checks the study",
+                           row, (long long)record->outcome, FRACAS_NOUTCOMES - 1);
+    statistics->realizations++;
+    statistics->outcome[record->outcome]++;
+    if (!fracas_outcome_usable(record->outcome)) {
+        statistics->unusable++;
+        return FRACAS_OK;
+    }
+    statistics->usable++;
+    const fracas_ring_motion still = {NAN, NAN, NAN, NAN};
+    bool ring = statistics->radius > 0, flies = statistics->surface && record->nfragment > 1;
+    double mass;
+    const fracas_fragment *largest = largest_of(record, &mass);
+    const fracas_replica_values value = {
+        .count = (double)record->fragments,
+        .count_large = (double)(record->fragments - record->fragments_dust),
+        .size = mean_size(statistics, record),
+        .dissipated = record->dissipated,
+        .bending = record->dissipated_bending,
+        .translation = flies ? translation_of(record) : NAN,
+        .rotation = flies ? rotation_of(record) : NAN,
+        .onset_time = record->onset_time,
+        .largest_size = largest ? largest->size : NAN,
+        .largest_share = largest ? largest->mass / mass : NAN,
+        .motion = ring ? fracas_ring_motion_of(record, statistics->radius) : still,
+    };
+    TRY(fracas_ensemble_add(&statistics->ensemble, row, replica, &value, record));
+    add_balance(statistics, record);
+    if (record->outcome == FRACAS_FRAGMENTED && statistics->broken_replica < 0) {
+        statistics->broken_replica = replica;
+        statistics->broken_row = row;
+    }
+    return FRACAS_OK;
+}
+
+/* All fragments of the point, whichever realization they are of. */
+static fracas_err pool(fracas_point_statistics *statistics)
+{
+    const fracas_ensemble *ensemble = &statistics->ensemble;
+    double elements = 0, dust = 0;
+    statistics->nfragments = ensemble->nfragments;
+    if (!ensemble->nfragments) return FRACAS_OK;
+    statistics->fragment_size = malloc(ensemble->nfragments * sizeof *statistics->fragment_size);
+    if (!statistics->fragment_size) return fracas_no_memory("the fragments of a point");
+    memcpy(statistics->fragment_size, ensemble->size,
+           ensemble->nfragments * sizeof *ensemble->size);
+    gsl_sort(statistics->fragment_size, 1, ensemble->nfragments);
+    for (size_t i = 0; i < ensemble->nfragments; i++) {
+        elements += ensemble->elements[i];
+        dust += ensemble->dust[i];
+    }
+    statistics->elements = elements / (double)ensemble->nfragments;
+    statistics->dust_share = dust / (double)ensemble->nfragments;
+    return FRACAS_OK;
+}
+
+static fracas_interval over(const fracas_interval *interval, double scale)
+{
+    fracas_interval scaled = *interval;
+    scaled.value /= scale;
+    scaled.low /= scale;
+    scaled.high /= scale;
+    scaled.standard_error /= scale;
+    scaled.bias /= scale;
+    return scaled;
+}
+
+static void normalise(fracas_point_statistics *statistics)
+{
+    const double s0 = statistics->scales.size;
+    const fracas_sizes *all = &statistics->pooled.all;
+    statistics->normalised = (fracas_normalised){
+        .rate = statistics->rate / statistics->scales.rate,
+        .size = statistics->size.mean / s0,
+        .size_half_width = statistics->size.half_width / s0,
+        .mean = over(&all->mean, s0),
+        .mass_mean = over(&all->mass_mean, s0),
+        .median = over(&all->quantile[2], s0),
+    };
+}
+
+fracas_err fracas_point_statistics_finish(fracas_point_statistics *statistics)
+{
+    const fracas_ensemble *ensemble = &statistics->ensemble;
+    const fracas_replica_values nothing = {0};
+    const fracas_replica_values *first = ensemble->nrealizations ? ensemble->value : &nothing;
+    const size_t n = ensemble->nrealizations, stride = FRACAS_REPLICA_STRIDE;
+    statistics->count = fracas_estimate_of(&first->count, stride, n);
+    statistics->count_large = fracas_estimate_of(&first->count_large, stride, n);
+    statistics->size = fracas_estimate_of(&first->size, stride, n);
+    statistics->dissipated = fracas_estimate_of(&first->dissipated, stride, n);
+    statistics->bending = fracas_estimate_of(&first->bending, stride, n);
+    statistics->translation = fracas_estimate_of(&first->translation, stride, n);
+    statistics->rotation = fracas_estimate_of(&first->rotation, stride, n);
+    statistics->onset_time = fracas_estimate_of(&first->onset_time, stride, n);
+    statistics->largest_size = fracas_estimate_of(&first->largest_size, stride, n);
+    statistics->largest_share = fracas_estimate_of(&first->largest_share, stride, n);
+    statistics->radial_velocity = fracas_estimate_of(&first->motion.radial, stride, n);
+    statistics->radial_scatter = fracas_estimate_of(&first->motion.scatter, stride, n);
+    statistics->circumferential_velocity = fracas_estimate_of(&first->motion.circumferential,
+                                                              stride, n);
+    statistics->angular_velocity = fracas_estimate_of(&first->motion.spin, stride, n);
+    double nearest = INFINITY;
+    for (size_t i = 0; i < n; i++) {
+        double distance = fabs(ensemble->value[i].dissipated - statistics->dissipated.mean);
+        if (!(distance < nearest)) continue;
+        nearest = distance;
+        statistics->typical_replica = ensemble->replica[i];
+        statistics->typical_row = ensemble->row[i];
+    }
+    TRY(pool(statistics));
+    TRY(fracas_pooled_of(ensemble, statistics->seed, &statistics->pooled));
+    TRY(fracas_replica_convergence_of(ensemble, statistics->seed, &statistics->convergence));
+    normalise(statistics);
+    return FRACAS_OK;
+}
+
+void fracas_point_statistics_clear(fracas_point_statistics *statistics)
+{
+    fracas_ensemble_clear(&statistics->ensemble);
+    fracas_replica_convergence_clear(&statistics->convergence);
+    fracas_bands_clear(&statistics->bands);
+    free(statistics->fragment_size);
+    free(statistics->history);
+    *statistics = (fracas_point_statistics){.typical_replica = -1, .broken_replica = -1};
+}

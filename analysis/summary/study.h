@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A study as the rest of the room sees it: every point with its statistics. */
+#ifndef FRACAS_ANALYSIS_SUMMARY_STUDY_H
+#define FRACAS_ANALYSIS_SUMMARY_STUDY_H
+
+#include "analysis/analysis.h"
+#include "analysis/data/columns.h"
+#include "analysis/summary/statistics.h"
+#include "campaigns/store/results.h"
+
+struct fracas_analysis {
+    char *name; /* of the study's folder */
+    fracas_file_header header;
+    const fracas_point_table *table;
+    fracas_columns shown;           /* columns that tell the points apart */
+    fracas_point_statistics *point; /* table->npoints of them */
+    fracas_decision *decision; /* of each point, the last one on its replicas, replicas 0 where they
+                                  were given; NULL: at all points */
+    fracas_results *results;   /* open as long as the analysis: it owns the table */
+};
+
+/* How far the study, or a point of it, is. */
+typedef struct {
+    int64_t planned; /* realizations; where a rule decides their number, those that were asked for
+                        by now */
+    int64_t done;    /* that are here, as they ended */
+    int64_t failed;  /* that FAILED; they are here too, as rows of NaN */
+    int64_t missing; /* done, but their segment is missing or damaged */
+    bool settled;    /* all are done or FAILED, and the rule, if there is one, asks for no more */
+    bool complete;   /* settled, and none FAILED */
+} fracas_progress;
+
+fracas_progress fracas_analysis_progress_of(const fracas_analysis *analysis, size_t point);
+fracas_progress
+fracas_analysis_progress(const fracas_analysis *analysis); /* of all points together */
+
+/* "partial: 120 of 256 realizations done, 2 FAILED, 8 missing"; false, and no text, of a study
+ * whose study.h5 is of everything. */
+bool fracas_analysis_partial(const fracas_analysis *analysis, char *text, size_t size);
+
+/* The last decision on the replicas of a point, NULL if they were given; and what it looks at,
+ * "mean-count". */
+const fracas_decision *fracas_analysis_decision(const fracas_analysis *analysis, size_t point);
+const char *fracas_analysis_quantity(const fracas_decision *decision);
+
+/* "24 replicas in 3 rounds, ...": how the replicas of a point were decided; false, and no text, if
+ * they were given. */
+bool fracas_analysis_decided(const fracas_analysis *analysis, size_t point, char *text,
+                             size_t size);
+
+/* Something a reader must know before trusting a number. */
+typedef struct {
+    size_t point; /* SIZE_MAX: the study as a whole */
+    char text[480];
+} fracas_warning;
+
+/* Every warning of the study in the order of its points; *warning freed by the caller with free().
+ */
+FRACAS_MUST_USE fracas_err fracas_analysis_warnings(const fracas_analysis *analysis,
+                                                    fracas_warning **warning, size_t *count);
+
+/* True if some point, or every one, is a surface. */
+bool fracas_analysis_any_surface(const fracas_analysis *analysis);
+bool fracas_analysis_all_surfaces(const fracas_analysis *analysis);
+
+/* "rate 1e4 1/s": the point by what it differs in. */
+void fracas_analysis_label(const fracas_analysis *analysis, size_t point, char *text, size_t size);
+
+#endif

@@ -1,0 +1,222 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "analysis/summary/study.h"
+
+#include "analysis/data/format.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Beyond these a number is shown with a warning. */
+static const double residual_limit = 1e-3; /* of the dissipated energy */
+static const double created_limit = 1e-2;  /* of the dissipated energy */
+static const double elements_limit = 10;   /* elements of a mean fragment */
+static const double dust_limit = 0.05;     /* share of all fragments */
+static const double rise_limit = 0.01; /* of the dissipated energy, in the last tenth of the time */
+static const double zone_limit =
+    0.25; /* fracture-limiting zone of a mean fragment (docs/results/ring.md) */
+
+enum { WARNINGS_PER_POINT = 17, WARNINGS_PER_STUDY = 2 }; /* at most, of a study beside its notes */
+
+typedef struct {
+    size_t count;
+    fracas_warning *warning;
+} warning_list;
+
+FRACAS_PRINTF(3, 4) static void warn(warning_list *list, size_t point, const char *format, ...)
+{
+    fracas_warning *warning = &list->warning[list->count++];
+    warning->point = point;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(warning->text, sizeof warning->text, format, arguments);
+    va_end(arguments);
+}
+
+static void warn_of_outcomes(const fracas_point_statistics *statistics, size_t p,
+                             warning_list *list)
+{
+    long long all = (long long)statistics->realizations;
+    for (int o = FRACAS_NONFINITE; o <= FRACAS_FAILED; o++)
+        if (statistics->outcome[o] > 0)
+            warn(list, p,
+                 "%lld of %lld realizations ended %s and are left out: the means may be biased",
+                 (long long)statistics->outcome[o], all, fracas_outcome_name(o));
+    if (statistics->outcome[FRACAS_INTACT] > 0)
+        warn(list, p,
+             "%lld of %lld realizations ended INTACT, nothing broken: if that is unexpected, load "
+             "harder or raise time.end",
+             (long long)statistics->outcome[FRACAS_INTACT], all);
+    if (statistics->outcome[FRACAS_TIME_LIMIT] > 0)
+        warn(list, p,
+             "%lld of %lld realizations were stopped by time.end with cracks still running "
+             "(TIME_LIMIT): raise time.end",
+             (long long)statistics->outcome[FRACAS_TIME_LIMIT], all);
+}
+
+static void warn_of_point(const fracas_point_statistics *statistics, size_t p, warning_list *list)
+{
+    if (statistics->usable == 0) warn(list, p, "no usable realization");
+    warn_of_outcomes(statistics, p, list);
+    char value[32];
+    if (statistics->residual > residual_limit) {
+        fracas_format_digits(statistics->residual, 2, value, sizeof value);
+        warn(
+            list, p,
+            "ledger residual up to %s of the dissipated energy (more than 1e-3): lower time.safety",
+            value);
+    }
+    if (statistics->drifted > 0) {
+        fracas_format_digits(100 * statistics->drift, 2, value, sizeof value);
+        warn(list, p,
+             "energy drift above 1 %%: %lld of %lld usable realizations, their |residual| up to %s "
+             "%% of their largest energy: lower time.safety (above 5 %% during its run a "
+             "realization ends ENERGY_DRIFT)",
+             (long long)statistics->drifted, (long long)statistics->usable, value);
+    }
+    if (statistics->created > created_limit) {
+        fracas_format_digits(statistics->created, 2, value, sizeof value);
+        warn(list, p,
+             "energy created at breaks up to %s of the dissipated energy (more than 1e-2): refine "
+             "the mesh or raise cohesive.beta",
+             value);
+    }
+    if (statistics->elements < elements_limit)
+        warn(list, p, "a mean fragment has %.1f elements (fewer than 10): refine the mesh",
+             statistics->elements);
+    if (statistics->dust_share > dust_limit)
+        warn(list, p,
+             "%.1f %% of the fragments are dust, of so few elements that the mesh decides (more "
+             "than 5 %%): refine the mesh",
+             100 * statistics->dust_share);
+}
+
+/* The headline numbers that are known to more than FRACAS_CONVERGED_WIDTH, or whose halves differ.
+ */
+static void warn_of_convergence(const fracas_point_statistics *statistics, size_t p,
+                                warning_list *list)
+{
+    const fracas_replica_convergence *of = &statistics->convergence;
+    if (of->unconverged == 0) return;
+    const fracas_running *all = &of->row[of->count - 1];
+    if (all->replicas < 2) {
+        warn(list, p, "one usable replica cannot say how well anything is known: raise replicas");
+        return;
+    }
+    char text[320] = "";
+    size_t used = 0;
+    for (int h = 0; h < FRACAS_NHEADLINES && used < sizeof text; h++) {
+        const fracas_settling *number = &all->number[h];
+        if (of->converged[h] || !isfinite(number->value)) continue;
+        char width[32];
+        const double relative = 0.5 * (number->high - number->low) / fabs(number->value);
+        fracas_format_digits(number->high > number->low ? 100 * relative : 0, 2, width,
+                             sizeof width);
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s to %s %%%s",
+                                 used ? ", " : "", fracas_headline_key[h], width,
+                                 fracas_replica_convergence_drifts(of, (fracas_headline)h)
+                                     ? " (drifts)"
+                                 : fracas_settling_alike(number) ? " (all alike)"
+                                                                 : "");
+    }
+    warn(list, p, "unconverged with %lld replicas, known %s: raise replicas",
+         (long long)all->replicas, text);
+}
+
+/* Bodies that ran until time.end and were still breaking: `stop: time` ends them as if they were
+ * done. */
+static void warn_of_end(const fracas_bands *bands, double end, size_t p, warning_list *list)
+{
+    if (bands->count == 0 || bands->time[bands->count - 1] < end * (1 - 1e-9)) return;
+    const size_t last = bands->count - 1;
+    size_t before = last;
+    while (before > 0 && bands->time[before - 1] >= 0.9 * end * (1 - 1e-9))
+        before--; /* within the last tenth: the end itself of fewer than ten intervals */
+    const double dissipated = bands->energy[last][FRACAS_ENERGY_DISSIPATED].mean;
+    const double rise = dissipated - bands->energy[before][FRACAS_ENERGY_DISSIPATED].mean;
+    if (!(rise > rise_limit * dissipated)) return;
+    char value[32];
+    fracas_format_digits(100 * rise / dissipated, 2, value, sizeof value);
+    warn(list, p,
+         "bodies were still breaking at time.end: %s %% of the energy was dissipated in the last "
+         "tenth of the time (more than 1 %%): raise time.end",
+         value);
+}
+
+static void warn_of_decision(const fracas_decision *last, size_t p, warning_list *list)
+{
+    if (!last || last->stop != 2) return;
+    char found[32];
+    fracas_format_beside(100 * fracas_decision_relative(last), 100 * last->relative_half_width,
+                         found, sizeof found);
+    warn(list, p,
+         "at the maximum of %lld replicas %s is known to %s %%, not to the %.3g %% asked for: "
+         "raise replicas.maximum",
+         (long long)last->maximum, fracas_analysis_quantity(last), found,
+         100 * last->relative_half_width);
+}
+
+static void warn_of_study(const fracas_analysis *analysis, warning_list *list)
+{
+    char text[128];
+    const fracas_progress all = fracas_analysis_progress(analysis);
+    const bool partial = fracas_analysis_partial(analysis, text, sizeof text);
+    if (partial && all.settled)
+        warn(list, SIZE_MAX,
+             "%s, but study.h5 is not there or not of all of them: `fracas merge` writes it", text);
+    else if (partial)
+        warn(list, SIZE_MAX,
+             "%s: every number is of these alone; `fracas run STUDY/campaign.yaml --study STUDY` "
+             "completes the study",
+             text);
+    else if (!analysis->header.complete)
+        warn(list, SIZE_MAX, "the study is not complete: realizations are missing or FAILED");
+    for (size_t n = 0; n < fracas_results_notes(analysis->results); n++)
+        warn(list, SIZE_MAX, "%s", fracas_results_note(analysis->results, n));
+}
+
+static void warn_of_progress(const fracas_analysis *analysis, size_t p, warning_list *list)
+{
+    const fracas_progress progress = fracas_analysis_progress_of(analysis, p);
+    const long long here = (long long)(progress.done + progress.failed),
+                    planned = (long long)progress.planned;
+    if (!fracas_results_partial(analysis->results)) return;
+    if (here < planned) warn(list, p, "partial: %lld of %lld realizations done", here, planned);
+    else if (!fracas_results_decided(analysis->results, p))
+        warn(list, p,
+             "partial: %lld realizations done, and the rule for replicas has not decided whether "
+             "these are enough",
+             here);
+}
+
+fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warning **warning,
+                                    size_t *count)
+{
+    size_t npoints = analysis->table->npoints;
+    const size_t most = WARNINGS_PER_POINT * npoints + WARNINGS_PER_STUDY +
+                        fracas_results_notes(analysis->results);
+    warning_list list = {.warning = malloc(most * sizeof *list.warning)};
+    if (!list.warning) return fracas_no_memory("warnings");
+    warn_of_study(analysis, &list);
+    for (size_t p = 0; p < npoints; p++) {
+        warn_of_progress(analysis, p, &list);
+        warn_of_point(&analysis->point[p], p, &list);
+        warn_of_convergence(&analysis->point[p], p, &list);
+        warn_of_decision(fracas_analysis_decision(analysis, p), p, &list);
+        if (analysis->point[p].outcome[FRACAS_TIME_LIMIT] == 0) /* those are warned of already */
+            warn_of_end(&analysis->point[p].bands,
+                        fracas_columns_real(analysis->table, p, "time.end"), p, &list);
+        const double zones = fracas_columns_real(analysis->table, p, "cohesive.zone") /
+                             analysis->point[p].size.mean;
+        if (zones > zone_limit)
+            warn(&list, p,
+                 "cohesive.zone is %.2g of a mean fragment (more than 0.25): it influences the "
+                 "size: shorten it",
+                 zones);
+    }
+    *warning = list.warning;
+    *count = list.count;
+    return FRACAS_OK;
+}
