@@ -12,17 +12,11 @@ void fracas_record_init(fracas_record *record)
         .end_time = NAN,
         .time_step = NAN,
         .mass = NAN,
-        .kinetic = NAN,
-        .elastic = NAN,
-        .cohesive = NAN,
-        .dissipated = NAN,
-        .dissipated_bending = NAN,
-        .created = NAN,
-        .work = NAN,
         .residual = NAN,
         .residual_end = NAN,
         .momentum = {NAN, NAN, NAN},
     };
+    for (int e = 0; e < FRACAS_ENERGIES; e++) record->energy[e] = NAN;
 }
 
 void fracas_record_clear(fracas_record *record)

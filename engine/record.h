@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What one realization leaves behind (columns of /realization, /fragment, /history, /interface). */
+/* The record of one realization: a row of /realization, and its rows of /fragment, /history and
+ * /interface. */
 #ifndef FRACAS_ENGINE_RECORD_H
 #define FRACAS_ENGINE_RECORD_H
+
+#include "engine/energies.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -9,7 +12,7 @@
 typedef enum {
     FRACAS_FRAGMENTED = 0,
     FRACAS_INTACT = 1,     /* nothing broken at the end */
-    FRACAS_TIME_LIMIT = 2, /* stopped by the cap with cracks still running */
+    FRACAS_TIME_LIMIT = 2, /* stopped at time.end with cracks still running */
     FRACAS_NONFINITE = 3,
     FRACAS_ENERGY_DRIFT = 4,
     FRACAS_FAILED = 5 /* crashed, timed out, quarantined: values NaN */
@@ -21,43 +24,41 @@ typedef struct {
     double mass; /* kg */
     double size; /* m: length in 1D, sqrt(area) in 2D */
     int64_t elements;
-    int64_t dust;       /* 1 when of so few elements that the mesh decides (one in 1D), else 0 */
+    int64_t dust; /* 1 if so few elements (one in 1D) make it that the mesh decides its size */
     double position[3]; /* m, centre of mass at end_time */
-    double velocity[3]; /* m/s, of the centre of mass, background included, half a step after
-                           end_time */
+    double velocity[3]; /* m/s, of the centre of mass with the background, half a step later */
     double angular_momentum[3]; /* kg m2/s, about the centre of mass */
-    double spin[3]; /* rad/s, of the rigid body with that angular momentum; 0 about an axis without
-                       inertia, and of a bar's */
+    double spin[3]; /* rad/s, of the rigid body with this angular momentum; 0 about an axis without
+                       inertia, and in a bar */
 } fracas_fragment;
 
 typedef struct {
     double time; /* s */
-    double kinetic, elastic, cohesive, dissipated, dissipated_bending, created, work,
-        residual; /* J */
+    FRACAS_ENERGY_MEMBERS;
+    double residual; /* J */
     int64_t fragments, broken;
 } fracas_history_row;
 
 typedef struct {
-    double strength;   /* Pa; where each Gauss point has its own, the least */
+    double strength;   /* Pa; the least of its Gauss points */
     double damage;     /* delta_max/delta_c, 0 to 1 */
     double onset_time; /* s, NaN if it never cracked */
     double break_time; /* s, NaN if it never broke */
 } fracas_interface_row;
 
 typedef struct {
-    int64_t outcome;         /* fracas_outcome */
-    int64_t fragments;       /* all */
-    int64_t fragments_dust;  /* of those, dust */
+    int64_t outcome;   /* fracas_outcome */
+    int64_t fragments; /* dust included */
+    int64_t fragments_dust;
     int64_t broken, cracked; /* interfaces */
     int64_t steps;
     double onset_time;          /* s, first onset, NaN if none */
     double end_time, time_step; /* s */
     double mass;                /* kg */
-    double kinetic, elastic, cohesive, dissipated, dissipated_bending, created,
-        work;            /* J, at end_time */
-    double residual;     /* J, largest absolute value over the run */
-    double residual_end; /* J */
-    double momentum[3];  /* kg m/s, of the peculiar motion, half a step after end_time */
+    FRACAS_ENERGY_MEMBERS;      /* at end_time */
+    double residual;            /* J, largest absolute value over the run */
+    double residual_end;        /* J */
+    double momentum[3];         /* kg m/s, of the peculiar motion, half a step after end_time */
     size_t nfragment, nhistory, ninterface; /* rows below; nfragment == fragments unless FAILED */
     fracas_fragment *fragment;              /* owned by the record, freed by fracas_record_clear */
     fracas_history_row *history;
@@ -67,7 +68,7 @@ typedef struct {
 /* An empty record of outcome FAILED, every value NaN and every count 0. */
 void fracas_record_init(fracas_record *record);
 
-/* Frees what the record owns and makes it empty. */
+/* Frees the rows of the record and makes it empty. */
 void fracas_record_clear(fracas_record *record);
 
 #endif

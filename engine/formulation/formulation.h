@@ -30,7 +30,9 @@ struct fracas_model {
     double time_step;     /* s */
 };
 
-/* One step of a batch, and what the lanes have accumulated. Arrays are [lane]. */
+#define FRACAS_ENERGY_LANES(key, role, unit, meaning, ending) double key[FRACAS_MAX_LANES];
+
+/* One step of a batch, and the sums of its lanes so far. Arrays are [lane]. */
 typedef struct {
     int width; /* lanes of the batch: 1, 4, 8 */
     int lanes; /* lanes of one kernel: what a register holds; the batch is width/lanes such groups
@@ -45,19 +47,22 @@ typedef struct {
     _Alignas(64) double time[FRACAS_MAX_LANES], drift[FRACAS_MAX_LANES], kick[FRACAS_MAX_LANES];
     /* in, out: the time step that will follow: the model's, unless the formulation refines it */
     double next[FRACAS_MAX_LANES];
-    /* out: energies [J] at that time; what the load does: as power then [W], or as work since the
-     * step before [J] */
-    double kinetic[FRACAS_MAX_LANES], elastic[FRACAS_MAX_LANES], cohesive[FRACAS_MAX_LANES];
-    double dissipated[FRACAS_MAX_LANES], power[FRACAS_MAX_LANES], work[FRACAS_MAX_LANES];
-    /* out: part of dissipated that went into opening by bending [J]; a body without bending leaves
-     * it 0 */
-    double dissipated_bending[FRACAS_MAX_LANES];
+    /* out: energies [J] at this time, each as `key` and as energy[i] (engine/energies.h). `created`
+     * accumulates; `work` is the load's work since the step before, beside its `power` [W] now.
+     * A body without bending leaves dissipated_bending 0. */
+    union {
+        struct {
+            FRACAS_EACH_ENERGY(FRACAS_ENERGY_LANES)
+        };
+        double energy[FRACAS_ENERGIES][FRACAS_MAX_LANES];
+    };
+    double power[FRACAS_MAX_LANES];
     /* of the formulation's own: power of the drive at the step before, at the velocities after it
      * [W] */
     double driven[FRACAS_MAX_LANES];
-    /* accumulated: energy that friction dissipates, and that a break creates [J], counts of
-     * interfaces, time of the first onset [s, NaN] */
-    double rubbed[FRACAS_MAX_LANES], created[FRACAS_MAX_LANES], first_onset[FRACAS_MAX_LANES];
+    /* accumulated: energy that friction dissipates [J], counts of interfaces, time of the first
+     * onset [s, NaN] */
+    double rubbed[FRACAS_MAX_LANES], first_onset[FRACAS_MAX_LANES];
     int64_t cracked[FRACAS_MAX_LANES], broken[FRACAS_MAX_LANES];
 } fracas_step;
 

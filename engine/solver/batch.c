@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static fracas_err choose_width(size_t count, int wanted, int *width)
 {
@@ -119,15 +120,9 @@ static fracas_err finish_lane(fracas_batch *batch, size_t l, fracas_outcome outc
                               .end_time = batch->step.time[l],
                               .time_step = batch->model->time_step,
                               .mass = batch->model->mass,
-                              .kinetic = ledger->kinetic,
-                              .elastic = ledger->elastic,
-                              .cohesive = ledger->cohesive,
-                              .dissipated = ledger->dissipated,
-                              .dissipated_bending = ledger->dissipated_bending,
-                              .created = ledger->created,
-                              .work = ledger->work,
                               .residual = ledger->largest_residual,
                               .residual_end = ledger->residual};
+    memcpy(record->energy, ledger->energy, sizeof record->energy);
     TRY(fracas_history_harvest(&lane->history, record));
     return batch->model->formulation->harvest(batch->model, &batch->step, (int)l, record);
 }
@@ -167,16 +162,9 @@ static fracas_err observe_lane(fracas_batch *batch, size_t l, fracas_record *rec
     const bool cracked = step->cracked[l] > 0;
     fracas_outcome outcome;
     fracas_ledger_update(ledger, step, (int)l, batch->steps == 0);
-    fracas_history_row row = {.time = step->time[l],
-                              .kinetic = ledger->kinetic,
-                              .elastic = ledger->elastic,
-                              .cohesive = ledger->cohesive,
-                              .dissipated = ledger->dissipated,
-                              .dissipated_bending = ledger->dissipated_bending,
-                              .created = ledger->created,
-                              .work = ledger->work,
-                              .residual = ledger->residual,
-                              .broken = step->broken[l]};
+    fracas_history_row row = {
+        .time = step->time[l], .residual = ledger->residual, .broken = step->broken[l]};
+    memcpy(row.energy, ledger->energy, sizeof row.energy);
     lane->running = !is_over(batch, l, &outcome);
     if (!lane->running || fracas_history_keeps(&lane->history, &row, cracked))
         row.fragments = count_fragments(batch, l);

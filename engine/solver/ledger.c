@@ -6,22 +6,17 @@
 void fracas_ledger_update(fracas_ledger *ledger, const fracas_step *step, int lane, bool first)
 {
     double before = ledger->power;
-    ledger->kinetic = step->kinetic[lane];
-    ledger->elastic = step->elastic[lane];
-    ledger->cohesive = step->cohesive[lane];
-    ledger->dissipated = step->dissipated[lane];
-    ledger->dissipated_bending = step->dissipated_bending[lane];
-    ledger->created = step->created[lane];
+    for (int e = 0; e < FRACAS_ENERGIES; e++)
+        if (fracas_energies[e].role != FRACAS_ROLE_LOAD) ledger->energy[e] = step->energy[e][lane];
     ledger->power = step->power[lane];
-    double held = ledger->kinetic + ledger->elastic + ledger->cohesive + ledger->dissipated;
     if (first) {
-        ledger->initial = held;
+        ledger->initial = fracas_energy_held(ledger->energy, 0);
         ledger->work = ledger->largest_residual = 0;
     } else {
         ledger->work += step->drift[lane] * (0.5 * (before + ledger->power)) +
                         step->work[lane]; /* (bar.13) */
     }
-    ledger->residual = held - ledger->created - ledger->work - ledger->initial; /* (bar.14) */
+    ledger->residual = fracas_energy_residual(ledger->energy, ledger->initial); /* (bar.14) */
     if (!(fabs(ledger->residual) <= ledger->largest_residual))
         ledger->largest_residual = fabs(ledger->residual);
 }
@@ -29,7 +24,7 @@ void fracas_ledger_update(fracas_ledger *ledger, const fracas_step *step, int la
 /* (bar.15) */
 bool fracas_ledger_drifts(const fracas_ledger *ledger, int64_t step)
 {
-    double held = ledger->elastic + ledger->cohesive + ledger->dissipated;
+    double held = fracas_energy_held(ledger->energy, 1); /* all but kinetic */
     double scale = fmax(fmax(ledger->kinetic, held), fabs(ledger->work));
     return step >= FRACAS_ENERGY_START && fabs(ledger->residual) > FRACAS_ENERGY_TOLERANCE * scale;
 }

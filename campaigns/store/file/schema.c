@@ -9,6 +9,23 @@
 
 #define OF(member) offsetof(fracas_stored_realization, member)
 
+/* The columns of an energy, in /realization and in /history. */
+#define AT_END(key, role, unit, meaning, ending) \
+    {"/realization/" #key, FRACAS_FLOAT64, 1, unit, meaning ending, OF(record.key)},
+#define SO_FAR(key, role, unit, meaning, ending) \
+    {"/history/" #key,                           \
+     FRACAS_FLOAT64,                             \
+     1,                                          \
+     unit,                                       \
+     meaning SO_FAR_##role,                      \
+     offsetof(fracas_history_row, key)},
+#define SO_FAR_KINETIC ""
+#define SO_FAR_STORED ""
+#define SO_FAR_SINK " so far"
+#define SO_FAR_PART ""
+#define SO_FAR_SOURCE " so far"
+#define SO_FAR_LOAD " so far"
+
 static const fracas_store_column realization[] = {
     {"/realization/point", FRACAS_INT32, 1, "1", "row of the realization's point in /point",
      OF(point)},
@@ -33,24 +50,9 @@ static const fracas_store_column realization[] = {
      OF(record.end_time)},
     {"/realization/time_step", FRACAS_FLOAT64, 1, "s", "time step", OF(record.time_step)},
     {"/realization/mass", FRACAS_FLOAT64, 1, "kg", "mass of the body", OF(record.mass)},
-    {"/realization/kinetic", FRACAS_FLOAT64, 1, "J", "kinetic energy at end_time",
-     OF(record.kinetic)},
-    {"/realization/elastic", FRACAS_FLOAT64, 1, "J",
-     "elastic energy, bulk and interface, at end_time", OF(record.elastic)},
-    {"/realization/cohesive", FRACAS_FLOAT64, 1, "J",
-     "energy stored in openings and contact at end_time", OF(record.cohesive)},
-    {"/realization/dissipated", FRACAS_FLOAT64, 1, "J",
-     "energy dissipated by cracks until end_time", OF(record.dissipated)},
-    {"/realization/dissipated_bending", FRACAS_FLOAT64, 1, "J", "of that, the part of bending",
-     OF(record.dissipated_bending)},
-    {"/realization/created", FRACAS_FLOAT64, 1, "J",
-     "energy that the method put in at onsets until end_time", OF(record.created)},
-    {"/realization/work", FRACAS_FLOAT64, 1, "J", "work of the loading until end_time",
-     OF(record.work)},
-    {"/realization/residual", FRACAS_FLOAT64, 1, "J",
-     "largest absolute value over the run of kinetic + elastic + cohesive + dissipated - created - "
-     "work - E(0)",
-     OF(record.residual)},
+    FRACAS_EACH_ENERGY(AT_END){"/realization/residual", FRACAS_FLOAT64, 1, "J",
+                               "largest absolute value over the run of " FRACAS_ENERGY_BALANCE,
+                               OF(record.residual)},
     {"/realization/residual_end", FRACAS_FLOAT64, 1, "J", "the same sum, signed, at end_time",
      OF(record.residual_end)},
     {"/realization/momentum", FRACAS_FLOAT64, 3, "kg m/s",
@@ -99,23 +101,8 @@ static const fracas_store_column history_offset[] = {
 static const fracas_store_column history[] = {
     {"/history/time", FRACAS_FLOAT64, 1, "s", "time of the row's step",
      offsetof(fracas_history_row, time)},
-    {"/history/kinetic", FRACAS_FLOAT64, 1, "J", "kinetic energy",
-     offsetof(fracas_history_row, kinetic)},
-    {"/history/elastic", FRACAS_FLOAT64, 1, "J", "elastic energy, bulk and interface",
-     offsetof(fracas_history_row, elastic)},
-    {"/history/cohesive", FRACAS_FLOAT64, 1, "J", "energy stored in openings and contact",
-     offsetof(fracas_history_row, cohesive)},
-    {"/history/dissipated", FRACAS_FLOAT64, 1, "J", "energy dissipated by cracks so far",
-     offsetof(fracas_history_row, dissipated)},
-    {"/history/dissipated_bending", FRACAS_FLOAT64, 1, "J", "of that, the part of bending",
-     offsetof(fracas_history_row, dissipated_bending)},
-    {"/history/created", FRACAS_FLOAT64, 1, "J", "energy that the method put in at onsets so far",
-     offsetof(fracas_history_row, created)},
-    {"/history/work", FRACAS_FLOAT64, 1, "J", "work of the loading so far",
-     offsetof(fracas_history_row, work)},
-    {"/history/residual", FRACAS_FLOAT64, 1, "J",
-     "kinetic + elastic + cohesive + dissipated - created - work - E(0)",
-     offsetof(fracas_history_row, residual)},
+    FRACAS_EACH_ENERGY(SO_FAR){"/history/residual", FRACAS_FLOAT64, 1, "J", FRACAS_ENERGY_BALANCE,
+                               offsetof(fracas_history_row, residual)},
     {"/history/fragments", FRACAS_INT64, 1, "1", "fragments, dust included",
      offsetof(fracas_history_row, fragments)},
     {"/history/broken", FRACAS_INT64, 1, "1", "broken interfaces",
