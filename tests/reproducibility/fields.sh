@@ -31,11 +31,11 @@ END
 
 fields all.yaml 3
 expect 0 "$fracas" run all.yaml --study one --jobs 1
+compare_compilers all.yaml
 compare all.yaml --jobs 2 --shuffle --lanes 1 --lease-time 0 --segment-size 1e-6
 for isa in baseline $(instruction_sets); do
     compare all.yaml --jobs 2 --isa "$isa" --lanes 8
 done
-compare_compilers all.yaml
 
 # Strengths in study.h5 are alike near to each other. Next interfaces of a chain are l/7.5 apart: exp(-1/7.5) = 0.88, more with matern;
 # every 40th is 5 l away. Of three times 150 strengths, some 30 of which are independent: +- 0.2.

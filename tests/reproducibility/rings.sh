@@ -40,13 +40,12 @@ rings all.yaml 11 "$zone" "$perturbed" # batches of 8 and 3
 expect 0 "$fracas" run all.yaml --study one --jobs 1
 h5dump -d /realization/outcome one/study.h5 | grep -q '^ *(0): 0, 0' || fail "nothing broke"
 
+compare_compilers all.yaml
 for isa in baseline $(instruction_sets); do
     compare all.yaml --jobs 2 --isa "$isa" --lanes 8 --shuffle
     compare all.yaml --jobs 2 --isa "$isa" --lanes 4
 done
 compare all.yaml --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6 # a segment for each realization
-
-compare_compilers all.yaml
 
 # Killed in the middle, each realization a segment, and resumed.
 start all.yaml --study killed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6

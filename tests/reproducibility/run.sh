@@ -6,6 +6,7 @@ campaign small.yaml 18 '3e4 1/s, 1e5 1/s' # batches of 8, 8 and 2
 expect 0 "$fracas" run small.yaml --study one --jobs 1
 [ "$(segments one)" -ge 1 ] || fail "no segments"
 
+compare_compilers small.yaml
 compare small.yaml --jobs 2 --segment-age 0.1
 compare small.yaml --jobs 4 --lanes 1 --lease-time 0 --shuffle --segment-size 1e-6 # a segment for each lease
 [ "$(segments "other$others")" -eq 36 ] || fail "$(segments "other$others") segments instead of 36"
@@ -15,8 +16,6 @@ compare small.yaml --jobs 2 --lanes 1 --isa baseline
 for isa in $(instruction_sets); do
     compare small.yaml --jobs 2 --isa "$isa"
 done
-
-compare_compilers small.yaml
 
 # Started by mpirun itself: rank 0 speaks, and its status is mpirun's.
 expect 0 launch -n 2 "$fracas" run small.yaml --study direct

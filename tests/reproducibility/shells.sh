@@ -38,13 +38,13 @@ octant = r["point"][:] == 0
 assert len(octant) == 15 and (r["fragments"][:] > 1).all()
 assert (r["dissipated_bending"][:][octant] > 0).all() and (r["dissipated_bending"][:] < r["dissipated"][:]).all()
 END
+compare_compilers all.yaml
 compare all.yaml --jobs 2 --shuffle
 compare all.yaml --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6 # a segment for each realization
 for isa in baseline $(instruction_sets); do
     compare all.yaml --jobs 2 --isa "$isa" --lanes 8
 done
 compare all.yaml --jobs 1 --lanes 4
-compare_compilers all.yaml
 
 # Extended: merged again.
 shells part.yaml 2

@@ -1,5 +1,7 @@
-# For shell tests that run campaigns; sourced with the build folder in $1. Works in a folder of its own, $work.
+# For shell tests that run campaigns; sourced with the build folder in $1, and yes in $2 to compare compilers.
+# Works in a folder of its own, $work.
 set -eu
+for_compilers=${2-}
 fracas=$(cd "$1" && pwd)/fracas
 source=$(pwd)
 work=$(mktemp -d)
@@ -133,20 +135,14 @@ compare()
     same one "other$others"
 }
 
-# compare_compilers FILE: the same with the programs of other compilers, as far as they have been built.
+# compare_compilers FILE: where the script was called for it, compares with the program of clang, and ends the script.
 compare_compilers()
 {
-    own=$fracas
-    for compiler in clang release; do
-        fracas=$source/build/$compiler/fracas
-        [ "$fracas" = "$own" ] && continue
-        if [ -x "$fracas" ]; then
-            compare "$1" --jobs 2
-        else
-            echo "skipped: there is no build/$compiler/fracas"
-        fi
-    done
-    fracas=$own
+    [ "$for_compilers" = yes ] || return 0
+    fracas=$source/build/clang/fracas
+    [ -x "$fracas" ] || { echo "skipped: there is no build/clang/fracas"; exit 77; }
+    compare "$1" --jobs 2
+    exit 0
 }
 
 # The instruction sets above baseline that this CPU has; what it lacks is said on standard error.

@@ -21,7 +21,7 @@ fresh() {
     mkdir -p "$bin" "$tree/tools"
     : >"$log"
     cp tools/fracas tools/packages-debian.txt "$tree/tools"
-    for tool in sh awk cat chmod dirname env find flock grep mkdir readlink sed touch tr; do
+    for tool in sh awk cat chmod dirname env find flock grep mkdir readlink sed touch tr xargs; do
         ln -s "$(command -v "$tool")" "$bin/$tool"
     done
     awk '{ sub(/#.*/, "") } NF && $1 != "libyaml-dev" && $1 != "sqlite3" { print $1 }' tools/packages-debian.txt >"$tree/installed"
@@ -44,6 +44,17 @@ echo "cmake $*" >>"$log"
 if [ "$1" = --preset ]; then mkdir -p "build/$2"; touch "build/$2/build.ninja"; exit; fi
 printf '#!/bin/sh\necho "$PWD: fracas $*"\nexit 3\n' >"build/$3/fracas"
 chmod +x "build/$3/fracas"
+SCRIPT
+    stand_in ninja <<'SCRIPT'
+#!/bin/sh
+[ "$*" = '-t commands all' ] || exit 1
+echo "compiled -DTWO -MD -MT o -MF d -o x/product.o -c $tree/base/product.c"
+echo "compiled -DONE -MD -MT o -MF d -o x/test_one.o -c $tree/tests/unit/test_one.c"
+SCRIPT
+    stand_in compiled <<'SCRIPT'
+#!/bin/sh
+echo "compiled $*" >>"$log"
+[ -z "${refused-}" ]
 SCRIPT
     stand_in ctest <<'SCRIPT'
 #!/bin/sh
@@ -83,30 +94,50 @@ ends 3 status study
 [ ! -s "$folder/err" ] || { echo "a second call is not silent:"; cat "$folder/err"; exit 1; }
 [ "$(cat "$log")" = 'cmake --build --preset release --target fracas' ]
 
-# The tests: their packages as well, all builds, the suite's summary last.
+# The tests: their packages as well, one build, the suite.
 : >"$log"
 ends 0 test
 has log 'install -y --no-install-recommends sqlite3'
-for preset in werror clang sanitize; do has log "cmake --build --preset $preset"; done
-has log 'ctest --preset sanitize -j 7 -LE storm|slow-sanitize'
-has log 'ctest --preset werror -j 7 -LE storm'
-[ "$(tail -n 1 "$folder/out")" = 'summary of werror' ]
-ends 0 test --all
-[ "$(tail -n 1 "$log")" = 'ctest --preset werror -j 7' ]
+[ "$(tail -n 3 "$log" | tr '\n' ';')" = "cmake --preset werror;cmake --build --preset werror;ctest --preset werror -j 7 -LE ci|storm;" ]
+[ "$(cat "$folder/out")" = 'summary of werror' ]
 ends 2 test --al
 has err "unknown option '--al'"
 
-# A failure before the suite is not forgotten; the suite still runs.
+# The checks of CI: all packages, the program of clang and the warnings of clang for the tests, sanitizers, the long tests last.
+: >"$log"
+sed -i /clang/d "$tree/installed"
+ends 0 test --ci
+has log 'install -y --no-install-recommends clang libclang-rt-dev clang-format'
+has log 'cmake --build --preset clang --target fracas'
+has log "compiled -DONE -fsyntax-only -c $tree/tests/unit/test_one.c"
+lacks log 'product.c'
+grep -qx 'cmake --build --preset sanitize' "$log" || { cat "$log"; exit 1; }
+has log 'ctest --preset sanitize -j 7 -LE storm|slow-sanitize'
+[ "$(tail -n 1 "$log")" = 'ctest --preset werror -j 7 -L ci -LE storm' ]
+[ "$(tail -n 1 "$folder/out")" = 'summary of werror' ]
+: >"$log"
+ends 0 test --all
+has log 'ctest --preset werror -j 7 -LE ci|storm'
+has log 'ctest --preset sanitize -j 7 -LE storm|slow-sanitize'
+[ "$(tail -n 1 "$log")" = 'ctest --preset werror -j 7 -L ci|storm' ]
+
+# A failure before the last tests is not forgotten; they still run.
 cp "$bin/ctest" "$folder/ctest"
 for failing in sanitize werror; do
     sed "s/^echo.*/&; [ \"\$2\" != $failing ]/" "$folder/ctest" >"$bin/ctest"
-    ends 1 test
+    ends 1 test --ci
     has out 'summary of werror'
     has err "failed: $([ $failing = werror ] && echo suite || echo $failing)"
 done
-cp "$folder/ctest" "$bin/ctest"
-sed -i 's/^printf.*/[ "$3" != clang ] || exit 1/' "$bin/cmake"
 ends 1 test
+cp "$folder/ctest" "$bin/ctest"
+export refused=compiled
+ends 1 test --ci
+has out 'summary of werror'
+has err 'failed: clang'
+unset refused
+sed -i 's/^printf.*/[ "$3" != clang ] || exit 1/' "$bin/cmake"
+ends 1 test --ci
 has out 'summary of werror'
 has err 'failed: clang'
 

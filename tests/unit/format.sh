@@ -1,4 +1,5 @@
 #!/bin/sh
+# ctest-labels: ci
 # tools/check-format: the tree obeys, and a line that is too long or a missing licence is found.
 # tools/mutate-kernels --check: every mutation finds its place in the sources.
 set -eu

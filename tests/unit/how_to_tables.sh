@@ -1,3 +1,4 @@
+# ctest-labels: ci
 # The code of docs/how-to/open-results-with-pandas.md and -R.md runs, and what it finds is what the report says.
 . tests/support/campaigns.sh
 

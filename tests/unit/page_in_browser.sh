@@ -1,4 +1,4 @@
-# ctest-labels: slow-sanitize
+# ctest-labels: ci slow-sanitize
 # The page of a report in headless Chromium (tests/support/check_page.py): a bar at three rates, and rings with their crack patterns.
 . tests/support/campaigns.sh
 

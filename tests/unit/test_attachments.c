@@ -136,8 +136,8 @@ static void test_places(void **state)
     (void)state;
     static const char *const texts[] = {
         "0,0,1\n1,0,2\n0,1,3\n1,1,4\n", "1 1 4\n0 1 3\n1 0 2\n0 0 1", /* in any order */
-        "x,y,sigma_c,elements\n0 , 0,1,2\n1,0 2 5\n# "
-        "away\n9,9,99\n-1e300,0,7,1\n0,1,3,2\n1,1,4,x\n", /* what else is there is skipped */
+        ("x,y,sigma_c,elements\n0 , 0,1,2\n1,0 2 5\n# "
+         "away\n9,9,99\n-1e300,0,7,1\n0,1,3,2\n1,1,4,x\n"),        /* other lines are skipped */
         "-9.9e-4,0,1\n1,-9.9e-4,2\n9.9e-4,1,3\n1.0007,1.0007,4\n", /* nearer than 1e-3, on every
                                                                       side */
     };
