@@ -12,7 +12,8 @@
 #include "base/err.h"
 #include "base/hash.h"
 #include "campaigns/points.h"
-#include "campaigns/store/file/mesh.h"
+#include "campaigns/store/mesh.h"
+#include "campaigns/store/summary.h"
 #include "engine/record.h"
 
 #include <stdbool.h>
@@ -174,17 +175,13 @@ typedef struct {
     int64_t attempts;
 } fracas_index_row;
 
-/* Rows of a segment as they go into the index: summary columns beside the place of the bytes. */
+/* A row of a segment as it goes into the index. */
 typedef struct {
     fracas_hash point;
     int64_t replica;
     int64_t row; /* in the segment */
-    int64_t outcome, fragments, fragments_dust, steps;
-    double dissipated, residual, size; /* fracas_record_mean_size */
+    fracas_summary summary;
 } fracas_segment_row;
-
-/* Mean size of the fragments [m], summed in their order; NaN without fragments. */
-double fracas_record_mean_size(const fracas_record *record);
 
 /* Opens (with `create`: creates) STUDY/index.sqlite. Journal: WAL with synchronous FULL on local
  * filesystems, TRUNCATE with FULL and exclusive locking on network ones; the mode is read back.
@@ -244,16 +241,15 @@ FRACAS_MUST_USE fracas_err fracas_index_last_event(fracas_index *index, const ch
 
 /* ---- decisions in the index ---- */
 
-/* What the index keeps of a realization's results. */
+/* Status of a realization and its summary: 0, and NaN, before it is done. */
 typedef struct {
     fracas_row_status status;
-    int64_t outcome, fragments; /* 0 before it is done */
-    double size, dissipated;    /* NaN before, and where the record has none */
+    fracas_summary summary;
 } fracas_index_summary;
 
-/* Of the replicas 0 to count - 1 of a point. FRACAS_DAMAGED if one was never planned. */
+/* row[r] of the replicas 0 to count - 1 of a point. FRACAS_DAMAGED if one was never planned. */
 FRACAS_MUST_USE fracas_err fracas_index_summaries(fracas_index *index, const fracas_hash *point,
-                                                  size_t count, fracas_index_summary *summary);
+                                                  size_t count, fracas_index_summary *row);
 
 /* Every replica of the point that `row` names, from `first` to row->replicas - 1, as
  * fracas_index_rows has them; `p`: number of the point in the table. */

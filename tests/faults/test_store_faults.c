@@ -526,7 +526,7 @@ static void commit_until_killed(int out)
     if (fracas_index_open(study, false, &index)) _exit(1);
     for (int64_t r = 0;; r++) {
         char name[32];
-        fracas_segment_row row = {point_row[0].hash, r, 0, FRACAS_INTACT, 1, 0, 10, 0.0, 0.0};
+        fracas_segment_row row = {point_row[0].hash, r, 0, {FRACAS_INTACT, 1, 0, 10, 0.0, 0.0}};
         snprintf(name, sizeof name, "s%lld.h5", (long long)r);
         if (fracas_index_commit(index, name, &(fracas_file_seal){1, 2}, &row, 1, "{}")) _exit(1);
         if (write(out, &r, sizeof r) != sizeof r) _exit(1);

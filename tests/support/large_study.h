@@ -159,13 +159,7 @@ static inline fracas_err large_append(const large_study *study, fracas_writer *w
     if (row)
         *row = (fracas_segment_row){.point = study->point[p].hash,
                                     .replica = replica,
-                                    .outcome = record.outcome,
-                                    .fragments = record.fragments,
-                                    .fragments_dust = record.fragments_dust,
-                                    .steps = record.steps,
-                                    .dissipated = record.dissipated,
-                                    .residual = record.residual,
-                                    .size = fracas_record_mean_size(&record)};
+                                    .summary = fracas_summary_of(&record)};
     fracas_record_clear(&record);
     return err;
 }

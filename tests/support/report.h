@@ -44,12 +44,7 @@ static inline void report_write_index(const char *folder, const fracas_point_tab
             row[count] = (fracas_segment_row){.point = table->point[p].hash,
                                               .replica = replica,
                                               .row = (int64_t)count,
-                                              .outcome = record.outcome,
-                                              .fragments = record.fragments,
-                                              .fragments_dust = record.fragments_dust,
-                                              .steps = record.steps,
-                                              .dissipated = record.dissipated,
-                                              .residual = record.residual};
+                                              .summary = fracas_summary_of(&record)};
             count++;
             fracas_record_clear(&record);
         }

@@ -299,16 +299,8 @@ static inline void sample_segment(const char *study, const char *name,
     for (size_t i = 0; i < count; i++) {
         fracas_record record;
         sample_record(what[i].point, what[i].replica, most, &record);
-        row[i] = (fracas_segment_row){table->point[what[i].point].hash,
-                                      what[i].replica,
-                                      (int64_t)i,
-                                      record.outcome,
-                                      record.fragments,
-                                      record.fragments_dust,
-                                      record.steps,
-                                      record.dissipated,
-                                      record.residual,
-                                      fracas_record_mean_size(&record)};
+        row[i] = (fracas_segment_row){table->point[what[i].point].hash, what[i].replica, (int64_t)i,
+                                      fracas_summary_of(&record)};
         OK(fracas_writer_append(writer, what[i].point, what[i].replica, &record));
         fracas_record_clear(&record);
     }

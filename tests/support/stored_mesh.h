@@ -4,7 +4,7 @@
 #ifndef FRACAS_TESTS_SUPPORT_STORED_MESH_H
 #define FRACAS_TESTS_SUPPORT_STORED_MESH_H
 
-#include "campaigns/store/file/mesh.h"
+#include "campaigns/store/mesh.h"
 #include "engine/record.h"
 
 #include <math.h>

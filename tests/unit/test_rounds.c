@@ -54,13 +54,14 @@ static void commit(size_t p, int64_t first, int64_t last, double spread, int64_t
     char name[32];
     const fracas_file_seal seal = {100, (uint64_t)++number};
     for (int64_t r = first; r <= last; r++)
-        row[r - first] = (fracas_segment_row){.point = campaign->point[p].hash,
-                                              .replica = r,
-                                              .row = r - first,
-                                              .outcome = outcome,
-                                              .fragments = 5,
-                                              .dissipated = 1 + (r % 2 ? spread : -spread),
-                                              .size = 0.01};
+        row[r - first] = (fracas_segment_row){
+            .point = campaign->point[p].hash,
+            .replica = r,
+            .row = r - first,
+            .summary = {.outcome = outcome,
+                        .fragments = 5,
+                        .dissipated = 1 + (r % 2 ? spread : -spread),
+                        .size = 0.01}};
     snprintf(name, sizeof name, "x%d.h5", number);
     OK(fracas_index_commit(index_, name, &seal, row, (size_t)(last - first + 1), "{}"));
 }
@@ -286,34 +287,6 @@ static void a_rule_looks_at_its_quantity(void **state)
     }
 }
 
-/* An index of before sizes were kept gets the column, but no values in it: they are in the
- * segments. */
-static void an_older_index_is_brought_up(void **state)
-{
-    (void)state;
-    fracas_decision *decision;
-    size_t count;
-    commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
-    tampered("DROP TABLE decision");
-    tampered("ALTER TABLE realization DROP COLUMN size");
-    fracas_index_close(index_);
-    OK(fracas_index_open(study, false, &index_)); /* to look at, as it is */
-    OK(fracas_index_decisions(index_, &campaign->point[0].hash, &decision, &count));
-    assert_int_equal(count, 0);
-    free(decision);
-    assert_int_equal(count_all().done, 8);
-    fracas_index_close(index_);
-    OK(fracas_index_open(study, true, &index_));
-    OK(fracas_rounds_advance(&rounds, index_, 0)); /* what is dissipated was kept */
-    assert_int_equal(rounds.open, 1);
-    fracas_campaign *now = make(
-        "{minimum: 8, maximum: 24, until: {quantity: mean-size, relative-half-width: 0.1}}");
-    fracas_rounds again;
-    sample_fails(fracas_rounds_init(&again, now, index_), FRACAS_DAMAGED, "fracas reindex");
-    fracas_rounds_clear(&again);
-    fracas_campaign_destroy(now);
-}
-
 /* All values 0, as of what is dissipated where nothing breaks: known exactly; of no value nothing
  * is known. */
 static void a_mean_of_nothing_is_known(void **state)
@@ -384,7 +357,6 @@ int main(void)
         cmocka_unit_test(mean_size_by_hand),
         ROUND(a_larger_maximum_goes_on),
         ROUND(a_rule_looks_at_its_quantity),
-        ROUND(an_older_index_is_brought_up),
         ROUND(a_mean_of_nothing_is_known),
         ROUND(points_of_a_segment_are_decided_together),
     };

@@ -60,16 +60,8 @@ static void commit(size_t size, size_t interfaces)
             const size_t point = i / EACH;
             const int64_t replica = (int64_t)(i % EACH);
             make_record(point, replica, point == SURFACE ? interfaces : 7, &record);
-            row[i - begin] = (fracas_segment_row){table.point[point].hash,
-                                                  replica,
-                                                  (int64_t)(i - begin),
-                                                  record.outcome,
-                                                  record.fragments,
-                                                  record.fragments_dust,
-                                                  record.steps,
-                                                  record.dissipated,
-                                                  record.residual,
-                                                  fracas_record_mean_size(&record)};
+            row[i - begin] = (fracas_segment_row){table.point[point].hash, replica,
+                                                  (int64_t)(i - begin), fracas_summary_of(&record)};
             OK(fracas_writer_append(writer, point, replica, &record));
             fracas_record_clear(&record);
         }

@@ -13,14 +13,15 @@
  * out. */
 static double value_of(const fracas_index_summary *row, fracas_quantity quantity)
 {
+    const fracas_summary *found = &row->summary;
     const bool counts = row->status == FRACAS_DONE &&
-                        (row->outcome == FRACAS_FRAGMENTED || row->outcome == FRACAS_INTACT ||
-                         row->outcome == FRACAS_TIME_LIMIT);
+                        (found->outcome == FRACAS_FRAGMENTED || found->outcome == FRACAS_INTACT ||
+                         found->outcome == FRACAS_TIME_LIMIT);
     if (!counts) return NAN;
     switch (quantity) {
-    case FRACAS_MEAN_COUNT: return (double)row->fragments;
-    case FRACAS_MEAN_SIZE: return row->size;
-    default: return row->dissipated;
+    case FRACAS_MEAN_COUNT: return (double)found->fragments;
+    case FRACAS_MEAN_SIZE: return found->size;
+    default: return found->dissipated;
     }
 }
 
@@ -35,13 +36,6 @@ static fracas_err read_values(fracas_index *index, const fracas_point *point, in
     for (int64_t r = 0; !err && r < replicas; r++) {
         *complete = *complete && row[r].status != FRACAS_PLANNED && row[r].status != FRACAS_LEASED;
         value[r] = value_of(&row[r], point->rule.quantity);
-        const bool kept = isnan(value[r]) && point->rule.quantity == FRACAS_MEAN_SIZE &&
-                          row[r].status == FRACAS_DONE && row[r].outcome <= FRACAS_TIME_LIMIT;
-        if (kept)
-            err = fracas_fail(
-                FRACAS_DAMAGED,
-                "the index of the study is of before mean sizes were kept, which this campaign "
-                "decides by; `fracas reindex` makes it anew from the segments");
     }
     free(row);
     return err;

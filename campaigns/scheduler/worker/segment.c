@@ -63,13 +63,7 @@ static fracas_err append(const fracas_segment *segment, size_t i, const fracas_c
     *row = (fracas_segment_row){.point = campaign->point[entry->point].hash,
                                 .replica = entry->replica,
                                 .row = (int64_t)i,
-                                .outcome = record.outcome,
-                                .fragments = record.fragments,
-                                .fragments_dust = record.fragments_dust,
-                                .steps = record.steps,
-                                .dissipated = record.dissipated,
-                                .residual = record.residual,
-                                .size = fracas_record_mean_size(&record)};
+                                .summary = fracas_summary_of(&record)};
     fracas_record_clear(&record);
     return err;
 }

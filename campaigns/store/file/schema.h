@@ -63,7 +63,7 @@ typedef struct {
 extern const fracas_store_set fracas_store_sets[FRACAS_NSETS];
 
 /* A row of FRACAS_SET_REALIZATION in memory; rows of the others are fracas_fragment,
- * fracas_history_row, fracas_interface_row, fracas_decision, those of campaigns/store/file/mesh.h,
+ * fracas_history_row, fracas_interface_row, fracas_decision, those of campaigns/store/mesh.h,
  * and an int64_t for the offsets. */
 typedef struct {
     int64_t point, replica;

@@ -8,28 +8,16 @@
 
 static const char remedy[] = "remove it and run again: it is made anew from the segments";
 
-double fracas_record_mean_size(const fracas_record *record)
-{
-    double sum = 0;
-    for (size_t i = 0; i < record->nfragment; i++) sum += record->fragment[i].size;
-    return record->nfragment ? sum / (double)record->nfragment : NAN;
-}
-
 double fracas_decision_relative(const fracas_decision *decision)
 {
     return decision->half_width == 0 ? 0 : decision->half_width / fabs(decision->mean);
 }
 
-static bool same_real(double a, double b)
-{
-    return a == b || (isnan(a) && isnan(b));
-}
-
 bool fracas_decision_same(const fracas_decision *a, const fracas_decision *b)
 {
     return a->point == b->point && a->round == b->round && a->replicas == b->replicas &&
-           a->used == b->used && same_real(a->mean, b->mean) &&
-           same_real(a->half_width, b->half_width) && a->stop == b->stop &&
+           a->used == b->used && fracas_same_real(a->mean, b->mean) &&
+           fracas_same_real(a->half_width, b->half_width) && a->stop == b->stop &&
            a->quantity == b->quantity && a->minimum == b->minimum && a->maximum == b->maximum &&
            a->relative_half_width == b->relative_half_width && a->confidence == b->confidence;
 }
@@ -38,11 +26,6 @@ bool fracas_decision_valid(const fracas_decision *d)
 {
     return d->round >= 0 && d->replicas > 0 && d->used >= 0 && d->used <= d->replicas &&
            d->stop >= 0 && d->stop <= 2 && d->quantity >= 0 && d->quantity <= 2;
-}
-
-static double real_at(sqlite3_stmt *s, int column) /* NULL is NaN */
-{
-    return sqlite3_column_type(s, column) == SQLITE_NULL ? NAN : sqlite3_column_double(s, column);
 }
 
 static fracas_err need_point(fracas_index *index, const fracas_hash *point, int64_t *id)
@@ -54,23 +37,22 @@ static fracas_err need_point(fracas_index *index, const fracas_hash *point, int6
 }
 
 fracas_err fracas_index_summaries(fracas_index *index, const fracas_hash *point, size_t count,
-                                  fracas_index_summary *summary)
+                                  fracas_index_summary *row)
 {
     int64_t id;
     size_t found = 0;
-    sqlite3_stmt *s = index->statement[FRACAS_SQL_ROW_SUMMARY];
+    sqlite3_stmt *s = index->statement[FRACAS_SQL_ROW_OF_POINT_PLACE];
     TRY(need_point(index, point, &id));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_SUMMARY, 1, id));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_SUMMARY, 2, (int64_t)count));
+    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_OF_POINT_PLACE, 1, id));
+    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_OF_POINT_PLACE, 2, (int64_t)count));
     for (;; found++) {
         bool more;
-        TRY(fracas_index_step(index, FRACAS_SQL_ROW_SUMMARY, &more));
+        TRY(fracas_index_step(index, FRACAS_SQL_ROW_OF_POINT_PLACE, &more));
         if (!more || found == count) break;
-        summary[found] = (fracas_index_summary){
-            fracas_index_status(sqlite3_column_text(s, 0)), sqlite3_column_int64(s, 1),
-            sqlite3_column_int64(s, 2), real_at(s, 3), real_at(s, 4)};
+        const fracas_place place = fracas_place_read(s, 1);
+        row[found] = (fracas_index_summary){place.status, place.summary};
     }
-    fracas_index_reset(index, FRACAS_SQL_ROW_SUMMARY);
+    fracas_index_reset(index, FRACAS_SQL_ROW_OF_POINT_PLACE);
     if (found == count) return FRACAS_OK;
     return fracas_fail(FRACAS_DAMAGED, "%s: %zu of the first %zu replicas of a point are there; %s",
                        index->path, found, count, remedy);
@@ -85,8 +67,7 @@ fracas_err fracas_index_decisions(fracas_index *index, const fracas_hash *point,
     *decision = NULL;
     *count = 0;
     TRY(need_point(index, point, &id));
-    fracas_err err = index->old ? FRACAS_OK
-                                : fracas_index_bind(index, FRACAS_SQL_DECISION_OF_POINT, 1, id);
+    fracas_err err = fracas_index_bind(index, FRACAS_SQL_DECISION_OF_POINT, 1, id);
     for (bool more; !err; ++*count) {
         err = fracas_index_step(index, FRACAS_SQL_DECISION_OF_POINT, &more);
         if (err || !more) break;
@@ -101,14 +82,14 @@ fracas_err fracas_index_decisions(fracas_index *index, const fracas_hash *point,
         (*decision)[*count] = (fracas_decision){.round = sqlite3_column_int64(s, 0),
                                                 .replicas = replicas,
                                                 .used = replicas - sqlite3_column_int64(s, 2),
-                                                .mean = real_at(s, 3),
-                                                .half_width = real_at(s, 4),
+                                                .mean = fracas_index_real(s, 3),
+                                                .half_width = fracas_index_real(s, 4),
                                                 .stop = sqlite3_column_int64(s, 5),
                                                 .quantity = sqlite3_column_int64(s, 6),
                                                 .minimum = sqlite3_column_int64(s, 7),
                                                 .maximum = sqlite3_column_int64(s, 8),
-                                                .relative_half_width = real_at(s, 9),
-                                                .confidence = real_at(s, 10)};
+                                                .relative_half_width = fracas_index_real(s, 9),
+                                                .confidence = fracas_index_real(s, 10)};
         if (!fracas_decision_valid(&(*decision)[*count]))
             err = fracas_fail(FRACAS_DAMAGED, "%s: a row of its table `decision` is damaged; %s",
                               index->path, remedy);

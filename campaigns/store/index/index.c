@@ -3,6 +3,7 @@
 #include "campaigns/store/index/index.h"
 
 #include "campaigns/store/file/disk.h"
+#include "campaigns/store/index/tables.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -12,26 +13,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-/* docs/formats/study.md explains every column. */
-static const char tables[] =
-    "CREATE TABLE IF NOT EXISTS meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT, WITHOUT "
-    "ROWID;CREATE TABLE IF NOT EXISTS point(id INTEGER PRIMARY KEY, hash TEXT NOT NULL UNIQUE, "
-    "replicas INTEGER NOT NULL) STRICT;CREATE TABLE IF NOT EXISTS segment(id INTEGER PRIMARY KEY, "
-    "name TEXT NOT NULL UNIQUE, bytes INTEGER NOT NULL, checksum TEXT NOT NULL, rows INTEGER NOT "
-    "NULL, provenance TEXT NOT NULL CHECK (json_valid(provenance))) STRICT;CREATE TABLE IF NOT "
-    "EXISTS realization(point INTEGER NOT NULL REFERENCES point(id), replica INTEGER NOT NULL, "
-    "status TEXT NOT NULL CHECK (status IN ('planned', 'leased', 'done', 'failed', "
-    "'quarantined')), attempts INTEGER NOT NULL DEFAULT 0, reason TEXT, outcome INTEGER, segment "
-    "INTEGER REFERENCES segment(id), row INTEGER, fragments INTEGER, fragments_dust INTEGER, steps "
-    "INTEGER, dissipated REAL, residual REAL, size REAL, PRIMARY KEY (point, replica)) STRICT, "
-    "WITHOUT ROWID;CREATE TABLE IF NOT EXISTS event(id INTEGER PRIMARY KEY, time TEXT NOT NULL, "
-    "kind TEXT NOT NULL, text TEXT NOT NULL) STRICT;CREATE TABLE IF NOT EXISTS decision(point "
-    "INTEGER NOT NULL REFERENCES point(id), round INTEGER NOT NULL, replicas INTEGER NOT NULL, "
-    "failed INTEGER NOT NULL, mean REAL, half_width REAL, relative REAL, stop INTEGER NOT NULL, "
-    "reason TEXT NOT NULL, quantity INTEGER NOT NULL, minimum INTEGER NOT NULL, maximum INTEGER "
-    "NOT NULL, relative_half_width REAL NOT NULL, confidence REAL NOT NULL, PRIMARY KEY (point, "
-    "round)) STRICT, WITHOUT ROWID;";
 
 static const char remedy[] = "`fracas reindex` makes it anew from the segments";
 
@@ -49,18 +30,16 @@ static const char *const sql_text[FRACAS_NSQL] = {
         "WITH RECURSIVE n(replica) AS (SELECT 0 UNION ALL SELECT replica + 1 FROM n WHERE replica "
         "+ 1 < ?2) INSERT OR IGNORE INTO realization(point, replica, status) SELECT ?1, replica, "
         "'planned' FROM n",
-    [FRACAS_SQL_ROW_FIND] =
-        "SELECT status, segment, row, outcome, fragments, fragments_dust, steps, dissipated, "
-        "residual, size FROM realization WHERE point = ?1 AND replica = ?2",
+    [FRACAS_SQL_ROW_FIND] = "SELECT " FRACAS_PLACE_COLUMNS
+                            " FROM realization WHERE point = ?1 AND replica = ?2",
     [FRACAS_SQL_ROW_OF_POINT] = "SELECT replica, status, attempts FROM realization WHERE point = "
                                 "?1 AND replica >= ?3 AND replica < ?2 ORDER BY replica",
     [FRACAS_SQL_ROW_FAILED] =
         "SELECT replica, status, attempts, coalesce(reason, '') FROM realization WHERE point = ?1 "
         "AND status IN ('failed', 'quarantined') ORDER BY replica",
     [FRACAS_SQL_ROW_BY_SEGMENT] =
-        "SELECT r.segment, r.row, p.hash, r.replica, r.outcome, r.fragments, r.fragments_dust, "
-        "r.steps, r.dissipated, r.residual, r.status, r.size FROM realization r JOIN point p ON "
-        "p.id = r.point WHERE r.segment IS NOT NULL OR r.status = 'done' ORDER BY r.segment, r.row",
+        "SELECT hash, replica, " FRACAS_PLACE_COLUMNS " FROM realization r JOIN point p ON p.id = "
+        "r.point WHERE segment IS NOT NULL OR status = 'done' ORDER BY segment, row",
     [FRACAS_SQL_ROW_UNLEASE] = "UPDATE realization SET status = 'planned' WHERE status = 'leased'",
     [FRACAS_SQL_ROW_LEASE] = "UPDATE realization SET status = 'leased' WHERE point = ?1 AND "
                              "replica >= ?2 AND replica < ?2 + ?3 AND status = 'planned'",
@@ -68,13 +47,10 @@ static const char *const sql_text[FRACAS_NSQL] = {
         "UPDATE realization SET attempts = attempts + 1, reason = ?3, status = ?4, outcome = ?5 "
         "WHERE point = ?1 AND replica = ?2 AND status <> 'done'",
     [FRACAS_SQL_ROW_DONE] =
-        "UPDATE realization SET status = ?3, outcome = ?4, segment = ?5, row = ?6, fragments = ?7, "
-        "fragments_dust = ?8, steps = ?9, dissipated = ?10, residual = ?11, size = ?12 WHERE point "
-        "= ?1 AND replica = ?2 AND status <> 'done'",
-    [FRACAS_SQL_ROW_FORGET] =
-        "UPDATE realization SET status = 'planned', outcome = NULL, segment = NULL, row = NULL, "
-        "fragments = NULL, fragments_dust = NULL, steps = NULL, dissipated = NULL, residual = "
-        "NULL, size = NULL WHERE segment IN (SELECT id FROM segment WHERE bytes < 0)",
+        "UPDATE realization SET status = ?3, segment = ?4, row = ?5" FRACAS_EACH_SUMMARY(
+            FRACAS_SQL_SET) " WHERE point = ?1 AND replica = ?2 AND status <> 'done'",
+    [FRACAS_SQL_ROW_FORGET] = "UPDATE realization SET " FRACAS_UNSET_PLACE
+                              " WHERE segment IN (SELECT id FROM segment WHERE bytes < 0)",
     [FRACAS_SQL_TALLY] = "SELECT status, outcome, point FROM realization",
     [FRACAS_SQL_SEGMENT_ADD] =
         "INSERT INTO segment(name, bytes, checksum, rows, provenance) VALUES (?1, ?2, ?3, ?4, ?5)",
@@ -86,8 +62,9 @@ static const char *const sql_text[FRACAS_NSQL] = {
     [FRACAS_SQL_EVENT_ADD] = "INSERT INTO event(time, kind, text) VALUES "
                              "(strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), ?1, ?2)",
     [FRACAS_SQL_EVENT_LAST] = "SELECT text FROM event WHERE kind = ?1 ORDER BY id DESC LIMIT 1",
-    [FRACAS_SQL_ROW_SUMMARY] = "SELECT status, outcome, fragments, size, dissipated FROM "
-                               "realization WHERE point = ?1 AND replica < ?2 ORDER BY replica",
+    [FRACAS_SQL_ROW_OF_POINT_PLACE] = "SELECT replica, " FRACAS_PLACE_COLUMNS
+                                      " FROM realization WHERE point = ?1 AND replica < "
+                                      "?2 ORDER BY replica",
     [FRACAS_SQL_ROW_TRIM] = "DELETE FROM realization WHERE point = ?1 AND replica >= ?2",
     [FRACAS_SQL_DECISION_ADD] =
         "INSERT INTO decision VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14)",
@@ -96,29 +73,6 @@ static const char *const sql_text[FRACAS_NSQL] = {
         "SELECT round, replicas, failed, mean, half_width, stop, quantity, minimum, maximum, "
         "relative_half_width, confidence FROM decision WHERE point = ?1 ORDER BY round",
 };
-
-/* The same for an index of before decisions were kept, which is only looked at: a run adds what it
- * lacks. */
-static const char *old_text(int sql)
-{
-    switch (sql) {
-    case FRACAS_SQL_ROW_BY_SEGMENT:
-        return "SELECT r.segment, r.row, p.hash, r.replica, r.outcome, r.fragments, "
-               "r.fragments_dust, r.steps, r.dissipated, r.residual, r.status, NULL FROM "
-               "realization r JOIN point p ON p.id = r.point WHERE r.segment IS NOT NULL OR "
-               "r.status = 'done' ORDER BY r.segment, r.row";
-    case FRACAS_SQL_ROW_FIND:
-        return "SELECT status, segment, row, outcome, fragments, fragments_dust, steps, "
-               "dissipated, residual, NULL FROM realization WHERE point = ?1 AND replica = ?2";
-    case FRACAS_SQL_ROW_DONE:
-    case FRACAS_SQL_ROW_FORGET:
-    case FRACAS_SQL_ROW_SUMMARY:
-    case FRACAS_SQL_DECISION_ADD:
-    case FRACAS_SQL_DECISION_DROP:
-    case FRACAS_SQL_DECISION_OF_POINT: return "SELECT 0 LIMIT 0";
-    default: return sql_text[sql];
-    }
-}
 
 /* ---- errors and statements ---- */
 
@@ -270,15 +224,20 @@ static fracas_err set_durability(fracas_index *index)
 
 static fracas_err create_tables(fracas_index *index)
 {
-    char text[sizeof tables + 256];
-    snprintf(
-        text, sizeof text,
-        "BEGIN IMMEDIATE;%s INSERT OR IGNORE INTO meta VALUES ('format_version', '%d'); COMMIT",
-        tables, FRACAS_FORMAT_VERSION);
-    fracas_err err = sqlite3_exec(index->db, text, NULL, NULL, NULL) == SQLITE_OK
-                         ? FRACAS_OK
-                         : fracas_index_error(index, "create its tables");
-    if (err) sqlite3_exec(index->db, "ROLLBACK", NULL, NULL, NULL);
+    char *text;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) return fracas_no_memory("the tables of the index");
+    fputs("BEGIN IMMEDIATE;", out);
+    fracas_index_print_schema(out);
+    fprintf(out, "INSERT OR IGNORE INTO meta VALUES ('format_version', '%d'); COMMIT",
+            FRACAS_FORMAT_VERSION);
+    fracas_err err = fclose(out) == 0 ? FRACAS_OK : fracas_no_memory("the tables of the index");
+    if (!err && sqlite3_exec(index->db, text, NULL, NULL, NULL) != SQLITE_OK) {
+        err = fracas_index_error(index, "create its tables");
+        sqlite3_exec(index->db, "ROLLBACK", NULL, NULL, NULL);
+    }
+    free(text);
     return err ? err : fracas_disk_sync_folder(index->path);
 }
 
@@ -365,33 +324,6 @@ static fracas_err connect_to(fracas_index *index, const char *study, bool create
                : fracas_index_error(index, "open");
 }
 
-/* Is `realization` of before decisions were kept? */
-static fracas_err is_old(fracas_index *index, bool *old)
-{
-    static const char query[] = "SELECT count(*), count(CASE name WHEN 'size' THEN 1 END) FROM "
-                                "pragma_table_info('realization')";
-    sqlite3_stmt *statement;
-    if (sqlite3_prepare_v2(index->db, query, -1, &statement, NULL) != SQLITE_OK)
-        return fracas_index_error(index, "open");
-    bool row = sqlite3_step(statement) == SQLITE_ROW;
-    fracas_err err = row ? FRACAS_OK
-                         : fracas_index_error(
-                               index,
-                               "open"); /* first: a column that is not there is another error */
-    *old = row && sqlite3_column_int(statement, 0) > 0 && sqlite3_column_int(statement, 1) == 0;
-    sqlite3_finalize(statement);
-    return err;
-}
-
-static fracas_err bring_up(fracas_index *index)
-{
-    if (sqlite3_exec(index->db, "ALTER TABLE realization ADD COLUMN size REAL", NULL, NULL, NULL) !=
-        SQLITE_OK)
-        return fracas_index_error(index, "add a column");
-    index->old = false;
-    return FRACAS_OK;
-}
-
 /* Counts the tables, and those that are called `meta`. */
 static fracas_err count_tables(fracas_index *index, int *all, int *meta)
 {
@@ -425,11 +357,9 @@ static fracas_err open_database(fracas_index *index, const char *study, bool cre
         return fracas_fail(FRACAS_DAMAGED, "%s is no index of fracas; %s", index->path, remedy);
     if (create) TRY(create_tables(index));
     TRY(check_version(index));
-    TRY(is_old(index, &index->old));
-    if (create && index->old) TRY(bring_up(index));
     for (int s = 0; s < FRACAS_NSQL; s++)
-        if (sqlite3_prepare_v3(index->db, index->old ? old_text(s) : sql_text[s], -1,
-                               SQLITE_PREPARE_PERSISTENT, &index->statement[s], NULL))
+        if (sqlite3_prepare_v3(index->db, sql_text[s], -1, SQLITE_PREPARE_PERSISTENT,
+                               &index->statement[s], NULL))
             return fracas_index_error(index, "prepare a statement");
     return FRACAS_OK;
 }

@@ -37,7 +37,7 @@ typedef enum {
     FRACAS_SQL_SEGMENT_TOTAL,
     FRACAS_SQL_EVENT_ADD,
     FRACAS_SQL_EVENT_LAST,
-    FRACAS_SQL_ROW_SUMMARY,
+    FRACAS_SQL_ROW_OF_POINT_PLACE,
     FRACAS_SQL_ROW_TRIM,
     FRACAS_SQL_DECISION_ADD,
     FRACAS_SQL_DECISION_DROP,
@@ -50,7 +50,6 @@ struct fracas_index {
     char *path;
     bool local;   /* WAL: a filesystem of this machine */
     bool reading; /* the study cannot be written */
-    bool old;     /* of before decisions were kept, and only looked at */
     sqlite3_stmt *statement[FRACAS_NSQL];
 };
 
@@ -99,25 +98,29 @@ FRACAS_MUST_USE fracas_err fracas_index_find_point(fracas_index *index, const fr
 FRACAS_MUST_USE fracas_err fracas_index_plan_point(fracas_index *index,
                                                    const fracas_point_row *point);
 
-/* Where a realization's bytes are, and what the index keeps of them (0, and NaN, before it is
- * done). */
+/* Status of a realization, the place of its bytes, and its summary (0 and NaN before it is done).
+ */
 typedef struct {
     fracas_row_status status;
     int64_t segment; /* id, 0 if it has none */
     int64_t row;
-    int64_t outcome, fragments, fragments_dust, steps;
-    double dissipated, residual, size;
-    bool sized; /* false in rows of before mean sizes were kept: `size` says nothing */
+    fracas_summary summary;
 } fracas_place;
 
-/* True if that is the row of this record: a flipped bit in the index, which SQLite does not see,
- * does not get any further. */
-bool fracas_place_fits(const fracas_place *place, const fracas_record *record);
+/* The place in the row of a statement that selects FRACAS_PLACE_COLUMNS, the first of which is
+ * column `first`. */
+fracas_place fracas_place_read(sqlite3_stmt *row, int first);
+
+/* True if place and record agree: a flipped bit in the index, which SQLite does not see, gets no
+ * further. `sized`: the record has its fragments, so that the mean size counts, too. */
+bool fracas_place_fits(const fracas_place *place, const fracas_record *record, bool sized);
 
 /* FRACAS_DAMAGED if the index has no such realization. */
 FRACAS_MUST_USE fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point,
                                               int64_t replica, fracas_place *place);
 fracas_row_status fracas_index_status(const unsigned char *text);
+/* Value of a column, NaN for NULL. */
+double fracas_index_real(sqlite3_stmt *row, int column);
 
 /* What the index knows of a segment. */
 typedef struct {

@@ -27,6 +27,33 @@ fracas_row_status fracas_index_status(const unsigned char *text)
     return FRACAS_PLANNED;
 }
 
+double fracas_index_real(sqlite3_stmt *row, int column)
+{
+    return sqlite3_column_type(row, column) == SQLITE_NULL ? NAN
+                                                           : sqlite3_column_double(row, column);
+}
+
+fracas_place fracas_place_read(sqlite3_stmt *row, int first)
+{
+    fracas_place place = {.status = fracas_index_status(sqlite3_column_text(row, first)),
+                          .segment = sqlite3_column_int64(row, first + 1),
+                          .row = sqlite3_column_int64(row, first + 2)};
+    first += 3;
+#define READ_INTEGER sqlite3_column_int64
+#define READ_REAL fracas_index_real
+#define READ(key, type, value, meaning) place.summary.key = READ_##type(row, first++);
+    FRACAS_EACH_SUMMARY(READ)
+    return place;
+}
+
+bool fracas_place_fits(const fracas_place *place, const fracas_record *record, bool sized)
+{
+    fracas_summary found = fracas_summary_of(record);
+    if (!sized) found.size = place->summary.size;
+    return fracas_summary_same(&place->summary, &found) &&
+           place->status == (record->outcome == FRACAS_FAILED ? FRACAS_FAILED_ROW : FRACAS_DONE);
+}
+
 fracas_err fracas_index_find_point(fracas_index *index, const fracas_hash *point, int64_t *id)
 {
     char hex[FRACAS_HASH_HEX];
@@ -159,11 +186,6 @@ fracas_err fracas_index_failures(fracas_index *index, const fracas_point_table *
     return FRACAS_OK;
 }
 
-static double real_at(sqlite3_stmt *s, int column) /* NULL is NaN */
-{
-    return sqlite3_column_type(s, column) == SQLITE_NULL ? NAN : sqlite3_column_double(s, column);
-}
-
 fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point, int64_t replica,
                               fracas_place *place)
 {
@@ -174,18 +196,7 @@ fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point, int
     TRY(fracas_index_bind(index, FRACAS_SQL_ROW_FIND, 2, replica));
     TRY(fracas_index_step(index, FRACAS_SQL_ROW_FIND, &found));
     sqlite3_stmt *s = at(index, FRACAS_SQL_ROW_FIND);
-    if (found)
-        *place = (fracas_place){fracas_index_status(sqlite3_column_text(s, 0)),
-                                sqlite3_column_int64(s, 1),
-                                sqlite3_column_int64(s, 2),
-                                sqlite3_column_int64(s, 3),
-                                sqlite3_column_int64(s, 4),
-                                sqlite3_column_int64(s, 5),
-                                sqlite3_column_int64(s, 6),
-                                real_at(s, 7),
-                                real_at(s, 8),
-                                real_at(s, 9),
-                                sqlite3_column_type(s, 9) != SQLITE_NULL};
+    if (found) *place = fracas_place_read(s, 0);
     fracas_index_reset(index, FRACAS_SQL_ROW_FIND);
     if (found) return FRACAS_OK;
     char hex[FRACAS_HASH_HEX];
@@ -303,20 +314,19 @@ static fracas_err add_segment(fracas_index *index, const char *name, const fraca
 static fracas_err set_done(fracas_index *index, int64_t point, int64_t segment,
                            const fracas_segment_row *row)
 {
-    bool failed = row->outcome == FRACAS_FAILED;
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_DONE, 1, point));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_DONE, 2, row->replica));
-    TRY(fracas_index_bind_text(index, FRACAS_SQL_ROW_DONE, 3,
+    bool failed = row->summary.outcome == FRACAS_FAILED;
+    const fracas_sql done = FRACAS_SQL_ROW_DONE;
+    int n = 6;
+    TRY(fracas_index_bind(index, done, 1, point));
+    TRY(fracas_index_bind(index, done, 2, row->replica));
+    TRY(fracas_index_bind_text(index, done, 3,
                                status_text[failed ? FRACAS_FAILED_ROW : FRACAS_DONE]));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_DONE, 4, row->outcome));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_DONE, 5, segment));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_DONE, 6, row->row));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_DONE, 7, row->fragments));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_DONE, 8, row->fragments_dust));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_DONE, 9, row->steps));
-    TRY(fracas_index_bind_real(index, FRACAS_SQL_ROW_DONE, 10, row->dissipated));
-    TRY(fracas_index_bind_real(index, FRACAS_SQL_ROW_DONE, 11, row->residual));
-    TRY(fracas_index_bind_real(index, FRACAS_SQL_ROW_DONE, 12, row->size));
+    TRY(fracas_index_bind(index, done, 4, segment));
+    TRY(fracas_index_bind(index, done, 5, row->row));
+#define BIND_INTEGER fracas_index_bind
+#define BIND_REAL fracas_index_bind_real
+#define BIND(key, type, value, meaning) TRY(BIND_##type(index, done, n++, row->summary.key));
+    FRACAS_EACH_SUMMARY(BIND)
     TRY(fracas_index_do(index, FRACAS_SQL_ROW_DONE));
     return changed_or_done(index, &row->point, row->replica);
 }

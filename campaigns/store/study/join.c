@@ -224,7 +224,7 @@ static fracas_err count_fresh(joining *j, int64_t *fresh)
         fracas_place place;
         TRY(place_of(j->index, &j->row[r].point, j->row[r].replica, &place));
         if (place.status == FRACAS_DONE ||
-            (place.status == FRACAS_FAILED_ROW && j->row[r].outcome == FRACAS_FAILED))
+            (place.status == FRACAS_FAILED_ROW && j->row[r].summary.outcome == FRACAS_FAILED))
             continue;
         ++*fresh;
         if (place.status != FRACAS_FAILED_ROW && place.status != FRACAS_QUARANTINED) continue;
@@ -267,12 +267,6 @@ static fracas_err take_rows(joining *j, int64_t id)
     return FRACAS_OK;
 }
 
-static double real_at(sqlite3_stmt *s, int column) /* NULL is NaN */
-{
-    return sqlite3_column_type(s, column) == SQLITE_NULL ? 0.0 / 0.0
-                                                         : sqlite3_column_double(s, column);
-}
-
 /* A row of FRACAS_SQL_ROW_BY_SEGMENT. */
 static fracas_err add_row(joining *j, sqlite3_stmt *s)
 {
@@ -283,16 +277,10 @@ static fracas_err add_row(joining *j, sqlite3_stmt *s)
         j->row = bigger;
     }
     fracas_segment_row *row = &j->row[j->nrows++];
-    *row = (fracas_segment_row){.replica = sqlite3_column_int64(s, 3),
-                                .row = sqlite3_column_int64(s, 1),
-                                .outcome = sqlite3_column_int64(s, 4),
-                                .fragments = sqlite3_column_int64(s, 5),
-                                .fragments_dust = sqlite3_column_int64(s, 6),
-                                .steps = sqlite3_column_int64(s, 7),
-                                .dissipated = real_at(s, 8),
-                                .residual = real_at(s, 9),
-                                .size = real_at(s, 11)};
-    const char *hex = (const char *)sqlite3_column_text(s, 2);
+    const fracas_place place = fracas_place_read(s, 2);
+    *row = (fracas_segment_row){
+        .replica = sqlite3_column_int64(s, 1), .row = place.row, .summary = place.summary};
+    const char *hex = (const char *)sqlite3_column_text(s, 0);
     if (hex && fracas_hash_parse(hex, &row->point)) return FRACAS_OK;
     return fracas_fail(FRACAS_DAMAGED, "%s: a point has no valid hash", j->theirs->path);
 }
@@ -305,10 +293,10 @@ static fracas_err take_segments(joining *j)
     fracas_err err = FRACAS_OK;
     while (!err && !(err = fracas_index_step(j->theirs, FRACAS_SQL_ROW_BY_SEGMENT, &more)) &&
            more) {
-        if (sqlite3_column_int64(s, 0) != id) {
+        if (sqlite3_column_int64(s, 3) != id) {
             err = take_rows(j, id);
             j->nrows = 0;
-            id = sqlite3_column_int64(s, 0);
+            id = sqlite3_column_int64(s, 3);
         }
         if (!err) err = add_row(j, s);
     }

@@ -253,13 +253,7 @@ static fracas_err read_rows(fracas_reader *reader, const fracas_point_table *tab
         if (err) break;
         row[r].point = fracas_reader_points(reader)->point[point].hash;
         row[r].row = (int64_t)r;
-        row[r].outcome = record.outcome;
-        row[r].fragments = record.fragments;
-        row[r].fragments_dust = record.fragments_dust;
-        row[r].steps = record.steps;
-        row[r].dissipated = record.dissipated;
-        row[r].residual = record.residual;
-        row[r].size = fracas_record_mean_size(&record);
+        row[r].summary = fracas_summary_of(&record);
         if (*asked) err = place_or_plan(index, table, &row[r].point, row[r].replica);
         if (err == FRACAS_DAMAGED) *asked = false, err = FRACAS_OK;
     }

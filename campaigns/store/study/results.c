@@ -3,10 +3,10 @@
 
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/index/query.h"
+#include "campaigns/store/index/tables.h"
 #include "campaigns/store/study/segments.h"
 
 #include <inttypes.h>
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -147,11 +147,6 @@ static fracas_err add_row(fracas_results *results, size_t p, int64_t replica,
     return FRACAS_OK;
 }
 
-static double real_at(sqlite3_stmt *s, int column) /* NULL is NaN */
-{
-    return sqlite3_column_type(s, column) == SQLITE_NULL ? NAN : sqlite3_column_double(s, column);
-}
-
 /* The rows of a point that `statement` gives; those that the campaign has not are none of ours. */
 static fracas_err read_rows(fracas_results *results, fracas_index *index, sqlite3_stmt *s, size_t p)
 {
@@ -165,17 +160,7 @@ static fracas_err read_rows(fracas_results *results, fracas_index *index, sqlite
         const int64_t replica = sqlite3_column_int64(s, 0);
         if (replica < 0 || replica >= most) continue;
         given++;
-        const fracas_place place = {fracas_index_status(sqlite3_column_text(s, 1)),
-                                    sqlite3_column_int64(s, 2),
-                                    sqlite3_column_int64(s, 3),
-                                    sqlite3_column_int64(s, 4),
-                                    sqlite3_column_int64(s, 5),
-                                    sqlite3_column_int64(s, 6),
-                                    sqlite3_column_int64(s, 7),
-                                    real_at(s, 8),
-                                    real_at(s, 9),
-                                    real_at(s, 10),
-                                    sqlite3_column_type(s, 10) != SQLITE_NULL};
+        const fracas_place place = fracas_place_read(s, 1);
         if (place.status != FRACAS_PLANNED && place.status != FRACAS_LEASED)
             TRY(add_row(results, p, replica, &place));
     }
@@ -186,14 +171,12 @@ static fracas_err read_rows(fracas_results *results, fracas_index *index, sqlite
 
 static fracas_err read_points(fracas_results *results, fracas_index *index)
 {
-    char text[256];
     sqlite3_stmt *s;
-    snprintf(text, sizeof text,
-             "SELECT replica, status, segment, row, outcome, fragments, fragments_dust, steps, "
-             "dissipated, residual, %s FROM realization WHERE point = (SELECT id FROM point WHERE "
-             "hash = ?1) ORDER BY replica",
-             index->old ? "NULL" : "size");
-    fracas_err err = fracas_query_begin(index, text, &s);
+    fracas_err err = fracas_query_begin(index,
+                                        "SELECT replica, " FRACAS_PLACE_COLUMNS
+                                        " FROM realization WHERE point = (SELECT id FROM "
+                                        "point WHERE hash = ?1) ORDER BY replica",
+                                        &s);
     for (size_t p = 0; !err && p < results->table.npoints; p++) {
         err = fracas_query_bind_hash(index, s, 1, &results->point[p].hash);
         if (!err) err = read_rows(results, index, s, p);
@@ -388,7 +371,7 @@ static uint64_t size_of(const fracas_results *results, const entry *row, unsigne
 {
     uint64_t bytes = sizeof(fracas_result) + sizeof(size_t);
     if (parts & FRACAS_READ_FRAGMENTS)
-        bytes += (uint64_t)row->place.fragments * sizeof(fracas_fragment);
+        bytes += (uint64_t)row->place.summary.fragments * sizeof(fracas_fragment);
     if (parts & FRACAS_READ_HISTORY)
         bytes += (uint64_t)(results->header.history + 4) * sizeof(fracas_history_row);
     if (parts & FRACAS_READ_INTERFACES)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Failed realizations that are to be computed again. */
 #include "campaigns/store/index/query.h"
+#include "campaigns/store/index/tables.h"
 #include "campaigns/store/upkeep.h"
 
 #include <inttypes.h>
@@ -15,9 +16,7 @@
 static const char undecide[] = "DELETE FROM decision WHERE replicas > (SELECT min(r.replica) FROM "
                                "realization r WHERE r.point = decision.point AND" OF_POINT ")";
 static const char plan_again[] =
-    "UPDATE realization SET status = 'planned', attempts = 0, reason = NULL, outcome = NULL, "
-    "segment = NULL, row = NULL, fragments = NULL, fragments_dust = NULL, steps = NULL, dissipated "
-    "= NULL, residual = NULL, size = NULL WHERE" OF_POINT;
+    "UPDATE realization SET attempts = 0, reason = NULL, " FRACAS_UNSET_PLACE " WHERE" OF_POINT;
 
 static fracas_err run(fracas_index *index, const char *text, const fracas_hash *point,
                       int64_t *rows)

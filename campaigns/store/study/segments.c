@@ -4,7 +4,6 @@
 #include "campaigns/store/file/disk.h"
 
 #include <inttypes.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -161,21 +160,6 @@ fracas_err fracas_segments_open(fracas_segments *segments, int64_t id)
     return open_with(segments, id, FRACAS_READ_ALL);
 }
 
-static bool same_real(double a, double b)
-{
-    return a == b || (isnan(a) && isnan(b));
-}
-
-bool fracas_place_fits(const fracas_place *place, const fracas_record *record)
-{
-    return place->outcome == record->outcome && place->fragments == record->fragments &&
-           place->steps == record->steps && place->fragments_dust == record->fragments_dust &&
-           same_real(place->dissipated, record->dissipated) &&
-           same_real(place->residual, record->residual) &&
-           (!place->sized || same_real(place->size, fracas_record_mean_size(record))) &&
-           place->status == (record->outcome == FRACAS_FAILED ? FRACAS_FAILED_ROW : FRACAS_DONE);
-}
-
 fracas_err fracas_segments_record(fracas_segments *segments, const fracas_place *place,
                                   const fracas_hash *point, int64_t replica, unsigned parts,
                                   fracas_record *record)
@@ -201,10 +185,7 @@ fracas_err fracas_segments_record(fracas_segments *segments, const fracas_place 
                            "segment %s: row %" PRId64
                            " is another realization than the index says; %s",
                            name, place->row, reindex);
-    fracas_place said = *place;
-    if (!(parts & FRACAS_READ_FRAGMENTS))
-        said.sized = false; /* their mean size is not known here */
-    if (fracas_place_fits(&said, record)) return FRACAS_OK;
+    if (fracas_place_fits(place, record, parts & FRACAS_READ_FRAGMENTS)) return FRACAS_OK;
     char hex[FRACAS_HASH_HEX];
     fracas_hash_hex(point, hex);
     return fracas_fail(FRACAS_DAMAGED,
@@ -264,11 +245,11 @@ static fracas_err check_failed(const fracas_segments *segments, const fracas_pla
                                int64_t replica)
 {
     const bool failed = place->status == FRACAS_FAILED_ROW || place->status == FRACAS_QUARANTINED;
-    if (!failed || place->outcome == FRACAS_FAILED) return FRACAS_OK;
+    if (!failed || place->summary.outcome == FRACAS_FAILED) return FRACAS_OK;
     return fracas_fail(FRACAS_DAMAGED,
                        "%s: replica %" PRId64 " of a point has failed, but has the outcome %" PRId64
                        "; %s",
-                       segments->index_path, replica, place->outcome, reindex);
+                       segments->index_path, replica, place->summary.outcome, reindex);
 }
 
 static fracas_err window_read(window *w, fracas_segments *segments, const fracas_point_table *table,

@@ -8,7 +8,6 @@
 #include <dirent.h>
 #include <errno.h>
 #include <inttypes.h>
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -211,29 +210,13 @@ static fracas_err check_segments(verification *v)
     return err;
 }
 
-static double real_at(sqlite3_stmt *row, int column) /* NULL is NaN */
-{
-    return sqlite3_column_type(row, column) == SQLITE_NULL ? NAN
-                                                           : sqlite3_column_double(row, column);
-}
-
 /* One row of FRACAS_SQL_ROW_BY_SEGMENT against its record. */
 static fracas_err check_row(verification *v, sqlite3_stmt *row)
 {
     fracas_hash point;
-    const char *hex = (const char *)sqlite3_column_text(row, 2);
-    int64_t replica = sqlite3_column_int64(row, 3);
-    const fracas_place place = {fracas_index_status(sqlite3_column_text(row, 10)),
-                                sqlite3_column_int64(row, 0),
-                                sqlite3_column_int64(row, 1),
-                                sqlite3_column_int64(row, 4),
-                                sqlite3_column_int64(row, 5),
-                                sqlite3_column_int64(row, 6),
-                                sqlite3_column_int64(row, 7),
-                                real_at(row, 8),
-                                real_at(row, 9),
-                                real_at(row, 11),
-                                sqlite3_column_type(row, 11) != SQLITE_NULL};
+    const char *hex = (const char *)sqlite3_column_text(row, 0);
+    int64_t replica = sqlite3_column_int64(row, 1);
+    const fracas_place place = fracas_place_read(row, 2);
     if (!hex || !fracas_hash_parse(hex, &point))
         return found(v, "%s: a point has no valid hash", v->index->path);
     if (fracas_segments_is_bad(v->segments, place.segment)) return FRACAS_OK; /* said already */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The mesh of a surface as study.h5 keeps it: what the interfaces of a realization are, for
  * pictures. Lengths in m. */
-#ifndef FRACAS_CAMPAIGNS_STORE_FILE_MESH_H
-#define FRACAS_CAMPAIGNS_STORE_FILE_MESH_H
+#ifndef FRACAS_CAMPAIGNS_STORE_MESH_H
+#define FRACAS_CAMPAIGNS_STORE_MESH_H
 
 #include "base/err.h"
 

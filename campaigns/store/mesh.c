@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "campaigns/store/file/mesh.h"
+#include "campaigns/store/mesh.h"
 
 #include <math.h>
 #include <stdlib.h>
