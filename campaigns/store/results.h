@@ -42,14 +42,8 @@ FRACAS_MUST_USE fracas_err fracas_results_record(fracas_results *results, size_t
                                                  unsigned parts, size_t *point, int64_t *replica,
                                                  fracas_record *record);
 
-typedef struct {
-    size_t row, point;
-    int64_t replica;
-    fracas_record record; /* the visitor may take parts out of it and leave NULL */
-} fracas_result;
-
 /* Calls `visit` with every realization in the order of its row, whatever the segments. Partial ones
- * are read by segment, as many ahead as fit some 192 MiB; one whose segment is missing or damaged
+ * are read by segment, as many ahead as fit some 128 MiB; one whose segment is missing or damaged
  * is left out, counted by fracas_results_missing, and the segment is named in a note. */
 FRACAS_MUST_USE fracas_err fracas_results_walk(fracas_results *results, unsigned parts,
                                                fracas_err (*visit)(void *context,

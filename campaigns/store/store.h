@@ -123,8 +123,21 @@ FRACAS_MUST_USE fracas_err fracas_reader_record(fracas_reader *reader, size_t ro
                                                 size_t *point, int64_t *replica,
                                                 fracas_record *record);
 
-/* What fracas_writer_provenance kept, NULL if the file has none (of before it was kept, or
- * study.h5); *provenance freed by the caller. */
+/* One realization of a file or of a study. */
+typedef struct {
+    size_t row, point;
+    int64_t replica;
+    fracas_record record; /* a visitor may take rows out of it and leave NULL */
+} fracas_result;
+
+/* Visits every realization of the file in the order of its rows, with these parts of its record. */
+FRACAS_MUST_USE fracas_err fracas_reader_each(fracas_reader *reader, unsigned parts,
+                                              fracas_err (*visit)(void *context,
+                                                                  fracas_result *result),
+                                              void *context);
+
+/* The text that fracas_writer_provenance kept, NULL if the file has none; *provenance freed by the
+ * caller. */
 FRACAS_MUST_USE fracas_err fracas_reader_provenance(const fracas_reader *reader, char **provenance);
 
 /* Every decision of the file in its order, none if it has no group /decision; *decision freed by

@@ -85,8 +85,8 @@ static void first_commit_stays(void **state)
     fracas_file_seal seal;
     fracas_place place;
     sample_segment(study, "a.h5", &table, what, 3, MOST, &seal, row);
-    row[0].outcome = row[1].outcome = FRACAS_INTACT;
-    row[2].outcome = FRACAS_FAILED;
+    row[0].summary.outcome = row[1].summary.outcome = FRACAS_INTACT;
+    row[2].summary.outcome = FRACAS_FAILED;
     OK(fracas_index_commit(index_, "a.h5", &seal, row, 3, "{}"));
     fracas_index_counts counts = count_all();
     assert_int_equal(counts.done, 2);

@@ -4,6 +4,7 @@
 #include "base/param.h"
 
 #include <ctype.h>
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
@@ -50,6 +51,34 @@ bool fracas_disk_is_temporary(const char *name)
 {
     const char *mark = strstr(name, temporary_mark);
     return name[0] == '.' && mark && isdigit((unsigned char)mark[sizeof temporary_mark - 1]);
+}
+
+bool fracas_disk_ends(const char *name, const char *end)
+{
+    const size_t length = strlen(name), tail = strlen(end);
+    return name[0] != '.' && length >= tail && strcmp(name + length - tail, end) == 0;
+}
+
+fracas_err fracas_disk_each(const char *folder,
+                            fracas_err (*visit)(void *context, const char *path, const char *name),
+                            void *context)
+{
+    struct dirent **entry;
+    const int count = scandir(folder, &entry, NULL, alphasort);
+    if (count < 0) return errno == ENOENT ? FRACAS_OK : fracas_disk_fail("list", folder);
+    fracas_err err = FRACAS_OK;
+    for (int e = 0; e < count; e++) {
+        const char *name = entry[e]->d_name;
+        char *path;
+        if (!err && strcmp(name, ".") != 0 && strcmp(name, "..") != 0 &&
+            !(err = fracas_disk_join(folder, name, &path))) {
+            err = visit(context, path, name);
+            free(path);
+        }
+        free(entry[e]);
+    }
+    free(entry);
+    return err;
 }
 
 fracas_err fracas_disk_sync_folder(const char *path)

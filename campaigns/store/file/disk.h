@@ -15,6 +15,15 @@ FRACAS_MUST_USE fracas_err fracas_disk_temporary(const char *path, char **tempor
 /* True for such a name (without its folder). */
 bool fracas_disk_is_temporary(const char *name);
 
+/* Calls `visit` with the path and name of every entry of a folder in the order of their names, none
+ * if the folder is not there; the first error ends it. */
+FRACAS_MUST_USE fracas_err fracas_disk_each(const char *folder,
+                                            fracas_err (*visit)(void *context, const char *path,
+                                                                const char *name),
+                                            void *context);
+/* True for a name that does not begin with a dot and ends with this. */
+bool fracas_disk_ends(const char *name, const char *end);
+
 /* Makes the names in the folder of `path` durable. */
 FRACAS_MUST_USE fracas_err fracas_disk_sync_folder(const char *path);
 /* Size and checksum of an open file, read in blocks; `path` is for the message. */

@@ -349,6 +349,22 @@ fracas_err fracas_reader_record(fracas_reader *reader, size_t row, unsigned part
     return err;
 }
 
+fracas_err fracas_reader_each(fracas_reader *reader, unsigned parts,
+                              fracas_err (*visit)(void *context, fracas_result *result),
+                              void *context)
+{
+    fracas_result result = {0};
+    fracas_err err = FRACAS_OK;
+    fracas_record_init(&result.record);
+    for (; !err && result.row < fracas_reader_realizations(reader); result.row++) {
+        err = fracas_reader_record(reader, result.row, parts, &result.point, &result.replica,
+                                   &result.record);
+        if (!err) err = visit(context, &result);
+    }
+    fracas_record_clear(&result.record);
+    return err;
+}
+
 /* ---- decisions ---- */
 
 fracas_err fracas_reader_decisions(fracas_reader *reader, fracas_decision **decision, size_t *count)

@@ -115,6 +115,14 @@ fracas_place fracas_place_read(sqlite3_stmt *row, int first);
  * further. `sized`: the record has its fragments, so that the mean size counts, too. */
 bool fracas_place_fits(const fracas_place *place, const fracas_record *record, bool sized);
 
+/* Visits the realizations of every segment by its id, in the order of their rows; *point is NULL
+ * where the index has no valid hash. */
+FRACAS_MUST_USE fracas_err
+fracas_index_each_by_segment(fracas_index *index,
+                             fracas_err (*visit)(void *context, const fracas_hash *point,
+                                                 int64_t replica, const fracas_place *place),
+                             void *context);
+
 /* FRACAS_DAMAGED if the index has no such realization. */
 FRACAS_MUST_USE fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point,
                                               int64_t replica, fracas_place *place);
@@ -134,9 +142,13 @@ typedef struct {
 FRACAS_MUST_USE fracas_err fracas_index_segments(fracas_index *index,
                                                  fracas_known_segment **segment, size_t *count);
 void fracas_index_segments_free(fracas_known_segment *segment, size_t count);
-int fracas_segment_compare_names(const void *a, const void *b); /* for qsort */
-/* `segment` sorted by name. */
-bool fracas_segment_is_known(const fracas_known_segment *segment, size_t count, char *name);
+/* The same by name. */
+FRACAS_MUST_USE fracas_err fracas_index_segments_by_name(fracas_index *index,
+                                                         fracas_known_segment **segment,
+                                                         size_t *count);
+/* The one of this name among those, NULL if there is none. */
+const fracas_known_segment *fracas_segment_is_known(const fracas_known_segment *segment,
+                                                    size_t count, const char *name);
 /* True if its file is there and has its size. */
 FRACAS_MUST_USE fracas_err fracas_segment_is_there(const char *study,
                                                    const fracas_known_segment *segment,

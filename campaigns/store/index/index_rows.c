@@ -207,6 +207,26 @@ fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point, int
                        index->path, replica, hex);
 }
 
+fracas_err fracas_index_each_by_segment(fracas_index *index,
+                                        fracas_err (*visit)(void *context, const fracas_hash *point,
+                                                            int64_t replica,
+                                                            const fracas_place *place),
+                                        void *context)
+{
+    sqlite3_stmt *s = at(index, FRACAS_SQL_ROW_BY_SEGMENT);
+    bool more = true;
+    fracas_err err = FRACAS_OK;
+    while (!err && !(err = fracas_index_step(index, FRACAS_SQL_ROW_BY_SEGMENT, &more)) && more) {
+        fracas_hash point;
+        const char *hex = (const char *)sqlite3_column_text(s, 0);
+        const bool valid = hex && fracas_hash_parse(hex, &point);
+        const fracas_place place = fracas_place_read(s, 2);
+        err = visit(context, valid ? &point : NULL, sqlite3_column_int64(s, 1), &place);
+    }
+    fracas_index_reset(index, FRACAS_SQL_ROW_BY_SEGMENT);
+    return err;
+}
+
 /* The last update changed this realization, or it is done already and stays; FRACAS_DAMAGED if it
  * was never planned. */
 static fracas_err changed_or_done(fracas_index *index, const fracas_hash *point, int64_t replica)

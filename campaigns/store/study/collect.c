@@ -4,7 +4,6 @@
 #include "campaigns/store/index/query.h"
 #include "campaigns/store/upkeep.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,12 +29,6 @@ static bool starts_with(const char *name, const char *start)
     return strncmp(name, start, strlen(start)) == 0;
 }
 
-static bool ends_with(const char *name, const char *end)
-{
-    const size_t length = strlen(name), tail = strlen(end);
-    return length >= tail && strcmp(name + length - tail, end) == 0;
-}
-
 /* Says what becomes of a file, and removes it; an empty folder, too. */
 static fracas_err dispose(collection *c, const char *path, fate what, const char *why)
 {
@@ -51,27 +44,23 @@ static fracas_err dispose(collection *c, const char *path, fate what, const char
     return FRACAS_OK;
 }
 
-/* Every name of a folder (none if it is not there), in their order. */
+typedef struct {
+    collection *c;
+    fate (*judge)(const collection *c, const char *name, const char **why);
+} judging;
+
+static fracas_err judge_file(void *context, const char *path, const char *name)
+{
+    const judging *j = context;
+    const char *why = "not of fracas, as far as it knows";
+    const fate what = j->judge(j->c, name, &why);
+    return dispose(j->c, path, what, why);
+}
+
 static fracas_err each(collection *c, const char *folder,
                        fate (*judge)(const collection *c, const char *name, const char **why))
 {
-    struct dirent **entry;
-    const int count = scandir(folder, &entry, NULL, alphasort);
-    if (count < 0) return errno == ENOENT ? FRACAS_OK : fracas_disk_fail("list", folder);
-    fracas_err err = FRACAS_OK;
-    for (int e = 0; e < count; e++) {
-        const char *name = entry[e]->d_name, *why = "not of fracas, as far as it knows";
-        char *path;
-        if (!err && strcmp(name, ".") != 0 && strcmp(name, "..") != 0 &&
-            !(err = fracas_disk_join(folder, name, &path))) {
-            const fate what = judge(c, name, &why);
-            err = dispose(c, path, what, why);
-            free(path);
-        }
-        free(entry[e]);
-    }
-    free(entry);
-    return err;
+    return fracas_disk_each(folder, judge_file, &(judging){c, judge});
 }
 
 /* ---- the study folder, and what a reindex left ---- */
@@ -126,15 +115,7 @@ static int compare_ids(const void *a, const void *b)
 
 static fate judge_segment(const collection *c, const char *name, const char **why)
 {
-    union {
-        const char *given;
-        char *name;
-    } key = {.given = name};
-    const fracas_known_segment wanted = {.name = key.name};
-    const fracas_known_segment *known = c->nsegments
-                                            ? bsearch(&wanted, c->segment, c->nsegments,
-                                                      sizeof wanted, fracas_segment_compare_names)
-                                            : NULL;
+    const fracas_known_segment *known = fracas_segment_is_known(c->segment, c->nsegments, name);
     if (fracas_disk_is_temporary(name)) {
         *why = "half written";
         return REMOVE;
@@ -146,11 +127,11 @@ static fate judge_segment(const collection *c, const char *name, const char **wh
                    ? REMOVE
                    : KEEP;
     }
-    if (name[0] != '.' && ends_with(name, ".damaged")) {
+    if (fracas_disk_ends(name, ".damaged")) {
         *why = "a damaged segment that was set aside";
         return REMOVE;
     }
-    if (ends_with(name, ".h5"))
+    if (fracas_disk_ends(name, ".h5"))
         *why = "not in the index; `fracas run` and `fracas merge` adopt it, if it is of this study";
     return LEAVE;
 }
@@ -188,9 +169,7 @@ static fracas_err forget_needless(collection *c)
 static fracas_err collect_segments(collection *c)
 {
     char *folder;
-    TRY(fracas_index_segments(c->index, &c->segment, &c->nsegments));
-    if (c->nsegments)
-        qsort(c->segment, c->nsegments, sizeof *c->segment, fracas_segment_compare_names);
+    TRY(fracas_index_segments_by_name(c->index, &c->segment, &c->nsegments));
     TRY(list_needless(c));
     TRY(forget_needless(c));
     TRY(fracas_disk_join(c->study, "segments", &folder));

@@ -36,18 +36,19 @@ static fracas_err place_of(fracas_index *index, const fracas_hash *point, int64_
     return err == FRACAS_DAMAGED ? FRACAS_OK : err;
 }
 
-static fracas_err compare(void *context, fracas_step *step)
+static fracas_err compare(void *context, fracas_visit *visit)
 {
     comparison *c = context;
-    const fracas_hash *point = &c->table->point[step->point].hash;
+    const fracas_result *result = &visit->result;
+    const fracas_hash *point = &c->table->point[result->point].hash;
     fracas_place place;
-    if (step->status != FRACAS_DONE) return FRACAS_OK;
-    TRY(place_of(c->index, point, step->replica, &place));
+    if (visit->place.status != FRACAS_DONE) return FRACAS_OK;
+    TRY(place_of(c->index, point, result->replica, &place));
     if (place.status != FRACAS_DONE) return FRACAS_OK;
-    TRY(fracas_segments_record(c->segments, &place, point, step->replica, FRACAS_READ_ALL,
+    TRY(fracas_segments_record(c->segments, &place, point, result->replica, FRACAS_READ_ALL,
                                &c->record));
     c->both++;
-    if (fracas_record_same(&c->record, &step->record)) return FRACAS_OK;
+    if (fracas_record_same(&c->record, &result->record)) return FRACAS_OK;
     char hex[FRACAS_HASH_HEX];
     fracas_hash_hex(point, hex);
     return fracas_fail(FRACAS_DAMAGED,
@@ -55,7 +56,7 @@ static fracas_err compare(void *context, fracas_step *step)
                        " of point %zu (%s) is not the same in %s and %s: one of them was computed "
                        "by another build of the program, or on a faulty machine; compute it again "
                        "in both (docs/how-to/two-machines.md)",
-                       step->replica, step->point, hex, c->into, c->from);
+                       result->replica, result->point, hex, c->into, c->from);
 }
 
 fracas_err fracas_study_compare(const char *into, fracas_index *into_index, const char *from,
@@ -69,7 +70,9 @@ fracas_err fracas_study_compare(const char *into, fracas_index *into_index, cons
     fracas_record_init(&c.record);
     fracas_err err = fracas_segments_create(into, into_index, &identity, &c.segments);
     if (!err) err = fracas_segments_create(from, from_index, &identity, &theirs);
-    if (!err) err = fracas_segments_walk(theirs, table, false, compare, &c);
+    const fracas_want want = {
+        .table = table, .parts = FRACAS_READ_ALL, .visit = compare, .context = &c};
+    if (!err) err = fracas_study_each_planned(theirs, from_index, &want);
     fracas_segments_destroy(theirs);
     fracas_segments_destroy(c.segments);
     fracas_record_clear(&c.record);
@@ -84,7 +87,8 @@ typedef struct {
     fracas_index *index, *theirs;
     fracas_known_segment *segment; /* of `from`, by id */
     size_t nsegments;
-    fracas_segment_row *row; /* of the segment that is being looked at */
+    int64_t id; /* of the segment that is looked at, and its rows */
+    fracas_segment_row *row;
     size_t nrows, room;
     fracas_joined *joined;
 } joining;
@@ -241,10 +245,10 @@ static int compare_ids(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The rows that were gathered, all of segment `id` of `from`: its file first, then its rows. */
-static fracas_err take_rows(joining *j, int64_t id)
+/* Takes the gathered rows of segment j->id of `from`: its file first, then its rows. */
+static fracas_err take_rows(joining *j)
 {
-    const fracas_known_segment wanted = {.id = id};
+    const fracas_known_segment wanted = {.id = j->id};
     int64_t fresh;
     char *name = NULL, *provenance = NULL;
     if (!j->nrows) return FRACAS_OK;
@@ -252,13 +256,14 @@ static fracas_err take_rows(joining *j, int64_t id)
                                                                  sizeof wanted, compare_ids)
                                                        : NULL;
     if (!segment)
-        return fracas_fail(FRACAS_DAMAGED, "%s has no segment %" PRId64, j->theirs->path, id);
+        return fracas_fail(FRACAS_DAMAGED, "%s has no segment %" PRId64, j->theirs->path, j->id);
     TRY(count_fresh(j, &fresh));
+    const size_t nrows = j->nrows;
+    j->nrows = 0;
     if (!fresh) return FRACAS_OK;
     fracas_err err = take_segment(j, segment, &name);
-    if (!err) err = provenance_of(j->theirs, id, &provenance);
-    if (!err)
-        err = fracas_index_commit(j->index, name, &segment->seal, j->row, j->nrows, provenance);
+    if (!err) err = provenance_of(j->theirs, j->id, &provenance);
+    if (!err) err = fracas_index_commit(j->index, name, &segment->seal, j->row, nrows, provenance);
     free(provenance);
     free(name);
     if (err) return err;
@@ -267,42 +272,23 @@ static fracas_err take_rows(joining *j, int64_t id)
     return FRACAS_OK;
 }
 
-/* A row of FRACAS_SQL_ROW_BY_SEGMENT. */
-static fracas_err add_row(joining *j, sqlite3_stmt *s)
+/* Gathers the rows of a segment, and takes those of the one before. */
+static fracas_err add_row(void *context, const fracas_hash *point, int64_t replica,
+                          const fracas_place *place)
 {
+    joining *j = context;
+    if (!point)
+        return fracas_fail(FRACAS_DAMAGED, "%s: a point has no valid hash", j->theirs->path);
+    if (place->segment != j->id) TRY(take_rows(j));
+    j->id = place->segment;
     if (j->nrows == j->room) {
         j->room = 2 * j->room + 256;
         fracas_segment_row *bigger = realloc(j->row, j->room * sizeof *bigger);
         if (!bigger) return fracas_no_memory("the rows of a segment");
         j->row = bigger;
     }
-    fracas_segment_row *row = &j->row[j->nrows++];
-    const fracas_place place = fracas_place_read(s, 2);
-    *row = (fracas_segment_row){
-        .replica = sqlite3_column_int64(s, 1), .row = place.row, .summary = place.summary};
-    const char *hex = (const char *)sqlite3_column_text(s, 0);
-    if (hex && fracas_hash_parse(hex, &row->point)) return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED, "%s: a point has no valid hash", j->theirs->path);
-}
-
-static fracas_err take_segments(joining *j)
-{
-    sqlite3_stmt *s = j->theirs->statement[FRACAS_SQL_ROW_BY_SEGMENT];
-    int64_t id = 0;
-    bool more = true;
-    fracas_err err = FRACAS_OK;
-    while (!err && !(err = fracas_index_step(j->theirs, FRACAS_SQL_ROW_BY_SEGMENT, &more)) &&
-           more) {
-        if (sqlite3_column_int64(s, 3) != id) {
-            err = take_rows(j, id);
-            j->nrows = 0;
-            id = sqlite3_column_int64(s, 3);
-        }
-        if (!err) err = add_row(j, s);
-    }
-    if (!err) err = take_rows(j, id);
-    fracas_index_reset(j->theirs, FRACAS_SQL_ROW_BY_SEGMENT);
-    return err;
+    j->row[j->nrows++] = (fracas_segment_row){*point, replica, place->row, place->summary};
+    return FRACAS_OK;
 }
 
 /* ---- failures ---- */
@@ -352,7 +338,8 @@ fracas_err fracas_study_join(const char *into, fracas_index *into_index, const c
     char text[4400];
     *joined = (fracas_joined){0};
     fracas_err err = fracas_index_segments(from_index, &j.segment, &j.nsegments);
-    if (!err) err = take_segments(&j);
+    if (!err) err = fracas_index_each_by_segment(from_index, add_row, &j);
+    if (!err) err = take_rows(&j);
     if (!err) err = take_failures(&j, table);
     fracas_index_segments_free(j.segment, j.nsegments);
     free(j.row);

@@ -13,19 +13,21 @@ typedef struct {
     bool complete; /* no realization failed */
 } merging;
 
-static fracas_err append(void *context, fracas_step *step)
+static fracas_err append(void *context, fracas_visit *visit)
 {
     merging *m = context;
-    if (step->status == FRACAS_PLANNED || step->status == FRACAS_LEASED) {
+    const fracas_result *result = &visit->result;
+    const fracas_row_status status = visit->place.status;
+    if (status == FRACAS_PLANNED || status == FRACAS_LEASED) {
         char hex[FRACAS_HASH_HEX];
-        fracas_hash_hex(&m->table->point[step->point].hash, hex);
+        fracas_hash_hex(&m->table->point[result->point].hash, hex);
         return fracas_fail(FRACAS_INTERRUPTED,
                            "replica %" PRId64
                            " of point %s is not computed yet; run again to go on",
-                           step->replica, hex);
+                           result->replica, hex);
     }
-    if (step->status != FRACAS_DONE) m->complete = false;
-    return fracas_writer_append(m->writer, step->point, step->replica, &step->record);
+    if (status != FRACAS_DONE) m->complete = false;
+    return fracas_writer_append(m->writer, result->point, result->replica, &result->record);
 }
 
 /* After all records, point by point, of the points whose replicas a rule decides. */
@@ -93,7 +95,9 @@ fracas_err fracas_study_merge(const char *study, fracas_index *index,
     TRY(fracas_disk_join(study, "study.h5", &path));
     fracas_err err = fracas_segments_create(study, index, &identity, &segments);
     if (!err) err = fracas_writer_create(path, header, table, &m.writer);
-    if (!err) err = fracas_segments_walk(segments, table, false, append, &m);
+    const fracas_want want = {
+        .table = table, .parts = FRACAS_READ_ALL, .visit = append, .context = &m};
+    if (!err) err = fracas_study_each_planned(segments, index, &want);
     if (!err) err = append_decisions(&m, index);
     if (!err && meshes && header->interfaces) err = append_meshes(&m, meshes);
     if (!err)
@@ -107,18 +111,25 @@ fracas_err fracas_study_merge(const char *study, fracas_index *index,
     return err == FRACAS_DAMAGED ? plan_damaged_again(study, index) : err;
 }
 
-fracas_err fracas_study_sealed(const char *study, fracas_index *index, bool *sealed)
+fracas_err fracas_study_file_sealed(const char *study, fracas_index *index, bool *sealed)
 {
     char *path;
     fracas_file_seal seal;
-    fracas_known_segment *segment;
-    size_t count;
     TRY(fracas_index_study_seal(index, sealed, &seal));
     if (!*sealed) return FRACAS_OK;
     TRY(fracas_disk_join(study, "study.h5", &path));
     fracas_err err = fracas_disk_has_size(path, seal.bytes, sealed);
     free(path);
-    TRY(err);
+    return err;
+}
+
+fracas_err fracas_study_sealed(const char *study, fracas_index *index, bool *sealed)
+{
+    fracas_known_segment *segment;
+    size_t count;
+    fracas_err err = FRACAS_OK;
+    TRY(fracas_study_file_sealed(study, index, sealed));
+    if (!*sealed) return FRACAS_OK;
     TRY(fracas_index_segments(index, &segment, &count));
     for (size_t s = 0; !err && *sealed && s < count; s++)
         err = fracas_segment_is_there(study, &segment[s], sealed);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sweeping a study after an interruption. */
 #include "campaigns/store/file/disk.h"
+#include "campaigns/store/index/query.h"
 #include "campaigns/store/study/segments.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -17,50 +17,21 @@ static fracas_err remove_file(const char *path)
     return unlink(path) == 0 || errno == ENOENT ? FRACAS_OK : fracas_disk_fail("remove", path);
 }
 
-static int no_dots(const struct dirent *entry)
+static fracas_err remove_temporary(void *report, const char *path, const char *name)
 {
-    return strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
+    if (!fracas_disk_is_temporary(name)) return FRACAS_OK;
+    TRY(remove_file(path));
+    fprintf(report, "removed %s, half written\n", path);
+    return FRACAS_OK;
 }
 
-/* Names in a folder, sorted, so that what recover does depends on nothing else. */
-static fracas_err list_folder(const char *folder, struct dirent ***entry, int *count)
-{
-    *count = scandir(folder, entry, no_dots, alphasort);
-    return *count < 0 ? fracas_disk_fail("list", folder) : FRACAS_OK;
-}
-
-static void free_list(struct dirent **entry, int count)
-{
-    for (int e = 0; e < count; e++) free(entry[e]);
-    if (count >= 0) free(entry);
-}
-
-static fracas_err remove_temporaries(const char *folder, FILE *report)
-{
-    struct dirent **entry;
-    int count;
-    TRY(list_folder(folder, &entry, &count));
-    fracas_err err = FRACAS_OK;
-    for (int e = 0; !err && e < count; e++) {
-        char *path;
-        if (!fracas_disk_is_temporary(entry[e]->d_name)) continue;
-        err = fracas_disk_join(folder, entry[e]->d_name, &path);
-        if (err) break;
-        err = remove_file(path);
-        if (!err) fprintf(report, "removed %s, half written\n", path);
-        free(path);
-    }
-    free_list(entry, count);
-    return err;
-}
-
-/* Of merges, and of segments. */
+/* Removes what merges and workers have half written. */
 static fracas_err sweep(const char *study, FILE *report)
 {
     char *folder;
-    TRY(remove_temporaries(study, report));
+    TRY(fracas_disk_each(study, remove_temporary, report));
     TRY(fracas_disk_join(study, "segments", &folder));
-    fracas_err err = remove_temporaries(folder, report);
+    fracas_err err = fracas_disk_each(folder, remove_temporary, report);
     free(folder);
     return err;
 }
@@ -178,15 +149,11 @@ static fracas_err is_quick_to_check(fracas_index *index, bool *quick)
 {
     static const double most = 2e9; /* bytes: 1 s from memory, some 7 s from a slow disk */
     bool sealed;
+    int64_t bytes;
     fracas_file_seal seal;
-    fracas_known_segment *segment;
-    size_t count;
     TRY(fracas_index_study_seal(index, &sealed, &seal));
-    TRY(fracas_index_segments(index, &segment, &count));
-    double bytes = (double)seal.bytes;
-    for (size_t s = 0; s < count; s++) bytes += (double)segment[s].seal.bytes;
-    fracas_index_segments_free(segment, count);
-    *quick = bytes <= most;
+    TRY(fracas_query_number(index, "SELECT sum(bytes) FROM segment", &bytes));
+    *quick = (double)seal.bytes + (double)bytes <= most;
     return FRACAS_OK;
 }
 
@@ -239,133 +206,136 @@ static fracas_err place_or_plan(fracas_index *index, const fracas_point_table *t
     return err;
 }
 
-/* Reads every record, so that every checksum of the file is looked at. *asked becomes false if one
- * is of no realization here. */
-static fracas_err read_rows(fracas_reader *reader, const fracas_point_table *table,
-                            fracas_index *index, fracas_segment_row *row, bool *asked)
+/* Segments that the folder has, on their way into the index. */
+typedef struct {
+    fracas_index *index;
+    const fracas_point_table *table;
+    const fracas_identity *identity; /* of the study */
+    FILE *report;
+    const fracas_known_segment *known; /* by name */
+    size_t nknown;
+    /* The segment that is looked at. */
+    fracas_reader *reader;
+    fracas_segment_row *row;
+    bool asked; /* the campaign asks for every realization so far */
+    bool sound; /* it was read whole: what goes wrong later is not its fault */
+} adoption;
+
+static fracas_err read_row(void *context, fracas_result *result)
 {
-    fracas_record record;
-    fracas_err err = FRACAS_OK;
-    fracas_record_init(&record);
-    for (size_t r = 0; !err && r < fracas_reader_realizations(reader); r++) {
-        size_t point;
-        err = fracas_reader_record(reader, r, FRACAS_READ_ALL, &point, &row[r].replica, &record);
-        if (err) break;
-        row[r].point = fracas_reader_points(reader)->point[point].hash;
-        row[r].row = (int64_t)r;
-        row[r].summary = fracas_summary_of(&record);
-        if (*asked) err = place_or_plan(index, table, &row[r].point, row[r].replica);
-        if (err == FRACAS_DAMAGED) *asked = false, err = FRACAS_OK;
-    }
-    fracas_record_clear(&record);
+    adoption *a = context;
+    fracas_segment_row *row = &a->row[result->row];
+    *row = (fracas_segment_row){.point = fracas_reader_points(a->reader)->point[result->point].hash,
+                                .replica = result->replica,
+                                .row = (int64_t)result->row,
+                                .summary = fracas_summary_of(&result->record)};
+    fracas_err err = a->asked ? place_or_plan(a->index, a->table, &row->point, row->replica)
+                              : FRACAS_OK;
+    if (err == FRACAS_DAMAGED) a->asked = false, err = FRACAS_OK;
     return err;
 }
 
-/* Commits the rows of an open segment, if this campaign asks for all of them; what goes wrong when
- * it is *sound is not its fault. */
-static fracas_err adopt(const char *path, const char *name, fracas_reader *reader,
-                        const fracas_file_seal *seal, const fracas_point_table *table,
-                        fracas_index *index, bool *sound, FILE *report)
+/* The rows of a segment that was read whole go into the index. */
+static fracas_err commit(adoption *a, const char *path, const char *name,
+                         const fracas_file_seal *seal)
 {
-    size_t count = fracas_reader_realizations(reader);
-    bool asked = true;
+    const size_t count = fracas_reader_realizations(a->reader);
     char *provenance;
-    TRY(fracas_reader_provenance(reader, &provenance));
-    const bool tells = provenance && fracas_index_is_json(index, provenance);
-    fracas_segment_row *row = calloc(count + 1, sizeof *row);
-    fracas_err err = row ? read_rows(reader, table, index, row, &asked)
-                         : fracas_no_memory("the rows of a segment");
-    *sound = !err;
-    if (!err && !asked)
-        fprintf(report,
+    if (!a->asked) {
+        fprintf(a->report,
                 "left %s, which has realizations that this campaign does not ask for; move it "
                 "away, or run the campaign that does\n",
                 path);
-    if (!err && asked)
-        err = fracas_disk_sync_folder(path); /* whoever renamed it may have died before this */
-    if (!err && asked)
-        err = fracas_index_commit(index, name, seal, row, count,
-                                  tells ? provenance : "{\"adopted\": true}");
+        return FRACAS_OK;
+    }
+    TRY(fracas_disk_sync_folder(path)); /* whoever renamed it may have died before this */
+    TRY(fracas_reader_provenance(a->reader, &provenance));
+    const bool tells = provenance && fracas_index_is_json(a->index, provenance);
+    fracas_err err = fracas_index_commit(a->index, name, seal, a->row, count,
+                                         tells ? provenance : "{\"adopted\": true}");
     free(provenance);
-    if (!err && asked) fprintf(report, "adopted %s with %zu realizations\n", path, count);
-    free(row);
+    if (!err) fprintf(a->report, "adopted %s with %zu realizations\n", path, count);
     return err;
 }
 
-/* Adopts a segment, or leaves it: what another program or campaign computed is not ours to remove.
- */
-static fracas_err adopt_or_leave(const char *path, const char *name,
-                                 const fracas_point_table *table, fracas_index *index,
-                                 const fracas_identity *identity, bool *sound, FILE *report)
+/* Every record is read, so that every checksum of the file is looked at. A segment of another
+ * program or campaign is left: it is not ours to remove. */
+static fracas_err adopt(adoption *a, const char *path, const char *name)
 {
-    fracas_reader *reader;
     fracas_file_seal seal;
     fracas_identity found;
     char text[FRACAS_DIFFERENCE_TEXT];
     uint64_t version;
     TRY(fracas_file_version(path, &version));
     if (version != FRACAS_FORMAT_VERSION) {
-        fprintf(report, "left %s, which has format version %" PRIu64 ", not %d; move it away\n",
+        fprintf(a->report, "left %s, which has format version %" PRIu64 ", not %d; move it away\n",
                 path, version, FRACAS_FORMAT_VERSION);
         return FRACAS_OK;
     }
     TRY(fracas_disk_seal_path(path, &seal));
-    TRY(fracas_reader_open(path, &reader));
-    fracas_identity_of(fracas_reader_header(reader), &found);
+    TRY(fracas_reader_open(path, &a->reader));
+    fracas_identity_of(fracas_reader_header(a->reader), &found);
     fracas_err err = FRACAS_OK;
-    if (fracas_identity_differs(&found, identity, text))
-        fprintf(report, "left %s, which is not of this study: %s; move it away\n", path, text);
-    else err = adopt(path, name, reader, &seal, table, index, sound, report);
-    fracas_reader_close(reader);
+    if (fracas_identity_differs(&found, a->identity, text)) {
+        fprintf(a->report, "left %s, which is not of this study: %s; move it away\n", path, text);
+    } else {
+        a->asked = true;
+        a->row = calloc(fracas_reader_realizations(a->reader) + 1, sizeof *a->row);
+        err = a->row ? fracas_reader_each(a->reader, FRACAS_READ_ALL, read_row, a)
+                     : fracas_no_memory("the rows of a segment");
+        a->sound = !err;
+        if (!err) err = commit(a, path, name, &seal);
+        free(a->row);
+    }
+    fracas_reader_close(a->reader);
     return err;
 }
 
-static fracas_err adopt_or_set_aside(const char *path, const char *name,
-                                     const fracas_point_table *table, fracas_index *index,
-                                     const fracas_identity *identity, FILE *report)
+static fracas_err adopt_or_set_aside(void *context, const char *path, const char *name)
 {
-    bool sound = false;
-    fracas_err err = adopt_or_leave(path, name, table, index, identity, &sound, report);
-    if (err != FRACAS_DAMAGED || sound) return err;
-    fprintf(report, "%s", fracas_message());
-    return set_aside(path, report);
+    adoption *a = context;
+    if (!fracas_disk_ends(name, ".h5") || fracas_segment_is_known(a->known, a->nknown, name))
+        return FRACAS_OK;
+    a->sound = false;
+    fracas_err err = adopt(a, path, name);
+    if (err != FRACAS_DAMAGED || a->sound) return err;
+    fprintf(a->report, "%s", fracas_message());
+    return set_aside(path, a->report);
 }
 
-int fracas_segment_compare_names(const void *a, const void *b)
+static int compare_names(const void *a, const void *b)
 {
     return strcmp(((const fracas_known_segment *)a)->name, ((const fracas_known_segment *)b)->name);
 }
 
-bool fracas_segment_is_known(const fracas_known_segment *segment, size_t count, char *name)
+static int compare_name(const void *name, const void *segment)
 {
-    fracas_known_segment wanted = {.name = name};
-    return count > 0 &&
-           bsearch(&wanted, segment, count, sizeof *segment, fracas_segment_compare_names);
+    return strcmp(name, ((const fracas_known_segment *)segment)->name);
+}
+
+fracas_err fracas_index_segments_by_name(fracas_index *index, fracas_known_segment **segment,
+                                         size_t *count)
+{
+    TRY(fracas_index_segments(index, segment, count));
+    if (*count) qsort(*segment, *count, sizeof **segment, compare_names);
+    return FRACAS_OK;
+}
+
+const fracas_known_segment *fracas_segment_is_known(const fracas_known_segment *segment,
+                                                    size_t count, const char *name)
+{
+    return count ? bsearch(name, segment, count, sizeof *segment, compare_name) : NULL;
 }
 
 static fracas_err adopt_orphans(const char *folder, const fracas_point_table *table,
                                 fracas_index *index, const fracas_identity *identity, FILE *report)
 {
-    struct dirent **entry;
-    int count;
     fracas_known_segment *segment;
-    size_t nsegments;
-    TRY(fracas_index_segments(index, &segment, &nsegments));
-    if (nsegments) qsort(segment, nsegments, sizeof *segment, fracas_segment_compare_names);
-    fracas_err err = list_folder(folder, &entry, &count);
-    for (int e = 0; !err && e < count; e++) {
-        char *name = entry[e]->d_name, *dot = strrchr(name, '.');
-        char *path;
-        if (name[0] == '.' || !dot || strcmp(dot, ".h5") != 0 ||
-            fracas_segment_is_known(segment, nsegments, name))
-            continue;
-        err = fracas_disk_join(folder, name, &path);
-        if (err) break;
-        err = adopt_or_set_aside(path, name, table, index, identity, report);
-        free(path);
-    }
-    free_list(entry, count);
-    fracas_index_segments_free(segment, nsegments);
+    adoption a = {.index = index, .table = table, .identity = identity, .report = report};
+    TRY(fracas_index_segments_by_name(index, &segment, &a.nknown));
+    a.known = segment;
+    fracas_err err = fracas_disk_each(folder, adopt_or_set_aside, &a);
+    fracas_index_segments_free(segment, a.nknown);
     return err;
 }
 

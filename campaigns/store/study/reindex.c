@@ -4,7 +4,6 @@
 #include "campaigns/store/index/query.h"
 #include "campaigns/store/upkeep.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
@@ -50,36 +49,40 @@ void fracas_say_lines(const fracas_said *said, const char *text)
 
 /* ---- what is there ---- */
 
-/* A study of another format version is refused as such, and not as one without any segment of ours.
- */
+typedef struct {
+    bool ours;        /* a segment of this format version is there */
+    char *other;      /* path of the first one of another, */
+    uint64_t version; /* which is this */
+} versions;
+
+static fracas_err note_version(void *context, const char *path, const char *name)
+{
+    versions *found = context;
+    uint64_t version;
+    if (found->ours || !fracas_disk_ends(name, ".h5")) return FRACAS_OK;
+    fracas_err err = fracas_file_version(path, &version);
+    if (err) return err == FRACAS_DAMAGED ? FRACAS_OK : err; /* a damaged one is removed later */
+    found->ours = version == FRACAS_FORMAT_VERSION;
+    if (found->ours || found->other) return FRACAS_OK;
+    found->version = version;
+    found->other = strdup(path);
+    return found->other ? FRACAS_OK : fracas_no_memory("a file name");
+}
+
+/* A study of another format version is refused as such, not as one without any segment of ours. */
 static fracas_err check_versions(const char *study)
 {
-    char *folder, *other = NULL;
-    uint64_t version, found = 0;
-    size_t ours = 0;
+    char *folder;
+    versions found = {0};
     TRY(fracas_disk_join(study, "segments", &folder));
-    DIR *list = opendir(folder);
-    fracas_err err = list || errno == ENOENT ? FRACAS_OK : fracas_disk_fail("list", folder);
-    for (struct dirent *entry; !err && !ours && list && (entry = readdir(list));) {
-        const char *dot = strrchr(entry->d_name, '.');
-        char *path;
-        if (entry->d_name[0] == '.' || !dot || strcmp(dot, ".h5") != 0) continue;
-        err = fracas_disk_join(folder, entry->d_name, &path);
-        if (err) break;
-        err = fracas_file_version(path, &version);
-        if (!err && version == FRACAS_FORMAT_VERSION) ours++;
-        if (err == FRACAS_DAMAGED) err = FRACAS_OK; /* one to be removed */
-        else if (!err && !ours && !other) found = version, other = path, path = NULL;
-        free(path);
-    }
-    if (!err && !ours && other)
+    fracas_err err = fracas_disk_each(folder, note_version, &found);
+    if (!err && !found.ours && found.other)
         err = fracas_fail(FRACAS_DAMAGED,
                           "%s has format version %" PRIu64
                           "; this program reads %d: use the program version that wrote it, or "
                           "compute the study again in another folder",
-                          other, found, FRACAS_FORMAT_VERSION);
-    if (list) closedir(list);
-    free(other);
+                          found.other, found.version, FRACAS_FORMAT_VERSION);
+    free(found.other);
     free(folder);
     return err;
 }

@@ -79,25 +79,13 @@ static fracas_err open_file(const char *study, fracas_reader **reader)
     return err;
 }
 
-static fracas_err file_is_sealed(const char *study, fracas_index *index, bool *sealed)
-{
-    char *path;
-    fracas_file_seal seal;
-    TRY(fracas_index_study_seal(index, sealed, &seal));
-    if (!*sealed) return FRACAS_OK;
-    TRY(fracas_disk_join(study, "study.h5", &path));
-    fracas_err err = fracas_disk_has_size(path, seal.bytes, sealed);
-    free(path);
-    return err;
-}
-
 /* Takes study.h5 if it is of all that the index has; else leaves results->reader NULL. */
 static fracas_err take_file(const char *study, fracas_index *index, const fracas_hash *campaign,
                             fracas_results *results)
 {
     bool sealed;
     fracas_index_counts counts;
-    TRY(file_is_sealed(study, index, &sealed));
+    TRY(fracas_study_file_sealed(study, index, &sealed));
     if (!sealed) return FRACAS_OK;
     TRY(fracas_index_count(index, &counts));
     if (counts.planned || counts.leased) return FRACAS_OK;
@@ -357,115 +345,51 @@ fracas_err fracas_results_record(fracas_results *results, size_t row, unsigned p
 
 /* ---- all of them ---- */
 
-/* Realizations read ahead, from row `first` on. */
 typedef struct {
-    size_t first, count, room;
-    fracas_result *result;
-    size_t *sorted; /* numbers of `result`, by segment and row there */
-} window;
+    fracas_results *results;
+    fracas_err (*visit)(void *context, fracas_result *result);
+    void *context;
+} walk;
 
-enum { WINDOW_BYTES = 192 << 20 };
-
-/* At most; of interfaces, which are stored compactly, about. */
-static uint64_t size_of(const fracas_results *results, const entry *row, unsigned parts)
+static fracas_err next_row(void *context, fracas_visit *visit, bool *more)
 {
-    uint64_t bytes = sizeof(fracas_result) + sizeof(size_t);
-    if (parts & FRACAS_READ_FRAGMENTS)
-        bytes += (uint64_t)row->place.summary.fragments * sizeof(fracas_fragment);
-    if (parts & FRACAS_READ_HISTORY)
-        bytes += (uint64_t)(results->header.history + 4) * sizeof(fracas_history_row);
-    if (parts & FRACAS_READ_INTERFACES)
-        bytes += 2 * fracas_segments_share(results->segments, row->place.segment);
-    return bytes;
-}
-
-static fracas_err window_fill(const fracas_results *results, unsigned parts, window *w)
-{
-    uint64_t bytes = 0;
-    for (w->count = 0;
-         w->first + w->count < results->nrows && (w->count == 0 || bytes < WINDOW_BYTES);
-         w->count++)
-        bytes += size_of(results, &results->row[w->first + w->count], parts);
-    if (w->count <= w->room) return FRACAS_OK;
-    w->room = w->count;
-    free(w->result);
-    free(w->sorted);
-    w->result = malloc(w->room * sizeof *w->result);
-    w->sorted = malloc(w->room * sizeof *w->sorted);
-    if (w->result && w->sorted) return FRACAS_OK;
-    w->count = 0;
-    return fracas_no_memory("realizations read ahead");
-}
-
-static int by_place(const void *a, const void *b, void *rows)
-{
-    const fracas_place *x = &((const entry *)rows)[*(const size_t *)a].place,
-                       *y = &((const entry *)rows)[*(const size_t *)b].place;
-    if (x->segment != y->segment) return x->segment < y->segment ? -1 : 1;
-    return (x->row > y->row) - (x->row < y->row);
-}
-
-static fracas_err window_read(fracas_results *results, unsigned parts, window *w)
-{
-    for (size_t i = 0; i < w->count; i++) {
-        const entry *row = &results->row[w->first + i];
-        w->result[i] = (fracas_result){
-            .row = w->first + i, .point = row->point, .replica = row->replica};
-        fracas_record_init(&w->result[i].record);
-        w->sorted[i] = i;
-    }
-    qsort_r(w->sorted, w->count, sizeof *w->sorted, by_place, &results->row[w->first]);
-    for (size_t n = 0; n < w->count; n++) {
-        entry *row = &results->row[w->first + w->sorted[n]];
-        if (row->lost) continue;
-        fracas_err err = read_entry(results, row, parts, &w->result[w->sorted[n]].record);
-        if (err == FRACAS_DAMAGED) err = lose(results, row);
-        TRY(err);
-    }
+    const fracas_results *results = context;
+    *more = visit->result.row < results->nrows;
+    if (!*more) return FRACAS_OK;
+    const entry *row = &results->row[visit->result.row];
+    visit->result.point = row->point;
+    visit->result.replica = row->replica;
+    visit->place = row->place;
+    visit->damaged = row->lost;
     return FRACAS_OK;
 }
 
-static fracas_err walk_segments(fracas_results *results, unsigned parts,
-                                fracas_err (*visit)(void *context, fracas_result *result),
-                                void *context)
+static fracas_err lose_row(void *context, const fracas_result *result)
 {
-    window w = {0};
-    fracas_err err = FRACAS_OK;
-    while (!err && w.first < results->nrows) {
-        err = window_fill(results, parts, &w);
-        if (!err) err = window_read(results, parts, &w);
-        for (size_t i = 0; !err && i < w.count; i++)
-            if (!results->row[w.first + i].lost) err = visit(context, &w.result[i]);
-        for (size_t i = 0; i < w.count; i++) fracas_record_clear(&w.result[i].record);
-        w.first += w.count;
-    }
-    free(w.result);
-    free(w.sorted);
-    return err;
+    const walk *w = context;
+    return lose(w->results, &w->results->row[result->row]);
 }
 
-static fracas_err walk_file(fracas_reader *reader, unsigned parts,
-                            fracas_err (*visit)(void *context, fracas_result *result),
-                            void *context)
+static fracas_err visit_row(void *context, fracas_visit *visit)
 {
-    fracas_result result = {0};
-    fracas_err err = FRACAS_OK;
-    fracas_record_init(&result.record);
-    for (; !err && result.row < fracas_reader_realizations(reader); result.row++) {
-        err = fracas_reader_record(reader, result.row, parts, &result.point, &result.replica,
-                                   &result.record);
-        if (!err) err = visit(context, &result);
-    }
-    fracas_record_clear(&result.record);
-    return err;
+    const walk *w = context;
+    return visit->damaged ? FRACAS_OK : w->visit(w->context, &visit->result);
 }
 
 fracas_err fracas_results_walk(fracas_results *results, unsigned parts,
                                fracas_err (*visit)(void *context, fracas_result *result),
                                void *context)
 {
-    return results->reader ? walk_file(results->reader, parts, visit, context)
-                           : walk_segments(results, parts, visit, context);
+    walk w = {results, visit, context};
+    const fracas_want want = {.table = &results->table,
+                              .parts = parts,
+                              .next = next_row,
+                              .source = results,
+                              .damaged = lose_row,
+                              .visit = visit_row,
+                              .context = &w};
+    return results->reader ? fracas_reader_each(results->reader, parts, visit, context)
+                           : fracas_study_each(results->segments, &want);
 }
 
 /* ---- what is known of them ---- */

@@ -11,9 +11,9 @@ static const char reindex[] = "`fracas reindex` makes the index anew from the se
 
 struct fracas_segments {
     const char *study;
-    fracas_index *index;
     char *index_path; /* for messages, when the index is closed */
     fracas_identity identity;
+    uint64_t history;              /* most history rows of a record */
     fracas_known_segment *segment; /* by id */
     size_t count;
     bool *checked, *bad; /* of each segment */
@@ -29,8 +29,8 @@ fracas_err fracas_segments_create(const char *study, fracas_index *index,
     fracas_segments *new = *segments = calloc(1, sizeof **segments);
     if (!new) return fracas_no_memory("the segments");
     new->study = study;
-    new->index = index;
     new->identity = *identity;
+    new->history = strtoull(identity->value[2], NULL, 10) + 4;
     new->index_path = strdup(index->path);
     fracas_err err = new->index_path ? fracas_index_segments(index, &new->segment, &new->count)
                                      : fracas_no_memory("the segments");
@@ -85,12 +85,18 @@ const char *fracas_segments_name(const fracas_segments *segments, int64_t id)
     return s == SIZE_MAX ? "" : segments->segment[s].name;
 }
 
-uint64_t fracas_segments_share(const fracas_segments *segments, int64_t id)
+uint64_t fracas_segments_size(const fracas_segments *segments, const fracas_place *place,
+                              unsigned parts)
 {
-    const size_t s = find(segments, id);
-    return s == SIZE_MAX
-               ? 0
-               : segments->segment[s].seal.bytes / (uint64_t)(segments->segment[s].rows + 1);
+    const size_t s = find(segments, place->segment);
+    const fracas_known_segment *segment = s == SIZE_MAX ? NULL : &segments->segment[s];
+    uint64_t bytes = 0;
+    if (parts & FRACAS_READ_FRAGMENTS)
+        bytes += (uint64_t)place->summary.fragments * sizeof(fracas_fragment);
+    if (parts & FRACAS_READ_HISTORY) bytes += segments->history * sizeof(fracas_history_row);
+    if (parts & FRACAS_READ_INTERFACES && segment) /* they are stored compactly */
+        bytes += 2 * segment->seal.bytes / (uint64_t)(segment->rows + 1);
+    return bytes;
 }
 
 static fracas_err check_identity(const fracas_segments *segments, const char *path)
@@ -194,55 +200,8 @@ fracas_err fracas_segments_record(fracas_segments *segments, const fracas_place 
                        segments->index_path, replica, hex, name, reindex);
 }
 
-/* ---- the walk in plan order ---- */
-
-typedef struct {
-    fracas_step step;
-    fracas_place place;
-} ahead;
-
-/* What is read ahead: realizations in plan order. */
-typedef struct {
-    ahead *item;
-    ahead **sorted; /* those with a record, by segment and row */
-    size_t count, room;
-    uint64_t bytes; /* expected */
-} window;
-
-enum { WINDOW_BYTES = 128 << 20 };
-
-static fracas_err window_add(window *w, fracas_segments *segments, const fracas_point_table *table,
-                             size_t point, int64_t replica)
-{
-    if (w->count == w->room) {
-        size_t room = w->room ? 2 * w->room : 256;
-        ahead *item = realloc(w->item, room * sizeof *item);
-        if (!item) return fracas_no_memory("records read ahead");
-        w->item = item;
-        ahead **sorted = realloc(w->sorted, room * sizeof *sorted);
-        if (!sorted) return fracas_no_memory("records read ahead");
-        w->sorted = sorted;
-        w->room = room;
-    }
-    ahead *item = &w->item[w->count];
-    TRY(fracas_index_place(segments->index, &table->point[point].hash, replica, &item->place));
-    item->step = (fracas_step){.point = point, .replica = replica, .status = item->place.status};
-    fracas_record_init(&item->step.record);
-    w->count++;
-    w->bytes += sizeof *item + sizeof item + fracas_segments_share(segments, item->place.segment);
-    return FRACAS_OK;
-}
-
-static int compare_places(const void *a, const void *b)
-{
-    const fracas_place *x = &(*(ahead *const *)a)->place, *y = &(*(ahead *const *)b)->place;
-    if (x->segment != y->segment) return x->segment < y->segment ? -1 : 1;
-    return (x->row > y->row) - (x->row < y->row);
-}
-
-/* A row that says failed says so twice. */
-static fracas_err check_failed(const fracas_segments *segments, const fracas_place *place,
-                               int64_t replica)
+fracas_err fracas_segments_check_failed(const fracas_segments *segments, const fracas_place *place,
+                                        int64_t replica)
 {
     const bool failed = place->status == FRACAS_FAILED_ROW || place->status == FRACAS_QUARANTINED;
     if (!failed || place->summary.outcome == FRACAS_FAILED) return FRACAS_OK;
@@ -250,64 +209,4 @@ static fracas_err check_failed(const fracas_segments *segments, const fracas_pla
                        "%s: replica %" PRId64 " of a point has failed, but has the outcome %" PRId64
                        "; %s",
                        segments->index_path, replica, place->summary.outcome, reindex);
-}
-
-static fracas_err window_read(window *w, fracas_segments *segments, const fracas_point_table *table,
-                              bool tolerant)
-{
-    size_t n = 0;
-    for (size_t i = 0; i < w->count; i++) {
-        if (!tolerant) TRY(check_failed(segments, &w->item[i].place, w->item[i].step.replica));
-        if (w->item[i].step.status == FRACAS_DONE) w->sorted[n++] = &w->item[i];
-    }
-    if (n) qsort(w->sorted, n, sizeof *w->sorted, compare_places);
-    for (size_t i = 0; i < n; i++) {
-        fracas_step *step = &w->sorted[i]->step;
-        fracas_err err = fracas_segments_record(segments, &w->sorted[i]->place,
-                                                &table->point[step->point].hash, step->replica,
-                                                FRACAS_READ_ALL, &step->record);
-        step->damaged = err == FRACAS_DAMAGED;
-        if (err && !(tolerant && step->damaged)) return err;
-    }
-    return FRACAS_OK;
-}
-
-static void window_empty(window *w)
-{
-    for (size_t i = 0; i < w->count; i++) fracas_record_clear(&w->item[i].step.record);
-    w->count = 0;
-    w->bytes = 0;
-}
-
-/* Reads what is in the window, visits it, empties the window. */
-static fracas_err window_visit(window *w, fracas_segments *segments,
-                               const fracas_point_table *table, bool tolerant,
-                               fracas_err (*visit)(void *context, fracas_step *step), void *context)
-{
-    fracas_err err = window_read(w, segments, table, tolerant);
-    for (size_t i = 0; !err && i < w->count; i++) err = visit(context, &w->item[i].step);
-    window_empty(w);
-    return err;
-}
-
-fracas_err fracas_segments_walk(fracas_segments *segments, const fracas_point_table *table,
-                                bool tolerant,
-                                fracas_err (*visit)(void *context, fracas_step *step),
-                                void *context)
-{
-    window w = {0};
-    TRY(fracas_index_do(segments->index,
-                        FRACAS_SQL_BEGIN_READING)); /* one lock for all its look-ups */
-    fracas_err err = FRACAS_OK;
-    for (size_t p = 0; !err && p < table->npoints; p++)
-        for (int64_t replica = 0; !err && replica < table->point[p].replicas; replica++) {
-            err = window_add(&w, segments, table, p, replica);
-            if (!err && w.bytes >= WINDOW_BYTES)
-                err = window_visit(&w, segments, table, tolerant, visit, context);
-        }
-    if (!err) err = window_visit(&w, segments, table, tolerant, visit, context);
-    window_empty(&w);
-    free(w.item);
-    free(w.sorted);
-    return fracas_index_end(segments->index, err);
 }

@@ -10,8 +10,8 @@
 
 typedef struct fracas_segments fracas_segments;
 
-/* A segment of another identity is FRACAS_DAMAGED. `study` must outlive it, and `index` the walk;
- * the rest goes on when it is closed. */
+/* A segment of another identity is FRACAS_DAMAGED. `study` must outlive it; the index may be closed
+ * after. */
 FRACAS_MUST_USE fracas_err fracas_segments_create(const char *study, fracas_index *index,
                                                   const fracas_identity *identity,
                                                   fracas_segments **segments);
@@ -40,25 +40,51 @@ FRACAS_MUST_USE fracas_err fracas_segments_record(fracas_segments *segments,
                                                   const fracas_place *place,
                                                   const fracas_hash *point, int64_t replica,
                                                   unsigned parts, fracas_record *record);
-/* File name of a segment, "" if there is none of that id; bytes a realization of it takes there. */
+/* File name of a segment, "" if there is none of that id. */
 const char *fracas_segments_name(const fracas_segments *segments, int64_t id);
-uint64_t fracas_segments_share(const fracas_segments *segments, int64_t id);
+/* Bytes of these parts of a record in memory; an estimate for interfaces. */
+uint64_t fracas_segments_size(const fracas_segments *segments, const fracas_place *place,
+                              unsigned parts);
+/* FRACAS_DAMAGED for a realization that failed with another outcome than FAILED. */
+FRACAS_MUST_USE fracas_err fracas_segments_check_failed(const fracas_segments *segments,
+                                                        const fracas_place *place, int64_t replica);
 
-/* One realization on the walk below. */
+/* True if study.h5 has the size that its merge left. */
+FRACAS_MUST_USE fracas_err fracas_study_file_sealed(const char *study, fracas_index *index,
+                                                    bool *sealed);
+
+/* ---- the walk over a study ---- */
+
+/* One realization on the walk. */
 typedef struct {
-    size_t point; /* index in the table */
-    int64_t replica;
-    fracas_row_status status;
-    fracas_record record; /* empty unless status is FRACAS_DONE */
-    bool damaged;         /* it is, but the record cannot be had */
-} fracas_step;
+    fracas_result result; /* its record is empty unless the realization is done and can be read */
+    fracas_place place;
+    bool damaged; /* done, but its record cannot be read */
+} fracas_visit;
 
-/* Calls `visit` for every realization of the table in plan order. Records are read by segment and
- * row, as many ahead as fit some 128 MiB, so that each segment is opened a few times only, however
- * its realizations are spread. FRACAS_DAMAGED for a record that cannot be had, or with `tolerant` a
- * damaged step. */
-FRACAS_MUST_USE fracas_err
-fracas_segments_walk(fracas_segments *segments, const fracas_point_table *table, bool tolerant,
-                     fracas_err (*visit)(void *context, fracas_step *step), void *context);
+/* Realizations to walk over, parts of their records to read (FRACAS_READ_...), functions to call.
+ * `next` gives result.point, result.replica and place of the row result.row, *more false after the
+ * last row; with `damaged` set the record is not read.
+ * `damaged` hears of a record that cannot be read while fracas_message() says why; NULL: the walk
+ * ends with FRACAS_DAMAGED. */
+typedef struct {
+    const fracas_point_table *table;
+    unsigned parts;
+    fracas_err (*next)(void *source, fracas_visit *visit, bool *more);
+    void *source;
+    fracas_err (*damaged)(void *context, const fracas_result *result);
+    fracas_err (*visit)(void *context, fracas_visit *visit);
+    void *context;
+} fracas_want;
+
+/* Visits the realizations in the order of `next`. Records are read by segment and row, as many
+ * ahead as fit some 128 MiB: each segment is opened a few times only, however its realizations are
+ * spread. */
+FRACAS_MUST_USE fracas_err fracas_study_each(fracas_segments *segments, const fracas_want *want);
+
+/* The same for every realization of want->table in plan order, with places from the index;
+ * want->next is not used. */
+FRACAS_MUST_USE fracas_err fracas_study_each_planned(fracas_segments *segments, fracas_index *index,
+                                                     const fracas_want *want);
 
 #endif

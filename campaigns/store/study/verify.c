@@ -5,7 +5,6 @@
 
 #include "base/param.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <inttypes.h>
 #include <stdarg.h>
@@ -21,7 +20,7 @@ typedef struct {
     fracas_identity identity; /* what the study was begun with */
     fracas_reader *merged;    /* study.h5, NULL if it is not there or not sound */
     bool there;               /* study.h5 is there */
-    fracas_record record;     /* as read last from it or from a segment */
+    fracas_record record;     /* as read last */
     size_t row;               /* next one of study.h5 */
     const fracas_verify_options *options;
     int64_t problems;
@@ -142,57 +141,49 @@ static void note_lock(const verification *v)
     }
 }
 
-/* Names of a folder that are no segment of the index, which are sorted by name. */
-static fracas_err note_folder(const verification *v, const char *folder, bool inner,
-                              const fracas_known_segment *segment, size_t count)
+typedef struct {
+    const verification *v;
+    bool inner; /* the folder of segments */
+    fracas_known_segment *segment;
+    size_t count;
+} leftovers;
+
+static fracas_err note_file(void *context, const char *path, const char *name)
 {
-    DIR *open = opendir(folder);
-    if (!open) return errno == ENOENT ? FRACAS_OK : fracas_disk_fail("list", folder);
-    for (struct dirent *entry; (entry = readdir(open));) {
-        char *name = entry->d_name, *dot = strrchr(name, '.');
-        if (fracas_disk_is_temporary(name))
-            note(v, "%s/%s: half written; the next run removes it", folder, name);
-        else if (name[0] != '.' && dot && !strcmp(dot, ".damaged"))
-            note(v, "%s/%s: set aside because it was damaged; nothing needs it", folder, name);
-        else if (inner && name[0] != '.' && dot && !strcmp(dot, ".h5") &&
-                 !fracas_segment_is_known(segment, count, name))
-            note(v, "%s/%s: not in the index; the next run adopts it", folder, name);
-    }
-    closedir(open);
+    const leftovers *l = context;
+    if (fracas_disk_is_temporary(name))
+        note(l->v, "%s: half written; the next run removes it", path);
+    else if (fracas_disk_ends(name, ".damaged"))
+        note(l->v, "%s: set aside because it was damaged; nothing needs it", path);
+    else if (l->inner && fracas_disk_ends(name, ".h5") &&
+             !fracas_segment_is_known(l->segment, l->count, name))
+        note(l->v, "%s: not in the index; the next run adopts it", path);
     return FRACAS_OK;
 }
 
 static fracas_err note_leftovers(verification *v)
 {
     char *folder;
-    fracas_known_segment *segment;
-    size_t count;
+    leftovers l = {.v = v};
     note_lock(v);
-    TRY(problem(v, fracas_index_segments(v->index, &segment, &count)));
-    if (count) qsort(segment, count, sizeof *segment, fracas_segment_compare_names);
+    TRY(problem(v, fracas_index_segments_by_name(v->index, &l.segment, &l.count)));
     fracas_err err = fracas_disk_join(v->study, "segments", &folder);
     if (!err) {
-        err = note_folder(v, v->study, false, NULL, 0);
-        if (!err) err = note_folder(v, folder, true, segment, count);
+        err = fracas_disk_each(v->study, note_file, &l);
+        l.inner = true;
+        if (!err) err = fracas_disk_each(folder, note_file, &l);
         free(folder);
     }
-    fracas_index_segments_free(segment, count);
+    fracas_index_segments_free(l.segment, l.count);
     return err;
 }
 
 /* ---- segments against the index ---- */
 
-/* Every record of the segment that is open, also of those realizations that the index has from
- * another. */
-static fracas_err check_datasets(verification *v)
+static fracas_err read_on(void *context, fracas_result *result)
 {
-    fracas_reader *reader = fracas_segments_reader(v->segments);
-    fracas_err err = FRACAS_OK;
-    size_t point;
-    int64_t replica;
-    for (size_t r = 0; !err && r < fracas_reader_realizations(reader); r++)
-        err = fracas_reader_record(reader, r, FRACAS_READ_ALL, &point, &replica, &v->record);
-    return err;
+    (void)context, (void)result;
+    return FRACAS_OK;
 }
 
 static fracas_err check_segments(verification *v)
@@ -203,39 +194,24 @@ static fracas_err check_segments(verification *v)
     if (err) return problem(v, err);
     for (size_t s = 0; !err && s < count; s++) {
         err = fracas_segments_open(v->segments, segment[s].id);
-        if (!err && v->options->full) err = check_datasets(v);
+        if (!err && v->options->full) /* also rows that the index has from another segment */
+            err = fracas_reader_each(fracas_segments_reader(v->segments), FRACAS_READ_ALL, read_on,
+                                     NULL);
         err = problem(v, err);
     }
     fracas_index_segments_free(segment, count);
     return err;
 }
 
-/* One row of FRACAS_SQL_ROW_BY_SEGMENT against its record. */
-static fracas_err check_row(verification *v, sqlite3_stmt *row)
+/* One row of the index against its record. */
+static fracas_err check_row(void *context, const fracas_hash *point, int64_t replica,
+                            const fracas_place *place)
 {
-    fracas_hash point;
-    const char *hex = (const char *)sqlite3_column_text(row, 0);
-    int64_t replica = sqlite3_column_int64(row, 1);
-    const fracas_place place = fracas_place_read(row, 2);
-    if (!hex || !fracas_hash_parse(hex, &point))
-        return found(v, "%s: a point has no valid hash", v->index->path);
-    if (fracas_segments_is_bad(v->segments, place.segment)) return FRACAS_OK; /* said already */
-    return problem(v, fracas_segments_record(v->segments, &place, &point, replica, FRACAS_READ_ALL,
-                                             &v->record));
-}
-
-static fracas_err check_rows(verification *v)
-{
-    fracas_err err = FRACAS_OK;
-    while (!err) {
-        bool more = false;
-        err = fracas_index_step(v->index, FRACAS_SQL_ROW_BY_SEGMENT, &more);
-        if (err) return problem(v, err);
-        if (!more) break;
-        err = check_row(v, v->index->statement[FRACAS_SQL_ROW_BY_SEGMENT]);
-    }
-    fracas_index_reset(v->index, FRACAS_SQL_ROW_BY_SEGMENT);
-    return err;
+    verification *v = context;
+    if (!point) return found(v, "%s: a point has no valid hash", v->index->path);
+    if (fracas_segments_is_bad(v->segments, place->segment)) return FRACAS_OK; /* said already */
+    return problem(
+        v, fracas_segments_record(v->segments, place, point, replica, FRACAS_READ_ALL, &v->record));
 }
 
 /* ---- study.h5 against the segments ---- */
@@ -264,8 +240,15 @@ static fracas_err check_meshes(verification *v)
     return err;
 }
 
-/* The next row of study.h5 against what merge would write there. */
-static fracas_err check_merged_row(void *context, fracas_step *step)
+/* Its damage was reported with its segment or its row. */
+static fracas_err pass_damaged(void *context, const fracas_result *result)
+{
+    (void)context, (void)result;
+    return FRACAS_OK;
+}
+
+/* The next row of study.h5 against the row that merge would write there. */
+static fracas_err check_merged_row(void *context, fracas_visit *visit)
 {
     verification *v = context;
     size_t point, row = v->row++;
@@ -273,21 +256,22 @@ static fracas_err check_merged_row(void *context, fracas_step *step)
     fracas_err err = fracas_reader_record(v->merged, row, FRACAS_READ_ALL, &point, &replica,
                                           &v->record);
     if (err) return problem(v, err);
-    if (point != step->point || replica != step->replica)
+    if (point != visit->result.point || replica != visit->result.replica)
         return found(v,
                      "%s/study.h5: row %zu is not in plan order; remove it, and `fracas merge` "
                      "writes it again",
                      v->study, row);
     TRY(problem(v, check_mesh_fits(v, row, point)));
-    if (step->damaged) return FRACAS_OK; /* said already */
-    const bool computed = step->status != FRACAS_PLANNED && step->status != FRACAS_LEASED;
+    if (visit->damaged) return FRACAS_OK; /* said already */
+    const bool computed = visit->place.status != FRACAS_PLANNED &&
+                          visit->place.status != FRACAS_LEASED;
     if (!computed && v->record.outcome == FRACAS_FAILED)
         return FRACAS_OK; /* to be retried: study.h5 is older */
     if (!computed)
         return found(
             v, "%s/study.h5: row %zu is in no segment any more; `fracas run` computes it again",
             v->study, row);
-    if (fracas_record_same(&v->record, &step->record)) return FRACAS_OK;
+    if (fracas_record_same(&v->record, &visit->result.record)) return FRACAS_OK;
     return found(v,
                  "%s/study.h5: row %zu differs from its segment; remove it, and `fracas merge` "
                  "writes it again",
@@ -304,7 +288,12 @@ static fracas_err check_merged_rows(verification *v)
                      "%s/study.h5 has %zu realizations, but %" PRIu64
                      " in its /point/replicas; remove it, and `fracas merge` writes it again",
                      v->study, fracas_reader_realizations(v->merged), planned);
-    return problem(v, fracas_segments_walk(v->segments, table, true, check_merged_row, v));
+    const fracas_want want = {.table = table,
+                              .parts = FRACAS_READ_ALL,
+                              .damaged = pass_damaged,
+                              .visit = check_merged_row,
+                              .context = v};
+    return problem(v, fracas_study_each_planned(v->segments, v->index, &want));
 }
 
 static bool same_rule(const fracas_decision *a, const fracas_decision *b)
@@ -446,7 +435,7 @@ static fracas_err verify(verification *v)
     err = fracas_segments_create(v->study, v->index, &v->identity, &v->segments);
     if (err) return problem(v, err);
     TRY(check_segments(v));
-    if (v->options->full) TRY(check_rows(v));
+    if (v->options->full) TRY(problem(v, fracas_index_each_by_segment(v->index, check_row, v)));
     if (v->options->full && v->merged) TRY(check_merged_rows(v));
     if (v->merged) TRY(check_decisions(v));
     if (v->options->full && v->merged) TRY(check_meshes(v));
