@@ -4,14 +4,17 @@
 #include "analysis/analysis.h"
 #include "base/param.h"
 #include "campaigns/campaign.h"
+#include "campaigns/store/store.h"
 
-enum { STATISTICS };
+enum { STATISTICS, STUDY };
 static const fracas_option options[] = {
-    [STATISTICS] = {"statistics", NULL, "every key of the JSON summary's statistics instead"}};
+    [STATISTICS] = {"statistics", NULL, "every key of the JSON summary's statistics instead"},
+    [STUDY] = {"study", NULL, "every dataset of study.h5 and column of index.sqlite instead"}};
 
 static fracas_err reference(const fracas_arguments *arguments)
 {
     if (arguments->value[STATISTICS]) fracas_analysis_reference(stdout);
+    else if (arguments->value[STUDY]) fracas_study_reference(stdout);
     else fracas_campaign_reference(stdout);
     return FRACAS_OK;
 }

@@ -19,6 +19,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 /* ---- one HDF5 file: a segment or a study, same schema (docs/formats/study.md) ---- */
 
@@ -153,6 +154,9 @@ FRACAS_MUST_USE fracas_err fracas_reader_mesh_interfaces(fracas_reader *reader, 
  * if it is none (fracas_stored_mesh_fault). */
 FRACAS_MUST_USE fracas_err fracas_reader_mesh(fracas_reader *reader, size_t point,
                                               fracas_stored_mesh *mesh);
+
+/* Prints the tables of docs/formats/study.md: the datasets of a file, the columns of the index. */
+void fracas_study_reference(FILE *out);
 
 /* Versions of the libraries, for provenance. */
 void fracas_hdf5_version(char text[32]);

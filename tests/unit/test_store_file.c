@@ -450,23 +450,6 @@ static void other_files_are_refused(void **state)
     sample_fails(fracas_reader_open(folder, &reader), FRACAS_ENVIRONMENT, folder);
 }
 
-static void page_shows_the_schema(void **state)
-{
-    (void)state;
-    char *wanted;
-    size_t size;
-    FILE *out = open_memstream(&wanted, &size);
-    fracas_store_reference(out);
-    fclose(out);
-    unsigned char *page = sample_slurp(FRACAS_SOURCE_DIR "/docs/formats/study.md", &size);
-    page[size] = '\0';
-    if (!strstr((char *)page, wanted))
-        fprintf(stderr, "docs/formats/study.md must have this table:\n%s", wanted);
-    assert_non_null(strstr((char *)page, wanted));
-    free(page);
-    free(wanted);
-}
-
 static void records_survive_packing(void **state)
 {
     (void)state;
@@ -511,7 +494,6 @@ int main(int argc, char **argv)
         TEST(contradicting_records_are_refused),
         TEST(decisions_come_back),
         TEST(other_files_are_refused),
-        TEST(page_shows_the_schema),
         TEST(records_survive_packing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

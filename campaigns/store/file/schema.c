@@ -325,7 +325,7 @@ static void reference_row(FILE *out, const fracas_store_column *column, size_t c
     fprintf(out, " | %zu | %s | %s |\n", chunk, text ? "-" : column->unit, column->description);
 }
 
-void fracas_store_reference(FILE *out)
+void fracas_schema_reference(FILE *out)
 {
     fputs("| dataset | type | shape | chunk | unit | meaning |\n|---|---|---|---|---|---|\n", out);
     reference_row(out, &fracas_store_point_hash, FRACAS_POINT_CHUNK);

@@ -85,7 +85,7 @@ size_t fracas_rows_store(const fracas_store_column *column, const void *rows, si
 void fracas_rows_load(const fracas_store_column *column, const void *stored, size_t count,
                       void *rows, size_t row_size);
 
-/* The dataset tables of docs/formats/study.md. */
-void fracas_store_reference(FILE *out);
+/* The table of datasets in docs/formats/study.md. */
+void fracas_schema_reference(FILE *out);
 
 #endif

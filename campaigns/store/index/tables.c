@@ -2,6 +2,8 @@
 #include "campaigns/store/index/tables.h"
 
 #include "base/param.h"
+#include "campaigns/store/file/schema.h"
+#include "campaigns/store/store.h"
 
 #include <string.h>
 
@@ -95,7 +97,7 @@ void fracas_index_print_schema(FILE *out)
     }
 }
 
-void fracas_index_reference(FILE *out)
+static void print_tables(FILE *out)
 {
     fputs("| table | column | type | meaning |\n|---|---|---|---|\n", out);
     for (size_t t = 0; t < FRACAS_COUNT(tables); t++)
@@ -104,4 +106,13 @@ void fracas_index_reference(FILE *out)
             fprintf(out, "| %s | %s | %.*s | %s |\n", tables[t].name, of->name,
                     (int)strcspn(of->sql, " "), of->sql, of->meaning);
         }
+}
+
+void fracas_study_reference(FILE *out)
+{
+    fputs("<!-- datasets -->\n", out);
+    fracas_schema_reference(out);
+    fputs("<!-- end of datasets -->\n\n<!-- index -->\n", out);
+    print_tables(out);
+    fputs("<!-- end of index -->\n", out);
 }

@@ -21,7 +21,4 @@
 /* Prints the statements that create the tables that are not there. */
 void fracas_index_print_schema(FILE *out);
 
-/* The tables of index.sqlite in docs/formats/study.md. */
-void fracas_index_reference(FILE *out);
-
 #endif
