@@ -572,26 +572,42 @@ static void commits_survive_the_death_of_the_process(void **state)
     fracas_index_close(index);
 }
 
-/* A writer killed at any moment leaves no segment under its final name but whole ones. */
+/* Writes segments in a process, which is killed after so many microseconds. */
+static void kill_writer(const char *folder, int number, unsigned microseconds)
+{
+    const pid_t child = fork();
+    if (child == 0) {
+        char path[512];
+        for (int n = 0;; n++) {
+            snprintf(path, sizeof path, "%s/k%d-%d.h5", folder, number, n);
+            if (write_some(path, 30)) _exit(1);
+        }
+    }
+    usleep(microseconds);
+    kill(child, SIGKILL);
+    waitpid(child, NULL, 0);
+}
+
+static int whole_segments(const char *folder)
+{
+    int whole = 0;
+    DIR *list = opendir(folder);
+    for (struct dirent *entry; (entry = readdir(list));) whole += entry->d_name[0] != '.';
+    closedir(list);
+    return whole;
+}
+
+/* A writer killed at any moment leaves no segment under its final name but whole ones. On a busy
+ * machine the first kills may all come too early. */
 static void segments_are_whole_or_not_there(void **state)
 {
     (void)state;
     char folder[256];
     snprintf(folder, sizeof folder, "%s/segments", study);
-    int whole = 0;
-    for (int kills = 0; kills < 12; kills++) {
-        pid_t child = fork();
-        if (child == 0) {
-            char path[512];
-            for (int n = 0;; n++) {
-                snprintf(path, sizeof path, "%s/k%d-%d.h5", folder, kills, n);
-                if (write_some(path, 30)) _exit(1);
-            }
-        }
-        usleep(15000 + 5000 * (unsigned)kills);
-        kill(child, SIGKILL);
-        waitpid(child, NULL, 0);
-    }
+    int whole = 0, kills = 0;
+    for (; kills < 12; kills++) kill_writer(folder, kills, 15000 + 5000 * (unsigned)kills);
+    for (unsigned wait = 100000; !whole_segments(folder) && wait < 20000000; wait *= 2)
+        kill_writer(folder, kills++, wait);
     DIR *list = opendir(folder);
     for (struct dirent *entry; (entry = readdir(list));) {
         fracas_reader *reader;
