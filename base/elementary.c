@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Own elementary functions: + - * / and integer operations in a fixed order, branch-light, no
- * tables, so that each can be written over lanes as it stands (log and exp are, in
- * base/elementary_lanes.h). Coefficients: interpolation in Chebyshev points, computed with 90
- * digits; the error of each polynomial stands beside it, relative to the function it serves. */
+/* Own elementary functions: + - * / and integer operations in a fixed order, few branches, no
+ * tables. Each can be written over lanes as it stands; log and exp are, in base/elementary_lanes.h.
+ * Coefficients interpolate in Chebyshev points, computed with 90 digits. The error of each
+ * polynomial stands beside it, relative to the function it serves. */
 #include "base/elementary.h"
 
 #include "base/elementary_terms.h"
@@ -104,7 +104,7 @@ double fracas_expm1(double x)
     return r == x ? y : y * (2.0 + y);
 }
 
-/* (laws.2) What 1 + x loses to rounding is put back. */
+/* (laws.2) Adds back the rounding error of 1 + x. */
 double fracas_log1p(double x)
 {
     const double w = 1.0 + x;
@@ -122,8 +122,8 @@ static inline double two_product(double a, double b, double *low)
     return product;
 }
 
-/* ln x = value + low, to 2^-63 relative, for finite x > 0: 2 artanh s = 2 s (1 + s^2/3 + s^4
- * T(s^2)) with s, s^2/3 and the sum in two doubles each; the last term is so small that one
+/* ln x = *value + *low, to 2^-63 relative, for finite x > 0: 2 artanh s = 2 s (1 + s^2/3 + s^4
+ * T(s^2)) with s, s^2/3 and the sum in two doubles each. The last term is so small: one double
  * suffices. */
 static inline double log_sum(double x, double *low)
 {
@@ -170,9 +170,9 @@ double fracas_pow(double x, double y)
     return exp_sum(product, product_lo + y * log_lo);
 }
 
-/* (sampling.14) 1/Gamma is entire: w = 1/Gamma - 1 is a polynomial about 1.5 on [1, 2], where it is
- * below 0.13, so that its rounding errors hardly count in Gamma = 1 - w/(1 + w). The rest by
- * Gamma(x) = (x - 1) Gamma(x - 1). */
+/* (sampling.14) 1/Gamma is entire: w = 1/Gamma - 1 is a polynomial about 1.5 on [1, 2], below 0.13
+ * there, and its rounding errors hardly count in Gamma = 1 - w/(1 + w). The rest by Gamma(x) = (x -
+ * 1) Gamma(x - 1). */
 double fracas_gamma(double x)
 {
     static const double c[16] = {
@@ -208,7 +208,7 @@ static inline double quarter_of(double x, uint64_t *quadrant)
     return x - 0.5 * n;
 }
 
-/* sin(pi r) = pi r + r^3 S(r^2), |r| <= 1/4: pi r in two doubles, so that only the rest, at most a
+/* sin(pi r) = pi r + r^3 S(r^2), |r| <= 1/4: with pi r in two doubles only the rest, at most a
  * tenth of it, is rounded before the last sum. Below 2^-30, pi r is all: pi is rounded by at most
  * 0.36 ulp, the product by 0.5. */
 static inline double sine(double r)
@@ -245,7 +245,7 @@ static inline double cosine(double r)
     return sum + (((1.0 - sum) - fall) + ((z * z) * poly8(c, z) - low));
 }
 
-/* (sampling.15) The bound of x keeps n an integer that a double holds. */
+/* (sampling.15) The bound of x keeps n an integer within a double's range. */
 double fracas_sinpi(double x)
 {
     if (!(fabs(x) <= 0x1p52)) return NAN;

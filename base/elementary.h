@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Elementary functions that give the same bits on every CPU and with every compiler.
+/* Elementary functions with the same bits on every CPU and with every compiler.
  *
- * The C library's log and exp change with the CPU (they use FMA where there is one), so nothing
- * that is stored may come from them. These use + - * / and integer operations only, in a fixed
- * order; the build switches contraction off. The rounding mode is the default one, to nearest. ulp:
- * distance of the two doubles around the exact result. Bounds are over the whole range, subnormal
+ * The C library's log and exp change with the CPU (they use FMA where there is one), so stored
+ * numbers may not depend on them. These use + - * / and integer operations only, in a fixed order;
+ * the build switches contraction off. The rounding mode is the default one, to nearest. ulp:
+ * distance of the two doubles around the exact result. Bounds hold over the whole range, subnormal
  * arguments and results included; tests/unit/test_elementary.c measures them against long double.
  */
 #ifndef FRACAS_BASE_ELEMENTARY_H

@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-/* ln 2 in two parts; the high one has 42 bits, so that its product with an exponent is exact. */
+/* ln 2 in two parts; the high one has 42 bits, which makes its product with an exponent exact. */
 static const double ln2_hi = 0x1.62e42fefa3800p-1, ln2_lo = 0x1.ef35793c76730p-45;
 
 /* The bits of sqrt(1/2). */

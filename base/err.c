@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The one mutable object outside the callers' storage, as errno is: a message belongs to the thread
- * that failed and lives until its next failure. */
+/* The one mutable object outside the callers' storage, as errno is. A message belongs to the thread
+ * of its failure and lives until the next failure there. */
 static _Thread_local char message[1024];
 
 fracas_err fracas_fail(fracas_err code, const char *format, ...)

@@ -35,15 +35,15 @@ FRACAS_MUST_USE fracas_err fracas_fail(fracas_err code, const char *format, ...)
 FRACAS_MUST_USE fracas_err fracas_fail_within(fracas_err code, const char *format, ...)
     FRACAS_PRINTF(2, 3);
 
-/* FRACAS_ENVIRONMENT with "<what the format says>: <what the system says of `reason`, an errno>;
- * <remedy>", the remedy for what limits a long run: disk, quota, open files, size of files, memory,
- * a disk that fails or that was made read-only. */
+/* FRACAS_ENVIRONMENT with "<the formatted text>: <strerror(reason)>; <remedy>". The remedies cover
+ * the limits of long runs: disk, quota, open files, size of files, memory, a failing or read-only
+ * disk. */
 FRACAS_MUST_USE fracas_err fracas_fail_system(int reason, const char *format, ...)
     FRACAS_PRINTF(2, 3);
-/* That remedy with the semicolon before it, "" where there is none to give. */
+/* The same remedy after a semicolon; "" if there is none to give. */
 const char *fracas_remedy(int reason);
 
-/* FRACAS_ENVIRONMENT with "no memory for <what>". */
+/* FRACAS_ENVIRONMENT with "no memory for <purpose>". */
 FRACAS_MUST_USE fracas_err fracas_no_memory(const char *what);
 
 /* The message of the last failure of this thread; "" before the first. Never NULL. */

@@ -19,7 +19,7 @@ typedef struct {
 fracas_hash fracas_hash_of(const void *bytes, size_t size);
 /* XXH3-64 of `size` bytes: the checksum of a file's contents, for segments. */
 uint64_t fracas_checksum_of(const void *bytes, size_t size);
-/* The same of bytes that come in pieces. */
+/* The same for bytes in pieces. */
 typedef struct fracas_checksum fracas_checksum;
 FRACAS_MUST_USE fracas_err fracas_checksum_create(fracas_checksum **checksum);
 void fracas_checksum_add(fracas_checksum *checksum, const void *bytes, size_t size);

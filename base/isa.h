@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Instruction sets of this CPU that kernels are compiled for. */
+/* The CPU's instruction sets for which kernels are compiled. */
 #ifndef FRACAS_BASE_ISA_H
 #define FRACAS_BASE_ISA_H
 
@@ -15,7 +15,7 @@ typedef enum {
 #define FRACAS_NISAS FRACAS_ISA_BEST
 extern const char *const fracas_isa_name[FRACAS_NISAS]; /* "baseline", "avx2", "avx512" */
 
-/* *isa = wanted, or the best that this CPU has for FRACAS_ISA_BEST; FRACAS_USAGE if it lacks the
+/* *isa = wanted; for FRACAS_ISA_BEST the best one of this CPU. FRACAS_USAGE if the CPU lacks the
  * one wanted. */
 FRACAS_MUST_USE fracas_err fracas_isa_choose(fracas_isa wanted, fracas_isa *isa);
 

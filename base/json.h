@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A small JSON writer: what `--json` prints and provenance keeps. Output only; commas and escapes
- * are its job. */
+/* A small JSON writer, for `--json` and provenance. Output only; commas and escapes are its job. */
 #ifndef FRACAS_BASE_JSON_H
 #define FRACAS_BASE_JSON_H
 

@@ -26,16 +26,16 @@ typedef enum {
                          given */
 } fracas_param_type;
 
-/* What a selector can name. Objects with functions (a law, a distribution) have this as first
- * member. */
+/* A value of a selector. Objects with functions (a law, a distribution) have this as first member.
+ */
 typedef struct fracas_kind fracas_kind;
 
-/* A file that a campaign file names, read whole along with it: the rooms that understand its
- * content read no files. */
+/* A file named in a campaign file, read whole along with it: the rooms that understand its content
+ * read no files. */
 typedef struct {
     const char *path; /* as named */
     const char *text; /* content, and a NUL after it */
-    size_t size;      /* bytes, without that NUL */
+    size_t size;      /* bytes, without the final NUL */
     char digest[33]; /* of the content, XXH3 in hexadecimal: stands for the file wherever a point is
                         identified */
 } fracas_attachment;
@@ -55,7 +55,7 @@ typedef struct {
     size_t offset;                     /* of the value in the section's struct */
     const fracas_kind *const *choices; /* of a FRACAS_CHOICE */
     size_t nchoices;
-    const fracas_kind *const *only; /* models that have it, up to a NULL; NULL: all have */
+    const fracas_kind *const *only; /* models with this parameter, up to a NULL; NULL: all */
     bool optional; /* no default: where it is not given the point has none (NaN, NULL). Not of
                       FRACAS_INTEGER, FRACAS_BOOLEAN */
 } fracas_param;
@@ -83,29 +83,29 @@ typedef struct {
     size_t nparams;
     size_t offset; /* of the section's struct in its owner (see the registry) */
     bool hashed;   /* part of a point's identity (output options are not) */
-    fracas_err (*check)(const void *section); /* of values that must fit each other; NULL: none */
+    fracas_err (*check)(
+        const void *section); /* checks values against each other; NULL: no such check */
 } fracas_section;
 
 #define FRACAS_COUNT(array) (sizeof(array) / sizeof *(array))
 
-/* True for numbers and booleans: what the next two functions are for, a choice by its index in
- * `choices`. */
+/* True for choices and attachments, whose values are texts. */
 static inline bool fracas_param_is_text(const fracas_param *param)
 {
     return param->type == FRACAS_CHOICE || param->type == FRACAS_ATTACHMENT;
 }
 
-/* The value that `param` describes within the section's struct at `section`, as a double: of a
- * choice, its index (NaN for none of them); NaN of an attachment. */
+/* The parameter's value in the section's struct at `section`, as a double: for a choice its index
+ * (NaN for none of them); for an attachment NaN. */
 double fracas_param_get(const fracas_param *param, const void *section);
 
-/* Makes it what it is where nothing gives it: NaN, or NULL. */
+/* Stores the value for "not given": NaN, or NULL. */
 void fracas_param_clear(const fracas_param *param, void *section);
 
-/* False of an optional parameter that nothing gives. */
+/* False for an optional parameter without a value. */
 bool fracas_param_is_given(const fracas_param *param, const void *section);
 
-/* Stores `value` (SI, already validated; an index of a choice) at the place that `param` describes;
+/* Stores `value` (SI, already validated; for a choice its index) in the section's struct; does
  * nothing for an attachment. */
 void fracas_param_set(const fracas_param *param, void *section, double value);
 
@@ -114,14 +114,14 @@ const fracas_attachment *fracas_param_attachment(const fracas_param *param, cons
 void fracas_param_attach(const fracas_param *param, void *section,
                          const fracas_attachment *attachment);
 
-/* What stands for the value of a choice or attachment in a point: the name, the digest; "" where
- * there is none, and for any other type. */
+/* Text for the value of a choice or attachment in a point: the name, the digest; "" where there is
+ * none, and for any other type. */
 const char *fracas_param_text(const fracas_param *param, const void *section);
 
 /* True if points of this model (NULL: none is chosen) have the parameter. */
 bool fracas_param_is_of(const fracas_param *param, const fracas_kind *model);
 
-/* Number i, from 0, of the kinds of `section` that `kind` names in goes_with; NULL after the last.
+/* Kind number i, from 0, of `section` among those `kind` names in goes_with; NULL after the last.
  */
 const fracas_kind *fracas_kind_partner(const fracas_kind *kind, const fracas_section *section,
                                        size_t i);

@@ -70,7 +70,7 @@ static size_t digits(const char *text)
     return strspn(text, "0123456789");
 }
 
-/* Length of the number that `text` starts with; 0 if it starts with none. */
+/* Length of the number at the start of `text`; 0 if there is none. */
 static size_t number_length(const char *text)
 {
     size_t at = text[0] == '+' || text[0] == '-';
@@ -89,7 +89,7 @@ static size_t number_length(const char *text)
     return at;
 }
 
-/* The double nearest to the number that `text` starts with. */
+/* The double nearest to the number at the start of `text`. */
 static fracas_err number_value(const char *text, double *value)
 {
     locale_t before = enter_plain_locale();
@@ -152,7 +152,7 @@ void fracas_units_describe(const char *si, const char **what, const char **write
         }
 }
 
-/* Words that make UDUNITS-2 read what follows as an origin. */
+/* Words after which UDUNITS-2 reads an origin. */
 static bool is_origin_word(const char *word, size_t length)
 {
     static const char *const words[] = {"since", "from", "after", "ref", "at"};
@@ -208,7 +208,7 @@ static bool is_plain_unit(const char *at)
     }
 }
 
-/* What a unit measures: one of the table, or its dimension. */
+/* The quantity of a unit: one of the table, or its dimension. */
 static void name_dimension(ut_system *system, const ut_unit *unit, char *what, size_t size)
 {
     bool found = false;
@@ -252,8 +252,8 @@ static double unit_factor(ut_system *system, ut_unit *found, ut_unit *expected)
     return factor;
 }
 
-/* Factor from the unit written as `name` to `expected`, or what is wrong with it. `text`: the whole
- * value. */
+/* Factor from the unit written as `name` to `expected`; FRACAS_USAGE names its fault. `text`: the
+ * whole value. */
 static fracas_err parse_factor(ut_system *system, const char *text, const char *name,
                                const char *si, double *factor)
 {
@@ -289,7 +289,7 @@ static fracas_err parse_factor(ut_system *system, const char *text, const char *
     return err;
 }
 
-/* Reads the unit `name` that follows the number in `text`. */
+/* Reads the unit `name` after the number in `text`. */
 static fracas_err read_factor(const fracas_units *units, const char *text, const char *name,
                               const char *si, double *factor)
 {

@@ -6,17 +6,17 @@
 
 #include "base/err.h"
 
-#define FRACAS_NUMBER_TEXT 32 /* bytes that fracas_number_write needs */
+#define FRACAS_NUMBER_TEXT 32 /* buffer of fracas_number_write, bytes */
 
-/* Rounds to 15 significant decimal digits (what "%.15g" keeps; -0 becomes 0), so that values
- * reached by different conversions are equal and text is exact. */
+/* Rounds to 15 significant decimal digits, as "%.15g" does; -0 becomes 0. Values reached by
+ * different conversions are equal then, and their text is exact. */
 double fracas_number_round(double value);
 
 /* Writes `value` as "%.15g", with a point in every locale. */
 void fracas_number_write(double value, char text[FRACAS_NUMBER_TEXT]);
 
-/* Reads a finite decimal number that is all of `text`: [sign] digits [. digits] [e [sign] digits].
- * No space, "nan", "inf" or hexadecimal. FRACAS_USAGE says what is wrong. The value is the nearest
+/* Reads a finite decimal number, all of `text`: [sign] digits [. digits] [e [sign] digits]. No
+ * space, "nan", "inf" or hexadecimal. FRACAS_USAGE names the fault. The value is the nearest
  * double, not rounded to 15 digits. */
 FRACAS_MUST_USE fracas_err fracas_number_read(const char *text, double *value);
 
@@ -27,16 +27,16 @@ typedef struct fracas_units fracas_units;
 FRACAS_MUST_USE fracas_err fracas_units_create(fracas_units **units);
 void fracas_units_destroy(fracas_units *units); /* NULL is allowed */
 
-/* Reads "264 MPa", "1e4 1/s" or a bare number, which is in SI already, as a value in the unit `si`
- * ("1" for a pure number, which may be written with %), rounded to 15 digits. A unit is a product
- * of powers of names ("J/m2", "J/m^2", "kg m-3", "W/(m2 K)"); dates, logarithms, offsets and
- * further numbers, which UDUNITS-2 would also understand, are refused. FRACAS_USAGE says what was
- * found and what is expected. */
+/* Reads "264 MPa", "1e4 1/s" or a bare number in SI as a value in the unit `si`, rounded to 15
+ * digits. `si` is "1" for a pure number, which may be written with %. A unit is a product of powers
+ * of names: "J/m2", "J/m^2", "kg m-3", "W/(m2 K)". Dates, logarithms, offsets and further numbers,
+ * which UDUNITS-2 would also understand, are refused. FRACAS_USAGE names the text found and the
+ * unit expected. */
 FRACAS_MUST_USE fracas_err fracas_units_read(const fracas_units *units, const char *text,
                                              const char *si, double *value);
 
-/* What a value in the unit `si` is, with its article, "a stress", and what one writes, "Pa or MPa";
- * "a value" and `si` itself for a dimension without a name. */
+/* Names the quantity of a value in the unit `si` with its article, "a stress", and the units to
+ * write, "Pa or MPa"; "a value" and `si` itself for a dimension without a name. */
 void fracas_units_describe(const char *si, const char **what, const char **write_in);
 
 #endif

@@ -3,8 +3,8 @@
 #ifndef FRACAS_SAMPLER_PROBABILITY_H
 #define FRACAS_SAMPLER_PROBABILITY_H
 
-/* That a variable is below a value, and above it: below + above = 1, each between 0 and 1, the
- * smaller of the two right to its last digits however small it is. */
+/* Probabilities of a value below and above: below + above = 1, each between 0 and 1. The smaller of
+ * the two is right to its last digits however small it is. */
 typedef struct {
     double below, above;
 } fracas_probability;

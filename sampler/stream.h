@@ -11,7 +11,7 @@
 typedef struct {
     uint64_t seed;     /* of the campaign */
     uint64_t purpose;  /* FRACAS_PURPOSE_... */
-    uint64_t point[2]; /* point hash; 0 of what is common to all points */
+    uint64_t point[2]; /* point hash; 0 for draws common to all points */
     uint64_t replica;
 } fracas_stream;
 
@@ -30,7 +30,7 @@ static inline uint64_t fracas_stream_site(uint64_t interface, uint64_t point)
  * u and 1 - u are both exact, from 2^-53 to 1 - 2^-53 (with 53 bits of x, u could round to 1). */
 double fracas_stream_uniform(const fracas_stream *stream, uint64_t site);
 
-/* u[j] = that of site first + j, 0 <= j < n. */
+/* u[j] belongs to site first + j, 0 <= j < n. */
 void fracas_stream_fill(const fracas_stream *stream, uint64_t first, size_t n, double *u);
 
 #endif

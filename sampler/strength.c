@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The registry of distributions, and what is done with any of them. */
+/* The registry of distributions, and their common functions. */
 #include "sampler/distribution/distribution.h"
 
 #include "sampler/distribution/given.h"
@@ -7,11 +7,9 @@
 #include "sampler/field/covariance.h"
 #include "sampler/field/grading.h"
 
+#define FRACAS_DISTRIBUTION(name) &name.kind,
 static const fracas_kind *const distributions[] = {
-    &fracas_weibull.kind,   &fracas_uniform.kind,   &fracas_lognormal.kind,
-    &fracas_constant.kind,  &fracas_normal.kind,    &fracas_gamma_law.kind,
-    &fracas_flaws.kind,     &fracas_empirical.kind, &fracas_file_distribution.kind,
-    &fracas_positions.kind,
+#include "sampler/distribution/distributions.list.h"
 };
 static const fracas_kind *const covariances[] = {
     &fracas_covariance_exponential, &fracas_covariance_matern, &fracas_covariance_gaussian};

@@ -15,24 +15,21 @@
  * names; optional ones are NaN, or NULL, where none is given. */
 typedef struct {
     const fracas_kind *distribution;
-    double value;          /* Pa, constant */
-    double minimum;        /* Pa */
-    double maximum;        /* Pa */
-    double scale;          /* Pa */
-    double shape;          /* 1 */
-    double median;         /* Pa, lognormal: exp(mu) */
-    double sigma;          /* 1, lognormal: standard deviation of the logarithm */
-    double mean;           /* Pa; normal: before it is cut off at 0 */
-    double deviation;      /* Pa, standard deviation, as mean */
-    double density;        /* 1/m3, flaws: their mean number per volume */
-    double exponent;       /* 1, flaws: of the power law of their strengths */
-    double kept_mean;      /* Pa, normal, after it is cut off at 0 */
-    double kept_deviation; /* Pa, normal */
+    double value;     /* Pa, constant */
+    double minimum;   /* Pa */
+    double maximum;   /* Pa */
+    double scale;     /* Pa */
+    double shape;     /* 1 */
+    double median;    /* Pa, lognormal: exp(mu) */
+    double sigma;     /* 1, lognormal: standard deviation of the logarithm */
+    double mean;      /* Pa; normal: before it is cut off at 0 */
+    double deviation; /* Pa, standard deviation, as mean */
+    double own[4];    /* numbers of one distribution alone: its file names them */
     const fracas_attachment
         *file; /* file, positions: a strength for each interface; empirical: measured ones */
     const fracas_kind *interpolation; /* empirical: between its strengths */
     double reference_volume;          /* m3, or */
-    double reference_area;            /* m2: of interfaces that have the strengths that are given */
+    double reference_area;            /* m2: extent of the interfaces with the given strengths */
     const fracas_kind *covariance;    /* of a correlated field; NULL: strengths are independent */
     double correlation_length;        /* m */
     double smoothness;                /* 1, matern: nu */
@@ -49,24 +46,23 @@ extern const fracas_kind fracas_along_x, fracas_along_y, fracas_along_z, fracas_
 /* The section `strength`; its offset is 0: the owner says where the struct is. */
 extern const fracas_section fracas_strength_section;
 
-/* FRACAS_USAGE when values that are each in range do not go together (uniform: minimum < maximum),
- * if the parameters are not exactly one of the sets that the distribution can be given by, or if a
- * file does not say what it should. */
+/* FRACAS_USAGE when values in range contradict each other (uniform: minimum < maximum), if the
+ * parameters are not exactly one of the distribution's sets, or if a file has a fault. */
 FRACAS_MUST_USE fracas_err fracas_strength_check(const fracas_strength *strength);
 
-/* *ready = the same strengths, whatever they were given by, by the distribution's own parameters
- * (from mean and deviation, say; a table sorted): what is asked for below needs them. Of one that
- * is not ready it finds them at each call, which takes longer and gives the same bits, or NaN where
- * this function fails. To be cleared; `given` must outlive it. FRACAS_USAGE as
- * fracas_strength_check, FRACAS_ENVIRONMENT without memory; then there is nothing to clear. */
+/* *ready = the same strengths by the distribution's own parameters (from mean and deviation, say; a
+ * table sorted). The functions below need them. Given strengths that are not ready they find them
+ * at each call, which takes longer and gives the same bits, or NaN where this function fails. To be
+ * cleared; `given` must outlive it. FRACAS_USAGE as fracas_strength_check, FRACAS_ENVIRONMENT
+ * without memory; then there is nothing to clear. */
 FRACAS_MUST_USE fracas_err fracas_strength_init(const fracas_strength *given,
                                                 fracas_strength *ready);
 void fracas_strength_clear(fracas_strength *ready);
 
-/* What an interface stands for. */
+/* Extent of an interface, for size effects. */
 typedef struct {
-    double volume; /* m3, of the body around it */
-    double area;   /* m2, of its own */
+    double volume; /* m3, body around it */
+    double area;   /* m2, its own */
 } fracas_extent;
 
 /* F^-1 [Pa] of an interface of this extent; of a file, the smallest of its lines where p.below <
@@ -82,8 +78,8 @@ double fracas_strength_deviation(const fracas_strength *strength, fracas_extent 
 /* True if the strength of an interface depends on its extent. */
 bool fracas_strength_has_size_effect(const fracas_strength *strength);
 
-/* Number of strengths that there are, where they are given (distributions `file`, `positions`) and
- * not drawn; 0: as many as one likes. */
+/* Number of given strengths (distributions `file`, `positions`); 0 for drawn ones: there are as
+ * many as you like. */
 size_t fracas_strength_count(const fracas_strength *strength);
 
 /* True if there is such a number: they are the same for every replica. */

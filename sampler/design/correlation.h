@@ -9,13 +9,13 @@
 #include <stddef.h>
 
 /* The lower triangle L, L L^T = C, of the correlation matrix C, n x n, symmetric with ones on its
- * diagonal; above it, 0. False if C is not positive definite: parameter `*at`, the first that
- * contradicts those before it, is left a share `*rest` <= 1e-9 of its variance. */
+ * diagonal; above it, 0. False if C is not positive definite: parameter `*at`, the first in
+ * conflict with those before it, keeps a fraction `*rest` <= 1e-9 of its variance. */
 bool fracas_correlation_factor(size_t n, const double *correlation, double *factor, size_t *at,
                                double *rest);
 
-/* Turns independent coordinates p[n] of a point into correlated ones; those that L ties to none
- * before them stay as they are. `z`: room for n numbers. */
+/* Turns independent coordinates p[n] of a point into correlated ones; a coordinate without
+ * correlation to those before it stays as it is. `z`: room for n numbers. */
 void fracas_correlate(size_t n, const double *factor, double *z, fracas_probability *p);
 
 #endif

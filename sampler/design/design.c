@@ -15,7 +15,7 @@ typedef struct {
     bool stratified; /* they only give the order of the points in each parameter */
 } design_type;
 
-/* What the random numbers of a parameter are for. */
+/* Purposes of a parameter's random numbers. */
 enum { PLACE, JITTER, SHIFT };
 
 /* (designs.1) */
@@ -93,7 +93,7 @@ static const design_type latin_hypercube = {
 /* ---- Sobol sequence ---- */
 
 /* (designs.3) The sequence begins with the origin, which GSL leaves out. x is a multiple of 2^-30
- * and s an odd one of 2^-53, so that u is exact, and neither 0 nor 1. */
+ * and s an odd one of 2^-53: u is exact, and neither 0 nor 1. */
 static void shift(const double *x, const double *s, size_t parameters, fracas_probability *p)
 {
     for (size_t j = 0; j < parameters; j++)

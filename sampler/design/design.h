@@ -18,7 +18,7 @@ typedef struct {
     const fracas_kind *type;
     uint64_t seed;             /* of the campaign */
     size_t points, parameters; /* at least 1 each */
-    const uint64_t *name; /* [parameters], all different: what names the random numbers of each */
+    const uint64_t *name;      /* [parameters], all different: the names of their random numbers */
     const double *correlation; /* [parameters][parameters], of the normal scores Phi^-1(u); NULL:
                                   independent */
 } fracas_design;

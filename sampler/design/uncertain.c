@@ -11,7 +11,7 @@ typedef struct {
     fracas_err (*check)(const fracas_uncertain *uncertain); /* may be NULL */
 } law;
 
-/* ---- laws that strengths have too ---- */
+/* ---- distributions of strengths, used here too ---- */
 
 static void set_defaults(const fracas_param *params, size_t nparams, fracas_strength *strength)
 {
@@ -21,8 +21,7 @@ static void set_defaults(const fracas_param *params, size_t nparams, fracas_stre
             fracas_param_set(&params[i], strength, params[i].fallback);
 }
 
-/* The quantile of a distribution of strengths; what it may have beside these numbers is as where
- * nothing gives it. */
+/* The quantile of a distribution of strengths; its other numbers have their defaults. */
 static double strength_quantile(const fracas_distribution *distribution,
                                 const fracas_uncertain *uncertain, fracas_probability p)
 {
@@ -49,7 +48,7 @@ static double weibull_quantile(const fracas_uncertain *uncertain, fracas_probabi
 
 static double gamma_quantile(const fracas_uncertain *uncertain, fracas_probability p)
 {
-    return strength_quantile(&fracas_gamma_law, uncertain, p);
+    return strength_quantile(&fracas_gamma_distribution, uncertain, p);
 }
 
 /* ---- between two bounds ---- */
@@ -78,7 +77,7 @@ static double log_uniform_quantile(const fracas_uncertain *uncertain, fracas_pro
 /* ---- normal, cut where there are bounds ---- */
 
 typedef struct {
-    double below, above, kept; /* probabilities of the law that is not cut: under both bounds, over
+    double below, above, kept; /* probabilities of the uncut distribution: under both bounds, over
                                   both, between them */
 } cut;
 
@@ -88,7 +87,7 @@ static cut cut_of(const fracas_uncertain *uncertain)
     const double b = (uncertain->maximum - uncertain->mean) / uncertain->deviation;
     const cut out = {isnan(a) ? 0.0 : fracas_normal_upper(-a),
                      isnan(b) ? 0.0 : fracas_normal_upper(b), 0.0};
-    /* of the differences that give what lies between, the one that does not cancel */
+    /* the one of the differences without cancellation */
     const double kept = a > 0.0   ? fracas_normal_upper(a) - out.above
                         : b < 0.0 ? fracas_normal_upper(-b) - out.below
                                   : 1.0 - out.below - out.above;

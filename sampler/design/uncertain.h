@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parameters that are not known exactly: the laws of their values. */
+/* Distributions of uncertain parameters. */
 #ifndef FRACAS_SAMPLER_UNCERTAIN_H
 #define FRACAS_SAMPLER_UNCERTAIN_H
 
@@ -9,8 +9,8 @@
 
 #define FRACAS_OWN_UNIT "its own" /* in the tables of laws: the unit of the parameter */
 
-/* A law uses the members that its table names; `minimum` and `maximum` are NaN where a normal law
- * is not cut. */
+/* A distribution uses the members in its table; `minimum` and `maximum` are NaN where a normal
+ * distribution is not cut. */
 typedef struct {
     const fracas_kind *law;
     double minimum, maximum;
@@ -22,7 +22,7 @@ typedef struct {
 /* Its kinds are the laws; it is no section of a file. */
 extern const fracas_section fracas_uncertain_section;
 
-/* FRACAS_USAGE when values that are each in range do not go together. */
+/* FRACAS_USAGE when values in range contradict each other. */
 FRACAS_MUST_USE fracas_err fracas_uncertain_check(const fracas_uncertain *uncertain);
 
 /* F^-1, same bits on every CPU. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a distribution of strengths is: one file each, and a line in sampler/strength.c. */
+/* A distribution of strengths: one file each, and a line in distributions.list.h. */
 #ifndef FRACAS_SAMPLER_DISTRIBUTION_H
 #define FRACAS_SAMPLER_DISTRIBUTION_H
 
@@ -14,26 +14,26 @@ typedef struct {
         deviation; /* Pa; the deviation is the standard one, of the law and not of a sample */
 } fracas_moments;
 
-/* All but `init` are for strengths that are ready (fracas_strength_init), and of the law as it is
- * before any size effect of reference_volume or reference_area. */
+/* All functions but `init` take ready strengths (fracas_strength_init), and compute the
+ * distribution before any size effect of reference_volume or reference_area. */
 typedef struct {
     fracas_kind kind; /* first: a strength names its distribution by this */
     double (*quantile)(const fracas_strength *strength, fracas_extent extent,
                        fracas_probability p); /* F^-1 [Pa] */
     fracas_moments (*moments)(const fracas_strength *strength, fracas_extent extent);
-    fracas_err (*init)(fracas_strength *strength); /* finds its own parameters, checks what single
-                                                      ranges cannot say; may be NULL */
-    void (*clear)(fracas_strength *strength);      /* frees what `init` took; may be NULL */
+    fracas_err (*init)(fracas_strength *strength); /* finds its own parameters, checks them against
+                                                      each other; may be NULL */
+    void (*clear)(fracas_strength *strength);      /* frees the memory of `init`; may be NULL */
     bool size_effect;                              /* both depend on the extent */
     /* True if it can have the weakest-link size effect of a reference; then also: */
     bool takes_reference;
     double (*far)(const fracas_strength *strength,
                   double t); /* [Pa] F^-1 where p.above is e^-t; NULL: the largest there is */
-    double far_from; /* the t that it holds from, 700 at most: beyond 745 e^-t is no double */
+    double far_from; /* the t from which it holds, 700 at most: beyond 745 e^-t is no double */
     fracas_moments (*weakest)(const fracas_strength *strength,
                               double size); /* of the weakest of `size`; NULL: by quadrature */
-    /* Both NULL where strengths are drawn: the next strength of the file, and sigma_c[i*stride] =
-     * that of interface i. */
+    /* Both NULL for drawn strengths: the next strength of the file, and sigma_c[i*stride] =
+     * strength of interface i. */
     fracas_lines_reader *read;
     fracas_err (*fill)(const fracas_strength *strength, size_t n, const double (*position)[3],
                        size_t stride, double *sigma_c);
@@ -44,15 +44,8 @@ typedef struct {
 
 const fracas_distribution *fracas_distribution_of(const fracas_strength *strength);
 
-extern const fracas_distribution fracas_constant;
-extern const fracas_distribution fracas_uniform;
-extern const fracas_distribution fracas_weibull;
-extern const fracas_distribution fracas_lognormal;
-extern const fracas_distribution fracas_normal;
-extern const fracas_distribution fracas_gamma_law; /* fracas_gamma is the function */
-extern const fracas_distribution fracas_flaws;
-extern const fracas_distribution fracas_empirical;
-extern const fracas_distribution fracas_file_distribution; /* fracas_file is a campaign file */
-extern const fracas_distribution fracas_positions;
+#define FRACAS_DISTRIBUTION(name) extern const fracas_distribution name;
+#include "sampler/distribution/distributions.list.h"
+#undef FRACAS_DISTRIBUTION
 
 #endif

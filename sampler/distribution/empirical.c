@@ -164,7 +164,7 @@ static void empirical_clear(fracas_strength *strength)
 
 /* ---- the law ---- */
 
-/* (laws.17) From the nearer end, so that both tails are exact. */
+/* (laws.17) From the nearer end, which keeps both tails exact. */
 static double empirical_quantile(const fracas_strength *strength, fracas_extent extent,
                                  fracas_probability p)
 {
@@ -185,8 +185,8 @@ static double empirical_quantile(const fracas_strength *strength, fracas_extent 
     return x[after] - range * ((p.above - (1.0 - f[after])) / width);
 }
 
-/* (1 - x)^power, 0 <= x <= 1 and power > 0: a body of many specimens raises what 1 - x loses to a
- * high power. */
+/* (1 - x)^power, 0 <= x <= 1 and power > 0: a body of many specimens raises the rounding error of 1
+ * - x to a high power. */
 static double survival(double x, double power)
 {
     return x < 1.0 ? fracas_exp(power * fracas_log1p(-x)) : 0.0;

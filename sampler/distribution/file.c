@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Strengths that are given, not drawn: a line of a file for each interface. */
+/* Given strengths: one line of a file for each interface. */
 #include "sampler/distribution/distribution.h"
 
 #include "base/units.h"

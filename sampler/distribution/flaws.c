@@ -7,25 +7,27 @@
 #include "sampler/special/exponential.h"
 #include "sampler/special/incomplete_gamma.h"
 
-/* (sampling.21) The share of flaws that is weaker, -ln(1 - u)/(mean number of flaws), and the
- * strength it has; a share of 1 or more means that there is no flaw. As a power of the share, so
- * that the minimum is added last. */
+/* Own numbers: mean number of flaws per volume [1/m3], exponent of the power law of strengths. */
+enum { DENSITY, EXPONENT };
+
+/* (sampling.21) `weaker`, the fraction of weaker flaws, is -ln(1 - u)/(mean number of flaws); from
+ * 1 on there is no flaw. The strength is a power of the fraction, so the minimum is added last. */
 static double flaws_quantile(const fracas_strength *strength, fracas_extent extent,
                              fracas_probability p)
 {
-    double share = fracas_exponential_quantile(p) / (strength->density * extent.volume);
+    double share = fracas_exponential_quantile(p) / (strength->own[DENSITY] * extent.volume);
     if (share >= 1.0) return strength->maximum;
     double range = strength->maximum - strength->minimum;
-    return strength->minimum + range * fracas_exp(fracas_log(share) / strength->exponent);
+    return strength->minimum + range * fracas_exp(fracas_log(share) / strength->own[EXPONENT]);
 }
 
 /* (sampling.22), (laws.8) */
 static fracas_moments flaws_moments(const fracas_strength *strength, fracas_extent extent)
 {
     const double range = strength->maximum - strength->minimum,
-                 mu = strength->density * extent.volume;
-    const double first = fracas_stretched_exponential(mu, strength->exponent);
-    const double second = fracas_stretched_exponential(mu, 0.5 * strength->exponent);
+                 mu = strength->own[DENSITY] * extent.volume;
+    const double first = fracas_stretched_exponential(mu, strength->own[EXPONENT]);
+    const double second = fracas_stretched_exponential(mu, 0.5 * strength->own[EXPONENT]);
     return (fracas_moments){strength->minimum + range * first,
                             range * sqrt(fmax(second - first * first, 0.0))};
 }
@@ -42,7 +44,7 @@ FRACAS_MUST_USE static fracas_err flaws_init(fracas_strength *strength)
 
 static const fracas_param params[] = {
     {"flaw_density", FRACAS_REAL, "1/m3", "mean number of flaws per volume of the body",
-     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, density)},
+     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, own[DENSITY])},
     {"minimum", FRACAS_REAL, "Pa", "strength of the largest flaws", 0, 0, INFINITY, false,
      offsetof(fracas_strength, minimum)},
     {"maximum", FRACAS_REAL, "Pa",
@@ -51,7 +53,7 @@ static const fracas_param params[] = {
     {"exponent", FRACAS_REAL, "1",
      "power law of the flaws: ((s - minimum)/(maximum - minimum))^exponent of them are weaker than "
      "s",
-     FRACAS_REQUIRED, 0.5, 1000, false, offsetof(fracas_strength, exponent)},
+     FRACAS_REQUIRED, 0.5, 1000, false, offsetof(fracas_strength, own[EXPONENT])},
 };
 const fracas_distribution fracas_flaws = {
     .kind = {.name = "flaws",

@@ -50,7 +50,7 @@ static const fracas_param params[] = {
      true, offsetof(fracas_strength, scale), .optional = true},
     FRACAS_STRENGTH_MOMENTS("shape and scale"),
 };
-const fracas_distribution fracas_gamma_law = {
+const fracas_distribution fracas_gamma_distribution = {
     .kind = {.name = "gamma",
              .doc = "gamma: mean shape scale, variance shape scale^2",
              .params = params,

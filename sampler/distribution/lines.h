@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A walk through the lines of a text file that are neither empty nor a remark. */
+/* A walk through the lines of a text file, empty lines and remarks left out. */
 #ifndef FRACAS_SAMPLER_LINES_H
 #define FRACAS_SAMPLER_LINES_H
 
@@ -13,7 +13,7 @@
 
 typedef struct {
     const fracas_attachment *file;
-    const char *at, *end;     /* of what is left of the file */
+    const char *at, *end;     /* bytes left of the file */
     const char *start, *stop; /* the line, without blanks at its ends; fracas_lines_field takes
                                  fields off its start */
     int64_t line;             /* its number, from 1 */
@@ -26,12 +26,11 @@ fracas_lines fracas_lines_begin(const fracas_attachment *file);
 bool fracas_lines_next(fracas_lines *lines);
 
 /* The line's last field; the next from its start. Fields end at a comma or a blank. "" if there is
- * none, or if it holds what no text has. */
+ * none, or if it holds bytes that no text has. */
 void fracas_lines_last_field(const fracas_lines *lines, char field[FRACAS_FIELD]);
 void fracas_lines_field(fracas_lines *lines, char field[FRACAS_FIELD]);
 
-/* Headings are words. A number with a slip in it is none, nor are the numbers that C calls by
- * words. */
+/* Headings are words. A mistyped number is no heading, nor is a number that C writes as a word. */
 bool fracas_lines_is_heading(const char *field);
 
 /* The strengths of a file, once read. */
@@ -44,7 +43,7 @@ typedef struct {
 /* Reads the strength of the next line; *found is false at the end of the file. */
 typedef fracas_err fracas_lines_reader(fracas_lines *lines, double *strength, bool *found);
 
-/* FRACAS_USAGE for a line that `read` refuses, or if there is none. */
+/* FRACAS_USAGE for a line `read` refuses, or if there is none. */
 FRACAS_MUST_USE fracas_err fracas_lines_summarize(const fracas_attachment *file,
                                                   fracas_lines_reader *read,
                                                   fracas_lines_summary *summary);

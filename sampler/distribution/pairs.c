@@ -8,7 +8,7 @@ static bool is_given(const fracas_pair_key *key)
     return key->value > 0.0;
 }
 
-/* What to do about it: `found` of one pair and `others` of the other are given. */
+/* The remedy: `found` keys of one pair and `others` of the other are given. */
 static fracas_err say(const char *law, const fracas_pair_key own[2],
                       const fracas_pair_key moments[2], const char *what)
 {

@@ -27,7 +27,7 @@
         .offset = offsetof(fracas_strength, deviation), .optional = true                 \
     }
 
-/* A key of `strength` that is positive where it is given. */
+/* A key of `strength` whose value is positive where it is given. */
 typedef struct {
     const char *key;
     double value; /* 0 or NaN where it is not given */
@@ -38,7 +38,8 @@ typedef struct {
 FRACAS_MUST_USE fracas_err fracas_pairs_choose(const char *law, const fracas_pair_key own[2],
                                                const fracas_pair_key moments[2], bool *by_moments);
 
-/* FRACAS_USAGE unless least <= ratio <= most, the ratio of `what` (as "deviation/mean"). */
+/* FRACAS_USAGE unless least <= ratio <= most; the message calls the ratio `what`, as
+ * "deviation/mean". */
 FRACAS_MUST_USE fracas_err fracas_pairs_check(const char *law, const char *what, double ratio,
                                               double least, double most);
 

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Strengths that are given by position: each interface takes the line of a file that lies on it.
- *
- * Lines are sorted into the cells of a grid that has about as many cells as there are interfaces,
- * so that each interface looks at a few lines. Nothing depends on the order of the lines. */
+/* Strengths given by position: each interface takes the line of a file at its own place. Lines are
+ * sorted into the cells of a grid with about as many cells as interfaces, so each interface looks
+ * at a few lines. The order of the lines does not matter. */
 #include "base/units.h"
 #include "sampler/distribution/distribution.h"
 #include "sampler/distribution/given.h"
@@ -20,7 +19,7 @@ typedef struct {
     double strength; /* Pa */
     int64_t line;
     uint32_t next;      /* of its cell, or NONE */
-    uint32_t interface; /* that it lies on, or NONE */
+    uint32_t interface; /* the line at its place, or NONE */
 } place;
 
 FRACAS_MUST_USE static fracas_err read_number(fracas_lines *lines, const char *what, double *value,
@@ -107,8 +106,7 @@ FRACAS_MUST_USE static fracas_err read_places(grid *g)
     return FRACAS_OK;
 }
 
-/* The cell that x [m], moved by `by` near-distances, is in along an axis; cells[axis] if it is
- * outside. */
+/* The cell of x [m], moved by `by` near-distances, along an axis; cells[axis] if it is outside. */
 static size_t cell_of(const grid *g, int axis, double x, double by)
 {
     const double cell = floor((x - g->origin[axis] + by * g->near) / g->spacing);

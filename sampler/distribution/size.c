@@ -27,8 +27,8 @@ double fracas_size_quantile(const fracas_strength *strength, double size, fracas
 }
 
 /* (laws.13) integral_0^infinity F^-1(t/size) e^-t dt with t = exp(x - e^-x), whose ends fall off
- * doubly exponentially, so that the sum over x = -4, -4 + 1/16, ... 6.75 is the integral; divided
- * by its own sum of weights. */
+ * doubly exponentially: the sum over x = -4, -4 + 1/16, ... 6.75, divided by its own sum of
+ * weights, is the integral. */
 fracas_moments fracas_size_moments(const fracas_strength *strength, double size)
 {
     enum { NODES = 173 };

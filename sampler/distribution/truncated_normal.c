@@ -6,6 +6,8 @@
 #include "sampler/distribution/pairs.h"
 #include "sampler/special/normal.h"
 
+enum { KEPT_MEAN, KEPT_DEVIATION }; /* own numbers, Pa: after strengths below 0 are cut off */
+
 /* The density of a standard normal variable. */
 static double normal_density(double z)
 {
@@ -43,8 +45,8 @@ static double solve_near_zero(double k, double c)
     return y;
 }
 
-/* (sampling.16) The upper half of the untruncated law from 1 - u, the lower one from u, so that
- * both tails are exact. */
+/* (sampling.16) The upper half of the uncut distribution from 1 - u, the lower one from u: both
+ * tails are exact. */
 static double normal_quantile(const fracas_strength *strength, fracas_extent extent,
                               fracas_probability p)
 {
@@ -59,14 +61,14 @@ static double normal_quantile(const fracas_strength *strength, fracas_extent ext
     return strength->deviation * solve_near_zero(k, p.below * kept / normal_density(k));
 }
 
-/* Far above the mean the probability that is kept only moves t. */
+/* Far above the mean the kept probability only moves t. */
 static double normal_far(const fracas_strength *strength, double t)
 {
     const double kept = fracas_normal_upper(-strength->mean / strength->deviation);
     return strength->mean + strength->deviation * fracas_normal_far(t - fracas_log(kept));
 }
 
-/* Standard deviation of what is left of a standard normal variable above -k. */
+/* Standard deviation of a standard normal variable cut off below -k. */
 static double kept_deviation(double k)
 {
     const double h = normal_density(k) / fracas_normal_upper(-k);
@@ -90,11 +92,11 @@ FRACAS_MUST_USE static fracas_err normal_init(fracas_strength *strength)
     const char *name = strength->distribution->name;
     TRY(fracas_pairs_choose(
         name, (fracas_pair_key[]){{"mean", strength->mean}, {"deviation", strength->deviation}},
-        (fracas_pair_key[]){{"kept_mean", strength->kept_mean},
-                            {"kept_deviation", strength->kept_deviation}},
+        (fracas_pair_key[]){{"kept_mean", strength->own[KEPT_MEAN]},
+                            {"kept_deviation", strength->own[KEPT_DEVIATION]}},
         &by_moments));
     if (!by_moments) return FRACAS_OK;
-    const double ratio = strength->kept_deviation / strength->kept_mean;
+    const double ratio = strength->own[KEPT_DEVIATION] / strength->own[KEPT_MEAN];
     TRY(fracas_pairs_check(name, "kept_deviation/kept_mean", ratio, 1e-9, 0.7555));
     double least = 0.0, most = 1.0 / ratio, k;
     while ((k = 0.5 * (least + most)) > least && k < most) {
@@ -102,7 +104,7 @@ FRACAS_MUST_USE static fracas_err normal_init(fracas_strength *strength)
             least = k;
         else most = k;
     }
-    strength->deviation = strength->kept_deviation / kept_deviation(k);
+    strength->deviation = strength->own[KEPT_DEVIATION] / kept_deviation(k);
     strength->mean = k * strength->deviation;
     return FRACAS_OK;
 }
@@ -115,10 +117,11 @@ static const fracas_param params[] = {
     {"kept_mean", FRACAS_REAL, "Pa",
      "mean of the strengths above 0 that are kept, given with kept_deviation instead of mean and "
      "deviation",
-     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, kept_mean), .optional = true},
+     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, own[KEPT_MEAN]),
+     .optional = true},
     {"kept_deviation", FRACAS_REAL, "Pa",
      "standard deviation of the strengths above 0 that are kept, given with kept_mean",
-     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, kept_deviation),
+     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, own[KEPT_DEVIATION]),
      .optional = true},
 };
 const fracas_distribution fracas_normal = {

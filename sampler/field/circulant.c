@@ -10,10 +10,10 @@
 #include <stdlib.h>
 
 #define NEGATIVE \
-    1e-12 /* variance that clipped eigenvalues may take away before a larger circle is tried */
+    1e-12 /* largest variance lost to clipped eigenvalues; beyond it a larger circle is tried */
 enum {
     LARGEST = 1 << 17
-}; /* circle that is tried for few sites; for many, 4 times the smallest that will do */
+}; /* largest circle for few sites; for many, 4 times the smallest possible */
 
 struct fracas_circulant {
     size_t n;    /* sites */

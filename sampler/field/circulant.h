@@ -8,19 +8,19 @@
 
 typedef struct fracas_circulant fracas_circulant;
 
-/* Of n >= 3 sites on a circle of this radius, at equal angles; d is the chord. FRACAS_ENVIRONMENT
- * without memory. */
+/* Field at n >= 3 sites on a circle of this radius, at equal angles; d is the chord.
+ * FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_circulant_circle(const fracas_covariance *covariance, size_t n,
                                                    double radius, fracas_circulant **circulant);
 
-/* Of n >= 3 sites on a line, `spacing` [m] apart: a part of a circle of more sites. Where no circle
- * in reach has a covariance that is one, the nearest is taken, of variance 1. FRACAS_ENVIRONMENT
- * without memory. */
+/* Field at n >= 3 sites on a line, `spacing` [m] apart: a part of a circle of more sites. If no
+ * circle in reach makes the covariance positive, the nearest one is taken, with variance 1.
+ * FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_circulant_line(const fracas_covariance *covariance, size_t n,
                                                  double spacing, fracas_circulant **circulant);
 void fracas_circulant_destroy(fracas_circulant *circulant); /* NULL is allowed */
 
-/* Number of sites of the circle: of independent normals that a realization takes. */
+/* Number of sites of the circle: independent normals of a realization. */
 size_t fracas_circulant_normals(const fracas_circulant *circulant);
 
 /* The largest difference between the field's correlation and the covariance, at any distance of two

@@ -9,13 +9,13 @@ extern const fracas_kind fracas_covariance_exponential;
 extern const fracas_kind fracas_covariance_matern;
 extern const fracas_kind fracas_covariance_gaussian;
 
-/* FRACAS_USAGE when the keys of a correlation do not go together, or are given for strengths that
- * are not drawn: of a file, or constant. */
+/* FRACAS_USAGE when the keys of a correlation contradict each other, or stand with strengths that
+ * are not drawn: from a file, or constant. */
 FRACAS_MUST_USE fracas_err fracas_covariance_check(const fracas_strength *strength);
 
 typedef struct fracas_covariance fracas_covariance;
 
-/* The covariance that the strength names; it must name one. FRACAS_ENVIRONMENT without memory. */
+/* The covariance of the strength, which must name one. FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_covariance_create(const fracas_strength *strength,
                                                     fracas_covariance **covariance);
 void fracas_covariance_destroy(fracas_covariance *covariance); /* NULL is allowed */

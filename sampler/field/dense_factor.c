@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SMALLEST 1e-13 /* variance that may be left of a site once those before it are known */
+#define SMALLEST 1e-13 /* largest variance left of a site given those before it */
 
 double fracas_dot(size_t n, const double *a, const double *b)
 {
@@ -19,7 +19,7 @@ double fracas_dot(size_t n, const double *a, const double *b)
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-/* What is left of the variance at each site is largest at the next pivot. */
+/* The variance left at each site is largest at the next pivot. */
 typedef struct {
     const fracas_covariance *covariance;
     const double (*position)[3];

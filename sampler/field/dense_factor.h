@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cholesky's factor of a covariance that may be singular. */
+/* Cholesky factor of a covariance matrix, singular ones included. */
 #ifndef FRACAS_SAMPLER_DENSE_FACTOR_H
 #define FRACAS_SAMPLER_DENSE_FACTOR_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Strength fields: what all replicas of a point share, made once, and the strengths of each
+/* Strength fields: the part shared by all replicas of a point, made once, and the strengths of each
  * replica. */
 #ifndef FRACAS_SAMPLER_FIELD_FIELD_H
 #define FRACAS_SAMPLER_FIELD_FIELD_H
@@ -8,12 +8,12 @@
 #include "sampler/strength.h"
 #include "sampler/stream.h"
 
-/* Where strengths are: a mesh as the sampler sees it. Strength k = i*points + g is that of Gauss
- * point g of interface i. */
+/* The places of strengths: a mesh as the sampler sees it. Strength k = i*points + g belongs to
+ * Gauss point g of interface i. */
 typedef struct {
     size_t n;                    /* interfaces */
     size_t points;               /* strengths of each: 1, or one for each of its Gauss points */
-    const fracas_extent *extent; /* [n]: what each strength of interface i stands for */
+    const fracas_extent *extent; /* [n]: extent of each strength of interface i */
     const double (*position)[3]; /* [n*points] m, at the start */
     double period;               /* m: of a body whose ends, along x, are joined; 0: of none */
 } fracas_sites;
@@ -34,17 +34,15 @@ FRACAS_MUST_USE fracas_err fracas_field_use(fracas_field *field, fracas_isa isa)
 /* Number of strengths of a realization, n*points. */
 size_t fracas_field_size(const fracas_field *field);
 
-/* How far the field's correlation is from the covariance it was asked for: the largest difference
- * that was found, of all pairs of sites that are equally spaced or no more than FRACAS_DENSE_SITES,
- * else of those of 128 sites with all. Its marginals are exact. 0 where strengths are independent
- * or given. */
+/* Largest difference found between the field's correlation and the given covariance. All pairs are
+ * compared for equally spaced sites and for at most FRACAS_DENSE_SITES; else 128 sites with all.
+ * Marginals are exact. 0 where strengths are independent or given. */
 double fracas_field_error(const fracas_field *field);
 
-/* sigma_c[k*stride] = strength k [Pa] of the realization that the stream names; `stride` lets a
- * lane of a batch be filled in place. Where the material is graded (sampler/field/grading.h), after
- * the factor. Each value depends on the field and the name of the stream alone. Of strengths that
- * are given they are those of the file, whatever the stream; NaN beyond its end. FRACAS_ENVIRONMENT
- * without memory. */
+/* sigma_c[k*stride] = strength k [Pa] of the stream's realization; `stride` lets a lane of a batch
+ * be filled in place. In graded material (sampler/field/grading.h) the factor is applied. Each
+ * value depends on the field and the name of the stream alone. Given strengths come from the file,
+ * whatever the stream; NaN beyond its end. FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_field_sample(const fracas_field *field,
                                                const fracas_stream *stream, size_t stride,
                                                double *sigma_c);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sites are taken level by level: of a level of spacing r, all that are r away from every site
- * taken before. The sites taken are kept in the cells of a grid as wide as r is, found by a hash,
- * since surfaces fill few of the cells around them. */
+/* Sites are taken level by level: on a level of spacing r, all at least r away from every site
+ * taken before. Taken sites are kept in the cells of a grid as wide as r, found by a hash, since
+ * surfaces fill few of the cells around them. */
 #include "sampler/field/order.h"
 
 #include <math.h>
@@ -22,7 +22,7 @@ typedef struct {
     uint32_t *head;         /* [mask + 1] place in the order, or NONE */
     uint32_t *next;         /* [n] */
     int32_t (*cell_of)[3];  /* [n] of the site at a place in the order */
-    uint32_t *waiting;      /* [n] sites that are not taken, at first */
+    uint32_t *waiting;      /* [n] sites not yet taken */
     size_t nwaiting;
 } hierarchy;
 
@@ -61,8 +61,7 @@ static double distance2(const double a[3], const double b[3])
     return x * x + y * y + z * z;
 }
 
-/* The nearest sites so far, the nearest first; of two that are as far, the one that was taken
- * first. */
+/* The nearest sites so far, the nearest first; of two equally far, the one taken first. */
 typedef struct {
     size_t count, wanted;
     double *distance2;
@@ -93,7 +92,7 @@ static void look_into(const hierarchy *h, const double x[3], const int32_t cell[
             offer(found, distance2(h->position[h->order[k]], x), k);
 }
 
-/* All cells `ring` cells away from that of x. */
+/* All cells `ring` cells away from the cell of x. */
 static void look_around(const hierarchy *h, const double x[3], int32_t ring, nearest *found)
 {
     int32_t middle[3];
@@ -107,7 +106,7 @@ static void look_around(const hierarchy *h, const double x[3], int32_t ring, nea
         }
 }
 
-/* Sites that no cell within `ring` holds are further away than ring*cell. Once there are more cells
+/* Sites outside the cells within `ring` are further away than ring*cell. Once there are more cells
  * to look into than sites, sites are looked at one by one. */
 static void find_nearest(const hierarchy *h, const double x[3], nearest *found)
 {
@@ -146,7 +145,7 @@ static void take(hierarchy *h, uint32_t site, double *room)
     insert(h, h->taken++);
 }
 
-/* A level of spacing r; r = 0 takes all that are left. Cells are twice as wide as r: few hold the m
+/* A level of spacing r; r = 0 takes all sites left. Cells are twice as wide as r: few hold the m
  * nearest sites. */
 static void take_level(hierarchy *h, double r, double *room)
 {
@@ -164,8 +163,8 @@ static size_t common_divisor(size_t a, size_t b)
     return b == 0 ? a : common_divisor(b, a % b);
 }
 
-/* All sites in steps of about 0.618 n, so that neighbours are far apart; that nearest to the middle
- * of the box is taken. */
+/* All sites in steps of about 0.618 n, which keeps neighbours far apart; the one nearest to the
+ * middle of the box is taken. */
 static void begin(hierarchy *h, size_t n, double *room)
 {
     double low[3], high[3], size2 = 0.0;
@@ -212,7 +211,7 @@ fracas_err fracas_order_sites(size_t n, const double (*position)[3], size_t firs
     const bool ready = h.head && h.next && h.cell_of && h.waiting && room;
     if (ready) {
         begin(&h, n, room);
-        /* Sites closer than 1e-3 of what is usual are left to the end. */
+        /* Sites closer than 1e-3 of the usual distance are left to the end. */
         for (double r = h.size * RATIO; h.nwaiting > 0 && r > 1e-3 * h.size / (double)n;
              r *= RATIO) {
             lay_grid(&h, 2.0 * r);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Vecchia's approximation in an order from coarse to fine: F. Schaefer, M. Katzfuss, H. Owhadi,
- * SIAM J. Sci. Comput. 43, A2019-A2046 (2021). In that order the value at a site is its mean given
- * those at the nearest sites before it, and an independent rest; the coarsest sites are drawn
- * together. All members are in that order, by place. */
+ * SIAM J. Sci. Comput. 43, A2019-A2046 (2021). In this order the value at a site is its mean given
+ * those at the nearest sites before it, plus an independent rest; the coarsest sites are drawn
+ * together. All members are in this order, by place. */
 #include "sampler/field/sparse_factor.h"
 
 #include "sampler/field/dense_factor.h"
@@ -14,9 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SMALLEST                                                                              \
-    1e-7 /* variance that must be left of a near site given those that are nearer: others add \
-            rounding alone */
+#define SMALLEST \
+    1e-7 /* least variance of a near site given nearer ones: others add rounding alone */
 enum { STARTS = 32, STEPS = 4, M = FRACAS_NEAR_SITES };
 
 struct fracas_sparse_factor {
@@ -26,15 +25,14 @@ struct fracas_sparse_factor {
     double error;
 };
 
-/* Cholesky's factor of the correlations of the near sites that are kept, and of the site itself
- * below them. */
+/* Cholesky factor of the correlations of the near sites kept, with the site itself below them. */
 typedef struct {
     size_t kept;
     double row[M + 1][M];
     size_t of[M]; /* which of the near sites */
 } local_factor;
 
-/* The row of L of the site at x, given the rows before; the variance that is left. */
+/* The row of L of the site at x, given the rows before; returns the variance left. */
 static double next_row(const fracas_covariance *covariance, const double (*near)[3],
                        const double x[3], local_factor *l)
 {
@@ -106,7 +104,7 @@ static void factorise_fine(fracas_sparse_factor *factor, const fracas_covariance
     }
 }
 
-/* The largest error of the pairs of a site with all, and the other site of that pair. */
+/* The largest error of the pairs of a site with all, and the other site of the pair. */
 static fracas_err probe(fracas_sparse_factor *factor, const fracas_covariance *covariance,
                         const double (*position)[3], size_t site, double *correlation,
                         size_t *worst)
@@ -126,8 +124,8 @@ static fracas_err probe(fracas_sparse_factor *factor, const fracas_covariance *c
     return FRACAS_OK;
 }
 
-/* Of few sites all are looked at. Of many, some from the coarsest to the finest; from each it goes
- * on to where it is worst. */
+/* All of a few sites are looked at. Of many, some from the coarsest to the finest; from each the
+ * search goes on to its worst partner. */
 static fracas_err measure_error(fracas_sparse_factor *factor, const fracas_covariance *covariance,
                                 const double (*position)[3])
 {

@@ -7,12 +7,12 @@
 
 enum {
     FRACAS_DENSE_SITES = 1000, /* the coarsest sites, whose covariance is factorised as a whole */
-    FRACAS_NEAR_SITES = 50,    /* coarser sites that each of the others is drawn from */
+    FRACAS_NEAR_SITES = 50,    /* coarser sites from which each of the others is drawn */
 };
 
 typedef struct fracas_sparse_factor fracas_sparse_factor;
 
-/* Of n sites, which may lie anywhere. FRACAS_ENVIRONMENT without memory. */
+/* Field at n sites anywhere. FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_sparse_factor_create(const fracas_covariance *covariance,
                                                        size_t n, const double (*position)[3],
                                                        fracas_sparse_factor **factor);

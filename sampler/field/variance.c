@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* value = A w: the variance at a place is the square of the norm of its row of A. A row is found
- * from its end to the coarse places, and only at those that it reaches: they are few, since a value
- * depends on coarser ones that are further away the coarser they are. Eight rows are found at once,
- * of sites close to each other, which reach about the same places. */
+ * from its end to the coarse places, only where it is not zero: at few, since a value depends on
+ * coarser ones, further away the coarser they are. Eight rows are found at once, of sites close to
+ * each other, which have about the same places. */
 #include "sampler/field/variance.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Of a value, what is less than this at a place is left out there: s_k of the place's own standard
- * deviation, 1 or less. Without the terms e_k s_k the variance is wrong by less than 2 sum |e_k|,
- * below 2e-15 times the places that are left out. */
+/* Entries of a row below this times s_k, the place's own standard deviation (1 or less), are left
+ * out. Without the terms e_k s_k the variance is wrong by less than 2 sum |e_k|, below 2e-15 times
+ * the number of places left out. */
 #define NOTHING 1e-15
 enum { ROWS = 8, M = FRACAS_NEAR_SITES };
 typedef double rows __attribute__((vector_size(ROWS * sizeof(double))));
@@ -23,9 +23,9 @@ typedef union {
 typedef struct {
     const fracas_unscaled_factor *field;
     double *product;   /* [coarse*coarse] L L^T */
-    split_rows *reach; /* [n] what a place adds to each of the values, by its own */
+    split_rows *reach; /* [n] contribution of a place to each of the values, by its own */
     uint64_t *reached; /* [n/64 + 1] bits: the places */
-    uint32_t *support; /* [coarse] those of them that are coarse */
+    uint32_t *support; /* [coarse] the coarse ones of them */
 } sweep;
 
 static void mark(sweep *s, size_t k)
@@ -33,7 +33,7 @@ static void mark(sweep *s, size_t k)
     s->reached[k / 64] |= (uint64_t)1 << (k % 64);
 }
 
-/* The last place that is reached; it is unmarked. False if there is none up to *word. */
+/* The last place reached; it is unmarked. False if there is none up to *word. */
 static bool last_reached(sweep *s, size_t *word, size_t *k)
 {
     while (s->reached[*word] == 0)
@@ -44,7 +44,7 @@ static bool last_reached(sweep *s, size_t *word, size_t *k)
     return true;
 }
 
-/* True of a place that is left out. */
+/* True for a place left out. */
 static bool is_nothing(const sweep *s, size_t k)
 {
     double largest = 0.0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A field that is drawn from coarse to fine, and its variances. */
+/* A field drawn from coarse to fine, and its variances. */
 #ifndef FRACAS_SAMPLER_VARIANCE_H
 #define FRACAS_SAMPLER_VARIANCE_H
 

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sequential sampling: how many replicas a point gets is decided from the values of those that it
- * has, in fixed rounds (docs/theory/sequential.md). Pure functions: equal values give equal
- * decisions, bit for bit. */
+/* Sequential sampling: the values of a point's replicas decide how many more it gets, in fixed
+ * rounds (docs/theory/sequential.md). Pure functions: equal values give equal decisions, bit for
+ * bit. */
 #ifndef FRACAS_SAMPLER_SEQUENTIAL_H
 #define FRACAS_SAMPLER_SEQUENTIAL_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-/* What a rule looks at, one value a realization. */
+/* The quantity of a rule, one value a realization. */
 typedef enum {
     FRACAS_MEAN_COUNT, /* number of fragments, dust included */
     FRACAS_MEAN_SIZE,  /* mean size of its fragments [m] */
@@ -45,8 +45,8 @@ typedef struct {
  * rule->maximum. */
 int64_t fracas_sequential_next(const fracas_sequential_rule *rule, int64_t replicas);
 
-/* The decision of the round of `replicas` replicas, one of fracas_sequential_next: value[r] is that
- * of replica r, NaN if it does not count. */
+/* The decision of the round of `replicas` replicas, one of fracas_sequential_next: value[r] belongs
+ * to replica r, NaN if it does not count. */
 fracas_sequential_decision fracas_sequential_decide(const fracas_sequential_rule *rule,
                                                     const double *value, int64_t replicas);
 

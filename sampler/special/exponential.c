@@ -3,8 +3,7 @@
 
 #include "base/elementary.h"
 
-/* (sampling.10) `lost` is what p.above, near 1, has lost to rounding: nothing for the u of a
- * stream. */
+/* (sampling.10) `lost` is the rounding error of p.above near 1: 0 for the u of a stream. */
 double fracas_exponential_quantile(fracas_probability p)
 {
     if (p.below > 0.5) return -fracas_log(p.above);

@@ -11,7 +11,7 @@
 
 struct fracas_fft {
     size_t n;
-    size_t size;         /* n, where that is a power of two; else of the convolution */
+    size_t size;         /* n if it is a power of two; else the length of the convolution */
     double (*turn)[2];   /* [size/2] e^(-2 pi i k/size) */
     double (*chirp)[2];  /* [n] e^(-pi i k^2/n); NULL where n is a power of two */
     double (*filter)[2]; /* [size] transform of the chirp's conjugate, by size */

@@ -18,7 +18,7 @@ void fracas_fft_destroy(fracas_fft *fft); /* NULL is allowed */
  * FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_fft_transform(const fracas_fft *fft, double (*x)[2]);
 
-/* The smallest power of two that is at least n. */
+/* The smallest power of two >= n. */
 size_t fracas_fft_power_of_two(size_t n);
 
 #endif

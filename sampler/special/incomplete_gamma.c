@@ -56,7 +56,7 @@ static double weight(double a, double x)
 }
 
 /* 1 + x/(a + 1) + x^2/((a + 1)(a + 2)) + ... = a P/weight; all terms positive, at most 300 of them
- * for the a and x that come here. */
+ * for the a and x used here. */
 static double series(double a, double x)
 {
     double term = 1.0, sum = 1.0;
@@ -86,8 +86,8 @@ static double fraction(double a, double x)
 }
 
 /* (sampling.26) With eta^2/2 = mu - ln(1 + mu), mu = x/a - 1: Q = Q_normal(eta sqrt(a)) + e^(-a
- * eta^2/2)/sqrt(2 pi a) (C_0(eta) + C_1(eta)/a + ...). In abs(mu) <= 0.3 and a >= 1000 what is left
- * out is below 3e-16 relative. */
+ * eta^2/2)/sqrt(2 pi a) (C_0(eta) + C_1(eta)/a + ...). For abs(mu) <= 0.3 and a >= 1000 the
+ * truncation error is below 3e-16 relative. */
 static void uniform_expansion(double a, double x, double *lower, double *upper)
 {
     static const double c0[16] = {

@@ -42,7 +42,7 @@ static double chebyshev(const double *c, int n, double t)
     return t * next - after + 0.5 * c[0];
 }
 
-/* e^(-z^2/2): z is cut to 1/16, so that its square is exact and only the small rest is rounded. */
+/* e^(-z^2/2): z is cut to 1/16, which makes its square exact; only the small rest is rounded. */
 static double bell(double z)
 {
     double cut = floor(z * 16.0) * 0.0625;

@@ -31,8 +31,8 @@ double fracas_weibull_variation(double x)
     return fracas_expm1(x * x * sum);
 }
 
-/* (laws.4) It grows with x, so that halving the interval cannot fail, and 80 gamma functions, once,
- * cost nothing. */
+/* (laws.4) It grows with x: halving the interval cannot fail, and 80 gamma functions, once, cost
+ * nothing. */
 double fracas_weibull_shape_inverse(double variation, double least, double most)
 {
     for (;;) {

@@ -141,8 +141,8 @@ static void each_strength_follows_its_law(void **state)
         if (strcmp(kind->name, "flaws") == 0) laws[1].distribution = kind;
     }
     laws[0].scale = 50e6, laws[0].shape = 2, laws[0].minimum = 264e6;
-    laws[1].density = 40e9, laws[1].minimum = 100e6, laws[1].maximum = 400e6,
-    laws[1].exponent = 4; /* 40 in 1e-9 m3: all but e^-40 below the maximum */
+    laws[1].own[0] = 40e9, laws[1].minimum = 100e6, laws[1].maximum = 400e6,
+    laws[1].own[1] = 4; /* 40 in 1e-9 m3: all but e^-40 below the maximum */
     sites_scattered(N, position);
     for (size_t law = 0; law < 2; law++) {
         fracas_field *field = field_over(&laws[law], N, 1, 0);

@@ -41,10 +41,10 @@ static fracas_strength weibull(double minimum, double scale, double shape)
 static fracas_strength flaws(double number)
 {
     return (fracas_strength){.distribution = kind("flaws"),
-                             .density = number / 2e-9,
+                             .own[0] = number / 2e-9,
                              .minimum = 100e6,
                              .maximum = 400e6,
-                             .exponent = 4.0};
+                             .own[1] = 4.0};
 }
 
 static fracas_stream stream(uint64_t seed)
@@ -76,8 +76,8 @@ static double cdf(const fracas_strength *strength, double sigma_c)
         return gsl_cdf_gamma_P(sigma_c, strength->shape, strength->scale);
     if (strcmp(name, "flaws") == 0) {
         double place = (sigma_c - strength->minimum) / (strength->maximum - strength->minimum);
-        return -expm1(-strength->density * body *
-                      pow(place, strength->exponent)); /* at the maximum: just below it */
+        return -expm1(-strength->own[0] * body *
+                      pow(place, strength->own[1])); /* at the maximum: just below it */
     }
     return gsl_cdf_flat_P(sigma_c, strength->minimum, strength->maximum);
 }
@@ -242,7 +242,7 @@ static void flaws_moments(void **state)
     static const double numbers[] = {0.1, 0.7, 3.0, 40.0};
     for (size_t k = 0; k < FRACAS_COUNT(numbers); k++) {
         fracas_strength law = flaws(numbers[k]);
-        double raw[4], p = law.exponent, mu = law.density * body, range = law.maximum - law.minimum;
+        double raw[4], p = law.own[1], mu = law.own[0] * body, range = law.maximum - law.minimum;
         for (int n = 1; n <= 4; n++)
             raw[n - 1] = pow(range, n) * gsl_sf_gamma(1 + n / p) * pow(mu, -n / p) *
                          gsl_sf_gamma_inc_P(n / p, mu);

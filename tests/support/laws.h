@@ -47,8 +47,8 @@ static inline fracas_strength law_by_moments(const char *name, double minimum, d
     fracas_strength strength = law_blank(name);
     if (strcmp(name, "weibull") == 0) strength.minimum = minimum;
     if (strcmp(name, "normal") == 0) {
-        strength.kept_mean = mean;
-        strength.kept_deviation = deviation;
+        strength.own[0] = mean;
+        strength.own[1] = deviation;
     } else {
         strength.mean = mean;
         strength.deviation = deviation;

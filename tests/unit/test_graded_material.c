@@ -115,8 +115,8 @@ static void a_field_is_the_law_times_the_factor(void **state)
     const fracas_strength law[] = {
         {.distribution = distribution("weibull"), .minimum = 264e6, .scale = 50e6, .shape = 2},
         {.distribution = distribution("flaws"),
-         .density = 1e9,
-         .exponent = 3,
+         .own[0] = 1e9,
+         .own[1] = 3,
          .minimum = 1e6,
          .maximum = 1e9},
         {.distribution = distribution("file"), .file = &file}};

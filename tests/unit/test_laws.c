@@ -139,13 +139,13 @@ static void deviations_are_exact(void **state)
                           r2 = 2 * (1 - e * (1 + m)) / (m * m);
         const long double r4 = 4 * (6 - e * (((m + 3) * m + 6) * m + 6)) / (m * m * m * m);
         fracas_strength flaws = {.distribution = law_named("flaws"),
-                                 .density = mu,
+                                 .own[0] = mu,
                                  .minimum = 100e6,
                                  .maximum = 400e6,
-                                 .exponent = 1.0};
+                                 .own[1] = 1.0};
         assert_close(fracas_strength_deviation(&flaws, one), (double)(300e6L * sqrtl(r2 - r1 * r1)),
                      1e-12);
-        flaws.exponent = 0.5;
+        flaws.own[1] = 0.5;
         assert_close(fracas_strength_deviation(&flaws, one), (double)(300e6L * sqrtl(r4 - r2 * r2)),
                      1e-12);
     }

@@ -428,9 +428,9 @@ static void references_that_say_nothing_are_refused(void **state)
             "`reference_area` does not go with the distribution constant, whose strengths are the "
             "same whatever");
     refused((fracas_strength){.distribution = law_named("flaws"),
-                              .density = 1e9,
+                              .own[0] = 1e9,
                               .maximum = 4e8,
-                              .exponent = 3,
+                              .own[1] = 3,
                               .reference_volume = VOLUME},
             "`reference_volume` does not go with the distribution flaws, whose strengths depend on "
             "the volume by themselves: take it out");
