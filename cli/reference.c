@@ -8,7 +8,7 @@
 
 enum { STATISTICS, STUDY };
 static const fracas_option options[] = {
-    [STATISTICS] = {"statistics", NULL, "every key of the JSON summary's statistics instead"},
+    [STATISTICS] = {"statistics", NULL, "every table of the JSON summary instead"},
     [STUDY] = {"study", NULL, "every dataset of study.h5 and column of index.sqlite instead"}};
 
 static fracas_err reference(const fracas_arguments *arguments)

@@ -15,29 +15,9 @@
  * permutation, of which there are no more than SUMS at a time. */
 enum { CUTS = 256, LEAST_CUTS = 16, SUMS = 200000 };
 
-#define QUANTITY(key, unit, doc, member)                        \
-    {                                                           \
-        key, unit, doc, offsetof(fracas_replica_values, member) \
-    }
+#define QUANTITY(key, unit, doc) {#key, unit, doc, offsetof(fracas_replica_values, key)},
 const fracas_compared_quantity fracas_compared_quantities[FRACAS_COMPARED_VALUES] = {
-    QUANTITY("count", "1", "number of fragments", count),
-    QUANTITY("count_large", "1", "number of fragments without dust", count_large),
-    QUANTITY("size", "m",
-             "mean fragment size (length / fragments; of a surface the mean of sqrt(area))", size),
-    QUANTITY("dissipated", "J", "dissipated energy", dissipated),
-    QUANTITY("dissipated_bending", "J", "part of bending in the dissipated energy", bending),
-    QUANTITY("onset_time", "s", "time of first onset", onset_time),
-    QUANTITY("radial_velocity", "m/s", "mean velocity outward of a ring's fragments",
-             motion.radial),
-    QUANTITY("radial_scatter", "m/s", "standard deviation over a ring's fragments of that velocity",
-             motion.scatter),
-    QUANTITY("circumferential_velocity", "m/s", "rms velocity along the ring of its fragments",
-             motion.circumferential),
-    QUANTITY("angular_velocity", "rad/s", "|angular velocity| of a ring's fragments", motion.spin),
-    QUANTITY("translation", "J", "kinetic energy of the centres of mass of a surface's fragments",
-             translation),
-    QUANTITY("rotation", "J", "kinetic energy of the spins of a surface's fragments", rotation),
-};
+    FRACAS_COMPARED_NUMBERS(QUANTITY)};
 
 /* The realizations of both points that are compared, those of A first. */
 typedef struct {

@@ -6,8 +6,14 @@
 
 #include "analysis/analysis.h"
 #include "analysis/data/estimate.h"
+#include "analysis/data/numbers.h"
 
-enum { FRACAS_COMPARED_VALUES = 12, FRACAS_COMPARE_PERMUTATIONS = 9999 };
+#define FRACAS_ONE_MORE(key, unit, doc) +1
+enum {
+    FRACAS_COMPARED_VALUES = FRACAS_COMPARED_NUMBERS(FRACAS_ONE_MORE),
+    FRACAS_COMPARE_PERMUTATIONS = 9999
+};
+#undef FRACAS_ONE_MORE
 
 typedef struct {
     const char

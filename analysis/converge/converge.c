@@ -50,10 +50,12 @@ void fracas_convergence_destroy(fracas_convergence *convergence)
  * chance of having many. */
 static bool is_headline(const fracas_compared_quantity *number)
 {
-    static const size_t headline[] = {
-        offsetof(fracas_replica_values, count),   offsetof(fracas_replica_values, count_large),
-        offsetof(fracas_replica_values, size),    offsetof(fracas_replica_values, dissipated),
-        offsetof(fracas_replica_values, bending), offsetof(fracas_replica_values, onset_time)};
+    static const size_t headline[] = {offsetof(fracas_replica_values, count),
+                                      offsetof(fracas_replica_values, count_large),
+                                      offsetof(fracas_replica_values, size),
+                                      offsetof(fracas_replica_values, dissipated),
+                                      offsetof(fracas_replica_values, dissipated_bending),
+                                      offsetof(fracas_replica_values, onset_time)};
     for (size_t h = 0; h < FRACAS_COUNT(headline); h++)
         if (number->offset == headline[h]) return true;
     return false;
@@ -118,7 +120,7 @@ enum {
 static int64_t least_alike(const fracas_compared_quantity *number)
 {
     const bool continuous = number->offset == offsetof(fracas_replica_values, onset_time) ||
-                            number->offset == offsetof(fracas_replica_values, bending);
+                            number->offset == offsetof(fracas_replica_values, dissipated_bending);
     return continuous ? 2 : ALIKE_LEAST;
 }
 

@@ -5,8 +5,25 @@
 #include <math.h>
 #include <stdlib.h>
 
-const char *const fracas_energy_key[FRACAS_NENERGIES] = {"kinetic", "elastic", "cohesive",
-                                                         "dissipated"};
+static const fracas_field band_fields[] = {
+    {"mean", FRACAS_FIELD_NUMBER, NULL, "%s", offsetof(fracas_band, mean)},
+    {"low", FRACAS_FIELD_NUMBER, NULL, "lower end of its band or interval: %s",
+     offsetof(fracas_band, low)},
+    {"high", FRACAS_FIELD_NUMBER, NULL, "upper end of its band or interval: %s",
+     offsetof(fracas_band, high)},
+};
+static const fracas_fields band_of_energy = FRACAS_FIELDS(band_fields);
+
+#define BAND(key)                             \
+    {#key,                                    \
+     FRACAS_FIELD_OBJECT,                     \
+     "J",                                     \
+     "energy over realizations",              \
+     FRACAS_BAND_##key * sizeof(fracas_band), \
+     &band_of_energy},
+#define BAND_FIELD(key, role, unit, meaning, ending) FRACAS_HELD(BAND, key, role)
+static const fracas_field energy_fields[] = {FRACAS_EACH_ENERGY(BAND_FIELD)};
+const fracas_fields fracas_energy_fields = FRACAS_FIELDS(energy_fields);
 
 static const double tail = 0.05;
 enum { ROOM = 1 << 24 }; /* bytes of the tails */
@@ -21,7 +38,7 @@ static size_t kept(size_t n)
 /* As many realizations as have room, all if they do. */
 static size_t taken(size_t realizations, size_t times)
 {
-    const size_t most = ROOM / (times * FRACAS_NENERGIES * 2 * sizeof(double));
+    const size_t most = ROOM / (times * FRACAS_NBANDS * 2 * sizeof(double));
     if (kept(realizations) <= most) return realizations;
     const size_t n = most > 2 ? (size_t)((double)(most - 2) / tail) : 0;
     return n < FRACAS_BAND_LEAST ? FRACAS_BAND_LEAST - 1 : n;
@@ -61,11 +78,12 @@ static void take_in(const fracas_record *record, fracas_bands_collector *of)
     for (size_t j = 0; j < of->times; j++) {
         while (row + 1 < record->nhistory && record->history[row].time < bands->time[j]) row++;
         const fracas_history_row *now = &record->history[row];
-        const double energy[FRACAS_NENERGIES] = {now->kinetic, now->elastic, now->cohesive,
-                                                 now->dissipated};
+#define VALUE(key) now->key,
+#define BAND_VALUE(key, role, unit, meaning, ending) FRACAS_HELD(VALUE, key, role)
+        const double energy[] = {FRACAS_EACH_ENERGY(BAND_VALUE)};
         if (now->time >= bands->time[j]) bands->running[j]++;
-        for (int e = 0; e < FRACAS_NENERGIES; e++) {
-            const size_t heap = (j * FRACAS_NENERGIES + (size_t)e) * of->most;
+        for (int e = 0; e < FRACAS_NBANDS; e++) {
+            const size_t heap = (j * FRACAS_NBANDS + (size_t)e) * of->most;
             bands->energy[j][e].mean += energy[e];
             keep(of->least + heap, of->most, of->count, energy[e]);
             keep(of->negative + heap, of->most, of->count, -energy[e]);
@@ -92,8 +110,8 @@ static void finish(fracas_bands_collector *of)
     bands->realizations = (int64_t)n;
     bands->extremes = n < FRACAS_BAND_LEAST;
     for (size_t j = 0; j < of->times && n > 0 && bands->running[j] > 0; j++) {
-        for (int e = 0; e < FRACAS_NENERGIES; e++) {
-            const size_t heap = (j * FRACAS_NENERGIES + (size_t)e) * of->most;
+        for (int e = 0; e < FRACAS_NBANDS; e++) {
+            const size_t heap = (j * FRACAS_NBANDS + (size_t)e) * of->most;
             fracas_band *band = &bands->energy[j][e];
             band->mean /= (double)n;
             band->low = low_of(of->least + heap, of->most, n);
@@ -109,7 +127,7 @@ fracas_err fracas_bands_begin(int64_t intervals, double end, size_t realizations
     *bands = (fracas_bands){0};
     *of = (fracas_bands_collector){.bands = bands, .all = realizations};
     if (intervals <= 0 || !(end > 0) || realizations == 0) return FRACAS_OK;
-    const size_t times = (size_t)intervals + 1, values = times * FRACAS_NENERGIES;
+    const size_t times = (size_t)intervals + 1, values = times * FRACAS_NBANDS;
     of->selected = taken(realizations, times);
     of->most = kept(of->selected);
     bands->time = malloc(times * sizeof *bands->time);

@@ -5,6 +5,7 @@
 #define FRACAS_ANALYSIS_DATA_BANDS_H
 
 #include "analysis/data/ensemble.h"
+#include "analysis/data/field.h"
 #include "base/err.h"
 #include "campaigns/store/store.h"
 
@@ -12,16 +13,24 @@
 #include <stddef.h>
 #include <stdint.h>
 
-typedef enum {
-    FRACAS_ENERGY_KINETIC,
-    FRACAS_ENERGY_ELASTIC,
-    FRACAS_ENERGY_COHESIVE,
-    FRACAS_ENERGY_DISSIPATED
-} fracas_energy;
+/* Energies with a band: those that the balance (bar.14) holds, kinetic, stored and lost, in the
+ * order of FRACAS_EACH_ENERGY. FRACAS_HELD(X, key, role) is X(key) of these, nothing of others. */
+#define FRACAS_HELD_KINETIC(X, key) X(key)
+#define FRACAS_HELD_STORED(X, key) X(key)
+#define FRACAS_HELD_SINK(X, key) X(key)
+#define FRACAS_HELD_PART(X, key)
+#define FRACAS_HELD_SOURCE(X, key)
+#define FRACAS_HELD_LOAD(X, key)
+#define FRACAS_HELD(X, key, role) FRACAS_HELD_##role(X, key)
 
-#define FRACAS_NENERGIES 4
+#define FRACAS_BAND_NAME(key) FRACAS_BAND_##key,
+#define FRACAS_BAND_ENUMERATOR(key, role, unit, meaning, ending) \
+    FRACAS_HELD(FRACAS_BAND_NAME, key, role)
+/* FRACAS_BAND_kinetic, ... */
+typedef enum { FRACAS_EACH_ENERGY(FRACAS_BAND_ENUMERATOR) FRACAS_NBANDS } fracas_energy;
 
-extern const char *const fracas_energy_key[FRACAS_NENERGIES]; /* "kinetic", ... */
+/* The bands of one time, fracas_band[FRACAS_NBANDS]: of each energy mean, low, high. */
+extern const fracas_fields fracas_energy_fields;
 
 typedef struct {
     double mean, low, high; /* J */
@@ -34,7 +43,7 @@ typedef struct {
     double *time;     /* s */
     int64_t *running; /* realizations that had not ended before that time; the others count with
                          what they had in the end */
-    fracas_band (*energy)[FRACAS_NENERGIES];
+    fracas_band (*energy)[FRACAS_NBANDS];
     int64_t realizations; /* that were taken: all usable ones, or as many, evenly spread over them,
                              as fit in 16 MiB */
     bool extremes; /* low and high are the least and the greatest, of fewer than FRACAS_BAND_LEAST;

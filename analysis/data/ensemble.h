@@ -4,7 +4,7 @@
 #ifndef FRACAS_ANALYSIS_DATA_ENSEMBLE_H
 #define FRACAS_ANALYSIS_DATA_ENSEMBLE_H
 
-#include "analysis/data/ring.h"
+#include "analysis/data/numbers.h"
 #include "base/err.h"
 #include "campaigns/store/store.h"
 
@@ -12,21 +12,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* One usable realization, as the estimates take it. All double: fracas_estimate_of strides over
+/* The numbers of one usable realization. Every member is double: fracas_estimate_of strides over
  * them. */
 typedef struct {
-    double count;       /* fragments */
-    double count_large; /* fragments without dust */
-    double size;       /* m, length of the body / fragments; of a surface the mean over fragments of
-                          sqrt(area) */
-    double dissipated; /* J */
-    double bending;    /* J, the part of bending */
-    double translation, rotation; /* J, kinetic energy of the fragments as rigid bodies; NaN unless
-                                     of a surface in fragments */
-    double onset_time;            /* s, NaN if nothing cracked */
-    double largest_size,
-        largest_share;         /* of the fragment of most mass: m, and its mass/the mass of all */
-    fracas_ring_motion motion; /* NaN unless of a ring in fragments */
+#define FRACAS_MEMBER(key, unit, doc) double key; /* NaN: the realization has none */
+    FRACAS_REALIZATION_NUMBERS(FRACAS_MEMBER)
+#undef FRACAS_MEMBER
 } fracas_replica_values;
 
 enum { FRACAS_REPLICA_STRIDE = sizeof(fracas_replica_values) / sizeof(double) };

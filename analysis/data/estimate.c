@@ -4,6 +4,17 @@
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 
+static const fracas_field estimate_fields[] = {
+    {"n", FRACAS_FIELD_INTEGER, "1", "replicas in the mean %s", offsetof(fracas_estimate, n)},
+    {"mean", FRACAS_FIELD_NUMBER, NULL, "mean over replicas of the %s",
+     offsetof(fracas_estimate, mean)},
+    {"deviation", FRACAS_FIELD_NUMBER, NULL, "standard deviation over replicas of the %s",
+     offsetof(fracas_estimate, deviation)},
+    {"half_width", FRACAS_FIELD_NUMBER, NULL, "half width of the 95 % interval of the mean %s",
+     offsetof(fracas_estimate, half_width)},
+};
+const fracas_fields fracas_estimate_fields = FRACAS_FIELDS(estimate_fields);
+
 fracas_estimate fracas_estimate_of(const double *value, size_t stride, size_t count)
 {
     int64_t n = 0;

@@ -3,6 +3,8 @@
 #ifndef FRACAS_ANALYSIS_DATA_ESTIMATE_H
 #define FRACAS_ANALYSIS_DATA_ESTIMATE_H
 
+#include "analysis/data/field.h"
+
 #include <stddef.h>
 #include <stdint.h>
 
@@ -12,6 +14,9 @@ typedef struct {
     double deviation;  /* standard deviation with n - 1; NaN for n < 2 */
     double half_width; /* of the 95 % interval of the mean; NaN for n < 2 */
 } fracas_estimate;
+
+/* n, mean, deviation, half_width. */
+extern const fracas_fields fracas_estimate_fields;
 
 /* m = sum x_i/n, s^2 = sum (x_i - m)^2/(n - 1), half width t_(0.975, n-1) s/sqrt(n): Student's
  * interval over independent replicas. value[0], value[stride], ... : `count` values; those that are

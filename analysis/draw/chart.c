@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/draw/chart.h"
 
-#include "analysis/export/csv.h"
+#include "analysis/data/field.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 
 #include "analysis/data/format.h"
 #include "analysis/draw/chart.h"
-#include "analysis/export/csv.h"
+#include "analysis/data/field.h"
 
 #include <math.h>
 

@@ -4,6 +4,7 @@
 #ifndef FRACAS_ANALYSIS_ESTIMATE_BOOTSTRAP_H
 #define FRACAS_ANALYSIS_ESTIMATE_BOOTSTRAP_H
 
+#include "analysis/data/field.h"
 #include "base/err.h"
 
 #include <stdbool.h>
@@ -22,6 +23,9 @@ typedef struct {
     double bias;           /* mean over resamples - value */
     int64_t resamples;     /* that gave a value */
 } fracas_interval;
+
+/* value, low, high; with the standard error. */
+extern const fracas_fields fracas_interval_fields, fracas_interval_error_fields;
 
 typedef struct {
     int64_t resamples; /* B; 0: 2000 */

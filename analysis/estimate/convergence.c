@@ -7,15 +7,30 @@
 #include <math.h>
 #include <stdlib.h>
 
-const char *const fracas_headline_key[FRACAS_NHEADLINES] = {
-    "count",
-    "size",
-    "dissipated",
-    "largest_share",
-    "fragment.mean",
-    "fragment.mass_mean",
-    "fragment.variation",
+#define KEY(name, key, unit) key,
+const char *const fracas_headline_key[FRACAS_NHEADLINES] = {FRACAS_HEADLINES(KEY)};
+
+static const fracas_field settling_fields[] = {
+    {"value", FRACAS_FIELD_NUMBER, NULL, "%s", offsetof(fracas_settling, value)},
+    {"low", FRACAS_FIELD_NUMBER, NULL, "lower end of its band or interval: %s",
+     offsetof(fracas_settling, low)},
+    {"high", FRACAS_FIELD_NUMBER, NULL, "upper end of its band or interval: %s",
+     offsetof(fracas_settling, high)},
 };
+static const fracas_fields settling = FRACAS_FIELDS(settling_fields);
+
+#define HEADLINE(name, key, unit)                              \
+    {key,                                                      \
+     FRACAS_FIELD_OBJECT,                                      \
+     unit,                                                     \
+     "as in points.csv, of these replicas",                    \
+     offsetof(fracas_running, number[FRACAS_HEADLINE_##name]), \
+     &settling},
+static const fracas_field running_fields[] = {
+    {"replicas", FRACAS_FIELD_INTEGER, "1", "the first so many usable ones",
+     offsetof(fracas_running, replicas)},
+    FRACAS_HEADLINES(HEADLINE)};
+const fracas_fields fracas_running_fields = FRACAS_FIELDS(running_fields);
 
 static void settle(const double *value, size_t n, fracas_settling *number)
 {

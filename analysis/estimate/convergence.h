@@ -4,6 +4,7 @@
 #define FRACAS_ANALYSIS_ESTIMATE_CONVERGENCE_H
 
 #include "analysis/data/ensemble.h"
+#include "analysis/data/field.h"
 #include "base/err.h"
 
 #include <stdbool.h>
@@ -12,20 +13,21 @@
 
 /* Means over replicas with Student's interval, then ratios of sums over realizations with that of
  * fracas_bootstrap. */
-typedef enum {
-    FRACAS_HEADLINE_COUNT,
-    FRACAS_HEADLINE_SIZE,
-    FRACAS_HEADLINE_DISSIPATED,
-    FRACAS_HEADLINE_LARGEST_SHARE,
-    FRACAS_HEADLINE_MEAN,
-    FRACAS_HEADLINE_MASS_MEAN,
-    FRACAS_HEADLINE_VARIATION,
-} fracas_headline;
+/* X(NAME, key, unit); the key is that of fracas_statistics without ".mean" or ".value". */
+#define FRACAS_HEADLINES(X)                 \
+    X(COUNT, "count", "1")                  \
+    X(SIZE, "size", "m")                    \
+    X(DISSIPATED, "dissipated", "J")        \
+    X(LARGEST_SHARE, "largest_share", "1")  \
+    X(MEAN, "fragment.mean", "m")           \
+    X(MASS_MEAN, "fragment.mass_mean", "m") \
+    X(VARIATION, "fragment.variation", "1")
 
-#define FRACAS_NHEADLINES 7
+#define FRACAS_ENUMERATOR(name, key, unit) FRACAS_HEADLINE_##name,
+typedef enum { FRACAS_HEADLINES(FRACAS_ENUMERATOR) FRACAS_NHEADLINES } fracas_headline;
+#undef FRACAS_ENUMERATOR
 
-extern const char *const fracas_headline_key[FRACAS_NHEADLINES]; /* as in fracas_statistics, without
-                                                                    ".mean" or ".value" */
+extern const char *const fracas_headline_key[FRACAS_NHEADLINES];
 
 typedef struct {
     double value, low, high; /* NaN where there is none */
@@ -38,6 +40,9 @@ typedef struct {
     int64_t replicas; /* the first so many usable ones */
     fracas_settling number[FRACAS_NHEADLINES];
 } fracas_running;
+
+/* replicas, then value, low, high of each headline. */
+extern const fracas_fields fracas_running_fields;
 
 typedef struct {
     size_t count;

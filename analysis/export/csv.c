@@ -3,28 +3,7 @@
 
 #include "analysis/data/output.h"
 
-#include <math.h>
 #include <stdio.h>
-#include <string.h>
-
-void fracas_csv_real(double value, FILE *out)
-{
-    putc(',', out);
-    if (value == 0 && !signbit(value))
-        putc('0', out); /* most of a bar's columns: %g takes longer than all else of a report */
-    else if (isfinite(value)) fprintf(out, "%.15g", value);
-}
-
-void fracas_csv_text(const char *text, FILE *out)
-{
-    bool quote = strpbrk(text, ",\"\n\r") != NULL;
-    if (quote) putc('"', out);
-    for (; *text; text++) {
-        if (*text == '"') putc('"', out);
-        putc(*text, out);
-    }
-    if (quote) putc('"', out);
-}
 
 typedef struct {
     FILE *out;
@@ -36,7 +15,7 @@ static void put_name(void *context, const fracas_field *field)
     head *of = context;
     if (!of->first) putc(',', of->out);
     of->first = false;
-    fracas_csv_text(field->name, of->out);
+    fracas_csv_text(field->key, of->out);
 }
 
 fracas_err fracas_csv_write(const fracas_csv_table *table, const fracas_analysis *analysis,

@@ -4,21 +4,8 @@
 #ifndef FRACAS_ANALYSIS_EXPORT_CSV_H
 #define FRACAS_ANALYSIS_EXPORT_CSV_H
 
+#include "analysis/data/field.h"
 #include "analysis/summary/study.h"
-
-typedef enum { FRACAS_FIELD_INTEGER, FRACAS_FIELD_NUMBER, FRACAS_FIELD_TEXT } fracas_field_type;
-
-/* One column of a table. */
-typedef struct {
-    const char *name;
-    fracas_field_type type;
-    const char *unit; /* SI, "1" of a pure number, "" of text */
-    const char *doc;
-    bool outcome; /* its text is one of fracas_outcome_name */
-} fracas_field;
-
-/* Takes the columns of a table, one after the other; `field` and its texts end with the call. */
-typedef void fracas_field_sink(void *context, const fracas_field *field);
 
 enum { FRACAS_TABLE_KEY = 3 };
 
@@ -28,7 +15,7 @@ typedef struct fracas_csv_table {
     const char *key[FRACAS_TABLE_KEY]; /* columns that name a line, the first NULL behind them */
     const struct fracas_csv_table
         *parent; /* NULL, or the table that these point into, by its whole key */
-    void (*fields)(const fracas_analysis *analysis, fracas_field_sink *sink, void *context);
+    void (*fields)(const fracas_analysis *analysis, fracas_field_visit *visit, void *context);
     fracas_err (*rows)(const fracas_analysis *analysis,
                        FILE *out); /* reads the study again, in its order, where it must */
 } fracas_csv_table;
@@ -53,10 +40,5 @@ FRACAS_MUST_USE fracas_err fracas_csv_write(const fracas_csv_table *table,
 /* The same as folder/NAME.csv, whole or not there. */
 FRACAS_MUST_USE fracas_err fracas_csv_file(const fracas_csv_table *table,
                                            const fracas_analysis *analysis, const char *folder);
-
-/* A comma and the value. */
-void fracas_csv_real(double value, FILE *out);
-/* The text, in quotes where it needs them. */
-void fracas_csv_text(const char *text, FILE *out);
 
 #endif

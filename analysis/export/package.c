@@ -19,12 +19,14 @@ static const char package_file[] = "datapackage.json";
 
 static void put_field(void *context, const fracas_field *field)
 {
-    static const char *const type[] = {[FRACAS_FIELD_INTEGER] = "integer",
-                                       [FRACAS_FIELD_NUMBER] = "number",
-                                       [FRACAS_FIELD_TEXT] = "string"};
+    static const char *const type[] = {
+        [FRACAS_FIELD_INTEGER] = "integer", [FRACAS_FIELD_INDEX] = "integer",
+        [FRACAS_FIELD_NUMBER] = "number",   [FRACAS_FIELD_TEXT] = "string",
+        [FRACAS_FIELD_CHARS] = "string",
+    };
     fracas_json *json = context;
     fracas_json_object(json, NULL);
-    fracas_json_text(json, "name", field->name);
+    fracas_json_text(json, "name", field->key);
     fracas_json_text(json, "type", type[field->type]);
     if (*field->unit) fracas_json_text(json, "unit", field->unit);
     fracas_json_text(json, "description", field->doc);

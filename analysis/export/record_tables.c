@@ -20,39 +20,38 @@ static bool is_outcome(const fracas_store_column *column)
 }
 
 /* Of a dataset a column, or three: momentum_x, momentum_y, momentum_z. */
-static void dataset_fields(const fracas_store_column *column, fracas_field_sink *sink,
+static void dataset_fields(const fracas_store_column *column, fracas_field_visit *visit,
                            void *context)
 {
-    fracas_field field = {last_part(column->path),
-                          column->type == FRACAS_FLOAT64 ? FRACAS_FIELD_NUMBER
-                                                         : FRACAS_FIELD_INTEGER,
-                          column->unit, column->description, false};
-    if (is_outcome(column)) {
-        field.type = FRACAS_FIELD_TEXT;
-        field.unit = "";
-        field.outcome = true;
-    }
+    const bool outcome = is_outcome(column);
+    fracas_field field = {.key = last_part(column->path),
+                          .type = outcome                          ? FRACAS_FIELD_TEXT
+                                  : column->type == FRACAS_FLOAT64 ? FRACAS_FIELD_NUMBER
+                                                                   : FRACAS_FIELD_INTEGER,
+                          .unit = outcome ? "" : column->unit,
+                          .doc = column->description,
+                          .outcome = outcome};
     if (column->width == 1) {
-        sink(context, &field);
+        visit(context, &field);
         return;
     }
     for (size_t i = 0; i < column->width; i++) {
         char name[64];
         snprintf(name, sizeof name, "%s_%c", last_part(column->path), "xyz"[i]);
-        field.name = name;
-        sink(context, &field);
+        field.key = name;
+        visit(context, &field);
     }
 }
 
 /* A line begins with the first columns of /realization: of which one it is. */
 enum { PLACE = 3 }; /* point, replica, outcome */
 
-static void place_fields(const char *number, const char *doc, fracas_field_sink *sink,
+static void place_fields(const char *number, const char *doc, fracas_field_visit *visit,
                          void *context)
 {
     for (size_t c = 0; c < PLACE; c++)
-        dataset_fields(&fracas_store_sets[FRACAS_SET_REALIZATION].column[c], sink, context);
-    sink(context, &(fracas_field){number, FRACAS_FIELD_INTEGER, "1", doc, false});
+        dataset_fields(&fracas_store_sets[FRACAS_SET_REALIZATION].column[c], visit, context);
+    visit(context, &(fracas_field){number, FRACAS_FIELD_INTEGER, "1", doc});
 }
 
 static void put_place(const fracas_result *result, FILE *out)
@@ -82,7 +81,7 @@ typedef struct {
     FILE *out;
 } record_printer;
 
-static fracas_err visit(void *context, fracas_result *result)
+static fracas_err print_one(void *context, fracas_result *result)
 {
     const record_printer *printer = context;
     printer->put(result, printer->out);
@@ -93,17 +92,17 @@ static fracas_err put_records(const fracas_analysis *analysis, unsigned parts,
                               void (*put)(const fracas_result *result, FILE *out), FILE *out)
 {
     record_printer printer = {put, out};
-    return fracas_results_walk(analysis->results, parts, visit, &printer);
+    return fracas_results_walk(analysis->results, parts, print_one, &printer);
 }
 
 /* ---- realizations ---- */
 
-static void realization_fields(const fracas_analysis *analysis, fracas_field_sink *sink,
+static void realization_fields(const fracas_analysis *analysis, fracas_field_visit *visit,
                                void *context)
 {
     (void)analysis;
     for (size_t c = 0; c < fracas_store_sets[FRACAS_SET_REALIZATION].ncolumns; c++)
-        dataset_fields(&fracas_store_sets[FRACAS_SET_REALIZATION].column[c], sink, context);
+        dataset_fields(&fracas_store_sets[FRACAS_SET_REALIZATION].column[c], visit, context);
 }
 
 static void put_realization(const fracas_result *result, FILE *out)
@@ -129,12 +128,13 @@ const fracas_csv_table fracas_csv_table_realizations = {
 
 /* ---- fragments ---- */
 
-static void fragment_fields(const fracas_analysis *analysis, fracas_field_sink *sink, void *context)
+static void fragment_fields(const fracas_analysis *analysis, fracas_field_visit *visit,
+                            void *context)
 {
     (void)analysis;
-    place_fields("fragment", "number of the fragment in its realization, from 0", sink, context);
+    place_fields("fragment", "number of the fragment in its realization, from 0", visit, context);
     for (size_t c = 0; c < fracas_store_sets[FRACAS_SET_FRAGMENT].ncolumns; c++)
-        dataset_fields(&fracas_store_sets[FRACAS_SET_FRAGMENT].column[c], sink, context);
+        dataset_fields(&fracas_store_sets[FRACAS_SET_FRAGMENT].column[c], visit, context);
 }
 
 static void put_fragments(const fracas_result *result, FILE *out)
@@ -163,13 +163,14 @@ const fracas_csv_table fracas_csv_table_fragments = {
 
 /* ---- histories ---- */
 
-static void history_fields(const fracas_analysis *analysis, fracas_field_sink *sink, void *context)
+static void history_fields(const fracas_analysis *analysis, fracas_field_visit *visit,
+                           void *context)
 {
     (void)analysis;
-    place_fields("row", "number of the moment in the history of its realization, from 0", sink,
+    place_fields("row", "number of the moment in the history of its realization, from 0", visit,
                  context);
     for (size_t c = 0; c < fracas_store_sets[FRACAS_SET_HISTORY].ncolumns; c++)
-        dataset_fields(&fracas_store_sets[FRACAS_SET_HISTORY].column[c], sink, context);
+        dataset_fields(&fracas_store_sets[FRACAS_SET_HISTORY].column[c], visit, context);
 }
 
 static void put_history(const fracas_result *result, FILE *out)

@@ -110,8 +110,7 @@ fracas_err fracas_window_table_create(const fracas_analysis *analysis, bool unic
         fracas_format_estimate(&estimate, 1, unicode ? "\u00b1" : "+-", cell[SLOPE], FRACAS_CELL);
         for (size_t end = 0; end < 2; end++) {
             fracas_format_short(list[i].rate[end], cell[FROM + end], FRACAS_CELL);
-            fracas_format_digits(list[i].rate[end] / list[i].scales.rate, 3, cell[FROM_PART + end],
-                                 FRACAS_CELL);
+            fracas_format_digits(list[i].normalised[end], 3, cell[FROM_PART + end], FRACAS_CELL);
         }
         snprintf(cell[SERIES], FRACAS_CELL, "%s", list[i].name);
     }
@@ -167,9 +166,9 @@ fracas_err fracas_crossover_table_create(const fracas_analysis *analysis, bool u
         for (size_t c = 0; c < NCOLUMNS; c++)
             cell[c] = fracas_result_table_cell(table, FRACAS_RESULT_TABLE_HEAD + i, c);
         format_interval(&of->rate, 1, cell[RATE]);
-        format_interval(&of->rate, 1 / of->scales.rate, cell[RATE_PART]);
+        format_interval(&of->rate_normalised, 1, cell[RATE_PART]);
         format_interval(&of->size, prefix.factor, cell[SIZE]);
-        format_interval(&of->size, 1 / of->scales.size, cell[SIZE_PART]);
+        format_interval(&of->size_normalised, 1, cell[SIZE_PART]);
         format_interval(&of->exponent, 1, cell[EXPONENT]);
         snprintf(cell[POINTS], FRACAS_CELL, "%lld", (long long)of->n);
         fracas_format_digits(of->chi2 / of->freedom, 2, cell[CHI2], FRACAS_CELL);

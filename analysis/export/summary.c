@@ -23,6 +23,11 @@ static void write_parameters(fracas_json *json, const fracas_point_table *table,
     fracas_json_close_object(json);
 }
 
+static void write_unit(void *json, const fracas_field *leaf)
+{
+    fracas_json_text(json, leaf->key, leaf->unit);
+}
+
 /* Of every number below "parameters" and "statistics", so that the document explains itself. */
 static void write_units(fracas_json *json, const fracas_point_table *table)
 {
@@ -33,8 +38,7 @@ static void write_units(fracas_json *json, const fracas_point_table *table)
             fracas_json_text(json, table->column[c].path, table->column[c].unit);
     fracas_json_close_object(json);
     fracas_json_object(json, "statistics");
-    for (size_t i = 0; i < fracas_nstatistics; i++)
-        fracas_json_text(json, fracas_statistics[i].key, fracas_statistics[i].unit);
+    fracas_fields_walk(&fracas_statistics, ".", write_unit, json);
     fracas_json_close_object(json);
     fracas_json_close_object(json);
 }
@@ -42,12 +46,7 @@ static void write_units(fracas_json *json, const fracas_point_table *table)
 static void write_statistics(fracas_json *json, const fracas_point_statistics *statistics)
 {
     fracas_json_object(json, "statistics");
-    for (size_t i = 0; i < fracas_nstatistics; i++) {
-        const void *value = (const char *)statistics + fracas_statistics[i].offset;
-        if (fracas_statistics[i].integer)
-            fracas_json_integer(json, fracas_statistics[i].key, *(const int64_t *)value);
-        else fracas_json_real(json, fracas_statistics[i].key, *(const double *)value);
-    }
+    fracas_fields_json_flat(json, &fracas_statistics, statistics);
     fracas_json_close_object(json);
     fracas_json_object(json, "outcomes");
     for (int o = 0; o < FRACAS_NOUTCOMES; o++)
@@ -63,30 +62,39 @@ static void write_reasons(fracas_json *json, const fracas_point_statistics *stat
     fracas_json_close_object(json);
 }
 
+/* The last decision on the replicas of a point, for print. */
+typedef struct {
+    const char *quantity;
+    int64_t rounds;
+    fracas_decision last;
+    bool at_maximum;
+} decision_row;
+
+static const fracas_field decision_field[] = {
+    {"quantity", FRACAS_FIELD_TEXT, "", "number that the rule looks at",
+     offsetof(decision_row, quantity)},
+    {"rounds", FRACAS_FIELD_INTEGER, "1", "rounds so far", offsetof(decision_row, rounds)},
+    {"used", FRACAS_FIELD_INTEGER, "1", "realizations in the mean",
+     offsetof(decision_row, last.used)},
+    {"mean", FRACAS_FIELD_NUMBER, "", "mean of the quantity, in its unit",
+     offsetof(decision_row, last.mean)},
+    {"half_width", FRACAS_FIELD_NUMBER, "", "half width of the interval of the mean",
+     offsetof(decision_row, last.half_width)},
+    {"relative_half_width", FRACAS_FIELD_NUMBER, "1", "the rule's limit of half width / mean",
+     offsetof(decision_row, last.relative_half_width)},
+    {"confidence", FRACAS_FIELD_NUMBER, "1", "confidence of the interval",
+     offsetof(decision_row, last.confidence)},
+    {"at_maximum", FRACAS_FIELD_BOOLEAN, "", "true if the rule stopped at the most replicas",
+     offsetof(decision_row, at_maximum)},
+};
+static const fracas_fields decision_fields = FRACAS_FIELDS(decision_field);
+
 static void write_decision(fracas_json *json, const fracas_decision *last)
 {
     if (!last) return;
-    fracas_json_object(json, "decision");
-    fracas_json_text(json, "quantity", fracas_analysis_quantity(last));
-    fracas_json_integer(json, "rounds", last->round + 1);
-    fracas_json_integer(json, "used", last->used);
-    fracas_json_real(json, "mean", last->mean);
-    fracas_json_real(json, "half_width", last->half_width);
-    fracas_json_real(json, "relative_half_width", last->relative_half_width);
-    fracas_json_real(json, "confidence", last->confidence);
-    fracas_json_boolean(json, "at_maximum", last->stop == 2);
-    fracas_json_close_object(json);
-}
-
-static void write_progress(fracas_json *json, const fracas_progress *progress)
-{
-    fracas_json_object(json, "progress");
-    fracas_json_integer(json, "planned", progress->planned);
-    fracas_json_integer(json, "done", progress->done);
-    fracas_json_integer(json, "failed", progress->failed);
-    fracas_json_integer(json, "missing", progress->missing);
-    fracas_json_boolean(json, "complete", progress->complete);
-    fracas_json_close_object(json);
+    const decision_row row = {fracas_analysis_quantity(last), last->round + 1, *last,
+                              last->stop == 2};
+    fracas_fields_json_object(json, "decision", &decision_fields, &row);
 }
 
 static void write_point(fracas_json *json, const fracas_analysis *analysis, size_t p,
@@ -100,7 +108,7 @@ static void write_point(fracas_json *json, const fracas_analysis *analysis, size
     fracas_json_text(json, "label", label);
     fracas_json_text(json, "hash", hash);
     fracas_json_integer(json, "replicas", analysis->table->point[p].replicas);
-    write_progress(json, &progress);
+    fracas_fields_json_object(json, "progress", &fracas_progress_fields, &progress);
     write_decision(json, fracas_analysis_decision(analysis, p));
     write_parameters(json, analysis->table, p);
     write_statistics(json, &analysis->point[p]);
@@ -111,126 +119,55 @@ static void write_point(fracas_json *json, const fracas_analysis *analysis, size
     fracas_json_close_object(json);
 }
 
-static void write_warnings(fracas_json *json, const fracas_analysis *analysis)
+/* A list of `count` structs of `size` bytes, freed; where it could not be made, the message. */
+static void write_list(fracas_json *json, const char *key, const fracas_fields *fields,
+                       fracas_err made, void *list, size_t count, size_t size)
 {
-    fracas_warning *warning = NULL;
-    size_t count = 0;
-    fracas_json_array(json, "warnings");
-    if (fracas_analysis_warnings(analysis, &warning, &count))
-        fracas_json_text(json, NULL, fracas_message());
-    for (size_t i = 0; i < count; i++) {
-        fracas_json_object(json, NULL);
-        if (warning[i].point == SIZE_MAX) fracas_json_text(json, "point", NULL);
-        else fracas_json_integer(json, "point", (int64_t)warning[i].point);
-        fracas_json_text(json, "text", warning[i].text);
-        fracas_json_close_object(json);
-    }
+    fracas_json_array(json, key);
+    if (made) fracas_json_text(json, NULL, fracas_message());
+    for (size_t i = 0; i < count && !made; i++)
+        fracas_fields_json_object(json, NULL, fields, (const char *)list + i * size);
     fracas_json_close_array(json);
-    free(warning);
+    if (!made) free(list);
 }
 
-static void write_slopes(fracas_json *json, const fracas_analysis *analysis)
+static void write_lists(fracas_json *json, const fracas_analysis *analysis)
 {
-    fracas_size_slope *list = NULL;
+    fracas_size_slope *slope;
+    fracas_size_window *window;
+    fracas_size_crossover *crossover;
+    fracas_warning *warning;
     size_t count = 0;
-    fracas_json_array(json, "slopes");
-    if (fracas_size_slopes(analysis, &list, &count)) fracas_json_text(json, NULL, fracas_message());
-    for (size_t i = 0; i < count; i++) {
-        const fracas_slope *slope = &list[i].slope;
-        fracas_json_object(json, NULL);
-        fracas_json_text(json, "series", list[i].name);
-        fracas_json_integer(json, "points", slope->n);
-        fracas_json_real(json, "slope", slope->slope);
-        fracas_json_real(json, "standard_error", slope->standard_error);
-        fracas_json_real(json, "half_width", slope->half_width);
-        fracas_json_real(json, "chi2", slope->chi2);
-        fracas_json_real(json, "misfit", slope->misfit);
-        fracas_json_real(json, "pooled_freedom", slope->pooled);
-        fracas_json_real(json, "mott", FRACAS_SLOPE_MOTT);
-        fracas_json_real(json, "grady", FRACAS_SLOPE_GRADY);
-        fracas_json_close_object(json);
-    }
-    fracas_json_close_array(json);
-    free(list);
-}
-
-static void write_windows(fracas_json *json, const fracas_analysis *analysis)
-{
-    fracas_size_window *list = NULL;
-    size_t count = 0;
-    fracas_json_array(json, "windows");
-    if (fracas_size_windows(analysis, &list, &count))
-        fracas_json_text(json, NULL, fracas_message());
-    for (size_t i = 0; i < count; i++) {
-        fracas_json_object(json, NULL);
-        fracas_json_text(json, "series", list[i].name);
-        fracas_json_integer(json, "from_point", (int64_t)list[i].point[0]);
-        fracas_json_integer(json, "to_point", (int64_t)list[i].point[1]);
-        fracas_json_real(json, "from_rate", list[i].rate[0]);
-        fracas_json_real(json, "to_rate", list[i].rate[1]);
-        fracas_json_real(json, "from_rate_normalised", list[i].rate[0] / list[i].scales.rate);
-        fracas_json_real(json, "to_rate_normalised", list[i].rate[1] / list[i].scales.rate);
-        fracas_json_real(json, "slope", list[i].window.slope);
-        fracas_json_real(json, "standard_error", list[i].window.standard_error);
-        fracas_json_real(json, "freedom", list[i].window.freedom);
-        fracas_json_real(json, "half_width", list[i].window.half_width);
-        fracas_json_close_object(json);
-    }
-    fracas_json_close_array(json);
-    free(list);
-}
-
-static void write_interval(fracas_json *json, const char *key, const fracas_interval *interval,
-                           double factor)
-{
-    fracas_json_object(json, key);
-    fracas_json_real(json, "value", interval->value * factor);
-    fracas_json_real(json, "low", interval->low * factor);
-    fracas_json_real(json, "high", interval->high * factor);
-    fracas_json_real(json, "standard_error", interval->standard_error * factor);
-    fracas_json_close_object(json);
-}
-
-static void write_crossovers(fracas_json *json, const fracas_analysis *analysis)
-{
-    fracas_size_crossover *list = NULL;
-    size_t count = 0;
-    fracas_json_array(json, "crossovers");
-    if (fracas_size_crossovers(analysis, true, &list, &count))
-        fracas_json_text(json, NULL, fracas_message());
-    for (size_t i = 0; i < count; i++) {
-        fracas_json_object(json, NULL);
-        fracas_json_text(json, "series", list[i].name);
-        fracas_json_integer(json, "points", list[i].n);
-        fracas_json_text(json, "reason", *list[i].reason ? list[i].reason : NULL);
-        write_interval(json, "rate", &list[i].rate, 1);
-        write_interval(json, "rate_normalised", &list[i].rate, 1 / list[i].scales.rate);
-        write_interval(json, "size", &list[i].size, 1);
-        write_interval(json, "size_normalised", &list[i].size, 1 / list[i].scales.size);
-        fracas_json_real(json, "low_exponent", *list[i].reason ? NAN : 0);
-        write_interval(json, "high_exponent", &list[i].exponent, 1);
-        fracas_json_real(json, "chi2", list[i].chi2);
-        fracas_json_real(json, "freedom", list[i].freedom);
-        fracas_json_real(json, "misfit", list[i].misfit);
-        fracas_json_real(json, "pooled_freedom", list[i].pooled);
-        fracas_json_real(json, "inflation", list[i].inflation);
-        fracas_json_integer(json, "resamples", list[i].rate.resamples);
-        fracas_json_close_object(json);
-    }
-    fracas_json_close_array(json);
-    free(list);
+    fracas_err made = fracas_size_slopes(analysis, &slope, &count);
+    write_list(json, "slopes", &fracas_slope_fields, made, slope, count, sizeof *slope);
+    made = fracas_size_windows(analysis, &window, &count);
+    write_list(json, "windows", &fracas_window_fields, made, window, count, sizeof *window);
+    made = fracas_size_crossovers(analysis, true, &crossover, &count);
+    write_list(json, "crossovers", &fracas_crossover_fields, made, crossover, count,
+               sizeof *crossover);
+    made = fracas_analysis_warnings(analysis, &warning, &count);
+    write_list(json, "warnings", &fracas_warning_fields, made, warning, count, sizeof *warning);
 }
 
 void fracas_analysis_reference(FILE *out)
 {
-    fputs("| key | type | unit | meaning |\n|---|---|---|---|\n", out);
-    for (size_t i = 0; i < fracas_nstatistics; i++) {
-        const fracas_statistic *what = &fracas_statistics[i];
-        fprintf(out, "| `%s` | %s | %s | ", what->key, what->integer ? "integer" : "number",
-                what->unit);
-        for (const char *c = what->doc; *c; c++)
-            fprintf(out, *c == '|' ? "\\%c" : "%c", *c); /* |residual| is no column */
-        fputs(" |\n", out);
+    static const struct {
+        const char *title;
+        const fracas_fields *fields;
+    } section[] = {
+        {"`progress`, of the study and of a point", &fracas_progress_fields},
+        {"`decision` of a point", &decision_fields},
+        {"A row of `convergence`", &fracas_running_fields},
+        {"Energies in `energies.end`", &fracas_energy_fields},
+        {"A row of `slopes`", &fracas_slope_fields},
+        {"A row of `windows`", &fracas_window_fields},
+        {"A row of `crossovers`", &fracas_crossover_fields},
+        {"A row of `warnings`", &fracas_warning_fields},
+        {"`statistics`", &fracas_statistics},
+    };
+    for (size_t i = 0; i < sizeof section / sizeof *section; i++) {
+        fprintf(out, "%s### %s\n\n", i ? "\n" : "", section[i].title);
+        fracas_fields_reference(section[i].fields, section[i].fields != &fracas_statistics, out);
     }
 }
 
@@ -251,7 +188,7 @@ void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fi
     fracas_json_text(&json, "version", analysis->header.version);
     fracas_json_boolean(&json, "complete", analysis->header.complete);
     fracas_json_boolean(&json, "partial", fracas_results_partial(analysis->results));
-    write_progress(&json, &progress);
+    fracas_fields_json_object(&json, "progress", &fracas_progress_fields, &progress);
     fracas_json_integer(&json, "stale_fits", (int64_t)stale);
     fracas_json_array(&json, "varying");
     for (size_t i = 0; i < analysis->shown.count; i++)
@@ -261,10 +198,7 @@ void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fi
     fracas_json_array(&json, "points");
     for (size_t p = 0; p < analysis->table->npoints; p++) write_point(&json, analysis, p, fits);
     fracas_json_close_array(&json);
-    write_slopes(&json, analysis);
-    write_windows(&json, analysis);
-    write_crossovers(&json, analysis);
-    write_warnings(&json, analysis);
+    write_lists(&json, analysis);
     fracas_json_close_object(&json);
     fracas_json_end(&json);
 }

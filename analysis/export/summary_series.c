@@ -144,29 +144,13 @@ void fracas_summary_put_fits(fracas_json *json, size_t point, const fracas_fits 
 
 /* ---- convergence ---- */
 
-static void put_ends(fracas_json *json, const char *key, const char *middle, double value,
-                     double low, double high)
-{
-    fracas_json_object(json, key);
-    fracas_json_real(json, middle, value);
-    fracas_json_real(json, "low", low);
-    fracas_json_real(json, "high", high);
-    fracas_json_close_object(json);
-}
-
 void fracas_summary_put_convergence(fracas_json *json, const fracas_analysis *analysis,
                                     size_t point)
 {
     const fracas_replica_convergence *of = &analysis->point[point].convergence;
     fracas_json_array(json, "convergence");
-    for (const fracas_running *row = of->row; row < of->row + of->count; row++) {
-        fracas_json_object(json, NULL);
-        fracas_json_integer(json, "replicas", row->replicas);
-        for (int h = 0; h < FRACAS_NHEADLINES; h++)
-            put_ends(json, fracas_headline_key[h], "value", row->number[h].value,
-                     row->number[h].low, row->number[h].high);
-        fracas_json_close_object(json);
-    }
+    for (const fracas_running *row = of->row; row < of->row + of->count; row++)
+        fracas_fields_json_object(json, NULL, &fracas_running_fields, row);
     fracas_json_close_array(json);
 }
 
@@ -193,10 +177,7 @@ void fracas_summary_put_energies(fracas_json *json, const fracas_analysis *analy
     fracas_json_object(json, "end");
     fracas_json_real(json, "time", bands->time[last]);
     fracas_json_integer(json, "running", bands->running[last]);
-    for (size_t e = 0; e < FRACAS_NENERGIES; e++) {
-        const fracas_band *band = &bands->energy[last][e];
-        put_ends(json, fracas_energy_key[e], "mean", band->mean, band->low, band->high);
-    }
+    fracas_fields_json(json, &fracas_energy_fields, bands->energy[last]);
     fracas_json_close_object(json);
     fracas_json_close_object(json);
 }

@@ -91,7 +91,7 @@ static const size_t HIDDEN = SIZE_MAX;
 static bool any_bending(const fracas_analysis *analysis)
 {
     for (size_t p = 0; p < analysis->table->npoints; p++)
-        if (analysis->point[p].bending.mean > 0) return true;
+        if (analysis->point[p].dissipated_bending.mean > 0) return true;
     return false;
 }
 
@@ -239,8 +239,8 @@ static void paint_point(painter *paint, size_t p)
     fracas_format_estimate(&statistics->size, paint->size.factor, sign, cell[SIZE], FRACAS_CELL);
     fracas_format_estimate(&statistics->dissipated, paint->energy.factor, sign, cell[DISSIPATED],
                            FRACAS_CELL);
-    fracas_format_estimate(&statistics->bending, paint->energy.factor, sign, cell[BENDING],
-                           FRACAS_CELL);
+    fracas_format_estimate(&statistics->dissipated_bending, paint->energy.factor, sign,
+                           cell[BENDING], FRACAS_CELL);
     const fracas_size_law_id law[] = {FRACAS_LAW_ZMR, FRACAS_LAW_GRADY, FRACAS_LAW_GLENN_CHUDNOVSKY,
                                       FRACAS_LAW_MOTT};
     for (size_t i = 0; i < sizeof law / sizeof *law; i++)

@@ -410,27 +410,12 @@ fracas_err fracas_figure_sizes(const fracas_analysis *analysis, size_t point, fr
 
 /* ---- energies ---- */
 
-static const struct {
-    const char *name;
-    size_t offset;
-} energies[] = {
-    {"kinetic", offsetof(fracas_history_row, kinetic)},
-    {"elastic", offsetof(fracas_history_row, elastic)},
-    {"dissipated", offsetof(fracas_history_row, dissipated)},
-    {"cohesive", offsetof(fracas_history_row, cohesive)},
-    {"work", offsetof(fracas_history_row, work)},
-    {"|residual|", offsetof(fracas_history_row, residual)},
-    {"dissipated, bending", offsetof(fracas_history_row, dissipated_bending)},
-};
-enum {
-    KINETIC = 0,
-    RESIDUAL = 5,
-    BENDING = 6,
-    LOOK_OF_BENDING = 8
-}; /* the colour of dissipated, other dashes */
+/* Curves of the balance (bar.14), in the order of its energies; colours are those of the figure of
+ * bands. */
+enum { RESIDUAL = FRACAS_ENERGIES, DASHES = 6 };
 
-/* Kinetic energy that a body starts with, a ring that flies: in the figure it would dwarf all the
- * rest, and is left out [J]. */
+/* Kinetic energy at the start, of a ring that flies: it would dwarf all other energies, and is left
+ * out [J]. */
 static double kinetic_start(const fracas_point_statistics *statistics)
 {
     const fracas_history_row *first = statistics->history;
@@ -439,42 +424,59 @@ static double kinetic_start(const fracas_point_statistics *statistics)
 
 static double energy(const fracas_point_statistics *statistics, size_t row, size_t which)
 {
-    double value = *(const double *)((const char *)&statistics->history[row] +
-                                     energies[which].offset);
-    return which == KINETIC ? value - kinetic_start(statistics) : value;
+    const fracas_history_row *of = &statistics->history[row];
+    if (which == RESIDUAL) return of->residual;
+    return of->energy[which] - (which == 0 ? kinetic_start(statistics) : 0);
 }
 
-static double largest_energy(const fracas_point_statistics *statistics)
+static double largest_energy(const fracas_point_statistics *statistics, size_t which)
 {
     double largest = 0;
     for (size_t i = 0; i < statistics->nhistory; i++)
-        for (size_t e = 0; e < RESIDUAL; e++)
-            largest = fmax(largest, fabs(energy(statistics, i, e)));
+        largest = fmax(largest, fabs(energy(statistics, i, which)));
     return largest;
 }
 
-static bool has_bending(const fracas_point_statistics *statistics)
+/* A part, or a sink after the first, has a curve if it is ever above 0; created energy has none. */
+static bool has_curve(const fracas_point_statistics *statistics, size_t which)
 {
-    for (size_t i = 0; i < statistics->nhistory; i++)
-        if (energy(statistics, i, BENDING) > 0) return true;
-    return false;
+    const fracas_energy_role role = fracas_energies[which].role;
+    const bool later = role == FRACAS_ROLE_SINK && which > 0 &&
+                       fracas_energies[which - 1].role >= FRACAS_ROLE_SINK;
+    if (role == FRACAS_ROLE_SOURCE) return false;
+    return !(role == FRACAS_ROLE_PART || later) || largest_energy(statistics, which) > 0;
 }
 
-static fracas_err add_energy(const fracas_point_statistics *statistics, size_t which,
+static fracas_err add_energy(const fracas_point_statistics *statistics, size_t which, unsigned look,
                              double time_factor, double energy_factor, fracas_panel *panel)
 {
     fracas_series *series;
-    const unsigned look = which == BENDING ? LOOK_OF_BENDING : (unsigned)which;
     TRY(fracas_panel_add(panel, FRACAS_CURVE, look, statistics->nhistory, &series));
-    const bool moving = which == KINETIC && kinetic_start(statistics) > 0;
-    snprintf(series->name, sizeof series->name, "%s%s", energies[which].name,
-             moving ? " - start" : "");
+    snprintf(series->name, sizeof series->name, "%s%s",
+             which == RESIDUAL ? "|residual|" : fracas_energies[which].key,
+             which == 0 && kinetic_start(statistics) > 0 ? " - start" : "");
     for (size_t i = 0; i < statistics->nhistory; i++) {
         double value = energy(statistics, i, which) * energy_factor;
         series->x[i] = statistics->history[i].time * time_factor;
         series->y[i] = which == RESIDUAL ? fabs(value) : value;
     }
     return FRACAS_OK;
+}
+
+/* The curves of all energies, and of the residual below them. A part has the colour of its sink and
+ * other dashes. */
+static fracas_err add_energies(const fracas_point_statistics *statistics, double time, double joule,
+                               fracas_chart *chart)
+{
+    fracas_panel *panel = fracas_chart_add(chart, LOW);
+    unsigned look = 0;
+    for (size_t e = 0; e < FRACAS_ENERGIES; e++) {
+        const bool part = fracas_energies[e].role == FRACAS_ROLE_PART;
+        if (has_curve(statistics, e))
+            TRY(add_energy(statistics, e, part ? look - 1 + DASHES : look, time, joule, panel));
+        look += !part && fracas_energies[e].role != FRACAS_ROLE_SOURCE;
+    }
+    return add_energy(statistics, RESIDUAL, look, time, joule, fracas_chart_add(chart, STRIP));
 }
 
 /* A residual so far below the largest energy is rounding; it would stretch the axis. */
@@ -485,17 +487,14 @@ fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point,
 {
     const fracas_point_statistics *statistics = &analysis->point[point];
     fracas_figure_name(analysis, point, "energies", "Energies", chart);
-    double largest = largest_energy(statistics);
+    double largest = 0;
+    for (size_t e = 0; e < FRACAS_ENERGIES; e++)
+        if (has_curve(statistics, e)) largest = fmax(largest, largest_energy(statistics, e));
     if (statistics->nhistory == 0 || !(largest > 0)) return FRACAS_OK;
     fracas_prefix time = fracas_prefix_for(&statistics->history[statistics->nhistory - 1].time, 1);
     fracas_prefix joule = fracas_prefix_for(&largest, 1);
-    fracas_panel *upper = fracas_chart_add(chart, LOW);
-    for (size_t e = 0; e < RESIDUAL; e++)
-        TRY(add_energy(statistics, e, time.factor, joule.factor, upper));
-    if (has_bending(statistics))
-        TRY(add_energy(statistics, BENDING, time.factor, joule.factor, upper));
-    fracas_panel *lower = fracas_chart_add(chart, STRIP);
-    TRY(add_energy(statistics, RESIDUAL, time.factor, joule.factor, lower));
+    TRY(add_energies(statistics, time.factor, joule.factor, chart));
+    fracas_panel *lower = &chart->panel[1];
     lower->y.log = true;
     lower->y_floor = residual_floor * largest * joule.factor;
     snprintf(lower->x.label, sizeof lower->x.label, "time [%ss]", time.sign);

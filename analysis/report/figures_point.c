@@ -10,21 +10,17 @@
 
 /* ---- energies ---- */
 
-static const unsigned energy_look[FRACAS_NENERGIES] = {0, 1, 3,
-                                                       2}; /* as in the figure of one realization */
-
 /* What the kinetic energy begins with, a ring that flies: it would dwarf the rest [J]. */
 static double start_of(const fracas_bands *bands, size_t energy)
 {
-    return energy == FRACAS_ENERGY_KINETIC && bands->time[0] == 0 ? bands->energy[0][energy].mean
-                                                                  : 0;
+    return energy == FRACAS_BAND_kinetic && bands->time[0] == 0 ? bands->energy[0][energy].mean : 0;
 }
 
 static double largest_of(const fracas_bands *bands)
 {
     double largest = 0;
     for (size_t j = 0; j < bands->count; j++)
-        for (size_t e = 0; e < FRACAS_NENERGIES; e++)
+        for (size_t e = 0; e < FRACAS_NBANDS; e++)
             largest = fmax(largest, fabs(bands->energy[j][e].high - start_of(bands, e)));
     return largest;
 }
@@ -39,11 +35,11 @@ fracas_err fracas_figure_bands(const fracas_analysis *analysis, size_t point, fr
                         joule = fracas_prefix_for(&largest, 1);
     fracas_panel *panel = fracas_chart_add(chart, FRACAS_FIGURE_LOW);
     panel->bars = bands->extremes ? "least to greatest" : "5 to 95 %";
-    for (size_t e = 0; e < FRACAS_NENERGIES; e++) {
+    for (size_t e = 0; e < FRACAS_NBANDS; e++) {
         fracas_series *series;
         const double start = start_of(bands, e);
-        TRY(fracas_panel_add(panel, FRACAS_BAND, energy_look[e], bands->count, &series));
-        snprintf(series->name, sizeof series->name, "%s%s", fracas_energy_key[e],
+        TRY(fracas_panel_add(panel, FRACAS_BAND, (unsigned)e, bands->count, &series));
+        snprintf(series->name, sizeof series->name, "%s%s", fracas_energy_fields.field[e].key,
                  start > 0 ? " - start" : "");
         for (size_t j = 0; j < bands->count; j++) {
             const fracas_band *band = &bands->energy[j][e];

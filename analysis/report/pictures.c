@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* fracas_pictures_write: pictures and first times of one realization, and the first times of all of
  * a point. */
-#include "analysis/export/csv.h"
+#include "analysis/data/field.h"
 #include "analysis/data/output.h"
 #include "analysis/report/surfaces.h"
 #include "analysis/data/columns.h"

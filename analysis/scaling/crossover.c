@@ -10,6 +10,36 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#define NUMBER(key, doc, member)                                                    \
+    {                                                                               \
+        key, FRACAS_FIELD_NUMBER, "1", doc, offsetof(fracas_size_crossover, member) \
+    }
+#define INTERVAL(key, unit, doc, member)                                              \
+    {                                                                                 \
+        key, FRACAS_FIELD_OBJECT, unit, doc, offsetof(fracas_size_crossover, member), \
+            &fracas_interval_error_fields                                             \
+    }
+static const fracas_field fields[] = {
+    {"series", FRACAS_FIELD_CHARS, "", "name of the series", offsetof(fracas_size_crossover, name)},
+    {"points", FRACAS_FIELD_INTEGER, "1", "points in the fit", offsetof(fracas_size_crossover, n)},
+    {"reason", FRACAS_FIELD_REASON, "", "why there is no crossover; null: there is one",
+     offsetof(fracas_size_crossover, reason)},
+    INTERVAL("rate", "1/s", "strain rate of the bend", rate),
+    INTERVAL("rate_normalised", "1", "the same / edot0", rate_normalised),
+    INTERVAL("size", "m", "mean size at low rates", size),
+    INTERVAL("size_normalised", "1", "the same / s0", size_normalised),
+    NUMBER("low_exponent", "exponent at low rates, 0 by the form", low_exponent),
+    INTERVAL("high_exponent", "1", "exponent at high rates", exponent),
+    NUMBER("chi2", "squared residuals of log(size), each over its variance", chi2),
+    NUMBER("freedom", "degrees of freedom: points - 3", freedom),
+    NUMBER("misfit", "probability of such a chi2 or more if the means are on the curve", misfit),
+    NUMBER("pooled_freedom", "as of slopes", pooled),
+    NUMBER("inflation", "factor of the standard errors, max(1, sqrt(chi2/freedom))", inflation),
+    {"resamples", FRACAS_FIELD_INTEGER, "1", "draws that gave a curve",
+     offsetof(fracas_size_crossover, rate.resamples)},
+};
+const fracas_fields fracas_crossover_fields = FRACAS_FIELDS(fields);
+
 enum { SIZE, RATE, EXPONENT, NPARAMETERS }; /* log s_q, log edot_c, log k */
 
 typedef struct {
@@ -253,6 +283,13 @@ static fracas_err fit_taken(const fracas_size_series *series, int64_t resamples,
     return err;
 }
 
+static fracas_interval scaled(const fracas_interval *interval, double factor)
+{
+    return (fracas_interval){interval->value * factor, interval->low * factor,
+                             interval->high * factor,  interval->standard_error * factor,
+                             interval->bias * factor,  interval->resamples};
+}
+
 static fracas_err fit_series(const fracas_size_series *series, int64_t resamples, uint64_t seed,
                              fracas_size_crossover *crossover)
 {
@@ -275,6 +312,9 @@ static fracas_err fit_series(const fracas_size_series *series, int64_t resamples
     of.y = value ? value + series->n : NULL;
     of.error = value ? value + 2 * series->n : NULL;
     if (!err) err = fit_taken(series, resamples, seed, &of, crossover);
+    crossover->rate_normalised = scaled(&crossover->rate, 1 / series->scales.rate);
+    crossover->size_normalised = scaled(&crossover->size, 1 / series->scales.size);
+    crossover->low_exponent = *crossover->reason ? NAN : 0;
     free(value);
     free(of.mean);
     free(of.known);

@@ -14,12 +14,14 @@ enum { FRACAS_CROSSOVER_RATES = 5 }; /* two more than the form has constants */
  * ones. Of draws that run away intervals have quantiles alone: standard_error is half the width
  * between those of 0.1587 and 0.8413, bias the median less the value. */
 typedef struct {
-    char name[128];           /* of the series */
-    char reason[160];         /* why there is no fit; "": there is one */
-    int64_t n;                /* points used */
-    fracas_scales scales;     /* of the series */
-    fracas_interval size;     /* s_q [m] */
-    fracas_interval rate;     /* edot_c [1/s] */
+    char name[128];                                   /* of the series */
+    char reason[160];                                 /* why there is no fit; "": there is one */
+    int64_t n;                                        /* points used */
+    fracas_scales scales;                             /* of the series */
+    fracas_interval size;                             /* s_q [m] */
+    fracas_interval rate;                             /* edot_c [1/s] */
+    fracas_interval rate_normalised, size_normalised; /* over edot0, over s0 */
+    double low_exponent;                              /* 0; NaN without a fit */
     fracas_interval exponent; /* -k, of high rates; that of low ones is 0 by the form */
     double chi2;              /* sum of squared residuals of log s, each over its standard error */
     double freedom;           /* n - 3 */
@@ -27,6 +29,9 @@ typedef struct {
     double pooled; /* degrees of freedom of the variance that means share; NaN: each has its own */
     double inflation; /* of the standard errors, in the intervals: max(1, sqrt(chi2/freedom)) */
 } fracas_size_crossover;
+
+/* series, points, reason, ... */
+extern const fracas_fields fracas_crossover_fields;
 
 /* (size-laws.14), (size-laws.15), (size-laws.16): weighted least squares of log s over the points
  * that came apart and whose standard error is known (fracas_mean_errors), and 95 % intervals from

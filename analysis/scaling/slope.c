@@ -9,6 +9,30 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#define NUMBER(key, doc, member)                                                \
+    {                                                                           \
+        key, FRACAS_FIELD_NUMBER, "1", doc, offsetof(fracas_size_slope, member) \
+    }
+static const fracas_field fields[] = {
+    {"series", FRACAS_FIELD_CHARS, "", "name of the series, or all points",
+     offsetof(fracas_size_slope, name)},
+    {"points", FRACAS_FIELD_INTEGER, "1", "points on the line",
+     offsetof(fracas_size_slope, slope.n)},
+    NUMBER("slope", "d log(mean size)/d log(strain rate)", slope.slope),
+    NUMBER("standard_error", "standard error of the slope", slope.standard_error),
+    NUMBER("half_width", "half width of the 95 % interval of the slope", slope.half_width),
+    NUMBER("chi2", "squared residuals of the line, each over its variance", slope.chi2),
+    NUMBER("misfit", "probability of such a chi2 or more if the points are on a line",
+           slope.misfit),
+    NUMBER("pooled_freedom",
+           "degrees of freedom of the relative variance that points of fewer than eight replicas "
+           "share; null where each has its own",
+           slope.pooled),
+    NUMBER("mott", "exponent of Mott's theory, to compare with", mott),
+    NUMBER("grady", "exponent of Grady's theory, to compare with", grady),
+};
+const fracas_fields fracas_slope_fields = FRACAS_FIELDS(fields);
+
 static bool known(double variance)
 {
     return isfinite(variance) && variance > 0;
@@ -126,12 +150,13 @@ static void fit_all(const fitter *of, fracas_size_slope *list, size_t *count)
     size_t npoints = of->analysis->table->npoints, series = 0;
     fracas_slope all = fit_series(of, SIZE_MAX);
     if (!isfinite(all.slope)) return;
-    list[(*count)++] = (fracas_size_slope){.name = "all points", .slope = all};
+    list[(*count)++] = (fracas_size_slope){"all points", all, FRACAS_SLOPE_MOTT,
+                                           FRACAS_SLOPE_GRADY};
     for (size_t p = 0; p < npoints; p++) series += begins_series(of, p);
     for (size_t p = 0; p < npoints && series > 1; p++) {
         if (!begins_series(of, p)) continue;
         fracas_size_slope *next = &list[*count];
-        *next = (fracas_size_slope){.slope = fit_series(of, p)};
+        *next = (fracas_size_slope){"", fit_series(of, p), FRACAS_SLOPE_MOTT, FRACAS_SLOPE_GRADY};
         if (!isfinite(next->slope.slope)) continue;
         fracas_columns_label(of->analysis->table, of->others, p, next->name, sizeof next->name);
         (*count)++;

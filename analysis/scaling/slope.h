@@ -3,6 +3,7 @@
 #ifndef FRACAS_ANALYSIS_SCALING_SLOPE_H
 #define FRACAS_ANALYSIS_SCALING_SLOPE_H
 
+#include "analysis/data/field.h"
 #include "analysis/estimate/weights.h"
 #include "base/err.h"
 
@@ -37,7 +38,11 @@ fracas_slope fracas_slope_of(const double *x, const double *y, const fracas_mean
 typedef struct {
     char name[128]; /* of the series, "all points" for the first */
     fracas_slope slope;
+    double mott, grady; /* exponents of the theories: FRACAS_SLOPE_MOTT, FRACAS_SLOPE_GRADY */
 } fracas_size_slope;
+
+/* series, points, slope, ... */
+extern const fracas_fields fracas_slope_fields;
 
 /* Of all points together, and, if there are several series (points alike in all that does not make
  * the rate), of each that has FRACAS_SLOPE_POINTS points or more to use; without enough points

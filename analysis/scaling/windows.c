@@ -8,6 +8,30 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#define NUMBER(key, unit, doc, member)                                            \
+    {                                                                             \
+        key, FRACAS_FIELD_NUMBER, unit, doc, offsetof(fracas_size_window, member) \
+    }
+static const fracas_field fields[] = {
+    {"series", FRACAS_FIELD_CHARS, "", "name of the series", offsetof(fracas_size_window, name)},
+    {"from_point", FRACAS_FIELD_INDEX, "1", "point of the lower rate",
+     offsetof(fracas_size_window, point[0])},
+    {"to_point", FRACAS_FIELD_INDEX, "1", "point of the higher rate",
+     offsetof(fracas_size_window, point[1])},
+    NUMBER("from_rate", "1/s", "lower strain rate", rate[0]),
+    NUMBER("to_rate", "1/s", "higher strain rate", rate[1]),
+    NUMBER("from_rate_normalised", "1", "lower strain rate / edot0", normalised[0]),
+    NUMBER("to_rate_normalised", "1", "higher strain rate / edot0", normalised[1]),
+    NUMBER("slope", "1", "d log(mean size)/d log(strain rate) between the two", window.slope),
+    NUMBER("standard_error", "1", "standard error of the slope", window.standard_error),
+    NUMBER("freedom", "1", "degrees of freedom of the standard error", window.freedom),
+    NUMBER("half_width", "1",
+           "half width of the 95 % interval of the slope; null if neither mean scatters and one is "
+           "of fewer than eight replicas",
+           window.half_width),
+};
+const fracas_fields fracas_window_fields = FRACAS_FIELDS(fields);
+
 /* (size-laws.11), (size-laws.12), (size-laws.13). */
 fracas_window fracas_window_of(const fracas_size_point *low, const fracas_size_point *high)
 {
@@ -30,10 +54,11 @@ static void add_series(const fracas_size_series *series, fracas_size_window *lis
 {
     for (size_t i = 0; i + 1 < series->n; i++) {
         const fracas_size_point *low = &series->point[i], *high = low + 1;
-        fracas_size_window made = {.point = {low->point, high->point},
-                                   .rate = {low->rate, high->rate},
-                                   .scales = series->scales,
-                                   .window = fracas_window_of(low, high)};
+        fracas_size_window made = {
+            .point = {low->point, high->point},
+            .rate = {low->rate, high->rate},
+            .normalised = {low->rate / series->scales.rate, high->rate / series->scales.rate},
+            .window = fracas_window_of(low, high)};
         if (low->whole || high->whole || !isfinite(made.window.slope))
             continue; /* the length of a body is no fragment size */
         snprintf(made.name, sizeof made.name, "%s", series->name);

@@ -3,6 +3,7 @@
 #ifndef FRACAS_ANALYSIS_SCALING_WINDOWS_H
 #define FRACAS_ANALYSIS_SCALING_WINDOWS_H
 
+#include "analysis/data/field.h"
 #include "analysis/scaling/series.h"
 
 /* d log s/d log edot between two neighbouring rates. */
@@ -22,9 +23,12 @@ typedef struct {
     char name[128];       /* of the series */
     size_t point[2];      /* of the study */
     double rate[2];       /* 1/s, ascending */
-    fracas_scales scales; /* of the series */
+    double normalised[2]; /* rates over edot0 of the series */
     fracas_window window;
 } fracas_size_window;
+
+/* series, from_point, to_point, ... */
+extern const fracas_fields fracas_window_fields;
 
 /* Of every two neighbouring rates of every series at which some body came apart, series by series,
  * ascending. *list freed by the caller with free(). */

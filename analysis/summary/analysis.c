@@ -9,6 +9,20 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define COUNT(key, doc)                                                      \
+    {                                                                        \
+#key, FRACAS_FIELD_INTEGER, "1", doc, offsetof(fracas_progress, key) \
+    }
+static const fracas_field progress_fields[] = {
+    COUNT(planned, "realizations planned, by now where a rule decides their number"),
+    COUNT(done, "realizations that are there"),
+    COUNT(failed, "realizations that FAILED"),
+    COUNT(missing, "realizations that are done but could not be read"),
+    {"complete", FRACAS_FIELD_BOOLEAN, "", "all are done and none FAILED",
+     offsetof(fracas_progress, complete)},
+};
+const fracas_fields fracas_progress_fields = FRACAS_FIELDS(progress_fields);
+
 /* The last part of the folder's real path, so that "." has a name too. */
 static fracas_err name_of(const char *study, char **name)
 {

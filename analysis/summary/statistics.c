@@ -3,6 +3,7 @@
 
 #include "analysis/summary/modulus.h"
 #include "analysis/data/columns.h"
+#include "analysis/data/ring.h"
 
 #include <gsl/gsl_sort.h>
 #include <math.h>
@@ -10,86 +11,67 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define STATISTIC(key, unit, doc, member)                                \
-    {                                                                    \
-        key, unit, doc, offsetof(fracas_point_statistics, member), false \
+#define PLACE(member) offsetof(fracas_point_statistics, member)
+#define NUMBER(key, unit, doc, member)                     \
+    {                                                      \
+        key, FRACAS_FIELD_NUMBER, unit, doc, PLACE(member) \
     }
-#define COUNTED(key, doc, member)                                      \
-    {                                                                  \
-        key, "1", doc, offsetof(fracas_point_statistics, member), true \
+#define COUNTED(key, doc, member)                          \
+    {                                                      \
+        key, FRACAS_FIELD_INTEGER, "1", doc, PLACE(member) \
     }
-#define ESTIMATE(key, unit, what, member)                                                       \
-    COUNTED(key ".n", "replicas in the mean " what, member.n),                                  \
-        STATISTIC(key ".mean", unit, "mean over replicas of the " what, member.mean),           \
-        STATISTIC(key ".deviation", unit, "standard deviation over replicas of the " what,      \
-                  member.deviation),                                                            \
-        STATISTIC(key ".half_width", unit, "half width of the 95 % interval of the mean " what, \
-                  member.half_width)
+#define INTERVAL(key, unit, doc, member)                                            \
+    {                                                                               \
+        key, FRACAS_FIELD_OBJECT, unit, doc, PLACE(member), &fracas_interval_fields \
+    }
+#define ESTIMATE(key, unit, doc) \
+    {#key, FRACAS_FIELD_OBJECT, unit, doc, PLACE(key), &fracas_estimate_fields},
+#define CONVERGED(name, key, unit)                      \
+    {"converged." key, FRACAS_FIELD_INTEGER, "1",       \
+     "1 if " key " is converged with replicas, else 0", \
+     PLACE(convergence.converged[FRACAS_HEADLINE_##name])},
 
-#define INTERVAL(key, unit, what, member)                                                    \
-    STATISTIC(key ".value", unit, what, member.value),                                       \
-        STATISTIC(key ".low", unit, "lower end of the 95 % interval of: " what, member.low), \
-        STATISTIC(key ".high", unit, "upper end of the 95 % interval of: " what, member.high)
-#define SIZES(key, of, member)                                                                     \
-    INTERVAL(key ".mean", "m", "mean size of " of, member.mean),                                   \
-        INTERVAL(key ".mass_mean", "m", "mean size, weighed by mass, of " of, member.mass_mean),   \
-        INTERVAL(key ".variation", "1", "standard deviation / mean of the size of " of,            \
-                 member.variation),                                                                \
-        INTERVAL(key ".quantile_05", "m", "size below which are 5 % of " of, member.quantile[0]),  \
-        INTERVAL(key ".quantile_25", "m", "size below which are 25 % of " of, member.quantile[1]), \
-        INTERVAL(key ".quantile_50", "m", "median size of " of, member.quantile[2]),               \
-        INTERVAL(key ".quantile_75", "m", "size below which are 75 % of " of, member.quantile[3]), \
-        INTERVAL(key ".quantile_95", "m", "size below which are 95 % of " of, member.quantile[4]), \
-        INTERVAL(key ".mass_quantile_05", "m", "size below which is 5 % of the mass of " of,       \
-                 member.mass_quantile[0]),                                                         \
-        INTERVAL(key ".mass_quantile_25", "m", "size below which is 25 % of the mass of " of,      \
-                 member.mass_quantile[1]),                                                         \
-        INTERVAL(key ".mass_quantile_50", "m", "size below which is half of the mass of " of,      \
-                 member.mass_quantile[2]),                                                         \
-        INTERVAL(key ".mass_quantile_75", "m", "size below which is 75 % of the mass of " of,      \
-                 member.mass_quantile[3]),                                                         \
-        INTERVAL(key ".mass_quantile_95", "m", "size below which is 95 % of the mass of " of,      \
-                 member.mass_quantile[4])
-#define CONVERGED(key, h)                                                        \
-    COUNTED("converged." key, "1 if " key " is converged with replicas, else 0", \
-            convergence.converged[h])
+#define SIZES(key, unit, doc, member)                                        \
+    {                                                                        \
+        key, FRACAS_FIELD_OBJECT, unit, doc, offsetof(fracas_sizes, member), \
+            &fracas_interval_fields                                          \
+    }
+static const fracas_field sizes_fields[] = {
+    SIZES("mean", "m", "mean size of %s", mean),
+    SIZES("mass_mean", "m", "mean size, weighed by mass, of %s", mass_mean),
+    SIZES("variation", "1", "standard deviation / mean of the size of %s", variation),
+    SIZES("quantile_05", "m", "size below which are 5 % of %s", quantile[0]),
+    SIZES("quantile_25", "m", "size below which are 25 % of %s", quantile[1]),
+    SIZES("quantile_50", "m", "median size of %s", quantile[2]),
+    SIZES("quantile_75", "m", "size below which are 75 % of %s", quantile[3]),
+    SIZES("quantile_95", "m", "size below which are 95 % of %s", quantile[4]),
+    SIZES("mass_quantile_05", "m", "size below which is 5 % of the mass of %s", mass_quantile[0]),
+    SIZES("mass_quantile_25", "m", "size below which is 25 % of the mass of %s", mass_quantile[1]),
+    SIZES("mass_quantile_50", "m", "size below which is half of the mass of %s", mass_quantile[2]),
+    SIZES("mass_quantile_75", "m", "size below which is 75 % of the mass of %s", mass_quantile[3]),
+    SIZES("mass_quantile_95", "m", "size below which is 95 % of the mass of %s", mass_quantile[4]),
+};
+static const fracas_fields sizes = FRACAS_FIELDS(sizes_fields);
 
-const fracas_statistic fracas_statistics[] = {
+static const fracas_field statistics_fields[] = {
     COUNTED("realizations", "realizations in the study", realizations),
     COUNTED("usable", "realizations that ended FRAGMENTED, INTACT or TIME_LIMIT", usable),
     COUNTED("unusable", "realizations that ended NONFINITE, ENERGY_DRIFT or FAILED", unusable),
-    ESTIMATE("count", "1", "number of fragments", count),
-    ESTIMATE("count_large", "1", "number of fragments without dust", count_large),
-    ESTIMATE("size", "m",
-             "mean fragment size (length / fragments; of a surface the mean of sqrt(area))", size),
-    ESTIMATE("dissipated", "J", "dissipated energy", dissipated),
-    ESTIMATE("dissipated_bending", "J", "part of bending in the dissipated energy", bending),
-    ESTIMATE("onset_time", "s", "time of first onset", onset_time),
-    ESTIMATE("radial_velocity", "m/s", "mean velocity outward of a ring's fragments",
-             radial_velocity),
-    ESTIMATE("radial_scatter", "m/s", "standard deviation over a ring's fragments of that velocity",
-             radial_scatter),
-    ESTIMATE("circumferential_velocity", "m/s", "rms velocity along the ring of its fragments",
-             circumferential_velocity),
-    ESTIMATE("angular_velocity", "rad/s", "|angular velocity| of a ring's fragments",
-             angular_velocity),
-    ESTIMATE("translation", "J", "kinetic energy of the centres of mass of a surface's fragments",
-             translation),
-    ESTIMATE("rotation", "J", "kinetic energy of the spins of a surface's fragments", rotation),
-    STATISTIC("residual", "1",
-              "largest |residual| of the energy balance / dissipated, over replicas", residual),
-    STATISTIC("created", "1", "largest created / dissipated, over replicas", created),
-    STATISTIC("drift", "1", "largest |residual| / largest energy at the end, over replicas", drift),
+    FRACAS_COMPARED_NUMBERS(ESTIMATE)
+        NUMBER("residual", "1",
+               "largest |residual| of the energy balance / dissipated, over replicas", residual),
+    NUMBER("created", "1", "largest created / dissipated, over replicas", created),
+    NUMBER("drift", "1", "largest |residual| / largest energy at the end, over replicas", drift),
     COUNTED("drifted", "usable realizations of which that is above 0.01", drifted),
-    STATISTIC("elements", "1", "elements of a mean fragment", elements),
-    STATISTIC("dust_share", "1", "dust fragments / all fragments", dust_share),
-    ESTIMATE("largest_size", "m", "size of the fragment of most mass", largest_size),
-    ESTIMATE("largest_share", "1", "mass of that / mass of all fragments", largest_share),
-    STATISTIC("cut", "m", "fragments of a larger size are resolved by the mesh", pooled.cut),
+    NUMBER("elements", "1", "elements of a mean fragment", elements),
+    NUMBER("dust_share", "1", "dust fragments / all fragments", dust_share),
+    FRACAS_LARGEST_NUMBERS(ESTIMATE)
+        NUMBER("cut", "m", "fragments of a larger size are resolved by the mesh", pooled.cut),
     COUNTED("fragment.n", "fragments of all usable realizations", pooled.number),
-    SIZES("fragment", "all fragments", pooled.all),
+    {"fragment", FRACAS_FIELD_OBJECT, NULL, "all fragments", PLACE(pooled.all), &sizes},
     COUNTED("resolved.n", "fragments above the cut", pooled.resolved),
-    SIZES("resolved", "the fragments above the cut", pooled.above),
+    {"resolved", FRACAS_FIELD_OBJECT, NULL, "the fragments above the cut", PLACE(pooled.above),
+     &sizes},
     INTERVAL("unresolved.share", "1", "share of the fragments that are not above the cut",
              pooled.unresolved),
     INTERVAL("unresolved.mass_share", "1",
@@ -102,41 +84,33 @@ const fracas_statistic fracas_statistics[] = {
              pooled.variance.intraclass),
     INTERVAL("variance.design_effect", "1", "1 + (variance.group - 1) intraclass",
              pooled.variance.design_effect),
-    STATISTIC("variance.group", "1",
-              "fragments of a realization, as the analysis of variance weighs them",
-              pooled.variance.group),
-    STATISTIC("variance.effective", "1", "fragments / design effect", pooled.variance.effective),
-    STATISTIC("normalised.rate", "1", "strain rate / edot0", normalised.rate),
-    STATISTIC("normalised.size.mean", "1", "size.mean / s0", normalised.size),
-    STATISTIC("normalised.size.half_width", "1", "size.half_width / s0",
-              normalised.size_half_width),
+    NUMBER("variance.group", "1",
+           "fragments of a realization, as the analysis of variance weighs them",
+           pooled.variance.group),
+    NUMBER("variance.effective", "1", "fragments / design effect", pooled.variance.effective),
+    NUMBER("normalised.rate", "1", "strain rate / edot0", normalised.rate),
+    NUMBER("normalised.size.mean", "1", "size.mean / s0", normalised.size),
+    NUMBER("normalised.size.half_width", "1", "size.half_width / s0", normalised.size_half_width),
     INTERVAL("normalised.mean", "1", "mean size of all fragments / s0", normalised.mean),
     INTERVAL("normalised.mass_mean", "1", "mean size, weighed by mass, of all fragments / s0",
              normalised.mass_mean),
     INTERVAL("normalised.median", "1", "median size of all fragments / s0", normalised.median),
     COUNTED("unconverged", "headline numbers that are not converged with replicas",
             convergence.unconverged),
-    CONVERGED("count", FRACAS_HEADLINE_COUNT),
-    CONVERGED("size", FRACAS_HEADLINE_SIZE),
-    CONVERGED("dissipated", FRACAS_HEADLINE_DISSIPATED),
-    CONVERGED("largest_share", FRACAS_HEADLINE_LARGEST_SHARE),
-    CONVERGED("fragment.mean", FRACAS_HEADLINE_MEAN),
-    CONVERGED("fragment.mass_mean", FRACAS_HEADLINE_MASS_MEAN),
-    CONVERGED("fragment.variation", FRACAS_HEADLINE_VARIATION),
-    STATISTIC("scale.time", "s", "t0 = E Gc/(sigma_c^2 c)", scales.time),
-    STATISTIC("scale.size", "m", "s0 = E Gc/sigma_c^2", scales.size),
-    STATISTIC("scale.rate", "1/s", "edot0 = c sigma_c^3/(E^2 Gc)", scales.rate),
-    STATISTIC("scale.modulus", "1", "M of the strengths, of Mott's law", scales.modulus),
-    STATISTIC("law.zmr", "m", "mean size by Zhou, Molinari and Ramesh (APL 2006)",
-              law[FRACAS_LAW_ZMR]),
-    STATISTIC("law.grady", "m", "mean size by Grady", law[FRACAS_LAW_GRADY]),
-    STATISTIC("law.glenn_chudnovsky", "m", "mean size by Glenn and Chudnovsky",
-              law[FRACAS_LAW_GLENN_CHUDNOVSKY]),
-    STATISTIC("law.zmr2", "m", "mean size by Zhou, Molinari and Ramesh, second form",
-              law[FRACAS_LAW_ZMR2]),
-    STATISTIC("law.mott", "m", "mean size by Mott", law[FRACAS_LAW_MOTT]),
+    FRACAS_HEADLINES(CONVERGED) NUMBER("scale.time", "s", "t0 = E Gc/(sigma_c^2 c)", scales.time),
+    NUMBER("scale.size", "m", "s0 = E Gc/sigma_c^2", scales.size),
+    NUMBER("scale.rate", "1/s", "edot0 = c sigma_c^3/(E^2 Gc)", scales.rate),
+    NUMBER("scale.modulus", "1", "M of the strengths, of Mott's law", scales.modulus),
+    NUMBER("law.zmr", "m", "mean size by Zhou, Molinari and Ramesh (APL 2006)",
+           law[FRACAS_LAW_ZMR]),
+    NUMBER("law.grady", "m", "mean size by Grady", law[FRACAS_LAW_GRADY]),
+    NUMBER("law.glenn_chudnovsky", "m", "mean size by Glenn and Chudnovsky",
+           law[FRACAS_LAW_GLENN_CHUDNOVSKY]),
+    NUMBER("law.zmr2", "m", "mean size by Zhou, Molinari and Ramesh, second form",
+           law[FRACAS_LAW_ZMR2]),
+    NUMBER("law.mott", "m", "mean size by Mott", law[FRACAS_LAW_MOTT]),
 };
-const size_t fracas_nstatistics = sizeof fracas_statistics / sizeof *fracas_statistics;
+const fracas_fields fracas_statistics = FRACAS_FIELDS(statistics_fields);
 
 bool fracas_outcome_usable(int64_t outcome)
 {
@@ -262,7 +236,7 @@ static const fracas_fragment *largest_of(const fracas_record *record, double *ma
 /* As the energy guard has it, but over the energies at the end. */
 static void add_balance(fracas_point_statistics *statistics, const fracas_record *record)
 {
-    double stored = record->elastic + record->cohesive + record->dissipated;
+    const double stored = fracas_energy_held(record->energy, 1);
     double drift = record->residual / fmax(record->kinetic, fmax(stored, fabs(record->work)));
     if (drift > FRACAS_DRIFT_LIMIT) statistics->drifted++;
     if (isfinite(drift))
@@ -287,8 +261,11 @@ fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size
         return FRACAS_OK;
     }
     statistics->usable++;
-    const fracas_ring_motion still = {NAN, NAN, NAN, NAN};
-    bool ring = statistics->radius > 0, flies = statistics->surface && record->nfragment > 1;
+    const fracas_ring_motion still = {NAN, NAN, NAN, NAN},
+                             motion = statistics->radius > 0
+                                          ? fracas_ring_motion_of(record, statistics->radius)
+                                          : still;
+    const bool flies = statistics->surface && record->nfragment > 1;
     double mass;
     const fracas_fragment *largest = largest_of(record, &mass);
     const fracas_replica_values value = {
@@ -296,13 +273,16 @@ fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size
         .count_large = (double)(record->fragments - record->fragments_dust),
         .size = mean_size(statistics, record),
         .dissipated = record->dissipated,
-        .bending = record->dissipated_bending,
+        .dissipated_bending = record->dissipated_bending,
+        .onset_time = record->onset_time,
+        .radial_velocity = motion.radial,
+        .radial_scatter = motion.scatter,
+        .circumferential_velocity = motion.circumferential,
+        .angular_velocity = motion.spin,
         .translation = flies ? translation_of(record) : NAN,
         .rotation = flies ? rotation_of(record) : NAN,
-        .onset_time = record->onset_time,
         .largest_size = largest ? largest->size : NAN,
         .largest_share = largest ? largest->mass / mass : NAN,
-        .motion = ring ? fracas_ring_motion_of(record, statistics->radius) : still,
     };
     TRY(fracas_ensemble_add(&statistics->ensemble, row, replica, &value, record));
     add_balance(statistics, record);
@@ -365,21 +345,8 @@ fracas_err fracas_point_statistics_finish(fracas_point_statistics *statistics)
     const fracas_replica_values nothing = {0};
     const fracas_replica_values *first = ensemble->nrealizations ? ensemble->value : &nothing;
     const size_t n = ensemble->nrealizations, stride = FRACAS_REPLICA_STRIDE;
-    statistics->count = fracas_estimate_of(&first->count, stride, n);
-    statistics->count_large = fracas_estimate_of(&first->count_large, stride, n);
-    statistics->size = fracas_estimate_of(&first->size, stride, n);
-    statistics->dissipated = fracas_estimate_of(&first->dissipated, stride, n);
-    statistics->bending = fracas_estimate_of(&first->bending, stride, n);
-    statistics->translation = fracas_estimate_of(&first->translation, stride, n);
-    statistics->rotation = fracas_estimate_of(&first->rotation, stride, n);
-    statistics->onset_time = fracas_estimate_of(&first->onset_time, stride, n);
-    statistics->largest_size = fracas_estimate_of(&first->largest_size, stride, n);
-    statistics->largest_share = fracas_estimate_of(&first->largest_share, stride, n);
-    statistics->radial_velocity = fracas_estimate_of(&first->motion.radial, stride, n);
-    statistics->radial_scatter = fracas_estimate_of(&first->motion.scatter, stride, n);
-    statistics->circumferential_velocity = fracas_estimate_of(&first->motion.circumferential,
-                                                              stride, n);
-    statistics->angular_velocity = fracas_estimate_of(&first->motion.spin, stride, n);
+#define MEAN(key, unit, doc) statistics->key = fracas_estimate_of(&first->key, stride, n);
+    FRACAS_REALIZATION_NUMBERS(MEAN)
     double nearest = INFINITY;
     for (size_t i = 0; i < n; i++) {
         double distance = fabs(ensemble->value[i].dissipated - statistics->dissipated.mean);

@@ -37,12 +37,9 @@ typedef struct {
      * something. */
     int64_t realizations, usable, unusable;
     int64_t outcome[FRACAS_NOUTCOMES];
-    fracas_estimate count, count_large, size, dissipated, bending, onset_time;
-    fracas_estimate translation, rotation; /* of a surface's fragments */
-    fracas_estimate largest_size,
-        largest_share; /* of the fragment of most mass: m, and its share of the mass */
-    fracas_estimate radial_velocity, radial_scatter, circumferential_velocity,
-        angular_velocity; /* of a ring's fragments */
+#define FRACAS_MEMBER(key, unit, doc) fracas_estimate key; /* mean over usable realizations */
+    FRACAS_REALIZATION_NUMBERS(FRACAS_MEMBER)
+#undef FRACAS_MEMBER
     double residual; /* largest over replicas of (largest |residual| over the run)/dissipated */
     double created;  /* largest over replicas of created/dissipated */
     double drift; /* largest over replicas of (largest |residual| over the run)/(largest energy at
@@ -90,16 +87,8 @@ bool fracas_outcome_usable(int64_t outcome);
 /* "FRAGMENTED"; "?" for a number that is no outcome. */
 const char *fracas_outcome_name(int64_t outcome);
 
-/* One number of a point's statistics, for export: the same keys in JSON and CSV, in this order. */
-typedef struct {
-    const char *key;
-    const char *unit; /* SI */
-    const char *doc;
-    size_t offset; /* in fracas_point_statistics */
-    bool integer;  /* int64_t, else double */
-} fracas_statistic;
-
-extern const fracas_statistic fracas_statistics[];
-extern const size_t fracas_nstatistics;
+/* Every number of a point's statistics, in fracas_point_statistics: the same keys in JSON and CSV,
+ * in this order. */
+extern const fracas_fields fracas_statistics;
 
 #endif

@@ -30,6 +30,8 @@ typedef struct {
     bool complete;   /* settled, and none FAILED */
 } fracas_progress;
 
+extern const fracas_fields fracas_progress_fields; /* planned, done, failed, missing, complete */
+
 fracas_progress fracas_analysis_progress_of(const fracas_analysis *analysis, size_t point);
 fracas_progress
 fracas_analysis_progress(const fracas_analysis *analysis); /* of all points together */
@@ -53,6 +55,8 @@ typedef struct {
     size_t point; /* SIZE_MAX: the study as a whole */
     char text[480];
 } fracas_warning;
+
+extern const fracas_fields fracas_warning_fields; /* point, text */
 
 /* Every warning of the study in the order of its points; *warning freed by the caller with free().
  */

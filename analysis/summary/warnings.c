@@ -9,6 +9,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+static const fracas_field fields[] = {
+    {"point", FRACAS_FIELD_INDEX, "1", "number of the point; null: the study as a whole",
+     offsetof(fracas_warning, point)},
+    {"text", FRACAS_FIELD_CHARS, "", "the warning", offsetof(fracas_warning, text)},
+};
+const fracas_fields fracas_warning_fields = FRACAS_FIELDS(fields);
+
 /* Beyond these a number is shown with a warning. */
 static const double residual_limit = 1e-3; /* of the dissipated energy */
 static const double created_limit = 1e-2;  /* of the dissipated energy */
@@ -134,8 +141,8 @@ static void warn_of_end(const fracas_bands *bands, double end, size_t p, warning
     size_t before = last;
     while (before > 0 && bands->time[before - 1] >= 0.9 * end * (1 - 1e-9))
         before--; /* within the last tenth: the end itself of fewer than ten intervals */
-    const double dissipated = bands->energy[last][FRACAS_ENERGY_DISSIPATED].mean;
-    const double rise = dissipated - bands->energy[before][FRACAS_ENERGY_DISSIPATED].mean;
+    const double dissipated = bands->energy[last][FRACAS_BAND_dissipated].mean;
+    const double rise = dissipated - bands->energy[before][FRACAS_BAND_dissipated].mean;
     if (!(rise > rise_limit * dissipated)) return;
     char value[32];
     fracas_format_digits(100 * rise / dissipated, 2, value, sizeof value);

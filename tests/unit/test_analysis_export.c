@@ -53,13 +53,19 @@ static void page_shows_every_key(void **state)
     FILE *out = open_memstream(&wanted, &size);
     fracas_analysis_reference(out);
     fclose(out);
+    static const char begin[] = "<!-- generated: fracas reference --statistics -->\n\n",
+                      end[] = "\n<!-- end of generated -->\n";
     char *page = report_contents(FRACAS_SOURCE_DIR, "docs/formats/summary.md");
-    if (!strstr(page, wanted))
+    const char *shown = strstr(page, begin);
+    assert_non_null(shown);
+    shown += strlen(begin);
+    if (strncmp(shown, wanted, size) || strcmp(shown + size, end))
         fprintf(stderr,
-                "docs/formats/summary.md must end with what `fracas reference --statistics` "
-                "prints:\n%s",
+                "docs/formats/summary.md must have between its markers, and nothing else, what "
+                "`fracas reference --statistics` prints:\n%s",
                 wanted);
-    assert_non_null(strstr(page, wanted));
+    assert_memory_equal(shown, wanted, size);
+    assert_string_equal(shown + size, end);
     free(page);
     free(wanted);
 }

@@ -193,8 +193,8 @@ static void bending_is_shown_where_it_is(void **state)
         fracas_analysis analysis;
         char names[512];
         make_analysis(0, bent, point, &analysis);
-        assert_true(point[0].bending.mean == (bent ? 3 : 0) && point[1].bending.mean == 0 &&
-                    point[0].bending.n == 2);
+        assert_true(point[0].dissipated_bending.mean == (bent ? 3 : 0) &&
+                    point[1].dissipated_bending.mean == 0 && point[0].dissipated_bending.n == 2);
         names_of(&analysis, names);
         assert_int_equal(strstr(names, " dissipated bending resid. ") != NULL, bent);
         if (bent) {

@@ -275,13 +275,13 @@ static void band_of_many(void **state)
     for (size_t j = 0; j < bands.count; j++) {
         assert_true(bands.time[j] == (double)j);
         assert_int_equal(bands.running[j], running[j]);
-        const fracas_band *kinetic = &bands.energy[j][FRACAS_ENERGY_KINETIC],
-                          *dissipated = &bands.energy[j][FRACAS_ENERGY_DISSIPATED];
+        const fracas_band *kinetic = &bands.energy[j][FRACAS_BAND_kinetic],
+                          *dissipated = &bands.energy[j][FRACAS_BAND_dissipated];
         assert_near(kinetic->mean, 14.5);
         assert_near(kinetic->low, 1.45);
         assert_near(kinetic->high, 27.55);
-        assert_near(bands.energy[j][FRACAS_ENERGY_ELASTIC].mean, -1);
-        assert_near(bands.energy[j][FRACAS_ENERGY_COHESIVE].high, 2);
+        assert_near(bands.energy[j][FRACAS_BAND_elastic].mean, -1);
+        assert_near(bands.energy[j][FRACAS_BAND_cohesive].high, 2);
         assert_near(dissipated->mean, j < 3 ? (double)j : 2.5); /* half of them held at 2 */
         assert_near(dissipated->low, j < 3 ? (double)j : 2);
         assert_near(dissipated->high, (double)j);
@@ -296,9 +296,9 @@ static void band_of_few(void **state)
     fracas_bands bands;
     read_bands(3, &bands);
     assert_true(bands.extremes && bands.count == 4 && bands.running[3] == 2);
-    assert_near(bands.energy[2][FRACAS_ENERGY_KINETIC].mean, 7);
-    assert_near(bands.energy[2][FRACAS_ENERGY_KINETIC].low, 0);
-    assert_near(bands.energy[2][FRACAS_ENERGY_KINETIC].high, 14);
+    assert_near(bands.energy[2][FRACAS_BAND_kinetic].mean, 7);
+    assert_near(bands.energy[2][FRACAS_BAND_kinetic].low, 0);
+    assert_near(bands.energy[2][FRACAS_BAND_kinetic].high, 14);
     fracas_bands_clear(&bands);
 }
 
