@@ -57,22 +57,6 @@ static void paint_value(const fracas_compared_value *value,
     format_p(value->p_holm, cell[P_HOLM]);
 }
 
-static void print_cells(const fracas_result_table *table, size_t rows, FILE *out)
-{
-    for (size_t r = 0; r < rows; r++) {
-        for (size_t c = 0; c < NCOLUMNS; c++) {
-            size_t width = 0;
-            for (size_t other = 0; other < rows; other++) {
-                const size_t length = strlen(fracas_result_table_cell(table, other, c));
-                width = length > width ? length : width;
-            }
-            fprintf(out, c == WHAT ? "  %-*s" : "  %*s", (int)width,
-                    fracas_result_table_cell(table, r, c));
-        }
-        putc('\n', out);
-    }
-}
-
 static void print_head(const fracas_compared_point *point, FILE *out)
 {
     fprintf(out,
@@ -88,12 +72,9 @@ static void print_head(const fracas_compared_point *point, FILE *out)
 static fracas_err print_point(const fracas_compared_point *point, FILE *out)
 {
     static const char *const name[NCOLUMNS] = {"", "A", "B", "B - A", "relative", "p", "p (Holm)"};
-    fracas_result_table table = {.rows = FRACAS_COMPARED_VALUES + 2, .columns = NCOLUMNS};
-    table.cell = calloc(table.rows * table.columns, sizeof *table.cell);
-    if (!table.cell) return fracas_no_memory("a table");
-    size_t rows = 1;
-    for (size_t c = 0; c < NCOLUMNS; c++)
-        snprintf(fracas_result_table_cell(&table, 0, c), FRACAS_CELL, "%s", name[c]);
+    fracas_result_table table;
+    size_t rows = FRACAS_RESULT_TABLE_HEAD;
+    TRY(fracas_table_empty(FRACAS_COMPARED_VALUES + 1, NCOLUMNS, name, &table));
     for (size_t v = 0; v < FRACAS_COMPARED_VALUES; v++) {
         const fracas_compared_value *value = &point->value[v];
         const bool nothing = value->a.n == 0 && value->b.n == 0,
@@ -106,8 +87,9 @@ static fracas_err print_point(const fracas_compared_point *point, FILE *out)
     format_p(point->p, fracas_result_table_cell(&table, rows, P));
     format_p(point->p_holm, fracas_result_table_cell(&table, rows, P_HOLM));
     print_head(point, out);
-    print_cells(&table, rows + 1, out);
-    free(table.cell);
+    table.rows = rows + 1;
+    fracas_table_print(&table, "  ", 1U << WHAT, false, out);
+    fracas_result_table_clear(&table);
     return FRACAS_OK;
 }
 

@@ -15,22 +15,6 @@
 
 /* ---- text ---- */
 
-static void print_table(const fracas_result_table *table, FILE *out)
-{
-    int width[FRACAS_CONVERGENCE_COLUMNS] = {0};
-    for (size_t r = 0; r < table->rows; r++)
-        for (size_t c = 0; c < table->columns; c++)
-            width[c] = (int)fmax(width[c], (double)strlen(fracas_result_table_cell(table, r, c)));
-    for (size_t r = 0; r < table->rows; r++)
-        for (size_t c = 0; c < table->columns; c++) {
-            if (r > 0 && r < FRACAS_RESULT_TABLE_HEAD)
-                continue; /* units stand behind the numbers */
-            const bool last = c + 1 == table->columns, text = c < 3 || last;
-            fprintf(out, text ? "%-*s%s" : "%*s%s", last ? 0 : width[c],
-                    fracas_result_table_cell(table, r, c), last ? "\n" : "  ");
-        }
-}
-
 /* "mesh: of 8 numbers 2 moved, ..." */
 static void format_counts(const fracas_convergence *convergence, const char *refinement, char *text,
                           size_t size)
@@ -123,7 +107,7 @@ fracas_err fracas_convergence_print(const fracas_convergence *convergence, FILE 
 {
     fracas_result_table table = {0};
     TRY(fracas_convergence_table_create(convergence, false, &table));
-    print_table(&table, out);
+    fracas_table_print(&table, "", 0x87, false, out); /* words to the left */
     fracas_result_table_clear(&table);
     fprintf(out,
             "\nchange: of the mean, with the half width of its 95 %% interval: of pairs with the "

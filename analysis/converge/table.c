@@ -71,7 +71,7 @@ fracas_err fracas_convergence_table_create(const fracas_convergence *convergence
 {
     static const char *const head[FRACAS_CONVERGENCE_COLUMNS] = {
         "", "point", "number", "as it is", "refined", "change [%]", "half widths", ""};
-    TRY(fracas_side_table_make(convergence->nrows, FRACAS_CONVERGENCE_COLUMNS, head, table));
+    TRY(fracas_table_empty(convergence->nrows, FRACAS_CONVERGENCE_COLUMNS, head, table));
     for (size_t i = 0; i < convergence->nrows; i++) fill_row(convergence, i, unicode, table);
     return FRACAS_OK;
 }

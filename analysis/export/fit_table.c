@@ -40,7 +40,7 @@ fracas_err fracas_fit_table_create(const fracas_analysis *analysis, const fracas
     enum { RANK, DELTA, KS, KS_P, AD, AD_P, FAMILY, PARAMETERS, NCOLUMNS };
     const char *const name[NCOLUMNS] = {
         "rank", unicode ? "\u0394AICc" : "d AICc", "KS", "p", "AD", "p", "family", "parameters"};
-    TRY(fracas_side_table_make(count_ranked(analysis, fits), NCOLUMNS, name, table));
+    TRY(fracas_table_empty(count_ranked(analysis, fits), NCOLUMNS, name, table));
     size_t line = FRACAS_RESULT_TABLE_HEAD;
     for (size_t p = 0; p < analysis->table->npoints; p++) {
         for (int rank = 1; rank <= FRACAS_NFAMILIES; rank++) {

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/export/side_tables.h"
 
-#include "analysis/data/format.h"
 #include "analysis/scaling/crossover.h"
 #include "analysis/scaling/slope.h"
 #include "analysis/scaling/windows.h"
+#include "base/param.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -46,180 +45,111 @@ const char *const fracas_motion_table_legend[] = {
     NULL,
 };
 
-fracas_err fracas_side_table_make(size_t rows, size_t columns, const char *const *name,
-                                  fracas_result_table *table)
-{
-    table->rows = FRACAS_RESULT_TABLE_HEAD + rows;
-    table->columns = columns;
-    table->cell = calloc(table->rows * table->columns, sizeof *table->cell);
-    if (!table->cell) return fracas_no_memory("a table");
-    for (size_t c = 0; c < columns; c++)
-        snprintf(fracas_result_table_cell(table, 0, c), FRACAS_CELL, "%s", name[c]);
-    return FRACAS_OK;
-}
+/* Columns of the struct `type`. */
+#define PLACE(type, member) offsetof(type, member)
 
 fracas_err fracas_slope_table_create(const fracas_analysis *analysis, bool unicode,
                                      fracas_result_table *table)
 {
-    enum { SLOPE, MOTT, GRADY, POINTS, CHI2, SERIES, NCOLUMNS };
-    static const char *const name[NCOLUMNS] = {"slope",  "Mott",     "Grady",
-                                               "points", "chi2/dof", "series"};
+#define AT(member) PLACE(fracas_size_slope, member)
+    static const fracas_table_column column[] = {
+        {"slope", "", FRACAS_CELL_PLUS_MINUS, AT(slope.slope), 0, AT(slope.half_width)},
+        {"Mott", "", FRACAS_CELL_NUMBER, AT(mott)},
+        {"Grady", "", FRACAS_CELL_NUMBER, AT(grady), 3},
+        {"points", "", FRACAS_CELL_INTEGER, AT(slope.n)},
+        {"chi2/dof", "", FRACAS_CELL_NUMBER, AT(slope.chi2), 2, AT(slope.freedom)},
+        {"series", "", FRACAS_CELL_TEXT, AT(name)},
+    };
+#undef AT
     fracas_size_slope *list;
-    size_t count;
-    TRY(fracas_size_slopes(analysis, &list, &count));
-    fracas_err err = fracas_side_table_make(count, NCOLUMNS, name, table);
-    for (size_t i = 0; i < count && !err; i++) {
-        const fracas_slope *slope = &list[i].slope;
-        char *cell[NCOLUMNS];
-        for (size_t c = 0; c < NCOLUMNS; c++)
-            cell[c] = fracas_result_table_cell(table, FRACAS_RESULT_TABLE_HEAD + i, c);
-        const fracas_estimate estimate = {
-            .n = slope->n, .mean = slope->slope, .half_width = slope->half_width};
-        fracas_format_estimate(&estimate, 1, unicode ? "\u00b1" : "+-", cell[SLOPE], FRACAS_CELL);
-        fracas_format_short(FRACAS_SLOPE_MOTT, cell[MOTT], FRACAS_CELL);
-        fracas_format_digits(FRACAS_SLOPE_GRADY, 3, cell[GRADY], FRACAS_CELL);
-        snprintf(cell[POINTS], FRACAS_CELL, "%lld", (long long)slope->n);
-        fracas_format_digits(slope->chi2 / (double)(slope->n - 2), 2, cell[CHI2], FRACAS_CELL);
-        snprintf(cell[SERIES], FRACAS_CELL, "%s", list[i].name);
-    }
+    fracas_table_rows rows = {.size = sizeof *list};
+    TRY(fracas_size_slopes(analysis, &list, &rows.count));
+    rows.first = list;
+    const fracas_err err = fracas_table_make(column, FRACAS_COUNT(column), &rows, unicode, table);
     free(list);
     return err;
 }
+
+static const char edot0[] = "/edot0", edot0_unicode[] = "/\u03b5\u0307\u2080";
 
 fracas_err fracas_window_table_create(const fracas_analysis *analysis, bool unicode,
                                       fracas_result_table *table)
 {
-    enum { SLOPE, FROM, TO, FROM_PART, TO_PART, SERIES, NCOLUMNS };
-    static const char *const name[NCOLUMNS] = {"slope", "from", "to", "from", "to", "series"};
+#define AT(member) PLACE(fracas_size_window, member)
+    static const fracas_table_column column[] = {
+        {"slope", "", FRACAS_CELL_PLUS_MINUS, AT(window.slope), 0, AT(window.half_width)},
+        {"from", "[1/s]", FRACAS_CELL_NUMBER, AT(rate[0])},
+        {"to", "[1/s]", FRACAS_CELL_NUMBER, AT(rate[1])},
+        {"from", edot0, FRACAS_CELL_NUMBER, AT(normalised[0]), 3, .unicode = edot0_unicode},
+        {"to", edot0, FRACAS_CELL_NUMBER, AT(normalised[1]), 3, .unicode = edot0_unicode},
+        {"series", "", FRACAS_CELL_TEXT, AT(name)},
+    };
+#undef AT
     fracas_size_window *list;
-    size_t count;
-    TRY(fracas_size_windows(analysis, &list, &count));
-    fracas_err err = fracas_side_table_make(count, NCOLUMNS, name, table);
-    for (size_t c = FROM; c <= TO_PART && !err; c++)
-        snprintf(fracas_result_table_cell(table, 1, c), FRACAS_CELL, "%s",
-                 c <= TO   ? "[1/s]"
-                 : unicode ? "/\u03b5\u0307\u2080"
-                           : "/edot0");
-    for (size_t i = 0; i < count && !err; i++) {
-        const fracas_window *window = &list[i].window;
-        char *cell[NCOLUMNS];
-        for (size_t c = 0; c < NCOLUMNS; c++)
-            cell[c] = fracas_result_table_cell(table, FRACAS_RESULT_TABLE_HEAD + i, c);
-        const fracas_estimate estimate = {
-            .n = 2, .mean = window->slope, .half_width = window->half_width};
-        fracas_format_estimate(&estimate, 1, unicode ? "\u00b1" : "+-", cell[SLOPE], FRACAS_CELL);
-        for (size_t end = 0; end < 2; end++) {
-            fracas_format_short(list[i].rate[end], cell[FROM + end], FRACAS_CELL);
-            fracas_format_digits(list[i].normalised[end], 3, cell[FROM_PART + end], FRACAS_CELL);
-        }
-        snprintf(cell[SERIES], FRACAS_CELL, "%s", list[i].name);
-    }
+    fracas_table_rows rows = {.size = sizeof *list};
+    TRY(fracas_size_windows(analysis, &list, &rows.count));
+    rows.first = list;
+    const fracas_err err = fracas_table_make(column, FRACAS_COUNT(column), &rows, unicode, table);
     free(list);
     return err;
 }
 
-/* "3.51e4 [3.20e4, 3.94e4]" */
-static void format_interval(const fracas_interval *interval, double factor, char *text)
+/* A series of one rate has nothing to cross over from. */
+static bool has_rates(const void *row)
 {
-    fracas_format_interval(interval->value * factor, interval->low * factor,
-                           interval->high * factor, text, FRACAS_CELL);
+    return ((const fracas_size_crossover *)row)->n > 1;
 }
 
-/* A series of one rate has nothing to go over from. */
-static void keep_series_of_rates(fracas_size_crossover *list, size_t *count)
+static void series_text(const fracas_analysis *analysis, size_t index, const void *row, char *text)
 {
-    size_t kept = 0;
-    for (size_t i = 0; i < *count; i++)
-        if (list[i].n > 1) list[kept++] = list[i];
-    *count = kept;
+    const fracas_size_crossover *of = row;
+    (void)analysis, (void)index;
+    snprintf(text, FRACAS_CELL, "%.60s%s%.60s", of->name, *of->reason ? ": " : "", of->reason);
 }
 
 fracas_err fracas_crossover_table_create(const fracas_analysis *analysis, bool unicode,
                                          fracas_result_table *table)
 {
-    enum { RATE, RATE_PART, SIZE, SIZE_PART, EXPONENT, POINTS, CHI2, SERIES, NCOLUMNS };
-    static const char *const name[NCOLUMNS] = {"crossover", "crossover", "s_q",      "s_q",
-                                               "exponent",  "points",    "chi2/dof", "series"};
+#define AT(member) PLACE(fracas_size_crossover, member)
+    static const fracas_table_column column[] = {
+        {"crossover", "[1/s]", FRACAS_CELL_INTERVAL, AT(rate)},
+        {"crossover", edot0, FRACAS_CELL_INTERVAL, AT(rate_normalised), .unicode = edot0_unicode},
+        {"s_q", "m", FRACAS_CELL_INTERVAL, AT(size), .prefixed = 1},
+        {"s_q", "/s0", FRACAS_CELL_INTERVAL, AT(size_normalised), .unicode = "/s\u2080"},
+        {"exponent", "", FRACAS_CELL_INTERVAL, AT(exponent)},
+        {"points", "", FRACAS_CELL_INTEGER, AT(n)},
+        {"chi2/dof", "", FRACAS_CELL_NUMBER, AT(chi2), 2, AT(freedom)},
+        {"series", "", FRACAS_CELL_FORMAT, .format = series_text},
+    };
+#undef AT
     fracas_size_crossover *list;
-    size_t count;
-    TRY(fracas_size_crossovers(analysis, true, &list, &count));
-    keep_series_of_rates(list, &count);
-    double size[2] = {INFINITY, 0};
-    for (size_t i = 0; i < count; i++)
-        if (list[i].size.value > 0)
-            size[0] = fmin(size[0], list[i].size.value),
-            size[1] = fmax(size[1], list[i].size.value);
-    const fracas_prefix prefix = fracas_prefix_for(size, 2);
-    fracas_err err = fracas_side_table_make(count, NCOLUMNS, name, table);
-    if (!err) {
-        snprintf(fracas_result_table_cell(table, 1, RATE), FRACAS_CELL, "[1/s]");
-        snprintf(fracas_result_table_cell(table, 1, RATE_PART), FRACAS_CELL,
-                 unicode ? "/\u03b5\u0307\u2080" : "/edot0");
-        snprintf(fracas_result_table_cell(table, 1, SIZE), FRACAS_CELL, "[%sm]",
-                 unicode ? prefix.sign : prefix.symbol);
-        snprintf(fracas_result_table_cell(table, 1, SIZE_PART), FRACAS_CELL,
-                 unicode ? "/s\u2080" : "/s0");
-    }
-    for (size_t i = 0; i < count && !err; i++) {
-        const fracas_size_crossover *of = &list[i];
-        char *cell[NCOLUMNS];
-        for (size_t c = 0; c < NCOLUMNS; c++)
-            cell[c] = fracas_result_table_cell(table, FRACAS_RESULT_TABLE_HEAD + i, c);
-        format_interval(&of->rate, 1, cell[RATE]);
-        format_interval(&of->rate_normalised, 1, cell[RATE_PART]);
-        format_interval(&of->size, prefix.factor, cell[SIZE]);
-        format_interval(&of->size_normalised, 1, cell[SIZE_PART]);
-        format_interval(&of->exponent, 1, cell[EXPONENT]);
-        snprintf(cell[POINTS], FRACAS_CELL, "%lld", (long long)of->n);
-        fracas_format_digits(of->chi2 / of->freedom, 2, cell[CHI2], FRACAS_CELL);
-        snprintf(cell[SERIES], FRACAS_CELL, "%.60s%s%.60s", of->name, *of->reason ? ": " : "",
-                 of->reason);
-    }
+    fracas_table_rows rows = {.size = sizeof *list, .keep = has_rates};
+    TRY(fracas_size_crossovers(analysis, true, &list, &rows.count));
+    rows.first = list;
+    const fracas_err err = fracas_table_make(column, FRACAS_COUNT(column), &rows, unicode, table);
     free(list);
     return err;
 }
 
-/* One prefix for the spins of all points. */
-static fracas_prefix spin_prefix(const fracas_analysis *analysis)
+static bool is_ring(const void *row)
 {
-    double extreme[2] = {INFINITY, 0};
-    for (size_t p = 0; p < analysis->table->npoints; p++) {
-        double mean = analysis->point[p].angular_velocity.mean;
-        if (!(mean > 0)) continue;
-        extreme[0] = fmin(extreme[0], mean);
-        extreme[1] = fmax(extreme[1], mean);
-    }
-    return fracas_prefix_for(extreme, 2);
+    return ((const fracas_point_statistics *)row)->radius > 0;
 }
 
 fracas_err fracas_motion_table_create(const fracas_analysis *analysis, bool unicode,
                                       fracas_result_table *table)
 {
-    enum { USED, OUTWARD, SCATTER, ALONG, SPIN, POINT, NCOLUMNS };
-    static const char *const name[NCOLUMNS] = {"n", "outward", "scatter", "along", "spin", "point"};
-    size_t rings = 0, row = FRACAS_RESULT_TABLE_HEAD;
-    for (size_t p = 0; p < analysis->table->npoints; p++) rings += analysis->point[p].radius > 0;
-    TRY(fracas_side_table_make(rings, NCOLUMNS, name, table));
-    fracas_prefix spin = spin_prefix(analysis);
-    for (size_t c = OUTWARD; c <= ALONG; c++)
-        snprintf(fracas_result_table_cell(table, 1, c), FRACAS_CELL, "[m/s]");
-    snprintf(fracas_result_table_cell(table, 1, SPIN), FRACAS_CELL, "[%srad/s]",
-             unicode ? spin.sign : spin.symbol);
-    const char *sign = unicode ? "\u00b1" : "+-";
-    for (size_t p = 0; p < analysis->table->npoints; p++) {
-        const fracas_point_statistics *statistics = &analysis->point[p];
-        if (!(statistics->radius > 0)) continue;
-        char *cell[NCOLUMNS];
-        for (size_t c = 0; c < NCOLUMNS; c++) cell[c] = fracas_result_table_cell(table, row, c);
-        snprintf(cell[USED], FRACAS_CELL, "%lld", (long long)statistics->radial_velocity.n);
-        fracas_format_estimate(&statistics->radial_velocity, 1, sign, cell[OUTWARD], FRACAS_CELL);
-        fracas_format_estimate(&statistics->radial_scatter, 1, sign, cell[SCATTER], FRACAS_CELL);
-        fracas_format_estimate(&statistics->circumferential_velocity, 1, sign, cell[ALONG],
-                               FRACAS_CELL);
-        fracas_format_estimate(&statistics->angular_velocity, spin.factor, sign, cell[SPIN],
-                               FRACAS_CELL);
-        fracas_analysis_label(analysis, p, cell[POINT], FRACAS_CELL);
-        row++;
-    }
-    return FRACAS_OK;
+#define AT(member) PLACE(fracas_point_statistics, member)
+    static const fracas_table_column column[] = {
+        {"n", "", FRACAS_CELL_INTEGER, AT(radial_velocity.n)},
+        {"outward", "[m/s]", FRACAS_CELL_ESTIMATE, AT(radial_velocity)},
+        {"scatter", "[m/s]", FRACAS_CELL_ESTIMATE, AT(radial_scatter)},
+        {"along", "[m/s]", FRACAS_CELL_ESTIMATE, AT(circumferential_velocity)},
+        {"spin", "rad/s", FRACAS_CELL_ESTIMATE, AT(angular_velocity), .prefixed = 1},
+        {"point", "", FRACAS_CELL_FORMAT, .format = fracas_cell_label},
+    };
+#undef AT
+    const fracas_table_rows rows = {analysis->point, analysis->table->npoints,
+                                    sizeof *analysis->point, analysis, is_ring};
+    return fracas_table_make(column, FRACAS_COUNT(column), &rows, unicode, table);
 }

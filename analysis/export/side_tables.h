@@ -31,11 +31,6 @@ FRACAS_MUST_USE fracas_err fracas_fit_table_create(const fracas_analysis *analys
                                                    const fracas_fits *fits, bool unicode,
                                                    fracas_result_table *table);
 
-/* `count` rows below the head, all empty, with these names of columns. */
-FRACAS_MUST_USE fracas_err fracas_side_table_make(size_t count, size_t columns,
-                                                  const char *const *name,
-                                                  fracas_result_table *table);
-
 /* What the columns mean, a line each; ends with NULL. */
 extern const char *const fracas_fit_table_legend[];
 extern const char *const fracas_slope_table_legend[], *const fracas_window_table_legend[],

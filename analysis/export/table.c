@@ -8,27 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Columns after those that tell the points apart. */
-enum {
-    USED,
-    FAILED,
-    COUNT,
-    LARGE,
-    SIZE,
-    DISSIPATED,
-    BENDING,
-    ZMR,
-    GRADY,
-    GC,
-    MOTT,
-    RATIO,
-    RESIDUAL,
-    CREATED,
-    ROTATION,
-    OUTCOMES,
-    NCOLUMNS
-};
-
 static const char *const legend_of_chains[] = {
     "n: realizations used (FRAGMENTED, INTACT, TIME_LIMIT); fail: all others. After the mean: half "
     "width of its 95 %",
@@ -74,20 +53,6 @@ bool fracas_result_table_beside(const fracas_analysis *analysis, char *text, siz
     return *paths != '\0';
 }
 
-typedef struct {
-    const fracas_analysis *analysis;
-    const fracas_result_table *table;
-    const fracas_columns
-        *first; /* those that tell the points apart, and the strain rate that they make */
-    const char *plus_minus;
-    bool unicode;
-    fracas_prefix size, energy;
-    size_t place[NCOLUMNS];    /* of each column in the table; HIDDEN */
-    char nowhere[FRACAS_CELL]; /* what is hidden is painted here */
-} painter;
-
-static const size_t HIDDEN = SIZE_MAX;
-
 static bool any_bending(const fracas_analysis *analysis)
 {
     for (size_t p = 0; p < analysis->table->npoints; p++)
@@ -95,42 +60,24 @@ static bool any_bending(const fracas_analysis *analysis)
     return false;
 }
 
+static bool any_chain(const fracas_analysis *analysis)
+{
+    return !fracas_analysis_all_surfaces(analysis);
+}
+
 static bool any_mott(const fracas_analysis *analysis)
 {
-    for (size_t p = 0; p < analysis->table->npoints; p++)
+    for (size_t p = 0; p < analysis->table->npoints && any_chain(analysis); p++)
         if (isfinite(analysis->point[p].law[FRACAS_LAW_MOTT])) return true;
     return false;
 }
 
-/* Counts without dust and rotation are for surfaces, size laws for what is none. Returns how many
- * columns there are. */
-static size_t place_columns(painter *paint)
-{
-    const bool any = fracas_analysis_any_surface(paint->analysis),
-               all = fracas_analysis_all_surfaces(paint->analysis);
-    size_t next = paint->first->count;
-    for (size_t c = 0; c < NCOLUMNS; c++) {
-        const bool law = c >= ZMR && c <= RATIO, of_surfaces = c == LARGE || c == ROTATION;
-        const bool shown = law           ? !all && (c != MOTT || any_mott(paint->analysis))
-                           : of_surfaces ? any
-                                         : c != BENDING || any_bending(paint->analysis);
-        paint->place[c] = shown ? next++ : HIDDEN;
-    }
-    return next;
-}
-
-/* The cell of one of our columns. */
-static char *cell_of(painter *paint, size_t row, size_t c)
-{
-    return paint->place[c] == HIDDEN ? paint->nowhere
-                                     : fracas_result_table_cell(paint->table, row, paint->place[c]);
-}
-
 /* "32 FRAGMENTED, 1 FAILED, 7 not there": the outcomes that occurred, and what a partial study
  * lacks. */
-static void outcomes_text(const fracas_analysis *analysis, size_t p, char *text, size_t size)
+static void outcomes_text(const fracas_analysis *analysis, size_t p, const void *row, char *text)
 {
-    const fracas_point_statistics *statistics = &analysis->point[p];
+    const fracas_point_statistics *statistics = row;
+    const size_t size = FRACAS_CELL;
     const fracas_progress progress = fracas_analysis_progress_of(analysis, p);
     const long long to_come = (long long)(progress.planned - progress.done - progress.failed);
     size_t used = 0;
@@ -143,30 +90,51 @@ static void outcomes_text(const fracas_analysis *analysis, size_t p, char *text,
         snprintf(text + used, size - used, "%s%lld not there", used ? ", " : "", to_come);
 }
 
-/* One prefix for a column, from the values of `member` at all points. */
-static fracas_prefix prefix_of(const fracas_analysis *analysis, size_t offset)
-{
-    double extreme[2] = {INFINITY, 0};
-    for (size_t p = 0; p < analysis->table->npoints; p++) {
-        double mean = ((const fracas_estimate *)((const char *)&analysis->point[p] + offset))->mean;
-        if (!(mean > 0)) continue;
-        extreme[0] = fmin(extreme[0], mean);
-        extreme[1] = fmax(extreme[1], mean);
-    }
-    return fracas_prefix_for(extreme, 2);
-}
+#define PLACE(member) offsetof(fracas_point_statistics, member)
+enum { LENGTH = 1, ENERGY }; /* groups of columns with one prefix */
 
-static void paint_unit(const painter *paint, char *cell, const fracas_prefix *prefix,
-                       const char *unit)
-{
-    snprintf(cell, FRACAS_CELL, "[%s%s]", paint->unicode ? prefix->sign : prefix->symbol, unit);
-}
+/* Columns after those that tell the points apart; `shown`: NULL, always. */
+static const struct {
+    fracas_table_column column;
+    bool (*shown)(const fracas_analysis *analysis);
+    bool law;
+} columns[] = {
+    {{"n", "", FRACAS_CELL_INTEGER, PLACE(usable)}},
+    {{"fail", "", FRACAS_CELL_INTEGER, PLACE(unusable)}},
+    {{"count", "", FRACAS_CELL_ESTIMATE, PLACE(count)}},
+    {{"no dust", "", FRACAS_CELL_ESTIMATE, PLACE(count_large)}, fracas_analysis_any_surface},
+    {{"size", "m", FRACAS_CELL_ESTIMATE, PLACE(size), .prefixed = LENGTH}},
+    {{"dissipated", "J", FRACAS_CELL_ESTIMATE, PLACE(dissipated), .prefixed = ENERGY}},
+    {{"bending", "J", FRACAS_CELL_ESTIMATE, PLACE(dissipated_bending), .prefixed = ENERGY},
+     any_bending},
+    {{"ZMR", "m", FRACAS_CELL_NUMBER, PLACE(law[FRACAS_LAW_ZMR]), 4, .prefixed = LENGTH},
+     any_chain,
+     true},
+    {{"Grady", "m", FRACAS_CELL_NUMBER, PLACE(law[FRACAS_LAW_GRADY]), 4, .prefixed = LENGTH},
+     any_chain,
+     true},
+    {{"GC", "m", FRACAS_CELL_NUMBER, PLACE(law[FRACAS_LAW_GLENN_CHUDNOVSKY]), 4,
+      .prefixed = LENGTH},
+     any_chain,
+     true},
+    {{"Mott", "m", FRACAS_CELL_NUMBER, PLACE(law[FRACAS_LAW_MOTT]), 4, .prefixed = LENGTH},
+     any_mott,
+     true},
+    {{"size", "/ZMR", FRACAS_CELL_MEAN, PLACE(size), 0, PLACE(law[FRACAS_LAW_ZMR])},
+     any_chain,
+     true},
+    {{"resid.", "/diss.", FRACAS_CELL_NUMBER, PLACE(residual), 2}},
+    {{"created", "/diss.", FRACAS_CELL_NUMBER, PLACE(created), 2}},
+    {{"rotation", "/transl.", FRACAS_CELL_NUMBER, PLACE(rotation.mean), 2, PLACE(translation.mean)},
+     fracas_analysis_any_surface},
+    {{"outcomes", "", FRACAS_CELL_FORMAT, .format = outcomes_text}},
+};
+enum { NCOLUMNS = sizeof columns / sizeof *columns };
 
 /* Lengths among the first columns have a prefix of their own, so that radii are not read in
  * exponents. */
-static fracas_prefix parameter_prefix(const painter *paint, size_t column)
+static fracas_prefix parameter_prefix(const fracas_point_table *points, size_t column)
 {
-    const fracas_point_table *points = paint->analysis->table;
     if (strcmp(points->column[column].unit, "m")) return (fracas_prefix){1, "", ""};
     double extreme[2] = {INFINITY, 0};
     for (size_t p = 0; p < points->npoints; p++) {
@@ -178,145 +146,48 @@ static fracas_prefix parameter_prefix(const painter *paint, size_t column)
     return fracas_prefix_for(extreme, 2);
 }
 
-static void paint_head(painter *paint)
+/* The columns that tell the points apart. */
+static void fill_parameters(const fracas_point_table *points, const fracas_columns *first,
+                            bool unicode, const fracas_result_table *table)
 {
-    static const char *const name[NCOLUMNS] = {
-        [USED] = "n",
-        [FAILED] = "fail",
-        [COUNT] = "count",
-        [LARGE] = "no dust",
-        [SIZE] = "size",
-        [DISSIPATED] = "dissipated",
-        [BENDING] = "bending",
-        [ZMR] = "ZMR",
-        [GRADY] = "Grady",
-        [GC] = "GC",
-        [MOTT] = "Mott",
-        [RATIO] = "size",
-        [RESIDUAL] = "resid.",
-        [CREATED] = "created",
-        [ROTATION] = "rotation",
-        [OUTCOMES] = "outcomes",
-    };
-    const fracas_columns *shown = paint->first;
-    const fracas_point_table *points = paint->analysis->table;
-    for (size_t i = 0; i < shown->count; i++) {
-        const fracas_column *column = &points->column[shown->column[i]];
-        snprintf(fracas_result_table_cell(paint->table, 0, i), FRACAS_CELL, "%s",
-                 fracas_columns_name(points, shown, i));
-        fracas_prefix prefix = parameter_prefix(paint, shown->column[i]);
+    for (size_t i = 0; i < first->count; i++) {
+        const fracas_column *column = &points->column[first->column[i]];
+        const fracas_prefix prefix = parameter_prefix(points, first->column[i]);
+        snprintf(fracas_result_table_cell(table, 0, i), FRACAS_CELL, "%s",
+                 fracas_columns_name(points, first, i));
         if (!column->text && strcmp(column->unit, "1"))
-            paint_unit(paint, fracas_result_table_cell(paint->table, 1, i), &prefix, column->unit);
+            snprintf(fracas_result_table_cell(table, 1, i), FRACAS_CELL, "[%s%s]",
+                     unicode ? prefix.sign : prefix.symbol, column->unit);
+        for (size_t p = 0; p < points->npoints; p++)
+            fracas_columns_value(points, first->column[i], p, prefix.factor,
+                                 fracas_result_table_cell(table, FRACAS_RESULT_TABLE_HEAD + p, i),
+                                 FRACAS_CELL);
     }
-    for (size_t c = 0; c < NCOLUMNS; c++)
-        snprintf(cell_of(paint, 0, c), FRACAS_CELL, "%s", name[c]);
-    for (size_t c = SIZE; c <= MOTT; c++)
-        paint_unit(paint, cell_of(paint, 1, c), &paint->size, "m");
-    paint_unit(paint, cell_of(paint, 1, DISSIPATED), &paint->energy, "J");
-    paint_unit(paint, cell_of(paint, 1, BENDING), &paint->energy, "J");
-    snprintf(cell_of(paint, 1, RATIO), FRACAS_CELL, "/ZMR");
-    snprintf(cell_of(paint, 1, RESIDUAL), FRACAS_CELL, "/diss.");
-    snprintf(cell_of(paint, 1, CREATED), FRACAS_CELL, "/diss.");
-    snprintf(cell_of(paint, 1, ROTATION), FRACAS_CELL, "/transl.");
-}
-
-static void paint_point(painter *paint, size_t p)
-{
-    const fracas_point_statistics *statistics = &paint->analysis->point[p];
-    const fracas_columns *shown = paint->first;
-    size_t row = FRACAS_RESULT_TABLE_HEAD + p;
-    char *first = fracas_result_table_cell(paint->table, row, 0), *cell[NCOLUMNS];
-    for (size_t i = 0; i < shown->count; i++)
-        fracas_columns_value(paint->analysis->table, shown->column[i], p,
-                             parameter_prefix(paint, shown->column[i]).factor,
-                             first + i * FRACAS_CELL, FRACAS_CELL);
-    for (size_t c = 0; c < NCOLUMNS; c++) cell[c] = cell_of(paint, row, c);
-    snprintf(cell[USED], FRACAS_CELL, "%lld", (long long)statistics->usable);
-    snprintf(cell[FAILED], FRACAS_CELL, "%lld", (long long)statistics->unusable);
-    const char *sign = paint->plus_minus;
-    fracas_format_estimate(&statistics->count, 1, sign, cell[COUNT], FRACAS_CELL);
-    fracas_format_estimate(&statistics->count_large, 1, sign, cell[LARGE], FRACAS_CELL);
-    fracas_format_estimate(&statistics->size, paint->size.factor, sign, cell[SIZE], FRACAS_CELL);
-    fracas_format_estimate(&statistics->dissipated, paint->energy.factor, sign, cell[DISSIPATED],
-                           FRACAS_CELL);
-    fracas_format_estimate(&statistics->dissipated_bending, paint->energy.factor, sign,
-                           cell[BENDING], FRACAS_CELL);
-    const fracas_size_law_id law[] = {FRACAS_LAW_ZMR, FRACAS_LAW_GRADY, FRACAS_LAW_GLENN_CHUDNOVSKY,
-                                      FRACAS_LAW_MOTT};
-    for (size_t i = 0; i < sizeof law / sizeof *law; i++)
-        fracas_format_digits(statistics->law[law[i]] * paint->size.factor, 4, cell[ZMR + i],
-                             FRACAS_CELL);
-    fracas_format_mean(&statistics->size, 1 / statistics->law[FRACAS_LAW_ZMR], cell[RATIO],
-                       FRACAS_CELL);
-    fracas_format_digits(statistics->residual, 2, cell[RESIDUAL], FRACAS_CELL);
-    fracas_format_digits(statistics->created, 2, cell[CREATED], FRACAS_CELL);
-    fracas_format_digits(statistics->rotation.mean / statistics->translation.mean, 2,
-                         cell[ROTATION], FRACAS_CELL);
-    outcomes_text(paint->analysis, p, cell[OUTCOMES], FRACAS_CELL);
 }
 
 fracas_err fracas_result_table_create(const fracas_analysis *analysis, bool unicode,
                                       fracas_result_table *table)
 {
     fracas_columns first;
+    fracas_table_column shown[NCOLUMNS];
+    size_t count = 0, laws = 0, first_law = 0;
     TRY(fracas_columns_with_rate(analysis->table, &analysis->shown, &first));
-    painter paint = {
-        .analysis = analysis,
-        .table = table,
-        .first = &first,
-        .unicode = unicode,
-        .plus_minus = unicode ? "\u00b1" : "+-",
-        .size = prefix_of(analysis, offsetof(fracas_point_statistics, size)),
-        .energy = prefix_of(analysis, offsetof(fracas_point_statistics, dissipated)),
-    };
-    table->rows = FRACAS_RESULT_TABLE_HEAD + analysis->table->npoints;
-    table->columns = place_columns(&paint);
-    table->laws = paint.place[ZMR] == HIDDEN ? 0 : paint.place[RATIO] - paint.place[ZMR] + 1;
-    table->first_law = paint.place[ZMR];
-    table->cell = calloc(table->rows * table->columns, sizeof *table->cell);
-    if (table->cell) {
-        paint_head(&paint);
-        for (size_t p = 0; p < analysis->table->npoints; p++) paint_point(&paint, p);
+    for (size_t c = 0; c < NCOLUMNS; c++) {
+        if (columns[c].shown && !columns[c].shown(analysis)) continue;
+        if (columns[c].law && laws++ == 0) first_law = first.count + count;
+        shown[count++] = columns[c].column;
+    }
+    const fracas_table_rows rows = {analysis->point, analysis->table->npoints,
+                                    sizeof *analysis->point, analysis, NULL};
+    fracas_err err = fracas_table_empty(rows.count, first.count + count, NULL, table);
+    if (!err) {
+        fill_parameters(analysis->table, &first, unicode, table);
+        fracas_table_fill(table, first.count, shown, count, &rows, unicode);
+        table->laws = laws;
+        table->first_law = first_law;
     }
     fracas_columns_clear(&first);
-    return table->cell ? FRACAS_OK : fracas_no_memory("the result table");
-}
-
-void fracas_result_table_clear(fracas_result_table *table)
-{
-    free(table->cell);
-    *table = (fracas_result_table){0};
-}
-
-static int column_width(const fracas_result_table *table, size_t column)
-{
-    size_t width = 0;
-    for (size_t r = 0; r < table->rows; r++) {
-        size_t length = strlen(fracas_result_table_cell(table, r, column));
-        if (length > width) width = length;
-    }
-    return (int)width;
-}
-
-/* Two spaces; one between the size laws, which are one group, so that an everyday table fits 120
- * columns. */
-static const char *gap_before(const fracas_result_table *table, size_t column)
-{
-    if (column == 0) return "";
-    return table->laws && column > table->first_law && column < table->first_law + table->laws
-               ? " "
-               : "  ";
-}
-
-static void print_cells(const fracas_result_table *table, FILE *out)
-{
-    for (size_t r = 0; r < table->rows; r++) {
-        for (size_t c = 0; c + 1 < table->columns; c++)
-            fprintf(out, "%s%*s", gap_before(table, c), column_width(table, c),
-                    fracas_result_table_cell(table, r, c));
-        const char *last = fracas_result_table_cell(table, r, table->columns - 1);
-        fprintf(out, "%s%s\n", *last ? "  " : "", last);
-    }
+    return err;
 }
 
 /* How the replicas were decided, where they were not given. */
@@ -352,7 +223,7 @@ void fracas_analysis_print_table(const fracas_analysis *analysis, FILE *out)
         fprintf(out, "%s\n", fracas_message());
         return;
     }
-    print_cells(&table, out);
+    fracas_table_print(&table, "", 1U << (table.columns - 1), true, out);
     fracas_result_table_clear(&table);
     putc('\n', out);
     const char *const *legend = fracas_result_table_legend(analysis);

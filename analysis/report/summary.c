@@ -140,56 +140,37 @@ static void put_campaign(const fracas_page *page)
 
 enum { HEADLINES = 12 }; /* points in the table of the summary */
 
-static fracas_prefix size_prefix(const fracas_analysis *analysis)
+/* The label of a point; its number, where the study has one point. */
+static void point_text(const fracas_analysis *analysis, size_t p, const void *row, char *text)
 {
-    double extreme[2] = {INFINITY, 0};
-    for (size_t p = 0; p < analysis->table->npoints; p++) {
-        const double mean = analysis->point[p].size.mean;
-        if (!(mean > 0)) continue;
-        extreme[0] = fmin(extreme[0], mean);
-        extreme[1] = fmax(extreme[1], mean);
-    }
-    return fracas_prefix_for(extreme, 2);
+    fracas_cell_label(analysis, p, row, text);
+    if (!*text) snprintf(text, FRACAS_CELL, "%zu", p);
 }
 
-enum { POINT, USED, COUNT, SIZE, RATIO, NHEADLINE };
+enum { RATIO = 4 }; /* the column of size/ZMR, which surfaces have not */
 
-static void paint_headline(const fracas_analysis *analysis, size_t p, const fracas_prefix *unit,
-                           fracas_result_table *table, size_t row)
-{
-    const fracas_point_statistics *statistics = &analysis->point[p];
-    char *cell[NHEADLINE];
-    for (size_t c = 0; c < table->columns; c++) cell[c] = fracas_result_table_cell(table, row, c);
-    fracas_analysis_label(analysis, p, cell[POINT], FRACAS_CELL);
-    if (!*cell[POINT]) snprintf(cell[POINT], FRACAS_CELL, "%zu", p);
-    snprintf(cell[USED], FRACAS_CELL, "%" PRId64, statistics->usable);
-    fracas_format_estimate(&statistics->count, 1, "\u00b1", cell[COUNT], FRACAS_CELL);
-    fracas_format_estimate(&statistics->size, unit->factor, "\u00b1", cell[SIZE], FRACAS_CELL);
-    if (table->columns == NHEADLINE)
-        fracas_format_estimate(&statistics->size, 1 / statistics->law[FRACAS_LAW_ZMR], "\u00b1",
-                               cell[RATIO], FRACAS_CELL);
-}
-
+/* All points, or HEADLINES of them, evenly spread, the first and the last among them. */
 static fracas_err make_headlines(const fracas_analysis *analysis, fracas_result_table *table)
 {
-    static const char *const name[NHEADLINE] = {"point", "n", "fragments", "mean size", "size"};
-    const size_t npoints = analysis->table->npoints,
-                 rows = npoints < HEADLINES ? npoints : HEADLINES;
-    const fracas_prefix unit = size_prefix(analysis);
-    *table = (fracas_result_table){.rows = FRACAS_RESULT_TABLE_HEAD + rows,
-                                   .columns = fracas_analysis_all_surfaces(analysis) ? RATIO
-                                                                                     : NHEADLINE};
-    table->cell = calloc(table->rows * table->columns, sizeof *table->cell);
-    if (!table->cell) return fracas_no_memory("the table of the summary");
-    for (size_t c = 0; c < table->columns; c++)
-        snprintf(fracas_result_table_cell(table, 0, c), FRACAS_CELL, "%s", name[c]);
-    snprintf(fracas_result_table_cell(table, 1, SIZE), FRACAS_CELL, "[%sm]", unit.sign);
-    if (table->columns == NHEADLINE)
-        snprintf(fracas_result_table_cell(table, 1, RATIO), FRACAS_CELL, "/ZMR");
-    for (size_t i = 0; i < rows; i++) /* all of them, or so many evenly spread over them, the first
-                                         and the last among them */
-        paint_headline(analysis, rows < 2 ? 0 : i * (npoints - 1) / (rows - 1), &unit, table,
-                       FRACAS_RESULT_TABLE_HEAD + i);
+#define AT(member) offsetof(fracas_point_statistics, member)
+    static const fracas_table_column column[] = {
+        {"point", "", FRACAS_CELL_FORMAT, .format = point_text},
+        {"n", "", FRACAS_CELL_INTEGER, AT(usable)},
+        {"fragments", "", FRACAS_CELL_ESTIMATE, AT(count)},
+        {"mean size", "m", FRACAS_CELL_ESTIMATE, AT(size), .prefixed = 1},
+        [RATIO] = {"size", "/ZMR", FRACAS_CELL_ESTIMATE, AT(size), 0, AT(law[FRACAS_LAW_ZMR])},
+    };
+#undef AT
+    const fracas_table_rows rows = {analysis->point, analysis->table->npoints,
+                                    sizeof *analysis->point, analysis, NULL};
+    const size_t columns = fracas_analysis_all_surfaces(analysis) ? RATIO : RATIO + 1;
+    TRY(fracas_table_make(column, columns, &rows, true, table));
+    for (size_t i = 0; rows.count > HEADLINES && i < HEADLINES; i++)
+        memmove(fracas_result_table_cell(table, FRACAS_RESULT_TABLE_HEAD + i, 0),
+                fracas_result_table_cell(
+                    table, FRACAS_RESULT_TABLE_HEAD + i * (rows.count - 1) / (HEADLINES - 1), 0),
+                columns * sizeof *table->cell);
+    if (rows.count > HEADLINES) table->rows = FRACAS_RESULT_TABLE_HEAD + HEADLINES;
     return FRACAS_OK;
 }
 
@@ -206,7 +187,7 @@ static fracas_err put_headlines(fracas_page *page)
              fracas_analysis_any_surface(analysis)
                  ? " Size of a piece of a surface: the square root of its area."
                  : "",
-             table.columns == NHEADLINE ? " ZMR: the law of Zhou, Molinari and Ramesh." : "",
+             table.columns > RATIO ? " ZMR: the law of Zhou, Molinari and Ramesh." : "",
              all ? "" : " A selection of the points.");
     return fracas_page_table(page, "headline", "Headline numbers", false, &table,
                              (const char *const[]){legend, NULL}, built);
@@ -222,7 +203,7 @@ static fracas_err put_slope(const fracas_page *page)
         const fracas_slope *slope = &list->slope;
         const fracas_estimate k = {
             .n = slope->n, .mean = slope->slope, .half_width = slope->half_width};
-        const double scatter = slope->chi2 / (double)(slope->n - 2);
+        const double scatter = slope->chi2 / slope->freedom;
         char value[64], times[32];
         fracas_format_estimate(&k, 1, "\u00b1", value, sizeof value);
         fracas_format_digits(sqrt(scatter), 2, times, sizeof times);

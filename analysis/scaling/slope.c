@@ -82,14 +82,15 @@ static moments fit(const double *x, const double *y, const fracas_mean_error *er
 fracas_slope fracas_slope_of(const double *x, const double *y, const fracas_mean_error *error,
                              size_t n)
 {
-    fracas_slope line = {.pooled = NAN}, none = {0, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    fracas_slope line = {.pooled = NAN}, none = {0, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     bool weighted = false;
     for (size_t i = 0; i < n; i++)
         weighted = weighted || (known(error[i].variance) && isfinite(x[i]) && isfinite(y[i]));
     const moments of = fit(x, y, error, weighted, n, &line);
     none.n = line.n;
     if (line.n < FRACAS_SLOPE_POINTS || !(of.xx > 0)) return none;
-    double squares = 0, freedom = (double)(line.n - 2);
+    double squares = 0;
+    const double freedom = line.freedom = (double)(line.n - 2);
     fracas_misfit misfit = {0};
     for (size_t i = 0; i < n; i++) {
         double w = weight_of(x, y, error, weighted, i),

@@ -25,6 +25,7 @@ typedef struct {
                       or it is not known */
     double standard_error; /* of the slope, inflated where chi2/(n - 2) > 1 */
     double half_width;     /* of the 95 % interval of the slope: t_(0.975, n-2) standard_error */
+    double freedom;        /* n - 2 */
 } fracas_slope;
 
 /* (estimators.1), (estimators.2), (estimators.3). x, y, error (of y): n values each. A variance

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tables of text for a terminal and for the page, made by descriptors of their columns. */
+#ifndef FRACAS_ANALYSIS_EXPORT_CELLS_H
+#define FRACAS_ANALYSIS_EXPORT_CELLS_H
+
+#include "analysis/summary/study.h"
+
+enum { FRACAS_CELL = 128, FRACAS_RESULT_TABLE_HEAD = 2 };
+
+typedef struct {
+    size_t rows, columns;      /* rows 0 and 1 are names and units */
+    size_t laws;               /* columns of scaling laws, which stand close together */
+    size_t first_law;          /* the first of them */
+    char (*cell)[FRACAS_CELL]; /* rows x columns */
+} fracas_result_table;
+
+static inline char *fracas_result_table_cell(const fracas_result_table *table, size_t row,
+                                             size_t column)
+{
+    return table->cell[row * table->columns + column];
+}
+
+void fracas_result_table_clear(fracas_result_table *table);
+
+typedef enum {
+    FRACAS_CELL_INTEGER,    /* int64_t */
+    FRACAS_CELL_NUMBER,     /* double to `digits` digits; 0: the shortest notation to six */
+    FRACAS_CELL_ESTIMATE,   /* fracas_estimate: mean and half width */
+    FRACAS_CELL_MEAN,       /* fracas_estimate: the mean, to the digits of its half width */
+    FRACAS_CELL_INTERVAL,   /* fracas_interval: value and ends */
+    FRACAS_CELL_PLUS_MINUS, /* double, with its half width at `other` */
+    FRACAS_CELL_TEXT,       /* char[] */
+    FRACAS_CELL_FORMAT      /* by `format` */
+} fracas_cell_kind;
+
+typedef struct fracas_table_column {
+    const char *name;
+    const char *unit; /* in the second line; of a `prefixed` column the SI unit */
+    fracas_cell_kind kind;
+    size_t offset; /* in the struct of a row [bytes] */
+    int digits;
+    size_t other; /* place of a double that the number is divided by, or of a half width; 0: none */
+    int prefixed; /* columns of one group > 0 share a prefix, from the values of the first of them
+                   */
+    const char *unicode; /* of the unit; NULL: as in ASCII */
+    void (*format)(const fracas_analysis *analysis, size_t index, const void *row, char *text);
+} fracas_table_column;
+
+/* An array of structs, each a row. */
+typedef struct {
+    const void *first;
+    size_t count, size; /* rows, and bytes of each */
+    const fracas_analysis *analysis;
+    bool (*keep)(const void *row); /* NULL: all */
+} fracas_table_rows;
+
+/* The table of these rows; `unicode`: with a plus-minus and a micro sign, else ASCII. *table is
+ * cleared by the caller. FRACAS_ENVIRONMENT without memory. */
+FRACAS_MUST_USE fracas_err fracas_table_make(const fracas_table_column *column, size_t columns,
+                                             const fracas_table_rows *rows, bool unicode,
+                                             fracas_result_table *table);
+/* The same in columns `at` on of a table that has room. */
+void fracas_table_fill(const fracas_result_table *table, size_t at,
+                       const fracas_table_column *column, size_t columns,
+                       const fracas_table_rows *rows, bool unicode);
+/* `count` rows below the head, all empty, with these names of columns. */
+FRACAS_MUST_USE fracas_err fracas_table_empty(size_t count, size_t columns, const char *const *name,
+                                              fracas_result_table *table);
+
+/* For a terminal, `indent` before each line; bit c of `left`: column c is aligned left. Without
+ * `units` the second line is left out. */
+void fracas_table_print(const fracas_result_table *table, const char *indent, unsigned left,
+                        bool units, FILE *out);
+
+/* Label of a point, as a format. */
+void fracas_cell_label(const fracas_analysis *analysis, size_t point, const void *row, char *text);
+
+#endif
