@@ -133,57 +133,65 @@ fracas_err fracas_comparison_print(const fracas_comparison *comparison, const fr
 
 /* ---- JSON ---- */
 
-static void write_estimate(fracas_json *json, const char *key, const fracas_estimate *estimate)
-{
-    fracas_json_object(json, key);
-    fracas_json_integer(json, "n", estimate->n);
-    fracas_json_real(json, "mean", estimate->mean);
-    fracas_json_real(json, "deviation", estimate->deviation);
-    fracas_json_real(json, "half_width", estimate->half_width);
-    fracas_json_close_object(json);
-}
+#define NUMBER(key, doc)                                                         \
+    {                                                                            \
+#key, FRACAS_FIELD_NUMBER, "", doc, offsetof(fracas_compared_value, key) \
+    }
+static const fracas_field value_field[] = {
+    {"a", FRACAS_FIELD_OBJECT, "", "number in A", offsetof(fracas_compared_value, a),
+     &fracas_estimate_fields},
+    {"b", FRACAS_FIELD_OBJECT, "", "number in B", offsetof(fracas_compared_value, b),
+     &fracas_estimate_fields},
+    NUMBER(difference, "mean of B - mean of A"),
+    NUMBER(low, "lower end of the 95 % interval of the difference"),
+    NUMBER(high, "upper end of the 95 % interval of the difference"),
+    NUMBER(relative, "difference / mean of A"),
+    NUMBER(relative_low, "lower end of its 95 % interval"),
+    NUMBER(relative_high, "upper end of its 95 % interval"),
+    NUMBER(freedom, "degrees of freedom of both intervals"),
+    NUMBER(p, "by permutation"),
+    NUMBER(p_holm, "p corrected over the points"),
+};
+static const fracas_fields value_fields = FRACAS_FIELDS(value_field);
+#undef NUMBER
 
-static void write_value(fracas_json *json, const fracas_compared_value *value,
-                        const fracas_compared_quantity *quantity)
-{
-    fracas_json_object(json, quantity->key);
-    fracas_json_text(json, "unit", quantity->unit);
-    write_estimate(json, "a", &value->a);
-    write_estimate(json, "b", &value->b);
-    fracas_json_real(json, "difference", value->difference);
-    fracas_json_real(json, "low", value->low);
-    fracas_json_real(json, "high", value->high);
-    fracas_json_real(json, "relative", value->relative);
-    fracas_json_real(json, "relative_low", value->relative_low);
-    fracas_json_real(json, "relative_high", value->relative_high);
-    fracas_json_real(json, "freedom", value->freedom);
-    fracas_json_real(json, "p", value->p);
-    fracas_json_real(json, "p_holm", value->p_holm);
-    fracas_json_close_object(json);
-}
+#define POINT(key, type, doc, member)                                              \
+    {                                                                              \
+        key, FRACAS_FIELD_##type, "", doc, offsetof(fracas_compared_point, member) \
+    }
+static const fracas_field point_field[] = {
+    POINT("point_a", INDEX, "number of the point in A", a),
+    POINT("point_b", INDEX, "number of the point in B", b),
+    POINT("label", CHARS, "the point by what it differs in", label),
+    POINT("differs", REASON, "other parameters in which both differ", differs),
+    POINT("paired", BOOLEAN, "realizations have the same random numbers", paired),
+    POINT("realizations_a", INTEGER, "realizations compared", used_a),
+    POINT("realizations_b", INTEGER, "realizations compared", used_b),
+    POINT("assignments", INTEGER, "permutations, the observed one among them", permutations),
+    POINT("exact", BOOLEAN, "these are all permutations", exact),
+};
+static const fracas_field distribution_field[] = {
+    POINT("distance", NUMBER, "largest difference of the distribution functions", distance),
+    POINT("p", NUMBER, "by permutation", p),
+    POINT("p_holm", NUMBER, "p corrected over the points", p_holm),
+};
+static const fracas_fields point_fields = FRACAS_FIELDS(point_field),
+                           distribution_fields = FRACAS_FIELDS(distribution_field);
 
 static void write_point(fracas_json *json, const fracas_compared_point *point)
 {
     fracas_json_object(json, NULL);
-    fracas_json_integer(json, "point_a", (int64_t)point->a);
-    fracas_json_integer(json, "point_b", (int64_t)point->b);
-    fracas_json_text(json, "label", point->label);
-    fracas_json_text(json, "differs", *point->differs ? point->differs : NULL);
-    fracas_json_boolean(json, "paired", point->paired);
-    fracas_json_integer(json, "realizations_a", point->used_a);
-    fracas_json_integer(json, "realizations_b", point->used_b);
-    fracas_json_integer(json, "assignments", point->permutations);
-    fracas_json_boolean(json, "exact", point->exact);
+    fracas_fields_json(json, &point_fields, point);
     fracas_json_object(json, "values");
-    for (size_t v = 0; v < FRACAS_COMPARED_VALUES; v++)
-        if (point->value[v].a.n > 0 || point->value[v].b.n > 0)
-            write_value(json, &point->value[v], &fracas_compared_quantities[v]);
+    for (size_t v = 0; v < FRACAS_COMPARED_VALUES; v++) {
+        if (point->value[v].a.n == 0 && point->value[v].b.n == 0) continue;
+        fracas_json_object(json, fracas_compared_quantities[v].key);
+        fracas_json_text(json, "unit", fracas_compared_quantities[v].unit);
+        fracas_fields_json(json, &value_fields, &point->value[v]);
+        fracas_json_close_object(json);
+    }
     fracas_json_close_object(json);
-    fracas_json_object(json, "size_distribution");
-    fracas_json_real(json, "distance", point->distance);
-    fracas_json_real(json, "p", point->p);
-    fracas_json_real(json, "p_holm", point->p_holm);
-    fracas_json_close_object(json);
+    fracas_fields_json_object(json, "size_distribution", &distribution_fields, point);
     fracas_json_close_object(json);
 }
 

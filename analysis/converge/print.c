@@ -2,13 +2,12 @@
 /* A convergence as text, JSON and CSV. */
 #include "analysis/converge/rows.h"
 
-#include "analysis/export/csv.h"
+#include "analysis/data/field.h"
 #include "analysis/data/output.h"
 #include "base/json.h"
 #include "base/param.h"
 
 #include <errno.h>
-#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -121,59 +120,71 @@ fracas_err fracas_convergence_print(const fracas_convergence *convergence, FILE 
     return fracas_fail_system(errno, "cannot write the table");
 }
 
-/* ---- JSON ---- */
+/* ---- JSON and CSV ---- */
 
-/* What JSON and CSV have of a difference. */
-static const struct {
-    const char *name;
-    size_t offset;
-} columns[] = {
-    {"difference", offsetof(fracas_compared_value, difference)},
-    {"low", offsetof(fracas_compared_value, low)},
-    {"high", offsetof(fracas_compared_value, high)},
-    {"relative", offsetof(fracas_compared_value, relative)},
-    {"relative_low", offsetof(fracas_compared_value, relative_low)},
-    {"relative_high", offsetof(fracas_compared_value, relative_high)},
-    {"p", offsetof(fracas_compared_value, p)},
-    {"p_holm", offsetof(fracas_compared_value, p_holm)},
+/* A row for print. */
+typedef struct {
+    const char *refinement;
+    size_t point;
+    char hash[FRACAS_HASH_HEX], label[256];
+    const char *number, *unit, *method, *verdict;
+    fracas_compared_value value;
+    double half_widths;
+} printed;
+
+static printed print_of(const fracas_convergence *convergence, const fracas_convergence_row *row)
+{
+    printed to = {.refinement = row->refinement,
+                  .point = row->point,
+                  .number = row->number->key,
+                  .unit = row->number->unit,
+                  .method = row->paired ? "pairs" : "welch",
+                  .verdict = fracas_number_verdict_name[row->verdict],
+                  .value = row->value,
+                  .half_widths = row->value.difference / row->value.a.half_width};
+    fracas_analysis_label(convergence->study, row->point, to.label, sizeof to.label);
+    fracas_hash_hex(&convergence->study->table->point[row->point].hash, to.hash);
+    return to;
+}
+
+static const fracas_field mean_field[] = {
+    {"n", FRACAS_FIELD_INTEGER, "1", "%s", offsetof(fracas_estimate, n)},
+    {"mean", FRACAS_FIELD_NUMBER, NULL, "%s", offsetof(fracas_estimate, mean)},
+    {"half_width", FRACAS_FIELD_NUMBER, NULL, "%s", offsetof(fracas_estimate, half_width)},
 };
+static const fracas_fields mean_fields = FRACAS_FIELDS(mean_field);
 
-static const double *column_at(const fracas_convergence_row *row, size_t c)
-{
-    return (const double *)(const void *)((const char *)&row->value + columns[c].offset);
-}
-
-static void write_estimate(fracas_json *json, const char *key, const fracas_estimate *estimate)
-{
-    fracas_json_object(json, key);
-    fracas_json_integer(json, "n", estimate->n);
-    fracas_json_real(json, "mean", estimate->mean);
-    fracas_json_real(json, "half_width", estimate->half_width);
-    fracas_json_close_object(json);
-}
-
-static void write_row(const fracas_convergence *convergence, const fracas_convergence_row *row,
-                      fracas_json *json)
-{
-    char label[256], hash[FRACAS_HASH_HEX];
-    fracas_analysis_label(convergence->study, row->point, label, sizeof label);
-    fracas_hash_hex(&convergence->study->table->point[row->point].hash, hash);
-    fracas_json_object(json, NULL);
-    fracas_json_text(json, "refinement", row->refinement);
-    fracas_json_integer(json, "point", (int64_t)row->point);
-    fracas_json_text(json, "hash", hash);
-    fracas_json_text(json, "label", label);
-    fracas_json_text(json, "number", row->number->key);
-    fracas_json_text(json, "unit", row->number->unit);
-    write_estimate(json, "base", &row->value.a);
-    write_estimate(json, "refined", &row->value.b);
-    for (size_t c = 0; c < FRACAS_COUNT(columns); c++)
-        fracas_json_real(json, columns[c].name, *column_at(row, c));
-    fracas_json_real(json, "half_widths", row->value.difference / row->value.a.half_width);
-    fracas_json_text(json, "method", row->paired ? "pairs" : "welch");
-    fracas_json_text(json, "verdict", fracas_number_verdict_name[row->verdict]);
-    fracas_json_close_object(json);
-}
+#define FIELD(key, type, member)                                    \
+    {                                                               \
+        key, FRACAS_FIELD_##type, "", "", offsetof(printed, member) \
+    }
+#define NUMBER(key) FIELD(#key, NUMBER, value.key)
+static const fracas_field place_field[] = {
+    FIELD("refinement", TEXT, refinement),
+    FIELD("point", INDEX, point),
+    FIELD("hash", CHARS, hash),
+};
+static const fracas_field label_field[] = {FIELD("label", CHARS, label)}; /* not in CSV */
+static const fracas_field change_field[] = {
+    FIELD("number", TEXT, number),
+    FIELD("unit", TEXT, unit),
+    {"base", FRACAS_FIELD_OBJECT, "", "", offsetof(printed, value.a), &mean_fields},
+    {"refined", FRACAS_FIELD_OBJECT, "", "", offsetof(printed, value.b), &mean_fields},
+    NUMBER(difference),
+    NUMBER(low),
+    NUMBER(high),
+    NUMBER(relative),
+    NUMBER(relative_low),
+    NUMBER(relative_high),
+    NUMBER(p),
+    NUMBER(p_holm),
+    FIELD("half_widths", NUMBER, half_widths),
+    FIELD("method", TEXT, method),
+    FIELD("verdict", TEXT, verdict),
+};
+static const fracas_fields place_fields = FRACAS_FIELDS(place_field),
+                           label_fields = FRACAS_FIELDS(label_field),
+                           change_fields = FRACAS_FIELDS(change_field);
 
 static size_t count_of(const fracas_convergence *convergence, fracas_number_verdict verdict)
 {
@@ -201,11 +212,11 @@ static void write_notes(const fracas_convergence *convergence, fracas_json *json
     fracas_json_array(json, "warnings");
     for (size_t i = 0; i < convergence->nnotes; i++) {
         const fracas_convergence_note *note = &convergence->note[i];
+        fracas_convergence_note_line(convergence, note, text, sizeof text);
         fracas_json_object(json, NULL);
         fracas_json_text(json, "refinement", note->refinement);
         if (note->point == SIZE_MAX) fracas_json_text(json, "point", NULL);
         else fracas_json_integer(json, "point", (int64_t)note->point);
-        fracas_convergence_note_line(convergence, note, text, sizeof text);
         fracas_json_text(json, "text", text);
         fracas_json_close_object(json);
     }
@@ -224,47 +235,36 @@ void fracas_convergence_write_json(const fracas_convergence *convergence, FILE *
     write_left(convergence, &json);
     write_notes(convergence, &json);
     fracas_json_array(&json, "numbers");
-    for (size_t i = 0; i < convergence->nrows; i++)
-        write_row(convergence, &convergence->row[i], &json);
+    for (size_t i = 0; i < convergence->nrows; i++) {
+        const printed row = print_of(convergence, &convergence->row[i]);
+        fracas_json_object(&json, NULL);
+        fracas_fields_json(&json, &place_fields, &row);
+        fracas_fields_json(&json, &label_fields, &row);
+        fracas_fields_json(&json, &change_fields, &row);
+        fracas_json_close_object(&json);
+    }
     fracas_json_close_array(&json);
     fracas_json_close_object(&json);
     fracas_json_end(&json);
 }
 
-/* ---- CSV ---- */
-
-static void csv_estimate(const fracas_estimate *estimate, FILE *out)
+static void put_name(void *out, const fracas_field *leaf)
 {
-    fprintf(out, ",%" PRId64, estimate->n);
-    fracas_csv_real(estimate->mean, out);
-    fracas_csv_real(estimate->half_width, out);
-}
-
-static void csv_row(const fracas_convergence *convergence, const fracas_convergence_row *row,
-                    FILE *out)
-{
-    char hash[FRACAS_HASH_HEX];
-    fracas_hash_hex(&convergence->study->table->point[row->point].hash, hash);
-    fprintf(out, "%s,%zu,%s,%s,%s", row->refinement, row->point, hash, row->number->key,
-            row->number->unit);
-    csv_estimate(&row->value.a, out);
-    csv_estimate(&row->value.b, out);
-    for (size_t c = 0; c < FRACAS_COUNT(columns); c++) fracas_csv_real(*column_at(row, c), out);
-    fracas_csv_real(row->value.difference / row->value.a.half_width, out);
-    fprintf(out, ",%s,%s\n", row->paired ? "pairs" : "welch",
-            fracas_number_verdict_name[row->verdict]);
+    fprintf(out, "%s%s", leaf->offset ? "," : "", leaf->key);
 }
 
 fracas_err fracas_convergence_write_csv(const fracas_convergence *convergence, const char *folder)
 {
     fracas_output_file output;
     TRY(fracas_output_open(folder, "converge.csv", &output));
-    fputs("refinement,point,hash,number,unit,base_n,base_mean,base_half_width,refined_n,refined_"
-          "mean,refined_half_width",
-          output.file);
-    for (size_t c = 0; c < FRACAS_COUNT(columns); c++) fprintf(output.file, ",%s", columns[c].name);
-    fputs(",half_widths,method,verdict\n", output.file);
-    for (size_t i = 0; i < convergence->nrows; i++)
-        csv_row(convergence, &convergence->row[i], output.file);
+    fracas_fields_walk(&place_fields, "_", put_name, output.file);
+    fracas_fields_walk(&change_fields, "_", put_name, output.file);
+    putc('\n', output.file);
+    for (size_t i = 0; i < convergence->nrows; i++) {
+        const printed row = print_of(convergence, &convergence->row[i]);
+        fprintf(output.file, "%s,%zu,%s", row.refinement, row.point, row.hash);
+        fracas_fields_csv(&change_fields, &row, output.file);
+        putc('\n', output.file);
+    }
     return fracas_output_close(&output, FRACAS_OK);
 }

@@ -161,6 +161,17 @@ void fracas_fits_print(const fracas_fits *fits, const fracas_analysis *analysis,
             print_point(fits, analysis, (int64_t)p, out);
 }
 
+#define FIELD(key, type)                                                  \
+    {                                                                     \
+#key, FRACAS_FIELD_##type, "", "", offsetof(fracas_fits_row, key) \
+    }
+static const fracas_field row_field[] = {
+    FIELD(point, INTEGER),     FIELD(hash, CHARS),   FIELD(family, CHARS), FIELD(quantity, CHARS),
+    FIELD(unit, CHARS),        FIELD(value, NUMBER), FIELD(low, NUMBER),   FIELD(high, NUMBER),
+    FIELD(resamples, INTEGER), FIELD(note, CHARS),
+};
+static const fracas_fields row_fields = FRACAS_FIELDS(row_field);
+
 void fracas_fits_write_json(const fracas_fits *fits, FILE *out)
 {
     fracas_json json;
@@ -168,20 +179,8 @@ void fracas_fits_write_json(const fracas_fits *fits, FILE *out)
     fracas_json_object(&json, NULL);
     fracas_json_text(&json, "campaign", fits->campaign);
     fracas_json_array(&json, "fits");
-    for (const fracas_fits_row *row = fits->row; row < fits->row + fits->n; row++) {
-        fracas_json_object(&json, NULL);
-        fracas_json_integer(&json, "point", row->point);
-        fracas_json_text(&json, "hash", row->hash);
-        fracas_json_text(&json, "family", row->family);
-        fracas_json_text(&json, "quantity", row->quantity);
-        fracas_json_text(&json, "unit", row->unit);
-        fracas_json_real(&json, "value", row->value);
-        fracas_json_real(&json, "low", row->low);
-        fracas_json_real(&json, "high", row->high);
-        fracas_json_integer(&json, "resamples", row->resamples);
-        fracas_json_text(&json, "note", row->note);
-        fracas_json_close_object(&json);
-    }
+    for (const fracas_fits_row *row = fits->row; row < fits->row + fits->n; row++)
+        fracas_fields_json_object(&json, NULL, &row_fields, row);
     fracas_json_close_array(&json);
     fracas_json_close_object(&json);
     fracas_json_end(&json);
