@@ -452,8 +452,10 @@ static fracas_err add_energy(const fracas_point_statistics *statistics, size_t w
 {
     fracas_series *series;
     TRY(fracas_panel_add(panel, FRACAS_CURVE, look, statistics->nhistory, &series));
-    snprintf(series->name, sizeof series->name, "%s%s",
-             which == RESIDUAL ? "|residual|" : fracas_energies[which].key,
+    const char *key = which == RESIDUAL ? "|residual|" : fracas_energies[which].key;
+    const int length = (int)strcspn(key, "_"); /* of "dissipated_bending": dissipated, bending */
+    snprintf(series->name, sizeof series->name, "%.*s%s%s%s", length, key, key[length] ? ", " : "",
+             key[length] ? key + length + 1 : "",
              which == 0 && kinetic_start(statistics) > 0 ? " - start" : "");
     for (size_t i = 0; i < statistics->nhistory; i++) {
         double value = energy(statistics, i, which) * energy_factor;
