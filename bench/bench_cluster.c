@@ -8,9 +8,9 @@
  * Prints one line for each number of workers. docs/results/scheduling.md has the figures, and where
  * the costs come from. */
 #include "bench/bench.h"
+#include "bench/synthetic_load.h"
 
 #include "campaigns/scheduler/lease/scheduler.h"
-#include "campaigns/scheduler/worker/stand_in.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -20,9 +20,9 @@
 /* ---- what is asked ---- */
 
 typedef struct {
-    double work;                /* s of realizations for each worker */
-    double task, share, longer; /* s of one, as fracas bench scheduler has it */
-    double lease, age;          /* s: --lease-time, --segment-age */
+    double work;                                        /* s of realizations for each worker */
+    double task, share, longer;                         /* s of one, as in bench_scheduler */
+    double lease, age;                                  /* s: --lease-time, --segment-age */
     double message, give, give_row, commit, commit_row; /* s of rank 0 */
     double fork, batch,
         row; /* s of a worker for a lease, a batch, a realization beside computing it */
@@ -176,12 +176,12 @@ static event pop(world *w)
 static double seconds_of_lease(const world *w, const fracas_lease *lease)
 {
     const costs *c = w->c;
-    const fracas_stand_in stand_in = {c->task, c->share, c->longer};
+    const synthetic_load load = {c->task, c->share, c->longer};
     double sum = c->fork + c->batch * ceil((double)lease->count / c->width) +
                  c->row * (double)lease->count;
     for (size_t i = 0; i < lease->count; i++)
         sum += ntimes ? times[(size_t)lease->replica[i] % ntimes]
-                      : fracas_stand_in_seconds(&stand_in, lease->point, lease->replica[i]);
+                      : synthetic_seconds(&load, lease->point, lease->replica[i]);
     return sum;
 }
 

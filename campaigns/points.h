@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The points of a campaign as a table of columns: what the store writes to /point and the analysis
- * reads. */
+/* The points of a campaign as a table of columns, for the store (/point) and the analysis. */
 #ifndef FRACAS_CAMPAIGNS_POINTS_H
 #define FRACAS_CAMPAIGNS_POINTS_H
 
@@ -21,20 +20,19 @@ typedef struct {
 } fracas_column;
 
 typedef struct {
-    double real;      /* NaN where the point has no such value, or the column is text */
-    const char *text; /* "" where the point has none, or the column is real; never NULL */
+    double real;      /* NaN if the point lacks the value, or the column is text */
+    const char *text; /* "" if the point lacks the value, or the column is real */
 } fracas_value;
 
 typedef struct {
     fracas_hash hash;
     int64_t replicas;
     const fracas_value *value; /* one per column */
-    int64_t most; /* replicas that it may get where a rule decides; 0: it has `replicas` */
+    int64_t most;              /* maximum of replicas by its rule; 0: no rule */
 } fracas_point_row;
 
-/* Columns are sorted by path (byte order); they are the union over all points, so `strength.shape`
- * is there, and NaN for points of another distribution, as soon as one point has it. Booleans and
- * integers are reals. */
+/* Columns of all points, sorted by path (byte order). A column that some points lack is NaN or ""
+ * for these. Booleans and integers are reals. */
 typedef struct {
     size_t ncolumns;
     const fracas_column *column;
@@ -42,8 +40,7 @@ typedef struct {
     const fracas_point_row *point;
 } fracas_point_table;
 
-/* Index of the column, or SIZE_MAX. Here, not in a file of one room, because rooms that do not meet
- * ask it. */
+/* Index of the column, or SIZE_MAX. Inline, for store and analysis alike. */
 static inline size_t fracas_point_table_find(const fracas_point_table *table, const char *path)
 {
     for (size_t c = 0; c < table->ncolumns; c++)
@@ -57,8 +54,7 @@ static inline bool fracas_value_same(const fracas_value *a, const fracas_value *
     return !strcmp(a->text, b->text) && (a->real == b->real || (isnan(a->real) && isnan(b->real)));
 }
 
-/* True if a column of the campaign's own (not a derived one) is not the same at every point: what
- * its sweep varies. */
+/* True if a column, not a derived one, varies over the points. */
 static inline bool fracas_point_table_varies(const fracas_point_table *table, size_t column)
 {
     if (!strncmp(table->column[column].path, "derived.", 8)) return false;

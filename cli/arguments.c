@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/cli.h"
 
-#include "campaigns/file/say.h"
+#include "campaigns/file/words.h"
 
 #include <errno.h>
 #include <getopt.h>

@@ -5,9 +5,9 @@
 #include "base/param.h"
 #include "campaigns/plan/forecast.h"
 #include "campaigns/plan/refine.h"
-#include "campaigns/scheduler/clock.h"
+#include "campaigns/scheduler/types/clock.h"
 #include "campaigns/scheduler/launch/allocation.h"
-#include "campaigns/scheduler/study/prepare.h"
+#include "campaigns/scheduler/session/prepare.h"
 
 #include <inttypes.h>
 #include <limits.h>

@@ -4,7 +4,7 @@
 #include "base/json.h"
 #include "base/param.h"
 #include "campaigns/campaign.h"
-#include "campaigns/scheduler/study/upkeep.h"
+#include "campaigns/scheduler/session/upkeep.h"
 
 #include <inttypes.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
 #include "cli/cli.h"
 
 #include "base/version.h"
-#include "campaigns/file/say.h"
+#include "campaigns/file/words.h"
 #include "campaigns/scheduler/run.h"
 
 #include <fcntl.h>
@@ -18,7 +18,7 @@ static const fracas_command *const commands[] = {
     &fracas_command_sample,        &fracas_command_distributions, &fracas_command_reference,
     &fracas_command_extend,        &fracas_command_retry,         &fracas_command_merge,
     &fracas_command_merge_studies, &fracas_command_reindex,       &fracas_command_gc,
-    &fracas_command_submit,        &fracas_command_converge,      &fracas_command_bench,
+    &fracas_command_submit,        &fracas_command_converge,
 };
 enum { NCOMMANDS = sizeof commands / sizeof *commands };
 

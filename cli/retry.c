@@ -3,7 +3,7 @@
 
 #include "base/param.h"
 #include "campaigns/campaign.h"
-#include "campaigns/scheduler/study/upkeep.h"
+#include "campaigns/scheduler/session/upkeep.h"
 
 #include <inttypes.h>
 #include <limits.h>

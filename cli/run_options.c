@@ -3,8 +3,8 @@
 
 #include "base/param.h"
 #include "campaigns/campaign.h"
-#include "campaigns/scheduler/study/prepare.h"
-#include "campaigns/scheduler/study/share.h"
+#include "campaigns/scheduler/session/prepare.h"
+#include "campaigns/scheduler/session/part.h"
 #include "campaigns/store/store.h"
 
 #include <limits.h>

@@ -6,8 +6,8 @@
 #include "base/json.h"
 #include "base/param.h"
 #include "campaigns/campaign.h"
-#include "campaigns/scheduler/study/prepare.h"
-#include "campaigns/scheduler/study/share.h"
+#include "campaigns/scheduler/session/prepare.h"
+#include "campaigns/scheduler/session/part.h"
 #include "campaigns/store/store.h"
 
 #include <inttypes.h>

@@ -4,9 +4,9 @@
 
 #include "base/param.h"
 #include "campaigns/campaign.h"
-#include "campaigns/scheduler/study/costs.h"
-#include "campaigns/scheduler/study/prepare.h"
-#include "campaigns/scheduler/study/share.h"
+#include "campaigns/scheduler/session/costs.h"
+#include "campaigns/scheduler/session/prepare.h"
+#include "campaigns/scheduler/session/part.h"
 
 #include <errno.h>
 #include <limits.h>

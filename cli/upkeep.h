@@ -7,7 +7,7 @@
 #include "cli/cli.h"
 
 #include "base/json.h"
-#include "campaigns/scheduler/study/upkeep.h"
+#include "campaigns/scheduler/session/upkeep.h"
 
 typedef struct {
     const char *study;

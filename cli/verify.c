@@ -4,8 +4,8 @@
 #include "base/json.h"
 #include "base/param.h"
 #include "campaigns/campaign.h"
-#include "campaigns/scheduler/study/meshes.h"
-#include "campaigns/scheduler/study/rounds.h"
+#include "campaigns/scheduler/session/meshes.h"
+#include "campaigns/scheduler/session/rounds.h"
 #include "campaigns/store/store.h"
 
 #include <limits.h>

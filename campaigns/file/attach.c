@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/attach.h"
 
-#include "campaigns/file/say.h"
-
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,8 +9,8 @@
 
 enum { MOST_MIB = 256 };
 
-/* The path as the system needs it: what is relative is so to the folder of the campaign file. NULL
- * without memory. */
+/* The path for the system: a relative one starts at the folder of the campaign file. NULL without
+ * memory. */
 static const char *locate(const fracas_file *file, const char *named)
 {
     const char *slash = strrchr(file->name, '/');
@@ -23,7 +21,7 @@ static const char *locate(const fracas_file *file, const char *named)
     return made;
 }
 
-/* A copy in a study has the digest of its content for its name: attachments/DIGEST. */
+/* The name of a copy in a study is the digest of its content: attachments/DIGEST. */
 static fracas_err check_copy(const fracas_attachment *read, const char *path)
 {
     static const char folder[] = FRACAS_ATTACHMENTS "/";
@@ -36,11 +34,11 @@ static fracas_err check_copy(const fracas_attachment *read, const char *path)
         return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
                        "%s is damaged: its content has the digest %s, its name says another; put "
-                       "back the file that it is a copy of",
+                       "back the original file",
                        path, read->digest);
 }
 
-/* A name that leads nowhere is a slip in the campaign file; any other reason is not of its making.
+/* A name that leads nowhere is an error of the campaign file, any other reason one of the system.
  */
 static fracas_err cannot(const char *verb, const char *path)
 {
@@ -51,7 +49,7 @@ static fracas_err cannot(const char *verb, const char *path)
                        strerror(reason));
 }
 
-/* The content, which belongs to the campaign's memory, and an end. */
+/* The content with a final '\0', in the campaign's memory. */
 static fracas_err load_open(const fracas_file *file, const char *path, FILE *in,
                             fracas_attachment *made)
 {
@@ -102,7 +100,7 @@ fracas_err fracas_attachment_read(const fracas_file *file, const char *key, cons
     if (!path || !made) return fracas_no_memory("a file that the campaign names");
     made->attachment.path = node->text; /* as long as the campaign's memory */
     fracas_err err = load(file, path, &made->attachment);
-    if (err) return err == FRACAS_USAGE ? fracas_say_within(file->name, node, key) : err;
+    if (err) return err == FRACAS_USAGE ? fracas_file_error_within(file, node, key) : err;
     made->next = file->campaign->attached;
     file->campaign->attached = made;
     *attachment = &made->attachment;

@@ -23,7 +23,7 @@ static const fracas_section output_section = {
     .nparams = FRACAS_COUNT(output_params),
 };
 
-/* ---- making it ---- */
+/* ---- the list of leaves ---- */
 
 static fracas_err make_sections(fracas_campaign_memory *memory, fracas_catalog *catalog)
 {
@@ -42,7 +42,7 @@ static fracas_err make_sections(fracas_campaign_memory *memory, fracas_catalog *
     return FRACAS_OK;
 }
 
-/* Counts the leaves a section can have at most. */
+/* Upper bound of a section's leaves. */
 static size_t most_leaves(const fracas_section *section)
 {
     size_t count = (section->nkinds > 0) + section->nparams;
@@ -113,7 +113,7 @@ fracas_err fracas_catalog_make(fracas_campaign_memory *memory, const fracas_cata
     return FRACAS_OK;
 }
 
-/* ---- looking things up ---- */
+/* ---- look-up ---- */
 
 const fracas_file_section *fracas_catalog_section(const fracas_catalog *catalog, const char *name)
 {
@@ -147,7 +147,7 @@ const fracas_leaf *fracas_catalog_selector(const fracas_catalog *catalog,
     return NULL;
 }
 
-/* The parameter of that name that points of `model` have (NULL: any model). */
+/* The parameter `key` at points of `model` (NULL: any model). */
 static const fracas_param *find_param(const fracas_param *params, size_t count,
                                       const fracas_kind *model, const char *key)
 {
@@ -196,7 +196,7 @@ const fracas_kind *fracas_section_kind(const fracas_file_section *section, const
     return *(const fracas_kind *const *)(const void *)(at + section->table->kind_offset);
 }
 
-/* The model of the point that owns a section; NULL for sections of the campaign. */
+/* Model of the section's point; NULL for sections of the campaign. */
 static const fracas_kind *model_in(const fracas_file_section *section, const void *owner)
 {
     return section->table->hashed ? ((const fracas_point *)owner)->spec.formulation : NULL;

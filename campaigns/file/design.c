@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/design.h"
 
-#include "campaigns/file/say.h"
 #include "campaigns/file/sweep.h"
 #include "campaigns/file/target.h"
+#include "campaigns/file/words.h"
 #include "sampler/design/correlation.h"
 #include "sampler/design/design.h"
 #include "sampler/design/uncertain.h"
@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A design as far as it is read; arrays are of the parameters. */
+/* A design being read; arrays are over its parameters. */
 typedef struct {
     const fracas_leaf **leaf;
     const fracas_node **node;
@@ -21,24 +21,25 @@ typedef struct {
     fracas_design design;
 } reading;
 
-/* The one of `count` kinds that the entry `key` of `map` names. */
+/* The entry `key` of the map, which must be there. */
+static fracas_err need(const fracas_file *file, const fracas_node *map, const char *key,
+                       const char *remedy, const fracas_node **found)
+{
+    *found = fracas_node_find(map, key);
+    return *found ? FRACAS_OK : fracas_file_error(file, map, "no `%s` is given; %s", key, remedy);
+}
+
 static fracas_err read_kind(const fracas_file *file, const fracas_node *map, const char *key,
                             const fracas_kind *const *kinds, size_t count, const fracas_kind **kind)
 {
-    const fracas_node *node = fracas_node_find(map, key);
-    char found[256], hint[600], label[80];
-    fracas_words words;
-    fracas_words_init(&words, node && node->type == FRACAS_SCALAR ? node->text : "");
-    for (size_t k = 0; k < count; k++) {
-        *kind = kinds[k];
-        if (node && strcmp(words.found, kinds[k]->name) == 0) return FRACAS_OK;
-        fracas_words_add(&words, kinds[k]->name);
-    }
-    snprintf(label, sizeof label, "%s can be", key);
-    fracas_words_hint(&words, label, hint);
-    if (!node) return fracas_say(file->name, map, "no `%s` is given%s", key, hint);
-    return fracas_say(file->name, node, "unknown %s %s%s", key, fracas_say_found(node, found),
-                      hint);
+    const fracas_node *node;
+    char remedy[300];
+    size_t used = (size_t)snprintf(remedy, sizeof remedy, "%s can be: ", key);
+    for (size_t k = 0; k < count && used < sizeof remedy; k++)
+        used += (size_t)snprintf(remedy + used, sizeof remedy - used, "%s%s", k ? ", " : "",
+                                 kinds[k]->name);
+    TRY(need(file, map, key, remedy, &node));
+    return fracas_setting_kind(file, key, node, kinds, count, kind);
 }
 
 /* ---- parameters ---- */
@@ -49,21 +50,23 @@ static fracas_err check_number(const fracas_file *file, const fracas_node *key,
 {
     const fracas_leaf *leaf = target->leaf;
     if (leaf && !fracas_leaf_is_text(leaf) && leaf->param->type != FRACAS_BOOLEAN) return FRACAS_OK;
-    return fracas_say(file->name, key,
-                      "`%s` is %s, which cannot be drawn; give it an axis of its own beside the "
-                      "design, as `- %s: [...]`",
-                      key->text,
-                      !leaf         ? "a section"
-                      : leaf->param ? "no number"
-                                    : "a kind",
-                      key->text);
+    return fracas_file_error(
+        file, key,
+        "`%s` is %s, which cannot be drawn; give it an axis of its own beside the "
+        "design, as `- %s: [...]`",
+        key->text,
+        !leaf         ? "a section"
+        : leaf->param ? "no number"
+                      : "a kind",
+        key->text);
 }
 
-/* One number of a law, "mean: 370 GPa", in the unit of the parameter where it has none of its own.
+/* One number of a distribution, "mean: 370 GPa", in the unit of the parameter unless it has its
+ * own.
  */
-static fracas_err read_law_number(const fracas_file *file, const fracas_leaf *leaf,
-                                  const fracas_node *node, const fracas_param *param,
-                                  fracas_uncertain *uncertain)
+static fracas_err read_number(const fracas_file *file, const fracas_leaf *leaf,
+                              const fracas_node *node, const fracas_param *param,
+                              fracas_uncertain *uncertain)
 {
     fracas_param own = *param;
     if (strcmp(own.unit, FRACAS_OWN_UNIT) == 0) own.unit = leaf->param->unit;
@@ -76,56 +79,51 @@ static fracas_err read_law_number(const fracas_file *file, const fracas_leaf *le
     return FRACAS_OK;
 }
 
-static fracas_err check_law_keys(const fracas_file *file, const fracas_node *node,
-                                 const fracas_kind *law)
+static fracas_err check_keys(const fracas_file *file, const fracas_node *node,
+                             const fracas_kind *law)
 {
     const char *keys[8] = {"distribution"};
-    char what[80];
+    char subject[80];
     for (size_t i = 0; i < law->nparams; i++) keys[i + 1] = law->params[i].name;
-    snprintf(what, sizeof what, "the distribution %s", law->name);
-    return fracas_say_unknown(file->name, node, keys, what);
+    snprintf(subject, sizeof subject, "the distribution %s", law->name);
+    return fracas_file_check_keys(file, node, keys, subject);
 }
 
-static fracas_err read_law(const fracas_file *file, const fracas_leaf *leaf,
-                           const fracas_node *node, fracas_uncertain *uncertain)
+static fracas_err read_distribution(const fracas_file *file, const fracas_leaf *leaf,
+                                    const fracas_node *node, fracas_uncertain *uncertain)
 {
     const fracas_section *laws = &fracas_uncertain_section;
-    char found[256];
     if (node->type != FRACAS_MAP)
-        return fracas_say(file->name, node,
-                          "`%s`: found %s; expected a distribution, as {distribution: uniform, "
-                          "minimum: ..., maximum: ...}",
-                          leaf->path, fracas_say_found(node, found));
+        return fracas_file_expected(
+            file, node, leaf->path,
+            "a distribution, as {distribution: uniform, minimum: ..., maximum: ...}");
     TRY(read_kind(file, node, laws->selector, laws->kinds, laws->nkinds, &uncertain->law));
-    TRY(check_law_keys(file, node, uncertain->law));
+    TRY(check_keys(file, node, uncertain->law));
     for (size_t i = 0; i < uncertain->law->nparams; i++) {
         const fracas_param *param = &uncertain->law->params[i];
         const fracas_node *number = fracas_node_find(node, param->name);
-        if (number) TRY(read_law_number(file, leaf, number, param, uncertain));
+        if (number) TRY(read_number(file, leaf, number, param, uncertain));
         else if (param->optional) fracas_param_clear(param, uncertain);
         else if (!isnan(param->fallback)) fracas_param_set(param, uncertain, param->fallback);
         else
-            return fracas_say(file->name, node, "`%s` with distribution %s needs `%s` (%s)",
-                              leaf->path, uncertain->law->name, param->name, param->doc);
+            return fracas_file_error(file, node, "`%s` with distribution %s needs `%s` (%s)",
+                                     leaf->path, uncertain->law->name, param->name, param->doc);
     }
-    return fracas_uncertain_check(uncertain) ? fracas_say_within(file->name, node, leaf->path)
+    return fracas_uncertain_check(uncertain) ? fracas_file_error_within(file, node, leaf->path)
                                              : FRACAS_OK;
 }
 
 static fracas_err read_parameters(const fracas_file *file, const fracas_node *map, reading *read)
 {
     static const char *const none[] = {NULL};
-    char found[256];
     if (map->type != FRACAS_MAP || map->count == 0)
-        return fracas_say(file->name, map,
-                          "`parameters`: found %s; expected paths with their distributions, below "
-                          "it and indented",
-                          map->type == FRACAS_MAP ? "nothing" : fracas_say_found(map, found));
+        return fracas_file_expected(file, map, "parameters",
+                                    "paths with their distributions, below it and indented");
     const size_t d = map->count, most = fracas_design_most_parameters(read->design.type);
     if (d > most)
-        return fracas_say(file->name, map->key,
-                          "%zu parameters; %s has at most %zu: use another type, or two designs", d,
-                          read->design.type->name, most);
+        return fracas_file_error(
+            file, map->key, "%zu parameters; %s has at most %zu: use another type, or two designs",
+            d, read->design.type->name, most);
     read->leaf = fracas_memory_take(file->memory, d, sizeof *read->leaf);
     read->node = fracas_memory_take(file->memory, d, sizeof *read->node);
     read->uncertain = fracas_memory_take(file->memory, d, sizeof *read->uncertain);
@@ -138,7 +136,7 @@ static fracas_err read_parameters(const fracas_file *file, const fracas_node *ma
         fracas_target target;
         TRY(fracas_target_find(file, node->key, none, &target));
         TRY(check_number(file, node->key, &target));
-        TRY(read_law(file, target.leaf, node, &read->uncertain[j]));
+        TRY(read_distribution(file, target.leaf, node, &read->uncertain[j]));
         const fracas_hash hash = fracas_hash_of(target.leaf->path, strlen(target.leaf->path));
         fracas_hash_words(&hash, word);
         read->leaf[j] = target.leaf;
@@ -161,8 +159,9 @@ static fracas_err find_parameter(const fracas_file *file, const reading *read,
         if (strcmp(words.found, read->leaf[*j]->path) == 0) return FRACAS_OK;
         fracas_words_add(&words, read->leaf[*j]->path);
     }
-    return fracas_say(file->name, node, "%s is no parameter of this design%s",
-                      fracas_say_found(node, found), fracas_words_hint(&words, "parameters", hint));
+    return fracas_file_error(file, node, "%s is no parameter of this design%s",
+                             fracas_node_found(node, found),
+                             fracas_words_hint(&words, "parameters", hint));
 }
 
 static fracas_err read_pair(const fracas_file *file, const fracas_node *node, reading *read)
@@ -181,10 +180,9 @@ static fracas_err read_pair(const fracas_file *file, const fracas_node *node, re
     fracas_setting setting;
     size_t j, k;
     if (!between || !value || between->type != FRACAS_LIST || between->count != 2)
-        return fracas_say(
-            file->name, node,
-            "a correlation is {between: [PARAMETER, PARAMETER], coefficient: NUMBER}");
-    TRY(fracas_say_unknown(file->name, node, keys, "a correlation"));
+        return fracas_file_error(
+            file, node, "a correlation is {between: [PARAMETER, PARAMETER], coefficient: NUMBER}");
+    TRY(fracas_file_check_keys(file, node, keys, "a correlation"));
     TRY(find_parameter(file, read, between->first, &j));
     TRY(find_parameter(file, read, between->first->next, &k));
     TRY(fracas_setting_read(file, &number, value, &setting));
@@ -192,26 +190,25 @@ static fracas_err read_pair(const fracas_file *file, const fracas_node *node, re
     double *pair[2] = {&read->correlation[j * read->design.parameters + k],
                        &read->correlation[k * read->design.parameters + j]};
     if (j == k)
-        return fracas_say(file->name, between,
-                          "`%s` twice; a correlation is between two parameters",
-                          read->leaf[j]->path);
+        return fracas_file_error(file, between,
+                                 "`%s` twice; a correlation is between two parameters",
+                                 read->leaf[j]->path);
     if (!isnan(*pair[0]))
-        return fracas_say(
-            file->name, between,
+        return fracas_file_error(
+            file, between,
             "the correlation between `%s` and `%s` is given twice; keep one of the two",
             read->leaf[j]->path, read->leaf[k]->path);
     if (fabs(setting.value) == 1)
-        return fracas_say(
-            file->name, value,
+        return fracas_file_error(
+            file, value,
             "`coefficient`: %.15g is out of range; allowed is more than -1 and less than 1: of two "
-            "parameters that go together exactly, one is not uncertain",
+            "exactly tied parameters, one is not uncertain",
             setting.value);
     *pair[0] = *pair[1] = setting.value;
     return FRACAS_OK;
 }
 
-/* Names the first parameter that contradicts those before it, and the one of them that it is tied
- * to most. */
+/* Names the first parameter in contradiction with earlier ones, and its strongest correlation. */
 static fracas_err check_correlation(const fracas_file *file, const fracas_node *list,
                                     const reading *read)
 {
@@ -222,24 +219,22 @@ static fracas_err check_correlation(const fracas_file *file, const fracas_node *
     if (fracas_correlation_factor(d, read->correlation, factor, &j, &rest)) return FRACAS_OK;
     for (size_t k = 1; k < j; k++)
         if (fabs(read->correlation[j * d + k]) > fabs(read->correlation[j * d + most])) most = k;
-    return fracas_say(file->name, list,
-                      "these coefficients contradict each other: those of `%s` with the parameters "
-                      "before it leave it %.3g of its variance, which must be more than 0; bring "
-                      "them nearer to 0, that with `%s` first (%.15g)",
-                      read->leaf[j]->path, rest, read->leaf[most]->path,
-                      read->correlation[j * d + most]);
+    return fracas_file_error(
+        file, list,
+        "these coefficients contradict each other: those of `%s` with the parameters "
+        "before it leave it %.3g of its variance, which must be more than 0; bring "
+        "them nearer to 0, that with `%s` first (%.15g)",
+        read->leaf[j]->path, rest, read->leaf[most]->path, read->correlation[j * d + most]);
 }
 
 static fracas_err read_correlation(const fracas_file *file, const fracas_node *list, reading *read)
 {
     const size_t d = read->design.parameters;
-    char found[256];
     if (!list) return FRACAS_OK;
     if (list->type != FRACAS_LIST || list->count == 0)
-        return fracas_say(file->name, list,
-                          "`correlation`: found %s; expected a list, as `- {between: [PARAMETER, "
-                          "PARAMETER], coefficient: 0.5}`",
-                          list->type == FRACAS_LIST ? "nothing" : fracas_say_found(list, found));
+        return fracas_file_expected(
+            file, list, "correlation",
+            "a list, as `- {between: [PARAMETER, PARAMETER], coefficient: 0.5}`");
     read->correlation = fracas_memory_take(file->memory, d * d, sizeof *read->correlation);
     if (!read->correlation) return fracas_no_memory("a design");
     for (size_t i = 0; i < d * d; i++) read->correlation[i] = i % (d + 1) == 0 ? 1.0 : NAN;
@@ -263,8 +258,8 @@ static fracas_err draw(const fracas_file *file, const reading *read, double *val
         const size_t j = i % d;
         const double drawn = fracas_uncertain_quantile(&read->uncertain[j], p[i]);
         if (!isfinite(drawn))
-            return fracas_say(
-                file->name, read->node[j],
+            return fracas_file_error(
+                file, read->node[j],
                 "`%s`: point %zu of the design is beyond all numbers; narrow its distribution",
                 read->leaf[j]->path, i / d + 1);
         value[i] = read->leaf[j]->param->type == FRACAS_INTEGER ? floor(drawn + 0.5)
@@ -277,27 +272,19 @@ fracas_err fracas_drawn_read(const fracas_file *file, const fracas_node *node, f
 {
     static const char *const keys[] = {"type", "points", "parameters", "correlation", NULL};
     reading read = {.design = {.seed = file->campaign->seed}};
-    char found[256];
     int64_t points;
     if (node->type != FRACAS_MAP)
-        return fracas_say(file->name, node,
-                          "`design`: found %s; expected `type:`, `points:` and `parameters:`, "
-                          "below it and indented",
-                          fracas_say_found(node, found));
-    TRY(fracas_say_unknown(file->name, node, keys, "a design"));
+        return fracas_file_expected(file, node, "design",
+                                    "`type:`, `points:` and `parameters:`, below it and indented");
+    TRY(fracas_file_check_keys(file, node, keys, "a design"));
     TRY(read_kind(file, node, "type", fracas_design_types, FRACAS_COUNT(fracas_design_types),
                   &read.design.type));
-    const fracas_node *count = fracas_node_find(node, "points"),
-                      *parameters = fracas_node_find(node, "parameters");
-    if (!count)
-        return fracas_say(file->name, node,
-                          "a design without `points`; say how many it has, as `points: 64`");
+    const fracas_node *count, *parameters;
+    TRY(need(file, node, "points", "give a design its number of points, as `points: 64`", &count));
     TRY(fracas_setting_integer(file, "points", count, 1, FRACAS_MAX_POINTS, &points));
     read.design.points = (size_t)points;
-    if (!parameters)
-        return fracas_say(file->name, node,
-                          "a design without `parameters`; say what is uncertain, each path with "
-                          "its distribution");
+    TRY(need(file, node, "parameters", "give each uncertain path with its distribution",
+             &parameters));
     TRY(read_parameters(file, parameters, &read));
     TRY(read_correlation(file, fracas_node_find(node, "correlation"), &read));
     double *value = fracas_memory_take(file->memory, read.design.points * read.design.parameters,

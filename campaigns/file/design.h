@@ -10,13 +10,13 @@ typedef struct {
     size_t points, parameters;
     const fracas_leaf *const *leaf; /* [parameters] */
     const fracas_node *const *node; /* [parameters], where each is written */
-    const double *value; /* [points][parameters], SI, rounded to 15 digits; a whole number where the
-                            leaf has one */
+    const double *value; /* [points][parameters], SI, rounded to 15 digits, or to a whole number if
+                            the leaf is one */
 } fracas_drawn;
 
-/* Reads the map `node` and draws its values, which belong to the file's memory. Random numbers are
- * named by the campaign's seed and the paths of the parameters. That the values lie in the
- * parameters' ranges, which may depend on the kind, is not checked here. */
+/* Reads the map `node` and draws its values into the file's memory. Random numbers depend on the
+ * campaign's seed and the paths of the parameters. Does not check ranges, which may depend on the
+ * kind. */
 FRACAS_MUST_USE fracas_err fracas_drawn_read(const fracas_file *file, const fracas_node *node,
                                              fracas_drawn *drawn);
 

@@ -47,7 +47,7 @@ static void write_campaign(const fracas_catalog *catalog, const fracas_campaign 
     }
 }
 
-/* A text that is written only to be hashed. */
+/* A text written only for its hash. */
 typedef struct {
     FILE *out;
     char *text;
@@ -123,7 +123,7 @@ fracas_err fracas_points_repeated(const fracas_campaign *campaign, size_t *earli
 static const char derived_strain_rate[] = "derived.strain_rate",
                   derived_strength_mean[] = "derived.strength_mean";
 
-/* Where a column's values come from: a leaf, or (NULL) what its path says. */
+/* Source of a column's values: a leaf, or NULL for a derived column. */
 typedef struct {
     fracas_column column;
     const fracas_leaf *leaf;
@@ -164,7 +164,7 @@ static size_t list_sources(const fracas_catalog *catalog, const fracas_campaign 
     return count;
 }
 
-/* The last mesh that was made to learn the extent of an interface. */
+/* The latest mesh made for the extent of an interface. */
 typedef struct {
     const fracas_spec *spec; /* NULL: none yet */
     fracas_extent extent;
@@ -176,7 +176,7 @@ static bool is_same_mesh(const fracas_spec *a, const fracas_spec *b)
            memcmp(&a->mesh, &b->mesh, sizeof a->mesh) == 0;
 }
 
-/* Few strengths need the mesh, which takes time; neighbours in a plan often have the same. */
+/* Makes the slow mesh only if the strength needs it and it differs from that of the last point. */
 static fracas_err mean_strength(const fracas_campaign *campaign, size_t p, known_mesh *mesh,
                                 double *mean)
 {

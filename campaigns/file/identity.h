@@ -9,19 +9,19 @@
 
 #include <stdio.h>
 
-/* Writes the text whose hash is the point's: a line "path=value" for each of its values, sorted by
- * path. */
+/* Writes the text for the point's hash: lines "path=value" sorted by path. */
 void fracas_point_write(const fracas_catalog *catalog, const fracas_point *point, FILE *out);
 
 /* Fills point->hash. */
 FRACAS_MUST_USE fracas_err fracas_point_identify(const fracas_catalog *catalog,
                                                  fracas_point *point);
 
-/* The first two points of equal hash, in plan order of the later one; *later is 0 if all differ. */
+/* The first two points of equal hash, in plan order of the later one; *later is 0 if there is none.
+ */
 FRACAS_MUST_USE fracas_err fracas_points_repeated(const fracas_campaign *campaign, size_t *earlier,
                                                   size_t *later);
 
-/* Fills campaign->table. `name` has the name of each point's case, "" for none. */
+/* Fills campaign->table. `name`: of each point's case, "" for none. */
 FRACAS_MUST_USE fracas_err fracas_campaign_tabulate(const fracas_catalog *catalog,
                                                     const char *const *name,
                                                     fracas_campaign *campaign);

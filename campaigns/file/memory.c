@@ -5,21 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct block {
-    struct block *next;
-    size_t size, used;
+typedef struct piece {
+    struct piece *next;
     max_align_t bytes[];
-} block;
+} piece;
 
 struct fracas_campaign_memory {
-    block *first; /* the one in use */
+    piece *first;
 };
-
-/* Bytes. Builds with a sanitizer set it to 1: a block for each piece, so that they see where one
- * ends. */
-#ifndef FRACAS_CAMPAIGN_BLOCK
-#define FRACAS_CAMPAIGN_BLOCK 65536
-#endif
 
 fracas_campaign_memory *fracas_memory_create(void)
 {
@@ -30,7 +23,7 @@ void fracas_memory_destroy(fracas_campaign_memory *memory)
 {
     if (!memory) return;
     while (memory->first) {
-        block *next = memory->first->next;
+        piece *next = memory->first->next;
         free(memory->first);
         memory->first = next;
     }
@@ -39,20 +32,12 @@ void fracas_memory_destroy(fracas_campaign_memory *memory)
 
 void *fracas_memory_take(fracas_campaign_memory *memory, size_t count, size_t size)
 {
-    const size_t grain = sizeof(max_align_t);
     if (size != 0 && count > (SIZE_MAX / 2) / size) return NULL;
-    size_t need = (count * size + grain - 1) / grain * grain;
-    block *in_use = memory->first;
-    if (!in_use || in_use->size - in_use->used < need) {
-        size_t room = need > FRACAS_CAMPAIGN_BLOCK ? need : FRACAS_CAMPAIGN_BLOCK;
-        block *added = calloc(1, sizeof *added + room);
-        if (!added) return NULL;
-        *added = (block){.next = in_use, .size = room};
-        memory->first = in_use = added;
-    }
-    void *piece = (char *)in_use->bytes + in_use->used;
-    in_use->used += need;
-    return piece;
+    piece *taken = calloc(1, sizeof *taken + count * size);
+    if (!taken) return NULL;
+    taken->next = memory->first;
+    memory->first = taken;
+    return taken->bytes;
 }
 
 char *fracas_memory_copy(fracas_campaign_memory *memory, const char *text, size_t length)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Memory that lives as long as a campaign: taken piece by piece, freed all at once. */
+/* Memory with the life of a campaign: taken piece by piece, freed at once. */
 #ifndef FRACAS_CAMPAIGNS_FILE_MEMORY_H
 #define FRACAS_CAMPAIGNS_FILE_MEMORY_H
 

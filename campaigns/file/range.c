@@ -2,7 +2,6 @@
 #include "campaigns/file/range.h"
 
 #include "base/elementary.h"
-#include "campaigns/file/say.h"
 #include "campaigns/file/sweep.h"
 
 #include <math.h>
@@ -13,8 +12,8 @@ static fracas_err read_end(const fracas_file *file, const fracas_leaf *leaf,
 {
     const fracas_node *end = fracas_node_find(node, key);
     if (!end)
-        return fracas_say(file->name, node,
-                          "a range without `%s`; expected {from: ..., to: ..., points: ...}", key);
+        return fracas_file_error(
+            file, node, "a range without `%s`; expected {from: ..., to: ..., points: ...}", key);
     fracas_setting setting;
     TRY(fracas_setting_read(file, leaf, end, &setting));
     *value = setting.value;
@@ -25,18 +24,15 @@ static fracas_err read_spacing(const fracas_file *file, const fracas_node *node,
                                fracas_range *range)
 {
     const fracas_node *spacing = fracas_node_find(node, "spacing");
-    char found[256];
     if (!spacing) return FRACAS_OK;
     range->logarithmic = spacing->type == FRACAS_SCALAR && strcmp(spacing->text, "log") == 0;
     if (!range->logarithmic &&
         (spacing->type != FRACAS_SCALAR || strcmp(spacing->text, "lin") != 0))
-        return fracas_say(
-            file->name, spacing,
-            "`spacing`: found %s; expected lin (equal differences) or log (equal ratios)",
-            fracas_say_found(spacing, found));
+        return fracas_file_expected(file, spacing, "spacing",
+                                    "lin (equal differences) or log (equal ratios)");
     if (range->logarithmic && (range->from <= 0.0 || range->to <= 0.0))
-        return fracas_say(file->name, spacing,
-                          "spacing log needs `from` and `to` greater than 0; use spacing lin");
+        return fracas_file_error(
+            file, spacing, "spacing log needs `from` and `to` greater than 0; use spacing lin");
     return FRACAS_OK;
 }
 
@@ -46,21 +42,21 @@ fracas_err fracas_range_read(const fracas_file *file, const fracas_leaf *leaf,
     static const char *const keys[] = {"from", "to", "points", "spacing", NULL};
     *range = (fracas_range){0};
     if (fracas_leaf_is_text(leaf) || leaf->param->type == FRACAS_BOOLEAN)
-        return fracas_say(file->name, node,
-                          "`%s` is not a number, so it has no range; expected a list, [...]",
-                          leaf->path);
+        return fracas_file_error(file, node,
+                                 "`%s` is not a number, so it has no range; expected a list, [...]",
+                                 leaf->path);
     range->whole = leaf->param->type == FRACAS_INTEGER;
-    TRY(fracas_say_unknown(file->name, node, keys, "a range"));
+    TRY(fracas_file_check_keys(file, node, keys, "a range"));
     TRY(read_end(file, leaf, node, "from", &range->from));
     TRY(read_end(file, leaf, node, "to", &range->to));
     if (range->from == range->to)
-        return fracas_say(file->name, node,
-                          "a range whose `from` and `to` are equal; write the one value in a list");
+        return fracas_file_error(
+            file, node, "a range whose `from` and `to` are equal; write the one value in a list");
     const fracas_node *points = fracas_node_find(node, "points");
     int64_t count;
     if (!points)
-        return fracas_say(file->name, node,
-                          "a range without `points`; expected {from: ..., to: ..., points: ...}");
+        return fracas_file_error(
+            file, node, "a range without `points`; expected {from: ..., to: ..., points: ...}");
     TRY(fracas_setting_integer(file, "points", points, 2, FRACAS_MAX_POINTS, &count));
     range->points = (size_t)count;
     return read_spacing(file, node, range);

@@ -4,8 +4,8 @@
 
 #include "campaigns/file/identity.h"
 #include "campaigns/file/resolve.h"
-#include "campaigns/file/say.h"
 #include "campaigns/file/sweep.h"
+#include "campaigns/file/words.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 
 static const char *const own_keys[] = {"name", "seed", "random_numbers", "sweep", "replicas"};
 
-/* What has been read of a file. */
+/* The contents of a file. */
 typedef struct {
     fracas_file file;
     fracas_settings base;
@@ -43,51 +43,45 @@ static fracas_err unknown_section(const fracas_file *file, const fracas_node *ke
     for (size_t i = 0; i < catalog->nleaves; i++) {
         const fracas_leaf *leaf = &catalog->leaf[i];
         if (strcmp(leaf->key, key->text) == 0 || strcmp(leaf->path, key->text) == 0)
-            return fracas_say(
-                file->name, key,
+            return fracas_file_error(
+                file, key,
                 "unknown key `%s` at the top of the file; write `%s:` indented below `%s:`",
                 key->text, leaf->key, leaf->section->table->name);
     }
-    return fracas_say(file->name, key, "unknown key `%s` at the top of the file%s", key->text,
-                      hint);
+    return fracas_file_error(file, key, "unknown key `%s` at the top of the file%s", key->text,
+                             hint);
 }
 
 static fracas_err read_seed(const fracas_file *file, const fracas_node *node, uint64_t *seed)
 {
-    char found[256];
     const char *text = node->type == FRACAS_SCALAR ? node->text : "";
     errno = 0;
     unsigned long long value = strtoull(text, NULL, 10);
     if (!*text || strspn(text, "0123456789") != strlen(text) || errno == ERANGE)
-        return fracas_say(
-            file->name, node,
-            "`seed`: found %s; expected a whole number from 0 to 18446744073709551615, in digits",
-            fracas_say_found(node, found));
+        return fracas_file_expected(file, node, "seed",
+                                    "a whole number from 0 to 18446744073709551615, in digits");
     *seed = value;
     return FRACAS_OK;
 }
 
-/* `independent` or `common`. */
 static fracas_err read_random_numbers(const fracas_file *file, const fracas_node *node,
                                       bool *common)
 {
-    char found[256];
     const char *text = node->type == FRACAS_SCALAR ? node->text : "";
     *common = strcmp(text, "common") == 0;
     if (*common || strcmp(text, "independent") == 0) return FRACAS_OK;
-    return fracas_say(file->name, node,
-                      "`random_numbers`: found %s; expected independent (each point draws its own) "
-                      "or common (replica r draws the same at every point)",
-                      fracas_say_found(node, found));
+    return fracas_file_expected(file, node, "random_numbers",
+                                "independent (each point draws its own) or common (replica r "
+                                "draws the same at every point)");
 }
 
-/* The entry `key`, which must be there. */
-static fracas_err need(const fracas_file *file, const char *key, const char *what,
+/* The entry `key`, which must exist. */
+static fracas_err need(const fracas_file *file, const char *key, const char *remedy,
                        const fracas_node **node)
 {
     *node = fracas_node_find(file->root, key);
     if (*node) return FRACAS_OK;
-    return fracas_say(file->name, file->root, "the file has no `%s`; %s", key, what);
+    return fracas_file_error(file, file->root, "the file has no `%s`; %s", key, remedy);
 }
 
 static fracas_err read_heading(reading *read, fracas_campaign *campaign)
@@ -133,14 +127,14 @@ static fracas_err read_sections(reading *read)
 
 /* ---- points ---- */
 
-static void lay_over(const fracas_file *file, const fracas_settings *settings,
-                     const fracas_setting **slots)
+static void fill_slots(const fracas_file *file, const fracas_settings *settings,
+                       const fracas_setting **slots)
 {
     for (const fracas_setting *s = settings->first; s; s = s->next)
         slots[s->leaf - file->catalog->leaf] = s;
 }
 
-/* Replicas of a point: of its case, else of the campaign. */
+/* Replicas of a point: those of its case, else of the campaign. */
 static fracas_err count_replicas(const reading *read, size_t index, fracas_point *point)
 {
     fracas_replicas replicas = read->replicas;
@@ -148,16 +142,16 @@ static fracas_err count_replicas(const reading *read, size_t index, fracas_point
     for (size_t a = 0; a < read->sweep.naxes; a++) {
         const fracas_choice *choice = fracas_sweep_choice(&read->sweep, index, a);
         if (choice->replicas.count > 0 && owned)
-            return fracas_say(read->file.name, choice->node,
-                              "cases of two axes give `replicas`; keep them in one axis");
+            return fracas_file_error(&read->file, choice->node,
+                                     "cases of two axes give `replicas`; keep them in one axis");
         if (choice->replicas.count > 0) replicas = choice->replicas;
         owned = owned || choice->replicas.count > 0;
     }
     point->replicas = replicas.count;
     point->rule = replicas.rule;
     if (point->replicas > 0) return FRACAS_OK;
-    return fracas_say(
-        read->file.name, read->file.root,
+    return fracas_file_error(
+        &read->file, read->file.root,
         "the file has no `replicas`; say how many realizations each point gets, as `replicas: 32`");
 }
 
@@ -167,7 +161,8 @@ static fracas_err make_point(const reading *read, fracas_draft *draft, size_t in
     const fracas_catalog *catalog = read->file.catalog;
     for (size_t i = 0; i < catalog->nleaves; i++) draft->swept[i] = NULL;
     for (size_t a = 0; a < read->sweep.naxes; a++)
-        lay_over(&read->file, &fracas_sweep_choice(&read->sweep, index, a)->settings, draft->swept);
+        fill_slots(&read->file, &fracas_sweep_choice(&read->sweep, index, a)->settings,
+                   draft->swept);
     for (size_t s = 0; s < catalog->nsections; s++)
         if (catalog->section[s].table->hashed)
             TRY(fracas_draft_resolve(&read->file, draft, &catalog->section[s], point));
@@ -184,7 +179,7 @@ static fracas_err make_points(reading *read, fracas_campaign *campaign)
     campaign->point = fracas_memory_take(file->memory, campaign->npoints, sizeof *campaign->point);
     if (!draft.base || !draft.swept || !campaign->point)
         return fracas_no_memory("the points of the campaign");
-    lay_over(file, &read->base, draft.base);
+    fill_slots(file, &read->base, draft.base);
     TRY(fracas_draft_check_base(file, &draft));
     for (size_t s = 0; s < catalog->nsections; s++)
         if (!catalog->section[s].table->hashed)
@@ -194,7 +189,7 @@ static fracas_err make_points(reading *read, fracas_campaign *campaign)
     return fracas_draft_check_models(file, &draft, campaign);
 }
 
-/* Names of the cases that make a point, joined by '/'; "" if none has a name. */
+/* Names of a point's cases, joined by '/'; "" if none has a name. */
 static fracas_err name_case(const reading *read, size_t index, const char **name)
 {
     *name = "";
@@ -212,7 +207,7 @@ static fracas_err name_case(const reading *read, size_t index, const char **name
     return FRACAS_OK;
 }
 
-static fracas_err say_repeated(const reading *read, size_t earlier, size_t later)
+static fracas_err repeated(const reading *read, size_t earlier, size_t later)
 {
     const fracas_node *here = read->file.root, *there = read->file.root;
     for (size_t a = read->sweep.naxes; a-- > 0;) {
@@ -223,15 +218,17 @@ static fracas_err say_repeated(const reading *read, size_t earlier, size_t later
         there = before->node;
     }
     if (here == there)
-        return fracas_say(read->file.name, here,
-                          "points %zu and %zu of the sweep have the same values, as a design of "
-                          "whole numbers has few to choose from; give it fewer points, or a "
-                          "parameter that is not a whole number",
-                          earlier + 1, later + 1);
-    return fracas_say(read->file.name, here,
-                      "points %zu and %zu of the sweep have the same values (compare line %d, "
-                      "column %d); remove one, and raise `replicas` for more realizations",
-                      earlier + 1, later + 1, there->line, there->column);
+        return fracas_file_error(
+            &read->file, here,
+            "points %zu and %zu of the sweep have the same values, as a design of "
+            "whole numbers has few to choose from; give it fewer points, or a "
+            "parameter that is not a whole number",
+            earlier + 1, later + 1);
+    return fracas_file_error(
+        &read->file, here,
+        "points %zu and %zu of the sweep have the same values (compare line %d, "
+        "column %d); remove one, and raise `replicas` for more realizations",
+        earlier + 1, later + 1, there->line, there->column);
 }
 
 static fracas_err identify(reading *read, fracas_campaign *campaign)
@@ -243,22 +240,22 @@ static fracas_err identify(reading *read, fracas_campaign *campaign)
         TRY(fracas_point_identify(read->file.catalog, &campaign->point[p]));
     size_t earlier, later;
     TRY(fracas_points_repeated(campaign, &earlier, &later));
-    if (later > 0) return say_repeated(read, earlier, later);
+    if (later > 0) return repeated(read, earlier, later);
     fracas_err err = fracas_campaign_tabulate(read->file.catalog, name, campaign);
     if (err)
-        return err == FRACAS_USAGE ? fracas_say_within(read->file.name, read->file.root, "mesh")
+        return err == FRACAS_USAGE ? fracas_file_error_within(&read->file, read->file.root, "mesh")
                                    : err;
     return fracas_campaign_identify(read->file.catalog, campaign);
 }
 
-/* ---- the door ---- */
+/* ---- the whole file ---- */
 
 static fracas_err read_file(reading *read, fracas_campaign *campaign)
 {
     fracas_file *file = &read->file;
     fracas_node *root;
     TRY(fracas_catalog_make(file->memory, &file->catalog));
-    TRY(fracas_node_read(file->name, file->memory, &root));
+    TRY(fracas_node_read(file, file->memory, &root));
     file->root = root;
     TRY(read_heading(read, campaign));
     TRY(read_sections(read));

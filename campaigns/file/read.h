@@ -6,8 +6,8 @@
 #include "base/units.h"
 #include "campaigns/campaign.h"
 
-/* fracas_campaign_read with a unit database that is loaded already: loading it takes longer than
- * reading a file. */
+/* fracas_campaign_read with a loaded unit database, whose loading takes longer than reading a file.
+ */
 FRACAS_MUST_USE fracas_err fracas_campaign_read_with(const fracas_units *units, const char *path,
                                                      fracas_campaign **campaign);
 

@@ -65,7 +65,7 @@ static const char *selector_of(const fracas_section *section)
     return section->selector ? section->selector : section->name;
 }
 
-/* " (default)", or which models it is the default with. */
+/* " (default)", with the models for which it is. */
 static void write_default(const fracas_section *model, const fracas_section *section,
                           const fracas_kind *kind, FILE *out)
 {
@@ -87,7 +87,7 @@ static void write_default(const fracas_section *model, const fracas_section *sec
     fprintf(out, ")");
 }
 
-/* What a model takes of the sections that it restricts. */
+/* The kinds for a model in each section that it restricts. */
 static void write_partners(const fracas_catalog *catalog, const fracas_kind *model, FILE *out)
 {
     if (model->ngoes_with == 0) return;
@@ -131,7 +131,7 @@ static void write_section(const fracas_catalog *catalog, const fracas_section *s
     }
 }
 
-/* What an axis of the sweep that is a design can be. */
+/* Types and distributions of designs. */
 static void write_designs(FILE *out)
 {
     const fracas_section *laws = &fracas_uncertain_section;

@@ -2,15 +2,15 @@
 #include "campaigns/file/replicas.h"
 
 #include "campaigns/file/identity.h"
-#include "campaigns/file/say.h"
 
 #include <inttypes.h>
 #include <string.h>
 
 enum { MOST = 1000000000 };
 
-static const char form[] = "{minimum: 16, maximum: 256, until: {quantity: mean-count, "
-                           "relative-half-width: 0.02, confidence: 0.95}}";
+#define FORM                                                     \
+    "{minimum: 16, maximum: 256, until: {quantity: mean-count, " \
+    "relative-half-width: 0.02, confidence: 0.95}}"
 
 /* ---- reading ---- */
 
@@ -19,38 +19,34 @@ static fracas_err need(const fracas_file *file, const fracas_node *node, const c
 {
     *found = fracas_node_find(node, key);
     if (*found) return FRACAS_OK;
-    return fracas_say(file->name, node, "`%s` has no `%s`; expected %s", name, key, form);
+    return fracas_file_error(file, node, "`%s` has no `%s`; expected %s", name, key, FORM);
 }
 
 static fracas_err read_quantity(const fracas_file *file, const fracas_node *node,
                                 fracas_quantity *quantity)
 {
-    char found[256];
     for (int q = 0; q < FRACAS_NQUANTITIES; q++)
         if (node->type == FRACAS_SCALAR && strcmp(node->text, fracas_quantity_name[q]) == 0) {
             *quantity = (fracas_quantity)q;
             return FRACAS_OK;
         }
-    return fracas_say(file->name, node,
-                      "`quantity`: found %s; expected mean-count (of fragments), mean-size (of "
-                      "fragments) or dissipated (energy)",
-                      fracas_say_found(node, found));
+    return fracas_file_expected(
+        file, node, "quantity",
+        "mean-count (of fragments), mean-size (of fragments) or dissipated (energy)");
 }
 
-/* A pure number from `minimum` (itself out if `open`) to `maximum`. */
-static fracas_err read_share(const fracas_file *file, const fracas_node *node, double minimum,
-                             bool open, double maximum, double *value)
+/* A pure number from `minimum` (excluded if `open`) to `maximum`. */
+static fracas_err read_fraction(const fracas_file *file, const fracas_node *node, double minimum,
+                                bool open, double maximum, double *value)
 {
-    char found[256];
     const char *key = node->key->text;
     if (node->type != FRACAS_SCALAR)
-        return fracas_say(file->name, node, "`%s`: found %s; expected a number, as 0.02 or 2 %%",
-                          key, fracas_say_found(node, found));
+        return fracas_file_expected(file, node, key, "a number, as 0.02 or 2 %");
     fracas_err err = fracas_units_read(file->units, node->text, "1", value);
-    if (err) return err == FRACAS_USAGE ? fracas_say_within(file->name, node, key) : err;
+    if (err) return err == FRACAS_USAGE ? fracas_file_error_within(file, node, key) : err;
     if ((open ? *value > minimum : *value >= minimum) && *value <= maximum) return FRACAS_OK;
-    return fracas_say(file->name, node, "`%s`: %s is out of range; allowed is %s %g to %g", key,
-                      node->text, open ? "more than" : "from", minimum, maximum);
+    return fracas_file_error(file, node, "`%s`: %s is out of range; allowed is %s %g to %g", key,
+                             node->text, open ? "more than" : "from", minimum, maximum);
 }
 
 static fracas_err read_until(const fracas_file *file, const fracas_node *node,
@@ -58,18 +54,15 @@ static fracas_err read_until(const fracas_file *file, const fracas_node *node,
 {
     static const char *const keys[] = {"quantity", "relative-half-width", "confidence", NULL};
     const fracas_node *found;
-    char text[256];
-    if (node->type != FRACAS_MAP)
-        return fracas_say(file->name, node, "`until`: found %s; expected %s",
-                          fracas_say_found(node, text), form);
-    TRY(fracas_say_unknown(file->name, node, keys, "`until`"));
+    if (node->type != FRACAS_MAP) return fracas_file_expected(file, node, "until", FORM);
+    TRY(fracas_file_check_keys(file, node, keys, "`until`"));
     TRY(need(file, node, "until", "quantity", &found));
     TRY(read_quantity(file, found, &rule->quantity));
     TRY(need(file, node, "until", "relative-half-width", &found));
-    TRY(read_share(file, found, 0, true, 1, &rule->relative_half_width));
+    TRY(read_fraction(file, found, 0, true, 1, &rule->relative_half_width));
     rule->confidence = 0.95;
     found = fracas_node_find(node, "confidence");
-    return found ? read_share(file, found, 0.5, false, 0.999, &rule->confidence) : FRACAS_OK;
+    return found ? read_fraction(file, found, 0.5, false, 0.999, &rule->confidence) : FRACAS_OK;
 }
 
 static fracas_err read_rule(const fracas_file *file, const fracas_node *node,
@@ -77,15 +70,15 @@ static fracas_err read_rule(const fracas_file *file, const fracas_node *node,
 {
     static const char *const keys[] = {"minimum", "maximum", "until", NULL};
     const fracas_node *found;
-    TRY(fracas_say_unknown(file->name, node, keys, "`replicas`"));
+    TRY(fracas_file_check_keys(file, node, keys, "`replicas`"));
     TRY(need(file, node, "replicas", "minimum", &found));
     TRY(fracas_setting_integer(file, "minimum", found, FRACAS_ROUND_FIRST, MOST, &rule->minimum));
     TRY(need(file, node, "replicas", "maximum", &found));
     TRY(fracas_setting_integer(file, "maximum", found, FRACAS_ROUND_FIRST, MOST, &rule->maximum));
     if (rule->maximum < rule->minimum)
-        return fracas_say(file->name, found,
-                          "`maximum`: %" PRId64 " is less than `minimum`, %" PRId64 "; raise it",
-                          rule->maximum, rule->minimum);
+        return fracas_file_error(
+            file, found, "`maximum`: %" PRId64 " is less than `minimum`, %" PRId64 "; raise it",
+            rule->maximum, rule->minimum);
     TRY(need(file, node, "replicas", "until", &found));
     return read_until(file, found, rule);
 }
@@ -93,11 +86,9 @@ static fracas_err read_rule(const fracas_file *file, const fracas_node *node,
 fracas_err fracas_replicas_read(const fracas_file *file, const fracas_node *node,
                                 fracas_replicas *replicas)
 {
-    char found[256];
     *replicas = (fracas_replicas){0};
     if (node->type == FRACAS_LIST)
-        return fracas_say(file->name, node, "`replicas`: found %s; expected a whole number or %s",
-                          fracas_say_found(node, found), form);
+        return fracas_file_expected(file, node, "replicas", "a whole number or " FORM);
     if (node->type == FRACAS_SCALAR)
         return fracas_setting_integer(file, "replicas", node, 1, MOST, &replicas->count);
     TRY(read_rule(file, node, &replicas->rule));
@@ -136,8 +127,7 @@ bool fracas_replicas_same(const fracas_point *a, const fracas_point *b)
 fracas_err fracas_campaign_replicas(fracas_campaign *campaign, int64_t replicas)
 {
     const fracas_catalog *catalog;
-    fracas_point_row *row =
-        (fracas_point_row *)campaign->table.point; /* of the campaign's own memory */
+    fracas_point_row *row = (fracas_point_row *)campaign->table.point; /* our own memory */
     if (replicas < 1 || replicas > MOST)
         return fracas_fail(FRACAS_USAGE, "--replicas is %" PRId64 "; allowed is 1 to %d", replicas,
                            MOST);
@@ -158,25 +148,14 @@ fracas_err fracas_campaign_replicas(fracas_campaign *campaign, int64_t replicas)
 
 /* ---- extending ---- */
 
-static fracas_err whole_differs(const char *what, int64_t was, int64_t is, size_t b,
-                                const char *remedy)
-{
-    return fracas_fail(FRACAS_DAMAGED,
-                       "%s is %" PRId64 " in the study (its point %zu), but %" PRId64
-                       " in this campaign file; %s",
-                       what, was, b, is, remedy);
-}
-
-static fracas_err share_differs(const char *what, double was, double is, size_t b,
-                                const char *remedy)
+static fracas_err differs(const char *path, double was, double is, size_t b, const char *remedy)
 {
     return fracas_fail(
         FRACAS_DAMAGED,
-        "%s is %.15g in the study (its point %zu), but %.15g in this campaign file; %s", what, was,
+        "%s is %.15g in the study (its point %zu), but %.15g in this campaign file; %s", path, was,
         b, is, remedy);
 }
 
-/* Between two rules. */
 static fracas_err extend_rule(const fracas_sequential_rule *now, const fracas_sequential_rule *was,
                               size_t b)
 {
@@ -187,15 +166,17 @@ static fracas_err extend_rule(const fracas_sequential_rule *now, const fracas_se
                            fracas_quantity_name[was->quantity], b,
                            fracas_quantity_name[now->quantity]);
     if (now->minimum != was->minimum)
-        return whole_differs("replicas.minimum", was->minimum, now->minimum, b, "it must stay");
+        return differs("replicas.minimum", (double)was->minimum, (double)now->minimum, b,
+                       "it must stay");
     if (now->maximum < was->maximum)
-        return whole_differs("replicas.maximum", was->maximum, now->maximum, b, "it can only grow");
+        return differs("replicas.maximum", (double)was->maximum, (double)now->maximum, b,
+                       "it can only grow");
     if (now->relative_half_width > was->relative_half_width)
-        return share_differs("replicas.until.relative-half-width", was->relative_half_width,
-                             now->relative_half_width, b, "it can only shrink");
+        return differs("replicas.until.relative-half-width", was->relative_half_width,
+                       now->relative_half_width, b, "it can only shrink");
     if (now->confidence < was->confidence)
-        return share_differs("replicas.until.confidence", was->confidence, now->confidence, b,
-                             "it can only grow");
+        return differs("replicas.until.confidence", was->confidence, now->confidence, b,
+                       "it can only grow");
     return FRACAS_OK;
 }
 
@@ -204,11 +185,12 @@ fracas_err fracas_replicas_extend(const fracas_point *now, const fracas_point *b
     const bool decides = now->rule.maximum > 0, decided = before->rule.maximum > 0;
     if (decides && decided) return extend_rule(&now->rule, &before->rule, b);
     if (decided && now->replicas < before->rule.maximum)
-        return whole_differs("replicas.maximum", before->rule.maximum, now->replicas, b,
-                             "it can only grow");
+        return differs("replicas.maximum", (double)before->rule.maximum, (double)now->replicas, b,
+                       "it can only grow");
     if (now->replicas >= before->replicas) return FRACAS_OK;
     if (decides)
-        return whole_differs("replicas", before->replicas, now->replicas, b,
-                             "replicas.minimum can only be as many or more");
-    return whole_differs("replicas", before->replicas, now->replicas, b, "it can only grow");
+        return differs("replicas", (double)before->replicas, (double)now->replicas, b,
+                       "replicas.minimum can only be as many or more");
+    return differs("replicas", (double)before->replicas, (double)now->replicas, b,
+                   "it can only grow");
 }

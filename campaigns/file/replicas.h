@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* `replicas` of a campaign file or of a case: a whole number, or a rule that decides while the
- * campaign runs. */
+/* `replicas` of a campaign file or a case: a whole number, or a rule for decisions during the run.
+ */
 #ifndef FRACAS_CAMPAIGNS_FILE_REPLICAS_H
 #define FRACAS_CAMPAIGNS_FILE_REPLICAS_H
 
@@ -11,7 +11,7 @@
 #include <stdio.h>
 
 typedef struct {
-    int64_t count;               /* replicas, of a rule those of the first round; 0: not given */
+    int64_t count;               /* with a rule, of the first round; 0: not given */
     fracas_sequential_rule rule; /* maximum 0: none */
 } fracas_replicas;
 
@@ -21,14 +21,14 @@ typedef struct {
 FRACAS_MUST_USE fracas_err fracas_replicas_read(const fracas_file *file, const fracas_node *node,
                                                 fracas_replicas *replicas);
 
-/* The same as text, on one line without its end; what a campaign's hash is taken of. */
+/* The same as text on one line, as in the campaign's hash. */
 void fracas_replicas_write(const fracas_point *point, FILE *out);
 
 bool fracas_replicas_same(const fracas_point *a, const fracas_point *b);
 
-/* FRACAS_OK if a study of `before` goes on as one of `now`: at least as many replicas, and by a
- * rule that says "go on" wherever the one before did; else FRACAS_DAMAGED naming the first
- * difference. `b`: number of the point in `before`. */
+/* FRACAS_OK if a study of `before` can become one of `now`: at least as many replicas, and a rule
+ * that continues wherever the former one did. Else FRACAS_DAMAGED naming the first difference. `b`:
+ * number of the point in `before`. */
 FRACAS_MUST_USE fracas_err fracas_replicas_extend(const fracas_point *now,
                                                   const fracas_point *before, size_t b);
 

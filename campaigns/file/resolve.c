@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/resolve.h"
 
-#include "campaigns/file/say.h"
-
 #include <stdio.h>
 #include <string.h>
 
-/* The settings that count: of a point, or of the sections of the file alone. */
+/* Settings of a point, or of the sections of the file alone. */
 typedef enum { BASE, POINT } view;
 
 static const fracas_setting *selected(const fracas_file *file, const fracas_draft *draft, view of,
@@ -18,7 +16,7 @@ static const fracas_setting *selected(const fracas_file *file, const fracas_draf
     return of == POINT && draft->swept[at] ? draft->swept[at] : draft->base[at];
 }
 
-/* The model, and the setting that names it (NULL: it is the default). */
+/* The model, and the setting with its name (NULL: default). */
 static const fracas_kind *model_of(const fracas_file *file, const fracas_draft *draft, view of,
                                    const fracas_setting **chosen)
 {
@@ -27,8 +25,7 @@ static const fracas_kind *model_of(const fracas_file *file, const fracas_draft *
     return *chosen ? (*chosen)->kind : section->table->kinds[0];
 }
 
-/* The kind of a section, and the setting that names it (NULL: it is the default, which goes by the
- * model). */
+/* The kind of a section, and the setting with its name (NULL: default of the model). */
 static const fracas_kind *kind_of(const fracas_file *file, const fracas_draft *draft, view of,
                                   const fracas_file_section *section, const fracas_setting **chosen)
 {
@@ -41,8 +38,7 @@ static const fracas_kind *kind_of(const fracas_file *file, const fracas_draft *d
     return partner ? partner : section->table->kinds[0];
 }
 
-/* Refuses a kind that the model cannot be combined with; `chosen` names it (NULL: the default,
- * which fits). */
+/* Refuses a kind outside the model's list; `chosen` names it (NULL: the default, which fits). */
 static fracas_err check_partner(const fracas_file *file, const fracas_draft *draft, view of,
                                 const fracas_setting *chosen)
 {
@@ -64,12 +60,12 @@ static fracas_err check_partner(const fracas_file *file, const fracas_draft *dra
     }
     if (i == 0) return FRACAS_OK;
     if (by) snprintf(line, sizeof line, "; the model is chosen at line %d", by->node->line);
-    return fracas_say(file->name, chosen->node,
-                      "`%s`: %s cannot be combined with model %s, which takes %s%s",
-                      chosen->leaf->key, chosen->kind->name, model->name, takes, line);
+    return fracas_file_error(file, chosen->node,
+                             "`%s`: %s cannot be combined with model %s, which takes %s%s",
+                             chosen->leaf->key, chosen->kind->name, model->name, takes, line);
 }
 
-/* Where the sweep alone names models, it is for its points to say what goes with them. */
+/* If only the sweep names models, its points are checked later. */
 static fracas_err check_base_partners(const fracas_file *file, const fracas_draft *draft)
 {
     const fracas_catalog *catalog = file->catalog;
@@ -123,7 +119,7 @@ fracas_err fracas_draft_check_models(const fracas_file *file, const fracas_draft
     return FRACAS_OK;
 }
 
-/* The swept key of `setting` is for another kind, or for another model. */
+/* The swept key of `setting` belongs to another kind or model. */
 static fracas_err refuse_swept(const fracas_file *file, const fracas_draft *draft,
                                const fracas_setting *setting, const fracas_kind *kind,
                                const fracas_setting *chosen)
@@ -136,8 +132,7 @@ static fracas_err refuse_swept(const fracas_file *file, const fracas_draft *draf
                   : fracas_setting_misplaced(file, setting, kind, chosen);
 }
 
-/* True if a value of the base holds at points of this model, which have the key, even if their kind
- * is not the base's. */
+/* True if a base value holds at points of this model whatever their kind. */
 static bool is_inherited(const fracas_file *file, const fracas_draft *draft,
                          const fracas_section *table, const fracas_kind *model, const char *key)
 {
@@ -147,28 +142,28 @@ static bool is_inherited(const fracas_file *file, const fracas_draft *draft,
            (!before || fracas_section_common(table, before->kind, key));
 }
 
-/* A value that the point needs and nothing gives; its place is where the kind was chosen, the
- * section, or the file. */
+/* A missing value; its place is the choice of the kind, the section, or the file. */
 static fracas_err missing(const fracas_file *file, const fracas_leaf *leaf,
                           const fracas_param *param, bool common, const fracas_kind *kind,
                           const fracas_setting *chosen)
 {
     const fracas_section *table = leaf->section->table;
     const fracas_node *section = fracas_node_find(file->root, table->name);
-    const char *what, *write_in;
-    fracas_units_describe(param->unit, &what, &write_in);
-    if (param->type == FRACAS_INTEGER) what = "a whole number";
-    if (param->type == FRACAS_CHOICE) what = "a name";
-    if (param->type == FRACAS_ATTACHMENT) what = "the path of a file";
+    const char *form, *write_in;
+    fracas_units_describe(param->unit, &form, &write_in);
+    if (param->type == FRACAS_INTEGER) form = "a whole number";
+    if (param->type == FRACAS_CHOICE) form = "a name";
+    if (param->type == FRACAS_ATTACHMENT) form = "the path of a file";
     const char *unit = strcmp(param->unit, "1") == 0 ? "" : ", in ";
     if (!*unit) write_in = "";
     const fracas_node *at = !common && chosen ? chosen->node : section ? section->key : file->root;
     if (common || !kind)
-        return fracas_say(file->name, at, "%s needs `%s` (%s): %s%s%s", table->name, leaf->key,
-                          param->doc, what, unit, write_in);
-    return fracas_say(file->name, at, "%s with %s %s%s needs `%s` (%s): %s%s%s", table->name,
-                      table->selector ? table->selector : table->name, kind->name,
-                      chosen ? "" : " (the default)", leaf->key, param->doc, what, unit, write_in);
+        return fracas_file_error(file, at, "%s needs `%s` (%s): %s%s%s", table->name, leaf->key,
+                                 param->doc, form, unit, write_in);
+    return fracas_file_error(file, at, "%s with %s %s%s needs `%s` (%s): %s%s%s", table->name,
+                             table->selector ? table->selector : table->name, kind->name,
+                             chosen ? "" : " (the default)", leaf->key, param->doc, form, unit,
+                             write_in);
 }
 
 fracas_err fracas_draft_resolve(const fracas_file *file, const fracas_draft *draft,
@@ -182,8 +177,7 @@ fracas_err fracas_draft_resolve(const fracas_file *file, const fracas_draft *dra
     const fracas_kind *base_kind = kind_of(file, draft, BASE, section, &before);
     TRY(check_partner(file, draft, POINT, chosen));
     char *values = fracas_section_at(section, owner);
-    const fracas_node *last = chosen ? chosen->node
-                                     : file->root; /* the value that a contradiction is told at */
+    const fracas_node *last = chosen ? chosen->node : file->root; /* place of a contradiction */
     if (kind) memcpy(values + table->kind_offset, &kind, sizeof kind);
     for (size_t i = 0; i < catalog->nleaves; i++) {
         const fracas_leaf *leaf = &catalog->leaf[i];
@@ -207,6 +201,6 @@ fracas_err fracas_draft_resolve(const fracas_file *file, const fracas_draft *dra
                              setting ? setting->value : fracas_number_round(param->fallback));
     }
     if (table->check && table->check(values))
-        return fracas_say_within(file->name, last, table->name);
+        return fracas_file_error_within(file, last, table->name);
     return FRACAS_OK;
 }

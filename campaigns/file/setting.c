@@ -2,7 +2,7 @@
 #include "campaigns/file/setting.h"
 
 #include "campaigns/file/attach.h"
-#include "campaigns/file/say.h"
+#include "campaigns/file/words.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -13,46 +13,35 @@
 static fracas_err want_scalar(const fracas_file *file, const char *key, const fracas_node *node,
                               const char *expected)
 {
-    char found[256];
     if (node->type == FRACAS_SCALAR && *node->text) return FRACAS_OK;
-    return fracas_say(file->name, node, "`%s`: found %s; expected %s", key,
-                      fracas_say_found(node, found), expected);
+    return fracas_file_expected(file, node, key, expected);
 }
 
-/* The one of `count` kinds that the node names. */
-static fracas_err read_name(const fracas_file *file, const fracas_leaf *leaf,
-                            const fracas_node *node, const fracas_kind *const *kinds, size_t count,
-                            size_t *which)
+/* The index of the kind with the name in `node`. */
+static fracas_err read_name(const fracas_file *file, const char *key, const fracas_node *node,
+                            const fracas_kind *const *kinds, size_t count, double *which)
 {
-    TRY(want_scalar(file, leaf->key, node, "a name"));
-    fracas_words words;
-    fracas_words_init(&words, node->text);
-    for (*which = 0; *which < count; ++*which) {
-        if (strcmp(kinds[*which]->name, node->text) == 0) return FRACAS_OK;
-        fracas_words_add(&words, kinds[*which]->name);
-    }
     char hint[600], label[80];
-    snprintf(label, sizeof label, "%s can be", leaf->key);
-    return fracas_say(file->name, node, "unknown %s `%s`%s", leaf->key, node->text,
-                      fracas_words_hint(&words, label, hint));
+    fracas_words words;
+    TRY(want_scalar(file, key, node, "a name"));
+    fracas_words_init(&words, node->text);
+    for (size_t k = 0; k < count; k++) {
+        *which = (double)k;
+        if (strcmp(kinds[k]->name, node->text) == 0) return FRACAS_OK;
+        fracas_words_add(&words, kinds[k]->name);
+    }
+    snprintf(label, sizeof label, "%s can be", key);
+    return fracas_file_error(file, node, "unknown %s `%s`%s", key, node->text,
+                             fracas_words_hint(&words, label, hint));
 }
 
-static fracas_err read_kind(const fracas_file *file, const fracas_leaf *leaf,
-                            const fracas_node *node, const fracas_kind **kind)
+fracas_err fracas_setting_kind(const fracas_file *file, const char *key, const fracas_node *node,
+                               const fracas_kind *const *kinds, size_t count,
+                               const fracas_kind **kind)
 {
-    const fracas_section *table = leaf->section->table;
-    size_t which;
-    TRY(read_name(file, leaf, node, table->kinds, table->nkinds, &which));
-    *kind = table->kinds[which];
-    return FRACAS_OK;
-}
-
-static fracas_err read_choice(const fracas_file *file, const fracas_leaf *leaf,
-                              const fracas_node *node, double *value)
-{
-    size_t which;
-    TRY(read_name(file, leaf, node, leaf->param->choices, leaf->param->nchoices, &which));
-    *value = (double)which;
+    double which;
+    TRY(read_name(file, key, node, kinds, count, &which));
+    *kind = kinds[(size_t)which];
     return FRACAS_OK;
 }
 
@@ -69,30 +58,29 @@ static fracas_err read_boolean(const fracas_file *file, const char *key, const f
     TRY(want_scalar(file, key, node, "true or false"));
     *value = strcmp(node->text, "true") == 0;
     if (*value != 0.0 || strcmp(node->text, "false") == 0) return FRACAS_OK;
-    return fracas_say(file->name, node, "`%s`: found `%s`; expected true or false", key,
-                      node->text);
+    return fracas_file_expected(file, node, key, "true or false");
 }
 
 static fracas_err read_integer(const fracas_file *file, const char *key, const fracas_node *node,
                                double *value)
 {
     TRY(want_scalar(file, key, node, "a whole number"));
-    if (fracas_number_read(node->text, value)) return fracas_say_within(file->name, node, key);
+    if (fracas_number_read(node->text, value)) return fracas_file_error_within(file, node, key);
     if (*value == floor(*value) && fabs(*value) <= 1e15) return FRACAS_OK;
-    return fracas_say(file->name, node, "`%s`: `%s` is not a whole number%s", key, node->text,
-                      fabs(*value) > 1e15 ? " of at most 15 digits" : "");
+    return fracas_file_error(file, node, "`%s`: `%s` is not a whole number%s", key, node->text,
+                             fabs(*value) > 1e15 ? " of at most 15 digits" : "");
 }
 
 static fracas_err read_real(const fracas_file *file, const fracas_leaf *leaf,
                             const fracas_node *node, double *value)
 {
-    const char *what, *write_in;
+    const char *form, *write_in;
     char expected[160];
-    fracas_units_describe(leaf->param->unit, &what, &write_in);
-    snprintf(expected, sizeof expected, "%s, in %s", what, write_in);
+    fracas_units_describe(leaf->param->unit, &form, &write_in);
+    snprintf(expected, sizeof expected, "%s, in %s", form, write_in);
     TRY(want_scalar(file, leaf->key, node, expected));
     fracas_err err = fracas_units_read(file->units, node->text, leaf->param->unit, value);
-    return err == FRACAS_USAGE ? fracas_say_within(file->name, node, leaf->key) : err;
+    return err == FRACAS_USAGE ? fracas_file_error_within(file, node, leaf->key) : err;
 }
 
 fracas_err fracas_setting_read(const fracas_file *file, const fracas_leaf *leaf,
@@ -100,15 +88,20 @@ fracas_err fracas_setting_read(const fracas_file *file, const fracas_leaf *leaf,
 {
     *setting = (fracas_setting){.leaf = leaf, .node = node};
     if (node->type == FRACAS_LIST && leaf->section->table->hashed)
-        return fracas_say(file->name, node,
-                          "`%s`: found a list; one value is expected here, several go under "
-                          "`sweep`, as `- %s: [...]`",
-                          leaf->key, leaf->path);
-    if (!leaf->param) return read_kind(file, leaf, node, &setting->kind);
-    switch (leaf->param->type) {
+        return fracas_file_error(file, node,
+                                 "`%s`: found a list; one value is expected here, several go under "
+                                 "`sweep`, as `- %s: [...]`",
+                                 leaf->key, leaf->path);
+    const fracas_section *table = leaf->section->table;
+    const fracas_param *param = leaf->param;
+    if (!param)
+        return fracas_setting_kind(file, leaf->key, node, table->kinds, table->nkinds,
+                                   &setting->kind);
+    switch (param->type) {
     case FRACAS_BOOLEAN: return read_boolean(file, leaf->key, node, &setting->value);
     case FRACAS_INTEGER: return read_integer(file, leaf->key, node, &setting->value);
-    case FRACAS_CHOICE: return read_choice(file, leaf, node, &setting->value);
+    case FRACAS_CHOICE:
+        return read_name(file, leaf->key, node, param->choices, param->nchoices, &setting->value);
     case FRACAS_ATTACHMENT: return read_attachment(file, leaf, node, &setting->attachment);
     case FRACAS_REAL: break;
     }
@@ -122,9 +115,9 @@ fracas_err fracas_setting_integer(const fracas_file *file, const char *key, cons
     TRY(read_integer(file, key, node, &real));
     *value = (int64_t)real;
     if (*value >= minimum && *value <= maximum) return FRACAS_OK;
-    return fracas_say(file->name, node,
-                      "`%s`: %s is out of range; allowed is %" PRId64 " to %" PRId64, key,
-                      node->text, minimum, maximum);
+    return fracas_file_error(file, node,
+                             "`%s`: %s is out of range; allowed is %" PRId64 " to %" PRId64, key,
+                             node->text, minimum, maximum);
 }
 
 fracas_err fracas_setting_name(const fracas_file *file, const fracas_node *node, const char **name)
@@ -135,10 +128,11 @@ fracas_err fracas_setting_name(const fracas_file *file, const fracas_node *node,
     *name = node->text;
     if (strlen(*name) <= 100 && strspn(*name, allowed) == strlen(*name) && !strchr("._-", **name))
         return FRACAS_OK;
-    return fracas_say(file->name, node,
-                      "`name`: found `%s`; a name is made of up to 100 letters a-z A-Z, digits, "
-                      "`.`, `_` and `-`, and starts with a letter or digit",
-                      *name);
+    return fracas_file_error(
+        file, node,
+        "`name`: found `%s`; a name is made of up to 100 letters a-z A-Z, digits, "
+        "`.`, `_` and `-`, and starts with a letter or digit",
+        *name);
 }
 
 /* ---- many ---- */
@@ -155,9 +149,10 @@ fracas_err fracas_settings_add(const fracas_file *file, const fracas_setting *se
 {
     const fracas_setting *earlier = fracas_settings_find(settings, setting->leaf);
     if (earlier)
-        return fracas_say(file->name, setting->node,
-                          "`%s` is given twice; it is already at line %d, keep one of the two",
-                          setting->leaf->path, earlier->node->line);
+        return fracas_file_error(
+            file, setting->node,
+            "`%s` is given twice; it is already at line %d, keep one of the two",
+            setting->leaf->path, earlier->node->line);
     fracas_setting *copy = fracas_memory_take(file->memory, 1, sizeof *copy);
     if (!copy) return fracas_no_memory("the campaign's values");
     *copy = *setting;
@@ -172,7 +167,7 @@ static fracas_err unknown_key(const fracas_file *file, const fracas_file_section
     const fracas_catalog *catalog = file->catalog;
     fracas_words words;
     fracas_words_init(&words, key->text);
-    const char *home = NULL; /* another section that has this key */
+    const char *home = NULL; /* another section with this key */
     for (size_t i = 0; i < catalog->nleaves; i++) {
         if (catalog->leaf[i].section == section) fracas_words_add(&words, catalog->leaf[i].key);
         else if (strcmp(catalog->leaf[i].key, key->text) == 0)
@@ -181,9 +176,9 @@ static fracas_err unknown_key(const fracas_file *file, const fracas_file_section
     char hint[600], label[80];
     snprintf(label, sizeof label, "keys of %s", section->table->name);
     if (home) words.nearest = NULL;
-    return fracas_say(file->name, key, "unknown key `%s` in %s%s%s%s", key->text,
-                      section->table->name, home ? "; it belongs to the section " : "",
-                      home ? home : "", fracas_words_hint(&words, label, hint));
+    return fracas_file_error(file, key, "unknown key `%s` in %s%s%s%s", key->text,
+                             section->table->name, home ? "; it belongs to the section " : "",
+                             home ? home : "", fracas_words_hint(&words, label, hint));
 }
 
 fracas_err fracas_settings_add_section(const fracas_file *file, const fracas_file_section *section,
@@ -196,9 +191,10 @@ fracas_err fracas_settings_add_section(const fracas_file *file, const fracas_fil
         for (size_t i = 0; i < file->catalog->nleaves; i++)
             if (file->catalog->leaf[i].section == section)
                 fracas_words_add(&words, file->catalog->leaf[i].key);
-        return fracas_say(file->name, node, "`%s` is a section, but found %s%s",
-                          section->table->name, fracas_say_found(node, found),
-                          fracas_words_hint(&words, "write its keys below it, indented", hint));
+        return fracas_file_error(
+            file, node, "`%s` is a section, but found %s%s", section->table->name,
+            fracas_node_found(node, found),
+            fracas_words_hint(&words, "write its keys below it, indented", hint));
     }
     for (const fracas_node *entry = node->first; entry; entry = entry->next) {
         fracas_setting setting;
@@ -212,7 +208,7 @@ fracas_err fracas_settings_add_section(const fracas_file *file, const fracas_fil
 
 /* ---- checks that depend on the kind ---- */
 
-/* "more than 0 Pa, at most 1 Pa": what `param` allows. */
+/* Range of a parameter, "more than 0 Pa, at most 1 Pa". */
 static void write_range(const fracas_param *param, char *text, size_t size)
 {
     char minimum[FRACAS_NUMBER_TEXT], maximum[FRACAS_NUMBER_TEXT];
@@ -242,14 +238,15 @@ fracas_err fracas_setting_check(const fracas_file *file, const fracas_setting *s
     write_range(param, range, sizeof range);
     fracas_number_write(value, number);
     if (setting->drawn)
-        return fracas_say(file->name, setting->node,
-                          "`%s`: point %zu of the design draws %s%s%s, which is out of range; "
-                          "allowed is %s; choose a distribution that stays within",
-                          setting->leaf->path, setting->drawn, number, pure ? "" : " ",
-                          pure ? "" : param->unit, range);
+        return fracas_file_error(
+            file, setting->node,
+            "`%s`: point %zu of the design draws %s%s%s, which is out of range; "
+            "allowed is %s; choose a distribution that stays within",
+            setting->leaf->path, setting->drawn, number, pure ? "" : " ", pure ? "" : param->unit,
+            range);
     const char *written = setting->node->type == FRACAS_SCALAR ? setting->node->text : number;
-    return fracas_say(file->name, setting->node, "`%s`: %s is out of range; allowed is %s",
-                      setting->leaf->key, written, range);
+    return fracas_file_error(file, setting->node, "`%s`: %s is out of range; allowed is %s",
+                             setting->leaf->key, written, range);
 }
 
 /* Names of kinds, "a or b". */
@@ -266,18 +263,19 @@ static void add_home(homes *names, const fracas_kind *kind)
     if (added > 0 && (size_t)added < room) names->used += (size_t)added;
 }
 
-/* `kind` is what it has instead, of the section in which `selector` names it. */
-static fracas_err say_misplaced(const fracas_file *file, const fracas_setting *setting,
-                                const char *selector, const homes *names, const fracas_kind *kind,
-                                const fracas_setting *chosen)
+/* The point has `kind` instead, named by `selector`. */
+static fracas_err misplaced(const fracas_file *file, const fracas_setting *setting,
+                            const char *selector, const homes *names, const fracas_kind *kind,
+                            const fracas_setting *chosen)
 {
     const fracas_node *at = setting->node->key ? setting->node->key : setting->node;
     if (!chosen)
-        return fracas_say(file->name, at,
-                          "`%s` belongs to %s %s; this is %s, the default, as no `%s` is given",
-                          setting->leaf->key, selector, names->text, kind->name, selector);
-    return fracas_say(file->name, at, "`%s` belongs to %s %s; this is %s (line %d)",
-                      setting->leaf->key, selector, names->text, kind->name, chosen->node->line);
+        return fracas_file_error(
+            file, at, "`%s` belongs to %s %s; this is %s, the default, as no `%s` is given",
+            setting->leaf->key, selector, names->text, kind->name, selector);
+    return fracas_file_error(file, at, "`%s` belongs to %s %s; this is %s (line %d)",
+                             setting->leaf->key, selector, names->text, kind->name,
+                             chosen->node->line);
 }
 
 fracas_err fracas_setting_misplaced(const fracas_file *file, const fracas_setting *setting,
@@ -288,8 +286,8 @@ fracas_err fracas_setting_misplaced(const fracas_file *file, const fracas_settin
     for (size_t k = 0; k < table->nkinds; k++)
         if (fracas_section_param(table, table->kinds[k], NULL, setting->leaf->key))
             add_home(&names, table->kinds[k]);
-    return say_misplaced(file, setting, table->selector ? table->selector : table->name, &names,
-                         kind, chosen);
+    return misplaced(file, setting, table->selector ? table->selector : table->name, &names, kind,
+                     chosen);
 }
 
 fracas_err fracas_setting_of_others(const fracas_file *file, const fracas_setting *setting,
@@ -298,5 +296,5 @@ fracas_err fracas_setting_of_others(const fracas_file *file, const fracas_settin
 {
     homes names = {.used = 0};
     for (const fracas_kind *const *only = param->only; *only; only++) add_home(&names, *only);
-    return say_misplaced(file, setting, file->catalog->section->table->name, &names, model, chosen);
+    return misplaced(file, setting, file->catalog->section->table->name, &names, model, chosen);
 }

@@ -1,55 +1,46 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a campaign file sets: one value of one leaf, converted and checked as far as its own table
- * goes. */
+/* Settings of a campaign file: one value of one leaf, converted and checked by its own table. */
 #ifndef FRACAS_CAMPAIGNS_FILE_SETTING_H
 #define FRACAS_CAMPAIGNS_FILE_SETTING_H
 
-#include "base/units.h"
-#include "campaigns/file/catalog.h"
-#include "campaigns/file/node.h"
-
-/* A campaign file being read. */
-typedef struct {
-    const char *name;
-    fracas_campaign_memory *memory;
-    const fracas_units *units;
-    fracas_campaign *campaign; /* being made */
-    const fracas_catalog *catalog;
-    const fracas_node *root;
-} fracas_file;
+#include "campaigns/file/file.h"
 
 typedef struct fracas_setting {
     const fracas_leaf *leaf;
-    const fracas_node *node;             /* where it was written */
+    const fracas_node *node;             /* its place */
     const fracas_kind *kind;             /* of a leaf that names a kind */
-    double value;                        /* of any other, SI; of a choice, its index */
+    double value;                        /* of any other leaf, SI; of a choice, its index */
     const fracas_attachment *attachment; /* of a file */
-    size_t drawn; /* by a design: number of its point, from 1; 0: it is written */
+    size_t drawn;                        /* number of the design's point, from 1; 0: not drawn */
     struct fracas_setting *next;
 } fracas_setting;
 
-/* What is set together; no leaf twice. */
+/* Settings of the same point, no leaf twice. */
 typedef struct {
     fracas_setting *first;
 } fracas_settings;
 
-/* Converts the scalar `node` for `leaf`. Ranges, which may depend on the kind, are not checked
- * here. */
+/* Converts the scalar `node` for `leaf`. Does not check ranges, which may depend on the kind. */
 FRACAS_MUST_USE fracas_err fracas_setting_read(const fracas_file *file, const fracas_leaf *leaf,
                                                const fracas_node *node, fracas_setting *setting);
 
-/* The whole number that the scalar `node` stands for, from `minimum` to `maximum`; `key` is how
- * messages call it. */
+/* The scalar `node` as a whole number from `minimum` to `maximum`; `key` is its name in messages.
+ */
 FRACAS_MUST_USE fracas_err fracas_setting_integer(const fracas_file *file, const char *key,
                                                   const fracas_node *node, int64_t minimum,
                                                   int64_t maximum, int64_t *value);
 
-/* A name that may become a folder: letters, digits, '.', '_', '-', starting with a letter or digit.
- */
+/* The one of `count` kinds with the name in `node`, the value of `key`. */
+FRACAS_MUST_USE fracas_err fracas_setting_kind(const fracas_file *file, const char *key,
+                                               const fracas_node *node,
+                                               const fracas_kind *const *kinds, size_t count,
+                                               const fracas_kind **kind);
+
+/* A name fit for a folder: letters, digits, '.', '_', '-', starting with a letter or digit. */
 FRACAS_MUST_USE fracas_err fracas_setting_name(const fracas_file *file, const fracas_node *node,
                                                const char **name);
 
-/* Adds a copy of `setting`; an error if its leaf is there already. */
+/* Adds a copy of `setting`. FRACAS_USAGE if its leaf is set already. */
 FRACAS_MUST_USE fracas_err fracas_settings_add(const fracas_file *file,
                                                const fracas_setting *setting,
                                                fracas_settings *settings);
@@ -69,14 +60,14 @@ FRACAS_MUST_USE fracas_err fracas_setting_check(const fracas_file *file,
                                                 const fracas_setting *setting,
                                                 const fracas_param *param);
 
-/* The error that the key of `setting` does not belong to `kind`, which was chosen at `chosen`
- * (NULL: the default). */
+/* FRACAS_USAGE: the key of `setting` does not belong to `kind`, named by `chosen` (NULL: default).
+ */
 FRACAS_MUST_USE fracas_err fracas_setting_misplaced(const fracas_file *file,
                                                     const fracas_setting *setting,
                                                     const fracas_kind *kind,
                                                     const fracas_setting *chosen);
 
-/* The same where the kind would have the key, but not at points of this model. */
+/* The same where the kind has the key, but not at points of this model. */
 FRACAS_MUST_USE fracas_err fracas_setting_of_others(const fracas_file *file,
                                                     const fracas_setting *setting,
                                                     const fracas_param *param,

@@ -3,7 +3,6 @@
 
 #include "campaigns/file/design.h"
 #include "campaigns/file/range.h"
-#include "campaigns/file/say.h"
 #include "campaigns/file/target.h"
 
 #include <string.h>
@@ -23,33 +22,38 @@ static fracas_err make_choices(const fracas_file *file, const fracas_node *node,
                                fracas_axis *axis)
 {
     if (count == 0)
-        return fracas_say(file->name, node,
-                          "found no values to sweep; give at least one, or remove the axis");
+        return fracas_file_error(file, node,
+                                 "found no values to sweep; give at least one, or remove the axis");
     if (count > FRACAS_MAX_POINTS)
-        return fracas_say(file->name, node, "%zu values; a campaign has at most %d points", count,
-                          FRACAS_MAX_POINTS);
+        return fracas_file_error(file, node, "%zu values; a campaign has at most %d points", count,
+                                 FRACAS_MAX_POINTS);
     axis->nchoices = count;
     axis->choice = fracas_memory_take(file->memory, count, sizeof *axis->choice);
     return axis->choice ? FRACAS_OK : fracas_no_memory("the sweep");
 }
 
-/* Adds the values of `path: values` to the choices, which are made for the first path of an axis.
- */
+/* Makes the choices for the first path of an axis; all paths have the same number of values. */
+static fracas_err match_choices(const fracas_file *file, const fracas_node *values, size_t count,
+                                fracas_axis *axis)
+{
+    if (axis->nchoices == 0) TRY(make_choices(file, values, count, axis));
+    if (axis->nchoices == count) return FRACAS_OK;
+    return fracas_file_error(file, values->key,
+                             "`%s` has %zu values, the first path of this zip has %zu; all of a "
+                             "zip need the same number",
+                             values->key->text, count, axis->nchoices);
+}
+
 static fracas_err add_range(const fracas_file *file, const fracas_target *set,
                             const fracas_node *values, fracas_axis *axis)
 {
     if (!set->leaf)
-        return fracas_say(file->name, values,
-                          "`%s` is a section; expected a list of sections, [{...}, {...}]",
-                          values->key->text);
+        return fracas_file_error(file, values,
+                                 "`%s` is a section; expected a list of sections, [{...}, {...}]",
+                                 values->key->text);
     fracas_range range;
     TRY(fracas_range_read(file, set->leaf, values, &range));
-    if (axis->nchoices == 0) TRY(make_choices(file, values, range.points, axis));
-    if (axis->nchoices != range.points)
-        return fracas_say(file->name, values->key,
-                          "`%s` has %zu values, the first path of this zip has %zu; all of a zip "
-                          "need the same number",
-                          values->key->text, range.points, axis->nchoices);
+    TRY(match_choices(file, values, range.points, axis));
     for (size_t i = 0; i < range.points; i++) {
         fracas_choice *choice = &axis->choice[i];
         fracas_setting setting = {
@@ -63,12 +67,7 @@ static fracas_err add_range(const fracas_file *file, const fracas_target *set,
 static fracas_err add_list(const fracas_file *file, const fracas_target *set,
                            const fracas_node *values, fracas_axis *axis)
 {
-    if (axis->nchoices == 0) TRY(make_choices(file, values, values->count, axis));
-    if (axis->nchoices != values->count)
-        return fracas_say(file->name, values->key,
-                          "`%s` has %zu values, the first path of this zip has %zu; all of a zip "
-                          "need the same number",
-                          values->key->text, values->count, axis->nchoices);
+    TRY(match_choices(file, values, values->count, axis));
     fracas_choice *choice = axis->choice;
     for (const fracas_node *value = values->first; value; value = value->next, choice++) {
         if (!choice->node) choice->node = value;
@@ -80,25 +79,20 @@ static fracas_err add_list(const fracas_file *file, const fracas_target *set,
 static fracas_err add_path(const fracas_file *file, const fracas_node *values, fracas_axis *axis)
 {
     fracas_target set;
-    char found[256];
     static const char *const axes[] = {"zip", "cases", "design", NULL};
     TRY(fracas_target_find(file, values->key, axes, &set));
     if (values->type == FRACAS_LIST) return add_list(file, &set, values, axis);
     if (values->type == FRACAS_MAP) return add_range(file, &set, values, axis);
-    return fracas_say(file->name, values,
-                      "`%s`: found %s; expected a list of values, [...], or a range, {from: ..., "
-                      "to: ..., points: ...}",
-                      values->key->text, fracas_say_found(values, found));
+    return fracas_file_expected(
+        file, values, values->key->text,
+        "a list of values, [...], or a range, {from: ..., to: ..., points: ...}");
 }
 
 static fracas_err read_zip(const fracas_file *file, const fracas_node *zip, fracas_axis *axis)
 {
-    char found[256];
     if (zip->type != FRACAS_MAP || zip->count == 0)
-        return fracas_say(
-            file->name, zip,
-            "`zip`: found %s; expected paths with their values, below it and indented",
-            zip->type == FRACAS_MAP ? "nothing" : fracas_say_found(zip, found));
+        return fracas_file_expected(file, zip, "zip",
+                                    "paths with their values, below it and indented");
     for (const fracas_node *values = zip->first; values; values = values->next)
         TRY(add_path(file, values, axis));
     return FRACAS_OK;
@@ -127,9 +121,9 @@ static fracas_err read_case(const fracas_file *file, const fracas_node *node, fr
     char found[256];
     *choice = (fracas_choice){.node = node};
     if (node->type != FRACAS_MAP || node->count == 0)
-        return fracas_say(file->name, node,
-                          "a case: found %s; expected `name:`, `replicas:` or sections",
-                          node->type == FRACAS_MAP ? "nothing" : fracas_say_found(node, found));
+        return fracas_file_error(file, node,
+                                 "a case: found %s; expected `name:`, `replicas:` or sections",
+                                 fracas_node_found(node, found));
     for (const fracas_node *entry = node->first; entry; entry = entry->next) {
         fracas_target set;
         if (strcmp(entry->key->text, "name") == 0) {
@@ -146,11 +140,8 @@ static fracas_err read_case(const fracas_file *file, const fracas_node *node, fr
 
 static fracas_err read_cases(const fracas_file *file, const fracas_node *cases, fracas_axis *axis)
 {
-    char found[256];
     if (cases->type != FRACAS_LIST)
-        return fracas_say(file->name, cases,
-                          "`cases`: found %s; expected a list, each case after `- `",
-                          fracas_say_found(cases, found));
+        return fracas_file_expected(file, cases, "cases", "a list, each case after `- `");
     TRY(make_choices(file, cases, cases->count, axis));
     fracas_choice *choice = axis->choice;
     for (const fracas_node *node = cases->first; node; node = node->next)
@@ -162,13 +153,14 @@ static fracas_err read_axis(const fracas_file *file, const fracas_node *node, fr
 {
     char found[256];
     if (node->type != FRACAS_MAP || node->count == 0)
-        return fracas_say(file->name, node,
-                          "an axis of the sweep: found %s; expected `path: [values]`, `zip:`, "
-                          "`cases:` or `design:`",
-                          node->type == FRACAS_MAP ? "nothing" : fracas_say_found(node, found));
+        return fracas_file_error(
+            file, node,
+            "an axis of the sweep: found %s; expected `path: [values]`, `zip:`, "
+            "`cases:` or `design:`",
+            fracas_node_found(node, found));
     if (node->count > 1)
-        return fracas_say(
-            file->name, node->first->next->key,
+        return fracas_file_error(
+            file, node->first->next->key,
             "a second path, `%s`, in one axis; put `- ` before it to combine every value with "
             "every other, or both under `zip:` to go through them together",
             node->first->next->key->text);
@@ -180,7 +172,7 @@ static fracas_err read_axis(const fracas_file *file, const fracas_node *node, fr
 
 /* ---- the sweep ---- */
 
-/* Every leaf is set by one axis only, or the order of the axes would decide. */
+/* Each leaf has one axis, so that the order of the axes does not matter. */
 static fracas_err check_axes_apart(const fracas_file *file, const fracas_sweep *sweep,
                                    const fracas_setting **owner, size_t *owner_axis)
 {
@@ -190,9 +182,9 @@ static fracas_err check_axes_apart(const fracas_file *file, const fracas_sweep *
                  s = s->next) {
                 size_t leaf = (size_t)(s->leaf - file->catalog->leaf);
                 if (owner[leaf] && owner_axis[leaf] != a)
-                    return fracas_say(file->name, s->node,
-                                      "`%s` is swept by two axes, here and at line %d; keep one",
-                                      s->leaf->path, owner[leaf]->node->line);
+                    return fracas_file_error(
+                        file, s->node, "`%s` is swept by two axes, here and at line %d; keep one",
+                        s->leaf->path, owner[leaf]->node->line);
                 owner[leaf] = s;
                 owner_axis[leaf] = a;
             }
@@ -203,15 +195,13 @@ fracas_err fracas_sweep_read(const fracas_file *file, const fracas_node *node, f
 {
     *sweep = (fracas_sweep){.npoints = 1};
     if (!node) return FRACAS_OK;
-    char found[256];
     if (node->type != FRACAS_LIST)
-        return fracas_say(file->name, node,
-                          "`sweep`: found %s; expected a list of axes, each after `- `, as `- "
-                          "loading.rate: [1e3 1/s, 1e4 1/s]`",
-                          fracas_say_found(node, found));
+        return fracas_file_expected(
+            file, node, "sweep",
+            "a list of axes, each after `- `, as `- loading.rate: [1e3 1/s, 1e4 1/s]`");
     if (node->count == 0)
-        return fracas_say(file->name, node,
-                          "`sweep`: found no axis; give at least one, or remove `sweep`");
+        return fracas_file_error(file, node,
+                                 "`sweep`: found no axis; give at least one, or remove `sweep`");
     sweep->axis = fracas_memory_take(file->memory, node->count, sizeof *sweep->axis);
     if (!sweep->axis) return fracas_no_memory("the sweep");
     for (const fracas_node *axis = node->first; axis; axis = axis->next) {
@@ -219,10 +209,11 @@ fracas_err fracas_sweep_read(const fracas_file *file, const fracas_node *node, f
         TRY(read_axis(file, axis, read));
         sweep->npoints *= read->nchoices;
         if (sweep->npoints > FRACAS_MAX_POINTS)
-            return fracas_say(file->name, axis,
-                              "the sweep makes more than %d points, the product of its axes; sweep "
-                              "fewer values, or several together with `zip:`",
-                              FRACAS_MAX_POINTS);
+            return fracas_file_error(
+                file, axis,
+                "the sweep makes more than %d points, the product of its axes; sweep "
+                "fewer values, or several together with `zip:`",
+                FRACAS_MAX_POINTS);
     }
     const fracas_setting **owner = fracas_memory_take(file->memory, file->catalog->nleaves,
                                                       sizeof *owner);
@@ -234,7 +225,7 @@ fracas_err fracas_sweep_read(const fracas_file *file, const fracas_node *node, f
 
 const fracas_choice *fracas_sweep_choice(const fracas_sweep *sweep, size_t point, size_t axis)
 {
-    size_t slower = 1; /* points for which this axis stands still */
+    size_t slower = 1; /* points per step of this axis */
     for (size_t a = axis + 1; a < sweep->naxes; a++) slower *= sweep->axis[a].nchoices;
     return &sweep->axis[axis].choice[point / slower % sweep->axis[axis].nchoices];
 }

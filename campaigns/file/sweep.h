@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The sweep of a campaign file: axes of choices, whose product is the points. */
+/* The sweep of a campaign file: the points are the product of its axes. */
 #ifndef FRACAS_CAMPAIGNS_FILE_SWEEP_H
 #define FRACAS_CAMPAIGNS_FILE_SWEEP_H
 
 #include "campaigns/file/replicas.h"
 #include "campaigns/file/setting.h"
 
-/* The resolved file of so many points stays within what a file may be (campaigns/file/node.h). */
+/* The resolved file of this many points stays within the limits of fracas_node_read. */
 #define FRACAS_MAX_POINTS 10000
 
-/* One value of an axis: what it sets, and, in `cases`, its name and replicas. */
+/* One value of an axis: its settings, and, in `cases`, its name and replicas. */
 typedef struct {
     const fracas_node *node;
     fracas_settings settings;
@@ -24,11 +24,11 @@ typedef struct {
 
 typedef struct {
     size_t naxes;
-    fracas_axis *axis; /* in file order: the last runs fastest */
+    fracas_axis *axis; /* in file order, the last one fastest */
     size_t npoints;    /* product of the numbers of choices, 1 without axes */
 } fracas_sweep;
 
-/* Reads the list `node` (NULL: no sweep). No leaf is in two axes; every value is converted. */
+/* Reads the list `node` (NULL: no sweep) and converts every value. No leaf may be in two axes. */
 FRACAS_MUST_USE fracas_err fracas_sweep_read(const fracas_file *file, const fracas_node *node,
                                              fracas_sweep *sweep);
 

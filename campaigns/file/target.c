@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/target.h"
 
-#include "campaigns/file/say.h"
+#include "campaigns/file/words.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* The section whose name stands before the dot of a path; NULL if there is none. */
+/* The section named before the dot of a path, or NULL. */
 static const fracas_file_section *section_before_dot(const fracas_catalog *catalog,
                                                      const char *path)
 {
@@ -30,7 +30,7 @@ static fracas_err unknown_path(const fracas_file *file, const fracas_node *key,
         if (catalog->leaf[i].section->table->hashed &&
             (!inside || catalog->leaf[i].section == inside))
             fracas_words_add(&words, catalog->leaf[i].path);
-    if (!inside) { /* every path was compared; the list is of sections */
+    if (!inside) { /* all paths were compared; list the sections */
         words.used = 0;
         for (; *also; also++) fracas_words_add(&words, *also);
         for (size_t s = 0; s < catalog->nsections; s++)
@@ -40,8 +40,8 @@ static fracas_err unknown_path(const fracas_file *file, const fracas_node *key,
     char hint[600], label[80];
     snprintf(label, sizeof label, inside ? "paths in %s" : "known are section.key, and",
              inside ? inside->table->name : "");
-    return fracas_say(file->name, key, "unknown path `%s` in the sweep%s", key->text,
-                      fracas_words_hint(&words, label, hint));
+    return fracas_file_error(file, key, "unknown path `%s` in the sweep%s", key->text,
+                             fracas_words_hint(&words, label, hint));
 }
 
 fracas_err fracas_target_find(const fracas_file *file, const fracas_node *key,
@@ -50,16 +50,16 @@ fracas_err fracas_target_find(const fracas_file *file, const fracas_node *key,
     *found = (fracas_target){.leaf = fracas_catalog_leaf(file->catalog, key->text)};
     if (!found->leaf) found->section = fracas_catalog_section(file->catalog, key->text);
     if (strcmp(key->text, "replicas") == 0)
-        return fracas_say(
-            file->name, key,
+        return fracas_file_error(
+            file, key,
             "`replicas` is not a parameter to sweep; a case of `cases` may have its own");
     if (strcmp(key->text, "name") == 0 || strcmp(key->text, "seed") == 0)
-        return fracas_say(file->name, key,
-                          "`%s` cannot be swept; a campaign has one, at the top of the file",
-                          key->text);
+        return fracas_file_error(file, key,
+                                 "`%s` cannot be swept; a campaign has one, at the top of the file",
+                                 key->text);
     if (!found->leaf && !found->section) return unknown_path(file, key, also);
     const fracas_section *table = (found->leaf ? found->leaf->section : found->section)->table;
     if (table->hashed) return FRACAS_OK;
-    return fracas_say(file->name, key, "`%s` cannot be swept; it is one for the whole campaign",
-                      key->text);
+    return fracas_file_error(file, key, "`%s` cannot be swept; it is one for the whole campaign",
+                             key->text);
 }

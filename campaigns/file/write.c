@@ -14,7 +14,7 @@ static const void *owner_of(const fracas_leaf *leaf, const fracas_campaign *camp
     return leaf->section->table->hashed ? (const void *)&campaign->point[point] : &campaign->output;
 }
 
-/* The value as text, a file by where its copy is; false if the point has none. */
+/* The value as text, a file by the path of its copy; false if the point has none. */
 static bool write_value(const fracas_leaf *leaf, const fracas_campaign *campaign, size_t point,
                         char text[FRACAS_LEAF_TEXT])
 {
@@ -35,8 +35,8 @@ static bool kind_varies(const fracas_file_section *section, const fracas_campaig
     return false;
 }
 
-/* True if the leaf's value is inherited where its section's kind changes: at points of every model
- * that there is, and of that of a file which names none. */
+/* True if the value is inherited when the section's kind changes: at points of every model in the
+ * campaign, and of the default model. */
 static bool is_common(const fracas_leaf *leaf, const fracas_kind *unnamed,
                       const fracas_campaign *campaign)
 {
@@ -52,9 +52,8 @@ static bool is_common(const fracas_leaf *leaf, const fracas_kind *unnamed,
     return common;
 }
 
-/* True if the leaf is written once, in its section: it is the same in all points. What belongs to a
- * kind stays together with the kind's name, as a sweep that changes the kind drops the base's keys
- * of the old one. */
+/* True if the leaf is written once, in its section: its value is the same at all points. Keys of a
+ * kind stay with the kind's name, since a sweep of the kind drops base keys of another kind. */
 static bool is_base(const fracas_leaf *leaf, const fracas_kind *unnamed,
                     const fracas_campaign *campaign)
 {
@@ -112,7 +111,7 @@ static void begin_entry(bool *first, const char *key, FILE *out)
     *first = false;
 }
 
-/* Writes what the section has in this point and not in the base, as "section: {key: value}". */
+/* Writes values of this point outside the base as "section: {key: value}". */
 static void write_case_section(const fracas_catalog *catalog, const bool *base,
                                const fracas_file_section *section, const fracas_campaign *campaign,
                                size_t point, bool *first, FILE *out)

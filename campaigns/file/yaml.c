@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The only file that knows libyaml. */
 #include "campaigns/file/node.h"
 
 #include <errno.h>
@@ -10,8 +9,7 @@
 #include <string.h>
 #include <yaml.h>
 
-/* Enough for the resolved file of a campaign with as many points as there may be, each with every
- * value of its own. */
+/* Enough for the resolved file of the largest campaign, each point with values of its own. */
 enum { MAX_BYTES = 16 << 20, MAX_NODES = 1000000, MAX_DEPTH = 16, MAX_TEXT = 200, MAX_KEYS = 500 };
 
 typedef struct {
@@ -28,12 +26,12 @@ typedef struct {
 static FRACAS_PRINTF(3, 4) fracas_err
     fail_at(const char *name, yaml_mark_t mark, const char *format, ...)
 {
-    char what[600];
+    char text[600];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(what, sizeof what, format, arguments);
+    vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    return fracas_fail(FRACAS_USAGE, "%s:%zu:%zu: %s", name, mark.line + 1, mark.column + 1, what);
+    return fracas_fail(FRACAS_USAGE, "%s:%zu:%zu: %s", name, mark.line + 1, mark.column + 1, text);
 }
 
 /* ---- from the file to bytes ---- */
@@ -89,7 +87,7 @@ static yaml_mark_t mark_of_byte(const reading *reader, size_t byte)
     return mark;
 }
 
-/* What libyaml was reading, in words of the page that describes the file. */
+/* The context of libyaml in the words of docs/formats/campaign-file.md. */
 static const char *context_words(const char *context)
 {
     static const char *const words[][2] = {
@@ -163,8 +161,7 @@ static fracas_err read_scalar(reading *reader, const yaml_event_t *event, fracas
     return (*node)->text ? FRACAS_OK : fracas_no_memory("the campaign file");
 }
 
-/* Anchors, aliases and tags would let a small file stand for a huge one, or change what a value is.
- */
+/* With anchors and aliases a small file could stand for a huge one; tags could change values. */
 static fracas_err check_plain(const reading *reader, const yaml_event_t *event)
 {
     const yaml_char_t *anchor = NULL, *tag = NULL;
@@ -293,9 +290,8 @@ static fracas_err parse(reading *reader, fracas_node **root)
 {
     if (!yaml_parser_initialize(&reader->parser)) return fracas_no_memory("the campaign file");
     yaml_parser_set_encoding(&reader->parser, YAML_UTF8_ENCODING);
-    static const unsigned char mark[] = {0xEF, 0xBB,
-                                         0xBF}; /* editors on Windows begin a file with it; libyaml,
-                                                   once told the encoding, knows none */
+    /* Editors on Windows write a byte-order mark. libyaml does not skip it in a given encoding. */
+    static const unsigned char mark[] = {0xEF, 0xBB, 0xBF};
     const size_t skipped = reader->size >= sizeof mark &&
                                    memcmp(reader->bytes, mark, sizeof mark) == 0
                                ? sizeof mark

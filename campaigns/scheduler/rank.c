@@ -2,12 +2,12 @@
 #include "campaigns/scheduler/rank.h"
 
 #include "campaigns/campaign.h"
-#include "campaigns/scheduler/clock.h"
-#include "campaigns/scheduler/director.h"
-#include "campaigns/scheduler/packet.h"
-#include "campaigns/scheduler/study/prepare.h"
-#include "campaigns/scheduler/study/share.h"
-#include "campaigns/scheduler/worker/keeper.h"
+#include "campaigns/scheduler/director/director.h"
+#include "campaigns/scheduler/session/part.h"
+#include "campaigns/scheduler/session/prepare.h"
+#include "campaigns/scheduler/types/clock.h"
+#include "campaigns/scheduler/types/packet.h"
+#include "campaigns/scheduler/worker/supervisor.h"
 
 #include <limits.h>
 #include <mpi.h>
@@ -23,10 +23,10 @@
 enum {
     TAG = 0,
     WAIT_MAX = 8,  /* ms */
-    DEATHS_MAX = 5 /* of servers, one after another, that have settled nothing in between */
+    DEATHS_MAX = 5 /* of servers in a row with nothing settled in between */
 };
 
-/* Set by SIGUSR1 (the parent, by way of mpirun), SIGUSR2, SIGTERM and SIGINT (mpirun, srun, a batch
+/* Set by SIGUSR1 (the launcher, through mpirun), SIGUSR2, SIGTERM and SIGINT (mpirun, srun, a batch
  * system). */
 static volatile sig_atomic_t drain_asked;
 
@@ -49,12 +49,11 @@ typedef struct {
     char study[4096];
     double began; /* fracas_now at the start of this process */
     int rank, size;
-    fracas_keeper keeper; /* of the compute server, and the connection to that */
-    bool ended;           /* the server has said its last word: ENDED or TROUBLE */
-    bool fresh; /* the server is a new one of which rank 0 has not heard: what comes is still for
-                   the one before */
-    int deaths; /* of servers since one has written a segment or told of a failure */
-    int wait;   /* ms to sleep when nothing comes */
+    fracas_supervisor supervisor; /* of the compute server, with the connection to that */
+    bool ended;                   /* the server has sent its last message: ENDED or TROUBLE */
+    bool fresh;     /* rank 0 does not know the new server: its messages are for the former one */
+    int deaths;     /* of servers since the last segment or failure report */
+    int wait;       /* to sleep when no message comes [ms] */
     posted *outbox; /* of rank 0 */
 } rank_state;
 
@@ -99,14 +98,13 @@ static fracas_err mpi_receive(int *from, fracas_packet **message)
 
 /* ---- the server ---- */
 
-/* The message for rank 0 when the server is gone without a last word: there is a new one, or there
- * is none any more. */
-static fracas_err tell_death(rank_state *rank, fracas_packet **message)
+/* The message to rank 0 after the death of the server: REPLACED or LOST. */
+static fracas_err report_death(rank_state *rank, fracas_packet **message)
 {
     char how[512];
     fracas_trouble trouble = {.code = FRACAS_ENVIRONMENT};
     fracas_packet_kind kind = FRACAS_PACKET_LOST;
-    fracas_err gone = fracas_keeper_bury(&rank->keeper, how, sizeof how);
+    fracas_err gone = fracas_supervisor_reap(&rank->supervisor, how, sizeof how);
     if (gone) {
         snprintf(trouble.text, sizeof trouble.text, "the compute server of rank %d %s", rank->rank,
                  fracas_message());
@@ -115,8 +113,8 @@ static fracas_err tell_death(rank_state *rank, fracas_packet **message)
                  "the compute server of rank %d %s, and %d died before it with no segment in "
                  "between; it is not started again",
                  rank->rank, how, rank->deaths - 1);
-        fracas_keeper_end(&rank->keeper);
-    } else if (fracas_keeper_renew(&rank->keeper)) {
+        fracas_supervisor_end(&rank->supervisor);
+    } else if (fracas_supervisor_restart(&rank->supervisor)) {
         snprintf(trouble.text, sizeof trouble.text,
                  "the compute server of rank %d %s, and there is no new one: %.400s", rank->rank,
                  how, fracas_message());
@@ -130,7 +128,7 @@ static fracas_err tell_death(rank_state *rank, fracas_packet **message)
     return fracas_packet_create(kind, &trouble, sizeof trouble, message);
 }
 
-/* What a message of the server tells its rank. */
+/* Updates the rank by a message of its server. */
 static void note(rank_state *rank, const fracas_packet *message)
 {
     switch (message->kind) {
@@ -139,35 +137,34 @@ static void note(rank_state *rank, const fracas_packet *message)
     case FRACAS_PACKET_FAILED:
     case FRACAS_PACKET_SEGMENT:
         rank->deaths = 0;
-        break; /* something is settled: what is only computed dies with the server */
+        break; /* settled: records in memory would die with the server */
     default: break;
     }
 }
 
-/* Sleeps until the server says something, but `wait` ms at most; *message is NULL when it says
- * nothing. */
+/* Waits up to `wait` ms for a message of the server; *message is NULL if none comes. */
 static fracas_err server_receive(rank_state *rank, fracas_packet **message)
 {
     *message = NULL;
-    struct pollfd from = {.fd = rank->keeper.server, .events = POLLIN};
+    struct pollfd from = {.fd = rank->supervisor.server, .events = POLLIN};
     if (poll(&from, 1, rank->wait) <= 0 || !from.revents) return FRACAS_OK;
-    TRY(fracas_packet_read(rank->keeper.server, message));
+    TRY(fracas_packet_read(rank->supervisor.server, message));
     if (*message) note(rank, *message);
-    else if (!rank->ended) return tell_death(rank, message);
-    else fracas_keeper_end(&rank->keeper);
+    else if (!rank->ended) return report_death(rank, message);
+    else fracas_supervisor_end(&rank->supervisor);
     return FRACAS_OK;
 }
 
-/* A server that is gone cannot be told anything: server_receive will notice. */
+/* server_receive will notice if the server is gone. */
 static void server_send(rank_state *rank, const fracas_packet *message)
 {
     if (message->kind == FRACAS_PACKET_FRESH) rank->fresh = false;
-    else if (!rank->fresh && rank->keeper.server >= 0 &&
-             fracas_packet_write(rank->keeper.server, message))
+    else if (!rank->fresh && rank->supervisor.server >= 0 &&
+             fracas_packet_write(rank->supervisor.server, message))
         return;
 }
 
-/* Sleeps longer the longer nothing happens: MPI is polled, and leases are given one ahead. */
+/* MPI is polled: the wait doubles while nothing happens. Leases are given one ahead. */
 static void pace(rank_state *rank, bool busy)
 {
     rank->wait = busy ? 0 : rank->wait ? 2 * rank->wait : 1;
@@ -185,8 +182,8 @@ static fracas_err tell(fracas_packet_kind kind, const void *body, size_t size)
     return err;
 }
 
-/* What rank 0 says goes to the server; *come tells whether there was anything. */
-static fracas_err hear_lead(rank_state *rank, bool *come, bool *quit)
+/* Forwards a message of rank 0 to the server; *come: there was one. */
+static fracas_err receive_lead(rank_state *rank, bool *come, bool *quit)
 {
     fracas_packet *message;
     int from;
@@ -198,8 +195,8 @@ static fracas_err hear_lead(rank_state *rank, bool *come, bool *quit)
     return FRACAS_OK;
 }
 
-/* Sends to rank 0, and hears it meanwhile: it may be sending to this rank, and a long message waits
- * until the other side receives. */
+/* Sends to rank 0 and receives meanwhile: long messages wait until the other side receives, and
+ * rank 0 may be sending, too. */
 static fracas_err send_lead(rank_state *rank, const fracas_packet *message, bool *quit)
 {
     const struct timespec rest = {.tv_nsec = 200000};
@@ -211,7 +208,7 @@ static fracas_err send_lead(rank_state *rank, const fracas_packet *message, bool
         bool come;
         code = MPI_Test(&request, &sent, MPI_STATUS_IGNORE);
         if (code != MPI_SUCCESS || sent) break;
-        TRY(hear_lead(rank, &come, quit));
+        TRY(receive_lead(rank, &come, quit));
         if (!come) nanosleep(&rest, NULL);
     }
     return code == MPI_SUCCESS ? FRACAS_OK : mpi_failed("send", code);
@@ -227,7 +224,7 @@ static fracas_err forward(rank_state *rank, bool *quit)
     fracas_err err = message ? send_lead(rank, message, quit) : FRACAS_OK;
     free(message);
     TRY(err);
-    TRY(hear_lead(rank, &come, quit));
+    TRY(receive_lead(rank, &come, quit));
     pace(rank, told || come);
     return FRACAS_OK;
 }
@@ -252,7 +249,7 @@ static fracas_err follow(rank_state *rank, fracas_err set_up)
 
 /* ---- rank 0 ---- */
 
-/* Forgets the messages that have been taken. */
+/* Frees the messages that have been received. */
 static fracas_err clear_outbox(rank_state *rank)
 {
     for (posted **at = &rank->outbox; *at;) {
@@ -271,8 +268,7 @@ static fracas_err clear_outbox(rank_state *rank)
     return FRACAS_OK;
 }
 
-/* Sends without waiting until the rank takes it: one that stands still must not hold up the others.
- */
+/* Sends without waiting for the rank: a hung one must not hold up the others. */
 static fracas_err post(rank_state *rank, int to, const fracas_packet *message)
 {
     posted *p = malloc(sizeof *p);
@@ -303,7 +299,7 @@ static fracas_err send_worker(void *context, size_t worker, const fracas_packet 
     return FRACAS_OK;
 }
 
-/* Hears the workers, its own server first, until all have ended. */
+/* Receives from the workers, its own server first, until all have ended. */
 static fracas_err direct(rank_state *rank, fracas_director *director)
 {
     while (!fracas_director_over(director)) {
@@ -312,12 +308,12 @@ static fracas_err direct(rank_state *rank, fracas_director *director)
         int from = 0;
         TRY(server_receive(rank, &message));
         bool busy = message != NULL;
-        if (message) fracas_director_hear(director, 0, message);
+        if (message) fracas_director_receive(director, 0, message);
         free(message);
         do {
             TRY(mpi_receive(&from, &message));
             busy |= message != NULL;
-            if (message) fracas_director_hear(director, (size_t)from, message);
+            if (message) fracas_director_receive(director, (size_t)from, message);
             free(message);
         } while (message);
         TRY(clear_outbox(rank));
@@ -327,8 +323,8 @@ static fracas_err direct(rank_state *rank, fracas_director *director)
     return FRACAS_OK;
 }
 
-/* When the run must have ended, by fracas_now; 0: any time. A parent counts the walltime from its
- * own start; started by the user's own launcher this process is where the run begins. */
+/* End of the walltime by fracas_now; 0: none. It counts from the start of the launcher, or of this
+ * process under the user's own launcher. */
 static double deadline_of(const rank_state *rank)
 {
     const char *text = getenv(FRACAS_DEADLINE);
@@ -339,7 +335,7 @@ static double deadline_of(const rank_state *rank)
     return rank->options->walltime > 0 ? rank->began + rank->options->walltime : 0;
 }
 
-static fracas_err lead(rank_state *rank, fracas_voice *voice, bool *ran)
+static fracas_err lead(rank_state *rank, fracas_channel *channel, bool *ran)
 {
     fracas_director_setup setup = {.campaign = rank->campaign,
                                    .options = rank->options,
@@ -347,25 +343,25 @@ static fracas_err lead(rank_state *rank, fracas_voice *voice, bool *ran)
                                    .workers = (size_t)rank->size,
                                    .send = send_worker,
                                    .context = rank,
-                                   .voice = voice,
+                                   .channel = channel,
                                    .now = fracas_now,
                                    .deadline = deadline_of(rank)};
     fracas_director *director;
-    fracas_err verdict;
-    TRY(fracas_director_create(&setup, &director, &verdict));
+    fracas_err result;
+    TRY(fracas_director_create(&setup, &director, &result));
     *ran = director != NULL;
-    if (!director) return verdict;
+    if (!director) return result;
     const char *restarted = getenv(FRACAS_RESTARTED);
-    if (voice->parent && restarted) fracas_director_note(director, "restarted", restarted);
-    verdict = direct(rank, director);
-    if (!verdict) verdict = fracas_director_finish(director);
+    if (channel->launcher && restarted) fracas_director_note(director, "restarted", restarted);
+    result = direct(rank, director);
+    if (!result) result = fracas_director_finish(director);
     fracas_director_destroy(director);
-    return verdict;
+    return result;
 }
 
-/* Takes what the others still send, up to their answers to QUIT, or one that sends a long message
- * would never end; not for long, for one may hang. */
-static void hear_last_words(rank_state *rank)
+/* Receives until all ranks have answered QUIT, since a rank that sends a long message would never
+ * end otherwise. A hung rank gets PATIENCE. */
+static void receive_rest(rank_state *rank)
 {
     enum { PATIENCE = 5 /* s */ };
     const struct timespec rest = {.tv_nsec = 1000000};
@@ -380,22 +376,22 @@ static void hear_last_words(rank_state *rank)
     }
 }
 
-/* Rank 0 from MPI_Init on: the run, its last word, and the release of the others. */
+/* Rank 0 from MPI_Init on: the run, its result on the status channel, and QUIT to the others. */
 static fracas_err lead_to_end(rank_state *rank, fracas_err set_up, bool *ran)
 {
-    fracas_voice voice;
-    fracas_voice_init(&voice);
-    fracas_err verdict = set_up;
-    if (!verdict) verdict = lead(rank, &voice, ran);
-    fracas_voice_end(&voice, verdict, *ran);
-    fracas_trouble kept;
-    fracas_trouble_take(verdict, &kept); /* what follows may overwrite the message */
+    fracas_channel channel;
+    fracas_channel_init(&channel);
+    fracas_err err = set_up;
+    if (!err) err = lead(rank, &channel, ran);
+    fracas_channel_end(&channel, err, *ran);
+    fracas_trouble result;
+    fracas_trouble_take(err, &result);
     const fracas_packet quit = {.kind = FRACAS_PACKET_QUIT};
     for (int other = 1; other < rank->size; other++)
         if (mpi_send(other, &quit))
             MPI_Abort(MPI_COMM_WORLD, FRACAS_ENVIRONMENT); /* no rank may be left waiting */
-    hear_last_words(rank);
-    if (!voice.parent) return verdict ? fracas_fail(verdict, "%s", kept.text) : FRACAS_OK;
+    receive_rest(rank);
+    if (!channel.launcher) return fracas_trouble_fail(&result);
     *ran = false;
     return FRACAS_OK;
 }
@@ -410,46 +406,44 @@ static void catch_signals(void)
     sigaction(SIGUSR2, &drain, NULL);
     sigaction(SIGTERM, &drain, NULL);
     sigaction(SIGINT, &drain, NULL);
-    signal(SIGPIPE, SIG_IGN); /* a write that cannot be is an error like others */
+    signal(SIGPIPE, SIG_IGN); /* both become errors of write */
     signal(SIGXFSZ, SIG_IGN);
 }
 
-/* What must happen before MPI_Init: the keeper is forked from a process that MPI does not know. */
+/* Before MPI_Init: the supervisor is forked from a process without MPI. */
 static fracas_err set_up(rank_state *rank)
 {
     TRY(fracas_run_campaign(rank->options, &rank->campaign));
     TRY(fracas_study_folder(rank->options, rank->campaign, rank->study, sizeof rank->study));
-    return fracas_keeper_start(rank->campaign, rank->options, rank->study, &rank->keeper);
+    return fracas_supervisor_start(rank->campaign, rank->options, rank->study, &rank->supervisor);
 }
 
 fracas_err fracas_rank_run(const fracas_run_options *options, bool *ran)
 {
     *ran = false;
-    /* No rank outlives the parent's mpirun. (The signal follows the thread that started this
-     * process: what other launchers do with their threads is not known.) */
-    if (getenv(FRACAS_PARENT_MARK)) prctl(PR_SET_PDEATHSIG, SIGKILL);
+    /* No rank outlives the launcher's mpirun. (Not with other launchers: the signal follows the
+     * thread that started this process, and theirs may end early.) */
+    if (getenv(FRACAS_LAUNCHER_MARK)) prctl(PR_SET_PDEATHSIG, SIGKILL);
     catch_signals();
     rank_state rank = {
-        .options = options, .began = fracas_now(), .keeper = {.control = -1, .server = -1}};
+        .options = options, .began = fracas_now(), .supervisor = {.control = -1, .server = -1}};
     fracas_err err = set_up(&rank);
     fracas_trouble trouble;
     fracas_trouble_take(err, &trouble);
     if (MPI_Init(NULL, NULL) || MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN) ||
         MPI_Comm_rank(MPI_COMM_WORLD, &rank.rank) || MPI_Comm_size(MPI_COMM_WORLD, &rank.size)) {
         fputs("fracas: MPI does not start\n", stderr);
-        _exit(FRACAS_ENVIRONMENT); /* a rank that ended with 0 under a parent would leave the others
-                                      waiting for it */
+        _exit(FRACAS_ENVIRONMENT); /* ending with 0, it would leave the others waiting */
     }
-    if (err) err = fracas_fail(err, "%s", trouble.text);
+    err = fracas_trouble_fail(&trouble);
     if (rank.rank == 0) {
         err = lead_to_end(&rank, err, ran);
     } else if (follow(&rank, err)) {
-        MPI_Abort(MPI_COMM_WORLD,
-                  FRACAS_ENVIRONMENT); /* rank 0 cannot be told: it must not wait for this rank */
+        MPI_Abort(MPI_COMM_WORLD, FRACAS_ENVIRONMENT); /* or rank 0 would wait for this rank */
     } else {
         err = FRACAS_OK;
     }
-    fracas_keeper_end(&rank.keeper);
+    fracas_supervisor_end(&rank.supervisor);
     fracas_campaign_destroy(rank.campaign);
     MPI_Finalize();
     return err;

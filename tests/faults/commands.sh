@@ -64,7 +64,7 @@ said '12 realizations, [0-9]* done in [0-9]* segments, 0 failed, [23] missing'
 said 'fracas run lost/campaign.yaml --study lost'
 expect 0 "$fracas" run lost/campaign.yaml --study lost
 same undisturbed lost
-expect 1 env FRACAS_TEST_FAULT=crash:1:5 "$fracas" run small.yaml --study failed $pieces
+expect 1 env FRACAS_TEST_FAULT=crash:1:5 "$faulty" run small.yaml --study failed $pieces
 cp failed/study.h5 failed.h5
 expect 0 "$fracas" reindex failed --json
 said '"failed": 1'
@@ -94,7 +94,7 @@ said 'left failed/notes.txt'
 [ "$(segments failed)" -eq "$kept" ] || fail "gc removed a segment"
 expect 0 "$fracas" gc failed --json
 said '"path": "failed/notes.txt"'
-expect 1 env FRACAS_TEST_FAULT=crash:1:5 "$fracas" run small.yaml --study failed $pieces
+expect 1 env FRACAS_TEST_FAULT=crash:1:5 "$faulty" run small.yaml --study failed $pieces
 cmp failed.h5 failed/study.h5 || fail "after gc, it differs"
 
 # retry: what failed is computed again. A run has nothing to do.
@@ -104,7 +104,7 @@ expect 2 "$fracas" retry failed --failed --point 2
 said 'points 0 to 1'
 expect 1 "$fracas" retry failed --failed --point 0
 said '0 failed realizations of failed are planned again'
-expect 1 env FRACAS_TEST_FAULT=crash:1:5 "$fracas" retry failed --failed --jobs 2
+expect 1 env FRACAS_TEST_FAULT=crash:1:5 "$faulty" retry failed --failed --jobs 2
 said '1 failed realizations of failed are planned again'
 cmp failed.h5 failed/study.h5 || fail "failed again, it differs"
 expect 0 "$fracas" retry failed --failed --point 1 --jobs 2 --lanes 1

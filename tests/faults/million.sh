@@ -5,6 +5,7 @@
 # ctest-serial
 # ctest-timeout: 1800
 . "$(dirname "$0")/../support/campaigns.sh"
+bench=$(dirname "$fracas")/bench_scheduler
 
 all=1000000
 
@@ -39,7 +40,7 @@ status_time()
 stop_half()
 {
     rm -rf study
-    setsid "$fracas" bench scheduler --tasks $all --points 100 --jobs 2 --study study > background 2>&1 &
+    setsid "$bench" --tasks $all --points 100 --jobs 2 --study study > background 2>&1 &
     session=$!
     tries=0
     half=0
@@ -63,7 +64,7 @@ for i in 1 2 3; do
     half=$(number done progress)
     [ "$half" -lt $all ] || fail "it was over before it could be stopped"
     [ $i -gt 1 ] || within "$(status_time)" 1 "status of a study half done [s]"
-    "$fracas" bench scheduler --tasks $all --points 100 --jobs 2 --study study --json > figures 2> said || { cat said; fail "going on"; }
+    "$bench" --tasks $all --points 100 --jobs 2 --study study --json > figures 2> said || { cat said; fail "going on"; }
     # `planned` is rank 0's; `around` has the start of mpirun, and its end.
     resume=$(awk -v a="$(number planned figures)" -v b="$(number around figures)" -v least=$resume 'BEGIN {print a + b < least ? a + b : least}')
     within "$(number memory figures)" 500e6 "memory of rank 0 [bytes]"

@@ -4,9 +4,9 @@
 campaign small.yaml 12 '3e4 1/s, 1e5 1/s'
 expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
 export FRACAS_TEST_FAULT=crash:1:5
-expect 1 "$fracas" run small.yaml --study crashed --jobs 2
+expect 1 "$faulty" run small.yaml --study crashed --jobs 2
 said 'replica 5 of point 1 .* FAILED.*signal 11'
-expect 1 "$fracas" run small.yaml --study alone --jobs 1 --lanes 1 --shuffle
+expect 1 "$faulty" run small.yaml --study alone --jobs 1 --lanes 1 --shuffle
 same crashed alone
 unset FRACAS_TEST_FAULT
 before=$(stat -c %Y.%i crashed/study.h5)

@@ -11,7 +11,7 @@ fault()
     what=$1 isolation=$2 reason=$3
     shift 3
     export FRACAS_TEST_FAULT=$what:1:5
-    expect 1 "$fracas" run small.yaml --study $what-$isolation --jobs 2 --isolation $isolation "$@"
+    expect 1 "$faulty" run small.yaml --study $what-$isolation --jobs 2 --isolation $isolation "$@"
     unset FRACAS_TEST_FAULT
     expect 0 "$fracas" status $what-$isolation
     said '^realizations *24: 23 done, 1 failed, 0 leased, 0 planned$'
@@ -51,7 +51,7 @@ events()
 # Gone on the second attempt.
 for isolation in lease none; do
     export FRACAS_TEST_FAULT="crash:1:5:$work/happened-$isolation"
-    expect 0 "$fracas" run small.yaml --study once-$isolation --jobs 2 --isolation $isolation
+    expect 0 "$faulty" run small.yaml --study once-$isolation --jobs 2 --isolation $isolation
     [ -e happened-$isolation ] || fail "nothing happened"
     same undisturbed once-$isolation
 done
@@ -61,7 +61,7 @@ unset FRACAS_TEST_FAULT
 
 # A model that cannot be built without a crash: its point is FAILED, the other one is not.
 export FRACAS_TEST_FAULT=model:1:0
-expect 1 "$fracas" run small.yaml --study model --jobs 2
+expect 1 "$faulty" run small.yaml --study model --jobs 2
 unset FRACAS_TEST_FAULT
 expect 0 "$fracas" status model
 said '^realizations *24: 12 done, 12 failed, 0 leased, 0 planned$'

@@ -1,4 +1,4 @@
-# kill -9 of a server, of its keeper or of the process of a lease, with a process for each lease and without: nothing is lost, and a
+# kill -9 of a server, of its supervisor or of the process of a lease, with a process for each lease and without: nothing is lost, and a
 # server is replaced.
 . tests/support/campaigns.sh
 
@@ -49,10 +49,10 @@ for isolation in lease none; do
         fail "it did not say that a server died"
     [ "$(events server-$isolation 'server replaced')" -eq 1 ] || fail "not one event of a server replaced"
     newcomer server-$isolation
-    killed keeper-$isolation $isolation fracas-keeper
-    grep -q 'compute server of rank . went with its keeper, which died of signal 9.*; the others go on' background ||
-        fail "it did not say that a keeper died"
-    [ "$(events keeper-$isolation 'worker lost')" -eq 1 ] || fail "not one event of a worker lost"
+    killed supervisor-$isolation $isolation fracas-supervis
+    grep -q 'compute server of rank . went with its supervisor, which died of signal 9.*; the others go on' background ||
+        fail "it did not say that a supervisor died"
+    [ "$(events supervisor-$isolation 'worker lost')" -eq 1 ] || fail "not one event of a worker lost"
 done
 killed lease-lease lease fracas-lease
 
@@ -61,9 +61,10 @@ zombies()
     cat /proc/[0-9]*/stat 2>/dev/null | sed 's/([^)]*)/x/' | awk -v session="$session" '$6 == session && $3 == "Z" {print $1}'
 }
 
-# Five in a row that have written nothing: that is enough. Meanwhile nobody is left unburied.
+# Five in a row that have written nothing: that is enough. Meanwhile nobody is left a zombie.
 campaign one.yaml 1 '1e5 1/s'
 export FRACAS_TEST_FAULT=hang:0:0
+program=$fracas fracas=$faulty
 start one.yaml --study five --jobs 1 --isolation none
 last=
 for death in 1 2 3 4 5; do
@@ -80,6 +81,7 @@ status=0
 wait "$session" || status=$?
 session=
 unset FRACAS_TEST_FAULT
+fracas=$program
 [ $status -eq 6 ] || { cat background >&2; fail "status $status after five deaths"; }
 grep -q 'compute server of rank 0 died of signal 9 .*and 4 died before it with no segment in between; it is not started again' background ||
     { cat background >&2; fail "it did not say why it gave up"; }

@@ -3,4 +3,4 @@
 # ctest-timeout: 5400
 . tests/support/campaigns.sh
 
-/usr/bin/python3 "$source/tests/support/storm_kills.py" "$fracas" "$work"
+/usr/bin/python3 "$source/tests/support/storm_kills.py" "$faulty" "$work"

@@ -24,7 +24,7 @@ said '"parts": 2'
 cp -r parts grown
 expect 3 "$fracas" extend grown --replicas 14
 said 'part 2 of 2 is complete, 14 realizations'
-expect 3 env FRACAS_TEST_FAULT=crash:1:5 "$fracas" run whole.yaml --study tried --jobs 2 --part 2/2
+expect 3 env FRACAS_TEST_FAULT=crash:1:5 "$faulty" run whole.yaml --study tried --jobs 2 --part 2/2
 expect 0 "$fracas" status tried
 said '1 failed'
 expect 3 "$fracas" retry tried --failed

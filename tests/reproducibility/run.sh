@@ -21,7 +21,7 @@ done
 expect 0 launch -n 2 "$fracas" run small.yaml --study direct
 same one direct
 export FRACAS_TEST_FAULT=crash:0:1
-expect 1 launch -n 1 "$fracas" run small.yaml --study direct-crash
+expect 1 launch -n 1 "$faulty" run small.yaml --study direct-crash
 said 'FAILED'
 unset FRACAS_TEST_FAULT
 

@@ -151,9 +151,9 @@ done
 
 # A realization that crashes for good counts for the round, not for the mean.
 export FRACAS_TEST_FAULT=crash:0:9
-expect 1 "$fracas" run one.yaml --study crashed --jobs 2
+expect 1 "$faulty" run one.yaml --study crashed --jobs 2
 expect 0 decisions crashed
-expect 1 "$fracas" run one.yaml --study crashed-1 --jobs 1 --lanes 1
+expect 1 "$faulty" run one.yaml --study crashed-1 --jobs 1 --lanes 1
 same crashed crashed-1
 unset FRACAS_TEST_FAULT
 [ "$(sqlite3 crashed/index.sqlite 'SELECT sum(failed) > 0, max(failed) FROM decision')" = '1|1' ] || fail "the failed one is not counted"

@@ -3,6 +3,8 @@
 set -eu
 for_compilers=${2-}
 fracas=$(cd "$1" && pwd)/fracas
+# shellcheck disable=SC2034 # used by the scripts that source this
+faulty=$(dirname "$fracas")/faulty/fracas # with faults on request (faulty_solve.c)
 source=$(pwd)
 work=$(mktemp -d)
 trap 'status=$?; kill_session; rm -rf "$work"; exit $status' EXIT
@@ -80,7 +82,7 @@ wait_segments()
     done
 }
 
-# Every process of the session: parent, mpirun, ranks, keepers, servers, children. Words of stat: 3 state, 6 session, 20 threads
+# Every process of the session: parent, mpirun, ranks, supervisors, servers, children. Words of stat: 3 state, 6 session, 20 threads
 # (one that is a zombie while its other threads still die holds its files, and so the lock).
 processes()
 {
@@ -88,7 +90,7 @@ processes()
         awk -v session="$session" '$6 == session && ($3 != "Z" || $20 > 1) {print $1}'
 }
 
-# named NAME: those of them that are called so: fracas-keeper, fracas-server, fracas-lease.
+# named NAME: those of them that are called so: fracas-supervis, fracas-server, fracas-lease.
 named()
 {
     for pid in $(processes); do

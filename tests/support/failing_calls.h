@@ -6,13 +6,13 @@
  *     CLASS   disk      system calls that change files of the study, whoever makes them (C library,
  * SQLite, HDF5) read      those that read them sqlite, hdf5, mpi: calls of these libraries by
  * fracas memory    allocations of fracas and of the libraries that it stores with process   fork,
- * pipe2, socketpair WHERE   parent; or RANK.DEPTH: 0.0 is rank 0, 0.1 its keeper, 0.2 the server,
- * 0.3 the process of a lease HOW     an error of errno (EIO, ENOSPC, ...) or of the library; kill:
- * the process dies before the call; torn: it dies after half of what it was to write; late: the
- * call succeeds, and says that it has not FAILING_STATE  file of a failing_state: what was counted;
- * with ENOSPC, all calls that need space fail from then on, everywhere FAILING_ALONE  set where the
- * parent starts no mpirun: only then its system calls can be watched FAILING_UNDER  part of the
- * path of every file of the study, and of no other */
+ * pipe2, socketpair WHERE   parent; or RANK.DEPTH: 0.0 is rank 0, 0.1 its supervisor, 0.2 the
+ * server, 0.3 the process of a lease HOW     an error of errno (EIO, ENOSPC, ...) or of the
+ * library; kill: the process dies before the call; torn: it dies after half of what it was to
+ * write; late: the call succeeds, and says that it has not FAILING_STATE  file of a failing_state:
+ * what was counted; with ENOSPC, all calls that need space fail from then on, everywhere
+ * FAILING_ALONE  set where the parent starts no mpirun: only then its system calls can be watched
+ * FAILING_UNDER  part of the path of every file of the study, and of no other */
 #ifndef FRACAS_TESTS_SUPPORT_FAILING_CALLS_H
 #define FRACAS_TESTS_SUPPORT_FAILING_CALLS_H
 

@@ -77,7 +77,7 @@ static inline void assert_lease(const fracas_lease *lease, uint64_t point, int64
 static inline void assert_counts(const fracas_scheduler *scheduler, int64_t done, int64_t memory,
                                  int64_t failed)
 {
-    fracas_scheduler_counts count = fracas_scheduler_count(scheduler);
+    fracas_counts count = fracas_scheduler_count(scheduler);
     assert_int_equal(count.done, done);
     assert_int_equal(count.memory, memory);
     assert_int_equal(count.failed, failed);

@@ -2,7 +2,7 @@
 
     storm_kills.py FRACAS FOLDER [KILLS [REPLICAS]]
 
-Kinds of processes are known by their place: parent, its mpirun, mpirun's ranks, and below a rank, where there is one, the keeper, then
+Kinds of processes are known by their place: parent, its mpirun, mpirun's ranks, and below a rank, where there is one, the supervisor, then
 the compute server, then the child. FRACAS_STORM_SEED repeats the choices of a run, though not the moments at which they meet it.
 
 What must hold:
@@ -47,7 +47,7 @@ sweep:
 replicas: {replicas}
 output: {{history: 100, interfaces: false}}
 """
-KINDS = ["parent", "mpirun", "rank 0", "other rank", "keeper", "server", "child"]
+KINDS = ["parent", "mpirun", "rank 0", "other rank", "supervisor", "server", "child"]
 ENDS_THE_RUN = {"parent", "mpirun", "rank 0", "other rank"}
 RATE = 25  # realizations a second that this machine shall compute: then 200 kills, each with a new start, come to 2000 of them
 MERGES = 0.07  # of the kills are left for when only study.h5 is to be written
@@ -69,7 +69,7 @@ def read(path):
 class Tree:
     """The processes of a session."""
 
-    keeper = False  # there are keepers: some process was four below a rank's mpirun
+    supervisor = False  # there are supervisors: some process was four below a rank's mpirun
 
     def __init__(self, session, program):
         self.program = program[:15]  # as much as the kernel keeps of its name
@@ -105,7 +105,7 @@ class Tree:
         found = {}
         for pid in self.name:
             depth = self.depth(pid)
-            Tree.keeper |= depth >= 3
+            Tree.supervisor |= depth >= 3
             if pid == session:
                 kind = "parent"
             elif self.name[pid] == "mpirun":
@@ -114,7 +114,7 @@ class Tree:
                 number = [w for w in read(f"/proc/{pid}/environ").split("\0") if w.startswith("OMPI_COMM_WORLD_RANK=")]
                 kind = "other rank" if number and number[0][21:] != "0" else "rank 0"
             elif depth > 0:
-                kind = ([] if not Tree.keeper else ["keeper"] * (depth > 0)) + ["server", "child"]
+                kind = ([] if not Tree.supervisor else ["supervisor"] * (depth > 0)) + ["server", "child"]
                 kind = kind[min(depth, len(kind)) - 1]
             else:
                 continue

@@ -1,5 +1,6 @@
-# fracas bench scheduler: what it says of itself, what it leaves, and messages that cross.
+# bench_scheduler: its numbers, the files it leaves, and messages that cross.
 . "$(dirname "$0")/../support/campaigns.sh"
+bench=$(dirname "$fracas")/bench_scheduler
 
 # number KEY: of the figures.
 number()
@@ -15,7 +16,7 @@ holds()
 
 mkdir temporary
 export TMPDIR="$work/temporary"
-"$fracas" bench scheduler --tasks 64 --task-time 0.02 --jobs 2 --lease-time 0 --json > figures 2> said || { cat said; fail "it does not run"; }
+"$bench" --tasks 64 --task-time 0.02 --jobs 2 --lease-time 0 --json > figures 2> said || { cat said; fail "it does not run"; }
 [ -z "$(ls temporary | grep fracas-bench)" ] || fail "it leaves its study behind"
 holds "$(number tasks) == 64 && $(number workers) == 2"
 # Eight batches of 8, on 2 workers: 0.64 s at least, which is all of the time that tasks take.
@@ -25,20 +26,20 @@ holds "$(number commits) >= 2 && $(number memory) > 1e6 && $(number memory) < 50
 
 # Which ones take long depends on their names: the same work, and a study that goes on.
 for tasks in 200 400; do
-    "$fracas" bench scheduler --tasks $tasks --points 2 --long-share 0.05 --long-time 0.05 --jobs 2 --study kept --json > figures 2> said || { cat said; fail "it does not go on"; }
+    "$bench" --tasks $tasks --points 2 --long-share 0.05 --long-time 0.05 --jobs 2 --study kept --json > figures 2> said || { cat said; fail "it does not go on"; }
     holds "$(number tasks) == 200"
 done
 expect 0 "$fracas" status kept
 said "400 done"
 campaign small.yaml 2 '1e5 1/s'
 expect 0 "$fracas" run small.yaml --study theirs
-expect 2 "$fracas" bench scheduler --tasks 8 --study theirs
+expect 2 "$bench" --tasks 8 --study theirs
 said 'theirs is the study of a campaign'
 [ ! -e theirs/bench.yaml ] || fail "bench wrote into a campaign's study"
-expect 2 "$fracas" bench network
-said "cannot be measured"
-expect 2 "$fracas" bench scheduler --tasks 3 --points 2
-expect 2 "$fracas" bench scheduler --long-share 2
+expect 2 "$bench" network
+said "one argument too many"
+expect 2 "$bench" --tasks 3 --points 2
+expect 2 "$bench" --long-share 2
 
 # Long leases to a rank that is sending a long segment: neither side may wait for the other.
-expect 0 timeout -k 5 150 "$fracas" bench scheduler --tasks 80000 --segment-age 0.001 --jobs 3
+expect 0 timeout -k 5 150 "$bench" --tasks 80000 --segment-age 0.001 --jobs 3

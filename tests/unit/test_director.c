@@ -4,8 +4,8 @@
 #include "tests/support/campaign_text.h"
 #include "tests/support/study_fixture.h"
 
-#include "campaigns/scheduler/director.h"
-#include "campaigns/scheduler/study/verdict.h"
+#include "campaigns/scheduler/director/director.h"
+#include "campaigns/scheduler/session/failures.h"
 
 enum { WORKERS = 2 };
 
@@ -49,7 +49,7 @@ static fracas_err note(void *context, size_t to, const fracas_packet *message)
 
 static fracas_campaign *campaign;
 static fracas_run_options options;
-static fracas_voice voice;
+static fracas_channel channel;
 static fracas_director *director;
 
 /* Of the plain campaign, in place of its three replicas and sweep: for `WORKERS` workers in a study
@@ -63,7 +63,7 @@ static void prepare(const char *replicas, const char *sweep)
     free(counted);
     fracas_run_options_init(&options);
     options.width = 8;
-    fracas_voice_init(&voice);
+    fracas_channel_init(&channel);
     study = sample_folder();
     memset(worker, 0, sizeof worker);
     time_ = 1000;
@@ -76,11 +76,11 @@ static void begin(double deadline)
                                          .study = study,
                                          .workers = WORKERS,
                                          .send = note,
-                                         .voice = &voice,
+                                         .channel = &channel,
                                          .now = now,
                                          .deadline = deadline};
-    fracas_err verdict;
-    OK(fracas_director_create(&setup, &director, &verdict));
+    fracas_err result;
+    OK(fracas_director_create(&setup, &director, &result));
 }
 
 static void end(void)
@@ -94,7 +94,7 @@ static void hear(size_t from, fracas_packet_kind kind, const void *body, size_t 
 {
     fracas_packet *message;
     OK(fracas_packet_create(kind, body, size, &message));
-    fracas_director_hear(director, from, message);
+    fracas_director_receive(director, from, message);
     free(message);
 }
 
@@ -142,7 +142,7 @@ static void pass(double seconds)
 }
 
 /* How the run ends. */
-static void assert_verdict(fracas_err code, const char *part)
+static void assert_result(fracas_err code, const char *part)
 {
     assert_true(fracas_director_over(director));
     const fracas_err err = fracas_director_finish(director);
@@ -336,8 +336,8 @@ static void no_lease_is_given_that_does_not_end_in_time(void **state)
         segment(w, 0, 3, 1000);
         say_ended(w);
     }
-    assert_verdict(FRACAS_INTERRUPTED,
-                   "the walltime is nearly over: 64 of 160 realizations are done");
+    assert_result(FRACAS_INTERRUPTED,
+                  "the walltime is nearly over: 64 of 160 realizations are done");
     end();
 }
 
@@ -378,8 +378,7 @@ static void what_runs_at_the_deadline_is_killed(void **state)
     pass(1.5);
     assert_false(fracas_director_over(director));
     pass(0.4);
-    assert_verdict(FRACAS_INTERRUPTED,
-                   "the walltime is nearly over: 8 of 16 realizations are done");
+    assert_result(FRACAS_INTERRUPTED, "the walltime is nearly over: 8 of 16 realizations are done");
     end();
 }
 
@@ -399,8 +398,8 @@ static void what_drains_at_the_deadline_is_killed(void **state)
     assert_int_equal(worker[0].stops, 2); /* once is enough */
     say_ended(0);
     say_ended(1);
-    assert_verdict(FRACAS_INTERRUPTED,
-                   "interrupted: 8 of 16 realizations are done"); /* which came first */
+    assert_result(FRACAS_INTERRUPTED,
+                  "interrupted: 8 of 16 realizations are done"); /* which came first */
     end();
 }
 
@@ -417,8 +416,8 @@ static void a_merge_that_would_not_end_is_not_begun(void **state)
 {
     (void)state;
     everything(1000 + 19);
-    assert_verdict(FRACAS_INTERRUPTED,
-                   "all 16 realizations are done and kept, only study.h5 is missing");
+    assert_result(FRACAS_INTERRUPTED,
+                  "all 16 realizations are done and kept, only study.h5 is missing");
     end();
     everything(1000 + 21);
     assert_merged();
@@ -445,8 +444,8 @@ static void a_part_is_every_so_many_th(void **state)
         say_ended(w);
     }
     assert_true(found[0][1] && found[1][2]);
-    assert_verdict(FRACAS_INTERRUPTED, "part 2 of 4 is complete, 2 realizations, 0 of them FAILED; "
-                                       "when the other parts are, `fracas merge-studies`");
+    assert_result(FRACAS_INTERRUPTED, "part 2 of 4 is complete, 2 realizations, 0 of them FAILED; "
+                                      "when the other parts are, `fracas merge-studies`");
     end();
 }
 
@@ -476,7 +475,7 @@ static void failed(size_t from, size_t i)
     hear(from, FRACAS_PACKET_FAILED, &failure, sizeof failure);
 }
 
-/* The verdict names the points, the first few of them. */
+/* The result names the points, the first few of them. */
 static void points_with_failures_are_named(void **state)
 {
     (void)state;
@@ -484,13 +483,13 @@ static void points_with_failures_are_named(void **state)
     options.width = 1;
     begin(0);
     hear(1, FRACAS_PACKET_READY, &campaign->hash, sizeof campaign->hash);
-    OK(fracas_failed_verdict(study, NULL, &campaign->table));
+    OK(fracas_failure_report(study, NULL, &campaign->table));
     for (size_t i = 0; i < worker[1].nleases; i++) failed(1, i); /* each three times */
     assert_int_equal(worker[1].nleases, 21);
     assert_int_equal(worker[1].stops, 1);
     fracas_index *index;
     OK(fracas_index_open(study, false, &index));
-    assert_int_equal(fracas_failed_verdict(study, index, &campaign->table), FRACAS_SOME_FAILED);
+    assert_int_equal(fracas_failure_report(study, index, &campaign->table), FRACAS_SOME_FAILED);
     assert_non_null(strstr(fracas_message(), "7 realizations of"));
     assert_non_null(strstr(fracas_message(),
                            "FAILED: 1 of point 0, 1 of point 1, 1 of point 2, 1 of point 3, 1 of "

@@ -3,7 +3,7 @@
 /* Refined campaigns: of every shipped example, and where a refinement cannot be. */
 #include "campaigns/plan/forecast.h"
 #include "campaigns/plan/refine.h"
-#include "campaigns/scheduler/study/prepare.h"
+#include "campaigns/scheduler/session/prepare.h"
 #include "tests/support/campaign_text.h"
 #include "engine/mesh/make.h"
 #define FOLDER "fracas-refine"

@@ -3,8 +3,8 @@
 #include "tests/support/campaign_text.h"
 #include "tests/support/study_fixture.h"
 
-#include "campaigns/scheduler/clock.h"
-#include "campaigns/scheduler/director.h"
+#include "campaigns/scheduler/types/clock.h"
+#include "campaigns/scheduler/director/director.h"
 
 static struct {
     size_t nleases, stops, fresh;
@@ -13,7 +13,7 @@ static struct {
 
 static fracas_campaign *campaign;
 static fracas_director *director;
-static fracas_voice voice;
+static fracas_channel channel;
 static fracas_run_options options;
 
 static fracas_err note(void *context, size_t to, const fracas_packet *message)
@@ -35,7 +35,7 @@ static void hear(size_t from, fracas_packet_kind kind, const void *body, size_t 
 {
     fracas_packet *message;
     OK(fracas_packet_create(kind, body, size, &message));
-    fracas_director_hear(director, from, message);
+    fracas_director_receive(director, from, message);
     free(message);
 }
 
@@ -64,17 +64,17 @@ static int begin(void **state)
     memset(worker, 0, sizeof worker);
     campaign = read_text(plain_campaign);
     fracas_run_options_init(&options);
-    fracas_voice_init(&voice);
+    fracas_channel_init(&channel);
     study = sample_folder();
     const fracas_director_setup setup = {.campaign = campaign,
                                          .options = &options,
                                          .study = study,
                                          .workers = 2,
                                          .send = note,
-                                         .voice = &voice,
+                                         .channel = &channel,
                                          .now = fracas_now};
-    fracas_err verdict;
-    OK(fracas_director_create(&setup, &director, &verdict));
+    fracas_err result;
+    OK(fracas_director_create(&setup, &director, &result));
     ready(0);
     ready(1);
     assert_int_equal(worker[0].nleases, 1);
@@ -140,7 +140,7 @@ static void one_that_dies_while_a_run_drains_is_stopped(void **state)
 static void one_that_is_lost_while_a_run_drains_is_no_trouble(void **state)
 {
     (void)state;
-    const fracas_trouble trouble = {.code = FRACAS_ENVIRONMENT, .text = "a keeper died"};
+    const fracas_trouble trouble = {.code = FRACAS_ENVIRONMENT, .text = "a supervisor died"};
     fracas_director_drain(director);
     hear(0, FRACAS_PACKET_ENDED, NULL, 0);
     hear(1, FRACAS_PACKET_LOST, &trouble, sizeof trouble);

@@ -4,7 +4,7 @@
 #include "tests/support/campaign_text.h"
 #include "tests/support/study_fixture.h"
 
-#include "campaigns/scheduler/study/rounds.h"
+#include "campaigns/scheduler/session/rounds.h"
 #include "campaigns/scheduler/worker/segment.h"
 
 #include <math.h>
@@ -325,7 +325,7 @@ static void points_of_a_segment_are_decided_together(void **state)
     commit(1, 0, 7, 0.5, FRACAS_FRAGMENTED);
     tampered("CREATE TRIGGER refuse BEFORE INSERT ON decision WHEN NEW.point = 2 BEGIN SELECT "
              "raise(ABORT, 'no'); END");
-    assert_int_not_equal(fracas_rounds_hear(&rounds, index_, heard, 3), FRACAS_OK);
+    assert_int_not_equal(fracas_rounds_commit(&rounds, index_, heard, 3), FRACAS_OK);
     assert_true(sqlite3_get_autocommit(index_->db));
     look(0, &decision, 0);
     free(decision);
@@ -336,7 +336,7 @@ static void points_of_a_segment_are_decided_together(void **state)
     free(decision);
     assert_int_equal(again.point[1].replicas, 16);
     commit(1, 8, 15, 0.5, FRACAS_FRAGMENTED);
-    OK(fracas_rounds_hear(&again, index_, heard, 3)); /* the first point has stopped */
+    OK(fracas_rounds_commit(&again, index_, heard, 3)); /* the first point has stopped */
     look(1, &decision, 2);
     free(decision);
     assert_int_equal(again.point[0].replicas, 8);

@@ -2,7 +2,7 @@
 /* What of a campaign a run computes: --replicas and --part. */
 #include "tests/support/campaign_text.h"
 
-#include "campaigns/scheduler/study/share.h"
+#include "campaigns/scheduler/session/part.h"
 
 static const char rule[] =
     "replicas: {minimum: 16, maximum: 64, until: {quantity: dissipated, relative-half-width: 0.1}}";

@@ -78,7 +78,7 @@ static fracas_scheduler *create_late(fracas_lease *first, fracas_lease *second)
 static void assert_counts(const fracas_scheduler *scheduler, int64_t done, int64_t memory,
                           int64_t duplicates)
 {
-    const fracas_scheduler_counts count = fracas_scheduler_count(scheduler);
+    const fracas_counts count = fracas_scheduler_count(scheduler);
     assert_int_equal(count.total, 24);
     assert_int_equal(count.done, done);
     assert_int_equal(count.memory, memory);
@@ -416,7 +416,7 @@ static void check(const world *w)
         else if (w->memory[r]) memory++;
         else open++;
     }
-    const fracas_scheduler_counts count = fracas_scheduler_count(w->scheduler);
+    const fracas_counts count = fracas_scheduler_count(w->scheduler);
     assert_int_equal(count.total, w->added);
     assert_int_equal(count.done, done);
     assert_int_equal(count.memory, memory);

@@ -5,7 +5,7 @@
 # ctest-serial
 # ctest-timeout: 1800
 . "$(dirname "$0")/../support/campaigns.sh"
-bench=$(dirname "$fracas")/bench_cluster
+simulated=$(dirname "$fracas")/bench_cluster bench=$(dirname "$fracas")/bench_scheduler
 
 # check WORKERS TASKS OPTIONS... -- SETTINGS...
 check()
@@ -16,10 +16,10 @@ check()
     options=
     while [ "$1" != -- ]; do options="$options $1"; shift; done
     shift
-    expected=$("$bench" workers=$workers "$@" | awk -v n=$workers '$1 == n {print $2}')
+    expected=$("$simulated" workers=$workers "$@" | awk -v n=$workers '$1 == n {print $2}')
     for try in 1 2 3; do
         # shellcheck disable=SC2086 # options are words
-        "$fracas" bench scheduler --jobs $workers --tasks $tasks $options --json > figures 2> said || { cat said; fail "bench"; }
+        "$bench" --jobs $workers --tasks $tasks $options --json > figures 2> said || { cat said; fail "bench"; }
         took=$(awk -F'[:,]' '$1 ~ /"working"/ {print $2 + 0}' figures)
         echo "$workers workers,$options: $took s, simulated $expected s"
         ! awk -v a="$took" -v b="$expected" 'BEGIN {exit !(a > 0.95 * b && a < 1.05 * b)}' || return 0

@@ -2,7 +2,7 @@
 #include "campaigns/scheduler/launch/mpirun.h"
 
 #include "base/param.h"
-#include "campaigns/scheduler/launch/voice.h"
+#include "campaigns/scheduler/status/channel.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -19,9 +19,8 @@ static void set_environment(void)
     static const struct {
         const char *name, *value;
     } quiet[] = {
-        {FRACAS_PARENT_MARK, "1"},
-        /* Copying between processes needs a ptrace permission that containers lack: Open MPI warns
-           of each failure. */
+        {FRACAS_LAUNCHER_MARK, "1"},
+        /* Containers lack the ptrace permission for copies between processes: Open MPI warns. */
         {"OMPI_MCA_btl_vader_single_copy_mechanism", "none"},
         /* No warning where a fast network is compiled in and not there. */
         {"OMPI_MCA_btl_base_warn_component_unused", "0"},
@@ -43,7 +42,7 @@ static _Noreturn void become_mpirun(char **arguments, pid_t parent, const int ou
     static const int reset[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGPIPE};
     setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(FRACAS_INTERRUPTED); /* it died before the line above */
+    if (getppid() != parent) _exit(FRACAS_INTERRUPTED); /* the parent died before the line above */
     for (size_t i = 0; i < FRACAS_COUNT(reset); i++) signal(reset[i], SIG_DFL);
     set_environment();
     int null = open("/dev/null", O_RDONLY);
@@ -90,16 +89,15 @@ fracas_err fracas_mpirun_start(int jobs, int argc, char **argv, fracas_mpirun *m
         if (errors[0] >= 0) close(errors[0]);
         return err;
     }
-    setpgid(pid, pid); /* both sides, whoever comes first; it fails once mpirun runs, which has done
-                          it then */
+    setpgid(pid, pid); /* parent and child both do, whoever comes first */
     *mpirun = (fracas_mpirun){pid, out[0], errors[0]};
     return FRACAS_OK;
 }
 
-/* The line of `said` that contains `key`, or with letters in it at all where `key` is NULL. */
-static bool find_line(const char *said, const char *key, char *text, size_t size)
+/* The first line of `output` with `key` in it; key NULL: with any letter. */
+static bool find_line(const char *output, const char *key, char *text, size_t size)
 {
-    for (const char *line = said; *line;) {
+    for (const char *line = output; *line;) {
         size_t length = strcspn(line, "\n"), blank = strspn(line, " \t*");
         if (blank > length) blank = length;
         snprintf(text, size, "%.*s", (int)(length - blank < size ? length - blank : size - 1),
@@ -112,7 +110,7 @@ static bool find_line(const char *said, const char *key, char *text, size_t size
     return false;
 }
 
-void fracas_mpirun_reason(const char *said, char *text, size_t size)
+void fracas_mpirun_reason(const char *output, char *text, size_t size)
 {
     static const char *const telling[] = {"mpirun noticed that",
                                           "MPI_ABORT was invoked",
@@ -124,7 +122,7 @@ void fracas_mpirun_reason(const char *said, char *text, size_t size)
                                           "rror",
                                           NULL};
     for (size_t i = 0; i < FRACAS_COUNT(telling); i++)
-        if (find_line(said, telling[i], text, size)) break;
+        if (find_line(output, telling[i], text, size)) break;
     for (size_t end = strlen(text); end > 0 && strchr(" .", text[end - 1]); end--)
         text[end - 1] = '\0';
 }

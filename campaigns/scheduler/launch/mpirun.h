@@ -10,7 +10,7 @@
 
 typedef struct {
     pid_t pid;  /* also its process group */
-    int out;    /* its stdout: rank 0's lines */
+    int out;    /* its stdout: the status channel */
     int errors; /* its stderr */
 } fracas_mpirun;
 
@@ -21,8 +21,8 @@ enum { FRACAS_MPIRUN_MISSING = 127 }; /* its exit status when there is no mpirun
 FRACAS_MUST_USE fracas_err fracas_mpirun_start(int jobs, int argc, char **argv,
                                                fracas_mpirun *mpirun);
 
-/* Why a job ended early, as one line: that of all they said (mpirun and the ranks) which tells
- * most; "" if none does. */
-void fracas_mpirun_reason(const char *said, char *text, size_t size);
+/* The reason for an early end: the most telling line of the output of mpirun and the ranks; ""
+ * without any. */
+void fracas_mpirun_reason(const char *output, char *text, size_t size);
 
 #endif

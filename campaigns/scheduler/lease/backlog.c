@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The estimates of points that were measured, and of those that were not, which all change at once
- * when anything is measured: their order by cost does not. */
+/* Points are kept apart: a measurement changes the estimates of all unmeasured points at once, but
+ * not their order by cost. */
 enum { UNMEASURED, MEASURED, NKINDS };
 enum { NONE = UINT32_MAX };
 
@@ -17,11 +17,11 @@ typedef struct {
     int64_t measured;
 } point_state;
 
-/* Of a range of points: a binary tree of them, the leaves one point each. */
+/* Summary of a range of points: a node of a binary tree with one point in each leaf. */
 typedef struct {
-    double work[NKINDS];   /* of what waits: cost, s */
-    uint32_t best[NKINDS]; /* the point that goes first; NONE: none waits */
-    uint32_t points;       /* of which something waits */
+    double work[NKINDS];   /* waiting: cost, s */
+    uint32_t best[NKINDS]; /* point that goes first; NONE: none waits */
+    uint32_t points;       /* with waiting replicas */
 } range;
 
 struct fracas_backlog {
@@ -30,7 +30,7 @@ struct fracas_backlog {
     size_t npoints, nleaves; /* a power of 2 */
     point_state *point;
     range *range;             /* 1: the root; the halves of i are 2 i and 2 i + 1 */
-    double seconds, measured; /* of all points: s, and the cost that took so long */
+    double seconds, measured; /* of all points: s, and their cost */
 };
 
 uint64_t fracas_backlog_random(uint64_t *state)
@@ -83,7 +83,7 @@ static bool goes_first(const fracas_backlog *b, uint32_t point)
     return b->first && b->first[point];
 }
 
-/* The first of equal ones, so that the order does not depend on the machine. */
+/* Ties: the left one, so the order does not depend on the machine. */
 static uint32_t better(const fracas_backlog *b, uint32_t left, uint32_t right)
 {
     if (left == NONE || right == NONE) return left == NONE ? right : left;
@@ -91,7 +91,7 @@ static uint32_t better(const fracas_backlog *b, uint32_t left, uint32_t right)
     return own_estimate(b, right) > own_estimate(b, left) ? right : left;
 }
 
-static void join(fracas_backlog *b, size_t i)
+static void combine(fracas_backlog *b, size_t i)
 {
     const range *left = &b->range[2 * i], *right = left + 1;
     range *made = &b->range[i];
@@ -106,7 +106,7 @@ static void update(fracas_backlog *b, size_t point)
 {
     size_t i = b->nleaves + point;
     b->range[i] = range_of(b, point);
-    while (i /= 2) join(b, i);
+    while (i /= 2) combine(b, i);
 }
 
 /* ---- create ---- */
@@ -138,7 +138,7 @@ void fracas_backlog_destroy(fracas_backlog *backlog)
     free(backlog);
 }
 
-/* ---- what waits ---- */
+/* ---- waiting replicas ---- */
 
 fracas_err fracas_backlog_add(fracas_backlog *backlog, size_t point, const int64_t *replica,
                               size_t count)

@@ -7,22 +7,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A number of realizations that is given out, or was and waits again. It lives until nobody holds
- * it or has it in memory. */
+/* Realizations that are leased, or were and wait again. It lives until no worker holds it or has it
+ * in memory. */
 typedef struct task {
-    struct task *next; /* of those that wait again */
+    struct task *next; /* in the queue of tasks that wait again */
     uint64_t id, point;
     int64_t attempts; /* of a single realization */
     bool isolated;
     bool done;         /* durable, by whichever worker was first */
-    size_t held, kept; /* by so many workers: at work, in memory */
+    size_t held, kept; /* workers that have it: at work, in memory */
     size_t count;
     int64_t replica[];
 } task;
 
 typedef struct {
     task *task;
-    double began; /* when it began to run; of one ahead, when it was given */
+    double began; /* start of its run; of one ahead, of its lease */
 } slot;
 
 /* A task in the memory of a worker. */
@@ -33,39 +33,32 @@ typedef struct note {
 } note;
 
 typedef struct {
-    slot held[FRACAS_LEASES_HELD]; /* the first one runs */
+    slot held[FRACAS_LEASES_HELD]; /* the first runs */
     size_t nheld;
     note *memory;
-    bool lost; /* and has not asked for a lease since */
+    bool lost; /* its server died, and it has not asked for a lease since */
 } worker_state;
 
 struct fracas_scheduler {
     fracas_scheduler_options options;
     uint64_t state; /* of the shuffle */
     uint64_t nextid;
-    fracas_backlog *backlog; /* never given out */
-    task *again, *last;      /* wait again */
-    size_t waiting;          /* realizations, in both */
-    size_t uncomputed;       /* tasks held that nobody has in memory or durable */
+    fracas_backlog *backlog; /* realizations never leased */
+    task *again, *last;      /* queue of tasks that wait again */
+    size_t waiting;          /* realizations in both */
+    size_t uncomputed;       /* tasks held, and neither in memory nor durable */
     worker_state *worker;
-    fracas_scheduler_counts count;
-    double cost,
-        computed; /* predicted, of all realizations and of those computed or failed for good */
+    fracas_counts count;
+    double cost, computed; /* predicted: of all, and of those computed or failed for good */
 };
 
-static const double OVERDUE = 4, OVERDUE_LEAST = 10; /* times the prediction; s */
-static const double LIMIT = 50, LIMIT_LEAST = 600; /* the same of the time that a lease may take */
-static const double SLOWEST =
-    1e6; /* element-steps/s, where nothing is measured: any machine is faster */
-
-size_t fracas_lease_bytes(const fracas_lease *lease)
-{
-    return offsetof(fracas_lease, replica) + (size_t)lease->count * sizeof *lease->replica;
-}
+static const double OVERDUE = 4, OVERDUE_LEAST = 10; /* x the prediction; s */
+static const double LIMIT = 50, LIMIT_LEAST = 600;   /* x the prediction; s */
+static const double SLOWEST = 1e6; /* element-steps/s, below any machine's speed */
 
 /* ---- tasks ---- */
 
-/* Its replicas are to be filled in; NULL without memory. */
+/* The caller fills in the replicas. NULL without memory. */
 static task *new_task(fracas_scheduler *s, uint64_t point, size_t count)
 {
     task *t = malloc(sizeof *t + count * sizeof *t->replica);
@@ -112,7 +105,7 @@ static task *take_again(fracas_scheduler *s)
     return t;
 }
 
-/* Nobody has computed it and somebody still does. */
+/* A worker computes it, and none has done so before. */
 static bool is_open(const task *t)
 {
     return t->held && !t->kept && !t->done;
@@ -139,7 +132,7 @@ static double limit_of(const fracas_scheduler *s, const task *t)
 
 /* ---- create ---- */
 
-/* One row: it counts as what it is, waits alone, or is to be added to the backlog. */
+/* Counts one row by its state; a row with attempts waits alone, a fresh one is for the backlog. */
 static fracas_err add_row(fracas_scheduler *s, const fracas_index_row *row, bool *fresh)
 {
     *fresh = false;
@@ -211,7 +204,7 @@ fracas_err fracas_scheduler_create(const fracas_index_row *row, size_t count,
     return err;
 }
 
-/* ---- what workers have ---- */
+/* ---- tasks of workers ---- */
 
 static task *drop_held(worker_state *w, size_t i)
 {
@@ -253,7 +246,7 @@ static size_t smaller(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-/* s until the worker will have computed what it holds; NAN while nothing is measured. */
+/* Predicted seconds until the worker has computed its tasks; NAN while nothing is measured. */
 static double left(const fracas_scheduler *s, const worker_state *w, double now)
 {
     double seconds = 0;
@@ -264,8 +257,8 @@ static double left(const fracas_scheduler *s, const worker_state *w, double now)
     return seconds;
 }
 
-/* Workers that will be free within half the time of a batch of the point, by when sharing with them
- * is worth it, or are free now while nothing is measured: one at least. */
+/* Workers that are predicted to be free within half the time of a batch of the point, while nothing
+ * is measured those that are free now: at least one. */
 static size_t free_workers(const fracas_scheduler *s, size_t point, double now)
 {
     const bool measured = fracas_backlog_measured(s->backlog);
@@ -283,11 +276,11 @@ static size_t choose_count(const fracas_scheduler *s, size_t point, double now)
 {
     const size_t width = s->options.width, there = fracas_backlog_waiting(s->backlog, point),
                  workers = s->options.workers;
-    const double one = fracas_backlog_estimate(s->backlog, point), shares = 2 * (double)workers;
+    const double one = fracas_backlog_estimate(s->backlog, point), parts = 2 * (double)workers;
     double most = 0;
     if (fracas_backlog_measured(s->backlog))
-        most = one > 0 ? fmin(s->options.seconds, fracas_backlog_work(s->backlog) / shares) / one
-                       : (double)s->waiting / shares;
+        most = one > 0 ? fmin(s->options.seconds, fracas_backlog_work(s->backlog) / parts) / one
+                       : (double)s->waiting / parts;
     const size_t batches = (size_t)fmin(most, FRACAS_LEASE_MAX) / width * width;
     if (batches) return smaller(there, batches);
     const size_t shared = s->waiting < workers * width ? free_workers(s, point, now) : 1;
@@ -311,16 +304,15 @@ static task *cut(fracas_scheduler *s, double now)
         point = fracas_backlog_longest(s->backlog);
         count = choose_count(s, point, now);
     }
-    task *t = new_task(
-        s, point, count); /* before the replicas are taken, so that none is lost without memory */
+    task *t = new_task(s, point, count); /* first: without memory no replica is lost */
     if (!t) return NULL;
     memcpy(t->replica, fracas_backlog_take(s->backlog, point, count), count * sizeof *t->replica);
     s->waiting -= count;
     return t;
 }
 
-/* When a lease is overdue that one worker alone has had since `since`, and may keep in memory for
- * `kept` seconds; INFINITY: never. */
+/* Time from which a task is overdue, had by one worker since `since` and `kept` seconds in its
+ * memory at most; INFINITY: never. */
 static double overdue_at(const fracas_scheduler *s, const task *t, double since, double kept)
 {
     const double expected = predicted(s, t);
@@ -328,7 +320,7 @@ static double overdue_at(const fracas_scheduler *s, const task *t, double since,
     return since + kept + fmax(OVERDUE_LEAST, OVERDUE * expected);
 }
 
-/* The one of a worker that is overdue first, *at; NULL if none ever is. */
+/* The worker's task that is overdue first, at time *at; NULL if none ever is. */
 static task *first_overdue(const fracas_scheduler *s, const worker_state *w, double *at)
 {
     task *first = NULL;
@@ -344,7 +336,8 @@ static task *first_overdue(const fracas_scheduler *s, const worker_state *w, dou
     return first;
 }
 
-static void give(fracas_scheduler *s, worker_state *w, task *t, double now, fracas_lease *lease)
+static void lease_out(fracas_scheduler *s, worker_state *w, task *t, double now,
+                      fracas_lease *lease)
 {
     s->uncomputed += !t->held && !t->kept;
     t->held++;
@@ -368,7 +361,7 @@ fracas_err fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker, dou
     if (!scheduler->waiting) return FRACAS_OK;
     task *t = scheduler->again ? take_again(scheduler) : cut(scheduler, now);
     if (!t) return fracas_no_memory("a lease");
-    give(scheduler, w, t, now, lease);
+    lease_out(scheduler, w, t, now, lease);
     *given = true;
     return FRACAS_OK;
 }
@@ -390,11 +383,11 @@ void fracas_scheduler_overdue(fracas_scheduler *scheduler, size_t worker, double
         *late = i;
     }
     if (!worst) return;
-    give(scheduler, w, worst, now, lease);
+    lease_out(scheduler, w, worst, now, lease);
     *given = true;
 }
 
-/* ---- its life ---- */
+/* ---- ends of leases ---- */
 
 static fracas_err find(const fracas_scheduler *s, size_t worker, uint64_t id, size_t *place)
 {
@@ -405,8 +398,8 @@ static fracas_err find(const fracas_scheduler *s, size_t worker, uint64_t id, si
                        (unsigned long long)id);
 }
 
-/* Takes a lease out of the worker's hands. What it has ahead begins to run. */
-static task *let_go(fracas_scheduler *s, size_t worker, size_t place, double now)
+/* Takes a lease from the worker, whose lease ahead begins to run. */
+static task *release(fracas_scheduler *s, size_t worker, size_t place, double now)
 {
     worker_state *w = &s->worker[worker];
     const bool was_open = is_open(w->held[place].task);
@@ -416,7 +409,7 @@ static task *let_go(fracas_scheduler *s, size_t worker, size_t place, double now
     return t;
 }
 
-/* Into the worker's memory: takes over the note. */
+/* Into the worker's memory; owns the note. */
 static void keep(fracas_scheduler *s, size_t worker, task *t, double now, note *n)
 {
     if (!t->kept && !t->done) {
@@ -436,18 +429,17 @@ fracas_err fracas_scheduler_computed(fracas_scheduler *scheduler, size_t worker,
     TRY(find(scheduler, worker, id, &place));
     note *n = malloc(sizeof *n);
     if (!n) return fracas_no_memory("a lease");
-    task *t = let_go(scheduler, worker, place, now);
+    task *t = release(scheduler, worker, place, now);
     fracas_backlog_measure(scheduler->backlog, t->point, t->count, seconds);
     keep(scheduler, worker, t, now, n);
     return FRACAS_OK;
 }
 
-/* Of a lease that failed: what was computed, the two halves of what is at fault, what was not
- * begun; and the note of the first. */
+/* Parts of a failed lease: computed, the two halves of the batch at fault, not begun. */
 enum { KEPT, HALF, OTHER_HALF, REST, NPARTS };
 typedef struct {
     task *part[NPARTS];
-    note *kept;
+    note *kept; /* of the computed part */
 } pieces;
 
 static fracas_err split(fracas_scheduler *s, const task *t, size_t kept, size_t count, pieces *made)
@@ -477,11 +469,11 @@ static void try_again(fracas_scheduler *s, task *t, bool *final)
         s->computed += cost_of(s, t);
         free(t);
     } else {
-        wait_last(s, t); /* behind the other leases that failed: the cause may be gone by then */
+        wait_last(s, t); /* behind the other failed leases: the cause may be gone by then */
     }
 }
 
-/* What is at fault is one realization alone, or is tried in two halves. */
+/* The batch at fault is tried in two halves, or was one realization alone. */
 static void bisect(fracas_scheduler *s, size_t worker, double now, size_t count, const pieces *made,
                    bool *final)
 {
@@ -489,7 +481,7 @@ static void bisect(fracas_scheduler *s, size_t worker, double now, size_t count,
     if (made->part[REST]) wait_first(s, made->part[REST]);
     if (made->part[OTHER_HALF]) wait_first(s, made->part[OTHER_HALF]);
     if (count > 1) wait_first(s, made->part[HALF]);
-    else try_again(s, made->part[HALF], final); /* that was its attempt */
+    else try_again(s, made->part[HALF], final); /* this was its attempt */
 }
 
 fracas_err fracas_scheduler_failed(fracas_scheduler *scheduler, size_t worker, uint64_t id,
@@ -507,7 +499,7 @@ fracas_err fracas_scheduler_failed(fracas_scheduler *scheduler, size_t worker, u
             worker, t->count, kept, count);
     const bool alone = t->held == 1 && is_open(t), single = t->count == 1;
     if (alone && !single) TRY(split(scheduler, t, kept, count, &made));
-    let_go(scheduler, worker, place, now);
+    release(scheduler, worker, place, now);
     *final = false;
     *lease = (fracas_lease){.id = t->id, .point = t->point, .count = alone ? count : 0};
     memcpy(lease->replica, t->replica + kept, lease->count * sizeof *t->replica);
@@ -593,9 +585,9 @@ double fracas_scheduler_predicted(const fracas_scheduler *scheduler, size_t work
     return seconds + fracas_backlog_estimate(scheduler->backlog, longest) * (double)count;
 }
 
-fracas_scheduler_counts fracas_scheduler_count(const fracas_scheduler *scheduler)
+fracas_counts fracas_scheduler_count(const fracas_scheduler *scheduler)
 {
-    fracas_scheduler_counts count = scheduler->count;
+    fracas_counts count = scheduler->count;
     count.work = scheduler->cost > 0 ? scheduler->computed / scheduler->cost : 1;
     return count;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/worker/child.h"
 
-#include "campaigns/scheduler/clock.h"
+#include "campaigns/scheduler/types/clock.h"
 #include "campaigns/scheduler/worker/process.h"
 
 #include <errno.h>
@@ -15,7 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { SAID_MAX = 4096 /* bytes kept of what a child says */ };
+enum { ERRORS_MAX = 4096 /* bytes kept of a child's standard error */ };
 
 /* ---- in the child ---- */
 
@@ -29,7 +29,7 @@ static fracas_err send_all(int fd, fracas_packet **record, size_t count)
     return err;
 }
 
-/* Batch after batch; the records of each are sent when it is done. */
+/* Sends the records of each batch when it is done. */
 static fracas_err compute(const fracas_computation *computation, fracas_models *models, int fd)
 {
     fracas_computation own = *computation;
@@ -44,26 +44,27 @@ static fracas_err compute(const fracas_computation *computation, fracas_models *
 
 /* The life of the child. */
 static _Noreturn void run_child(const fracas_computation *computation, fracas_models *models,
-                                pid_t server, int fd, int said)
+                                pid_t server, int fd, int errors)
 {
     fracas_process_begin("fracas-lease", server, FRACAS_OOM_CHILD);
-    if (said >= 0) dup2(said, STDERR_FILENO);
+    if (errors >= 0) dup2(errors, STDERR_FILENO);
     fracas_err err = compute(computation, models, fd);
     fracas_trouble fault;
     if (err) fracas_trouble_take(err, &fault);
     if (err && fracas_packet_send(fd, FRACAS_PACKET_FAULT, &fault, sizeof fault))
-        _exit(FRACAS_ENVIRONMENT); /* nobody is there to hear more */
+        _exit(FRACAS_ENVIRONMENT); /* the server is gone */
     _exit(0);
 }
 
 /* ---- in the server ---- */
 
-/* A file in memory that cannot grow: whoever writes without end fills no more than that. */
-static int create_said(void)
+/* A memory file of fixed size: endless output fills no more. */
+static int create_errors(void)
 {
-    const int fd = memfd_create("fracas-said", MFD_CLOEXEC | MFD_ALLOW_SEALING);
+    const int fd = memfd_create("fracas-errors", MFD_CLOEXEC | MFD_ALLOW_SEALING);
     if (fd < 0) return -1;
-    if (!ftruncate(fd, SAID_MAX) && !fcntl(fd, F_ADD_SEALS, F_SEAL_GROW | F_SEAL_SHRINK)) return fd;
+    if (!ftruncate(fd, ERRORS_MAX) && !fcntl(fd, F_ADD_SEALS, F_SEAL_GROW | F_SEAL_SHRINK))
+        return fd;
     close(fd);
     return -1;
 }
@@ -79,12 +80,12 @@ fracas_err fracas_child_start(fracas_child *child, const fracas_computation *com
         free(record);
         return fracas_fail_system(errno, "no pipe for a lease");
     }
-    const int said = create_said();
+    const int errors = create_errors();
     const pid_t server = getpid(), pid = fork();
     if (pid == 0) {
         close(fd[0]);
         close(server_fd);
-        run_child(computation, models, server, fd[1], said);
+        run_child(computation, models, server, fd[1], errors);
     }
     fracas_err err = FRACAS_OK;
     if (pid < 0)
@@ -96,8 +97,8 @@ fracas_err fracas_child_start(fracas_child *child, const fracas_computation *com
     const double now = fracas_now();
     *child = (fracas_child){.pid = pid > 0 ? pid : 0,
                             .fd = fd[0],
-                            .said = said,
-                            .width = fracas_compute_width(computation->options),
+                            .errors = errors,
+                            .width = fracas_run_width(computation->options),
                             .began = now,
                             .deadline = lease->limit > 0 ? now + lease->limit : INFINITY,
                             .record = record};
@@ -106,8 +107,7 @@ fracas_err fracas_child_start(fracas_child *child, const fracas_computation *com
     return err;
 }
 
-/* Takes the whole messages off the front of what was received; what is none of a child's ends it.
- */
+/* Takes the complete messages off the front of the bytes. A wrong message ends the child. */
 static fracas_err cut(fracas_child *child)
 {
     size_t at = 0;
@@ -160,7 +160,7 @@ void fracas_child_expire(fracas_child *child)
     kill(child->pid, SIGKILL);
 }
 
-/* Waits for the process; says how it ended unless it ended well. */
+/* Reaps the process; `reason` is its end unless it ended well. */
 static fracas_err reap(fracas_child *child, char *reason, size_t size)
 {
     int status = 0;
@@ -180,11 +180,11 @@ static fracas_err reap(fracas_child *child, char *reason, size_t size)
     return FRACAS_OK;
 }
 
-/* Appends what the child said on standard error, on one line. */
+/* Appends the child's standard error, on one line. */
 static void quote(const fracas_child *child, char *reason, size_t size)
 {
-    char text[SAID_MAX + 1];
-    const ssize_t n = child->said < 0 ? 0 : pread(child->said, text, SAID_MAX, 0);
+    char text[ERRORS_MAX + 1];
+    const ssize_t n = child->errors < 0 ? 0 : pread(child->errors, text, ERRORS_MAX, 0);
     text[n > 0 ? n : 0] = '\0';
     for (char *c = text; *c; c++)
         if (*c < ' ' || *c > '~') *c = ' ';
@@ -194,13 +194,13 @@ static void quote(const fracas_child *child, char *reason, size_t size)
     snprintf(reason + used, size - used, "; it said: %s", text);
 }
 
-/* What is known of a lease that ended early, `reason` the first of it. */
+/* Completes the failure of a lease that ended early. */
 static void explain(fracas_child *child, fracas_lease_failure *failure)
 {
     const size_t wanted = (size_t)child->lease.count;
     if (child->count == wanted)
-        free(child->record[--child->count]); /* it ended badly after its last record: of that one we
-                                                are not sure */
+        free(child->record[--child->count]); /* it ended badly after its last record, which is
+                                                doubtful */
     const size_t end = (child->count / child->width + 1) * child->width; /* of the batch */
     failure->kept = child->count;
     failure->count = (end < wanted ? end : wanted) - child->count;
@@ -239,7 +239,7 @@ void fracas_child_clear(fracas_child *child)
             ;
     }
     if (child->fd > 0) close(child->fd);
-    if (child->said > 0) close(child->said);
+    if (child->errors > 0) close(child->errors);
     for (size_t i = 0; child->record && i < child->count; i++) free(child->record[i]);
     free(child->record);
     free(child->bytes);

@@ -2,7 +2,6 @@
 #include "campaigns/scheduler/worker/models.h"
 
 #include "campaigns/plan/point_model.h"
-#include "campaigns/scheduler/worker/fault.h"
 
 static void clear(fracas_models *models, size_t slot)
 {
@@ -12,7 +11,7 @@ static void clear(fracas_models *models, size_t slot)
     models->slot[slot].model = NULL;
 }
 
-/* The slot of a point, else that which was not used for longest. */
+/* The slot of a point, else the least recently used one. */
 static size_t find(const fracas_models *models, size_t point)
 {
     size_t oldest = 0;
@@ -27,7 +26,6 @@ static fracas_err fill(fracas_models *models, size_t slot, const fracas_campaign
                        size_t point)
 {
     clear(models, slot);
-    fracas_fault_of_model(point);
     models->slot[slot].point = point;
     TRY(fracas_point_model_create(campaign, point, &models->slot[slot].model));
     return fracas_model_field(models->slot[slot].model, &campaign->point[point].strength,

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The models of a server, with their strength fields: built when a lease of their point comes, the
- * latest few are kept. */
+/* Cache of a server's models and strength fields, built at the first lease of their point. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_WORKER_MODELS_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_WORKER_MODELS_H
 
@@ -14,7 +13,7 @@ typedef struct {
         size_t point;
         fracas_model *model; /* NULL: free */
         fracas_field *field;
-        uint64_t used; /* the larger, the later */
+        uint64_t used; /* clock of the last use */
     } slot[FRACAS_MODELS_KEPT];
     uint64_t clock;
 } fracas_models;

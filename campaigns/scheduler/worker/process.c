@@ -13,7 +13,7 @@
 void fracas_process_begin(const char *name, pid_t parent, int oom_score)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(FRACAS_INTERRUPTED); /* it died before the line above */
+    if (getppid() != parent) _exit(FRACAS_INTERRUPTED); /* the parent died before the line above */
     prctl(PR_SET_NAME, name);
     if (oom_score == FRACAS_OOM_SAME) return;
     FILE *file = fopen("/proc/self/oom_score_adj", "we");

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #ifdef __clang__
-static const char compiler[] = __VERSION__; /* says its name */
+static const char compiler[] = __VERSION__; /* names itself */
 #else
 static const char compiler[] = "gcc " __VERSION__;
 #endif
@@ -33,8 +33,7 @@ static void read_cpu(char *model, size_t size)
     fclose(file);
 }
 
-/* "Open MPI v4.1.4": one of the few calls that MPI allows before MPI_Init, and so in a compute
- * server. */
+/* "Open MPI v4.1.4": MPI allows this call before MPI_Init, hence in a compute server. */
 static void read_mpi(char *version, size_t size)
 {
     char text[MPI_MAX_LIBRARY_VERSION_STRING] = "unknown";
@@ -60,7 +59,7 @@ static void write_versions(fracas_json *json)
 fracas_err fracas_provenance_make(const fracas_provenance *provenance,
                                   const fracas_run_options *options, char **text)
 {
-    fracas_isa isa; /* what a batch of this server runs with */
+    fracas_isa isa; /* of this server's batches */
     size_t size;
     TRY(fracas_isa_choose(options->isa, &isa));
     FILE *out = open_memstream(text, &size);

@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where, when and by what a segment was computed: never part of study.h5. */
+/* Place, time and program of a segment's computation: never part of study.h5. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_WORKER_PROVENANCE_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_WORKER_PROVENANCE_H
 
-#include "campaigns/scheduler/run.h"
+#include "base/err.h"
+#include "campaigns/scheduler/types/options.h"
 
 #include <time.h>
 
 typedef struct {
     const char *host;
     struct timespec began; /* time of day of the first record */
-    double wall;           /* s since then */
-    double compute;        /* s that its leases took */
+    double wall;           /* since then [s] */
+    double compute;        /* spent on its leases [s] */
 } fracas_provenance;
 
 /* *text: one JSON object (docs/formats/study.md), freed by the caller. */

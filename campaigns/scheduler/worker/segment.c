@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/worker/segment.h"
 
-#include "base/version.h"
-#include "campaigns/scheduler/clock.h"
+#include "campaigns/scheduler/types/clock.h"
+#include "campaigns/scheduler/types/header.h"
 #include "campaigns/scheduler/worker/provenance.h"
 
 #include <math.h>
@@ -51,7 +51,7 @@ static void make_name(const fracas_segment *segment, const char *host, char *nam
              (long)getpid(), (unsigned long long)segment->number);
 }
 
-/* Appends entry `i` to the file and fills its row for the index. */
+/* Appends entry `i` to the file and sets its row for the index. */
 static fracas_err append(const fracas_segment *segment, size_t i, const fracas_campaign *campaign,
                          fracas_writer *writer, fracas_segment_row *row)
 {
@@ -68,20 +68,11 @@ static fracas_err append(const fracas_segment *segment, size_t i, const fracas_c
     return err;
 }
 
-fracas_file_header fracas_segment_header(const fracas_campaign *campaign)
-{
-    return (fracas_file_header){.campaign = campaign->hash,
-                                .seed = campaign->seed,
-                                .history = campaign->output.history,
-                                .interfaces = campaign->output.interfaces,
-                                .version = FRACAS_VERSION};
-}
-
 static fracas_err write_file(const fracas_segment *segment, const char *path,
                              const fracas_campaign *campaign, const char *provenance,
                              fracas_segment_row *row, fracas_file_seal *seal)
 {
-    fracas_file_header header = fracas_segment_header(campaign);
+    fracas_file_header header = fracas_campaign_header(campaign);
     fracas_writer *writer;
     TRY(fracas_writer_create(path, &header, &campaign->table, &writer));
     fracas_writer_own_seal(writer); /* no index knows it yet */

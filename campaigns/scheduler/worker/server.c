@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/worker/server.h"
 
-#include "campaigns/scheduler/clock.h"
-#include "campaigns/scheduler/packet.h"
+#include "campaigns/scheduler/types/clock.h"
+#include "campaigns/scheduler/types/packet.h"
 #include "campaigns/scheduler/worker/child.h"
 #include "campaigns/scheduler/worker/compute.h"
 #include "campaigns/scheduler/worker/models.h"
@@ -38,7 +38,7 @@ typedef struct {
     fracas_models models;
     fracas_segment segment;
     bool stopping; /* STOP came */
-    bool alone;    /* the rank is gone */
+    bool orphan;   /* the rank is gone */
 } server;
 
 static bool works(const server *s)
@@ -46,14 +46,14 @@ static bool works(const server *s)
     return s->child.pid || s->own.runs;
 }
 
-/* ---- what the rank is told ---- */
+/* ---- messages to the rank ---- */
 
-static fracas_err say_failed(server *s, const fracas_lease_failure *failure)
+static fracas_err send_failed(server *s, const fracas_lease_failure *failure)
 {
     return fracas_packet_send(s->rank, FRACAS_PACKET_FAILED, failure, sizeof *failure);
 }
 
-static fracas_err say_computed(server *s, uint64_t lease, double seconds)
+static fracas_err send_computed(server *s, uint64_t lease, double seconds)
 {
     const fracas_lease_report report = {lease, seconds};
     return fracas_packet_send(s->rank, FRACAS_PACKET_COMPUTED, &report, sizeof report);
@@ -66,11 +66,11 @@ static fracas_err write_segment(server *s)
     TRY(fracas_segment_write(&s->segment, s->study, s->campaign, s->options, &note));
     fracas_err err = fracas_packet_write(s->rank, note);
     free(note);
-    s->child.deadline += fracas_now() - began; /* meanwhile nobody read what it sent */
+    s->child.deadline += fracas_now() - began; /* its messages have waited meanwhile */
     return err;
 }
 
-/* The records of replica[0], replica[1] ... into the segment, which owns them from here on. */
+/* Adds the records of replica[0], replica[1] ... to the segment, which owns them from here on. */
 static fracas_err add_records(server *s, uint64_t point, const int64_t *replica,
                               fracas_packet **record, size_t count)
 {
@@ -84,7 +84,7 @@ static fracas_err add_records(server *s, uint64_t point, const int64_t *replica,
 
 /* ---- leases ---- */
 
-/* Ends this process by SIGALRM in so many seconds; 0: not any more. */
+/* Ends this process by SIGALRM after `seconds`; 0: no longer. */
 static void set_alarm(double seconds)
 {
     const double whole = floor(fmin(seconds, 1e9));
@@ -107,11 +107,11 @@ static fracas_err start_next(server *s)
     fracas_err err = fracas_compute_prepare(&computation, &s->models);
     set_alarm(0);
     if (err) {
-        const size_t width = fracas_compute_width(s->options);
+        const size_t width = fracas_run_width(s->options);
         fracas_lease_failure failure = {.lease = lease->id,
                                         .count = lease->count < width ? lease->count : width};
         strncpy(failure.reason, fracas_message(), sizeof failure.reason - 1);
-        return say_failed(s, &failure);
+        return send_failed(s, &failure);
     }
     if (s->options->isolation == FRACAS_ISOLATION_LEASE)
         return fracas_child_start(&s->child, &computation, &s->models, s->rank);
@@ -121,9 +121,8 @@ static fracas_err start_next(server *s)
     return FRACAS_OK;
 }
 
-/* The child sent something, or ended: then its records go to the segment and rank 0 hears of the
- * lease. */
-static fracas_err hear_child(server *s)
+/* Reads from the child. At its end its records go to the segment and a report to rank 0. */
+static fracas_err receive_child(server *s)
 {
     bool ended, good;
     TRY(fracas_child_receive(&s->child, &ended));
@@ -138,18 +137,18 @@ static fracas_err hear_child(server *s)
     free(record);
     s->segment.compute += seconds;
     if (err) return err;
-    return good ? say_computed(s, lease.id, seconds) : say_failed(s, &failure);
+    return good ? send_computed(s, lease.id, seconds) : send_failed(s, &failure);
 }
 
-/* Computes one batch of the server's own lease. Between two batches its limit may be over as well:
- * then the next one is at fault. */
+/* Computes one batch of the server's own lease. If the limit is over before, this batch is at
+ * fault. */
 static fracas_err advance(server *s)
 {
     own_lease *own = &s->own;
     const bool limited = own->lease.limit > 0;
     const double left = own->lease.limit - own->seconds, began = fracas_now();
     fracas_packet *record[FRACAS_BATCH_MAX];
-    size_t count = (size_t)own->lease.count - own->done, width = fracas_compute_width(s->options);
+    size_t count = (size_t)own->lease.count - own->done, width = fracas_run_width(s->options);
     fracas_err err;
     if (limited && left <= 0) {
         if (count > width) count = width;
@@ -168,25 +167,24 @@ static fracas_err advance(server *s)
         fracas_lease_failure failure = {.lease = own->lease.id, .kept = own->done, .count = count};
         strncpy(failure.reason, fracas_message(), sizeof failure.reason - 1);
         own->runs = false;
-        return say_failed(s, &failure);
+        return send_failed(s, &failure);
     }
     const bool empty = s->segment.count == 0;
     TRY(add_records(s, own->lease.point, own->lease.replica + own->done, record, count));
     if (empty)
-        s->segment.began = began; /* nothing is written while a batch is computed: what took long is
-                                     written at once */
+        s->segment.began = began; /* no segment is written during a batch: after a long one it is
+                                     due at once */
     own->done += count;
     own->runs = own->done < own->lease.count;
-    return own->runs ? FRACAS_OK : say_computed(s, own->lease.id, own->seconds);
+    return own->runs ? FRACAS_OK : send_computed(s, own->lease.id, own->seconds);
 }
 
-/* ---- what the rank says ---- */
+/* ---- messages of the rank ---- */
 
-static fracas_err hear_stop(server *s, const fracas_packet *message)
+static fracas_err on_stop(server *s, const fracas_packet *message)
 {
     int32_t kill = 0;
-    TRY(fracas_packet_expect(message, sizeof kill));
-    memcpy(&kill, message->body, sizeof kill);
+    TRY(fracas_packet_body(message, &kill, sizeof kill));
     if (kill) {
         fracas_child_clear(&s->child);
         s->own.runs = false;
@@ -195,47 +193,47 @@ static fracas_err hear_stop(server *s, const fracas_packet *message)
     return FRACAS_OK;
 }
 
-static fracas_err hear_lease(server *s, const fracas_packet *message)
+static fracas_err on_lease(server *s, const fracas_packet *message)
 {
     fracas_lease *lease = &s->waiting[(s->first + s->nwaiting) % FRACAS_LEASES_HELD];
-    if (message->size > sizeof *lease)
-        return fracas_fail(FRACAS_BUG, "a lease of %u bytes", message->size);
-    TRY(fracas_packet_expect(message, offsetof(fracas_lease, replica) + sizeof *lease->replica));
-    memcpy(lease, message->body, message->size);
-    if (fracas_lease_bytes(lease) != message->size)
+    const size_t least = offsetof(fracas_lease, replica) + sizeof *lease->replica;
+    if (message->size >= least && message->size <= sizeof *lease)
+        memcpy(lease, message->body, message->size);
+    else lease->count = 0;
+    if (!lease->count || fracas_lease_bytes(lease) != message->size)
         return fracas_fail(FRACAS_BUG, "a lease of %u bytes", message->size);
     s->nwaiting++;
     return FRACAS_OK;
 }
 
-static fracas_err hear_rank(server *s)
+static fracas_err receive_rank(server *s)
 {
     fracas_packet *message;
     TRY(fracas_packet_read(s->rank, &message));
     fracas_err err = FRACAS_OK;
-    if (!message) s->alone = true;
-    else if (message->kind == FRACAS_PACKET_STOP) err = hear_stop(s, message);
+    if (!message) s->orphan = true;
+    else if (message->kind == FRACAS_PACKET_STOP) err = on_stop(s, message);
     else if (message->kind == FRACAS_PACKET_FLUSH)
         err = s->segment.count ? write_segment(s)
                                : fracas_packet_send(s->rank, FRACAS_PACKET_FLUSHED, NULL, 0);
     else if (message->kind == FRACAS_PACKET_LEASE && s->nwaiting < FRACAS_LEASES_HELD)
-        err = hear_lease(s, message);
+        err = on_lease(s, message);
     else err = fracas_fail(FRACAS_BUG, "a compute server got a message of kind %u", message->kind);
     free(message);
     return err;
 }
 
-/* ---- its life ---- */
+/* ---- main loop ---- */
 
-/* There is something to do without hearing anything: a batch, the next lease, or the end. */
+/* Has work without waiting for a message: a batch, the next lease, or the end. */
 static bool has_more(const server *s)
 {
     return s->own.runs || (!works(s) && (s->nwaiting || s->stopping));
 }
 
-/* Sleeps until something comes, the segment is old enough or the child's time is over; not at all
- * while there is more to do. */
-static fracas_err wait_and_hear(server *s)
+/* Sleeps until a message comes, the segment is due or the child's time is over; not at all while
+ * there is work. */
+static fracas_err wait_and_receive(server *s)
 {
     struct pollfd from[2] = {{.fd = s->rank, .events = POLLIN},
                              {.fd = s->child.fd, .events = POLLIN}};
@@ -247,9 +245,9 @@ static fracas_err wait_and_hear(server *s)
     if (ready < 0 && errno != EINTR)
         return fracas_fail(FRACAS_ENVIRONMENT, "a compute server cannot wait: %s", strerror(errno));
     if (ready < 0) return FRACAS_OK;
-    if (s->child.pid && ready > 0 && from[1].revents) TRY(hear_child(s));
+    if (s->child.pid && ready > 0 && from[1].revents) TRY(receive_child(s));
     else if (s->child.pid && fracas_now() >= s->child.deadline) fracas_child_expire(&s->child);
-    if (ready > 0 && from[0].revents) TRY(hear_rank(s));
+    if (ready > 0 && from[0].revents) TRY(receive_rank(s));
     return FRACAS_OK;
 }
 
@@ -258,7 +256,7 @@ static fracas_err serve(server *s)
 {
     TRY(fracas_packet_send(s->rank, FRACAS_PACKET_READY, &s->campaign->hash,
                            sizeof s->campaign->hash));
-    while (!s->alone) {
+    while (!s->orphan) {
         if (!works(s) && s->stopping) {
             if (s->segment.count) TRY(write_segment(s));
             return fracas_packet_send(s->rank, FRACAS_PACKET_ENDED, NULL, 0);
@@ -266,7 +264,7 @@ static fracas_err serve(server *s)
         while (!works(s) && s->nwaiting && !s->stopping) TRY(start_next(s));
         if (s->own.runs) TRY(advance(s));
         if (fracas_segment_wait(&s->segment, s->options) <= 0) TRY(write_segment(s));
-        TRY(wait_and_hear(s));
+        TRY(wait_and_receive(s));
     }
     return FRACAS_OK;
 }
@@ -287,5 +285,5 @@ _Noreturn void fracas_server_run(const fracas_campaign *campaign, const fracas_r
     fracas_segment_clear(&s.segment);
     fracas_models_clear(&s.models);
     _exit(err ? FRACAS_ENVIRONMENT
-              : 0); /* not exit: what the rank registered is not for this process */
+              : 0); /* not exit: the rank's handlers are not for this process */
 }

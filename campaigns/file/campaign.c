@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "campaigns/campaign.h"
+
+#include "base/units.h"
+#include "campaigns/file/memory.h"
+#include "campaigns/file/replicas.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+void fracas_campaign_destroy(fracas_campaign *campaign)
+{
+    if (!campaign) return;
+    fracas_memory_destroy(campaign->memory);
+    free(campaign);
+}
+
+/* ---- extending ---- */
+
+static fracas_value value_at(const fracas_point_table *table, size_t point, const char *path)
+{
+    size_t column = fracas_point_table_find(table, path);
+    return column == SIZE_MAX ? (fracas_value){.real = NAN, .text = ""}
+                              : table->point[point].value[column];
+}
+
+/* A column of a point's identity: not `case`, nor a derived one. */
+static bool is_identity(const fracas_column *column)
+{
+    return strcmp(column->path, "case") != 0 && strncmp(column->path, "derived.", 8) != 0;
+}
+
+/* Number of values of point `b` of `before` that differ in point `n` of `now`, and the first one. A
+ * column only in `now` comes with a kind, which differs too. */
+static size_t count_differences(const fracas_point_table *now, size_t n,
+                                const fracas_point_table *before, size_t b,
+                                const fracas_column **first)
+{
+    size_t count = 0;
+    for (size_t c = 0; c < before->ncolumns; c++) {
+        const fracas_column *column = &before->column[c];
+        fracas_value is = value_at(now, n, column->path);
+        if (!is_identity(column) || fracas_value_same(&is, &before->point[b].value[c])) continue;
+        if (count++ == 0) *first = column;
+    }
+    return count;
+}
+
+static void write_text(const fracas_column *column, const fracas_value *value, char text[64])
+{
+    char number[FRACAS_NUMBER_TEXT];
+    fracas_number_write(value->real, number);
+    const bool pure = strcmp(column->unit, "1") == 0;
+    if (column->text) snprintf(text, 64, "%s", *value->text ? value->text : "nothing");
+    else if (isnan(value->real)) snprintf(text, 64, "nothing");
+    else snprintf(text, 64, "%s%s%s", number, pure ? "" : " ", pure ? "" : column->unit);
+}
+
+/* True if all points of `now` are in `before`. */
+static bool is_part(const fracas_campaign *now, const fracas_campaign *before)
+{
+    for (size_t n = 0; n < now->npoints; n++) {
+        size_t b = 0;
+        while (b < before->npoints &&
+               !fracas_hash_equal(&now->point[n].hash, &before->point[b].hash))
+            b++;
+        if (b == before->npoints) return false;
+    }
+    return true;
+}
+
+/* A point of `before` is not in `now`: names its first difference from the nearest point of `now`.
+ */
+static fracas_err point_missing(const fracas_campaign *now, const fracas_campaign *before, size_t b)
+{
+    const fracas_column *column = NULL;
+    size_t nearest = 0, least = SIZE_MAX;
+    if (is_part(now, before))
+        return fracas_fail(FRACAS_DAMAGED,
+                           "the study has %zu points, and this campaign file only %zu of them, the "
+                           "first that is missing being its point %zu; a study keeps its points: "
+                           "give them all, or use another --study",
+                           before->npoints, now->npoints, b);
+    for (size_t n = 0; n < now->npoints; n++) {
+        const fracas_column *first = NULL;
+        size_t count = count_differences(&now->table, n, &before->table, b, &first);
+        if (count >= least || !first) continue;
+        least = count;
+        nearest = n;
+        column = first;
+    }
+    if (!column)
+        return fracas_fail(FRACAS_DAMAGED,
+                           "the study has a point %zu that this campaign file has not; give the "
+                           "campaign a new name or another --study",
+                           b);
+    char was[64], is[64];
+    fracas_value value = value_at(&now->table, nearest, column->path);
+    write_text(column, &value, is);
+    value = value_at(&before->table, b, column->path);
+    write_text(column, &value, was);
+    return fracas_fail(
+        FRACAS_DAMAGED,
+        "%s is %s in the study (its point %zu), but %s in this campaign file; a study can be "
+        "extended by points and replicas, anything else needs a new name or another --study",
+        column->path, was, b, is);
+}
+
+static fracas_err differs(const char *path, const char *was, const char *is)
+{
+    return fracas_fail(FRACAS_DAMAGED,
+                       "%s is %s in the study, but %s in this campaign file; it must stay as it "
+                       "is; else give the campaign a new name or another --study",
+                       path, was, is);
+}
+
+static fracas_err check_settings(const fracas_campaign *now, const fracas_campaign *before)
+{
+    static const char *const random[] = {"independent", "common"}, *const boolean[] = {"false",
+                                                                                       "true"};
+    char was[32], is[32];
+    snprintf(was, sizeof was, "%" PRIu64, before->seed);
+    snprintf(is, sizeof is, "%" PRIu64, now->seed);
+    if (now->seed != before->seed) return differs("seed", was, is);
+    if (now->common_random_numbers != before->common_random_numbers)
+        return differs("random_numbers", random[before->common_random_numbers],
+                       random[now->common_random_numbers]);
+    snprintf(was, sizeof was, "%" PRId64, before->output.history);
+    snprintf(is, sizeof is, "%" PRId64, now->output.history);
+    if (now->output.history != before->output.history) return differs("output.history", was, is);
+    if (now->output.interfaces != before->output.interfaces)
+        return differs("output.interfaces", boolean[before->output.interfaces],
+                       boolean[now->output.interfaces]);
+    return FRACAS_OK;
+}
+
+typedef struct {
+    const fracas_point *point;
+} point_link;
+
+static int by_hash(const void *a, const void *b)
+{
+    return memcmp(((const point_link *)a)->point->hash.byte,
+                  ((const point_link *)b)->point->hash.byte, sizeof(fracas_hash));
+}
+
+static fracas_err check_points(const fracas_campaign *now, const fracas_campaign *before,
+                               const point_link *sorted)
+{
+    for (size_t b = 0; b < before->npoints; b++) {
+        const fracas_point *was = &before->point[b];
+        const point_link wanted = {was},
+                         *found = bsearch(&wanted, sorted, now->npoints, sizeof *sorted, by_hash);
+        if (!found) return point_missing(now, before, b);
+        TRY(fracas_replicas_extend(found->point, was, b));
+    }
+    return FRACAS_OK;
+}
+
+fracas_err fracas_campaign_extends(const fracas_campaign *now, const fracas_campaign *before)
+{
+    TRY(check_settings(now, before));
+    point_link *sorted = malloc(now->npoints * sizeof *sorted);
+    if (!sorted) return fracas_no_memory("the points of the campaign");
+    for (size_t n = 0; n < now->npoints; n++) sorted[n].point = &now->point[n];
+    qsort(sorted, now->npoints, sizeof *sorted, by_hash);
+    fracas_err err = check_points(now, before, sorted);
+    free(sorted);
+    return err;
+}

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "campaigns/file/file.h"
+
+#include "campaigns/file/words.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+fracas_err fracas_file_error(const fracas_file *file, const fracas_node *at, const char *format,
+                             ...)
+{
+    char text[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    return fracas_fail(FRACAS_USAGE, "%s:%d:%d: %s", file->name, at->line, at->column, text);
+}
+
+fracas_err fracas_file_error_within(const fracas_file *file, const fracas_node *at, const char *key)
+{
+    return fracas_fail_within(FRACAS_USAGE, "%s:%d:%d: `%s`", file->name, at->line, at->column,
+                              key);
+}
+
+fracas_err fracas_file_expected(const fracas_file *file, const fracas_node *at, const char *key,
+                                const char *form)
+{
+    char found[256];
+    return fracas_file_error(file, at, "`%s`: found %s; expected %s", key,
+                             fracas_node_found(at, found), form);
+}
+
+const char *fracas_node_found(const fracas_node *node, char text[256])
+{
+    if (node->type == FRACAS_SCALAR ? !*node->text : node->count == 0) return "nothing";
+    if (node->type == FRACAS_LIST) return "a list";
+    if (node->type == FRACAS_MAP) return "a section";
+    snprintf(text, 256, "`%s`", node->text);
+    return text;
+}
+
+fracas_err fracas_file_check_keys(const fracas_file *file, const fracas_node *map,
+                                  const char *const *keys, const char *subject)
+{
+    for (const fracas_node *entry = map->first; entry; entry = entry->next) {
+        fracas_words words;
+        fracas_words_init(&words, entry->key->text);
+        bool known = false;
+        for (const char *const *key = keys; *key; key++) {
+            fracas_words_add(&words, *key);
+            known = known || strcmp(*key, entry->key->text) == 0;
+        }
+        char hint[600], label[80];
+        snprintf(label, sizeof label, "keys of %s", subject);
+        if (!known)
+            return fracas_file_error(file, entry->key, "unknown key `%s` in %s%s", entry->key->text,
+                                     subject, fracas_words_hint(&words, label, hint));
+    }
+    return FRACAS_OK;
+}

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "campaigns/file/words.h"
+
+#include <stdio.h>
+#include <string.h>
+
+void fracas_words_init(fracas_words *words, const char *found)
+{
+    *words = (fracas_words){.found = found};
+}
+
+void fracas_words_add(fracas_words *words, const char *word)
+{
+    size_t distance = fracas_word_distance(words->found, word);
+    if (distance <= 1 + strlen(word) / 4 && distance < strlen(word) &&
+        (!words->nearest || distance < words->distance)) {
+        words->nearest = word;
+        words->distance = distance;
+    }
+    int added = snprintf(words->list + words->used, sizeof words->list - words->used, "%s%s",
+                         words->used ? ", " : "", word);
+    if (added > 0 && words->used + (size_t)added < sizeof words->list) words->used += (size_t)added;
+    else words->list[words->used] = '\0';
+}
+
+const char *fracas_words_hint(const fracas_words *words, const char *label, char text[600])
+{
+    if (words->nearest)
+        snprintf(text, 600, "; did you mean `%s`? %s: %s", words->nearest, label, words->list);
+    else snprintf(text, 600, "; %s: %s", label, words->list);
+    return text;
+}
+
+enum { LONGEST = 64 };
+
+size_t fracas_word_distance(const char *a, const char *b)
+{
+    size_t na = strlen(a), nb = strlen(b);
+    if (na > LONGEST || nb > LONGEST) return na > nb ? na : nb;
+    /* Rows i-2, i-1 and i of the table of distances between beginnings of i and j letters. */
+    size_t row[3][LONGEST + 1];
+    for (size_t j = 0; j <= nb; j++) row[0][j] = j;
+    for (size_t i = 1; i <= na; i++) {
+        size_t *now = row[i % 3];
+        const size_t *last = row[(i + 2) % 3], *before = row[(i + 1) % 3];
+        now[0] = i;
+        for (size_t j = 1; j <= nb; j++) {
+            size_t least = last[j - 1] + (a[i - 1] != b[j - 1]);
+            if (last[j] + 1 < least) least = last[j] + 1;
+            if (now[j - 1] + 1 < least) least = now[j - 1] + 1;
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] &&
+                before[j - 2] + 1 < least)
+                least = before[j - 2] + 1;
+            now[j] = least;
+        }
+    }
+    return row[na % 3][nb];
+}

@@ -1,0 +1,268 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "campaigns/scheduler/session/prepare.h"
+
+#include "campaigns/scheduler/types/header.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { PATH = 4096 };
+
+static fracas_err join(const char *folder, const char *name, char path[PATH])
+{
+    if (snprintf(path, PATH, "%s/%s", folder, name) < PATH) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s", folder);
+}
+
+fracas_err fracas_study_folder(const fracas_run_options *options, const fracas_campaign *campaign,
+                               char *study, size_t size)
+{
+    if (options->study && !*options->study)
+        return fracas_fail(FRACAS_USAGE,
+                           "--study is empty; name a folder, or leave it out for studies/%s",
+                           campaign->name);
+    struct stat found;
+    if (options->study && !stat(options->study, &found) && !S_ISDIR(found.st_mode))
+        return fracas_fail(FRACAS_USAGE, "--study %s is not a folder; name another, or remove it",
+                           options->study);
+    int n = options->study ? snprintf(study, size, "%s", options->study)
+                           : snprintf(study, size, "studies/%s", campaign->name);
+    if ((size_t)n < size) return FRACAS_OK;
+    return fracas_fail(
+        FRACAS_USAGE, "the path of the study is longer than %zu characters; choose another --study",
+        size);
+}
+
+fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign)
+{
+    char path[PATH];
+    TRY(join(study, "campaign.yaml", path));
+    if (access(path, F_OK) && errno == ENOENT) return FRACAS_OK;
+    fracas_campaign *before;
+    fracas_err err = fracas_campaign_read(path, &before);
+    if (err == FRACAS_USAGE)
+        return fracas_fail_within(FRACAS_DAMAGED,
+                                  "the study's own campaign file is damaged (remove it and run "
+                                  "again: it is written anew; or run in another --study)");
+    TRY(err);
+    const bool extended = !fracas_campaign_extends(before, campaign);
+    err = fracas_campaign_extends(campaign, before);
+    fracas_campaign_destroy(before);
+    if (err && extended)
+        return fracas_fail_within(err,
+                                  "%s has been extended since: `fracas run %s --study %s` goes on "
+                                  "with it (or choose another --study)",
+                                  study, path, study);
+    if (err)
+        return fracas_fail_within(err, "%s is a study of another campaign (choose another --study)",
+                                  study);
+    return FRACAS_OK;
+}
+
+fracas_err fracas_study_settled(const char *study, fracas_index *index,
+                                const fracas_campaign *campaign, bool *settled, int64_t *failed)
+{
+    *settled = false;
+    *failed = 0;
+    char path[PATH];
+    TRY(join(study, "study.h5", path));
+    bool sealed;
+    TRY(fracas_study_sealed(study, index, &sealed));
+    if (!sealed) return FRACAS_OK;
+    fracas_reader *reader;
+    if (access(path, R_OK) || fracas_reader_open(path, &reader))
+        return FRACAS_OK; /* to be merged again */
+    bool same = fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash);
+    const size_t realizations = fracas_reader_realizations(reader);
+    fracas_reader_close(reader);
+    if (!same) return FRACAS_OK;
+    fracas_index_counts counts;
+    TRY(fracas_index_count(index, &counts));
+    *settled = counts.planned == 0 && counts.leased == 0 &&
+               counts.realizations == (int64_t)realizations;
+    *failed = counts.failed;
+    return FRACAS_OK;
+}
+
+fracas_err fracas_study_examine(const char *study, const fracas_campaign *campaign, bool force,
+                                bool *settled, int64_t *failed)
+{
+    *settled = false;
+    *failed = 0;
+    char file[PATH];
+    TRY(join(study, "campaign.yaml", file));
+    TRY(fracas_study_fits(study, campaign));
+    if (!fracas_index_exists(study)) return FRACAS_OK;
+    int lock;
+    TRY(fracas_study_lock_to_look(study, force, &lock));
+    fracas_index *index;
+    fracas_err err = fracas_index_open(study, false, &index);
+    if (!err) {
+        err = fracas_study_settled(study, index, campaign, settled, failed);
+        if (!err && *settled) err = fracas_study_sound(study, index, settled);
+        if (!err && access(file, F_OK)) *settled = false; /* to be written again */
+        fracas_index_close(index);
+    }
+    close(lock);
+    return err;
+}
+
+/* Creates a folder and those above it. */
+static fracas_err make_folder(const char *path)
+{
+    char part[PATH];
+    snprintf(part, sizeof part, "%s", path);
+    for (char *at = part + 1;; at++) {
+        char here = *at;
+        if (here != '/' && here != '\0') continue;
+        *at = '\0';
+        if (mkdir(part, 0777) && errno != EEXIST)
+            return fracas_fail_system(
+                errno, "cannot create the folder %s (or choose another --study)", part);
+        if (here == '\0') return FRACAS_OK;
+        *at = here;
+    }
+}
+
+static fracas_err sync_folder(const char *path)
+{
+    int fd = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    bool good = fd >= 0 && !fsync(fd);
+    fracas_err err = good ? FRACAS_OK
+                          : fracas_fail_system(errno, "cannot sync the folder %s", path);
+    if (fd >= 0) close(fd);
+    return err;
+}
+
+/* Writes FOLDER/NAME whole by `write`: under a temporary name, synced, renamed. */
+static fracas_err write_whole(const char *folder, const char *name,
+                              fracas_err (*write)(const void *content, FILE *out),
+                              const void *content)
+{
+    char path[PATH], temporary[PATH];
+    TRY(join(folder, name, path));
+    if (snprintf(temporary, PATH, "%s.tmp", path) >= PATH)
+        return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s", folder);
+    unlink(temporary); /* left by a killed run, or a link or a pipe to elsewhere */
+    FILE *out = fopen(temporary, "w");
+    fracas_err err = FRACAS_OK;
+    if (out) err = write(content, out);
+    bool good = out && !err && !fflush(out) && !fsync(fileno(out));
+    int reason = errno;
+    if (out && fclose(out) && good) {
+        good = false;
+        reason = errno;
+    }
+    if (good && rename(temporary, path)) {
+        good = false;
+        reason = errno;
+    }
+    if (good) return sync_folder(folder);
+    unlink(temporary);
+    return err ? err : fracas_fail_system(reason, "cannot write %s", path);
+}
+
+static fracas_err campaign_to(const void *campaign, FILE *out)
+{
+    return fracas_campaign_write(campaign, out);
+}
+
+static fracas_err attachment_to(const void *content, FILE *out)
+{
+    const fracas_attachment *attachment = content;
+    errno = 0;
+    if (fwrite(attachment->text, 1, attachment->size, out) == attachment->size) return FRACAS_OK;
+    return fracas_fail_system(errno, "cannot copy %s into the study", attachment->path);
+}
+
+/* True if the study has this content already. */
+static bool is_copied(const char *folder, const fracas_attachment *attachment)
+{
+    char path[PATH], block[1 << 14];
+    size_t at = 0, got;
+    struct stat found;
+    if (snprintf(path, PATH, "%s/%s", folder, attachment->digest) >= PATH) return false;
+    if (stat(path, &found) || !S_ISREG(found.st_mode)) return false; /* opening a pipe would wait */
+    FILE *in = fopen(path, "rb");
+    if (!in) return false;
+    while ((got = fread(block, 1, sizeof block, in)) > 0 && got <= attachment->size - at &&
+           memcmp(block, attachment->text + at, got) == 0)
+        at += got;
+    bool same = got == 0 && at == attachment->size && !ferror(in);
+    fclose(in);
+    return same;
+}
+
+/* Copies the files named in the campaign into the study, which then does not depend on the
+ * originals. */
+static fracas_err copy_attachments(const char *study, const fracas_campaign *campaign)
+{
+    char folder[PATH];
+    if (!campaign->attached) return FRACAS_OK;
+    TRY(join(study, FRACAS_ATTACHMENTS, folder));
+    TRY(make_folder(folder));
+    TRY(sync_folder(study));
+    for (const fracas_attached *a = campaign->attached; a; a = a->next)
+        if (!is_copied(folder, &a->attachment))
+            TRY(write_whole(folder, a->attachment.digest, attachment_to, &a->attachment));
+    return FRACAS_OK;
+}
+
+fracas_err fracas_campaign_keep(const fracas_campaign *campaign, const char *folder,
+                                const char *name)
+{
+    TRY(make_folder(folder));
+    TRY(copy_attachments(folder, campaign));
+    return write_whole(folder, name, campaign_to, campaign);
+}
+
+fracas_err fracas_study_plan(const char *study, const fracas_campaign *campaign,
+                             fracas_index **index, char **report)
+{
+    *report = NULL;
+    *index = NULL;
+    TRY(fracas_study_fits(study, campaign));
+    TRY(fracas_index_open(study, true, index));
+    fracas_file_header header = fracas_campaign_header(campaign);
+    fracas_err err = fracas_index_claim(*index, &header);
+    if (!err) err = fracas_campaign_keep(campaign, study, "campaign.yaml");
+    if (!err) err = fracas_study_recover(study, *index, &header, &campaign->table, report);
+    if (!err) err = fracas_index_plan(*index, &campaign->table);
+    if (err) {
+        free(*report);
+        *report = NULL;
+        fracas_index_close(*index);
+        *index = NULL;
+    }
+    return err;
+}
+
+static fracas_err note_takeover(fracas_index *index, int lock)
+{
+    char holder[FRACAS_HOLDER_TEXT], text[FRACAS_HOLDER_TEXT + 64];
+    if (!fracas_study_took_over(lock, holder)) return FRACAS_OK;
+    snprintf(text, sizeof text, "the lock, from a run that has ended without leaving it: %s",
+             holder);
+    return fracas_index_event(index, "took over", text);
+}
+
+fracas_err fracas_study_prepare(const char *study, const fracas_campaign *campaign, bool force,
+                                int *lock, fracas_index **index, char **report)
+{
+    char segments[PATH];
+    TRY(join(study, "segments", segments));
+    TRY(make_folder(segments));
+    TRY(fracas_study_lock(study, force, lock));
+    fracas_err err = fracas_study_plan(study, campaign, index, report);
+    if (!err) err = note_takeover(*index, *lock);
+    if (err) {
+        fracas_study_unlock(*lock);
+        *lock = -1;
+    }
+    return err;
+}

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The study before and at the start of a run. */
+#ifndef FRACAS_CAMPAIGNS_SCHEDULER_SESSION_PREPARE_H
+#define FRACAS_CAMPAIGNS_SCHEDULER_SESSION_PREPARE_H
+
+#include "campaigns/campaign.h"
+#include "campaigns/scheduler/types/options.h"
+#include "campaigns/store/store.h"
+
+#include <stdbool.h>
+
+/* The study folder of a run: options->study or studies/<name>; FRACAS_USAGE if the path is too
+ * long. */
+FRACAS_MUST_USE fracas_err fracas_study_folder(const fracas_run_options *options,
+                                               const fracas_campaign *campaign, char *study,
+                                               size_t size);
+
+/* Writes the resolved campaign as FOLDER/NAME, and copies of its attachments beside it; each whole
+ * or not at all. Creates missing folders. */
+FRACAS_MUST_USE fracas_err fracas_campaign_keep(const fracas_campaign *campaign, const char *folder,
+                                                const char *name);
+
+/* FRACAS_OK when there is no study yet, or the campaign extends (or equals) the one in it. Else
+ * FRACAS_DAMAGED naming the first difference. Writes nothing. */
+FRACAS_MUST_USE fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign);
+
+/* *settled: study.h5 is of this campaign, it and the segments have the sizes noted in the index,
+ * and every realization is done or failed for good (*failed of them). */
+FRACAS_MUST_USE fracas_err fracas_study_settled(const char *study, fracas_index *index,
+                                                const fracas_campaign *campaign, bool *settled,
+                                                int64_t *failed);
+
+/* Examines a study under its lock (`force` as in fracas_study_lock), without changing it.
+ * FRACAS_IN_USE when another run has it, FRACAS_DAMAGED when it does not fit, else *settled and
+ * *failed as above (false and 0 for a new study). Here a settled study also has all bytes as sealed
+ * in the index; a run repairs any other. */
+FRACAS_MUST_USE fracas_err fracas_study_examine(const char *study, const fracas_campaign *campaign,
+                                                bool force, bool *settled, int64_t *failed);
+
+/* Creates the folders, takes the lock (`force` as in fracas_study_lock; the caller unlocks it),
+ * checks the campaign (fracas_study_fits), copies its attachments, writes campaign.yaml, opens the
+ * index, recovers from an interruption (*report as fracas_study_recover, freed by the caller) and
+ * plans. On failure nothing is held: *lock is -1, *index and *report are NULL. */
+FRACAS_MUST_USE fracas_err fracas_study_prepare(const char *study, const fracas_campaign *campaign,
+                                                bool force, int *lock, fracas_index **index,
+                                                char **report);
+
+/* The steps after the lock, for a caller who holds it and has the folders. */
+FRACAS_MUST_USE fracas_err fracas_study_plan(const char *study, const fracas_campaign *campaign,
+                                             fracas_index **index, char **report);
+
+#endif

@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "campaigns/scheduler/session/space.h"
+
+#include "campaigns/store/store.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+/* Disk of the folder, or of its first existing ancestor. */
+static bool find_disk(const char *study, struct statvfs *disk)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s", study);
+    while (statvfs(path, disk)) {
+        char *slash = strrchr(path, '/');
+        if (slash && slash != path) *slash = '\0';
+        else if (strcmp(path, ".") && strcmp(path, "/")) strcpy(path, slash ? "/" : ".");
+        else return false;
+    }
+    return true;
+}
+
+/* Of a study begun before: realizations done, and bytes of one in the segments. */
+static void read_progress(const char *study, double *done, double *bytes)
+{
+    fracas_index *index;
+    fracas_index_counts counts;
+    *done = *bytes = 0;
+    if (!fracas_index_exists(study) || fracas_index_open(study, false, &index))
+        return; /* others report a damaged index */
+    if (!fracas_index_count(index, &counts) && counts.realizations > 0) {
+        *done = (double)(counts.done + counts.failed);
+        if (counts.done) *bytes = (double)counts.bytes / (double)counts.done;
+    }
+    fracas_index_close(index);
+}
+
+static const char *size_text(double bytes, char text[32])
+{
+    static const char *const unit[] = {"kB", "MB", "GB", "TB"};
+    size_t u = 0;
+    for (bytes /= 1e3; bytes >= 1e3 && u < 3; u++) bytes /= 1e3;
+    snprintf(text, 32, "%.1f %s", bytes, unit[u]);
+    return text;
+}
+
+fracas_err fracas_space_check(const char *study, const fracas_campaign *campaign,
+                              const fracas_run_options *options, const double *bytes)
+{
+    enum { EMPTY = 400000, ROW = 300, FILES = 64 }; /* bytes: small file, row of the index; files */
+    struct statvfs disk;
+    double planned = 0, all = 0, done, measured;
+    char need[32], segments[32], merged[32], have[32];
+    if (options->ignore_space || !find_disk(study, &disk)) return FRACAS_OK;
+    for (size_t p = 0; p < campaign->npoints; p++) {
+        planned += (double)campaign->table.point[p].replicas;
+        all += (double)campaign->table.point[p].replicas * bytes[p];
+    }
+    read_progress(study, &done, &measured);
+    const double part = options->parts > 1 ? 1.0 / options->parts : 1.0;
+    const double left = fmax(0, planned * part - done),
+                 each = fmax(measured, planned > 0 ? all / planned : 0);
+    const double in_segments =
+        left > 0 ? left * (each + ROW) + EMPTY * fmin(left, fmax(1, options->jobs)) : 0;
+    const double in_merged = options->parts > 1 ? 0 : all + EMPTY,
+                 room = (double)disk.f_bavail * (double)disk.f_frsize;
+    if (in_segments + in_merged > room)
+        return fracas_fail(
+            FRACAS_ENVIRONMENT,
+            "%s will need about %s (segments of %.0f realizations %s, study.h5 %s), but its disk "
+            "has %s free; free some space, choose another --study, keep less (output.history, "
+            "output.interfaces), or start all the same with --ignore-space",
+            study, size_text(in_segments + in_merged, need), left, size_text(in_segments, segments),
+            size_text(in_merged, merged), size_text(room, have));
+    struct rlimit limit;
+    if (!getrlimit(RLIMIT_FSIZE, &limit) && limit.rlim_cur != RLIM_INFINITY &&
+        in_merged > (double)limit.rlim_cur)
+        return fracas_fail(FRACAS_ENVIRONMENT,
+                           "%s/study.h5 will have about %s, but a file may have %s; raise the "
+                           "limit (`ulimit -f`), or start all the same with --ignore-space",
+                           study, size_text(in_merged, merged),
+                           size_text((double)limit.rlim_cur, have));
+    if (disk.f_files > 0 && left > 0 && (double)disk.f_favail < FILES + fmin(left, options->jobs))
+        return fracas_fail(
+            FRACAS_ENVIRONMENT,
+            "the disk of %s has room for %llu more files (`df -i`), a study needs %d and more; "
+            "remove some, choose another --study, or start all the same with --ignore-space",
+            study, (unsigned long long)disk.f_favail, FILES + (int)fmin(left, options->jobs));
+    return FRACAS_OK;
+}
+
+/* Measured: Open MPI 4.1.4 hung with fewer than 24 + 4 jobs files, and with files below 4.2 MB, its
+ * shared memory. */
+fracas_err fracas_limits_check(const fracas_run_options *options)
+{
+    enum { FILES = 40, FILES_A_JOB = 5, FILE_SIZE = 8 << 20, MOST_JOBS = 1024 /* of a machine */ };
+    const long cores = sysconf(_SC_NPROCESSORS_ONLN), jobs = options->jobs ? options->jobs : cores;
+    const rlim_t files = FILES + FILES_A_JOB * (rlim_t)(jobs < 1           ? 1
+                                                        : jobs > MOST_JOBS ? MOST_JOBS
+                                                                           : jobs);
+    struct rlimit limit;
+    if (!getrlimit(RLIMIT_NOFILE, &limit) && limit.rlim_cur < files) {
+        const struct rlimit raised = {limit.rlim_max < 2 * files ? limit.rlim_max : 2 * files,
+                                      limit.rlim_max};
+        if (raised.rlim_cur < files || setrlimit(RLIMIT_NOFILE, &raised))
+            return fracas_fail(FRACAS_ENVIRONMENT,
+                               "a process may open %llu files, MPI needs %llu for this run; raise "
+                               "the limit on open files (`ulimit -n`), or use fewer --jobs",
+                               (unsigned long long)limit.rlim_cur, (unsigned long long)files);
+    }
+    if (!getrlimit(RLIMIT_FSIZE, &limit) && limit.rlim_cur < FILE_SIZE)
+        return fracas_fail(FRACAS_ENVIRONMENT,
+                           "a file may have %llu bytes, MPI needs %d for its shared memory; raise "
+                           "the limit on the size of files (`ulimit -f`)",
+                           (unsigned long long)limit.rlim_cur, FILE_SIZE);
+    return FRACAS_OK;
+}

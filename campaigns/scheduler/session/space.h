@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Checks the disk and the limits of the system before a run. */
+#ifndef FRACAS_CAMPAIGNS_SCHEDULER_SESSION_SPACE_H
+#define FRACAS_CAMPAIGNS_SCHEDULER_SESSION_SPACE_H
+
+#include "campaigns/campaign.h"
+#include "campaigns/scheduler/types/options.h"
+
+/* FRACAS_ENVIRONMENT, naming both numbers, unless the disk of the study has room for the remaining
+ * segments and for study.h5, which is written whole beside an older one:
+ *   need = r sum_p n_p b_p + sum_p n_p b_p + empty files,   r = 1 - done/planned
+ * with n_p replicas (with a rule, the minimum) and b_p = bytes[p], or the measured bytes of a
+ * realization if greater. FRACAS_OK with options->ignore_space. */
+FRACAS_MUST_USE fracas_err fracas_space_check(const char *study, const fracas_campaign *campaign,
+                                              const fracas_run_options *options,
+                                              const double *bytes);
+
+/* For a run that starts mpirun: raises this process's limit on open files. FRACAS_ENVIRONMENT,
+ * naming the limit, if MPI would fail or hang under the limits on open files or file sizes. */
+FRACAS_MUST_USE fracas_err fracas_limits_check(const fracas_run_options *options);
+
+#endif

@@ -1,0 +1,270 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "campaigns/scheduler/session/upkeep.h"
+
+#include "campaigns/scheduler/session/meshes.h"
+#include "campaigns/scheduler/session/prepare.h"
+#include "campaigns/scheduler/session/rounds.h"
+#include "campaigns/scheduler/session/failures.h"
+#include "campaigns/scheduler/types/header.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* ---- a locked study ---- */
+
+typedef struct {
+    const char *study;
+    int lock;
+    fracas_index *index;
+    fracas_rounds rounds;
+} holding;
+
+#define HOLDING_NONE ((holding){.lock = -1})
+
+static void release(holding *h)
+{
+    fracas_rounds_clear(&h->rounds);
+    fracas_index_close(h->index);
+    h->index = NULL;
+    if (h->lock >= 0) fracas_study_unlock(h->lock);
+    h->lock = -1;
+}
+
+/* Reports the recovery at the start. */
+static void print_report(const fracas_said *said, char *report)
+{
+    if (said && report) fracas_say_lines(said, report);
+    free(report);
+}
+
+/* With the lock: recovers, plans, and decides complete rounds. */
+static fracas_err resume(holding *h, const fracas_campaign *campaign, const fracas_said *said)
+{
+    char *report;
+    TRY(fracas_study_plan(h->study, campaign, &h->index, &report));
+    print_report(said, report);
+    return fracas_rounds_init(&h->rounds, campaign, h->index);
+}
+
+/* Opens an existing index, with its tables brought up to this version. */
+static fracas_err open_index(const char *study, fracas_index **index)
+{
+    TRY(fracas_index_open(study, false, index)); /* fails if there is none */
+    fracas_index_close(*index);
+    return fracas_index_open(study, true, index);
+}
+
+static fracas_err count(fracas_index *index, fracas_upkeep *end)
+{
+    fracas_index_counts counts;
+    TRY(fracas_index_count(index, &counts));
+    *end = (fracas_upkeep){counts.realizations, counts.done, counts.failed,
+                           counts.planned + counts.leased, counts.segments};
+    return FRACAS_OK;
+}
+
+/* ---- reindex ---- */
+
+static fracas_err reindex(holding *h, const fracas_campaign *campaign, const fracas_said *said,
+                          fracas_upkeep *end)
+{
+    const fracas_file_header header = fracas_campaign_header(campaign);
+    TRY(fracas_study_reindex(h->study, &header, &campaign->table, said));
+    TRY(fracas_index_open(h->study, true, &h->index));
+    TRY(fracas_rounds_init(&h->rounds, campaign, h->index));
+    return count(h->index, end);
+}
+
+fracas_err fracas_upkeep_reindex(const char *study, const fracas_campaign *campaign,
+                                 const fracas_said *said, fracas_upkeep *end)
+{
+    holding h = HOLDING_NONE;
+    h.study = study;
+    TRY(fracas_study_lock(study, false, &h.lock));
+    fracas_err err = reindex(&h, campaign, said, end);
+    release(&h);
+    return err;
+}
+
+/* ---- merge ---- */
+
+static fracas_err merge(holding *h, const fracas_campaign *campaign, const fracas_said *said,
+                        fracas_upkeep *end, bool *written)
+{
+    bool settled;
+    int64_t failed;
+    const fracas_file_header header = fracas_campaign_header(campaign);
+    const fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
+    TRY(resume(h, campaign, said));
+    TRY(count(h->index, end));
+    if (end->missing)
+        return fracas_fail(FRACAS_INTERRUPTED,
+                           "%" PRId64 " of %" PRId64
+                           " realizations of %s are not computed yet; `fracas run %s/campaign.yaml "
+                           "--study %s` computes them",
+                           end->missing, end->realizations, h->study, h->study, h->study);
+    TRY(fracas_rounds_check(campaign, h->index));
+    TRY(fracas_study_settled(h->study, h->index, campaign, &settled, &failed));
+    if (settled) return fracas_failure_report(h->study, h->index, &campaign->table);
+    TRY(fracas_study_merge(h->study, h->index, &header, &h->rounds.table, &meshes));
+    *written = true;
+    TRY(fracas_index_event(h->index, "merged", "study.h5 is written"));
+    return fracas_failure_report(h->study, h->index, &campaign->table);
+}
+
+fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaign,
+                               const fracas_said *said, fracas_upkeep *end, bool *written)
+{
+    holding h = HOLDING_NONE;
+    h.study = study;
+    *written = false;
+    TRY(fracas_study_lock(study, false, &h.lock));
+    fracas_err err = merge(&h, campaign, said, end, written);
+    release(&h);
+    return err;
+}
+
+/* ---- gc ---- */
+
+/* The digests of all files that the campaign names. */
+static fracas_err list_attachments(const fracas_campaign *campaign, const char ***digest,
+                                   size_t *count)
+{
+    *count = 0;
+    for (const fracas_attached *a = campaign->attached; a; a = a->next) ++*count;
+    *digest = calloc(*count + 1, sizeof **digest);
+    if (!*digest) return fracas_no_memory("the files that the campaign names");
+    size_t i = 0;
+    for (const fracas_attached *a = campaign->attached; a; a = a->next)
+        (*digest)[i++] = a->attachment.digest;
+    return FRACAS_OK;
+}
+
+fracas_err fracas_upkeep_collect(const char *study, const fracas_campaign *campaign, bool dry,
+                                 void (*found)(void *context, const fracas_collected *item),
+                                 void *context, uint64_t *freed)
+{
+    holding h = HOLDING_NONE;
+    fracas_collect_options options = {.dry = dry, .found = found, .context = context};
+    const char **digest;
+    TRY(list_attachments(campaign, &digest, &options.nattachments));
+    options.attachment = digest;
+    fracas_err err = fracas_study_lock(study, false, &h.lock);
+    if (!err) err = dry ? fracas_index_open(study, false, &h.index) : open_index(study, &h.index);
+    if (!err) err = fracas_study_collect(study, h.index, &options, freed);
+    release(&h);
+    free(digest);
+    return err;
+}
+
+/* ---- retry ---- */
+
+fracas_err fracas_upkeep_retry(const char *study, const fracas_campaign *campaign, int64_t point,
+                               int64_t *rows)
+{
+    holding h = HOLDING_NONE;
+    const fracas_file_header header = fracas_campaign_header(campaign);
+    if (point >= (int64_t)campaign->npoints)
+        return fracas_fail(FRACAS_USAGE, "--point %" PRId64 ": %s has the points 0 to %zu", point,
+                           study, campaign->npoints - 1);
+    TRY(fracas_study_lock(study, false, &h.lock));
+    fracas_err err = open_index(study, &h.index);
+    if (!err)
+        err = fracas_index_claim(h.index, &header); /* refused: this program cannot recompute it */
+    if (!err)
+        err = fracas_index_retry(h.index, point < 0 ? NULL : &campaign->point[point].hash, rows);
+    release(&h);
+    return err;
+}
+
+/* ---- merge-studies ---- */
+
+typedef struct {
+    holding into, from;
+    fracas_campaign *ours, *theirs;
+    const fracas_campaign *longer; /* of the two */
+    const fracas_said *said;
+} joining;
+
+static fracas_err read_campaign(const char *study, fracas_campaign **campaign)
+{
+    char file[4096];
+    if (snprintf(file, sizeof file, "%s/campaign.yaml", study) >= (int)sizeof file)
+        return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s", study);
+    fracas_err err = fracas_campaign_read(file, campaign);
+    return err == FRACAS_USAGE
+               ? fracas_fail_within(FRACAS_DAMAGED,
+                                    "the campaign file of %s is damaged; restore it", study)
+               : err;
+}
+
+/* Reads both campaigns; one must extend the other. */
+static fracas_err choose_longer(joining *j)
+{
+    TRY(read_campaign(j->into.study, &j->ours));
+    TRY(read_campaign(j->from.study, &j->theirs));
+    j->longer = j->ours;
+    if (!fracas_campaign_extends(j->ours, j->theirs)) return FRACAS_OK;
+    j->longer = j->theirs;
+    fracas_err err = fracas_campaign_extends(j->theirs, j->ours);
+    if (!err) return FRACAS_OK;
+    return fracas_fail_within(
+        err, "%s (\"the study\") and %s are not of one campaign, and neither extends the other",
+        j->into.study, j->from.study);
+}
+
+static fracas_err lock_both(joining *j)
+{
+    struct stat a, b;
+    if (!stat(j->into.study, &a) && !stat(j->from.study, &b) && a.st_dev == b.st_dev &&
+        a.st_ino == b.st_ino)
+        return fracas_fail(FRACAS_USAGE, "%s and %s are one study; name two", j->into.study,
+                           j->from.study);
+    TRY(fracas_study_lock(j->into.study, false, &j->into.lock));
+    return fracas_study_lock(j->from.study, false, &j->from.lock);
+}
+
+static fracas_err join(joining *j, fracas_joined *joined, int64_t *both, fracas_upkeep *end)
+{
+    const fracas_file_header header = fracas_campaign_header(j->longer);
+    TRY(resume(&j->from, j->theirs, j->said));
+    TRY(resume(&j->into, j->ours, j->said));
+    TRY(fracas_study_compare(j->into.study, j->into.index, j->from.study, j->from.index, &header,
+                             &j->from.rounds.table, both));
+    if (j->longer != j->ours) {
+        fracas_rounds_clear(&j->into.rounds);
+        fracas_index_close(j->into.index);
+        j->into.index = NULL;
+        TRY(resume(&j->into, j->longer, j->said));
+    }
+    /* Replicas planned by a rule are in no campaign file. */
+    TRY(fracas_index_plan(j->into.index, &j->from.rounds.table));
+    TRY(fracas_study_join(j->into.study, j->into.index, j->from.study, j->from.index,
+                          &j->from.rounds.table, joined));
+    TRY(fracas_index_set_part(j->into.index, 1, 1)); /* this study computes all that is missing */
+    fracas_rounds_clear(&j->into.rounds);
+    /* More rounds may be complete now. */
+    TRY(fracas_rounds_init(&j->into.rounds, j->longer, j->into.index));
+    return count(j->into.index, end);
+}
+
+fracas_err fracas_upkeep_join(const char *into, const char *from, const fracas_said *said,
+                              fracas_joined *joined, int64_t *both, fracas_upkeep *end)
+{
+    joining j = {.into = HOLDING_NONE, .from = HOLDING_NONE, .said = said};
+    j.into.study = into;
+    j.from.study = from;
+    *joined = (fracas_joined){0};
+    *both = 0;
+    fracas_err err = choose_longer(&j);
+    if (!err) err = lock_both(&j);
+    if (!err) err = join(&j, joined, both, end);
+    release(&j.from);
+    release(&j.into);
+    fracas_campaign_destroy(j.ours);
+    fracas_campaign_destroy(j.theirs);
+    return err;
+}

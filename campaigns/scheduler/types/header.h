@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Header of the segments and of study.h5. */
+#ifndef FRACAS_CAMPAIGNS_SCHEDULER_TYPES_HEADER_H
+#define FRACAS_CAMPAIGNS_SCHEDULER_TYPES_HEADER_H
+
+#include "campaigns/campaign.h"
+#include "campaigns/store/store.h"
+
+/* Header of the files of a campaign that this version of the program computes. */
+fracas_file_header fracas_campaign_header(const fracas_campaign *campaign);
+
+#endif

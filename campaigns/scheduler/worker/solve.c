@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "campaigns/scheduler/worker/solve.h"
+
+#include "campaigns/plan/point_model.h"
+
+static fracas_err fill_strengths(const fracas_computation *computation, const int64_t *replica,
+                                 size_t count, fracas_batch *batch)
+{
+    for (size_t lane = 0; lane < count; lane++) {
+        size_t stride;
+        double *strength = fracas_batch_strength(batch, lane, &stride);
+        const fracas_stream stream = fracas_point_stream(
+            computation->campaign, (size_t)computation->lease->point, FRACAS_PURPOSE_STRENGTH,
+            (uint64_t)replica[lane]);
+        TRY(fracas_field_sample(computation->field, &stream, stride, strength));
+    }
+    return FRACAS_OK;
+}
+
+fracas_err fracas_solve(const fracas_computation *computation, const int64_t *replica, size_t count,
+                        fracas_record *record)
+{
+    const fracas_batch_options options = {.history = computation->campaign->output.history,
+                                          .interfaces = computation->campaign->output.interfaces,
+                                          .width = computation->options->width,
+                                          .isa = computation->options->isa};
+    fracas_batch *batch;
+    TRY(fracas_batch_create(computation->model, count, &options, &batch));
+    fracas_err err = fill_strengths(computation, replica, count, batch);
+    if (!err) err = fracas_batch_run(batch, record);
+    fracas_batch_destroy(batch);
+    return err;
+}
