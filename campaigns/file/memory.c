@@ -5,14 +5,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct piece {
-    struct piece *next;
+typedef struct block {
+    struct block *next;
+    size_t size, used;
     max_align_t bytes[];
-} piece;
+} block;
 
 struct fracas_campaign_memory {
-    piece *first;
+    block *first; /* the one in use */
 };
+
+enum { BLOCK = 65536 }; /* bytes, at least */
 
 fracas_campaign_memory *fracas_memory_create(void)
 {
@@ -23,7 +26,7 @@ void fracas_memory_destroy(fracas_campaign_memory *memory)
 {
     if (!memory) return;
     while (memory->first) {
-        piece *next = memory->first->next;
+        block *next = memory->first->next;
         free(memory->first);
         memory->first = next;
     }
@@ -32,12 +35,20 @@ void fracas_memory_destroy(fracas_campaign_memory *memory)
 
 void *fracas_memory_take(fracas_campaign_memory *memory, size_t count, size_t size)
 {
+    const size_t grain = sizeof(max_align_t);
     if (size != 0 && count > (SIZE_MAX / 2) / size) return NULL;
-    piece *taken = calloc(1, sizeof *taken + count * size);
-    if (!taken) return NULL;
-    taken->next = memory->first;
-    memory->first = taken;
-    return taken->bytes;
+    size_t need = (count * size + grain - 1) / grain * grain;
+    block *in_use = memory->first;
+    if (!in_use || in_use->size - in_use->used < need) {
+        size_t room = need > BLOCK ? need : BLOCK;
+        block *added = calloc(1, sizeof *added + room);
+        if (!added) return NULL;
+        *added = (block){.next = in_use, .size = room};
+        memory->first = in_use = added;
+    }
+    void *piece = (char *)in_use->bytes + in_use->used;
+    in_use->used += need;
+    return piece;
 }
 
 char *fracas_memory_copy(fracas_campaign_memory *memory, const char *text, size_t length)

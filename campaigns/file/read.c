@@ -255,7 +255,7 @@ static fracas_err read_file(reading *read, fracas_campaign *campaign)
     fracas_file *file = &read->file;
     fracas_node *root;
     TRY(fracas_catalog_make(file->memory, &file->catalog));
-    TRY(fracas_node_read(file, file->memory, &root));
+    TRY(fracas_node_read(file->name, file->memory, &root));
     file->root = root;
     TRY(read_heading(read, campaign));
     TRY(read_sections(read));
