@@ -39,7 +39,7 @@ typedef struct fracas_campaign {
     char *name;
     uint64_t seed;
     bool common_random_numbers; /* replica r draws the same at every point */
-    fracas_output output;       /* of the whole campaign */
+    fracas_output output;       /* the same for all points */
     size_t npoints;
     fracas_point *point;       /* plan order = file order of the sweep, last axis fastest */
     fracas_point_table table;  /* the same points as columns */
@@ -68,8 +68,8 @@ FRACAS_MUST_USE fracas_err fracas_campaign_replicas(fracas_campaign *campaign, i
 FRACAS_MUST_USE fracas_err fracas_campaign_write(const fracas_campaign *campaign, FILE *out);
 
 /* FRACAS_OK when `now` extends or equals `before`: the same seed and output, and every point of
- * `before` with at least its replicas. A rule for replicas may only ask for more, so that no round
- * stops earlier. Else FRACAS_DAMAGED naming the first difference with its path and both values. */
+ * `before` with at least its replicas. A rule for replicas may only ask for more, so no round stops
+ * earlier. Else FRACAS_DAMAGED naming the first difference with its path and both values. */
 FRACAS_MUST_USE fracas_err fracas_campaign_extends(const fracas_campaign *now,
                                                    const fracas_campaign *before);
 

@@ -31,8 +31,8 @@ typedef struct {
     int64_t most;              /* maximum of replicas by its rule; 0: no rule */
 } fracas_point_row;
 
-/* Columns of all points, sorted by path (byte order). A column that some points lack is NaN or ""
- * for these. Booleans and integers are reals. */
+/* Columns of all points, sorted by path (byte order). Values missing at a point are NaN or "".
+ * Booleans and integers are reals. */
 typedef struct {
     size_t ncolumns;
     const fracas_column *column;

@@ -11,8 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What getopt_long returns for options[i] by its name; -h is 'h', and every letter of an option
- * itself. */
+const fracas_option fracas_json_option = {"json", NULL, "print it as JSON"};
+
+/* getopt_long returns FIRST_OPTION + i for options[i] by its name, and letters as themselves. */
 enum { FIRST_OPTION = 256 };
 
 size_t fracas_command_noptions(const fracas_command *command)
@@ -65,7 +66,7 @@ static fracas_err unknown_option(const fracas_command *command, const char *give
                        command->takes_rest ? "; options of another program follow `--`" : "");
 }
 
-/* The option that getopt_long names so, FRACAS_MOST_OPTIONS for none. */
+/* Index of the option for a result of getopt_long; FRACAS_MOST_OPTIONS: none. */
 static size_t option_of(const fracas_command *command, int found)
 {
     if (found >= FIRST_OPTION) return (size_t)(found - FIRST_OPTION);
@@ -76,16 +77,14 @@ static size_t option_of(const fracas_command *command, int found)
     return FRACAS_MOST_OPTIONS;
 }
 
-/* The word that getopt_long has just read as an option: before its value, where that is a word of
- * its own. */
+/* The latest option word of getopt_long, without a value in a word of its own. */
 static const char *given_option(char *const *argv)
 {
     const char *last = argv[optind - 1];
     return optarg && optarg == last ? argv[optind - 2] : last;
 }
 
-/* getopt_long takes any beginning of a name: --forc for --force, and what was meant for another
- * program. */
+/* getopt_long accepts any beginning of a name, --forc for --force; fracas does not. */
 static bool is_abbreviated(const fracas_command *command, int found, char *const *argv)
 {
     if (option_of(command, found) >= fracas_command_noptions(command)) return false;
@@ -134,7 +133,7 @@ static fracas_err read_options(const fracas_command *command, fracas_arguments *
     return FRACAS_OK;
 }
 
-/* `--` and what follows is not for this program. */
+/* Words from `--` on are for another program. */
 static void cut_rest(fracas_arguments *arguments)
 {
     for (int i = 2; i < arguments->argc; i++) {
@@ -236,7 +235,7 @@ static bool read_clock(const char *text, double *seconds)
     return true;
 }
 
-/* Numbers, each with its unit: what one without means, Slurm and a person do not agree on. */
+/* Numbers, each with its unit: without one, Slurm and users mean different things. */
 static bool read_duration(const char *text, double *seconds)
 {
     static const char unit[] = "smhd";

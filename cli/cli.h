@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The subcommands of fracas, and the command line that they share. */
+/* The subcommands of fracas and their common command line. */
 #ifndef FRACAS_CLI_CLI_H
 #define FRACAS_CLI_CLI_H
 
@@ -10,38 +10,42 @@
 
 typedef struct {
     const char *name;     /* "jobs" for --jobs */
-    const char *argument; /* what the help calls its value; NULL: it takes none */
+    const char *argument; /* its value in the help; NULL: none */
     const char *doc;
-    char letter; /* 'o' for -o, which is the same; 0: there is none */
+    char letter; /* 'o' for -o; 0: none */
 } fracas_option;
 
-enum { FRACAS_MOST_OPTIONS = 32 }; /* of one subcommand */
+enum { FRACAS_MOST_OPTIONS = 32 }; /* per subcommand */
 
-/* An option of those shared with other commands that this one does not take. */
+/* A shared option refused by this command. */
 typedef struct {
     const char *name;
     const char *why; /* "follows from --time: leave it out" */
 } fracas_refusal;
 
 typedef struct fracas_arguments fracas_arguments;
+struct fracas_campaign;
 
 /* A subcommand is one file with one const fracas_command and one line in main.c. */
 typedef struct {
     const char *name;
-    const char
-        *operand; /* the argument that is no option, as the help calls it; NULL: there is none */
-    const char *second; /* another one after it; NULL: there is none */
-    const char *doc;    /* one sentence, no full stop */
-    const char *more;   /* paragraph for `fracas help NAME` */
+    const char *operand; /* its name in the help; NULL: none */
+    const char *second;  /* a second operand */
+    const char *doc;     /* one sentence, no full stop */
+    const char *more;    /* paragraph for `fracas help NAME` */
     const fracas_option *options;
     size_t noptions;
-    const fracas_option *own; /* more of them, where `options` are shared with others */
+    const fracas_option *own; /* more options, where `options` are shared with other commands */
     size_t nown;
-    const fracas_refusal *refused; /* of the shared ones: not in the help */
+    const fracas_refusal *refused; /* shared options left out of the help */
     size_t nrefused;
-    bool takes_rest; /* what follows `--` is kept for another program */
+    bool takes_rest; /* words after `--` are kept for another program */
     fracas_err (*run)(const fracas_arguments *arguments);
+    /* In the place of `run`: gets the campaign of the operand, a study. */
+    fracas_err (*run_on)(const fracas_arguments *arguments, const struct fracas_campaign *campaign);
 } fracas_command;
+
+extern const fracas_option fracas_json_option; /* --json, for commands with no other option */
 
 extern const fracas_command fracas_command_run, fracas_command_plan, fracas_command_status,
     fracas_command_report, fracas_command_export, fracas_command_picture, fracas_command_verify,
@@ -53,29 +57,28 @@ extern const fracas_command fracas_command_run, fracas_command_plan, fracas_comm
 struct fracas_arguments {
     const fracas_command *command;
     const char *operand, *second;
-    const char *value[FRACAS_MOST_OPTIONS]; /* of command->options[i], then of command->own; NULL:
-                                               not given; "" if it takes none */
-    bool help;                              /* --help was given: then nothing else is checked */
-    int argc;                               /* the program's, options moved to the front */
+    const char *value[FRACAS_MOST_OPTIONS]; /* options, then own; NULL: not given; "": without a
+                                               value */
+    bool help;                              /* --help was given: nothing else is checked */
+    int argc;                               /* the program's, with options in front */
     char **argv;
-    char **rest; /* of argv: nrest words after `--` */
+    char **rest; /* in argv: nrest words after `--` */
     int nrest;
 };
 
-/* Option `i` of a command, its own ones behind those that it shares; FRACAS_MOST_OPTIONS is no
- * option. */
+/* Option `i` of a command, its own ones behind the shared ones. */
 size_t fracas_command_noptions(const fracas_command *command);
 const fracas_option *fracas_command_option(const fracas_command *command, size_t i);
 
-/* NULL for an option that the command takes. */
+/* NULL for an accepted option. */
 const fracas_refusal *fracas_command_refusal(const fracas_command *command, size_t i);
 
-/* Reads the program's command line, argv[1] being the command's name. FRACAS_USAGE for an unknown
- * option (naming the nearest), one that is refused (saying why), a missing or extra argument. */
+/* Reads the program's command line; argv[1] is the command's name. FRACAS_USAGE for an unknown
+ * option (naming the nearest), a refused one (with the reason), a missing or extra argument. */
 FRACAS_MUST_USE fracas_err fracas_arguments_read(const fracas_command *command, int argc,
                                                  char **argv, fracas_arguments *arguments);
 
-/* The value of option `i` as a whole number in [minimum, maximum]; *value stays as it is if it was
+/* The value of option `i` as a whole number in [minimum, maximum]; *value is unchanged if it was
  * not given. FRACAS_USAGE for anything else. */
 FRACAS_MUST_USE fracas_err fracas_arguments_integer(const fracas_arguments *arguments, size_t i,
                                                     int minimum, int maximum, int *value);
@@ -92,11 +95,10 @@ FRACAS_MUST_USE fracas_err fracas_arguments_word(const fracas_arguments *argumen
 FRACAS_MUST_USE fracas_err fracas_arguments_time(const fracas_arguments *arguments, size_t i,
                                                  double *seconds);
 
-/* FRACAS_DAMAGED, saying what makes one, where `study` is no folder of a study. */
+/* FRACAS_DAMAGED, with the remedy, if `study` is no folder of a study. */
 FRACAS_MUST_USE fracas_err fracas_cli_check_study(const char *study);
 
-/* Reads STUDY/campaign.yaml; FRACAS_DAMAGED where it is damaged. */
-struct fracas_campaign;
+/* Reads STUDY/campaign.yaml. FRACAS_DAMAGED if it is damaged. */
 FRACAS_MUST_USE fracas_err fracas_cli_read_campaign(const char *study,
                                                     struct fracas_campaign **campaign);
 
@@ -106,9 +108,8 @@ struct fracas_analysis;
 FRACAS_MUST_USE fracas_err fracas_cli_analyse(const char *study, struct fracas_campaign **campaign,
                                               struct fracas_analysis **analysis);
 
-/* Prints the result table and writes the report of a study, of what is done of it by now; with
- * `json` prints the statistics as JSON instead of the table. What `fracas run` ends with and
- * `fracas report` does. */
+/* Prints the result table, or with `json` the statistics, and writes the report of all realizations
+ * done by now: the last step of `fracas run`, and `fracas report`. */
 FRACAS_MUST_USE fracas_err fracas_cli_report(const char *study, bool json);
 
 #endif

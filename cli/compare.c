@@ -23,8 +23,8 @@ static fracas_err read_common(const char *study, bool *common)
     return FRACAS_OK;
 }
 
-static fracas_err say(const fracas_arguments *arguments, const fracas_analysis *a,
-                      const fracas_analysis *b)
+static fracas_err print(const fracas_arguments *arguments, const fracas_analysis *a,
+                        const fracas_analysis *b)
 {
     bool common_a, common_b;
     TRY(read_common(arguments->operand, &common_a));
@@ -47,7 +47,7 @@ static fracas_err compare(const fracas_arguments *arguments)
     TRY(fracas_cli_analyse(arguments->operand, &of_a, &a));
     fracas_err err = fracas_cli_analyse(arguments->second, &of_b, &b);
     if (!err) {
-        err = say(arguments, a, b);
+        err = print(arguments, a, b);
         fracas_analysis_destroy(b);
         fracas_campaign_destroy(of_b);
     }

@@ -5,9 +5,9 @@
 #include "base/param.h"
 #include "campaigns/plan/forecast.h"
 #include "campaigns/plan/refine.h"
-#include "campaigns/scheduler/types/clock.h"
 #include "campaigns/scheduler/launch/allocation.h"
 #include "campaigns/scheduler/session/prepare.h"
+#include "campaigns/scheduler/types/clock.h"
 
 #include <inttypes.h>
 #include <limits.h>
@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Behind those of `fracas run STUDY`, which are handed on to it. */
+/* Behind the options of `fracas run STUDY`. */
 enum { STUDY = FRACAS_NSTUDY_RUN_OPTIONS, ONLY, TOLERANCE, JSON, NOPTIONS };
 #define OWN(option) [(option)-FRACAS_NSTUDY_RUN_OPTIONS]
 static const fracas_option options[NOPTIONS - FRACAS_NSTUDY_RUN_OPTIONS] = {
@@ -28,7 +28,7 @@ static const fracas_option options[NOPTIONS - FRACAS_NSTUDY_RUN_OPTIONS] = {
 
 enum { NAME = 8, STUDY_PATH = PATH_MAX + NAME };
 
-/* The order of the runs: what is short, first. */
+/* The order of the runs, short ones first. */
 static const fracas_refinement order[] = {FRACAS_REFINE_NOTHING, FRACAS_REFINE_STEP,
                                           FRACAS_REFINE_BETA, FRACAS_REFINE_MESH};
 
@@ -36,9 +36,9 @@ typedef struct {
     const fracas_arguments *arguments;
     char folder[PATH_MAX];
     char study[FRACAS_NREFINEMENTS][STUDY_PATH]; /* FOLDER/mesh */
-    fracas_refined refined[FRACAS_NREFINEMENTS]; /* campaign NULL: not asked for, or it cannot be */
+    fracas_refined refined[FRACAS_NREFINEMENTS]; /* campaign NULL: not asked for, or impossible */
     double began, walltime;                      /* s */
-    fracas_err end; /* FRACAS_SOME_FAILED if some realization of some study did */
+    fracas_err end; /* FRACAS_SOME_FAILED if a realization of any study failed */
     char failure[1024];
 } converging;
 
@@ -76,9 +76,9 @@ static fracas_err find_folder(converging *c)
     return FRACAS_OK;
 }
 
-/* True if the study is of the same points as the campaign of `file`, with more replicas: *replicas
- * of them, the most that a point has. */
-static bool has_more(const char *study, const char *file, fracas_refinement what, int64_t *replicas)
+/* True if the study has the points of the campaign in `file` with more replicas, at most *replicas.
+ */
+static bool has_more(const char *study, const char *file, fracas_refinement by, int64_t *replicas)
 {
     char path[STUDY_PATH + 2 * NAME];
     fracas_campaign *there;
@@ -89,21 +89,21 @@ static bool has_more(const char *study, const char *file, fracas_refinement what
     for (size_t p = 0; p < there->npoints; p++)
         if (there->point[p].replicas > *replicas) *replicas = there->point[p].replicas;
     fracas_campaign_destroy(there);
-    const bool fits = !fracas_refined_create(file, *replicas, what, &refined) && refined.campaign &&
+    const bool fits = !fracas_refined_create(file, *replicas, by, &refined) && refined.campaign &&
                       !fracas_study_fits(study, refined.campaign);
     fracas_refined_clear(&refined);
     return fits;
 }
 
-/* An error with the replicas to ask for, where these are all that is amiss; the most of all
- * studies, so that none asks for more afterwards. */
-static fracas_err check_study(const converging *c, fracas_refinement what)
+/* If only the replicas differ, the error names the number to ask for: the maximum over all studies.
+ */
+static fracas_err check_study(const converging *c, fracas_refinement by)
 {
     int64_t replicas, most = 0;
-    fracas_err err = fracas_study_fits(c->study[what], c->refined[what].campaign);
+    fracas_err err = fracas_study_fits(c->study[by], c->refined[by].campaign);
     if (!err) return FRACAS_OK;
-    if (!has_more(c->study[what], c->arguments->operand, what, &replicas))
-        return fracas_study_fits(c->study[what], c->refined[what].campaign);
+    if (!has_more(c->study[by], c->arguments->operand, by, &replicas))
+        return fracas_study_fits(c->study[by], c->refined[by].campaign);
     for (fracas_refinement r = 0; r < FRACAS_NREFINEMENTS; r++)
         if (has_more(c->study[r], c->arguments->operand, r, &replicas) && replicas > most)
             most = replicas;
@@ -113,8 +113,7 @@ static fracas_err check_study(const converging *c, fracas_refinement what)
                        c->folder, most, most);
 }
 
-/* Every campaign, and whether its study, if it is there, is one of it: before anything is written.
- */
+/* Makes every campaign and checks its study, if there is one, before anything is written. */
 static fracas_err make_campaigns(converging *c)
 {
     int replicas = 0, only = -1;
@@ -139,7 +138,7 @@ static fracas_err make_campaigns(converging *c)
                        c->arguments->operand);
 }
 
-/* Predicted seconds of the campaign as it is, at most. */
+/* Upper bound of the predicted time of the unrefined campaign [s]. */
 static fracas_err predict(const converging *c, double *time)
 {
     const fracas_campaign *campaign = base_of(c)->campaign;
@@ -165,7 +164,6 @@ static double cost_of(const fracas_refined *refined)
     return sum;
 }
 
-/* To two digits, which is more than a prediction has. */
 static void write_duration(double seconds, char text[32])
 {
     if (seconds < 99.5) snprintf(text, 32, "%.2g s", seconds);
@@ -174,8 +172,8 @@ static void write_duration(double seconds, char text[32])
     else snprintf(text, 32, "%.1f days", seconds / 86400);
 }
 
-/* What all this will take, at the speed of the campaign as it is. */
-static fracas_err say_costs(const converging *c)
+/* Prints predicted times, by the speed of the unrefined campaign. */
+static fracas_err print_costs(const converging *c)
 {
     double base = 0, total = 0;
     char text[32];
@@ -207,14 +205,14 @@ static fracas_err run_one(const fracas_run_options *run, int argc, char **argv)
     return end;
 }
 
-/* A run has what is left of the walltime. */
-static fracas_err run_study(converging *c, fracas_refinement what)
+/* Each run gets the rest of the walltime. */
+static fracas_err run_study(converging *c, fracas_refinement by)
 {
     char file[STUDY_PATH + NAME], name[2 * NAME], left[32];
     fracas_arguments given = *c->arguments;
-    snprintf(name, sizeof name, "%s.yaml", fracas_refinement_name[what]);
+    snprintf(name, sizeof name, "%s.yaml", fracas_refinement_name[by]);
     snprintf(file, sizeof file, "%s/%s", c->folder, name);
-    TRY(fracas_campaign_keep(c->refined[what].campaign, c->folder, name));
+    TRY(fracas_campaign_keep(c->refined[by].campaign, c->folder, name));
     if (c->walltime > 0) {
         const double rest = c->walltime - (fracas_now() - c->began);
         if (rest < 0.1)
@@ -225,21 +223,21 @@ static fracas_err run_study(converging *c, fracas_refinement what)
         given.value[fracas_cli_run_option("walltime")] = left;
     }
     given.value[fracas_cli_run_option("replicas")] = NULL; /* the file has them */
-    fprintf(stderr, "fracas: %s, %s\n", fracas_refinement_name[what], fracas_refinement_doc[what]);
-    fracas_err end = fracas_cli_run_as(&given, file, c->study[what], run_one);
+    fprintf(stderr, "fracas: %s, %s\n", fracas_refinement_name[by], fracas_refinement_doc[by]);
+    fracas_err end = fracas_cli_run_as(&given, file, c->study[by], run_one);
     if (end != FRACAS_SOME_FAILED)
-        return end ? fracas_fail_within(end, "%s", c->study[what]) : FRACAS_OK;
+        return end ? fracas_fail_within(end, "%s", c->study[by]) : FRACAS_OK;
     c->end = end;
-    snprintf(c->failure, sizeof c->failure, "%s: %s", c->study[what], fracas_message());
+    snprintf(c->failure, sizeof c->failure, "%s: %s", c->study[by], fracas_message());
     return FRACAS_OK;
 }
 
-/* ---- what came of it ---- */
+/* ---- the result ---- */
 
-static fracas_err add_refinement(const converging *c, fracas_refinement what,
+static fracas_err add_refinement(const converging *c, fracas_refinement by,
                                  fracas_convergence *convergence)
 {
-    const fracas_refined *refined = &c->refined[what], *base = base_of(c);
+    const fracas_refined *refined = &c->refined[by], *base = base_of(c);
     const size_t npoints = refined->campaign->npoints;
     fracas_hash *before = calloc(npoints, sizeof *before), *after = calloc(npoints, sizeof *after);
     fracas_err err = before && after ? FRACAS_OK : fracas_no_memory("the points of the campaign");
@@ -247,13 +245,13 @@ static fracas_err add_refinement(const converging *c, fracas_refinement what,
         before[p] = base->campaign->point[refined->from[p]].hash;
         after[p] = refined->campaign->point[p].hash;
     }
-    const fracas_refinement_map map = {fracas_refinement_name[what],
-                                       fracas_refinement_doc[what],
-                                       what != FRACAS_REFINE_MESH,
+    const fracas_refinement_map map = {fracas_refinement_name[by],
+                                       fracas_refinement_doc[by],
+                                       by != FRACAS_REFINE_MESH,
                                        npoints,
                                        before,
                                        after};
-    if (!err) err = fracas_convergence_add(convergence, c->study[what], &map);
+    if (!err) err = fracas_convergence_add(convergence, c->study[by], &map);
     free(before);
     free(after);
     return err;
@@ -305,7 +303,7 @@ static fracas_err converge_with(converging *c)
     TRY(fracas_arguments_time(c->arguments, fracas_cli_run_option("walltime"), &c->walltime));
     TRY(find_folder(c));
     TRY(make_campaigns(c));
-    TRY(say_costs(c));
+    TRY(print_costs(c));
     for (size_t i = 0; i < FRACAS_COUNT(order); i++)
         if (c->refined[order[i]].campaign) TRY(run_study(c, order[i]));
     TRY(compare(c, tolerance));

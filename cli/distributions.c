@@ -7,8 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* `pair`: which of the two pairs of keys that say the same the key belongs to, 0 if there are none.
- */
+/* `pair`: 1 or 2, the alternative pair of keys with this one; 0: no alternatives. */
 static void print_param(const fracas_param *param, size_t pair)
 {
     char name[80], fallback[FRACAS_NUMBER_TEXT] = "";
@@ -25,8 +24,7 @@ static void print_param(const fracas_param *param, size_t pair)
                param->choices[c]->doc);
 }
 
-/* Keys of a distribution without a default are four, two of its own and then two in their place, or
- * none. */
+/* A distribution has no optional keys, or four: a pair of its own and an alternative pair. */
 static void print_kind(const fracas_kind *kind)
 {
     size_t optional = 0, before = 0;

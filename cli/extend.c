@@ -7,7 +7,7 @@
 #include <limits.h>
 #include <stdio.h>
 
-/* What the study has, and what it will have; FRACAS_USAGE if that is less, or not for us to say. */
+/* Prints present and future numbers of realizations. FRACAS_USAGE for fewer, or with a rule. */
 static fracas_err check(const char *study, const fracas_campaign *campaign, int replicas)
 {
     int64_t before = 0;

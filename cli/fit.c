@@ -19,8 +19,7 @@ static const fracas_option options[] = {
     [JSON] = {"json", NULL, "print the fits as JSON", 0},
 };
 
-/* What the file has of the other points as the analysis sees them; NULL if there is no file. Before
- * anything is computed: what cannot be read is said at once. */
+/* Reads valid fits of the other points before any computation; NULL without a file. */
 static fracas_err read_others(const char *study, const fracas_analysis *analysis, bool wanted,
                               fracas_fits **older)
 {
@@ -41,11 +40,10 @@ static fracas_err fit_study(const fracas_arguments *arguments, const fracas_anal
     TRY(read_others(study, analysis, point != SIZE_MAX, &older));
     fracas_err code = fracas_fits_create(analysis, point, resamples, &fits);
     if (!code) {
-        const size_t made = fits->n; /* rows: what is shown, of all that is kept */
+        const size_t made = fits->n; /* rows to show, out of all rows */
         if (older) code = fracas_fits_complete(fits, older);
         if (!code)
-            code = fracas_fits_write(
-                fits, study); /* before anything is printed: who reads it may go away */
+            code = fracas_fits_write(fits, study); /* first: the reader of the output may end */
         fits->n = made;
         if (json) fracas_fits_write_json(fits, stdout);
         else fracas_fits_print(fits, analysis, stdout);
@@ -63,8 +61,7 @@ static fracas_err fit(const fracas_arguments *arguments)
     fracas_analysis *analysis;
     TRY(fracas_arguments_integer(arguments, POINT, 0, INT_MAX, &point));
     TRY(fracas_arguments_integer(arguments, RESAMPLES, 99, 100000, &resamples));
-    if (access(arguments->operand, W_OK) &&
-        errno != ENOENT) /* minutes of computing would be lost */
+    if (access(arguments->operand, W_OK) && errno != ENOENT) /* first: fits take minutes */
         return fracas_fail_system(
             errno,
             "fit: %s/" FRACAS_FITS_FILE

@@ -39,9 +39,10 @@ static void print_item(void *context, const fracas_collected *item)
     fracas_json_close_object(p->json);
 }
 
-static fracas_err collect(const char *study, const fracas_campaign *campaign, bool dry,
-                          bool with_json)
+static fracas_err gc(const fracas_arguments *arguments, const fracas_campaign *campaign)
 {
+    const char *study = arguments->operand;
+    const bool dry = arguments->value[DRY_RUN], with_json = arguments->value[JSON];
     fracas_json json;
     uint64_t freed = 0;
     printing p = {.json = with_json ? &json : NULL, .dry = dry};
@@ -64,16 +65,6 @@ static fracas_err collect(const char *study, const fracas_campaign *campaign, bo
     return code;
 }
 
-static fracas_err gc(const fracas_arguments *arguments)
-{
-    fracas_campaign *campaign;
-    TRY(fracas_cli_read_campaign(arguments->operand, &campaign));
-    fracas_err code = collect(arguments->operand, campaign, arguments->value[DRY_RUN],
-                              arguments->value[JSON]);
-    fracas_campaign_destroy(campaign);
-    return code;
-}
-
 const fracas_command fracas_command_gc = {
     .name = "gc",
     .operand = "STUDY",
@@ -84,5 +75,5 @@ const fracas_command fracas_command_gc = {
             "pages of the index back. What it does not know it lists and leaves.\n",
     .options = options,
     .noptions = FRACAS_COUNT(options),
-    .run = gc,
+    .run_on = gc,
 };

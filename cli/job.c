@@ -2,14 +2,13 @@
 #include "cli/job.h"
 
 #include "base/hash.h"
-#include "base/param.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static fracas_err check(const char *what, const char *value, bool quotes)
+static fracas_err check(const char *option, const char *value, bool quotes)
 {
     if (!value) return FRACAS_OK;
     for (const char *c = value; *c; c++)
@@ -17,7 +16,7 @@ static fracas_err check(const char *what, const char *value, bool quotes)
             return fracas_fail(FRACAS_USAGE,
                                "submit: %s is `%s`, which cannot stand in a batch script: it may "
                                "have no line breaks%s",
-                               what, value, quotes ? ", quotes or backslashes" : "");
+                               option, value, quotes ? ", quotes or backslashes" : "");
     return FRACAS_OK;
 }
 
@@ -81,80 +80,6 @@ static void write_settings(const fracas_job *job, FILE *out)
     fputs(" || exit 6\n", out);
 }
 
-/* What is the same in all scripts. */
-static const char *const body[] = {
-    "\n[ -n \"$SLURM_JOB_ID\" ] || { echo \"fracas: this is a batch script: sbatch $0\" >&2; exit "
-    "2; }\n"
-    "echo \"fracas: job $SLURM_JOB_ID on $SLURM_JOB_NODELIST, start $((${SLURM_RESTART_COUNT:-0} + "
-    "1)), $(date)\" >&2\n",
-
-    "\n# Seconds until Slurm ends the job.\n"
-    "left() {\n"
-    "    local text days=0 a b c\n"
-    "    text=$(squeue -h -j \"$SLURM_JOB_ID\" -o %L 2>/dev/null)\n"
-    "    case $text in *-*) days=${text%%-*} text=${text#*-} ;; esac\n"
-    "    IFS=: read -r a b c <<<\"$text\"\n"
-    "    [ -n \"$c\" ] || { c=$b b=$a a=0; }\n"
-    "    if [[ $days:$a:$b:$c =~ ^[0-9]+:[0-9]+:[0-9]+:[0-9]+$ ]]; then\n"
-    "        echo $((((10#$days * 24 + 10#$a) * 60 + 10#$b) * 60 + 10#$c))\n"
-    "    else\n"
-    "        echo $((time - SECONDS))\n"
-    "    fi\n"
-    "}\n",
-
-    "\n# Realizations that are done.\n"
-    "count() { \"$program\" status \"$study\" --json 2>/dev/null | sed -n 's/.*\"done\": "
-    "*\\([0-9]*\\).*/\\1/p' | head -n 1; }\n",
-
-    "\n# Slurm signals this shell, which has the run drain: USR1 before the time is over or the "
-    "job preempted, TERM when it is ended.\n"
-    "heard=0 pid=\n"
-    "drain() { heard=$((heard + 1)); [ -z \"$pid\" ] || kill -USR1 \"$pid\" 2>/dev/null; }\n"
-    "trap drain USR1 TERM\n",
-
-    "\n# Another run may hold the study: one before this, whose node died or is being cleared.\n"
-    "before=$(count)\n"
-    "for try in 1 2 3 4 5 6; do\n"
-    "    status=3\n"
-    "    [ \"$heard\" -eq 0 ] || break\n"
-    "    seconds=$(left)\n"
-    "    margin=$((seconds / 10 < 30 ? seconds / 10 : 30))\n"
-    "    [ \"$seconds\" -gt 10 ] || break\n"
-    "    \"$program\" \"${run[@]}\" --walltime \"$((seconds - margin))s\" &\n"
-    "    pid=$!\n"
-    "    [ \"$heard\" -eq 0 ] || kill -USR1 \"$pid\"\n"
-    "    seen=-1 status=255\n"
-    "    while [ \"$status\" -gt 128 ] && [ \"$seen\" -ne \"$heard\" ]; do # a wait that a signal "
-    "cut short\n"
-    "        seen=$heard\n"
-    "        wait \"$pid\"\n"
-    "        status=$?\n"
-    "    done\n"
-    "    pid=\n"
-    "    [ \"$status\" -le 128 ] || [ \"$heard\" -eq 0 ] || status=3\n"
-    "    [ \"$status\" -eq 4 ] || break\n"
-    "    sleep 20 &\n"
-    "    wait $!\n"
-    "done\n",
-
-    "\n[ \"$status\" -eq 3 ] || exit \"$status\"\n"
-    "state=$(squeue -h -j \"$SLURM_JOB_ID\" -o %T 2>/dev/null)\n"
-    "case $state in\n"
-    "COMPLETING | CANCELLED | '') echo 'fracas: Slurm has ended this job: it comes again only "
-    "where Slurm queues it again' >&2; exit 3 ;;\n"
-    "esac\n"
-    "if [ \"$SECONDS\" -gt $((time / 2)) ] && [ \"$(count)\" = \"$before\" ]; then\n"
-    "    echo \"fracas: nothing was finished in $SECONDS s: give the job more time; it is not "
-    "queued again\" >&2\n"
-    "    exit 3\n"
-    "fi\n"
-    "# Never status 0 here: a job that is being preempted would count as completed, and would not "
-    "come again.\n"
-    "scontrol requeue \"$SLURM_JOB_ID\" || echo \"fracas: the job could not be queued again; by "
-    "hand: sbatch $script\" >&2\n"
-    "exit 3\n",
-};
-
 static const char seal[] =
     "# Checksum of the lines above, by which `fracas submit` knows its own script: ";
 
@@ -167,7 +92,7 @@ fracas_err fracas_job_write(const fracas_job *job, FILE *out)
     fputs("#!/bin/bash\n# Written by `fracas submit`.\n", memory);
     write_options(job, memory);
     write_settings(job, memory);
-    for (size_t i = 0; i < FRACAS_COUNT(body); i++) fputs(body[i], memory);
+    fputs(fracas_job_body, memory);
     const bool whole = !fclose(memory);
     if (whole) fprintf(out, "%s%s%016" PRIx64 "\n", text, seal, fracas_checksum_of(text, size));
     free(text);

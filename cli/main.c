@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* fracas: the program. Its subcommands are one file each; what they share is cli.h. */
+/* The program fracas. */
 #include "cli/cli.h"
 
 #include "base/version.h"
+#include "campaigns/campaign.h"
 #include "campaigns/file/words.h"
 #include "campaigns/scheduler/run.h"
 
@@ -72,13 +73,23 @@ static fracas_err find_command(const char *name, const fracas_command **command)
                        fracas_words_hint(&words, "there are", hint));
 }
 
+static fracas_err run(const fracas_arguments *arguments)
+{
+    fracas_campaign *campaign;
+    if (arguments->command->run) return arguments->command->run(arguments);
+    TRY(fracas_cli_read_campaign(arguments->operand, &campaign));
+    fracas_err err = arguments->command->run_on(arguments, campaign);
+    fracas_campaign_destroy(campaign);
+    return err;
+}
+
 static fracas_err run_command(int argc, char **argv)
 {
     const fracas_command *command;
     fracas_arguments arguments;
     TRY(find_command(argv[1], &command));
     TRY(fracas_arguments_read(command, argc, argv, &arguments));
-    if (!arguments.help) return command->run(&arguments);
+    if (!arguments.help) return run(&arguments);
     print_help(command);
     return FRACAS_OK;
 }
@@ -112,15 +123,15 @@ static fracas_err dispatch(int argc, char **argv)
 
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/lsan_interface.h>
-/* Open MPI and the plugins that it unloads leave memory behind, under no name that a suppression
- * could have: a process that calls MPI_Init is not searched for leaks. */
+/* Open MPI and its unloaded plugins leak memory without names for a suppression: a process with
+ * MPI_Init is not searched for leaks. */
 int __lsan_is_turned_off(void)
 {
     return fracas_run_is_rank();
 }
 #endif
 
-/* A standard stream that the caller closed must not become a file of the study, nor a pipe. */
+/* A closed standard stream must not become a file of the study, nor a pipe. */
 static void open_standard_streams(void)
 {
     for (int fd; (fd = open("/dev/null", O_RDWR)) >= 0;) {

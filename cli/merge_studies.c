@@ -1,13 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/upkeep.h"
 
-#include "base/param.h"
-
 #include <inttypes.h>
 #include <stdio.h>
-
-enum { JSON };
-static const fracas_option options[] = {[JSON] = {"json", NULL, "print it as JSON"}};
 
 static void print_joined(fracas_cli_upkeep *upkeep, const char *from, const fracas_joined *joined,
                          int64_t both)
@@ -34,7 +29,7 @@ static fracas_err merge_studies(const fracas_arguments *arguments)
     int64_t both;
     TRY(fracas_cli_check_study(into));
     TRY(fracas_cli_check_study(from));
-    fracas_cli_upkeep_begin(&upkeep, into, arguments->value[JSON]);
+    fracas_cli_upkeep_begin(&upkeep, into, arguments->value[0]);
     fracas_err code = fracas_upkeep_join(into, from, &upkeep.said, &joined, &both, &end);
     if (!code) {
         fracas_cli_upkeep_counts(&upkeep, &end);
@@ -57,7 +52,7 @@ const fracas_command fracas_command_merge_studies = {
             "bit for bit before anything is copied: status 5 names the first difference. B stays "
             "as it is, but for damaged\n"
             "segments, which are set aside.\n",
-    .options = options,
-    .noptions = FRACAS_COUNT(options),
+    .options = &fracas_json_option,
+    .noptions = 1,
     .run = merge_studies,
 };

@@ -51,8 +51,7 @@ static fracas_err read_list(const char *text, double **time, size_t *count)
 {
     fracas_units *units;
     char *copy = strdup(text), *rest = copy;
-    *time = malloc((strlen(text) + 1) *
-                   sizeof **time); /* there are at most as many as characters */
+    *time = malloc((strlen(text) + 1) * sizeof **time); /* at most one a character */
     *count = 0;
     fracas_err err = copy && *time ? fracas_units_create(&units)
                                    : fracas_no_memory("the times of pictures");
@@ -66,7 +65,7 @@ static fracas_err read_list(const char *text, double **time, size_t *count)
     return err;
 }
 
-/* A whole number is how many, anything else the times themselves. */
+/* A whole number counts pictures, anything else is a list of times. */
 static fracas_err read_times(const fracas_arguments *arguments, fracas_picture_request *request,
                              double **time)
 {
@@ -83,7 +82,7 @@ static fracas_err read_times(const fracas_arguments *arguments, fracas_picture_r
     return FRACAS_OK;
 }
 
-/* "45,30"; false if it is no such pair. */
+/* "45,30"; false for anything else. */
 static bool read_pair(const char *text, double *first, double *second)
 {
     char *end;
@@ -94,7 +93,6 @@ static bool read_pair(const char *text, double *first, double *second)
     return end != text && !*end;
 }
 
-/* What is not given stays as it is. */
 static fracas_err read_view(const fracas_arguments *arguments, fracas_picture_request *request,
                             fracas_view *view)
 {

@@ -1,24 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/upkeep.h"
 
-#include "base/param.h"
 #include "campaigns/campaign.h"
 
-enum { JSON };
-static const fracas_option options[] = {[JSON] = {"json", NULL, "print it as JSON"}};
-
-static fracas_err reindex(const fracas_arguments *arguments)
+static fracas_err reindex(const fracas_arguments *arguments, const fracas_campaign *campaign)
 {
-    fracas_campaign *campaign;
     fracas_cli_upkeep upkeep;
     fracas_upkeep end;
-    TRY(fracas_cli_read_campaign(arguments->operand, &campaign));
-    fracas_cli_upkeep_begin(&upkeep, arguments->operand, arguments->value[JSON]);
+    fracas_cli_upkeep_begin(&upkeep, arguments->operand, arguments->value[0]);
     fracas_err code = fracas_upkeep_reindex(arguments->operand, campaign, &upkeep.said, &end);
     if (!code) fracas_cli_upkeep_counts(&upkeep, &end);
     if (!code) fracas_cli_upkeep_next(&upkeep, &end);
     fracas_cli_upkeep_end(&upkeep);
-    fracas_campaign_destroy(campaign);
     return code;
 }
 
@@ -32,7 +25,7 @@ const fracas_command fracas_command_reindex = {
             "has: which realizations FAILED and why,\n"
             "attempts, provenance, events; one that cannot stays as index.sqlite.before-TIME. The "
             "new one takes its place when it is whole.\n",
-    .options = options,
-    .noptions = FRACAS_COUNT(options),
-    .run = reindex,
+    .options = &fracas_json_option,
+    .noptions = 1,
+    .run_on = reindex,
 };

@@ -45,8 +45,8 @@ fracas_err fracas_cli_analyse(const char *study, fracas_campaign **campaign,
     return err;
 }
 
-/* The page does not show them, and says so; who looks at the table alone would not know. */
-static fracas_err say_stale(const fracas_analysis *analysis, const char *study)
+/* Tells readers of the table about outdated fits, as the page does. */
+static fracas_err print_stale(const fracas_analysis *analysis, const char *study)
 {
     fracas_fits *fits;
     size_t stale;
@@ -70,7 +70,7 @@ fracas_err fracas_cli_report(const char *study, bool json)
     if (json) code = fracas_analysis_write_json(analysis, study, stdout);
     else fracas_analysis_print_table(analysis, stdout);
     if (!code) code = fracas_report_write(analysis, study);
-    if (!code && !json) code = say_stale(analysis, study);
+    if (!code && !json) code = print_stale(analysis, study);
     fracas_analysis_destroy(analysis);
     fracas_campaign_destroy(campaign);
     if (!code && !json) printf("report: %s/report/index.html\n", study);

@@ -3,8 +3,8 @@
 
 #include "base/param.h"
 #include "campaigns/campaign.h"
-#include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/session/part.h"
+#include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/store/store.h"
 
 #include <limits.h>
@@ -94,7 +94,7 @@ fracas_err fracas_cli_read_run_options(const fracas_arguments *arguments, fracas
     return fracas_arguments_real(arguments, SEGMENT_SIZE, 1048576.0, &run->segment_bytes);
 }
 
-/* Where the run left its study. */
+/* The folder of the run's study. */
 static fracas_err find_study(const fracas_run_options *run, char *study, size_t size)
 {
     fracas_campaign *campaign;
@@ -111,7 +111,7 @@ fracas_err fracas_cli_run(const fracas_run_options *run, int argc, char **argv)
     if (!fracas_run_speaks()) return FRACAS_OK;
     if (end != FRACAS_OK && end != FRACAS_SOME_FAILED) return end;
 
-    char study[PATH_MAX], message[1024]; /* how the run ended, said after the report */
+    char study[PATH_MAX], message[1024]; /* the error, for after the report */
     snprintf(message, sizeof message, "%s", fracas_message());
     TRY(find_study(run, study, sizeof study));
     if (!ran) fprintf(stderr, "fracas: %s is complete, nothing to compute\n", study);
@@ -119,9 +119,8 @@ fracas_err fracas_cli_run(const fracas_run_options *run, int argc, char **argv)
     return end ? fracas_fail(end, "%s", message) : FRACAS_OK;
 }
 
-/* The options that were given, as --NAME=VALUE behind `before` arguments; freed by the caller, with
- * all from there on. */
-static fracas_err give_on(const fracas_arguments *given, int before, char **argv, int *argc)
+/* Appends the given options as --NAME=VALUE behind `before` arguments; the caller frees these. */
+static fracas_err append_options(const fracas_arguments *given, int before, char **argv, int *argc)
 {
     *argc = before;
     for (size_t i = 0; i < FRACAS_NRUN_OPTIONS; i++) {
@@ -135,8 +134,7 @@ static fracas_err give_on(const fracas_arguments *given, int before, char **argv
     return FRACAS_OK;
 }
 
-/* "K/N" of a study that computes a part of its campaign, else "". An index that cannot be read the
- * run will speak of. */
+/* "K/N" of a study of one part, else "". The run will report a damaged index. */
 static void read_own_part(const char *study, char *text, size_t size)
 {
     fracas_index *index;
@@ -151,7 +149,7 @@ static void read_own_part(const char *study, char *text, size_t size)
 fracas_err fracas_cli_run_as(const fracas_arguments *arguments, const char *file, const char *study,
                              fracas_cli_runner *runner)
 {
-    /* As `run` has them: behind --study, which is not given. */
+    /* The options of `run`, with --study first, not given. */
     const fracas_command as_run = {.name = arguments->command->name,
                                    .options = fracas_cli_run_options,
                                    .noptions = FRACAS_NRUN_OPTIONS};
@@ -167,7 +165,7 @@ fracas_err fracas_cli_run_as(const fracas_arguments *arguments, const char *file
     TRY(fracas_cli_read_run_options(&given, &run, &none));
     run.file = file;
     run.study = study;
-    fracas_err code = give_on(&given, BEFORE, argv, &argc);
+    fracas_err code = append_options(&given, BEFORE, argv, &argc);
     if (!code) code = runner(&run, argc, argv);
     for (int i = BEFORE; i < argc; i++) free(argv[i]);
     return code;

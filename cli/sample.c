@@ -33,8 +33,8 @@ static bool write_to(const char *path, const fracas_sample *sample,
     return fclose(out) == 0 && !bad;
 }
 
-/* Writes the file whole, or leaves what was there: under another name, renamed at the end. A
- * device, a pipe or a link is written as it is. `write` reports nothing, the stream does. */
+/* Writes the file whole under another name and renames it; writes a device, pipe or link directly.
+ * Errors are those of the stream. */
 static fracas_err write_file(const fracas_sample *sample,
                              void (*write)(const fracas_sample *sample, FILE *out),
                              const char *path)

@@ -4,10 +4,9 @@
 #include "analysis/data/format.h"
 #include "analysis/summary/statistics.h"
 #include "base/json.h"
-#include "base/param.h"
 #include "campaigns/campaign.h"
-#include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/session/part.h"
+#include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/store/store.h"
 
 #include <inttypes.h>
@@ -15,19 +14,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { JSON };
-static const fracas_option options[] = {[JSON] = {"json", NULL, "print it as JSON"}};
-
-/* What there is to say: all realizations, and those of each point. */
+/* State of a study: all realizations, and each point's. */
 typedef struct {
     const char *study;
     const fracas_campaign *campaign;
     fracas_index *index;
     bool complete;          /* study.h5 is of this campaign and nothing is left to compute */
-    fracas_lock_state lock; /* held: somebody computes it now */
-    char holder[FRACAS_HOLDER_TEXT]; /* of the lock */
-    int part, parts;                 /* that it computes */
-    int64_t share, left; /* realizations of that part, and those of them to be computed yet */
+    fracas_lock_state lock; /* held: a run computes it now */
+    char holder[FRACAS_HOLDER_TEXT]; /* the lock's */
+    int part, parts;                 /* its part of the campaign */
+    int64_t part_all, part_left;     /* realizations of the part, and its uncomputed ones */
     fracas_index_counts all;
     fracas_index_counts *point; /* campaign->npoints */
 } fracas_status;
@@ -61,7 +57,7 @@ static void write_failure(void *json, const fracas_index_row *row, const char *r
     fracas_json_close_object(json);
 }
 
-/* What was decided on the replicas of a point, round by round. */
+/* The decisions on the replicas of a point, by round. */
 static fracas_err write_decisions(fracas_json *json, const fracas_status *status, size_t p)
 {
     fracas_decision *decision;
@@ -98,8 +94,8 @@ static fracas_err write_json(const fracas_status *status)
     fracas_json_text(&json, "holder", status->holder);
     fracas_json_integer(&json, "part", status->part);
     fracas_json_integer(&json, "parts", status->parts);
-    fracas_json_integer(&json, "part_realizations", status->share);
-    fracas_json_integer(&json, "part_planned", status->left);
+    fracas_json_integer(&json, "part_realizations", status->part_all);
+    fracas_json_integer(&json, "part_planned", status->part_left);
     write_counts(&json, &status->all);
     fracas_json_integer(&json, "segments", status->all.segments);
     fracas_json_integer(&json, "bytes", status->all.bytes);
@@ -194,9 +190,9 @@ static const char *state_of(const fracas_status *status, char text[5000])
     if (status->lock == FRACAS_LOCK_HELD) return "being computed";
     if (status->complete)
         return status->all.failed == 0 ? "complete" : "computed, some realizations FAILED (below)";
-    if (status->parts > 1 && status->left == 0)
+    if (status->parts > 1 && status->part_left == 0)
         return "its part is complete: `fracas merge-studies` makes one study of all parts";
-    /* not the file that the user ran: the study may have been extended since */
+    /* not the user's file: the study may have been extended since */
     snprintf(text, 5000,
              "interrupted: `fracas run %.2000s/campaign.yaml --study %.2000s` resumes it",
              status->study, status->study);
@@ -211,7 +207,7 @@ static fracas_err print_text(const fracas_status *status)
     printf("state         %s\n", state_of(status, state));
     if (status->parts > 1)
         printf("part          %d of %d: %" PRId64 " realizations, %" PRId64 " to be computed\n",
-               status->part, status->parts, status->share, status->left);
+               status->part, status->parts, status->part_all, status->part_left);
     if (status->lock != FRACAS_LOCK_FREE)
         printf("lock          %s: %s\n", lock_text[status->lock], status->holder);
     printf("realizations  %" PRId64 ": %" PRId64 " done, %" PRId64 " failed, %" PRId64
@@ -228,27 +224,26 @@ static fracas_err print_text(const fracas_status *status)
     return fracas_index_failures(status->index, &status->campaign->table, print_failure, &first);
 }
 
-/* Of the part that the study computes. */
+/* Counts the part of the study. */
 static fracas_err count_part(fracas_status *status)
 {
     fracas_index_row *row;
     size_t count;
     TRY(fracas_index_part(status->index, &status->part, &status->parts));
-    status->share = status->all.realizations;
-    status->left = status->all.planned + status->all.leased;
+    status->part_all = status->all.realizations;
+    status->part_left = status->all.planned + status->all.leased;
     if (status->parts < 2) return FRACAS_OK;
     TRY(fracas_index_rows(status->index, &status->campaign->table, &row, &count));
     count = fracas_run_part(status->part, status->parts, row, count);
-    status->share = (int64_t)count;
-    status->left = 0;
+    status->part_all = (int64_t)count;
+    status->part_left = 0;
     for (size_t i = 0; i < count; i++)
-        status->left += row[i].status == FRACAS_PLANNED || row[i].status == FRACAS_LEASED;
+        status->part_left += row[i].status == FRACAS_PLANNED || row[i].status == FRACAS_LEASED;
     free(row);
     return FRACAS_OK;
 }
 
-/* Where nobody computes nothing is leased: what a run that ended had given out is to be computed.
- */
+/* Without a run nothing is leased: old leases are to be computed again. */
 static void unlease(fracas_index_counts *counts)
 {
     counts->planned += counts->leased;
@@ -272,24 +267,15 @@ static fracas_err count(fracas_status *status)
     return fracas_study_settled(status->study, status->index, campaign, &status->complete, &failed);
 }
 
-static fracas_err look(const fracas_campaign *campaign, const fracas_arguments *arguments)
+static fracas_err status(const fracas_arguments *arguments, const fracas_campaign *campaign)
 {
-    fracas_status status = {.study = arguments->operand, .campaign = campaign};
-    TRY(fracas_index_open(status.study, false, &status.index));
-    status.point = calloc(campaign->npoints, sizeof *status.point);
-    fracas_err code = status.point ? count(&status) : fracas_no_memory("the counts of the points");
-    if (!code) code = arguments->value[JSON] ? write_json(&status) : print_text(&status);
-    free(status.point);
-    fracas_index_close(status.index);
-    return code;
-}
-
-static fracas_err status(const fracas_arguments *arguments)
-{
-    fracas_campaign *campaign;
-    TRY(fracas_cli_read_campaign(arguments->operand, &campaign));
-    fracas_err code = look(campaign, arguments);
-    fracas_campaign_destroy(campaign);
+    fracas_status state = {.study = arguments->operand, .campaign = campaign};
+    TRY(fracas_index_open(state.study, false, &state.index));
+    state.point = calloc(campaign->npoints, sizeof *state.point);
+    fracas_err code = state.point ? count(&state) : fracas_no_memory("the counts of the points");
+    if (!code) code = arguments->value[0] ? write_json(&state) : print_text(&state);
+    free(state.point);
+    fracas_index_close(state.index);
     return code;
 }
 
@@ -298,7 +284,7 @@ const fracas_command fracas_command_status = {
     .operand = "STUDY",
     .doc = "Says how far STUDY is, point by point",
     .more = "\nIt only looks: it can be asked while the study is being computed.\n",
-    .options = options,
-    .noptions = FRACAS_COUNT(options),
-    .run = status,
+    .options = &fracas_json_option,
+    .noptions = 1,
+    .run_on = status,
 };

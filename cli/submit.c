@@ -5,8 +5,8 @@
 #include "base/param.h"
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/session/costs.h"
-#include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/session/part.h"
+#include "campaigns/scheduler/session/prepare.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -16,7 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Behind those of `fracas run`, which are handed on to it. */
+/* Behind the options of `fracas run`. */
 enum {
     NODES = FRACAS_NRUN_OPTIONS,
     TIME,
@@ -53,7 +53,7 @@ typedef struct {
     char *run[MOST_WORDS];                /* "fracas", then the job's */
 } submission;
 
-/* The command line of the run, checked as `fracas run` does. */
+/* The command line of the run, with the checks of `fracas run`. */
 static fracas_err make_run(const fracas_arguments *arguments, submission *s,
                            fracas_run_options *run)
 {
@@ -79,7 +79,7 @@ static fracas_err make_run(const fracas_arguments *arguments, submission *s,
     return FRACAS_OK;
 }
 
-/* All that can be known now of whether the run will start. */
+/* Checks the run as far as possible before its start. */
 static fracas_err check_campaign(const fracas_run_options *run, submission *s)
 {
     fracas_campaign *campaign;
@@ -142,7 +142,7 @@ static fracas_err find_places(submission *s)
     return FRACAS_OK;
 }
 
-/* A file that something else wrote, or a hand has changed, is not overwritten. */
+/* Refuses to overwrite a foreign or changed file. */
 static fracas_err check_place(const char *path)
 {
     bool own;
@@ -171,7 +171,7 @@ static fracas_err write_script(const submission *s)
     return err;
 }
 
-/* What sbatch says on stdout, the number of the job, is this program's output. */
+/* The output of sbatch, the number of the job, goes to this program's stdout. */
 static fracas_err hand_in(const submission *s)
 {
     enum { MISSING = 127 };

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the commands that look after a study print: what they did, line by line, and what the study
- * is then. */
+/* Output of reindex, merge and merge-studies: actions line by line, then counts of the study. */
 #ifndef FRACAS_CLI_UPKEEP_H
 #define FRACAS_CLI_UPKEEP_H
 

@@ -22,7 +22,7 @@ typedef struct {
     const char *study;
     bool full;
     fracas_json *json; /* NULL: text */
-    FILE *notes;       /* kept until all problems are there, each with its NUL */
+    FILE *notes;       /* printed after all problems; each ends with NUL */
     int64_t problems;
 } verification;
 
@@ -40,7 +40,7 @@ static void keep_note(void *context, const char *text)
     fputc('\0', v->notes);
 }
 
-/* Decisions on replicas against the realizations that they are made of. */
+/* Checks decisions on replicas against their realizations. */
 static fracas_err check_decisions(const char *study, const fracas_campaign *campaign)
 {
     fracas_index *index;
@@ -50,13 +50,13 @@ static fracas_err check_decisions(const char *study, const fracas_campaign *camp
     return err;
 }
 
-static void say(verification *v, const char *problem)
+static void report(verification *v, const char *problem)
 {
     print_problem(v, problem);
     v->problems++;
 }
 
-/* Something is to be computed yet. */
+/* Some realizations are not computed yet. */
 static bool is_growing(const char *study)
 {
     fracas_index *index;
@@ -74,7 +74,7 @@ static void verify_campaign(verification *v)
     fracas_reader *reader;
     char file[PATH_MAX];
     if (fracas_cli_read_campaign(v->study, &campaign)) {
-        say(v, fracas_message());
+        report(v, fracas_message());
         return;
     }
     snprintf(file, sizeof file, "%s/study.h5", v->study);
@@ -83,7 +83,8 @@ static void verify_campaign(verification *v)
         const bool same = fracas_hash_equal(&fracas_reader_header(reader)->campaign,
                                             &campaign->hash);
         if (!same && !is_growing(v->study))
-            say(v, "campaign.yaml is not the campaign of study.h5, which is older: run the file it "
+            report(v,
+                   "campaign.yaml is not the campaign of study.h5, which is older: run the file it "
                    "was made from");
         else if (!same)
             fprintf(v->notes,
@@ -92,7 +93,7 @@ static void verify_campaign(verification *v)
                     v->study, v->study, '\0');
         else if ((v->full && fracas_reader_check_meshes(reader, &meshes)) ||
                  check_decisions(v->study, campaign))
-            say(v, fracas_message());
+            report(v, fracas_message());
         fracas_reader_close(reader);
     }
     fracas_campaign_destroy(campaign);

@@ -216,6 +216,12 @@ bool fracas_strength_has_size_effect(const fracas_strength *strength)
     return fracas_distribution_of(strength)->size_effect || has_reference(strength);
 }
 
+const char *fracas_strength_scatter_remedy(const fracas_strength *strength)
+{
+    const char *remedy = fracas_distribution_of(strength)->scatter_remedy;
+    return remedy ? remedy : "";
+}
+
 size_t fracas_strength_count(const fracas_strength *strength)
 {
     return fracas_strength_is_given(strength) ? fracas_given_count(strength) : 0;

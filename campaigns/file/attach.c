@@ -38,8 +38,7 @@ static fracas_err check_copy(const fracas_attachment *read, const char *path)
                        path, read->digest);
 }
 
-/* A name that leads nowhere is an error of the campaign file, any other reason one of the system.
- */
+/* A wrong name is an error of the campaign file, any other reason one of the system. */
 static fracas_err cannot(const char *verb, const char *path)
 {
     const int reason = errno;

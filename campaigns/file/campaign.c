@@ -31,7 +31,7 @@ static bool is_identity(const fracas_column *column)
     return strcmp(column->path, "case") != 0 && strncmp(column->path, "derived.", 8) != 0;
 }
 
-/* Number of values of point `b` of `before` that differ in point `n` of `now`, and the first one. A
+/* Number of values of point `b` of `before` different at point `n` of `now`, and the first one. A
  * column only in `now` comes with a kind, which differs too. */
 static size_t count_differences(const fracas_point_table *now, size_t n,
                                 const fracas_point_table *before, size_t b,

@@ -12,7 +12,7 @@
  * the campaign's fracas_output: its owner. */
 typedef struct {
     const fracas_section *table;
-    size_t offset; /* of the section's struct in its owner */
+    size_t offset; /* to the section's struct in its owner */
 } fracas_file_section;
 
 /* A scalar or enum of a file. Kinds of one section with a common key (`minimum`) share its leaf:
@@ -21,7 +21,7 @@ typedef struct {
     const fracas_file_section *section;
     const char *path;          /* dotted; for a section of a kind alone (`model`), its name */
     const char *key;           /* in its section */
-    const fracas_param *param; /* of the first kind that has it; NULL: names the section's kind */
+    const fracas_param *param; /* the first kind's; NULL: names the section's kind */
 } fracas_leaf;
 
 typedef struct {

@@ -176,7 +176,7 @@ static bool is_same_mesh(const fracas_spec *a, const fracas_spec *b)
            memcmp(&a->mesh, &b->mesh, sizeof a->mesh) == 0;
 }
 
-/* Makes the slow mesh only if the strength needs it and it differs from that of the last point. */
+/* Makes the slow mesh only if the strength needs it and it is not the mesh of the last point. */
 static fracas_err mean_strength(const fracas_campaign *campaign, size_t p, known_mesh *mesh,
                                 double *mean)
 {

@@ -12,12 +12,12 @@ typedef enum { FRACAS_SCALAR, FRACAS_LIST, FRACAS_MAP } fracas_node_type;
 
 typedef struct fracas_node {
     fracas_node_type type;
-    int line, column; /* its place, from 1; a column counts characters */
-    const char *text; /* of a scalar: at most 200 bytes of UTF-8 without control characters */
-    struct fracas_node *key;   /* of an entry of a map: the scalar before the colon */
+    int line, column;          /* its place, from 1; a column counts characters */
+    const char *text;          /* scalar: at most 200 bytes of UTF-8 without control characters */
+    struct fracas_node *key;   /* entry of a map: the scalar before the colon */
     struct fracas_node *first; /* entries of a list or map, in file order */
     struct fracas_node *next;  /* the next entry beside this one */
-    size_t count;              /* of entries */
+    size_t count;              /* number of entries */
 } fracas_node;
 
 /* Reads one YAML document whose top is a map. FRACAS_USAGE, with file:line:column, for anything but

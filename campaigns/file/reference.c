@@ -87,7 +87,7 @@ static void write_default(const fracas_section *model, const fracas_section *sec
     fprintf(out, ")");
 }
 
-/* The kinds for a model in each section that it restricts. */
+/* The kinds for a model in each restricted section. */
 static void write_partners(const fracas_catalog *catalog, const fracas_kind *model, FILE *out)
 {
     if (model->ngoes_with == 0) return;

@@ -27,7 +27,7 @@ void fracas_replicas_write(const fracas_point *point, FILE *out);
 bool fracas_replicas_same(const fracas_point *a, const fracas_point *b);
 
 /* FRACAS_OK if a study of `before` can become one of `now`: at least as many replicas, and a rule
- * that continues wherever the former one did. Else FRACAS_DAMAGED naming the first difference. `b`:
+ * without earlier stops. Else FRACAS_DAMAGED naming the first difference. `b`:
  * number of the point in `before`. */
 FRACAS_MUST_USE fracas_err fracas_replicas_extend(const fracas_point *now,
                                                   const fracas_point *before, size_t b);

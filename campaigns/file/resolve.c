@@ -137,7 +137,7 @@ static bool is_inherited(const fracas_file *file, const fracas_draft *draft,
                          const fracas_section *table, const fracas_kind *model, const char *key)
 {
     const fracas_setting *before = selected(file, draft, BASE, file->catalog->section);
-    if (fracas_section_param(table, NULL, NULL, key)) return true; /* of the section itself */
+    if (fracas_section_param(table, NULL, NULL, key)) return true; /* the section's own */
     return fracas_section_common(table, model, key) &&
            (!before || fracas_section_common(table, before->kind, key));
 }

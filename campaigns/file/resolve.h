@@ -7,8 +7,8 @@
 
 /* One setting (or NULL) for each leaf of the catalog. */
 typedef struct {
-    const fracas_setting **base;  /* of the sections of the file */
-    const fracas_setting **swept; /* of the sweep, for this point */
+    const fracas_setting **base;  /* from the sections of the file */
+    const fracas_setting **swept; /* from the sweep, for this point */
 } fracas_draft;
 
 /* Checks the sections of the file, also values replaced at every point: each key belongs to its

@@ -206,7 +206,7 @@ fracas_err fracas_settings_add_section(const fracas_file *file, const fracas_fil
     return FRACAS_OK;
 }
 
-/* ---- checks that depend on the kind ---- */
+/* ---- checks by kind ---- */
 
 /* Range of a parameter, "more than 0 Pa, at most 1 Pa". */
 static void write_range(const fracas_param *param, char *text, size_t size)

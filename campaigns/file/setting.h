@@ -8,9 +8,9 @@
 typedef struct fracas_setting {
     const fracas_leaf *leaf;
     const fracas_node *node;             /* its place */
-    const fracas_kind *kind;             /* of a leaf that names a kind */
-    double value;                        /* of any other leaf, SI; of a choice, its index */
-    const fracas_attachment *attachment; /* of a file */
+    const fracas_kind *kind;             /* for the name of a kind */
+    double value;                        /* for any other leaf, SI; for a choice, its index */
+    const fracas_attachment *attachment; /* for a file */
     size_t drawn;                        /* number of the design's point, from 1; 0: not drawn */
     struct fracas_setting *next;
 } fracas_setting;

@@ -172,7 +172,7 @@ static fracas_err read_axis(const fracas_file *file, const fracas_node *node, fr
 
 /* ---- the sweep ---- */
 
-/* Each leaf has one axis, so that the order of the axes does not matter. */
+/* Each leaf has one axis: the order of the axes does not matter. */
 static fracas_err check_axes_apart(const fracas_file *file, const fracas_sweep *sweep,
                                    const fracas_setting **owner, size_t *owner_axis)
 {

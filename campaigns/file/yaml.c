@@ -13,7 +13,7 @@
 enum { MAX_BYTES = 16 << 20, MAX_NODES = 1000000, MAX_DEPTH = 16, MAX_TEXT = 200, MAX_KEYS = 500 };
 
 typedef struct {
-    const char *name; /* of the file */
+    const char *name; /* the file's */
     const unsigned char *bytes;
     size_t size;
     fracas_campaign_memory *memory;

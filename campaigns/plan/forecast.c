@@ -14,11 +14,11 @@
 #include <string.h>
 #include <time.h>
 
-enum { MAX_LANES = 8 }; /* of a batch */
+enum { MAX_LANES = 8 }; /* in a batch */
 
 /* Extents of a mesh's strengths. */
 typedef struct {
-    fracas_extent mean, least; /* where strengths depend on it, they are largest at the least */
+    fracas_extent mean, least; /* with a size effect, strengths are largest at the least */
 } extents;
 
 static extents extents_of(const fracas_model *model)
@@ -37,14 +37,13 @@ static extents extents_of(const fracas_model *model)
     return of;
 }
 
-/* The strength of an interface of this extent that the share `u` of them does not reach. */
+/* Quantile `u` of the strengths of interfaces of this extent [Pa]. */
 static double strength_at(const fracas_point *point, fracas_extent extent, double u)
 {
     return fracas_strength_quantile(&point->strength, extent, fracas_probability_of(u));
 }
 
-/* `most`: the largest factor; of the law's strongest of all, were it where the material is
- * strongest. */
+/* Checks the strongest of all strengths at the place of the largest factor, `most`. */
 static fracas_err check_strongest(const fracas_model *model, const fracas_point *point,
                                   fracas_extent extent, double most)
 {
@@ -72,7 +71,7 @@ static fracas_err check_count(const fracas_model *model, const fracas_strength *
         strength->file->path, given, interfaces);
 }
 
-/* Gives each interface its strength, as a run would, and checks it. */
+/* Samples the strength of each interface and checks it. */
 static fracas_err try_places(const fracas_model *model, const fracas_strength *strength,
                              const fracas_field *field, double (*position)[3], double *sigma_c)
 {
@@ -110,12 +109,10 @@ static fracas_err check_strengths(const fracas_model *model, const fracas_point 
     return check_strongest(model, point, extent, most);
 }
 
-/* A stress that an uncracked ring with this load stays below until t [Pa]. Radially it is u'' + w^2
- * u = a, w = c/R, sigma = E u/R:
- * - a radial velocity v takes a free ring to E v/c and no further, then it swings back
- * (docs/theory/ring.md);
- * - a radial acceleration of at most a takes it to E a t^2/(2 R), and to 2 R rho a and no further;
- * - so does a circumferential velocity v by a = v^2/R. */
+/* Upper bound of the stress in an uncracked ring until t [Pa]. Radially u'' + w^2 u = a with w =
+ * c/R and sigma = E u/R (docs/theory/ring.md): radial velocity v            min(E v t/R, E v/c)
+ *   radial acceleration <= a     min(E a t^2/(2 R), 2 R rho a)
+ *   circumferential velocity v   the same with a = v^2/R */
 static double ring_stress_bound(const fracas_spec *spec, double t)
 {
     const fracas_loading *loading = &spec->loading;
@@ -123,8 +120,7 @@ static double ring_stress_bound(const fracas_spec *spec, double t)
                  radius = spec->geometry.radius;
     const double mass = rho * spec->geometry.area; /* per length */
     const bool radial = loading->direction == &fracas_axis_radial;
-    double stress = 0, outward = 0,
-           along = 0; /* acceleration [m/s2], velocity [m/s]: the largest until t */
+    double stress = 0, outward = 0, along = 0; /* maxima until t: [Pa], [m/s2], [m/s] */
     if (loading->type == &fracas_loading_initial_velocity) {
         stress = young * fabs(loading->radial) / radius * fmin(t, radius / sqrt(young / rho));
         along = loading->circumferential;
@@ -142,9 +138,8 @@ static double ring_stress_bound(const fracas_spec *spec, double t)
     return stress + fmin(young * t * t / (2 * radius), 2 * radius * rho) * outward;
 }
 
-/* True if a plate stretches evenly until waves from its free edges arrive, which relieve it: it is
- * not held where it should move, nor is an edge free to shrink beside one that is not (its corner
- * concentrates stress). */
+/* True if a plate stretches evenly until relief waves from its free edges arrive: no edge is held
+ * against the motion, and no free edge meets a held one, whose corner concentrates stress. */
 static bool is_even(const fracas_spec *spec)
 {
     const bool moving = spec->loading.type == &fracas_loading_expansion;
@@ -161,11 +156,11 @@ static bool is_even(const fracas_spec *spec)
     return !(held && released);
 }
 
-/* A stress that an uncracked plate stays below until t [Pa]: as it stretches by (1, ratio) a, a =
- * rate t or w^2 t^2/2, the larger of both stresses along its sides, E a/(1 - nu) for ratio 1. A
- * free edge takes the stress across it away, by a wave that brings as much of compression and no
- * tension. In any direction, traction and shear/beta_c together are at most max(1, 1/beta_c) of
- * that. Holes and notches, held corners and shocks concentrate stress: none is known for these. */
+/* Upper bound of the stress in an uncracked plate until t [Pa]. It stretches by (1, ratio) a with
+ * a = rate t or w^2 t^2/2; the bound is the larger stress along its sides, E a/(1 - nu) for
+ * ratio 1. A free edge only relieves it. In any direction, traction and shear/beta_c together are
+ * at most max(1, 1/beta_c) times the bound. INFINITY for shapes, corners and shocks with a
+ * concentration of stress. */
 static double surface_stress_bound(const fracas_spec *spec, double t)
 {
     const fracas_loading *loading = &spec->loading;
@@ -180,7 +175,7 @@ static double surface_stress_bound(const fracas_spec *spec, double t)
            fmax(1.0, 1.0 / spec->cohesive.coupling);
 }
 
-/* A stress that the uncracked body stays below until time.end [Pa]. */
+/* Upper bound of the stress in the uncracked body until time.end [Pa]. */
 static double stress_bound(const fracas_spec *spec)
 {
     if (fracas_spec_is_surface(spec)) return surface_stress_bound(spec, spec->time.end);
@@ -194,8 +189,8 @@ static bool is_ring(const fracas_spec *spec)
     return spec->geometry.shape == &fracas_shape_ring;
 }
 
-/* True if the whole ring is compressed before time.end: a chain without bending stiffness then
- * folds, from round-off on. Held radial velocities keep it round. */
+/* True if the whole ring is compressed before time.end: without bending stiffness it folds,
+ * starting from round-off. Held radial velocities keep it round. */
 static bool is_folded(const fracas_spec *spec, const fracas_forecast *forecast)
 {
     const fracas_loading *loading = &spec->loading;
@@ -208,19 +203,19 @@ static bool is_folded(const fracas_spec *spec, const fracas_forecast *forecast)
                                    spec->time.end > 2 * forecast->turn);
 }
 
-/* Angle that a load along the ring turns it by until time.end [rad]. */
+/* Turn of the ring by a circumferential load until time.end [rad]. */
 static double turned_angle(const fracas_spec *spec)
 {
     const fracas_loading *loading = &spec->loading;
     const double t = spec->time.end, mass = spec->material.density * spec->geometry.area;
-    double way = 0;
-    if (loading->type == &fracas_loading_initial_velocity) way = loading->circumferential * t;
+    double path = 0; /* [m] */
+    if (loading->type == &fracas_loading_initial_velocity) path = loading->circumferential * t;
     else if (loading->direction != &fracas_axis_circumferential) return 0;
     else if (loading->type == &fracas_loading_held_velocity)
-        way = (loading->velocity + 0.5 * loading->acceleration * t) * t;
+        path = (loading->velocity + 0.5 * loading->acceleration * t) * t;
     else if (loading->type == &fracas_loading_force)
-        way = (0.5 * loading->force + loading->force_rate * t / 6) * t * t / mass;
-    return fabs(way) / spec->geometry.radius;
+        path = (0.5 * loading->force + loading->force_rate * t / 6) * t * t / mass;
+    return fabs(path) / spec->geometry.radius;
 }
 
 /* Diagonal of the box around all interfaces [m]. */
@@ -265,6 +260,8 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     forecast->flat = point->strength.factor && factor.least == factor.most;
     forecast->uniform = factor.least == factor.most && strength_at(point, extent.mean, 0.25) ==
                                                            strength_at(point, extent.mean, 0.75);
+    forecast->equal = forecast->uniform &&
+                      fracas_strength_deviation(&point->strength, extent.mean) == 0;
     forecast->lines = forecast->uniform && spec->mesh.spacing == &fracas_spacing_triangles &&
                       spec->mesh.amplitude == 0;
     forecast->mean = mean;
@@ -287,7 +284,7 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     return check_strengths(model, point, extent.least, factor.most);
 }
 
-/* The forecast, and the model that it was made from, or NULL after an error. */
+/* The forecast and its model, NULL after an error. */
 static fracas_err forecast_with(const fracas_campaign *campaign, size_t point,
                                 fracas_forecast *forecast, fracas_model **model)
 {
@@ -311,7 +308,7 @@ fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point,
 
 /* ---- size ---- */
 
-/* Bytes of one realization in study.h5, its values counted in the widths of a record. */
+/* Bytes of one realization in study.h5, by the widths of a record. */
 static double realization_bytes(const fracas_output *output, const fracas_forecast *forecast)
 {
     const double fragments = fmax(1.0,
@@ -337,7 +334,7 @@ fracas_err fracas_plan_cost(const fracas_campaign *campaign, size_t point, doubl
 
 /* ---- speed ---- */
 
-/* Processor time: what a core that is free would take. */
+/* Processor time [s], as on a free core. */
 static double seconds(void)
 {
     struct timespec now;
@@ -350,12 +347,12 @@ static size_t lanes_of(const fracas_point *point)
     return point->replicas < MAX_LANES ? (size_t)point->replicas : MAX_LANES;
 }
 
-/* Element-steps and seconds of something that ran. */
+/* Element-steps and seconds of a timed run. */
 typedef struct {
     double element_steps, seconds;
 } effort;
 
-/* A batch of `lanes` realizations in which all strengths are this one. */
+/* A batch of `lanes` realizations with equal strengths. */
 static fracas_err make_batch(const fracas_model *model, double strength, size_t lanes,
                              fracas_record *record, fracas_batch **batch)
 {
@@ -371,7 +368,6 @@ static fracas_err make_batch(const fracas_model *model, double strength, size_t 
     return FRACAS_OK;
 }
 
-/* Runs one. */
 static fracas_err run_batch(const fracas_model *model, double strength, size_t lanes, effort *spent)
 {
     fracas_batch *batch;
@@ -391,18 +387,17 @@ static fracas_err run_batch(const fracas_model *model, double strength, size_t l
 static fracas_err time_steps(const fracas_campaign *campaign, size_t index, double end,
                              effort *spent)
 {
-    enum { TIMED = 100000 }; /* elements: beyond them speed is that of memory */
+    enum { TIMED = 100000 }; /* elements; above, memory limits the speed */
     const fracas_point *point = &campaign->point[index];
     fracas_spec spec = point->spec;
     fracas_model *model;
-    if (spec.mesh.elements > TIMED) { /* a shorter bar or smaller ring of the same elements */
+    if (spec.mesh.elements > TIMED) { /* a shorter bar or smaller ring of equal elements */
         spec.geometry.length *= TIMED / (double)spec.mesh.elements;
         spec.geometry.radius *= TIMED / (double)spec.mesh.elements;
         spec.mesh.elements = TIMED;
     }
     spec.time.end = fmin(spec.time.end, end);
-    spec.cohesive.refinement = 1.0; /* a step takes the same time however short it is, and so there
-                                       are as many as asked for */
+    spec.cohesive.refinement = 1.0; /* the time of a step does not depend on its length */
     TRY(fracas_point_model_like(campaign, index, &spec, &model));
     const double strength = fracas_strength_mean(&point->strength, extents_of(model).mean);
     fracas_err err = run_batch(model, strength, lanes_of(point), spent);
@@ -410,10 +405,9 @@ static fracas_err time_steps(const fracas_campaign *campaign, size_t index, doub
     return err;
 }
 
-/* Steps of a surface, on the model that is there: making one takes as long as many of its steps,
- * which are long. Interfaces are so weak that they crack at once: what is broken takes twice the
- * time of what is whole. The first two steps, which find nothing in a cache and book every onset,
- * do not count unless they are the last. */
+/* Times steps of a surface on its present model, since making one takes as long as many steps. All
+ * interfaces are weak and crack at once: broken ones take twice the time of whole ones. The first
+ * two steps, with cold caches and all onsets, count only if they are the last. */
 static fracas_err time_surface(const fracas_model *model, double mean, size_t lanes,
                                fracas_forecast *forecast)
 {
@@ -438,9 +432,8 @@ static fracas_err time_surface(const fracas_model *model, double mean, size_t la
     return err;
 }
 
-/* Times about 2e7 element-steps, a twentieth of a second, less the time that a batch of one step
- * takes: what a batch does once counts little in a full run. A batch that is too short for the
- * clock is repeated, and taken as it is if even many are. */
+/* Times about 2e7 element-steps (0.05 s) minus a batch of one step, since the start of a batch
+ * counts little in a full run. A batch too short for the clock is repeated up to 50 times. */
 static fracas_err time_point(const fracas_campaign *campaign, size_t index,
                              fracas_forecast *forecast)
 {
@@ -463,9 +456,8 @@ static fracas_err time_point(const fracas_campaign *campaign, size_t index,
     return FRACAS_OK;
 }
 
-/* True if an element of a step costs both the same: what counts for surfaces only is the same for
- * all others. */
-static bool is_alike(const fracas_spec *a, const fracas_spec *b)
+/* True if an element-step costs the same at both points. */
+static bool is_similar(const fracas_spec *a, const fracas_spec *b)
 {
     if (a->formulation != b->formulation) return false;
     if (!fracas_spec_is_surface(a)) return true;
@@ -475,13 +467,12 @@ static bool is_alike(const fracas_spec *a, const fracas_spec *b)
            a->time.integrator == b->time.integrator && a->time.mass == b->time.mass;
 }
 
-/* The speed of an earlier point of the same lanes and of half to twice the elements; 0 if there is
- * none. */
-static double speed_of_like(const fracas_campaign *campaign, const fracas_forecast *forecast,
-                            size_t point)
+/* Speed of an earlier similar point with the same lanes and half to twice the elements; 0: none. */
+static double speed_of_similar(const fracas_campaign *campaign, const fracas_forecast *forecast,
+                               size_t point)
 {
     for (size_t p = point; p-- > 0;)
-        if (is_alike(&campaign->point[p].spec, &campaign->point[point].spec) &&
+        if (is_similar(&campaign->point[p].spec, &campaign->point[point].spec) &&
             lanes_of(&campaign->point[p]) == lanes_of(&campaign->point[point]) &&
             forecast[p].elements <= 2 * forecast[point].elements &&
             forecast[point].elements <= 2 * forecast[p].elements)
@@ -489,9 +480,9 @@ static double speed_of_like(const fracas_campaign *campaign, const fracas_foreca
     return 0.0;
 }
 
-/* ---- all of it ---- */
+/* ---- all points ---- */
 
-/* Forecast p, with its speed; those before it are there. */
+/* Forecast p with its speed, given the forecasts before it. */
 static fracas_err forecast_timed(const fracas_campaign *campaign, size_t p,
                                  fracas_forecast *forecast)
 {
@@ -499,7 +490,7 @@ static fracas_err forecast_timed(const fracas_campaign *campaign, size_t p,
     fracas_model *model;
     fracas_err err;
     TRY(forecast_with(campaign, p, &forecast[p], &model));
-    forecast[p].speed = speed_of_like(campaign, forecast, p);
+    forecast[p].speed = speed_of_similar(campaign, forecast, p);
     if (forecast[p].speed > 0.0) err = FRACAS_OK;
     else if (fracas_model_surface(model))
         err = time_surface(model, forecast[p].mean, lanes_of(point), &forecast[p]);

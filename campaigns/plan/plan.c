@@ -15,16 +15,15 @@
 #include <string.h>
 #include <unistd.h>
 
-/* A campaign and what is said about it. */
+/* A campaign and its predicted costs. */
 typedef struct {
     const fracas_campaign *campaign;
-    const fracas_point_table *table; /* of the campaign */
+    const fracas_point_table *table; /* the campaign's */
     int jobs;
-    fracas_forecast *forecast; /* of each point */
-    size_t nvaried, *varied;   /* columns that tell points apart */
-    int64_t realizations,
-        most; /* totals: as asked for, or at first and at most where rules decide */
-    double least_time, time, least_bytes, bytes; /* of these */
+    fracas_forecast *forecast;                   /* one a point */
+    size_t nvaried, *varied;                     /* columns that vary */
+    int64_t realizations, most;                  /* totals; with rules, minimum and maximum */
+    double least_time, time, least_bytes, bytes; /* their totals [s], [bytes] */
     double slowest;                              /* element-steps per second */
 } campaign_plan;
 
@@ -34,8 +33,8 @@ static void plan_clear(campaign_plan *plan)
     free(plan->varied);
 }
 
-/* Replicas that a point gets in any case, as a share of the most. */
-static double least_share(const fracas_point *point)
+/* Minimum of a point's replicas over their maximum. */
+static double least_part(const fracas_point *point)
 {
     return (double)point->replicas / (double)fracas_point_most(point);
 }
@@ -53,7 +52,7 @@ static fracas_err plan_init(const fracas_campaign *campaign, int jobs, campaign_
     for (size_t c = 0; c < table->ncolumns; c++)
         if (fracas_point_table_varies(table, c)) made->varied[made->nvaried++] = c;
     for (size_t p = 0; p < table->npoints; p++) {
-        const double least = least_share(&campaign->point[p]);
+        const double least = least_part(&campaign->point[p]);
         made->realizations += table->point[p].replicas;
         made->most += fracas_point_most(&campaign->point[p]);
         made->least_time += least * made->forecast[p].time;
@@ -73,7 +72,7 @@ enum { CELL = 64 };
 typedef struct {
     size_t rows, columns;
     char (*cell)[CELL];
-    int *width; /* of each column */
+    int *width; /* one a column */
 } text_sheet;
 
 static fracas_err sheet_init(size_t rows, size_t columns, text_sheet *sheet)
@@ -108,25 +107,27 @@ static void sheet_print(const text_sheet *sheet, FILE *out)
                     c + 1 < sheet->columns ? "  " : "\n");
 }
 
-enum { SHORT = 28 }; /* bytes of a number in a cell, of which it holds two */
+enum { SHORT = FRACAS_SIZE_TEXT }; /* bytes of a number; a cell holds two */
 
-static void write_duration(double time, char text[SHORT])
+static const char *write_duration(double time, char text[SHORT])
 {
     if (time < 120.0) snprintf(text, SHORT, time < 1.0 ? "%.2g s" : "%.1f s", time);
     else if (time < 7200.0) snprintf(text, SHORT, "%.0f min", time / 60.0);
     else if (time < 172800.0) snprintf(text, SHORT, "%.1f h", time / 3600.0);
     else snprintf(text, SHORT, "%.1f days", time / 86400.0);
+    return text;
 }
 
-static void write_size(double bytes, char text[SHORT])
+const char *fracas_size_write(double bytes, char text[FRACAS_SIZE_TEXT])
 {
     static const char *const unit[] = {"kB", "MB", "GB", "TB"};
     size_t u = 0;
     for (bytes /= 1e3; bytes >= 1e3 && u < 3; u++) bytes /= 1e3;
-    snprintf(text, SHORT, "%.1f %s", bytes, unit[u]);
+    snprintf(text, FRACAS_SIZE_TEXT, "%.1f %s", bytes, unit[u]);
+    return text;
 }
 
-/* "16-256": what it comes to at least and at most, or what it is. */
+/* "16-256": minimum and maximum, or the one number. */
 static void put_count(text_sheet *sheet, size_t row, size_t column, int64_t least, int64_t most)
 {
     if (least == most) sheet_put(sheet, row, column, "%" PRId64, most);
@@ -134,13 +135,11 @@ static void put_count(text_sheet *sheet, size_t row, size_t column, int64_t leas
 }
 
 static void put_range(text_sheet *sheet, size_t row, size_t column, double least, double most,
-                      void (*write)(double value, char text[SHORT]))
+                      const char *(*write)(double value, char text[SHORT]))
 {
     char from[SHORT], to[SHORT];
-    write(least, from);
-    write(most, to);
-    if (least == most) sheet_put(sheet, row, column, "%s", to);
-    else sheet_put(sheet, row, column, "%s - %s", from, to);
+    if (least == most) sheet_put(sheet, row, column, "%s", write(most, to));
+    else sheet_put(sheet, row, column, "%s - %s", write(least, from), write(most, to));
 }
 
 /* ---- warnings ---- */
@@ -149,8 +148,8 @@ static void put_range(text_sheet *sheet, size_t row, size_t column, double least
 static bool warning_of(const campaign_plan *plan, size_t p, int which, char *text, size_t size)
 {
     int begin = snprintf(text, size, "point %zu: ", p);
-    return fracas_plan_warnings[which](&plan->campaign->point[p], &plan->forecast[p], text + begin,
-                                       size - (size_t)begin);
+    return fracas_plan_warnings[which](&(fracas_warning){
+        &plan->campaign->point[p], &plan->forecast[p], text + begin, size - (size_t)begin});
 }
 
 /* ---- the plan as text ---- */
@@ -173,7 +172,7 @@ static void put_heads(const campaign_plan *plan, text_sheet *sheet)
             sheet_put(sheet, r, 1 + plan->nvaried + c, "%s", own_heads[c][r]);
 }
 
-enum { LONG = 9 }; /* characters of a number that is written as it is */
+enum { LONG = 9 }; /* characters of a number before it is rounded */
 
 static void put_point(const campaign_plan *plan, size_t p, text_sheet *sheet)
 {
@@ -186,17 +185,17 @@ static void put_point(const campaign_plan *plan, size_t p, text_sheet *sheet)
         char number[FRACAS_NUMBER_TEXT];
         fracas_number_write(value->real, number);
         if (strlen(number) > LONG)
-            snprintf(number, sizeof number, "%.6g", value->real); /* drawn; --json has all digits */
+            snprintf(number, sizeof number, "%.6g", value->real); /* --json has all digits */
         const bool text = plan->table->column[plan->varied[v]].text;
         sheet_put(sheet, row, 1 + v, "%s", text ? value->text : isnan(value->real) ? "-" : number);
     }
-    const double least = least_share(&plan->campaign->point[p]);
+    const double least = least_part(&plan->campaign->point[p]);
     put_count(sheet, row, own, point->replicas, fracas_point_most(&plan->campaign->point[p]));
     sheet_put(sheet, row, own + 1, "%" PRId64, forecast->elements);
     sheet_put(sheet, row, own + 2, "%.4g", forecast->time_step);
     sheet_put(sheet, row, own + 3, "%" PRId64, forecast->steps);
     put_range(sheet, row, own + 4, least * forecast->time, forecast->time, write_duration);
-    put_range(sheet, row, own + 5, least * forecast->bytes, forecast->bytes, write_size);
+    put_range(sheet, row, own + 5, least * forecast->bytes, forecast->bytes, fracas_size_write);
 }
 
 static bool any_surface_field(const campaign_plan *plan)
@@ -208,24 +207,24 @@ static bool any_surface_field(const campaign_plan *plan)
     return false;
 }
 
-/* The first few of each kind, and of the others how many there are: a design would have the same
- * for most of its points. */
+/* Prints the first few warnings of each kind and counts the others, since most points of a design
+ * may have the same. */
 static void print_warnings(const campaign_plan *plan, FILE *out)
 {
     enum { SHOWN = 4 };
-    size_t said[FRACAS_PLAN_WARNINGS] = {0}, last[FRACAS_PLAN_WARNINGS] = {0};
+    size_t count[FRACAS_PLAN_WARNINGS] = {0}, last[FRACAS_PLAN_WARNINGS] = {0};
     char text[400];
     for (size_t p = 0; p < plan->table->npoints; p++)
         for (int w = 0; w < FRACAS_PLAN_WARNINGS; w++) {
             if (!warning_of(plan, p, w, text, sizeof text)) continue;
-            if (++said[w] <= SHOWN) fprintf(out, "warning: %s\n", text);
+            if (++count[w] <= SHOWN) fprintf(out, "warning: %s\n", text);
             last[w] = p;
         }
     for (int w = 0; w < FRACAS_PLAN_WARNINGS; w++) {
-        if (said[w] <= SHOWN) continue;
+        if (count[w] <= SHOWN) continue;
         warning_of(plan, last[w], w, text, sizeof text);
         fprintf(out, "warning: the same at %zu more, which --json lists, the last being %s\n",
-                said[w] - SHOWN, text);
+                count[w] - SHOWN, text);
     }
 }
 
@@ -240,7 +239,7 @@ static fracas_err print_text(const campaign_plan *plan, FILE *out)
         sheet_put(&sheet, last, 0, "total");
         put_count(&sheet, last, own, plan->realizations, plan->most);
         put_range(&sheet, last, own + 4, plan->least_time, plan->time, write_duration);
-        put_range(&sheet, last, own + 5, plan->least_bytes, plan->bytes, write_size);
+        put_range(&sheet, last, own + 5, plan->least_bytes, plan->bytes, fracas_size_write);
         fprintf(out, "Campaign %s: %zu point%s, %" PRId64, plan->campaign->name, points,
                 points == 1 ? "" : "s", plan->realizations);
         if (plan->most > plan->realizations) fprintf(out, " to %" PRId64, plan->most);
@@ -317,8 +316,6 @@ static void print_json(const campaign_plan *plan, FILE *out)
     fracas_json_close_object(&json);
     fracas_json_end(&json);
 }
-
-/* ---- the door ---- */
 
 fracas_err fracas_plan_print(const fracas_campaign *campaign, int jobs, FILE *out, bool json)
 {

@@ -38,7 +38,7 @@ fracas_err fracas_point_model_like(const fracas_campaign *campaign, size_t point
     drawn.mesh.noise = noise;
     drawn.mesh.nnoise = count;
     drawn.strength_per_point = fracas_strength_is_per_point(&campaign->point[point].strength);
-    fracas_err err = fracas_model_create(&drawn, model); /* which keeps no noise */
+    fracas_err err = fracas_model_create(&drawn, model);
     free(noise);
     return err;
 }

@@ -17,8 +17,7 @@ const char *const fracas_refinement_doc[FRACAS_NREFINEMENTS] = {
     "interfaces twice as stiff",
 };
 
-/* Of points that have several of them, all that are not 0 (which is "not given" of mesh.size and
- * mesh.divisions). */
+/* Every value of a point except 0, which means "not given" for mesh.size and mesh.divisions. */
 static const struct {
     fracas_refinement by;
     const char *path;
@@ -29,8 +28,8 @@ static const struct {
     {FRACAS_REFINE_BETA, "cohesive.beta", 2},  {FRACAS_REFINE_BETA, "cohesive.beta_shear", 2},
 };
 
-/* A mesh of half the size has other interfaces: were its numbers those of the seed, some of them
- * would be shared without meaning. */
+/* A finer mesh has other interfaces: with the same seed some would share numbers without meaning.
+ */
 static const uint64_t mesh_seed = 0x6d657368; /* "mesh" */
 
 /* The parameter of a leaf at a point. */
@@ -41,8 +40,7 @@ static const fracas_param *param_of(const fracas_leaf *leaf, const fracas_point 
                                 point->spec.formulation, leaf->key);
 }
 
-/* Refines one value; *done if the point has it. FRACAS_USAGE where the refined one is out of its
- * range. */
+/* Refines one value; *done if the point has it. FRACAS_USAGE if the result is out of range. */
 static fracas_err refine_value(const fracas_leaf *leaf, double factor, fracas_point *point,
                                bool *done)
 {
@@ -74,8 +72,8 @@ static fracas_err refine_point(const fracas_catalog *catalog, fracas_refinement 
     return fracas_fail(FRACAS_USAGE, "its interfaces have no cohesive.beta");
 }
 
-/* Refines point p, as number `next` of the campaign to be, unless that cannot be: then it is left
- * out, the first one with why. */
+/* Refines point p as the next point of the new campaign, or leaves it out, the first one with the
+ * reason. */
 static fracas_err take_point(const fracas_catalog *catalog, fracas_refinement what, size_t p,
                              size_t *next, fracas_refined *refined)
 {
@@ -122,7 +120,7 @@ static fracas_err refine_points(const fracas_catalog *catalog, fracas_refinement
     return fracas_campaign_identify(catalog, campaign);
 }
 
-/* A name has 100 letters at most. */
+/* A name has at most 100 letters. */
 static fracas_err rename_campaign(fracas_refinement what, fracas_campaign *campaign)
 {
     enum { MOST = 100 };

@@ -1,13 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a reader should know of a point before running it. */
+/* Warnings about a point before its run. */
 #ifndef FRACAS_CAMPAIGNS_PLAN_WARNINGS_H
 #define FRACAS_CAMPAIGNS_PLAN_WARNINGS_H
 
 #include "campaigns/plan/forecast.h"
 
-/* Writes what to know of a point; false, whatever the text, if it does not apply. */
-typedef bool fracas_plan_warning(const fracas_point *point, const fracas_forecast *forecast,
-                                 char *text, size_t size);
+typedef struct {
+    const fracas_point *point;
+    const fracas_forecast *forecast;
+    char *text; /* written by the warning */
+    size_t size;
+} fracas_warning;
+
+/* Writes a warning; false, with any text, if it does not apply. */
+typedef bool fracas_plan_warning(const fracas_warning *w);
 
 enum { FRACAS_PLAN_WARNINGS = 15 };
 extern fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS];

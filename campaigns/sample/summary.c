@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a realization's strengths are like, in a few numbers. */
 #include "campaigns/sample/sample.h"
 
 #include "base/json.h"
@@ -9,12 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double shares[] = {0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
-static const char *const share_keys[] = {"q01", "q05", "q25", "median", "q75", "q95", "q99"};
-enum { SHARES = sizeof shares / sizeof *shares };
+static const double parts[] = {0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
+static const char *const part_keys[] = {"q01", "q05", "q25", "median", "q75", "q95", "q99"};
+enum { PARTS = sizeof parts / sizeof *parts };
 
 typedef struct {
-    double mean, deviation, quantile[SHARES]; /* Pa */
+    double mean, deviation, quantile[PARTS]; /* Pa */
     size_t weakest, strongest;
 } summary;
 
@@ -24,10 +23,10 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Between the order statistics, which stand at (i + 1/2)/n. */
-static double quantile_of(const double *sorted, size_t n, double share)
+/* Linear between the order statistics, at (i + 1/2)/n. */
+static double quantile_of(const double *sorted, size_t n, double part)
 {
-    const double at = fmin(fmax(share * (double)n - 0.5, 0), (double)(n - 1));
+    const double at = fmin(fmax(part * (double)n - 0.5, 0), (double)(n - 1));
     const size_t below = (size_t)at, above = below + 1 < n ? below + 1 : below;
     return sorted[below] + (at - (double)below) * (sorted[above] - sorted[below]);
 }
@@ -48,7 +47,7 @@ static fracas_err summarize(const fracas_sample *sample, summary *of)
         if (sample->strength[k] > sample->strength[of->strongest]) of->strongest = k;
     }
     of->deviation = n > 1 ? sqrt(squares / (double)(n - 1)) : NAN;
-    for (int q = 0; q < SHARES; q++) of->quantile[q] = quantile_of(sorted, n, shares[q]);
+    for (int q = 0; q < PARTS; q++) of->quantile[q] = quantile_of(sorted, n, parts[q]);
     free(sorted);
     return FRACAS_OK;
 }
@@ -80,9 +79,9 @@ static void print_text(const fracas_sample *sample, const summary *of, double la
     fprintf(out, "  %-20s %.6g MPa\n  %-20s %.6g MPa\n", "mean", 1e-6 * of->mean,
             "standard deviation", 1e-6 * of->deviation);
     print_extreme(sample, "weakest", of->weakest, out);
-    for (int q = 0; q < SHARES; q++) {
+    for (int q = 0; q < PARTS; q++) {
         char name[32];
-        snprintf(name, sizeof name, "%g %%", 100 * shares[q]);
+        snprintf(name, sizeof name, "%g %%", 100 * parts[q]);
         fprintf(out, "  %-20s %.6g MPa\n", name, 1e-6 * of->quantile[q]);
     }
     print_extreme(sample, "strongest", of->strongest, out);
@@ -122,7 +121,7 @@ static void print_json(const fracas_sample *sample, const summary *of, double la
     fracas_json_integer(&json, "gauss_points", (int64_t)sample->points);
     fracas_json_real(&json, "mean", of->mean);
     fracas_json_real(&json, "deviation", of->deviation);
-    for (int q = 0; q < SHARES; q++) fracas_json_real(&json, share_keys[q], of->quantile[q]);
+    for (int q = 0; q < PARTS; q++) fracas_json_real(&json, part_keys[q], of->quantile[q]);
     print_extreme_json(&json, sample, "weakest", of->weakest);
     print_extreme_json(&json, sample, "strongest", of->strongest);
     fracas_json_close_object(&json);

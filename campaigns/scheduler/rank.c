@@ -23,7 +23,7 @@
 enum {
     TAG = 0,
     WAIT_MAX = 8,  /* ms */
-    DEATHS_MAX = 5 /* of servers in a row with nothing settled in between */
+    DEATHS_MAX = 5 /* servers lost in a row with nothing settled in between */
 };
 
 /* Set by SIGUSR1 (the launcher, through mpirun), SIGUSR2, SIGTERM and SIGINT (mpirun, srun, a batch
@@ -49,12 +49,12 @@ typedef struct {
     char study[4096];
     double began; /* fracas_now at the start of this process */
     int rank, size;
-    fracas_supervisor supervisor; /* of the compute server, with the connection to that */
+    fracas_supervisor supervisor; /* with the connection to the compute server */
     bool ended;                   /* the server has sent its last message: ENDED or TROUBLE */
     bool fresh;     /* rank 0 does not know the new server: its messages are for the former one */
-    int deaths;     /* of servers since the last segment or failure report */
+    int deaths;     /* servers lost since the last segment or failure report */
     int wait;       /* to sleep when no message comes [ms] */
-    posted *outbox; /* of rank 0 */
+    posted *outbox; /* messages of rank 0 under way */
 } rank_state;
 
 /* ---- messages ---- */
@@ -249,7 +249,7 @@ static fracas_err follow(rank_state *rank, fracas_err set_up)
 
 /* ---- rank 0 ---- */
 
-/* Frees the messages that have been received. */
+/* Frees the delivered messages. */
 static fracas_err clear_outbox(rank_state *rank)
 {
     for (posted **at = &rank->outbox; *at;) {
@@ -359,8 +359,8 @@ static fracas_err lead(rank_state *rank, fracas_channel *channel, bool *ran)
     return result;
 }
 
-/* Receives until all ranks have answered QUIT, since a rank that sends a long message would never
- * end otherwise. A hung rank gets PATIENCE. */
+/* Receives until all ranks have answered QUIT: a rank in the middle of a long message could not end
+ * otherwise. A hung rank gets PATIENCE. */
 static void receive_rest(rank_state *rank)
 {
     enum { PATIENCE = 5 /* s */ };
@@ -422,7 +422,7 @@ fracas_err fracas_rank_run(const fracas_run_options *options, bool *ran)
 {
     *ran = false;
     /* No rank outlives the launcher's mpirun. (Not with other launchers: the signal follows the
-     * thread that started this process, and theirs may end early.) */
+     * starting thread, and theirs may end early.) */
     if (getenv(FRACAS_LAUNCHER_MARK)) prctl(PR_SET_PDEATHSIG, SIGKILL);
     catch_signals();
     rank_state rank = {

@@ -14,11 +14,11 @@
 FRACAS_MUST_USE fracas_err fracas_run(const fracas_run_options *options, int argc, char **argv,
                                       bool *ran);
 
-/* True in a process that mpirun, srun or another PMI launcher started. */
+/* True in a process started by mpirun, srun or another PMI launcher. */
 bool fracas_run_is_rank(void);
 
-/* True in the one process that reports to the user: the launcher, else rank 0 under the user's own
- * launcher. */
+/* True in the only process with reports to the user: the launcher, or rank 0 under the user's own
+ * mpirun or srun. */
 bool fracas_run_speaks(void);
 
 #endif

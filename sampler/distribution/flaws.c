@@ -65,4 +65,5 @@ const fracas_distribution fracas_flaws = {
     .moments = flaws_moments,
     .init = flaws_init,
     .size_effect = true,
+    .scatter_remedy = ", here by a higher flaw_density",
 };

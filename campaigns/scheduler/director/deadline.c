@@ -9,7 +9,7 @@ static const double TICK = 0.25;   /* between two ticks [s] */
 static const double PATIENCE = 10; /* for the answer to STOP when everything is durable [s] */
 static const double MARGIN = 2;    /* before the deadline, to write segments [s] */
 
-/* Seconds that the end takes: workers write their last segments, and each is committed. */
+/* Duration of the end [s]: workers write their last segments, and each is committed. */
 static double margin(const fracas_director *director)
 {
     const double commit = director->timings.commits > 0
@@ -52,7 +52,7 @@ static fracas_err lease_overdue(fracas_director *director, double time)
     return FRACAS_OK;
 }
 
-/* Some worker has a lease, or may get one that ends in time. */
+/* Some worker has a lease, or may get one before the deadline. */
 static bool goes_on(const fracas_director *director, double time)
 {
     size_t idle = SIZE_MAX; /* any: all would get the same */

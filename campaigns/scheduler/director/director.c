@@ -85,7 +85,7 @@ static fracas_err set_up(fracas_director *director, bool *settled, int64_t *fail
         return fracas_no_memory("the workers");
     for (size_t p = 0; p < director->setup.campaign->npoints; p++)
         director->ruled[p] = director->setup.campaign->point[p].rule.maximum > 0;
-    /* First: a campaign that cannot be computed leaves no files behind. */
+    /* First: an impossible campaign leaves no files behind. */
     double *bytes;
     TRY(fracas_costs_create(director->setup.campaign, director->setup.options, &director->cost,
                             &bytes));
@@ -189,7 +189,7 @@ static fracas_err lease_all(fracas_director *director)
 
 /* ---- rounds ---- */
 
-/* Adds the replicas of point p that its rounds have asked for since. */
+/* Adds the new replicas of point p, as its rounds have decided. */
 static fracas_err add_more(fracas_director *director, size_t p)
 {
     const fracas_point_row *point = &director->rounds.point[p];
@@ -265,7 +265,7 @@ static fracas_err on_computed(fracas_director *director, size_t worker,
     return lease_worker(director, worker);
 }
 
-/* Notes a failed lease: of one realization its failure, else the halves that are tried next. */
+/* Notes a failed lease: one failed realization, or the two halves to be tried next. */
 static fracas_err note_failed(fracas_director *director, const fracas_lease *lease, bool final,
                               const char *reason)
 {

@@ -43,8 +43,8 @@ void fracas_director_receive(fracas_director *director, size_t worker,
  *   Idle workers get copies of overdue leases.
  *   The run drains when no lease is predicted to end before the deadline with time to write it.
  *   Leases are killed 2 s (and the time of all commits) before the deadline.
- *   A worker that does not answer STOP within 10 s counts as ended when everything is durable, or
- *   at the deadline. */
+ *   A worker silent for 10 s after STOP counts as ended when everything is durable, or at the
+ *   deadline. */
 void fracas_director_tick(fracas_director *director);
 
 /* Gives out no more leases and lets every worker finish. */

@@ -11,8 +11,8 @@
 
 static const double MERGE_RATE = 50e6; /* lower bound of a merge's speed [bytes/s] */
 
-/* FRACAS_INTERRUPTED if the merge may not end before the deadline. A run that only merges tries it
- * all the same: it would have no better chance later. */
+/* FRACAS_INTERRUPTED if the merge may not end before the deadline. A run with nothing but the merge
+ * to do tries it all the same. */
 static fracas_err check_merge_time(fracas_director *director)
 {
     fracas_index_counts counts;
@@ -42,7 +42,7 @@ static fracas_err check_parts(fracas_director *director, const fracas_counts *co
                        options->part, options->parts, count->total, count->failed);
 }
 
-/* Removes the unfinished files of servers that died. */
+/* Removes the unfinished files of dead servers. */
 static fracas_err sweep(fracas_director *director)
 {
     char *report;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* State of a director, and the changes of it that all its files make. */
+/* State of a director, and its changes common to several files. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_DIRECTOR_STATE_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_DIRECTOR_STATE_H
 
@@ -14,19 +14,19 @@ struct fracas_director {
     fracas_director_setup setup;
     int lock;
     fracas_index *index;
-    double *cost; /* of a realization of each point */
+    double *cost; /* predicted for a realization of each point */
     bool *ruled;  /* a rule decides the replicas of each point; these points go first */
     fracas_rounds rounds;
     fracas_scheduler *scheduler;
-    worker_phase *phase; /* of each worker */
+    worker_phase *phase; /* one a worker */
     bool *flushing;      /* each worker was asked to write its segment */
-    int64_t *given;      /* replicas of each point that the scheduler knows */
+    int64_t *given;      /* replicas of each point known to the scheduler */
     size_t nended;
     bool stopping;          /* STOP was sent to all working */
     bool needless;          /* everything is durable: only duplicates still run */
     bool drained;           /* because of a signal or the deadline */
     bool late;              /* because of the deadline */
-    bool overtime;          /* the deadline is so near that leases are killed */
+    bool overtime;          /* too near to the deadline: leases are killed */
     bool resumed_whole;     /* everything was computed before this run */
     double stopped_at;      /* time of STOP */
     double ticked;          /* time of the last tick */
@@ -45,7 +45,7 @@ FRACAS_MUST_USE fracas_err fracas_director_post(fracas_director *director, size_
                                                 size_t size);
 /* Sends STOP, which kills the running lease if it is not needed or out of time. */
 void fracas_director_stop_worker(fracas_director *director, size_t worker);
-/* No message comes from it any more: its leases that are not durable wait again. */
+/* Counts the worker as ended: its leases wait again, unless durable. */
 void fracas_director_end_worker(fracas_director *director, size_t worker);
 /* Shows a message on the status channel and notes it as an event. */
 FRACAS_MUST_USE fracas_err fracas_director_announce(fracas_director *director, const char *kind,

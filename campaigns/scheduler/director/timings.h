@@ -8,9 +8,9 @@
 
 typedef struct {
     double workers;
-    double seconds;                         /* of rank 0 with the study [s] */
-    double planned;                         /* of these, before the first lease [s] */
-    double computed;                        /* of these, before the end of the last worker [s] */
+    double seconds;                         /* wall time of rank 0 with the study [s] */
+    double planned;                         /* part before the first lease [s] */
+    double computed;                        /* part before the end of the last worker [s] */
     double merging;                         /* spent on writing study.h5 [s] */
     double giving;                          /* spent on choosing, noting and sending leases [s] */
     double committing;                      /* spent on committing segments [s] */

@@ -26,7 +26,7 @@ long fracas_allocation_sum(const char *list)
     return sum <= INT_MAX ? sum : 0;
 }
 
-/* Tasks of the Slurm job that this process runs in; 0: in none. */
+/* Tasks of the surrounding Slurm job; 0: none. */
 static int slurm_tasks(void)
 {
     const char *tasks = getenv("SLURM_NTASKS"), *cores = getenv("SLURM_JOB_CPUS_PER_NODE");

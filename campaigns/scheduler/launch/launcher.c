@@ -31,7 +31,7 @@ typedef struct {
     bool speaks;          /* rank 0 has sent a message: every rank can be signalled */
     bool drained, killed; /* by this process */
     bool gone;            /* mpirun was reaped: its number may be another process's */
-    bool warned;          /* of its silence */
+    bool warned;          /* about its silence */
     bool gained;          /* realizations became durable */
     double began;
     double ended; /* time of the ending, or of mpirun's end; 0: not yet */
@@ -48,7 +48,7 @@ typedef struct {
     double asked;             /* time of the first signal to end, or of drain_at; 0: not yet */
     double drain_at, kill_at; /* by the walltime; INFINITY: there is none */
     int64_t durable;          /* maximum of realizations done or failed for good; -1: unknown */
-    int starts, barren;       /* barren: starts in a row that gained nothing */
+    int starts, barren;       /* barren: starts in a row without gain */
 } launcher;
 
 /* Keeps the last of it: mpirun prints the reason at its end. */
@@ -66,7 +66,7 @@ static void keep_noise(launch *now, const char *text, size_t size)
     now->noise[now->nnoise] = '\0';
 }
 
-/* Reads what is there; false at the end of the stream. */
+/* Reads the available bytes; false at the end of the stream. */
 static bool read_some(int fd, char *buffer, size_t size, size_t *got)
 {
     ssize_t n = read(fd, buffer, size);
@@ -190,7 +190,7 @@ static void read_streams(launcher *p)
     }
 }
 
-/* Reaps mpirun and all its descendants, so that the study is free. Returns mpirun's status. */
+/* Reaps mpirun and all its descendants, which frees the study. Returns mpirun's status. */
 static int wait_for_all(launcher *p)
 {
     launch *now = &p->now;
@@ -222,7 +222,7 @@ static fracas_err start(launcher *p, int jobs, int argc, char **argv, int *statu
     return FRACAS_OK;
 }
 
-/* Why a start ended before the run was over. */
+/* The reason for an early end. */
 static void explain(const launch *now, int status, char *text, size_t size)
 {
     if (now->ending.ended) {
@@ -259,7 +259,7 @@ static fracas_err stopped(const launcher *p)
         "stopped at once: what was done is kept; the same command goes on from there");
 }
 
-/* After a start that ended too early: FRACAS_OK to start again. */
+/* After an early end: FRACAS_OK to start again. */
 static fracas_err go_on(launcher *p, int status)
 {
     launch *now = &p->now;

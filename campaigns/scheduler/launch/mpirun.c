@@ -25,7 +25,7 @@ static void set_environment(void)
         /* No warning where a fast network is compiled in and not there. */
         {"OMPI_MCA_btl_base_warn_component_unused", "0"},
         {"OMPI_MCA_orte_base_help_aggregate", "1"},
-        /* hwloc warns of firmware tables that contradict each other; nothing is bound here. */
+        /* hwloc warns of contradictory firmware tables; nothing is bound here. */
         {"HWLOC_HIDE_ERRORS", "2"},
     };
     for (size_t i = 0; i < FRACAS_COUNT(quiet); i++) setenv(quiet[i].name, quiet[i].value, 1);

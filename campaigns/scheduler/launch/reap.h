@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reaps all descendants of this process, also those that others have started. */
+/* Reaps all descendants of this process. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_LAUNCH_REAP_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_LAUNCH_REAP_H
 
@@ -18,8 +18,8 @@ typedef struct {
 /* From here on, orphaned descendants become children of this process. */
 void fracas_reap_begin(fracas_reap *reap);
 
-/* Reaps all children that have ended, without waiting; *status is set if `pid` is among them.
- * False when only foreign children are left. */
+/* Reaps all ended children without waiting; *status is set if `pid` is among them. False when only
+ * foreign children are left. */
 bool fracas_reap_wait(fracas_reap *reap, pid_t pid, int *status);
 
 /* Kills all children but foreign ones. Their children become ours, so call it until

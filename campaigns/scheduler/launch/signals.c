@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <unistd.h>
 
-/* Times that SIGINT, SIGTERM or SIGHUP came, 2 at most; whether SIGUSR1 or SIGUSR2 did. */
+/* Number of SIGINT, SIGTERM and SIGHUP so far, at most 2; SIGUSR1 or SIGUSR2 came. */
 static volatile sig_atomic_t ended, drained;
 
 static const int ending[] = {SIGINT, SIGTERM, SIGHUP}, draining[] = {SIGUSR1, SIGUSR2};

@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Signals of the process that a person or a batch system talks to: they ask for the run's end, and
- * never end the process. */
+/* Signals of the launcher: they ask for the end of the run and never end the process. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_LAUNCH_SIGNALS_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_LAUNCH_SIGNALS_H
 
 #include <stdbool.h>
 
-/* From here on SIGINT, SIGTERM, SIGHUP, SIGUSR1 and SIGUSR2 are counted (SIGHUP not under nohup),
- * and SIGPIPE is ignored: a run goes on when nobody reads its progress. */
+/* From here on SIGINT, SIGTERM, SIGHUP, SIGUSR1 and SIGUSR2 are counted (SIGHUP not under nohup).
+ * SIGPIPE is ignored: a run continues when nobody reads its progress. */
 void fracas_signals_catch(void);
 
-/* One of them came: what runs is to be finished and kept. */
+/* One of them came: the run is to drain. */
 bool fracas_signals_ask(void);
 
 /* SIGINT, SIGTERM and SIGHUP came twice: stop at once. SIGUSR1 and SIGUSR2 never insist, as batch

@@ -13,14 +13,14 @@ enum { NONE = UINT32_MAX };
 typedef struct {
     int64_t *replica;
     size_t from, to, room;
-    double seconds; /* of `measured` realizations */
+    double seconds; /* total over `measured` realizations */
     int64_t measured;
 } point_state;
 
 /* Summary of a range of points: a node of a binary tree with one point in each leaf. */
 typedef struct {
     double work[NKINDS];   /* waiting: cost, s */
-    uint32_t best[NKINDS]; /* point that goes first; NONE: none waits */
+    uint32_t best[NKINDS]; /* first point to lease; NONE: none waits */
     uint32_t points;       /* with waiting replicas */
 } range;
 
@@ -30,7 +30,7 @@ struct fracas_backlog {
     size_t npoints, nleaves; /* a power of 2 */
     point_state *point;
     range *range;             /* 1: the root; the halves of i are 2 i and 2 i + 1 */
-    double seconds, measured; /* of all points: s, and their cost */
+    double seconds, measured; /* totals over all points: s, cost */
 };
 
 uint64_t fracas_backlog_random(uint64_t *state)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Replicas of each point that were never leased, with the times measured so far. Each query and
- * each change takes O(log points) steps.
+/* Replicas of each point never leased so far, with the measured times. Each query and each change
+ * takes O(log points) steps.
  *   est_p = seconds per realization of point p: measured at p, else cost_p x measured seconds per
  *           cost of all points, else (nothing is measured) cost_p */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_LEASE_BACKLOG_H
@@ -14,7 +14,7 @@
 
 typedef struct fracas_backlog fracas_backlog;
 
-/* `cost`: predicted for a realization of each point; `first`: points that go before all others,
+/* `cost`: predicted for a realization of each point; `first`: points to go before all others,
  * NULL: none. Both must outlive the backlog. FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_backlog_create(const double *cost, const bool *first,
                                                  size_t npoints, fracas_backlog **backlog);
@@ -36,8 +36,8 @@ double fracas_backlog_estimate(const fracas_backlog *backlog, size_t point); /* 
 
 size_t fracas_backlog_waiting(const fracas_backlog *backlog, size_t point);
 double fracas_backlog_work(const fracas_backlog *backlog); /* sum_p waiting_p est_p */
-/* Point with the largest est_p among those with waiting replicas, first among the points that go
- * first. Ties: the lower number. SIZE_MAX if nothing waits. */
+/* Point with the largest est_p among those with waiting replicas, first among the `first`
+ * points. Ties: the lower number. SIZE_MAX if nothing waits. */
 size_t fracas_backlog_longest(const fracas_backlog *backlog);
 /* A random point with waiting replicas, all equally likely; SIZE_MAX if nothing waits. */
 size_t fracas_backlog_any(const fracas_backlog *backlog, uint64_t *state);

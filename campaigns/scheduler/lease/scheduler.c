@@ -7,15 +7,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Realizations that are leased, or were and wait again. It lives until no worker holds it or has it
- * in memory. */
+/* Realizations leased now, or leased before and waiting again. A task lives as long as a worker
+ * holds it or has it in memory. */
 typedef struct task {
-    struct task *next; /* in the queue of tasks that wait again */
+    struct task *next; /* in the queue of waiting tasks */
     uint64_t id, point;
-    int64_t attempts; /* of a single realization */
+    int64_t attempts; /* with a single realization */
     bool isolated;
     bool done;         /* durable, by whichever worker was first */
-    size_t held, kept; /* workers that have it: at work, in memory */
+    size_t held, kept; /* numbers of workers: computing it, with it in memory */
     size_t count;
     int64_t replica[];
 } task;
@@ -41,10 +41,10 @@ typedef struct {
 
 struct fracas_scheduler {
     fracas_scheduler_options options;
-    uint64_t state; /* of the shuffle */
+    uint64_t state; /* for the shuffle */
     uint64_t nextid;
     fracas_backlog *backlog; /* realizations never leased */
-    task *again, *last;      /* queue of tasks that wait again */
+    task *again, *last;      /* queue of waiting tasks */
     size_t waiting;          /* realizations in both */
     size_t uncomputed;       /* tasks held, and neither in memory nor durable */
     worker_state *worker;
@@ -257,8 +257,8 @@ static double left(const fracas_scheduler *s, const worker_state *w, double now)
     return seconds;
 }
 
-/* Workers that are predicted to be free within half the time of a batch of the point, while nothing
- * is measured those that are free now: at least one. */
+/* Workers predicted to be free within half the time of a batch of the point, or free now while
+ * nothing is measured: at least one. */
 static size_t free_workers(const fracas_scheduler *s, size_t point, double now)
 {
     const bool measured = fracas_backlog_measured(s->backlog);
@@ -320,7 +320,7 @@ static double overdue_at(const fracas_scheduler *s, const task *t, double since,
     return since + kept + fmax(OVERDUE_LEAST, OVERDUE * expected);
 }
 
-/* The worker's task that is overdue first, at time *at; NULL if none ever is. */
+/* The worker's first overdue task, at time *at; NULL if none ever is. */
 static task *first_overdue(const fracas_scheduler *s, const worker_state *w, double *at)
 {
     task *first = NULL;
@@ -439,7 +439,7 @@ fracas_err fracas_scheduler_computed(fracas_scheduler *scheduler, size_t worker,
 enum { KEPT, HALF, OTHER_HALF, REST, NPARTS };
 typedef struct {
     task *part[NPARTS];
-    note *kept; /* of the computed part */
+    note *kept; /* for the computed part */
 } pieces;
 
 static fracas_err split(fracas_scheduler *s, const task *t, size_t kept, size_t count, pieces *made)

@@ -25,11 +25,11 @@ typedef struct {
     size_t npoints;
     size_t workers;
     size_t width;   /* realizations of a batch, 1 to FRACAS_BATCH_MAX */
-    double seconds; /* time that a lease should take [s]; 0: one batch each */
+    double seconds; /* target duration of a lease [s]; 0: one batch each */
     double memory;  /* longest time of results in a worker's memory [s] */
     double limit;   /* longest time of a lease [s]; 0: 600 s + 50 x predicted */
     bool shuffle;   /* random points, replicas and sizes instead of the longest first */
-    uint64_t seed;  /* of the shuffle */
+    uint64_t seed;  /* for the shuffle */
 } fracas_scheduler_options;
 
 typedef struct fracas_scheduler fracas_scheduler;
@@ -39,14 +39,14 @@ typedef struct fracas_scheduler fracas_scheduler;
 FRACAS_MUST_USE fracas_err fracas_scheduler_create(const fracas_index_row *row, size_t count,
                                                    const fracas_scheduler_options *options,
                                                    fracas_scheduler **scheduler);
-/* The same for more rows, in plan order, of a plan that grows. */
+/* The same for more rows, in plan order, of a growing plan. */
 FRACAS_MUST_USE fracas_err fracas_scheduler_add(fracas_scheduler *scheduler,
                                                 const fracas_index_row *row, size_t count);
 void fracas_scheduler_destroy(fracas_scheduler *scheduler); /* NULL is allowed */
 
 /* Leases to `worker` at time `now` [s, of a monotonic clock]; *given is false when none waits or
  * the worker has enough. It may hold two leases, or one when at most a batch waits for each worker.
- * Failed and lost leases go first, then the longest of the points that go first, then the longest.
+ * Failed and lost leases go first, then the longest of the `first` points, then the longest.
  *   est_p = seconds per realization of point p: measured, else cost_p x measured seconds / cost
  *   n     = min(seconds / est_p, sum_q waiting_q est_q / (2 workers est_p), FRACAS_LEASE_MAX),
  * down to whole batches. With less than a batch for each worker n = min(width, waiting / f), where
@@ -57,8 +57,8 @@ FRACAS_MUST_USE fracas_err fracas_scheduler_next(fracas_scheduler *scheduler, si
 
 /* Leases to `worker`, when it has nothing and nothing waits, a copy of the lease that is overdue
  * longest; *late is the other worker. A lease is overdue when one worker alone has held it for more
- * than 10 s and 4 times its prediction, or has had it in memory for options->memory more than that.
- * The time counts from the start of its run. *given is false if there is none. O(leases) steps. */
+ * than 10 s and 4 times its prediction, or had it in memory for options->memory longer. The time
+ * counts from the start of its run. *given is false if there is none. O(leases) steps. */
 void fracas_scheduler_overdue(fracas_scheduler *scheduler, size_t worker, double now,
                               fracas_lease *lease, size_t *late, bool *given);
 

@@ -9,7 +9,7 @@ typedef struct {
     long long realizations;
     size_t points, last; /* points with failures; the latest one */
     size_t point[NAMED];
-    long long count[NAMED]; /* of realizations of each */
+    long long count[NAMED]; /* realizations at each */
 } failures;
 
 /* Called in plan order, hence point by point. */

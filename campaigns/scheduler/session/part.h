@@ -12,8 +12,8 @@
 FRACAS_MUST_USE fracas_err fracas_run_campaign(const fracas_run_options *options,
                                                fracas_campaign **campaign);
 
-/* Moves the rows of a part to the front and returns their number. Of `count` rows in plan order
- * these are rows part - 1, part - 1 + parts, ...; with fewer than 2 parts, all. */
+/* Moves the rows of a part to the front and returns their number: rows part - 1, part - 1 + parts,
+ * ... among `count` rows in plan order, or all with fewer than 2 parts. */
 size_t fracas_run_part(int part, int parts, fracas_index_row *row, size_t count);
 
 #endif

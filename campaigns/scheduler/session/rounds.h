@@ -12,11 +12,11 @@
 
 typedef struct {
     const fracas_campaign *campaign;
-    fracas_point_table table; /* of the campaign, with the present replicas of every point */
+    fracas_point_table table; /* the campaign's, with the present replicas of every point */
     fracas_point_row *point;  /* table.point */
-    int64_t *round;           /* of each point, its present one */
-    size_t open;              /* points with a rule that have not stopped */
-    bool *stopped;            /* of each point; true without a rule */
+    int64_t *round;           /* present round of each point */
+    size_t open;              /* points with a rule, not yet stopped */
+    bool *stopped;            /* one a point; true without a rule */
 } fracas_rounds;
 
 /* Decides all rounds whose realizations are complete in the index, and plans the following ones. An

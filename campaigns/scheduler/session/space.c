@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/session/space.h"
 
+#include "campaigns/plan/plan.h"
 #include "campaigns/store/store.h"
 
 #include <math.h>
@@ -25,7 +26,7 @@ static bool find_disk(const char *study, struct statvfs *disk)
     return true;
 }
 
-/* Of a study begun before: realizations done, and bytes of one in the segments. */
+/* Realizations done in a study begun before, and bytes of one in its segments. */
 static void read_progress(const char *study, double *done, double *bytes)
 {
     fracas_index *index;
@@ -40,22 +41,14 @@ static void read_progress(const char *study, double *done, double *bytes)
     fracas_index_close(index);
 }
 
-static const char *size_text(double bytes, char text[32])
-{
-    static const char *const unit[] = {"kB", "MB", "GB", "TB"};
-    size_t u = 0;
-    for (bytes /= 1e3; bytes >= 1e3 && u < 3; u++) bytes /= 1e3;
-    snprintf(text, 32, "%.1f %s", bytes, unit[u]);
-    return text;
-}
-
 fracas_err fracas_space_check(const char *study, const fracas_campaign *campaign,
                               const fracas_run_options *options, const double *bytes)
 {
     enum { EMPTY = 400000, ROW = 300, FILES = 64 }; /* bytes: small file, row of the index; files */
     struct statvfs disk;
     double planned = 0, all = 0, done, measured;
-    char need[32], segments[32], merged[32], have[32];
+    char need[FRACAS_SIZE_TEXT], segments[FRACAS_SIZE_TEXT], merged[FRACAS_SIZE_TEXT],
+        have[FRACAS_SIZE_TEXT];
     if (options->ignore_space || !find_disk(study, &disk)) return FRACAS_OK;
     for (size_t p = 0; p < campaign->npoints; p++) {
         planned += (double)campaign->table.point[p].replicas;
@@ -75,16 +68,17 @@ fracas_err fracas_space_check(const char *study, const fracas_campaign *campaign
             "%s will need about %s (segments of %.0f realizations %s, study.h5 %s), but its disk "
             "has %s free; free some space, choose another --study, keep less (output.history, "
             "output.interfaces), or start all the same with --ignore-space",
-            study, size_text(in_segments + in_merged, need), left, size_text(in_segments, segments),
-            size_text(in_merged, merged), size_text(room, have));
+            study, fracas_size_write(in_segments + in_merged, need), left,
+            fracas_size_write(in_segments, segments), fracas_size_write(in_merged, merged),
+            fracas_size_write(room, have));
     struct rlimit limit;
     if (!getrlimit(RLIMIT_FSIZE, &limit) && limit.rlim_cur != RLIM_INFINITY &&
         in_merged > (double)limit.rlim_cur)
         return fracas_fail(FRACAS_ENVIRONMENT,
                            "%s/study.h5 will have about %s, but a file may have %s; raise the "
                            "limit (`ulimit -f`), or start all the same with --ignore-space",
-                           study, size_text(in_merged, merged),
-                           size_text((double)limit.rlim_cur, have));
+                           study, fracas_size_write(in_merged, merged),
+                           fracas_size_write((double)limit.rlim_cur, have));
     if (disk.f_files > 0 && left > 0 && (double)disk.f_favail < FILES + fmin(left, options->jobs))
         return fracas_fail(
             FRACAS_ENVIRONMENT,
@@ -98,7 +92,7 @@ fracas_err fracas_space_check(const char *study, const fracas_campaign *campaign
  * shared memory. */
 fracas_err fracas_limits_check(const fracas_run_options *options)
 {
-    enum { FILES = 40, FILES_A_JOB = 5, FILE_SIZE = 8 << 20, MOST_JOBS = 1024 /* of a machine */ };
+    enum { FILES = 40, FILES_A_JOB = 5, FILE_SIZE = 8 << 20, MOST_JOBS = 1024 /* on a machine */ };
     const long cores = sysconf(_SC_NPROCESSORS_ONLN), jobs = options->jobs ? options->jobs : cores;
     const rlim_t files = FILES + FILES_A_JOB * (rlim_t)(jobs < 1           ? 1
                                                         : jobs > MOST_JOBS ? MOST_JOBS

@@ -129,7 +129,7 @@ fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaig
 
 /* ---- gc ---- */
 
-/* The digests of all files that the campaign names. */
+/* The digests of all files named in the campaign. */
 static fracas_err list_attachments(const fracas_campaign *campaign, const char ***digest,
                                    size_t *count)
 {
@@ -185,7 +185,7 @@ fracas_err fracas_upkeep_retry(const char *study, const fracas_campaign *campaig
 typedef struct {
     holding into, from;
     fracas_campaign *ours, *theirs;
-    const fracas_campaign *longer; /* of the two */
+    const fracas_campaign *longer; /* the longer campaign */
     const fracas_said *said;
 } joining;
 
@@ -244,7 +244,7 @@ static fracas_err join(joining *j, fracas_joined *joined, int64_t *both, fracas_
     TRY(fracas_index_plan(j->into.index, &j->from.rounds.table));
     TRY(fracas_study_join(j->into.study, j->into.index, j->from.study, j->from.index,
                           &j->from.rounds.table, joined));
-    TRY(fracas_index_set_part(j->into.index, 1, 1)); /* this study computes all that is missing */
+    TRY(fracas_index_set_part(j->into.index, 1, 1)); /* this study computes all the rest */
     fracas_rounds_clear(&j->into.rounds);
     /* More rounds may be complete now. */
     TRY(fracas_rounds_init(&j->into.rounds, j->longer, j->into.index));

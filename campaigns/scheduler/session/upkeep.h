@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Commands on a study that compute nothing: reindex, merge, gc, retry, merge-studies. Each takes
+/* Commands on a study without computation: reindex, merge, gc, retry, merge-studies. Each takes
  * the lock of the study (FRACAS_IN_USE names the holder) and reports its actions line by line. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_SESSION_UPKEEP_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_SESSION_UPKEEP_H

@@ -6,7 +6,7 @@
 #include "campaigns/campaign.h"
 #include "campaigns/store/store.h"
 
-/* Header of the files of a campaign that this version of the program computes. */
+/* Header of a campaign's files, with the version of this program. */
 fracas_file_header fracas_campaign_header(const fracas_campaign *campaign);
 
 #endif

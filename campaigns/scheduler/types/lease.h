@@ -10,14 +10,14 @@ enum {
     FRACAS_BATCH_MAX = 8,    /* realizations side by side: lanes of the widest batch */
     FRACAS_LEASE_MAX = 4096, /* realizations of a lease */
     FRACAS_LEASES_HELD = 2,  /* by one worker: one runs, one is ahead */
-    FRACAS_ATTEMPTS_MAX = 3  /* of one realization alone, before it is FAILED */
+    FRACAS_ATTEMPTS_MAX = 3  /* at one realization alone, before it is FAILED */
 };
 
 /* Only the first fracas_lease_bytes are sent. */
 typedef struct {
     uint64_t id;
     uint64_t point;    /* in the campaign */
-    uint64_t count;    /* of replicas, 1 to FRACAS_LEASE_MAX */
+    uint64_t count;    /* replicas, 1 to FRACAS_LEASE_MAX */
     uint64_t isolated; /* not 0: a worker died with it, so a process of its own computes it */
     double limit;      /* longest allowed time [s] */
     int64_t replica[FRACAS_LEASE_MAX];
@@ -34,8 +34,7 @@ typedef struct {
     int64_t done;       /* durable */
     int64_t memory;     /* computed, not yet durable */
     int64_t failed;     /* for good */
-    double work;        /* predicted cost of this run's computed realizations over that of all its
-                           realizations, 0 to 1 */
+    double work;        /* predicted cost of this run: computed over all, 0 to 1 */
     int64_t duplicates; /* computed again because the first copy took too long; in no other count */
 } fracas_counts;
 

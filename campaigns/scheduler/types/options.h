@@ -26,11 +26,11 @@ typedef struct {
     double segment_bytes; /* ... or at this size */
     bool shuffle;         /* lease in a shuffled order: a test of the schedule's independence */
     fracas_isolation isolation;
-    double lease_seconds; /* time that a lease should take [s] */
+    double lease_seconds; /* target duration of a lease [s] */
     double lease_limit;   /* a lease is killed after this time [s]; 0: 600 s + 50 x predicted */
-    double memory_limit;  /* bytes that computing a lease may allocate; 0: no limit */
+    double memory_limit;  /* bytes allocated for a lease, at most; 0: no limit */
     double walltime;      /* the run has drained after this time [s]; 0: no limit */
-    int64_t replicas;     /* of every point, instead of the campaign file's; 0: the file's */
+    int64_t replicas;     /* for every point; 0: the campaign file's */
     int part, parts;      /* compute realizations part, part + parts, ...; parts 0 or 1: all */
     bool force;           /* take over the lock of another host */
     bool ignore_space;    /* start although the disk is predicted to be too small */
@@ -40,8 +40,7 @@ typedef struct {
  * lease_seconds 1, all else 0. */
 void fracas_run_options_init(fracas_run_options *options);
 
-/* Lanes of the batches of a run, 1 to FRACAS_BATCH_MAX: options->width, or the most if that is 0.
- */
+/* Lanes of the batches of a run, 1 to FRACAS_BATCH_MAX: options->width, or the maximum if 0. */
 size_t fracas_run_width(const fracas_run_options *options);
 
 #endif

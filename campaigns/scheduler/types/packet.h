@@ -19,7 +19,7 @@ typedef enum {
     FRACAS_PACKET_QUIT,  /* the run is over: empty; the rank answers with the same */
     FRACAS_PACKET_FRESH, /* answer to REPLACED, later messages are for the new server: empty */
     /* compute server -> rank 0 */
-    FRACAS_PACKET_READY,    /* up: fracas_hash of the campaign that it has read */
+    FRACAS_PACKET_READY,    /* up: fracas_hash of its campaign */
     FRACAS_PACKET_COMPUTED, /* fracas_lease_report */
     FRACAS_PACKET_FAILED,   /* fracas_lease_failure */
     FRACAS_PACKET_SEGMENT,  /* fracas_segment_note, its rows, its provenance with the final '\0' */
@@ -38,7 +38,7 @@ typedef enum {
 /* One block of memory, of which the first fracas_packet_bytes travel. Freed with free(). */
 typedef struct {
     uint32_t kind;
-    uint32_t size; /* of body */
+    uint32_t size; /* bytes of the body */
     _Alignas(8) unsigned char body[];
 } fracas_packet;
 
@@ -77,7 +77,7 @@ size_t fracas_packet_bytes(const fracas_packet *message);
 FRACAS_MUST_USE fracas_err fracas_packet_body(const fracas_packet *message, void *body,
                                               size_t size);
 
-/* Keeps this thread's error message: as a body, or over calls that may overwrite it. */
+/* Keeps this thread's error message: as a body, or over other calls. */
 void fracas_trouble_take(fracas_err code, fracas_trouble *trouble);
 /* The error again; FRACAS_OK if it was none. */
 FRACAS_MUST_USE fracas_err fracas_trouble_fail(const fracas_trouble *trouble);

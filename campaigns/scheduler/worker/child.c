@@ -194,14 +194,14 @@ static void quote(const fracas_child *child, char *reason, size_t size)
     snprintf(reason + used, size - used, "; it said: %s", text);
 }
 
-/* Completes the failure of a lease that ended early. */
+/* Completes the failure of a lease with an early end. */
 static void explain(fracas_child *child, fracas_lease_failure *failure)
 {
     const size_t wanted = (size_t)child->lease.count;
     if (child->count == wanted)
         free(child->record[--child->count]); /* it ended badly after its last record, which is
                                                 doubtful */
-    const size_t end = (child->count / child->width + 1) * child->width; /* of the batch */
+    const size_t end = (child->count / child->width + 1) * child->width; /* end of the batch */
     failure->kept = child->count;
     failure->count = (end < wanted ? end : wanted) - child->count;
     if (child->fault[0]) memcpy(failure->reason, child->fault, sizeof failure->reason);

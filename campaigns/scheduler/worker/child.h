@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A child of a server: the process that computes one lease with the server's model (copy-on-write)
+/* A child of a server: a process for one lease. It computes with the server's model (copy-on-write)
  * and sends the records. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_WORKER_CHILD_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_WORKER_CHILD_H
@@ -21,14 +21,14 @@ typedef struct {
     fracas_packet **record; /* lease.count, of which `count` are complete */
     size_t count;
     char fault[1024];     /* its FAULT message; "": none */
-    unsigned char *bytes; /* of incomplete messages */
+    unsigned char *bytes; /* incomplete messages */
     size_t size, capacity;
 } fracas_child;
 
-/* Forks a child that computes the lease (copied) batch by batch, sends the records of each batch
- * and ends. It takes the model from its server's `models`, or builds it; it closes `server_fd`, its
- * server's own connection, dies with its server, and is the first process that the kernel kills
- * when memory runs out. FRACAS_ENVIRONMENT without process, memory or pipe. */
+/* Forks a child to compute the lease (copied) batch by batch, send the records of each batch and
+ * end. It takes the model from its server's `models`, or builds it; it closes `server_fd`, its
+ * server's own connection, dies with its server, and is killed first by the kernel when memory
+ * runs out. FRACAS_ENVIRONMENT without process, memory or pipe. */
 FRACAS_MUST_USE fracas_err fracas_child_start(fracas_child *child,
                                               const fracas_computation *computation,
                                               fracas_models *models, int server_fd);

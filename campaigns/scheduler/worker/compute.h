@@ -12,7 +12,7 @@ FRACAS_MUST_USE fracas_err fracas_compute_prepare(fracas_computation *computatio
                                                   fracas_models *models);
 
 /* Computes the batch from realization `from` of the lease on: *count realizations, fracas_run_width
- * or what is left of the lease (also set on failure). record[i] is the RECORD message for
+ * or the rest of the lease (also set on failure). record[i] is the RECORD message for
  * lease->replica[from + i], freed by the caller; on failure there is none. It allocates at most
  * options->memory_limit bytes, if not 0. FRACAS_ENVIRONMENT without memory, FRACAS_USAGE for
  * strengths outside the range of the law. */

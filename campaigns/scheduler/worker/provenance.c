@@ -59,7 +59,7 @@ static void write_versions(fracas_json *json)
 fracas_err fracas_provenance_make(const fracas_provenance *provenance,
                                   const fracas_run_options *options, char **text)
 {
-    fracas_isa isa; /* of this server's batches */
+    fracas_isa isa; /* for this server's batches */
     size_t size;
     TRY(fracas_isa_choose(options->isa, &isa));
     FILE *out = open_memstream(text, &size);

@@ -19,11 +19,11 @@ typedef struct {
 typedef struct {
     fracas_segment_entry *entry;
     size_t count, capacity;
-    double bytes;          /* of the packed records */
+    double bytes;          /* size of the packed records */
     double began;          /* fracas_now of the first record */
     struct timespec clock; /* time of day then */
     double compute;        /* time spent on its leases [s], for the provenance */
-    uint64_t number;       /* of segments that this server has written before */
+    uint64_t number;       /* segments written by this server before */
 } fracas_segment;
 
 /* Adds a record, which the segment owns from now on, also on failure. */

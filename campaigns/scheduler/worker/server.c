@@ -17,13 +17,13 @@
 #include <sys/time.h>
 #include <unistd.h>
 
-/* A lease that the server computes itself. */
+/* A lease computed by the server itself. */
 typedef struct {
     bool runs;
     fracas_computation computation;
     fracas_lease lease;
     size_t done;    /* realizations */
-    double seconds; /* that they took */
+    double seconds; /* spent on them */
 } own_lease;
 
 typedef struct {
@@ -94,7 +94,7 @@ static void set_alarm(double seconds)
     setitimer(ITIMER_REAL, &timer, NULL);
 }
 
-/* Starts the next lease. A model that cannot be built fails the lease, not the server. */
+/* Starts the next lease. An impossible model fails the lease, not the server. */
 static fracas_err start_next(server *s)
 {
     const fracas_lease *lease = &s->waiting[s->first];

@@ -8,11 +8,11 @@
 #include "campaigns/scheduler/types/lease.h"
 #include "campaigns/scheduler/types/options.h"
 
-/* A lease and all that computing it needs. Nothing is owned. */
+/* A lease and the objects for its computation. Nothing is owned. */
 typedef struct {
     const fracas_campaign *campaign;
     const fracas_run_options *options;
-    const fracas_model *model; /* of the lease's point ... */
+    const fracas_model *model; /* at the lease's point ... */
     const fracas_field *field; /* ... and of its strengths: fracas_compute_prepare */
     const fracas_lease *lease;
 } fracas_computation;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The supervisor: a process between a rank and its compute server. A rank must not fork once MPI
- * runs. The supervisor is forked before, does not know MPI, and restarts servers that died.
+ * runs. The supervisor is forked before, does not know MPI, and restarts dead servers.
  *
  *   rank - supervisor - server - lease        each the parent of the next, which dies with it
  *
@@ -14,7 +14,7 @@
 #include <sys/types.h>
 
 typedef struct {
-    pid_t pid;   /* of the supervisor; 0: none */
+    pid_t pid;   /* its process; 0: none */
     int control; /* connection to it */
     int server;  /* connection to the server, for messages; -1: none */
 } fracas_supervisor;
