@@ -4,7 +4,7 @@
 #include "campaigns/plan/plan.h"
 #include "campaigns/plan/point_model.h"
 #include "engine/cohesive/law.h"
-#include "engine/loading/loading.h"
+#include "engine/loading/traits.h"
 #include "engine/mesh/body.h"
 #include "engine/mesh/make.h"
 #include "engine/solver/batch.h"
@@ -109,47 +109,32 @@ static fracas_err check_strengths(const fracas_model *model, const fracas_point 
     return check_strongest(model, point, extent, most);
 }
 
-/* Upper bound of the stress in an uncracked ring until t [Pa]. Radially u'' + w^2 u = a with w =
- * c/R and sigma = E u/R (docs/theory/ring.md): radial velocity v            min(E v t/R, E v/c)
+/* Upper bound of the stress in an uncracked chain until t [Pa]. Radially u'' + w^2 u = a with w =
+ * c/R and sigma = E u/R (docs/theory/ring.md):
+ *
+ *   radial velocity v            min(E v t/R, E v/c)
  *   radial acceleration <= a     min(E a t^2/(2 R), 2 R rho a)
  *   circumferential velocity v   the same with a = v^2/R */
-static double ring_stress_bound(const fracas_spec *spec, double t)
+static double chain_stress_bound(const fracas_spec *spec, double t)
 {
-    const fracas_loading *loading = &spec->loading;
-    const double young = spec->material.young, rho = spec->material.density,
-                 radius = spec->geometry.radius;
-    const double mass = rho * spec->geometry.area; /* per length */
-    const bool radial = loading->direction == &fracas_axis_radial;
-    double stress = 0, outward = 0, along = 0; /* maxima until t: [Pa], [m/s2], [m/s] */
-    if (loading->type == &fracas_loading_initial_velocity) {
-        stress = young * fabs(loading->radial) / radius * fmin(t, radius / sqrt(young / rho));
-        along = loading->circumferential;
-    } else if (loading->type == &fracas_loading_held_velocity && radial) {
-        stress = young * t / radius *
-                 (loading->velocity + 0.5 * t * fmax(0, loading->acceleration));
-    } else if (loading->type == &fracas_loading_held_velocity) {
-        along = fmax(fabs(loading->velocity), fabs(loading->velocity + loading->acceleration * t));
-    } else if (radial) {
-        outward = fmax(fabs(loading->force), fabs(loading->force + loading->force_rate * t)) / mass;
-    } else {
-        along = t * (fabs(loading->force) + 0.5 * t * fabs(loading->force_rate)) / mass;
-    }
-    outward += along * along / radius;
-    return stress + fmin(young * t * t / (2 * radius), 2 * radius * rho) * outward;
+    const fracas_ring_drive drive = fracas_loading_traits_of(spec)->ring(spec, t);
+    const double radius = spec->geometry.radius;
+    if (drive.outward == 0 && drive.along == 0) return drive.stress;
+    return drive.stress +
+           fmin(spec->material.young * t * t / (2 * radius), 2 * radius * spec->material.density) *
+               (drive.outward + drive.along * drive.along / radius);
 }
 
 /* True if a plate stretches evenly until relief waves from its free edges arrive: no edge is held
  * against the motion, and no free edge meets a held one, whose corner concentrates stress. */
-static bool is_even(const fracas_spec *spec)
+static bool is_even(const fracas_spec *spec, const fracas_stretch *stretch)
 {
-    const bool moving = spec->loading.type == &fracas_loading_expansion;
     bool held = false, released = false;
-    if (spec->geometry.shape != &fracas_shape_plate ||
-        (moving && spec->loading.start != &fracas_start_moving))
-        return false;
+    if (!fracas_shape_is_even(spec) || stretch->shock) return false;
     for (int tag = 1; tag <= 4; tag++) {
         const fracas_kind *edge = spec->geometry.edge[tag];
-        if (edge == &fracas_edge_fixed || (edge != &fracas_edge_free && !moving)) return false;
+        if (edge == &fracas_edge_fixed || (edge != &fracas_edge_free && !stretch->moving))
+            return false;
         held = held || edge == &fracas_edge_held;
         released = released || edge == &fracas_edge_free;
     }
@@ -163,59 +148,34 @@ static bool is_even(const fracas_spec *spec)
  * concentration of stress. */
 static double surface_stress_bound(const fracas_spec *spec, double t)
 {
-    const fracas_loading *loading = &spec->loading;
-    const bool moving = loading->type == &fracas_loading_expansion;
-    const double nu = spec->material.poisson, ratio = moving ? loading->ratio : 1.0;
-    const double strain = moving ? fabs(loading->rate) * t
-                                 : 0.5 * loading->speed * loading->speed * t * t;
-    if (!is_even(spec)) return INFINITY;
+    const fracas_stretch stretch = fracas_loading_traits_of(spec)->surface(spec, t);
+    const double nu = spec->material.poisson, ratio = stretch.ratio;
+    if (!is_even(spec, &stretch)) return INFINITY;
     const double largest = fmax(fabs(1 + nu * ratio),
                                 fmax(fabs(nu + ratio), fmax(1.0, fabs(ratio)) * (1 - nu * nu)));
-    return spec->material.young * strain * largest / (1 - nu * nu) *
+    return spec->material.young * stretch.strain * largest / (1 - nu * nu) *
            fmax(1.0, 1.0 / spec->cohesive.coupling);
 }
 
 /* Upper bound of the stress in the uncracked body until time.end [Pa]. */
 static double stress_bound(const fracas_spec *spec)
 {
-    if (fracas_spec_is_surface(spec)) return surface_stress_bound(spec, spec->time.end);
-    if (spec->loading.type == &fracas_loading_imposed_rate)
-        return spec->material.young * spec->loading.rate * spec->time.end;
-    return ring_stress_bound(spec, spec->time.end);
+    return fracas_spec_is_surface(spec) ? surface_stress_bound(spec, spec->time.end)
+                                        : chain_stress_bound(spec, spec->time.end);
 }
 
-static bool is_ring(const fracas_spec *spec)
+/* Forecasts of rings alone. A compressed ring without bending stiffness folds, starting from
+ * round-off; held radial velocities keep it round. */
+static void describe_ring(const fracas_spec *spec, fracas_forecast *forecast)
 {
-    return spec->geometry.shape == &fracas_shape_ring;
-}
-
-/* True if the whole ring is compressed before time.end: without bending stiffness it folds,
- * starting from round-off. Held radial velocities keep it round. */
-static bool is_folded(const fracas_spec *spec, const fracas_forecast *forecast)
-{
-    const fracas_loading *loading = &spec->loading;
-    const double last = loading->force + loading->force_rate * spec->time.end;
-    if (loading->type == &fracas_loading_force && loading->direction == &fracas_axis_radial)
-        return fmin(loading->force, last) < 0;
-    if (loading->type != &fracas_loading_initial_velocity || loading->circumferential != 0)
-        return false;
-    return loading->radial < 0 || (forecast->bound < forecast->mean && loading->radial > 0 &&
-                                   spec->time.end > 2 * forecast->turn);
-}
-
-/* Turn of the ring by a circumferential load until time.end [rad]. */
-static double turned_angle(const fracas_spec *spec)
-{
-    const fracas_loading *loading = &spec->loading;
-    const double t = spec->time.end, mass = spec->material.density * spec->geometry.area;
-    double path = 0; /* [m] */
-    if (loading->type == &fracas_loading_initial_velocity) path = loading->circumferential * t;
-    else if (loading->direction != &fracas_axis_circumferential) return 0;
-    else if (loading->type == &fracas_loading_held_velocity)
-        path = (loading->velocity + 0.5 * loading->acceleration * t) * t;
-    else if (loading->type == &fracas_loading_force)
-        path = (0.5 * loading->force + loading->force_rate * t / 6) * t * t / mass;
-    return fabs(path) / spec->geometry.radius;
+    const fracas_loading_traits *traits = fracas_loading_traits_of(spec);
+    const double radius = spec->geometry.radius;
+    forecast->turn = M_PI_2 * radius / sqrt(spec->material.young / spec->material.density);
+    forecast->folds = traits->folds &&
+                      traits->folds(spec, forecast->bound < forecast->mean, forecast->turn);
+    if (spec->geometry.direction == &fracas_direction_initial && traits->path)
+        forecast->turned = fabs(traits->path(spec, spec->time.end)) / radius;
+    forecast->lonely = spec->cohesive.zone > 0.5 * fracas_spec_length(spec);
 }
 
 /* Diagonal of the box around all interfaces [m]. */
@@ -262,8 +222,7 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
                                                            strength_at(point, extent.mean, 0.75);
     forecast->equal = forecast->uniform &&
                       fracas_strength_deviation(&point->strength, extent.mean) == 0;
-    forecast->lines = forecast->uniform && spec->mesh.spacing == &fracas_spacing_triangles &&
-                      spec->mesh.amplitude == 0;
+    forecast->lines = forecast->uniform && fracas_mesh_is_regular(spec);
     forecast->mean = mean;
     forecast->bound = stress_bound(spec);
     forecast->spread = fracas_model_surface(model) && spec->cohesive.law != &fracas_law_nitsche
@@ -272,14 +231,7 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
                            : NAN;
     forecast->step_stress = spec->material.young * fabs(fracas_spec_strain_rate(spec)) *
                             forecast->time_step;
-    if (is_ring(spec)) {
-        forecast->turn = M_PI_2 * spec->geometry.radius /
-                         sqrt(spec->material.young / spec->material.density);
-        forecast->folds = is_folded(spec, forecast);
-        if (spec->geometry.direction == &fracas_direction_initial)
-            forecast->turned = turned_angle(spec);
-        forecast->lonely = spec->cohesive.zone > 0.5 * fracas_spec_length(spec);
-    }
+    if (fracas_spec_is_ring(spec)) describe_ring(spec, forecast);
     forecast->repeated = fracas_strength_is_given(&point->strength) && point->replicas > 1;
     return check_strengths(model, point, extent.least, factor.most);
 }

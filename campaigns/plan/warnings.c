@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/plan/warnings.h"
 
-#include "engine/loading/loading.h"
-#include "engine/mesh/body.h"
+#include "engine/loading/traits.h"
 #include "engine/mesh/make.h"
 
 #include <inttypes.h>
@@ -33,7 +32,7 @@ static FRACAS_PRINTF(3, 4) bool applies(const fracas_warning *w, bool condition,
 static const char *harder(const fracas_warning *w)
 {
     const fracas_spec *spec = &w->point->spec;
-    if (spec->loading.type != &fracas_loading_initial_velocity) return "load it harder, or longer";
+    if (!fracas_loading_traits_of(spec)->released) return "load it harder, or longer";
     return spec->time.end < w->forecast->turn ? "raise its velocity or time.end"
                                               : "a free ring swings back: raise its velocity";
 }
@@ -45,7 +44,7 @@ static void finer(const fracas_spec *spec, const fracas_forecast *forecast, char
     if (!fracas_spec_is_surface(spec))
         snprintf(text, size, "raise mesh.elements to %.0f",
                  ceil((double)forecast->elements * times));
-    else if (spec->mesh.spacing == &fracas_spacing_given)
+    else if (fracas_mesh_is_given(spec))
         snprintf(text, size, "give a mesh with edges %.2g times shorter", times);
     else if (spec->mesh.size > 0)
         snprintf(text, size, "lower mesh.size to %.2g m", spec->mesh.size / times);

@@ -11,10 +11,30 @@ bool fracas_spec_is_surface(const fracas_spec *spec)
            shape == &fracas_shape_sphere || shape == &fracas_shape_file;
 }
 
+bool fracas_spec_is_ring(const fracas_spec *spec)
+{
+    return spec->geometry.shape == &fracas_shape_ring;
+}
+
+bool fracas_shape_is_even(const fracas_spec *spec)
+{
+    return spec->geometry.shape == &fracas_shape_plate;
+}
+
+bool fracas_mesh_is_regular(const fracas_spec *spec)
+{
+    return spec->mesh.spacing == &fracas_spacing_triangles && spec->mesh.amplitude == 0;
+}
+
+bool fracas_mesh_is_given(const fracas_spec *spec)
+{
+    return spec->mesh.spacing == &fracas_spacing_given;
+}
+
 static fracas_err check_spacing(const fracas_spec *spec)
 {
     const bool from_file = spec->geometry.shape == &fracas_shape_file;
-    if (from_file == (spec->mesh.spacing == &fracas_spacing_given)) return FRACAS_OK;
+    if (from_file == fracas_mesh_is_given(spec)) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE, "geometry.shape is %s, and mesh.spacing %s: %s",
                        spec->geometry.shape->name, spec->mesh.spacing->name,
                        from_file ? "write `spacing: given`, as the file has the elements"
