@@ -78,7 +78,8 @@ double fracas_strength_deviation(const fracas_strength *strength, fracas_extent 
 /* True if the strength of an interface depends on its extent. */
 bool fracas_strength_has_size_effect(const fracas_strength *strength);
 
-/* Text for messages about equal strengths, ", here by ..." with the key that scatters them, or "". */
+/* Text for messages about equal strengths, ", here by ..." with the key that scatters them, or "".
+ */
 const char *fracas_strength_scatter_remedy(const fracas_strength *strength);
 
 /* Number of given strengths (distributions `file`, `positions`); 0 for drawn ones: there are as
