@@ -27,8 +27,7 @@ static fracas_strength strength_of(const char *name)
                                 .shape = 2,
                                 .median = 300e6,
                                 .sigma = 0.1,
-                                .density = 1e9,
-                                .exponent = 3};
+                                .own = {1e9, 3}};
     if (strcmp(name, "normal") == 0)
         strength.mean =
             10 * (strength.deviation = 30e6); /* of other laws they replace their own parameters */

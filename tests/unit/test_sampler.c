@@ -199,11 +199,8 @@ static const fracas_strength *example(size_t k)
     strength[4] = (fracas_strength){
         .distribution = kind("normal"), .mean = 300e6, .deviation = 120e6};
     strength[5] = (fracas_strength){.distribution = kind("gamma"), .shape = 9.0, .scale = 30e6};
-    strength[6] = (fracas_strength){.distribution = kind("flaws"),
-                                    .density = 1e9,
-                                    .minimum = 100e6,
-                                    .maximum = 400e6,
-                                    .exponent = 3.0};
+    strength[6] = (fracas_strength){
+        .distribution = kind("flaws"), .minimum = 100e6, .maximum = 400e6, .own = {1e9, 3.0}};
     return &strength[k];
 }
 
@@ -514,7 +511,7 @@ static void gamma_is_gsl_in_both_tails(void **state)
 
 static double share_weaker(const fracas_strength *flaws, double sigma_c)
 {
-    return pow((sigma_c - flaws->minimum) / (flaws->maximum - flaws->minimum), flaws->exponent);
+    return pow((sigma_c - flaws->minimum) / (flaws->maximum - flaws->minimum), flaws->own[1]);
 }
 
 /* P(strength > s) = exp(-density volume F(s)): put in, 1 - u comes back; where s is the maximum,
@@ -529,9 +526,8 @@ static void flaws_invert_their_law(void **state)
         for (size_t m = 0; m < FRACAS_COUNT(numbers); m++)
             for (int i = 0; i < PROBES; i++) {
                 fracas_strength flaws = {.distribution = kind("flaws"),
-                                         .density = numbers[m] / VOLUME,
                                          .maximum = 400e6,
-                                         .exponent = exponents[e]};
+                                         .own = {numbers[m] / VOLUME, exponents[e]}};
                 double rest, u = probe(i, &rest), sigma_c = quantile_of(&flaws, VOLUME, u);
                 double t = i < TAIL ? -log1p(-u) : -log(rest);
                 if (t >= numbers[m] * (1.0 + 1e-15)) assert_true(sigma_c == 400e6);
@@ -556,7 +552,7 @@ static void flaws_do_not_see_the_mesh(void **state)
             assert_close(part, quantile_of(flaws, VOLUME, w), 1e-14);
         }
     /* n interfaces without a flaw are one without a flaw */
-    double none = exp(-flaws->density * VOLUME);
+    double none = exp(-flaws->own[0] * VOLUME);
     assert_true(quantile_of(flaws, VOLUME, 1.0 - 0.999 * none) == 400e6);
     assert_true(quantile_of(flaws, VOLUME, 1.0 - 1.001 * none) < 400e6);
 }
@@ -584,10 +580,9 @@ static void flaws_mean_is_the_integral(void **state)
                 gsl_integration_cquad(&f, 0.0, 1.0, 0.0, 1e-11, space, &integral, &error, NULL), 0);
             assert_close(fracas_stretched_exponential(numbers[m], exponents[e]), integral, 2e-11);
             fracas_strength flaws = {.distribution = kind("flaws"),
-                                     .density = numbers[m] / VOLUME,
                                      .minimum = 100e6,
                                      .maximum = 400e6,
-                                     .exponent = exponents[e]};
+                                     .own = {numbers[m] / VOLUME, exponents[e]}};
             assert_close(mean_of_strength(&flaws, VOLUME), 100e6 + 300e6 * integral, 2e-11);
         }
     gsl_integration_cquad_workspace_free(space);
