@@ -1,16 +1,10 @@
 # ctest-labels: ci
-# The code of docs/how-to/open-results-with-pandas.md and -R.md runs, and what it finds is what the report says.
+# docs/examples/tables_with_pandas.py and tables_with_R.R run, and what they find is what the report says.
 . tests/support/campaigns.sh
-
-# code LANGUAGE PAGE: the blocks of the page in that language, in their order.
-code()
-{
-    awk -v fence='```' -v language="$1" '$0 == fence language {inside = 1; next} $0 == fence {inside = 0} inside' "$source/docs/how-to/$2"
-}
 
 cat > plus.py <<'END'
 
-# Behind the page's own code: the study that a test knows.
+# Behind the script's own code: the study that a test knows.
 import math
 import h5py
 study = h5py.File("STUDY/study.h5")
@@ -32,7 +26,7 @@ assert sizes["normalised"].notna().all() and len(sizes) == len(fragments)
 END
 cat > plus.R <<'END'
 
-# Behind the page's own code: the same numbers two ways.
+# Behind the script's own code: the same numbers two ways.
 stopifnot(nrow(points) == 3, nrow(realizations) == 9, unit_of("fragments", "size") == "m", unit_of("realizations", "work") == "J",
           is.character(points$hash), is.integer(fragments$fragment), is.na(points$onset_time.mean) == c(TRUE, FALSE, FALSE))
 stopifnot(by_rate[[rate]] == c(1e3, 3e4, 1e5), all.equal(by_rate$size.mean, unname(again[, "mean"]), tolerance = 1e-12),
@@ -47,24 +41,22 @@ expect 0 "$fracas" run one.yaml --study STUDY --jobs 2
 expect 0 "$fracas" export STUDY --histories
 
 if /usr/bin/python3 -c 'import pandas, h5py' 2>/dev/null; then
-    code python open-results-with-pandas.md > page.py
-    [ "$(wc -l < page.py)" -gt 20 ] || fail "no code on the page of pandas"
+    cp "$source/docs/examples/tables_with_pandas.py" page.py
     cat page.py plus.py > all.py
-    /usr/bin/python3 -W error all.py || fail "the page of pandas"
+    /usr/bin/python3 -W error all.py || fail "the script for pandas"
 else
     echo "skipped: python3-pandas or python3-h5py is not installed"
 fi
 
 if Rscript -e 'library(jsonlite)' >/dev/null 2>&1; then
-    code r open-results-with-R.md > page.R
-    [ "$(wc -l < page.R)" -gt 20 ] || fail "no code on the page of R"
+    cp "$source/docs/examples/tables_with_R.R" page.R
     { echo 'options(warn = 2)'; cat page.R plus.R; } > all.R
-    Rscript --vanilla all.R || fail "the page of R"
+    Rscript --vanilla all.R || fail "the script for R"
 else
     echo "skipped: r-base-core or r-cran-jsonlite is not installed"
 fi
 
-# A ring has no geometry.length: the pages are not of bars alone.
+# A ring has no geometry.length: the scripts are not for bars alone.
 mv STUDY bars
 cat > ring.yaml <<'END'
 name: ring
@@ -84,5 +76,5 @@ output: {history: 20, interfaces: false}
 END
 expect 0 "$fracas" run ring.yaml --study STUDY --jobs 2
 expect 0 "$fracas" export STUDY --histories
-[ ! -e page.py ] || /usr/bin/python3 -W error page.py || fail "the page of pandas, of rings"
-[ ! -e page.R ] || Rscript --vanilla -e 'options(warn = 2); source("page.R")' || fail "the page of R, of rings"
+[ ! -e page.py ] || /usr/bin/python3 -W error page.py || fail "the script for pandas, of rings"
+[ ! -e page.R ] || Rscript --vanilla -e 'options(warn = 2); source("page.R")' || fail "the script for R, of rings"

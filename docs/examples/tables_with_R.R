@@ -1,16 +1,7 @@
-# Open results with R
-
-Write the tables of your study, with `datapackage.json`, which says what every column is
-([the data package](../formats/export.md)):
-
-    fracas export STUDY
-
-You need R with jsonlite (Debian: `r-base-core`, `r-cran-jsonlite`) and nothing of fracas. The package
-[frictionless](https://docs.ropensci.org/frictionless/) of CRAN reads the tables, too. A test runs the code of this page.
-
-## Read the package
-
-```r
+# The tables of a study in R: fracas export STUDY; Rscript tables_with_R.R
+#
+# Prints the mean size by rate from the points and again from the fragments, quantiles of normalised sizes and a survival curve,
+# and draws that into survival.pdf. Needs jsonlite. A test runs it.
 library(jsonlite)
 folder <- "STUDY/export"
 package <- fromJSON(file.path(folder, "datapackage.json"), simplifyVector = FALSE)
@@ -30,32 +21,9 @@ points <- tables$points; realizations <- tables$realizations; fragments <- table
 cat(package$campaign, package$seed, package$program_version, "\n")
 cat(nrow(points), "points,", nrow(realizations), "realizations,", nrow(fragments), "fragments\n")
 cat("a size is in", unit_of("fragments", "size"), "\n")
-```
-
-`check.names = FALSE` keeps the dots and names as they are; `points$"size.mean"` or `points[["size.mean"]]` is a column.
-
-## Mean size by rate, with its interval
-
-`points` has the numbers of the report, with the half width of the 95 % interval:
-
-```r
 rate <- "derived.strain_rate"
 by_rate <- points[order(points[[rate]]), c(rate, "size.n", "size.mean", "size.half_width")]
 print(by_rate, row.names = FALSE)
-```
-
-For `campaigns/examples/bar-rate-sweep.yaml` you get
-
-     derived.strain_rate size.n    size.mean size.half_width
-                   1e+03     64 8.406616e-04    7.266939e-06
-                   1e+04     64 4.481853e-04    2.698238e-06
-                   1e+05     64 1.348571e-04    5.909708e-07
-                   1e+06     64 3.211779e-05    6.647544e-08
-
-Now the same from the fragments. A realization is one observation, and its fragments are not independent: average
-within each realization first. Use realizations ending FRAGMENTED, INTACT or TIME_LIMIT:
-
-```r
 used <- realizations[realizations$outcome %in% c("FRAGMENTED", "INTACT", "TIME_LIMIT"), ]
 used <- merge(used, points[c("point", rate)], by = "point")
 used <- merge(used, aggregate(size ~ point + replica, fragments, mean), by = c("point", "replica"))
@@ -65,23 +33,9 @@ interval <- function(size) {
 }
 again <- do.call(rbind, tapply(used$size, used[[rate]], interval))
 print(again)
-```
-
-## Parameters beside fragments
-
-Join tables by their keys: `point`, and with `replica` the realization.
-
-```r
 sizes <- merge(fragments, points[c("point", rate, "scale.size")], by = "point")
 sizes$normalised <- sizes$size / sizes$scale.size
 print(aggregate(sizes["normalised"], sizes[rate], quantile, probs = c(0.1, 0.5, 0.9)))
-```
-
-## Survival curve
-
-The share of fragments of at least size s, without dust, at one rate:
-
-```r
 fastest <- sizes[sizes[[rate]] == max(sizes[[rate]]) & sizes$dust == 0, ]
 size <- sort(unique(fastest$size))                       # sizes are multiples of the element size: many are equal
 survival <- 1 - c(0, head(ecdf(fastest$size)(size), -1)) # at each size, before it falls
@@ -89,4 +43,3 @@ print(head(data.frame(size, survival)), row.names = FALSE)
 pdf("survival.pdf", width = 6, height = 4)
 plot(size, survival, type = "S", log = "y", xlab = "size s [m]", ylab = "share of fragments of at least s")
 invisible(dev.off())
-```

@@ -1,15 +1,9 @@
-# Open results with pandas
+"""The tables of a study in pandas: fracas export STUDY; python3 tables_with_pandas.py
 
-Write the tables of your study, with `datapackage.json`, which says what every column is
-([the data package](../formats/export.md)):
+Prints the mean size by rate from the points and again from the fragments, quantiles of normalised sizes, a survival curve, and
+some numbers of all points. Needs pandas. A test runs it.
+"""
 
-    fracas export STUDY
-
-You need pandas (Debian: `python3-pandas`) and nothing of fracas. A test runs the code of this page.
-
-## Read the package
-
-```python
 import json
 import pandas as pd
 
@@ -29,69 +23,22 @@ points, realizations, fragments = tables["points"], tables["realizations"], tabl
 print(package["campaign"], package["seed"], package["program_version"])
 print(len(points), "points,", len(realizations), "realizations,", len(fragments), "fragments")
 print("a size is in", unit["fragments"]["size"])
-```
-
-## Mean size by rate, with its interval
-
-`points` has the numbers of the report, with the half width of the 95 % interval:
-
-```python
 rate = "derived.strain_rate"
 by_rate = points[[rate, "size.n", "size.mean", "size.half_width"]].sort_values(rate)
 print(by_rate.to_string(index=False))
-```
-
-For `campaigns/examples/bar-rate-sweep.yaml` you get
-
-     derived.strain_rate  size.n  size.mean  size.half_width
-                    1000      64  0.0008407        7.267e-06
-                   1e+04      64  0.0004482        2.698e-06
-                   1e+05      64  0.0001349         5.91e-07
-                   1e+06      64  3.212e-05        6.648e-08
-
-Now the same from the fragments. A realization is one observation, and its fragments are not independent: average
-within each realization first. Use realizations ending FRAGMENTED, INTACT or TIME_LIMIT:
-
-```python
 used = realizations[realizations["outcome"].isin(["FRAGMENTED", "INTACT", "TIME_LIMIT"])]
 used = used.merge(points[["point", rate]], on="point", validate="many_to_one")
 of_realization = fragments.groupby(["point", "replica"])["size"].mean()
 used = used.merge(of_realization, on=["point", "replica"], validate="one_to_one")
 mean = used.groupby(rate)["size"].agg(["count", "mean", "sem"])  # sem: standard error of the mean
 print(mean)
-```
-
-The half width is `sem` times the 0.975 quantile of Student's t with count - 1 degrees of freedom (`scipy.stats.t.ppf(0.975, count - 1)`; 2.365 for 8 realizations).
-
-## Parameters beside fragments
-
-Join tables by their keys: `point`, and with `replica` the realization.
-
-```python
 sizes = fragments.merge(points[["point", rate, "scale.size"]], on="point", validate="many_to_one")
 sizes["normalised"] = sizes["size"] / sizes["scale.size"]
 print(sizes.groupby(rate)["normalised"].describe(percentiles=[0.1, 0.5, 0.9]))
-```
-
-## Survival curve
-
-The share of fragments of at least size s, without dust, at one rate:
-
-```python
 fastest = sizes[(sizes[rate] == sizes[rate].max()) & (sizes["dust"] == 0)]
 count = fastest["size"].value_counts().sort_index()              # sizes are multiples of the element size: many are equal
 survival = 1 - (count.cumsum() - count) / count.sum()            # at each size, before it falls
 print(survival.head())
-```
-
-`survival.plot(drawstyle="steps-pre", logy=True)` draws it (with `python3-matplotlib`).
-
-## One number of all points
-
-If you want a long table, `statistics` has the numbers of `points` as lines, each with its unit:
-
-```python
 statistics = tables["statistics"]
 print(statistics[statistics["key"].isin(["count.mean", "count.half_width", "dissipated.mean"])].to_string(index=False))
 wide = statistics.pivot(index="point", columns="key", values="value")
-```
