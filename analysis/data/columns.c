@@ -28,11 +28,6 @@ double fracas_columns_real(const fracas_point_table *table, size_t point, const 
     return column == SIZE_MAX ? NAN : table->point[point].value[column].real;
 }
 
-bool fracas_columns_surface(const fracas_point_table *table, size_t point)
-{
-    return isfinite(fracas_columns_real(table, point, "geometry.thickness"));
-}
-
 double fracas_columns_rate(const fracas_point_table *table, size_t point)
 {
     bool derived = fracas_point_table_find(table, strain_rate_path) != SIZE_MAX;

@@ -14,8 +14,6 @@ typedef struct {
 
 /* The value of the column with this path, NaN if there is none or the point has none. */
 double fracas_columns_real(const fracas_point_table *table, size_t point, const char *path);
-bool fracas_columns_surface(const fracas_point_table *table,
-                            size_t point); /* surfaces alone have a thickness */
 
 /* The point's strain rate [1/s]: derived.strain_rate; loading.rate in an older study, which lacks
  * that column. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/summary/statistics.h"
 
+#include "analysis/summary/body.h"
 #include "analysis/summary/modulus.h"
 #include "analysis/data/columns.h"
 #include "analysis/data/ring.h"
@@ -127,47 +128,20 @@ const char *fracas_outcome_name(int64_t outcome)
     return outcome >= 0 && outcome < FRACAS_NOUTCOMES ? name[outcome] : "?";
 }
 
-static double ring_radius(const fracas_point_table *table, size_t point)
-{
-    size_t model = fracas_point_table_find(table, "model");
-    bool ring = model != SIZE_MAX && !strcmp(table->point[point].value[model].text, "ring");
-    return ring ? fracas_columns_real(table, point, "geometry.radius") : NAN;
-}
-
-/* G_c [J/m2], of the mean strength where the critical opening is given: fracture_energy is 0 then.
- */
-static double fracture_energy(const fracas_point_table *table, size_t point)
-{
-    const double opening = fracas_columns_real(table, point, "cohesive.critical_opening");
-    if (opening > 0)
-        return 0.5 * opening * fracas_columns_real(table, point, "derived.strength_mean");
-    return fracas_columns_real(table, point, "cohesive.fracture_energy");
-}
-
-/* Of a body whose elements are all equal: what every size is a multiple of [m]; else 0. */
-static double lattice_of(const fracas_point_table *table, size_t point, double length)
-{
-    const size_t spacing = fracas_point_table_find(table, "mesh.spacing");
-    const double elements = fracas_columns_real(table, point, "mesh.elements");
-    const bool equal = spacing == SIZE_MAX ||
-                       !strcmp(table->point[point].value[spacing].text, "uniform");
-    return equal && !fracas_columns_surface(table, point) && length > 0 && elements > 0
-               ? length / elements
-               : 0;
-}
-
 void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
                                   fracas_point_statistics *statistics)
 {
+    const fracas_body body = fracas_body_of(table, point);
+    const fracas_modulus modulus = fracas_modulus_of(table, point, body.length);
     *statistics = (fracas_point_statistics){
         .rate = fracas_columns_rate(table, point),
-        .length = fracas_columns_real(table, point, "geometry.length"),
-        .radius = ring_radius(table, point),
-        .surface = fracas_columns_surface(table, point),
+        .length = body.length,
+        .radius = body.radius,
+        .surface = body.surface,
         .scales = fracas_scales_of(fracas_columns_real(table, point, "material.young"),
                                    fracas_columns_real(table, point, "material.density"),
                                    fracas_columns_real(table, point, "derived.strength_mean"),
-                                   fracture_energy(table, point)),
+                                   body.fracture_energy),
         .residual = NAN,
         .created = NAN,
         .drift = NAN,
@@ -177,13 +151,11 @@ void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
         .broken_replica = -1,
     };
     memcpy(&statistics->seed, table->point[point].hash.byte, sizeof statistics->seed);
-    if (statistics->radius > 0) statistics->length = 2 * M_PI * statistics->radius;
-    const fracas_modulus modulus = fracas_modulus_of(table, point, statistics->length);
     statistics->scales.modulus = modulus.value;
     statistics->without_mott = statistics->surface       ? "the law is of one dimension"
                                : !(statistics->rate > 0) ? "there is no strain rate"
                                                          : modulus.reason;
-    fracas_ensemble_init(&statistics->ensemble, lattice_of(table, point, statistics->length));
+    fracas_ensemble_init(&statistics->ensemble, body.lattice);
     statistics->ensemble.surface = statistics->surface;
     for (int law = 0; law < FRACAS_NLAWS;
          law++) /* at rate 0, a ring that spins or is accelerated, they say nothing */
