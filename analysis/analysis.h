@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Statistics of a study, point by point, beside the size laws; the table, the exports and the
+/* Statistics of a study, point by point, beside the scaling laws; the table, the exports and the
  * report. */
 #ifndef FRACAS_ANALYSIS_ANALYSIS_H
 #define FRACAS_ANALYSIS_ANALYSIS_H
@@ -25,8 +25,8 @@ void fracas_analysis_destroy(fracas_analysis *analysis); /* NULL is allowed */
 
 /* The result table, one line a point, for a terminal. */
 void fracas_analysis_print_table(const fracas_analysis *analysis, FILE *out);
-/* The same numbers (and the rest of the statistics), and the fits that STUDY/fits.csv has, as one
- * JSON document. Errors as fracas_fits_read. */
+/* The same numbers, all other statistics and the fits of STUDY/fits.csv as one JSON document.
+ * Errors as fracas_fits_read. */
 FRACAS_MUST_USE fracas_err fracas_analysis_write_json(const fracas_analysis *analysis,
                                                       const char *study, FILE *out);
 
@@ -63,24 +63,24 @@ typedef struct {
     } /* in the direction (1, 1, 1) */
 
 typedef struct {
-    const fracas_hash *campaign; /* that study.h5 must be of; NULL: of any */
+    const fracas_hash *campaign; /* study.h5 must be of this campaign; NULL: of any */
     size_t point;
     int64_t replica;
     size_t count;       /* pictures */
     const double *time; /* s, of each; NULL: evenly from the first onset (without it) to the end */
     fracas_surface_show show;
     const fracas_view *view; /* NULL: a flat surface as it lies, any other by FRACAS_VIEW_DEFAULT */
-    double explode;     /* >= 0: fragments moved apart by this times (their centroid - that of the
-                           surface) */
-    bool table;         /* the first times of all replicas as CSV, too */
+    double explode; /* >= 0: fragments moved apart by this times (their centroid - centroid of the
+                       surface) */
+    bool table;     /* the first times of all replicas as CSV, too */
     const char *folder; /* made if it is not there; NULL: STUDY/pictures */
 } fracas_picture_request;
 
-/* Writes surface-point-P-replica-R-K.svg for K from 1, with `table` times-point-P.csv, and says on
- * `out` which, and when the realization first cracked, broke, and cracked through. FRACAS_USAGE,
- * saying what there is, for a point, replica or time that the study has not, a point that is no
- * surface, and a study without interfaces; FRACAS_DAMAGED if study.h5 is not there, or of another
- * campaign: only a complete study has the meshes. */
+/* Writes surface-point-P-replica-R-K.svg for K from 1, with `table` also times-point-P.csv. Prints
+ * on `out` their names and the times at which the realization first cracked, broke, and cracked
+ * through. FRACAS_USAGE, with the choices there are, for an unknown point, replica or time, a point
+ * that is no surface, and a study without interfaces. FRACAS_DAMAGED if study.h5 is missing or of
+ * another campaign: only a complete study has the meshes. */
 FRACAS_MUST_USE fracas_err fracas_pictures_write(const char *study,
                                                  const fracas_picture_request *request, FILE *out);
 

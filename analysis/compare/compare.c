@@ -19,7 +19,7 @@ enum { CUTS = 256, LEAST_CUTS = 16, SUMS = 200000 };
 const fracas_compared_quantity fracas_compared_quantities[FRACAS_COMPARED_VALUES] = {
     FRACAS_COMPARED_NUMBERS(QUANTITY)};
 
-/* The realizations of both points that are compared, those of A first. */
+/* The compared realizations of both points, those of A first. */
 typedef struct {
     size_t na, nb;
     const fracas_ensemble *a, *b;
@@ -39,8 +39,7 @@ static void clear_gathered(gathered *of)
     free(of->cut);
 }
 
-/* Both are ascending by replica in a study's order; a replica that is missing on one side is left
- * out. */
+/* Both are ascending by replica in a study's order; a replica missing on one side is left out. */
 static void pair_up(gathered *of)
 {
     size_t pairs = 0;
@@ -60,8 +59,8 @@ static bool same_but_rounding(double a, double b)
     return fabs(a - b) <= 1e-12 * fmax(fabs(a), fabs(b));
 }
 
-/* Values that differ by rounding alone are equal: else an onset time that a parameter does not
- * touch would differ, and surely. */
+/* Values that differ by rounding alone are made equal. Else an onset time would seem to differ, and
+ * surely, by a parameter without influence on it. */
 static void forget_rounding(gathered *of, bool paired)
 {
     const size_t nv = FRACAS_COMPARED_VALUES, n = of->na + of->nb;
@@ -104,8 +103,8 @@ static fracas_err gather(const fracas_ensemble *a, const fracas_ensemble *b, boo
     return FRACAS_OK;
 }
 
-/* Where the distributions of sizes are compared: all sizes that occur if they are few, else even
- * ones of them  (compare.9). */
+/* Cuts at which the distributions of sizes are compared: all sizes if they are few, else even ones
+ * of them  (compare.9). */
 static fracas_err make_cuts(gathered *of)
 {
     size_t n = 0, distinct = 0;
@@ -117,7 +116,7 @@ static fracas_err make_cuts(gathered *of)
             size[n++] = from->size[f];
     }
     gsl_sort(size, 1, n);
-    for (size_t i = 0; i < n; i++) /* sizes that differ by rounding alone are one */
+    for (size_t i = 0; i < n; i++) /* sizes equal to rounding are one */
         if (i == 0 || size[i] > size[distinct - 1] * (1 + 1e-9)) size[distinct++] = size[i];
     const size_t affordable = SUMS / (of->na + of->nb + 1), most = affordable > CUTS ? CUTS
                                                                    : affordable < LEAST_CUTS
@@ -138,7 +137,7 @@ static void count_below(gathered *of)
         double *below = of->below + i * of->ncuts;
         of->fragments[i] = (double)(end - begin);
         for (size_t f = begin; f < end; f++) {
-            size_t low = 0, high = of->ncuts; /* the first cut that is not below the size */
+            size_t low = 0, high = of->ncuts; /* the first cut not below the size */
             while (low < high) {
                 const size_t middle = (low + high) / 2;
                 if (of->cut[middle] < from->size[f]) low = middle + 1;
@@ -216,7 +215,7 @@ static fracas_err correct(fracas_comparison *comparison)
                                : FRACAS_OK;
 }
 
-/* The pairs of points, and those that have no partner. */
+/* The pairs of points, and the points without a partner. */
 static fracas_err list_points(const fracas_analysis *a, const fracas_analysis *b,
                               const size_t *partner, fracas_comparison *comparison)
 {

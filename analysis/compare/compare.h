@@ -23,7 +23,7 @@ typedef struct {
     uint64_t seed;        /* equal seeds give equal p */
 } fracas_compare_options;
 
-/* A number that is a mean over realizations: the keys of the JSON summary without ".mean". */
+/* A mean over realizations, under its key in the JSON summary without ".mean". */
 typedef struct {
     const char *key, *unit, *doc;
     size_t offset; /* in fracas_replica_values */
@@ -32,10 +32,10 @@ extern const fracas_compared_quantity fracas_compared_quantities[FRACAS_COMPARED
 
 /* B - A of one number at one pair of points. */
 typedef struct {
-    fracas_estimate a, b; /* of pairs over the realizations that have a partner */
+    fracas_estimate a, b; /* means; of pairs over the realizations with a partner */
     double difference, low,
         high; /* 95 % interval: Welch's, of pairs Student's; NaN if it has none */
-    double relative, relative_low, relative_high; /* of the mean of A */
+    double relative, relative_low, relative_high; /* over the mean of A */
     double freedom;                               /* degrees of freedom of both intervals */
     double p;                                     /* by permutation; NaN: no test */
     double p_holm;                                /* corrected over the points */
@@ -43,21 +43,21 @@ typedef struct {
 
 typedef struct {
     size_t a, b;       /* the points */
-    char label[256];   /* of the point in A */
+    char label[256];   /* for the point in A */
     char differs[512]; /* "mesh.elements 2500 | 5000": the other parameters in which they differ;
                           "": none */
     bool paired;       /* realizations have the same random numbers, replica by replica */
     int64_t used_a, used_b; /* realizations compared */
     fracas_compared_value
         value[FRACAS_COMPARED_VALUES]; /* a.n = b.n = 0 where the points have no such number */
-    double distance;      /* of the distributions of fragment sizes (Kolmogorov and Smirnov) */
-    double p, p_holm;     /* of that */
+    double distance;  /* distance of the distributions of fragment sizes (Kolmogorov and Smirnov) */
+    double p, p_holm; /* p of the distance */
     int64_t permutations; /* assignments looked at, the observed one among them */
     bool exact;           /* all there are */
 } fracas_compared_point;
 
 typedef struct {
-    char how[512]; /* columns that the points were matched by; "": equal hashes */
+    char how[512]; /* columns by which the points were matched; "": equal hashes */
     size_t npoints;
     fracas_compared_point *point;
     size_t nonly_a, nonly_b;

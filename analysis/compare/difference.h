@@ -5,8 +5,8 @@
 
 #include "analysis/compare/compare.h"
 
-/* (compare.1), (compare.2), (compare.3). a[stride i], b[stride j]: na and nb values, those that are
- * not finite left out. Sets all but p. */
+/* (compare.1), (compare.2), (compare.3). a[stride i], b[stride j]: na and nb values; values that
+ * are not finite are left out. Sets all but p. */
 void fracas_difference_of(const double *a, size_t na, const double *b, size_t nb, size_t stride,
                           fracas_compared_value *value);
 /* (compare.4), (compare.5). Value i of a belongs to value i of b; a pair of which one is not finite

@@ -153,7 +153,7 @@ static void show(const fracas_value *value, char text[64])
     else fracas_format_short(value->real, text, 64);
 }
 
-/* Columns of `from` that differ, or of those alone that `to` lacks. */
+/* Columns of `from` with a difference, or only those missing in `to`. */
 static size_t add_differences(const fracas_point_table *a, size_t p, const fracas_point_table *b,
                               size_t q, bool second, char *text, size_t size, size_t used)
 {

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double hair = 1e-10; /* statistics that differ by rounding alone are equal */
+static const double hair = 1e-10; /* statistics equal to rounding are equal */
 
 typedef struct {
     const fracas_two_samples *of;
@@ -16,7 +16,7 @@ typedef struct {
     double *value; /* as given, less their mean and over their deviation: equal in statistic, better
                       in rounding */
     bool *in_a;    /* the assignment */
-    double *sum, *square, *known; /* of side a: a value each */
+    double *sum, *square, *known; /* for side a: a value each */
     double *all_sum, *all_square, *all_known;
     double *cut, *all_cut;      /* fragments up to each cut, of side a and of both */
     double *statistic;          /* nvalues + 1 */
@@ -74,7 +74,7 @@ static double welch(double sum, double square, double n, double all_sum, double 
     if (!(n >= 2 && m >= 2)) return NAN;
     double a = (square - sum * mean) / (n - 1),
            b = (all_square - square - (all_sum - sum) * other) / (m - 1);
-    a = a > hair ? a : 0; /* of values with the deviation 1: all equal */
+    a = a > hair ? a : 0; /* equal values, over a deviation of 1 */
     b = b > hair ? b : 0;
     const double difference = fabs(mean - other);
     return difference < hair ? 0 : difference / sqrt(a / n + b / m);
@@ -116,7 +116,7 @@ static void evaluate(permuter *p)
     p->statistic[p->of->nvalues] = distance(p);
 }
 
-/* One that has no statistic counts as one that reaches the observed: p is not too small. */
+/* A permutation without a statistic counts as one beyond the observed: p is not too small. */
 static void take(permuter *p)
 {
     evaluate(p);

@@ -19,13 +19,13 @@ typedef struct {
     size_t ncuts;
     const double *below; /* (na + nb) x ncuts: fragments of each realization of at most the size of
                             the cut, ascending */
-    const double *fragments; /* of each realization */
+    const double *fragments; /* one each realization */
 } fracas_two_samples;
 
 typedef struct {
     double p; /* NaN: no test */
     double
-        distance; /* of sizes: largest difference of the two distribution functions, at the cuts */
+        distance; /* largest difference of the two distribution functions of sizes, at the cuts */
 } fracas_permuted;
 
 /* result[nvalues] of equal means, and one more behind them of equal distributions of sizes. Means

@@ -46,8 +46,8 @@ void fracas_convergence_destroy(fracas_convergence *convergence)
 
 /* ---- rows ---- */
 
-/* What a table of results begins with; of the rest a campaign that does not converge moves some by
- * chance of having many. */
+/* The first numbers of a table of results. Among all numbers some would move by chance even
+ * where a campaign converges. */
 static bool is_headline(const fracas_compared_quantity *number)
 {
     static const size_t headline[] = {offsetof(fracas_replica_values, count),
@@ -67,8 +67,7 @@ static double value_of(const fracas_ensemble *ensemble, size_t i,
     return *(const double *)(const void *)((const char *)&ensemble->value[i] + number->offset);
 }
 
-/* The same number of two points, realization by realization: of pairs those that both have, else
- * all. */
+/* The same number of two points, realization by realization: only complete pairs, or all. */
 typedef struct {
     size_t n[2];
     double *value[2];
@@ -97,8 +96,7 @@ static bool is_alike(const fracas_compared_value *value)
     return !(value->high > value->low);
 }
 
-/* The change in parts of the number as it is, and what is but rounding taken as none
- * (convergence.1), (convergence.2) */
+/* Relative change; a change within rounding counts as none (convergence.1), (convergence.2) */
 static void put_parts(fracas_compared_value *value)
 {
     const double base = fabs(value->a.mean);
@@ -112,8 +110,7 @@ static void put_parts(fracas_compared_value *value)
 
 enum {
     ALIKE_LEAST = 8
-}; /* from so many on nobody takes that for chance: two values, each as likely, are alike once in
-      128 times */
+}; /* from so many on equality is no chance: two values, equally likely, agree once in 128 times */
 
 /* Onset times and the part of bending are not alike by chance; the others may be multiples of one
  * break. */
@@ -139,9 +136,9 @@ static bool is_zero(const fracas_estimate *estimate)
     return estimate->mean == 0 && !(estimate->deviation > 0);
 }
 
-/* True of a number that says nothing: that a study has not, or that is 0 in all realizations of
- * both. Where a study has `lost` all realizations of the point, what the other says is not idle but
- * unknown; where both have, the count stands for all. */
+/* True of a number without information: missing in a study, or 0 in all realizations of both. Where
+ * a study has `lost` all realizations of the point, the numbers of the other are unknown, not idle;
+ * where both have, the count stands for all. */
 static bool is_idle(const fracas_convergence_row *row, bool lost)
 {
     const fracas_compared_value *value = &row->value;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a convergence looks like: a figure a headline number. */
+/* Figures of a convergence, one a headline number. */
 #include "analysis/converge/rows.h"
 
 #include "analysis/data/format.h"
@@ -43,8 +43,8 @@ static double place_of(const fracas_convergence *convergence, const fracas_conve
     return (double)level_of(convergence, row) + 1 + apart * ((double)row->point - (points - 1) / 2);
 }
 
-/* What a figure is of. Changes are parts of the number as it is, in per cent; where that is 0 at
- * some point, they are in its unit. */
+/* Subject of a figure. Changes are in per cent of the base; where the base is 0 at some point, they
+ * are in the number's unit. */
 typedef struct {
     const fracas_convergence *convergence;
     const fracas_compared_quantity *number;
@@ -127,8 +127,8 @@ static fracas_err add_point(const subject *what, size_t point, bool open, fracas
     return FRACAS_OK;
 }
 
-/* Lines at the tolerance, where the changes are not so small that these would hide them; false if
- * they are, or if it is no number of this axis. */
+/* Lines at the tolerance. Sets *shown to false where they would hide the changes, or do not belong
+ * to this axis. */
 static fracas_err add_tolerance(const subject *what, fracas_panel *panel, bool *shown)
 {
     const double tolerance = 100 * what->convergence->tolerance, most = 4;

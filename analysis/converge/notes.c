@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a convergence says of the realizations that it was judged from. */
+/* Notes of a convergence on its realizations. */
 #include "analysis/converge/rows.h"
 
 #include <inttypes.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page of a convergence: what it comes to, a figure a number, the table. */
+/* The page of a convergence: conclusions, a figure a number, the table. */
 #include "analysis/converge/rows.h"
 
 #include "analysis/report/page.h"

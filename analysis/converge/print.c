@@ -35,8 +35,8 @@ static void format_counts(const fracas_convergence *convergence, const char *ref
                  of[FRACAS_NUMBER_UNKNOWN]);
 }
 
-/* How many replicas would tell of what is unclear: of the numbers whose change is known to 50 % by
- * now. Of the others that would be a guess at what does not end. */
+/* Number of replicas that would decide the unclear numbers, from those whose change is known to 50
+ * % by now. For the others a forecast would be a guess. */
 static void conclude_replicas(const fracas_convergence *convergence, fracas_convergence_line *line,
                               void *context)
 {

@@ -21,24 +21,22 @@ extern const char *const fracas_number_verdict_name[FRACAS_NUMBER_VERDICTS]; /* 
 
 typedef struct {
     const char *refinement;
-    size_t point; /* of the study as it is */
+    size_t point; /* for the study as it is */
     const fracas_compared_quantity *number;
     bool paired;
     fracas_compared_value value; /* its p: Student's, of the difference */
     fracas_number_verdict verdict;
 } fracas_convergence_row;
 
-#define FRACAS_CONVERGENCE_ROUND_OFF                             \
-    1e-9 /* of a number: less is no change of it, and no scatter \
-          */
+#define FRACAS_CONVERGENCE_ROUND_OFF 1e-9 /* relative: smaller changes and scatter are rounding */
 
 enum { FRACAS_MOST_LEFT = 3 }; /* refinements */
 
-/* What a reader must know of the realizations of a study, or of one point of it, before trusting
- * its verdicts. */
+/* A remark on the realizations of a study, or of one point, to know before trusting its verdicts.
+ */
 typedef struct {
     const char *refinement; /* "base" of the study as it is */
-    size_t point;           /* of the study as it is; SIZE_MAX: the study as a whole */
+    size_t point;           /* for the study as it is; SIZE_MAX: the study as a whole */
     char text[480];         /* "7 of 10 realizations ended ENERGY_DRIFT: judged from 3" */
 } fracas_convergence_note;
 
@@ -47,8 +45,7 @@ struct fracas_convergence {
     double tolerance;
     size_t nrows, room;
     fracas_convergence_row *row;
-    size_t nlevels; /* refinements that there are rows of, in their order: fracas_convergence_judge
-                       finds them */
+    size_t nlevels; /* refinements with rows, in their order, found by fracas_convergence_judge */
     const char *level[FRACAS_MOST_LEFT];
     size_t nnotes, note_room;
     fracas_convergence_note *note;
@@ -59,14 +56,14 @@ struct fracas_convergence {
     } left[FRACAS_MOST_LEFT];
 };
 
-/* Notes of one point (`point` in the study as it is) of a study, from its statistics: how its
- * unusable realizations ended, if there are any, and that its numbers are judged from `judged` of
- * them (0: unknown); and if every usable one stays whole. */
+/* Notes of one point (`point` in the base study), from its statistics: the outcomes of unusable
+ * realizations, with `judged`, the number of realizations behind its numbers (0: unknown); and
+ * whether every usable one stays whole. */
 FRACAS_MUST_USE fracas_err fracas_convergence_note_point(fracas_convergence *convergence,
                                                          const char *refinement, size_t point,
                                                          const fracas_point_statistics *of,
                                                          size_t judged);
-/* Notes how many warnings the report of a study has, if any, and the command that shows them;
+/* Notes the number of warnings in the report of a study, if any, and the command to show them;
  * `study`: its folder. */
 FRACAS_MUST_USE fracas_err fracas_convergence_note_study(fracas_convergence *convergence,
                                                          const char *refinement,
@@ -82,9 +79,9 @@ FRACAS_MUST_USE fracas_err fracas_convergence_compare(fracas_convergence *conver
                                                       size_t before, const fracas_ensemble *after,
                                                       const fracas_refinement_map *map);
 
-/* Replicas n (h/(tolerance/2))^2 of every point with which the half width h of the row's relative
- * change, of n replicas now, would be half of the tolerance: what does not differ then holds in 19
- * of 20 cases (convergence.4). NaN without an interval. */
+/* Replicas n (h/(tolerance/2))^2 of every point, with h the half width of the row's relative change
+ * from n replicas. With so many the half width would be half of the tolerance, and an unchanged
+ * number holds in 19 of 20 cases (convergence.4). NaN without an interval. */
 double fracas_convergence_replicas(const fracas_convergence *convergence,
                                    const fracas_convergence_row *row);
 
@@ -96,13 +93,13 @@ FRACAS_MUST_USE fracas_err fracas_convergence_table_create(const fracas_converge
                                                            bool unicode,
                                                            fracas_result_table *table);
 
-/* Takes a line of what it comes to: of each refinement how many numbers moved, what was left out,
- * the notes, how many replicas would tell more. */
+/* Takes the conclusions line by line: numbers moved by each refinement, points left out, notes,
+ * replicas needed. */
 typedef void fracas_convergence_line(void *context, const char *text);
 void fracas_convergence_conclude(const fracas_convergence *convergence,
                                  fracas_convergence_line *line, void *context);
 
-/* Rows of this number that have a change: all but those of points without a usable realization. */
+/* Number of rows with a change: all but those of points without a usable realization. */
 size_t fracas_convergence_rows_of(const fracas_convergence *convergence,
                                   const fracas_compared_quantity *number);
 /* The figure of one number: its change at each refinement, a mark a row, filled if it differs, with

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The prefix that all values of a number are shown with. */
+/* One prefix for all values of a number. */
 static fracas_prefix prefix_of(const fracas_convergence *convergence,
                                const fracas_compared_quantity *number)
 {

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Energies over time of all realizations of a point: their mean and the band that most of them stay
- * in. */
+/* Energies over time of all realizations of a point: mean, and band of most of them. */
 #ifndef FRACAS_ANALYSIS_DATA_BANDS_H
 #define FRACAS_ANALYSIS_DATA_BANDS_H
 
@@ -13,8 +12,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Energies with a band: those that the balance (bar.14) holds, kinetic, stored and lost, in the
- * order of FRACAS_EACH_ENERGY. FRACAS_HELD(X, key, role) is X(key) of these, nothing of others. */
+/* Energies with a band are the kinetic, stored and lost energies of the balance (bar.14), in the
+ * order of FRACAS_EACH_ENERGY. FRACAS_HELD(X, key, role) is X(key) for these, nothing for others.
+ */
 #define FRACAS_HELD_KINETIC(X, key) X(key)
 #define FRACAS_HELD_STORED(X, key) X(key)
 #define FRACAS_HELD_SINK(X, key) X(key)
@@ -41,11 +41,11 @@ typedef struct {
 typedef struct {
     size_t count;     /* times, 0 of a study without histories */
     double *time;     /* s */
-    int64_t *running; /* realizations that had not ended before that time; the others count with
-                         what they had in the end */
+    int64_t *running; /* realizations still running at this time; the others count with their values
+                         at the end */
     fracas_band (*energy)[FRACAS_NBANDS];
-    int64_t realizations; /* that were taken: all usable ones, or as many, evenly spread over them,
-                             as fit in 16 MiB */
+    int64_t realizations; /* taken: all usable ones, or as many, evenly spread over them, as fit in
+                             16 MiB */
     bool extremes; /* low and high are the least and the greatest, of fewer than FRACAS_BAND_LEAST;
                       else the quantiles 0.05 and 0.95 */
 } fracas_bands;
@@ -59,15 +59,15 @@ typedef struct {
     size_t times; /* 0: there are no histories */
     size_t all,
         selected; /* usable realizations of the point, and how many of them are taken, evenly */
-    size_t met, count;        /* of those, so far */
+    size_t met, count;        /* met and taken so far */
     size_t most;              /* values in a heap */
     double *least, *negative; /* [time][energy][most]: heaps of the least values and of the least
                                  negatives, the first is the greatest kept */
 } fracas_bands_collector;
 
-/* Of `realizations` usable ones; their histories have `intervals` (>= 0) equal ones of time.end
- * `end` [s]. Both are cleared by the caller, also after an error: fracas_bands_end frees what only
- * the collector needs. */
+/* Begins the bands of `realizations` usable ones, whose histories have `intervals` (>= 0) equal
+ * intervals of time.end `end` [s]. The caller clears both, also after an error; fracas_bands_end
+ * frees the memory of the collector. */
 FRACAS_MUST_USE fracas_err fracas_bands_begin(int64_t intervals, double end, size_t realizations,
                                               fracas_bands *bands,
                                               fracas_bands_collector *collector);

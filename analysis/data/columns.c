@@ -11,9 +11,8 @@
 static const char strain_rate_path[] = "derived.strain_rate", imposed_rate_path[] = "loading.rate";
 static const char radius_path[] = "geometry.radius";
 
-/* The columns that make the strain rate, each with its type of loading. The radius does not, though
- * it divides the velocities: it makes series, on which the size over v/R is to be seen as one curve
- * or not. */
+/* Columns from which the strain rate is made, each with its type of loading. The radius divides
+ * velocities, but it makes series: the size over v/R may or may not be one curve. */
 static bool makes_rate(const char *path)
 {
     static const char *const maker[] = {imposed_rate_path, "loading.radial", "loading.velocity"};
@@ -34,9 +33,9 @@ double fracas_columns_rate(const fracas_point_table *table, size_t point)
     return fracas_columns_real(table, point, derived ? strain_rate_path : imposed_rate_path);
 }
 
-/* Causes before numerics: a zipped sweep is called by what is physical in it, and cases by their
- * names. The radius comes before the velocities, so that of radii and velocities swept together the
- * radius stays, and makes series. */
+/* Causes come before numerics: a zipped sweep is named by its physical parameter, cases by their
+ * names. The radius comes before the velocities: of both swept together the radius stays, and makes
+ * series. */
 static int rank_of(const char *path)
 {
     static const char *const order[] = {imposed_rate_path, radius_path, "case",     "loading",
@@ -88,8 +87,8 @@ static void select_columns(const fracas_point_table *table, size_t *class, size_
     int last = 0;
     for (size_t c = 0; c < table->ncolumns; c++)
         if (rank_of(table->column[c].path) > last) last = rank_of(table->column[c].path);
-    /* Within a section names first: a law tells points apart better than a number that only one law
-     * has. */
+    /* Within a section names come first: a law's name tells points apart better than a parameter of
+     * one law. */
     for (int place = 0; place < 2 * (last + 1); place++)
         for (size_t c = 0; c < table->ncolumns; c++)
             if (rank_of(table->column[c].path) == place / 2 &&
@@ -188,8 +187,8 @@ static bool takes_prefix(const char *unit)
     return false;
 }
 
-/* A point is called by the values that it has, unless it has none of them: a load by its own keys,
- * not by the lack of those of other loads. */
+/* A point is named by the values it has, unless it has none: a load by its own keys, not by the
+ * lack of others. */
 void fracas_columns_label(const fracas_point_table *table, const fracas_columns *columns,
                           size_t point, char *text, size_t size)
 {
@@ -213,8 +212,8 @@ void fracas_columns_label(const fracas_point_table *table, const fracas_columns 
     }
 }
 
-/* True if two points have values that differ; one that lacks the value, as of another law, is no
- * difference. */
+/* True if two points have different values. A missing value, as of another law, is no difference.
+ */
 static bool differs(const fracas_point_table *table, size_t column)
 {
     size_t first = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which parameters tell the points of a study apart, and what to call them. */
+/* Parameters that tell the points of a study apart, and their names. */
 #ifndef FRACAS_ANALYSIS_DATA_COLUMNS_H
 #define FRACAS_ANALYSIS_DATA_COLUMNS_H
 
@@ -15,26 +15,26 @@ typedef struct {
 /* The value of the column with this path, NaN if there is none or the point has none. */
 double fracas_columns_real(const fracas_point_table *table, size_t point, const char *path);
 
-/* The point's strain rate [1/s]: derived.strain_rate; loading.rate in an older study, which lacks
- * that column. */
+/* The point's strain rate [1/s]: derived.strain_rate, or loading.rate in a study without this
+ * column. */
 double fracas_columns_rate(const fracas_point_table *table, size_t point);
 
 /* Columns in the order loading.rate, geometry.radius, case, loading, material, cohesive, strength,
- * geometry, model, mesh, time, each kept if it parts points that the columns before it do not part:
- * for a zipped sweep its first column alone. Derived columns are never among them. When no point
- * differs from another: the first column that makes the strain rate, if there is one. */
+ * geometry, model, mesh, time. Each is kept if it separates points equal in the columns before it;
+ * of a zipped sweep only the first. Derived columns are never among them. If all points are equal:
+ * the first column that makes the strain rate, if there is one. */
 FRACAS_MUST_USE fracas_err fracas_columns_create(const fracas_point_table *table,
                                                  fracas_columns *columns);
 void fracas_columns_clear(fracas_columns *columns);
 
 /* The columns without those that make the strain rate (loading.rate, loading.radial,
- * loading.velocity), in the same order: what makes series of a figure against the rate. */
+ * loading.velocity), in the same order. They make the series of a figure against the rate. */
 FRACAS_MUST_USE fracas_err fracas_columns_without_rate(const fracas_point_table *table,
                                                        const fracas_columns *columns,
                                                        fracas_columns *others);
 
-/* The columns, and derived.strain_rate after them if the points differ in what it is made of other
- * than loading.rate: a velocity, or the radius alone. For a table. */
+/* The columns, followed by derived.strain_rate if the points differ in a velocity or in the radius
+ * alone. For a table. */
 FRACAS_MUST_USE fracas_err fracas_columns_with_rate(const fracas_point_table *table,
                                                     const fracas_columns *columns,
                                                     fracas_columns *with);
@@ -44,8 +44,8 @@ FRACAS_MUST_USE fracas_err fracas_columns_with_rate(const fracas_point_table *ta
 const char *fracas_columns_name(const fracas_point_table *table, const fracas_columns *columns,
                                 size_t i);
 
-/* "rate 1e4 1/s, radius 8 mm": the point by the values of these columns that it has; all of them,
- * with dashes, if it has none. */
+/* "rate 1e4 1/s, radius 8 mm": the values of the point in these columns; with dashes if it has
+ * none. */
 void fracas_columns_label(const fracas_point_table *table, const fracas_columns *columns,
                           size_t point, char *text, size_t size);
 
@@ -54,8 +54,8 @@ void fracas_columns_label(const fracas_point_table *table, const fracas_columns 
 void fracas_columns_value(const fracas_point_table *table, size_t column, size_t point,
                           double factor, char *text, size_t size);
 
-/* "cohesive.fracture_energy, material.young": what else the points differ in, beside these columns,
- * mesh and time; "" for nothing. */
+/* "cohesive.fracture_energy, material.young": further parameters in which the points differ, apart
+ * from mesh and time; "" for none. */
 void fracas_columns_beside(const fracas_point_table *table, const fracas_columns *columns,
                            char *text, size_t size);
 

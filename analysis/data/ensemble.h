@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The usable realizations of one point and their fragments, kept apart by realization: what is
- * resampled. */
+/* The usable realizations of one point and their fragments, by realization: the units of
+ * resampling. */
 #ifndef FRACAS_ANALYSIS_DATA_ENSEMBLE_H
 #define FRACAS_ANALYSIS_DATA_ENSEMBLE_H
 
@@ -24,15 +24,15 @@ enum { FRACAS_REPLICA_STRIDE = sizeof(fracas_replica_values) / sizeof(double) };
 
 typedef struct {
     size_t nrealizations;         /* FRAGMENTED, INTACT and TIME_LIMIT, in the order of the study */
-    fracas_replica_values *value; /* of each */
-    int64_t *replica;             /* of each */
-    size_t *row;                  /* of each, in the study */
+    fracas_replica_values *value; /* for each */
+    int64_t *replica;             /* for each */
+    size_t *row;                  /* for each, in the study */
     size_t *first; /* fragments of realization i are first[i] to first[i + 1] - 1: nrealizations + 1
                       of them */
     size_t nfragments;
-    double *size, *mass; /* of each fragment [m], [kg] */
-    int32_t *elements;   /* of each */
-    uint8_t *dust;       /* of each: 1, or 0 */
+    double *size, *mass; /* for each fragment [m], [kg] */
+    int32_t *elements;   /* for each */
+    uint8_t *dust;       /* for each: 1, or 0 */
     double lattice; /* m: every size is a whole multiple of it (a bar or ring of equal elements); 0:
                        they are not */
     bool surface;   /* a size is the square root of an area; false after init */
@@ -48,13 +48,13 @@ FRACAS_MUST_USE fracas_err fracas_ensemble_add(fracas_ensemble *ensemble, size_t
                                                int64_t replica, const fracas_replica_values *value,
                                                const fracas_record *record);
 
-/* The cut-off c [m] of what the mesh resolves: fragments of size > c are resolved, the others are
- * left out of every estimate and fit "without dust", which is then of sizes truncated from the left
- * at c. With D the dimension and h^D the mean length or area of an element, h^D = sum s_i^D/sum
- * elements_i over all fragments: c = 1.5 h of lengths, sqrt(2.5) h of surfaces (estimators.14). It
- * lies between one element and two, or two and three: where all elements are equal it parts dust
- * from the rest, and no fragment is of size c. On a lattice h is the lattice itself. 0 of an
- * ensemble without fragments. */
+/* Cut-off c [m] of the mesh's resolution. Fragments of size > c are resolved; estimates and fits
+ * "without dust" leave out all others, so their sizes are truncated from the left at c. With D the
+ * dimension and h^D the mean length or area of an element, h^D = sum s_i^D/sum elements_i over all
+ * fragments: c = 1.5 h of lengths, sqrt(2.5) h of surfaces (estimators.14). It lies between one
+ * element and two, or two and three: where all elements are equal, c separates dust from other
+ * fragments, and no fragment is of size c. On a lattice h is the lattice itself. 0 of an ensemble
+ * without fragments. */
 double fracas_ensemble_cut(const fracas_ensemble *ensemble);
 
 #endif

@@ -27,7 +27,7 @@ typedef struct fracas_field {
     fracas_field_type type;
     const char *unit; /* as UDUNITS-2 reads it; "1" of a pure number, "" of text; NULL of a member:
                          the unit of its object */
-    const char *doc;  /* of a member: "%s" stands for the meaning of its object */
+    const char *doc;  /* in a member, "%s" stands for the meaning of its object */
     size_t offset;    /* in the struct [bytes] */
     const struct fracas_fields *members;
     bool outcome; /* the text is one of fracas_outcome_name */
@@ -47,21 +47,19 @@ typedef struct fracas_fields {
 /* Takes the leaves of a table, one after the other; the leaf and its texts end with the call. */
 typedef void fracas_field_visit(void *context, const fracas_field *leaf);
 
-/* Every field that is no object, in order. Keys of members are joined to that of their object:
- * "size" and "mean" with the separator "." to "size.mean". */
+/* Every field except objects, in order. Keys of members follow the key of their object and the
+ * separator: "size" and "mean" make "size.mean". */
 void fracas_fields_walk(const fracas_fields *fields, const char *separator,
                         fracas_field_visit *visit, void *context);
 
-/* The members of an object that is open: objects nested, or, `flat`, every leaf under its joined
- * key. */
+/* The members of an open object: objects nested, or, `flat`, every leaf under its joined key. */
 void fracas_fields_json(fracas_json *json, const fracas_fields *fields, const void *row);
 void fracas_fields_json_flat(fracas_json *json, const fracas_fields *fields, const void *row);
 /* The same as an object with this key. */
 void fracas_fields_json_object(fracas_json *json, const char *key, const fracas_fields *fields,
                                const void *row);
 
-/* A comma before every leaf of the row, numbers to 15 digits, nothing for a value that does not
- * exist. */
+/* A comma before every leaf of the row, numbers to 15 digits, nothing for a missing value. */
 void fracas_fields_csv(const fracas_fields *fields, const void *row, FILE *out);
 /* One leaf, without a comma. */
 void fracas_field_csv(const fracas_field *leaf, const void *row, FILE *out);

@@ -48,7 +48,7 @@ static int exponent_of(double value)
     return (int)floor(log10(fabs(value)));
 }
 
-/* Decimals that show `digits` significant digits of the value, after its rounding to them. */
+/* Decimals for `digits` significant digits of the value, after rounding. */
 static int decimals_for(double value, int digits)
 {
     if (value == 0) return 0;
@@ -78,8 +78,8 @@ void fracas_format_beside(double value, double limit, char *text, size_t size)
     }
 }
 
-enum { UNKNOWN = 3 };                  /* digits of what has no interval beside others that do */
-static const double round_off = 1e-12; /* values that are equal but for it have no interval */
+enum { UNKNOWN = 3 }; /* digits of a value without interval beside values with one */
+static const double round_off = 1e-12; /* relative: values closer than this have no interval */
 
 void fracas_format_mean(const fracas_estimate *estimate, double factor, char *text, size_t size)
 {
@@ -89,8 +89,7 @@ void fracas_format_mean(const fracas_estimate *estimate, double factor, char *te
     else fracas_format_digits(mean, UNKNOWN, text, size);
 }
 
-/* The number to a power of ten that is not its own, "12.4e5"; without one where the exponent is 0.
- */
+/* The number with a given power of ten, "12.4e5"; without one where the exponent is 0. */
 static void format_power(double value, int exponent, int decimals, char *text, size_t size)
 {
     if (exponent == 0) snprintf(text, size, "%.*f", decimals, value);
@@ -113,14 +112,13 @@ void fracas_format_interval(double value, double low, double high, char *text, s
     char rounded[64];
     snprintf(rounded, sizeof rounded, "%.1e", half_width);
     const int place = exponent_of(strtod(rounded, NULL)) -
-                      1; /* of the last digit that the interval supports */
+                      1; /* place of the last digit supported by the interval */
     const bool large = place > 0, small = value != 0 && fabs(value) < 1e-2;
     const int exponent = large || small ? exponent_of(value) : 0;
     const double ends[3] = {value, low, high};
     for (int i = 0; i < 3; i++) {
         const bool vanishes = ends[i] > 0 &&
-                              ends[i] <
-                                  0.5 * pow(10, place); /* what is above 0 is not shown as 0 */
+                              ends[i] < 0.5 * pow(10, place); /* an end above 0 is not shown as 0 */
         const int last = vanishes ? exponent_of(ends[i]) : place;
         format_power(ends[i], exponent, exponent > last ? exponent - last : 0, part[i],
                      sizeof part[i]);

@@ -7,10 +7,10 @@
 
 #include <stddef.h>
 
-/* "1e4", "2500", "0.33": the shorter of plain and exponent notation, to six digits; "-" for what is
- * not finite. */
+/* "1e4", "2500", "0.33": the shorter of plain and exponent notation, to six digits; "-" if not
+ * finite. */
 void fracas_format_short(double value, char *text, size_t size);
-/* "0.890", "2.0e-3": so many significant digits, zeros kept; "-" for what is not finite. */
+/* "0.890", "2.0e-3": so many significant digits, zeros kept; "-" if not finite. */
 void fracas_format_digits(double value, int digits, char *text, size_t size);
 
 /* Two significant digits, or as many more (up to five) as show on which side of the limit the value
@@ -23,14 +23,14 @@ void fracas_format_beside(double value, double limit, char *text, size_t size);
 void fracas_format_estimate(const fracas_estimate *estimate, double factor, const char *plus_minus,
                             char *text, size_t size);
 
-/* The mean of an estimate alone, times `factor`, to that place; without a half width to three
+/* The mean of an estimate alone, times `factor`, to the same place; without a half width to three
  * digits. */
 void fracas_format_mean(const fracas_estimate *estimate, double factor, char *text, size_t size);
 
-/* "0.0851 [0.066, 0.109]" to the place of the second digit of half the interval's width, "1.24e5
- * [1.10e5, 1.39e5]" where that is above the point or the value below 0.01. An end above 0 that this
- * rounds to 0 has the digit it needs. Without an interval, or with one that is round-off, the value
- * to three digits, and " [-]" where there is none. "-" without a value. */
+/* "0.0851 [0.066, 0.109]" to the place of the second digit of half the interval's width. "1.24e5
+ * [1.10e5, 1.39e5]" where this place is above the point or the value below 0.01. An end above 0
+ * that rounds to 0 gets the digit it needs. Without an interval, or with one within rounding, the
+ * value to three digits, and " [-]" without one. "-" without a value. */
 void fracas_format_interval(double value, double low, double high, char *text, size_t size);
 
 /* A power of 1000 for a unit: shown value = factor * SI value. */

@@ -7,7 +7,7 @@
 #define FRACAS_ANALYSIS_DATA_NUMBERS_H
 
 /* clang-format off */
-/* Numbers that `compare` tests, too. */
+/* Numbers also tested by `compare`. */
 #define FRACAS_COMPARED_NUMBERS(X)                                                                \
     X(count, "1", "number of fragments")                                                          \
     X(count_large, "1", "number of fragments without dust")                                       \

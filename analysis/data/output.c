@@ -30,7 +30,7 @@ fracas_err fracas_output_open(const char *folder, const char *name, fracas_outpu
 fracas_err fracas_output_close(fracas_output_file *output, fracas_err err)
 {
     bool bad = ferror(output->file);
-    if (fclose(output->file)) bad = true; /* what was buffered fails here */
+    if (fclose(output->file)) bad = true; /* buffered output fails here */
     if (!err && bad) err = fracas_fail_system(errno, "cannot write %s", output->path);
     if (!err && rename(output->temporary, output->path))
         err = fracas_fail_system(errno, "cannot rename %s to %s", output->temporary, output->path);

@@ -17,7 +17,7 @@ typedef struct {
 FRACAS_MUST_USE fracas_err fracas_output_open(const char *folder, const char *name,
                                               fracas_output_file *output);
 /* With `err` FRACAS_OK renames the file, once all of it is written, to its final name; else removes
- * it and returns `err`. Frees what `output` owns. */
+ * it and returns `err`. Frees the memory of `output`. */
 FRACAS_MUST_USE fracas_err fracas_output_close(fracas_output_file *output, fracas_err err);
 
 #endif

@@ -10,14 +10,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* An arc of half angle a on a circle of radius 1: distance of its centre of mass from the centre of
- * the circle, sin(a)/a (estimators.4), and its moment of inertia about that centre of mass / mass,
- * 1 - (sin(a)/a)^2 (estimators.5). a >= 0. */
+/* For an arc of half angle a on a circle of radius 1: distance of its centre of mass from the
+ * centre of the circle, sin(a)/a (estimators.4), and its moment of inertia about its centre of mass
+ * over its mass, 1 - (sin(a)/a)^2 (estimators.5). a >= 0. */
 double fracas_arc_centre(double half_angle);
 double fracas_arc_inertia(double half_angle);
 
-/* Of the fragments of one realization, each weighed by its mass; NaN with fewer than two fragments.
- */
+/* Motion of the fragments of one realization, each weighed by its mass; NaN with fewer than two
+ * fragments. */
 typedef struct {
     double radial;          /* m/s, mean of v_r (estimators.6) */
     double scatter;         /* m/s, standard deviation of v_r over fragments (estimators.7) */
@@ -35,7 +35,7 @@ typedef struct {
     int64_t dust;
     double size;         /* m, length */
     double half_angle;   /* size/(2 radius) */
-    double angle;        /* of the centre of mass, -pi to pi */
+    double angle;        /* for the centre of mass, -pi to pi */
     double distance;     /* m, of the centre of mass from the origin */
     double displacement; /* m, distance - where the centre of mass was in the ring at its start
                             (estimators.10) */

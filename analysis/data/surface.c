@@ -94,8 +94,8 @@ static fracas_err sort_breaks(const fracas_record *record, breaking **sorted, si
     return FRACAS_OK;
 }
 
-/* Which of the two sides a vertex, or the crack with that root, touches: bits 1 and 2. False if a
- * side is empty or they touch each other. */
+/* Sides touched by a vertex, or by the crack with this root: bits 1 and 2. False if a side is empty
+ * or both touch. */
 static bool mark_sides(const fracas_stored_mesh *mesh, const int64_t tag[2], uint8_t *touches)
 {
     bool apart = true;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The state of a broken surface at any time of its run, from what study.h5 keeps: the mesh of the
- * point, and the times at which the interfaces of a realization cracked and broke. */
+/* The state of a broken surface at any time of its run, from the mesh of the point and the times at
+ * which interfaces cracked and broke. */
 #ifndef FRACAS_ANALYSIS_DATA_SURFACE_H
 #define FRACAS_ANALYSIS_DATA_SURFACE_H
 
@@ -16,20 +16,20 @@ typedef enum {
     FRACAS_INTERFACE_BROKEN
 } fracas_interface_state;
 
-enum { FRACAS_SURFACE_DUST = 2 }; /* elements of a fragment that is dust, at most */
+enum { FRACAS_SURFACE_DUST = 2 }; /* most elements of dust */
 
 typedef struct {
     double time;              /* s */
-    size_t ncracked, nbroken; /* interfaces; those that are cracked, but not broken */
+    size_t ncracked, nbroken; /* interfaces cracked, but not broken */
     size_t nfragments, ndust;
     uint8_t *interface; /* fracas_interface_state of each */
-    uint32_t *fragment; /* of each element; numbered by their lowest element */
-    size_t *elements;   /* of each fragment */
+    uint32_t *fragment; /* number for each element, in the order of lowest elements */
+    size_t *elements;   /* for each fragment */
 } fracas_surface_state;
 
-/* An interface is cracked from its onset time on, broken from its break time on; fragments are the
- * elements that are connected over interfaces which are not broken. FRACAS_DAMAGED if the
- * interfaces of the record are not those of the mesh. Cleared by the caller. */
+/* An interface is cracked from its onset time on, broken from its break time on. Fragments are sets
+ * of elements connected over interfaces that are not broken. FRACAS_DAMAGED if the interfaces of
+ * the record are not those of the mesh. Cleared by the caller. */
 FRACAS_MUST_USE fracas_err fracas_surface_state_create(const fracas_stored_mesh *mesh,
                                                        const fracas_record *record, double time,
                                                        fracas_surface_state *state);

@@ -6,10 +6,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double step = 0.02; /* share of what is below it that a shade takes */
+static const double step = 0.02; /* part of the light below that a shade takes away */
 static const double ambient = 0.45,
-                    inside = 0.6; /* light that is everywhere; on the inner skin / on the outer */
-static const char night[] = "#0b1220"; /* what shades are of */
+                    inside = 0.6;      /* ambient light; on the inner skin / on the outer */
+static const char night[] = "#0b1220"; /* facets to shade */
 
 fracas_err fracas_body_picture_create(const fracas_stored_mesh *mesh,
                                       const fracas_surface_state *state,
@@ -38,20 +38,19 @@ void fracas_body_picture_clear(fracas_body_picture *body)
 typedef struct {
     const fracas_body_picture *body;
     FILE *out;
-    uint8_t *tint;         /* of each facet */
-    uint8_t *shade, *base; /* how many shades lie on it, and how many of them on all that is in one
-                              piece with it in this layer */
-    uint8_t
-        *least; /* of each fragment in this layer, outer skin and inner one: its fewest shades */
+    uint8_t *tint; /* for each facet */
+    uint8_t *shade,
+        *base; /* number of shades on it, and of those on its whole connected piece in this layer */
+    uint8_t *least; /* fewest shades of each fragment in this layer, outer skin and inner one */
     int darkest;
     double line;            /* width of a broken interface, units */
-    int32_t layer;          /* the one that is being drawn */
+    int32_t layer;          /* the layer being drawn */
     size_t *sorted, *first; /* facets by their layer; where each begins */
-    size_t count, *member; /* facets of this layer, and those of nearer ones that lie beside them */
-    int32_t *in;           /* of each facet: the last layer of which it was a member */
+    size_t count, *member;  /* facets of this layer, and those of nearer layers beside them */
+    int32_t *in;            /* for each facet its last layer as a member */
 } drawing;
 
-/* ---- what is in a layer ---- */
+/* ---- members of a layer ---- */
 
 static uint8_t shade_of(const fracas_facet *facet)
 {
@@ -101,7 +100,7 @@ static uint8_t *least_of(const drawing *d, const fracas_facet *facet)
     return &d->least[2 * (size_t)facet->fragment + (facet->kind == FRACAS_FACET_INNER)];
 }
 
-/* Of a cut, which is too narrow for shades of shapes of their own, all of them. */
+/* All shades of a cut, which is too narrow for shades with shapes of their own. */
 static void find_bases(drawing *d)
 {
     const fracas_facet *facet = d->body->facets.facet;
@@ -117,8 +116,8 @@ static void find_bases(drawing *d)
     }
 }
 
-/* The neighbours in nearer layers will be drawn over: without them, what is behind would shine
- * through the joint. */
+/* The neighbours in nearer layers are drawn later: without them, the background would shine through
+ * the joint. */
 static void begin_layer(drawing *d, int32_t layer)
 {
     d->layer = layer;
@@ -174,7 +173,7 @@ static bool is_above(const drawing *d, size_t facet, int k)
     return d->base[facet] < k && k <= d->shade[facet];
 }
 
-/* Members of the layer that are chosen, `attributes` around them. */
+/* Chosen members of the layer, with `attributes` around them. */
 static fracas_err fill(const drawing *d, choice *chosen, int k, const char *attributes,
                        const char *class)
 {
@@ -203,8 +202,8 @@ static fracas_err draw_tints(const drawing *d, bool tinted)
     return FRACAS_OK;
 }
 
-/* First what all of a piece has, at once; then one shade upon the other, each with the shape of all
- * that is at least as dark: few lines, and no joints. */
+/* First the shades common to a piece, at once. Then one shade upon the other, each with the shape
+ * of all facets at least as dark: few lines, and no joints. */
 static fracas_err draw_shades(const drawing *d)
 {
     char attributes[64];
@@ -250,13 +249,13 @@ static fracas_err draw_layer(const drawing *d, bool tinted, bool mesh)
     TRY(draw_tints(d, tinted));
     if (mesh) TRY(draw_sides(d, FRACAS_SIDE_CLOSED, "mesh", 0.5));
     TRY(draw_sides(d, FRACAS_SIDE_CRACKED, "cracked", 0.9));
-    TRY(draw_shades(d)); /* over faint lines, too, so that they stay faint in the dark */
+    TRY(draw_shades(d)); /* over faint lines, too, to keep them faint in the dark */
     TRY(draw_sides(d, FRACAS_SIDE_BROKEN, "broken", 1.0));
     TRY(draw_sides(d, FRACAS_SIDE_PARTED, "broken", 0.6));
     return draw_sides(d, FRACAS_SIDE_EDGE, "outline", 1.0);
 }
 
-/* A fifth of a mean edge, so that small elements are not all line; between 0.4 and 1.2 pixels. */
+/* A fifth of a mean edge, to show small elements and not only lines; between 0.4 and 1.2 pixels. */
 static double line_width(const fracas_body_picture *body)
 {
     double sum = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The drawing of a surface in space: shaded, what is hidden left out. */
+/* The drawing of a surface in space: shaded, without hidden parts. */
 #ifndef FRACAS_ANALYSIS_DRAW_BODY_PICTURE_H
 #define FRACAS_ANALYSIS_DRAW_BODY_PICTURE_H
 
@@ -10,7 +10,7 @@
 typedef struct {
     fracas_facets facets;
     fracas_frame frame;
-    fracas_spot *spot; /* of each node of the facets */
+    fracas_spot *spot; /* for each node of the facets */
 } fracas_body_picture;
 
 /* Cleared by the caller, after an error too. */

@@ -99,7 +99,7 @@ static void put_field(const char *text, FILE *out)
     putc('"', out);
 }
 
-/* The labels of an axis of all panels that have one, each once. */
+/* The labels of all axes with a label, each once. */
 static void put_label(const fracas_chart *chart, bool of_y, FILE *out)
 {
     char text[FRACAS_MAX_PANELS * (sizeof chart->panel->x.label + 4)] = "";

@@ -23,17 +23,18 @@ typedef struct {
     char name[128]; /* in the legend and on hover */
     fracas_series_kind kind;
     unsigned look; /* which colour, dash or shape of mark: each look is another */
-    bool open; /* MARKS: outlines. Not in the legend: it goes with the series of its look that is */
+    bool open;     /* MARKS: outlines. Not in the legend: they go with the filled series of the same
+                      look */
     size_t n;
     double *x, *y;
-    double *low, *high; /* of MARKS, BAND and BOXES; NaN: no bar, a gap in the area, no box */
+    double *low, *high; /* for MARKS, BAND and BOXES; NaN: no bar, a gap in the area, no box */
 } fracas_series;
 
 typedef struct {
     char label[96]; /* "": none */
     bool log;
-    size_t nnames; /* of x: values about 1, 2, ... nnames have names, and the axis no numbers; 0: an
-                      axis as any other */
+    size_t nnames; /* on x: values about 1, 2, ... nnames have names, and the axis no numbers; 0: an
+                      ordinary axis */
     const char *const *name; /* these; they outlive the chart */
 } fracas_axis;
 
@@ -41,14 +42,14 @@ typedef struct {
     fracas_axis x, y;
     double height;    /* pixels of the plot area */
     double y_floor;   /* smaller values are not shown; 0 for none */
-    const char *bars; /* what low to high are, as on hover: "95 %"; NULL is that */
+    const char *bars; /* meaning of low to high, as on hover: "95 %"; NULL is the same */
     size_t nseries, capacity;
     fracas_series *series;
 } fracas_panel;
 
 enum { FRACAS_MAX_PANELS = 2 };
 
-/* Axes that a figure on a page can be seen with beside its own, where those are logarithmic. */
+/* Axes offered on a page beside the logarithmic ones of the figure. */
 typedef enum {
     FRACAS_AXES_OWN = 0,     /* as the panels have them */
     FRACAS_AXES_SEMILOG = 1, /* x linear */
@@ -58,10 +59,10 @@ typedef enum {
 typedef struct {
     char file[64]; /* name of the SVG, PDF and CSV files without their endings */
     char title[256];
-    char caption[1024]; /* sentences: what is drawn, n, what the bars are */
-    unsigned offers; /* FRACAS_AXES_SEMILOG | FRACAS_AXES_LINEAR, those that make sense; 0: none */
-    int width;       /* pixels of the drawing's own coordinates; a page scales it */
-    size_t npanels;  /* one above the other */
+    char caption[1024]; /* sentences: subject, n, meaning of the bars */
+    unsigned offers;    /* FRACAS_AXES_SEMILOG | FRACAS_AXES_LINEAR as far as sensible; 0: none */
+    int width;          /* pixels of the drawing's own coordinates; a page scales it */
+    size_t npanels;     /* one above the other */
     fracas_panel panel[FRACAS_MAX_PANELS];
 } fracas_chart;
 
@@ -71,7 +72,7 @@ enum {
 }; /* narrow enough for text to be readable on a phone */
 
 enum { FRACAS_CHART_COLOURS = 6 }; /* classes c0 to c5 of the style sheet */
-enum { FRACAS_CHART_GREY = 100 };  /* looks from here on are grey, class cg: of what is no data */
+enum { FRACAS_CHART_GREY = 100 };  /* looks from here on are grey, class cg: no data */
 
 /* A wide chart without panels. */
 void fracas_chart_init(fracas_chart *chart);
@@ -84,8 +85,8 @@ fracas_panel *fracas_chart_add(fracas_chart *chart, double height);
 FRACAS_MUST_USE fracas_err fracas_panel_add(fracas_panel *panel, fracas_series_kind kind,
                                             unsigned look, size_t n, fracas_series **series);
 
-/* Opens the <svg> element of a drawing of so many pixels; who draws closes it. `standalone`: a file
- * of its own, with its style, on white; else for a page that has the style sheets of assets.h,
+/* Opens the <svg> element of a drawing of so many pixels; the caller closes it. `standalone`: a
+ * file of its own, with its style, on white; else for a page with the style sheets of assets.h,
  * light or dark as the reader has it. */
 void fracas_svg_begin(const char *title, int width, double height, bool standalone, FILE *out);
 /* Writes the whole element. */
@@ -93,17 +94,16 @@ void fracas_chart_write(const fracas_chart *chart, bool standalone, FILE *out);
 /* The same for a page, with these axes. */
 void fracas_chart_write_axes(const fracas_chart *chart, fracas_axes axes, FILE *out);
 
-/* What fracas_chart_write draws, a line a value: panel (from 1), series, kind (mark, curve, steps,
- * band, box), x (or its name), y, low, high; the first line names them with the labels of the axes
- * and so their units, of several panels separated by " | " where they differ. Nothing in a field
- * for NaN. */
+/* The data of fracas_chart_write, a line a value: panel (from 1), series, kind (mark, curve, steps,
+ * band, box), x (or its name), y, low, high. The first line names them with the labels of the axes
+ * and their units, separated by " | " where panels differ. An empty field is NaN. */
 void fracas_chart_csv(const fracas_chart *chart, FILE *out);
 
 /* True if value i of the series is drawn: finite, above 0 on a log axis, not below the panel's
  * floor. */
 bool fracas_panel_shows(const fracas_panel *panel, const fracas_series *series, size_t i);
 
-/* The name of a value on an axis that has names; NULL on any other. */
+/* The name of a value on an axis with names; NULL on any other. */
 const char *fracas_axis_name(const fracas_axis *axis, double value);
 
 /* Writes text with &, <, > and " escaped. */

@@ -20,11 +20,11 @@ static const double character = 8.6; /* width of a mean character of 15 px sans 
 typedef struct {
     fracas_panel panel; /* with the axes of this drawing; its series are the chart's */
     size_t number;
-    bool page; /* on a page, whose script wants to know what is what */
+    bool page; /* on a page, for its script */
     FILE *out;
     fracas_scale x, y;
-    double top;   /* of the legend */
-    double width; /* of the chart */
+    double top;   /* width of the legend */
+    double width; /* for the chart */
     fracas_tick xtick[FRACAS_MAX_TICKS], ytick[FRACAS_MAX_TICKS];
     size_t nxtick, nytick;
 } frame;
@@ -67,7 +67,7 @@ static void fit_names(frame *f)
     }
 }
 
-/* Scales that hold every shown value and bar. */
+/* Scales for every shown value and bar. */
 static void fit(frame *f)
 {
     double x[2] = {INFINITY, -INFINITY}, y[2] = {INFINITY, -INFINITY};
@@ -75,7 +75,7 @@ static void fit(frame *f)
         const fracas_series *series = &f->panel.series[s];
         for (size_t i = 0; i < series->n; i++) {
             widen(series->x[i], &f->panel.x, &x[0],
-                  &x[1]); /* of all values: panels share their x axis */
+                  &x[1]); /* values of all panels, which share their x axis */
             if (!fracas_panel_shows(&f->panel, series, i)) continue;
             widen(series->y[i], &f->panel.y, &y[0], &y[1]);
             if (!ranges(series)) continue;
@@ -226,7 +226,7 @@ static void draw_line(const frame *f, const fracas_series *series)
 }
 
 /* The areas of values begin to end - 1, all with a low and a high: along the lows, and back along
- * the highs. What is off a log axis below is at its foot. */
+ * the highs. Values below a log axis lie at its foot. */
 static void draw_area(const frame *f, const fracas_series *series, size_t begin, size_t end)
 {
     fputs("<path class=\"area\" d=\"", f->out);
@@ -272,8 +272,7 @@ static bool in_legend(const fracas_series *series)
     return *series->name && !series->open;
 }
 
-/* The series by whose legend entry series s is shown and hidden: one that has none goes with one of
- * its look that has. */
+/* The series whose legend entry shows and hides series s: itself, or an entry of the same look. */
 static size_t named_for(const fracas_panel *panel, size_t s)
 {
     if (in_legend(&panel->series[s])) return s;
@@ -283,7 +282,7 @@ static size_t named_for(const fracas_panel *panel, size_t s)
     return s;
 }
 
-/* Opens the group of what belongs to series s of the panel. */
+/* Opens the group of series s of the panel. */
 static void open_group(const frame *f, const char *class, size_t s)
 {
     const unsigned look = f->panel.series[s].look;
@@ -381,7 +380,7 @@ static fracas_panel panel_of(const fracas_chart *chart, size_t p, fracas_axes ax
     return panel;
 }
 
-/* Room for the widest tick label of all panels, so that their time axes are above each other. */
+/* Room for the widest tick label of all panels: their time axes stand above each other. */
 static double left_margin(const fracas_chart *chart, fracas_axes axes)
 {
     size_t widest = 1;
@@ -394,7 +393,7 @@ static double left_margin(const fracas_chart *chart, fracas_axes axes)
     return 36 + character * (double)widest;
 }
 
-/* Places the panel, of which `f` has what it is, below `top`; returns where it ends. */
+/* Places the panel, with scales in `f`, below `top`; returns where it ends. */
 static double place(frame *f, double left, double top)
 {
     f->top = top;
@@ -422,8 +421,8 @@ void fracas_svg_begin(const char *title, int width, double height, bool standalo
                 fracas_chart_style, width, height);
 }
 
-/* What the script of a page needs to read values off a drawing: ends of the axes, values and
- * places. */
+/* Data for the script of a page, to read values off a drawing: ends of the axes, values and places.
+ */
 static void put_axis(const frame *f, const char *name, const fracas_scale *scale,
                      const fracas_axis *axis, const char *label)
 {
@@ -436,7 +435,7 @@ static void put_axis(const frame *f, const char *name, const fracas_scale *scale
     putc('"', f->out);
 }
 
-/* A panel without a label has that of the panel below. */
+/* A panel without a label takes the label of the panel below. */
 static const char *x_label(const fracas_chart *chart, size_t p)
 {
     while (!*chart->panel[p].x.label && p + 1 < chart->npanels) p++;

@@ -30,7 +30,7 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Of the triangle through three points: its normal, as long as twice its area. */
+/* Normal of the triangle through three points, as long as twice its area. */
 static void normal_of(const double a[3], const double b[3], const double c[3], double normal[3])
 {
     double ab[3], ac[3];
@@ -45,12 +45,12 @@ typedef struct {
     fracas_facets *to;
     bool apart;            /* fragments are drawn apart */
     size_t ngroups;        /* fragments if they are apart, else 1 */
-    double (*turned)[3];   /* of each node of the mesh, in the frame of the view */
-    double (*normal)[3];   /* of length 1 */
-    double (*shift)[3];    /* of each group, then the centroid of all */
-    uint32_t (*corner)[6]; /* of each element: nodes of its group, two of the facets' for each, the
+    double (*turned)[3];   /* for each node of the mesh, in the frame of the view */
+    double (*normal)[3];   /* for length 1 */
+    double (*shift)[3];    /* for each group, then the centroid of all */
+    uint32_t (*corner)[6]; /* for each element: nodes of its group, two of the facets' for each, the
                               outer and the inner one */
-    int64_t (*across)[3];  /* of each element: interface at its side k, -1 at the border */
+    int64_t (*across)[3];  /* for each element: interface at its side k, -1 at the border */
 } shaping;
 
 static void free_shaping(shaping *s)
@@ -114,8 +114,8 @@ static fracas_err find_shifts(shaping *s)
     return FRACAS_OK;
 }
 
-/* A fragment's centroid is within the convex hull of the surface, so that all of it stays within
- * that hull enlarged by 1 + explode. */
+/* A fragment's centroid is within the convex hull of the surface: all of it stays within the hull
+ * enlarged by 1 + explode. */
 static void find_room(const shaping *s)
 {
     fracas_facets *to = s->to;
@@ -155,7 +155,7 @@ static void put_node(const shaping *s, size_t node, size_t group)
     }
 }
 
-/* copy: of each node of the mesh, in the last group that had it, SIZE_MAX before. */
+/* copy: for each node of the mesh its copy in the last group with it, SIZE_MAX before. */
 static void number_nodes(const shaping *s, const size_t *first, const size_t *of, uint32_t *copy,
                          size_t *last)
 {
@@ -228,7 +228,7 @@ static int side_in_skin(const fracas_facet *skin, int k)
     return skin->kind == FRACAS_FACET_INNER ? (4 - k) % 3 : k;
 }
 
-/* The skin of an element that faces the reader; the inner one is gone round the other way. */
+/* The skin of an element that faces the reader; the inner one is traversed the other way. */
 static void put_skin(const shaping *s, size_t e)
 {
     const uint32_t *corner = s->corner[e];
@@ -258,7 +258,7 @@ static bool is_parted(const shaping *s, int64_t i)
     return s->apart && s->state->fragment[element[0]] != s->state->fragment[element[1]];
 }
 
-/* Dust that is apart has neither lines nor cuts: it would be nothing else. */
+/* Dust moved apart has neither lines nor cuts, which would hide it. */
 static bool is_dust(const shaping *s, size_t e)
 {
     return s->apart && s->state->elements[s->state->fragment[e]] <= FRACAS_SURFACE_DUST;
@@ -291,8 +291,8 @@ static void facet_normal(const shaping *s, const uint32_t node[3], double normal
 }
 
 /* The cut at side k of an element, as far as it faces the reader: from its inner skin to its outer
- * one, seen from where the element is not, in two halves. Where it meets the skin that faces the
- * reader, the line is that of the skin. */
+ * one, seen from outside the element, in two halves. Where it meets the skin facing the reader, it
+ * shares the line of the skin. */
 static void put_cut(const shaping *s, size_t e, int k)
 {
     const uint32_t *corner = s->corner[e], a = corner[k], b = corner[(k + 1) % 3];

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a picture of a surface in space is made of: triangles that face the reader, in the frame of
- * the view. The shell is a solid with the surface in its middle: an element shows its outer skin
- * or, where it is turned away, its inner one; where there is an edge, the cut through the thickness
- * may show, too. */
+/* Facets of a surface in space: triangles facing the reader, in the frame of the view. The shell is
+ * a solid with the surface in its middle: an element shows its outer skin or, turned away, its
+ * inner one; at an edge, the cut through the thickness may show, too. */
 #ifndef FRACAS_ANALYSIS_DRAW_FACETS_H
 #define FRACAS_ANALYSIS_DRAW_FACETS_H
 
@@ -14,20 +13,21 @@
 
 typedef struct {
     fracas_view view;
-    double explode;   /* fragments are moved by this times (their centroid - that of the surface) */
+    double
+        explode; /* fragments are moved by this times (their centroid - centroid of the surface) */
     double thickness; /* m; 0: the cut does not show */
 } fracas_facets_form;
 
 typedef enum { FRACAS_FACET_OUTER, FRACAS_FACET_INNER, FRACAS_FACET_CUT } fracas_facet_kind;
 
-/* What the side of a facet is drawn as. The first three are interfaces that are not parted, as
- * fracas_interface_state has them. */
+/* Line of a side of a facet. The first three are connected interfaces, as in
+ * fracas_interface_state. */
 typedef enum {
     FRACAS_SIDE_CLOSED,
     FRACAS_SIDE_CRACKED,
     FRACAS_SIDE_BROKEN,
     FRACAS_SIDE_PARTED, /* broken, and its fragments are apart */
-    FRACAS_SIDE_EDGE,   /* of the surface, or of what faces the reader */
+    FRACAS_SIDE_EDGE,   /* all of the surface, or the part facing the reader */
     FRACAS_SIDE_NONE    /* no line */
 } fracas_side;
 
@@ -35,18 +35,18 @@ typedef enum {
 typedef struct {
     uint32_t node[3];
     int32_t middle[3];    /* node half way of a curved side, -1: it is straight */
-    int32_t neighbour[3]; /* facet across the side, -1: none, or none that is in the same skin */
+    int32_t neighbour[3]; /* facet across the side, -1: none, or none in the same skin */
     uint8_t side[3];      /* fracas_side */
     uint8_t kind;         /* fracas_facet_kind */
     uint32_t fragment;
-    float light;   /* share of a light that falls on it square on, 0 to 1 */
-    int32_t layer; /* -1: hidden by others; else all that hide some of it have smaller numbers, 0
-                      the first */
+    float light;   /* share of a light falling on it square on, 0 to 1 */
+    int32_t layer; /* -1: hidden by others; else above the layers of all facets that hide part of
+                      it, 0 the first */
 } fracas_facet;
 
 typedef struct {
     size_t nfacets, nnodes, nlayers;
-    fracas_facet *facet; /* owned; facet e < nskin is that of element e */
+    fracas_facet *facet; /* owned; facet e < nskin is the skin of element e */
     size_t nskin;
     double (*node)[3];           /* owned; to the right, upward, toward the reader [m] */
     double least[2], largest[2]; /* m, right and up: room for it at any time of its run */
@@ -63,9 +63,9 @@ void fracas_facets_clear(fracas_facets *facets);
  * -sin h sin a, cos h), t = (cos h cos a, cos h sin a, sin h) with a azimuth and h elevation. */
 void fracas_view_turn(const fracas_view *view, const double vector[3], double turned[3]);
 
-/* Finds what hides what, and so the layers (facets_hiding.c). Facets of a layer do not hide each
- * other, but for circles of them. A facet counts as hidden if 45 points spread over it are, or if
- * it is seen edge on. */
+/* Finds hidden facets and layers (facets_hiding.c). Facets of a layer do not hide each other,
+ * except in circles. A facet counts as hidden if 45 points spread over it are, or if it is seen
+ * edge on. */
 FRACAS_MUST_USE fracas_err fracas_facets_hide(fracas_facets *facets);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* fracas_facets_hide: pairs of facets that overlap in the picture, by a grid of cells; what is
- * hidden altogether; layers. */
+/* fracas_facets_hide: pairs of facets that overlap in the picture, by a grid of cells; hidden
+ * facets; layers. */
 #include "analysis/draw/facets.h"
 
 #include "base/partition.h"
@@ -10,9 +10,9 @@
 #include <stdlib.h>
 
 enum { MOST_CORNERS = 6, LATTICE = 8 }; /* steps along a side: 45 points */
-enum { MOST_LAYERS = 32 };              /* what hides each other in a circle stops there */
+enum { MOST_LAYERS = 32 };              /* circles of facets hiding each other stop there */
 static const double touching =
-    1e-6; /* areas that overlap / that of the smaller facet, and depths / size of the facets */
+    1e-6; /* overlapping areas / area of the smaller facet, and depths / size of the facets */
 
 typedef struct {
     uint32_t behind, front;
@@ -22,11 +22,11 @@ typedef struct {
     fracas_facets *facets;
     double corner[2], cell; /* m: of the grid */
     size_t columns, rows;
-    size_t *first; /* of each cell, in `of` */
+    size_t *first; /* for each cell, in `of` */
     uint32_t *of;  /* facets */
     size_t ncovers, capacity;
     cover *covers; /* sorted by the facet behind once found */
-    size_t *start; /* of each facet, in `covers` */
+    size_t *start; /* for each facet, in `covers` */
 } hiding;
 
 static void free_hiding(hiding *h)
@@ -61,7 +61,7 @@ static size_t index_in(double at, double corner, double cell, size_t count)
     return place < (double)(count - 1) ? (size_t)place : count - 1;
 }
 
-/* Columns and rows that a facet touches: from[0], from[1] to to[0], to[1]. */
+/* Columns and rows touched by a facet: from[0], from[1] to to[0], to[1]. */
 static void cells_of(const hiding *h, size_t f, size_t from[2], size_t to[2])
 {
     double least[2], largest[2];
@@ -73,7 +73,7 @@ static void cells_of(const hiding *h, size_t f, size_t from[2], size_t to[2])
     }
 }
 
-/* Cells as large as twice the square root of what there is for a facet on average. */
+/* Cells as large as twice the square root of the mean area of a facet. */
 static fracas_err make_grid(hiding *h)
 {
     const fracas_facets *facets = h->facets;
@@ -117,7 +117,7 @@ static double twice_area(const fracas_facets *facets, size_t f)
     return turn(corner_of(facets, f, 0), corner_of(facets, f, 1), corner_of(facets, f, 2));
 }
 
-/* What of a polygon is to the left of a to b. */
+/* Part of a polygon to the left of a to b. */
 static int clip(double (*at)[2], int n, const double a[2], const double b[2])
 {
     double kept[MOST_CORNERS + 1][2];
@@ -134,7 +134,7 @@ static int clip(double (*at)[2], int n, const double a[2], const double b[2])
     return count;
 }
 
-/* Twice the area of what two facets have in common in the picture, and its centroid. */
+/* Twice the area common to two facets in the picture, and its centroid. */
 static double common(const fracas_facets *facets, size_t f, size_t g, double centre[2])
 {
     double at[MOST_CORNERS + 1][2], sum = 0;
@@ -153,7 +153,7 @@ static double common(const fracas_facets *facets, size_t f, size_t g, double cen
     return sum;
 }
 
-/* How near the reader a facet is at a point; false if that is beside it. */
+/* Depth of a facet at a point; false if the point is beside it. */
 static bool depth_at(const fracas_facets *facets, size_t f, const double point[2], double *depth)
 {
     const double *a = corner_of(facets, f, 0), *b = corner_of(facets, f, 1),
@@ -190,8 +190,8 @@ static fracas_err compare(hiding *h, uint32_t f, uint32_t g)
     return of_f < of_g ? add_cover(h, f, g) : add_cover(h, g, f);
 }
 
-/* Boxes that overlap are compared in one cell only: that of the lower left corner of what they have
- * in common. */
+/* Overlapping boxes are compared in one cell only: that of the lower left corner of their common
+ * part. */
 static bool meet_in(const hiding *h, size_t f, size_t g, size_t column, size_t row)
 {
     double least[2][2], largest[2][2], corner[2];
@@ -236,7 +236,7 @@ static fracas_err sort_covers(hiding *h)
     return FRACAS_OK;
 }
 
-/* ---- what shows ---- */
+/* ---- visible parts ---- */
 
 /* True if another facet lies before the point of f with these barycentric coordinates. */
 static bool is_covered(const hiding *h, size_t f, const double share[3])
@@ -264,7 +264,7 @@ static bool is_hidden(const hiding *h, size_t f)
     return true;
 }
 
-/* To rounding, of lengths that it has in space. */
+/* Equal to rounding, relative to lengths in space. */
 static bool is_edge_on(const fracas_facets *facets, size_t f)
 {
     double longest = 0;
@@ -277,12 +277,12 @@ static bool is_edge_on(const fracas_facets *facets, size_t f)
 
 /* ---- layers ---- */
 
-/* Facets that are drawn at once: what is connected, as long as it hides nothing that hides it. */
+/* Facets drawn at once: connected ones, as long as they hide nothing that hides them. */
 typedef struct {
     size_t count;
-    uint32_t *of;   /* of each facet */
-    int32_t *layer; /* of each part */
-    bool *split;    /* of each part: it hides some of itself, or what hides it */
+    uint32_t *of;   /* for each facet */
+    int32_t *layer; /* for each part */
+    bool *split;    /* for each part: it hides some of itself, or a part that hides it */
 } parts;
 
 static void free_parts(parts *p)
@@ -313,8 +313,8 @@ static fracas_err find_parts(const hiding *h, parts *p)
     return p->layer && p->split ? FRACAS_OK : fracas_no_memory("the facets of a picture");
 }
 
-/* One more than the largest layer of all that hide some of it. Parts that hide each other in a
- * circle are split, and those far behind them. */
+/* One more than the largest layer of all facets that hide some of it. Parts hiding each other in a
+ * circle are split, with those far behind them. */
 static void raise_parts(const hiding *h, parts *p)
 {
     const fracas_facet *facet = h->facets->facet;

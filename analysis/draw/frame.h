@@ -9,13 +9,13 @@ enum { FRACAS_FRAME_MARGIN = 8, FRACAS_FRAME_UNITS = 10 }; /* pixels; units of a
 
 typedef struct {
     double scale;         /* pixels a metre */
-    double width, height; /* of what is drawn, pixels */
+    double width, height; /* extent of the drawing, pixels */
     double left;          /* pixels */
     double corner[2];     /* m: its least coordinate to the right, its largest one upward */
 } fracas_frame;
 
-/* What is from least to largest [m, right and up] fills the width of the picture [pixels], or 1.3
- * times that upward. */
+/* The range from least to largest [m, right and up] fills the width of the picture [pixels], or 1.3
+ * times the width upward. */
 void fracas_frame_fit(const double least[2], const double largest[2], int width,
                       fracas_frame *frame);
 

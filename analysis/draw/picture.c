@@ -43,8 +43,8 @@ double fracas_picture_exaggeration(const fracas_ring_pattern *pattern)
     return power * (mantissa >= 5 ? 5 : mantissa >= 2 ? 2 : 1);
 }
 
-/* Greatest speed beside the uniform expansion of what is not dust: dust may be much faster than all
- * that matters. */
+/* Greatest speed of fragments beside the uniform expansion. Dust is left out: it may be much
+ * faster. */
 static double fastest_of(const fracas_ring_pattern *pattern)
 {
     double fastest = 0;
@@ -185,7 +185,7 @@ static void draw_piece(const canvas *on, size_t i)
     place(on, inner, piece->angle - half, push, piece->angle, at[3]);
     int large = 2 * half > M_PI;
     bool edged = 2 * half * pattern->radius * on->scale >
-                 3; /* pixels; an edge of paper would cover what is narrower */
+                 3; /* pixels; an edge of paper would cover a narrower one */
     fprintf(on->out,
             "<path class=\"band c%zu\"%s d=\"M%.2f %.2fA%.2f %.2f 0 %d 0 %.2f %.2fL%.2f %.2fA%.2f "
             "%.2f 0 %d 1 %.2f %.2fz\">",

@@ -17,25 +17,24 @@ typedef struct {
     char caption[1024];
     double exaggeration; /* drawn displacement / displacement, 1 or more */
     bool arrows;         /* few enough fragments for an arrow each */
-    double fastest; /* m/s, greatest relative speed of a fragment that has an arrow: the longest
-                       arrow */
+    double
+        fastest; /* m/s, greatest relative speed of a fragment with an arrow: the longest arrow */
     fracas_ring_pattern pattern;
 } fracas_picture;
 
-/* The points of which there are pictures: of the rings with a realization that ended FRAGMENTED
- * all, or, if they are more, FRACAS_MAX_PICTURES evenly spread over them, the first and the last
- * among them. Returns how many. */
+/* Points with a picture: all rings with a FRAGMENTED realization, or FRACAS_MAX_PICTURES evenly
+ * spread over them, the first and the last among them. Returns their number. */
 size_t fracas_picture_points(const fracas_analysis *analysis, size_t point[FRACAS_MAX_PICTURES]);
 
-/* The first realization of such a point that ended FRAGMENTED, read again from the study. Cleared
- * by the caller. */
+/* The first FRAGMENTED realization of such a point, read again from the study. Cleared by the
+ * caller. */
 FRACAS_MUST_USE fracas_err fracas_picture_create(const fracas_analysis *analysis, size_t point,
                                                  fracas_picture *picture);
 void fracas_picture_clear(fracas_picture *picture);
 
-/* 1, 2 or 5 times a power of ten, 1 or more: the greatest that takes the mean displacement, weighed
- * by size, to 0.4 radii and the largest to 0.8 radii at most; 1 where nothing is displaced outward
- * but by rounding. */
+/* 1, 2 or 5 times a power of ten, 1 or more: the greatest with a mean displacement, weighed by
+ * size, of at most 0.4 radii and a largest of at most 0.8 radii; 1 where displacements outward are
+ * rounding. */
 double fracas_picture_exaggeration(const fracas_ring_pattern *pattern);
 
 /* The <svg> element, as fracas_chart_write has it. */

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
-/* The smallest of 1, 2, 5, 10 times a power of ten that is at least `value` > 0 (up), or the
- * greatest that is at most (down); a hair's breadth beyond counts as on it. */
+/* Among 1, 2, 5 times a power of ten the smallest at or above `value` > 0 (up), or the greatest at
+ * or below it (down); a hair's breadth beyond counts as on it. */
 static double nice(double value, bool up)
 {
     static const double series[] = {1, 2, 5, 10};
@@ -43,8 +43,8 @@ void fracas_scale_fit(fracas_scale *scale, bool log, double least, double greate
         greatest += apart;
     }
     double step = linear_step(least, greatest);
-    const double over =
-        0.02; /* of a step, about a pixel: the last time of a history is a little past its end */
+    const double over = 0.02; /* part of a step, about a pixel: the last time of a history is a
+                                 little past its end */
     scale->low = floor(least / step + over) * step;
     scale->high = ceil(greatest / step - over) * step;
 }

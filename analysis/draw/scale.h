@@ -19,9 +19,9 @@ typedef struct {
     char label[32]; /* "": a minor tick */
 } fracas_tick;
 
-/* Ends that hold [least, greatest] but for a fiftieth of a step, on numbers 1, 2, 5 times a power
- * of ten: multiples of a step of about a fifth of the range, or, for a log axis, members of the
- * 1-2-5 series. Ends without a range are put apart. */
+/* Ends around [least, greatest] but for a fiftieth of a step: multiples of a step of about a fifth
+ * of the range, 1, 2 or 5 times a power of ten, or, for a log axis, members of the 1-2-5 series.
+ * Equal ends are put apart. */
 void fracas_scale_fit(fracas_scale *scale, bool log, double least, double greatest);
 
 /* Pixels of a value. */

@@ -56,8 +56,8 @@ typedef struct {
     const fracas_surface_picture *picture;
     FILE *out;
     fracas_frame frame;
-    fracas_spot *spot; /* of each node */
-    uint8_t *tint;     /* of each fragment */
+    fracas_spot *spot; /* for each node */
+    uint8_t *tint;     /* for each fragment */
     double line;       /* width of a broken interface, units */
 } canvas;
 
@@ -92,7 +92,7 @@ static fracas_err place_nodes(canvas *on)
     return FRACAS_OK;
 }
 
-/* A fifth of a mean edge, so that small elements are not all line; between 0.4 and 1.2 pixels. */
+/* A fifth of a mean edge, to show small elements and not only lines; between 0.4 and 1.2 pixels. */
 static double line_width(const canvas *on)
 {
     double sum = 0;
@@ -114,7 +114,7 @@ static fracas_err draw(const canvas *on, fracas_trail *trail, fracas_err err, bo
     return err;
 }
 
-/* Interfaces in one state; the width is that of the line to that of a broken one. */
+/* Interfaces in one state; the width is relative to the line of a broken one. */
 static fracas_err draw_interfaces(const canvas *on, fracas_interface_state state, const char *class,
                                   double width)
 {
@@ -146,8 +146,8 @@ static int tint_of(const canvas *on, int64_t element)
     return on->tint ? on->tint[on->state->fragment[element]] : 0;
 }
 
-/* Fills what has this tint. Its boundary is gone round with the inside to the left; edges between
- * two fragments of the same tint would be gone through both ways, and are no boundary. */
+/* Fills the fragments of this tint. Their boundary is traversed with the inside to the left; an
+ * edge between two of them would be traversed both ways, and is no boundary. */
 static fracas_err fill(const canvas *on, int tint, const char *class)
 {
     fracas_trail trail = {0};
@@ -178,7 +178,7 @@ static fracas_err draw_areas(const canvas *on)
 
 /* ---- words ---- */
 
-/* The largest 1, 2 or 5 times a power of ten [mm] that is at most 0.3 of the width. */
+/* The largest 1, 2 or 5 times a power of ten [mm] below 0.3 of the width. */
 static double scale_bar(const canvas *on)
 {
     const double most = 0.3 * on->picture->width / on->frame.scale * 1e3,
@@ -203,8 +203,7 @@ static void draw_words(const canvas *on)
     fprintf(on->out, "<text x=\"%.1f\" y=\"%.1f\">%g mm%s</text>\n", to + 8, y + 14.5, bar, apart);
 }
 
-/* Where x, y and z point, at the lower right; none for an axis that points to or from the reader.
- */
+/* Directions of x, y and z, at the lower right; none for an axis parallel to the line of sight. */
 static void draw_axes(const canvas *on, const fracas_view *view)
 {
     const double x = on->picture->width - MARGIN - AXIS - 12,

@@ -12,13 +12,14 @@
 enum { FRACAS_SURFACE_WIDTH = 800 }; /* pixels of a picture in a file of its own */
 
 typedef struct {
-    const char *title; /* what a reader who cannot see is told */
+    const char *title; /* text for a reader who cannot see */
     fracas_surface_show show;
     int width;               /* pixels */
     bool standalone;         /* as fracas_svg_begin has it */
     const fracas_view *view; /* NULL: a flat surface from +z, any other from (1, 1, 1) */
-    double explode;   /* fragments are moved by this times (their centroid - that of the surface) */
-    double thickness; /* of the shell in space [m]; 0: its cuts do not show */
+    double
+        explode; /* fragments are moved by this times (their centroid - centroid of the surface) */
+    double thickness; /* thickness of the shell in space [m]; 0: its cuts do not show */
 } fracas_surface_picture;
 
 /* All at one z, to rounding: drawn as it lies. */
@@ -26,10 +27,10 @@ bool fracas_surface_is_flat(const fracas_stored_mesh *mesh);
 
 /* The <svg> element: cracked interfaces light, broken ones dark, the outline, fragments (unless it
  * shows cracks alone) filled, dust in a colour of its own, the mesh if asked for; time, fragments
- * and a scale bar below. Fragments are drawn as loops, so that its size goes with the length of
- * cracks, at most some 20 bytes an interface. A surface in space, or one with a view or fragments
- * apart, is shaded; what is hidden is not drawn, its inner side is darker, and its axes are at the
- * lower right. */
+ * and a scale bar below. Fragments are drawn as loops: the size goes with the length of cracks, at
+ * most some 20 bytes an interface. A surface in space, or with a view or fragments apart, is
+ * shaded; hidden parts are not drawn, its inner side is darker, and its axes are at the lower
+ * right. */
 FRACAS_MUST_USE fracas_err fracas_surface_picture_write(const fracas_stored_mesh *mesh,
                                                         const fracas_surface_state *state,
                                                         const fracas_surface_picture *picture,

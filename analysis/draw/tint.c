@@ -41,8 +41,7 @@ static fracas_err list_neighbours(const fracas_stored_mesh *mesh, const fracas_s
     of->order = calloc(state->nfragments + 1, sizeof *of->order);
     if (!of->first || !of->interface || !of->order)
         return fracas_no_memory("the tints of a picture");
-    /* Counted one place further on, so that the filling below leaves each start where it belongs.
-     */
+    /* Counted one place further on: the filling below leaves each start where it belongs. */
     for (size_t i = 0; i < mesh->ninterfaces; i++)
         for (int side = 0; side < 2; side++) of->first[fragment_at(mesh, state, i, side) + 1]++;
     for (size_t f = 0, sum = 0; f <= state->nfragments; f++) {

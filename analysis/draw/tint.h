@@ -7,9 +7,9 @@
 
 enum { FRACAS_TINTS = 7, FRACAS_TINT_DUST = FRACAS_TINTS };
 
-/* *tint: of each fragment, freed by the caller; FRACAS_TINT_DUST for dust. Of the others, the
- * largest first, each gets the tint that borders on it the least, of several the one with the
- * fewest elements so far. */
+/* *tint: one for each fragment, freed by the caller; FRACAS_TINT_DUST for dust. The largest
+ * fragment comes first; each gets the tint with the shortest common border, of several the one with
+ * the fewest elements so far. */
 FRACAS_MUST_USE fracas_err fracas_tint_fragments(const fracas_stored_mesh *mesh,
                                                  const fracas_surface_state *state, uint8_t **tint);
 

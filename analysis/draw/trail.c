@@ -27,13 +27,12 @@ void fracas_trail_clear(fracas_trail *trail)
 
 typedef struct {
     size_t nnodes;
-    uint32_t
-        *node; /* those that have an edge, ascending; the others know them by their place here */
-    uint32_t (*place)[2]; /* of the ends of each edge */
-    size_t *first;        /* of each node, in `leaving`; nodes + 1 of them */
-    size_t *next;         /* of each node: the first that is not known to be used */
+    uint32_t *node;       /* nodes with an edge, ascending; edges know them by their place here */
+    uint32_t (*place)[2]; /* for the ends of each edge */
+    size_t *first;        /* for each node, in `leaving`; nodes + 1 of them */
+    size_t *next;         /* for each node its first edge not known to be used */
     size_t *leaving;      /* 2 edge + 1 if the edge is gone through backwards */
-    bool *used;           /* of each edge */
+    bool *used;           /* for each edge */
 } departures;
 
 static void free_departures(departures *from)
@@ -126,8 +125,8 @@ static void put_pair(trail_pen *pen, char command, int32_t dx, int32_t dy)
     fprintf(pen->out, "%d%s%d", (int)dx, dy < 0 ? "" : " ", (int)dy);
 }
 
-/* A parabola through the middle where that is not on the straight line (by more than a unit), else
- * the line. */
+/* A parabola through the middle where the middle is off the straight line (by more than a unit),
+ * else the line. */
 static void put_edge(trail_pen *pen, const fracas_trail_edge *edge, bool backwards)
 {
     const fracas_spot a = pen->spot[edge->node[backwards]], b = pen->spot[edge->node[!backwards]];
@@ -164,7 +163,7 @@ static void put_lines(const fracas_trail *trail, const fracas_spot *spot, bool c
 {
     trail_pen pen = {.spot = spot, .out = out};
     fprintf(out, "<path class=\"%s\"%s d=\"", class, closed ? " fill-rule=\"evenodd\"" : "");
-    for (size_t n = 0; n < from->nnodes && !closed; n++) /* lines that end somewhere start there */
+    for (size_t n = 0; n < from->nnodes && !closed; n++) /* open lines start there */
         if ((from->first[n + 1] - from->first[n]) % 2 == 1) put_line(&pen, trail, from, n, false);
     for (size_t n = 0; n < from->nnodes; n++)
         while (from->next[n] < from->first[n + 1]) put_line(&pen, trail, from, n, closed);

@@ -17,7 +17,7 @@ typedef struct {
 
 typedef struct {
     uint32_t node[2];
-    int32_t middle; /* node that a curved edge goes through half way, -1: it is straight */
+    int32_t middle; /* node half way along a curved edge, -1: it is straight */
 } fracas_trail_edge;
 
 typedef struct {
@@ -30,8 +30,8 @@ FRACAS_MUST_USE fracas_err fracas_trail_add(fracas_trail *trail, const int64_t n
 void fracas_trail_clear(fracas_trail *trail);
 
 /* Writes `<path class=... d=.../>` through every edge once; nothing without an edge. `closed`:
- * edges have a direction, as many end in a node as start there, and the loops that they make are
- * filled by the even-odd rule; else either way round will do. */
+ * edges have a direction, as many end in a node as start there, and their loops are filled by the
+ * even-odd rule; else either way round will do. */
 FRACAS_MUST_USE fracas_err fracas_trail_write(const fracas_trail *trail, const fracas_spot *spot,
                                               bool closed, const char *class, FILE *out);
 

@@ -16,12 +16,12 @@
 typedef void fracas_resampled(void *context, const uint32_t *weight, double *value);
 
 typedef struct {
-    double value;          /* of the realizations as they are */
+    double value;          /* for the realizations as they are */
     double low, high;      /* NaN where there is no interval */
-    double standard_error; /* standard deviation over resamples; of few realizations that of
-                              fracas_jackknife, and so its bias */
+    double standard_error; /* standard deviation over resamples; of few realizations by
+                              fracas_jackknife, as is the bias */
     double bias;           /* mean over resamples - value */
-    int64_t resamples;     /* that gave a value */
+    int64_t resamples;     /* resamples with a value */
 } fracas_interval;
 
 /* value, low, high; with the standard error. */
@@ -35,25 +35,25 @@ typedef struct {
 } fracas_bootstrap_options;
 
 /* Bias-corrected and accelerated intervals (BCa; Efron 1987, Efron and Tibshirani 1993, chapter 14)
- * of `nvalues` values of n realizations, from B resamples of n realizations with replacement; the
- * acceleration from the jackknife, over at most 200 groups of realizations where there are more.
- * Normal quantiles z in them are replaced by sqrt(n/(n - 1)) t_(n-1), as Hesterberg (The American
- * Statistician 69, 371, 2015) expands percentile intervals: resamples of n values vary less by (n -
- * 1)/n, and what they vary by is itself an estimate (estimators.18). Of fewer than
- * FRACAS_BOOTSTRAP_LEAST realizations resamples do not go far enough: the interval is value -+
- * t_(n-1) e, e of fracas_jackknife (estimators.18), `resamples` counts what was left out in turn,
- * and `plain` is not heard. low and high are NaN for n < 2, and of a value that does not exist
- * without one of so few. interval[nvalues]. FRACAS_ENVIRONMENT without memory. */
+ * of `nvalues` values of n realizations, from B resamples with replacement; the acceleration from
+ * the jackknife, over at most 200 groups of realizations. Normal quantiles z are replaced by
+ * sqrt(n/(n - 1)) t_(n-1), as Hesterberg (The American Statistician 69, 371, 2015) expands
+ * percentile intervals: resamples of n values vary less by (n - 1)/n, and their variance is itself
+ * an estimate (estimators.18). Resamples of fewer than FRACAS_BOOTSTRAP_LEAST realizations do not
+ * go far enough: the interval is then value -+ t_(n-1) e, e of fracas_jackknife (estimators.18),
+ * `resamples` counts the realizations left out in turn, and `plain` has no effect. low and high are
+ * NaN for n < 2, and for a value that does not exist without one of so few. interval[nvalues].
+ * FRACAS_ENVIRONMENT without memory. */
 enum { FRACAS_BOOTSTRAP_LEAST = 8 };
 FRACAS_MUST_USE fracas_err fracas_bootstrap(size_t n, size_t nvalues, fracas_resampled *statistic,
                                             void *context, const fracas_bootstrap_options *options,
                                             fracas_interval *interval);
 
 typedef struct {
-    double value;          /* of the realizations as they are */
+    double value;          /* for the realizations as they are */
     double standard_error; /* NaN for n < 2 */
     double bias;           /* (g - 1) (mean of the values without a group - value) */
-    size_t groups;         /* g, that were left out in turn: n of them, 200 at most */
+    size_t groups;         /* g, groups left out in turn: n of them, 200 at most */
 } fracas_jackknifed;
 
 /* e^2 = (g - 1)/g sum over groups of (value without the group - value)^2: of a mean over

@@ -11,9 +11,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Means over replicas with Student's interval, then ratios of sums over realizations with that of
- * fracas_bootstrap. */
-/* X(NAME, key, unit); the key is that of fracas_statistics without ".mean" or ".value". */
+/* Means over replicas with Student's interval, then ratios of sums over realizations with intervals
+ * of fracas_bootstrap. */
+/* X(NAME, key, unit); the key is the one of fracas_statistics without ".mean" or ".value". */
 #define FRACAS_HEADLINES(X)                 \
     X(COUNT, "count", "1")                  \
     X(SIZE, "size", "m")                    \
@@ -48,27 +48,27 @@ typedef struct {
     size_t count;
     fracas_running *row; /* after FRACAS_CONVERGENCE_FIRST 2^k realizations, and after all */
     double half[FRACAS_NHEADLINES],
-        rest[FRACAS_NHEADLINES]; /* of the first half of the realizations alone, and of the others;
-                                    NaN of fewer than two */
-    double alike[FRACAS_NHEADLINES];      /* probability that halves of like realizations are as far
-                                             apart; NaN: nothing says how far they may be */
+        rest[FRACAS_NHEADLINES]; /* values of the first half of the realizations alone, and of the
+                                    others; NaN of fewer than two */
+    double alike[FRACAS_NHEADLINES];      /* p-value of the difference of halves; NaN: no scatter is
+                                             known */
     int64_t converged[FRACAS_NHEADLINES]; /* 1, or 0 */
-    int64_t unconverged;                  /* numbers that are not, of those that the point has */
+    int64_t unconverged;                  /* existing numbers without convergence */
 } fracas_replica_convergence;
 
 /* (estimators.22): a number is converged if its half width w = (high - low)/2 is at most
- * FRACAS_CONVERGED_WIDTH |value| and its halves are not such as replicas that are alike have but
- * once in 1/FRACAS_CONVERGED_ALARM times (fracas_parts_alike). */
+ * FRACAS_CONVERGED_WIDTH |value| and the p-value of its halves (fracas_parts_alike) is above
+ * FRACAS_CONVERGED_ALARM. */
 #define FRACAS_CONVERGED_WIDTH 0.05
 #define FRACAS_CONVERGED_ALARM (1.0 / 1600)
 enum { FRACAS_CONVERGENCE_FIRST = 4 };
 
-/* True if halves say that replicas are not alike: the number drifts. */
+/* True if the halves differ: the number drifts. */
 bool fracas_replica_convergence_drifts(const fracas_replica_convergence *convergence,
                                        fracas_headline headline);
 
-/* Of the realizations in the order of the study, which is that of replicas. Cleared by the caller,
- * also after an error. FRACAS_ENVIRONMENT without memory. */
+/* From the realizations in the order of the study, which is the order of replicas. Cleared by the
+ * caller, also after an error. FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_replica_convergence_of(const fracas_ensemble *ensemble,
                                                          uint64_t seed,
                                                          fracas_replica_convergence *convergence);

@@ -18,9 +18,9 @@ fracas_part fracas_part_of(const double *value, size_t stride, size_t count)
                          of.n > 1 ? (double)(of.n - 1) : 0};
 }
 
-/* Where nothing scatters within the parts, as counts of few fragments may: one of 2 in C(n, m) ways
- * of dealing n realizations into m and n - m parts them so. */
-static double dealt_so(double n, double m)
+/* p-value without scatter within the parts, as of counts of few fragments: 2 of the C(n, m)
+ * permutations of n realizations into m and n - m separate them like this. */
+static double permuted_p(double n, double m)
 {
     return fmin(1, exp(log(2) - gsl_sf_lnchoose((unsigned)n, (unsigned)m)));
 }
@@ -35,6 +35,6 @@ double fracas_parts_alike(const fracas_part *a, const fracas_part *b)
     const double variance = ((a->freedom > 0 ? a->freedom * a->variance : 0) +
                              (b->freedom > 0 ? b->freedom * b->variance : 0)) /
                             freedom;
-    if (sqrt(variance) <= hair) return dealt_so(a->n + b->n, a->n);
+    if (sqrt(variance) <= hair) return permuted_p(a->n + b->n, a->n);
     return 2 * gsl_cdf_tdist_Q(apart / sqrt(variance * (1 / a->n + 1 / b->n)), freedom);
 }

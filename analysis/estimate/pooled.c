@@ -18,12 +18,12 @@ size_t fracas_pooled_unit(size_t i, size_t realizations)
     return i * fracas_pooled_units(realizations) / realizations;
 }
 
-/* Of one unit, or of a resample; sizes less `shift`, so that equal ones have a deviation of exactly
- * 0. */
+/* Sums over one unit, or a resample; sizes less `shift`, which gives equal sizes a deviation of
+ * exactly 0. */
 typedef struct {
-    double number, size, squares, mass, moment; /* of all fragments: 1, s, s^2, m, m s */
+    double number, size, squares, mass, moment; /* over all fragments: 1, s, s^2, m, m s */
     double resolved, resolved_size, resolved_squares, resolved_mass,
-        resolved_moment; /* of those above the cut */
+        resolved_moment; /* the same over those above the cut */
     double between;      /* (sum s)^2/number of each realization */
     double group;        /* number^2 of each */
     double realizations;
@@ -136,7 +136,7 @@ static fracas_err sum_units(const fracas_ensemble *ensemble, size_t begin, size_
     return FRACAS_OK;
 }
 
-/* Of the first n realizations; `all` their sum. */
+/* Sums of the first n realizations; `all` their total. */
 static fracas_err resample_sums(const fracas_ensemble *ensemble, size_t n, double cut,
                                 uint64_t seed, fracas_interval *interval, sums *all)
 {

@@ -29,19 +29,19 @@ typedef struct {
     fracas_interval intraclass;      /* between/(within + between); from -1/(group - 1) to 1 */
     fracas_interval design_effect;   /* 1 + (group - 1) intraclass */
     double group;                    /* m0, fragments of a typical realization */
-    double effective; /* fragments/design effect: independent ones that know the mean as well;
-                         infinite at 0 */
+    double effective; /* fragments/design effect: number of independent fragments with the same
+                         information on the mean; infinite at 0 */
 } fracas_variance;
 
 typedef struct {
     double cut;                                  /* m, fracas_ensemble_cut */
     int64_t number, resolved;                    /* fragments, and those above the cut */
-    fracas_sizes all, above;                     /* of all fragments, and of those above the cut */
+    fracas_sizes all, above;                     /* for all fragments, and of those above the cut */
     fracas_interval unresolved, unresolved_mass; /* share of the rest, by number and by mass */
-    fracas_variance variance;                    /* of all */
+    fracas_variance variance;                    /* over all */
 } fracas_pooled;
 
-/* What is resampled: realizations, of more than 1000 of them 500 groups of as many neighbours. */
+/* Units of resampling: realizations, of more than 1000 of them 500 groups of as many neighbours. */
 size_t fracas_pooled_units(size_t realizations);
 /* The unit of realization i. */
 size_t fracas_pooled_unit(size_t i, size_t realizations);
@@ -52,7 +52,7 @@ size_t fracas_pooled_unit(size_t i, size_t realizations);
 FRACAS_MUST_USE fracas_err fracas_pooled_of(const fracas_ensemble *ensemble, uint64_t seed,
                                             fracas_pooled *pooled);
 
-/* What depends on sums alone: mean, mass_mean, variation of all fragments of the first
+/* Estimates from sums alone: mean, mass_mean, variation of all fragments of the first
  * `realizations` realizations. */
 enum { FRACAS_POOLED_MEAN, FRACAS_POOLED_MASS_MEAN, FRACAS_POOLED_VARIATION, FRACAS_NPOOLED };
 FRACAS_MUST_USE fracas_err fracas_pooled_first(const fracas_ensemble *ensemble, size_t realizations,

@@ -27,9 +27,9 @@ typedef struct {
     double lattice, cut;
     size_t units, count, cells;
     entry *entry;  /* count of them, ascending in size, then in unit */
-    size_t *begin; /* of each cell, and the end */
+    size_t *begin; /* for each cell, and the end */
     amount *part;  /* [unit][cell] */
-    amount *total; /* of each cell in a resample */
+    amount *total; /* for each cell in a resample */
 } merged;
 
 static int by_size(const void *a, const void *b)
@@ -106,16 +106,15 @@ static double wanted_by(const row *of)
     return of->floor + fracas_quantile_share[of->next] * (of->total - of->floor);
 }
 
-/* A sum that equals what is wanted but for rounding reaches it: equal elements make such ties, and
- * beyond one a gap may be. */
+/* A sum equal to the wanted one to rounding reaches it: equal elements make such ties, and there
+ * may be a gap beyond one. */
 static bool reaches(const row *of, double sum)
 {
     return of->next < FRACAS_NQUANTILES && sum >= wanted_by(of) - 1e-12 * of->total;
 }
 
-/* What was summed goes from `before` to `after` at a size: the quantiles passed lie at it, on a
- * lattice as if its fragments were spread evenly over half a step to either side (estimators.16).
- */
+/* The sum goes from `before` to `after` at a size: the quantiles in between lie at it, on a lattice
+ * as if its fragments were spread evenly over half a step to either side (estimators.16). */
 static void pass(row *of, double before, double after, double size, double lattice)
 {
     while (after > before && reaches(of, after)) {
@@ -129,7 +128,7 @@ enum {
     MASS,
     NROWS = 4,
     NVALUES = NROWS * FRACAS_NQUANTILES
-}; /* of all, then of those above the cut */
+}; /* over all, then over those above the cut */
 
 static void begin(row of[2], const amount *floor, const amount *total, double *value)
 {
@@ -139,7 +138,7 @@ static void begin(row of[2], const amount *floor, const amount *total, double *v
                      value + FRACAS_NQUANTILES};
 }
 
-/* Through a cell, size by size; `sum` is what lies below it. */
+/* Through a cell, size by size; `sum` is the sum below it. */
 static void scan(const merged *all, size_t cell, const uint32_t *weight, amount sum, row *of,
                  int rows)
 {

@@ -44,13 +44,13 @@ static double zmr2(double e, double modulus)
     return 4.5 / (1 + 0.77 * quarter + 5.4 * quarter * quarter * quarter);
 }
 
-/* (size-laws.10): release waves of a rigid-plastic body stop the flaws that they reach. */
+/* (size-laws.10): release waves of a rigid-plastic body stop the flaws in their reach. */
 static double mott(double e, double modulus)
 {
     return sqrt(2 * M_PI / modulus) / e;
 }
 
-const fracas_size_law fracas_size_laws[FRACAS_NLAWS] = {
+const fracas_scaling_law fracas_scaling_laws[FRACAS_SCALING_LAWS] = {
     [FRACAS_LAW_ZMR] = {"zmr", "ZMR", zmr},
     [FRACAS_LAW_GRADY] = {"grady", "Grady", grady},
     [FRACAS_LAW_GLENN_CHUDNOVSKY] = {"glenn_chudnovsky", "GC", glenn_chudnovsky},
@@ -58,7 +58,7 @@ const fracas_size_law fracas_size_laws[FRACAS_NLAWS] = {
     [FRACAS_LAW_MOTT] = {"mott", "Mott", mott},
 };
 
-double fracas_size_law_at(fracas_size_law_id law, const fracas_scales *scales, double rate)
+double fracas_scaling_law_at(fracas_scaling_law_id law, const fracas_scales *scales, double rate)
 {
-    return scales->size * fracas_size_laws[law].normalised(rate / scales->rate, scales->modulus);
+    return scales->size * fracas_scaling_laws[law].normalised(rate / scales->rate, scales->modulus);
 }

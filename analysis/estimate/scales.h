@@ -23,9 +23,9 @@ typedef enum {
     FRACAS_LAW_GLENN_CHUDNOVSKY, /* Glenn & Chudnovsky 1986 */
     FRACAS_LAW_ZMR2,             /* Zhou, Molinari & Ramesh 2006, second form */
     FRACAS_LAW_MOTT              /* Mott 1947, with the mean of Grady 1981 */
-} fracas_size_law_id;
+} fracas_scaling_law_id;
 
-#define FRACAS_NLAWS 5
+#define FRACAS_SCALING_LAWS 5
 
 typedef struct {
     const char *key;  /* in JSON and CSV */
@@ -33,12 +33,12 @@ typedef struct {
     double (*normalised)(
         double e,
         double modulus); /* s/s0 at e = edot/edot0 > 0; Mott's alone depends on the modulus */
-} fracas_size_law;
+} fracas_scaling_law;
 
-/* Indexed by fracas_size_law_id. */
-extern const fracas_size_law fracas_size_laws[FRACAS_NLAWS];
+/* Indexed by fracas_scaling_law_id. */
+extern const fracas_scaling_law fracas_scaling_laws[FRACAS_SCALING_LAWS];
 
 /* s [m] = s0 f(rate/edot0, M), rate > 0 [1/s]; NaN by Mott's law without a modulus. */
-double fracas_size_law_at(fracas_size_law_id law, const fracas_scales *scales, double rate);
+double fracas_scaling_law_at(fracas_scaling_law_id law, const fracas_scales *scales, double rate);
 
 #endif

@@ -20,8 +20,8 @@ static pool pool_of(const fracas_mean *mean, size_t n, int64_t below)
     return (pool){squares / freedom, freedom};
 }
 
-/* What the means of less than FRACAS_REPLICAS_OWN replicas share. A variance of so little freedom
- * that it may be small by chance is not taken for less than that of all; where there is none, its
+/* Errors shared by means of less than FRACAS_REPLICAS_OWN replicas. A variance with few degrees of
+ * freedom may be small by chance, and is not less than the variance of all; without one, its
  * freedom is that of all as well. */
 static pool shared_of(const fracas_mean *mean, size_t n)
 {
@@ -41,7 +41,7 @@ void fracas_mean_errors(const fracas_mean *mean, size_t n, fracas_mean_error *er
                      own = mean[i].replicas > 1 ? mean[i].scatter * mean[i].scatter : 0;
         const bool pooled = mean[i].replicas < FRACAS_REPLICAS_OWN;
         const double one = pooled ? shared.variance
-                                  : own; /* of one replica; NaN if all means are of one */
+                                  : own; /* a mean of one replica; NaN if all means are of one */
         error[i] = (fracas_mean_error){.variance = one / replicas,
                                        .most = fmax(one, own) / replicas,
                                        .pooled = pooled,

@@ -138,7 +138,7 @@ static int width_of(const fracas_result_table *table, size_t column)
     return (int)width;
 }
 
-/* Two spaces; one between scaling laws, so that an everyday table fits 120 columns. */
+/* Two spaces; one between scaling laws, to fit an everyday table into 120 columns. */
 static const char *gap_before(const fracas_result_table *table, size_t column)
 {
     if (column == 0) return "";

@@ -39,10 +39,10 @@ typedef struct fracas_table_column {
     fracas_cell_kind kind;
     size_t offset; /* in the struct of a row [bytes] */
     int digits;
-    size_t other; /* place of a double that the number is divided by, or of a half width; 0: none */
+    size_t other; /* place of a divisor of the number, or of a half width; 0: none */
     int prefixed; /* columns of one group > 0 share a prefix, from the values of the first of them
                    */
-    const char *unicode; /* of the unit; NULL: as in ASCII */
+    const char *unicode; /* for the unit; NULL: as in ASCII */
     void (*format)(const fracas_analysis *analysis, size_t index, const void *row, char *text);
 } fracas_table_column;
 
@@ -59,7 +59,7 @@ typedef struct {
 FRACAS_MUST_USE fracas_err fracas_table_make(const fracas_table_column *column, size_t columns,
                                              const fracas_table_rows *rows, bool unicode,
                                              fracas_result_table *table);
-/* The same in columns `at` on of a table that has room. */
+/* The same in columns `at` on of a table with room for them. */
 void fracas_table_fill(const fracas_result_table *table, size_t at,
                        const fracas_table_column *column, size_t columns,
                        const fracas_table_rows *rows, bool unicode);

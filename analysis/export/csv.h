@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The tables of a study as CSV: names in the first line, numbers to 15 digits in SI, nothing for
- * what does not exist. */
+/* The tables of a study as CSV: names in the first line, numbers to 15 digits in SI, nothing for a
+ * missing value. */
 #ifndef FRACAS_ANALYSIS_EXPORT_CSV_H
 #define FRACAS_ANALYSIS_EXPORT_CSV_H
 
@@ -10,18 +10,19 @@
 enum { FRACAS_TABLE_KEY = 3 };
 
 typedef struct fracas_csv_table {
-    const char *name;                  /* of the file, before ".csv" */
-    const char *doc;                   /* what a line is */
-    const char *key[FRACAS_TABLE_KEY]; /* columns that name a line, the first NULL behind them */
+    const char *name; /* for the file, before ".csv" */
+    const char *doc;  /* meaning of a line */
+    const char
+        *key[FRACAS_TABLE_KEY]; /* columns that identify a line, the first NULL behind them */
     const struct fracas_csv_table
-        *parent; /* NULL, or the table that these point into, by its whole key */
+        *parent; /* NULL, or the table that the first columns refer to, by its whole key */
     void (*fields)(const fracas_analysis *analysis, fracas_field_visit *visit, void *context);
     fracas_err (*rows)(const fracas_analysis *analysis,
                        FILE *out); /* reads the study again, in its order, where it must */
 } fracas_csv_table;
 
 /* A line a point: index and hash, every parameter, every statistic (the keys of the JSON summary),
- * outcomes; a line a realization, a fragment, a moment of a history: what study.h5 has of it; a
+ * outcomes. A line a realization, a fragment, a moment of a history: the datasets of study.h5. A
  * line a statistic of a point, with its unit. */
 extern const fracas_csv_table fracas_csv_table_points, fracas_csv_table_realizations,
     fracas_csv_table_fragments, fracas_csv_table_histories, fracas_csv_table_statistics;

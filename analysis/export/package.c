@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A study as a Frictionless Data Package: its tables as CSV, and datapackage.json, which says what
- * is in them. */
+/* A study as a Frictionless Data Package: its tables as CSV, and datapackage.json, their schema. */
 #include "analysis/export/csv.h"
 #include "analysis/data/output.h"
 #include "analysis/export/sha256.h"
@@ -73,7 +72,7 @@ static void put_schema(fracas_json *json, const fracas_csv_table *table,
     fracas_json_close_object(json);
 }
 
-/* A table that lies in the folder. */
+/* A table in the folder. */
 static fracas_err put_resource(fracas_json *json, const fracas_csv_table *table,
                                const fracas_analysis *analysis, const char *folder)
 {
@@ -143,8 +142,8 @@ static fracas_err put_package(const fracas_analysis *analysis, const fracas_csv_
     return FRACAS_OK;
 }
 
-/* Takes the package of before apart, so that none names files that are not its own; its histories
- * are none of the new one. */
+/* Removes the files of an earlier package: the new one must not name them, and its histories are
+ * others. */
 static fracas_err remove_package(const char *folder)
 {
     const char *const name[] = {package_file, fracas_csv_table_histories.name};

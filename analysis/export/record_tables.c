@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the study has of each realization, fragment and moment: the datasets of study.h5 as columns,
- * by the store's own table of them. */
+/* Realizations, fragments and moments of histories: the datasets of study.h5 as columns, by the
+ * store's own table of them. */
 #include "analysis/export/csv.h"
 
 #include "campaigns/store/file/schema.h"
@@ -19,7 +19,7 @@ static bool is_outcome(const fracas_store_column *column)
     return !strcmp(column->path, "/realization/outcome");
 }
 
-/* Of a dataset a column, or three: momentum_x, momentum_y, momentum_z. */
+/* A column of a dataset, or three: momentum_x, momentum_y, momentum_z. */
 static void dataset_fields(const fracas_store_column *column, fracas_field_visit *visit,
                            void *context)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* SHA-256 of a file, by libcrypto: the digest that data packages name and sha256sum checks. */
+/* SHA-256 of a file, by libcrypto: the digest in data packages, and of sha256sum. */
 #ifndef FRACAS_ANALYSIS_EXPORT_SHA256_H
 #define FRACAS_ANALYSIS_EXPORT_SHA256_H
 

@@ -7,8 +7,8 @@
 #include "analysis/fit/fits.h"
 #include "analysis/export/table.h"
 
-/* A row for all points and for each series that has a slope, with the exponents of Mott and Grady;
- * no row, only the head, for a study without enough points. */
+/* A row for all points and for each series with a slope, with the exponents of Mott and Grady; no
+ * row, only the head, for a study without enough points. */
 FRACAS_MUST_USE fracas_err fracas_slope_table_create(const fracas_analysis *analysis, bool unicode,
                                                      fracas_result_table *table);
 
@@ -20,18 +20,17 @@ FRACAS_MUST_USE fracas_err fracas_window_table_create(const fracas_analysis *ana
 FRACAS_MUST_USE fracas_err fracas_crossover_table_create(const fracas_analysis *analysis,
                                                          bool unicode, fracas_result_table *table);
 
-/* A row a point that is a ring: mean velocity outward, its scatter, rms velocity along the ring,
- * mean |angular velocity|. */
+/* A row a ring: mean velocity outward, its scatter, rms velocity along the ring, mean |angular
+ * velocity|. */
 FRACAS_MUST_USE fracas_err fracas_motion_table_create(const fracas_analysis *analysis, bool unicode,
                                                       fracas_result_table *table);
 
-/* A row a family that could be fitted to the sizes of a point, by rank: distances, their p-values,
- * parameters. */
+/* A row a fitted family of a point, by rank: distances, their p-values, parameters. */
 FRACAS_MUST_USE fracas_err fracas_fit_table_create(const fracas_analysis *analysis,
                                                    const fracas_fits *fits, bool unicode,
                                                    fracas_result_table *table);
 
-/* What the columns mean, a line each; ends with NULL. */
+/* Meaning of the columns, a line each; ends with NULL. */
 extern const char *const fracas_fit_table_legend[];
 extern const char *const fracas_slope_table_legend[], *const fracas_window_table_legend[],
                                                           *const fracas_crossover_table_legend[],

@@ -28,7 +28,7 @@ static void write_unit(void *json, const fracas_field *leaf)
     fracas_json_text(json, leaf->key, leaf->unit);
 }
 
-/* Of every number below "parameters" and "statistics", so that the document explains itself. */
+/* Units of every number below "parameters" and "statistics": the document explains itself. */
 static void write_units(fracas_json *json, const fracas_point_table *table)
 {
     fracas_json_object(json, "units");

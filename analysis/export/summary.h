@@ -7,8 +7,8 @@
 #include "analysis/summary/study.h"
 #include "base/json.h"
 
-/* The whole document. `fits`: what fracas_fits_keep kept of STUDY/fits.csv, NULL if there are none;
- * `stale`: of how many points it kept none. */
+/* The whole document. `fits`: rows of STUDY/fits.csv kept by fracas_fits_keep, NULL without any;
+ * `stale`: number of points without kept rows. */
 void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fits, size_t stale,
                           FILE *out);
 

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the JSON summary has of a point beside its statistics: fits, convergence with replicas,
- * energies over time. */
+/* Keys of a point beside its statistics: fits, convergence with replicas, energies over time. */
 #include "analysis/export/summary.h"
 
 #include "analysis/export/csv.h"
@@ -12,7 +11,7 @@
 
 /* ---- fits ---- */
 
-/* The rows of fits.csv that are of one point; they stand together. */
+/* The rows of fits.csv of one point; they stand together. */
 typedef struct {
     const fracas_fits_row *row;
     size_t count;
@@ -71,7 +70,7 @@ static void put_data(fracas_json *json, const point_rows *of)
     fracas_json_close_object(json);
 }
 
-/* True of "x0" and "x0/mean" of a family that has a parameter x0. */
+/* True of "x0" and "x0/mean" of a family with a parameter x0. */
 static bool is_parameter(const fracas_family *family, const char *quantity)
 {
     const size_t length = strcspn(quantity, "/");

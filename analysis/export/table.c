@@ -14,7 +14,7 @@ static const char *const legend_of_chains[] = {
     "interval over replicas (Student's t), - where one replica has none. count: fragments, dust "
     "included. size: mean over",
     "replicas of length/count. ZMR, Grady, GC (Glenn-Chudnovsky), Mott (of strengths with a "
-    "Weibull modulus): size laws with the",
+    "Weibull modulus): scaling laws with the",
     "point's material and mean strength; size/ZMR: ratio to ZMR, to the digits that the interval "
     "of the size supports.",
     "resid., created: largest over replicas of |ledger residual| and of created energy, as parts "
@@ -28,7 +28,7 @@ static const char *const legend_with_surfaces[] = {
     "included; no dust: without it",
     "(of a surface pieces of one or two elements). size: mean over replicas of the mean size, of a "
     "surface of the square root of a fragment's area, dust",
-    "included; of a bar or a ring length/count, beside size laws (ZMR, Grady, Glenn-Chudnovsky, "
+    "included; of a bar or a ring length/count, beside scaling laws (ZMR, Grady, Glenn-Chudnovsky, "
     "Mott), which are of one dimension.",
     "bending, where there is any: its part of dissipated. resid., created: largest over replicas "
     "of |ledger residual| and of",
@@ -72,8 +72,8 @@ static bool any_mott(const fracas_analysis *analysis)
     return false;
 }
 
-/* "32 FRAGMENTED, 1 FAILED, 7 not there": the outcomes that occurred, and what a partial study
- * lacks. */
+/* "32 FRAGMENTED, 1 FAILED, 7 not there": the outcomes, and the missing realizations of a partial
+ * study. */
 static void outcomes_text(const fracas_analysis *analysis, size_t p, const void *row, char *text)
 {
     const fracas_point_statistics *statistics = row;
@@ -93,7 +93,7 @@ static void outcomes_text(const fracas_analysis *analysis, size_t p, const void 
 #define PLACE(member) offsetof(fracas_point_statistics, member)
 enum { LENGTH = 1, ENERGY }; /* groups of columns with one prefix */
 
-/* Columns after those that tell the points apart; `shown`: NULL, always. */
+/* Columns after the parameters; `shown`: NULL, always. */
 static const struct {
     fracas_table_column column;
     bool (*shown)(const fracas_analysis *analysis);
@@ -131,8 +131,7 @@ static const struct {
 };
 enum { NCOLUMNS = sizeof columns / sizeof *columns };
 
-/* Lengths among the first columns have a prefix of their own, so that radii are not read in
- * exponents. */
+/* Lengths among the parameters have a prefix of their own, which avoids radii in exponents. */
 static fracas_prefix parameter_prefix(const fracas_point_table *points, size_t column)
 {
     if (strcmp(points->column[column].unit, "m")) return (fracas_prefix){1, "", ""};
@@ -146,7 +145,7 @@ static fracas_prefix parameter_prefix(const fracas_point_table *points, size_t c
     return fracas_prefix_for(extreme, 2);
 }
 
-/* The columns that tell the points apart. */
+/* The parameters by which the points differ. */
 static void fill_parameters(const fracas_point_table *points, const fracas_columns *first,
                             bool unicode, const fracas_result_table *table)
 {

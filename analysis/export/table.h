@@ -10,11 +10,11 @@
 FRACAS_MUST_USE fracas_err fracas_result_table_create(const fracas_analysis *analysis, bool unicode,
                                                       fracas_result_table *table);
 
-/* What the columns of the study's table mean, a line each; ends with NULL. */
+/* Meaning of the columns of the study's table, a line each; ends with NULL. */
 const char *const *fracas_result_table_legend(const fracas_analysis *analysis);
 
-/* "Points differ in material.young, too: points.csv has ...": what the table does not show; false
- * if that is nothing. */
+/* "Points differ in material.young, too: points.csv has ...": parameters missing in the table;
+ * false if there are none. */
 bool fracas_result_table_beside(const fracas_analysis *analysis, char *text, size_t size);
 
 #endif

@@ -29,8 +29,8 @@ static void vuong(const fracas_fit_sample *sample, const fracas_family *const fa
     comparison->p = n < LEAST ? NAN : 2 * gsl_cdf_tdist_Q(fabs(comparison->statistic), n - 1);
 }
 
-/* What a resample under the special case gains by the general one; NaN where a refit does not
- * arrive. */
+/* Gain of the general family over the special one in a resample under the special one; NaN where a
+ * refit does not arrive. */
 static double gain_of(const fracas_fit_sample *carried, const uint32_t *weight,
                       const fracas_family *const family[2], const fracas_fit *const fit[2])
 {

@@ -11,14 +11,14 @@ enum { FRACAS_FAMILY_PARAMETERS = 3, FRACAS_FAMILY_STARTS = 3 };
 
 typedef struct {
     const char *name;
-    bool length;         /* of the unit of the size; else a pure number */
-    bool shift;          /* no fragment is smaller: its upper bound is that of the smallest one */
+    bool length;         /* in the unit of the size; else a pure number */
+    bool shift;          /* no fragment is smaller: its upper bound is the smallest one */
     bool linear;         /* searched for itself; else its logarithm, and lower > 0 */
-    double lower, upper; /* of a length over the mean size */
+    double lower, upper; /* for a length over the mean size */
     const char *doc;
 } fracas_family_parameter;
 
-/* What the starts of a search are made from: sizes over their mean. */
+/* Moments for the starts of a search: sizes over their mean. */
 typedef struct {
     double cv;       /* deviation/mean */
     double smallest; /* size/mean */
@@ -31,8 +31,7 @@ typedef struct {
     const char *survival; /* P(size > x), for a reader */
     size_t nparameters;
     fracas_family_parameter parameter[FRACAS_FAMILY_PARAMETERS];
-    /* P(size <= x) and P(size > x), each to full relative precision; NaN for parameters that are
-     * none. */
+    /* P(size <= x) and P(size > x), each to full relative precision; NaN for invalid parameters. */
     void (*tails)(const double *parameter, double from, double x, double *below, double *above);
     double (*log_density)(const double *parameter, double from,
                           double x); /* -INFINITY where there is none */
@@ -48,7 +47,7 @@ enum { FRACAS_NFAMILIES = 10 };
 extern const fracas_family
     *const fracas_families[FRACAS_NFAMILIES]; /* Mott's, which is of masses, last */
 
-/* NULL for a name that is none. */
+/* NULL for an unknown name. */
 const fracas_family *fracas_family_find(const char *name);
 /* True if `special` is `general` with some parameters fixed. */
 bool fracas_family_within(const fracas_family *special, const fracas_family *general);

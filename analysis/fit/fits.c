@@ -30,7 +30,7 @@ static fracas_fits_row *append(fracas_fits *fits)
     return row;
 }
 
-/* What the rows of a point have in common while they are made. */
+/* Common fields of the rows of a point. */
 typedef struct {
     fracas_fits *fits;
     int64_t point;
@@ -66,7 +66,8 @@ static void put_number(rows *to, const char *quantity, const char *unit, double 
     put(to, quantity, unit, &alone, note);
 }
 
-/* Of all that a fit looks at: equal for the same realizations, wherever they were read from. */
+/* Fingerprint of the data of a fit: equal for the same realizations, wherever they were read from.
+ */
 static fracas_hash fingerprint_of(const fracas_ensemble *ensemble)
 {
     const uint64_t count[] = {ensemble->nrealizations, ensemble->nfragments, ensemble->surface};
@@ -82,8 +83,8 @@ static fracas_hash fingerprint_of(const fracas_ensemble *ensemble)
     return fracas_hash_of(part, sizeof part);
 }
 
-/* A body of one piece says that it did not break, not how sizes are where it does: with any, the
- * sizes of the others are fitted and the number is told. */
+/* A body of one piece says only that it did not break. The sizes of the others are fitted, and the
+ * number of whole bodies is told. */
 static void put_whole(rows *to, const fracas_fit_sample *sample)
 {
     char note[160] = "";
@@ -237,8 +238,8 @@ static size_t point_of(const fracas_analysis *analysis, const char *hash, size_t
     return SIZE_MAX;
 }
 
-/* Whether rows `begin` to `end` - 1, of one point, are of the realizations that point p of the
- * analysis has. */
+/* Whether rows `begin` to `end` - 1 of one point are from the realizations of point p of the
+ * analysis. */
 static bool is_of(const fracas_fits *fits, size_t begin, size_t end,
                   const fracas_analysis *analysis, size_t p)
 {

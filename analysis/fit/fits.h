@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The fits of a study as rows: what STUDY/fits.csv keeps (docs/formats/study.md), what a terminal
- * and a report show. */
+/* The fits of a study as rows: the contents of STUDY/fits.csv (docs/formats/study.md), for terminal
+ * and report. */
 #ifndef FRACAS_ANALYSIS_FIT_FITS_H
 #define FRACAS_ANALYSIS_FIT_FITS_H
 
@@ -17,16 +17,16 @@
 /* One number. */
 typedef struct {
     int64_t point;              /* in the study */
-    char hash[FRACAS_HASH_HEX]; /* of the point */
+    char hash[FRACAS_HASH_HEX]; /* for the point */
     char family[24];            /* or "data", "comparison" */
     char quantity[24], unit[8];
     double value, low, high; /* NaN: none */
-    int64_t resamples;       /* that the interval or the p-value is from; 0: none */
+    int64_t resamples;       /* behind the interval or the p-value; 0: none */
     char note[160];          /* no comma, no line feed */
 } fracas_fits_row;
 
 typedef struct {
-    char campaign[FRACAS_HASH_HEX]; /* of the study that was fitted */
+    char campaign[FRACAS_HASH_HEX]; /* for the study that was fitted */
     int64_t realizations;           /* it had then */
     size_t n, room;
     fracas_fits_row *row; /* point by point */
@@ -35,9 +35,8 @@ typedef struct {
 enum { FRACAS_FITS_RESAMPLES = 999 };
 #define FRACAS_FITS_FILE "fits.csv"
 
-/* Fits every point of what the analysis sees, whole or partial, or `point` alone (else SIZE_MAX).
- * Deterministic: seeds are of the points' hashes. FRACAS_USAGE for a point that the study has not.
- */
+/* Fits every point of the analysis, whole or partial, or `point` alone (else SIZE_MAX).
+ * Deterministic: seeds are of the points' hashes. FRACAS_USAGE for an unknown point. */
 FRACAS_MUST_USE fracas_err fracas_fits_create(const fracas_analysis *analysis, size_t point,
                                               int64_t resamples, fracas_fits **fits);
 void fracas_fits_destroy(fracas_fits *fits); /* NULL is allowed */
@@ -46,12 +45,12 @@ void fracas_fits_destroy(fracas_fits *fits); /* NULL is allowed */
 FRACAS_MUST_USE fracas_err fracas_fits_write(const fracas_fits *fits, const char *study);
 /* *fits: NULL if there is no file. FRACAS_DAMAGED, saying which line, if it is none of ours. */
 FRACAS_MUST_USE fracas_err fracas_fits_read(const char *study, fracas_fits **fits);
-/* Keeps the rows of points of the analysis, by hash and under their numbers in it, whose usable
- * realizations are the ones that were fitted; the others go. *stale: fitted points that are gone.
- * Whether the study is complete, where its realizations were read from and what other points have
- * makes no difference. */
+/* Keeps the rows of points of the analysis, by hash and under their numbers in it, if their usable
+ * realizations are the fitted ones; the others go. *stale: fitted points that are gone. It does not
+ * matter whether the study is complete, where its realizations were read from and which other
+ * points it has. */
 void fracas_fits_keep(fracas_fits *fits, const fracas_analysis *analysis, size_t *stale);
-/* Takes over the rows of `older` for the points that `fits` has none of; both must be of the same
+/* Takes over the rows of `older` for points without rows in `fits`; both must be of the same
  * analysis. */
 FRACAS_MUST_USE fracas_err fracas_fits_complete(fracas_fits *fits, const fracas_fits *older);
 
@@ -73,7 +72,7 @@ bool fracas_fits_format_comparison(const fracas_fits *fits, int64_t point, char 
 void fracas_fits_format_parameters(const fracas_fits *fits, int64_t point,
                                    const fracas_family *family, char *text, size_t size);
 
-/* For a terminal: of each point its families by rank, then those that failed, and why. */
+/* For a terminal: of each point its families by rank, then the failed ones, and why. */
 void fracas_fits_print(const fracas_fits *fits, const fracas_analysis *analysis, FILE *out);
 void fracas_fits_write_json(const fracas_fits *fits, FILE *out);
 

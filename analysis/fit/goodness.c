@@ -121,8 +121,8 @@ typedef struct {
     int64_t found, ks, ad; /* resamples, and those of them as far as the sample */
 } tally;
 
-/* One resample under the law. Distances of n realizations drawn from n are too small by sqrt((n -
- * 1)/n), their squares by the square of that. */
+/* One resample under the family. Distances of n realizations drawn from n are too small by sqrt((n
+ * - 1)/n), their squares by the square of this. */
 static void resample(const fracas_family *family, const fracas_fit_sample *carried,
                      const fracas_fit *fit, const uint32_t *weight,
                      const fracas_fit_distance *distance, tally *sum)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How far counts are from a law, and how often a resample under that law is as far
+/* Distance of counts from a family, and its p-value by resampling under the family
  * (docs/theory/fits.md). */
 #ifndef FRACAS_ANALYSIS_FIT_GOODNESS_H
 #define FRACAS_ANALYSIS_FIT_GOODNESS_H
@@ -21,11 +21,10 @@ enum { FRACAS_FIT_GOODNESS_LEAST = 4 };
 fracas_fit_distance fracas_fit_distance_of(size_t ncells, const double *count,
                                            const double *probability);
 
-/* The sample with every fragment moved to the cell where it would be under a law: the fragment of
- * rank r of N (by size, in random order within a cell) to the cell that holds the quantile (r -
- * 1/2)/N of the law  (fits.11). Together they have that law; realizations are what they were, in
- * how many fragments they have and how these depend on each other. Has no sizes, only cells.
- * Cleared by the caller. */
+/* The sample with every fragment moved to its cell under a family: the fragment of rank r of N (by
+ * size, in random order within a cell) to the cell of the quantile (r - 1/2)/N  (fits.11). Together
+ * the fragments have this distribution; realizations keep their numbers of fragments and the
+ * dependence of these on each other. Has no sizes, only cells. Cleared by the caller. */
 FRACAS_MUST_USE fracas_err fracas_fit_carry(const fracas_fit_sample *sample,
                                             const double *probability, uint64_t seed,
                                             fracas_fit_sample *carried);

@@ -138,15 +138,14 @@ static bool score(const search *s, const double *x, const double *probability, d
     return true;
 }
 
-/* information . step = gradient by elimination, with the parameters that a bound holds left where
- * they are. */
+/* information . step = gradient by elimination; parameters held by a bound stay where they are. */
 static void solve(size_t n, double information[][FRACAS_FAMILY_PARAMETERS], const double *gradient,
                   const bool *held, double *step)
 {
     double a[FRACAS_FAMILY_PARAMETERS][FRACAS_FAMILY_PARAMETERS + 1];
     for (size_t i = 0; i < n; i++) {
         for (size_t j = 0; j < n; j++) a[i][j] = held[i] || held[j] ? i == j : information[i][j];
-        a[i][i] *= 1 + 1e-10; /* families that nearly are one another */
+        a[i][i] *= 1 + 1e-10; /* families nearly equal to one another */
         a[i][n] = held[i] ? 0 : gradient[i];
     }
     for (size_t i = 0; i < n; i++)
@@ -161,8 +160,8 @@ static void solve(size_t n, double information[][FRACAS_FAMILY_PARAMETERS], cons
     }
 }
 
-/* One step of scoring (fits.8), halved until the likelihood grows. *gain: what the step promised;
- * true if there was one. */
+/* One step of scoring (fits.8), halved until the likelihood grows. *gain: the gain promised by the
+ * step; true if there was one. */
 static bool advance(const search *s, double *x, double *probability, double *likelihood,
                     double *gain)
 {
@@ -249,7 +248,7 @@ static bool simplex(search *s, double *x, double *likelihood)
     return arrived && *likelihood > -WORST;
 }
 
-/* The number of fragments, and that of different cells they are in, against the parameters. */
+/* The number of fragments, and of the different cells they are in, against the parameters. */
 static bool enough(const fracas_family *family, const fracas_fit_sample *sample, char *why,
                    size_t size)
 {

@@ -53,8 +53,8 @@ static void rank_all(fracas_point_fits *fits)
     }
 }
 
-/* What fracas_bootstrap resamples: mean, cv, then of every fit its parameters, a length followed by
- * itself over the mean. */
+/* Values resampled by fracas_bootstrap: mean, cv, then of every fit its parameters, a length
+ * followed by itself over the mean. */
 static void values_of(void *context, const uint32_t *weight, double *value)
 {
     const fracas_point_fits *fits = context;
@@ -135,7 +135,7 @@ fracas_err fracas_point_fits_of(const fracas_ensemble *ensemble,
                                 .cv = NO_INTERVAL,
                                 .comparison = {.statistic = NAN, .p = NAN}};
     TRY(fracas_fit_sample_create(ensemble, &fits->sample));
-    gsl_error_handler_t *before = gsl_set_error_handler_off(); /* what underflows is 0 */
+    gsl_error_handler_t *before = gsl_set_error_handler_off(); /* underflow is 0 */
     fit_all(fits);
     rank_all(fits);
     fracas_err err = fits->sample.total > 0 ? judge(fits, resamples, seed) : FRACAS_OK;

@@ -10,11 +10,11 @@
 typedef struct {
     fracas_fit fit;
     double aicc, bic; /* (fits.13) */
-    double delta;     /* aicc - the least of the fits that are ones */
+    double delta;     /* aicc - the least of all valid fits */
     int rank;         /* by aicc from 1; 0: it is no fit */
     fracas_fit_goodness goodness;
     fracas_interval parameter[FRACAS_FAMILY_PARAMETERS]; /* lengths in m */
-    fracas_interval relative[FRACAS_FAMILY_PARAMETERS];  /* of a length: over the mean of the sizes
+    fracas_interval relative[FRACAS_FAMILY_PARAMETERS];  /* for a length: over the mean of the sizes
                                                             above the cut, resample by resample */
 } fracas_family_fit;
 
@@ -23,14 +23,14 @@ typedef struct {
     const fracas_family *const *families; /* nfamilies of them */
     size_t nfamilies;
     fracas_family_fit family[FRACAS_NFAMILIES]; /* in their order */
-    fracas_interval mean, cv;                   /* of the sizes above the cut [m], [1] */
-    size_t nfits;                               /* that are ones */
+    fracas_interval mean, cv;                   /* for the sizes above the cut [m], [1] */
+    size_t nfits;                               /* number of valid fits */
     size_t best[2];                   /* families of rank 1 and 2, where there are so many */
-    fracas_fit_comparison comparison; /* of these two */
+    fracas_fit_comparison comparison; /* for these two */
 } fracas_point_fits;
 
-/* The families that are fitted to sizes: all; of surfaces, whose sizes are square roots of areas,
- * all but Mott's law, which is exponential in them. */
+/* The families for sizes: all; for surfaces, whose sizes are square roots of areas, all but Mott's,
+ * which is exponential in them. */
 const fracas_family *const *fracas_point_families(bool surface, size_t *nfamilies);
 
 /* Fits at most FRACAS_NFAMILIES families, which must outlive *fits. Equal seeds give equal fits.

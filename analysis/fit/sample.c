@@ -7,8 +7,8 @@
 
 /* Grid of log sizes; the cell beyond the last is open. */
 enum { GRID = 300 };
-static const double BEYOND = 2; /* the grid ends at so many of the largest size: what is resampled
-                                   under a law may be larger */
+static const double BEYOND =
+    2; /* the grid ends at so many of the largest size: resamples under a family may be larger */
 
 static fracas_err make_room(const fracas_ensemble *ensemble, fracas_fit_sample *sample)
 {
@@ -41,7 +41,7 @@ static bool is_whole(const fracas_ensemble *ensemble, size_t i)
     return ensemble->first[i + 1] - ensemble->first[i] == 1;
 }
 
-/* What is above the cut: numbers and mean; the smallest and the largest size. */
+/* Sizes above the cut: numbers and mean; the smallest and the largest size. */
 static void count_up(const fracas_ensemble *ensemble, fracas_fit_sample *sample, double *smallest,
                      double *largest)
 {

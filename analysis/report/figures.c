@@ -15,7 +15,7 @@ enum { LAW_VALUES = 80, TALL = 300, LOW = FRACAS_FIGURE_LOW, STRIP = 80 };
 
 static const size_t ALL_SERIES = SIZE_MAX;
 
-/* What is drawn against the rate, and in which units. */
+/* Subject of a figure against the rate, and its units. */
 typedef struct {
     const fracas_analysis *analysis;
     const fracas_columns *others; /* columns that make series */
@@ -40,7 +40,7 @@ static bool drawn(const rate_plot *plot, const fracas_point_statistics *statisti
     return plot->normalised ? has_scales(statistics) : has_mean(statistics);
 }
 
-/* The first point of the series that point p belongs to. */
+/* The first point of the series of point p. */
 static size_t series_of(const rate_plot *plot, size_t p)
 {
     for (size_t q = 0; q < p; q++)
@@ -75,18 +75,19 @@ static fracas_err add_means(const rate_plot *plot, size_t first, unsigned look, 
 }
 
 /* One law over the rates of all points and a factor of two beyond. */
-static fracas_err add_law(const rate_plot *plot, fracas_size_law_id law,
+static fracas_err add_law(const rate_plot *plot, fracas_scaling_law_id law,
                           const fracas_scales *scales, const double rate[2], unsigned look,
                           fracas_panel *panel)
 {
     fracas_series *series;
     TRY(fracas_panel_add(panel, FRACAS_CURVE, look, LAW_VALUES, &series));
-    snprintf(series->name, sizeof series->name, "%s", fracas_size_laws[law].name);
+    snprintf(series->name, sizeof series->name, "%s", fracas_scaling_laws[law].name);
     for (size_t i = 0; i < LAW_VALUES; i++) {
         double at = rate[0] / 2 * pow(4 * rate[1] / rate[0], (double)i / (LAW_VALUES - 1));
         series->x[i] = at;
-        series->y[i] = plot->normalised ? fracas_size_laws[law].normalised(at, scales->modulus)
-                                        : fracas_size_law_at(law, scales, at) * plot->size_factor;
+        series->y[i] = plot->normalised
+                           ? fracas_scaling_laws[law].normalised(at, scales->modulus)
+                           : fracas_scaling_law_at(law, scales, at) * plot->size_factor;
     }
     return FRACAS_OK;
 }
@@ -106,8 +107,8 @@ static bool rate_range(const rate_plot *plot, double rate[2])
     return rate[1] > 0;
 }
 
-/* True if one curve of a law serves all points of the series that begins with `series`; of all of
- * them, if it is ALL_SERIES. */
+/* True if one curve of a scaling law serves all points of the series that begins with `series`;
+ * ALL_SERIES: of all series. */
 static bool same_scales(const rate_plot *plot, size_t series)
 {
     const fracas_scales *first = NULL;
@@ -127,9 +128,10 @@ static bool same_scales(const rate_plot *plot, size_t series)
 
 /* True if the law is a number, and one curve of it serves all points: Mott's only where all
  * strengths have one modulus. */
-static bool law_serves(const rate_plot *plot, fracas_size_law_id law, const fracas_scales *scales)
+static bool law_serves(const rate_plot *plot, fracas_scaling_law_id law,
+                       const fracas_scales *scales)
 {
-    if (!isfinite(fracas_size_laws[law].normalised(1, scales->modulus))) return false;
+    if (!isfinite(fracas_scaling_laws[law].normalised(1, scales->modulus))) return false;
     for (size_t p = 0; law == FRACAS_LAW_MOTT && p < plot->analysis->table->npoints; p++)
         if (has_scales(&plot->analysis->point[p]) &&
             plot->analysis->point[p].scales.modulus != scales->modulus)
@@ -137,7 +139,7 @@ static bool law_serves(const rate_plot *plot, fracas_size_law_id law, const frac
     return true;
 }
 
-/* True if a series before that of point `first` has drawn the laws for all. */
+/* True if an earlier series than that of point `first` has drawn the laws for all. */
 static bool laws_are_drawn(const rate_plot *plot, size_t first)
 {
     for (size_t p = 0; p < first; p++)
@@ -145,8 +147,8 @@ static bool laws_are_drawn(const rate_plot *plot, size_t first)
     return false;
 }
 
-/* All laws where one curve each serves all points; else ZMR in the colour of each series that it
- * serves. None of surfaces. */
+/* All laws where one curve each serves all points; else ZMR in the colour of each series it serves.
+ * None for surfaces. */
 static fracas_err add_laws(const rate_plot *plot, const double rate[2], size_t first,
                            unsigned looks, unsigned look, fracas_panel *panel)
 {
@@ -154,9 +156,9 @@ static fracas_err add_laws(const rate_plot *plot, const double rate[2], size_t f
     if (!isfinite(scales->rate) || plot->analysis->point[first].surface) return FRACAS_OK;
     if (plot->normalised || same_scales(plot, ALL_SERIES)) {
         if (laws_are_drawn(plot, first)) return FRACAS_OK;
-        for (unsigned law = 0; law < FRACAS_NLAWS; law++)
-            if (law_serves(plot, (fracas_size_law_id)law, scales))
-                TRY(add_law(plot, (fracas_size_law_id)law, scales, rate, looks + law, panel));
+        for (unsigned law = 0; law < FRACAS_SCALING_LAWS; law++)
+            if (law_serves(plot, (fracas_scaling_law_id)law, scales))
+                TRY(add_law(plot, (fracas_scaling_law_id)law, scales, rate, looks + law, panel));
         return FRACAS_OK;
     }
     if (!same_scales(plot, first)) return FRACAS_OK;
@@ -165,7 +167,7 @@ static fracas_err add_laws(const rate_plot *plot, const double rate[2], size_t f
     return FRACAS_OK;
 }
 
-/* The fitted crossover of each series that has one, in the colour of its marks. */
+/* The fitted crossover of each series, in the colour of its marks. */
 static fracas_err add_crossovers(const rate_plot *plot, const double rate[2], fracas_panel *panel)
 {
     fracas_size_crossover *list;
@@ -250,25 +252,25 @@ static void caption_of_rate(const fracas_analysis *analysis, bool normalised, bo
                  n);
         return;
     }
-    snprintf(chart->caption, sizeof chart->caption,
-             "%sMean over replicas (%s) of body length / fragments%s; bars: 95 %% interval of the "
-             "mean (Student\u2019s t over replicas).%s A crossover fitted to the marks, where "
-             "there is one, is a line in their colour, too.",
-             normalised
-                 ? "Sizes over s\u2080 = E G_c/\u03c3_c\u00b2, rates over \u03b5\u0307\u2080 = c "
-                   "\u03c3_c\u00b3/(E\u00b2 G_c), \u03c3_c the mean strength. "
-                 : "",
-             n,
-             !normalised && fracas_analysis_any_surface(analysis)
-                 ? ", of surfaces of the mean square root of their areas"
-                 : "",
-             !one_law && !some_law
-                 ? " No size law serves all marks of one colour: their materials differ."
-             : normalised || one_law
-                 ? " Lines: size laws of Zhou, Molinari and Ramesh (ZMR, ZMR-2), Grady, and Glenn "
-                   "and Chudnovsky (GC); Mott\u2019s where all strengths have one Weibull modulus."
-                 : " Lines: ZMR law with the material of the marks of the same colour, where these "
-                   "have one.");
+    snprintf(
+        chart->caption, sizeof chart->caption,
+        "%sMean over replicas (%s) of body length / fragments%s; bars: 95 %% interval of the "
+        "mean (Student\u2019s t over replicas).%s A crossover fitted to the marks, where "
+        "there is one, is a line in their colour, too.",
+        normalised ? "Sizes over s\u2080 = E G_c/\u03c3_c\u00b2, rates over \u03b5\u0307\u2080 = c "
+                     "\u03c3_c\u00b3/(E\u00b2 G_c), \u03c3_c the mean strength. "
+                   : "",
+        n,
+        !normalised && fracas_analysis_any_surface(analysis)
+            ? ", of surfaces of the mean square root of their areas"
+            : "",
+        !one_law && !some_law
+            ? " No scaling law serves all marks of one colour: their materials differ."
+        : normalised || one_law
+            ? " Lines: scaling laws of Zhou, Molinari and Ramesh (ZMR, ZMR-2), Grady, and Glenn "
+              "and Chudnovsky (GC); Mott\u2019s where all strengths have one Weibull modulus."
+            : " Lines: ZMR law with the material of the marks of the same colour, where these "
+              "have one.");
 }
 
 fracas_err fracas_figure_rate(const fracas_analysis *analysis, bool normalised, fracas_chart *chart)
@@ -317,8 +319,8 @@ static double mean_of(const double *value, size_t count)
     return sum / (double)count;
 }
 
-/* P(S >= s) at each size that occurs. Sizes that differ by rounding alone (1e-9) are one: they are
- * the same number of elements. */
+/* P(S >= s) at each size. Sizes equal to rounding (1e-9) are one: they are the same number of
+ * elements. */
 static fracas_err add_sizes(const fracas_point_statistics *statistics, double unit, unsigned look,
                             fracas_panel *panel)
 {
@@ -414,7 +416,7 @@ fracas_err fracas_figure_sizes(const fracas_analysis *analysis, size_t point, fr
  * bands. */
 enum { RESIDUAL = FRACAS_ENERGIES, DASHES = 6 };
 
-/* Kinetic energy at the start, of a ring that flies: it would dwarf all other energies, and is left
+/* Kinetic energy at the start, as of a flying ring. It would dwarf all other energies, and is left
  * out [J]. */
 static double kinetic_start(const fracas_point_statistics *statistics)
 {
@@ -453,7 +455,8 @@ static fracas_err add_energy(const fracas_point_statistics *statistics, size_t w
     fracas_series *series;
     TRY(fracas_panel_add(panel, FRACAS_CURVE, look, statistics->nhistory, &series));
     const char *key = which == RESIDUAL ? "|residual|" : fracas_energies[which].key;
-    const int length = (int)strcspn(key, "_"); /* of "dissipated_bending": dissipated, bending */
+    const int length = (int)strcspn(key,
+                                    "_"); /* "dissipated_bending" is shown as dissipated, bending */
     snprintf(series->name, sizeof series->name, "%.*s%s%s%s", length, key, key[length] ? ", " : "",
              key[length] ? key + length + 1 : "",
              which == 0 && kinetic_start(statistics) > 0 ? " - start" : "");

@@ -8,8 +8,8 @@
 #include "analysis/draw/chart.h"
 #include "analysis/summary/study.h"
 
-/* Mean fragment size against strain rate with the size laws: in metres, or s/s0 against edot/edot0.
- * A series for each combination of the other parameters that differ between points. */
+/* Mean fragment size against strain rate with the scaling laws: in metres, or s/s0 against
+ * edot/edot0. A series for each combination of the other parameters with different values. */
 FRACAS_MUST_USE fracas_err fracas_figure_rate(const fracas_analysis *analysis, bool normalised,
                                               fracas_chart *chart);
 
@@ -28,11 +28,11 @@ FRACAS_MUST_USE fracas_err fracas_figure_energies(const fracas_analysis *analysi
 /* Energies of all usable realizations over time: mean and band of each. */
 FRACAS_MUST_USE fracas_err fracas_figure_bands(const fracas_analysis *analysis, size_t point,
                                                fracas_chart *chart);
-/* The headline numbers of the point from its first 4, 8, 16, ... replicas, over what they are of
+/* The headline numbers of the point from its first 4, 8, 16, ... replicas, over their values from
  * all. */
 FRACAS_MUST_USE fracas_err fracas_figure_convergence(const fracas_analysis *analysis, size_t point,
                                                      fracas_chart *chart);
-/* Sizes above the cut and the families that fit them best. */
+/* Sizes above the cut and the best families. */
 FRACAS_MUST_USE fracas_err fracas_figure_fits(const fracas_analysis *analysis,
                                               const fracas_fits *fits, size_t point,
                                               fracas_chart *chart);

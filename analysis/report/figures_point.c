@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Figures of what all realizations of a point say together: bands of energies, convergence, fits.
- */
+/* Figures of all realizations of a point together: bands of energies, convergence, fits. */
 #include "analysis/report/figures.h"
 
 #include "analysis/data/format.h"
@@ -10,7 +9,7 @@
 
 /* ---- energies ---- */
 
-/* What the kinetic energy begins with, a ring that flies: it would dwarf the rest [J]. */
+/* Initial kinetic energy, as of a flying ring: it would dwarf the rest [J]. */
 static double start_of(const fracas_bands *bands, size_t energy)
 {
     return energy == FRACAS_BAND_kinetic && bands->time[0] == 0 ? bands->energy[0][energy].mean : 0;
@@ -114,8 +113,8 @@ static fracas_err add_above(const fracas_point_statistics *statistics, size_t n,
     while (first < n && !(size[first] > cut)) first++;
     *above = n - first;
     fracas_series *series;
-    /* k elements count as spread over k -+ 1/2 of them, as in the likelihood: what is known are the
-     * shares at these ends */
+    /* k elements count as spread over k -+ 1/2 of them, as in the likelihood: the shares at these
+     * ends are known */
     const bool lattice = half > 0;
     TRY(fracas_panel_add(panel, lattice ? FRACAS_MARKS : FRACAS_STEPS, 0, *above, &series));
     snprintf(series->name, sizeof series->name, "fragments");

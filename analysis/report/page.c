@@ -16,7 +16,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* What each section wrote; empty ones are not on the page. */
+/* Text of each section; empty ones are not on the page. */
 typedef struct {
     char *text[FRACAS_PAGE_SECTIONS];
     size_t size[FRACAS_PAGE_SECTIONS];

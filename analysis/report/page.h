@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page of a report while it is written, and what its sections are made of.
+/* The page of a report while it is written, and the parts of its sections.
  *
  * A section is a function that writes to page->out, and a line in the table of page.c (of a
- * convergence: of converge/page.c). One that writes nothing is left out, heading and all. Figures
- * and tables are numbered in the order of the page. */
+ * convergence: of converge/page.c). An empty one is left out, heading and all. Figures and tables
+ * are numbered in the order of the page. */
 #ifndef FRACAS_ANALYSIS_REPORT_PAGE_H
 #define FRACAS_ANALYSIS_REPORT_PAGE_H
 
@@ -19,20 +19,20 @@ enum { FRACAS_DRAWING = 72 };
 
 typedef struct {
     const fracas_analysis *analysis;
-    const char *folder;      /* of the report */
+    const char *folder;      /* for the report */
     const fracas_fits *fits; /* NULL: there are none */
     size_t
         stale; /* points whose fits were not of the results as these are now, and are not shown */
-    bool surfaces;       /* pictures of surfaces are on it */
-    const void *of;      /* what the sections of another page than a study's are about */
-    const char *source;  /* what its figures and tables are from; NULL: the study, by its name and
-                            campaign */
-    FILE *out;           /* of the section */
+    bool surfaces;  /* pictures of surfaces are on it */
+    const void *of; /* subject of the sections of a page other than a study's */
+    const char
+        *source; /* source of its figures and tables; NULL: the study, by its name and campaign */
+    FILE *out;   /* for the section */
     int figures, tables; /* numbered so far */
     size_t ndrawings, room;
     char (*drawing)[FRACAS_DRAWING]; /* SVG files written to the folder, names without their ending:
-                                        what becomes PDF */
-    const char *grid; /* class of the grid of figures that the next figure opens; NULL: none, or it
+                                        they become PDF */
+    const char *grid; /* class of the grid of figures opened by the next figure; NULL: none, or it
                          is open */
     bool grid_open;
 } fracas_page;
@@ -46,7 +46,7 @@ typedef struct {
     fracas_page_section *put;
 } fracas_page_entry;
 
-/* The page as page->folder/index.html, with what its sections write, and the PDFs of their
+/* The page as page->folder/index.html, with the text of its sections, and the PDFs of their
  * drawings. `lead`: a line below the title. */
 FRACAS_MUST_USE fracas_err fracas_page_write(fracas_page *page, const char *title, const char *lead,
                                              const fracas_page_entry *section, size_t count);
@@ -62,16 +62,16 @@ void fracas_page_grid_end(fracas_page *page);
 FRACAS_MUST_USE fracas_err fracas_page_chart(fracas_page *page, fracas_chart *chart,
                                              fracas_err built);
 
-/* A figure that is no chart: what is written in between is what it shows. The end writes "Figure 3.
- * title. caption" with links to FILE.svg, .pdf and .csv, where those are `drawn` and there is a
- * `csv`, and what it is from. */
+/* A figure that is no chart: its contents are written in between. The end writes "Figure 3. title.
+ * caption" with links to FILE.svg, .pdf and .csv, where those are `drawn` and there is a `csv`, and
+ * its source. */
 void fracas_page_figure(fracas_page *page, const char *id, const char *class);
 void fracas_page_figure_end(fracas_page *page, const char *title, const char *caption,
                             const char *file, bool drawn, bool csv);
 
 /* " SVG PDF" of a drawing, as links. */
 void fracas_page_links(fracas_page *page, const char *file, bool drawn, bool csv);
-/* Says that the folder has FILE.svg. */
+/* Records that the folder has FILE.svg. */
 FRACAS_MUST_USE fracas_err fracas_page_drew(fracas_page *page, const char *file);
 
 /* "Table 2. title": a table, and below it its legend (lines, then NULL; may be NULL); nothing if it

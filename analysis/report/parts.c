@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What sections of the page are made of: figures and tables. */
+/* Parts of sections of the page: figures and tables. */
 #include "analysis/report/page.h"
 
 #include "analysis/data/output.h"
@@ -58,7 +58,7 @@ void fracas_page_links(fracas_page *page, const char *file, bool drawn, bool csv
     fputs("</span>", page->out);
 }
 
-/* What a figure or a table is from, for who cites it. */
+/* Source of a figure or a table, for citations. */
 static void put_source(fracas_page *page)
 {
     char hash[FRACAS_HASH_HEX];
@@ -146,7 +146,7 @@ static fracas_err write_files(fracas_page *page, const fracas_chart *chart)
     return fracas_page_drew(page, chart->file);
 }
 
-/* A figure that there is no more leaves no files of an older report behind. */
+/* A figure that is gone leaves no files of an older report behind. */
 static void forget_files(const fracas_page *page, const char *name)
 {
     static const char *const kind[] = {"svg", "pdf", "csv"};

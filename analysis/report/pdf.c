@@ -45,7 +45,7 @@ typedef struct {
 static fracas_err load(library *of)
 {
     void *handle = dlopen("librsvg-2.so.2",
-                          RTLD_NOW | RTLD_LOCAL); /* and what it needs, cairo among it */
+                          RTLD_NOW | RTLD_LOCAL); /* and its libraries, cairo among them */
     if (!handle)
         return fracas_fail(
             FRACAS_ENVIRONMENT,
@@ -95,7 +95,7 @@ static fracas_err convert(const library *lib, const char *folder, const char *na
     if (asprintf(&from, "%s/%s.svg", folder, name) < 0 ||
         asprintf(&to, "%s/%s.pdf", folder, name) < 0 ||
         asprintf(&temporary, "%s/.%s.pdf.%ld", folder, name, (long)getpid()) < 0)
-        return fracas_no_memory("a path"); /* the child ends here, and with it what it has */
+        return fracas_no_memory("a path"); /* the child ends here, with its memory */
     GError *error = NULL;
     RsvgHandle *drawing = lib->rsvg_handle_new_from_file(from, &error);
     if (!drawing)
@@ -112,7 +112,7 @@ static fracas_err convert(const library *lib, const char *folder, const char *na
     return err;
 }
 
-/* What went wrong goes down the pipe. */
+/* A failure is reported through the pipe. */
 static _Noreturn void child(const char *folder, char (*name)[FRACAS_DRAWING], size_t count,
                             int pipe_end)
 {

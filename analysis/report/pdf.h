@@ -12,9 +12,8 @@
 extern const bool fracas_pdf_made;
 
 /* Every name[i].svg of the folder as name[i].pdf, vectors, one page of its size (96 pixels an
- * inch), without a date. Drawn by a child process: a library that ends its process where memory is
- * short, and keeps what it allocates, is not let into ours. FRACAS_ENVIRONMENT, naming the file, if
- * it cannot. */
+ * inch), without a date. Drawn by a child process, because the library ends its process when memory
+ * is short, and keeps its allocations. FRACAS_ENVIRONMENT, naming the file, if it cannot. */
 FRACAS_MUST_USE fracas_err fracas_pdf_write(const char *folder, char (*name)[FRACAS_DRAWING],
                                             size_t count);
 

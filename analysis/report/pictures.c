@@ -18,14 +18,14 @@ typedef struct {
     const fracas_picture_request *request;
     fracas_results *results; /* study.h5 */
     const fracas_point_table *table;
-    size_t first_row; /* of the point, in the study */
+    size_t first_row; /* for the point, in the study */
     char *folder;
     FILE *out;
 } making;
 
-/* ---- what is asked for ---- */
+/* ---- the request ---- */
 
-/* The points of a study that was extended are numbered anew. */
+/* The points of an extended study are numbered anew. */
 static fracas_err check_campaign(const making *m)
 {
     const fracas_hash *wanted = m->request->campaign;
@@ -96,7 +96,7 @@ static fracas_err check_record(const making *m, const fracas_record *record)
     return FRACAS_OK;
 }
 
-/* ---- what is written ---- */
+/* ---- the files ---- */
 
 static fracas_err save_pictures(const making *m, const fracas_broken_surface *surface)
 {

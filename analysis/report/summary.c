@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The first section: what was run, what came out, what to beware of. */
+/* The first section: campaign, results, warnings. */
 #include "analysis/report/page.h"
 
 #include "analysis/scaling/crossover.h"
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- what was run ---- */
+/* ---- the campaign ---- */
 
 static void put_term(FILE *out, const char *term, const char *value)
 {

@@ -105,8 +105,8 @@ static fracas_err put_moment(const gallery *to, const fracas_broken_surface *sur
     return fracas_broken_surface_save(surface, time, &picture, to->page->folder, file);
 }
 
-/* "; first crack through the width: 27.1 us" and the like, that one over both pairs of borders of a
- * flat surface. */
+/* "; first crack through the width: 27.1 us" and the like, the latter over both pairs of borders of
+ * a flat surface. */
 static fracas_err write_caption(const fracas_broken_surface *surface, int64_t replica, bool broken,
                                 char *text, size_t size)
 {
@@ -137,7 +137,7 @@ static fracas_err write_caption(const fracas_broken_surface *surface, int64_t re
     return FRACAS_OK;
 }
 
-/* What all pictures of a point are drawn from: an interface a line. */
+/* Data behind all pictures of a point: an interface a line. */
 static void write_interfaces(const fracas_broken_surface *surface, FILE *out)
 {
     fputs("interface,x1,y1,z1,x2,y2,z2,onset_time,break_time\n", out);

@@ -10,7 +10,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* The surface of a point, and what became of it in a realization. */
+/* The surface of a point, and its interfaces in a realization. */
 typedef struct {
     fracas_stored_mesh mesh;
     fracas_record record; /* with its interfaces */
@@ -31,10 +31,10 @@ FRACAS_MUST_USE fracas_err fracas_broken_surface_save(const fracas_broken_surfac
 /* True if some point of the study has a mesh. */
 FRACAS_MUST_USE fracas_err fracas_surfaces_any(const fracas_analysis *analysis, bool *any);
 
-/* The section of the page, nothing if there are no surfaces; of a partial study, which has no
- * meshes, that they come; else of every point one realization, the first that ended FRAGMENTED or
- * else the typical one, at FRACAS_MOMENTS times; a figure a point, each picture into the folder,
- * too, with a CSV of when each interface cracked and broke. After some 1.5 million elements drawn
+/* The section of the page, nothing without surfaces. A partial study has no meshes: the section
+ * says that they come. Else one realization of every point, the first FRAGMENTED or the typical
+ * one, at FRACAS_MOMENTS times; a figure a point, each picture also as a file of the folder, with a
+ * CSV of the times at which each interface cracked and broke. After some 1.5 million drawn elements
  * it only says how to get the others. */
 FRACAS_MUST_USE fracas_err fracas_surfaces_put(fracas_page *page);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The sections of tables, and what files there are. */
+/* The sections of tables, and the list of files. */
 #include "analysis/report/page.h"
 
 #include "analysis/export/side_tables.h"
@@ -23,7 +23,7 @@ static void put_decisions(const fracas_page *page)
     if (any) fputs("</ul>\n", page->out);
 }
 
-/* What the table does not show. */
+/* Parameters missing in the table. */
 static void put_beside(const fracas_page *page)
 {
     char text[768];

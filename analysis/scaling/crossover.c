@@ -46,7 +46,7 @@ typedef struct {
     size_t n;
     double *x, *y, *error; /* log rate, log size, its standard error */
     fracas_mean *mean;
-    fracas_mean_error *known; /* what the standard error is from */
+    fracas_mean_error *known; /* values behind the standard error */
     gsl_multifit_nlinear_workspace *solver;
     gsl_multifit_nlinear_fdf problem;
 } fitter;
@@ -88,7 +88,7 @@ static int jacobian(const gsl_vector *parameter, void *context, gsl_matrix *J)
     return GSL_SUCCESS;
 }
 
-/* chi2 of the least squares that are found from *parameter, which becomes them; NaN if none are
+/* chi2 of the least squares found from *parameter, which becomes them; NaN without any
  * (size-laws.15). */
 static double descend(fitter *of, double parameter[NPARAMETERS])
 {
@@ -141,8 +141,8 @@ static void summarise(double *found, size_t count, double best, double sign,
     interval->high = quantile(found, count, 0.975);
 }
 
-/* Whether the means are on the curve `best`, of that chi2, and by how much their errors are too
- * small if they are not. */
+/* Tests whether the means are on the curve `best` with this chi2, and inflates their errors if they
+ * are not. */
 static fracas_err judge(fitter *of, double best[NPARAMETERS], double chi2,
                         fracas_size_crossover *crossover)
 {
@@ -179,7 +179,7 @@ static void draw(const fitter *of, const double best[NPARAMETERS],
                      FRACAS_MISFIT_LIMIT; /* then the residuals tell how far off, for all alike */
     const double shared = off ? crossover->freedom : crossover->pooled;
     const double factor = shared > 0 ? sqrt(shared / gsl_ran_chisq(random, shared))
-                                     : 1; /* an error that is shared is off for all alike */
+                                     : 1; /* a shared error is off for all equally */
     for (size_t i = 0; i < of->n; i++) {
         const bool alike = off || of->known[i].pooled;
         const double z = alike ? factor * gsl_ran_ugaussian(random)
@@ -205,8 +205,7 @@ static fracas_err resample(fitter *of, const double best[NPARAMETERS], int64_t r
             for (size_t j = 0; j < NPARAMETERS; j++) found[j * most + count] = parameter[j];
             count++;
         }
-        if (count < most * 95 / 100)
-            count = 0; /* those that did not fit are not missing at random */
+        if (count < most * 95 / 100) count = 0; /* draws without a fit are not missing at random */
         summarise(found + SIZE * most, count, best[SIZE], 1, &crossover->size);
         summarise(found + RATE * most, count, best[RATE], 1, &crossover->rate);
         summarise(found + EXPONENT * most, count, best[EXPONENT], -1, &crossover->exponent);
@@ -236,8 +235,8 @@ static fracas_err fit(fitter *of, int64_t resamples, uint64_t seed,
     return resample(of, best, resamples, seed, crossover);
 }
 
-/* Takes the points that came apart and whose standard error is known; returns how many rates they
- * are at. */
+/* Takes the points that came apart and have a known standard error; returns the number of their
+ * rates. */
 static size_t take(const fracas_size_series *series, fitter *of)
 {
     size_t rates = 0, n = 0;
@@ -325,7 +324,7 @@ fracas_err fracas_crossover_fit(const fracas_size_series *series, int64_t resamp
                                 fracas_size_crossover *crossover)
 {
     gsl_error_handler_t *handler =
-        gsl_set_error_handler_off(); /* a fit that fails is a reason, no end of the program */
+        gsl_set_error_handler_off(); /* a failed fit is a reason, no end of the program */
     const fracas_err err = fit_series(series, resamples, seed, crossover);
     gsl_set_error_handler(handler);
     return err;

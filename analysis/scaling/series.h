@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The mean sizes of a study as series against the strain rate: what slopes of windows and
- * crossovers are taken from. */
+/* The mean sizes of a study as series against the strain rate, for slopes of windows and
+ * crossovers. */
 #ifndef FRACAS_ANALYSIS_SCALING_SERIES_H
 #define FRACAS_ANALYSIS_SCALING_SERIES_H
 
@@ -14,7 +14,7 @@
 struct fracas_analysis;
 
 typedef struct {
-    size_t point;     /* of the study */
+    size_t point;     /* for the study */
     int64_t replicas; /* in the mean */
     double rate;      /* 1/s, > 0 */
     double size;      /* m, mean over replicas, > 0 */
@@ -30,13 +30,14 @@ typedef struct {
     fracas_size_point *point; /* ascending in rate */
 } fracas_size_series;
 
-/* Whether a point has a rate and a mean size that the theories speak of: surfaces have none. */
+/* Whether a point has a rate and a mean size within the theories: surfaces have none. */
 bool fracas_size_counts(const struct fracas_analysis *analysis, size_t point);
 /* Whether no body of the point came apart: each is of one fragment. */
 bool fracas_size_whole(const struct fracas_analysis *analysis, size_t point);
 
-/* Points alike in all that does not make the rate are a series; without those that do not count. A
- * series without any point is left out. *list freed by fracas_size_series_free. */
+/* Points equal in all parameters but those that make the rate are a series; points that do not
+ * count are left out. A series without any point is left out. *list freed by
+ * fracas_size_series_free. */
 FRACAS_MUST_USE fracas_err fracas_size_series_create(const struct fracas_analysis *analysis,
                                                      fracas_size_series **list, size_t *count);
 void fracas_size_series_free(fracas_size_series *list, size_t count);

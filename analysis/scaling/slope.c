@@ -62,8 +62,7 @@ static moments fit(const double *x, const double *y, const fracas_mean_error *er
         if (!(w > 0)) continue;
         line->n++;
         of.weight += w;
-        of.x += (x[i] - of.x) * w /
-                of.weight; /* running means: no sum of values that are far from 0 */
+        of.x += (x[i] - of.x) * w / of.weight; /* running means: no sum of values far from 0 */
         mean_y += (y[i] - mean_y) * w / of.weight;
     }
     for (size_t i = 0; i < n; i++) {
@@ -120,8 +119,7 @@ typedef struct {
     fracas_mean_error *error;
 } fitter;
 
-/* The line through the points that are of the series of `first`, all of them if that is SIZE_MAX.
- */
+/* The line through the points of the series of `first`, all of them if `first` is SIZE_MAX. */
 static fracas_slope fit_series(const fitter *of, size_t first)
 {
     size_t n = 0;

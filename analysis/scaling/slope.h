@@ -21,10 +21,11 @@ typedef struct {
     double chi2;   /* sum of squared residuals, each over its variance; NaN if the variances are not
                       known */
     double misfit; /* probability of such a chi2 or more if the values are on a line; NaN as chi2 */
-    double pooled; /* degrees of freedom of the variance that values share; NaN: each has its own,
-                      or it is not known */
-    double standard_error; /* of the slope, inflated where chi2/(n - 2) > 1 */
-    double half_width;     /* of the 95 % interval of the slope: t_(0.975, n-2) standard_error */
+    double pooled; /* degrees of freedom of the variance shared by values; NaN: each has its own, or
+                      it is not known */
+    double standard_error; /* for the slope, inflated where chi2/(n - 2) > 1 */
+    double half_width;     /* half width of the 95 % interval of the slope: t_(0.975, n-2)
+                              standard_error */
     double freedom;        /* n - 2 */
 } fracas_slope;
 
@@ -37,7 +38,7 @@ fracas_slope fracas_slope_of(const double *x, const double *y, const fracas_mean
 
 /* log(mean size) against log(strain rate) over some points of a study. */
 typedef struct {
-    char name[128]; /* of the series, "all points" for the first */
+    char name[128]; /* for the series, "all points" for the first */
     fracas_slope slope;
     double mott, grady; /* exponents of the theories: FRACAS_SLOPE_MOTT, FRACAS_SLOPE_GRADY */
 } fracas_size_slope;
@@ -45,13 +46,13 @@ typedef struct {
 /* series, points, slope, ... */
 extern const fracas_fields fracas_slope_fields;
 
-/* Of all points together, and, if there are several series (points alike in all that does not make
- * the rate), of each that has FRACAS_SLOPE_POINTS points or more to use; without enough points
- * altogether, none. *list freed by the caller with free(). */
+/* Slope of all points together, and, if there are several series (points equal in all parameters
+ * but those that make the rate), of each series with FRACAS_SLOPE_POINTS usable points or more;
+ * without enough points altogether, none. *list freed by the caller with free(). */
 FRACAS_MUST_USE fracas_err fracas_size_slopes(const struct fracas_analysis *analysis,
                                               fracas_size_slope **list, size_t *count);
 
-/* Exponents of theories that are powers of the rate. */
+/* Exponents of theories with a power of the rate. */
 #define FRACAS_SLOPE_MOTT (-1.0)
 #define FRACAS_SLOPE_GRADY (-2.0 / 3)
 

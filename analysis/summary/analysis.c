@@ -23,7 +23,7 @@ static const fracas_field progress_fields[] = {
 };
 const fracas_fields fracas_progress_fields = FRACAS_FIELDS(progress_fields);
 
-/* The last part of the folder's real path, so that "." has a name too. */
+/* The last part of the folder's real path: "." has a name, too. */
 static fracas_err name_of(const char *study, char **name)
 {
     char *path = realpath(study, NULL);
@@ -45,7 +45,7 @@ static fracas_err add(void *context, fracas_result *result)
 /* Where the reading of histories is: they come point by point. */
 typedef struct {
     fracas_analysis *analysis;
-    size_t point; /* of the collector; SIZE_MAX: none yet */
+    size_t point; /* point of the collector; SIZE_MAX: none yet */
     fracas_bands_collector collector;
 } history_reading;
 
@@ -61,7 +61,8 @@ static fracas_err begin_bands(history_reading *reading, size_t p)
                               &reading->collector);
 }
 
-/* Takes the history into the bands of its point; that of the typical replica is kept as it is. */
+/* Takes the history into the bands of its point; the history of the typical replica is also kept.
+ */
 static fracas_err add_history(void *context, fracas_result *result)
 {
     history_reading *reading = context;

@@ -16,7 +16,7 @@ typedef struct {
     double fracture_energy; /* G_c [J/m2] at the mean strength */
 } fracas_body;
 
-/* Reads the parameters of the point. The only place in analysis that knows models by their columns.
+/* Reads the parameters of the point. No other function of analysis knows models by their columns.
  */
 fracas_body fracas_body_of(const fracas_point_table *table, size_t point);
 

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How steeply the number of flaws grows with the stress: what Mott's size law knows of the
- * strengths. */
+/* Growth of the number of flaws with the stress, for Mott's scaling law. */
 #ifndef FRACAS_ANALYSIS_SUMMARY_MODULUS_H
 #define FRACAS_ANALYSIS_SUMMARY_MODULUS_H
 
@@ -12,9 +11,9 @@ typedef struct {
 } fracas_modulus;
 
 /* M = d ln n/d ln sigma = m sigma_c/(sigma_c - minimum) at the mean strength sigma_c, n(sigma) the
- * flaws per length that are weaker than sigma (size-laws.9). Of Weibull strengths m is the shape,
- * given or found from mean and deviation to 1e-9; of flaws in the body their exponent, if half of
- * all interfaces or more have one. Other distributions have none. length: of the body [m], a ring's
+ * flaws per length weaker than sigma (size-laws.9). For Weibull strengths m is the shape, given or
+ * found from mean and deviation to 1e-9; for flaws in the body their exponent, if half of all
+ * interfaces or more have one. Other distributions have none. length: of the body [m], a ring's
  * circumference. */
 fracas_modulus fracas_modulus_of(const fracas_point_table *table, size_t point, double length);
 

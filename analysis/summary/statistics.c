@@ -157,15 +157,15 @@ void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
                                                          : modulus.reason;
     fracas_ensemble_init(&statistics->ensemble, body.lattice);
     statistics->ensemble.surface = statistics->surface;
-    for (int law = 0; law < FRACAS_NLAWS;
+    for (int law = 0; law < FRACAS_SCALING_LAWS;
          law++) /* at rate 0, a ring that spins or is accelerated, they say nothing */
         statistics->law[law] = statistics->rate > 0 && !statistics->surface
-                                   ? fracas_size_law_at((fracas_size_law_id)law,
-                                                        &statistics->scales, statistics->rate)
+                                   ? fracas_scaling_law_at((fracas_scaling_law_id)law,
+                                                           &statistics->scales, statistics->rate)
                                    : NAN;
 }
 
-/* Of the fragments of one realization. */
+/* Mean size of the fragments of one realization. */
 static double mean_size(const fracas_point_statistics *statistics, const fracas_record *record)
 {
     if (!statistics->surface) return statistics->length / (double)record->fragments;
@@ -183,7 +183,7 @@ static double translation_of(const fracas_record *record)
     return sum;
 }
 
-/* That of the spins [J]  (estimators.13) */
+/* Kinetic energy of the spins [J]  (estimators.13) */
 static double rotation_of(const fracas_record *record)
 {
     double sum = 0;

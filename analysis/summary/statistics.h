@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is known of one point from its realizations. */
+/* Statistics of one point from its realizations. */
 #ifndef FRACAS_ANALYSIS_SUMMARY_STATISTICS_H
 #define FRACAS_ANALYSIS_SUMMARY_STATISTICS_H
 
@@ -19,19 +19,19 @@
 typedef struct {
     double rate;
     double size, size_half_width;            /* mean over replicas; Student's interval */
-    fracas_interval mean, mass_mean, median; /* of all fragments together */
+    fracas_interval mean, mass_mean, median; /* for all fragments together */
 } fracas_normalised;
 
 typedef struct {
-    /* Of the point itself. */
+    /* Parameters of the point. */
     double rate;   /* 1/s, NaN where the point has none */
     double length; /* m, of a ring its circumference */
     double radius; /* m, of a ring; NaN of anything else */
-    bool surface;  /* a size is the square root of an area, and the size laws, of one dimension, say
-                      nothing */
+    bool surface;  /* a size is the square root of an area, and the scaling laws, of one dimension,
+                      say  nothing */
     fracas_scales scales;
-    double law[FRACAS_NLAWS]; /* m, mean size by each law; NaN of surfaces */
-    const char *without_mott; /* why the size by Mott's law is NaN; NULL: it is not */
+    double law[FRACAS_SCALING_LAWS]; /* m, mean size by each law; NaN of surfaces */
+    const char *without_mott;        /* why the size by Mott's law is NaN; NULL: it is not */
 
     /* Over its realizations. Usable are FRAGMENTED, INTACT and TIME_LIMIT: their fragments mean
      * something. */
@@ -44,7 +44,7 @@ typedef struct {
     double created;  /* largest over replicas of created/dissipated */
     double drift; /* largest over replicas of (largest |residual| over the run)/(largest energy at
                      its end) */
-    int64_t drifted; /* usable realizations of which that is above FRACAS_DRIFT_LIMIT */
+    int64_t drifted; /* usable realizations with a drift above FRACAS_DRIFT_LIMIT */
 
     fracas_ensemble ensemble; /* the usable realizations */
 
@@ -53,38 +53,38 @@ typedef struct {
     double *fragment_size; /* m, ascending; made by finish */
     double elements;       /* elements of a mean fragment */
     double dust_share;     /* dust fragments/all fragments */
-    uint64_t seed;         /* of what is drawn to estimate: of the point's hash */
+    uint64_t seed;         /* seed of all random draws, from the point's hash */
     fracas_pooled pooled;
-    fracas_replica_convergence convergence; /* of the headline numbers */
+    fracas_replica_convergence convergence; /* for the headline numbers */
     fracas_normalised normalised;
-    fracas_bands bands; /* of the energies; made by a fracas_bands_collector */
+    fracas_bands bands; /* for the energies; made by a fracas_bands_collector */
 
     /* The replica whose dissipated energy is the nearest to the mean, the first of several. */
     int64_t typical_replica; /* -1 without a usable realization */
     size_t typical_row;      /* in the study */
-    int64_t broken_replica;  /* the first that ended FRAGMENTED; -1 without one */
+    int64_t broken_replica;  /* the first FRAGMENTED one; -1 without one */
     size_t broken_row;
     size_t nhistory;
-    fracas_history_row *history; /* of that replica; NULL until someone reads it */
+    fracas_history_row *history; /* for that replica; NULL until someone reads it */
 } fracas_point_statistics;
 
 /* A realization whose residual is a larger part of its largest energy is warned of; ENERGY_DRIFT
  * begins at 0.05. */
 #define FRACAS_DRIFT_LIMIT 0.01
 
-/* Of point `point` of the table, without realizations. */
+/* Begins point `point` of the table, without realizations. */
 void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
                                   fracas_point_statistics *statistics);
 /* Takes in the realization in row `row` of the study; `record` with its fragments. */
 FRACAS_MUST_USE fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics,
                                                        size_t row, int64_t replica,
                                                        const fracas_record *record);
-/* Computes the estimates from all that was added. */
+/* Computes the estimates from all added realizations. */
 FRACAS_MUST_USE fracas_err fracas_point_statistics_finish(fracas_point_statistics *statistics);
 void fracas_point_statistics_clear(fracas_point_statistics *statistics);
 
 bool fracas_outcome_usable(int64_t outcome);
-/* "FRAGMENTED"; "?" for a number that is no outcome. */
+/* "FRAGMENTED"; "?" for an unknown number. */
 const char *fracas_outcome_name(int64_t outcome);
 
 /* Every number of a point's statistics, in fracas_point_statistics: the same keys in JSON and CSV,

@@ -9,22 +9,21 @@
 #include "campaigns/store/results.h"
 
 struct fracas_analysis {
-    char *name; /* of the study's folder */
+    char *name; /* for the study's folder */
     fracas_file_header header;
     const fracas_point_table *table;
-    fracas_columns shown;           /* columns that tell the points apart */
+    fracas_columns shown;           /* columns by which the points differ */
     fracas_point_statistics *point; /* table->npoints of them */
-    fracas_decision *decision; /* of each point, the last one on its replicas, replicas 0 where they
+    fracas_decision *decision; /* last decision of each point on its replicas, replicas 0 where they
                                   were given; NULL: at all points */
     fracas_results *results;   /* open as long as the analysis: it owns the table */
 };
 
 /* How far the study, or a point of it, is. */
 typedef struct {
-    int64_t planned; /* realizations; where a rule decides their number, those that were asked for
-                        by now */
-    int64_t done;    /* that are here, as they ended */
-    int64_t failed;  /* that FAILED; they are here too, as rows of NaN */
+    int64_t planned; /* realizations; where a rule decides their number, those asked for by now */
+    int64_t done;    /* present, whatever their outcome */
+    int64_t failed;  /* FAILED ones; they are present, too, as rows of NaN */
     int64_t missing; /* done, but their segment is missing or damaged */
     bool settled;    /* all are done or FAILED, and the rule, if there is one, asks for no more */
     bool complete;   /* settled, and none FAILED */
@@ -33,14 +32,13 @@ typedef struct {
 extern const fracas_fields fracas_progress_fields; /* planned, done, failed, missing, complete */
 
 fracas_progress fracas_analysis_progress_of(const fracas_analysis *analysis, size_t point);
-fracas_progress
-fracas_analysis_progress(const fracas_analysis *analysis); /* of all points together */
+fracas_progress fracas_analysis_progress(const fracas_analysis *analysis); /* all points together */
 
 /* "partial: 120 of 256 realizations done, 2 FAILED, 8 missing"; false, and no text, of a study
  * whose study.h5 is of everything. */
 bool fracas_analysis_partial(const fracas_analysis *analysis, char *text, size_t size);
 
-/* The last decision on the replicas of a point, NULL if they were given; and what it looks at,
+/* The last decision on the replicas of a point, NULL if they were given; and its quantity,
  * "mean-count". */
 const fracas_decision *fracas_analysis_decision(const fracas_analysis *analysis, size_t point);
 const char *fracas_analysis_quantity(const fracas_decision *decision);
@@ -67,7 +65,7 @@ FRACAS_MUST_USE fracas_err fracas_analysis_warnings(const fracas_analysis *analy
 bool fracas_analysis_any_surface(const fracas_analysis *analysis);
 bool fracas_analysis_all_surfaces(const fracas_analysis *analysis);
 
-/* "rate 1e4 1/s": the point by what it differs in. */
+/* "rate 1e4 1/s": the point by its varying parameters. */
 void fracas_analysis_label(const fracas_analysis *analysis, size_t point, char *text, size_t size);
 
 #endif

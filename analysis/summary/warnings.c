@@ -17,11 +17,12 @@ static const fracas_field fields[] = {
 const fracas_fields fracas_warning_fields = FRACAS_FIELDS(fields);
 
 /* Beyond these a number is shown with a warning. */
-static const double residual_limit = 1e-3; /* of the dissipated energy */
-static const double created_limit = 1e-2;  /* of the dissipated energy */
+static const double residual_limit = 1e-3; /* for the dissipated energy */
+static const double created_limit = 1e-2;  /* for the dissipated energy */
 static const double elements_limit = 10;   /* elements of a mean fragment */
 static const double dust_limit = 0.05;     /* share of all fragments */
-static const double rise_limit = 0.01; /* of the dissipated energy, in the last tenth of the time */
+static const double rise_limit =
+    0.01; /* for the dissipated energy, in the last tenth of the time */
 static const double zone_limit =
     0.25; /* fracture-limiting zone of a mean fragment (docs/results/ring.md) */
 
@@ -100,8 +101,7 @@ static void warn_of_point(const fracas_point_statistics *statistics, size_t p, w
              100 * statistics->dust_share);
 }
 
-/* The headline numbers that are known to more than FRACAS_CONVERGED_WIDTH, or whose halves differ.
- */
+/* The headline numbers with a half width above FRACAS_CONVERGED_WIDTH, or with different halves. */
 static void warn_of_convergence(const fracas_point_statistics *statistics, size_t p,
                                 warning_list *list)
 {
@@ -132,8 +132,7 @@ static void warn_of_convergence(const fracas_point_statistics *statistics, size_
          (long long)all->replicas, text);
 }
 
-/* Bodies that ran until time.end and were still breaking: `stop: time` ends them as if they were
- * done. */
+/* Bodies that ran until time.end and were still breaking: `stop: time` ends them early. */
 static void warn_of_end(const fracas_bands *bands, double end, size_t p, warning_list *list)
 {
     if (bands->count == 0 || bands->time[bands->count - 1] < end * (1 - 1e-9)) return;

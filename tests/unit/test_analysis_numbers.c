@@ -277,7 +277,7 @@ static void laws_of_a_given_opening(void **state)
     fracas_point_statistics_init(&table, 1, &energy);
     fracas_point_statistics_init(&table, 2, &still);
     assert_true(fabs(given.scales.size / (275e9 * 150 / 9e16) - 1) < 1e-14);
-    for (int law = 0; law < FRACAS_NLAWS; law++) {
+    for (int law = 0; law < FRACAS_SCALING_LAWS; law++) {
         assert_true(isnan(still.law[law]));
         if (law == FRACAS_LAW_MOTT)
             continue; /* the table does not say how strengths are distributed */

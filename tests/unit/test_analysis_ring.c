@@ -420,11 +420,11 @@ static void laws_of_mixed_series(void **state)
         size_t curves;
         const char *caption;
     } table[] = {
-        {0, 0, NAN, NAN, FRACAS_NLAWS - 1, " Lines: size laws of"}, /* all but Mott's */
-        {0, 0, 10, 10, FRACAS_NLAWS, " Lines: size laws of"},
-        {0, 0, 10, 20, FRACAS_NLAWS - 1, " Lines: size laws of"},
+        {0, 0, NAN, NAN, FRACAS_SCALING_LAWS - 1, " Lines: scaling laws of"}, /* all but Mott's */
+        {0, 0, 10, 10, FRACAS_SCALING_LAWS, " Lines: scaling laws of"},
+        {0, 0, 10, 20, FRACAS_SCALING_LAWS - 1, " Lines: scaling laws of"},
         {0, 1e-5, 10, 10, 1, " Lines: ZMR law with the material"},
-        {1e-5, 1e-5, NAN, NAN, 0, " No size law serves all marks"},
+        {1e-5, 1e-5, NAN, NAN, 0, " No scaling law serves all marks"},
     };
     make_table(&made);
     fracas_analysis analysis = {.table = &made.table, .point = point};
@@ -494,7 +494,7 @@ static void scales_of_critical_opening(void **state)
     fracas_point_statistics_init(&campaign->table, 0, &opening);
     fracas_point_statistics_init(&campaign->table, 1, &energy);
     assert_true(fabs(opening.scales.size / energy.scales.size - 1) < 1e-14); /* a few roundings */
-    for (int law = 0; law < FRACAS_NLAWS; law++)
+    for (int law = 0; law < FRACAS_SCALING_LAWS; law++)
         if (law != FRACAS_LAW_MOTT)
             assert_true(fabs(opening.law[law] / energy.law[law] - 1) < 1e-13);
     assert_true(isnan(opening.law[FRACAS_LAW_MOTT]) &&

@@ -118,7 +118,7 @@ static void surfaces_have_no_laws_of_one_dimension(void **state)
             assert_true(fabs(point[p].size.mean - (bar ? (1e-2 / 3 + 1e-2 / 2) / 2 : 2.25e-3)) <
                         1e-15); /* a few roundings */
             assert_true(point[p].count.mean == 2.5 && point[p].count_large.mean == 2);
-            for (int law = 0; law < FRACAS_NLAWS; law++)
+            for (int law = 0; law < FRACAS_SCALING_LAWS; law++)
                 assert_int_equal(isfinite(point[p].law[law]) != 0,
                                  bar &&
                                      law != FRACAS_LAW_MOTT); /* their strengths have no modulus */

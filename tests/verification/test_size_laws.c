@@ -58,15 +58,16 @@ static void laws_as_printed(void **state)
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         double e = row[i].rate / scales.rate;
         assert_prints(row[i].e_format, e, row[i].e);
-        assert_prints(row[i].grady_format, fracas_size_laws[FRACAS_LAW_GRADY].normalised(e, NAN),
+        assert_prints(row[i].grady_format, fracas_scaling_laws[FRACAS_LAW_GRADY].normalised(e, NAN),
                       row[i].grady);
         assert_prints(row[i].gc_format,
-                      fracas_size_laws[FRACAS_LAW_GLENN_CHUDNOVSKY].normalised(e, NAN), row[i].gc);
-        assert_prints(row[i].zmr_format, fracas_size_laws[FRACAS_LAW_ZMR].normalised(e, NAN),
+                      fracas_scaling_laws[FRACAS_LAW_GLENN_CHUDNOVSKY].normalised(e, NAN),
+                      row[i].gc);
+        assert_prints(row[i].zmr_format, fracas_scaling_laws[FRACAS_LAW_ZMR].normalised(e, NAN),
                       row[i].zmr);
-        assert_prints(row[i].zmr2_format, fracas_size_laws[FRACAS_LAW_ZMR2].normalised(e, NAN),
+        assert_prints(row[i].zmr2_format, fracas_scaling_laws[FRACAS_LAW_ZMR2].normalised(e, NAN),
                       row[i].zmr2);
-        double zmr_size = fracas_size_law_at(FRACAS_LAW_ZMR, &scales, row[i].rate);
+        double zmr_size = fracas_scaling_law_at(FRACAS_LAW_ZMR, &scales, row[i].rate);
         assert_prints(row[i].count_format, 50e-3 / zmr_size, row[i].count);
     }
 }
@@ -81,13 +82,13 @@ static void dimensional_forms(void **state)
     fracas_scales scales = fracas_scales_of(young, density, strength, fracture_energy);
     for (double rate = 1e2; rate < 2e6; rate *= 10) {
         double by_grady = cbrt(24 * fracture_energy / (density * rate * rate));
-        assert_true(fabs(fracas_size_law_at(FRACAS_LAW_GRADY, &scales, rate) / by_grady - 1) <
+        assert_true(fabs(fracas_scaling_law_at(FRACAS_LAW_GRADY, &scales, rate) / by_grady - 1) <
                     1e-14);
         double alpha = 3 * strength * strength / (density * young * rate * rate);
         double beta = 3 * fracture_energy / (2 * density * rate * rate);
         double phi = asinh(beta * pow(3 / alpha, 1.5));
         double by_gc = 4 * sqrt(alpha / 3) * sinh(phi / 3);
-        assert_true(fabs(fracas_size_law_at(FRACAS_LAW_GLENN_CHUDNOVSKY, &scales, rate) / by_gc -
+        assert_true(fabs(fracas_scaling_law_at(FRACAS_LAW_GLENN_CHUDNOVSKY, &scales, rate) / by_gc -
                          1) < 1e-13);
     }
 }
@@ -99,10 +100,10 @@ static void dimensional_forms(void **state)
 static void limits(void **state)
 {
     (void)state;
-    double (*gc)(double, double) = fracas_size_laws[FRACAS_LAW_GLENN_CHUDNOVSKY].normalised;
-    double (*grady)(double, double) = fracas_size_laws[FRACAS_LAW_GRADY].normalised;
-    double (*zmr)(double, double) = fracas_size_laws[FRACAS_LAW_ZMR].normalised;
-    double (*zmr2)(double, double) = fracas_size_laws[FRACAS_LAW_ZMR2].normalised;
+    double (*gc)(double, double) = fracas_scaling_laws[FRACAS_LAW_GLENN_CHUDNOVSKY].normalised;
+    double (*grady)(double, double) = fracas_scaling_laws[FRACAS_LAW_GRADY].normalised;
+    double (*zmr)(double, double) = fracas_scaling_laws[FRACAS_LAW_ZMR].normalised;
+    double (*zmr2)(double, double) = fracas_scaling_laws[FRACAS_LAW_ZMR2].normalised;
     assert_true(fabs(gc(1e-4, NAN) - 2) < 1e-8);
     assert_true(fabs(gc(1e-4, NAN) - 2) > 1e-9);
     assert_true(fabs(gc(1e9, NAN) / grady(1e9, NAN) - 1) < 5e-7);
@@ -119,25 +120,26 @@ static void mott(void **state)
 {
     (void)state;
     fracas_scales scales = reference_scales();
-    assert_true(isnan(scales.modulus) && isnan(fracas_size_law_at(FRACAS_LAW_MOTT, &scales, 1e4)));
+    assert_true(isnan(scales.modulus) &&
+                isnan(fracas_scaling_law_at(FRACAS_LAW_MOTT, &scales, 1e4)));
     const struct {
         double modulus;
         const char *size;
     } row[] = {{10, "2.8300"}, {30, "1.6339"}};
     for (size_t i = 0; i < 2; i++) {
         scales.modulus = row[i].modulus;
-        assert_prints("%.4f", fracas_size_law_at(FRACAS_LAW_MOTT, &scales, 1e4) / scales.size,
+        assert_prints("%.4f", fracas_scaling_law_at(FRACAS_LAW_MOTT, &scales, 1e4) / scales.size,
                       row[i].size);
         for (double rate = 1e2; rate < 2e6; rate *= 10) {
             double gamma = row[i].modulus * 275e9 / 300e6,
                    length = sqrt(2 * 300e6 / (2750 * gamma)) / rate;
             assert_true(
-                fabs(fracas_size_law_at(FRACAS_LAW_MOTT, &scales, rate) / (sqrt(M_PI) * length) -
+                fabs(fracas_scaling_law_at(FRACAS_LAW_MOTT, &scales, rate) / (sqrt(M_PI) * length) -
                      1) < 1e-14);
         }
     }
     scales.modulus = 10;
-    assert_prints("%.2f", 50e-3 / fracas_size_law_at(FRACAS_LAW_MOTT, &scales, 1e4), "57.82");
+    assert_prints("%.2f", 50e-3 / fracas_scaling_law_at(FRACAS_LAW_MOTT, &scales, 1e4), "57.82");
 }
 
 /* What Mott's law knows of the strengths. */
