@@ -522,3 +522,35 @@ fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point,
              *motion ? " " : "", residual);
     return FRACAS_OK;
 }
+
+/* ---- the table of figures ---- */
+
+static fracas_err draw_rate(const fracas_analysis *analysis, size_t point, fracas_chart *chart)
+{
+    (void)point;
+    return fracas_figure_rate(analysis, false, chart);
+}
+
+static fracas_err draw_normalised(const fracas_analysis *analysis, size_t point,
+                                  fracas_chart *chart)
+{
+    (void)point;
+    return fracas_figure_rate(analysis, true, chart);
+}
+
+static fracas_err draw_sizes(const fracas_analysis *analysis, size_t point, fracas_chart *chart)
+{
+    (void)point;
+    return fracas_figure_sizes_together(analysis, chart);
+}
+
+const fracas_figure fracas_figures[] = {
+    {"rate", "wide", false, draw_rate},
+    {"rate", "wide", false, draw_normalised},
+    {"sizes", "wide", false, draw_sizes},
+    {"sizes", "small", true, fracas_figure_sizes},
+    {"energies", "wide", true, fracas_figure_energies},
+    {"energies", "wide", true, fracas_figure_bands},
+    {"convergence", "small", true, fracas_figure_convergence},
+    {NULL, NULL, false, NULL},
+};

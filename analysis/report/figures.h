@@ -37,6 +37,18 @@ FRACAS_MUST_USE fracas_err fracas_figure_fits(const fracas_analysis *analysis,
                                               const fracas_fits *fits, size_t point,
                                               fracas_chart *chart);
 
+/* One line of the table of figures: a figure of the study, or `each` of its points. */
+typedef struct {
+    const char *section; /* id in page.c */
+    const char *grid;    /* "wide", "small": figures side by side */
+    bool each;
+    fracas_err (*draw)(const fracas_analysis *analysis, size_t point, fracas_chart *chart);
+} fracas_figure;
+
+/* All figures but those of fits, in the order of the page; ends with section NULL. A new figure is
+ * a function and a line in figures.c. */
+extern const fracas_figure fracas_figures[];
+
 enum { FRACAS_FIGURE_LOW = 200 }; /* pixels of a panel of one point */
 
 /* File name and title of a figure of one point. */

@@ -8,6 +8,8 @@
 #include "analysis/report/surfaces.h"
 #include "analysis/export/side_tables.h"
 
+#include <string.h>
+
 /* Instead of the figures against the rate, where there is none. */
 static void say_no_rate(const fracas_page *page)
 {
@@ -17,31 +19,34 @@ static void say_no_rate(const fracas_page *page)
           page->out);
 }
 
-fracas_err fracas_section_rate(fracas_page *page)
+/* The figures of a section: of the study, then point by point. */
+static fracas_err put_figures(fracas_page *page, const char *section)
 {
+    const size_t npoints = page->analysis->table->npoints;
     fracas_chart chart;
     fracas_chart_init(&chart);
-    say_no_rate(page);
-    fracas_page_grid(page, "wide");
-    TRY(fracas_page_chart(page, &chart, fracas_figure_rate(page->analysis, false, &chart)));
-    TRY(fracas_page_chart(page, &chart, fracas_figure_rate(page->analysis, true, &chart)));
-    fracas_page_grid_end(page);
+    for (int each = 0; each < 2; each++) {
+        const fracas_figure *first = NULL;
+        for (size_t p = 0; p < (each ? npoints : 1); p++)
+            for (const fracas_figure *of = fracas_figures; of->section; of++) {
+                if (strcmp(of->section, section) != 0 || of->each != (each == 1)) continue;
+                if (!first) fracas_page_grid(page, (first = of)->grid);
+                TRY(fracas_page_chart(page, &chart, of->draw(page->analysis, p, &chart)));
+            }
+        if (first) fracas_page_grid_end(page);
+    }
     return FRACAS_OK;
+}
+
+fracas_err fracas_section_rate(fracas_page *page)
+{
+    say_no_rate(page);
+    return put_figures(page, "rate");
 }
 
 fracas_err fracas_section_sizes(fracas_page *page)
 {
-    const fracas_analysis *analysis = page->analysis;
-    fracas_chart chart;
-    fracas_chart_init(&chart);
-    fracas_page_grid(page, "wide");
-    TRY(fracas_page_chart(page, &chart, fracas_figure_sizes_together(analysis, &chart)));
-    fracas_page_grid_end(page);
-    fracas_page_grid(page, "small");
-    for (size_t p = 0; p < analysis->table->npoints; p++)
-        TRY(fracas_page_chart(page, &chart, fracas_figure_sizes(analysis, p, &chart)));
-    fracas_page_grid_end(page);
-    return FRACAS_OK;
+    return put_figures(page, "sizes");
 }
 
 static fracas_err write_pattern(fracas_page *page, const fracas_picture *picture)
@@ -88,26 +93,12 @@ fracas_err fracas_section_surfaces(fracas_page *page)
 
 fracas_err fracas_section_energies(fracas_page *page)
 {
-    fracas_chart chart;
-    fracas_chart_init(&chart);
-    fracas_page_grid(page, "wide");
-    for (size_t p = 0; p < page->analysis->table->npoints; p++) {
-        TRY(fracas_page_chart(page, &chart, fracas_figure_energies(page->analysis, p, &chart)));
-        TRY(fracas_page_chart(page, &chart, fracas_figure_bands(page->analysis, p, &chart)));
-    }
-    fracas_page_grid_end(page);
-    return FRACAS_OK;
+    return put_figures(page, "energies");
 }
 
 fracas_err fracas_section_convergence(fracas_page *page)
 {
-    fracas_chart chart;
-    fracas_chart_init(&chart);
-    fracas_page_grid(page, "small");
-    for (size_t p = 0; p < page->analysis->table->npoints; p++)
-        TRY(fracas_page_chart(page, &chart, fracas_figure_convergence(page->analysis, p, &chart)));
-    fracas_page_grid_end(page);
-    return FRACAS_OK;
+    return put_figures(page, "convergence");
 }
 
 static void put_of_point(const fracas_page *page, size_t p, const char *text)
