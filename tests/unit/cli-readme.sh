@@ -1,5 +1,5 @@
 #!/bin/sh
-# The README keeps its word: its campaign file is one, its commands exist, and every document that a page links to is there.
+# The README keeps its word: its campaign file is one, its commands exist. Every page and heading that a page links to is there.
 set -eu
 
 fracas=$1/fracas
@@ -16,10 +16,18 @@ for command in $commands; do
 done
 [ "$(echo "$commands" | wc -l)" -ge 5 ]
 
+# The anchors of page $1, one for each heading.
+anchors() { sed -n 's/^##* //p' "$1" | tr '[:upper:]' '[:lower:]' | sed 's/[^a-z0-9_ -]//g; s/ /-/g'; }
+
 # page: link
 find . \( -name build -o -name .git -o -name studies \) -prune -o -name '*.md' -print | while read -r page; do
     { grep -o '](\([^)#:]*\)[)#]' "$page" || :; } | sed 's/^](//; s/[)#]$//' | while read -r link; do
         [ -z "$link" ] || [ -e "$(dirname "$page")/$link" ] || echo "$page: no $link"
+    done
+    { grep -o ']([^):]*#[^)]*)' "$page" || :; } | sed 's/^](//; s/)$//' | while IFS='#' read -r link anchor; do
+        target=$page
+        [ -z "$link" ] || target=$(dirname "$page")/$link
+        anchors "$target" | grep -qx -- "$anchor" || echo "$page: no $link#$anchor"
     done
 done >"$folder/dead"
 if [ -s "$folder/dead" ]; then
