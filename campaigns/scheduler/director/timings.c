@@ -31,48 +31,48 @@ static double cpu_seconds(struct rusage *used)
            1e-6 * (double)(used->ru_utime.tv_usec + used->ru_stime.tv_usec);
 }
 
-void fracas_timings_begin(fracas_timings *tally)
+void fracas_timings_begin(fracas_timings *timings)
 {
     struct rusage used;
-    *tally = (fracas_timings){.seconds = fracas_now(), .cpu = cpu_seconds(&used)};
+    *timings = (fracas_timings){.seconds = fracas_now(), .cpu = cpu_seconds(&used)};
 }
 
-double fracas_timings_time(const fracas_timings *tally)
+double fracas_timings_time(const fracas_timings *timings)
 {
-    return fracas_now() - tally->seconds;
+    return fracas_now() - timings->seconds;
 }
 
-void fracas_timings_end(fracas_timings *tally)
+void fracas_timings_end(fracas_timings *timings)
 {
     struct rusage used;
-    tally->seconds = fracas_timings_time(tally);
-    tally->cpu = cpu_seconds(&used) - tally->cpu;
-    tally->memory = 1024.0 * (double)used.ru_maxrss;
+    timings->seconds = fracas_timings_time(timings);
+    timings->cpu = cpu_seconds(&used) - timings->cpu;
+    timings->memory = 1024.0 * (double)used.ru_maxrss;
 }
 
-fracas_err fracas_timings_note(const fracas_timings *tally, fracas_index *index)
+fracas_err fracas_timings_note(const fracas_timings *timings, fracas_index *index)
 {
     char text[40 * FRACAS_COUNT(number)];
     size_t n = 0;
     for (size_t i = 0; i < FRACAS_COUNT(number); i++) {
         double value;
-        memcpy(&value, (const char *)tally + number[i].at, sizeof value);
+        memcpy(&value, (const char *)timings + number[i].at, sizeof value);
         n += (size_t)snprintf(text + n, sizeof text - n, "%s%s %.9g", i ? ", " : "", number[i].name,
                               value);
     }
     return fracas_index_event(index, event, text);
 }
 
-fracas_err fracas_timings_read(fracas_index *index, bool *found, fracas_timings *tally)
+fracas_err fracas_timings_read(fracas_index *index, bool *found, fracas_timings *timings)
 {
     char *text;
-    *tally = (fracas_timings){0};
+    *timings = (fracas_timings){0};
     TRY(fracas_index_last_event(index, event, &text));
     *found = text != NULL;
     for (size_t i = 0; text && i < FRACAS_COUNT(number); i++) {
         const char *at = strstr(text, number[i].name);
         const double value = at ? strtod(at + strlen(number[i].name), NULL) : 0;
-        memcpy((char *)tally + number[i].at, &value, sizeof value);
+        memcpy((char *)timings + number[i].at, &value, sizeof value);
     }
     free(text);
     return FRACAS_OK;
