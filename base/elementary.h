@@ -10,6 +10,8 @@
 #ifndef FRACAS_BASE_ELEMENTARY_H
 #define FRACAS_BASE_ELEMENTARY_H
 
+#define FRACAS_PI 0x1.921fb54442d18p+1
+
 /* Natural logarithm, error below 1 ulp. 0 gives -infinity; x < 0 and NaN give NaN; infinity itself.
  */
 double fracas_log(double x);

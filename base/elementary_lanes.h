@@ -1,19 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* fracas_log and fracas_exp over lanes, with the same bits for every argument. Include after
- * base/lanes.h.
+/* fracas_log and fracas_exp over lanes, with the same bits for every argument.
  *
  * The usual arguments take the operations of base/elementary.c in the same order, without a branch.
  * Lanes of which one has another argument (below) take the scalar function in turn. */
+#ifndef FRACAS_BASE_ELEMENTARY_LANES_H
+#define FRACAS_BASE_ELEMENTARY_LANES_H
+
 #include "base/elementary.h"
 #include "base/elementary_terms.h"
+#include "base/lanes.h"
 
 #include <float.h>
-
-#define lanes_poly4 LANES_NAME(fracas_lanes_poly4)
-#define lanes_poly8 LANES_NAME(fracas_lanes_poly8)
-#define lanes_each LANES_NAME(fracas_lanes_each)
-#define lanes_log LANES_NAME(fracas_lanes_log)
-#define lanes_exp LANES_NAME(fracas_lanes_exp)
 
 LANES_FUNCTION vd lanes_poly4(const double *c, vd x)
 {
@@ -69,3 +66,5 @@ LANES_FUNCTION vd lanes_exp(vd x)
     vd y = sum + (sum_lo + r2 * (lanes_poly8(exp_rest, r) + r8 * lanes_poly4(exp_rest + 8, r)));
     return lanes_double(lanes_bits(y) + (lanes_bits(shifted) << 52));
 }
+
+#endif

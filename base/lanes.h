@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lanes: realizations side by side in one SIMD register, from one kernel source.
  *
- * Include with LANES defined as 1, 4 (AVX2) or 8 (AVX-512). The kernel is written with
+ * Include in a kernel (base/isa.h), whose units have LANES defined as 1, 4 (AVX2) or 8 (AVX-512).
+ * A kernel is written with
  *   vd          LANES doubles (a plain double for LANES 1)
  *   vmask       LANES truth values
  *   lanes_load / lanes_store / lanes_set     memory, and one value for all
@@ -13,36 +14,23 @@
  *   vu          LANES words of 64 bits (a plain uint64_t for LANES 1)
  *   lanes_bits(a) / lanes_double(b)          the words that represent the doubles, and back
  * and + - * / of C, for words also & | ^ << >>. Every operation is the IEEE one in every width and
- * instruction set (contraction is off for the whole build), so a lane's bits depend on its own
- * values alone. Intrinsics are used only where GNU C has no operator: masks and selection. The
- * names are undefined again by base/lanes_end.h. */
+ * instruction set, for the whole build has contraction off. A lane's bits depend on its own values
+ * alone. Intrinsics are used only where GNU C has no operator: masks and selection. */
+#ifndef FRACAS_BASE_LANES_H
+#define FRACAS_BASE_LANES_H
+
 #include <stdint.h>
 #include <string.h>
 #if defined(__AVX2__) || defined(__AVX512F__)
 #include <immintrin.h>
 #endif
 
-#define LANES_JOIN_(a, b) a##b
-#define LANES_JOIN(a, b) LANES_JOIN_(a, b)
-#define LANES_NAME(name) LANES_JOIN(name##_, LANES)
+/* Name of what a unit exports: LANES_UNIT(fracas_bar) is fracas_bar_avx2_4 for ISA avx2, LANES 4.
+ */
+#define LANES_UNIT(name) LANES_JOIN_(name, ISA, LANES)
+#define LANES_JOIN_(name, isa, lanes) LANES_PASTE_(name, isa, lanes)
+#define LANES_PASTE_(name, isa, lanes) name##_##isa##_##lanes
 
-#define vd LANES_NAME(fracas_vd)
-#define vmask LANES_NAME(fracas_vmask)
-#define vu LANES_NAME(fracas_vu)
-#define lanes_load LANES_NAME(fracas_lanes_load)
-#define lanes_store LANES_NAME(fracas_lanes_store)
-#define lanes_set LANES_NAME(fracas_lanes_set)
-#define lanes_lt LANES_NAME(fracas_lanes_lt)
-#define lanes_le LANES_NAME(fracas_lanes_le)
-#define lanes_and LANES_NAME(fracas_lanes_and)
-#define lanes_or LANES_NAME(fracas_lanes_or)
-#define lanes_any LANES_NAME(fracas_lanes_any)
-#define lanes_all LANES_NAME(fracas_lanes_all)
-#define lanes_select LANES_NAME(fracas_lanes_select)
-#define lanes_get LANES_NAME(fracas_lanes_get)
-#define lanes_sqrt LANES_NAME(fracas_lanes_sqrt)
-#define lanes_bits LANES_NAME(fracas_lanes_bits)
-#define lanes_double LANES_NAME(fracas_lanes_double)
 #define LANES_FUNCTION __attribute__((unused, always_inline)) static inline
 
 #if LANES == 1
@@ -220,3 +208,5 @@ LANES_FUNCTION vd lanes_double(vu b)
     memcpy(&a, &b, sizeof a);
     return a;
 }
+
+#endif

@@ -424,11 +424,11 @@ int main(int argc, char **argv)
     for (int i = 1; i < argc; i++) read_setting(&c, argv[i], &workers);
     double mean = c.share * c.longer + (1 - c.share) * c.task;
     for (size_t i = 0; i < ntimes; i++) mean = (i ? mean : 0) + times[i] / (double)ntimes;
-    if (!(mean > 0) || c.width < 1 || c.width > FRACAS_BATCH_MAX || c.points < 1)
+    if (!(mean > 0) || c.width < 1 || c.width > FRACAS_LANES_MAX || c.points < 1)
         demand(fracas_fail(FRACAS_USAGE,
                            "a realization must take some time, a batch have 1 to %d of them, and a "
                            "campaign a point",
-                           FRACAS_BATCH_MAX));
+                           FRACAS_LANES_MAX));
     bool head = true;
     for (char *end; *workers; workers = *end ? end + 1 : end, head = false) {
         const long count = strtol(workers, &end, 10);

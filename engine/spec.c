@@ -2,14 +2,14 @@
 /* What follows from a point's parameters without a model. */
 #include "engine/spec.h"
 
+#include "base/elementary.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
 
 double fracas_spec_length(const fracas_spec *spec)
 {
-    const double two_pi = 0x1.921fb54442d18p+2;
     const fracas_geometry *geometry = &spec->geometry;
-    if (geometry->shape == &fracas_shape_ring) return two_pi * geometry->radius;
+    if (geometry->shape == &fracas_shape_ring) return 2 * FRACAS_PI * geometry->radius;
     return geometry->shape == &fracas_shape_bar ? geometry->length : NAN;
 }
 

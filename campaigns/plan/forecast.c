@@ -14,8 +14,6 @@
 #include <string.h>
 #include <time.h>
 
-enum { MAX_LANES = 8 }; /* in a batch */
-
 /* Extents of a mesh's strengths. */
 typedef struct {
     fracas_extent mean, least; /* with a size effect, strengths are largest at the least */
@@ -296,7 +294,7 @@ static double seconds(void)
 
 static size_t lanes_of(const fracas_point *point)
 {
-    return point->replicas < MAX_LANES ? (size_t)point->replicas : MAX_LANES;
+    return point->replicas < FRACAS_LANES_MAX ? (size_t)point->replicas : FRACAS_LANES_MAX;
 }
 
 /* Element-steps and seconds of a timed run. */
@@ -323,7 +321,7 @@ static fracas_err make_batch(const fracas_model *model, double strength, size_t 
 static fracas_err run_batch(const fracas_model *model, double strength, size_t lanes, effort *spent)
 {
     fracas_batch *batch;
-    fracas_record record[MAX_LANES];
+    fracas_record record[FRACAS_LANES_MAX];
     TRY(make_batch(model, strength, lanes, record, &batch));
     const double start = seconds();
     fracas_err err = fracas_batch_run(batch, record);
@@ -365,7 +363,7 @@ static fracas_err time_surface(const fracas_model *model, double mean, size_t la
 {
     const double strength = 1e-12 * mean;
     fracas_batch *batch;
-    fracas_record record[MAX_LANES];
+    fracas_record record[FRACAS_LANES_MAX];
     effort spent = {0};
     size_t running = lanes;
     TRY(make_batch(model, strength, lanes, record, &batch));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Law `nitsche` over lanes: the crack's opening delta in series with the discontinuous-Galerkin
- * flux (docs/theory/cohesive.md). Include after base/lanes.h.
+ * flux (docs/theory/cohesive.md).
  *
  * With mean stress m = <sigma>, jump q, stiffness K, strength sigma_c, delta_c = 2 G_c/sigma_c, D =
  * delta_max/delta_c: trial traction        S = m + K q (unbroken), K q (broken) (cohesive.1)
@@ -9,8 +9,10 @@
  * secant (cohesive.3) T = S where S <= 0: contact by the flux itself q - delta = (T - m)/K
  * (unbroken), 0 (broken)                                     (cohesive.4) At D = 0 the secant is
  * exactly T = S, plain interior penalty. */
-#define nitsche_interface LANES_NAME(fracas_nitsche_interface)
-#define nitsche_law LANES_NAME(fracas_nitsche_law)
+#ifndef FRACAS_ENGINE_COHESIVE_NITSCHE_H
+#define FRACAS_ENGINE_COHESIVE_NITSCHE_H
+
+#include "base/lanes.h"
 
 typedef struct {
     vd traction; /* T [Pa] */
@@ -37,3 +39,5 @@ LANES_FUNCTION nitsche_interface nitsche_law(vd mean, vd q, vd damage, vd sigma_
     vd slip = lanes_select(lanes_le(one, now), zero, (traction - mean) * compliance);
     return (nitsche_interface){traction, slip, now, trial};
 }
+
+#endif

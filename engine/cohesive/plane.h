@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cohesive laws at a point of an interface that opens (n) and slides (t), over lanes
- * (docs/theory/cohesive.md). Include after base/lanes.h.
+ * (docs/theory/cohesive.md).
  *
  * Common: strength sigma_c, peak p (the effective traction at onset, 0 before), delta_c = 2 G_c/p,
  * or delta_c the same everywhere and G_c = p delta_c/2; D = delta_max/delta_c, beta_c = shear
@@ -8,15 +8,10 @@
  * jumps q. Effective traction  S = sqrt(max(0, T_n)^2 + (T_t/beta_c)^2) (cohesive.10) Onset S >
  * sigma_c for T_n >= 0, max(0, |T_t| - mu_c |T_n|)/beta_c > sigma_c for T_n < 0, of the flux T = m
  * + k q, or of the mean T = m                                             (cohesive.11) */
-#define plane_interface LANES_NAME(fracas_plane_interface)
-#define plane_input LANES_NAME(fracas_plane_input)
-#define plane_result LANES_NAME(fracas_plane_result)
-#define plane_abs LANES_NAME(fracas_plane_abs)
-#define plane_max LANES_NAME(fracas_plane_max)
-#define plane_min LANES_NAME(fracas_plane_min)
-#define plane_effective LANES_NAME(fracas_plane_effective)
-#define plane_onset LANES_NAME(fracas_plane_onset)
-#define plane_energy LANES_NAME(fracas_plane_energy)
+#ifndef FRACAS_ENGINE_COHESIVE_PLANE_H
+#define FRACAS_ENGINE_COHESIVE_PLANE_H
+
+#include "base/lanes.h"
 
 typedef struct {
     vd k_n, k_t;               /* Pa/m */
@@ -82,3 +77,5 @@ LANES_FUNCTION vd plane_energy(const plane_interface *at, vd peak)
 {
     return at->energy + lanes_set(0.5) * (at->opening * peak);
 }
+
+#endif

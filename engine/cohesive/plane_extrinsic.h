@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Laws `camacho-ortiz-standard` and `camacho-ortiz` over lanes: an interface that leaves the flux
- * at its onset. Include after cohesive/plane.h.
+ * at its onset.
  *
  * At onset T_0 is the traction that was held against the strength, p its effective value, q_0 the
  * jump; then with the opening d = q - q_0, d_e = sqrt(max(0, d_n)^2 + (beta_c d_t)^2), delta_c = 2
@@ -12,8 +12,10 @@
  * from d_n = T_0n/k_n T = T_0 while nothing has opened. Energies: stored T.d/2, dissipated G_c D
  * (of the paper's law on mixed paths less: its residual shows it). Friction as that of `nitsche`,
  * beside the law, on d_t; T_0 is then less what friction carries at onset. */
-#define plane_extrinsic LANES_NAME(fracas_plane_extrinsic)
-#define plane_extrinsic_state LANES_NAME(fracas_plane_extrinsic_state)
+#ifndef FRACAS_ENGINE_COHESIVE_PLANE_EXTRINSIC_H
+#define FRACAS_ENGINE_COHESIVE_PLANE_EXTRINSIC_H
+
+#include "engine/cohesive/plane.h"
 
 typedef struct {
     vd damage, peak; /* D, p [Pa] */
@@ -89,3 +91,5 @@ LANES_FUNCTION plane_result plane_extrinsic(const plane_interface *at, const pla
     r.dissipated = energy * state->damage;
     return r;
 }
+
+#endif

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Law `nitsche` for opening and sliding: the crack's opening in series with the flux. Include after
- * cohesive/plane.h.
+/* Law `nitsche` for opening and sliding: the crack's opening in series with the flux.
  *
  *   trial T' = m + k q (unbroken), k q (broken); S' its effective traction (cohesive.12) at onset p
  * = sigma_c (by the flux), max(sigma_c, S' - (S_m - sigma_c)) (by the mean, effective value S_m),
@@ -13,10 +12,10 @@
  * as created. With mu_c > 0 faces that press on each other carry friction F beside: |F| <= mu_c
  * |T_n|, T_t = T_cohesive + F, where the opening delta_t moves only while |F| is at its limit
  * (cohesive.17) */
-#define plane_nitsche LANES_NAME(fracas_plane_nitsche)
-#define plane_nitsche_state LANES_NAME(fracas_plane_nitsche_state)
-#define plane_friction LANES_NAME(fracas_plane_friction)
-#define plane_rub LANES_NAME(fracas_plane_rub)
+#ifndef FRACAS_ENGINE_COHESIVE_PLANE_NITSCHE_H
+#define FRACAS_ENGINE_COHESIVE_PLANE_NITSCHE_H
+
+#include "engine/cohesive/plane.h"
 
 typedef struct {
     vd damage, peak; /* D, p [Pa] */
@@ -147,3 +146,5 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
     }
     return r;
 }
+
+#endif

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Law `rigid-link` over lanes: the interface elements of the code DynFrag1D
- * (docs/theory/cohesive.md). Include after base/lanes.h.
+ * (docs/theory/cohesive.md).
  *
  * A link is rigid until the mean stress of its elements has exceeded its strength; two steps later
  * it carries q >= 0: T = sigma_c (1 - D), D = max(D, min(1, q/delta_c)) loading;  sigma_c (1 - D)
  * q/(D delta_c) below   (cohesive.8) q <  0: T = k q, contact, also after full break, k =
  * (sigma_c^2 + 4.5 rate^(2/3) E G_c^(2/3) rho^(1/3))/(4.5 G_c) (cohesive.9) */
-#define rigid_link_law LANES_NAME(fracas_rigid_link_law)
+#ifndef FRACAS_ENGINE_COHESIVE_RIGID_LINK_H
+#define FRACAS_ENGINE_COHESIVE_RIGID_LINK_H
+
+#include "base/lanes.h"
 
 /* Traction of an open link [Pa]; *damage is brought up to date. `penalty` is k [Pa/m]. */
 LANES_FUNCTION vd rigid_link_law(vd q, vd *damage, vd sigma_c, vd delta_c, vd penalty)
@@ -20,3 +23,5 @@ LANES_FUNCTION vd rigid_link_law(vd q, vd *damage, vd sigma_c, vd delta_c, vd pe
     *damage = now;
     return lanes_select(lanes_lt(q, zero), penalty * q, tension);
 }
+
+#endif

@@ -9,8 +9,6 @@
 #include "engine/engine.h"
 #include "engine/fragments/fragments.h"
 
-#define FRACAS_MAX_LANES 8
-
 typedef struct fracas_formulation fracas_formulation;
 
 struct fracas_model {
@@ -30,7 +28,7 @@ struct fracas_model {
     double time_step;     /* s */
 };
 
-#define FRACAS_ENERGY_LANES(key, role, unit, meaning, ending) double key[FRACAS_MAX_LANES];
+#define FRACAS_ENERGY_LANES(key, role, unit, meaning, ending) double key[FRACAS_LANES_MAX];
 
 /* One step of a batch, and the sums of its lanes so far. Arrays are [lane]. */
 typedef struct {
@@ -44,9 +42,9 @@ typedef struct {
     double *break_time;         /* the same */
     /* in: time of the step, the time step that led to it (0 in the first), and the one that
      * velocities are advanced by */
-    _Alignas(64) double time[FRACAS_MAX_LANES], drift[FRACAS_MAX_LANES], kick[FRACAS_MAX_LANES];
+    _Alignas(64) double time[FRACAS_LANES_MAX], drift[FRACAS_LANES_MAX], kick[FRACAS_LANES_MAX];
     /* in, out: the time step that will follow: the model's, unless the formulation refines it */
-    double next[FRACAS_MAX_LANES];
+    double next[FRACAS_LANES_MAX];
     /* out: energies [J] at this time, each as `key` and as energy[i] (engine/energies.h). `created`
      * accumulates; `work` is the load's work since the step before, beside its `power` [W] now.
      * A body without bending leaves dissipated_bending 0. */
@@ -54,16 +52,16 @@ typedef struct {
         struct {
             FRACAS_EACH_ENERGY(FRACAS_ENERGY_LANES)
         };
-        double energy[FRACAS_ENERGIES][FRACAS_MAX_LANES];
+        double energy[FRACAS_ENERGIES][FRACAS_LANES_MAX];
     };
-    double power[FRACAS_MAX_LANES];
+    double power[FRACAS_LANES_MAX];
     /* of the formulation's own: power of the drive at the step before, at the velocities after it
      * [W] */
-    double driven[FRACAS_MAX_LANES];
+    double driven[FRACAS_LANES_MAX];
     /* accumulated: energy that friction dissipates [J], counts of interfaces, time of the first
      * onset [s, NaN] */
-    double rubbed[FRACAS_MAX_LANES], first_onset[FRACAS_MAX_LANES];
-    int64_t cracked[FRACAS_MAX_LANES], broken[FRACAS_MAX_LANES];
+    double rubbed[FRACAS_LANES_MAX], first_onset[FRACAS_LANES_MAX];
+    int64_t cracked[FRACAS_LANES_MAX], broken[FRACAS_LANES_MAX];
 } fracas_step;
 
 struct fracas_formulation {

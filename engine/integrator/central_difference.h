@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Central difference (Newmark beta = 0, gamma = 1/2) in leapfrog form, over lanes. Include after
- * base/lanes.h.
+/* Central difference (Newmark beta = 0, gamma = 1/2) in leapfrog form, over lanes.
  *
  *   w_n = w_{n-1} + dt v_{n-1/2}                   (bar.9)
  *   v_{n+1/2} = v_{n-1/2} + dt f(w_n)/m            (bar.10)
  *
  * Its stability limit is in critical_step.h. */
-#define central_drift LANES_NAME(fracas_central_drift)
-#define central_kick LANES_NAME(fracas_central_kick)
+#ifndef FRACAS_ENGINE_INTEGRATOR_CENTRAL_DIFFERENCE_H
+#define FRACAS_ENGINE_INTEGRATOR_CENTRAL_DIFFERENCE_H
+
+#include "base/lanes.h"
 
 LANES_FUNCTION vd central_drift(vd w, vd v, vd dt)
 {
@@ -18,3 +19,5 @@ LANES_FUNCTION vd central_kick(vd v, vd force, vd dt_over_m)
 {
     return v + dt_over_m * force;
 }
+
+#endif

@@ -7,22 +7,15 @@
 
 static fracas_err choose_width(size_t count, int wanted, int *width)
 {
-    if (count < 1 || count > FRACAS_MAX_LANES)
+    if (count < 1 || count > FRACAS_LANES_MAX)
         return fracas_fail(FRACAS_USAGE, "a batch of %zu realizations; 1 to %d fit", count,
-                           FRACAS_MAX_LANES);
+                           FRACAS_LANES_MAX);
     *width = wanted ? wanted : count > 4 ? 8 : count > 1 ? 4 : 1;
     if ((*width != 1 && *width != 4 && *width != 8) || (size_t)*width < count)
         return fracas_fail(FRACAS_USAGE,
                            "%d lanes for %zu realizations; lanes are 1, 4 or 8 and no fewer",
                            *width, count);
     return FRACAS_OK;
-}
-
-/* Lanes of a kernel: as many as a register holds. A wider batch takes its lanes in groups. */
-static int lanes_of(fracas_isa isa, int width)
-{
-    int most = isa == FRACAS_ISA_AVX512 ? 8 : isa == FRACAS_ISA_AVX2 ? 4 : 1;
-    return width < most ? width : most;
 }
 
 /* Aligned for the widest lanes. */
@@ -41,9 +34,10 @@ fracas_err fracas_batch_create(const fracas_model *model, size_t count,
     TRY(fracas_isa_choose(options->isa, &isa));
     fracas_batch *batch = aligned_alloc(64, (sizeof *batch + 63) / 64 * 64);
     if (!batch) return fracas_no_memory("a batch");
-    *batch = (fracas_batch){.model = model,
-                            .count = count,
-                            .step = {.width = width, .lanes = lanes_of(isa, width), .isa = isa}};
+    *batch = (fracas_batch){
+        .model = model,
+        .count = count,
+        .step = {.width = width, .lanes = fracas_isa_lanes(isa, width), .isa = isa}};
     const size_t lanes = (size_t)width;
     bool enough = (batch->step.state = allocate(model->formulation->state_size(model) * lanes)) !=
                   NULL;
@@ -71,7 +65,7 @@ void fracas_batch_destroy(fracas_batch *batch)
     free(batch->step.onset_time);
     free(batch->step.break_time);
     fracas_partition_clear(&batch->step.partition);
-    for (int l = 0; l < FRACAS_MAX_LANES; l++) fracas_history_clear(&batch->lane[l].history);
+    for (int l = 0; l < FRACAS_LANES_MAX; l++) fracas_history_clear(&batch->lane[l].history);
     free(batch);
 }
 

@@ -26,7 +26,7 @@ struct fracas_batch {
     const fracas_model *model;
     size_t count; /* realizations; lanes beyond them repeat lane 0 */
     int64_t steps;
-    fracas_lane lane[FRACAS_MAX_LANES];
+    fracas_lane lane[FRACAS_LANES_MAX];
 };
 
 /* Checks the strengths and prepares every lane; then the state may be changed, before the first

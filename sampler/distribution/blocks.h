@@ -1,28 +1,34 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Quantiles of blocks of random numbers, over lanes: one source, compiled once for each instruction
- * set. */
+/* Quantiles of blocks of random numbers, over lanes. */
 #ifndef FRACAS_SAMPLER_BLOCKS_H
 #define FRACAS_SAMPLER_BLOCKS_H
 
+#include "base/isa.h"
 #include "sampler/strength.h"
 
 #include <stddef.h>
 
-enum { FRACAS_BLOCK_LANES = 8 }; /* the widest lanes: a block is a whole number of them */
-
 /* sigma_c[j] = F^-1(u[j]) [Pa], with the bits of the distribution's `quantile`. u are numbers of a
- * stream, n is a multiple of FRACAS_BLOCK_LANES, both arrays are aligned to 64 bytes. */
+ * stream, n is a multiple of FRACAS_LANES_MAX, both arrays are aligned to 64 bytes. */
 typedef void fracas_block_quantile(const fracas_strength *strength, size_t n, const double *u,
                                    double *sigma_c);
 
-fracas_block_quantile fracas_uniform_baseline, fracas_weibull_baseline, fracas_lognormal_baseline;
-fracas_block_quantile fracas_uniform_avx2, fracas_weibull_avx2, fracas_lognormal_avx2;
-fracas_block_quantile fracas_uniform_avx512, fracas_weibull_avx512, fracas_lognormal_avx512;
+/* Distributions with such a function. */
+typedef enum {
+    FRACAS_BLOCK_NONE,
+    FRACAS_BLOCK_UNIFORM,
+    FRACAS_BLOCK_WEIBULL,
+    FRACAS_BLOCK_LOGNORMAL,
+    FRACAS_BLOCKS
+} fracas_block;
 
-/* A distribution's functions, by fracas_isa. */
-#define FRACAS_BLOCKS(name)                         \
-    {                                               \
-        name##_baseline, name##_avx2, name##_avx512 \
-    }
+/* A unit of the kernel (base/isa.h). */
+typedef struct {
+    fracas_block_quantile *quantile[FRACAS_BLOCKS];
+} fracas_block_kernel;
+
+/* The quantile of the instruction set's widest unit of at most `width` lanes; NULL for
+ * FRACAS_BLOCK_NONE. */
+fracas_block_quantile *fracas_block_quantile_of(fracas_block block, fracas_isa isa, int width);
 
 #endif

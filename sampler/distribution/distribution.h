@@ -37,10 +37,9 @@ typedef struct {
     fracas_lines_reader *read;
     fracas_err (*fill)(const fracas_strength *strength, size_t n, const double (*position)[3],
                        size_t stride, double *sigma_c);
-    fracas_block_quantile *block[FRACAS_NISAS]; /* the quantile of whole blocks, by instruction set;
-                                                   all NULL: of one number at a time */
-    bool placed;                                /* they are found by position, not by number */
-    const char *scatter_remedy;                 /* fracas_strength_scatter_remedy; NULL: none */
+    fracas_block block;         /* the quantile of whole blocks; NONE: of one number at a time */
+    bool placed;                /* they are found by position, not by number */
+    const char *scatter_remedy; /* fracas_strength_scatter_remedy; NULL: none */
 } fracas_distribution;
 
 const fracas_distribution *fracas_distribution_of(const fracas_strength *strength);

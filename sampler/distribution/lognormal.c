@@ -62,5 +62,5 @@ const fracas_distribution fracas_lognormal = {
     .takes_reference = true,
     .far = lognormal_far,
     .far_from = 700.0,
-    .block = FRACAS_BLOCKS(fracas_lognormal),
+    .block = FRACAS_BLOCK_LOGNORMAL,
 };

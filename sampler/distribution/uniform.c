@@ -67,5 +67,5 @@ const fracas_distribution fracas_uniform = {
     .init = uniform_init,
     .takes_reference = true,
     .weakest = uniform_weakest,
-    .block = FRACAS_BLOCKS(fracas_uniform),
+    .block = FRACAS_BLOCK_UNIFORM,
 };

@@ -89,5 +89,5 @@ const fracas_distribution fracas_weibull = {
     .far = weibull_far,
     .far_from = 0.0,
     .weakest = weibull_weakest,
-    .block = FRACAS_BLOCKS(fracas_weibull),
+    .block = FRACAS_BLOCK_WEIBULL,
 };

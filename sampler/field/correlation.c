@@ -11,8 +11,6 @@
 
 /* Sites this near, by their spacing, to equally spaced places are on them. */
 #define NEAR 1e-8
-#define PI 3.14159265358979323846
-
 struct fracas_correlation {
     size_t n;
     fracas_circulant *circulant; /* one of them */
@@ -94,7 +92,7 @@ static fracas_err closed_factor(fracas_correlation *correlation,
     double(*x)[3] = malloc((correlation->n + 1) * sizeof *x);
     if (!x) return fracas_no_memory("a correlated field");
     for (size_t i = 0; i < correlation->n; i++) {
-        const double turn = 2.0 * (position[i][0] / period), radius = period / (2.0 * PI);
+        const double turn = 2.0 * (position[i][0] / period), radius = period / (2.0 * FRACAS_PI);
         x[i][0] = radius * fracas_cospi(turn);
         x[i][1] = radius * fracas_sinpi(turn);
         x[i][2] = 0.0;

@@ -93,14 +93,14 @@ fracas_err fracas_field_use(fracas_field *field, fracas_isa isa)
 static void sample_blocks(const fracas_field *field, fracas_block_quantile *quantile,
                           const fracas_stream *stream, size_t stride, double *sigma_c)
 {
-    enum { BLOCK = 32 * FRACAS_BLOCK_LANES };
+    enum { BLOCK = 32 * FRACAS_LANES_MAX };
     double u[BLOCK] __attribute__((aligned(64))), x[BLOCK] __attribute__((aligned(64)));
     const size_t next = field->points * stride;
     for (size_t g = 0; g < field->points; g++)
         for (size_t i = 0; i < field->n; i += BLOCK) {
             const size_t left = field->n - i, count = left < BLOCK ? left : BLOCK;
-            const size_t whole = (count + FRACAS_BLOCK_LANES - 1) / FRACAS_BLOCK_LANES *
-                                 FRACAS_BLOCK_LANES;
+            const size_t whole = (count + FRACAS_LANES_MAX - 1) / FRACAS_LANES_MAX *
+                                 FRACAS_LANES_MAX;
             fracas_stream_fill(stream, fracas_stream_site(i, g), whole, u);
             quantile(field->strength, whole, u, x);
             for (size_t j = 0; j < count; j++) sigma_c[g * stride + (i + j) * next] = x[j];
@@ -157,7 +157,8 @@ static fracas_err sample_correlated(const fracas_field *field, const fracas_stre
 fracas_err fracas_field_sample(const fracas_field *field, const fracas_stream *stream,
                                size_t stride, double *sigma_c)
 {
-    fracas_block_quantile *block = fracas_distribution_of(field->strength)->block[field->isa];
+    fracas_block_quantile *block = fracas_block_quantile_of(
+        fracas_distribution_of(field->strength)->block, field->isa, FRACAS_LANES_MAX);
     if (fracas_strength_has_size_effect(field->strength)) block = NULL; /* blocks know no extents */
     if (field->correlation) TRY(sample_correlated(field, stream, stride, sigma_c));
     else if (block) sample_blocks(field, block, stream, stride, sigma_c);

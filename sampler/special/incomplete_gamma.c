@@ -49,8 +49,8 @@ static double stirling(double a)
  * excess - stirling), since a ln x - x - ln Gamma(a) would cancel. */
 static double weight(double a, double x)
 {
-    const double two_pi = 0x1.921fb54442d18p+2;
-    if (a >= stirling_from) return sqrt(a / two_pi) * fracas_exp(-a * excess(a, x) - stirling(a));
+    if (a >= stirling_from)
+        return sqrt(a / (2 * FRACAS_PI)) * fracas_exp(-a * excess(a, x) - stirling(a));
     if (x > 1000.0) return 0.0;
     return a * (fracas_pow(x, a) * fracas_exp(-x) / fracas_gamma(1.0 + a));
 }
@@ -113,14 +113,13 @@ static void uniform_expansion(double a, double x, double *lower, double *upper)
         0x1.547d93b34e2b6p-11, 0x1.e13ce465fa859p-13,  -0x1.ebfb188b7ca00p-12,
         0x1.18b9b5bf2d984p-12, -0x1.3d2a3a29b5d9dp-14,
     };
-    const double two_pi = 0x1.921fb54442d18p+2;
     double half_square = excess(a, x);
     double eta = x < a ? -sqrt(2.0 * half_square) : sqrt(2.0 * half_square);
     double sum = polynomial(c3, 5, eta);
     sum = sum / a + polynomial(c2, 8, eta);
     sum = sum / a + polynomial(c1, 12, eta);
     sum = sum / a + polynomial(c0, 16, eta);
-    double rest = fracas_exp(-a * half_square) / sqrt(two_pi * a) * sum;
+    double rest = fracas_exp(-a * half_square) / sqrt(2 * FRACAS_PI * a) * sum;
     double z = eta * sqrt(a);
     *lower = fracas_normal_upper(-z) - rest;
     *upper = fracas_normal_upper(z) + rest;
@@ -143,8 +142,8 @@ void fracas_incomplete_gamma(double a, double x, double *lower, double *upper)
 /* ln of the weight, where it is no double. */
 static double log_weight(double a, double x)
 {
-    const double two_pi = 0x1.921fb54442d18p+2;
-    if (a >= stirling_from) return 0.5 * fracas_log(a / two_pi) - a * excess(a, x) - stirling(a);
+    if (a >= stirling_from)
+        return 0.5 * fracas_log(a / (2 * FRACAS_PI)) - a * excess(a, x) - stirling(a);
     return a * fracas_log(x) - x - fracas_log(fracas_gamma(1.0 + a) / a);
 }
 

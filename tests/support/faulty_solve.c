@@ -116,10 +116,10 @@ static void log_batch(uint64_t point, const int64_t *replica, size_t count)
     const char *path = getenv("FRACAS_TEST_LOG");
     int fd = path ? open(path, O_WRONLY | O_APPEND | O_CLOEXEC) : -1;
     if (fd < 0) return;
-    char line[64 + 24 * FRACAS_BATCH_MAX];
+    char line[64 + 24 * FRACAS_LANES_MAX];
     int at = sprintf(line, "%ld %ld %llu", (long)getpid(), (long)getppid(),
                      (unsigned long long)point);
-    for (size_t i = 0; i < count && i < FRACAS_BATCH_MAX; i++)
+    for (size_t i = 0; i < count && i < FRACAS_LANES_MAX; i++)
         at += sprintf(line + at, " %lld", (long long)replica[i]);
     line[at++] = '\n';
     if (write(fd, line, (size_t)at) != at) abort(); /* a test that counts must not miss one */

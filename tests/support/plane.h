@@ -4,6 +4,8 @@
 #ifndef FRACAS_TESTS_SUPPORT_PLANE_H
 #define FRACAS_TESTS_SUPPORT_PLANE_H
 
+#include "tests/support/plane_point.h"
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -14,33 +16,6 @@
 
 #include <math.h>
 #include <string.h>
-
-typedef enum { PLANE_NITSCHE, PLANE_STANDARD, PLANE_PAPER } plane_law;
-
-typedef struct {
-    plane_law law;
-    double k_n, k_t, sigma_c, beta_c, mu_c;
-    double energy, opening; /* G_c, or delta_c: the other is 0 */
-    int onset_mean;
-} plane_case;
-
-typedef struct {
-    double m_n, m_t, q_n, q_t;
-    int opened; /* another layer is */
-} plane_at;
-
-typedef struct {
-    double damage, peak, slip, rub, q_n, q_t, t_n, t_t;
-} plane_memory;
-
-typedef struct {
-    double t_n, t_t, s_n, s_t, flux, stored, created, rubbed, dissipated;
-    int cracked, cracks, breaks;
-} plane_out;
-
-#define LANES 1
-#include "tests/support/plane_lanes.h"
-#undef LANES
 
 /* Where a walk is, where it was, and what has been done. The ledger of a walk is
  *   work of T on q and of s on m = flux + stored + dissipated + rubbed - created
@@ -103,7 +78,7 @@ static inline plane_walk plane_begin(plane_case kind)
 {
     plane_walk w = {.kind = kind, .share = 1, .onset_step = -1, .break_step = -1};
     const plane_case *kinds[] = {&kind};
-    plane_call_1(kinds, &w.at, &w.memory, &w.out);
+    plane_call_baseline_1(kinds, &w.at, &w.memory, &w.out);
     return w;
 }
 
@@ -114,7 +89,7 @@ static inline void plane_step(plane_walk *w, plane_at to)
     const plane_at from = w->at;
     const plane_memory was = w->memory;
     const plane_case *kinds[] = {&w->kind};
-    plane_call_1(kinds, &to, &w->memory, &w->out);
+    plane_call_baseline_1(kinds, &to, &w->memory, &w->out);
     w->at = to;
     const plane_out *now = &w->out;
     const double dq_n = to.q_n - from.q_n, dq_t = to.q_t - from.q_t, dm_n = to.m_n - from.m_n,

@@ -12,14 +12,13 @@ for library in base engine sampler; do
         exit 1
     fi
 done
-# Each kernel's objects were looked at, with the registers that they are for.
-for kernel in bar_sweep ring_sweep membrane shell blocks; do
-    library=engine
-    [ $kernel != blocks ] || library=sampler
-    for registers in avx2:ymm avx512:zmm; do
-        object=${kernel}_${registers%:*}.c.o
-        ar p "$1/libfracas_$library.a" "$object" >"$1/object.o" 2>/dev/null || { echo "the $library has no $object"; exit 1; }
-        objdump -d --no-show-raw-insn "$1/object.o" | grep -q "vmulpd.*${registers#*:}" || { echo "$object has no vector instruction"; exit 1; }
+# Each kernel's units were looked at, with the registers that they are for.
+for kernel in bar ring membrane shell blocks; do
+    for registers in avx2_4:ymm avx512_8:zmm; do
+        unit=${kernel}_kernel_${registers%:*}
+        object=$(find "$1/CMakeFiles/$unit.dir" -name '*.o')
+        [ -n "$object" ] || { echo "there is no object of $unit"; exit 1; }
+        objdump -d --no-show-raw-insn "$object" | grep -q "vmulpd.*${registers#*:}" || { echo "$unit has no vector instruction"; exit 1; }
     done
 done
-rm "$1/disassembled" "$1/object.o"
+rm "$1/disassembled"

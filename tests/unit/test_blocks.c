@@ -45,13 +45,18 @@ static void assert_block(const fracas_strength *strength, size_t n, const double
     for (fracas_isa isa = FRACAS_ISA_BASELINE; isa < FRACAS_NISAS; isa++) {
         fracas_isa had;
         if (fracas_isa_choose(isa, &had)) continue;
-        fracas_distribution_of(strength)->block[isa](strength, n, u, x);
-        for (size_t j = 0; j < n; j++) {
-            const double expected = fracas_strength_quantile(strength, (fracas_extent){1.0, 1.0},
-                                                             fracas_probability_of(u[j]));
-            if (memcmp(&x[j], &expected, sizeof expected) != 0)
-                fail_msg("%s, %s, u = %a: %a, one by one %a", strength->distribution->name,
-                         fracas_isa_name[isa], u[j], x[j], expected);
+        for (int lanes = fracas_isa_lanes(isa, FRACAS_LANES_MAX); lanes > 0;
+             lanes = fracas_isa_lanes(isa, lanes - 1)) {
+            const fracas_block block = fracas_distribution_of(strength)->block;
+            fracas_block_quantile_of(block, isa, lanes)(strength, n, u, x);
+            for (size_t j = 0; j < n; j++) {
+                const double expected = fracas_strength_quantile(
+                    strength, (fracas_extent){1.0, 1.0}, fracas_probability_of(u[j]));
+                if (memcmp(&x[j], &expected, sizeof expected) != 0)
+                    fail_msg("%s, %s, %d lanes, u = %a: %a, one by one %a",
+                             strength->distribution->name, fracas_isa_name[isa], lanes, u[j], x[j],
+                             expected);
+            }
         }
     }
 }

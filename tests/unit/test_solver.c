@@ -10,10 +10,6 @@
 #define LANES 1
 #include "base/lanes.h"
 #include "engine/cohesive/nitsche.h"
-#undef nitsche_interface
-#undef nitsche_law
-#include "base/lanes_end.h"
-#undef LANES
 
 /* Fragments of a lane with so many broken interfaces. */
 static int64_t count_broken(const fracas_model *model, int64_t broken)
@@ -329,8 +325,8 @@ static void nitsche_is_the_secant_law(void **unused)
                 unloading++;
             }
         }
-        fracas_nitsche_interface_1 it = fracas_nitsche_law_1(
-            mean, q, damage, sigma_c, spring * delta_c - sigma_c, spring, 1 / spring);
+        nitsche_interface it = nitsche_law(mean, q, damage, sigma_c, spring * delta_c - sigma_c,
+                                           spring, 1 / spring);
         const double scale = fmax(fabs(trial), sigma_c);
         assert_true(fabs(it.traction - traction) < 1e-12 * scale);
         assert_true(fabs(it.damage - now / delta_c) < 1e-12 * fmax(1, scale / sigma_c));

@@ -614,39 +614,26 @@ static void extremes_stay_finite(void **unused)
 
 /* ---- 4 and 8 lanes ---- */
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define WIDE_LANES
-#pragma GCC push_options
-#pragma GCC target("avx2")
-#define LANES 4
-#include "tests/support/plane_lanes.h"
-#undef LANES
-#pragma GCC pop_options
-#pragma GCC push_options
-#pragma GCC target("avx512f,avx512dq,avx512vl,avx512bw")
-#define LANES 8
-#include "tests/support/plane_lanes.h"
-#undef LANES
-#pragma GCC pop_options
-#endif
+FRACAS_KERNEL_TABLE(plane_unit, plane_call);
+
+/* Calls all eight points with one unit. */
+static void call_eight(fracas_isa isa, int lanes, const plane_case *const *kind, const plane_at *in,
+                       plane_memory *state, plane_out *out)
+{
+    for (int first = 0; first < 8; first += lanes)
+        plane_call[isa][lanes](kind + first, in + first, state + first, out + first);
+}
 
 /* Bit for bit, each lane of a strength, a path and a state of its own. */
 static void lanes_do_what_one_does(void **unused)
 {
     (void)unused;
-#ifndef WIDE_LANES
-    skip();
-#else
-    const bool wide[] = {__builtin_cpu_supports("avx2"), __builtin_cpu_supports("avx512f") &&
-                                                             __builtin_cpu_supports("avx512dq") &&
-                                                             __builtin_cpu_supports("avx512vl") &&
-                                                             __builtin_cpu_supports("avx512bw")};
     uint64_t seed = 31;
     long cracked = 0, broken = 0;
     for (int i = 0; i < 3 * 2 * 2 * 20; i++) {
         plane_case kind[8];
         const plane_case *kinds[8];
-        plane_memory one[8] = {{0}}, four[8] = {{0}}, eight[8] = {{0}};
+        plane_memory one[8] = {{0}}, wide[FRACAS_NISAS][FRACAS_LANES_MAX + 1][8] = {{{{0}}}};
         const double coupling = 0.5 + 1.5 * next_random(&seed);
         for (int l = 0; l < 8; l++) {
             kind[l] = plane_kind((plane_law)(i % 3), coupling, 4, i / 3 % 2 ? 0.3 : 0, i / 6 % 2);
@@ -655,34 +642,29 @@ static void lanes_do_what_one_does(void **unused)
         }
         for (int k = 0; k < 300; k++) {
             plane_at in[8];
-            plane_out a[8], b[8], c[8];
+            plane_out a[8], b[8];
             memset(a, 0, sizeof a); /* padding too */
-            memset(b, 0, sizeof b);
-            memset(c, 0, sizeof c);
             for (int l = 0; l < 8; l++) {
                 in[l] = to(150e6 * (2 * next_random(&seed) - 1),
                            150e6 * (2 * next_random(&seed) - 1),
                            2.4 * next_random(&seed) * k / 300 - 0.5,
                            (3 * next_random(&seed) - 1.5) * k / 300);
-                plane_call_1(kinds + l, in + l, one + l, a + l);
+                plane_call_baseline_1(kinds + l, in + l, one + l, a + l);
                 cracked += a[l].cracks;
                 broken += a[l].breaks;
             }
-            if (wide[0]) {
-                plane_call_4(kinds, in, four, b);
-                plane_call_4(kinds + 4, in + 4, four + 4, b + 4);
-                assert_memory_equal(a, b, sizeof a);
-                assert_memory_equal(one, four, sizeof one);
-            }
-            if (wide[1]) {
-                plane_call_8(kinds, in, eight, c);
-                assert_memory_equal(a, c, sizeof a);
-                assert_memory_equal(one, eight, sizeof one);
-            }
+            for (fracas_isa isa = FRACAS_ISA_BASELINE; isa < FRACAS_NISAS; isa++)
+                for (int lanes = 1; lanes <= FRACAS_LANES_MAX; lanes++) {
+                    fracas_isa had;
+                    if (!plane_call[isa][lanes] || fracas_isa_choose(isa, &had)) continue;
+                    memset(b, 0, sizeof b);
+                    call_eight(isa, lanes, kinds, in, wide[isa][lanes], b);
+                    assert_memory_equal(a, b, sizeof a);
+                    assert_memory_equal(one, wide[isa][lanes], sizeof one);
+                }
         }
     }
     assert_true(cracked > 1000 && broken > 200);
-#endif
 }
 
 int main(void)

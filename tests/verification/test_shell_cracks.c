@@ -127,7 +127,7 @@ static layer_answer rubbed_layer(const layer_law *law, layer *x, const double me
         .m_n = mean[0], .m_t = mean[1], .q_n = q[0], .q_t = q[1], .opened = opened};
     const double was = x->rubbed.damage;
     plane_out out;
-    plane_call_1(kinds, &at, &x->rubbed, &out);
+    plane_call_baseline_1(kinds, &at, &x->rubbed, &out);
     layer_answer a = {.t = {out.t_n, out.t_t},
                       .s = {out.s_n, out.s_t},
                       .flux = out.flux,

@@ -24,7 +24,7 @@ typedef struct {
                           not owned */
     size_t npoints;
     size_t workers;
-    size_t width;   /* realizations of a batch, 1 to FRACAS_BATCH_MAX */
+    size_t width;   /* realizations of a batch, 1 to FRACAS_LANES_MAX */
     double seconds; /* target duration of a lease [s]; 0: one batch each */
     double memory;  /* longest time of results in a worker's memory [s] */
     double limit;   /* longest time of a lease [s]; 0: 600 s + 50 x predicted */

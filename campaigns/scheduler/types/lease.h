@@ -7,7 +7,6 @@
 #include <stdint.h>
 
 enum {
-    FRACAS_BATCH_MAX = 8,    /* realizations side by side: lanes of the widest batch */
     FRACAS_LEASE_MAX = 4096, /* realizations of a lease */
     FRACAS_LEASES_HELD = 2,  /* by one worker: one runs, one is ahead */
     FRACAS_ATTEMPTS_MAX = 3  /* at one realization alone, before it is FAILED */

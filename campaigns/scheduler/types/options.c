@@ -15,5 +15,5 @@ void fracas_run_options_init(fracas_run_options *options)
 
 size_t fracas_run_width(const fracas_run_options *options)
 {
-    return options->width ? (size_t)options->width : FRACAS_BATCH_MAX;
+    return options->width ? (size_t)options->width : FRACAS_LANES_MAX;
 }

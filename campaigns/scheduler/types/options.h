@@ -40,7 +40,7 @@ typedef struct {
  * lease_seconds 1, all else 0. */
 void fracas_run_options_init(fracas_run_options *options);
 
-/* Lanes of the batches of a run, 1 to FRACAS_BATCH_MAX: options->width, or the maximum if 0. */
+/* Lanes of the batches of a run, 1 to FRACAS_LANES_MAX: options->width, or the maximum if 0. */
 size_t fracas_run_width(const fracas_run_options *options);
 
 #endif

@@ -55,7 +55,7 @@ typedef struct {
 typedef struct {
     uint64_t lease;
     uint64_t kept;  /* its first realizations, computed: the server has their records */
-    uint64_t count; /* the batch after them, at fault: 1 to FRACAS_BATCH_MAX realizations */
+    uint64_t count; /* the batch after them, at fault: 1 to FRACAS_LANES_MAX realizations */
     char reason[1024];
 } fracas_lease_failure;
 

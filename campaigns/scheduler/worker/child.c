@@ -35,7 +35,7 @@ static fracas_err compute(const fracas_computation *computation, fracas_models *
     fracas_computation own = *computation;
     TRY(fracas_compute_prepare(&own, models));
     for (size_t from = 0, count; from < own.lease->count; from += count) {
-        fracas_packet *record[FRACAS_BATCH_MAX];
+        fracas_packet *record[FRACAS_LANES_MAX];
         TRY(fracas_compute_batch(&own, from, record, &count));
         TRY(send_all(fd, record, count));
     }

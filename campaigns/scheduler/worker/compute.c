@@ -20,7 +20,7 @@ static fracas_err pack(const fracas_record *record, fracas_packet **message)
 static fracas_err compute(const fracas_computation *computation, const int64_t *replica,
                           size_t count, fracas_packet **message)
 {
-    fracas_record record[FRACAS_BATCH_MAX];
+    fracas_record record[FRACAS_LANES_MAX];
     size_t packed = 0;
     for (size_t lane = 0; lane < count; lane++) fracas_record_init(&record[lane]);
     fracas_err err = fracas_solve(computation, replica, count, record);
@@ -62,7 +62,7 @@ fracas_err fracas_compute_prepare(fracas_computation *computation, fracas_models
 }
 
 fracas_err fracas_compute_batch(const fracas_computation *computation, size_t from,
-                                fracas_packet *record[FRACAS_BATCH_MAX], size_t *count)
+                                fracas_packet *record[FRACAS_LANES_MAX], size_t *count)
 {
     const size_t width = fracas_run_width(computation->options),
                  left = (size_t)computation->lease->count - from;

@@ -17,7 +17,7 @@ FRACAS_MUST_USE fracas_err fracas_compute_prepare(fracas_computation *computatio
  * options->memory_limit bytes, if not 0. FRACAS_ENVIRONMENT without memory, FRACAS_USAGE for
  * strengths outside the range of the law. */
 FRACAS_MUST_USE fracas_err fracas_compute_batch(const fracas_computation *computation, size_t from,
-                                                fracas_packet *record[FRACAS_BATCH_MAX],
+                                                fracas_packet *record[FRACAS_LANES_MAX],
                                                 size_t *count);
 
 #endif

@@ -147,7 +147,7 @@ static fracas_err advance(server *s)
     own_lease *own = &s->own;
     const bool limited = own->lease.limit > 0;
     const double left = own->lease.limit - own->seconds, began = fracas_now();
-    fracas_packet *record[FRACAS_BATCH_MAX];
+    fracas_packet *record[FRACAS_LANES_MAX];
     size_t count = (size_t)own->lease.count - own->done, width = fracas_run_width(s->options);
     fracas_err err;
     if (limited && left <= 0) {

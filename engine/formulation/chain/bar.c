@@ -12,6 +12,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+FRACAS_KERNEL_TABLE(const fracas_bar_kernel, fracas_bar);
+
 static const fracas_chain chain = {
     .fields = BAR_FIELDS, .damage = BAR_DAMAGE, .strength = BAR_STRENGTH};
 
@@ -182,12 +184,8 @@ static void bar_lane_init(const fracas_model *model, const fracas_step *step, in
 static void bar_advance(const fracas_model *model, fracas_step *step)
 {
     const fracas_bar_constants bar = constants_of(model);
-    const fracas_bar_kernels *kernels = step->isa == FRACAS_ISA_AVX512 ? &fracas_bar_kernels_avx512
-                                        : step->isa == FRACAS_ISA_AVX2
-                                            ? &fracas_bar_kernels_avx2
-                                            : &fracas_bar_kernels_baseline;
-    int which = step->lanes == 8 ? 2 : step->lanes == 4 ? 1 : 0;
-    fracas_bar_sweep *sweep = kernels->sweep[is_uniform(model)][is_nitsche(model)][which];
+    fracas_bar_sweep *sweep =
+        fracas_bar[step->isa][step->lanes]->sweep[is_uniform(model)][is_nitsche(model)];
     for (int first = 0; first < step->width; first += step->lanes) sweep(&bar, step, first);
 }
 

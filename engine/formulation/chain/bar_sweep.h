@@ -42,13 +42,9 @@ typedef struct {
 /* Advances the lanes first .. first + lanes - 1 of the step. */
 typedef void fracas_bar_sweep(const fracas_bar_constants *bar, fracas_step *step, int first);
 
-/* Kernels of one instruction set: [elements of one length: 0 no, 1 yes][law: 0 rigid-link, 1
- * nitsche][for 1, 4, 8 lanes, NULL where it has no such register]. */
+/* A unit: [elements of one length: 0 no, 1 yes][law: 0 rigid-link, 1 nitsche]. */
 typedef struct {
-    fracas_bar_sweep *sweep[2][2][3];
-} fracas_bar_kernels;
-
-extern const fracas_bar_kernels fracas_bar_kernels_baseline, fracas_bar_kernels_avx2,
-    fracas_bar_kernels_avx512;
+    fracas_bar_sweep *sweep[2][2];
+} fracas_bar_kernel;
 
 #endif

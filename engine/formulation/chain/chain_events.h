@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Onsets and breaks of interfaces, booked lane by lane: they are rare. Include after base/lanes.h.
- */
-#ifndef FRACAS_ENGINE_FORMULATION_CHAIN_NOTE
-#define FRACAS_ENGINE_FORMULATION_CHAIN_NOTE
+/* Onsets and breaks of interfaces, booked lane by lane: they are rare. */
+#ifndef FRACAS_ENGINE_FORMULATION_CHAIN_EVENTS_H
+#define FRACAS_ENGINE_FORMULATION_CHAIN_EVENTS_H
+
+#include "base/lanes.h"
+#include "engine/formulation/formulation.h"
+
+#include <math.h>
+
 /* An interface of lane l cracks at `time` [s], held within the step. */
 static inline void fracas_chain_note_onset(fracas_step *step, int l, size_t interface, double time)
 {
@@ -11,10 +16,6 @@ static inline void fracas_chain_note_onset(fracas_step *step, int l, size_t inte
     step->first_onset[l] = fmin(step->first_onset[l], t); /* NaN: none yet */
     if (step->onset_time) step->onset_time[interface * (size_t)step->width + (size_t)l] = t;
 }
-#endif
-
-#define chain_events LANES_NAME(fracas_chain_events)
-#define chain_note_events LANES_NAME(fracas_chain_note_events)
 
 typedef struct {
     vmask cracks, breaks;  /* lanes in which the interface cracks or breaks in this step */
@@ -46,3 +47,5 @@ __attribute__((noinline, cold, unused)) static void chain_note_events(fracas_ste
         }
     }
 }
+
+#endif

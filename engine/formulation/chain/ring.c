@@ -12,7 +12,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define PI 3.14159265358979323846
+FRACAS_KERNEL_TABLE(const fracas_ring_kernel, fracas_ring);
 
 static const fracas_chain nitsche_chain = {
     .fields = RING_FIELDS, .damage = RING_DAMAGE, .strength = RING_STRENGTH};
@@ -92,7 +92,7 @@ static fracas_err ring_model_init(fracas_model *model)
                            "mesh.elements is %" PRId64 "; a ring takes 3 to 1e8 elements",
                            spec->mesh.elements);
     const size_t n = model->elements = model->interfaces = (size_t)spec->mesh.elements;
-    const double circumference = 2 * PI * spec->geometry.radius;
+    const double circumference = 2 * FRACAS_PI * spec->geometry.radius;
     model->element_size = model->longest = circumference / (double)n;
     model->mass = spec->material.density * spec->geometry.area * circumference;
     if (!is_nitsche(model) && spec->cohesive.zone > 0 &&
@@ -197,13 +197,8 @@ static void ring_lane_init(const fracas_model *model, const fracas_step *step, i
 static void ring_advance(const fracas_model *model, fracas_step *step)
 {
     const fracas_ring_constants ring = constants_of(model);
-    const fracas_ring_kernels *kernels = step->isa == FRACAS_ISA_AVX512
-                                             ? &fracas_ring_kernels_avx512
-                                         : step->isa == FRACAS_ISA_AVX2
-                                             ? &fracas_ring_kernels_avx2
-                                             : &fracas_ring_kernels_baseline;
-    int which = step->lanes == 8 ? 2 : step->lanes == 4 ? 1 : 0;
-    fracas_ring_sweep *sweep = (is_nitsche(model) ? kernels->nitsche : kernels->stershic)[which];
+    const fracas_ring_kernel *kernel = fracas_ring[step->isa][step->lanes];
+    fracas_ring_sweep *sweep = is_nitsche(model) ? kernel->nitsche : kernel->stershic;
     for (int first = 0; first < step->width; first += step->lanes) sweep(&ring, step, first);
 }
 

@@ -1,28 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What both sweeps of the ring are made of: elements, directions, drives, over lanes
- * (docs/theory/ring.md). Include after base/lanes.h. */
+ * (docs/theory/ring.md). */
+#ifndef FRACAS_ENGINE_CHAIN_RING_KINEMATICS_H
+#define FRACAS_ENGINE_CHAIN_RING_KINEMATICS_H
+
+#include "base/lanes.h"
 #include "engine/cohesive/nitsche.h"
 #include "engine/cohesive/rigid_link.h"
 #include "engine/formulation/chain/chain_events.h"
+#include "engine/formulation/chain/ring_sweep.h"
 #include "engine/integrator/central_difference.h"
-
-#define ring_vector LANES_NAME(fracas_ring_vector)
-#define ring_add LANES_NAME(fracas_ring_add)
-#define ring_subtract LANES_NAME(fracas_ring_subtract)
-#define ring_scale LANES_NAME(fracas_ring_scale)
-#define ring_dot LANES_NAME(fracas_ring_dot)
-#define ring_element LANES_NAME(fracas_ring_element)
-#define ring_link LANES_NAME(fracas_ring_link)
-#define ring_frame LANES_NAME(fracas_ring_frame)
-#define ring_context LANES_NAME(fracas_ring_context)
-#define ring_read LANES_NAME(fracas_ring_read)
-#define ring_write LANES_NAME(fracas_ring_write)
-#define ring_stretch LANES_NAME(fracas_ring_stretch)
-#define ring_frame_of LANES_NAME(fracas_ring_frame_of)
-#define ring_stress_rate LANES_NAME(fracas_ring_stress_rate)
-#define ring_drive_node LANES_NAME(fracas_ring_drive_node)
-#define ring_drive_work LANES_NAME(fracas_ring_drive_work)
-#define ring_context_of LANES_NAME(fracas_ring_context_of)
 
 typedef struct {
     vd x, y;
@@ -201,3 +188,5 @@ LANES_FUNCTION ring_context ring_context_of(const fracas_ring_constants *ring, f
                           .driven = zero,
                           .driven_next = zero};
 }
+
+#endif

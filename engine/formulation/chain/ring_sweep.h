@@ -58,13 +58,9 @@ enum { RING_COS, RING_SIN, RING_COS_MIDDLE, RING_SIN_MIDDLE, RING_TABLE };
 /* Advances the lanes first .. first + lanes - 1 of the step. */
 typedef void fracas_ring_sweep(const fracas_ring_constants *ring, fracas_step *step, int first);
 
-/* Kernels of one instruction set, [for 1, 4, 8 lanes]; NULL where it has no such register. */
+/* A unit. */
 typedef struct {
-    fracas_ring_sweep *nitsche[3];
-    fracas_ring_sweep *stershic[3];
-} fracas_ring_kernels;
-
-extern const fracas_ring_kernels fracas_ring_kernels_baseline, fracas_ring_kernels_avx2,
-    fracas_ring_kernels_avx512;
+    fracas_ring_sweep *nitsche, *stershic;
+} fracas_ring_kernel;
 
 #endif

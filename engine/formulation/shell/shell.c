@@ -180,17 +180,12 @@ static void shell_lane_init(const fracas_model *model, const fracas_step *step, 
         for (size_t f = 0; f < joint; f++) *value_at(&c, step, joints + i * joint + f, lane) = 0;
 }
 
+FRACAS_KERNEL_TABLE(const fracas_shell_kernel, fracas_shell);
+
 static void shell_advance(const fracas_model *model, fracas_step *step)
 {
     const fracas_shell_constants c = fracas_shell_constants_of(model);
-    const fracas_shell_kernels *kernels = step->isa == FRACAS_ISA_AVX512
-                                              ? &fracas_shell_kernels_avx512
-                                          : step->isa == FRACAS_ISA_AVX2
-                                              ? &fracas_shell_kernels_avx2
-                                              : &fracas_shell_kernels_baseline;
-    fracas_shell_sweep *sweep = kernels->sweep[SHELL_NITSCHE][step->lanes == 8   ? 2
-                                                              : step->lanes == 4 ? 1
-                                                                                 : 0];
+    fracas_shell_sweep *sweep = fracas_shell[step->isa][step->lanes]->sweep[SHELL_NITSCHE];
     for (int first = 0; first < step->width; first += step->lanes) sweep(&c, step, first);
 }
 

@@ -1,22 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Interfaces of the shell's sweep, and edges that hold the director, for one width; part of
- * shell_template.h. */
-#define shell_sides_of LANES_NAME(shell_sides_of)
-#define shell_turn LANES_NAME(shell_turn)
-#define shell_resultants LANES_NAME(shell_resultants)
-#define shell_flux LANES_NAME(shell_flux)
-#define shell_flux_energy LANES_NAME(shell_flux_energy)
-#define shell_give LANES_NAME(shell_give)
-#define shell_give_side LANES_NAME(shell_give_side)
-#define shell_rim LANES_NAME(shell_rim)
-#define shell_crack LANES_NAME(shell_crack)
-#define shell_layers_point LANES_NAME(shell_layers_point)
-#define shell_book LANES_NAME(shell_book)
-#define shell_join LANES_NAME(shell_join)
-#define shell_layers LANES_NAME(shell_layers)
-#define shell_booked LANES_NAME(shell_booked)
-#define shell_point LANES_NAME(shell_point)
-#define shell_sides LANES_NAME(shell_sides)
+ * shell_kernel.c. */
+#ifndef FRACAS_ENGINE_SHELL_INTERFACE_TEMPLATE_H
+#define FRACAS_ENGINE_SHELL_INTERFACE_TEMPLATE_H
 
 /* Where an interface finds its two elements, - and +: nodes a, b and the middle c of the edge, and
  * bulk points a, b at its ends, o away from it. */
@@ -516,3 +502,5 @@ LANES_FUNCTION void shell_join(shell_context *c, int law, size_t i)
     }
     shell_give(c, i, &sides, at);
 }
+
+#endif

@@ -6,6 +6,8 @@
 
 #include <stdlib.h>
 
+FRACAS_KERNEL_TABLE(const fracas_shell_kernel, fracas_shell);
+
 struct fracas_shell_operator {
     fracas_step step; /* first: it is aligned */
     fracas_shell_constants constants;
@@ -38,7 +40,7 @@ void fracas_shell_operator_apply(fracas_shell_operator *op, const double *u, dou
     for (size_t e = 0; e < c->tables->nelements; e++)
         for (size_t i = 0; i < SHELL_UNKNOWNS; i++)
             op->step.state[e * fields + i] = u[e * SHELL_UNKNOWNS + i];
-    fracas_shell_kernels_baseline.sweep[SHELL_OPERATOR][0](c, &op->step, 0);
+    fracas_shell[FRACAS_ISA_BASELINE][1]->sweep[SHELL_OPERATOR](c, &op->step, 0);
     for (size_t e = 0; e < c->tables->nelements; e++)
         for (size_t i = 0; i < SHELL_UNKNOWNS; i++)
             acceleration[e * SHELL_UNKNOWNS + i] =

@@ -92,11 +92,8 @@ typedef void fracas_shell_sweep(const fracas_shell_constants *shell, fracas_step
 /* Kernels of one instruction set, [law][for 1, 4, 8 lanes]; NULL where there is no such register.
  * The operator's, for one lane alone, leaves M^-1 (-f)(u) where velocities are. */
 typedef struct {
-    fracas_shell_sweep *sweep[2][3];
-} fracas_shell_kernels;
-
-extern const fracas_shell_kernels fracas_shell_kernels_baseline, fracas_shell_kernels_avx2,
-    fracas_shell_kernels_avx512;
+    fracas_shell_sweep *sweep[2];
+} fracas_shell_kernel;
 
 /* ---- what happens at an interface in a step, booked lane by lane: it is rare ---- */
 

@@ -172,18 +172,14 @@ static void membrane_lane_init(const fracas_model *model, const fracas_step *ste
         for (size_t f = 0; f < joint; f++) *value_at(&c, step, joints + i * joint + f, lane) = 0;
 }
 
+FRACAS_KERNEL_TABLE(const fracas_membrane_kernel, fracas_membrane);
+
 static void membrane_advance(const fracas_model *model, fracas_step *step)
 {
     const fracas_membrane_constants c = fracas_membrane_constants_of(model);
-    const fracas_membrane_kernels *kernels = step->isa == FRACAS_ISA_AVX512
-                                                 ? &fracas_membrane_kernels_avx512
-                                             : step->isa == FRACAS_ISA_AVX2
-                                                 ? &fracas_membrane_kernels_avx2
-                                                 : &fracas_membrane_kernels_baseline;
-    const int width = step->lanes == 8 ? 2 : step->lanes == 4 ? 1 : 0;
     fracas_membrane_sweep *sweep =
-        kernels->sweep[is_nitsche(model) ? MEMBRANE_NITSCHE : MEMBRANE_EXTRINSIC]
-                      [c.tables->order - 1][width];
+        fracas_membrane[step->isa][step->lanes]
+            ->sweep[is_nitsche(model) ? MEMBRANE_NITSCHE : MEMBRANE_EXTRINSIC][c.tables->order - 1];
     for (int first = 0; first < step->width; first += step->lanes) sweep(&c, step, first);
 }
 

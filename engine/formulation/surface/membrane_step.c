@@ -6,6 +6,8 @@
 
 #include <stdlib.h>
 
+FRACAS_KERNEL_TABLE(const fracas_membrane_kernel, fracas_membrane);
+
 struct fracas_membrane_operator {
     fracas_step step; /* first: it is aligned */
     fracas_membrane_constants constants;
@@ -40,8 +42,8 @@ void fracas_membrane_operator_apply(fracas_membrane_operator *op, const double *
                  fields = fracas_membrane_element_fields(c);
     for (size_t e = 0; e < c->tables->nelements; e++)
         for (size_t i = 0; i < size; i++) op->step.state[e * fields + i] = u[e * size + i];
-    fracas_membrane_kernels_baseline.sweep[MEMBRANE_OPERATOR][c->tables->order - 1][0](c, &op->step,
-                                                                                       0);
+    fracas_membrane[FRACAS_ISA_BASELINE][1]->sweep[MEMBRANE_OPERATOR][c->tables->order - 1](
+        c, &op->step, 0);
     for (size_t e = 0; e < c->tables->nelements; e++)
         for (size_t i = 0; i < size; i++)
             acceleration[e * size + i] = op->step.state[e * fields + SURFACE_V * size + i];

@@ -90,11 +90,8 @@ typedef void fracas_membrane_sweep(const fracas_membrane_constants *membrane, fr
 /* Kernels of one instruction set, [law][order - 1][for 1, 4, 8 lanes]; NULL where there is no such
  * register. The operator's, for one lane alone, leaves M^-1 (-f)(u) where velocities are. */
 typedef struct {
-    fracas_membrane_sweep *sweep[3][2][3];
-} fracas_membrane_kernels;
-
-extern const fracas_membrane_kernels fracas_membrane_kernels_baseline, fracas_membrane_kernels_avx2,
-    fracas_membrane_kernels_avx512;
+    fracas_membrane_sweep *sweep[3][2];
+} fracas_membrane_kernel;
 
 /* ---- what happens at an interface in a step, booked lane by lane: it is rare ---- */
 

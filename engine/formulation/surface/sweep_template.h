@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the sweeps of membranes and shells share, for one width. Include after base/lanes.h and
- * cohesive/plane_nitsche.h; undefined again by sweep_template_end.h. */
+/* Parts common to the sweeps of membranes and shells. */
+#ifndef FRACAS_ENGINE_SURFACE_SWEEP_TEMPLATE_H
+#define FRACAS_ENGINE_SURFACE_SWEEP_TEMPLATE_H
+
+#include "engine/cohesive/plane_nitsche.h"
+#include "engine/formulation/surface/sweep.h"
 #include "engine/integrator/central_difference.h"
 
-#define surface_at LANES_NAME(fracas_surface_at)
-#define surface_drift LANES_NAME(fracas_surface_drift)
-#define surface_kick LANES_NAME(fracas_surface_kick)
-#define surface_nitsche LANES_NAME(fracas_surface_nitsche)
 #ifdef __SANITIZE_ADDRESS__ /* unrolled, checks take minutes to compile */
 #define UNROLL_FOR(...) for (__VA_ARGS__)
 #else
@@ -80,3 +80,5 @@ LANES_FUNCTION plane_result surface_nitsche(const plane_interface *at, const pla
     lanes_store(surface_at(point, SURFACE_RUB), state.rub);
     return r;
 }
+
+#endif

@@ -6,7 +6,6 @@
 
 #include <math.h>
 
-#define PI 3.14159265358979323846
 #define ROW 0.86602540378443865 /* altitude of an equilateral triangle by its edge */
 #define LEAST_NODES \
     8.0 /* of a circle: with fewer, its bent edges come too close to the opposite vertices */
@@ -25,7 +24,7 @@ static double radius_of(const annulus *body, double circle)
 static double nodes_of(const annulus *body, double circle)
 {
     const double edge = (body->outer - body->inner) / (body->layers * ROW);
-    return fmax(LEAST_NODES, floor(2.0 * PI * radius_of(body, circle) / edge + 0.5));
+    return fmax(LEAST_NODES, floor(2.0 * FRACAS_PI * radius_of(body, circle) / edge + 0.5));
 }
 
 /* Every other circle is turned by half an edge. */

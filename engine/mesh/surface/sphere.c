@@ -5,7 +5,6 @@
 
 #include <math.h>
 
-#define PI 3.14159265358979323846
 #define EQUILATERAL 0.43301270189221932 /* area by the square of the edge: sqrt(3)/4 */
 
 enum { MOST_VERTICES = 12, MOST_FACES = 20 };
@@ -148,7 +147,7 @@ static fracas_err make(const polyhedron *solid, double radius,
     TRY(fracas_surface_check_length("the radius", radius));
     const double faces = (double)solid->nfaces, edges = (double)solid->nedges;
     const bool is_closed = 2 * solid->nedges == 3 * solid->nfaces;
-    const double solid_angle = is_closed ? 4.0 * PI : 0.5 * PI;
+    const double solid_angle = is_closed ? 4.0 * FRACAS_PI : 0.5 * FRACAS_PI;
     double n; /* n^2 equilateral triangles are as large as the part of the sphere over a face */
     TRY(fracas_surface_divide(fineness, radius, sqrt(EQUILATERAL * faces / solid_angle), &n));
     fracas_surface_draft draft;

@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The cohesive laws of a point that opens and slides, called with plain numbers: PLANE_CALL, for
- * LANES lanes. A template as the kernels are: include with LANES defined, after
- * tests/support/plane.h; undefines what the kernels' headers define. */
+#include "tests/support/plane_point.h"
+
 #include "base/lanes.h"
 #include "engine/cohesive/plane.h"
 #include "engine/cohesive/plane_extrinsic.h"
 #include "engine/cohesive/plane_nitsche.h"
 
-/* All lanes are of one kind of law; `state` is [lane]. */
-__attribute__((unused)) static void LANES_NAME(plane_call)(const plane_case *const *kind,
-                                                           const plane_at *in, plane_memory *state,
-                                                           plane_out *out)
+plane_unit LANES_UNIT(plane_call);
+
+void LANES_UNIT(plane_call)(const plane_case *const *kind, const plane_at *in, plane_memory *state,
+                            plane_out *out)
 {
 #define GATHER(name, from)                                  \
     _Alignas(64) double name##_lanes[LANES];                \
@@ -106,9 +105,4 @@ __attribute__((unused)) static void LANES_NAME(plane_call)(const plane_case *con
         out[l].flux = 0.5 * (in[l].q_n * (in[l].m_n + t_n) + in[l].q_t * (in[l].m_t + t_t));
         out[l].stored = out[l].rubbed = out[l].dissipated = 0;
     }
-#undef GATHER
-#undef SCATTER
 }
-
-#include "engine/cohesive/plane_end.h"
-#include "base/lanes_end.h"

@@ -1,23 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The bar's sweep for one width (docs/theory/bar.md, docs/theory/cohesive.md). No include guard:
- * included once a width by bar_sweep_isa.h, with LANES defined. */
+/* The bar's sweep over lanes: a kernel (docs/theory/bar.md, docs/theory/cohesive.md). */
 #include "base/lanes.h"
 #include "engine/cohesive/nitsche.h"
 #include "engine/cohesive/rigid_link.h"
+#include "engine/formulation/chain/bar_sweep.h"
 #include "engine/formulation/chain/chain_events.h"
 #include "engine/integrator/central_difference.h"
 
-#define bar_element LANES_NAME(bar_element)
-#define bar_link LANES_NAME(bar_link)
-#define bar_context LANES_NAME(bar_context)
-#define bar_load LANES_NAME(bar_load)
-#define bar_stress_rate LANES_NAME(bar_stress_rate)
-#define bar_nitsche LANES_NAME(bar_nitsche)
-#define bar_rigid_link LANES_NAME(bar_rigid_link)
-#define bar_join LANES_NAME(bar_join)
-#define bar_finish LANES_NAME(bar_finish)
-#define bar_totals LANES_NAME(bar_totals)
-#define bar_run LANES_NAME(bar_run)
 #define BAR_RIGID_LINK 1
 #define BAR_NITSCHE 0
 
@@ -270,35 +259,15 @@ LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, 
     bar_totals(c);
 }
 
-#define BAR_SWEEP_OF(name, uniform, law)                                                       \
-    static void BAR_SWEEP(name)(const fracas_bar_constants *bar, fracas_step *step, int first) \
-    {                                                                                          \
-        bar_run(bar, step, first, uniform, law);                                               \
+#define BAR_SWEEP(name, uniform, law)                                               \
+    static void name(const fracas_bar_constants *bar, fracas_step *step, int first) \
+    {                                                                               \
+        bar_run(bar, step, first, uniform, law);                                    \
     }
-BAR_SWEEP_OF(nitsche, 1, BAR_NITSCHE)
-BAR_SWEEP_OF(rigid_link, 1, BAR_RIGID_LINK)
-BAR_SWEEP_OF(varied_nitsche, 0, BAR_NITSCHE)
-BAR_SWEEP_OF(varied_rigid_link, 0, BAR_RIGID_LINK)
+BAR_SWEEP(nitsche, 1, BAR_NITSCHE)
+BAR_SWEEP(rigid_link, 1, BAR_RIGID_LINK)
+BAR_SWEEP(varied_nitsche, 0, BAR_NITSCHE)
+BAR_SWEEP(varied_rigid_link, 0, BAR_RIGID_LINK)
 
-#undef BAR_SWEEP_OF
-#undef bar_stress_rate
-#undef bar_element
-#undef bar_link
-#undef bar_context
-#undef bar_load
-#undef bar_nitsche
-#undef bar_rigid_link
-#undef bar_join
-#undef bar_finish
-#undef bar_totals
-#undef bar_run
-#undef BAR_RIGID_LINK
-#undef BAR_NITSCHE
-#undef chain_events
-#undef chain_note_events
-#undef nitsche_interface
-#undef nitsche_law
-#undef rigid_link_law
-#undef central_drift
-#undef central_kick
-#include "base/lanes_end.h"
+const fracas_bar_kernel LANES_UNIT(fracas_bar) = {
+    .sweep = {{varied_rigid_link, varied_nitsche}, {rigid_link, nitsche}}};

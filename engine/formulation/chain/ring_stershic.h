@@ -1,28 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The ring's sweep with Stershic's algorithm (docs/theory/ring.md): explicit Newmark with
  * velocities at whole steps, rigid links that open at sigma_c, time step refined by critical zones,
- * fracture-limiting zone with bulk damage; included once a width by ring_sweep_isa.h.
+ * fracture-limiting zone with bulk damage.
  *
  * Two passes: which links open, and how long the next step is, must be known before any force is.
  */
-#define stershic_load LANES_NAME(stershic_load)
-#define stershic_traction LANES_NAME(stershic_traction)
-#define stershic_is_open LANES_NAME(stershic_is_open)
-#define stershic_choose LANES_NAME(stershic_choose)
-#define stershic_yield LANES_NAME(stershic_yield)
-#define stershic_look LANES_NAME(stershic_look)
-#define stershic_watch LANES_NAME(stershic_watch)
-#define stershic_stress LANES_NAME(stershic_stress)
-#define stershic_between LANES_NAME(stershic_between)
-#define stershic_onset LANES_NAME(stershic_onset)
-#define stershic_open_links LANES_NAME(stershic_open_links)
-#define stershic_open_one LANES_NAME(stershic_open_one)
-#define stershic_value LANES_NAME(stershic_value)
-#define stershic_refine LANES_NAME(stershic_refine)
-#define stershic_join LANES_NAME(stershic_join)
-#define stershic_finish LANES_NAME(stershic_finish)
-#define stershic_look_around LANES_NAME(stershic_look_around)
-#define stershic_advance LANES_NAME(stershic_advance)
+#ifndef FRACAS_ENGINE_CHAIN_RING_STERSHIC_H
+#define FRACAS_ENGINE_CHAIN_RING_STERSHIC_H
+
+#include "engine/formulation/chain/ring_kinematics.h"
 
 /* What the first pass finds: links that reach their strength, and those in the critical zones. */
 typedef struct {
@@ -341,7 +327,7 @@ LANES_FUNCTION void stershic_advance(ring_context *c, vd share)
     stershic_finish(c, last, &next, &right, &closing, share);
 }
 
-static void RING_SWEEP(stershic)(const fracas_ring_constants *ring, fracas_step *step, int first)
+static void ring_stershic(const fracas_ring_constants *ring, fracas_step *step, int first)
 {
     const vd zero = lanes_set(0.0), half = lanes_set(0.5), drift = lanes_load(step->drift + first);
     ring_context context = ring_context_of(ring, step, first, RING_FIELDS_STERSHIC, drift, zero),
@@ -366,21 +352,4 @@ static void RING_SWEEP(stershic)(const fracas_ring_constants *ring, fracas_step 
     lanes_store(step->work + first, ring_drive_work(c));
 }
 
-#undef stershic_load
-#undef stershic_traction
-#undef stershic_is_open
-#undef stershic_choose
-#undef stershic_yield
-#undef stershic_look
-#undef stershic_watch
-#undef stershic_stress
-#undef stershic_between
-#undef stershic_onset
-#undef stershic_open_links
-#undef stershic_open_one
-#undef stershic_value
-#undef stershic_refine
-#undef stershic_join
-#undef stershic_finish
-#undef stershic_look_around
-#undef stershic_advance
+#endif

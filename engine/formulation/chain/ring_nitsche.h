@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The ring's sweep with the law nitsche, central difference, one pass over the elements; included
- * once a width by ring_sweep_isa.h. */
-#define ring_load LANES_NAME(ring_load)
-#define ring_join LANES_NAME(ring_join)
-#define ring_finish LANES_NAME(ring_finish)
+/* The ring's sweep with the law nitsche: central difference, one pass over the elements. */
+#ifndef FRACAS_ENGINE_CHAIN_RING_NITSCHE_H
+#define FRACAS_ENGINE_CHAIN_RING_NITSCHE_H
+
+#include "engine/formulation/chain/ring_kinematics.h"
 
 LANES_FUNCTION ring_element ring_load(const ring_context *c, size_t e)
 {
@@ -83,7 +83,7 @@ LANES_FUNCTION void ring_finish(ring_context *c, size_t e, const ring_element *e
     ring_write(at + RING_V_RIGHT * LANES, v_right);
 }
 
-static void RING_SWEEP(nitsche)(const fracas_ring_constants *ring, fracas_step *step, int first)
+static void ring_nitsche(const fracas_ring_constants *ring, fracas_step *step, int first)
 {
     const size_t last = ring->elements - 1;
     const vd dt = lanes_load(step->kick + first);
@@ -115,6 +115,4 @@ static void RING_SWEEP(nitsche)(const fracas_ring_constants *ring, fracas_step *
     lanes_store(step->work + first, ring_drive_work(c));
 }
 
-#undef ring_load
-#undef ring_join
-#undef ring_finish
+#endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The membrane's sweep for one width; included once a width by membrane_isa.h, with LANES defined.
+/* The membrane's sweep over lanes: a kernel.
  *
  * An element is drifted and strained when its turn comes, then the interfaces with elements before
  * it are visited; once an element has all its interfaces it gets its forces and is kicked.
@@ -9,25 +9,10 @@
 #include "engine/cohesive/plane.h"
 #include "engine/cohesive/plane_nitsche.h"
 #include "engine/cohesive/plane_extrinsic.h"
+#include "engine/formulation/surface/membrane_sweep.h"
 #include "engine/formulation/surface/sweep_template.h"
 
-#define membrane_context LANES_NAME(membrane_context)
-#define membrane_sides LANES_NAME(membrane_sides)
-#define membrane_sides_of LANES_NAME(membrane_sides_of)
-#define membrane_point LANES_NAME(membrane_point)
-#define membrane_strain LANES_NAME(membrane_strain)
-#define membrane_flux LANES_NAME(membrane_flux)
-#define membrane_give LANES_NAME(membrane_give)
-#define membrane_law_of LANES_NAME(membrane_law_of)
-#define membrane_crack LANES_NAME(membrane_crack)
-#define membrane_join LANES_NAME(membrane_join)
-#define membrane_forces LANES_NAME(membrane_forces)
-#define membrane_accelerate LANES_NAME(membrane_accelerate)
-#define membrane_kick LANES_NAME(membrane_kick)
-#define membrane_totals LANES_NAME(membrane_totals)
-#define membrane_run LANES_NAME(membrane_run)
-#define membrane_book LANES_NAME(membrane_book)
-#define membrane_spin LANES_NAME(membrane_spin)
+#include <math.h>
 
 typedef struct {
     const fracas_membrane_constants *membrane;
@@ -562,36 +547,23 @@ LANES_FUNCTION void membrane_run(const fracas_membrane_constants *m, fracas_step
     if (law != MEMBRANE_OPERATOR) membrane_totals(c);
 }
 
-#define MEMBRANE_SWEEP_OF(name, order, law)                                                        \
-    static void MEMBRANE_SWEEP(name)(const fracas_membrane_constants *membrane, fracas_step *step, \
-                                     int first)                                                    \
-    {                                                                                              \
-        membrane_run(membrane, step, first, order, law);                                           \
+#define MEMBRANE_SWEEP(name, order, law)                                                      \
+    static void name(const fracas_membrane_constants *membrane, fracas_step *step, int first) \
+    {                                                                                         \
+        membrane_run(membrane, step, first, order, law);                                      \
     }
-MEMBRANE_SWEEP_OF(nitsche_linear, 1, MEMBRANE_NITSCHE)
-MEMBRANE_SWEEP_OF(nitsche_quadratic, 2, MEMBRANE_NITSCHE)
-MEMBRANE_SWEEP_OF(extrinsic_linear, 1, MEMBRANE_EXTRINSIC)
-MEMBRANE_SWEEP_OF(extrinsic_quadratic, 2, MEMBRANE_EXTRINSIC)
+MEMBRANE_SWEEP(nitsche_linear, 1, MEMBRANE_NITSCHE)
+MEMBRANE_SWEEP(nitsche_quadratic, 2, MEMBRANE_NITSCHE)
+MEMBRANE_SWEEP(extrinsic_linear, 1, MEMBRANE_EXTRINSIC)
+MEMBRANE_SWEEP(extrinsic_quadratic, 2, MEMBRANE_EXTRINSIC)
 #if LANES == 1
-MEMBRANE_SWEEP_OF(operator_linear, 1, MEMBRANE_OPERATOR)
-MEMBRANE_SWEEP_OF(operator_quadratic, 2, MEMBRANE_OPERATOR)
+MEMBRANE_SWEEP(operator_linear, 1, MEMBRANE_OPERATOR)
+MEMBRANE_SWEEP(operator_quadratic, 2, MEMBRANE_OPERATOR)
 #endif
-#undef MEMBRANE_SWEEP_OF
-#undef membrane_context
-#undef membrane_sides
-#undef membrane_sides_of
-#undef membrane_point
-#undef membrane_strain
-#undef membrane_flux
-#undef membrane_give
-#undef membrane_law_of
-#undef membrane_crack
-#undef membrane_join
-#undef membrane_forces
-#undef membrane_accelerate
-#undef membrane_kick
-#undef membrane_totals
-#undef membrane_run
-#undef membrane_book
-#undef membrane_spin
-#include "engine/formulation/surface/sweep_template_end.h"
+
+const fracas_membrane_kernel LANES_UNIT(fracas_membrane) = {
+    .sweep = {[MEMBRANE_NITSCHE] = {nitsche_linear, nitsche_quadratic},
+#if LANES == 1
+              [MEMBRANE_OPERATOR] = {operator_linear, operator_quadratic},
+#endif
+              [MEMBRANE_EXTRINSIC] = {extrinsic_linear, extrinsic_quadratic}}};

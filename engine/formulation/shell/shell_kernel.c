@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The shell's sweep for one width; included once a width by shell_isa.h, with LANES defined.
+/* The shell's sweep over lanes: a kernel.
  *
  * An element is drifted and strained when its turn comes, then its edges that hold the director and
  * the interfaces with elements before it are visited; once an element has all its interfaces it
@@ -8,16 +8,10 @@
 #include "base/lanes.h"
 #include "engine/cohesive/plane.h"
 #include "engine/cohesive/plane_nitsche.h"
+#include "engine/formulation/shell/shell_sweep.h"
 #include "engine/formulation/surface/sweep_template.h"
 
-#define shell_context LANES_NAME(shell_context)
-#define shell_strain LANES_NAME(shell_strain)
-#define shell_load LANES_NAME(shell_load)
-#define shell_dot LANES_NAME(shell_dot)
-#define shell_forces LANES_NAME(shell_forces)
-#define shell_kick LANES_NAME(shell_kick)
-#define shell_totals LANES_NAME(shell_totals)
-#define shell_run LANES_NAME(shell_run)
+#include <math.h>
 
 typedef struct {
     const fracas_shell_constants *shell;
@@ -249,24 +243,18 @@ LANES_FUNCTION void shell_run(const fracas_shell_constants *s, fracas_step *step
     if (law != SHELL_OPERATOR) shell_totals(c);
 }
 
-#define SHELL_SWEEP_OF(name, law)                                                         \
-    static void SHELL_SWEEP(name)(const fracas_shell_constants *shell, fracas_step *step, \
-                                  int first)                                              \
-    {                                                                                     \
-        shell_run(shell, step, first, law);                                               \
+#define SHELL_SWEEP(name, law)                                                          \
+    static void name(const fracas_shell_constants *shell, fracas_step *step, int first) \
+    {                                                                                   \
+        shell_run(shell, step, first, law);                                             \
     }
-SHELL_SWEEP_OF(nitsche, SHELL_NITSCHE)
+SHELL_SWEEP(nitsche, SHELL_NITSCHE)
 #if LANES == 1
-SHELL_SWEEP_OF(operator, SHELL_OPERATOR)
+SHELL_SWEEP(operator, SHELL_OPERATOR)
 #endif
-#undef SHELL_SWEEP_OF
-#include "engine/formulation/shell/shell_interface_template_end.h"
-#undef shell_context
-#undef shell_strain
-#undef shell_load
-#undef shell_dot
-#undef shell_forces
-#undef shell_kick
-#undef shell_totals
-#undef shell_run
-#include "engine/formulation/surface/sweep_template_end.h"
+
+const fracas_shell_kernel LANES_UNIT(fracas_shell) = {.sweep = {
+#if LANES == 1
+                                                          [SHELL_OPERATOR] = operator,
+#endif
+                                                          [SHELL_NITSCHE] = nitsche } };

@@ -1,21 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The quantiles of blocks. Include with LANES and ISA, the last word of the functions' names,
- * defined. */
-#include "sampler/distribution/blocks.h"
-
-#include "base/lanes.h"
-
+/* The quantiles of blocks over lanes: a kernel. */
 #include "base/elementary_lanes.h"
+#include "sampler/distribution/blocks.h"
 #include "sampler/special/normal.h"
 #include "sampler/special/normal_terms.h"
 
-#define BLOCK_JOIN_(name, isa) name##_##isa
-#define BLOCK_JOIN(name, isa) BLOCK_JOIN_(name, isa)
-#define BLOCK(name) BLOCK_JOIN(name, ISA)
-
 /* (sampling.4) */
-void BLOCK(fracas_uniform)(const fracas_strength *strength, size_t n, const double *u,
-                           double *sigma_c)
+static void uniform(const fracas_strength *strength, size_t n, const double *u, double *sigma_c)
 {
     const double minimum = strength->minimum, range = strength->maximum - strength->minimum;
     for (size_t i = 0; i < n; i += LANES)
@@ -29,8 +20,7 @@ LANES_FUNCTION vd exponential_quantile(vd u)
 }
 
 /* (sampling.5) */
-void BLOCK(fracas_weibull)(const fracas_strength *strength, size_t n, const double *u,
-                           double *sigma_c)
+static void weibull(const fracas_strength *strength, size_t n, const double *u, double *sigma_c)
 {
     const double minimum = strength->minimum, scale = strength->scale, shape = strength->shape;
     for (size_t i = 0; i < n; i += LANES) {
@@ -71,10 +61,14 @@ LANES_FUNCTION vd normal_quantile(vd u)
 }
 
 /* (sampling.7) */
-void BLOCK(fracas_lognormal)(const fracas_strength *strength, size_t n, const double *u,
-                             double *sigma_c)
+static void lognormal(const fracas_strength *strength, size_t n, const double *u, double *sigma_c)
 {
     const double median = strength->median, sigma = strength->sigma;
     for (size_t i = 0; i < n; i += LANES)
         lanes_store(sigma_c + i, median * lanes_exp(sigma * normal_quantile(lanes_load(u + i))));
 }
+
+const fracas_block_kernel LANES_UNIT(fracas_blocks) = {
+    .quantile = {[FRACAS_BLOCK_UNIFORM] = uniform,
+                 [FRACAS_BLOCK_WEIBULL] = weibull,
+                 [FRACAS_BLOCK_LOGNORMAL] = lognormal}};

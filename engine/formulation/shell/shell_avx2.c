@@ -1,3 +1,0 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
-#define SHELL_KERNELS fracas_shell_kernels_avx2
-#include "engine/formulation/shell/shell_isa.h"

@@ -1,4 +1,0 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
-#define ISA avx512
-#define LANES 8
-#include "sampler/distribution/blocks_template.h"

@@ -1,4 +1,0 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
-#define ISA baseline
-#define LANES 1
-#include "tests/support/elementary_lanes_template.h"
