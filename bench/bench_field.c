@@ -8,7 +8,7 @@
  */
 #include "bench/bench.h"
 
-#include "sampler/sampler.h"
+#include "sampler/api/sampler.h"
 #include "sampler/field/covariance.h"
 
 #include <math.h>

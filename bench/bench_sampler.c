@@ -9,7 +9,7 @@
  * quiet machine). */
 #include "bench/bench.h"
 
-#include "sampler/sampler.h"
+#include "sampler/api/sampler.h"
 
 #include <getopt.h>
 #include <stdio.h>

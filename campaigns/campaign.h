@@ -7,7 +7,7 @@
 #include "base/hash.h"
 #include "campaigns/points.h"
 #include "engine/spec.h"
-#include "sampler/sampler.h"
+#include "sampler/api/sampler.h"
 #include "sampler/sequential/sequential.h"
 
 #include <stdio.h>

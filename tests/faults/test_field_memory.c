@@ -2,7 +2,7 @@
 /* Making a strength field and drawing from it when the k-th allocation fails, for every k: an
  * error, never a crash, and nothing left. */
 #include "sampler/field/sparse_factor.h"
-#include "sampler/sampler.h"
+#include "sampler/api/sampler.h"
 #include "tests/support/sites.h"
 
 #ifdef __SANITIZE_ADDRESS__

@@ -4,7 +4,7 @@
  * name alone. Seeds are fixed; every bound is one that a right sampler exceeds with probability
  * ALPHA or less. */
 #include "sampler/field/sparse_factor.h"
-#include "sampler/sampler.h"
+#include "sampler/api/sampler.h"
 #include "tests/support/sites.h"
 
 #include <gsl/gsl_cdf.h>

@@ -8,7 +8,7 @@
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
 #include "engine/solver/batch.h"
-#include "sampler/sampler.h"
+#include "sampler/api/sampler.h"
 
 #include <stdarg.h>
 #include <stddef.h>

@@ -5,7 +5,7 @@
 
 #include "engine/mesh/body.h"
 #include "engine/mesh/make.h"
-#include "sampler/sampler.h"
+#include "sampler/api/sampler.h"
 #include "tests/support/bar.h"
 
 #include <stdlib.h>

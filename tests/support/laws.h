@@ -3,7 +3,7 @@
 #ifndef FRACAS_TESTS_SUPPORT_LAWS_H
 #define FRACAS_TESTS_SUPPORT_LAWS_H
 
-#include "sampler/sampler.h"
+#include "sampler/api/sampler.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -11,7 +11,7 @@
 #include "engine/mesh/body.h"
 #include "engine/mesh/make.h"
 #include "engine/solver/batch.h"
-#include "sampler/sampler.h"
+#include "sampler/api/sampler.h"
 #include "tests/support/distorted_model.h"
 
 #include <math.h>

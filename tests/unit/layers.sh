@@ -27,7 +27,7 @@ plant() {
 
 # Who may include whom.
 plant base/planted.c '#include "engine/spec.h"'
-plant engine/planted.c '#include "sampler/sampler.h"'
+plant engine/planted.c '#include "sampler/api/sampler.h"'
 plant engine/mesh/planted.h '#  include "campaigns/points.h"'
 plant sampler/planted.c '#include "engine/spec.h"'
 plant campaigns/planted.c '#include "campaigns/store/store.h"'
@@ -59,11 +59,11 @@ plant campaigns/store/planted.c '#include <xxhash.h>'
 plant campaigns/file/planted.c '#include <udunits2.h>'
 
 # Ways around the rule.
-plant engine/planted.c '#include "../sampler/sampler.h"'
-plant engine/planted.c '#include "base/../sampler/sampler.h"'
-plant engine/planted.c '#include <base/../sampler/sampler.h>'
+plant engine/planted.c '#include "../sampler/api/sampler.h"'
+plant engine/planted.c '#include "base/../sampler/api/sampler.h"'
+plant engine/planted.c '#include <base/../sampler/api/sampler.h>'
 plant engine/planted.c '#include "spec.h"'
-plant engine/planted.c '#include <sampler/sampler.h>'
+plant engine/planted.c '#include <sampler/api/sampler.h>'
 plant engine/planted.c '#include "mpi.h"'
 plant engine/planted.c '#include SAMPLER_HEADER'
 

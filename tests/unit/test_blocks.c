@@ -2,7 +2,7 @@
 /* Strengths drawn over lanes have the bits of the scalar quantiles, on every instruction set of
  * this CPU. */
 #include "sampler/distribution/distribution.h"
-#include "sampler/sampler.h"
+#include "sampler/api/sampler.h"
 
 #include <math.h>
 #include <setjmp.h>
