@@ -91,5 +91,8 @@ const fracas_kind *fracas_kind_partner(const fracas_kind *kind, const fracas_sec
     for (size_t g = 0; g < kind->ngoes_with; g++)
         for (size_t k = 0; k < section->nkinds; k++)
             if (section->kinds[k] == kind->goes_with[g] && i-- == 0) return section->kinds[k];
+    for (size_t k = 0; k < section->nkinds; k++)
+        for (const fracas_kind *const *model = section->kinds[k]->only; model && *model; model++)
+            if (*model == kind && i-- == 0) return section->kinds[k];
     return NULL;
 }

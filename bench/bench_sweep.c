@@ -67,7 +67,7 @@ static fracas_spec plate(int64_t order, int64_t elements)
                                  .order = order,
                                  .amplitude = 0.2},
                         .material = {275e9, 2750, 0.22},
-                        .cohesive = {.law = &fracas_law_nitsche,
+                        .cohesive = {.law = &fracas_law_nitsche.kind,
                                      .fracture_energy = 100,
                                      .beta = 10,
                                      .onset = &fracas_onset_mean,
@@ -107,16 +107,17 @@ static fracas_spec shell(int64_t elements)
 static fracas_spec reference(const char *model, int64_t elements)
 {
     const double radius = 0.05 / (2 * FRACAS_PI);
-    fracas_spec spec = {.formulation = &fracas_formulation_bar.kind,
-                        .geometry = {.shape = &fracas_shape_bar,
-                                     .ends = &fracas_ends_periodic,
-                                     .length = 0.05,
-                                     .area = 1e-6},
-                        .mesh = {.spacing = &fracas_spacing_uniform, .elements = elements},
-                        .material = {275e9, 2750},
-                        .cohesive = {.law = &fracas_law_nitsche, .fracture_energy = 100, .beta = 4},
-                        .loading = {.type = &fracas_loading_imposed_rate, .rate = 1e5},
-                        .time = {.stop = &fracas_stop_time, .end = 1, .safety = 0.25}};
+    fracas_spec spec = {
+        .formulation = &fracas_formulation_bar.kind,
+        .geometry = {.shape = &fracas_shape_bar,
+                     .ends = &fracas_ends_periodic,
+                     .length = 0.05,
+                     .area = 1e-6},
+        .mesh = {.spacing = &fracas_spacing_uniform, .elements = elements},
+        .material = {275e9, 2750},
+        .cohesive = {.law = &fracas_law_nitsche.kind, .fracture_energy = 100, .beta = 4},
+        .loading = {.type = &fracas_loading_imposed_rate, .rate = 1e5},
+        .time = {.stop = &fracas_stop_time, .end = 1, .safety = 0.25}};
     if (strcmp(model, "bar") == 0) return spec;
     spec.formulation = &fracas_formulation_ring.kind;
     spec.geometry = (fracas_geometry){.shape = &fracas_shape_ring,
@@ -135,7 +136,7 @@ static fracas_spec reference(const char *model, int64_t elements)
             model);
         exit(2);
     }
-    spec.cohesive = (fracas_cohesive){.law = &fracas_law_stershic,
+    spec.cohesive = (fracas_cohesive){.law = &fracas_law_stershic.kind,
                                       .fracture_energy = 100,
                                       .penalty = 1,
                                       .refinement = 0.25,

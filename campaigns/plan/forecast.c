@@ -223,7 +223,7 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     forecast->lines = forecast->uniform && fracas_mesh_is_regular(spec);
     forecast->mean = mean;
     forecast->bound = stress_bound(spec);
-    forecast->spread = fracas_model_surface(model) && spec->cohesive.law != &fracas_law_nitsche
+    forecast->spread = fracas_model_surface(model) && !fracas_law_of(spec)->flux
                            ? factor.most * strength_at(point, extent.mean, 0.99) -
                                  factor.least * strength_at(point, extent.mean, 0.01)
                            : NAN;

@@ -11,13 +11,11 @@
 
 #define MOST_STEPS 1e12 /* years of computing, for a bar of two elements */
 
-/* Steps to time.end, at most: stershic refines its time step twice. */
+/* Steps to time.end, at most: a law may refine the time step. */
 static double most_steps(const fracas_model *model)
 {
-    const fracas_cohesive *cohesive = &model->spec.cohesive;
-    const double finest = cohesive->law == &fracas_law_stershic
-                              ? cohesive->refinement * cohesive->refinement
-                              : 1.0;
+    const fracas_law *law = fracas_law_of(&model->spec);
+    const double finest = law->finest ? law->finest(&model->spec.cohesive) : 1.0;
     return ceil(model->spec.time.end / (finest * model->time_step));
 }
 

@@ -3,6 +3,8 @@
 #include "engine/spec.h"
 
 #include "base/elementary.h"
+#define LANES 1 /* plain numbers */
+#include "engine/cohesive/energy.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
 
@@ -27,7 +29,6 @@ double fracas_spec_strain_rate(const fracas_spec *spec)
 
 double fracas_spec_fracture_energy(const fracas_spec *spec, double strength)
 {
-    const fracas_cohesive *cohesive = &spec->cohesive;
-    return cohesive->critical_opening > 0 ? 0.5 * strength * cohesive->critical_opening
-                                          : cohesive->fracture_energy;
+    return cohesive_energy(spec->cohesive.fracture_energy, spec->cohesive.critical_opening,
+                           strength);
 }

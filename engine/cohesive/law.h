@@ -1,14 +1,68 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cohesive laws: what an interface does once its stress has reached its strength
- * (theory/cohesive.md). */
+/* Cohesive laws: traction against opening once an interface has reached its strength
+ * (docs/theory/cohesive.md).
+ *
+ * A law is one file, engine/cohesive/LAW.h, and its line in laws.list.h. The list is included in
+ * three modes, and a law's file has one part for each:
+ *   FRACAS_LAW(name, bar, ring, membrane, shell) is defined: the law's line. For each body it says
+ *       how the kernels use the law: FLUX or RIGID for chains, YES for surfaces, or NO.
+ *   FRACAS_LAW_TABLES is defined: parameters and traits, compiled once (law.c).
+ *   Neither is defined: the functions over lanes (engine/cohesive/kernels.h). A law that says FLUX
+ *       defines line_NAME, one that says YES defines plane_at_NAME.
+ * Code outside a law's file asks for its traits and never which law it is. */
 #ifndef FRACAS_ENGINE_COHESIVE_LAW_H
 #define FRACAS_ENGINE_COHESIVE_LAW_H
 
 #include "engine/spec.h"
 
+/* Keeps or drops its argument, by an entry of a law's line. */
+#define FRACAS_IF_YES(...) __VA_ARGS__
+#define FRACAS_IF_FLUX(...) __VA_ARGS__
+#define FRACAS_IF_RIGID(...) __VA_ARGS__
+#define FRACAS_IF_NO(...)
+
+/* Numbers of the laws, 0 to FRACAS_LAWS - 1, in the order of the list. */
+#define FRACAS_LAW(name, bar, ring, membrane, shell) FRACAS_LAW_##name,
+enum {
+#include "engine/cohesive/laws.list.h"
+    FRACAS_LAWS
+};
+#undef FRACAS_LAW
+
+/* First values of a surface's point in every law: damage D, and the peak p [Pa], 0 before onset. */
+enum { SURFACE_DAMAGE, SURFACE_PEAK, SURFACE_POINT_FIELDS };
+
+typedef struct {
+    fracas_kind kind; /* first: an entry of the section `cohesive` */
+    int number;       /* FRACAS_LAW_name */
+    /* True: the flux holds the interface until its onset, and the opening is in series with it.
+     * False: the interface of a chain is rigid until its onset, that of a surface leaves the flux
+     * there. */
+    bool flux;
+    /* Slope of its steepest softening by sigma_c/delta_c, 1 for linear softening; laws with `flux`.
+     * The stiffness of the flux must exceed it. */
+    double steepest;
+    int fields[2]; /* surfaces: values of a point, without and with friction */
+    /* Chains. */
+    double (*contact)(const fracas_cohesive *); /* stiffness of contact by E/h; NULL: at most 1 */
+    bool contact_by_strength; /* that stiffness grows with the strength  (cohesive.9) */
+    /* Constant of an interface, from its stiffness K [Pa/m], G_c [J/m2] and sigma_c [Pa]; NULL: 0.
+     */
+    double (*constant)(double stiffness, double energy, double strength);
+    /* Least factor by which the law itself refines the time step, 0 to 1; NULL: it does not. */
+    double (*finest)(const fracas_cohesive *);
+} fracas_law;
+
+#define FRACAS_LAW(name, bar, ring, membrane, shell) extern const fracas_law fracas_law_##name;
+#include "engine/cohesive/laws.list.h"
+#undef FRACAS_LAW
+
+static inline const fracas_law *fracas_law_of(const fracas_spec *spec)
+{
+    return (const fracas_law *)(const void *)spec->cohesive.law; /* .kind is its first member */
+}
+
 extern const fracas_section fracas_cohesive_section;
-extern const fracas_kind fracas_law_nitsche, fracas_law_rigid_link, fracas_law_stershic,
-    fracas_law_camacho_ortiz_standard, fracas_law_camacho_ortiz;
 extern const fracas_kind fracas_onset_mean, fracas_onset_flux;
 extern const fracas_kind fracas_zone_softening, fracas_zone_steep;
 

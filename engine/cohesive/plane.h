@@ -2,16 +2,16 @@
 /* Cohesive laws at a point of an interface that opens (n) and slides (t), over lanes
  * (docs/theory/cohesive.md).
  *
- * Common: strength sigma_c, peak p (the effective traction at onset, 0 before), delta_c = 2 G_c/p,
- * or delta_c the same everywhere and G_c = p delta_c/2; D = delta_max/delta_c, beta_c = shear
- * strength/normal strength, stiffnesses k_n and k_t = beta_c^2 k_n of the flux, mean tractions m,
- * jumps q. Effective traction  S = sqrt(max(0, T_n)^2 + (T_t/beta_c)^2) (cohesive.10) Onset S >
- * sigma_c for T_n >= 0, max(0, |T_t| - mu_c |T_n|)/beta_c > sigma_c for T_n < 0, of the flux T = m
- * + k q, or of the mean T = m                                             (cohesive.11) */
+ * Common to them: strength sigma_c; peak p, the effective traction at onset, 0 before; delta_c =
+ * 2 G_c/p, or delta_c the same everywhere and G_c = p delta_c/2; D = delta_max/delta_c; beta_c =
+ * shear strength/normal strength; stiffnesses k_n and k_t = beta_c^2 k_n of the flux; mean
+ * tractions m, jumps q. effective traction  S = sqrt(max(0, T_n)^2 + (T_t/beta_c)^2) (cohesive.10)
+ *   onset  S > sigma_c for T_n >= 0, max(0, |T_t| - mu_c |T_n|)/beta_c > sigma_c for T_n < 0, of
+ *       the flux T = m + k q, or of the mean T = m                                (cohesive.11) */
 #ifndef FRACAS_ENGINE_COHESIVE_PLANE_H
 #define FRACAS_ENGINE_COHESIVE_PLANE_H
 
-#include "base/lanes.h"
+#include "engine/cohesive/energy.h"
 
 typedef struct {
     vd k_n, k_t;               /* Pa/m */
@@ -19,15 +19,16 @@ typedef struct {
     vd softness_n, softness_t; /* 1/k_n, 1/k_t [m/Pa] */
     vd beta_c, per_beta_c;     /* 1: beta_c, 1/beta_c */
     vd mu_c;                   /* 1 */
-    vd energy;                 /* G_c [J/m2] ... */
-    vd opening;                /* ... or delta_c [m]: the one that is not 0 */
+    vd energy, opening;        /* G_c [J/m2], delta_c [m]: one is given, the other 0 */
     int onset_mean;            /* onset of the mean; else of the flux */
+    int friction;              /* mu_c > 0 */
 } plane_interface;
 
 typedef struct {
     vd m_n, m_t;  /* Pa */
     vd q_n, q_t;  /* m */
-    vmask opened; /* nitsche: the flux is held against the strength even where the mean is to be */
+    vmask opened; /* the flux is held against the strength, even with onset_mean: beside an open
+                     layer of a shell */
 } plane_input;
 
 typedef struct {
@@ -39,8 +40,8 @@ typedef struct {
                            friction [J/m2] */
     vmask cracked; /* past onset: the above holds; elsewhere the flux's own T = m + k q, s = q */
     vmask cracks, breaks; /* in this step */
-    /* of nitsche: G_c D of this step alone [J/m2], and the traction at the D halfway through it
-     * [Pa] */
+    /* For shells: energy dissipated in this step [J/m2], and the traction at the D halfway through
+     * it [Pa]. */
     vd spent, midway_n, midway_t;
 } plane_result;
 
@@ -64,7 +65,7 @@ LANES_FUNCTION vd plane_effective(const plane_interface *at, vd t_n, vd t_t)
     return pull * pull + shear * shear;
 }
 
-/* The square of what is held against sigma_c  (cohesive.11) */
+/* Square of the effective traction held against sigma_c  (cohesive.11) */
 LANES_FUNCTION vd plane_onset(const plane_interface *at, vd t_n, vd t_t)
 {
     const vd zero = lanes_set(0.0);
@@ -75,7 +76,7 @@ LANES_FUNCTION vd plane_onset(const plane_interface *at, vd t_n, vd t_t)
 /* G_c of a point with this peak [J/m2]. */
 LANES_FUNCTION vd plane_energy(const plane_interface *at, vd peak)
 {
-    return at->energy + lanes_set(0.5) * (at->opening * peak);
+    return cohesive_energy(at->energy, at->opening, peak);
 }
 
 #endif

@@ -1,17 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Law `rigid-link` over lanes: the interface elements of the code DynFrag1D
- * (docs/theory/cohesive.md).
+/* Law `rigid-link`: the interface elements of the code DynFrag1D (docs/theory/cohesive.md).
  *
- * A link is rigid until the mean stress of its elements has exceeded its strength; two steps later
- * it carries q >= 0: T = sigma_c (1 - D), D = max(D, min(1, q/delta_c)) loading;  sigma_c (1 - D)
- * q/(D delta_c) below   (cohesive.8) q <  0: T = k q, contact, also after full break, k =
- * (sigma_c^2 + 4.5 rate^(2/3) E G_c^(2/3) rho^(1/3))/(4.5 G_c) (cohesive.9) */
-#ifndef FRACAS_ENGINE_COHESIVE_RIGID_LINK_H
-#define FRACAS_ENGINE_COHESIVE_RIGID_LINK_H
+ * A link is rigid until the mean stress of its elements has exceeded its strength. Two steps later
+ * it carries
+ *   q >= 0:  T = sigma_c (1 - D), D = max(D, min(1, q/delta_c)) loading
+ *            T = sigma_c (1 - D) q/(D delta_c) below                              (cohesive.8)
+ *   q < 0:   T = k q, contact, also after full break,
+ *            k = (sigma_c^2 + 4.5 rate^(2/3) E G_c^(2/3) rho^(1/3))/(4.5 G_c)     (cohesive.9) */
+#if defined FRACAS_LAW
+FRACAS_LAW(rigid_link, RIGID, NO, NO, NO)
+#elif defined FRACAS_LAW_TABLES
 
-#include "base/lanes.h"
+static const fracas_param rigid_link_params[] = {
+    FRACAS_FRACTURE_ENERGY(true, FRACAS_REQUIRED, "fracture energy G_c")};
+const fracas_law fracas_law_rigid_link = {
+    FRACAS_LAW_HEAD(rigid_link, "rigid-link",
+                    "linear softening of a link that is rigid until its stress has exceeded its "
+                    "strength, contact by penalty (the algorithm of the code DynFrag1D)"),
+    .contact_by_strength = true};
 
-/* Traction of an open link [Pa]; *damage is brought up to date. `penalty` is k [Pa/m]. */
+#else
+
+/* Traction of an open link [Pa]; *damage follows. `penalty` is k [Pa/m]. */
 LANES_FUNCTION vd rigid_link_law(vd q, vd *damage, vd sigma_c, vd delta_c, vd penalty)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0);
@@ -23,5 +33,4 @@ LANES_FUNCTION vd rigid_link_law(vd q, vd *damage, vd sigma_c, vd delta_c, vd pe
     *damage = now;
     return lanes_select(lanes_lt(q, zero), penalty * q, tension);
 }
-
 #endif

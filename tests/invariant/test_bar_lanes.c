@@ -60,7 +60,7 @@ static void assert_same(const fracas_record *a, const fracas_record *b)
 static void a_lane_is_its_run_alone(void **unused)
 {
     (void)unused;
-    const fracas_kind *laws[] = {&fracas_law_nitsche, &fracas_law_rigid_link},
+    const fracas_kind *laws[] = {&fracas_law_nitsche.kind, &fracas_law_rigid_link.kind},
                       *stops[] = {&fracas_stop_time, &fracas_stop_settled};
     const int widths[] = {1, 4, 8};
     for (int k = 0; k < 5; k++) { /* the last two on elements of different lengths */

@@ -53,7 +53,7 @@ static double size_of(const fracas_model *model, size_t e)
 static void linear_ledger_is_constant_to_round_off(void **unused)
 {
     (void)unused;
-    const fracas_kind *laws[] = {&fracas_law_nitsche, &fracas_law_rigid_link},
+    const fracas_kind *laws[] = {&fracas_law_nitsche.kind, &fracas_law_rigid_link.kind},
                       *ends[] = {&fracas_ends_periodic, &fracas_ends_held};
     for (int i = 0; i < 4 * MESHES; i++) {
         fracas_spec spec = bar_reference(200, 100, 1);
@@ -71,8 +71,8 @@ static void linear_ledger_is_constant_to_round_off(void **unused)
             size_t left = e > 0 ? e - 1 : 199;
             if (e == 0 && ends[i / 2 % 2] == &fracas_ends_held) continue;
             *field(batch, e, V_LEFT) = v;
-            *field(batch, left,
-                   V_RIGHT) = v + (laws[i % 2] == &fracas_law_nitsche ? 0.5 * noise(&seed) : 0);
+            *field(batch, left, V_RIGHT) =
+                v + (laws[i % 2] == &fracas_law_nitsche.kind ? 0.5 * noise(&seed) : 0);
         }
         fracas_record record;
         fracas_record_init(&record);

@@ -14,9 +14,9 @@ typedef struct {
     const fracas_kind *onset, *integrator, *mass;
 } variant;
 
-#define N &fracas_law_nitsche
-#define S &fracas_law_camacho_ortiz_standard
-#define P &fracas_law_camacho_ortiz
+#define N &fracas_law_nitsche.kind
+#define S &fracas_law_camacho_ortiz_standard.kind
+#define P &fracas_law_camacho_ortiz.kind
 #define MEAN &fracas_onset_mean
 #define FLUX &fracas_onset_flux
 #define CD &fracas_integrator_central_difference
@@ -251,7 +251,7 @@ static fracas_spec ledger_spec(int which)
     if (which == SLIDING) hold_edges(&spec, &fracas_edge_sliding);
     if (which == RUBBING) { /* pressed along y, so that faces slide on each other */
         hold_edges(&spec, &fracas_edge_held);
-        spec.cohesive.law = &fracas_law_camacho_ortiz_standard;
+        spec.cohesive.law = &fracas_law_camacho_ortiz_standard.kind;
         spec.cohesive.friction = 0.5;
         spec.loading.ratio = -1;
     }
@@ -408,7 +408,7 @@ static void check_moved(const variant *v, bool mirrored)
 {
     fracas_spec spec = spec_of(v, v->order == 1 ? 8 : 5, 4e4, 4e-7);
     spec.loading.ratio = 0.5;
-    if (v->law != &fracas_law_nitsche) spec.time.safety = 0.1;
+    if (v->law != &fracas_law_nitsche.kind) spec.time.safety = 0.1;
     fracas_model *model = distorted_model(spec, DISTORTION, 3),
                  *moved = moved_model(model, mirrored);
     size_t *image = images_of(model, moved, mirrored), stride;

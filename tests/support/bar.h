@@ -32,7 +32,7 @@ static inline fracas_spec bar_reference(int64_t elements, double rate, double en
                      .area = 1e-6},
         .mesh = {.spacing = &fracas_spacing_uniform, .elements = elements},
         .material = {275e9, 2750},
-        .cohesive = {.law = &fracas_law_nitsche, .fracture_energy = 100, .beta = 4},
+        .cohesive = {.law = &fracas_law_nitsche.kind, .fracture_energy = 100, .beta = 4},
         .loading = {.type = &fracas_loading_imposed_rate, .rate = rate},
         .time = {.stop = &fracas_stop_time, .end = end, .safety = 0.25}};
 }

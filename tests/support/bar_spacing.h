@@ -17,7 +17,7 @@ enum {
 };                    /* as in engine/formulation/chain/bar_sweep.h */
 enum { MOST = 2000 }; /* elements */
 
-static const fracas_kind *const laws[] = {&fracas_law_nitsche, &fracas_law_rigid_link};
+static const fracas_kind *const laws[] = {&fracas_law_nitsche.kind, &fracas_law_rigid_link.kind};
 static const fracas_kind *const ends[] = {&fracas_ends_periodic, &fracas_ends_held};
 
 /* The meshes of most tests: graded either way, moved by the most that is allowed. */

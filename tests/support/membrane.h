@@ -21,7 +21,7 @@ static inline fracas_spec membrane_reference(int64_t divisions, int64_t order, d
                      .thickness = 1e-3},
         .mesh = {.spacing = &fracas_spacing_triangles, .divisions = divisions, .order = order},
         .material = {.young = 70e9, .density = 2700, .poisson = 0.3},
-        .cohesive = {.law = &fracas_law_nitsche,
+        .cohesive = {.law = &fracas_law_nitsche.kind,
                      .fracture_energy = 500,
                      .beta = 4,
                      .onset = &fracas_onset_mean,

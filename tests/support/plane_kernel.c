@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tests/support/plane_point.h"
 
-#include "base/lanes.h"
-#include "engine/cohesive/plane.h"
-#include "engine/cohesive/plane_extrinsic.h"
-#include "engine/cohesive/plane_nitsche.h"
+#include "engine/cohesive/kernels.h"
 
 plane_unit LANES_UNIT(plane_call);
 
@@ -57,21 +54,21 @@ void LANES_UNIT(plane_call)(const plane_case *const *kind, const plane_at *in, p
     const int friction = kind[0]->mu_c > 0;
     plane_result r;
     if (kind[0]->law == PLANE_NITSCHE) {
-        plane_nitsche_state s = {.damage = damage, .peak = peak, .slip = slip, .rub = rub};
+        nitsche_state s = {.damage = damage, .peak = peak, .slip = slip, .rub = rub};
         r = plane_nitsche(&at, &input, friction, &s);
         SCATTER(state[l].damage, s.damage);
         SCATTER(state[l].peak, s.peak);
         SCATTER(state[l].slip, s.slip);
         SCATTER(state[l].rub, s.rub);
     } else {
-        plane_extrinsic_state s = {.damage = damage,
-                                   .peak = peak,
-                                   .q_n = start_q_n,
-                                   .q_t = start_q_t,
-                                   .t_n = start_t_n,
-                                   .t_t = start_t_t,
-                                   .slip = slip,
-                                   .rub = rub};
+        extrinsic_state s = {.damage = damage,
+                             .peak = peak,
+                             .q_n = start_q_n,
+                             .q_t = start_q_t,
+                             .t_n = start_t_n,
+                             .t_t = start_t_t,
+                             .slip = slip,
+                             .rub = rub};
         r = plane_extrinsic(&at, &input, kind[0]->law == PLANE_STANDARD, friction, &s);
         SCATTER(state[l].damage, s.damage);
         SCATTER(state[l].peak, s.peak);

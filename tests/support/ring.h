@@ -31,7 +31,7 @@ static inline fracas_spec ring_stershic(int64_t elements, double rate, double en
 {
     fracas_spec spec = ring_reference(elements, rate, end);
     spec.cohesive = (fracas_cohesive){
-        .law = &fracas_law_stershic, .fracture_energy = 100, .penalty = 1, .refinement = 0.25};
+        .law = &fracas_law_stershic.kind, .fracture_energy = 100, .penalty = 1, .refinement = 0.25};
     spec.time.safety = 0.8;
     return spec;
 }

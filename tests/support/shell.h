@@ -31,7 +31,7 @@ static inline fracas_spec shell_spec(const fracas_kind *shape)
                                       .height = 1},
                          .mesh = {.spacing = &fracas_spacing_triangles, .order = 2},
                          .material = {.young = 200, .density = 2, .poisson = 0.3},
-                         .cohesive = {.law = &fracas_law_nitsche,
+                         .cohesive = {.law = &fracas_law_nitsche.kind,
                                       .fracture_energy = 1e12,
                                       .beta = 5,
                                       .beta_shear = 1,

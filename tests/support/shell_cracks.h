@@ -27,7 +27,7 @@ static inline fracas_spec brittle_shell(const fracas_kind *shape, int64_t divisi
         .geometry = {.shape = shape, .part = &fracas_part_whole, .thickness = 3e-4},
         .mesh = {.spacing = &fracas_spacing_triangles, .divisions = divisions, .order = 2},
         .material = {.young = 320e9, .density = 3300, .poisson = 0.3},
-        .cohesive = {.law = &fracas_law_nitsche,
+        .cohesive = {.law = &fracas_law_nitsche.kind,
                      .fracture_energy = 200,
                      .beta = 5,
                      .beta_shear = 1,

@@ -9,7 +9,7 @@
 
 #define LANES 1
 #include "base/lanes.h"
-#include "engine/cohesive/nitsche.h"
+#include "engine/cohesive/kernels.h"
 
 /* Fragments of a lane with so many broken interfaces. */
 static int64_t count_broken(const fracas_model *model, int64_t broken)
@@ -325,8 +325,13 @@ static void nitsche_is_the_secant_law(void **unused)
                 unloading++;
             }
         }
-        nitsche_interface it = nitsche_law(mean, q, damage, sigma_c, spring * delta_c - sigma_c,
-                                           spring, 1 / spring);
+        const line_result it = line_nitsche(&(line_input){.mean = mean,
+                                                          .jump = q,
+                                                          .damage = damage,
+                                                          .sigma_c = sigma_c,
+                                                          .constant = spring * delta_c - sigma_c,
+                                                          .stiffness = spring,
+                                                          .compliance = 1 / spring});
         const double scale = fmax(fabs(trial), sigma_c);
         assert_true(fabs(it.traction - traction) < 1e-12 * scale);
         assert_true(fabs(it.damage - now / delta_c) < 1e-12 * fmax(1, scale / sigma_c));
@@ -373,7 +378,7 @@ static void a_run_that_gains_energy_ends_as_drift(void **unused)
 static void events_are_counted_and_timed_inside_their_steps(void **unused)
 {
     (void)unused;
-    const fracas_kind *laws[] = {&fracas_law_nitsche, &fracas_law_rigid_link};
+    const fracas_kind *laws[] = {&fracas_law_nitsche.kind, &fracas_law_rigid_link.kind};
     for (int law = 0; law < 2; law++) {
         fracas_spec spec = bar_reference(1000, 1e5, 1.5e-7);
         spec.geometry.length = 1e-2;

@@ -42,7 +42,7 @@ static fracas_record run_alone(fracas_batch *batch)
 static void onset_time_is_strength_over_stress_rate(void **unused)
 {
     (void)unused;
-    const fracas_kind *laws[] = {&fracas_law_nitsche, &fracas_law_rigid_link};
+    const fracas_kind *laws[] = {&fracas_law_nitsche.kind, &fracas_law_rigid_link.kind};
     const double rates[] = {1e3, 1e4, 1e5, 1e6};
     for (int law = 0; law < 2; law++)
         for (int r = 0; r < 4; r++)
@@ -262,11 +262,11 @@ static void critical_step_is_that_of_the_spectrum(void **unused)
     /* theory: 0.500 h/c closed, 0.447 cracked, at beta 4. Cracked and in contact every wave number
      * has omega^2 <= (c/h)^2 4 (1 + beta): the two springs of a node both stretch.  */
     assert_true(fabs(2 / bloch_top(4) - 0.5) < 1e-6);
-    assert_true(fabs(critical(&fracas_law_nitsche, 4).step - 0.4472) < 5e-5);
+    assert_true(fabs(critical(&fracas_law_nitsche.kind, 4).step - 0.4472) < 5e-5);
     const double betas[] = {1.5, 2, 4, 10, 30};
     for (int i = 0; i < 5; i++) {
         const double exact[2] = {2 / bloch_top(betas[i]), 1 / sqrt(1 + betas[i])};
-        critical_steps found = critical(&fracas_law_nitsche, betas[i]);
+        critical_steps found = critical(&fracas_law_nitsche.kind, betas[i]);
         /* power iteration comes from below: the step from above, by 1e-3 at most */
         assert_true(found.closed >= exact[0] * (1 - 1e-9) && found.closed <= exact[0] * (1 + 1e-3));
         assert_true(found.cracked >= exact[1] * (1 - 1e-9) &&
@@ -274,7 +274,7 @@ static void critical_step_is_that_of_the_spectrum(void **unused)
         assert_true(found.step <= found.closed && found.step <= found.cracked);
     }
     /* rigid links: 2-node elements, h/c while closed; in contact with k = E/h as beta = 1 */
-    critical_steps rigid = critical(&fracas_law_rigid_link, 4);
+    critical_steps rigid = critical(&fracas_law_rigid_link.kind, 4);
     assert_true(fabs(rigid.closed - 1) < 1e-3 && fabs(rigid.cracked - 1 / sqrt(2)) < 1e-3);
 }
 

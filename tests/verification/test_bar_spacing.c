@@ -291,7 +291,7 @@ static void tied_nodes_stay_together(void **unused)
     for (int i = 0; i < 2 * MESHES; i++) {
         fracas_spec spec = bar_reference(300, 1e5, 1);
         spec.geometry.length = 6e-3;
-        spec.cohesive.law = &fracas_law_rigid_link;
+        spec.cohesive.law = &fracas_law_rigid_link.kind;
         spec.geometry.ends = ends[i % 2];
         fracas_model *model = model_on(&spec, i / 2);
         fracas_batch *batch = batch_of(model, 300e6);
@@ -336,7 +336,7 @@ static double crossing_of(fracas_batch *batch, size_t e, bool onset)
     const size_t next = (e + 1) % model->elements;
     const double left = 275e9 / model->table[e], right = 275e9 / model->table[next],
                  sigma_c = *field(batch, e, STRENGTH);
-    const bool nitsche = model->spec.cohesive.law == &fracas_law_nitsche;
+    const bool nitsche = model->spec.cohesive.law == &fracas_law_nitsche.kind;
     const double q = *field(batch, next, W_LEFT) - *field(batch, e, W_RIGHT),
                  spring = 2 * (left + right);
     const double mean = 275e9 * model->spec.loading.rate * batch->step.time[0] +

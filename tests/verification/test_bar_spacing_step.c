@@ -76,7 +76,7 @@ static size_t number_nodes(const dense_operator *o, int *number)
 /* 2/omega_max [s] by GSL's QR algorithm, for M^-1/2 K M^-1/2. */
 static double dense_step(const fracas_model *model, bool broken)
 {
-    const bool nitsche = model->spec.cohesive.law == &fracas_law_nitsche;
+    const bool nitsche = model->spec.cohesive.law == &fracas_law_nitsche.kind;
     dense_operator o = {.model = model,
                         .ring = model->interfaces == model->elements,
                         .nitsche = nitsche,
@@ -152,7 +152,7 @@ static void critical_step_is_that_of_the_dense_operator(void **unused)
 static void press_together(const fracas_model *model, fracas_batch *batch)
 {
     const size_t n = model->elements;
-    const bool nitsche = model->spec.cohesive.law == &fracas_law_nitsche;
+    const bool nitsche = model->spec.cohesive.law == &fracas_law_nitsche.kind;
     const double offset = 4.5 * pow(model->spec.loading.rate, 2.0 / 3) * 275e9 * pow(100, 2.0 / 3) *
                           pow(2750, 1.0 / 3);
     double stiffness[MOST], give = model->spec.geometry.length / 275e9, left = 0;

@@ -28,7 +28,7 @@ static fracas_spec body_of(const fracas_formulation *formulation, const fracas_k
                      .thickness = 3e-4},
         .mesh = {.spacing = &fracas_spacing_triangles, .divisions = divisions, .order = order},
         .material = {.young = 320e9, .density = 3300, .poisson = 0.3},
-        .cohesive = {.law = &fracas_law_nitsche,
+        .cohesive = {.law = &fracas_law_nitsche.kind,
                      .fracture_energy = 200,
                      .beta = 5,
                      .beta_shear = 1,

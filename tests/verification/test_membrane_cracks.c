@@ -7,8 +7,9 @@ enum { MOST = 8 };
 static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};
 static const fracas_kind *const schemes[] = {&fracas_integrator_central_difference,
                                              &fracas_integrator_hulbert_chung};
-static const fracas_kind *const laws[] = {&fracas_law_nitsche, &fracas_law_camacho_ortiz_standard,
-                                          &fracas_law_camacho_ortiz};
+static const fracas_kind *const laws[] = {&fracas_law_nitsche.kind,
+                                          &fracas_law_camacho_ortiz_standard.kind,
+                                          &fracas_law_camacho_ortiz.kind};
 
 /* sqrt(max(0, n)^2 + (t/beta_c)^2)  (cohesive.10) */
 static double effective_of(const double traction[2], double beta_c)
@@ -180,7 +181,7 @@ static fate fate_of(const fracas_model *model, const rates *r, int g, double str
     const double flux[2] = {r->mean[g][0] + k_n * r->jump[g][0],
                             r->mean[g][1] + k_t * r->jump[g][1]};
     const bool by_mean = law->onset == &fracas_onset_mean,
-               nitsche = law->law == &fracas_law_nitsche;
+               nitsche = law->law == &fracas_law_nitsche.kind;
     const double judged = judged_of(by_mean ? r->mean[g] : flux, law);
     fate f = {.onset = strength / judged};
     const double seen = f.seen = (floor(f.onset / dt) + 1) * dt;
@@ -209,7 +210,7 @@ static bool is_of_use(const fracas_model *model, const rates *r, const double st
         if (!(f.broken < 400 * model->time_step) || !(f.onset + model->time_step < f.broken) ||
             !(f.peak < most))
             return false;
-        if (law->law != &fracas_law_nitsche && !opens) return false;
+        if (law->law != &fracas_law_nitsche.kind && !opens) return false;
     }
     return true;
 }

@@ -90,8 +90,9 @@ static void check_first_step(fracas_spec spec, int width)
 static void a_step_is_the_operator(void **unused)
 {
     (void)unused;
-    const fracas_kind *const laws[] = {&fracas_law_nitsche, &fracas_law_camacho_ortiz_standard,
-                                       &fracas_law_camacho_ortiz};
+    const fracas_kind *const laws[] = {&fracas_law_nitsche.kind,
+                                       &fracas_law_camacho_ortiz_standard.kind,
+                                       &fracas_law_camacho_ortiz.kind};
     const int widths[] = {1, 4, 8};
     for (int which = 0; which < BODIES; which++)
         for (int law = 0; law < 3; law++)

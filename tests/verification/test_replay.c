@@ -31,7 +31,7 @@ static void replay(const dynfrag1d_run *run, const dynfrag1d_row *reference, int
     for (int i = 0; i < run->elements; i++)
         strength[i] *= 1 + noise * (2 * fracas_stream_uniform(&stream, (uint64_t)i) - 1);
     dynfrag1d_replay bar;
-    dynfrag1d_begin(&bar, run, &fracas_law_rigid_link, 1, 0, strength);
+    dynfrag1d_begin(&bar, run, &fracas_law_rigid_link.kind, 1, 0, strength);
     dynfrag1d_follow(&bar, reference, rows, now);
     dynfrag1d_end(&bar);
     free(strength);

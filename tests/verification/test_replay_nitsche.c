@@ -61,8 +61,8 @@ static int common_breaks(const dynfrag1d_run *run, const curve *a, const curve *
 /* Of one bar: theirs, and both laws on some mesh. */
 enum { THEIRS, RIGID, NITSCHE, CURVES };
 
-static const fracas_kind *const law_of[CURVES] = {NULL, &fracas_law_rigid_link,
-                                                  &fracas_law_nitsche};
+static const fracas_kind *const law_of[CURVES] = {NULL, &fracas_law_rigid_link.kind,
+                                                  &fracas_law_nitsche.kind};
 
 /* On its own mesh and time step. Returns the rows. */
 static int compute_all(const dynfrag1d_run *run, curve *curves)

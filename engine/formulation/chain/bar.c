@@ -17,11 +17,6 @@ FRACAS_KERNEL_TABLE(const fracas_bar_kernel, fracas_bar);
 static const fracas_chain chain = {
     .fields = BAR_FIELDS, .damage = BAR_DAMAGE, .strength = BAR_STRENGTH};
 
-static bool is_nitsche(const fracas_model *model)
-{
-    return model->spec.cohesive.law == &fracas_law_nitsche;
-}
-
 static bool is_uniform(const fracas_model *model)
 {
     return model->spec.mesh.spacing == &fracas_spacing_uniform;
@@ -125,8 +120,8 @@ static fracas_err bar_model_init(fracas_model *model)
     model->longest = model->element_size;
     model->mass = spec->material.density * spec->geometry.area * spec->geometry.length;
     if (!is_uniform(model)) TRY(fill_sizes(model));
-    /* The penalty of rigid-link depends on each strength; check_strength keeps it below the
-     * elements' stiffness. */
+    /* Where the stiffness of contact depends on the strength, check_strength keeps it below the
+     * elements'. */
     return fracas_chain_critical_step(model, is_uniform(model) ? NULL : model->table);
 }
 
@@ -135,7 +130,7 @@ static fracas_err bar_model_init(fracas_model *model)
 static fracas_err bar_check_strength(const fracas_model *model, double strength)
 {
     TRY(fracas_chain_check_strength(model, strength));
-    if (is_nitsche(model)) return FRACAS_OK;
+    if (!fracas_law_of(&model->spec)->contact_by_strength) return FRACAS_OK;
     const fracas_bar_constants bar = constants_of(model);
     const double h = model->longest;
     double penalty = (strength * strength + bar.contact_offset) / (4.5 * bar.fracture_energy);
@@ -171,21 +166,22 @@ static double *bar_strength(const fracas_model *model, const fracas_step *step, 
 static void bar_lane_init(const fracas_model *model, const fracas_step *step, int lane)
 {
     const double energy = model->spec.cohesive.fracture_energy;
+    const fracas_law *law = fracas_law_of(&model->spec);
     for (size_t e = 0; e < model->elements; e++) {
         for (int field = 0; field < BAR_FIELDS; field++)
             if (field != BAR_STRENGTH) *field_of(model, step, e, field, lane) = 0.0;
         double strength = *field_of(model, step, e, BAR_STRENGTH, lane);
-        if (is_nitsche(model) && e < model->interfaces)
-            *field_of(model, step, e, BAR_LAW, lane) = 2 * spring_of(model, e) * energy / strength -
-                                                       strength;
+        if (law->constant && e < model->interfaces)
+            *field_of(model, step, e, BAR_LAW, lane) = law->constant(spring_of(model, e), energy,
+                                                                     strength);
     }
 }
 
 static void bar_advance(const fracas_model *model, fracas_step *step)
 {
     const fracas_bar_constants bar = constants_of(model);
-    fracas_bar_sweep *sweep =
-        fracas_bar[step->isa][step->lanes]->sweep[is_uniform(model)][is_nitsche(model)];
+    fracas_bar_sweep *sweep = fracas_bar[step->isa][step->lanes]
+                                  ->sweep[fracas_law_of(&model->spec)->number][is_uniform(model)];
     for (int first = 0; first < step->width; first += step->lanes) sweep(&bar, step, first);
 }
 
@@ -273,10 +269,9 @@ static fracas_err bar_harvest(const fracas_model *model, fracas_step *step, int 
                             : FRACAS_OK;
 }
 
-static const fracas_kind *const goes_with[] = {
-    &fracas_shape_bar,           &fracas_spacing_uniform, &fracas_spacing_graded,
-    &fracas_spacing_perturbed,   &fracas_law_nitsche,     &fracas_law_rigid_link,
-    &fracas_loading_imposed_rate};
+static const fracas_kind *const goes_with[] = {&fracas_shape_bar, &fracas_spacing_uniform,
+                                               &fracas_spacing_graded, &fracas_spacing_perturbed,
+                                               &fracas_loading_imposed_rate};
 const fracas_formulation fracas_formulation_bar = {
     .kind = {.name = "bar",
              .doc = "a bar stretched at a uniform rate: the hoop direction of an expanding ring",

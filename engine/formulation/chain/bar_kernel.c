@@ -1,14 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The bar's sweep over lanes: a kernel (docs/theory/bar.md, docs/theory/cohesive.md). */
-#include "base/lanes.h"
-#include "engine/cohesive/nitsche.h"
-#include "engine/cohesive/rigid_link.h"
+#include "engine/cohesive/kernels.h"
 #include "engine/formulation/chain/bar_sweep.h"
 #include "engine/formulation/chain/chain_events.h"
 #include "engine/integrator/central_difference.h"
-
-#define BAR_RIGID_LINK 1
-#define BAR_NITSCHE 0
 
 /* An element at t_n: displacements drifted, velocities still those of t_{n-1/2}. */
 typedef struct {
@@ -65,40 +60,45 @@ LANES_FUNCTION vd bar_stress_rate(const bar_context *c, int uniform, const bar_e
            load;
 }
 
-LANES_FUNCTION bar_link bar_nitsche(bar_context *c, int uniform, size_t e, const bar_element *left,
-                                    const bar_element *right)
+/* An interface in series with the flux. */
+LANES_FUNCTION bar_link bar_flux(bar_context *c, int uniform, int law, size_t e,
+                                 const bar_element *left, const bar_element *right)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5);
     double *at = c->state + e * BAR_FIELDS * LANES;
     vd before = lanes_load(at + BAR_DAMAGE * LANES);
-    vd sigma_c = lanes_load(at + BAR_STRENGTH * LANES), x = lanes_load(at + BAR_LAW * LANES);
     vd mean = half * (left->stress + right->stress); /* (bar.2) */
     vd q = right->w_left - left->w_right;
     /* K = beta E/h, 1/h the mean of both elements'  (bar.18) */
     vd spring = uniform ? c->spring
                         : lanes_set(c->bar->beta) * (half * (left->modulus + right->modulus));
     vd compliance = uniform ? c->compliance : one / spring;
-    nitsche_interface it = nitsche_law(mean, q, before, sigma_c, x, spring, compliance);
+    const line_input in = {.mean = mean,
+                           .jump = q,
+                           .damage = before,
+                           .sigma_c = lanes_load(at + BAR_STRENGTH * LANES),
+                           .constant = lanes_load(at + BAR_LAW * LANES),
+                           .stiffness = spring,
+                           .compliance = compliance};
+    const line_result it = line_law(law, &in);
     lanes_store(at + BAR_DAMAGE * LANES, it.damage);
 
     /* Energies per area, twice: slip (m + T) of the flux, T delta stored in the opening or in
      * contact  (cohesive.5) */
     c->flux_energy += it.slip * (mean + it.traction);
     c->opening_energy += it.traction * (q - it.slip);
-    c->damage += it.damage;
+    c->damage += it.dissipated;
     c->slip += it.slip;
 
     vmask grows = lanes_lt(before, it.damage);
     vmask cracks = lanes_and(grows, lanes_le(before, zero)),
           breaks = lanes_and(grows, lanes_le(one, it.damage));
     if (__builtin_expect(lanes_any(lanes_or(cracks, breaks)), 0)) {
-        /* S is linear in time within the step: the crossing of sigma_c, and of K delta_c = sigma_c
-         * + x  (bar.12) */
+        /* S is linear in time within the step: it crosses sigma_c, and K delta_c  (bar.12) */
         vd rate = bar_stress_rate(c, uniform, left, right) +
                   spring * (right->v_left - left->v_right);
         vd time = lanes_load(c->step->time + c->first);
-        vd onset = time - (it.trial - sigma_c) / rate,
-           broke = time - (it.trial - sigma_c - x) / rate;
+        vd onset = time - it.past_onset / rate, broke = time - it.past_break / rate;
         vd lost = half * mean * mean * compliance; /* (cohesive.6) */
         chain_note_events(c->step, c->first, c->bar->area, e,
                           &(chain_events){cracks, breaks, onset, broke, zero, lost});
@@ -147,15 +147,15 @@ LANES_FUNCTION bar_link bar_rigid_link(bar_context *c, int uniform, size_t e,
         .traction = traction, .slip = zero, .closed = lanes_lt(state, two), .common = common};
 }
 
-LANES_FUNCTION bar_link bar_join(bar_context *c, int uniform, int law, size_t e,
+LANES_FUNCTION bar_link bar_join(bar_context *c, int uniform, int flux, int law, size_t e,
                                  const bar_element *left, const bar_element *right)
 {
-    return law == BAR_NITSCHE ? bar_nitsche(c, uniform, e, left, right)
-                              : bar_rigid_link(c, uniform, e, left, right);
+    return flux ? bar_flux(c, uniform, law, e, left, right)
+                : bar_rigid_link(c, uniform, e, left, right);
 }
 
 /* Forces and kick of one element, and its share of the sums; a held node stays where it is. */
-LANES_FUNCTION void bar_finish(bar_context *c, int uniform, int law, size_t e,
+LANES_FUNCTION void bar_finish(bar_context *c, int uniform, int flux, size_t e,
                                const bar_element *element, const bar_link *left,
                                const bar_link *right, int hold_left, int hold_right)
 {
@@ -164,14 +164,13 @@ LANES_FUNCTION void bar_finish(bar_context *c, int uniform, int law, size_t e,
     /* N = sigma + (E/2h) (slip of both ends): bulk and symmetrisation  (bar.6); forces per area
      * (bar.7) */
     vd internal = element->stress;
-    if (law == BAR_NITSCHE) internal += half * element->modulus * (left->slip + right->slip);
+    if (flux) internal += half * element->modulus * (left->slip + right->slip);
     vd force_left = internal - left->traction, force_right = right->traction - internal;
     if (!uniform) { /* per mass */
         force_left = force_left / element->size;
         force_right = force_right / element->size;
     }
-    if (law ==
-        BAR_RIGID_LINK) { /* the same number on both sides: tied nodes stay together to the bit */
+    if (!flux) { /* the same number on both sides: tied nodes stay together to the bit */
         force_left = lanes_select(left->closed, left->common, force_left);
         force_right = lanes_select(right->closed, right->common, force_right);
     }
@@ -210,7 +209,7 @@ LANES_FUNCTION void bar_totals(const bar_context *c)
 }
 
 LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, int first,
-                            int uniform, int law)
+                            int uniform, int flux, int law)
 {
     const vd zero = lanes_set(0.0);
     const size_t last = bar->elements - 1;
@@ -241,33 +240,43 @@ LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, 
     bar_link closing = {.traction = zero, .slip = zero}, left;
     if (bar->periodic) {
         bar_element end = bar_load(c, uniform, last);
-        closing = bar_join(c, uniform, law, last, &end, &element);
+        closing = bar_join(c, uniform, flux, law, last, &end, &element);
     }
     bar_element next = bar_load(c, uniform, 1);
-    bar_link right = bar_join(c, uniform, law, 0, &element, &next);
-    if (bar->periodic) bar_finish(c, uniform, law, 0, &element, &closing, &right, 0, 0);
-    else bar_finish(c, uniform, law, 0, &element, &closing, &right, 1, 0);
+    bar_link right = bar_join(c, uniform, flux, law, 0, &element, &next);
+    if (bar->periodic) bar_finish(c, uniform, flux, 0, &element, &closing, &right, 0, 0);
+    else bar_finish(c, uniform, flux, 0, &element, &closing, &right, 1, 0);
     for (size_t e = 1; e < last; e++) {
         left = right;
         element = next;
         next = bar_load(c, uniform, e + 1);
-        right = bar_join(c, uniform, law, e, &element, &next);
-        bar_finish(c, uniform, law, e, &element, &left, &right, 0, 0);
+        right = bar_join(c, uniform, flux, law, e, &element, &next);
+        bar_finish(c, uniform, flux, e, &element, &left, &right, 0, 0);
     }
-    if (bar->periodic) bar_finish(c, uniform, law, last, &next, &right, &closing, 0, 0);
-    else bar_finish(c, uniform, law, last, &next, &right, &closing, 0, 1);
+    if (bar->periodic) bar_finish(c, uniform, flux, last, &next, &right, &closing, 0, 0);
+    else bar_finish(c, uniform, flux, last, &next, &right, &closing, 0, 1);
     bar_totals(c);
 }
 
-#define BAR_SWEEP(name, uniform, law)                                               \
-    static void name(const fracas_bar_constants *bar, fracas_step *step, int first) \
-    {                                                                               \
-        bar_run(bar, step, first, uniform, law);                                    \
+#define BAR_FLUX(name) BAR_SWEEPS(name, 1)
+#define BAR_RIGID(name) BAR_SWEEPS(name, 0)
+#define BAR_NO(name)
+#define BAR_SWEEPS(name, flux)                                                               \
+    static void even_##name(const fracas_bar_constants *bar, fracas_step *step, int first)   \
+    {                                                                                        \
+        bar_run(bar, step, first, 1, flux, FRACAS_LAW_##name);                               \
+    }                                                                                        \
+    static void uneven_##name(const fracas_bar_constants *bar, fracas_step *step, int first) \
+    {                                                                                        \
+        bar_run(bar, step, first, 0, flux, FRACAS_LAW_##name);                               \
     }
-BAR_SWEEP(nitsche, 1, BAR_NITSCHE)
-BAR_SWEEP(rigid_link, 1, BAR_RIGID_LINK)
-BAR_SWEEP(varied_nitsche, 0, BAR_NITSCHE)
-BAR_SWEEP(varied_rigid_link, 0, BAR_RIGID_LINK)
+#define FRACAS_LAW(name, bar, ring, membrane, shell) BAR_##bar(name)
+#include "engine/cohesive/laws.list.h"
+#undef FRACAS_LAW
+#undef BAR_SWEEPS
 
-const fracas_bar_kernel LANES_UNIT(fracas_bar) = {
-    .sweep = {{varied_rigid_link, varied_nitsche}, {rigid_link, nitsche}}};
+#define BAR_SWEEPS(name, flux) [FRACAS_LAW_##name] = {uneven_##name, even_##name},
+#define FRACAS_LAW(name, bar, ring, membrane, shell) BAR_##bar(name)
+const fracas_bar_kernel LANES_UNIT(fracas_bar) = {.sweep = {
+#include "engine/cohesive/laws.list.h"
+                                                  }};

@@ -8,6 +8,7 @@
 #ifndef FRACAS_ENGINE_FORMULATION_BAR_SWEEP_H
 #define FRACAS_ENGINE_FORMULATION_BAR_SWEEP_H
 
+#include "engine/cohesive/law.h"
 #include "engine/formulation/formulation.h"
 
 enum {
@@ -42,9 +43,9 @@ typedef struct {
 /* Advances the lanes first .. first + lanes - 1 of the step. */
 typedef void fracas_bar_sweep(const fracas_bar_constants *bar, fracas_step *step, int first);
 
-/* A unit: [elements of one length: 0 no, 1 yes][law: 0 rigid-link, 1 nitsche]. */
+/* A unit: [law][elements of one length: 0 no, 1 yes]. */
 typedef struct {
-    fracas_bar_sweep *sweep[2][2];
+    fracas_bar_sweep *sweep[FRACAS_LAWS][2];
 } fracas_bar_kernel;
 
 #endif

@@ -31,11 +31,13 @@ fracas_err fracas_chain_check_strength(const fracas_model *model, double strengt
             FRACAS_USAGE,
             "strength of %g Pa; it must be positive and finite: check the section strength",
             strength);
-    if (cohesive->law != &fracas_law_nitsche) return FRACAS_OK;
+    const fracas_law *law = fracas_law_of(&model->spec);
+    if (!law->flux) return FRACAS_OK;
     const double young = model->spec.material.young, energy = cohesive->fracture_energy,
                  h = model->longest;
-    double margin = 2 * (cohesive->beta * young / h) * energy / strength - strength;
-    double most = 2 * cohesive->beta * young * energy / (strength * strength);
+    const double steep = law->steepest * strength;
+    double margin = 2 * (cohesive->beta * young / h) * energy / strength - steep;
+    double most = 2 * cohesive->beta * young * energy / (strength * steep);
     if (margin > 0 && isfinite(margin)) return FRACAS_OK;
     const double needed = ceil((double)model->elements * h / most);
     return fracas_fail(FRACAS_USAGE,

@@ -28,17 +28,15 @@ static double modulus_of(const chain_operator *o, size_t e)
 
 static bool has_flux(const chain_operator *o)
 {
-    return o->closed && o->model->spec.cohesive.law == &fracas_law_nitsche;
+    return o->closed && fracas_law_of(&o->model->spec)->flux;
 }
 
-/* Stiffness of a broken interface in contact: the flux's for nitsche, at most `penalty` elements'
- * for the rigid links. */
+/* Stiffness of a broken interface in contact. */
 static double contact_of(const chain_operator *o, size_t left, size_t right)
 {
-    const fracas_cohesive *cohesive = &o->model->spec.cohesive;
-    double factor = cohesive->law == &fracas_law_nitsche    ? cohesive->beta
-                    : cohesive->law == &fracas_law_stershic ? cohesive->penalty
-                                                            : 1.0;
+    const fracas_spec *spec = &o->model->spec;
+    const fracas_law *law = fracas_law_of(spec);
+    const double factor = law->contact ? law->contact(&spec->cohesive) : 1.0;
     return factor * (0.5 * (modulus_of(o, left) + modulus_of(o, right)));
 }
 
@@ -125,9 +123,8 @@ fracas_err fracas_chain_critical_step(fracas_model *model, const double *size)
 {
     TRY(critical_step(model, size, true, &model->critical_closed));
     TRY(critical_step(model, size, false, &model->critical_cracked));
-    /* Stershic's algorithm starts from the uncracked step, and refines it where links are in
-     * contact. */
-    model->critical_step = model->spec.cohesive.law == &fracas_law_stershic
+    /* A law that refines the step itself starts from the uncracked one. */
+    model->critical_step = fracas_law_of(&model->spec)->finest
                                ? model->critical_closed
                                : fmin(model->critical_closed, model->critical_cracked);
     return FRACAS_OK;

@@ -14,19 +14,19 @@
 
 FRACAS_KERNEL_TABLE(const fracas_ring_kernel, fracas_ring);
 
-static const fracas_chain nitsche_chain = {
+static const fracas_chain flux_chain = {
     .fields = RING_FIELDS, .damage = RING_DAMAGE, .strength = RING_STRENGTH};
-static const fracas_chain stershic_chain = {
+static const fracas_chain rigid_chain = {
     .fields = RING_FIELDS_STERSHIC, .damage = RING_DAMAGE, .strength = RING_STRENGTH};
 
-static bool is_nitsche(const fracas_model *model)
+static bool has_flux(const fracas_model *model)
 {
-    return model->spec.cohesive.law == &fracas_law_nitsche;
+    return fracas_law_of(&model->spec)->flux;
 }
 
 static const fracas_chain *chain_of(const fracas_model *model)
 {
-    return is_nitsche(model) ? &nitsche_chain : &stershic_chain;
+    return has_flux(model) ? &flux_chain : &rigid_chain;
 }
 
 /* Radius of the vertices of the polygon whose perimeter is the ring's circumference [m]  (ring.1).
@@ -69,7 +69,7 @@ static fracas_ring_constants constants_of(const fracas_model *model)
         .table = model->table,
         .current = spec->geometry.direction == &fracas_direction_current,
         .young = young,
-        .spring = (is_nitsche(model) ? spec->cohesive.beta : spec->cohesive.penalty) * young / h,
+        .spring = fracas_law_of(spec)->contact(&spec->cohesive) * young / h,
         .size = h,
         .radius = vertex_radius(model),
         .nodal_mass = 0.5 * spec->material.density * h,
@@ -95,7 +95,7 @@ static fracas_err ring_model_init(fracas_model *model)
     const double circumference = 2 * FRACAS_PI * spec->geometry.radius;
     model->element_size = model->longest = circumference / (double)n;
     model->mass = spec->material.density * spec->geometry.area * circumference;
-    if (!is_nitsche(model) && spec->cohesive.zone > 0 &&
+    if (!has_flux(model) && spec->cohesive.zone > 0 &&
         spec->cohesive.zone * (1 + 1e-12) < model->element_size)
         return fracas_fail(
             FRACAS_USAGE,
@@ -159,7 +159,7 @@ static void start_velocities(const fracas_model *model, double velocity[2])
     const fracas_ring_constants ring = constants_of(model);
     const fracas_loading *loading = &model->spec.loading;
     const double swell = ring.radius / model->spec.geometry.radius;
-    const double back = is_nitsche(model) ? 0.5 * model->time_step : 0.0;
+    const double back = has_flux(model) ? 0.5 * model->time_step : 0.0;
     velocity[0] = velocity[1] = 0;
     if (ring.drive == RING_HELD) velocity[ring.circumferential] = ring.level - ring.rate * back;
     if (ring.drive == RING_FORCED)
@@ -173,6 +173,7 @@ static void ring_lane_init(const fracas_model *model, const fracas_step *step, i
 {
     const fracas_ring_constants ring = constants_of(model);
     const size_t n = model->elements;
+    const fracas_law *law = fracas_law_of(&model->spec);
     double velocity[2];
     start_velocities(model, velocity);
     for (size_t e = 0; e < n; e++) {
@@ -187,18 +188,18 @@ static void ring_lane_init(const fracas_model *model, const fracas_step *step, i
                                                          velocity[1] * table[RING_COS];
         }
         double strength = *field_of(model, step, e, RING_STRENGTH, lane);
-        if (is_nitsche(model))
+        if (law->constant)
             *field_of(model, step, e, RING_LAW,
-                      lane) = 2 * ring.spring * ring.fracture_energy / strength - strength;
-        else *field_of(model, step, e, RING_STRAIN, lane) = -1.0;
+                      lane) = law->constant(ring.spring, ring.fracture_energy, strength);
+        if (!law->flux) *field_of(model, step, e, RING_STRAIN, lane) = -1.0;
     }
 }
 
 static void ring_advance(const fracas_model *model, fracas_step *step)
 {
     const fracas_ring_constants ring = constants_of(model);
-    const fracas_ring_kernel *kernel = fracas_ring[step->isa][step->lanes];
-    fracas_ring_sweep *sweep = is_nitsche(model) ? kernel->nitsche : kernel->stershic;
+    fracas_ring_sweep *sweep =
+        fracas_ring[step->isa][step->lanes]->sweep[fracas_law_of(&model->spec)->number];
     for (int first = 0; first < step->width; first += step->lanes) sweep(&ring, step, first);
 }
 
@@ -245,8 +246,6 @@ static fracas_err ring_harvest(const fracas_model *model, fracas_step *step, int
 
 static const fracas_kind *const goes_with[] = {&fracas_shape_ring,
                                                &fracas_spacing_uniform,
-                                               &fracas_law_nitsche,
-                                               &fracas_law_stershic,
                                                &fracas_loading_imposed_rate,
                                                &fracas_loading_initial_velocity,
                                                &fracas_loading_held_velocity,

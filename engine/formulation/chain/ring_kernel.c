@@ -3,5 +3,20 @@
 #include "engine/formulation/chain/ring_nitsche.h"
 #include "engine/formulation/chain/ring_stershic.h"
 
-const fracas_ring_kernel LANES_UNIT(fracas_ring) = {.nitsche = ring_nitsche,
-                                                    .stershic = ring_stershic};
+#define RING_FLUX(name)                                                                      \
+    static void ring_##name(const fracas_ring_constants *ring, fracas_step *step, int first) \
+    {                                                                                        \
+        ring_flux(ring, step, first, FRACAS_LAW_##name);                                     \
+    }
+#define RING_RIGID(name)
+#define RING_NO(name)
+#define FRACAS_LAW(name, bar, ring, membrane, shell) RING_##ring(name)
+#include "engine/cohesive/laws.list.h"
+#undef RING_FLUX
+#undef RING_RIGID
+
+#define RING_FLUX(name) [FRACAS_LAW_##name] = ring_##name,
+#define RING_RIGID(name) [FRACAS_LAW_##name] = ring_rigid,
+const fracas_ring_kernel LANES_UNIT(fracas_ring) = {.sweep = {
+#include "engine/cohesive/laws.list.h"
+                                                    }};

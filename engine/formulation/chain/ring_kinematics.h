@@ -5,8 +5,7 @@
 #define FRACAS_ENGINE_CHAIN_RING_KINEMATICS_H
 
 #include "base/lanes.h"
-#include "engine/cohesive/nitsche.h"
-#include "engine/cohesive/rigid_link.h"
+#include "engine/cohesive/kernels.h"
 #include "engine/formulation/chain/chain_events.h"
 #include "engine/formulation/chain/ring_sweep.h"
 #include "engine/integrator/central_difference.h"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The ring's sweep with the law nitsche: central difference, one pass over the elements. */
+/* The ring's sweep with laws in series with the flux: central difference, one pass over the
+ * elements. */
 #ifndef FRACAS_ENGINE_CHAIN_RING_NITSCHE_H
 #define FRACAS_ENGINE_CHAIN_RING_NITSCHE_H
 
@@ -18,25 +19,31 @@ LANES_FUNCTION ring_element ring_load(const ring_context *c, size_t e)
     return element;
 }
 
-LANES_FUNCTION ring_link ring_join(ring_context *c, size_t e, const ring_element *left,
+LANES_FUNCTION ring_link ring_join(ring_context *c, int law, size_t e, const ring_element *left,
                                    const ring_element *right)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5);
     double *at = c->state + e * RING_FIELDS * LANES;
     vd before = lanes_load(at + RING_DAMAGE * LANES);
-    vd sigma_c = lanes_load(at + RING_STRENGTH * LANES), x = lanes_load(at + RING_LAW * LANES);
     const ring_frame frame = ring_frame_of(c, e, left, right);
     const ring_vector jump = ring_subtract(right->u_left, left->u_right);
     vd q = ring_dot(jump, frame.n), p = ring_dot(jump, frame.r); /* (ring.5) */
     vd mean = half * (left->stress + right->stress), compliance = lanes_set(1.0 / c->ring->spring);
-    nitsche_interface it = nitsche_law(mean, q, before, sigma_c, x, c->spring, compliance);
+    const line_input in = {.mean = mean,
+                           .jump = q,
+                           .damage = before,
+                           .sigma_c = lanes_load(at + RING_STRENGTH * LANES),
+                           .constant = lanes_load(at + RING_LAW * LANES),
+                           .stiffness = c->spring,
+                           .compliance = compliance};
+    const line_result it = line_law(law, &in);
     lanes_store(at + RING_DAMAGE * LANES, it.damage);
     /* the radial jump is restrained by the same stiffness until the interface cracks  (ring.6) */
     vd restraint = lanes_select(lanes_le(it.damage, zero), c->spring * p, zero);
 
     c->flux_energy += it.slip * (mean + it.traction) + restraint * p;
     c->opening_energy += it.traction * (q - it.slip);
-    c->dissipated += it.damage;
+    c->dissipated += it.dissipated;
 
     vmask grows = lanes_lt(before, it.damage);
     vmask cracks = lanes_and(grows, lanes_le(before, zero)),
@@ -49,8 +56,8 @@ LANES_FUNCTION ring_link ring_join(ring_context *c, size_t e, const ring_element
             c->step, c->first, c->ring->area, e,
             &(chain_events){.cracks = cracks,
                             .breaks = breaks,
-                            .onset = time - (it.trial - sigma_c) / rate,
-                            .broke = time - (it.trial - sigma_c - x) / rate,
+                            .onset = time - it.past_onset / rate,
+                            .broke = time - it.past_break / rate,
                             .at_onset = zero - half * c->spring * p * p,   /* (ring.7) */
                             .at_break = half * mean * mean * compliance}); /* (cohesive.6) */
     }
@@ -83,7 +90,8 @@ LANES_FUNCTION void ring_finish(ring_context *c, size_t e, const ring_element *e
     ring_write(at + RING_V_RIGHT * LANES, v_right);
 }
 
-static void ring_nitsche(const fracas_ring_constants *ring, fracas_step *step, int first)
+LANES_FUNCTION void ring_flux(const fracas_ring_constants *ring, fracas_step *step, int first,
+                              int law)
 {
     const size_t last = ring->elements - 1;
     const vd dt = lanes_load(step->kick + first);
@@ -92,15 +100,15 @@ static void ring_nitsche(const fracas_ring_constants *ring, fracas_step *step, i
 
     /* One pass in place, as the bar's; the interface that closes the ring comes first. */
     ring_element element = ring_load(c, 0), end = ring_load(c, last);
-    const ring_link closing = ring_join(c, last, &end, &element);
+    const ring_link closing = ring_join(c, law, last, &end, &element);
     ring_element next = ring_load(c, 1);
-    ring_link left, right = ring_join(c, 0, &element, &next);
+    ring_link left, right = ring_join(c, law, 0, &element, &next);
     ring_finish(c, 0, &element, &closing, &right);
     for (size_t e = 1; e < last; e++) {
         left = right;
         element = next;
         next = ring_load(c, e + 1);
-        right = ring_join(c, e, &element, &next);
+        right = ring_join(c, law, e, &element, &next);
         ring_finish(c, e, &element, &left, &right);
     }
     ring_finish(c, last, &next, &right, &closing);

@@ -67,8 +67,7 @@ LANES_FUNCTION vd stershic_traction(const ring_context *c, vd q, vd *damage, vd 
                                     vd *delta_c)
 {
     const fracas_ring_constants *ring = c->ring;
-    *delta_c = ring->critical_opening > 0 ? lanes_set(ring->critical_opening)
-                                          : lanes_set(2.0 * ring->fracture_energy) / sigma_c;
+    *delta_c = cohesive_opening(ring->fracture_energy, ring->critical_opening, sigma_c);
     return rigid_link_law(q, damage, sigma_c, *delta_c, c->spring);
 }
 
@@ -327,7 +326,7 @@ LANES_FUNCTION void stershic_advance(ring_context *c, vd share)
     stershic_finish(c, last, &next, &right, &closing, share);
 }
 
-static void ring_stershic(const fracas_ring_constants *ring, fracas_step *step, int first)
+static void ring_rigid(const fracas_ring_constants *ring, fracas_step *step, int first)
 {
     const vd zero = lanes_set(0.0), half = lanes_set(0.5), drift = lanes_load(step->drift + first);
     ring_context context = ring_context_of(ring, step, first, RING_FIELDS_STERSHIC, drift, zero),

@@ -7,6 +7,7 @@
 #ifndef FRACAS_ENGINE_FORMULATION_RING_SWEEP_H
 #define FRACAS_ENGINE_FORMULATION_RING_SWEEP_H
 
+#include "engine/cohesive/law.h"
 #include "engine/formulation/formulation.h"
 
 enum {
@@ -58,9 +59,9 @@ enum { RING_COS, RING_SIN, RING_COS_MIDDLE, RING_SIN_MIDDLE, RING_TABLE };
 /* Advances the lanes first .. first + lanes - 1 of the step. */
 typedef void fracas_ring_sweep(const fracas_ring_constants *ring, fracas_step *step, int first);
 
-/* A unit. */
+/* A unit: [law]. */
 typedef struct {
-    fracas_ring_sweep *nitsche, *stershic;
+    fracas_ring_sweep *sweep[FRACAS_LAWS];
 } fracas_ring_kernel;
 
 #endif

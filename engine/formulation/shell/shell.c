@@ -44,7 +44,7 @@ fracas_shell_constants fracas_shell_constants_of(const fracas_model *model)
     c.tangential = beta_c * beta_c * c.normal;
     c.fields = c.motion.alpha ? SURFACE_FIELDS_ALPHA : SURFACE_FIELDS;
     c.strengths = (int)model->strengths;
-    c.point_fields = c.friction ? SURFACE_POINT_FIELDS_FRICTION : SURFACE_POINT_FIELDS;
+    c.point_fields = fracas_law_of(spec)->fields[c.friction];
     return c;
 }
 
@@ -185,7 +185,8 @@ FRACAS_KERNEL_TABLE(const fracas_shell_kernel, fracas_shell);
 static void shell_advance(const fracas_model *model, fracas_step *step)
 {
     const fracas_shell_constants c = fracas_shell_constants_of(model);
-    fracas_shell_sweep *sweep = fracas_shell[step->isa][step->lanes]->sweep[SHELL_NITSCHE];
+    fracas_shell_sweep *sweep =
+        fracas_shell[step->isa][step->lanes]->sweep[fracas_law_of(&model->spec)->number];
     for (int first = 0; first < step->width; first += step->lanes) sweep(&c, step, first);
 }
 
@@ -236,9 +237,8 @@ static fracas_err shell_harvest(const fracas_model *model, fracas_step *step, in
 }
 
 static const fracas_kind *const goes_with[] = {
-    &fracas_shape_sphere, &fracas_shape_plate,       &fracas_shape_annulus,
-    &fracas_shape_file,   &fracas_spacing_triangles, &fracas_spacing_given,
-    &fracas_law_nitsche,  &fracas_loading_expansion};
+    &fracas_shape_sphere,      &fracas_shape_plate,   &fracas_shape_annulus,    &fracas_shape_file,
+    &fracas_spacing_triangles, &fracas_spacing_given, &fracas_loading_expansion};
 const fracas_formulation fracas_formulation_shell = {
     .kind = {.name = "shell",
              .doc = "a thin shell or plate that stretches and bends, of triangles in space",

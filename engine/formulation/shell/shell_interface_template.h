@@ -285,7 +285,7 @@ LANES_FUNCTION void shell_rim(shell_context *c, size_t e, size_t r)
 /* The layers of a Gauss point by the law  (shell.12), (shell.13), (shell.15). */
 LANES_FUNCTION shell_layers shell_layers_point(const shell_context *c,
                                                const plane_interface *interface,
-                                               const shell_point *p, double *fields, int g,
+                                               const shell_point *p, int law, double *fields, int g,
                                                shell_booked *booked)
 {
     static const double place[SHELL_LAYERS] = SHELL_LAYER_PLACES,
@@ -327,7 +327,7 @@ LANES_FUNCTION shell_layers shell_layers_point(const shell_context *c,
             .m_n = mean[0], .m_t = mean[1], .q_n = q[0], .q_t = q[1], .opened = opened};
         all.whole = lanes_and(all.whole,
                               lanes_le(lanes_load(surface_at(point, SURFACE_PEAK)), zero));
-        const plane_result r = surface_nitsche(interface, &in, s->friction, point);
+        const plane_result r = plane_law(law, interface, &in, point);
         const vd flux_n = mean[0] + interface->k_n * q[0], flux_t = mean[1] + interface->k_t * q[1];
         const vd t[2] = {lanes_select(r.cracked, r.t_n, flux_n),
                          lanes_select(r.cracked, r.t_t, flux_t)};
@@ -382,8 +382,8 @@ shell_book(const shell_context *c, size_t i, const shell_booked *booked, vmask o
 
 /* The way of an interface at which some lane is cracked, or is about to  (shell.14). `at` holds
  * what every lane does that is not. */
-LANES_FUNCTION void shell_crack(shell_context *c, size_t i, double *joint, const double *strength,
-                                shell_point at[SHELL_EDGE])
+LANES_FUNCTION void shell_crack(shell_context *c, int law, size_t i, double *joint,
+                                const double *strength, shell_point at[SHELL_EDGE])
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), two = lanes_set(2.0);
     const fracas_shell_constants *s = c->shell;
@@ -398,7 +398,8 @@ LANES_FUNCTION void shell_crack(shell_context *c, size_t i, double *joint, const
                                  .mu_c = lanes_set(s->mu_c),
                                  .energy = lanes_set(s->energy),
                                  .opening = lanes_set(s->opening),
-                                 .onset_mean = s->onset_mean};
+                                 .onset_mean = s->onset_mean,
+                                 .friction = s->friction};
     vmask whole = lanes_le(zero, zero), broken = whole, opens = lanes_lt(one, zero), parts = opens;
     vd created = zero, rubbed = zero, bending = zero;
     shell_booked booked;
@@ -407,7 +408,7 @@ LANES_FUNCTION void shell_crack(shell_context *c, size_t i, double *joint, const
         interface.sigma_c = lanes_load(strength + (size_t)g * c->strength_step);
         const vd length = lanes_set(table[SHELL_POINTS + g * SHELL_POINT_TABLE + SHELL_LENGTH]);
         shell_point *p = &at[g];
-        const shell_layers all = shell_layers_point(c, &interface, p, fields, g, &booked);
+        const shell_layers all = shell_layers_point(c, &interface, p, law, fields, g, &booked);
         vmask breaks = lanes_lt(one, zero);
         UNROLL_FOR (int k = 0; k < SHELL_LAYERS; k++) {
             opens = lanes_or(opens, booked.cracks[g][k]);
@@ -455,7 +456,7 @@ LANES_FUNCTION void shell_join(shell_context *c, int law, size_t i)
     const double *strength = c->strengths + i * c->strengths_size;
     shell_point at[SHELL_EDGE];
     shell_flux(c, i, &sides, at);
-    if (law == SHELL_OPERATOR) {
+    if (law == SURFACE_OPERATOR) {
         UNROLL_FOR (int g = 0; g < SHELL_EDGE; g++) {
             if (!s->contact) continue;
             at[g].shearing = lanes_set(0.0);
@@ -491,7 +492,7 @@ LANES_FUNCTION void shell_join(shell_context *c, int law, size_t i)
     }
     const vd floor = lanes_set(0.999 * (s->beta_c < 1.0 ? s->beta_c : 1.0)) * weakest;
     if (lanes_any(lanes_or(lanes_lt(lanes_set(0.0), touched), lanes_lt(floor * floor, largest)))) {
-        shell_crack(c, i, joint, strength, at);
+        shell_crack(c, law, i, joint, strength, at);
     } else {
         const double *table = c->tables->joint + i * (size_t)SHELL_JOINT_TABLE;
         UNROLL_FOR (int g = 0; g < SHELL_EDGE; g++) {

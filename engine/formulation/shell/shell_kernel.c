@@ -6,8 +6,6 @@
  * gets its forces and is kicked. Interfaces see an element through the displacements of its nodes
  * and the resultants at its bulk points, and give back forces and strains at those. */
 #include "base/lanes.h"
-#include "engine/cohesive/plane.h"
-#include "engine/cohesive/plane_nitsche.h"
 #include "engine/formulation/shell/shell_sweep.h"
 #include "engine/formulation/surface/sweep_template.h"
 
@@ -174,7 +172,7 @@ LANES_FUNCTION void shell_kick(shell_context *c, int law, size_t e)
             a[i] = lanes_set(0.0);
             c->power += force[i] * v[i]; /* (membrane.11) */
         }
-    if (law == SHELL_OPERATOR) {
+    if (law == SURFACE_OPERATOR) {
         UNROLL_FOR (int i = 0; i < SHELL_UNKNOWNS; i++)
             lanes_store(surface_at(at, SURFACE_V * SHELL_UNKNOWNS + i), a[i]);
         return;
@@ -231,7 +229,7 @@ LANES_FUNCTION void shell_run(const fracas_shell_constants *s, fracas_step *step
                              .power = zero};
     shell_context *c = &context;
     for (size_t e = 0; e < t->nelements; e++) {
-        if (law != SHELL_OPERATOR)
+        if (law != SURFACE_OPERATOR)
             surface_drift(&s->motion, c->drift, SHELL_UNKNOWNS, c->elements + e * c->element_size);
         shell_strain(c, e);
         for (size_t r = t->rim_from[e]; r < t->rim_from[e + 1]; r++) shell_rim(c, e, r);
@@ -240,21 +238,27 @@ LANES_FUNCTION void shell_run(const fracas_shell_constants *s, fracas_step *step
         for (size_t f = t->visits.finish_from[e]; f < t->visits.finish_from[e + 1]; f++)
             shell_kick(c, law, t->visits.finish[f]);
     }
-    if (law != SHELL_OPERATOR) shell_totals(c);
+    if (law != SURFACE_OPERATOR) shell_totals(c);
 }
 
-#define SHELL_SWEEP(name, law)                                                          \
-    static void name(const fracas_shell_constants *shell, fracas_step *step, int first) \
-    {                                                                                   \
-        shell_run(shell, step, first, law);                                             \
+#define SHELL_SWEEP(name, law)                                                                  \
+    static void sweep_##name(const fracas_shell_constants *shell, fracas_step *step, int first) \
+    {                                                                                           \
+        shell_run(shell, step, first, law);                                                     \
     }
-SHELL_SWEEP(nitsche, SHELL_NITSCHE)
+#define FRACAS_LAW(name, bar, ring, membrane, shell) \
+    FRACAS_IF_##shell(SHELL_SWEEP(name, FRACAS_LAW_##name))
+#include "engine/cohesive/laws.list.h"
+#undef FRACAS_LAW
 #if LANES == 1
-SHELL_SWEEP(operator, SHELL_OPERATOR)
+SHELL_SWEEP(operator, SURFACE_OPERATOR)
 #endif
 
+#define FRACAS_LAW(name, bar, ring, membrane, shell) \
+    FRACAS_IF_##shell([FRACAS_LAW_##name] = sweep_##name, )
 const fracas_shell_kernel LANES_UNIT(fracas_shell) = {.sweep = {
+#include "engine/cohesive/laws.list.h"
 #if LANES == 1
-                                                          [SHELL_OPERATOR] = operator,
+                                                          [SURFACE_OPERATOR] = sweep_operator,
 #endif
-                                                          [SHELL_NITSCHE] = nitsche } };
+                                                      }};

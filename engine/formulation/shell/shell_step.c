@@ -40,7 +40,7 @@ void fracas_shell_operator_apply(fracas_shell_operator *op, const double *u, dou
     for (size_t e = 0; e < c->tables->nelements; e++)
         for (size_t i = 0; i < SHELL_UNKNOWNS; i++)
             op->step.state[e * fields + i] = u[e * SHELL_UNKNOWNS + i];
-    fracas_shell[FRACAS_ISA_BASELINE][1]->sweep[SHELL_OPERATOR](c, &op->step, 0);
+    fracas_shell[FRACAS_ISA_BASELINE][1]->sweep[SURFACE_OPERATOR](c, &op->step, 0);
     for (size_t e = 0; e < c->tables->nelements; e++)
         for (size_t i = 0; i < SHELL_UNKNOWNS; i++)
             acceleration[e * SHELL_UNKNOWNS + i] =

@@ -35,8 +35,6 @@ enum {
         1.0 / 6, 4.0 / 6, 1.0 / 6 \
     }
 
-typedef enum { SHELL_NITSCHE, SHELL_OPERATOR } shell_law;
-
 /* Everything a sweep needs that is the same for all lanes. */
 typedef struct {
     const fracas_shell_tables *tables;
@@ -51,7 +49,7 @@ typedef struct {
         point_fields; /* of an element, in units of SHELL_UNKNOWNS; of a layer of a Gauss point */
     int strengths;    /* of an interface: 1, or one for each Gauss point */
     fracas_surface_motion motion;
-    int contact; /* SHELL_OPERATOR: all interfaces broken and in contact; else whole */
+    int contact; /* SURFACE_OPERATOR: all interfaces broken and in contact; else whole */
 } fracas_shell_constants;
 
 /* Places in a group's state, in units of one field's lanes. */
@@ -92,7 +90,7 @@ typedef void fracas_shell_sweep(const fracas_shell_constants *shell, fracas_step
 /* Kernels of one instruction set, [law][for 1, 4, 8 lanes]; NULL where there is no such register.
  * The operator's, for one lane alone, leaves M^-1 (-f)(u) where velocities are. */
 typedef struct {
-    fracas_shell_sweep *sweep[2];
+    fracas_shell_sweep *sweep[SURFACE_SWEEPS];
 } fracas_shell_kernel;
 
 /* ---- what happens at an interface in a step, booked lane by lane: it is rare ---- */

@@ -37,8 +37,8 @@ fracas_err fracas_surface_check_motion(const fracas_model *model, bool held)
                                      "ever move; let an edge be held, or start moving");
 }
 
-/* K >= 2 sigma_c/delta_c at the softest interface: twice what the law asks for (cohesive.7), so
- * that no peak as small as the strength is cut  (cohesive.13) */
+/* K >= 2 sigma_c/delta_c at the softest interface: twice the least stiffness of a linear law
+ * (cohesive.7), so that no peak as small as the strength is cut  (cohesive.13) */
 fracas_err fracas_surface_check_strength(const fracas_model *model, double strength)
 {
     const fracas_spec *spec = &model->spec;
@@ -48,10 +48,11 @@ fracas_err fracas_surface_check_strength(const fracas_model *model, double stren
             "strength of %g Pa; it must be positive and finite: check the section strength",
             strength);
     const double nu = spec->material.poisson, modulus = spec->material.young / (1 - nu * nu);
+    const fracas_law *law = fracas_law_of(spec);
     const double most = spec->cohesive.beta * modulus *
-                        fracas_spec_fracture_energy(spec, strength) / (strength * strength);
-    if (spec->cohesive.law != &fracas_law_nitsche || (isfinite(most) && model->longest <= most))
-        return FRACAS_OK;
+                        fracas_spec_fracture_energy(spec, strength) /
+                        (strength * strength * (law->flux ? law->steepest : 1));
+    if (!law->flux || (isfinite(most) && model->longest <= most)) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
                        "strength %g Pa needs elements of which area/edge is below %.4g m, the "
                        "largest is %.4g m: refine the mesh %.3g times (or raise cohesive.beta)",

@@ -17,24 +17,13 @@ static const fracas_membrane_tables *tables_of(const fracas_model *model)
     return model->plan;
 }
 
-static bool is_nitsche(const fracas_model *model)
-{
-    return model->spec.cohesive.law == &fracas_law_nitsche;
-}
-
-static int point_fields_of(const fracas_model *model)
-{
-    const bool friction = model->spec.cohesive.friction > 0;
-    if (is_nitsche(model)) return friction ? SURFACE_POINT_FIELDS_FRICTION : SURFACE_POINT_FIELDS;
-    return friction ? MEMBRANE_POINT_FIELDS_EXTRINSIC_FRICTION : MEMBRANE_POINT_FIELDS_EXTRINSIC;
-}
-
 /* k_n = K max(1, 1/beta_c^2), k_t = beta_c^2 k_n: neither is softer than K  (membrane.6) */
 fracas_membrane_constants fracas_membrane_constants_of(const fracas_model *model)
 {
     const fracas_spec *spec = &model->spec;
     const double nu = spec->material.poisson, c11 = spec->material.young / (1 - nu * nu),
                  beta_c = spec->cohesive.coupling;
+    const fracas_law *law = fracas_law_of(spec);
     const bool centrifugal = spec->loading.type == &fracas_loading_centrifugal;
     fracas_membrane_constants c = {.tables = tables_of(model),
                                    .c11 = c11,
@@ -46,9 +35,9 @@ fracas_membrane_constants fracas_membrane_constants_of(const fracas_model *model
                                    .beta_c = beta_c,
                                    .mu_c = spec->cohesive.friction,
                                    .onset_mean = spec->cohesive.onset != &fracas_onset_flux,
-                                   .standard = spec->cohesive.law != &fracas_law_camacho_ortiz,
+                                   .flux = law->flux,
                                    .friction = spec->cohesive.friction > 0,
-                                   .point_fields = point_fields_of(model),
+                                   .point_fields = law->fields[spec->cohesive.friction > 0],
                                    .strengths = (int)model->strengths,
                                    .speed = centrifugal ? spec->loading.speed : 0,
                                    .ramp = spec->loading.ramp,
@@ -179,7 +168,7 @@ static void membrane_advance(const fracas_model *model, fracas_step *step)
     const fracas_membrane_constants c = fracas_membrane_constants_of(model);
     fracas_membrane_sweep *sweep =
         fracas_membrane[step->isa][step->lanes]
-            ->sweep[is_nitsche(model) ? MEMBRANE_NITSCHE : MEMBRANE_EXTRINSIC][c.tables->order - 1];
+            ->sweep[fracas_law_of(&model->spec)->number][c.tables->order - 1];
     for (int first = 0; first < step->width; first += step->lanes) sweep(&c, step, first);
 }
 
@@ -259,16 +248,10 @@ static fracas_err membrane_harvest(const fracas_model *model, fracas_step *step,
     return fracas_surface_harvest(model, step, lane, membrane_damage, add_element, record);
 }
 
-static const fracas_kind *const goes_with[] = {&fracas_shape_plate,
-                                               &fracas_shape_annulus,
-                                               &fracas_shape_file,
-                                               &fracas_spacing_triangles,
-                                               &fracas_spacing_given,
-                                               &fracas_law_nitsche,
-                                               &fracas_law_camacho_ortiz_standard,
-                                               &fracas_law_camacho_ortiz,
-                                               &fracas_loading_expansion,
-                                               &fracas_loading_centrifugal};
+static const fracas_kind *const goes_with[] = {
+    &fracas_shape_plate,        &fracas_shape_annulus, &fracas_shape_file,
+    &fracas_spacing_triangles,  &fracas_spacing_given, &fracas_loading_expansion,
+    &fracas_loading_centrifugal};
 const fracas_formulation fracas_formulation_membrane = {
     .kind = {.name = "membrane",
              .doc = "a plate in plane stress, of triangles in its plane",

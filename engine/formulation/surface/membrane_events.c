@@ -111,9 +111,8 @@ static double onset_value(double t_n, double t_t, double beta_c, double mu_c)
 }
 
 /* What the laws compare at a Gauss point: with the strength, and with the limit of a break; see
- * plane_nitsche.h, plane_extrinsic.h. */
-static void compared(const view *v, membrane_law law, size_t interface, int g, double *onset,
-                     double *opening)
+ * nitsche.h, extrinsic.h. */
+static void compared(const view *v, size_t interface, int g, double *onset, double *opening)
 {
     const fracas_membrane_constants *m = v->membrane;
     const fracas_membrane_tables *t = m->tables;
@@ -128,12 +127,12 @@ static void compared(const view *v, membrane_law law, size_t interface, int g, d
     const double t_n = mean[0] + k_n * jump[0], t_t = mean[1] + k_t * jump[1];
     *onset = m->onset_mean ? onset_value(mean[0], mean[1], m->beta_c, m->mu_c)
                            : onset_value(t_n, t_t, m->beta_c, m->mu_c);
-    if (law == MEMBRANE_NITSCHE)
-        *opening = effective(t_n, t_t, m->beta_c) / k_n; /* broken at delta_c */
+    if (m->flux) *opening = effective(t_n, t_t, m->beta_c) / k_n; /* broken at delta_c */
     else
-        *opening = effective(jump[0] - point[MEMBRANE_JUMP_N * v->lanes],
-                             m->beta_c * m->beta_c * (jump[1] - point[MEMBRANE_JUMP_T * v->lanes]),
-                             m->beta_c);
+        *opening = effective(
+            jump[0] - point[SURFACE_POINT_FIELDS * v->lanes],
+            m->beta_c * m->beta_c * (jump[1] - point[(SURFACE_POINT_FIELDS + 1) * v->lanes]),
+            m->beta_c);
 }
 
 /* t with value(t) = limit, linear between the step before and this one; held within the step
@@ -144,9 +143,8 @@ static double crossing(const fracas_step *step, int lane, double before, double 
     return step->time[lane] - step->drift[lane] * (share > 0 ? fmin(share, 1.0) : 0.0);
 }
 
-void fracas_membrane_book(const fracas_membrane_constants *membrane, membrane_law law,
-                          fracas_step *step, int lane, size_t interface,
-                          const fracas_membrane_event *event)
+void fracas_membrane_book(const fracas_membrane_constants *membrane, fracas_step *step, int lane,
+                          size_t interface, const fracas_membrane_event *event)
 {
     const view before = view_of(membrane, step, lane, step->drift[lane]),
                now = view_of(membrane, step, lane, 0);
@@ -159,8 +157,8 @@ void fracas_membrane_book(const fracas_membrane_constants *membrane, membrane_la
         const double delta_c = membrane->opening > 0 ? membrane->opening
                                                      : 2 * membrane->energy / peak;
         double onset[2], opening[2];
-        compared(&before, law, interface, g, &onset[0], &opening[0]);
-        compared(&now, law, interface, g, &onset[1], &opening[1]);
+        compared(&before, interface, g, &onset[0], &opening[0]);
+        compared(&now, interface, g, &onset[1], &opening[1]);
         if (event->cracks[g])
             first = fmin(first, crossing(step, lane, onset[0], onset[1], sigma_c));
         if (event->breaks[g])

@@ -5,10 +5,6 @@
  * it are visited; once an element has all its interfaces it gets its forces and is kicked.
  * Interfaces see an element through the stresses at its bulk points, and give back forces on nodes
  * and strains at those points: both are few. */
-#include "base/lanes.h"
-#include "engine/cohesive/plane.h"
-#include "engine/cohesive/plane_nitsche.h"
-#include "engine/cohesive/plane_extrinsic.h"
 #include "engine/formulation/surface/membrane_sweep.h"
 #include "engine/formulation/surface/sweep_template.h"
 
@@ -200,42 +196,9 @@ LANES_FUNCTION void membrane_give(const membrane_context *c, int order, size_t i
     }
 }
 
-/* The law at one Gauss point: reads and writes its fields. */
-LANES_FUNCTION plane_result membrane_law_of(const membrane_context *c, int law,
-                                            const plane_interface *at, const plane_input *in,
-                                            double *point)
-{
-    const fracas_membrane_constants *m = c->membrane;
-    if (law == MEMBRANE_NITSCHE) return surface_nitsche(at, in, m->friction != 0, point);
-    plane_extrinsic_state state = {.damage = lanes_load(surface_at(point, SURFACE_DAMAGE)),
-                                   .peak = lanes_load(surface_at(point, SURFACE_PEAK)),
-                                   .q_n = lanes_load(surface_at(point, MEMBRANE_JUMP_N)),
-                                   .q_t = lanes_load(surface_at(point, MEMBRANE_JUMP_T)),
-                                   .t_n = lanes_load(surface_at(point, MEMBRANE_START_N)),
-                                   .t_t = lanes_load(surface_at(point, MEMBRANE_START_T)),
-                                   .slip = lanes_set(0.0),
-                                   .rub = lanes_set(0.0)};
-    if (m->friction) {
-        state.slip = lanes_load(surface_at(point, MEMBRANE_EXTRINSIC_SLIP));
-        state.rub = lanes_load(surface_at(point, MEMBRANE_EXTRINSIC_RUB));
-    }
-    plane_result r = plane_extrinsic(at, in, m->standard, m->friction, &state);
-    lanes_store(surface_at(point, SURFACE_DAMAGE), state.damage);
-    lanes_store(surface_at(point, SURFACE_PEAK), state.peak);
-    lanes_store(surface_at(point, MEMBRANE_JUMP_N), state.q_n);
-    lanes_store(surface_at(point, MEMBRANE_JUMP_T), state.q_t);
-    lanes_store(surface_at(point, MEMBRANE_START_N), state.t_n);
-    lanes_store(surface_at(point, MEMBRANE_START_T), state.t_t);
-    if (m->friction) {
-        lanes_store(surface_at(point, MEMBRANE_EXTRINSIC_SLIP), state.slip);
-        lanes_store(surface_at(point, MEMBRANE_EXTRINSIC_RUB), state.rub);
-    }
-    return r;
-}
-
 /* Books what happened at an interface, lane by lane. */
 __attribute__((noinline, cold, unused)) static void
-membrane_book(const membrane_context *c, int law, int points, size_t i, const vmask *cracks,
+membrane_book(const membrane_context *c, int points, size_t i, const vmask *cracks,
               const vmask *breaks, vmask opens, vmask parts)
 {
     for (int l = 0; l < LANES; l++) {
@@ -245,7 +208,7 @@ membrane_book(const membrane_context *c, int law, int points, size_t i, const vm
             event.breaks[g] = lanes_get(breaks[g], l);
         }
         if (event.opens || event.parts)
-            fracas_membrane_book(c->membrane, (membrane_law)law, c->step, c->first + l, i, &event);
+            fracas_membrane_book(c->membrane, c->step, c->first + l, i, &event);
     }
 }
 
@@ -270,7 +233,8 @@ LANES_FUNCTION void membrane_crack(membrane_context *c, int order, int law, size
         .mu_c = lanes_set(m->mu_c),
         .energy = lanes_set(m->energy),
         .opening = lanes_set(m->opening),
-        .onset_mean = m->onset_mean};
+        .onset_mean = m->onset_mean,
+        .friction = m->friction};
     vmask cracks[3], breaks[3], whole = lanes_le(zero, zero), broken = whole,
                                 opens = lanes_lt(zero, zero), parts = opens;
     vd created = zero, rubbed = zero;
@@ -286,7 +250,7 @@ LANES_FUNCTION void membrane_crack(membrane_context *c, int order, int law, size
                                 .q_n = q[0] * nx + q[1] * ny,
                                 .q_t = q[1] * nx - q[0] * ny};
         whole = lanes_and(whole, lanes_le(lanes_load(surface_at(point, SURFACE_PEAK)), zero));
-        plane_result r = membrane_law_of(c, law, &interface, &in, point);
+        plane_result r = plane_law(law, &interface, &in, point);
         const vd damage = lanes_load(surface_at(point, SURFACE_DAMAGE));
         vd flux_energy = q[0] * (mean[0] + at[g].traction[0]) +
                          q[1] * (mean[1] + at[g].traction[1]);
@@ -311,7 +275,7 @@ LANES_FUNCTION void membrane_crack(membrane_context *c, int order, int law, size
     opens = lanes_and(opens, whole);  /* the first of its points */
     parts = lanes_and(parts, broken); /* the last */
     if (__builtin_expect(lanes_any(lanes_or(opens, parts)), 0))
-        membrane_book(c, law, points, i, cracks, breaks, opens, parts);
+        membrane_book(c, points, i, cracks, breaks, opens, parts);
 }
 
 /* Interface i: traction at its Gauss points, and what that does to its elements. */
@@ -324,7 +288,7 @@ LANES_FUNCTION void membrane_join(membrane_context *c, int order, int law, size_
     const double *strength = c->strengths + i * c->strengths_size;
     membrane_point at[3];
     membrane_flux(c, order, i, &sides, at);
-    if (law == MEMBRANE_OPERATOR) {
+    if (law == SURFACE_OPERATOR) {
         UNROLL_FOR (int g = 0; g < points; g++)
             UNROLL_FOR (int j = 0; j < 2; j++) {
                 if (!m->contact) continue;
@@ -446,7 +410,7 @@ LANES_FUNCTION void membrane_kick(membrane_context *c, int order, int law, size_
     membrane_forces(c, order, e, force);
     UNROLL_FOR (int i = 0; i < size; i++) v[i] = lanes_load(surface_at(at, SURFACE_V * size + i));
     membrane_accelerate(c, order, e, v, force, a);
-    if (law == MEMBRANE_OPERATOR) {
+    if (law == SURFACE_OPERATOR) {
         UNROLL_FOR (int i = 0; i < size; i++)
             lanes_store(surface_at(at, SURFACE_V * size + i), a[i]);
         return;
@@ -535,7 +499,7 @@ LANES_FUNCTION void membrane_run(const fracas_membrane_constants *m, fracas_step
     membrane_context *c = &context;
     c->spin = membrane_spin(m, lanes_load(step->time + first));
     for (size_t e = 0; e < t->nelements; e++) {
-        if (law != MEMBRANE_OPERATOR)
+        if (law != SURFACE_OPERATOR)
             surface_drift(&m->motion, c->drift, 2 * MEMBRANE_NODES(order),
                           c->elements + e * c->element_size);
         membrane_strain(c, order, e);
@@ -544,26 +508,34 @@ LANES_FUNCTION void membrane_run(const fracas_membrane_constants *m, fracas_step
         for (size_t f = t->visits.finish_from[e]; f < t->visits.finish_from[e + 1]; f++)
             membrane_kick(c, order, law, t->visits.finish[f]);
     }
-    if (law != MEMBRANE_OPERATOR) membrane_totals(c);
+    if (law != SURFACE_OPERATOR) membrane_totals(c);
 }
 
-#define MEMBRANE_SWEEP(name, order, law)                                                      \
-    static void name(const fracas_membrane_constants *membrane, fracas_step *step, int first) \
-    {                                                                                         \
-        membrane_run(membrane, step, first, order, law);                                      \
+#define MEMBRANE_SWEEP(name, law)                                                              \
+    static void linear_##name(const fracas_membrane_constants *membrane, fracas_step *step,    \
+                              int first)                                                       \
+    {                                                                                          \
+        membrane_run(membrane, step, first, 1, law);                                           \
+    }                                                                                          \
+    static void quadratic_##name(const fracas_membrane_constants *membrane, fracas_step *step, \
+                                 int first)                                                    \
+    {                                                                                          \
+        membrane_run(membrane, step, first, 2, law);                                           \
     }
-MEMBRANE_SWEEP(nitsche_linear, 1, MEMBRANE_NITSCHE)
-MEMBRANE_SWEEP(nitsche_quadratic, 2, MEMBRANE_NITSCHE)
-MEMBRANE_SWEEP(extrinsic_linear, 1, MEMBRANE_EXTRINSIC)
-MEMBRANE_SWEEP(extrinsic_quadratic, 2, MEMBRANE_EXTRINSIC)
+#define FRACAS_LAW(name, bar, ring, membrane, shell) \
+    FRACAS_IF_##membrane(MEMBRANE_SWEEP(name, FRACAS_LAW_##name))
+#include "engine/cohesive/laws.list.h"
+#undef FRACAS_LAW
 #if LANES == 1
-MEMBRANE_SWEEP(operator_linear, 1, MEMBRANE_OPERATOR)
-MEMBRANE_SWEEP(operator_quadratic, 2, MEMBRANE_OPERATOR)
+MEMBRANE_SWEEP(operator, SURFACE_OPERATOR)
 #endif
 
+#define FRACAS_LAW(name, bar, ring, membrane, shell) \
+    FRACAS_IF_##membrane([FRACAS_LAW_##name] = {linear_##name, quadratic_##name}, )
 const fracas_membrane_kernel LANES_UNIT(fracas_membrane) = {
-    .sweep = {[MEMBRANE_NITSCHE] = {nitsche_linear, nitsche_quadratic},
+    .sweep = {
+#include "engine/cohesive/laws.list.h"
 #if LANES == 1
-              [MEMBRANE_OPERATOR] = {operator_linear, operator_quadratic},
+        [SURFACE_OPERATOR] = {linear_operator, quadratic_operator},
 #endif
-              [MEMBRANE_EXTRINSIC] = {extrinsic_linear, extrinsic_quadratic}}};
+    }};

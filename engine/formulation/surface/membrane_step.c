@@ -42,7 +42,7 @@ void fracas_membrane_operator_apply(fracas_membrane_operator *op, const double *
                  fields = fracas_membrane_element_fields(c);
     for (size_t e = 0; e < c->tables->nelements; e++)
         for (size_t i = 0; i < size; i++) op->step.state[e * fields + i] = u[e * size + i];
-    fracas_membrane[FRACAS_ISA_BASELINE][1]->sweep[MEMBRANE_OPERATOR][c->tables->order - 1](
+    fracas_membrane[FRACAS_ISA_BASELINE][1]->sweep[SURFACE_OPERATOR][c->tables->order - 1](
         c, &op->step, 0);
     for (size_t e = 0; e < c->tables->nelements; e++)
         for (size_t i = 0; i < size; i++)

@@ -14,26 +14,12 @@
 #include "engine/formulation/surface/sweep.h"
 #include "engine/formulation/surface/membrane_tables.h"
 
-/* Of a Gauss point, beside those of every law: of the extrinsic laws; of those with friction. */
-enum {
-    MEMBRANE_JUMP_N = SURFACE_POINT_FIELDS,
-    MEMBRANE_JUMP_T,
-    MEMBRANE_START_N,
-    MEMBRANE_START_T,
-    MEMBRANE_POINT_FIELDS_EXTRINSIC,
-    MEMBRANE_EXTRINSIC_SLIP = MEMBRANE_POINT_FIELDS_EXTRINSIC,
-    MEMBRANE_EXTRINSIC_RUB,
-    MEMBRANE_POINT_FIELDS_EXTRINSIC_FRICTION
-};
-
 /* Of a slot: at each bulk point the stress and what symmetrisation adds to it (xx, yy, xy), then
  * the forces of interfaces. */
 #define MEMBRANE_SLOT_STRESS 0
 #define MEMBRANE_SLOT_EXTRA(order) (3 * MEMBRANE_BULK(order))
 #define MEMBRANE_SLOT_FORCE(order) (6 * MEMBRANE_BULK(order))
 #define MEMBRANE_SLOT(order) (6 * MEMBRANE_BULK(order) + 2 * MEMBRANE_NODES(order))
-
-typedef enum { MEMBRANE_NITSCHE, MEMBRANE_EXTRINSIC, MEMBRANE_OPERATOR } membrane_law;
 
 /* Everything a sweep needs that is the same for all lanes. */
 typedef struct {
@@ -42,12 +28,13 @@ typedef struct {
     double normal, tangential; /* 1: k_n and k_t by K of the interface  (membrane.6) */
     double energy, opening;    /* G_c [J/m2], or delta_c [m]: the other is 0 */
     double beta_c, mu_c;       /* 1 */
-    int onset_mean, standard, friction;
+    int flux;                  /* the law's trait */
+    int onset_mean, friction;
     int fields, point_fields; /* of an element, in units of 2 MEMBRANE_NODES; of a Gauss point */
     int strengths;            /* of an interface: 1, or one for each Gauss point */
     double speed, ramp;       /* rad/s, s: w = speed min(1, t/ramp) */
     fracas_surface_motion motion;
-    int contact; /* MEMBRANE_OPERATOR: all interfaces broken and in contact; else whole */
+    int contact; /* SURFACE_OPERATOR: all interfaces broken and in contact; else whole */
 } fracas_membrane_constants;
 
 /* Places in a group's state, in units of one field's lanes. */
@@ -90,7 +77,7 @@ typedef void fracas_membrane_sweep(const fracas_membrane_constants *membrane, fr
 /* Kernels of one instruction set, [law][order - 1][for 1, 4, 8 lanes]; NULL where there is no such
  * register. The operator's, for one lane alone, leaves M^-1 (-f)(u) where velocities are. */
 typedef struct {
-    fracas_membrane_sweep *sweep[3][2];
+    fracas_membrane_sweep *sweep[SURFACE_SWEEPS][2];
 } fracas_membrane_kernel;
 
 /* ---- what happens at an interface in a step, booked lane by lane: it is rare ---- */
@@ -102,9 +89,8 @@ typedef struct {
 } fracas_membrane_event;
 
 /* Books the event of lane `lane` of the step, at the times interpolated between the step before and
- * this one (membrane.12). `law` as of the sweep. */
-void fracas_membrane_book(const fracas_membrane_constants *membrane, membrane_law law,
-                          fracas_step *step, int lane, size_t interface,
-                          const fracas_membrane_event *event);
+ * this one (membrane.12). */
+void fracas_membrane_book(const fracas_membrane_constants *membrane, fracas_step *step, int lane,
+                          size_t interface, const fracas_membrane_event *event);
 
 #endif

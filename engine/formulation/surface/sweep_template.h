@@ -3,7 +3,7 @@
 #ifndef FRACAS_ENGINE_SURFACE_SWEEP_TEMPLATE_H
 #define FRACAS_ENGINE_SURFACE_SWEEP_TEMPLATE_H
 
-#include "engine/cohesive/plane_nitsche.h"
+#include "engine/cohesive/kernels.h"
 #include "engine/formulation/surface/sweep.h"
 #include "engine/integrator/central_difference.h"
 
@@ -57,28 +57,6 @@ LANES_FUNCTION void surface_kick(const fracas_surface_motion *m, vd dt, int begi
             lanes_store(surface_at(at, SURFACE_A_NEXT * size + i), (a[i] - keep * old) / share);
         }
     }
-}
-
-/* Law `nitsche` at a point: reads and writes its fields. */
-LANES_FUNCTION plane_result surface_nitsche(const plane_interface *at, const plane_input *in,
-                                            int friction, double *point)
-{
-    plane_nitsche_state state = {.damage = lanes_load(surface_at(point, SURFACE_DAMAGE)),
-                                 .peak = lanes_load(surface_at(point, SURFACE_PEAK))};
-    if (!friction) {
-        plane_result r = plane_nitsche(at, in, 0, &state);
-        lanes_store(surface_at(point, SURFACE_DAMAGE), state.damage);
-        lanes_store(surface_at(point, SURFACE_PEAK), state.peak);
-        return r;
-    }
-    state.slip = lanes_load(surface_at(point, SURFACE_SLIP));
-    state.rub = lanes_load(surface_at(point, SURFACE_RUB));
-    plane_result r = plane_nitsche(at, in, 1, &state);
-    lanes_store(surface_at(point, SURFACE_DAMAGE), state.damage);
-    lanes_store(surface_at(point, SURFACE_PEAK), state.peak);
-    lanes_store(surface_at(point, SURFACE_SLIP), state.slip);
-    lanes_store(surface_at(point, SURFACE_RUB), state.rub);
-    return r;
 }
 
 #endif

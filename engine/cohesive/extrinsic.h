@@ -1,33 +1,46 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Laws `camacho-ortiz-standard` and `camacho-ortiz` over lanes: an interface that leaves the flux
- * at its onset.
+/* An interface of a surface that leaves the flux at its onset: `camacho-ortiz-standard` and
+ * `camacho-ortiz`.
  *
- * At onset T_0 is the traction that was held against the strength, p its effective value, q_0 the
- * jump; then with the opening d = q - q_0, d_e = sqrt(max(0, d_n)^2 + (beta_c d_t)^2), delta_c = 2
- * G_c/p, D the largest d_e/delta_c so far, at most 1 f = (1 - D)/d_e loading, (1 - D)/(D delta_c)
- * on the secant                                          (cohesive.18) standard:  T_n = p f d_n,
- * T_t = p f beta_c^2 d_t                                        (cohesive.19) paper's:   T_n =
- * max(0, T_0n) f d_n, T_t = |T_0t| f beta_c d_t                                     (cohesive.20)
- *   closed, d_n < 0:  T_n = k_n d_n, broken or not; an interface that shears under pressure starts
- * from d_n = T_0n/k_n T = T_0 while nothing has opened. Energies: stored T.d/2, dissipated G_c D
- * (of the paper's law on mixed paths less: its residual shows it). Friction as that of `nitsche`,
- * beside the law, on d_t; T_0 is then less what friction carries at onset. */
-#ifndef FRACAS_ENGINE_COHESIVE_PLANE_EXTRINSIC_H
-#define FRACAS_ENGINE_COHESIVE_PLANE_EXTRINSIC_H
+ * At onset T_0 is the traction held against the strength, p its effective value, q_0 the jump. Then
+ * with the opening d = q - q_0, d_e = sqrt(max(0, d_n)^2 + (beta_c d_t)^2), delta_c = 2 G_c/p, and D
+ * the largest d_e/delta_c so far, at most 1:
+ *   f = (1 - D)/d_e loading, (1 - D)/(D delta_c) on the secant                     (cohesive.18)
+ *   standard:  T_n = p f d_n,             T_t = p f beta_c^2 d_t                   (cohesive.19)
+ *   paper's:   T_n = max(0, T_0n) f d_n,  T_t = |T_0t| f beta_c d_t                (cohesive.20)
+ *   closed, d_n < 0:  T_n = k_n d_n, broken or not
+ * T = T_0 while nothing has opened. An interface that shears under pressure starts from d_n =
+ * T_0n/k_n. Energies: stored T.d/2, dissipated G_c D (the paper's law on mixed paths less: its
+ * residual shows it). Friction as in `nitsche`, beside the law, on d_t; T_0 is then less the
+ * friction at onset. */
+#ifndef FRACAS_ENGINE_COHESIVE_EXTRINSIC_H
+#define FRACAS_ENGINE_COHESIVE_EXTRINSIC_H
 
-#include "engine/cohesive/plane.h"
+/* Values of a point, after D and p. */
+enum {
+    EXTRINSIC_JUMP_N = SURFACE_POINT_FIELDS, /* q_0 [m] */
+    EXTRINSIC_JUMP_T,
+    EXTRINSIC_START_N, /* T_0 [Pa] */
+    EXTRINSIC_START_T,
+    EXTRINSIC_FIELDS,
+    EXTRINSIC_SLIP = EXTRINSIC_FIELDS, /* with friction: delta_t [m], F [Pa] */
+    EXTRINSIC_RUB,
+    EXTRINSIC_FIELDS_FRICTION
+};
+
+#ifndef FRACAS_LAW_TABLES
 
 typedef struct {
     vd damage, peak; /* D, p [Pa] */
     vd q_n, q_t;     /* q_0 [m] */
     vd t_n, t_t;     /* T_0 [Pa] */
     vd slip, rub;    /* with friction: [m], [Pa] */
-} plane_extrinsic_state;
+} extrinsic_state;
 
-/* `standard`: which of the two. */
+/* The law at one point; `state` is brought up to date. `standard`: (cohesive.19), else (cohesive.20). */
 LANES_FUNCTION plane_result plane_extrinsic(const plane_interface *at, const plane_input *in,
                                             int standard, int friction,
-                                            plane_extrinsic_state *state)
+                                            extrinsic_state *state)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5);
     const vmask was_cracked = lanes_lt(zero, state->peak);
@@ -92,4 +105,33 @@ LANES_FUNCTION plane_result plane_extrinsic(const plane_interface *at, const pla
     return r;
 }
 
+LANES_FUNCTION plane_result extrinsic_at(const plane_interface *at, const plane_input *in,
+                                         int standard, double *point)
+{
+    extrinsic_state state = {.damage = lanes_load(point + SURFACE_DAMAGE * LANES),
+                             .peak = lanes_load(point + SURFACE_PEAK * LANES),
+                             .q_n = lanes_load(point + EXTRINSIC_JUMP_N * LANES),
+                             .q_t = lanes_load(point + EXTRINSIC_JUMP_T * LANES),
+                             .t_n = lanes_load(point + EXTRINSIC_START_N * LANES),
+                             .t_t = lanes_load(point + EXTRINSIC_START_T * LANES),
+                             .slip = lanes_set(0.0),
+                             .rub = lanes_set(0.0)};
+    if (at->friction) {
+        state.slip = lanes_load(point + EXTRINSIC_SLIP * LANES);
+        state.rub = lanes_load(point + EXTRINSIC_RUB * LANES);
+    }
+    const plane_result r = plane_extrinsic(at, in, standard, at->friction, &state);
+    lanes_store(point + SURFACE_DAMAGE * LANES, state.damage);
+    lanes_store(point + SURFACE_PEAK * LANES, state.peak);
+    lanes_store(point + EXTRINSIC_JUMP_N * LANES, state.q_n);
+    lanes_store(point + EXTRINSIC_JUMP_T * LANES, state.q_t);
+    lanes_store(point + EXTRINSIC_START_N * LANES, state.t_n);
+    lanes_store(point + EXTRINSIC_START_T * LANES, state.t_t);
+    if (at->friction) {
+        lanes_store(point + EXTRINSIC_SLIP * LANES, state.slip);
+        lanes_store(point + EXTRINSIC_RUB * LANES, state.rub);
+    }
+    return r;
+}
+#endif
 #endif

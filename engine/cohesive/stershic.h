@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Law `stershic`: the algorithm of Stershic's paper for rings. An open link follows rigid_link_law;
+ * the rest of the algorithm is the ring's (engine/formulation/chain/ring_stershic.h). */
+#if defined FRACAS_LAW
+FRACAS_LAW(stershic, NO, RIGID, NO, NO)
+#elif defined FRACAS_LAW_TABLES
+
+const fracas_kind fracas_zone_softening = {
+    .name = "softening",
+    .doc = "open links on the softening branch while they carry more than E/h times their opening "
+           "(the paper's)"};
+const fracas_kind fracas_zone_steep = {
+    .name = "steep",
+    .doc = "all open links that carry more than E/h times their opening, closing ones too: a "
+           "hundredth of the ledger's residual and less, for a seventh more steps"};
+static const fracas_kind *const zones[] = {&fracas_zone_softening, &fracas_zone_steep};
+
+static const fracas_param stershic_params[] = {
+    FRACAS_FRACTURE_ENERGY(
+        false, 0, "fracture energy G_c, the same at every interface; or give critical_opening"),
+    {"critical_opening", FRACAS_REAL, "m",
+     "opening delta_c at which an interface is broken, the same at every one; or give "
+     "fracture_energy",
+     0, 0, INFINITY, false, offsetof(fracas_cohesive, critical_opening)},
+    {"penalty", FRACAS_REAL, "1", "stiffness of contact by that of an element, E/h", 1, 0, 100,
+     true, offsetof(fracas_cohesive, penalty)},
+    {"refinement", FRACAS_REAL, "1",
+     "factor of the time step while an interface is about to open or softens steeply, and once "
+     "more while one is in compression; 0.1 to 0.4 in the paper, 1 for none",
+     0.25, 0, 1, true, offsetof(fracas_cohesive, refinement)},
+    {.name = "critical_zone",
+     .type = FRACAS_CHOICE,
+     .unit = "1",
+     .doc = "which open links refine the time step",
+     .choices = zones,
+     .nchoices = FRACAS_COUNT(zones),
+     .offset = offsetof(fracas_cohesive, critical_zone)},
+    {"zone", FRACAS_REAL, "m",
+     "once an interface opens, none opens within this distance of it, and elements between two "
+     "interfaces so barred suffer damage; 0 for no such zone",
+     0, 0, INFINITY, false, offsetof(fracas_cohesive, zone)},
+};
+
+static double stershic_contact(const fracas_cohesive *cohesive)
+{
+    return cohesive->penalty;
+}
+
+/* Two critical zones refine the step, each by the same factor  (ring.12). */
+static double stershic_finest(const fracas_cohesive *cohesive)
+{
+    return cohesive->refinement * cohesive->refinement;
+}
+
+const fracas_law fracas_law_stershic = {
+    FRACAS_LAW_HEAD(stershic, "stershic",
+                    "linear softening of a link that is rigid until its stress reaches its "
+                    "strength, with refinement of the time step and fracture-limiting zone (the "
+                    "algorithm of Stershic's paper)"),
+    .contact = stershic_contact, .finest = stershic_finest};
+
+#endif
