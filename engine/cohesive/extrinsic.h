@@ -2,9 +2,9 @@
 /* An interface of a surface that leaves the flux at its onset: `camacho-ortiz-standard` and
  * `camacho-ortiz`.
  *
- * At onset T_0 is the traction held against the strength, p its effective value, q_0 the jump. Then
- * with the opening d = q - q_0, d_e = sqrt(max(0, d_n)^2 + (beta_c d_t)^2), delta_c = 2 G_c/p, and D
- * the largest d_e/delta_c so far, at most 1:
+ * At onset T_0 is the traction held against the strength, p its effective value, q_0 the jump.
+ * Then with the opening d = q - q_0, d_e = sqrt(max(0, d_n)^2 + (beta_c d_t)^2), delta_c = 2 G_c/p,
+ * and D the largest d_e/delta_c so far, at most 1:
  *   f = (1 - D)/d_e loading, (1 - D)/(D delta_c) on the secant                     (cohesive.18)
  *   standard:  T_n = p f d_n,             T_t = p f beta_c^2 d_t                   (cohesive.19)
  *   paper's:   T_n = max(0, T_0n) f d_n,  T_t = |T_0t| f beta_c d_t                (cohesive.20)
@@ -37,10 +37,10 @@ typedef struct {
     vd slip, rub;    /* with friction: [m], [Pa] */
 } extrinsic_state;
 
-/* The law at one point; `state` is brought up to date. `standard`: (cohesive.19), else (cohesive.20). */
+/* The law at one point; `state` is brought up to date. `standard`: (cohesive.19), else
+ * (cohesive.20). */
 LANES_FUNCTION plane_result plane_extrinsic(const plane_interface *at, const plane_input *in,
-                                            int standard, int friction,
-                                            extrinsic_state *state)
+                                            int standard, int friction, extrinsic_state *state)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5);
     const vmask was_cracked = lanes_lt(zero, state->peak);

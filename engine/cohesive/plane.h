@@ -5,7 +5,8 @@
  * Common to them: strength sigma_c; peak p, the effective traction at onset, 0 before; delta_c =
  * 2 G_c/p, or delta_c the same everywhere and G_c = p delta_c/2; D = delta_max/delta_c; beta_c =
  * shear strength/normal strength; stiffnesses k_n and k_t = beta_c^2 k_n of the flux; mean
- * tractions m, jumps q. effective traction  S = sqrt(max(0, T_n)^2 + (T_t/beta_c)^2) (cohesive.10)
+ * tractions m, jumps q.
+ *   effective traction  S = sqrt(max(0, T_n)^2 + (T_t/beta_c)^2)                  (cohesive.10)
  *   onset  S > sigma_c for T_n >= 0, max(0, |T_t| - mu_c |T_n|)/beta_c > sigma_c for T_n < 0, of
  *       the flux T = m + k q, or of the mean T = m                                (cohesive.11) */
 #ifndef FRACAS_ENGINE_COHESIVE_PLANE_H

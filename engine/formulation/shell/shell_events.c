@@ -134,7 +134,7 @@ static double effective(double t_n, double t_t, double beta_c)
 }
 
 /* What the law compares at layer k of a Gauss point: with the strength, and with delta_c; see
- * plane_nitsche.h. */
+ * engine/cohesive/nitsche.h. */
 static void compared(const fracas_shell_constants *s, size_t interface, const sight *at, int k,
                      double *onset, double *opening)
 {
