@@ -124,8 +124,8 @@ const char *fracas_param_text(const fracas_param *param, const void *section);
 /* True if points of this model (NULL: none is chosen) have the parameter. */
 bool fracas_param_is_of(const fracas_param *param, const fracas_kind *model);
 
-/* Kind number i, from 0, of `section` among those `kind` names in goes_with, in that order, and then
- * those that name it in `only`, in the order of the section; NULL after the last. */
+/* Kind number i, from 0, of `section` among those `kind` names in goes_with, in that order, and
+ * then those that name it in `only`, in the order of the section; NULL after the last. */
 const fracas_kind *fracas_kind_partner(const fracas_kind *kind, const fracas_section *section,
                                        size_t i);
 

@@ -37,7 +37,7 @@ typedef struct {
 } plane_walk;
 
 /* k_n = K max(1, 1/beta_c^2), k_t = beta_c^2 k_n; sigma_c 100 MPa, G_c 50 J/m2: delta_c 1 um. */
-static inline plane_case plane_kind(plane_law law, double beta_c, double ratio, double mu_c,
+static inline plane_case plane_kind(plane_test_law law, double beta_c, double ratio, double mu_c,
                                     int onset_mean)
 {
     const double spring = ratio * 100e6 / 1e-6, k_n = spring * fmax(1, 1 / (beta_c * beta_c));

@@ -5,10 +5,10 @@
 
 #include "base/isa.h"
 
-typedef enum { PLANE_NITSCHE, PLANE_STANDARD, PLANE_PAPER } plane_law;
+typedef enum { PLANE_NITSCHE, PLANE_STANDARD, PLANE_PAPER } plane_test_law;
 
 typedef struct {
-    plane_law law;
+    plane_test_law law;
     double k_n, k_t, sigma_c, beta_c, mu_c;
     double energy, opening; /* G_c, or delta_c: the other is 0 */
     int onset_mean;

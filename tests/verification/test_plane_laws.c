@@ -122,7 +122,7 @@ static void the_ledger_closes_on_every_path(void **unused)
     const double couplings[] = {0.5, 1, 2}, ratios[] = {1.5, 4, 25}, frictions[] = {0, 0.3, 1.2};
     long cracked = 0, broken = 0, walks = 0;
     for (int i = 0; i < 3 * 3 * 3 * 3 * 2; i++) {
-        const plane_case kind = plane_kind((plane_law)(i % 3), couplings[i / 3 % 3],
+        const plane_case kind = plane_kind((plane_test_law)(i % 3), couplings[i / 3 % 3],
                                            ratios[i / 9 % 3], frictions[i / 27 % 3], i / 81);
         for (size_t p = 0; p < sizeof paths / sizeof *paths; p++)
             for (int k = 0; k < 3; k++) {
@@ -149,7 +149,7 @@ static void the_ledger_closes_with_a_critical_opening(void **unused)
     (void)unused;
     path *const paths[] = {straight, straight_with_mean, with_unloading, pressed_and_sheared};
     for (int i = 0; i < 3 * 2 * 2 * 2 * 4; i++) {
-        plane_case kind = plane_kind((plane_law)(i % 3), 0.8, i / 3 % 2 ? 1 : 8,
+        plane_case kind = plane_kind((plane_test_law)(i % 3), 0.8, i / 3 % 2 ? 1 : 8,
                                      i / 6 % 2 ? 0.3 : 0, i / 12 % 2);
         kind.energy = 0;
         kind.opening = MICRON;
@@ -173,7 +173,7 @@ static void a_full_break_takes_the_fracture_energy(void **unused)
     path *const paths[] = {straight, open_then_slide, slide_then_open};
     const double couplings[] = {0.5, 1, 2}, ratios[] = {4, 25};
     for (int i = 0; i < 3 * 3 * 2 * 3 * 9; i++) {
-        const plane_case kind = plane_kind((plane_law)(i % 3), couplings[i / 3 % 3],
+        const plane_case kind = plane_kind((plane_test_law)(i % 3), couplings[i / 3 % 3],
                                            ratios[i / 9 % 2], 0, 0);
         const int p = i / 18 % 3, k = i / 54;
         if (kind.law == PLANE_PAPER && p > 0) continue;
@@ -204,7 +204,7 @@ static void traction_follows_separation(void **unused)
     uint64_t seed = 7;
     int loading = 0, unloading = 0;
     for (int i = 0; i < 3000; i++) {
-        const plane_law law = i % 2 ? PLANE_STANDARD : PLANE_NITSCHE;
+        const plane_test_law law = i % 2 ? PLANE_STANDARD : PLANE_NITSCHE;
         const plane_case kind = plane_kind(law, 0.4 + 2 * next_random(&seed),
                                            2 + 30 * next_random(&seed), 0, 0);
         plane_walk w = plane_begin(kind);
@@ -340,7 +340,7 @@ static void onset_is_at_the_strength(void **unused)
     (void)unused;
     uint64_t seed = 17;
     for (int i = 0; i < 20000; i++) {
-        const plane_case kind = plane_kind((plane_law)(i % 3), 0.3 + 3 * next_random(&seed),
+        const plane_case kind = plane_kind((plane_test_law)(i % 3), 0.3 + 3 * next_random(&seed),
                                            4 + 20 * next_random(&seed), i / 3 % 2 ? 0.5 : 0,
                                            i / 6 % 2);
         const double t_n = 300e6 * (next_random(&seed) - 0.5),
@@ -451,7 +451,7 @@ static void broken_faces_touch_and_rub(void **unused)
     (void)unused;
     for (int i = 0; i < 3 * 2; i++) {
         const double mu = i / 3 ? 0.4 : 0;
-        const plane_case kind = plane_kind((plane_law)(i % 3), 0.8, 10, mu, 0);
+        const plane_case kind = plane_kind((plane_test_law)(i % 3), 0.8, 10, mu, 0);
         plane_walk w = plane_begin(kind);
         plane_go(&w, to(0, 0, 5, 0), 1000);
         assert_true(w.memory.damage == 1 && w.out.t_n == 0 && w.out.t_t == 0);
@@ -521,7 +521,7 @@ static void no_cycle_gains_energy(void **unused)
     uint64_t seed = 23;
     long gains = 0, breaks = 0;
     for (int i = 0; i < 10000; i++) {
-        const plane_law law = (plane_law)(i % 3);
+        const plane_test_law law = (plane_test_law)(i % 3);
         const plane_case kind = plane_kind(law, 0.5 + 1.5 * next_random(&seed),
                                            3 + 20 * next_random(&seed), i / 3 % 2 ? 0.3 : 0, 0);
         plane_walk w = plane_begin(kind);
@@ -592,8 +592,8 @@ static void extremes_stay_finite(void **unused)
                  values[] = {0, -0.0, 1e-30, -1e-30, 1, -1, 1e4, -1e4};
     for (int i = 0; i < 3 * 5 * 2 * 2 * 3; i++) {
         const double couplings[] = {0.01, 1, 100};
-        plane_case kind = plane_kind((plane_law)(i % 3), couplings[i / 60], 5, i / 30 % 2 ? 0.3 : 0,
-                                     i / 15 % 2);
+        plane_case kind = plane_kind((plane_test_law)(i % 3), couplings[i / 60], 5,
+                                     i / 30 % 2 ? 0.3 : 0, i / 15 % 2);
         kind.sigma_c = strengths[i / 3 % 5];
         plane_walk w = plane_begin(kind);
         assert_true(w.out.t_n == 0 && w.out.t_t == 0 && w.out.stored == 0 && w.out.flux == 0 &&
@@ -636,7 +636,8 @@ static void lanes_do_what_one_does(void **unused)
         plane_memory one[8] = {{0}}, wide[FRACAS_NISAS][FRACAS_LANES_MAX + 1][8] = {{{{0}}}};
         const double coupling = 0.5 + 1.5 * next_random(&seed);
         for (int l = 0; l < 8; l++) {
-            kind[l] = plane_kind((plane_law)(i % 3), coupling, 4, i / 3 % 2 ? 0.3 : 0, i / 6 % 2);
+            kind[l] = plane_kind((plane_test_law)(i % 3), coupling, 4, i / 3 % 2 ? 0.3 : 0,
+                                 i / 6 % 2);
             kind[l].sigma_c *= 0.8 + 0.4 * next_random(&seed);
             kinds[l] = &kind[l];
         }
